@@ -1,0 +1,2 @@
+//! The `concio` command.
+fn main() {}

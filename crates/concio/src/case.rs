@@ -1,0 +1,752 @@
+//! Every input of a run as plain structs in SI. Reading, units and validation live in `case/`.
+//!
+//! The structs mirror the wall file key by key; what the keys mean, their bounds and defaults is said here and
+//! goes from here into the JSON Schema.
+
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::quantity::{Acceleration, ForcePerLength, Frequency, Length, Mass, SpecificWeight, Time, Velocity};
+
+/// A wall, its joints, its loads and its motion: all that one run needs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Case {
+    /// Free text shown in reports.
+    #[serde(default)]
+    pub title: String,
+    /// Which unknowns a block has.
+    pub model: ModelKind,
+    /// A named parameter set of the report, from which brick, mortar, stiffness and friction are taken where the
+    /// file does not give them: `"report"` (section 4.2), `"p1"` … `"p4"` (Table 1).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub set: Option<ParameterSet>,
+    /// Panels from left to right; two and more stand in series in one plane.
+    #[serde(rename = "panel")]
+    pub panels: Vec<Panel>,
+    /// Laws of the joints.
+    pub joint: Joints,
+    /// Loads at the top.
+    #[serde(default)]
+    pub load: Load,
+    /// Motion of base and top.
+    pub motion: Motion,
+    /// Time integration.
+    #[serde(default)]
+    pub solver: Solver,
+    /// What is kept.
+    #[serde(default)]
+    pub output: Output,
+}
+
+/// The unknowns of a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ModelKind {
+    /// One horizontal unknown per block (the report's model).
+    Shear,
+    /// Horizontal, vertical and rotation (not in this version: refused with a message).
+    Planar,
+}
+
+/// A named parameter set. In the file: `set = "p1"`, or `set = { name = "p1", at = 0.25 }`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ParameterSet {
+    /// `report`, `p1`, `p2`, `p3` or `p4`.
+    pub name: SetName,
+    /// Where in the printed ranges the value is taken: 0 the lower end, 1 the upper; 0 … 1, default 0.5.
+    pub at: f64,
+}
+
+/// Names of the parameter sets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SetName {
+    /// Section 4.2 of the report.
+    Report,
+    /// Table 1, column p1.
+    P1,
+    /// Table 1, column p2.
+    P2,
+    /// Table 1, column p3.
+    P3,
+    /// Table 1, column p4.
+    P4,
+}
+
+/// A stack of courses of blocks.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Panel {
+    /// Name used in selectors; default `p1`, `p2`, … from left to right.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// How the blocks are laid.
+    pub bond: Bond,
+    /// Number of courses, from 1 (`running`, `stack`, and `irregular` with `random`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub courses: Option<usize>,
+    /// Number of whole bricks in a course, from 1 (`running`, `stack`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bricks: Option<usize>,
+    /// Ends of a running bond.
+    #[serde(default)]
+    pub ends: Ends,
+    /// What the bottom course of a running bond starts with.
+    #[serde(default)]
+    pub first: First,
+    /// The reference brick: its length is L_ref in the overlap weight, its mass M_ref in the damping.
+    pub brick: Brick,
+    /// Thickness of the mortar joints; both 0 for a dry wall.
+    #[serde(default)]
+    pub mortar: Mortar,
+    /// Irregular texture by explicit lists: courses from the bottom, each with its height and brick lengths.
+    #[serde(default, rename = "course", skip_serializing_if = "Vec::is_empty")]
+    pub course_list: Vec<Course>,
+    /// Irregular texture drawn from a seeded distribution.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub random: Option<RandomTexture>,
+    /// Blocks one by one (`bond = "explicit"`).
+    #[serde(default, rename = "block", skip_serializing_if = "Vec::is_empty")]
+    pub blocks: Vec<ExplicitBlock>,
+    /// Thickness of the connection to the panel on the left, from 0 (default: the head mortar of this panel).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub connection: Option<Length>,
+}
+
+/// How the blocks of a panel are laid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bond {
+    /// Alternate courses shifted by half a pitch.
+    Running,
+    /// Head joints in line.
+    Stack,
+    /// Course heights and brick lengths vary.
+    Irregular,
+    /// Every block is listed.
+    Explicit,
+}
+
+/// Ends of the courses of a running bond.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Ends {
+    /// Half bricks of length (L − t_h)/2 close every second course.
+    #[default]
+    Flush,
+    /// Every second course stands out by half a pitch.
+    Toothed,
+}
+
+/// Start of the bottom course of a running bond.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum First {
+    /// Whole bricks.
+    #[default]
+    Full,
+    /// A half brick (flush) or a shift by half a pitch (toothed).
+    Half,
+}
+
+/// The reference brick of a panel.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Brick {
+    /// L [m], above 0.
+    pub length: Length,
+    /// H [m], above 0.
+    pub height: Length,
+    /// B [m], above 0: out of plane.
+    pub thickness: Length,
+    /// γ [N/m³], above 0.
+    pub specific_weight: SpecificWeight,
+}
+
+/// Mortar thicknesses.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Mortar {
+    /// t_b [m], from 0: horizontal joints.
+    pub bed: Length,
+    /// t_h [m], from 0: vertical joints.
+    pub head: Length,
+}
+
+/// A course of an explicit irregular texture.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Course {
+    /// Height [m], above 0.
+    pub height: Length,
+    /// Brick lengths from left to right [m], each above 0.
+    pub bricks: Vec<Length>,
+    /// Shift of the course's left end from the panel's [m]; default 0.
+    #[serde(default)]
+    pub offset: Length,
+}
+
+/// A seeded irregular texture: course heights and brick lengths uniform within bounds, all courses of one width.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct RandomTexture {
+    /// Seed: the same seed gives the same texture on every machine.
+    pub seed: u64,
+    /// Width of the panel [m].
+    pub width: Length,
+    /// Shortest and longest brick [m].
+    pub length: [Length; 2],
+    /// Lowest and highest course [m].
+    pub height: [Length; 2],
+    /// Least distance between head joints of adjacent courses [m], from 0.
+    pub stagger: Length,
+}
+
+/// A block given by hand.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ExplicitBlock {
+    /// Name, unique in the wall; default from panel, course and place (`p1c2b3`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub id: Option<String>,
+    /// Course, from 1 at the bottom.
+    pub course: usize,
+    /// Left edge [m].
+    pub x: Length,
+    /// Bottom edge [m].
+    pub y: Length,
+    /// Length [m], above 0.
+    pub length: Length,
+    /// Height [m], above 0.
+    pub height: Length,
+    /// Specific weight of this block [N/m³]; default the brick's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub specific_weight: Option<SpecificWeight>,
+}
+
+/// Laws of the joints of the wall.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Joints {
+    /// ζ of equation (4), 0 … 2, on every interface; 0 is no damping. Default 0.05.
+    #[serde(default = "default_damping_ratio")]
+    pub damping_ratio: f64,
+    /// Bed joints, equation (2).
+    pub bed: Spring,
+    /// Head joints, equation (3).
+    pub head: Spring,
+    /// Bottom course on the base; default as `bed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base: Option<Spring>,
+    /// Top beam on the top course; default as `bed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub top: Option<Spring>,
+    /// Between panels in series; default as `head`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub connection: Option<Spring>,
+    /// Friction, equations (5) and (6).
+    #[serde(default)]
+    pub friction: Friction,
+    /// Joints with laws of their own, applied in the order of the file: later ones win.
+    #[serde(default, rename = "change", skip_serializing_if = "Vec::is_empty")]
+    pub changes: Vec<JointChange>,
+}
+
+fn default_damping_ratio() -> f64 {
+    0.05
+}
+
+/// Elastic law of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Spring {
+    /// The law.
+    pub law: SpringLaw,
+    /// K_H or K_V [N/m], from 0: of a half-brick contact for bed joints, of the whole joint for head joints.
+    #[serde(default)]
+    pub stiffness: ForcePerLength,
+    /// κ of equation (3), above 0: how much stiffer than `stiffness` a closed no-tension joint is. Default 1000.
+    #[serde(default = "default_rigidity")]
+    pub rigidity: f64,
+    /// Factor on the elastic force alone, from 0: 0 takes the stiffness away and leaves the damping (case 5).
+    /// Default 1.
+    #[serde(default = "one")]
+    pub stiffness_factor: f64,
+    /// ζ of this kind of joint, 0 … 2; default the common one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping_ratio: Option<f64>,
+}
+
+fn default_rigidity() -> f64 {
+    1000.0
+}
+fn one() -> f64 {
+    1.0
+}
+
+/// Elastic laws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SpringLaw {
+    /// Linear in both directions, equation (2).
+    Elastic,
+    /// Compression only, κ times the stiffness, equation (3).
+    NoTension,
+    /// Unilateral and rigid, set-valued (not in this version: refused with a message).
+    Rigid,
+    /// No elastic force and no damping.
+    None,
+}
+
+/// Friction of the joints.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Friction {
+    /// The law; default none.
+    pub law: FrictionLaw,
+    /// μ_s, from 0.
+    #[serde(rename = "static")]
+    pub static_: f64,
+    /// μ_d, 0 … μ_s.
+    pub dynamic: f64,
+    /// δ_v [m/s], above 0.
+    pub slip_velocity: Velocity,
+    /// β, above 0: slope of the first branch. Default 100.
+    pub beta: f64,
+    /// α [s²/m²], from 0: slope of the slip branch. Default 0.
+    pub alpha: f64,
+    /// Which joints rub.
+    pub on: FrictionOn,
+    /// Where the normal force comes from.
+    pub normal_force: NormalForce,
+    /// `"report"` stands for `on = "all"` and `normal-force = "overburden"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub preset: Option<FrictionPreset>,
+}
+
+impl Default for Friction {
+    fn default() -> Self {
+        Friction {
+            law: FrictionLaw::None,
+            static_: 0.0,
+            dynamic: 0.0,
+            slip_velocity: Velocity::from_si(1e-3),
+            beta: 100.0,
+            alpha: 0.0,
+            on: FrictionOn::Bed,
+            normal_force: NormalForce::Transmitted,
+            preset: None,
+        }
+    }
+}
+
+/// Friction laws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FrictionLaw {
+    /// Velocity-dependent, regularised, equation (6).
+    Stribeck,
+    /// Set-valued with true stick (not in this version: refused with a message).
+    Coulomb,
+    /// No friction.
+    None,
+}
+
+/// Which joints rub.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FrictionOn {
+    /// Bed and support joints.
+    Bed,
+    /// All joints, head joints too (the report's equation 3.1).
+    All,
+}
+
+/// Normal force in equation (5).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum NormalForce {
+    /// The load carried by the joint, from statics; action equals reaction.
+    Transmitted,
+    /// The report's 3.1: in block i's equation every joint carries w_ij (m_i g + P0_i).
+    Overburden,
+}
+
+/// Named choices of `on` and `normal-force`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FrictionPreset {
+    /// All joints, overburden loads.
+    Report,
+}
+
+/// Other laws for some joints.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct JointChange {
+    /// Which joints: all conditions given must hold.
+    pub at: Selector,
+    /// The elastic law they get instead; keys not given stay as they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spring: Option<SpringChange>,
+    /// The friction they get instead; keys not given stay as they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<FrictionChange>,
+}
+
+/// Conditions that choose joints.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Selector {
+    /// Kinds of joint.
+    pub kind: Vec<JointKind>,
+    /// Names of panels.
+    pub panel: Vec<String>,
+    /// Courses from 1 at the bottom; a bed joint belongs to the course that lies on it, the top support to none
+    /// but the beam's (courses + 1).
+    pub course: Vec<usize>,
+    /// Names of joints, as `concio check` draws them (`p1c1b1|p1c2b1`).
+    pub joints: Vec<String>,
+    /// Rectangle `[x0, y0, x1, y1]` in which the middle of the joint lies [m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub region: Option<[Length; 4]>,
+}
+
+/// Kinds of joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum JointKind {
+    /// Between blocks of adjacent courses.
+    Bed,
+    /// Between neighbours in a course.
+    Head,
+    /// Bottom course on the base.
+    Base,
+    /// Top beam on the top course.
+    Top,
+    /// Between panels.
+    Connection,
+}
+
+/// What a [`JointChange`] changes of the elastic law.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SpringChange {
+    /// See [`Spring::law`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<SpringLaw>,
+    /// See [`Spring::stiffness`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<ForcePerLength>,
+    /// See [`Spring::rigidity`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rigidity: Option<f64>,
+    /// See [`Spring::stiffness_factor`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness_factor: Option<f64>,
+    /// See [`Spring::damping_ratio`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping_ratio: Option<f64>,
+}
+
+/// What a [`JointChange`] changes of the friction.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct FrictionChange {
+    /// See [`Friction::law`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<FrictionLaw>,
+    /// See [`Friction::static_`].
+    #[serde(rename = "static", skip_serializing_if = "Option::is_none")]
+    pub static_: Option<f64>,
+    /// See [`Friction::dynamic`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dynamic: Option<f64>,
+    /// See [`Friction::slip_velocity`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slip_velocity: Option<Velocity>,
+    /// See [`Friction::beta`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beta: Option<f64>,
+    /// See [`Friction::alpha`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub alpha: Option<f64>,
+}
+
+/// Loads at the top of the wall.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+pub struct Load {
+    /// q [N/m], from 0: vertical load per length of brick.
+    pub top: ForcePerLength,
+    /// The top beam.
+    pub beam: Beam,
+}
+
+/// The top beam: `"free"`, `"driven"`, `"tied"` or `{ mass = "1000 kg" }`.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Beam {
+    /// No beam, the load only.
+    #[default]
+    Free,
+    /// Its motion is prescribed by `motion.top`.
+    Driven,
+    /// It moves with the base.
+    Tied,
+    /// A rigid beam with this mass [kg], above 0: one more unknown.
+    Mass(Mass),
+}
+
+/// Motion of base and top.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Motion {
+    /// Length of the run [s], above 0; default the length of the longest record.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub duration: Option<Time>,
+    /// U0: motion of the base.
+    pub base: Signal,
+    /// U1: motion of a driven top beam.
+    pub top: Signal,
+}
+
+/// A motion: `"none"`, or a table with exactly one of `record`, `sine`, `ramp`, `pulse`, `sweep`, `synthetic`
+/// (and beside `record` the keys of [`RecordInput`]).
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Signal {
+    /// At rest.
+    #[default]
+    None,
+    /// A file.
+    Record(RecordInput),
+    /// A sine.
+    Sine(Sine),
+    /// A ramp of the displacement.
+    Ramp(Ramp),
+    /// A pulse.
+    Pulse(Pulse),
+    /// A swept sine.
+    Sweep(Sweep),
+    /// A seeded spectrum-compatible accelerogram.
+    Synthetic(Synthetic),
+}
+
+/// An accelerogram or displacement history from a file, and what is done to it, in this order:
+/// trim, baseline, resample, scale.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct RecordInput {
+    /// The file, relative to the wall file; its format is found from its content.
+    pub record: PathBuf,
+    /// Channel in a file with several, from 1; default 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub channel: Option<usize>,
+    /// Factor on the values; default 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<f64>,
+    /// Scale to this peak acceleration, above 0, instead of `scale`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pga: Option<Acceleration>,
+    /// Keep this interval of the record [s]: `[from, to]`; it starts at t = 0 then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub trim: Option<[Time; 2]>,
+    /// New sample interval [s], above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub resample: Option<Time>,
+    /// Baseline correction; default none.
+    #[serde(default)]
+    pub baseline: Baseline,
+    /// What the values of a CSV/TXT file are; default acceleration.
+    #[serde(default)]
+    pub quantity: HistoryQuantity,
+    /// Unit of the values of a CSV/TXT file that does not name one (`"g"`, `"cm/s2"`, `"mm"`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<String>,
+    /// Sample interval of a one-column CSV/TXT file that does not name one [s].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dt: Option<Time>,
+}
+
+/// What the values of a text history are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum HistoryQuantity {
+    /// Acceleration.
+    #[default]
+    Acceleration,
+    /// Displacement.
+    Displacement,
+}
+
+/// Baseline correction: `"none"`, `{ polynomial = 2 }` or `{ high-pass = "0.1 Hz", order = 4 }`.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Baseline {
+    /// As it is.
+    #[default]
+    None,
+    /// Subtract the least-squares polynomial of this degree (0 … 6) from the acceleration.
+    Polynomial(usize),
+    /// Butterworth high-pass, forward and backward.
+    HighPass {
+        /// Corner, above 0 and below the Nyquist frequency.
+        corner: Frequency,
+        /// Order, 1 … 8; default 4.
+        order: usize,
+    },
+}
+
+/// A sine, at rest before t = 0: u = amplitude · min(1, t/ramp) · sin(2π f t), or the same of the acceleration.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Sine {
+    /// Displacement amplitude; give this or `acceleration`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude: Option<Length>,
+    /// Acceleration amplitude; give this or `amplitude`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acceleration: Option<Acceleration>,
+    /// f, above 0.
+    pub frequency: Frequency,
+    /// Time over which the amplitude grows linearly, from 0; default 0.
+    #[serde(default)]
+    pub ramp: Time,
+    /// Number of cycles after which it ends, above 0; default: goes on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cycles: Option<f64>,
+}
+
+/// A displacement that grows linearly and stays.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Ramp {
+    /// Displacement reached.
+    pub amplitude: Length,
+    /// When it starts, from 0.
+    #[serde(default)]
+    pub start: Time,
+    /// How long it takes, above 0.
+    pub rise: Time,
+}
+
+/// A pulse of the acceleration.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Pulse {
+    /// Its family.
+    pub shape: PulseShape,
+    /// Peak acceleration.
+    pub acceleration: Acceleration,
+    /// Length of the rectangle, of the half sine, of the whole sine; 1/(dominant frequency) of the Ricker
+    /// wavelet. Above 0.
+    pub duration: Time,
+    /// When it starts, from 0 (the Ricker wavelet's peak lies 1.5 durations later).
+    #[serde(default)]
+    pub start: Time,
+}
+
+/// Families of pulses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PulseShape {
+    /// Constant.
+    Rectangular,
+    /// Half a sine.
+    HalfSine,
+    /// One whole sine.
+    OneSine,
+    /// Ricker wavelet (second derivative of a Gaussian).
+    Ricker,
+}
+
+/// A sine whose frequency moves from one end to the other.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Sweep {
+    /// Acceleration amplitude.
+    pub acceleration: Acceleration,
+    /// Start and end frequency, above 0.
+    pub frequency: [Frequency; 2],
+    /// Time of the sweep, above 0.
+    pub duration: Time,
+    /// Exponential instead of linear growth of the frequency.
+    #[serde(default)]
+    pub logarithmic: bool,
+}
+
+/// A seeded accelerogram whose 5 % response spectrum follows a target (EN 1998-1 type 1 or 2 shape).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Synthetic {
+    /// Seed.
+    pub seed: u64,
+    /// Design ground acceleration a_g times soil factor: the spectrum's value at T = 0.
+    pub pga: Acceleration,
+    /// Duration [s], above 2.
+    pub duration: Time,
+    /// Sample interval [s]; default 0.005.
+    #[serde(default = "default_synthetic_dt")]
+    pub dt: Time,
+    /// Corner periods T_B, T_C, T_D of the target [s]; default EN 1998-1 type 1, ground B: 0.15, 0.5, 2.
+    #[serde(default = "default_corners")]
+    pub corners: [Time; 3],
+}
+
+fn default_synthetic_dt() -> Time {
+    Time::from_si(0.005)
+}
+fn default_corners() -> [Time; 3] {
+    [0.15, 0.5, 2.0].map(Time::from_si)
+}
+
+/// Time integration.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Solver {
+    /// The scheme.
+    pub scheme: Scheme,
+    /// Relative tolerance of the local error against the largest motion so far, 1e-12 … 0.1.
+    pub tolerance: f64,
+    /// Displacement [m] below which errors do not count, above 0.
+    pub floor: Length,
+    /// Longest step [s], above 0; default none but the sample interval of the records.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_step: Option<Time>,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Solver { scheme: Scheme::TrBdf2, tolerance: 1e-4, floor: Length::from_si(1e-12), max_step: None }
+    }
+}
+
+/// Integration schemes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scheme {
+    /// TR-BDF2: order 2, L-stable.
+    TrBdf2,
+    /// ESDIRK4(3)6L\[2\]SA: order 4, L-stable; for smooth motion and tight tolerances.
+    Esdirk4,
+}
+
+/// What a run keeps. Envelopes and energies are always kept.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Output {
+    /// Interval of the histories [s], above 0; default the record's sample interval, or duration/2000.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interval: Option<Time>,
+    /// Interval of the full frames (displacement and velocity of every block) [s], from 0 (no frames);
+    /// default duration/400, rounded to a multiple of `interval`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frames: Option<Time>,
+    /// Blocks whose displacement, velocity and acceleration histories are kept; `["all"]` for every block.
+    pub blocks: Vec<String>,
+    /// Joints whose slip, slip velocity, elastic force and friction force histories are kept; `["all"]` for all.
+    pub joints: Vec<String>,
+}

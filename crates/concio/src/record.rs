@@ -1,0 +1,133 @@
+//! What is kept while a run goes on: channels at a fixed interval, full frames, envelopes, energies, counters.
+//! Buffers are made before the run; the time loop fills them and its caller empties them.
+
+use serde::{Deserialize, Serialize};
+
+/// A history kept at every sample.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Channel {
+    /// Path-like name: `top/displacement`, `energy/friction`, `block/p1c1b1/velocity`, `joint/p1c1b1|p1c2b1/slip`.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// One sentence.
+    pub description: String,
+}
+
+/// What a run keeps, settled before it starts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Layout {
+    /// Interval of the samples [s]; sample k is at k·interval, the first at t = 0.
+    pub interval: f64,
+    /// Number of samples of the whole run, the one at t = 0 included.
+    pub samples: usize,
+    /// A frame is kept at every this many samples; 0 for none.
+    pub frame_every: usize,
+    /// Number of unknowns in a frame (blocks, then the beam's if it has mass).
+    pub unknowns: usize,
+    /// The histories.
+    pub channels: Vec<Channel>,
+}
+
+/// Samples and frames, row by row.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Recording {
+    /// Time of each sample [s].
+    pub time: Vec<f64>,
+    /// `time.len()` rows of one value per channel.
+    pub values: Vec<f64>,
+    /// Time of each frame [s].
+    pub frame_time: Vec<f64>,
+    /// `frame_time.len()` rows: displacement of every unknown relative to the base [m].
+    pub frame_displacement: Vec<f64>,
+    /// `frame_time.len()` rows: velocity of every unknown relative to the base [m/s].
+    pub frame_velocity: Vec<f64>,
+}
+
+/// Largest values over the whole run, taken at every accepted step. Signs are dropped unless said.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Envelopes {
+    /// Per unknown: |displacement relative to the base| [m].
+    pub block_displacement: Vec<f64>,
+    /// Per unknown: |velocity relative to the base| [m/s].
+    pub block_velocity: Vec<f64>,
+    /// Per unknown: |acceleration relative to the base| [m/s²].
+    pub block_acceleration: Vec<f64>,
+    /// Per joint: |relative displacement| [m].
+    pub joint_displacement: Vec<f64>,
+    /// Per joint: |relative velocity| [m/s].
+    pub joint_velocity: Vec<f64>,
+    /// Per joint: |relative acceleration| [m/s²].
+    pub joint_acceleration: Vec<f64>,
+    /// Per joint: slip [m], ∫|v| dt over the time in which |v| > δ_v (0 for joints without friction).
+    pub joint_slip: Vec<f64>,
+    /// Per joint: widest gap of a head joint or connection [m], from 0 (0 for the others).
+    pub joint_opening: Vec<f64>,
+    /// Per joint: deepest closure (negative gap) of a head joint or connection [m], from 0.
+    pub joint_closing: Vec<f64>,
+    /// Per joint: |elastic force| [N].
+    pub joint_force: Vec<f64>,
+    /// Per joint: dissipated energy, damping and friction [J].
+    pub joint_dissipation: Vec<f64>,
+}
+
+/// The energy account at one instant [J]; all work is done in coordinates relative to the base.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Energies {
+    /// Work of the base motion (inertia forces −m a on the relative motion).
+    pub input_base: f64,
+    /// Work of a driven top beam.
+    pub input_top: f64,
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Elastic energy of the joints.
+    pub elastic: f64,
+    /// Dissipated by viscous damping.
+    pub damping: f64,
+    /// Dissipated by friction.
+    pub friction: f64,
+    /// Dissipated by the breaking of bonds.
+    pub bond: f64,
+    /// Taken out by friction forces whose action differs from their reaction (`overburden`).
+    pub nonreciprocal: f64,
+}
+
+impl Energies {
+    /// Work done on the wall.
+    pub fn input(&self) -> f64 {
+        self.input_base + self.input_top
+    }
+    /// E_kin + E_el + E_diss − W_in: 0 but for the errors of the integration.
+    pub fn residual(&self) -> f64 {
+        self.kinetic + self.elastic + self.damping + self.friction + self.bond + self.nonreciprocal - self.input()
+    }
+}
+
+/// Counted work of the solver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Counters {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps rejected by the error control.
+    pub rejected: u64,
+    /// Steps repeated because the iteration did not converge.
+    pub failed: u64,
+    /// Iterations on the joints' laws.
+    pub iterations: u64,
+    /// Matrix factorisations.
+    pub factorisations: u64,
+}
+
+/// Why a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StopReason {
+    /// The end of the motion was reached.
+    Completed,
+    /// The user stopped it.
+    Interrupted,
+    /// The step became too short: the tolerance cannot be held.
+    StepTooShort,
+    /// A value became infinite or not a number.
+    NotFinite,
+}

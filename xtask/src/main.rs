@@ -1,0 +1,2 @@
+//! Project chores: `cargo xtask ci` and the generated documents.
+fn main() {}
