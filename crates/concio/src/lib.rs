@@ -3,10 +3,18 @@
 //! Main path: [`case`] → [`pattern`] → [`graph`] → [`model`] → [`simulate`] → [`outcome`].
 
 pub mod case;
+mod dynamics;
 pub mod error;
+pub mod excitation;
+pub mod graph;
+mod integrate;
+pub mod law;
+pub mod model;
 pub mod outcome;
 pub mod quantity;
 pub mod record;
+pub mod simulate;
+pub mod state;
 pub mod wall;
 
 pub use error::{Error, InputError, Result};

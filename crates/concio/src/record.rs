@@ -44,6 +44,17 @@ pub struct Recording {
     pub frame_velocity: Vec<f64>,
 }
 
+impl Recording {
+    /// Adds the rows of `other` at the end.
+    pub fn append(&mut self, other: &Recording) {
+        self.time.extend_from_slice(&other.time);
+        self.values.extend_from_slice(&other.values);
+        self.frame_time.extend_from_slice(&other.frame_time);
+        self.frame_displacement.extend_from_slice(&other.frame_displacement);
+        self.frame_velocity.extend_from_slice(&other.frame_velocity);
+    }
+}
+
 /// Largest values over the whole run, taken at every accepted step. Signs are dropped unless said.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Envelopes {

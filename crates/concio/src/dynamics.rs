@@ -1,0 +1,259 @@
+//! Forces, envelopes and sampled channels from a state.
+
+use crate::case::JointKind;
+use crate::error::{InputError, Result};
+use crate::integrate::stage::{power, spring_force};
+use crate::model::Model;
+use crate::record::{Channel, Energies};
+use crate::state::State;
+
+/// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N].
+fn joint_forces(model: &Model, state: &State, rub: Option<usize>, joint: usize) -> (f64, f64, f64) {
+    let [a, b] = model.sides[joint].map(|s| s as usize);
+    let (d, w) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
+    let law = &model.elastic[joint];
+    let friction = rub.map_or(0.0, |r| model.rubs[r].normal[0] * model.rubs[r].law.value(w));
+    (spring_force(law.unilateral, law.stiffness, d), law.damping * w, friction)
+}
+
+/// Makes accelerations, powers and tangents consistent with displacements, velocities and motion at `state.t`:
+/// at the start, and where the motion has a jump.
+pub fn settle(model: &Model, state: &mut State) {
+    let n = model.unknowns();
+    let ground = model.excitation.base_acceleration(state.t, state.t);
+    let (u1, v1) = model.excitation.top_relative(state.t, state.t);
+    state.z[n + 1] = u1;
+    state.v[n + 1] = v1;
+    state.a.fill(0.0);
+    for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
+        let (a, b) = (a as usize, b as usize);
+        let (d, w) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
+        if law.unilateral {
+            state.tangents.closed[e] = d > 0.0;
+        }
+        let f = law.damping * w + spring_force(law.unilateral, law.stiffness, d);
+        state.a[a] -= f;
+        state.a[b] += f;
+    }
+    for (r, rub) in model.rubs.iter().enumerate() {
+        let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
+        let w = state.v[a] - state.v[b];
+        let (mu, slope) = rub.law.at(w);
+        state.tangents.velocity[r] = w;
+        state.tangents.mu[r] = mu;
+        state.tangents.slope[r] = slope;
+        state.a[a] -= rub.normal[0] * mu;
+        state.a[b] += rub.normal[1] * mu;
+    }
+    for (a, m) in state.a.iter_mut().zip(&model.mass) {
+        *a = *a / m - ground;
+    }
+    state.a[n] = 0.0;
+    state.a[n + 1] = 0.0;
+    state.power = power(model, &state.z, &state.v, &state.tangents.mu, ground, &mut state.joint_power);
+}
+
+/// Brings kinetic and elastic energy, envelopes and totals up to date after an accepted step of `h`.
+pub fn observe(model: &Model, state: &mut State, h: f64) {
+    let n = model.unknowns();
+    let env = &mut state.envelopes;
+    let mut kinetic = 0.0;
+    for i in 0..n {
+        let (z, v) = (state.z[i].abs(), state.v[i].abs());
+        kinetic += 0.5 * model.mass[i] * v * v;
+        env.block_displacement[i] = env.block_displacement[i].max(z);
+        env.block_velocity[i] = env.block_velocity[i].max(v);
+        env.block_acceleration[i] = env.block_acceleration[i].max(state.a[i].abs());
+        state.scale[0] = state.scale[0].max(z);
+        state.scale[1] = state.scale[1].max(v);
+    }
+    let totals = &mut state.totals;
+    totals.peak_relative_displacement =
+        totals.peak_relative_displacement.max(peak(&state.z[..model.wall.blocks.len()]));
+    let top = model.floating_beam().unwrap_or(model.top());
+    let (mut elastic, mut pull) = (0.0, 0.0);
+    for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
+        let (a, b) = (a as usize, b as usize);
+        let (d, w, dw) = (state.z[a] - state.z[b], state.v[a] - state.v[b], state.a[a] - state.a[b]);
+        let f = spring_force(law.unilateral, law.stiffness, d);
+        elastic += 0.5 * f * d;
+        env.joint_displacement[e] = env.joint_displacement[e].max(d.abs());
+        env.joint_velocity[e] = env.joint_velocity[e].max(w.abs());
+        env.joint_acceleration[e] = env.joint_acceleration[e].max(dw.abs());
+        env.joint_force[e] = env.joint_force[e].max(f.abs());
+        if matches!(model.joints[e].kind, JointKind::Head | JointKind::Connection) {
+            // d = x_left − x_right: the gap is −d.
+            env.joint_opening[e] = env.joint_opening[e].max(-d);
+            env.joint_closing[e] = env.joint_closing[e].max(d);
+            totals.minimum_gap = totals.minimum_gap.min(-d);
+        } else {
+            totals.peak_slip_velocity = totals.peak_slip_velocity.max(w.abs());
+        }
+        if b == top {
+            pull += f + law.damping * w;
+        }
+    }
+    for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
+        let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
+        let w = (state.v[a] - state.v[b]).abs();
+        if w > rub.law.slip_velocity {
+            env.joint_slip[rub.joint as usize] += h * w;
+        }
+        if b == top {
+            pull += rub.normal[0] * mu;
+        }
+    }
+    totals.top_force_peak = totals.top_force_peak.max(pull.abs());
+    totals.top_force_square += h * pull * pull;
+    state.energies.kinetic = kinetic;
+    state.energies.elastic = elastic;
+    totals.peak_input = totals.peak_input.max(state.energies.input().abs());
+    totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
+}
+
+fn peak(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |p, v| v.abs().max(p))
+}
+
+/// A selected history beyond the ones that are always kept.
+#[derive(Debug, Clone, Copy)]
+enum Watched {
+    Block(usize),
+    Joint(usize, Option<usize>),
+}
+
+/// The channels of a run: what they are and how to read them off a state.
+#[derive(Debug, Clone)]
+pub struct Channels {
+    watched: Vec<Watched>,
+    top_course: Vec<usize>,
+}
+
+const ALWAYS: [(&str, &str, &str); 8] = [
+    ("base/acceleration", "m/s2", "absolute acceleration of the base"),
+    ("base/displacement", "m", "absolute displacement of the base"),
+    ("base/shear", "N", "horizontal force of the base on the wall"),
+    ("top/displacement", "m", "mean displacement of the top courses relative to the base"),
+    ("top/velocity", "m/s", "mean velocity of the top courses relative to the base"),
+    ("top/force", "N", "horizontal force of the top beam on the wall"),
+    ("beam/displacement", "m", "displacement of the top beam relative to the base"),
+    ("peak/displacement", "m", "largest absolute displacement of a block relative to the base at the moment"),
+];
+const ENERGIES: [(&str, &str); 9] = [
+    ("input", "work done on the wall by base and top motion"),
+    ("kinetic", "kinetic energy of the motion relative to the base"),
+    ("elastic", "elastic energy of the joints"),
+    ("damping", "dissipated by viscous damping"),
+    ("friction", "dissipated by friction"),
+    ("bond", "dissipated by the breaking of bonds"),
+    ("nonreciprocal", "taken out by friction whose action differs from its reaction"),
+    ("residual", "kinetic + elastic + dissipated - input"),
+    ("top", "part of input that a driven top beam brings"),
+];
+const BLOCK: [(&str, &str, &str); 3] = [
+    ("displacement", "m", "displacement relative to the base"),
+    ("velocity", "m/s", "velocity relative to the base"),
+    ("acceleration", "m/s2", "acceleration relative to the base"),
+];
+const JOINT: [(&str, &str, &str); 5] = [
+    ("slip", "m", "relative displacement (gap of a head joint: positive is open)"),
+    ("velocity", "m/s", "relative velocity (positive opens a head joint)"),
+    ("elastic", "N", "elastic force on the lower or left block, against its relative motion"),
+    ("damping", "N", "viscous force, same sign"),
+    ("friction", "N", "friction force, same sign"),
+];
+
+impl Channels {
+    /// The channels for the block and joint names asked for (`all` for every one).
+    ///
+    /// # Errors
+    /// A name that no block or joint bears.
+    pub fn new(model: &Model, blocks: &[String], joints: &[String]) -> Result<(Self, Vec<Channel>)> {
+        let block_names: Vec<String> = model.wall.blocks.iter().map(|b| b.name.clone()).collect();
+        let joint_names = model.joint_names();
+        let mut watched: Vec<Watched> =
+            chosen("output.blocks", "block", blocks, &block_names)?.into_iter().map(Watched::Block).collect();
+        for e in chosen("output.joints", "joint", joints, &joint_names)? {
+            watched.push(Watched::Joint(e, model.rubs.iter().position(|r| r.joint as usize == e)));
+        }
+        let channel =
+            |name: String, unit: &str, text: &str| Channel { name, unit: unit.into(), description: text.into() };
+        let mut list: Vec<Channel> = ALWAYS.iter().map(|(n, u, d)| channel((*n).into(), u, d)).collect();
+        list.extend(ENERGIES.iter().map(|(n, d)| channel(format!("energy/{n}"), "J", d)));
+        for w in &watched {
+            match *w {
+                Watched::Block(i) => {
+                    list.extend(BLOCK.iter().map(|(n, u, d)| channel(format!("block/{}/{n}", block_names[i]), u, d)));
+                }
+                Watched::Joint(e, _) => {
+                    list.extend(JOINT.iter().map(|(n, u, d)| channel(format!("joint/{}/{n}", joint_names[e]), u, d)));
+                }
+            }
+        }
+        let blocks = &model.wall.blocks;
+        let is_top = |i: &usize| blocks[*i].course + 1 == model.wall.panels[blocks[*i].panel].courses;
+        let top_course = (0..blocks.len()).filter(is_top).collect();
+        Ok((Channels { watched, top_course }, list))
+    }
+
+    /// Appends one row of values.
+    pub fn sample(&self, model: &Model, state: &State, row: &mut Vec<f64>) {
+        let (mut shear, mut pull) = (0.0, 0.0);
+        let beam = model.floating_beam().unwrap_or(model.top());
+        let mut add = |b: usize, f: f64| {
+            if b == model.base() {
+                shear -= f;
+            } else if b == beam {
+                pull -= f;
+            }
+        };
+        for (e, side) in model.sides.iter().enumerate() {
+            if side[1] as usize >= beam.min(model.base()) {
+                let (elastic, viscous, _) = joint_forces(model, state, None, e);
+                add(side[1] as usize, elastic + viscous);
+            }
+        }
+        for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
+            add(model.sides[rub.joint as usize][1] as usize, rub.normal[0] * mu);
+        }
+        let mean = |values: &[f64]| {
+            self.top_course.iter().map(|&i| values[i]).sum::<f64>() / self.top_course.len().max(1) as f64
+        };
+        let (u0, a0) = model.excitation.base_motion(state.t);
+        let energies = &state.energies;
+        row.extend([a0, u0, shear, mean(&state.z), mean(&state.v), pull, state.z[beam]]);
+        row.push(peak(&state.z[..model.wall.blocks.len()]));
+        let Energies { input_top, kinetic, elastic, damping, friction, bond, nonreciprocal, .. } = *energies;
+        row.extend([energies.input(), kinetic, elastic, damping, friction, bond, nonreciprocal]);
+        row.extend([energies.residual(), input_top]);
+        for w in &self.watched {
+            match *w {
+                Watched::Block(i) => row.extend([state.z[i], state.v[i], state.a[i]]),
+                Watched::Joint(e, rub) => {
+                    let [a, b] = model.sides[e].map(|s| s as usize);
+                    let upright = matches!(model.joints[e].kind, JointKind::Head | JointKind::Connection);
+                    let sign = if upright { -1.0 } else { 1.0 };
+                    let (elastic, viscous, friction) = joint_forces(model, state, rub, e);
+                    let (d, v) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
+                    row.extend([sign * d, sign * v, elastic, viscous, friction]);
+                }
+            }
+        }
+    }
+}
+
+fn chosen(key: &str, what: &str, asked: &[String], names: &[String]) -> Result<Vec<usize>> {
+    if asked.iter().any(|a| a == "all") {
+        return Ok((0..names.len()).collect());
+    }
+    let mut indices = Vec::with_capacity(asked.len());
+    for name in asked {
+        let i = names.iter().position(|n| n == name).ok_or_else(|| {
+            InputError::new(format!("no {what} is named `{name}`"))
+                .key(key)
+                .allowed(format!("\"all\", or names as `concio check` draws them, for example {}", names[0]))
+        })?;
+        indices.push(i);
+    }
+    Ok(indices)
+}

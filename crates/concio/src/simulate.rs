@@ -1,0 +1,264 @@
+//! The only time loop.
+//!
+//! [`Simulation::advance`] takes steps until its budget is spent, its record buffer is full or the run ends; it
+//! does no I/O and allocates nothing. The caller empties the buffer, shows progress, saves the state.
+
+use crate::case::Solver;
+use crate::dynamics::{Channels, observe, settle};
+use crate::error::Result;
+use crate::integrate::stage::Failure;
+use crate::integrate::step::{Step, Tolerance};
+use crate::model::Model;
+use crate::outcome::Outcome;
+use crate::record::{Layout, Recording, StopReason};
+use crate::state::State;
+
+/// Shortest step as a fraction of the shortest time scale 1/ω; below it the tolerance cannot be held.
+const SHORTEST: f64 = 1e-9;
+/// Samples that the record buffer holds.
+const BUFFER: usize = 256;
+
+/// A run under way.
+#[derive(Debug, Clone)]
+pub struct Simulation<'m> {
+    model: &'m Model,
+    solver: Solver,
+    channels: Channels,
+    layout: Layout,
+    state: State,
+    work: Step,
+    recording: Recording,
+    /// Start of the smooth piece of the motion in which the state lies [s].
+    piece: f64,
+}
+
+/// What [`Simulation::advance`] came to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Progress {
+    /// Steps remain; empty the buffer and go on.
+    Running,
+    /// The run has ended.
+    Ended(StopReason),
+}
+
+/// How a run samples, from the wall file's `[output]` with its defaults resolved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sampling {
+    /// Interval of the samples [s].
+    pub interval: f64,
+    /// Samples from one frame to the next; 0 for no frames.
+    pub frame_every: usize,
+    /// Blocks whose histories are kept.
+    pub blocks: Vec<String>,
+    /// Joints whose histories are kept.
+    pub joints: Vec<String>,
+}
+
+impl<'m> Simulation<'m> {
+    /// A run from rest at t = 0.
+    ///
+    /// # Errors
+    /// Names in `sampling` that no block or joint bears.
+    pub fn new(model: &'m Model, solver: &Solver, sampling: &Sampling) -> Result<Self> {
+        let (channels, list) = Channels::new(model, &sampling.blocks, &sampling.joints)?;
+        let duration = model.excitation.duration;
+        let layout = Layout {
+            interval: sampling.interval,
+            samples: (duration / sampling.interval * (1.0 + 1e-12) + 1e-9).floor() as usize + 1,
+            frame_every: sampling.frame_every,
+            unknowns: model.unknowns(),
+            channels: list,
+        };
+        let mut state = State::at_rest(model);
+        settle(model, &mut state);
+        state.step = (0.01 / model.stiffest.sqrt()).min(duration);
+        if !state.step.is_finite() {
+            state.step = duration;
+        }
+        observe(model, &mut state, 0.0);
+        let frames = if layout.frame_every > 0 { BUFFER.div_ceil(layout.frame_every) } else { 0 };
+        let recording = Recording {
+            time: Vec::with_capacity(BUFFER),
+            values: Vec::with_capacity(BUFFER * layout.channels.len()),
+            frame_time: Vec::with_capacity(frames),
+            frame_displacement: Vec::with_capacity(frames * layout.unknowns),
+            frame_velocity: Vec::with_capacity(frames * layout.unknowns),
+        };
+        let work = Step::new(model, solver.scheme);
+        let mut run = Simulation { model, solver: *solver, channels, layout, state, work, recording, piece: 0.0 };
+        run.sample();
+        Ok(run)
+    }
+
+    /// Takes at most `steps` steps, fewer when the buffer is full or the run ends.
+    pub fn advance(&mut self, steps: u64) -> Progress {
+        let end = self.model.excitation.duration;
+        for _ in 0..steps {
+            if self.state.t >= end {
+                return Progress::Ended(StopReason::Completed);
+            }
+            if self.recording.time.len() >= BUFFER {
+                return Progress::Running;
+            }
+            if let Err(reason) = self.step() {
+                return Progress::Ended(reason);
+            }
+        }
+        if self.state.t >= end { Progress::Ended(StopReason::Completed) } else { Progress::Running }
+    }
+
+    /// One accepted step, to the next break of the motion or sample at the farthest.
+    fn step(&mut self) -> std::result::Result<(), StopReason> {
+        let break_at = self.model.excitation.next_break(self.state.t).min(self.model.excitation.duration);
+        let sample_at = self.state.samples as f64 * self.layout.interval;
+        let target = if sample_at > self.state.t { break_at.min(sample_at) } else { break_at };
+        let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
+        let mut proposed = self.state.step;
+        loop {
+            let remaining = target - self.state.t;
+            let mut h = proposed.min(self.longest());
+            let lands = h >= remaining * (1.0 - 1e-9);
+            if lands {
+                h = remaining;
+            } else if h > 0.5 * remaining {
+                h = 0.5 * remaining;
+            }
+            let tolerance = self.tolerance();
+            let attempt = self.work.attempt(self.model, &self.state, self.piece, h, tolerance);
+            let factor = match attempt {
+                Ok(error) if error <= 1.0 => {
+                    let grow = growth(error, self.work.error_order()).min(5.0);
+                    let free = h * grow;
+                    // A step cut short by a landing says little about the one that the error allows.
+                    self.state.step = if lands && proposed > h { free.max(proposed) } else { free };
+                    self.accept(if lands { target } else { self.state.t + h }, h, target == break_at && lands);
+                    return Ok(());
+                }
+                Ok(error) if error.is_finite() => {
+                    self.state.counters.rejected += 1;
+                    growth(error, self.work.error_order()).clamp(0.1, 0.8)
+                }
+                Err(Failure::TooLong) => {
+                    self.state.counters.failed += 1;
+                    0.4
+                }
+                Ok(_) | Err(Failure::NotFinite) => {
+                    self.state.counters.failed += 1;
+                    if h <= shortest {
+                        return Err(StopReason::NotFinite);
+                    }
+                    0.25
+                }
+            };
+            if h <= shortest {
+                return Err(StopReason::StepTooShort);
+            }
+            proposed = h * factor;
+        }
+    }
+
+    fn longest(&self) -> f64 {
+        self.solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(self.model.excitation.longest_step())
+    }
+
+    fn tolerance(&self) -> Tolerance {
+        let [z, v] = self.state.scale;
+        let floor = self.solver.floor.si();
+        Tolerance {
+            z: self.solver.tolerance * z + floor,
+            v: self.solver.tolerance * v + floor * self.model.stiffest.sqrt(),
+        }
+    }
+
+    fn accept(&mut self, t: f64, h: f64, at_break: bool) {
+        self.work.accept(self.model, &mut self.state, t, h);
+        self.state.counters.steps += 1;
+        self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
+        self.state.counters.factorisations += std::mem::take(&mut self.work.stage.factorisations);
+        observe(self.model, &mut self.state, h);
+        if at_break {
+            self.piece = t;
+            if self.model.excitation.jumps_at(t) {
+                settle(self.model, &mut self.state);
+            }
+        }
+        if self.state.t >= self.state.samples as f64 * self.layout.interval
+            && (self.state.samples as usize) < self.layout.samples
+        {
+            self.sample();
+        }
+    }
+
+    fn sample(&mut self) {
+        let (state, recording) = (&mut self.state, &mut self.recording);
+        recording.time.push(state.samples as f64 * self.layout.interval);
+        self.channels.sample(self.model, state, &mut recording.values);
+        if self.layout.frame_every > 0 && state.samples.is_multiple_of(self.layout.frame_every as u64) {
+            let n = self.layout.unknowns;
+            recording.frame_time.push(state.samples as f64 * self.layout.interval);
+            recording.frame_displacement.extend_from_slice(&state.z[..n]);
+            recording.frame_velocity.extend_from_slice(&state.v[..n]);
+        }
+        state.samples += 1;
+    }
+
+    /// Samples since the buffer was last cleared.
+    pub fn recording(&self) -> &Recording {
+        &self.recording
+    }
+    /// Empties the buffer, keeping its memory.
+    pub fn clear_recording(&mut self) {
+        let r = &mut self.recording;
+        for v in [&mut r.time, &mut r.values, &mut r.frame_time, &mut r.frame_displacement, &mut r.frame_velocity] {
+            v.clear();
+        }
+    }
+    /// What is kept.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+    /// The state after the last accepted step.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+    /// Time reached [s].
+    pub fn time(&self) -> f64 {
+        self.state.t
+    }
+
+    /// The result, with the recording that the caller collected.
+    pub fn outcome(self, recording: Recording, stop_reason: StopReason) -> Outcome {
+        Outcome {
+            layout: self.layout,
+            recording,
+            time_reached: self.state.t,
+            energies: self.state.energies,
+            envelopes: self.state.envelopes,
+            totals: self.state.totals,
+            counters: self.state.counters,
+            stop_reason,
+        }
+    }
+}
+
+/// Step factor 0.9 (1/error)^(1/order).
+fn growth(error: f64, order: f64) -> f64 {
+    if error <= 0.0 { 5.0 } else { 0.9 * error.powf(-1.0 / order) }
+}
+
+/// Runs to the end in memory.
+///
+/// # Errors
+/// As [`Simulation::new`].
+pub fn simulate(model: &Model, solver: &Solver, sampling: &Sampling) -> Result<Outcome> {
+    let mut run = Simulation::new(model, solver, sampling)?;
+    let mut all = Recording::default();
+    loop {
+        let progress = run.advance(u64::MAX);
+        all.append(run.recording());
+        run.clear_recording();
+        if let Progress::Ended(reason) = progress {
+            return Ok(run.outcome(all, reason));
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! All that changes during a run. Saved and restored whole, so that a resumed run continues with the same bits.
+
+use crate::model::Model;
+use crate::outcome::Totals;
+use crate::record::{Counters, Energies, Envelopes};
+
+/// The state between two steps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// Time [s].
+    pub t: f64,
+    /// Displacement relative to the base [m]: unknowns, then base (0) and top.
+    pub z: Vec<f64>,
+    /// Velocity relative to the base [m/s], same places.
+    pub v: Vec<f64>,
+    /// Acceleration relative to the base [m/s²], same places.
+    pub a: Vec<f64>,
+    /// Rates of the energy account at `t` [W].
+    pub power: Power,
+    /// Step that the error control would take next [s].
+    pub step: f64,
+    /// Largest |z| and |v| so far: the scale of the tolerances.
+    pub scale: [f64; 2],
+    /// Rate of each joint's dissipation at `t` [W].
+    pub joint_power: Vec<f64>,
+    /// Tangents of the joints' laws, from which the next step starts.
+    pub tangents: Tangents,
+    /// Samples kept so far.
+    pub samples: u64,
+    /// Energy account.
+    pub energies: Energies,
+    /// Peaks per block and joint.
+    pub envelopes: Envelopes,
+    /// Peaks of the run.
+    pub totals: Totals,
+    /// Work of the solver.
+    pub counters: Counters,
+}
+
+/// Rates of the works in [`Energies`] [W].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Power {
+    /// Of the base motion.
+    pub base: f64,
+    /// Of a driven top.
+    pub top: f64,
+    /// Lost to damping.
+    pub damping: f64,
+    /// Lost to friction.
+    pub friction: f64,
+    /// Lost to the difference of action and reaction.
+    pub nonreciprocal: f64,
+}
+
+impl Power {
+    /// Adds `dt` of these rates to the account.
+    pub fn accrue(&self, dt: f64, energies: &mut Energies) {
+        energies.input_base += dt * self.base;
+        energies.input_top += dt * self.top;
+        energies.damping += dt * self.damping;
+        energies.friction += dt * self.friction;
+        energies.nonreciprocal += dt * self.nonreciprocal;
+    }
+}
+
+/// Tangents of the joints' laws: where the next stage starts from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tangents {
+    /// Relative velocity at which (6) is linearised [m/s], per rubbing joint.
+    pub velocity: Vec<f64>,
+    /// μ there.
+    pub mu: Vec<f64>,
+    /// dμ/dv there [s/m].
+    pub slope: Vec<f64>,
+    /// Whether the elastic law acts, per joint.
+    pub closed: Vec<bool>,
+}
+
+impl Tangents {
+    /// Of all joints at rest, unilateral joints open (δ = 0).
+    pub fn at_rest(model: &Model) -> Self {
+        Tangents {
+            velocity: vec![0.0; model.rubs.len()],
+            mu: vec![0.0; model.rubs.len()],
+            slope: model.rubs.iter().map(|r| r.law.slope_at_rest()).collect(),
+            closed: model.elastic.iter().map(|law| !law.unilateral).collect(),
+        }
+    }
+    /// Copies without allocating.
+    pub fn copy_from(&mut self, other: &Tangents) {
+        self.velocity.copy_from_slice(&other.velocity);
+        self.mu.copy_from_slice(&other.mu);
+        self.slope.copy_from_slice(&other.slope);
+        self.closed.copy_from_slice(&other.closed);
+    }
+}
+
+impl State {
+    /// At rest at t = 0.
+    pub fn at_rest(model: &Model) -> Self {
+        let (n, e) = (model.unknowns(), model.joints.len());
+        let zeros = |n: usize| vec![0.0; n];
+        State {
+            t: 0.0,
+            z: zeros(n + 2),
+            v: zeros(n + 2),
+            a: zeros(n + 2),
+            power: Power::default(),
+            step: 0.0,
+            scale: [0.0; 2],
+            joint_power: zeros(e),
+            tangents: Tangents::at_rest(model),
+            samples: 0,
+            energies: Energies::default(),
+            envelopes: Envelopes {
+                block_displacement: zeros(n),
+                block_velocity: zeros(n),
+                block_acceleration: zeros(n),
+                joint_displacement: zeros(e),
+                joint_velocity: zeros(e),
+                joint_acceleration: zeros(e),
+                joint_slip: zeros(e),
+                joint_opening: zeros(e),
+                joint_closing: zeros(e),
+                joint_force: zeros(e),
+                joint_dissipation: zeros(e),
+            },
+            totals: Totals::default(),
+            counters: Counters::default(),
+        }
+    }
+}
