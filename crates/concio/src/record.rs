@@ -56,7 +56,7 @@ impl Recording {
 }
 
 /// Largest values over the whole run, taken at every accepted step. Signs are dropped unless said.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Envelopes {
     /// Per unknown: |displacement relative to the base| [m].
     pub block_displacement: Vec<f64>,

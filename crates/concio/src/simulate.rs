@@ -226,6 +226,24 @@ impl<'m> Simulation<'m> {
         self.state.t
     }
 
+    /// The state as bytes, from which [`Simulation::restore`] continues with the same bits. The record buffer is
+    /// not part of it: empty it first.
+    pub fn save(&self) -> Vec<u8> {
+        // Plain vectors of numbers into memory: nothing that could fail.
+        postcard::to_stdvec(&(self.piece, &self.state)).unwrap_or_default()
+    }
+    /// Goes back to a saved state; false when the bytes are not one of this model's.
+    pub fn restore(&mut self, bytes: &[u8]) -> bool {
+        let Ok((piece, state)) = postcard::from_bytes::<(f64, State)>(bytes) else { return false };
+        if !state.fits(self.model) {
+            return false;
+        }
+        self.piece = piece;
+        self.state = state;
+        self.clear_recording();
+        true
+    }
+
     /// The result, with the recording that the caller collected.
     pub fn outcome(self, recording: Recording, stop_reason: StopReason) -> Outcome {
         Outcome {

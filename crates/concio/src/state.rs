@@ -1,11 +1,13 @@
 //! All that changes during a run. Saved and restored whole, so that a resumed run continues with the same bits.
 
+use serde::{Deserialize, Serialize};
+
 use crate::model::Model;
 use crate::outcome::Totals;
 use crate::record::{Counters, Energies, Envelopes};
 
 /// The state between two steps.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Time [s].
     pub t: f64,
@@ -38,7 +40,7 @@ pub struct State {
 }
 
 /// Rates of the works in [`Energies`] [W].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Power {
     /// Of the base motion.
     pub base: f64,
@@ -64,7 +66,7 @@ impl Power {
 }
 
 /// Tangents of the joints' laws: where the next stage starts from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Tangents {
     /// Relative velocity at which (6) is linearised [m/s], per rubbing joint.
     pub velocity: Vec<f64>,
@@ -96,6 +98,29 @@ impl Tangents {
 }
 
 impl State {
+    /// Whether all arrays have the lengths that `model` needs.
+    pub fn fits(&self, model: &Model) -> bool {
+        let (n, e, r) = (model.unknowns(), model.joints.len(), model.rubs.len());
+        let env = &self.envelopes;
+        [&self.z, &self.v, &self.a].iter().all(|x| x.len() == n + 2)
+            && [&env.block_displacement, &env.block_velocity, &env.block_acceleration].iter().all(|x| x.len() == n)
+            && [
+                &env.joint_displacement,
+                &env.joint_velocity,
+                &env.joint_acceleration,
+                &env.joint_slip,
+                &env.joint_opening,
+                &env.joint_closing,
+                &env.joint_force,
+                &env.joint_dissipation,
+                &self.joint_power,
+            ]
+            .iter()
+            .all(|x| x.len() == e)
+            && [&self.tangents.velocity, &self.tangents.mu, &self.tangents.slope].iter().all(|x| x.len() == r)
+            && self.tangents.closed.len() == e
+    }
+
     /// At rest at t = 0.
     pub fn at_rest(model: &Model) -> Self {
         let (n, e) = (model.unknowns(), model.joints.len());

@@ -1,0 +1,58 @@
+//! The assembled system as JSON, for other solvers (`concio system`).
+
+use serde_json::{Value, json};
+
+use crate::error::Result;
+use crate::model::Model;
+
+/// The system in coordinates relative to the base: masses, joints, motion (the format is fixed in docs/system.md).
+///
+/// # Errors
+/// A driven top on a moving base: the format has one motion for the top and it is relative to the base.
+pub fn system(model: &Model) -> Result<Value> {
+    let (base, top) = (model.base(), model.top());
+    let mut rub = vec![None; model.joints.len()];
+    for r in &model.rubs {
+        rub[r.joint as usize] = Some(r);
+    }
+    let side = |b: usize| {
+        if b == base {
+            json!("base")
+        } else if b == top {
+            json!("top")
+        } else {
+            json!(b)
+        }
+    };
+    let joints: Vec<Value> = model
+        .elastic
+        .iter()
+        .zip(&model.sides)
+        .zip(&rub)
+        .map(|((law, &[a, b]), rub)| {
+            json!({
+                "a": a,
+                "b": side(b as usize),
+                "law": if law.unilateral { "no-tension" } else { "elastic" },
+                "stiffness": law.stiffness,
+                "damping": law.damping,
+                "normal_force": rub.map_or([0.0; 2], |r| r.normal),
+                "friction": rub.map(|r| json!({
+                    "static": r.law.static_,
+                    "dynamic": r.law.dynamic,
+                    "slip_velocity": r.law.slip_velocity,
+                    "beta": r.law.beta,
+                    "alpha": r.law.alpha,
+                })),
+            })
+        })
+        .collect();
+    let (base, top) = model.excitation.system_motions()?;
+    Ok(json!({
+        "mass": model.mass,
+        "joints": joints,
+        "base": base,
+        "top": top,
+        "duration": model.excitation.duration,
+    }))
+}
