@@ -1,0 +1,237 @@
+//! What can be typed. The text of `--help` is the reference: docs/cli.md is made from it.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
+
+/// In-plane earthquake response of block masonry.
+///
+/// A wall file says in about twenty lines what the wall is, how its joints behave and how it is shaken.
+/// `concio new` writes one to start from.
+#[derive(Debug, Parser)]
+#[command(name = "concio", version, propagate_version = true, arg_required_else_help = true, max_term_width = 110)]
+#[command(after_help = "\
+First steps:
+  concio run                    the built-in wall, to see a result
+  concio new wall.toml          a wall file to change
+  concio check wall.toml        what it describes, or what is wrong with it
+  concio run wall.toml          the run; the report is concio-run/wall/report.html
+
+Exit status: 0 done, 1 the run stopped early or a file could not be written, 2 the input is wrong.")]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Simulate a wall and write its results and report.
+    Run(Run),
+    /// Validate a wall file and say what it describes.
+    Check(Check),
+    /// Write a commented wall file to start from.
+    New(New),
+    /// Print the JSON Schema of the wall file.
+    Schema(Schema),
+    /// Measure and draw an accelerogram.
+    Record(Record),
+    /// Print the assembled system as JSON, for other solvers.
+    System(System),
+    /// Convert a result to CSV, NPZ or VTKHDF.
+    Export(Export),
+    /// Draw the report of a result again.
+    Plot(Plot),
+    /// Print the completions of a shell.
+    Completions(Completions),
+    /// Print this reference as Markdown.
+    #[command(hide = true)]
+    Reference,
+}
+
+/// Simulate a wall and write its results and report.
+///
+/// Writes result.h5 (histories, frames, envelopes), summary.json (the numbers of the run) and report.html
+/// (figures, energies, input). Each appears whole or not at all. A run that was killed is taken up where its
+/// journal ends when the same command is given again.
+///
+/// Ctrl-C stops the run and writes what was computed so far; a second Ctrl-C ends the program at once.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio run                              the built-in wall
+  concio run wall.toml                    results in concio-run/wall
+  concio run wall.toml --out night/a1     results in night/a1
+  concio run wall.toml --fresh            from the start, whatever a killed run left")]
+pub struct Run {
+    /// Wall file, TOML or JSON; without it the built-in example.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: Option<PathBuf>,
+    /// Folder of the results; default concio-run/NAME, NAME being that of the wall file without its ending.
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
+    /// Start at t = 0 even if a killed run could be taken up.
+    #[arg(long, alias = "no-resume")]
+    pub fresh: bool,
+}
+
+/// Validate a wall file and say what it describes.
+///
+/// Lists everything that is wrong with the file, each with its line and the allowed range. If nothing is, prints
+/// what the wall consists of: panels, joints of each kind, mass, normal forces. Nothing is simulated.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio check wall.toml
+  concio check wall.toml --svg wall.svg    a drawing with the names of blocks and joints")]
+pub struct Check {
+    /// Wall file, TOML or JSON.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// Draw the wall into this file.
+    #[arg(long, value_name = "OUT", value_hint = ValueHint::FilePath)]
+    pub svg: Option<PathBuf>,
+}
+
+/// Write a commented wall file to start from.
+///
+/// A file that exists is not overwritten.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio new                 writes wall.toml
+  concio new abbey/nave.toml
+  concio new -               prints it")]
+pub struct New {
+    /// File to write; `-` for standard output.
+    #[arg(default_value = "wall.toml", value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+}
+
+/// Print the JSON Schema of the wall file.
+///
+/// Editors that know JSON Schema complete and check wall files with it. It documents every key with its unit,
+/// bound and default.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Example:
+  concio schema > wall.schema.json
+and as the first line of a wall file, for editors with a TOML language server:
+  #:schema ./wall.schema.json")]
+pub struct Schema {}
+
+/// Measure and draw an accelerogram.
+///
+/// The format is found from the content: PEER AT2, ITACA/ESM ASC, COSMOS V2, CSMIP V2, USGS SMC, or text in columns
+/// (one column with its interval, or time and values). Prints peak acceleration, velocity and displacement, Arias
+/// intensity, significant duration and Housner intensity of the record as it is: no baseline is taken off, nothing
+/// is filtered.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio record quake.AT2
+  concio record station.V2 --channel 3 --svg ch3.svg
+  concio record shaking.txt --dt 0.005 --units cm/s2
+  concio record quake.AT2 --json                        also the 5 % response spectrum")]
+pub struct Record {
+    /// Record file.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// Print JSON (SI units) instead of a table.
+    #[arg(long)]
+    pub json: bool,
+    /// Draw histories and spectrum into this file.
+    #[arg(long, value_name = "OUT", value_hint = ValueHint::FilePath)]
+    pub svg: Option<PathBuf>,
+    /// Channel of a file with several, from 1; default 1.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub channel: Option<u32>,
+    /// Unit of a text file that names none (g, m/s2, cm/s2, …).
+    #[arg(long, value_name = "UNIT")]
+    pub units: Option<String>,
+    /// Sample interval [s] of a one-column text file that names none.
+    #[arg(long, value_name = "SECONDS")]
+    pub dt: Option<f64>,
+    /// What the values of a text file are.
+    #[arg(long, value_enum, default_value = "acceleration")]
+    pub quantity: Quantity,
+}
+
+/// What the values of a text file are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Quantity {
+    /// Acceleration.
+    Acceleration,
+    /// Displacement.
+    Displacement,
+}
+
+/// Print the assembled system as JSON, for other solvers.
+///
+/// Masses, joints with their stiffness, damping, normal force and friction, and the motion of base and top: all that
+/// a general-purpose solver needs to integrate the same equations. docs/system.md describes the keys.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Example:
+  concio system wall.toml > system.json")]
+pub struct System {
+    /// Wall file, TOML or JSON.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+}
+
+/// Convert a result to CSV, NPZ or VTKHDF.
+///
+/// CSV is a folder of tables, NPZ a NumPy archive with the names of the HDF5 file, VTKHDF a file of moving blocks for
+/// ParaView.
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("format").required(true))]
+#[command(after_help = "\
+Examples:
+  concio export concio-run/wall --csv                 tables in concio-run/wall/csv
+  concio export concio-run/wall --npz --out a1.npz
+  concio export concio-run/wall --vtkhdf              concio-run/wall/result.vtkhdf")]
+pub struct Export {
+    /// Folder of a run.
+    #[arg(value_hint = ValueHint::DirPath)]
+    pub dir: PathBuf,
+    /// A folder of CSV tables.
+    #[arg(long, group = "format")]
+    pub csv: bool,
+    /// A NumPy archive.
+    #[arg(long, group = "format")]
+    pub npz: bool,
+    /// A file for ParaView.
+    #[arg(long, group = "format")]
+    pub vtkhdf: bool,
+    /// Where to; default csv, result.npz or result.vtkhdf in the folder of the run.
+    #[arg(short, long, value_name = "PATH", value_hint = ValueHint::AnyPath)]
+    pub out: Option<PathBuf>,
+}
+
+/// Draw the report of a result again.
+///
+/// Makes report.html anew from result.h5 and summary.json, for example after an update of Concio.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Example:
+  concio plot concio-run/wall")]
+pub struct Plot {
+    /// Folder of a run.
+    #[arg(value_hint = ValueHint::DirPath)]
+    pub dir: PathBuf,
+}
+
+/// Print the completions of a shell.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio completions bash > ~/.local/share/bash-completion/completions/concio
+  concio completions fish > ~/.config/fish/completions/concio.fish
+  concio completions zsh  > \"${fpath[1]}/_concio\"")]
+pub struct Completions {
+    /// The shell.
+    pub shell: Shell,
+}

@@ -1,0 +1,34 @@
+//! One file per command.
+
+use std::process::ExitCode;
+
+use crate::args::Command;
+use crate::failure::Failure;
+
+mod check;
+mod completions;
+mod export;
+mod new;
+mod plot;
+mod record;
+mod reference;
+mod run;
+mod schema;
+mod system;
+
+/// Runs a command. Errors are shown by the caller.
+pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
+    match command {
+        Command::Run(args) => return run::run(&args),
+        Command::Check(args) => check::check(&args),
+        Command::New(args) => new::new(&args),
+        Command::Schema(_) => schema::schema(),
+        Command::Record(args) => record::record(&args),
+        Command::System(args) => system::system(&args),
+        Command::Export(args) => export::export(&args),
+        Command::Plot(args) => plot::plot(&args),
+        Command::Completions(args) => completions::completions(args.shell),
+        Command::Reference => reference::reference(),
+    }
+    .map(|()| ExitCode::SUCCESS)
+}

@@ -1,0 +1,182 @@
+//! Curves over time or period, drawn by kuva. Curves of one figure differ in dash pattern, not in colour alone.
+
+use kuva::backend::svg::SvgBackend;
+use kuva::plot::{LegendPosition, LinePlot, LineStyle};
+use kuva::render::layout::Layout;
+use kuva::render::plots::Plot;
+use kuva::render::render::render_multiple;
+
+/// Width of a figure [px].
+const WIDTH: f64 = 900.0;
+/// Columns of pixels that a curve covers; more points than two in a column cannot be seen.
+const COLUMNS: usize = 700;
+
+/// One curve.
+#[derive(Debug, Clone)]
+pub struct Curve<'a> {
+    /// Name in the legend; empty for none.
+    pub name: &'a str,
+    /// Abscissae, rising.
+    pub x: &'a [f64],
+    /// Values, as many.
+    pub y: &'a [f64],
+}
+
+/// A figure with one or more curves.
+#[derive(Debug, Clone)]
+pub struct Figure<'a> {
+    /// Title above it.
+    pub title: &'a str,
+    /// What the abscissae are, with the unit.
+    pub x_label: &'a str,
+    /// What the values are.
+    pub quantity: &'a str,
+    /// Their SI unit; the figure adds the decimal prefix that suits them.
+    pub unit: &'a str,
+    /// The curves.
+    pub curves: Vec<Curve<'a>>,
+    /// Height [px].
+    pub height: f64,
+}
+
+/// Colours and dash patterns of the curves; the colours differ in brightness too.
+const STYLES: [(&str, &str); 8] = [
+    ("#0b3c6f", ""),
+    ("#c0390b", "7 3"),
+    ("#2a8f4f", "2 3"),
+    ("#8a5bb5", "9 3 2 3"),
+    ("#d08a00", "12 4"),
+    ("#555555", "4 2"),
+    ("#1fa3b8", "1 2"),
+    ("#b03a7e", "10 2 2 2 2 2"),
+];
+
+/// Draws a figure as SVG with a view box.
+pub fn draw(figure: &Figure) -> String {
+    let largest = figure.curves.iter().flat_map(|c| c.y).filter(|v| v.is_finite()).fold(0.0f64, |m, v| m.max(v.abs()));
+    let (prefix, factor) = prefix(largest, figure.unit);
+    let mut plots = Vec::new();
+    for (curve, (colour, dashes)) in figure.curves.iter().zip(STYLES.iter().cycle()) {
+        let points: Vec<(f64, f64)> = thin(curve.x, curve.y).into_iter().map(|(x, y)| (x, y / factor)).collect();
+        if points.is_empty() {
+            continue;
+        }
+        let mut line = LinePlot::new().with_data(points).with_color(*colour).with_stroke_width(1.2);
+        if !dashes.is_empty() {
+            line = line.with_line_style(LineStyle::Custom((*dashes).into()));
+        }
+        if !curve.name.is_empty() {
+            line = line.with_legend(curve.name);
+        }
+        plots.push(Plot::Line(line));
+    }
+    let y_label = if figure.unit.is_empty() { figure.quantity.into() } else { format!("{} [{prefix}{}]", figure.quantity, figure.unit) };
+    let mut layout = Layout::auto_from_plots(&plots)
+        .with_width(WIDTH)
+        .with_height(figure.height)
+        .with_title(figure.title)
+        .with_title_size(14)
+        .with_label_size(12)
+        .with_tick_size(11)
+        .with_body_size(11)
+        .with_font_family("DejaVu Sans, Arial, sans-serif")
+        .with_x_label(figure.x_label)
+        .with_y_label(y_label)
+        .with_legend_position(LegendPosition::OutsideRightTop);
+    if largest == 0.0 {
+        // A curve that is zero throughout has no range of its own.
+        layout = layout.with_y_axis_min(-1.0).with_y_axis_max(1.0);
+    }
+    with_view_box(SvgBackend::new().render_scene(&render_multiple(plots, layout)))
+}
+
+/// Puts figures one below the other into one drawing.
+pub fn stack(figures: &[String]) -> String {
+    let mut body = String::new();
+    let (mut width, mut y) = (0f64, 0.0);
+    for figure in figures {
+        let [w, h] = size(figure).unwrap_or([WIDTH, 0.0]);
+        body.push_str(&format!("<g transform=\"translate(0 {y})\">{figure}</g>\n"));
+        width = width.max(w);
+        y += h;
+    }
+    format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{y}\" viewBox=\"0 0 {width} {y}\">\n{body}</svg>\n")
+}
+
+/// Points that look the same as all: of every column of pixels the first, lowest, highest and last.
+fn thin(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
+    let points: Vec<(f64, f64)> =
+        x.iter().copied().zip(y.iter().copied()).filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
+    if points.len() <= 2 * COLUMNS {
+        return points;
+    }
+    let mut kept = Vec::with_capacity(2 * COLUMNS + 2);
+    for column in 0..COLUMNS {
+        let part = &points[column * points.len() / COLUMNS..(column + 1) * points.len() / COLUMNS];
+        let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+        let (Some(low), Some(high)) = (part.iter().min_by(by_value), part.iter().max_by(by_value)) else { continue };
+        kept.extend(if low.0 <= high.0 { [*low, *high] } else { [*high, *low] });
+    }
+    kept.extend(points.last());
+    kept
+}
+
+/// The decimal prefix that brings `largest` between 1 and 1000, and its factor.
+fn prefix(largest: f64, unit: &str) -> (&'static str, f64) {
+    const PREFIXES: [(&str, f64); 7] =
+        [("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)];
+    // Accelerations are read in m/s² whatever their size, and numbers without unit bear no prefix.
+    if unit.is_empty() || unit.starts_with("m/s²") || largest == 0.0 {
+        return ("", 1.0);
+    }
+    PREFIXES.into_iter().find(|(_, f)| largest >= *f).unwrap_or(("n", 1e-9))
+}
+
+/// Width and height that a drawing declares.
+fn size(svg: &str) -> Option<[f64; 2]> {
+    let value = |name: &str| {
+        let start = svg.find(name)? + name.len();
+        svg[start..].split('"').next()?.parse().ok()
+    };
+    Some([value("width=\"")?, value("height=\"")?])
+}
+
+/// kuva gives a size but no view box, without which a drawing cannot be scaled to its page.
+fn with_view_box(svg: String) -> String {
+    match size(&svg) {
+        Some([w, h]) => svg.replacen("<svg ", &format!("<svg viewBox=\"0 0 {w} {h}\" "), 1),
+        None => svg,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thinning_keeps_every_peak() {
+        let x: Vec<f64> = (0..100_000).map(f64::from).collect();
+        let mut y = vec![0.0; x.len()];
+        (y[31_415], y[92_653]) = (7.0, -3.0);
+        let kept = thin(&x, &y);
+        assert!(kept.len() <= 2 * COLUMNS + 1);
+        assert!(kept.contains(&(31_415.0, 7.0)) && kept.contains(&(92_653.0, -3.0)));
+        assert!(kept.windows(2).all(|w| w[0].0 <= w[1].0));
+    }
+
+    #[test]
+    fn figures_of_nothing_and_of_what_is_not_finite_are_drawn() {
+        let figure = |x: &'static [f64], y: &'static [f64]| Figure {
+            title: "t",
+            x_label: "time [s]",
+            quantity: "displacement",
+            unit: "m",
+            curves: vec![Curve { name: "", x, y }],
+            height: 260.0,
+        };
+        for (x, y) in [(&[][..], &[][..]), (&[0.0, 1.0], &[0.0, 0.0]), (&[0.0, 1.0], &[f64::NAN, f64::INFINITY])] {
+            assert!(draw(&figure(x, y)).starts_with("<svg viewBox="));
+        }
+        assert!(draw(&figure(&[0.0, 1.0], &[0.0, 3e-6])).contains("displacement [µm]"));
+    }
+}

@@ -1,0 +1,103 @@
+//! The little SVG that the wall drawing needs.
+
+use std::fmt::Write as _;
+
+/// Text that may stand in an element or attribute of XML and HTML.
+pub fn escape(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            // Control characters are not XML; names may come from any file.
+            c if c.is_control() && c != '\n' && c != '\t' => safe.push('\u{fffd}'),
+            c => safe.push(c),
+        }
+    }
+    safe
+}
+
+/// A coordinate in pixels, to a hundredth.
+pub fn px(v: f64) -> String {
+    let text = format!("{v:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').into()
+}
+
+/// Where a text stands with respect to its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anchor {
+    /// It starts there.
+    Start,
+    /// Its middle is there.
+    Middle,
+    /// It ends there.
+    End,
+}
+
+/// A drawing that grows element by element.
+#[derive(Debug, Default)]
+pub struct Canvas {
+    body: String,
+}
+
+impl Canvas {
+    /// Adds elements as they are.
+    pub fn raw(&mut self, element: &str) {
+        self.body.push_str(element);
+        self.body.push('\n');
+    }
+
+    /// A path with presentation attributes; `title` is shown under the mouse.
+    pub fn path(&mut self, d: &str, attributes: &str, title: Option<&str>) {
+        match title {
+            Some(title) => {
+                let _ = writeln!(self.body, r#"<path d="{d}" {attributes}><title>{}</title></path>"#, escape(title));
+            }
+            None => {
+                let _ = writeln!(self.body, r#"<path d="{d}" {attributes}/>"#);
+            }
+        }
+    }
+
+    /// A text of that size; `upright` turns it by a quarter to the left.
+    pub fn text(&mut self, [x, y]: [f64; 2], size: f64, anchor: Anchor, upright: bool, fill: &str, text: &str) {
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let turn = if upright { format!(r#" transform="rotate(-90 {} {})""#, px(x), px(y)) } else { String::new() };
+        let _ = writeln!(
+            self.body,
+            r#"<text x="{}" y="{}" font-size="{}" text-anchor="{anchor}" dominant-baseline="central" fill="{fill}"{turn}>{}</text>"#,
+            px(x),
+            px(y),
+            px(size),
+            escape(text)
+        );
+    }
+
+    /// The whole drawing.
+    pub fn finish(self, [width, height]: [f64; 2], label: &str) -> String {
+        let (w, h) = (px(width), px(height));
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" role=\"img\" \
+             aria-label=\"{}\" font-family=\"DejaVu Sans, Arial, sans-serif\">\n\
+             <rect width=\"{w}\" height=\"{h}\" fill=\"#fff\"/>\n{}</svg>\n",
+            escape(label),
+            self.body
+        )
+    }
+}
+
+/// A closed rectangle as path data.
+pub fn rectangle([x0, y0, x1, y1]: [f64; 4]) -> String {
+    format!("M{} {}H{}V{}H{}z", px(x0), px(y0), px(x1), px(y1), px(x0))
+}
+
+/// A straight line as path data.
+pub fn line([x0, y0, x1, y1]: [f64; 4]) -> String {
+    format!("M{} {}L{} {}", px(x0), px(y0), px(x1), px(y1))
+}

@@ -1,0 +1,356 @@
+//! The wall: bricks, mortar, joints, names, dimensions. Kinds of joint differ in dash pattern and values in
+//! brightness, so that the drawing can be read in grey.
+
+use concio::case::JointKind;
+use concio::wall::{Joint, Wall};
+
+use super::svg::{Anchor, Canvas, line, px, rectangle};
+use crate::format::si;
+
+/// Largest size of the wall itself [px].
+const LARGEST: [f64; 2] = [820.0, 620.0];
+/// Room around it for dimensions and legend [px]: left, top, right, bottom.
+const MARGIN: [f64; 4] = [64.0, 40.0, 20.0, 104.0];
+/// Blocks and joints up to which each is an element of its own, with its name under the mouse.
+const DETAILED: usize = 1500;
+/// Width of a letter over the size of the font, on the safe side for the usual sans-serif fonts.
+const LETTER: f64 = 0.62;
+/// Smallest and largest letters [px].
+const LETTERS: [f64; 2] = [5.5, 13.0];
+/// Shades in which values are drawn when elements are merged.
+const SHADES: usize = 32;
+
+/// A value per block or joint.
+#[derive(Debug, Clone, Copy)]
+pub struct Field<'a> {
+    /// What it is.
+    pub title: &'a str,
+    /// SI unit.
+    pub unit: &'a str,
+    /// The values, from 0.
+    pub values: &'a [f64],
+}
+
+/// What the colours stand for.
+#[derive(Debug, Clone, Copy)]
+pub enum Paint<'a> {
+    /// Joints by kind, with the names of blocks and joints where they fit.
+    Kinds,
+    /// Blocks by a value.
+    Blocks(Field<'a>),
+    /// Joints by a value.
+    Joints(Field<'a>),
+}
+
+/// A wall to draw.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    /// Its blocks.
+    pub wall: &'a Wall,
+    /// Its joints.
+    pub joints: &'a [Joint],
+    /// Their names.
+    pub names: &'a [String],
+    /// What the top beam does, written on it.
+    pub beam: &'a str,
+}
+
+/// Draws the wall as SVG.
+pub fn draw(subject: &Subject, paint: Paint) -> String {
+    let view = View::of(subject.wall);
+    let mut canvas = Canvas::default();
+    supports(&mut canvas, &view, subject);
+    mortar(&mut canvas, &view, subject.wall);
+    blocks(&mut canvas, &view, subject, paint);
+    joints(&mut canvas, &view, subject, paint);
+    if let Paint::Kinds = paint {
+        joint_names(&mut canvas, &view, subject);
+    }
+    dimensions(&mut canvas, &view);
+    match paint {
+        Paint::Kinds => kind_legend(&mut canvas, &view, subject.joints),
+        Paint::Blocks(field) | Paint::Joints(field) => value_legend(&mut canvas, &view, &field),
+    }
+    let label = format!("wall of {} blocks and {} joints", subject.wall.blocks.len(), subject.joints.len());
+    canvas.finish(view.size, &label)
+}
+
+/// From metres to pixels.
+struct View {
+    /// x0, y0, x1, y1 of the wall [m]; y0 is the base.
+    bounds: [f64; 4],
+    scale: f64,
+    size: [f64; 2],
+}
+
+impl View {
+    fn of(wall: &Wall) -> View {
+        let mut b = [f64::INFINITY, 0.0, f64::NEG_INFINITY, f64::NEG_INFINITY];
+        for block in &wall.blocks {
+            b = [b[0].min(block.x[0]), b[1].min(block.y[0]), b[2].max(block.x[1]), b[3].max(block.y[1])];
+        }
+        let extent = [(b[2] - b[0]).max(f64::MIN_POSITIVE), (b[3] - b[1]).max(f64::MIN_POSITIVE)];
+        let scale = (LARGEST[0] / extent[0]).min(LARGEST[1] / extent[1]);
+        // The legend needs its width even beside a slender wall.
+        let width = (extent[0] * scale).max(440.0);
+        let size = [width + MARGIN[0] + MARGIN[2], extent[1] * scale + MARGIN[1] + MARGIN[3]];
+        View { bounds: b, scale, size }
+    }
+    fn x(&self, x: f64) -> f64 {
+        MARGIN[0] + (x - self.bounds[0]) * self.scale
+    }
+    fn y(&self, y: f64) -> f64 {
+        MARGIN[1] + (self.bounds[3] - y) * self.scale
+    }
+    /// Left, top, right, bottom of a rectangle given in metres.
+    fn rectangle(&self, x: [f64; 2], y: [f64; 2]) -> [f64; 4] {
+        [self.x(x[0]), self.y(y[1]), self.x(x[1]), self.y(y[0])]
+    }
+    fn line(&self, l: [f64; 4]) -> [f64; 4] {
+        [self.x(l[0]), self.y(l[1]), self.x(l[2]), self.y(l[3])]
+    }
+}
+
+fn supports(canvas: &mut Canvas, view: &View, subject: &Subject) {
+    let [left, right, base] = [view.x(view.bounds[0]), view.x(view.bounds[2]), view.y(view.bounds[1])];
+    let mut hatch = line([left - 6.0, base, right + 6.0, base]);
+    let mut x = left;
+    while x <= right + 4.0 {
+        hatch.push_str(&line([x, base, x - 6.0, base + 7.0]));
+        x += 8.0;
+    }
+    canvas.path(&hatch, r##"fill="none" stroke="#222" stroke-width="1""##, Some("base"));
+    let tops = subject.joints.iter().filter(|j| j.kind == JointKind::Top);
+    let ends = tops.fold([f64::INFINITY, f64::NEG_INFINITY], |e, j| [e[0].min(j.line[0]), e[1].max(j.line[2])]);
+    if ends[0] < ends[1] {
+        let top = view.y(view.bounds[3]) - 3.0;
+        let beam = [view.x(ends[0]), top - 18.0, view.x(ends[1]), top];
+        canvas.path(&rectangle(beam), r##"fill="#d8d8d8" stroke="#222" stroke-width="1""##, Some(subject.beam));
+        label(canvas, beam, 11.0, false, "#111", subject.beam);
+    }
+}
+
+/// Every block with half a joint around it, in one path: what is not covered by blocks afterwards is mortar.
+fn mortar(canvas: &mut Canvas, view: &View, wall: &Wall) {
+    let mut d = String::new();
+    for block in &wall.blocks {
+        let panel = &wall.panels[block.panel];
+        let half = panel.mortar.map(|t| 0.5 * t);
+        let low = (block.y[0] - panel.mortar[0]).max(view.bounds[1]);
+        let x = [block.x[0] - half[1], block.x[1] + half[1]].map(|x| x.clamp(view.bounds[0], view.bounds[2]));
+        d.push_str(&rectangle(view.rectangle(x, [low, block.y[1]])));
+    }
+    canvas.path(&d, r##"fill="#e9e6e0""##, None);
+}
+
+fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
+    let wall = subject.wall;
+    let stroke = px((0.004 * view.scale).clamp(0.15, 0.8));
+    let attributes = |fill: &str| format!(r##"fill="{fill}" stroke="#555" stroke-width="{stroke}""##);
+    let largest = if let Paint::Blocks(field) = paint { largest(field.values) } else { 0.0 };
+    let fraction = |i: usize| match paint {
+        Paint::Blocks(field) if largest > 0.0 => Some(field.values.get(i).copied().unwrap_or(0.0) / largest),
+        Paint::Blocks(_) => Some(0.0),
+        _ => None,
+    };
+    let outline = |i: usize| view.rectangle(wall.blocks[i].x, wall.blocks[i].y);
+    if wall.blocks.len() + subject.joints.len() > DETAILED {
+        for (fill, members) in shades((0..wall.blocks.len()).map(fraction)) {
+            let d: String = members.iter().map(|&i| rectangle(outline(i))).collect();
+            canvas.path(&d, &attributes(&fill), None);
+        }
+        return;
+    }
+    for (i, block) in wall.blocks.iter().enumerate() {
+        let title = match paint {
+            Paint::Blocks(field) => format!("{}: {}", block.name, si(field.values.get(i).copied().unwrap_or(0.0), field.unit)),
+            _ => format!("{}: {} × {}, {}", block.name, si(block.length(), "m"), si(block.height(), "m"), mass(block.mass())),
+        };
+        let (fill, letters) = match fraction(i) {
+            Some(f) => (shade(f), if f > 0.55 { "#fff" } else { "#111" }),
+            None => ("#f4d9c0".into(), "#111"),
+        };
+        canvas.path(&rectangle(outline(i)), &attributes(&fill), Some(&title));
+        label(canvas, outline(i), LETTERS[1], false, letters, &block.name);
+    }
+}
+
+fn joints(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
+    let thin = (0.003 * view.scale).clamp(0.5, 1.6);
+    let detailed = subject.wall.blocks.len() + subject.joints.len() <= DETAILED;
+    let data = |e: usize| line(view.line(subject.joints[e].line));
+    let Paint::Joints(field) = paint else {
+        for kind in KINDS {
+            let members: Vec<usize> = (0..subject.joints.len()).filter(|&e| subject.joints[e].kind == kind).collect();
+            let attributes = format!(r#"fill="none" {}"#, stroke(kind, thin));
+            if detailed {
+                members.iter().for_each(|&e| canvas.path(&data(e), &attributes, Some(&subject.names[e])));
+            } else if !members.is_empty() {
+                canvas.path(&members.iter().map(|&e| data(e)).collect::<String>(), &attributes, None);
+            }
+        }
+        return;
+    };
+    // Large values lie on top and are thicker.
+    let largest = largest(field.values);
+    let fraction = |e: usize| field.values.get(e).map_or(0.0, |v| if largest > 0.0 { v / largest } else { 0.0 });
+    let attributes = |fill: &str, f: f64| {
+        format!(r#"fill="none" stroke="{fill}" stroke-width="{}""#, px(thin * (1.0 + 2.5 * f.clamp(0.0, 1.0))))
+    };
+    if detailed {
+        let mut order: Vec<usize> = (0..subject.joints.len()).collect();
+        order.sort_by(|&a, &b| fraction(a).total_cmp(&fraction(b)));
+        for e in order {
+            let title = format!("{}: {}", subject.names[e], si(field.values.get(e).copied().unwrap_or(0.0), field.unit));
+            canvas.path(&data(e), &attributes(&shade(fraction(e)), fraction(e)), Some(&title));
+        }
+    } else {
+        for (number, (fill, members)) in shades((0..subject.joints.len()).map(|e| Some(fraction(e)))).into_iter().enumerate() {
+            let d: String = members.iter().map(|&e| data(e)).collect();
+            canvas.path(&d, &attributes(&fill, number as f64 / SHADES as f64), None);
+        }
+    }
+}
+
+fn joint_names(canvas: &mut Canvas, view: &View, subject: &Subject) {
+    if subject.wall.blocks.len() + subject.joints.len() > DETAILED {
+        return;
+    }
+    for (joint, name) in subject.joints.iter().zip(subject.names) {
+        let [x0, y0, x1, y1] = view.line(joint.line);
+        let mortar = subject.wall.panels[subject.wall.blocks[joint.a].panel].mortar;
+        match joint.kind {
+            JointKind::Top => {}
+            JointKind::Head | JointKind::Connection => {
+                let half = 0.5 * mortar[1] * view.scale;
+                label(canvas, [x0 - half, y1, x0 + half, y0], 8.0, true, "#111", name);
+            }
+            JointKind::Bed | JointKind::Base => {
+                let half = 0.5 * mortar[0] * view.scale;
+                label(canvas, [x0, y0 - half, x1, y0 + half], 8.0, false, "#111", name);
+            }
+        }
+    }
+}
+
+/// A text in the middle of a rectangle, at most `size` high; nothing when it would not fit.
+fn label(canvas: &mut Canvas, [x0, y0, x1, y1]: [f64; 4], size: f64, upright: bool, fill: &str, text: &str) {
+    let (along, across) = if upright { (y1 - y0, x1 - x0) } else { (x1 - x0, y1 - y0) };
+    let letters = text.chars().count() as f64;
+    let size = size.min(0.92 * along / (LETTER * letters)).min(0.8 * across);
+    if size >= LETTERS[0] {
+        canvas.text([0.5 * (x0 + x1), 0.5 * (y0 + y1)], size, Anchor::Middle, upright, fill, text);
+    }
+}
+
+fn dimensions(canvas: &mut Canvas, view: &View) {
+    let [left, top, right, bottom] =
+        view.rectangle([view.bounds[0], view.bounds[2]], [view.bounds[1], view.bounds[3]]);
+    let (y, x) = (bottom + 24.0, left - 22.0);
+    let d = [
+        line([left, y, right, y]),
+        line([left, y - 4.0, left, y + 4.0]),
+        line([right, y - 4.0, right, y + 4.0]),
+        line([x, top, x, bottom]),
+        line([x - 4.0, top, x + 4.0, top]),
+        line([x - 4.0, bottom, x + 4.0, bottom]),
+    ];
+    canvas.path(&d.concat(), r##"fill="none" stroke="#444" stroke-width="0.8""##, None);
+    let [width, height] = [view.bounds[2] - view.bounds[0], view.bounds[3] - view.bounds[1]];
+    canvas.text([0.5 * (left + right), y + 11.0], 11.0, Anchor::Middle, false, "#111", &si(width, "m"));
+    canvas.text([x - 11.0, 0.5 * (top + bottom)], 11.0, Anchor::Middle, true, "#111", &si(height, "m"));
+    let bar = round_length(0.2 * width);
+    let y = view.size[1] - 14.0;
+    let end = left + bar * view.scale;
+    let d = line([left, y, end, y]);
+    canvas.path(&d, r##"fill="none" stroke="#111" stroke-width="4""##, None);
+    let text = if bar < 1.0 { format!("{} mm", (bar * 1e3).round()) } else { format!("{bar} m") };
+    canvas.text([end + 8.0, y], 11.0, Anchor::Start, false, "#111", &text);
+}
+
+/// The largest of 1, 2, 5 times a power of ten not above `length`.
+fn round_length(length: f64) -> f64 {
+    let power = 10f64.powf(length.log10().floor());
+    [5.0, 2.0, 1.0].into_iter().map(|m| m * power).find(|l| *l <= length * 1.000_001).unwrap_or(power)
+}
+
+const KINDS: [JointKind; 5] =
+    [JointKind::Bed, JointKind::Head, JointKind::Base, JointKind::Top, JointKind::Connection];
+
+/// What the kinds are called.
+pub fn kind_name(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Bed => "bed",
+        JointKind::Head => "head",
+        JointKind::Base => "base",
+        JointKind::Top => "top",
+        JointKind::Connection => "connection",
+    }
+}
+
+fn stroke(kind: JointKind, width: f64) -> String {
+    let (colour, factor, dashes) = match kind {
+        JointKind::Bed => ("#1f5fa8", 1.0, ""),
+        JointKind::Head => ("#c0390b", 1.3, "5 2"),
+        JointKind::Base => ("#111", 1.8, ""),
+        JointKind::Top => ("#111", 1.8, "2 2"),
+        JointKind::Connection => ("#6a2c91", 1.8, "7 2 1.5 2"),
+    };
+    let dashes = if dashes.is_empty() { String::new() } else { format!(r#" stroke-dasharray="{dashes}""#) };
+    format!(r#"stroke="{colour}" stroke-width="{}"{dashes}"#, px(width * factor))
+}
+
+fn kind_legend(canvas: &mut Canvas, view: &View, joints: &[Joint]) {
+    let y = view.size[1] - 40.0;
+    let mut x = MARGIN[0];
+    for kind in KINDS {
+        let n = joints.iter().filter(|j| j.kind == kind).count();
+        if n > 0 {
+            canvas.path(&line([x, y, x + 26.0, y]), &format!(r#"fill="none" {}"#, stroke(kind, 1.6)), None);
+            let text = format!("{} ({n})", kind_name(kind));
+            canvas.text([x + 31.0, y], 11.0, Anchor::Start, false, "#111", &text);
+            x += 40.0 + 11.0 * LETTER * text.len() as f64;
+        }
+    }
+}
+
+fn value_legend(canvas: &mut Canvas, view: &View, field: &Field) {
+    let (y, x, width) = (view.size[1] - 46.0, MARGIN[0], 160.0);
+    let steps = 40;
+    for k in 0..steps {
+        let at = [x + width * k as f64 / steps as f64, x + width * (k + 1) as f64 / steps as f64];
+        let fill = shade((k as f64 + 0.5) / steps as f64);
+        canvas.path(&rectangle([at[0], y, at[1], y + 11.0]), &format!(r#"fill="{fill}""#), None);
+    }
+    canvas.path(&rectangle([x, y, x + width, y + 11.0]), r##"fill="none" stroke="#444" stroke-width="0.6""##, None);
+    let largest = largest(field.values);
+    canvas.text([x - 4.0, y + 5.5], 11.0, Anchor::End, false, "#111", "0");
+    let text = format!("{}: {}", si(largest, field.unit), field.title);
+    canvas.text([x + width + 6.0, y + 5.5], 11.0, Anchor::Start, false, "#111", &text);
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().filter(|v| v.is_finite()).fold(0.0, f64::max)
+}
+
+/// Colour of a fraction 0 … 1 of the largest value; the brightness falls steadily.
+fn shade(fraction: f64) -> String {
+    let f = if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 1.0 };
+    format!("#{:x}", colorous::YELLOW_ORANGE_RED.eval_continuous(0.06 + 0.94 * f))
+}
+
+/// Members of each shade, from the brightest; elements without a value share the colour of plain bricks.
+fn shades(fractions: impl Iterator<Item = Option<f64>>) -> Vec<(String, Vec<usize>)> {
+    let mut classes = vec![Vec::new(); SHADES + 1];
+    for (i, fraction) in fractions.enumerate() {
+        let class = fraction.map_or(SHADES, |f| ((f * SHADES as f64) as usize).min(SHADES - 1));
+        classes[class].push(i);
+    }
+    let colour = |class: usize| if class == SHADES { "#f4d9c0".into() } else { shade((class as f64 + 0.5) / SHADES as f64) };
+    classes.into_iter().enumerate().filter(|(_, m)| !m.is_empty()).map(|(c, m)| (colour(c), m)).collect()
+}
+
+/// A mass in kilograms or tonnes.
+pub fn mass(kilograms: f64) -> String {
+    if kilograms < 1000.0 { format!("{} kg", crate::format::significant(kilograms, 4)) } else { si(kilograms / 1000.0, "t") }
+}

@@ -1,0 +1,118 @@
+//! Errors as the user sees them, and the exit status that goes with them.
+
+use std::fmt::Write as _;
+use std::io;
+use std::process::ExitCode;
+
+use anstyle::{AnsiColor, Style};
+use concio::{Error, InputError};
+
+/// Exit status of a run that stopped early or a file that could not be written.
+pub const STOPPED: u8 = 1;
+/// Exit status of a wrong input.
+pub const WRONG_INPUT: u8 = 2;
+
+const RED: Style = AnsiColor::Red.on_default().bold();
+const BLUE: Style = AnsiColor::Blue.on_default().bold();
+const BOLD: Style = Style::new().bold();
+
+/// Longest part of a line that an excerpt shows [characters].
+const EXCERPT: usize = 100;
+
+/// Why a command ends without having done its work.
+#[derive(Debug)]
+pub enum Failure {
+    /// Mistakes in the input, one or more.
+    Input(Vec<InputError>),
+    /// Something else went wrong.
+    Other(String),
+    /// Whoever read the output has gone, as `head` does: nothing to complain about.
+    ReaderGone,
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::Input(e) => Failure::Input(vec![*e]),
+            other => Failure::Other(other.to_string()),
+        }
+    }
+}
+
+impl From<InputError> for Failure {
+    fn from(error: InputError) -> Self {
+        Failure::Input(vec![error])
+    }
+}
+
+impl Failure {
+    /// Prints the failure on standard error; its exit status.
+    pub fn show(&self) -> ExitCode {
+        // A closed standard error leaves nothing to do but to exit with the right status.
+        let print = |text: &str| {
+            let _ = io::Write::write_all(&mut anstream::stderr().lock(), text.as_bytes());
+        };
+        match self {
+            Failure::Input(errors) => {
+                print(&errors.iter().map(render).collect::<Vec<_>>().join("\n"));
+                ExitCode::from(WRONG_INPUT)
+            }
+            Failure::Other(what) => {
+                print(&format!("{RED}error{RED:#}: {what}\n"));
+                ExitCode::from(STOPPED)
+            }
+            Failure::ReaderGone => ExitCode::SUCCESS,
+        }
+    }
+}
+
+/// `error: FILE:LINE:COLUMN: key: what`, the line of the file with a caret, the allowed range, a hint.
+fn render(error: &InputError) -> String {
+    let mut text = format!("{RED}error{RED:#}: {BOLD}");
+    if let Some(file) = &error.file {
+        let _ = write!(text, "{}:", file.display());
+        for place in [error.line, error.column].into_iter().map_while(|n| n) {
+            let _ = write!(text, "{place}:");
+        }
+        text.push(' ');
+    }
+    if let Some(key) = &error.key {
+        let _ = write!(text, "{key}: ");
+    }
+    let _ = writeln!(text, "{}{BOLD:#}", error.what);
+    text.push_str(&excerpt(error).unwrap_or_default());
+    if let Some(allowed) = &error.allowed {
+        let _ = writeln!(text, "{BLUE}allowed{BLUE:#}: {allowed}");
+    }
+    if let Some(help) = &error.help {
+        let _ = writeln!(text, "{BLUE}help{BLUE:#}: {help}");
+    }
+    text
+}
+
+/// The line at fault. None when it cannot be shown; the message stands without it.
+fn excerpt(error: &InputError) -> Option<String> {
+    let number = error.line?;
+    let bytes = std::fs::read(error.file.as_ref()?).ok()?;
+    let line = bytes.split(|b| *b == b'\n').nth(number.checked_sub(1)?)?;
+    let line: Vec<char> = String::from_utf8_lossy(line).trim_end().chars().map(plain).collect();
+    let column = error.column.unwrap_or(1).saturating_sub(1).min(line.len());
+    // Records have lines of thousands of characters: show the neighbourhood of the column.
+    let from = column.saturating_sub(EXCERPT / 2).min(line.len().saturating_sub(EXCERPT));
+    let shown: String = line.iter().skip(from).take(EXCERPT).collect();
+    let width = number.to_string().len();
+    let mut text = format!("{BLUE}{number:>width$} |{BLUE:#} {shown}\n");
+    if error.column.is_some() {
+        let _ = writeln!(text, "{BLUE}{:>width$} |{BLUE:#} {}{RED}^{RED:#}", "", " ".repeat(column - from));
+    }
+    Some(text)
+}
+
+/// Control characters must not reach the terminal, and tabs would shift the caret.
+fn plain(c: char) -> char {
+    match c {
+        '\t' => ' ',
+        c if c.is_control() => '\u{fffd}',
+        c => c,
+    }
+}

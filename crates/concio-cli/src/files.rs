@@ -1,0 +1,52 @@
+//! Files and streams that are written whole or not at all.
+
+use std::io::{self, ErrorKind, Write};
+use std::path::Path;
+
+use concio::{Error, InputError};
+
+use crate::failure::Failure;
+
+/// Prints to standard output.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => Ok(()),
+        Err(e) if e.kind() == ErrorKind::BrokenPipe => Err(Failure::ReaderGone),
+        Err(e) => Err(Failure::Other(format!("standard output: {e}"))),
+    }
+}
+
+/// Writes a file under a temporary name and renames it: a reader never sees half of it.
+pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    let written = temporary(path, text).and_then(|file| file.persist(path).map_err(|e| e.error));
+    written.map(drop).map_err(|e| Error::io(path, e).into())
+}
+
+/// As [`write`], but a file of that name is an error.
+pub fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
+    let written = temporary(path, text).and_then(|file| file.persist_noclobber(path).map_err(|e| e.error));
+    match written {
+        Ok(_) => Ok(()),
+        Err(e) if e.kind() == ErrorKind::AlreadyExists => {
+            let error = InputError::new("the file exists and is not overwritten").in_file(path);
+            Err(error.help("give another name, or remove it first").into())
+        }
+        Err(e) => Err(Error::io(path, e).into()),
+    }
+}
+
+fn temporary(path: &Path, text: &str) -> io::Result<tempfile::NamedTempFile> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".concio-").suffix(".tmp");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+    let mut file = builder.tempfile_in(folder)?;
+    file.write_all(text.as_bytes())?;
+    file.as_file().sync_all()?;
+    Ok(file)
+}

@@ -1,0 +1,89 @@
+//! Numbers and tables for people.
+
+/// A value with its unit and a decimal prefix, four significant digits: `1.198 µm`, `53.40 kN`.
+pub fn si(value: f64, unit: &str) -> String {
+    const PREFIXES: [(&str, f64); 8] = [
+        ("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9), ("p", 1e-12),
+    ];
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value} {unit}").trim_end().into();
+    }
+    // Rounded first: 999.96 reads 1.000 k, not 1000.
+    let size = significant(value.abs(), 4).parse::<f64>().unwrap_or(value.abs());
+    match PREFIXES.iter().find(|(_, factor)| size >= *factor) {
+        Some((prefix, factor)) if size < 1e12 => format!("{} {prefix}{unit}", significant(value / factor, 4)),
+        _ => format!("{value:.3e} {unit}"),
+    }
+}
+
+/// Decimal notation with that many significant digits.
+pub fn significant(value: f64, digits: i32) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let decimals = (digits - 1 - value.abs().log10().floor() as i32).max(0) as usize;
+    format!("{value:.decimals$}")
+}
+
+/// `3 blocks`, `1 block`.
+pub fn count(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
+/// A time by the clock: `0.42 s`, `3 min 12 s`.
+pub fn clock(seconds: f64) -> String {
+    if seconds < 60.0 {
+        return format!("{} s", significant(seconds, 3));
+    }
+    let whole = seconds.round() as u64;
+    match (whole / 3600, whole / 60 % 60, whole % 60) {
+        (0, minutes, seconds) => format!("{minutes} min {seconds} s"),
+        (hours, minutes, _) => format!("{hours} h {minutes} min"),
+    }
+}
+
+/// Rows with aligned columns: the first to the left, the others to the right.
+pub fn columns(rows: &[Vec<String>]) -> String {
+    let width = |k: usize| rows.iter().filter_map(|r| r.get(k)).map(|c| c.chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..rows.iter().map(Vec::len).max().unwrap_or(0)).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().zip(&widths).enumerate();
+        let cells = cells.map(|(k, (c, &w))| if k == 0 { format!("{c:<w$}") } else { format!("{c:>w$}") });
+        format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
+    };
+    rows.iter().map(line).collect()
+}
+
+/// Names and values in two columns.
+pub fn pairs(rows: &[(&str, String)]) -> String {
+    let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    rows.iter().map(|(name, value)| format!("  {name:<width$}  {value}\n")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prefixes() {
+        assert_eq!(si(1.198e-6, "m"), "1.198 µm");
+        assert_eq!(si(-2.348e5, "N"), "-234.8 kN");
+        assert_eq!(si(0.99999, "J"), "1.000 J");
+        assert_eq!(si(0.0, "J"), "0 J");
+        assert_eq!(si(1e-15, "m"), "1.000e-15 m");
+        assert_eq!(si(f64::NAN, "m"), "NaN m");
+    }
+
+    #[test]
+    fn times() {
+        assert_eq!(clock(0.4166), "0.417 s");
+        assert_eq!(clock(192.2), "3 min 12 s");
+        assert_eq!(clock(7500.0), "2 h 5 min");
+    }
+
+    #[test]
+    fn tables_align() {
+        let row = |a: &str, b: &str| vec![a.to_string(), b.to_string()];
+        assert_eq!(columns(&[row("bed", "46"), row("connection", "7")]), "  bed         46\n  connection   7\n");
+    }
+}
