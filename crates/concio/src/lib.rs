@@ -5,6 +5,7 @@
 pub mod case;
 pub mod error;
 pub mod outcome;
+pub mod pattern;
 pub mod quantity;
 pub mod record;
 pub mod wall;
