@@ -1,9 +1,22 @@
 //! Every input of a run as plain structs in SI. Reading, units and validation live in `case/`.
 //!
 //! The structs mirror the wall file key by key; what the keys mean, their bounds and defaults is said here and
-//! goes from here into the JSON Schema.
+//! goes from here into the JSON Schema. Every number is finite and, unless it is 0, between 1e-18 and 1e18 in
+//! magnitude (in SI): products of a few of them can then neither overflow nor vanish. Narrower bounds stand at the keys.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+pub(crate) mod de;
+mod forms;
+mod node;
+mod read;
+mod sets;
+mod templates;
+pub mod validate;
+
+pub use read::{CaseFile, LARGEST_FILE, Syntax, canonical_json, from_str, read};
+pub use templates::{example, schema, starter};
+pub use validate::validate;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,7 +25,7 @@ use crate::quantity::{Acceleration, ForcePerLength, Frequency, Length, Mass, Spe
 
 /// A wall, its joints, its loads and its motion: all that one run needs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Case {
     /// Free text shown in reports.
     #[serde(default)]
@@ -23,7 +36,8 @@ pub struct Case {
     /// file does not give them: `"report"` (section 4.2), `"p1"` … `"p4"` (Table 1).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub set: Option<ParameterSet>,
-    /// Panels from left to right; two and more stand in series in one plane.
+    /// Panels from left to right, at least one; two and more stand in series in one plane. A wall may have up to
+    /// 4,000,000 blocks.
     #[serde(rename = "panel")]
     pub panels: Vec<Panel>,
     /// Laws of the joints.
@@ -52,7 +66,7 @@ pub enum ModelKind {
 }
 
 /// A named parameter set. In the file: `set = "p1"`, or `set = { name = "p1", at = 0.25 }`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ParameterSet {
     /// `report`, `p1`, `p2`, `p3` or `p4`.
     pub name: SetName,
@@ -78,18 +92,20 @@ pub enum SetName {
 
 /// A stack of courses of blocks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Panel {
-    /// Name used in selectors; default `p1`, `p2`, … from left to right.
+    /// Name used in selectors, unique in the wall; default `p1`, `p2`, … from left to right.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// How the blocks are laid.
     pub bond: Bond,
     /// Number of courses, from 1 (`running`, `stack`, and `irregular` with `random`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
     pub courses: Option<usize>,
     /// Number of whole bricks in a course, from 1 (`running`, `stack`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
     pub bricks: Option<usize>,
     /// Ends of a running bond.
     #[serde(default)]
@@ -111,7 +127,8 @@ pub struct Panel {
     /// Blocks one by one (`bond = "explicit"`).
     #[serde(default, rename = "block", skip_serializing_if = "Vec::is_empty")]
     pub blocks: Vec<ExplicitBlock>,
-    /// Thickness of the connection to the panel on the left, from 0 (default: the head mortar of this panel).
+    /// Thickness of the connection to the panel on the left [m], from 0; default the head mortar of this panel. Not
+    /// for the first panel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub connection: Option<Length>,
 }
@@ -134,7 +151,7 @@ pub enum Bond {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ends {
-    /// Half bricks of length (L − t_h)/2 close every second course.
+    /// Half bricks of length (L − t_h)/2 close every second course; the head mortar is thinner than the brick is long.
     #[default]
     Flush,
     /// Every second course stands out by half a pitch.
@@ -154,7 +171,7 @@ pub enum First {
 
 /// The reference brick of a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Brick {
     /// L [m], above 0.
     pub length: Length,
@@ -168,7 +185,7 @@ pub struct Brick {
 
 /// Mortar thicknesses.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Mortar {
     /// t_b [m], from 0: horizontal joints.
     pub bed: Length,
@@ -178,61 +195,63 @@ pub struct Mortar {
 
 /// A course of an explicit irregular texture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Course {
     /// Height [m], above 0.
     pub height: Length,
-    /// Brick lengths from left to right [m], each above 0.
+    /// Brick lengths from left to right [m], at least one, each above 0.
     pub bricks: Vec<Length>,
-    /// Shift of the course's left end from the panel's [m]; default 0.
+    /// Shift of the course's left end from the panel's [m], of either sign; default 0.
     #[serde(default)]
     pub offset: Length,
 }
 
 /// A seeded irregular texture: course heights and brick lengths uniform within bounds, all courses of one width.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct RandomTexture {
     /// Seed: the same seed gives the same texture on every machine.
     pub seed: u64,
-    /// Width of the panel [m].
+    /// Width of the panel [m], at least the shortest brick.
     pub width: Length,
-    /// Shortest and longest brick [m].
+    /// Shortest and longest brick [m], above 0, in this order.
     pub length: [Length; 2],
-    /// Lowest and highest course [m].
+    /// Lowest and highest course [m], above 0, in this order.
     pub height: [Length; 2],
-    /// Least distance between head joints of adjacent courses [m], from 0.
+    /// Least distance between the middles of head joints of adjacent courses [m], from 0 to half of the shortest brick.
     pub stagger: Length,
 }
 
 /// A block given by hand.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct ExplicitBlock {
-    /// Name, unique in the wall; default from panel, course and place (`p1c2b3`).
+    /// Name, unique in the wall and without blanks, `|` or commas; default from panel, course and place (`p1c2b3`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
-    /// Course, from 1 at the bottom.
+    /// Course, from 1 at the bottom; every course up to the highest has a block. Only courses one apart share joints.
+    #[schemars(range(min = 1))]
     pub course: usize,
-    /// Left edge [m].
+    /// Left edge [m]; a panel after the first is then moved as a whole to the right of the one before it.
     pub x: Length,
-    /// Bottom edge [m].
+    /// Bottom edge [m], from 0: the base is at 0.
     pub y: Length,
     /// Length [m], above 0.
     pub length: Length,
     /// Height [m], above 0.
     pub height: Length,
-    /// Specific weight of this block [N/m³]; default the brick's.
+    /// Specific weight of this block [N/m³], above 0; default the brick's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub specific_weight: Option<SpecificWeight>,
 }
 
 /// Laws of the joints of the wall.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Joints {
     /// ζ of equation (4), 0 … 2, on every interface; 0 is no damping. Default 0.05.
     #[serde(default = "default_damping_ratio")]
+    #[schemars(range(min = 0.0, max = 2.0))]
     pub damping_ratio: f64,
     /// Bed joints, equation (2).
     pub bed: Spring,
@@ -261,22 +280,26 @@ fn default_damping_ratio() -> f64 {
 
 /// Elastic law of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Spring {
     /// The law.
     pub law: SpringLaw,
-    /// K_H or K_V [N/m], from 0: of a half-brick contact for bed joints, of the whole joint for head joints.
+    /// K_H or K_V [N/m], from 0: of a half-brick contact for bed joints, of the whole joint for head joints. `elastic`
+    /// and `no-tension` need it.
     #[serde(default)]
     pub stiffness: ForcePerLength,
     /// κ of equation (3), above 0: how much stiffer than `stiffness` a closed no-tension joint is. Default 1000.
     #[serde(default = "default_rigidity")]
+    #[schemars(range(min = 0.0))]
     pub rigidity: f64,
     /// Factor on the elastic force alone, from 0: 0 takes the stiffness away and leaves the damping (case 5).
     /// Default 1.
     #[serde(default = "one")]
+    #[schemars(range(min = 0.0))]
     pub stiffness_factor: f64,
     /// ζ of this kind of joint, 0 … 2; default the common one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 2.0))]
     pub damping_ratio: Option<f64>,
 }
 
@@ -303,28 +326,45 @@ pub enum SpringLaw {
 
 /// Friction of the joints.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Friction {
-    /// The law; default none.
+    /// The law; a wall without the table has none.
     pub law: FrictionLaw,
-    /// μ_s, from 0.
-    #[serde(rename = "static")]
+    /// μ_s, from 0; `stribeck` needs it.
+    #[serde(rename = "static", default)]
+    #[schemars(range(min = 0.0))]
     pub static_: f64,
-    /// μ_d, 0 … μ_s.
+    /// μ_d, from 0 to μ_s; `stribeck` needs it.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub dynamic: f64,
-    /// δ_v [m/s], above 0.
+    /// δ_v [m/s], above 0. Default 1 mm/s (section 4.2).
+    #[serde(default = "default_slip_velocity")]
     pub slip_velocity: Velocity,
     /// β, above 0: slope of the first branch. Default 100.
+    #[serde(default = "default_beta")]
+    #[schemars(range(min = 0.0))]
     pub beta: f64,
     /// α [s²/m²], from 0: slope of the slip branch. Default 0.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub alpha: f64,
-    /// Which joints rub.
+    /// Which joints rub; default `bed`.
+    #[serde(default)]
     pub on: FrictionOn,
-    /// Where the normal force comes from.
+    /// Where the normal force comes from; default `transmitted`.
+    #[serde(default)]
     pub normal_force: NormalForce,
-    /// `"report"` stands for `on = "all"` and `normal-force = "overburden"`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// `"report"` sets `on = "all"` and `normal_force = "overburden"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preset: Option<FrictionPreset>,
+}
+
+fn default_slip_velocity() -> Velocity {
+    Velocity::from_si(1e-3)
+}
+fn default_beta() -> f64 {
+    100.0
 }
 
 impl Default for Friction {
@@ -333,8 +373,8 @@ impl Default for Friction {
             law: FrictionLaw::None,
             static_: 0.0,
             dynamic: 0.0,
-            slip_velocity: Velocity::from_si(1e-3),
-            beta: 100.0,
+            slip_velocity: default_slip_velocity(),
+            beta: default_beta(),
             alpha: 0.0,
             on: FrictionOn::Bed,
             normal_force: NormalForce::Transmitted,
@@ -356,26 +396,28 @@ pub enum FrictionLaw {
 }
 
 /// Which joints rub.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FrictionOn {
     /// Bed and support joints.
+    #[default]
     Bed,
     /// All joints, head joints too (the report's equation 3.1).
     All,
 }
 
 /// Normal force in equation (5).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum NormalForce {
     /// The load carried by the joint, from statics; action equals reaction.
+    #[default]
     Transmitted,
     /// The report's 3.1: in block i's equation every joint carries w_ij (m_i g + P0_i).
     Overburden,
 }
 
-/// Named choices of `on` and `normal-force`.
+/// Named choices of `on` and `normal_force`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FrictionPreset {
@@ -383,9 +425,9 @@ pub enum FrictionPreset {
     Report,
 }
 
-/// Other laws for some joints.
+/// Other laws for some joints; `spring`, `friction` or both are given.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct JointChange {
     /// Which joints: all conditions given must hold.
     pub at: Selector,
@@ -399,18 +441,18 @@ pub struct JointChange {
 
 /// Conditions that choose joints.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct Selector {
     /// Kinds of joint.
     pub kind: Vec<JointKind>,
-    /// Names of panels.
+    /// Names of panels of this wall.
     pub panel: Vec<String>,
     /// Courses from 1 at the bottom; a bed joint belongs to the course that lies on it, the top support to none
     /// but the beam's (courses + 1).
     pub course: Vec<usize>,
     /// Names of joints, as `concio check` draws them (`p1c1b1|p1c2b1`).
     pub joints: Vec<String>,
-    /// Rectangle `[x0, y0, x1, y1]` in which the middle of the joint lies [m].
+    /// Rectangle `[x0, y0, x1, y1]` in which the middle of the joint lies [m]; x0 below x1, y0 below y1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<[Length; 4]>,
 }
@@ -433,61 +475,61 @@ pub enum JointKind {
 
 /// What a [`JointChange`] changes of the elastic law.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct SpringChange {
-    /// See [`Spring::law`].
+    /// The law.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<SpringLaw>,
-    /// See [`Spring::stiffness`].
+    /// K_H or K_V [N/m], from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<ForcePerLength>,
-    /// See [`Spring::rigidity`].
+    /// κ, above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<f64>,
-    /// See [`Spring::stiffness_factor`].
+    /// Factor on the elastic force alone, from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_factor: Option<f64>,
-    /// See [`Spring::damping_ratio`].
+    /// ζ, 0 … 2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_ratio: Option<f64>,
 }
 
 /// What a [`JointChange`] changes of the friction.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct FrictionChange {
-    /// See [`Friction::law`].
+    /// The law.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<FrictionLaw>,
-    /// See [`Friction::static_`].
+    /// μ_s, from 0.
     #[serde(rename = "static", skip_serializing_if = "Option::is_none")]
     pub static_: Option<f64>,
-    /// See [`Friction::dynamic`].
+    /// μ_d, from 0 to μ_s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dynamic: Option<f64>,
-    /// See [`Friction::slip_velocity`].
+    /// δ_v [m/s], above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slip_velocity: Option<Velocity>,
-    /// See [`Friction::beta`].
+    /// β, above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beta: Option<f64>,
-    /// See [`Friction::alpha`].
+    /// α [s²/m²], from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub alpha: Option<f64>,
 }
 
 /// Loads at the top of the wall.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Load {
-    /// q [N/m], from 0: vertical load per length of brick.
+    /// q [N/m], from 0: vertical load per length of brick. Default 0.
     pub top: ForcePerLength,
     /// The top beam.
     pub beam: Beam,
 }
 
 /// The top beam: `"free"`, `"driven"`, `"tied"` or `{ mass = "1000 kg" }`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Beam {
     /// No beam, the load only.
     #[default]
@@ -502,21 +544,21 @@ pub enum Beam {
 
 /// Motion of base and top.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct Motion {
-    /// Length of the run [s], above 0; default the length of the longest record.
+    /// Length of the run [s], above 0; default the length of the longest record or synthetic record, without one the
+    /// key is needed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<Time>,
     /// U0: motion of the base.
     pub base: Signal,
-    /// U1: motion of a driven top beam.
+    /// U1: motion of the top beam; given exactly when `load.beam` is `driven`.
     pub top: Signal,
 }
 
 /// A motion: `"none"`, or a table with exactly one of `record`, `sine`, `ramp`, `pulse`, `sweep`, `synthetic`
 /// (and beside `record` the keys of [`RecordInput`]).
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub enum Signal {
     /// At rest.
     #[default]
@@ -538,20 +580,22 @@ pub enum Signal {
 /// An accelerogram or displacement history from a file, and what is done to it, in this order:
 /// trim, baseline, resample, scale.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct RecordInput {
     /// The file, relative to the wall file; its format is found from its content.
+    #[serde(serialize_with = "forms::path_as_text")]
     pub record: PathBuf,
     /// Channel in a file with several, from 1; default 1.
+    #[schemars(range(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channel: Option<usize>,
-    /// Factor on the values; default 1.
+    /// Factor on the values, of either sign; default 1. Not together with `pga`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
     /// Scale to this peak acceleration, above 0, instead of `scale`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pga: Option<Acceleration>,
-    /// Keep this interval of the record [s]: `[from, to]`; it starts at t = 0 then.
+    /// Keep this interval of the record [s]: `[from, to]`, from 0, in this order; it starts at t = 0 then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub trim: Option<[Time; 2]>,
     /// New sample interval [s], above 0.
@@ -566,7 +610,7 @@ pub struct RecordInput {
     /// Unit of the values of a CSV/TXT file that does not name one (`"g"`, `"cm/s2"`, `"mm"`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub units: Option<String>,
-    /// Sample interval of a one-column CSV/TXT file that does not name one [s].
+    /// Sample interval of a one-column CSV/TXT file that does not name one [s], above 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dt: Option<Time>,
 }
@@ -583,8 +627,7 @@ pub enum HistoryQuantity {
 }
 
 /// Baseline correction: `"none"`, `{ polynomial = 2 }` or `{ high-pass = "0.1 Hz", order = 4 }`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Baseline {
     /// As it is.
     #[default]
@@ -602,17 +645,17 @@ pub enum Baseline {
 
 /// A sine, at rest before t = 0: u = amplitude · min(1, t/ramp) · sin(2π f t), or the same of the acceleration.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Sine {
-    /// Displacement amplitude; give this or `acceleration`.
+    /// Displacement amplitude [m], of either sign; give this or `acceleration`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude: Option<Length>,
-    /// Acceleration amplitude; give this or `amplitude`.
+    /// Acceleration amplitude [m/s²], of either sign; give this or `amplitude`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub acceleration: Option<Acceleration>,
-    /// f, above 0.
+    /// f [Hz], above 0.
     pub frequency: Frequency,
-    /// Time over which the amplitude grows linearly, from 0; default 0.
+    /// Time over which the amplitude grows linearly [s], from 0; default 0.
     #[serde(default)]
     pub ramp: Time,
     /// Number of cycles after which it ends, above 0; default: goes on.
@@ -622,29 +665,29 @@ pub struct Sine {
 
 /// A displacement that grows linearly and stays.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Ramp {
-    /// Displacement reached.
+    /// Displacement reached [m], of either sign.
     pub amplitude: Length,
-    /// When it starts, from 0.
+    /// When it starts [s], from 0; default 0.
     #[serde(default)]
     pub start: Time,
-    /// How long it takes, above 0.
+    /// How long it takes [s], above 0.
     pub rise: Time,
 }
 
 /// A pulse of the acceleration.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Pulse {
     /// Its family.
     pub shape: PulseShape,
-    /// Peak acceleration.
+    /// Peak acceleration [m/s²], of either sign.
     pub acceleration: Acceleration,
     /// Length of the rectangle, of the half sine, of the whole sine; 1/(dominant frequency) of the Ricker
-    /// wavelet. Above 0.
+    /// wavelet [s]. Above 0.
     pub duration: Time,
-    /// When it starts, from 0 (the Ricker wavelet's peak lies 1.5 durations later).
+    /// When it starts [s], from 0; default 0 (the Ricker wavelet's peak lies 1.5 durations later).
     #[serde(default)]
     pub start: Time,
 }
@@ -665,13 +708,13 @@ pub enum PulseShape {
 
 /// A sine whose frequency moves from one end to the other.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Sweep {
-    /// Acceleration amplitude.
+    /// Acceleration amplitude [m/s²], of either sign.
     pub acceleration: Acceleration,
-    /// Start and end frequency, above 0.
+    /// Start and end frequency [Hz], each above 0.
     pub frequency: [Frequency; 2],
-    /// Time of the sweep, above 0.
+    /// Time of the sweep [s], above 0.
     pub duration: Time,
     /// Exponential instead of linear growth of the frequency.
     #[serde(default)]
@@ -680,18 +723,18 @@ pub struct Sweep {
 
 /// A seeded accelerogram whose 5 % response spectrum follows a target (EN 1998-1 type 1 or 2 shape).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Synthetic {
     /// Seed.
     pub seed: u64,
-    /// Design ground acceleration a_g times soil factor: the spectrum's value at T = 0.
+    /// Design ground acceleration a_g times soil factor [m/s²], above 0: the spectrum's value at T = 0.
     pub pga: Acceleration,
     /// Duration [s], above 2.
     pub duration: Time,
-    /// Sample interval [s]; default 0.005.
+    /// Sample interval [s], above 0; default 0.005. Up to 10,000,000 samples.
     #[serde(default = "default_synthetic_dt")]
     pub dt: Time,
-    /// Corner periods T_B, T_C, T_D of the target [s]; default EN 1998-1 type 1, ground B: 0.15, 0.5, 2.
+    /// Corner periods T_B, T_C, T_D of the target [s], above 0 and rising; default EN 1998-1 type 1, ground B: 0.15, 0.5, 2.
     #[serde(default = "default_corners")]
     pub corners: [Time; 3],
 }
@@ -705,13 +748,14 @@ fn default_corners() -> [Time; 3] {
 
 /// Time integration.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct Solver {
     /// The scheme.
     pub scheme: Scheme,
-    /// Relative tolerance of the local error against the largest motion so far, 1e-12 … 0.1.
+    /// Relative tolerance of the local error against the largest motion so far, 1e-12 … 0.1. Default 1e-4.
+    #[schemars(range(min = 1e-12, max = 0.1))]
     pub tolerance: f64,
-    /// Displacement [m] below which errors do not count, above 0.
+    /// Displacement [m] below which errors do not count, above 0. Default 1e-12.
     pub floor: Length,
     /// Longest step [s], above 0; default none but the sample interval of the records.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -736,13 +780,14 @@ pub enum Scheme {
 
 /// What a run keeps. Envelopes and energies are always kept.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(default, deny_unknown_fields)]
 pub struct Output {
-    /// Interval of the histories [s], above 0; default the record's sample interval, or duration/2000.
+    /// Interval of the histories [s], above 0; default the record's sample interval, or duration/2000. Up to
+    /// 100,000,000 samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interval: Option<Time>,
     /// Interval of the full frames (displacement and velocity of every block) [s], from 0 (no frames);
-    /// default duration/400, rounded to a multiple of `interval`.
+    /// default duration/400, rounded to a multiple of `interval`. Not shorter than `interval`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frames: Option<Time>,
     /// Blocks whose displacement, velocity and acceleration histories are kept; `["all"]` for every block.

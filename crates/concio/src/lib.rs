@@ -11,6 +11,7 @@ mod integrate;
 pub mod law;
 pub mod model;
 pub mod outcome;
+pub mod pattern;
 pub mod quantity;
 pub mod record;
 pub mod run;

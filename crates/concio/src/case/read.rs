@@ -1,0 +1,211 @@
+//! From a wall file to a [`Case`]: text → tree → parameter set → structs.
+
+use std::io::Read;
+use std::path::Path;
+
+use super::node::{Node, Source, Value, parse_json, parse_toml};
+use super::{Case, ParameterSet, de, sets, validate};
+use crate::wall::Wall;
+use crate::{Error, InputError, Result};
+
+/// Longest wall file that is read [bytes].
+pub const LARGEST_FILE: u64 = 256 << 20;
+
+/// Syntax of a wall file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Syntax {
+    /// TOML 1.1.
+    Toml,
+    /// JSON (RFC 8259), without comments.
+    Json,
+}
+
+impl Syntax {
+    /// By the extension (`.toml`, `.json`); with any other, a text that begins with `{` is JSON.
+    pub fn of(path: &Path, text: &str) -> Syntax {
+        match path.extension().and_then(|e| e.to_str()) {
+            Some(e) if e.eq_ignore_ascii_case("json") => Syntax::Json,
+            Some(e) if e.eq_ignore_ascii_case("toml") => Syntax::Toml,
+            _ if text.trim_start().starts_with('{') => Syntax::Json,
+            _ => Syntax::Toml,
+        }
+    }
+}
+
+/// A wall file that was read: the case, and where each of its keys stands.
+#[derive(Debug, Clone)]
+pub struct CaseFile {
+    /// What the file says, with parameter set and defaults filled in.
+    pub case: Case,
+    source: Source,
+    tree: Node,
+}
+
+impl CaseFile {
+    /// The file it came from.
+    pub fn path(&self) -> Option<&Path> {
+        self.source.path()
+    }
+    /// Its text.
+    pub fn text(&self) -> &str {
+        &self.source.text
+    }
+    /// The folder that record paths are relative to: the file's own, or the working directory.
+    pub fn folder(&self) -> &Path {
+        self.path().and_then(Path::parent).unwrap_or(Path::new(""))
+    }
+    /// Adds file, line and column to an error about a key of this case; a key that the file leaves out stands
+    /// where its nearest table does. Errors that name a line already, and others than input errors, stay as they are.
+    pub fn locate(&self, error: Error) -> Error {
+        match error {
+            Error::Input(e) => self.place(*e).into(),
+            other => other,
+        }
+    }
+    fn place(&self, error: InputError) -> InputError {
+        match &error.key {
+            _ if error.line.is_some() || error.file.is_some() => error,
+            Some(key) => {
+                let byte = self.tree.find(key);
+                self.source.locate(error, byte)
+            }
+            None => self.source.named(error),
+        }
+    }
+    /// Everything [`validate::findings`] has against the case, with file, line and column.
+    pub fn findings(&self) -> Vec<InputError> {
+        validate::findings(&self.case).into_iter().map(|e| self.place(e)).collect()
+    }
+    /// The first of [`CaseFile::findings`] as an error.
+    pub fn validate(&self) -> Result<()> {
+        self.findings().into_iter().next().map_or(Ok(()), |e| Err(e.into()))
+    }
+    /// The blocks of the wall ([`crate::pattern::lay`]), with file and line in errors.
+    pub fn wall(&self) -> Result<Wall> {
+        crate::pattern::lay(&self.case).map_err(|e| self.locate(e))
+    }
+}
+
+/// Reads a wall file. The case is not validated yet ([`CaseFile::validate`]).
+///
+/// # Errors
+/// [`Error::Input`] when the file cannot be read, is no UTF-8, no TOML or JSON, or its keys and values are not
+/// those of the wall file.
+pub fn read(path: &Path) -> Result<CaseFile> {
+    let refuse =
+        |what: String| InputError::new(what).in_file(path).allowed("a wall file in TOML or JSON, UTF-8, up to 256 MiB");
+    if path.is_dir() {
+        return Err(refuse("is a folder, not a wall file".into()).into());
+    }
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(|e| refuse(format!("cannot be read: {e}")))?;
+    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|e| refuse(format!("cannot be read: {e}")))?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(refuse("is too large for a wall file".into()).into());
+    }
+    let text = String::from_utf8(bytes).map_err(|e| {
+        let good = &e.as_bytes()[..e.utf8_error().valid_up_to()];
+        let line = 1 + good.iter().filter(|b| **b == b'\n').count();
+        refuse("is not UTF-8 text".into()).at_line(line)
+    })?;
+    from_str(&text, Syntax::of(path, &text), Some(path))
+}
+
+/// Reads a wall file from its text; `file` is named in errors and is what record paths are relative to.
+///
+/// # Errors
+/// As [`read`].
+pub fn from_str(text: &str, syntax: Syntax, file: Option<&Path>) -> Result<CaseFile> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
+    let source = Source { path: file.map(Path::to_path_buf), text };
+    if source.text.trim().is_empty() {
+        let error = InputError::new("the file is empty").help("`concio new` writes a starter file");
+        return Err(source.locate(error, 0).into());
+    }
+    let tree = match syntax {
+        Syntax::Toml => parse_toml(&source)?,
+        Syntax::Json => parse_json(&source)?,
+    };
+    resolve(source, tree)
+}
+
+fn resolve(source: Source, mut tree: Node) -> Result<CaseFile> {
+    let placed = |(error, byte): (InputError, usize)| Error::from(source.locate(error, byte));
+    if let Some(node) = tree.get("set") {
+        let set: ParameterSet = de::from_node(node).map_err(|(e, byte)| {
+            let key = e.key.as_ref().map_or("set".to_string(), |k| format!("set.{k}"));
+            placed((e.key(key), byte))
+        })?;
+        validate::parameter_set(&set).map_err(|e| placed((e, node.at)))?;
+        sets::fill(&mut tree, &set).map_err(placed)?;
+    }
+    preset(&mut tree).map_err(placed)?;
+    require(&tree).map_err(placed)?;
+    let case = de::from_node(&tree).map_err(placed)?;
+    Ok(CaseFile { case, source, tree })
+}
+
+/// Writes out what `friction.preset` stands for.
+fn preset(tree: &mut Node) -> std::result::Result<(), (InputError, usize)> {
+    let Some(friction) = tree.get_mut("joint").and_then(|j| j.get_mut("friction")) else { return Ok(()) };
+    if friction.get("preset").and_then(Node::text) != Some("report") {
+        return Ok(());
+    }
+    for (key, word) in [("on", "all"), ("normal_force", "overburden")] {
+        friction.fill(key, Value::Text(word.to_string()));
+        let Some(given) = friction.get(key) else { continue };
+        if let Some(other) = given.text()
+            && other != word
+        {
+            let error = InputError::new(format!("`{other}` contradicts `preset = \"report\"`"));
+            return Err((
+                error.key(format!("joint.friction.{key}")).allowed(format!("`{word}`, or no preset")),
+                given.at,
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Keys that a law needs. Left to their defaults, a stiffness or a friction coefficient would silently be 0.
+fn require(tree: &Node) -> std::result::Result<(), (InputError, usize)> {
+    let Some(joint) = tree.get("joint") else { return missing_joint(tree) };
+    for kind in ["bed", "head", "base", "top", "connection"] {
+        let Some(spring) = joint.get(kind) else { continue };
+        let law = spring.get("law").and_then(Node::text).unwrap_or_default();
+        if ["elastic", "no-tension"].contains(&law) && !spring.has("stiffness") {
+            let error = InputError::new(format!("the key is missing: law `{law}` needs it"));
+            return Err((error.key(format!("joint.{kind}.stiffness")).allowed("from 0 N/m"), spring.at));
+        }
+    }
+    let Some(friction) = joint.get("friction") else { return Ok(()) };
+    if friction.get("law").and_then(Node::text) == Some("stribeck") {
+        for key in ["static", "dynamic"] {
+            if !friction.has(key) {
+                let error = InputError::new("the key is missing: law `stribeck` needs it");
+                return Err((error.key(format!("joint.friction.{key}")).allowed("from 0"), friction.at));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Says that a parameter set would give the joints, which serde's own message cannot know.
+fn missing_joint(tree: &Node) -> std::result::Result<(), (InputError, usize)> {
+    match tree.value {
+        Value::Table(_) if tree.has("panel") => {
+            let error = InputError::new("the key is missing").key("joint");
+            Err((error.help("give a [joint] table, or a parameter set such as `set = \"report\"`"), tree.at))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The case as JSON in a fixed order of keys: what the hash of a run's inputs is taken of. Reads back
+/// ([`from_str`]) as an equal case.
+///
+/// # Panics
+/// Never: serialisation fails only on maps without text keys and on values that refuse it; a case has neither.
+pub fn canonical_json(case: &Case) -> String {
+    serde_json::to_string(case).expect("a case has only tables with text keys, and no value refuses serialisation")
+}

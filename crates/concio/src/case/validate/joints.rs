@@ -1,0 +1,190 @@
+//! Joint laws and the changes to some joints.
+
+use super::{Bound, Findings};
+use crate::case::{Bond, Case, Friction, FrictionLaw, JointChange, Panel, Selector, Spring, SpringLaw};
+use crate::{InputError, case::de::suggestion};
+
+pub(super) fn check(f: &mut Findings, case: &Case) {
+    let j = &case.joint;
+    f.number("joint.damping_ratio", j.damping_ratio, DAMPING);
+    let kinds = [
+        ("bed", Some(&j.bed)),
+        ("head", Some(&j.head)),
+        ("base", j.base.as_ref()),
+        ("top", j.top.as_ref()),
+        ("connection", j.connection.as_ref()),
+    ];
+    for (kind, spring) in kinds {
+        if let Some(spring) = spring {
+            self::spring(f, kind, spring);
+        }
+    }
+    friction(f, &j.friction);
+    for (i, change) in j.changes.iter().enumerate() {
+        self::change(f, i, change, case);
+    }
+}
+
+const DAMPING: Bound = Bound::Between(0.0, 2.0);
+
+fn spring(f: &mut Findings, kind: &str, s: &Spring) {
+    law(f, format!("joint.{kind}.law"), Some(s.law));
+    f.quantity(format_args!("joint.{kind}.stiffness"), s.stiffness, Bound::From0);
+    f.number(format_args!("joint.{kind}.rigidity"), s.rigidity, Bound::Above0);
+    f.number(format_args!("joint.{kind}.stiffness_factor"), s.stiffness_factor, Bound::From0);
+    if let Some(ratio) = s.damping_ratio {
+        f.number(format_args!("joint.{kind}.damping_ratio"), ratio, DAMPING);
+    }
+}
+
+fn law(f: &mut Findings, key: String, law: Option<SpringLaw>) {
+    if law == Some(SpringLaw::Rigid) {
+        f.add(
+            InputError::new("law `rigid` (unilateral, set-valued) is not in this version yet")
+                .key(key)
+                .allowed("`elastic`, `no-tension`, `none`")
+                .help("`no-tension` with a large `rigidity` comes near it"),
+        );
+    }
+}
+
+fn friction_law(f: &mut Findings, key: String, law: Option<FrictionLaw>) {
+    if law == Some(FrictionLaw::Coulomb) {
+        f.add(
+            InputError::new("law `coulomb` (set-valued, true stick) is not in this version yet")
+                .key(key)
+                .allowed("`stribeck`, `none`")
+                .help("`stribeck` with a small `slip_velocity` comes near it"),
+        );
+    }
+}
+
+fn friction(f: &mut Findings, r: &Friction) {
+    friction_law(f, "joint.friction.law".into(), Some(r.law));
+    f.number("joint.friction.static", r.static_, Bound::From0);
+    f.number("joint.friction.dynamic", r.dynamic, Bound::From0);
+    f.quantity("joint.friction.slip_velocity", r.slip_velocity, Bound::Above0);
+    f.number("joint.friction.beta", r.beta, Bound::Above0);
+    f.number("joint.friction.alpha", r.alpha, Bound::From0);
+    below_static(f, "joint.friction.dynamic", r.dynamic, r.static_);
+}
+
+fn below_static(f: &mut Findings, key: impl std::fmt::Display, dynamic: f64, static_: f64) {
+    if dynamic > static_ {
+        let what = format!("{dynamic} is above the static coefficient");
+        f.push(key, what, format!("0 … {static_}, the static coefficient"));
+    }
+}
+
+fn change(f: &mut Findings, i: usize, change: &JointChange, case: &Case) {
+    selector(f, i, &change.at, case);
+    if change.spring.is_none() && change.friction.is_none() {
+        f.push(format_args!("joint.change[{i}]"), "nothing is changed", "`spring`, `friction` or both");
+    }
+    if let Some(s) = &change.spring {
+        law(f, format!("joint.change[{i}].spring.law"), s.law);
+        if let Some(v) = s.stiffness {
+            f.quantity(format_args!("joint.change[{i}].spring.stiffness"), v, Bound::From0);
+        }
+        for (key, value, bound) in [
+            ("rigidity", s.rigidity, Bound::Above0),
+            ("stiffness_factor", s.stiffness_factor, Bound::From0),
+            ("damping_ratio", s.damping_ratio, DAMPING),
+        ] {
+            if let Some(v) = value {
+                f.number(format_args!("joint.change[{i}].spring.{key}"), v, bound);
+            }
+        }
+    }
+    friction_change(f, i, case);
+}
+
+fn friction_change(f: &mut Findings, i: usize, case: &Case) {
+    let common = &case.joint.friction;
+    let Some(r) = &case.joint.changes[i].friction else { return };
+    friction_law(f, format!("joint.change[{i}].friction.law"), r.law);
+    if let Some(v) = r.slip_velocity {
+        f.quantity(format_args!("joint.change[{i}].friction.slip_velocity"), v, Bound::Above0);
+    }
+    for (key, value, bound) in [
+        ("static", r.static_, Bound::From0),
+        ("dynamic", r.dynamic, Bound::From0),
+        ("beta", r.beta, Bound::Above0),
+        ("alpha", r.alpha, Bound::From0),
+    ] {
+        if let Some(v) = value {
+            f.number(format_args!("joint.change[{i}].friction.{key}"), v, bound);
+        }
+    }
+    let rubs = r.law == Some(FrictionLaw::Stribeck) && common.law == FrictionLaw::None && common.static_ == 0.0;
+    if rubs && (r.static_.is_none() || r.dynamic.is_none()) {
+        let key = if r.static_.is_none() { "static" } else { "dynamic" };
+        let what = "the key is missing: law `stribeck` needs it, and [joint.friction] gives none";
+        f.push(format_args!("joint.change[{i}].friction.{key}"), what, "from 0");
+    }
+    // What an earlier change gave the same joints is not known here: then only a pair given together is compared.
+    let earlier = case.joint.changes[..i].iter().filter_map(|c| c.friction);
+    let settled = !earlier.into_iter().any(|e| e.static_.is_some() || e.dynamic.is_some());
+    let pair = match (r.static_, r.dynamic) {
+        (Some(s), Some(d)) => Some((s, d, "dynamic")),
+        (Some(s), None) if settled => Some((s, common.dynamic, "static")),
+        (None, Some(d)) if settled => Some((common.static_, d, "dynamic")),
+        _ => None,
+    };
+    match pair {
+        Some((s, d, "static")) if s < d => {
+            let what = format!("{s} is below the dynamic coefficient of [joint.friction]");
+            f.push(format_args!("joint.change[{i}].friction.static"), what, format!("from {d}"));
+        }
+        Some((s, d, "dynamic")) => below_static(f, format_args!("joint.change[{i}].friction.dynamic"), d, s),
+        _ => {}
+    }
+}
+
+fn selector(f: &mut Findings, i: usize, at: &Selector, case: &Case) {
+    let names: Vec<String> = (0..case.panels.len()).map(|p| crate::pattern::panel_name(case, p)).collect();
+    for (k, name) in at.panel.iter().enumerate() {
+        if !names.contains(name) {
+            let error = InputError::new(format!("no panel is called `{name}`"))
+                .key(format!("joint.change[{i}].at.panel[{k}]"))
+                .allowed(names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", "));
+            f.add(match suggestion(name, names.iter().map(String::as_str)) {
+                Some(near) => error.help(format!("did you mean `{near}`?")),
+                None => error,
+            });
+        }
+    }
+    let chosen = case.panels.iter().zip(&names).filter(|(_, n)| at.panel.is_empty() || at.panel.contains(n));
+    let courses = chosen.map(|(p, _)| courses(p)).max().unwrap_or(0);
+    for (k, course) in at.course.iter().enumerate() {
+        // The top support counts as the course above the last.
+        if !(1..=courses.saturating_add(1)).contains(course) && courses > 0 {
+            let what = format!("course {course} does not exist");
+            let allowed = format!("1 … {courses}, and {} for the top support", courses.saturating_add(1));
+            f.push(format_args!("joint.change[{i}].at.course[{k}]"), what, allowed);
+        }
+    }
+    if let Some(region) = at.region {
+        let before = f.list.len();
+        for (k, v) in region.into_iter().enumerate() {
+            f.quantity(format_args!("joint.change[{i}].at.region[{k}]"), v, Bound::Finite);
+        }
+        let [x0, y0, x1, y1] = region;
+        if f.list.len() == before && (x0 >= x1 || y0 >= y1) {
+            let what = format!("[{x0}, {y0}, {x1}, {y1}] encloses nothing");
+            f.push(
+                format_args!("joint.change[{i}].at.region"),
+                what,
+                "[x0, y0, x1, y1] with x0 below x1 and y0 below y1",
+            );
+        }
+    }
+}
+
+fn courses(panel: &Panel) -> usize {
+    match panel.bond {
+        Bond::Explicit => panel.blocks.iter().map(|b| b.course).max().unwrap_or(0),
+        Bond::Irregular if panel.random.is_none() => panel.course_list.len(),
+        _ => panel.courses.unwrap_or(0),
+    }
+}

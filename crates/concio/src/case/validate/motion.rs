@@ -1,0 +1,131 @@
+//! Motions of base and top.
+
+use super::{Bound, Findings};
+use crate::case::{Baseline, Case, Pulse, Ramp, RecordInput, Signal, Sine, Sweep, Synthetic};
+
+pub(super) fn check(f: &mut Findings, case: &Case) {
+    let m = &case.motion;
+    match m.duration {
+        Some(duration) => f.quantity("motion.duration", duration, Bound::Above0),
+        None if ![&m.base, &m.top].iter().any(|s| matches!(s, Signal::Record(_) | Signal::Synthetic(_))) => {
+            let what = "the key is missing, and no record says how long the run is";
+            f.push("motion.duration", what, "above 0 s");
+        }
+        None => {}
+    }
+    signal(f, "motion.base", &m.base);
+    signal(f, "motion.top", &m.top);
+}
+
+fn signal(f: &mut Findings, key: &str, signal: &Signal) {
+    match signal {
+        Signal::None => {}
+        Signal::Record(r) => record(f, key, r),
+        Signal::Sine(s) => sine(f, key, s),
+        Signal::Ramp(r) => ramp(f, key, r),
+        Signal::Pulse(p) => pulse(f, key, p),
+        Signal::Sweep(s) => sweep(f, key, s),
+        Signal::Synthetic(s) => synthetic(f, key, s),
+    }
+}
+
+fn record(f: &mut Findings, key: &str, r: &RecordInput) {
+    if r.record.as_os_str().is_empty() {
+        f.push(format_args!("{key}.record"), "the path is empty", "the path of a record, relative to the wall file");
+    }
+    if r.channel == Some(0) {
+        f.push(format_args!("{key}.channel"), "0 is out of range", "from 1");
+    }
+    if let Some(scale) = r.scale {
+        f.number(format_args!("{key}.scale"), scale, Bound::Finite);
+    }
+    if let Some(pga) = r.pga {
+        f.quantity(format_args!("{key}.pga"), pga, Bound::Above0);
+        if r.scale.is_some() {
+            f.push(format_args!("{key}.pga"), "both `scale` and `pga` are given", "one of them");
+        }
+    }
+    if let Some(trim) = r.trim {
+        for (k, v) in trim.into_iter().enumerate() {
+            f.quantity(format_args!("{key}.trim[{k}]"), v, Bound::From0);
+        }
+        f.rising(format_args!("{key}.trim"), trim, false);
+    }
+    for (name, interval) in [("resample", r.resample), ("dt", r.dt)] {
+        if let Some(v) = interval {
+            f.quantity(format_args!("{key}.{name}"), v, Bound::Above0);
+        }
+    }
+    match r.baseline {
+        Baseline::None => {}
+        Baseline::Polynomial(degree) => {
+            f.number(format_args!("{key}.baseline.polynomial"), degree as f64, Bound::Between(0.0, 6.0));
+        }
+        Baseline::HighPass { corner, order } => {
+            f.quantity(format_args!("{key}.baseline.high_pass"), corner, Bound::Above0);
+            f.number(format_args!("{key}.baseline.order"), order as f64, Bound::Between(1.0, 8.0));
+        }
+    }
+}
+
+fn sine(f: &mut Findings, key: &str, s: &Sine) {
+    match (s.amplitude, s.acceleration) {
+        (Some(amplitude), None) => f.quantity(format_args!("{key}.sine.amplitude"), amplitude, Bound::Finite),
+        (None, Some(acceleration)) => f.quantity(format_args!("{key}.sine.acceleration"), acceleration, Bound::Finite),
+        (both, _) => {
+            let what = if both.is_some() {
+                "both a displacement and an acceleration are given"
+            } else {
+                "neither a displacement nor an acceleration is given"
+            };
+            f.push(format_args!("{key}.sine"), what, "exactly one of `amplitude` and `acceleration`");
+        }
+    }
+    f.quantity(format_args!("{key}.sine.frequency"), s.frequency, Bound::Above0);
+    f.quantity(format_args!("{key}.sine.ramp"), s.ramp, Bound::From0);
+    if let Some(cycles) = s.cycles {
+        f.number(format_args!("{key}.sine.cycles"), cycles, Bound::Above0);
+    }
+}
+
+fn ramp(f: &mut Findings, key: &str, r: &Ramp) {
+    f.quantity(format_args!("{key}.ramp.amplitude"), r.amplitude, Bound::Finite);
+    f.quantity(format_args!("{key}.ramp.start"), r.start, Bound::From0);
+    f.quantity(format_args!("{key}.ramp.rise"), r.rise, Bound::Above0);
+}
+
+fn pulse(f: &mut Findings, key: &str, p: &Pulse) {
+    f.quantity(format_args!("{key}.pulse.acceleration"), p.acceleration, Bound::Finite);
+    f.quantity(format_args!("{key}.pulse.duration"), p.duration, Bound::Above0);
+    f.quantity(format_args!("{key}.pulse.start"), p.start, Bound::From0);
+}
+
+fn sweep(f: &mut Findings, key: &str, s: &Sweep) {
+    f.quantity(format_args!("{key}.sweep.acceleration"), s.acceleration, Bound::Finite);
+    for (k, v) in s.frequency.into_iter().enumerate() {
+        f.quantity(format_args!("{key}.sweep.frequency[{k}]"), v, Bound::Above0);
+    }
+    f.quantity(format_args!("{key}.sweep.duration"), s.duration, Bound::Above0);
+}
+
+/// Most samples of a synthetic record.
+const MOST_SYNTHETIC: f64 = 1e7;
+
+fn synthetic(f: &mut Findings, key: &str, s: &Synthetic) {
+    f.quantity(format_args!("{key}.synthetic.pga"), s.pga, Bound::Above0);
+    f.quantity(format_args!("{key}.synthetic.dt"), s.dt, Bound::Above0);
+    f.quantity(format_args!("{key}.synthetic.duration"), s.duration, Bound::Finite);
+    if s.duration.si() <= 2.0 {
+        f.push(format_args!("{key}.synthetic.duration"), format!("{} is out of range", s.duration), "above 2 s");
+    }
+    if s.dt.si() > 0.0 && s.duration.si() / s.dt.si() > MOST_SYNTHETIC {
+        let allowed = format!("at least {:e} s for this duration", s.duration.si() / MOST_SYNTHETIC);
+        f.push(format_args!("{key}.synthetic.dt"), format!("{} gives more than 10,000,000 samples", s.dt), allowed);
+    }
+    for (k, v) in s.corners.into_iter().enumerate() {
+        f.quantity(format_args!("{key}.synthetic.corners[{k}]"), v, Bound::Above0);
+    }
+    let [b, c, d] = s.corners;
+    f.rising(format_args!("{key}.synthetic.corners"), [b, c], false);
+    f.rising(format_args!("{key}.synthetic.corners"), [c, d], false);
+}

@@ -1,0 +1,263 @@
+//! Panels: bricks, mortar, and the keys that each bond takes.
+
+use std::collections::HashMap;
+
+use super::{Bound, Findings};
+use crate::InputError;
+use crate::case::{Bond, Case, Ends, First, Panel, RandomTexture};
+
+/// Most blocks of a wall.
+pub const LARGEST_WALL: usize = 4_000_000;
+
+/// No fewer blocks than the panel will have (for a random texture an upper bound, else the number).
+pub fn block_bound(panel: &Panel) -> usize {
+    let courses = panel.courses.unwrap_or(0);
+    match (panel.bond, &panel.random) {
+        (Bond::Explicit, _) => panel.blocks.len(),
+        (Bond::Irregular, None) => panel.course_list.iter().map(|c| c.bricks.len()).sum(),
+        (Bond::Irregular, Some(r)) => {
+            let mortar = panel.mortar.head.si();
+            let most = (r.width.si() + mortar) / (r.length[0].si() + mortar) + 1.0;
+            // A float beyond the range of `usize` saturates, one that is no number gives 0: refused elsewhere.
+            courses.saturating_mul(most as usize)
+        }
+        (Bond::Stack, _) => courses.saturating_mul(panel.bricks.unwrap_or(0)),
+        (Bond::Running, _) => {
+            // A course of a flush panel that starts with a half brick has one block more.
+            let longer = match (panel.ends, panel.first) {
+                (Ends::Toothed, _) => 0,
+                (Ends::Flush, First::Full) => courses / 2,
+                (Ends::Flush, First::Half) => courses.div_ceil(2),
+            };
+            courses.saturating_mul(panel.bricks.unwrap_or(0)).saturating_add(longer)
+        }
+    }
+}
+
+pub(super) fn check(f: &mut Findings, case: &Case) {
+    if case.panels.is_empty() {
+        f.push("panel", "the wall has no panel", "at least one [[panel]]");
+    }
+    names(f, case);
+    let mut total = 0usize;
+    for (i, panel) in case.panels.iter().enumerate() {
+        common(f, i, panel);
+        keys(f, i, panel);
+        match panel.bond {
+            Bond::Running | Bond::Stack => regular(f, i, panel),
+            Bond::Irregular => irregular(f, i, panel),
+            Bond::Explicit => explicit(f, i, panel),
+        }
+        total = total.saturating_add(block_bound(panel));
+        if total > LARGEST_WALL {
+            let what = format!("the wall would have up to {total} blocks");
+            f.push(format_args!("panel[{i}]"), what, format!("up to {LARGEST_WALL} blocks"));
+            break;
+        }
+    }
+}
+
+fn names(f: &mut Findings, case: &Case) {
+    let mut seen: HashMap<String, usize> = HashMap::new();
+    for (i, panel) in case.panels.iter().enumerate() {
+        let name = crate::pattern::panel_name(case, i);
+        if panel.name.as_deref().is_some_and(|n| n.trim().is_empty()) {
+            f.push(format_args!("panel[{i}].name"), "the name is empty", "a name that is not blank");
+        }
+        if let Some(first) = seen.insert(name.clone(), i) {
+            let what = format!("panel[{first}] is called `{name}` too");
+            f.push(
+                format_args!("panel[{i}].name"),
+                what,
+                "names that differ (`p1`, `p2`, … are the names of unnamed panels)",
+            );
+        }
+    }
+}
+
+fn common(f: &mut Findings, i: usize, panel: &Panel) {
+    let b = &panel.brick;
+    f.quantity(format_args!("panel[{i}].brick.length"), b.length, Bound::Above0);
+    f.quantity(format_args!("panel[{i}].brick.height"), b.height, Bound::Above0);
+    f.quantity(format_args!("panel[{i}].brick.thickness"), b.thickness, Bound::Above0);
+    f.quantity(format_args!("panel[{i}].brick.specific_weight"), b.specific_weight, Bound::Above0);
+    f.quantity(format_args!("panel[{i}].mortar.bed"), panel.mortar.bed, Bound::From0);
+    f.quantity(format_args!("panel[{i}].mortar.head"), panel.mortar.head, Bound::From0);
+    if let Some(connection) = panel.connection {
+        f.quantity(format_args!("panel[{i}].connection"), connection, Bound::From0);
+        if i == 0 {
+            let what = "the first panel has no panel on its left to be connected to";
+            f.push("panel[0].connection", what, "on the second panel and after it");
+        }
+    }
+}
+
+/// Keys that another bond takes are refused: left unread they would mislead.
+fn keys(f: &mut Findings, i: usize, panel: &Panel) {
+    use Bond::*;
+    let given: [(&str, bool, &[Bond], &str); 7] = [
+        ("courses", panel.courses.is_some(), &[Running, Stack, Irregular], "`running`, `stack` or `irregular`"),
+        ("bricks", panel.bricks.is_some(), &[Running, Stack], "`running` or `stack`"),
+        ("ends", panel.ends != Ends::default(), &[Running], "`running`"),
+        ("first", panel.first != First::default(), &[Running], "`running`"),
+        ("course", !panel.course_list.is_empty(), &[Irregular], "`irregular`"),
+        ("random", panel.random.is_some(), &[Irregular], "`irregular`"),
+        ("block", !panel.blocks.is_empty(), &[Explicit], "`explicit`"),
+    ];
+    for (key, given, bonds, allowed) in given {
+        if given && !bonds.contains(&panel.bond) {
+            let what = format!("the key does not go with bond `{}`", bond_name(panel.bond));
+            f.push(format_args!("panel[{i}].{key}"), what, format!("with bond {allowed}"));
+        }
+    }
+}
+
+fn bond_name(bond: Bond) -> &'static str {
+    match bond {
+        Bond::Running => "running",
+        Bond::Stack => "stack",
+        Bond::Irregular => "irregular",
+        Bond::Explicit => "explicit",
+    }
+}
+
+fn count(f: &mut Findings, i: usize, key: &str, value: Option<usize>, bond: Bond) {
+    match value {
+        Some(0) => f.push(format_args!("panel[{i}].{key}"), "0 is out of range", "from 1"),
+        Some(_) => {}
+        None => {
+            let what = format!("the key is missing: bond `{}` needs it", bond_name(bond));
+            f.push(format_args!("panel[{i}].{key}"), what, "a whole number from 1");
+        }
+    }
+}
+
+fn regular(f: &mut Findings, i: usize, panel: &Panel) {
+    count(f, i, "courses", panel.courses, panel.bond);
+    count(f, i, "bricks", panel.bricks, panel.bond);
+    let half = panel.bond == Bond::Running && panel.ends == Ends::Flush;
+    if half && panel.mortar.head >= panel.brick.length {
+        let what = format!("{} of mortar leave no half brick of (L - t_h)/2", panel.mortar.head);
+        f.push(
+            format_args!("panel[{i}].mortar.head"),
+            what,
+            format!("below the brick's length, {}", panel.brick.length),
+        );
+    }
+}
+
+fn irregular(f: &mut Findings, i: usize, panel: &Panel) {
+    match (&panel.random, panel.course_list.is_empty()) {
+        (Some(r), true) => random(f, i, panel, r),
+        (None, false) => listed(f, i, panel),
+        (given, _) => {
+            let what =
+                if given.is_some() { "both a list and a distribution are given" } else { "the courses are not given" };
+            f.push(format_args!("panel[{i}].course"), what, "either [[panel.course]] or `random`");
+        }
+    }
+}
+
+fn listed(f: &mut Findings, i: usize, panel: &Panel) {
+    if panel.courses.is_some() {
+        let what = "the courses are listed and need no number";
+        f.push(format_args!("panel[{i}].courses"), what, "with `irregular` only beside `random`");
+    }
+    for (r, course) in panel.course_list.iter().enumerate() {
+        f.quantity(format_args!("panel[{i}].course[{r}].height"), course.height, Bound::Above0);
+        f.quantity(format_args!("panel[{i}].course[{r}].offset"), course.offset, Bound::Finite);
+        if course.bricks.is_empty() {
+            f.push(format_args!("panel[{i}].course[{r}].bricks"), "the course has no brick", "at least one length");
+        }
+        for (k, length) in course.bricks.iter().enumerate() {
+            f.quantity(format_args!("panel[{i}].course[{r}].bricks[{k}]"), *length, Bound::Above0);
+        }
+    }
+}
+
+fn random(f: &mut Findings, i: usize, panel: &Panel, r: &RandomTexture) {
+    let before = f.list.len();
+    count(f, i, "courses", panel.courses, panel.bond);
+    f.quantity(format_args!("panel[{i}].random.width"), r.width, Bound::Above0);
+    for (key, pair) in [("length", r.length), ("height", r.height)] {
+        for (k, v) in pair.into_iter().enumerate() {
+            f.quantity(format_args!("panel[{i}].random.{key}[{k}]"), v, Bound::Above0);
+        }
+        f.rising(format_args!("panel[{i}].random.{key}"), pair, true);
+    }
+    f.quantity(format_args!("panel[{i}].random.stagger"), r.stagger, Bound::From0);
+    if f.list.len() > before {
+        return;
+    }
+    let shortest = r.length[0].si();
+    if r.stagger.si() > shortest / 2.0 {
+        let what = format!("{} cannot be held over bricks of {}", r.stagger, r.length[0]);
+        f.push(
+            format_args!("panel[{i}].random.stagger"),
+            what,
+            format!("0 … {} m, half of the shortest brick", shortest / 2.0),
+        );
+    }
+    if let Err(error) = fillable(panel, r) {
+        f.add(error.key(format!("panel[{i}].random.width")));
+    }
+}
+
+/// Some whole number of bricks with mortar between them makes up the width.
+fn fillable(panel: &Panel, r: &RandomTexture) -> Result<(), InputError> {
+    let (mortar, width) = (panel.mortar.head.si(), r.width.si());
+    let [low, high] = r.length.map(|l| l.si() + mortar);
+    // n pitches between low and high make up width + mortar; n is the largest number that can.
+    let slack = 1.0 + crate::pattern::SLACK;
+    let n = ((width + mortar) / low * slack).floor();
+    if n >= 1.0 && n * high * slack >= width + mortar {
+        return Ok(());
+    }
+    let (below, above) = (n * high - mortar, (n + 1.0) * low - mortar);
+    let tidy = |v: f64| (v * 1e6).round() / 1e6;
+    let allowed = if n >= 1.0 {
+        format!("up to {} m, or from {} m", tidy(below), tidy(above))
+    } else {
+        format!("from {} m", tidy(above))
+    };
+    Err(InputError::new(format!("no number of bricks of {} to {} makes up {}", r.length[0], r.length[1], r.width))
+        .allowed(allowed))
+}
+
+fn explicit(f: &mut Findings, i: usize, panel: &Panel) {
+    if panel.blocks.is_empty() {
+        f.push(format_args!("panel[{i}].block"), "the panel has no block", "at least one [[panel.block]]");
+    }
+    for (k, block) in panel.blocks.iter().enumerate() {
+        let key = |name: &'static str| format!("panel[{i}].block[{k}].{name}");
+        if block.course == 0 {
+            f.push(key("course"), "0 is out of range", "from 1 at the bottom");
+        }
+        f.quantity(format_args!("panel[{i}].block[{k}].x"), block.x, Bound::Finite);
+        f.quantity(format_args!("panel[{i}].block[{k}].y"), block.y, Bound::From0);
+        f.quantity(format_args!("panel[{i}].block[{k}].length"), block.length, Bound::Above0);
+        f.quantity(format_args!("panel[{i}].block[{k}].height"), block.height, Bound::Above0);
+        if let Some(weight) = block.specific_weight {
+            f.quantity(format_args!("panel[{i}].block[{k}].specific_weight"), weight, Bound::Above0);
+        }
+        if let Some(id) = &block.id
+            && (id.is_empty() || id.contains(|c: char| c.is_whitespace() || c == '|' || c == ','))
+        {
+            f.push(key("id"), format!("`{id}` cannot be the name of a block"), "a text without blanks, `|` and commas");
+        }
+    }
+    courses_in_use(f, i, panel);
+}
+
+fn courses_in_use(f: &mut Findings, i: usize, panel: &Panel) {
+    let mut courses: Vec<usize> = panel.blocks.iter().map(|b| b.course).collect();
+    courses.sort_unstable();
+    courses.dedup();
+    let gap = courses.iter().zip(1..).find(|(course, wanted)| **course != *wanted);
+    if let Some((course, wanted)) = gap
+        && *course > 0
+    {
+        let what = format!("course {wanted} has no block, course {course} has");
+        f.push(format_args!("panel[{i}].block"), what, "courses numbered 1, 2, 3, … without a gap");
+    }
+}

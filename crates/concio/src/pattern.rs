@@ -1,0 +1,244 @@
+//! From a [`Case`] to the blocks of its wall (model, section 1).
+//!
+//! The base is at y = 0 and the first course of a panel lies on a bed of mortar, so it begins at y = t_b; every
+//! further course lies t_b above the one below. The left edge of the first panel's unshifted courses is at x = 0. A
+//! panel in series stands with its leftmost edge `connection` to the right of the rightmost edge of the one before it.
+//! Explicit blocks keep the coordinates they are given, but for that shift.
+
+use std::collections::HashMap;
+
+use crate::case::{Bond, Case, Ends, First, Panel, de::suggestion, validate};
+use crate::wall::{Block, PanelInfo, Wall};
+use crate::{InputError, Result};
+
+mod check;
+mod random;
+
+/// Contacts and overlaps shorter than this part of L_ref count as none: they come from rounding.
+pub const CONTACT_TOLERANCE: f64 = 1e-6;
+
+/// Relative error allowed when bricks have to make up a width.
+pub(crate) const SLACK: f64 = 1e-9;
+
+/// The name of a panel (from 0): its own, or `p1`, `p2`, ….
+pub fn panel_name(case: &Case, panel: usize) -> String {
+    case.panels.get(panel).and_then(|p| p.name.clone()).unwrap_or_else(|| format!("p{}", panel + 1))
+}
+
+/// A block before it has a name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Rect {
+    x: [f64; 2],
+    y: [f64; 2],
+    /// Place in the panel's list of explicit blocks, from 0; elsewhere the place in the course.
+    source: usize,
+}
+
+impl Rect {
+    fn new(x: f64, y: f64, length: f64, height: f64, source: usize) -> Rect {
+        Rect { x: [x, x + length], y: [y, y + height], source }
+    }
+}
+
+/// The courses of a panel from the bottom, each from left to right.
+type Courses = Vec<Vec<Rect>>;
+
+/// Lays the blocks of the wall, panel by panel, course by course from the bottom, left to right. Equal cases give
+/// equal bits on every machine: only sums, products and quotients are taken.
+///
+/// # Errors
+/// [`InputError`] when a panel breaks the bounds of its keys; when blocks overlap, rest on nothing, vanish by rounding
+/// or share a name; when no random texture holds the stagger; when `output.blocks` names a block that does not exist.
+pub fn lay(case: &Case) -> Result<Wall> {
+    validate::panels(case)?;
+    let mut wall = Wall { panels: Vec::with_capacity(case.panels.len()), blocks: Vec::new() };
+    let mut right = None;
+    for (index, panel) in case.panels.iter().enumerate() {
+        let info = panel_info(case, index);
+        let mut courses = courses(panel, index)?;
+        if let Some(right) = right {
+            shift(&mut courses, right + info.connection);
+        }
+        check::panel(panel, index, &courses)?;
+        right = Some(edge(&courses, f64::NEG_INFINITY, |r| r.x[1], f64::max));
+        append(&mut wall.blocks, panel, index, &courses);
+        wall.panels.push(PanelInfo { courses: courses.len(), ..info });
+    }
+    names(case, &wall)?;
+    Ok(wall)
+}
+
+fn panel_info(case: &Case, index: usize) -> PanelInfo {
+    let panel = &case.panels[index];
+    let (brick, mortar) = (&panel.brick, &panel.mortar);
+    let reference = Block {
+        name: String::new(),
+        panel: index,
+        course: 0,
+        x: [0.0, brick.length.si()],
+        y: [0.0, brick.height.si()],
+        thickness: brick.thickness.si(),
+        specific_weight: brick.specific_weight.si(),
+    };
+    PanelInfo {
+        name: panel_name(case, index),
+        courses: 0,
+        reference_length: brick.length.si(),
+        reference_height: brick.height.si(),
+        reference_mass: reference.mass(),
+        mortar: [mortar.bed.si(), mortar.head.si()],
+        connection: if index == 0 { 0.0 } else { panel.connection.unwrap_or(mortar.head).si() },
+    }
+}
+
+fn courses(panel: &Panel, index: usize) -> Result<Courses> {
+    match (panel.bond, &panel.random) {
+        (Bond::Running, _) => Ok(regular(panel, true)),
+        (Bond::Stack, _) => Ok(regular(panel, false)),
+        (Bond::Irregular, Some(texture)) => random::courses(panel, texture, index),
+        (Bond::Irregular, None) => Ok(listed(panel)),
+        (Bond::Explicit, _) => Ok(explicit(panel)),
+    }
+}
+
+/// Running or stack bond.
+fn regular(panel: &Panel, running: bool) -> Courses {
+    let (length, height) = (panel.brick.length.si(), panel.brick.height.si());
+    let [bed, head] = [panel.mortar.bed.si(), panel.mortar.head.si()];
+    let (bricks, pitch) = (panel.bricks.unwrap_or(0), length + head);
+    (0..panel.courses.unwrap_or(0))
+        .map(|r| {
+            let y = bed + r as f64 * (height + bed);
+            let whole = |k: usize, start: f64| Rect::new(start + k as f64 * pitch, y, length, height, k);
+            let shifted = running && (r % 2 == 1) != (panel.first == First::Half);
+            match (shifted, panel.ends) {
+                (false, _) => (0..bricks).map(|k| whole(k, 0.0)).collect(),
+                (true, Ends::Toothed) => (0..bricks).map(|k| whole(k, pitch / 2.0)).collect(),
+                (true, Ends::Flush) => {
+                    let half = (length - head) / 2.0;
+                    let first = Rect::new(0.0, y, half, height, 0);
+                    let last = Rect::new(half + head + (bricks - 1) as f64 * pitch, y, half, height, bricks);
+                    let between = (1..bricks).map(|k| Rect { source: k, ..whole(k - 1, half + head) });
+                    std::iter::once(first).chain(between).chain([last]).collect()
+                }
+            }
+        })
+        .collect()
+}
+
+/// Irregular texture from lists.
+fn listed(panel: &Panel) -> Courses {
+    let lists = panel.course_list.iter().map(|c| {
+        let lengths = c.bricks.iter().map(|l| l.si()).collect();
+        (c.height.si(), c.offset.si(), lengths)
+    });
+    stacked(panel, lists)
+}
+
+/// Courses of given height, offset and brick lengths, one on the other.
+fn stacked(panel: &Panel, lists: impl IntoIterator<Item = (f64, f64, Vec<f64>)>) -> Courses {
+    let [bed, head] = [panel.mortar.bed.si(), panel.mortar.head.si()];
+    let mut y = bed;
+    lists
+        .into_iter()
+        .map(|(height, offset, lengths)| {
+            let mut x = offset;
+            let course = lengths.into_iter().enumerate().map(|(k, length)| {
+                let rect = Rect::new(x, y, length, height, k);
+                x += length + head;
+                rect
+            });
+            let course = course.collect();
+            y += height + bed;
+            course
+        })
+        .collect()
+}
+
+fn explicit(panel: &Panel) -> Courses {
+    let count = panel.blocks.iter().map(|b| b.course).max().unwrap_or(0);
+    let mut courses = vec![Vec::new(); count];
+    for (k, b) in panel.blocks.iter().enumerate() {
+        courses[b.course - 1].push(Rect::new(b.x.si(), b.y.si(), b.length.si(), b.height.si(), k));
+    }
+    for course in &mut courses {
+        course.sort_by(|a: &Rect, b| a.x[0].total_cmp(&b.x[0]));
+    }
+    courses
+}
+
+fn edge(courses: &Courses, start: f64, of: impl Fn(&Rect) -> f64, pick: impl Fn(f64, f64) -> f64) -> f64 {
+    courses.iter().flatten().map(of).fold(start, pick)
+}
+
+/// Moves a panel so that its leftmost edge is at `left`.
+fn shift(courses: &mut Courses, left: f64) {
+    let by = left - edge(courses, f64::INFINITY, |r| r.x[0], f64::min);
+    for rect in courses.iter_mut().flatten() {
+        rect.x = rect.x.map(|x| x + by);
+    }
+}
+
+fn append(blocks: &mut Vec<Block>, panel: &Panel, index: usize, courses: &Courses) {
+    blocks.reserve(courses.iter().map(Vec::len).sum());
+    for (r, course) in courses.iter().enumerate() {
+        for (k, rect) in course.iter().enumerate() {
+            let given = if panel.bond == Bond::Explicit { panel.blocks.get(rect.source) } else { None };
+            let weight = given.and_then(|b| b.specific_weight).unwrap_or(panel.brick.specific_weight);
+            blocks.push(Block {
+                name: given.and_then(|b| b.id.clone()).unwrap_or_else(|| block_name(index, r, k)),
+                panel: index,
+                course: r,
+                x: rect.x,
+                y: rect.y,
+                thickness: panel.brick.thickness.si(),
+                specific_weight: weight.si(),
+            });
+        }
+    }
+}
+
+/// `p1c2b3`: panel, course and place, each from 1 in the name and from 0 here.
+fn block_name(panel: usize, course: usize, place: usize) -> String {
+    format!("p{}c{}b{}", panel + 1, course + 1, place + 1)
+}
+
+/// Names are unique, and the blocks to be recorded exist.
+fn names(case: &Case, wall: &Wall) -> Result<()> {
+    let own = case.panels.iter().any(|p| p.blocks.iter().any(|b| b.id.is_some()));
+    let wanted = case.output.blocks.iter().enumerate().filter(|(_, name)| *name != "all");
+    if !own && wanted.clone().next().is_none() {
+        return Ok(());
+    }
+    let mut seen = HashMap::with_capacity(wall.blocks.len());
+    for block in &wall.blocks {
+        if seen.insert(block.name.as_str(), block).is_some() {
+            return Err(twice(case, &block.name).into());
+        }
+    }
+    for (k, name) in wanted {
+        if !seen.contains_key(name.as_str()) {
+            let error = InputError::new(format!("no block is called `{name}`")).key(format!("output.blocks[{k}]"));
+            let error = error.allowed("`all`, or names as `concio check` draws them");
+            // A suggestion is sought among few names only: it compares with each.
+            let near = suggestion(name, seen.keys().copied().take(10_000));
+            return Err(near.map_or(error.clone(), |n| error.help(format!("did you mean `{n}`?"))).into());
+        }
+    }
+    Ok(())
+}
+
+/// The error about a name that two blocks have; it stands at the last block that was given it.
+fn twice(case: &Case, name: &str) -> InputError {
+    let given = case.panels.iter().enumerate().flat_map(|(i, p)| {
+        let ids = p.blocks.iter().enumerate();
+        ids.filter(|(_, b)| b.id.as_deref() == Some(name)).map(move |(k, _)| format!("panel[{i}].block[{k}]"))
+    });
+    let given: Vec<String> = given.collect();
+    let what = match given.as_slice() {
+        [first, .., _] => format!("`{name}` is the name of {first} already"),
+        _ => format!("`{name}` is the name of an unnamed block already"),
+    };
+    let key = given.last().map_or("panel".to_string(), |k| format!("{k}.id"));
+    InputError::new(what).key(key).allowed("names unique in the wall")
+}

@@ -1,0 +1,177 @@
+//! Geometry that no wall may have: blocks that overlap, rest on nothing or vanish beside the others.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use super::{CONTACT_TOLERANCE, Courses, Rect, block_name};
+use crate::case::{Bond, Panel};
+use crate::{InputError, Result};
+
+/// Smallest block and largest coordinate, as parts and multiples of the panel's brick: between them rounding stays
+/// below the contact tolerance.
+const SMALLEST: f64 = 1e-5;
+const FARTHEST: f64 = 1e7;
+
+pub(super) fn panel(panel: &Panel, index: usize, courses: &Courses) -> Result<()> {
+    let site = Site { panel, index, tolerance: CONTACT_TOLERANCE * panel.brick.length.si() };
+    site.sizes(courses)?;
+    if panel.bond == Bond::Explicit {
+        site.side_by_side(courses)?;
+        site.overlaps(courses)?;
+    }
+    courses.windows(2).enumerate().try_for_each(|(r, pair)| site.rests(r, &pair[0], &pair[1]))?;
+    Ok(())
+}
+
+/// A panel under check.
+struct Site<'a> {
+    panel: &'a Panel,
+    index: usize,
+    /// Overlaps up to this are rounding [m].
+    tolerance: f64,
+}
+
+impl Site<'_> {
+    /// The key that a block comes from.
+    fn key(&self, course: usize, rect: &Rect) -> String {
+        let i = self.index;
+        match (self.panel.bond, &self.panel.random) {
+            (Bond::Explicit, _) => format!("panel[{i}].block[{}]", rect.source),
+            (Bond::Irregular, None) => format!("panel[{i}].course[{course}]"),
+            (Bond::Irregular, Some(_)) => format!("panel[{i}].random"),
+            (Bond::Running | Bond::Stack, _) => format!("panel[{i}]"),
+        }
+    }
+    /// The name of the block at a place of a course.
+    fn name(&self, course: usize, place: usize, rect: &Rect) -> String {
+        let given = if self.panel.bond == Bond::Explicit { self.panel.blocks.get(rect.source) } else { None };
+        given.and_then(|b| b.id.clone()).unwrap_or_else(|| block_name(self.index, course, place))
+    }
+    fn sizes(&self, courses: &Courses) -> std::result::Result<(), InputError> {
+        let (length, height) = (self.panel.brick.length.si(), self.panel.brick.height.si());
+        for (r, k, rect) in each(courses) {
+            let [dx, dy] = [rect.x, rect.y].map(|[a, b]| b - a);
+            let far = rect.x.iter().any(|x| x.abs() > FARTHEST * length)
+                || rect.y.iter().any(|y| y.abs() > FARTHEST * height);
+            // Written so that NaN fails too.
+            let large = dx >= SMALLEST * length && dy >= SMALLEST * height;
+            if !large || far {
+                let what = if far { "lies too far from the origin" } else { "is too small" };
+                let what =
+                    format!("block {} ({dx} m by {dy} m) {what} to be told from rounding", self.name(r, k, rect));
+                let allowed = "sizes from 1e-5 of the panel's brick, coordinates up to 1e7 of it";
+                return Err(InputError::new(what).key(self.key(r, rect)).allowed(allowed));
+            }
+        }
+        Ok(())
+    }
+    /// Blocks of one course stand beside each other, else neighbours and supports could not be told.
+    fn side_by_side(&self, courses: &Courses) -> std::result::Result<(), InputError> {
+        for (r, course) in courses.iter().enumerate() {
+            for (k, pair) in course.windows(2).enumerate() {
+                if pair[1].x[0] >= pair[0].x[1] - self.tolerance {
+                    continue;
+                }
+                let (a, b) = (self.name(r, k, &pair[0]), self.name(r, k + 1, &pair[1]));
+                let beside = pair[0].y[1] <= pair[1].y[0] || pair[1].y[1] <= pair[0].y[0];
+                let what = if beside {
+                    format!("blocks {a} and {b} of course {} stand one above the other", r + 1)
+                } else {
+                    format!("blocks {a} and {b} overlap")
+                };
+                let allowed = "blocks of one course side by side";
+                return Err(InputError::new(what).key(self.key(r, &pair[1])).allowed(allowed));
+            }
+        }
+        Ok(())
+    }
+    /// Overlaps between any two blocks, by a line sweeping from left to right. The blocks it cuts do not overlap (else
+    /// it had stopped), so a new one need be compared with its neighbours above and below only.
+    fn overlaps(&self, courses: &Courses) -> std::result::Result<(), InputError> {
+        let all: Vec<_> = each(courses).collect();
+        let mut events = Vec::with_capacity(2 * all.len());
+        for (i, (.., rect)) in all.iter().enumerate() {
+            events.push((rect.x[0] + self.tolerance, false, i));
+            events.push((rect.x[1] - self.tolerance, true, i));
+        }
+        // At one place blocks end before others begin.
+        events.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+        let mut cut: BTreeMap<Height, usize> = BTreeMap::new();
+        for (_, ends, i) in events {
+            let rect = all[i].2;
+            if ends {
+                cut.remove(&Height(rect.y[0]));
+                continue;
+            }
+            let below = cut.range(..=Height(rect.y[0])).next_back();
+            let above = cut.range(Height(rect.y[0])..).next();
+            for (_, &other) in below.into_iter().chain(above) {
+                let y = all[other].2.y;
+                if y[1].min(rect.y[1]) - y[0].max(rect.y[0]) > self.tolerance {
+                    return Err(self.overlap(all[other], all[i]));
+                }
+            }
+            cut.insert(Height(rect.y[0]), i);
+        }
+        Ok(())
+    }
+    fn overlap(&self, a: (usize, usize, &Rect), b: (usize, usize, &Rect)) -> InputError {
+        // The later one in the file is the one complained about.
+        let (a, b) = if a.2.source < b.2.source { (a, b) } else { (b, a) };
+        let what = format!("blocks {} and {} overlap", self.name(a.0, a.1, a.2), self.name(b.0, b.1, b.2));
+        InputError::new(what).key(self.key(b.0, b.2)).allowed("blocks that share edges at most")
+    }
+    /// Every block of the course `upper` (number r + 1 from 0) lies on a block of the course below.
+    fn rests(&self, r: usize, lower: &[Rect], upper: &[Rect]) -> std::result::Result<(), InputError> {
+        let mut first = 0;
+        for (k, rect) in upper.iter().enumerate() {
+            while lower.get(first).is_some_and(|b| b.x[1] <= rect.x[0] + self.tolerance) {
+                first += 1;
+            }
+            let carrying = |b: &&Rect| b.x[1].min(rect.x[1]) - b.x[0].max(rect.x[0]) > self.tolerance;
+            let mut carriers = lower[first..].iter().take_while(|b| b.x[0] < rect.x[1]).filter(carrying).peekable();
+            let name = self.name(r + 1, k, rect);
+            let key = self.key(r + 1, rect);
+            if carriers.peek().is_none() {
+                let what =
+                    format!("block {name} of course {} rests on nothing: its load has no way to the base", r + 2);
+                let allowed = format!("an overlap with a block of course {}", r + 1);
+                return Err(InputError::new(what).key(key).allowed(allowed));
+            }
+            if let Some(over) = carriers.find(|b| b.y[1] > rect.y[0] + self.tolerance) {
+                let what = format!(
+                    "block {name} of course {} begins at {} m, below the top of a block under it",
+                    r + 2,
+                    rect.y[0]
+                );
+                return Err(InputError::new(what).key(key).allowed(format!("from {} m", over.y[1])));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Course, place and block.
+fn each(courses: &Courses) -> impl Iterator<Item = (usize, usize, &Rect)> {
+    courses.iter().enumerate().flat_map(|(r, c)| c.iter().enumerate().map(move |(k, rect)| (r, k, rect)))
+}
+
+/// A coordinate as a key.
+struct Height(f64);
+
+impl PartialEq for Height {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Height {}
+impl PartialOrd for Height {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Height {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
