@@ -7,6 +7,7 @@ pub mod error;
 pub mod outcome;
 pub mod quantity;
 pub mod record;
+pub mod store;
 pub mod wall;
 
 pub use error::{Error, InputError, Result};
