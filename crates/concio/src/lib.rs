@@ -18,6 +18,7 @@ pub mod run;
 pub mod simulate;
 pub mod state;
 pub mod system;
+pub mod store;
 pub mod wall;
 
 pub use error::{Error, InputError, Result};

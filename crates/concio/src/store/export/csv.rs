@@ -1,0 +1,169 @@
+//! Tables as comma-separated values: one header line whose entries carry the unit, `name [unit]`.
+
+use std::fmt::{Display, Write as _};
+use std::fs::{self, File};
+use std::path::Path;
+
+use csv::Writer;
+
+use crate::error::{Error, Result};
+use crate::record::Envelopes;
+use crate::store::fields::{self, Field};
+use crate::store::hdf5::{NO_FRICTION, check_lengths, keyword};
+use crate::store::{FrictionRow, StoredRun, atomic};
+use crate::wall::{Block, End};
+
+/// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv` into `folder`,
+/// which is made if need be. Numbers read back to the same bits.
+///
+/// # Errors
+/// [`Error::Io`] when the disk fails, [`Error::Store`] when the run contradicts itself.
+pub fn csv(run: &StoredRun, folder: &Path) -> Result<()> {
+    check_lengths(folder, &run.wall, &run.joints, &run.outcome)?;
+    fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
+    table(&folder.join("histories.csv"), |t| histories(t, run))?;
+    table(&folder.join("blocks.csv"), |t| blocks(t, run))?;
+    table(&folder.join("joints.csv"), |t| joints(t, run))?;
+    table(&folder.join("block_envelopes.csv"), |t| {
+        envelopes(t, "block", &fields::BLOCK_ENVELOPES, &unknown_names(run), &run.outcome.envelopes)
+    })?;
+    table(&folder.join("joint_envelopes.csv"), |t| {
+        let names: Vec<&str> = run.joints.iter().map(|j| j.name.as_str()).collect();
+        envelopes(t, "joint", &fields::JOINT_ENVELOPES, &names, &run.outcome.envelopes)
+    })
+}
+
+/// Names of the unknowns: the blocks', then `beam` for the beam's.
+fn unknown_names(run: &StoredRun) -> Vec<&str> {
+    let blocks = run.wall.blocks.iter().map(|b| b.name.as_str());
+    blocks.chain(std::iter::repeat("beam")).take(run.outcome.layout.unknowns).collect()
+}
+
+/// A file being written row by row.
+struct Table {
+    writer: Writer<File>,
+    cell: String,
+}
+
+impl Table {
+    fn cell(&mut self, value: impl Display) -> csv::Result<()> {
+        self.cell.clear();
+        // Writing to a string fails only if the value's own formatting does.
+        write!(self.cell, "{value}").map_err(std::io::Error::other)?;
+        self.writer.write_field(&self.cell)
+    }
+
+    /// The shortest digits that read back to the same bits; an exponent, because slips of 1e-9 m are ordinary.
+    fn number(&mut self, value: f64) -> csv::Result<()> {
+        self.cell(format_args!("{value:e}"))
+    }
+
+    fn head(&mut self, name: &str, unit: &str) -> csv::Result<()> {
+        if unit == "1" { self.cell(name) } else { self.cell(format_args!("{name} [{unit}]")) }
+    }
+
+    fn end_row(&mut self) -> csv::Result<()> {
+        self.writer.write_record(None::<&[u8]>)
+    }
+}
+
+fn table(path: &Path, fill: impl FnOnce(&mut Table) -> csv::Result<()>) -> Result<()> {
+    atomic::replace(path, |temporary| {
+        let file = File::create(temporary).map_err(|e| Error::io(path, e))?;
+        let writer = csv::WriterBuilder::new().buffer_capacity(1 << 16).from_writer(file);
+        let mut table = Table { writer, cell: String::new() };
+        fill(&mut table).map_err(|e| Error::io(path, e.into()))?;
+        table.writer.flush().map_err(|e| Error::io(path, e))
+    })
+}
+
+fn histories(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
+    let (channels, recording) = (&run.outcome.layout.channels, &run.outcome.recording);
+    table.head("time", "s")?;
+    for channel in channels {
+        table.head(&channel.name, &channel.unit)?;
+    }
+    table.end_row()?;
+    for (row, &time) in recording.time.iter().enumerate() {
+        table.number(time)?;
+        for &value in &recording.values[row * channels.len()..(row + 1) * channels.len()] {
+            table.number(value)?;
+        }
+        table.end_row()?;
+    }
+    Ok(())
+}
+
+fn blocks(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
+    for name in ["name", "panel", "course"] {
+        table.head(name, "1")?;
+    }
+    heads(table, &fields::BLOCKS)?;
+    table.head("mass", "kg")?;
+    table.end_row()?;
+    for block in &run.wall.blocks {
+        table.cell(&block.name)?;
+        table.cell(run.wall.panels.get(block.panel).map_or("", |p| &p.name))?;
+        table.cell(block.course)?;
+        numbers(table, &fields::BLOCKS, block)?;
+        table.number(Block::mass(block))?;
+        table.end_row()?;
+    }
+    Ok(())
+}
+
+fn joints(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
+    for name in ["name", "kind", "a", "b", "law"] {
+        table.head(name, "1")?;
+    }
+    heads(table, &fields::JOINTS)?;
+    table.head("friction_law", "1")?;
+    heads(table, &fields::FRICTION)?;
+    table.end_row()?;
+    let block = |index: usize| run.wall.blocks.get(index).map_or("", |b| b.name.as_str());
+    for row in &run.joints {
+        table.cell(&row.name)?;
+        table.cell(keyword(&row.joint.kind))?;
+        table.cell(block(row.joint.a))?;
+        table.cell(match row.joint.b {
+            End::Block(index) => block(index),
+            End::Base => "base",
+            End::Top => "top",
+        })?;
+        table.cell(keyword(&row.law))?;
+        numbers(table, &fields::JOINTS, row)?;
+        let friction: FrictionRow = row.friction.unwrap_or(NO_FRICTION);
+        table.cell(keyword(&friction.law))?;
+        numbers(table, &fields::FRICTION, &friction)?;
+        table.end_row()?;
+    }
+    Ok(())
+}
+
+fn envelopes(
+    table: &mut Table,
+    what: &str,
+    columns: &[Field<Envelopes, Vec<f64>>],
+    names: &[&str],
+    values: &Envelopes,
+) -> csv::Result<()> {
+    table.head(what, "1")?;
+    heads(table, columns)?;
+    table.end_row()?;
+    for (row, name) in names.iter().enumerate() {
+        table.cell(name)?;
+        for column in columns {
+            table.number((column.get)(values)[row])?;
+        }
+        table.end_row()?;
+    }
+    Ok(())
+}
+
+fn heads<T, V>(table: &mut Table, columns: &[Field<T, V>]) -> csv::Result<()> {
+    columns.iter().try_for_each(|column| table.head(column.name, column.unit))
+}
+
+fn numbers<T>(table: &mut Table, columns: &[Field<T, f64>], of: &T) -> csv::Result<()> {
+    columns.iter().try_for_each(|column| table.number(*(column.get)(of)))
+}

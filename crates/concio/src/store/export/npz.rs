@@ -1,0 +1,157 @@
+//! A NumPy archive: a ZIP file of `.npy` arrays. An array has the name that its dataset has in the HDF5 file.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use npyz::{AutoSerialize, WriteOptions, WriterBuilder};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+use crate::error::{Error, Result};
+use crate::store::fields::{self, Field};
+use crate::store::hdf5::{NO_FRICTION, check_lengths, keyword, other_side};
+use crate::store::{FrictionRow, StoredRun, atomic};
+use crate::wall::Block;
+
+/// Writes the whole run to `path`: `numpy.load(path)["history/top/displacement"]`.
+/// Texts are arrays of bytes in UTF-8 (`|S`). Equal runs give equal bytes.
+///
+/// # Errors
+/// [`Error::Io`] when the disk fails, [`Error::Store`] when the run contradicts itself.
+pub fn npz(run: &StoredRun, path: &Path) -> Result<()> {
+    check_lengths(path, &run.wall, &run.joints, &run.outcome)?;
+    atomic::replace(path, |temporary| {
+        let file = File::create(temporary).map_err(|e| Error::io(path, e))?;
+        let mut archive = Archive { zip: ZipWriter::new(BufWriter::new(file)) };
+        let filled = fill(&mut archive, run).and_then(|()| Ok(archive.zip.finish()?.flush()?));
+        filled.map_err(|e| Error::io(path, e))
+    })
+}
+
+struct Archive {
+    zip: ZipWriter<BufWriter<File>>,
+}
+
+impl Archive {
+    /// Starts the entry of an array of that many bytes.
+    fn start(&mut self, name: &str, bytes: usize) -> io::Result<()> {
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Deflated)
+            .compression_level(Some(1))
+            // A header of 128 bytes, often less, comes before the data; the limit of plain ZIP is 4 GiB.
+            .large_file(bytes >= u32::MAX as usize - 4096);
+        Ok(self.zip.start_file(format!("{name}.npy"), options)?)
+    }
+
+    fn array<T>(&mut self, name: &str, shape: &[usize], values: impl IntoIterator<Item = T>) -> io::Result<()>
+    where
+        T: AutoSerialize,
+    {
+        self.start(name, shape.iter().product::<usize>().saturating_mul(size_of::<T>()))?;
+        let shape: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
+        // One buffer between the numbers and the compressor, which is slow when fed eight bytes at a time.
+        let buffered = BufWriter::with_capacity(1 << 16, &mut self.zip);
+        let mut writer = WriteOptions::new().default_dtype().shape(&shape).writer(buffered).begin_nd()?;
+        writer.extend(values)?;
+        writer.finish()
+    }
+
+    fn list(&mut self, name: &str, values: &[f64]) -> io::Result<()> {
+        self.array(name, &[values.len()], values.iter().copied())
+    }
+
+    fn integers(&mut self, name: &str, values: impl ExactSizeIterator<Item = i64>) -> io::Result<()> {
+        self.array(name, &[values.len()], values)
+    }
+
+    /// Texts as bytes of the length of the longest.
+    fn texts(&mut self, name: &str, texts: &[impl AsRef<str>]) -> io::Result<()> {
+        // NumPy has no arrays of texts of length 0.
+        let longest = texts.iter().map(|t| t.as_ref().len()).max().unwrap_or(0).max(1);
+        self.start(name, longest.saturating_mul(texts.len()))?;
+        let kind = format!("|S{longest}").parse().map_err(io::Error::other)?;
+        let options = WriteOptions::<[u8]>::new().dtype(npyz::DType::Plain(kind));
+        let mut writer = options.shape(&[texts.len() as u64]).writer(&mut self.zip).begin_nd()?;
+        for text in texts {
+            writer.push(text.as_ref().as_bytes())?;
+        }
+        writer.finish()
+    }
+}
+
+fn fill(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
+    let provenance = &run.provenance;
+    archive.texts("case", &[&provenance.case_json])?;
+    archive.texts("version", &[&provenance.version])?;
+    archive.texts("inputs_hash", &[&provenance.inputs_hash])?;
+    archive.texts("stop_reason", &[keyword(&run.outcome.stop_reason)])?;
+    fill_blocks(archive, run)?;
+    fill_joints(archive, run)?;
+    fill_recording(archive, run)?;
+    fill_sums(archive, run)
+}
+
+fn fill_blocks(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
+    let blocks = &run.wall.blocks;
+    archive.texts("wall/blocks/name", &blocks.iter().map(|b| &b.name).collect::<Vec<_>>())?;
+    archive.integers("wall/blocks/panel", blocks.iter().map(|b| b.panel as i64))?;
+    archive.integers("wall/blocks/course", blocks.iter().map(|b| b.course as i64))?;
+    archive.list("wall/blocks/mass", &blocks.iter().map(Block::mass).collect::<Vec<_>>())?;
+    columns(archive, "wall/blocks", &fields::BLOCKS, blocks)
+}
+
+fn fill_joints(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
+    let joints = &run.joints;
+    archive.texts("wall/joints/name", &joints.iter().map(|j| &j.name).collect::<Vec<_>>())?;
+    archive.texts("wall/joints/kind", &joints.iter().map(|j| keyword(&j.joint.kind)).collect::<Vec<_>>())?;
+    archive.texts("wall/joints/law", &joints.iter().map(|j| keyword(&j.law)).collect::<Vec<_>>())?;
+    archive.integers("wall/joints/a", joints.iter().map(|j| j.joint.a as i64))?;
+    archive.integers("wall/joints/b", joints.iter().map(|j| other_side(j.joint.b)))?;
+    columns(archive, "wall/joints", &fields::JOINTS, joints)?;
+    let friction: Vec<FrictionRow> = joints.iter().map(|j| j.friction.unwrap_or(NO_FRICTION)).collect();
+    archive.texts("wall/joints/friction_law", &friction.iter().map(|f| keyword(&f.law)).collect::<Vec<_>>())?;
+    columns(archive, "wall/joints", &fields::FRICTION, &friction)
+}
+
+fn fill_recording(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
+    let (layout, recording) = (&run.outcome.layout, &run.outcome.recording);
+    archive.list("history/time", &recording.time)?;
+    let (samples, width) = (recording.time.len(), layout.channels.len());
+    for (index, path) in fields::channel_paths(&layout.channels).iter().enumerate() {
+        let column = (0..samples).map(|row| recording.values[row * width + index]);
+        archive.array(&format!("history/{path}"), &[samples], column)?;
+    }
+    archive.list("frames/time", &recording.frame_time)?;
+    let shape = [recording.frame_time.len(), layout.unknowns];
+    archive.array("frames/displacement", &shape, recording.frame_displacement.iter().copied())?;
+    archive.array("frames/velocity", &shape, recording.frame_velocity.iter().copied())
+}
+
+fn fill_sums(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
+    let outcome = &run.outcome;
+    for field in &fields::BLOCK_ENVELOPES {
+        archive.list(&format!("envelope/block/{}", field.name), (field.get)(&outcome.envelopes))?;
+    }
+    for field in &fields::JOINT_ENVELOPES {
+        archive.list(&format!("envelope/joint/{}", field.name), (field.get)(&outcome.envelopes))?;
+    }
+    for field in &fields::ENERGIES {
+        archive.array(&format!("energy/{}", field.name), &[], [*(field.get)(&outcome.energies)])?;
+    }
+    for field in &fields::TOTALS {
+        archive.array(&format!("totals/{}", field.name), &[], [*(field.get)(&outcome.totals)])?;
+    }
+    for field in &fields::COUNTERS {
+        archive.array(&format!("counters/{}", field.name), &[], [*(field.get)(&outcome.counters)])?;
+    }
+    archive.array("totals/time_reached", &[], [outcome.time_reached])
+}
+
+fn columns<T>(archive: &mut Archive, group: &str, columns: &[Field<T, f64>], items: &[T]) -> io::Result<()> {
+    for column in columns {
+        let values = items.iter().map(|item| *(column.get)(item));
+        archive.array(&format!("{group}/{}", column.name), &[items.len()], values)?;
+    }
+    Ok(())
+}

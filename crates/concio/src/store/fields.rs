@@ -1,0 +1,194 @@
+//! Tables of the quantities a result holds: name on disk, unit, meaning, and where they are kept. Writer, reader and
+//! exports go through the same tables, so that none of them can forget a quantity that the others know.
+
+use crate::outcome::Totals;
+use crate::record::{Channel, Counters, Energies, Envelopes};
+use crate::store::{FrictionRow, JointRow};
+use crate::wall::{Block, PanelInfo};
+
+use std::collections::BTreeSet;
+
+/// A quantity of type `V` kept in a `T`.
+pub(super) struct Field<T, V> {
+    /// Name on disk.
+    pub name: &'static str,
+    /// SI unit, `1` when there is none.
+    pub unit: &'static str,
+    /// One sentence.
+    pub description: &'static str,
+    /// Reads it.
+    pub get: fn(&T) -> &V,
+    /// Where it is kept.
+    pub slot: fn(&mut T) -> &mut V,
+}
+
+macro_rules! field {
+    ($name:literal, $unit:literal, $($member:ident).+ $([$index:literal])?, $description:literal) => {
+        Field {
+            name: $name,
+            unit: $unit,
+            description: $description,
+            get: |of| &of.$($member).+ $([$index])?,
+            slot: |of| &mut of.$($member).+ $([$index])?,
+        }
+    };
+}
+
+/// Envelopes with one value per unknown.
+pub(super) const BLOCK_ENVELOPES: [Field<Envelopes, Vec<f64>>; 3] = [
+    field!("displacement", "m", block_displacement, "Largest displacement relative to the base, sign dropped."),
+    field!("velocity", "m/s", block_velocity, "Largest velocity relative to the base, sign dropped."),
+    field!("acceleration", "m/s2", block_acceleration, "Largest acceleration relative to the base, sign dropped."),
+];
+
+/// Envelopes with one value per joint.
+pub(super) const JOINT_ENVELOPES: [Field<Envelopes, Vec<f64>>; 8] = [
+    field!("displacement", "m", joint_displacement, "Largest relative displacement of the sides, sign dropped."),
+    field!("velocity", "m/s", joint_velocity, "Largest relative velocity of the sides, sign dropped."),
+    field!("acceleration", "m/s2", joint_acceleration, "Largest relative acceleration of the sides, sign dropped."),
+    field!(
+        "slip",
+        "m",
+        joint_slip,
+        "Way slipped: |relative velocity| integrated over the time above the slip velocity."
+    ),
+    field!("opening", "m", joint_opening, "Widest gap of a head joint or connection."),
+    field!("closing", "m", joint_closing, "Deepest closure of a head joint or connection."),
+    field!("force", "N", joint_force, "Largest elastic force, sign dropped."),
+    field!("dissipation", "J", joint_dissipation, "Energy dissipated by damping and friction."),
+];
+
+/// The energy account.
+pub(super) const ENERGIES: [Field<Energies, f64>; 8] = [
+    field!("input_base", "J", input_base, "Work of the base motion on the motion relative to the base."),
+    field!("input_top", "J", input_top, "Work of the driven top beam."),
+    field!("kinetic", "J", kinetic, "Kinetic energy."),
+    field!("elastic", "J", elastic, "Elastic energy of the joints."),
+    field!("damping", "J", damping, "Energy dissipated by viscous damping."),
+    field!("friction", "J", friction, "Energy dissipated by friction."),
+    field!("bond", "J", bond, "Energy dissipated by breaking bonds."),
+    field!("nonreciprocal", "J", nonreciprocal, "Energy taken out by friction whose action differs from its reaction."),
+];
+
+/// Numbers that sum a run up.
+pub(super) const TOTALS: [Field<Totals, f64>; 7] = [
+    field!(
+        "peak_relative_displacement",
+        "m",
+        peak_relative_displacement,
+        "Largest displacement of a block relative to the base, sign dropped."
+    ),
+    field!("peak_slip_velocity", "m/s", peak_slip_velocity, "Largest relative velocity of a bed or support joint."),
+    field!("top_force_peak", "N", top_force_peak, "Largest force of the top beam on the wall, sign dropped."),
+    field!("top_force_square", "N2 s", top_force_square, "Time integral of the square of that force."),
+    field!("minimum_gap", "m", minimum_gap, "Most negative gap of a head joint or connection, from 0 down."),
+    field!("peak_input", "J", peak_input, "Largest work done on the wall, sign dropped."),
+    field!("peak_residual", "J", peak_residual, "Largest residual of the energy account, sign dropped."),
+];
+
+/// Work of the solver.
+pub(super) const COUNTERS: [Field<Counters, u64>; 5] = [
+    field!("steps", "1", steps, "Accepted steps."),
+    field!("rejected", "1", rejected, "Steps rejected by the error control."),
+    field!("failed", "1", failed, "Steps repeated because the iteration did not converge."),
+    field!("iterations", "1", iterations, "Iterations on the laws of the joints."),
+    field!("factorisations", "1", factorisations, "Matrix factorisations."),
+];
+
+/// Real quantities of a block.
+pub(super) const BLOCKS: [Field<Block, f64>; 6] = [
+    field!("x0", "m", x[0], "Left edge."),
+    field!("x1", "m", x[1], "Right edge."),
+    field!("y0", "m", y[0], "Bottom edge."),
+    field!("y1", "m", y[1], "Top edge."),
+    field!("thickness", "m", thickness, "Thickness out of plane."),
+    field!("specific_weight", "N/m3", specific_weight, "Specific weight."),
+];
+
+/// Real quantities of a panel.
+pub(super) const PANELS: [Field<PanelInfo, f64>; 6] = [
+    field!("reference_length", "m", reference_length, "Length of the reference brick."),
+    field!("reference_height", "m", reference_height, "Height of the reference brick."),
+    field!("reference_mass", "kg", reference_mass, "Mass of the reference brick."),
+    field!("bed_mortar", "m", mortar[0], "Thickness of the bed joints."),
+    field!("head_mortar", "m", mortar[1], "Thickness of the head joints."),
+    field!("connection", "m", connection, "Thickness of the connection to the panel on the left."),
+];
+
+/// Real quantities of a joint.
+pub(super) const JOINTS: [Field<JointRow, f64>; 10] = [
+    field!("weight", "1", joint.weight, "Overlap weight; 1 for head joints."),
+    field!("overlap", "m", joint.overlap, "Contact length."),
+    field!("x0", "m", joint.line[0], "Contact line, start."),
+    field!("y0", "m", joint.line[1], "Contact line, start."),
+    field!("x1", "m", joint.line[2], "Contact line, end."),
+    field!("y1", "m", joint.line[3], "Contact line, end."),
+    field!("stiffness", "N/m", stiffness, "Stiffness, overlap weight and rigidity included."),
+    field!("damping", "N s/m", damping, "Damping, overlap weight included."),
+    field!("normal_force_a", "N", normal_force[0], "Normal force in the equation of a."),
+    field!("normal_force_b", "N", normal_force[1], "Normal force in the equation of b."),
+];
+
+/// Real quantities of friction.
+pub(super) const FRICTION: [Field<FrictionRow, f64>; 5] = [
+    field!("friction_static", "1", static_, "Static coefficient; 0 without friction."),
+    field!("friction_dynamic", "1", dynamic, "Dynamic coefficient; 0 without friction."),
+    field!("friction_slip_velocity", "m/s", slip_velocity, "Slip velocity; 0 without friction."),
+    field!("friction_beta", "1", beta, "Slope of the first branch; 0 without friction."),
+    field!("friction_alpha", "s2/m2", alpha, "Slope of the slip branch; 0 without friction."),
+];
+
+/// Where each channel is kept under `/history`: its name, unless HDF5 could not hold it under that name beside the
+/// others (an empty part, a name already taken, a name that runs through another channel) – then `channel-N`.
+pub(super) fn channel_paths(channels: &[Channel]) -> Vec<String> {
+    let mut datasets = BTreeSet::from(["time".to_string()]);
+    let mut groups = BTreeSet::new();
+    let mut paths = Vec::with_capacity(channels.len());
+    for (index, channel) in channels.iter().enumerate() {
+        let mut path = channel.name.clone();
+        let mut tried = 0;
+        while !is_free(&path, &datasets, &groups) {
+            path = format!("channel-{index}{}", "-".repeat(tried));
+            tried += 1;
+        }
+        groups.extend(parents(&path).map(str::to_string));
+        datasets.insert(path.clone());
+        paths.push(path);
+    }
+    paths
+}
+
+fn is_free(path: &str, datasets: &BTreeSet<String>, groups: &BTreeSet<String>) -> bool {
+    let sound = path.split('/').all(|part| !part.is_empty() && part != "." && part != "..") && !path.contains('\0');
+    sound && !datasets.contains(path) && !groups.contains(path) && !parents(path).any(|p| datasets.contains(p))
+}
+
+/// `a`, `a/b` of `a/b/c`.
+fn parents(path: &str) -> impl Iterator<Item = &str> {
+    path.match_indices('/').map(|(at, _)| &path[..at])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn paths_of(names: &[&str]) -> Vec<String> {
+        let channel = |n: &&str| Channel { name: n.to_string(), unit: "m".into(), description: String::new() };
+        channel_paths(&names.iter().map(channel).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn ordinary_names_are_paths() {
+        let names = ["top/displacement", "joint/p1c1b1|p1c2b1/slip", "energy/friction"];
+        assert_eq!(paths_of(&names), names);
+    }
+
+    #[test]
+    fn names_that_cannot_be_paths_are_numbered() {
+        assert_eq!(paths_of(&["a/b", "a", "a/b/c", "time"]), ["a/b", "channel-1", "channel-2", "channel-3"]);
+        assert_eq!(paths_of(&["", "/x", "a//b", "./a"]), ["channel-0", "channel-1", "channel-2", "channel-3"]);
+        assert_eq!(paths_of(&["a", "a", "a\0b"]), ["a", "channel-1", "channel-2"]);
+        assert_eq!(paths_of(&["channel-1", "channel-1"]), ["channel-1", "channel-1-"]);
+        assert_eq!(paths_of(&["channel-1/a", "channel-1", "channel-\0"]), ["channel-1/a", "channel-1-", "channel-2"]);
+    }
+}

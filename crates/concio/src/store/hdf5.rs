@@ -1,0 +1,216 @@
+//! One HDF5 file per run: `result.h5`. docs/results.md lists every dataset with shape and unit.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::error::{Error, Result};
+use crate::outcome::Outcome;
+use crate::record::{Layout, Recording};
+use crate::store::fields::{self, Field};
+use crate::store::h5::{Sink, label};
+use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, atomic, vtkhdf};
+use crate::wall::{Block, End, PanelInfo, Wall};
+
+pub use crate::store::read::read;
+
+/// Value of the attribute `format` of a result file.
+pub(super) const FORMAT: &str = "concio-result";
+
+/// `b` of a joint on the base, and of one under the top beam.
+pub(super) const BASE: i64 = -1;
+/// See [`BASE`].
+pub(super) const TOP: i64 = -2;
+
+/// Friction of a joint that does not rub, as it is stored.
+pub(super) const NO_FRICTION: FrictionRow = FrictionRow {
+    law: crate::case::FrictionLaw::None,
+    static_: 0.0,
+    dynamic: 0.0,
+    slip_velocity: 0.0,
+    beta: 0.0,
+    alpha: 0.0,
+};
+
+/// Writes a run to `path`: whole or not at all, replacing a file of that name. Equal arguments give equal bytes.
+///
+/// # Errors
+/// [`Error::Store`] when lengths in `outcome` contradict each other or `wall`; [`Error::Io`] when the disk fails.
+pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointRow], outcome: &Outcome) -> Result<()> {
+    check_lengths(path, wall, joints, outcome)?;
+    atomic::replace(path, |temporary| {
+        let mut sink = Sink::create(temporary, path)?;
+        write_head(&mut sink, provenance, outcome)?;
+        write_wall(&mut sink, wall)?;
+        write_joints(&mut sink, joints)?;
+        write_layout(&mut sink, &outcome.layout)?;
+        write_history(&mut sink, &outcome.layout, &outcome.recording)?;
+        write_frames(&mut sink, &outcome.layout, &outcome.recording)?;
+        write_sums(&mut sink, outcome)?;
+        vtkhdf::write_group(&mut sink, wall, outcome)?;
+        sink.close()
+    })
+}
+
+/// Name of a value of a closed set, as wall files spell it.
+pub(super) fn keyword<T: Serialize>(value: &T) -> String {
+    match serde_json::to_value(value) {
+        Ok(serde_json::Value::String(text)) => text,
+        // Only sets without data are stored, and those are texts.
+        _ => String::new(),
+    }
+}
+
+/// Nothing is written from an outcome whose arrays contradict each other.
+pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outcome: &Outcome) -> Result<()> {
+    let (layout, recording) = (&outcome.layout, &outcome.recording);
+    let unknowns = layout.unknowns;
+    let refuse = |what: String| Err(Error::Store { path: path.to_path_buf(), what });
+    let expect = |what: &str, found: usize, expected: usize| {
+        let message = || format!("not written: {what} has {found} values where {expected} are expected");
+        if found == expected { Ok(()) } else { refuse(message()) }
+    };
+    if unknowns < wall.blocks.len() {
+        return refuse(format!("not written: {unknowns} unknowns for {} blocks", wall.blocks.len()));
+    }
+    expect("histories", recording.values.len(), recording.time.len() * layout.channels.len())?;
+    let frame = recording.frame_time.len() * unknowns;
+    expect("frames of displacement", recording.frame_displacement.len(), frame)?;
+    expect("frames of velocity", recording.frame_velocity.len(), frame)?;
+    for field in &fields::BLOCK_ENVELOPES {
+        expect(field.name, (field.get)(&outcome.envelopes).len(), unknowns)?;
+    }
+    for field in &fields::JOINT_ENVELOPES {
+        expect(field.name, (field.get)(&outcome.envelopes).len(), joints.len())?;
+    }
+    Ok(())
+}
+
+fn write_head(sink: &mut Sink, provenance: &Provenance, outcome: &Outcome) -> Result<()> {
+    sink.attribute("/", "format", FORMAT)?;
+    sink.number_attribute("/", "schema_version", i64::from(SCHEMA_VERSION))?;
+    sink.attribute("/", "version", &provenance.version)?;
+    sink.attribute("/", "model", &provenance.model)?;
+    sink.attribute("/", "inputs_hash", &provenance.inputs_hash)?;
+    sink.attribute("/", "stop_reason", &keyword(&outcome.stop_reason))?;
+    sink.number_attribute("/", "time_reached", outcome.time_reached)?;
+    sink.number("schema_version", SCHEMA_VERSION, label("1", "Version of the layout of this file."))?;
+    sink.texts("case", &[&provenance.case_json], "The resolved case, JSON.")
+}
+
+fn write_wall(sink: &mut Sink, wall: &Wall) -> Result<()> {
+    let blocks = &wall.blocks;
+    sink.texts("wall/blocks/name", &names(blocks, |b| &b.name), "Name of the block.")?;
+    let number = |of: fn(&Block) -> usize| blocks.iter().map(|b| of(b) as i64).collect::<Vec<_>>();
+    sink.list("wall/blocks/panel", &number(|b| b.panel), label("1", "Panel, from 0."))?;
+    sink.list("wall/blocks/course", &number(|b| b.course), label("1", "Course in the panel, from 0 at the bottom."))?;
+    let mass: Vec<f64> = blocks.iter().map(Block::mass).collect();
+    sink.list("wall/blocks/mass", &mass, label("kg", "Mass."))?;
+    write_columns(sink, "wall/blocks", &fields::BLOCKS, blocks)?;
+
+    let panels: &[PanelInfo] = &wall.panels;
+    sink.texts("wall/panels/name", &names(panels, |p| &p.name), "Name of the panel.")?;
+    let courses: Vec<i64> = panels.iter().map(|p| p.courses as i64).collect();
+    sink.list("wall/panels/courses", &courses, label("1", "Number of courses."))?;
+    write_columns(sink, "wall/panels", &fields::PANELS, panels)
+}
+
+fn write_joints(sink: &mut Sink, joints: &[JointRow]) -> Result<()> {
+    sink.texts("wall/joints/name", &names(joints, |j| &j.name), "Name of the joint.")?;
+    let kinds: Vec<String> = joints.iter().map(|j| keyword(&j.joint.kind)).collect();
+    sink.texts("wall/joints/kind", &kinds, "bed, head, base, top or connection.")?;
+    let laws: Vec<String> = joints.iter().map(|j| keyword(&j.law)).collect();
+    sink.texts("wall/joints/law", &laws, "Elastic law.")?;
+    let a: Vec<i64> = joints.iter().map(|j| j.joint.a as i64).collect();
+    sink.list("wall/joints/a", &a, label("1", "Index of the block on one side: left, or lower."))?;
+    let b: Vec<i64> = joints.iter().map(|j| other_side(j.joint.b)).collect();
+    sink.list("wall/joints/b", &b, label("1", "Index of the block on the other side; -1 the base, -2 the top beam."))?;
+    write_columns(sink, "wall/joints", &fields::JOINTS, joints)?;
+
+    let friction: Vec<FrictionRow> = joints.iter().map(|j| j.friction.unwrap_or(NO_FRICTION)).collect();
+    let rubs: Vec<u8> = joints.iter().map(|j| u8::from(j.friction.is_some())).collect();
+    sink.list("wall/joints/friction", &rubs, label("1", "1 when the joint rubs, else 0."))?;
+    let laws: Vec<String> = friction.iter().map(|f| keyword(&f.law)).collect();
+    sink.texts("wall/joints/friction_law", &laws, "Friction law.")?;
+    write_columns(sink, "wall/joints", &fields::FRICTION, &friction)
+}
+
+/// The index on disk of a joint's other side.
+pub(super) fn other_side(end: End) -> i64 {
+    match end {
+        End::Block(index) => index as i64,
+        End::Base => BASE,
+        End::Top => TOP,
+    }
+}
+
+fn names<T>(items: &[T], name: fn(&T) -> &String) -> Vec<&str> {
+    items.iter().map(|item| name(item).as_str()).collect()
+}
+
+fn write_columns<T>(sink: &mut Sink, group: &str, columns: &[Field<T, f64>], items: &[T]) -> Result<()> {
+    for column in columns {
+        let values: Vec<f64> = items.iter().map(|item| *(column.get)(item)).collect();
+        sink.list(&format!("{group}/{}", column.name), &values, label(column.unit, column.description))?;
+    }
+    Ok(())
+}
+
+fn write_layout(sink: &mut Sink, layout: &Layout) -> Result<()> {
+    sink.number("layout/interval", layout.interval, label("s", "Interval of the samples."))?;
+    sink.number("layout/samples", layout.samples as u64, label("1", "Samples of the whole run, the first included."))?;
+    sink.number("layout/frame_every", layout.frame_every as u64, label("1", "Samples from frame to frame; 0: none."))?;
+    sink.number("layout/unknowns", layout.unknowns as u64, label("1", "Unknowns: blocks, then the beam's."))?;
+    let names: Vec<&str> = layout.channels.iter().map(|c| c.name.as_str()).collect();
+    sink.texts("layout/channels", &names, "Names of the channels, in order.")?;
+    sink.texts("layout/paths", &fields::channel_paths(&layout.channels), "Where each channel is, under /history.")
+}
+
+fn write_history(sink: &mut Sink, layout: &Layout, recording: &Recording) -> Result<()> {
+    sink.list("history/time", &recording.time, label("s", "Time of the samples."))?;
+    let width = layout.channels.len();
+    let mut column = Vec::with_capacity(recording.time.len());
+    for (index, (channel, path)) in layout.channels.iter().zip(fields::channel_paths(&layout.channels)).enumerate() {
+        column.clear();
+        column.extend(recording.values.chunks_exact(width).map(|row| row[index]));
+        sink.list(&format!("history/{path}"), &column, label(&channel.unit, &channel.description))?;
+    }
+    Ok(())
+}
+
+fn write_frames(sink: &mut Sink, layout: &Layout, recording: &Recording) -> Result<()> {
+    let shape = [recording.frame_time.len(), layout.unknowns];
+    sink.list("frames/time", &recording.frame_time, label("s", "Time of the frames."))?;
+    let displacement = label("m", "Displacement of every unknown relative to the base.");
+    sink.array("frames/displacement", &shape, &recording.frame_displacement, displacement)?;
+    let velocity = label("m/s", "Velocity of every unknown relative to the base.");
+    sink.array("frames/velocity", &shape, &recording.frame_velocity, velocity)
+}
+
+fn write_sums(sink: &mut Sink, outcome: &Outcome) -> Result<()> {
+    for (group, envelopes) in
+        [("envelope/block", &fields::BLOCK_ENVELOPES[..]), ("envelope/joint", &fields::JOINT_ENVELOPES[..])]
+    {
+        for field in envelopes {
+            let values = (field.get)(&outcome.envelopes);
+            sink.list(&format!("{group}/{}", field.name), values, label(field.unit, field.description))?;
+        }
+    }
+    write_numbers(sink, "energy", &fields::ENERGIES, &outcome.energies)?;
+    write_numbers(sink, "totals", &fields::TOTALS, &outcome.totals)?;
+    write_numbers(sink, "counters", &fields::COUNTERS, &outcome.counters)?;
+    sink.number("totals/time_reached", outcome.time_reached, label("s", "Time reached."))
+}
+
+/// Every number as a dataset with its unit and as an attribute of its group.
+fn write_numbers<T, V>(sink: &mut Sink, group: &str, numbers: &[Field<T, V>], of: &T) -> Result<()>
+where
+    V: rust_hdf5::H5Type,
+{
+    for field in numbers {
+        let value = *(field.get)(of);
+        sink.number(&format!("{group}/{}", field.name), value, label(field.unit, field.description))?;
+        sink.number_attribute(group, field.name, value)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,62 @@
+//! One run per folder: a lock on a file in it, which the system gives up when the process ends, however it ends.
+
+use std::fs::{File, TryLockError};
+use std::path::{Path, PathBuf};
+
+use crate::error::{Error, Result};
+use crate::store::journal::{open_options, remove_if_there};
+
+/// A locked folder.
+#[derive(Debug)]
+pub(super) struct Lock {
+    path: PathBuf,
+    file: File,
+}
+
+impl Lock {
+    /// Takes the lock or says that another run has it.
+    pub fn take(folder: &Path) -> Result<Lock> {
+        let path = folder.join("journal.lock");
+        loop {
+            let file = open_options().truncate(false).open(&path).map_err(|e| Error::io(&path, e))?;
+            match file.try_lock() {
+                Ok(()) => {}
+                Err(TryLockError::WouldBlock) => {
+                    let what = "another run is writing to this folder; wait for it or choose another folder";
+                    return Err(Error::Store { path: folder.to_path_buf(), what: what.into() });
+                }
+                Err(TryLockError::Error(e)) => return Err(Error::io(&path, e)),
+            }
+            // Between opening and locking, a run that ended may have removed the file: a lock on a file without a
+            // name keeps nobody out.
+            if still_named(&file, &path) {
+                return Ok(Lock { path, file });
+            }
+        }
+    }
+
+    /// Removes the file, then gives up the lock.
+    pub fn remove(self) -> Result<()> {
+        // Windows does not remove a file that is open; there the order cannot matter, because nobody can open a
+        // file that is about to go.
+        if cfg!(windows) {
+            drop(self.file);
+            return remove_if_there(&self.path);
+        }
+        remove_if_there(&self.path)
+    }
+}
+
+#[cfg(unix)]
+fn still_named(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    match (file.metadata(), std::fs::metadata(path)) {
+        (Ok(ours), Ok(named)) => ours.ino() == named.ino() && ours.dev() == named.dev(),
+        _ => false,
+    }
+}
+
+#[cfg(not(unix))]
+fn still_named(_file: &File, path: &Path) -> bool {
+    path.exists()
+}

@@ -1,0 +1,86 @@
+//! What a run leaves on disk: one HDF5 file when it is over ([`hdf5`], with a [`vtkhdf`] group in it), a [`journal`]
+//! while it goes on, a [`summary`] in JSON, and copies in other formats ([`export`]). docs/results.md describes them all.
+
+mod atomic;
+pub mod export;
+mod fields;
+mod h5;
+pub mod hdf5;
+pub mod journal;
+mod read;
+pub mod summary;
+pub mod vtkhdf;
+
+use crate::case::{FrictionLaw, SpringLaw};
+use crate::outcome::Outcome;
+use crate::wall::{Joint, Wall};
+
+pub use journal::{Journal, JournalHeader};
+pub use summary::{RunFacts, summary, write_summary};
+
+/// Version of the layout of result files; raised when a reader of the former version would misread a file.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// Where a result comes from. Nothing in it depends on clock, machine or folder: equal inputs give equal files.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Provenance {
+    /// The resolved case, as JSON.
+    pub case_json: String,
+    /// Hash over everything the result depends on: case, records, version.
+    pub inputs_hash: String,
+    /// Version of Concio.
+    pub version: String,
+    /// Model solved: `shear`, `planar`.
+    pub model: String,
+}
+
+/// A joint and the numbers it was compiled to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointRow {
+    /// Geometry.
+    pub joint: Joint,
+    /// Unique name, `p1c1b1|p1c2b1`.
+    pub name: String,
+    /// Elastic law.
+    pub law: SpringLaw,
+    /// Stiffness as it acts [N/m]: overlap weight, and rigidity of a no-tension joint, included.
+    pub stiffness: f64,
+    /// Damping as it acts [N s/m]: overlap weight included.
+    pub damping: f64,
+    /// Normal force in the equation of `a` and of `b` [N]; equal unless `overburden`.
+    pub normal_force: [f64; 2],
+    /// Friction; none for a joint that does not rub.
+    pub friction: Option<FrictionRow>,
+}
+
+/// Friction of one joint (model, equation 6).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionRow {
+    /// The law.
+    pub law: FrictionLaw,
+    /// μ_s.
+    pub static_: f64,
+    /// μ_d.
+    pub dynamic: f64,
+    /// δ_v [m/s].
+    pub slip_velocity: f64,
+    /// β.
+    pub beta: f64,
+    /// α [s²/m²].
+    pub alpha: f64,
+}
+
+/// Everything a result file holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredRun {
+    /// Layout version of the file.
+    pub schema_version: u32,
+    /// Inputs and version.
+    pub provenance: Provenance,
+    /// Blocks and panels.
+    pub wall: Wall,
+    /// Joints.
+    pub joints: Vec<JointRow>,
+    /// Histories, frames, envelopes, energies, totals, counters.
+    pub outcome: Outcome,
+}

@@ -1,0 +1,232 @@
+//! Reading a result file back. A file that is foreign, broken, cut short or from a later version is an error.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use serde::de::IntoDeserializer;
+use serde::de::value::{Error as KeywordError, StrDeserializer};
+
+use crate::case::JointKind;
+use crate::error::Result;
+use crate::outcome::{Outcome, Totals};
+use crate::record::{Channel, Counters, Energies, Envelopes, Layout, Recording};
+use crate::store::fields::{self, Field};
+use crate::store::h5::Source;
+use crate::store::hdf5::{BASE, FORMAT, NO_FRICTION, TOP};
+use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, StoredRun};
+use crate::wall::{Block, End, Joint, PanelInfo, Wall};
+
+/// Reads a run back from `path`, bit for bit what was written.
+///
+/// # Errors
+/// [`Error::Store`](crate::Error::Store) when the file is not a whole result of this schema version;
+/// [`Error::Io`](crate::Error::Io) when it cannot be opened.
+pub fn read(path: &Path) -> Result<StoredRun> {
+    let source = Source::open(path)?;
+    let schema_version = check_format(&source)?;
+    let wall = Wall { panels: read_panels(&source)?, blocks: read_blocks(&source)? };
+    let joints = read_joints(&source, wall.blocks.len())?;
+    let layout = read_layout(&source)?;
+    if layout.unknowns < wall.blocks.len() {
+        let what = format!("is {} for {} blocks", layout.unknowns, wall.blocks.len());
+        return Err(source.wrong("layout/unknowns", what));
+    }
+    let recording = read_recording(&source, &layout)?;
+    let envelopes = read_envelopes(&source, layout.unknowns, joints.len())?;
+    let outcome = Outcome {
+        recording,
+        envelopes,
+        energies: read_numbers(&source, "energy", &fields::ENERGIES, Energies::default())?,
+        totals: read_numbers(&source, "totals", &fields::TOTALS, Totals::default())?,
+        counters: read_numbers(&source, "counters", &fields::COUNTERS, Counters::default())?,
+        stop_reason: keyword(&source, "stop_reason", &source.attribute("stop_reason")?)?,
+        time_reached: source.number("totals/time_reached")?,
+        layout,
+    };
+    Ok(StoredRun { schema_version, provenance: read_provenance(&source)?, wall, joints, outcome })
+}
+
+fn check_format(source: &Source) -> Result<u32> {
+    // A file without the attribute is HDF5 of someone else: saying so helps more than the name of the attribute.
+    if source.attribute("format").ok().as_deref() != Some(FORMAT) {
+        return Err(source.wrong("/", format!("is not a result of Concio (no attribute `format` = `{FORMAT}`)")));
+    }
+    match source.number::<u32>("schema_version")? {
+        SCHEMA_VERSION => Ok(SCHEMA_VERSION),
+        other => Err(source.wrong("schema_version", format!("is {other}; this version reads {SCHEMA_VERSION}"))),
+    }
+}
+
+fn read_provenance(source: &Source) -> Result<Provenance> {
+    Ok(Provenance {
+        case_json: source.texts("case")?.into_iter().next().ok_or_else(|| source.wrong("case", "is empty".into()))?,
+        inputs_hash: source.attribute("inputs_hash")?,
+        version: source.attribute("version")?,
+        model: source.attribute("model")?,
+    })
+}
+
+fn read_panels(source: &Source) -> Result<Vec<PanelInfo>> {
+    let names = source.texts("wall/panels/name")?;
+    let courses: Vec<i64> = source.list("wall/panels/courses", names.len())?;
+    let mut panels = Vec::with_capacity(names.len());
+    for (name, courses) in names.into_iter().zip(courses) {
+        panels.push(PanelInfo {
+            name,
+            courses: index(source, "wall/panels/courses", courses)?,
+            reference_length: 0.0,
+            reference_height: 0.0,
+            reference_mass: 0.0,
+            mortar: [0.0; 2],
+            connection: 0.0,
+        });
+    }
+    read_columns(source, "wall/panels", &fields::PANELS, &mut panels)?;
+    Ok(panels)
+}
+
+fn read_blocks(source: &Source) -> Result<Vec<Block>> {
+    let names = source.texts("wall/blocks/name")?;
+    let panels: Vec<i64> = source.list("wall/blocks/panel", names.len())?;
+    let courses: Vec<i64> = source.list("wall/blocks/course", names.len())?;
+    let mut blocks = Vec::with_capacity(names.len());
+    for ((name, panel), course) in names.into_iter().zip(panels).zip(courses) {
+        blocks.push(Block {
+            name,
+            panel: index(source, "wall/blocks/panel", panel)?,
+            course: index(source, "wall/blocks/course", course)?,
+            x: [0.0; 2],
+            y: [0.0; 2],
+            thickness: 0.0,
+            specific_weight: 0.0,
+        });
+    }
+    read_columns(source, "wall/blocks", &fields::BLOCKS, &mut blocks)?;
+    Ok(blocks)
+}
+
+fn read_joints(source: &Source, blocks: usize) -> Result<Vec<JointRow>> {
+    let names = source.texts("wall/joints/name")?;
+    let kinds: Vec<JointKind> = read_keywords(source, "wall/joints/kind", names.len())?;
+    let laws = read_keywords(source, "wall/joints/law", names.len())?;
+    let a: Vec<i64> = source.list("wall/joints/a", names.len())?;
+    let b: Vec<i64> = source.list("wall/joints/b", names.len())?;
+    let friction = read_friction(source, names.len())?;
+    let mut joints = Vec::with_capacity(names.len());
+    for (k, name) in names.into_iter().enumerate() {
+        let a = block(source, "wall/joints/a", a[k], blocks)?;
+        let b = match b[k] {
+            BASE => End::Base,
+            TOP => End::Top,
+            other => End::Block(block(source, "wall/joints/b", other, blocks)?),
+        };
+        let joint = Joint { kind: kinds[k], a, b, weight: 0.0, overlap: 0.0, line: [0.0; 4] };
+        let (law, friction) = (laws[k], friction[k]);
+        joints.push(JointRow { joint, name, law, stiffness: 0.0, damping: 0.0, normal_force: [0.0; 2], friction });
+    }
+    read_columns(source, "wall/joints", &fields::JOINTS, &mut joints)?;
+    Ok(joints)
+}
+
+fn read_friction(source: &Source, joints: usize) -> Result<Vec<Option<FrictionRow>>> {
+    let rubs: Vec<u8> = source.list("wall/joints/friction", joints)?;
+    let laws = read_keywords(source, "wall/joints/friction_law", joints)?;
+    let mut rows: Vec<FrictionRow> = laws.into_iter().map(|law| FrictionRow { law, ..NO_FRICTION }).collect();
+    read_columns(source, "wall/joints", &fields::FRICTION, &mut rows)?;
+    Ok(rows.into_iter().zip(rubs).map(|(row, rubs)| (rubs != 0).then_some(row)).collect())
+}
+
+fn read_layout(source: &Source) -> Result<Layout> {
+    let names = source.texts("layout/channels")?;
+    let unlabelled = |name| Channel { name, unit: String::new(), description: String::new() };
+    let mut channels: Vec<Channel> = names.into_iter().map(unlabelled).collect();
+    for (path, channel) in fields::channel_paths(&channels).iter().zip(&mut channels) {
+        let dataset = format!("history/{path}");
+        channel.unit = source.label(&dataset, "unit")?;
+        channel.description = source.label(&dataset, "description")?;
+    }
+    Ok(Layout {
+        interval: source.number("layout/interval")?,
+        samples: count(source, "layout/samples")?,
+        frame_every: count(source, "layout/frame_every")?,
+        unknowns: count(source, "layout/unknowns")?,
+        channels,
+    })
+}
+
+fn read_recording(source: &Source, layout: &Layout) -> Result<Recording> {
+    let time: Vec<f64> = source.array("history/time", &[None])?;
+    let width = layout.channels.len();
+    let mut values = vec![0.0; time.len() * width];
+    for (index, path) in fields::channel_paths(&layout.channels).iter().enumerate() {
+        let column: Vec<f64> = source.list(&format!("history/{path}"), time.len())?;
+        for (row, value) in values.chunks_exact_mut(width).zip(column) {
+            row[index] = value;
+        }
+    }
+    let frame_time: Vec<f64> = source.array("frames/time", &[None])?;
+    let shape = [Some(frame_time.len()), Some(layout.unknowns)];
+    let frame_displacement = source.array("frames/displacement", &shape)?;
+    let frame_velocity = source.array("frames/velocity", &shape)?;
+    Ok(Recording { time, values, frame_time, frame_displacement, frame_velocity })
+}
+
+fn read_envelopes(source: &Source, unknowns: usize, joints: usize) -> Result<Envelopes> {
+    let mut envelopes = Envelopes::default();
+    for field in &fields::BLOCK_ENVELOPES {
+        *(field.slot)(&mut envelopes) = source.list(&format!("envelope/block/{}", field.name), unknowns)?;
+    }
+    for field in &fields::JOINT_ENVELOPES {
+        *(field.slot)(&mut envelopes) = source.list(&format!("envelope/joint/{}", field.name), joints)?;
+    }
+    Ok(envelopes)
+}
+
+fn read_numbers<T, V: rust_hdf5::H5Type>(
+    source: &Source,
+    group: &str,
+    numbers: &[Field<T, V>],
+    mut into: T,
+) -> Result<T> {
+    for field in numbers {
+        *(field.slot)(&mut into) = source.number(&format!("{group}/{}", field.name))?;
+    }
+    Ok(into)
+}
+
+fn read_columns<T>(source: &Source, group: &str, columns: &[Field<T, f64>], items: &mut [T]) -> Result<()> {
+    for column in columns {
+        let values: Vec<f64> = source.list(&format!("{group}/{}", column.name), items.len())?;
+        for (item, value) in items.iter_mut().zip(values) {
+            *(column.slot)(item) = value;
+        }
+    }
+    Ok(())
+}
+
+fn read_keywords<T: for<'de> Deserialize<'de>>(source: &Source, name: &str, length: usize) -> Result<Vec<T>> {
+    let texts = source.texts(name)?;
+    if texts.len() != length {
+        return Err(source.wrong(name, format!("has {} entries, expected {length}", texts.len())));
+    }
+    texts.iter().map(|text| keyword(source, name, text)).collect()
+}
+
+fn keyword<T: for<'de> Deserialize<'de>>(source: &Source, name: &str, text: &str) -> Result<T> {
+    let deserializer: StrDeserializer<KeywordError> = text.into_deserializer();
+    T::deserialize(deserializer).map_err(|e| source.wrong(name, format!("holds an {e}")))
+}
+
+fn count(source: &Source, name: &str) -> Result<usize> {
+    let value: u64 = source.number(name)?;
+    usize::try_from(value).map_err(|_| source.wrong(name, format!("is {value}, too large")))
+}
+
+fn index(source: &Source, name: &str, value: i64) -> Result<usize> {
+    usize::try_from(value).map_err(|_| source.wrong(name, format!("holds {value}, expected 0 or more")))
+}
+
+fn block(source: &Source, name: &str, value: i64, blocks: usize) -> Result<usize> {
+    let index = index(source, name, value)?;
+    if index < blocks { Ok(index) } else { Err(source.wrong(name, format!("names block {index} of {blocks}"))) }
+}

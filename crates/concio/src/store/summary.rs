@@ -1,0 +1,92 @@
+//! `summary.json`: the numbers of a run that other programs read.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use crate::error::{Error, Result};
+use crate::outcome::Outcome;
+use crate::record::Energies;
+use crate::store::{JointRow, Provenance, atomic};
+use crate::wall::Wall;
+
+/// What a run knows beside its outcome.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RunFacts {
+    /// Duration asked for [s].
+    pub duration: f64,
+    /// Time by the clock that solving took [s].
+    pub solve_seconds: f64,
+    /// What the user should know, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// The content of summary.json; keys and units in docs/results.md. A value that is not finite becomes `null`, because
+/// JSON knows no other.
+pub fn summary(
+    provenance: &Provenance,
+    wall: &Wall,
+    joints: &[JointRow],
+    outcome: &Outcome,
+    facts: &RunFacts,
+) -> Value {
+    let totals = &outcome.totals;
+    json!({
+        "blocks": wall.blocks.len(),
+        "joints": joints.len(),
+        "unknowns": outcome.layout.unknowns,
+        "model": provenance.model,
+        "duration": facts.duration,
+        "time_reached": outcome.time_reached,
+        "stop_reason": outcome.stop_reason,
+        "steps": outcome.counters.steps,
+        "solve_seconds": facts.solve_seconds,
+        "peak_relative_displacement": totals.peak_relative_displacement,
+        "peak_slip_velocity": totals.peak_slip_velocity,
+        "top_work": outcome.energies.input_top,
+        "top_force_peak": totals.top_force_peak,
+        "top_force_rms": top_force_rms(outcome),
+        "minimum_gap": totals.minimum_gap,
+        "energy": energy(&outcome.energies, residual_relative(outcome)),
+        "counters": outcome.counters,
+        "inputs_hash": provenance.inputs_hash,
+        "version": provenance.version,
+        "warnings": facts.warnings,
+    })
+}
+
+/// Writes a summary: whole or not at all.
+///
+/// # Errors
+/// [`Error::Io`] when the disk fails.
+pub fn write_summary(path: &Path, summary: &Value) -> Result<()> {
+    let text = serde_json::to_string_pretty(summary);
+    let mut text = text.map_err(|e| Error::Store { path: path.to_path_buf(), what: e.to_string() })?;
+    text.push('\n');
+    atomic::replace_bytes(path, text.as_bytes())
+}
+
+/// Largest residual of the energy account over the largest work done on the wall, both over the whole run; 0 when
+/// no work was done. The work at the end is no measure: what a driven beam gives it may take back.
+pub fn residual_relative(outcome: &Outcome) -> f64 {
+    let totals = &outcome.totals;
+    if totals.peak_input == 0.0 { 0.0 } else { totals.peak_residual / totals.peak_input }
+}
+
+/// Root mean square of the force of the top beam over the time reached [N].
+pub fn top_force_rms(outcome: &Outcome) -> f64 {
+    if outcome.time_reached > 0.0 { (outcome.totals.top_force_square / outcome.time_reached).sqrt() } else { 0.0 }
+}
+
+fn energy(energies: &Energies, residual_relative: f64) -> Value {
+    json!({
+        "input": energies.input(),
+        "kinetic": energies.kinetic,
+        "elastic": energies.elastic,
+        "damping": energies.damping,
+        "friction": energies.friction,
+        "bond": energies.bond,
+        "nonreciprocal": energies.nonreciprocal,
+        "residual_relative": residual_relative,
+    })
+}

@@ -1,0 +1,133 @@
+//! The VTKHDF view of a run: one quadrilateral per block, one step per frame, so that ParaView and `vtkHDFReader`
+//! play a result file as it is. Format: VTK file formats, "VTKHDF", transient UnstructuredGrid, version 2.0.
+//!
+//! Blocks share no points: four points each, in the order of the blocks, counter-clockwise from the bottom left.
+
+use std::path::Path;
+
+use crate::error::Result;
+use crate::outcome::Outcome;
+use crate::store::fields;
+use crate::store::h5::{Label, Sink, label};
+use crate::store::{StoredRun, atomic, hdf5};
+use crate::wall::{Block, Wall};
+
+/// VTK's number of the four-cornered cell.
+const VTK_QUAD: u8 = 9;
+/// Corners of a block.
+const CORNERS: usize = 4;
+
+/// Writes the VTKHDF group alone to a file of its own (by custom `.vtkhdf`).
+///
+/// # Errors
+/// [`Error::Io`](crate::Error::Io) or [`Error::Store`](crate::Error::Store) when it cannot be written.
+pub fn write(path: &Path, run: &StoredRun) -> Result<()> {
+    hdf5::check_lengths(path, &run.wall, &run.joints, &run.outcome)?;
+    atomic::replace(path, |temporary| {
+        let mut sink = Sink::create(temporary, path)?;
+        write_group(&mut sink, &run.wall, &run.outcome)?;
+        sink.close()
+    })
+}
+
+/// Writes the group `/VTKHDF`.
+pub(super) fn write_group(sink: &mut Sink, wall: &Wall, outcome: &Outcome) -> Result<()> {
+    sink.list_attribute("VTKHDF", "Version", &[2i64, 0])?;
+    sink.ascii_attribute("VTKHDF", "Type", "UnstructuredGrid")?;
+    write_grid(sink, &wall.blocks)?;
+    write_constant_data(sink, &wall.blocks, outcome)?;
+    if outcome.recording.frame_time.is_empty() {
+        return Ok(());
+    }
+    write_moving_data(sink, wall.blocks.len(), outcome)?;
+    write_steps(sink, wall.blocks.len(), &outcome.recording.frame_time)
+}
+
+fn write_grid(sink: &mut Sink, blocks: &[Block]) -> Result<()> {
+    let points = blocks.len() * CORNERS;
+    let none = |description| label("1", description);
+    sink.list("VTKHDF/NumberOfPoints", &[points as i64], none("Points of the grid."))?;
+    sink.list("VTKHDF/NumberOfCells", &[blocks.len() as i64], none("Cells of the grid: the blocks."))?;
+    sink.list("VTKHDF/NumberOfConnectivityIds", &[points as i64], none("Entries of Connectivity."))?;
+    let corners: Vec<f64> = blocks.iter().flat_map(corners).flatten().collect();
+    sink.array("VTKHDF/Points", &[points, 3], &corners, label("m", "Corners of the blocks at rest."))?;
+    let connectivity: Vec<i64> = (0..points as i64).collect();
+    sink.list("VTKHDF/Connectivity", &connectivity, none("Points of the cells."))?;
+    let offsets: Vec<i64> = (0..=blocks.len() as i64).map(|k| k * CORNERS as i64).collect();
+    sink.list("VTKHDF/Offsets", &offsets, none("Where the points of a cell start."))?;
+    sink.list("VTKHDF/Types", &vec![VTK_QUAD; blocks.len()], none("Kind of cell."))
+}
+
+fn corners(block: &Block) -> [[f64; 3]; CORNERS] {
+    let ([x0, x1], [y0, y1]) = (block.x, block.y);
+    [[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]]
+}
+
+fn write_constant_data(sink: &mut Sink, blocks: &[Block], outcome: &Outcome) -> Result<()> {
+    for (name, values, label) in constant_data(blocks, outcome) {
+        sink.list(&format!("VTKHDF/CellData/{name}"), &values, label)?;
+    }
+    Ok(())
+}
+
+/// What does not change from frame to frame: name, one value per block, label.
+fn constant_data<'a>(blocks: &[Block], outcome: &'a Outcome) -> Vec<(String, Vec<f64>, Label<'a>)> {
+    let of = |value: fn(&Block) -> f64| blocks.iter().map(value).collect::<Vec<f64>>();
+    let mut data = vec![
+        ("mass".to_string(), of(Block::mass), label("kg", "Mass.")),
+        ("course".to_string(), of(|b| b.course as f64), label("1", "Course in the panel, from 0 at the bottom.")),
+        ("panel".to_string(), of(|b| b.panel as f64), label("1", "Panel, from 0.")),
+    ];
+    for field in &fields::BLOCK_ENVELOPES {
+        // The beam, if it has an unknown, comes after the blocks and has no cell.
+        let values = (field.get)(&outcome.envelopes)[..blocks.len()].to_vec();
+        data.push((format!("peak_{}", field.name), values, label(field.unit, field.description)));
+    }
+    data
+}
+
+fn write_moving_data(sink: &mut Sink, blocks: usize, outcome: &Outcome) -> Result<()> {
+    let (recording, unknowns) = (&outcome.recording, outcome.layout.unknowns);
+    let frames = recording.frame_time.len();
+    let displacement = label("m", "Displacement relative to the base.");
+    let points = [frames, blocks * CORNERS, 3];
+    sink.frames("VTKHDF/PointData/displacement", points, displacement, |frame, row: &mut [f32]| {
+        let values = &recording.frame_displacement[frame * unknowns..];
+        for (corners, value) in row.chunks_exact_mut(3 * CORNERS).zip(values) {
+            corners.iter_mut().step_by(3).for_each(|x| *x = *value as f32);
+        }
+    })?;
+    let velocity = label("m/s", "Velocity relative to the base.");
+    sink.frames("VTKHDF/CellData/velocity", [frames, blocks, 3], velocity, |frame, row: &mut [f32]| {
+        let values = &recording.frame_velocity[frame * unknowns..];
+        for (vector, value) in row.chunks_exact_mut(3).zip(values) {
+            vector[0] = *value as f32;
+        }
+    })
+}
+
+/// One step per frame; the grid and the constant data start at 0 in all of them.
+fn write_steps(sink: &mut Sink, blocks: usize, times: &[f64]) -> Result<()> {
+    let steps = times.len();
+    let none = label("1", "Offset of each step.");
+    sink.number_attribute("VTKHDF/Steps", "NSteps", steps as i64)?;
+    sink.list("VTKHDF/Steps/Values", times, label("s", "Time of each step."))?;
+    let zeros = vec![0i64; steps];
+    sink.list("VTKHDF/Steps/NumberOfParts", &vec![1i64; steps], label("1", "Pieces of the grid in each step."))?;
+    for name in ["PartOffsets", "PointOffsets"] {
+        sink.list(&format!("VTKHDF/Steps/{name}"), &zeros, none)?;
+    }
+    for name in ["CellOffsets", "ConnectivityIdOffsets"] {
+        sink.array(&format!("VTKHDF/Steps/{name}"), &[steps, 1], &zeros, none)?;
+    }
+    let every = |length: usize| (0..steps).map(|k| (k * length) as i64).collect::<Vec<_>>();
+    sink.list("VTKHDF/Steps/PointDataOffsets/displacement", &every(blocks * CORNERS), none)?;
+    sink.list("VTKHDF/Steps/CellDataOffsets/velocity", &every(blocks), none)?;
+    for name in ["mass", "course", "panel"] {
+        sink.list(&format!("VTKHDF/Steps/CellDataOffsets/{name}"), &zeros, none)?;
+    }
+    for field in &fields::BLOCK_ENVELOPES {
+        sink.list(&format!("VTKHDF/Steps/CellDataOffsets/peak_{}", field.name), &zeros, none)?;
+    }
+    Ok(())
+}

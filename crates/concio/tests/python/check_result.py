@@ -1,0 +1,328 @@
+"""Checks a result file of Concio with the readers that its users have: h5py, NumPy and VTK.
+
+    python check_result.py result.h5 [--csv DIR] [--npz FILE] [--vtkhdf FILE]
+
+Needs h5py, numpy and vtk. Ends with status 1 at the first mismatch.
+"""
+
+import argparse
+import csv
+import json
+import pathlib
+
+import h5py
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkIOHDF import vtkHDFReader
+
+BLOCK_ENVELOPES = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s2"}
+JOINT_ENVELOPES = BLOCK_ENVELOPES | {
+    "slip": "m",
+    "opening": "m",
+    "closing": "m",
+    "force": "N",
+    "dissipation": "J",
+}
+ENERGIES = ["input_base", "input_top", "kinetic", "elastic", "damping", "friction", "bond", "nonreciprocal"]
+TOTALS = {
+    "peak_relative_displacement": "m",
+    "peak_slip_velocity": "m/s",
+    "top_force_peak": "N",
+    "top_force_square": "N2 s",
+    "minimum_gap": "m",
+    "peak_input": "J",
+    "peak_residual": "J",
+    "time_reached": "s",
+}
+COUNTERS = ["steps", "rejected", "failed", "iterations", "factorisations"]
+BLOCK_COLUMNS = {"x0": "m", "x1": "m", "y0": "m", "y1": "m", "thickness": "m", "specific_weight": "N/m3", "mass": "kg"}
+PANEL_COLUMNS = {
+    "reference_length": "m",
+    "reference_height": "m",
+    "reference_mass": "kg",
+    "bed_mortar": "m",
+    "head_mortar": "m",
+    "connection": "m",
+}
+JOINT_COLUMNS = {
+    "weight": "1",
+    "overlap": "m",
+    "x0": "m",
+    "y0": "m",
+    "x1": "m",
+    "y1": "m",
+    "stiffness": "N/m",
+    "damping": "N s/m",
+    "normal_force_a": "N",
+    "normal_force_b": "N",
+    "friction_static": "1",
+    "friction_dynamic": "1",
+    "friction_slip_velocity": "m/s",
+    "friction_beta": "1",
+    "friction_alpha": "s2/m2",
+}
+STOP_REASONS = {"completed", "interrupted", "step-too-short", "not-finite"}
+G = 9.81
+
+
+def require(condition, message):
+    if not condition:
+        raise SystemExit(f"mismatch: {message}")
+
+
+def equal(a, b, message):
+    a, b = np.asarray(a), np.asarray(b)
+    require(a.shape == b.shape, f"{message}: shape {a.shape} against {b.shape}")
+    floating = np.issubdtype(a.dtype, np.floating)
+    require(np.array_equal(a, b, equal_nan=floating), f"{message}: values differ")
+
+
+class Result:
+    """A result file, every dataset of which must be asked for."""
+
+    def __init__(self, path):
+        self.file = h5py.File(path, "r")
+        self.asked = set()
+
+    def array(self, name, shape, kind, unit):
+        require(name in self.file, f"{name} is missing")
+        self.asked.add(name)
+        dataset = self.file[name]
+        require(dataset.shape == shape, f"{name}: shape {dataset.shape}, expected {shape}")
+        require(dataset.dtype == np.dtype(kind), f"{name}: type {dataset.dtype}, expected {kind}")
+        require(dataset.attrs["unit"] == unit, f"{name}: unit {dataset.attrs['unit']!r}, expected {unit!r}")
+        require(isinstance(dataset.attrs["description"], str), f"{name}: no description")
+        return dataset[()]
+
+    def texts(self, name, length=None):
+        require(name in self.file, f"{name} is missing")
+        self.asked.add(name)
+        texts = self.file[name].asstr()[()]
+        require(length is None or texts.shape == (length,), f"{name}: {texts.shape} texts, expected {length}")
+        return list(texts)
+
+    def check_nothing_left(self):
+        found = set()
+        self.file.visititems(lambda name, item: found.add(name) if isinstance(item, h5py.Dataset) else None)
+        require(found == self.asked, f"datasets not documented or not there: {sorted(found ^ self.asked)}")
+
+
+def check_head(result):
+    attributes = result.file.attrs
+    require(attributes["format"] == "concio-result", "attribute format")
+    require(attributes["schema_version"] == 1, "attribute schema_version")
+    require(attributes["stop_reason"] in STOP_REASONS, f"stop_reason {attributes['stop_reason']!r}")
+    for name in ["version", "model", "inputs_hash"]:
+        require(isinstance(attributes[name], str) and attributes[name], f"attribute {name}")
+    require(result.array("schema_version", (), "u4", "1") == 1, "schema_version")
+    (case,) = result.texts("case", 1)
+    require(isinstance(json.loads(case), dict), "case is no JSON object")
+
+
+def check_wall(result):
+    names = result.texts("wall/blocks/name")
+    n = len(names)
+    require(len(set(names)) == n, "names of blocks repeat")
+    panels = result.texts("wall/panels/name")
+    panel = result.array("wall/blocks/panel", (n,), "i8", "1")
+    course = result.array("wall/blocks/course", (n,), "i8", "1")
+    courses = result.array("wall/panels/courses", (len(panels),), "i8", "1")
+    require(((panel >= 0) & (panel < len(panels))).all(), "panel out of range")
+    require(((course >= 0) & (course < courses[panel])).all(), "course out of range")
+    blocks = {key: result.array(f"wall/blocks/{key}", (n,), "f8", unit) for key, unit in BLOCK_COLUMNS.items()}
+    volume = (blocks["x1"] - blocks["x0"]) * (blocks["y1"] - blocks["y0"]) * blocks["thickness"]
+    require(np.allclose(blocks["mass"], volume * blocks["specific_weight"] / G, rtol=1e-14), "mass is not γ L H B / g")
+    for key, unit in PANEL_COLUMNS.items():
+        result.array(f"wall/panels/{key}", (len(panels),), "f8", unit)
+    return names, blocks | {"panel": panel, "course": course}
+
+
+def check_joints(result, blocks):
+    names = result.texts("wall/joints/name")
+    n = len(names)
+    kinds = result.texts("wall/joints/kind", n)
+    a = result.array("wall/joints/a", (n,), "i8", "1")
+    b = result.array("wall/joints/b", (n,), "i8", "1")
+    require(((a >= 0) & (a < blocks)).all() and ((b >= -2) & (b < blocks)).all(), "joints out of range")
+    for kind, other in zip(kinds, b):
+        require(kind in {"bed", "head", "connection"} if other >= 0 else kind == {-1: "base", -2: "top"}[other], kind)
+    laws = result.texts("wall/joints/law", n)
+    require(set(laws) <= {"elastic", "no-tension", "rigid", "none"}, f"laws {set(laws)}")
+    rubs = result.array("wall/joints/friction", (n,), "u1", "1")
+    friction_laws = result.texts("wall/joints/friction_law", n)
+    require(set(friction_laws) <= {"stribeck", "coulomb", "none"}, f"friction laws {set(friction_laws)}")
+    columns = {key: result.array(f"wall/joints/{key}", (n,), "f8", unit) for key, unit in JOINT_COLUMNS.items()}
+    require(not columns["friction_static"][rubs == 0].any(), "a joint that does not rub has a coefficient")
+    return names, columns
+
+
+def check_history(result):
+    file = result.file
+    interval = result.array("layout/interval", (), "f8", "s")
+    samples = int(result.array("layout/samples", (), "u8", "1"))
+    result.array("layout/frame_every", (), "u8", "1")
+    time = result.array("history/time", file["history/time"].shape, "f8", "s")
+    require(time.ndim == 1 and len(time) <= samples, "more samples than the layout has")
+    require(np.allclose(time, interval * np.arange(len(time)), rtol=1e-12), "samples are not at k times the interval")
+    names = result.texts("layout/channels")
+    paths = result.texts("layout/paths", len(names))
+    units = [file[f"history/{path}"].attrs["unit"] for path in paths]
+    values = [result.array(f"history/{p}", time.shape, "f8", u) for p, u in zip(paths, units)]
+    return time, [f"{name} [{unit}]" if unit != "1" else name for name, unit in zip(names, units)], values
+
+
+def check_frames(result, unknowns):
+    frames = result.file["frames/time"].shape[0]
+    time = result.array("frames/time", (frames,), "f8", "s")
+    require((np.diff(time) > 0).all(), "times of frames do not rise")
+    displacement = result.array("frames/displacement", (frames, unknowns), "f8", "m")
+    velocity = result.array("frames/velocity", (frames, unknowns), "f8", "m/s")
+    return time, displacement, velocity
+
+
+def check_sums(result, unknowns, joints):
+    blocks = {k: result.array(f"envelope/block/{k}", (unknowns,), "f8", u) for k, u in BLOCK_ENVELOPES.items()}
+    joints = {k: result.array(f"envelope/joint/{k}", (joints,), "f8", u) for k, u in JOINT_ENVELOPES.items()}
+    units = {"energy": dict.fromkeys(ENERGIES, "J"), "totals": TOTALS, "counters": dict.fromkeys(COUNTERS, "1")}
+    for group, numbers in units.items():
+        for name, unit in numbers.items():
+            value = result.array(f"{group}/{name}", (), "u8" if group == "counters" else "f8", unit)
+            if name != "time_reached":
+                equal(result.file[group].attrs[name], value, f"attribute {name} of {group}")
+    equal(result.file.attrs["time_reached"], result.file["totals/time_reached"][()], "attribute time_reached")
+    return blocks, joints
+
+
+def check_vtkhdf_tree(result):
+    """Notes the datasets of the group; their content is checked through VTK itself."""
+    group = result.file["VTKHDF"]
+    require(group.attrs["Type"] == b"UnstructuredGrid", "Type of VTKHDF")
+    equal(group.attrs["Version"], [2, 0], "Version of VTKHDF")
+    names = []
+    group.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
+    result.asked.update(f"VTKHDF/{name}" for name in names)
+
+
+def check_vtk(path, blocks, envelopes, time, displacement, velocity):
+    """Compares what vtkHDFReader makes of the file, step by step, with the datasets."""
+    n = len(blocks["x0"])
+    reader = vtkHDFReader()
+    require(reader.CanReadFile(str(path)), f"VTK refuses {path}")
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    information = reader.GetOutputInformation(0)
+    steps = information.Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS()) or ()
+    equal(np.array(steps, dtype=float), time, f"{path}: times of the steps")
+    require(reader.GetNumberOfSteps() == max(len(time), 1), f"{path}: {reader.GetNumberOfSteps()} steps")
+    corners = np.zeros((n, 4, 3))
+    corners[:, :, 0] = np.stack([blocks["x0"], blocks["x1"], blocks["x1"], blocks["x0"]], axis=1)
+    corners[:, :, 1] = np.stack([blocks["y0"], blocks["y0"], blocks["y1"], blocks["y1"]], axis=1)
+    middle = len(time) // 2
+    for step in sorted({0, 1, middle, len(time) - 1} & set(range(max(len(time), 1)))):
+        if len(time):
+            reader.UpdateTimeStep(time[step])
+        else:
+            reader.Update()
+        grid = reader.GetOutputDataObject(0)
+        where = f"{path}: step {step}"
+        require(grid.GetNumberOfPoints() == 4 * n and grid.GetNumberOfCells() == n, f"{where}: size of the grid")
+        require(all(grid.GetCellType(k) == 9 for k in range(n)), f"{where}: cells are not quadrilaterals")
+        equal(vtk_to_numpy(grid.GetPoints().GetData()), corners.reshape(-1, 3), f"{where}: points")
+        equal(vtk_to_numpy(grid.GetCells().GetConnectivityArray()), np.arange(4 * n), f"{where}: connectivity")
+        cell = {key: vtk_to_numpy(grid.GetCellData().GetArray(key)) for key in vtk_names(grid.GetCellData())}
+        for key in ["mass", "course", "panel"]:
+            equal(cell[key], blocks[key].astype(float), f"{where}: {key}")
+        for key, values in envelopes.items():
+            equal(cell[f"peak_{key}"], values[:n], f"{where}: peak_{key}")
+        if len(time):
+            moved = np.zeros((n, 4, 3), dtype=np.float32)
+            moved[:, :, 0] = displacement[step, :n, None]
+            point = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
+            equal(point, moved.reshape(-1, 3), f"{where}: displacement")
+            speed = np.zeros((n, 3), dtype=np.float32)
+            speed[:, 0] = velocity[step, :n]
+            equal(cell["velocity"], speed, f"{where}: velocity")
+
+
+def vtk_names(data):
+    return [data.GetArrayName(k) for k in range(data.GetNumberOfArrays())]
+
+
+def check_npz(path, file):
+    """Every array has the values of the dataset of its name."""
+    with np.load(path) as archive:
+        for name in archive.files:
+            array = archive[name]
+            if name in ["version", "inputs_hash", "stop_reason"]:
+                require(array[0].decode() == file.attrs[name], f"npz: {name}")
+            elif array.dtype.kind == "S":
+                equal(np.array([t.decode() for t in array]), np.array(file[name].asstr()[()]), f"npz: {name}")
+            else:
+                equal(array, file[name][()], f"npz: {name}")
+        tops = ["case", "wall/blocks", "wall/joints", "history", "frames", "envelope", "energy", "totals", "counters"]
+        wanted = []
+        file.visititems(lambda name, item: wanted.append(name) if isinstance(item, h5py.Dataset) else None)
+        wanted = {w for w in wanted if any(w == top or w.startswith(top + "/") for top in tops)}
+        missing = wanted - set(archive.files) - {"wall/joints/friction"}
+        require(not missing, f"npz: {sorted(missing)} missing")
+
+
+def check_csv(folder, time, heads, values, names, envelopes):
+    with open(folder / "histories.csv", newline="", encoding="utf-8") as stream:
+        rows = list(csv.reader(stream))
+    require(rows[0] == ["time [s]", *heads], "csv: header of histories")
+    table = np.array(rows[1:], dtype=float).reshape(len(rows) - 1, len(rows[0]))
+    equal(table[:, 0], time, "csv: time")
+    for k, column in enumerate(values):
+        equal(table[:, k + 1], column, f"csv: {heads[k]}")
+    for what in ["block", "joint"]:
+        with open(folder / f"{what}_envelopes.csv", newline="", encoding="utf-8") as stream:
+            rows = list(csv.reader(stream))
+        columns = {"block": BLOCK_ENVELOPES, "joint": JOINT_ENVELOPES}[what]
+        require(rows[0] == [what, *(f"{k} [{u}]" for k, u in columns.items())], f"csv: header of {what} envelopes")
+        require([r[0] for r in rows[1:]][: len(names[what])] == names[what], f"csv: names of {what} envelopes")
+        for k, key in enumerate(columns):
+            equal(np.array([float(r[k + 1]) for r in rows[1:]]), envelopes[what][key], f"csv: {what} {key}")
+    for table, name in [("blocks", "block"), ("joints", "joint")]:
+        with open(folder / f"{table}.csv", newline="", encoding="utf-8") as stream:
+            rows = list(csv.DictReader(stream))
+        require([row["name"] for row in rows] == names[name], f"csv: names of {table}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("result", type=pathlib.Path)
+    parser.add_argument("--csv", type=pathlib.Path, help="folder of the CSV export of the same run")
+    parser.add_argument("--npz", type=pathlib.Path, help="NPZ export of the same run")
+    parser.add_argument("--vtkhdf", type=pathlib.Path, help="VTKHDF export of the same run")
+    arguments = parser.parse_args()
+
+    result = Result(arguments.result)
+    check_head(result)
+    block_names, blocks = check_wall(result)
+    joint_names, _ = check_joints(result, len(block_names))
+    unknowns = int(result.array("layout/unknowns", (), "u8", "1"))
+    require(len(block_names) <= unknowns <= len(block_names) + 1, "unknowns are neither the blocks nor one more")
+    time, heads, values = check_history(result)
+    frames = check_frames(result, unknowns)
+    block_envelopes, joint_envelopes = check_sums(result, unknowns, len(joint_names))
+    check_vtkhdf_tree(result)
+    result.check_nothing_left()
+
+    for path in filter(None, [arguments.result, arguments.vtkhdf]):
+        check_vtk(path, blocks, block_envelopes, *frames)
+    if arguments.npz:
+        check_npz(arguments.npz, result.file)
+    if arguments.csv:
+        names = {"block": block_names, "joint": joint_names}
+        envelopes = {"block": block_envelopes, "joint": joint_envelopes}
+        check_csv(arguments.csv, time, heads, values, names, envelopes)
+    print(
+        f"{arguments.result}: {len(block_names)} blocks, {len(joint_names)} joints, {len(time)} samples of "
+        f"{len(values)} channels, {len(frames[0])} frames: h5py and VTK agree"
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,505 @@
+//! The store: what is written is read back bit for bit; broken files are errors; a journal survives any cut.
+
+mod store_sample;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+use concio::Error;
+use concio::record::{Channel, Recording};
+use concio::store::{self, Journal, JournalHeader, RunFacts, StoredRun, export, hdf5};
+use proptest::prelude::*;
+use store_sample::{SMALL, Sample, Size, rows, sample};
+
+fn write(path: &Path, s: &Sample) {
+    hdf5::write(path, &s.provenance, &s.wall, &s.joints, &s.outcome).unwrap();
+}
+
+fn stored(s: Sample) -> StoredRun {
+    let Sample { provenance, wall, joints, outcome } = s;
+    StoredRun { schema_version: store::SCHEMA_VERSION, provenance, wall, joints, outcome }
+}
+
+fn round_trip(s: Sample) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    write(&path, &s);
+    assert!(hdf5::read(&path).unwrap() == stored(s), "what is read differs from what was written");
+    let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert_eq!(left, ["result.h5"], "nothing but the result is left");
+}
+
+#[test]
+fn a_run_is_read_back_as_written() {
+    round_trip(sample(SMALL));
+}
+
+#[test]
+fn runs_without_frames_channels_or_samples_are_read_back() {
+    round_trip(sample(Size { frame_every: 0, beam: false, ..SMALL }));
+    round_trip(sample(Size { channels: 0, ..SMALL }));
+    let mut early = sample(SMALL);
+    early.outcome.recording = Recording::default();
+    early.outcome.stop_reason = concio::record::StopReason::StepTooShort;
+    round_trip(early);
+    round_trip(sample(Size { courses: 0, bricks: 0, channels: 0, ..SMALL }));
+}
+
+#[test]
+fn odd_channel_names_are_read_back() {
+    let mut s = sample(SMALL);
+    let names = ["time", "a/b", "a", "a/b/c", "", "x//y", "Fuge ü/δ"];
+    let channel = |n: &str| Channel { name: n.into(), unit: "m²".into(), description: String::new() };
+    s.outcome.layout.channels = names.map(channel).to_vec();
+    round_trip(s);
+}
+
+#[test]
+fn values_that_are_not_finite_are_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    let mut s = sample(SMALL);
+    s.outcome.totals.peak_input = f64::NAN;
+    s.outcome.recording.values[3] = f64::INFINITY;
+    write(&path, &s);
+    let outcome = hdf5::read(&path).unwrap().outcome;
+    assert!(outcome.totals.peak_input.is_nan() && outcome.recording.values[3] == f64::INFINITY);
+}
+
+#[test]
+fn equal_runs_give_equal_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let (a, b) = (folder.path().join("a.h5"), folder.path().join("other name.h5"));
+    // More than one chunk in every large array.
+    let size = Size { courses: 30, bricks: 30, samples: 3001, frame_every: 10, channels: 5, beam: true };
+    write(&a, &sample(size));
+    write(&b, &sample(size));
+    assert!(fs::read(&a).unwrap() == fs::read(&b).unwrap());
+    let run = hdf5::read(&a).unwrap();
+    for (k, name) in ["1.npz", "2.npz"].iter().enumerate() {
+        export::npz(&run, &folder.path().join(name)).unwrap();
+        assert_eq!(fs::read(folder.path().join(name)).unwrap(), fs::read(folder.path().join("1.npz")).unwrap(), "{k}");
+    }
+}
+
+#[test]
+fn a_result_is_replaced_and_a_folder_that_is_not_there_is_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    fs::write(&path, "an older file").unwrap();
+    write(&path, &sample(SMALL));
+    hdf5::read(&path).unwrap();
+    let s = sample(SMALL);
+    let nowhere = folder.path().join("no/such/result.h5");
+    let error = hdf5::write(&nowhere, &s.provenance, &s.wall, &s.joints, &s.outcome).unwrap_err();
+    assert!(matches!(&error, Error::Io { path, .. } if *path == nowhere), "{error}");
+    let error = hdf5::read(&nowhere).unwrap_err();
+    assert!(matches!(&error, Error::Io { path, .. } if *path == nowhere), "{error}");
+}
+
+#[test]
+fn an_outcome_that_contradicts_itself_is_not_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    fs::write(&path, "an older file").unwrap();
+    let mut s = sample(SMALL);
+    s.outcome.recording.values.pop();
+    let error = hdf5::write(&path, &s.provenance, &s.wall, &s.joints, &s.outcome).unwrap_err();
+    assert!(matches!(error, Error::Store { .. }), "{error}");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "an older file");
+    let run = stored(s);
+    assert!(export::npz(&run, &path).is_err() && export::vtkhdf(&run, &path).is_err());
+    assert!(export::csv(&run, folder.path()).is_err());
+}
+
+#[test]
+fn a_foreign_file_is_an_error_that_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    for content in [&b""[..], b"x", b"\x89HDF\r\n\x1a\n", &[0; 4096]] {
+        fs::write(&path, content).unwrap();
+        let error = hdf5::read(&path).unwrap_err();
+        assert!(matches!(&error, Error::Store { path: p, .. } if *p == path), "{error}");
+    }
+    export::vtkhdf(&stored(sample(SMALL)), &path).unwrap();
+    let error = hdf5::read(&path).unwrap_err().to_string();
+    assert!(error.contains("not a result of Concio"), "{error}");
+}
+
+#[test]
+fn a_truncated_file_is_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    write(&path, &sample(SMALL));
+    let whole = fs::read(&path).unwrap();
+    for part in 0..64 {
+        fs::write(&path, &whole[..whole.len() * part / 64]).unwrap();
+        let error = hdf5::read(&path).expect_err("a part is not the whole");
+        assert!(matches!(error, Error::Store { .. }), "{error}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+    /// A damaged file may still be readable where the damage hits a value; it must never panic or eat the memory.
+    #[test]
+    fn a_damaged_file_does_not_panic(places in prop::collection::vec((0.0..1.0f64, any::<u8>()), 1..20)) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("result.h5");
+        write(&path, &sample(Size { samples: 21, channels: 4, courses: 2, bricks: 2, frame_every: 5, beam: false }));
+        let mut bytes = fs::read(&path).unwrap();
+        for (place, value) in places {
+            let at = (place * bytes.len() as f64) as usize;
+            bytes[at] = value;
+        }
+        fs::write(&path, bytes).unwrap();
+        if let Err(error) = hdf5::read(&path) {
+            prop_assert!(matches!(error, Error::Store { .. }), "{error}");
+        }
+    }
+}
+
+fn header(s: &Sample) -> JournalHeader {
+    let (inputs_hash, version) = (s.provenance.inputs_hash.clone(), s.provenance.version.clone());
+    JournalHeader { inputs_hash, version, layout: s.outcome.layout.clone() }
+}
+
+fn state(samples: usize) -> Vec<u8> {
+    (0..200 + samples).map(|k| (k * 7 + samples) as u8).collect()
+}
+
+/// Appends the samples of `range` by tens, with a checkpoint after every thirty.
+fn go_on(journal: &mut Journal, header: &JournalHeader, range: std::ops::Range<usize>) {
+    for start in range.clone().step_by(10) {
+        journal.append(&rows(&header.layout, start..start + 10)).unwrap();
+        if (start + 10) % 30 == 0 {
+            journal.checkpoint(&state(start + 10)).unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_journal_resumes_at_its_checkpoint() {
+    let s = sample(SMALL);
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path().join("new/run");
+    let header = header(&s);
+    assert!(Journal::resume(&at, &header).unwrap().is_none());
+    let mut journal = Journal::create(&at, &header).unwrap();
+    go_on(&mut journal, &header, 0..110);
+    assert!(journal.read_all().unwrap() == rows(&header.layout, 0..110));
+    drop(journal);
+
+    let (mut journal, found) = Journal::resume(&at, &header).unwrap().expect("a checkpoint is there");
+    assert_eq!(found, state(90));
+    assert!(journal.read_all().unwrap() == rows(&header.layout, 0..90));
+    go_on(&mut journal, &header, 90..200);
+    assert!(journal.read_all().unwrap() == rows(&header.layout, 0..200));
+    journal.remove().unwrap();
+    assert_eq!(fs::read_dir(&at).unwrap().count(), 0, "the folder is empty again");
+}
+
+#[test]
+fn a_journal_of_other_inputs_is_not_resumed() {
+    let s = sample(SMALL);
+    let folder = tempfile::tempdir().unwrap();
+    let header = header(&s);
+    let mut journal = Journal::create(folder.path(), &header).unwrap();
+    go_on(&mut journal, &header, 0..30);
+    drop(journal);
+    let mut others = [header.clone(), header.clone(), header.clone()];
+    others[0].inputs_hash.push('0');
+    others[1].version = "0.2.0".into();
+    others[2].layout.interval *= 2.0;
+    for other in &others {
+        assert!(Journal::resume(folder.path(), other).unwrap().is_none());
+    }
+    assert!(Journal::resume(folder.path(), &header).unwrap().is_some());
+    // A new journal takes the old state away before anything else.
+    drop(Journal::create(folder.path(), &others[0]).unwrap());
+    assert!(Journal::resume(folder.path(), &header).unwrap().is_none());
+    assert!(Journal::resume(folder.path(), &others[0]).unwrap().is_none());
+}
+
+#[test]
+fn two_runs_do_not_write_to_one_folder() {
+    let s = sample(SMALL);
+    let folder = tempfile::tempdir().unwrap();
+    let header = header(&s);
+    let mut first = Journal::create(folder.path(), &header).unwrap();
+    go_on(&mut first, &header, 0..30);
+    let error = Journal::create(folder.path(), &header).unwrap_err().to_string();
+    assert!(error.contains("another run"), "{error}");
+    assert!(Journal::resume(folder.path(), &header).is_err());
+    assert!(first.read_all().unwrap() == rows(&header.layout, 0..30), "the first is unharmed");
+    first.remove().unwrap();
+    Journal::create(folder.path(), &header).unwrap();
+}
+
+#[test]
+fn rows_that_do_not_fit_are_refused_and_leave_the_journal_as_it_was() {
+    let s = sample(SMALL);
+    let folder = tempfile::tempdir().unwrap();
+    let header = header(&s);
+    let mut journal = Journal::create(folder.path(), &header).unwrap();
+    go_on(&mut journal, &header, 0..20);
+    let mut odd = rows(&header.layout, 20..30);
+    odd.values.pop();
+    assert!(journal.append(&odd).is_err());
+    assert!(journal.read_all().unwrap() == rows(&header.layout, 0..20));
+}
+
+/// What may happen to a file.
+#[derive(Debug, Clone)]
+enum Harm {
+    Cut(f64),
+    Flip(f64, u8),
+    Zero(f64, usize),
+    Grow(Vec<u8>),
+    Older,
+    Gone,
+}
+
+fn harm() -> impl Strategy<Value = Harm> {
+    prop_oneof![
+        (0.0..1.0f64).prop_map(Harm::Cut),
+        (0.0..1.0f64, 1..=255u8).prop_map(|(at, bits)| Harm::Flip(at, bits)),
+        (0.0..1.0f64, 1..5000usize).prop_map(|(at, length)| Harm::Zero(at, length)),
+        prop::collection::vec(any::<u8>(), 1..200).prop_map(Harm::Grow),
+        Just(Harm::Older),
+        Just(Harm::Gone),
+    ]
+}
+
+fn do_harm(path: &Path, older: &[u8], harm: &Harm) {
+    let mut bytes = fs::read(path).unwrap();
+    let place = |at: f64| (at * bytes.len() as f64) as usize;
+    match harm {
+        Harm::Cut(at) => bytes.truncate(place(*at)),
+        Harm::Flip(at, bits) => {
+            let at = place(*at);
+            bytes[at] ^= bits;
+        }
+        Harm::Zero(at, length) => {
+            let (at, end) = (place(*at), bytes.len());
+            bytes[at..(at + length).min(end)].fill(0);
+        }
+        Harm::Grow(more) => bytes.extend(more),
+        Harm::Older => bytes = older.to_vec(),
+        Harm::Gone => return fs::remove_file(path).unwrap(),
+    }
+    fs::write(path, bytes).unwrap();
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+    /// Whatever happens to either file: resuming gives a state with exactly the rows before it, or nothing.
+    #[test]
+    fn a_harmed_journal_never_gives_wrong_data(journal_harm in prop::option::of(harm()), state_harm in prop::option::of(harm())) {
+        let s = sample(Size { samples: 201, courses: 2, bricks: 2, ..SMALL });
+        let folder = tempfile::tempdir().unwrap();
+        let header = header(&s);
+        let files = ["journal.bin", "checkpoint.bin"].map(|name| folder.path().join(name));
+        let mut journal = Journal::create(folder.path(), &header).unwrap();
+        go_on(&mut journal, &header, 0..70);
+        let older = files.each_ref().map(|file| fs::read(file).unwrap());
+        go_on(&mut journal, &header, 70..110);
+        drop(journal);
+        for ((file, older), harm) in files.iter().zip(&older).zip([&journal_harm, &state_harm]) {
+            if let Some(harm) = harm {
+                do_harm(file, older, harm);
+            }
+        }
+        let resumed = Journal::resume(folder.path(), &header).unwrap();
+        prop_assert!(resumed.is_some() || journal_harm.is_some() || state_harm.is_some());
+        if let Some((mut journal, found)) = resumed {
+            let samples = found.len() - 200;
+            prop_assert!(samples == 60 || samples == 90);
+            prop_assert_eq!(found, state(samples));
+            prop_assert!(journal.read_all().unwrap() == rows(&header.layout, 0..samples));
+            go_on(&mut journal, &header, samples..120);
+            prop_assert!(journal.read_all().unwrap() == rows(&header.layout, 0..120));
+        }
+        // Starting anew works whatever is left in the folder.
+        let mut journal = Journal::create(folder.path(), &header).unwrap();
+        go_on(&mut journal, &header, 0..30);
+        prop_assert!(journal.read_all().unwrap() == rows(&header.layout, 0..30));
+    }
+}
+
+#[test]
+fn every_prefix_of_a_journal_resumes_or_starts_anew() {
+    let s = sample(Size { samples: 61, courses: 1, bricks: 2, channels: 1, ..SMALL });
+    let folder = tempfile::tempdir().unwrap();
+    let header = header(&s);
+    let path = folder.path().join("journal.bin");
+    let mut journal = Journal::create(folder.path(), &header).unwrap();
+    go_on(&mut journal, &header, 0..30);
+    let checkpoint_at = fs::metadata(&path).unwrap().len();
+    go_on(&mut journal, &header, 30..40);
+    drop(journal);
+    let whole = fs::read(&path).unwrap();
+    for length in 0..=whole.len() {
+        fs::write(&path, &whole[..length]).unwrap();
+        let resumed = Journal::resume(folder.path(), &header).unwrap();
+        assert_eq!(resumed.is_some(), length as u64 >= checkpoint_at, "cut at {length}");
+        if let Some((mut journal, _)) = resumed {
+            assert!(journal.read_all().unwrap() == rows(&header.layout, 0..30), "cut at {length}");
+        }
+    }
+}
+
+#[test]
+fn summary_has_the_keys_that_other_programs_read() {
+    let s = sample(SMALL);
+    let facts = RunFacts { duration: 0.1, solve_seconds: 0.5, warnings: vec!["One.".into()] };
+    let summary = store::summary(&s.provenance, &s.wall, &s.joints, &s.outcome, &facts);
+    let number = |key: &str| summary.pointer(key).and_then(|v| v.as_f64()).unwrap_or_else(|| panic!("no {key}"));
+    assert_eq!(number("/blocks"), 12.0);
+    assert_eq!(number("/joints"), s.joints.len() as f64);
+    assert_eq!(number("/unknowns"), 13.0);
+    assert_eq!(number("/steps"), 10.0);
+    assert_eq!(number("/solve_seconds"), 0.5);
+    assert_eq!(number("/peak_relative_displacement"), 1.1e-3);
+    assert_eq!(number("/peak_slip_velocity"), 2.2e-2);
+    assert_eq!(number("/top_work"), 2.5);
+    assert_eq!(number("/top_force_peak"), 2.3e5);
+    // √(4e8 N² s / 0.1 s)
+    assert!((number("/top_force_rms") / 63_245.553_203_367_59 - 1.0).abs() < 1e-14);
+    assert_eq!(number("/minimum_gap"), -1.0e-9);
+    assert_eq!(number("/energy/input"), 4.0);
+    assert_eq!(number("/energy/friction"), 3.0);
+    assert_eq!(number("/energy/nonreciprocal"), 0.03125);
+    assert_eq!(number("/energy/residual_relative"), 2.5e-7);
+    assert_eq!(summary["stop_reason"], "completed");
+    assert_eq!(summary["inputs_hash"], "0123456789abcdef");
+    assert_eq!(summary["version"], "0.1.0");
+    assert_eq!(summary["warnings"][0], "One.");
+    for key in ["kinetic", "elastic", "damping", "bond"] {
+        number(&format!("/energy/{key}"));
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("summary.json");
+    store::write_summary(&path, &summary).unwrap();
+    let read: serde_json::Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+    assert_eq!(read, summary);
+}
+
+#[test]
+fn a_run_without_work_or_motion_has_a_finite_summary() {
+    let mut s = sample(SMALL);
+    s.outcome.totals.peak_input = 0.0;
+    s.outcome.time_reached = 0.0;
+    let summary = store::summary(&s.provenance, &s.wall, &s.joints, &s.outcome, &RunFacts::default());
+    assert_eq!(summary["energy"]["residual_relative"], 0.0);
+    assert_eq!(summary["top_force_rms"], 0.0);
+}
+
+#[test]
+fn csv_holds_every_number_with_its_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = stored(sample(SMALL));
+    let at = folder.path().join("csv");
+    export::csv(&run, &at).unwrap();
+    let table = |name: &str| {
+        let mut reader = csv::Reader::from_path(at.join(name)).unwrap();
+        let head: Vec<String> = reader.headers().unwrap().iter().map(str::to_string).collect();
+        let rows: Vec<Vec<String>> =
+            reader.records().map(|r| r.unwrap().iter().map(str::to_string).collect()).collect();
+        (head, rows)
+    };
+    let (head, histories) = table("histories.csv");
+    assert_eq!(head[..2], ["time [s]", "top/displacement [m]"]);
+    let (recording, width) = (&run.outcome.recording, head.len() - 1);
+    assert_eq!((histories.len(), width), (401, 7));
+    for (k, row) in histories.iter().enumerate() {
+        let numbers: Vec<f64> = row.iter().map(|cell| cell.parse().unwrap()).collect();
+        assert_eq!(numbers[0], recording.time[k]);
+        assert_eq!(numbers[1..], recording.values[k * width..(k + 1) * width]);
+    }
+    let (head, envelopes) = table("joint_envelopes.csv");
+    assert_eq!(head[4], "slip [m]");
+    assert_eq!(envelopes.len(), run.joints.len());
+    assert_eq!(envelopes[2][0], run.joints[2].name);
+    assert_eq!(envelopes[2][4].parse::<f64>().unwrap(), run.outcome.envelopes.joint_slip[2]);
+    let (_, envelopes) = table("block_envelopes.csv");
+    assert_eq!(envelopes.last().unwrap()[0], "beam");
+    let (head, joints) = table("joints.csv");
+    assert_eq!(joints.len(), run.joints.len());
+    assert_eq!(joints[0][..5], ["p1c1b1|base", "base", "p1c1b1", "base", "elastic"]);
+    let stiffness = head.iter().position(|h| h == "stiffness [N/m]").unwrap();
+    assert_eq!(joints[3][stiffness].parse::<f64>().unwrap(), run.joints[3].stiffness);
+    let (head, blocks) = table("blocks.csv");
+    let mass = head.iter().position(|h| h == "mass [kg]").unwrap();
+    assert_eq!(blocks[5][mass].parse::<f64>().unwrap(), run.wall.blocks[5].mass());
+}
+
+/// h5py, VTK and NumPy on the files themselves; needs a Python with `h5py`, `numpy` and `vtk`, named by CONCIO_PYTHON.
+#[test]
+fn other_readers_agree() {
+    let Some(python) = std::env::var_os("CONCIO_PYTHON") else {
+        println!("skipped: readers in Python (CONCIO_PYTHON is not set)");
+        return;
+    };
+    let sizes = [
+        SMALL,
+        Size { frame_every: 0, beam: false, ..SMALL },
+        Size { courses: 40, bricks: 50, samples: 501, frame_every: 25, channels: 9, beam: false },
+    ];
+    for size in sizes {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        write(&at("result.h5"), &sample(size));
+        let run = hdf5::read(&at("result.h5")).unwrap();
+        export::csv(&run, &at("csv")).unwrap();
+        export::npz(&run, &at("result.npz")).unwrap();
+        export::vtkhdf(&run, &at("result.vtkhdf")).unwrap();
+        let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/python/check_result.py");
+        let mut command = Command::new(&python);
+        command.arg(script).arg(at("result.h5"));
+        command.arg("--csv").arg(at("csv")).arg("--npz").arg(at("result.npz")).arg("--vtkhdf").arg(at("result.vtkhdf"));
+        let output = command.output().unwrap();
+        let said = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{size:?}: {said}");
+    }
+}
+
+/// Run by hand for its figures: `cargo test --release --test store -- --ignored --nocapture large`.
+#[test]
+#[ignore = "writes a gigabyte; prints figures"]
+fn large_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = Size { courses: 6, bricks: 4, samples: 80_001, frame_every: 0, channels: 200, beam: false };
+    let wide = Size { courses: 100, bricks: 100, samples: 2000, frame_every: 1, channels: 10, beam: false };
+    for (name, size) in [("80,001 samples of 200 channels", long), ("2,000 frames of 10,000 blocks", wide)] {
+        let s = sample(size);
+        let path = folder.path().join("result.h5");
+        let start = Instant::now();
+        write(&path, &s);
+        let written = start.elapsed();
+        let bytes = fs::metadata(&path).unwrap().len();
+        let start = Instant::now();
+        let run = hdf5::read(&path).unwrap();
+        println!("{name}: {written:.2?} written, {bytes} bytes, {:.2?} read", start.elapsed());
+        let header = header(&s);
+        let start = Instant::now();
+        let mut journal = Journal::create(&folder.path().join("run"), &header).unwrap();
+        for first in (0..size.samples - size.samples % 100).step_by(100) {
+            journal.append(&rows(&header.layout, first..first + 100)).unwrap();
+        }
+        journal.checkpoint(&[0; 1000]).unwrap();
+        println!("{name}: {:.2?} made and journalled", start.elapsed());
+        let start = Instant::now();
+        journal.read_all().unwrap();
+        println!("{name}: {:.2?} journal read", start.elapsed());
+        journal.remove().unwrap();
+        let start = Instant::now();
+        export::npz(&run, &folder.path().join("result.npz")).unwrap();
+        println!("{name}: {:.2?} npz", start.elapsed());
+        let start = Instant::now();
+        export::csv(&run, &folder.path().join("csv")).unwrap();
+        println!("{name}: {:.2?} csv", start.elapsed());
+    }
+}

@@ -1,0 +1,201 @@
+//! A made-up run for tests of the store: the values follow from their indices, so that a swapped row, column or array
+//! shows; they obey no mechanics.
+
+use concio::case::{FrictionLaw, JointKind, SpringLaw};
+use concio::outcome::{Outcome, Totals};
+use concio::record::{Channel, Counters, Energies, Envelopes, Layout, Recording, StopReason};
+use concio::store::{FrictionRow, JointRow, Provenance};
+use concio::wall::{Block, End, Joint, PanelInfo, Wall};
+
+/// How large a made-up run is.
+#[derive(Debug, Clone, Copy)]
+pub struct Size {
+    pub courses: usize,
+    pub bricks: usize,
+    pub samples: usize,
+    pub frame_every: usize,
+    pub channels: usize,
+    pub beam: bool,
+}
+
+pub const SMALL: Size = Size { courses: 3, bricks: 4, samples: 401, frame_every: 10, channels: 7, beam: true };
+
+pub struct Sample {
+    pub provenance: Provenance,
+    pub wall: Wall,
+    pub joints: Vec<JointRow>,
+    pub outcome: Outcome,
+}
+
+pub fn sample(size: Size) -> Sample {
+    let wall = wall(size);
+    let joints = joints(size, &wall);
+    let outcome = outcome(size, &wall, joints.len());
+    let provenance = Provenance {
+        case_json: r#"{"title":"Prüfwand – β, δ_v","model":"shear"}"#.into(),
+        inputs_hash: "0123456789abcdef".into(),
+        version: "0.1.0".into(),
+        model: "shear".into(),
+    };
+    Sample { provenance, wall, joints, outcome }
+}
+
+fn wall(size: Size) -> Wall {
+    let mut blocks = Vec::new();
+    for course in 0..size.courses {
+        for place in 0..size.bricks {
+            let (x, y) = (0.26 * place as f64 + 0.13 * (course % 2) as f64, 0.065 * course as f64);
+            blocks.push(Block {
+                name: format!("p1c{}b{}", course + 1, place + 1),
+                panel: 0,
+                course,
+                x: [x, x + 0.25],
+                y: [y, y + 0.055],
+                thickness: 0.12,
+                specific_weight: 18_000.0 + course as f64,
+            });
+        }
+    }
+    let panel = PanelInfo {
+        name: "p1".into(),
+        courses: size.courses,
+        reference_length: 0.25,
+        reference_height: 0.055,
+        reference_mass: 3.03,
+        mortar: [0.01, 0.011],
+        connection: 0.012,
+    };
+    Wall { panels: vec![panel], blocks }
+}
+
+/// Base supports, head joints, one bed joint from each block to the one above it, top supports.
+fn joints(size: Size, wall: &Wall) -> Vec<JointRow> {
+    let mut rows = Vec::new();
+    for (index, block) in wall.blocks.iter().enumerate() {
+        let place = index % size.bricks;
+        let mut push = |kind, b| rows.push(joint(rows.len(), kind, index, b, wall));
+        if block.course == 0 {
+            push(JointKind::Base, End::Base);
+        }
+        if place + 1 < size.bricks {
+            push(JointKind::Head, End::Block(index + 1));
+        }
+        if block.course + 1 < size.courses {
+            push(JointKind::Bed, End::Block(index + size.bricks));
+        } else {
+            push(JointKind::Top, End::Top);
+        }
+    }
+    rows
+}
+
+fn joint(k: usize, kind: JointKind, a: usize, b: End, wall: &Wall) -> JointRow {
+    let f = k as f64;
+    let other = match b {
+        End::Block(b) => wall.blocks[b].name.clone(),
+        End::Base => "base".into(),
+        End::Top => "top".into(),
+    };
+    let rubs = kind != JointKind::Head;
+    let friction = FrictionRow {
+        law: FrictionLaw::Stribeck,
+        static_: 0.6 + f,
+        dynamic: 0.42 + f,
+        slip_velocity: 1e-3 + f,
+        beta: 100.0 + f,
+        alpha: f,
+    };
+    JointRow {
+        joint: Joint { kind, a, b, weight: 1.0 + f, overlap: 0.1 + f, line: [f, f + 0.1, f + 0.2, f + 0.3] },
+        name: format!("{}|{other}", wall.blocks[a].name),
+        law: if rubs { SpringLaw::Elastic } else { SpringLaw::NoTension },
+        stiffness: 5.4e7 + f,
+        damping: 1e3 + f,
+        normal_force: [100.0 + f, 101.0 + f],
+        friction: rubs.then_some(friction),
+    }
+}
+
+fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
+    let unknowns = wall.blocks.len() + usize::from(size.beam);
+    let layout = Layout {
+        interval: 2.5e-4,
+        samples: size.samples,
+        frame_every: size.frame_every,
+        unknowns,
+        channels: channels(size.channels, wall),
+    };
+    let recording = rows(&layout, 0..size.samples);
+    let per_unknown = |scale: f64| (0..unknowns).map(|k| scale * (k as f64 + 1.0)).collect::<Vec<_>>();
+    let per_joint = |scale: f64| (0..joints).map(|k| scale * (k as f64 + 1.0)).collect::<Vec<_>>();
+    let envelopes = Envelopes {
+        block_displacement: per_unknown(1.0),
+        block_velocity: per_unknown(2.0),
+        block_acceleration: per_unknown(3.0),
+        joint_displacement: per_joint(4.0),
+        joint_velocity: per_joint(5.0),
+        joint_acceleration: per_joint(6.0),
+        joint_slip: per_joint(7.0),
+        joint_opening: per_joint(8.0),
+        joint_closing: per_joint(9.0),
+        joint_force: per_joint(10.0),
+        joint_dissipation: per_joint(11.0),
+    };
+    Outcome {
+        time_reached: layout.interval * (size.samples - 1) as f64,
+        layout,
+        recording,
+        envelopes,
+        energies: Energies {
+            input_base: 1.5,
+            input_top: 2.5,
+            kinetic: 0.125,
+            elastic: 0.25,
+            damping: 0.5,
+            friction: 3.0,
+            bond: 0.0625,
+            nonreciprocal: 0.03125,
+        },
+        totals: Totals {
+            peak_relative_displacement: 1.1e-3,
+            peak_slip_velocity: 2.2e-2,
+            top_force_peak: 2.3e5,
+            top_force_square: 4.0e8,
+            minimum_gap: -1.0e-9,
+            peak_input: 8.0,
+            peak_residual: 2.0e-6,
+        },
+        counters: Counters { steps: 10, rejected: 20, failed: 30, iterations: 40, factorisations: 50 },
+        stop_reason: StopReason::Completed,
+    }
+}
+
+fn channels(count: usize, wall: &Wall) -> Vec<Channel> {
+    let fixed = [("top/displacement", "m"), ("top/force", "N"), ("energy/friction", "J")];
+    let name = |k: usize| match fixed.get(k) {
+        Some(&(name, unit)) => (name.to_string(), unit),
+        None if k == 3 => (format!("joint/{0}|{1}/slip", wall.blocks[0].name, wall.blocks[1].name), "m"),
+        None => (format!("block/{}/velocity-{}", wall.blocks[k % wall.blocks.len()].name, k), "m/s"),
+    };
+    let channel = |k: usize| {
+        let (name, unit) = name(k);
+        Channel { name, unit: unit.into(), description: format!("Made-up history {k}.") }
+    };
+    (0..count).map(channel).collect()
+}
+
+/// The samples of that range, and the frames that fall on them.
+pub fn rows(layout: &Layout, range: std::ops::Range<usize>) -> Recording {
+    let mut rows = Recording::default();
+    for k in range {
+        let t = layout.interval * k as f64;
+        rows.time.push(t);
+        rows.values.extend((0..layout.channels.len()).map(|c| (c as f64 + 1.0) * (t * 40.0 + c as f64).sin()));
+        if layout.frame_every > 0 && k % layout.frame_every == 0 {
+            rows.frame_time.push(t);
+            rows.frame_displacement.extend((0..layout.unknowns).map(|u| 1e-3 * (t * 30.0 + u as f64 * 0.01).sin()));
+            rows.frame_velocity.extend((0..layout.unknowns).map(|u| 3e-2 * (t * 30.0 + u as f64 * 0.01).cos()));
+        }
+    }
+    rows
+}
