@@ -4,6 +4,7 @@
 
 pub mod case;
 pub mod error;
+pub mod ground;
 pub mod outcome;
 pub mod quantity;
 pub mod record;
