@@ -10,6 +10,7 @@ pub mod graph;
 mod integrate;
 pub mod law;
 pub mod model;
+pub mod ground;
 pub mod outcome;
 pub mod pattern;
 pub mod quantity;

@@ -1,0 +1,225 @@
+//! A record file as lines, and the number fields in them: free, glued together, or of fixed width.
+
+use std::path::Path;
+
+use crate::{InputError, Result};
+
+/// A file in memory. Lines are counted from 0 here and from 1 in messages.
+pub(super) struct Source<'a> {
+    pub path: &'a Path,
+    pub lines: Vec<&'a str>,
+}
+
+impl<'a> Source<'a> {
+    /// Cuts the text at line feeds; carriage returns before them (one, or two as in some archives) are dropped.
+    /// A file without any line feed is cut at carriage returns.
+    pub fn new(path: &'a Path, text: &'a str) -> Self {
+        let end = if text.contains('\n') { '\n' } else { '\r' };
+        let lines = text.split(end).map(|line| line.trim_end_matches('\r')).collect();
+        Source { path, lines }
+    }
+
+    /// A line, empty beyond the end of the file.
+    pub fn line(&self, index: usize) -> &'a str {
+        self.lines.get(index).copied().unwrap_or("")
+    }
+
+    /// The first lines.
+    pub fn head(&self, count: usize) -> impl Iterator<Item = (usize, &'a str)> {
+        self.lines.iter().copied().enumerate().take(count)
+    }
+
+    /// An error in this file.
+    pub fn error(&self, what: impl Into<String>) -> InputError {
+        InputError::new(what).in_file(self.path)
+    }
+
+    /// An error in a line of this file.
+    pub fn error_at(&self, index: usize, what: impl Into<String>) -> InputError {
+        self.error(what).at_line(index + 1)
+    }
+
+    /// The error of a header that declares another number of samples than follow it.
+    pub fn count_error(&self, index: usize, key: &str, declared: u64, found: usize) -> InputError {
+        let error = self
+            .error_at(index, format!("the header declares {declared} samples, the file holds {found}"))
+            .key(key)
+            .allowed("equal counts");
+        if declared > found as u64 {
+            error.help("the file was cut off: fetch it again")
+        } else {
+            error.help("the file was changed after it was written: fetch it again")
+        }
+    }
+}
+
+/// A finite number, in the notation of C or Fortran (`1.5`, `.5E-02`, `-1.D+3`).
+pub(super) fn number(field: &str) -> Option<f64> {
+    let field = field.trim();
+    let plain = |b: &u8| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E');
+    let value: f64 = if field.as_bytes().iter().all(plain) {
+        field.parse().ok()?
+    } else {
+        field.replace(['d', 'D'], "E").parse().ok()?
+    };
+    value.is_finite().then_some(value)
+}
+
+/// A count of samples: a whole number from 0. Values that no memory holds are kept, for the message.
+pub(super) fn count(field: &str) -> Option<u64> {
+    number(field).and_then(whole)
+}
+
+/// A number as a count of samples.
+pub(super) fn whole(value: f64) -> Option<u64> {
+    (value >= 0.0 && value.fract() == 0.0).then_some(value as u64)
+}
+
+/// The number that `text` starts with, after blanks.
+pub(super) fn leading_number(text: &str) -> Option<f64> {
+    let text = text.trim_start();
+    let part = |c: char| c.is_ascii_digit() || "+-.eEdD".contains(c);
+    let end = text.find(|c| !part(c)).unwrap_or(text.len());
+    // A unit may follow without a blank ("0.005sec" ends in a part that looks like an exponent).
+    let field = text[..end].trim_end_matches(|c: char| !c.is_ascii_digit() && c != '.');
+    number(field)
+}
+
+/// Fields between blanks; a sign that is not that of an exponent starts a new field, since a full Fortran field
+/// leaves no blank before it.
+pub(super) fn free_fields(line: &str) -> impl Iterator<Item = &str> {
+    line.split_whitespace().flat_map(|token| {
+        let bytes = token.as_bytes();
+        let cut = move |i: &usize| {
+            matches!(bytes[*i], b'+' | b'-') && !matches!(bytes[*i - 1], b'e' | b'E' | b'd' | b'D' | b'+' | b'-')
+        };
+        let mut start = 0;
+        let ends: Vec<usize> = (1..bytes.len()).filter(cut).chain([bytes.len()]).collect();
+        ends.into_iter().map(move |end| {
+            let field = &token[start..end];
+            start = end;
+            field
+        })
+    })
+}
+
+/// Fields of a fixed width; the last may be shorter. None when a boundary falls into a character of several bytes.
+pub(super) fn fixed_fields(line: &str, width: usize) -> Option<Vec<&str>> {
+    let line = line.trim_end();
+    let starts = (0..line.len()).step_by(width.max(1));
+    starts.map(|start| line.get(start..(start + width.max(1)).min(line.len()))).collect()
+}
+
+/// A Fortran format of numbers: `(10I8)`, `(5F15.6)`, `(1E15.6)`, `(8(1PE10.4E1))`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Format {
+    pub per_line: usize,
+    pub width: usize,
+}
+
+/// Reads the first group of a Fortran format.
+pub(super) fn fortran_format(text: &str) -> Option<Format> {
+    let text = text.trim().trim_start_matches('(').trim_start().to_ascii_uppercase();
+    let letter = text.find(['I', 'F', 'E', 'G', 'D'])?;
+    let (head, tail) = text.split_at(letter);
+    // "8(1P" and "1P8" both mean eight fields; the scale factor P says nothing about the layout.
+    let per_line = head
+        .split(['(', ','])
+        .map(|part| part.rsplit('P').next().unwrap_or(part).trim())
+        .find(|part| !part.is_empty())
+        .map_or(Some(1), |part| part.parse().ok())?;
+    let digits: String = tail.chars().skip(1).take_while(char::is_ascii_digit).collect();
+    let width = digits.parse().ok()?;
+    ((1..=1000).contains(&per_line) && (1..=200).contains(&width)).then_some(Format { per_line, width })
+}
+
+/// `count` numbers in lines of fixed-width fields from line `start`; the line after them comes back too.
+/// Blank lines end the block, as does a line that is not numbers.
+pub(super) fn fixed_block(
+    source: &Source,
+    start: usize,
+    declared: u64,
+    format: Format,
+    key: &str,
+) -> Result<(Vec<f64>, usize)> {
+    let mut values = Vec::new();
+    let mut line = start;
+    while (values.len() as u64) < declared {
+        let text = source.line(line);
+        let is_data = !text.trim().is_empty() && !text.trim_start().starts_with(['/', '|']) && !is_prose(text);
+        if !is_data {
+            return Err(source.count_error(start.saturating_sub(1), key, declared, values.len()).into());
+        }
+        let fields = fixed_fields(text, format.width).unwrap_or_else(|| vec![text]);
+        for (column, field) in fields.into_iter().enumerate() {
+            let value = number(field).ok_or_else(|| not_a_number(source, line, field).key(key))?;
+            if column >= format.per_line {
+                let what = format!(
+                    "{} fields of {} characters are expected here, more were found",
+                    format.per_line, format.width
+                );
+                return Err(source.error_at(line, what).key(key).into());
+            }
+            values.push(value);
+        }
+        line += 1;
+    }
+    if values.len() as u64 > declared {
+        return Err(source.count_error(start.saturating_sub(1), key, declared, values.len()).into());
+    }
+    Ok((values, line))
+}
+
+/// Whether a line reads like text: two letters side by side that no number contains.
+fn is_prose(line: &str) -> bool {
+    let letters = line.as_bytes().windows(2);
+    let mut letters = letters.filter(|pair| pair.iter().all(u8::is_ascii_alphabetic));
+    letters.next().is_some() && !is_not_finite(line)
+}
+
+/// Whether a line holds a word for a value that is not a number.
+fn is_not_finite(line: &str) -> bool {
+    let line = line.to_ascii_lowercase();
+    line.contains("nan") || line.contains("inf")
+}
+
+/// The error of a field that is not a finite number.
+pub(super) fn not_a_number(source: &Source, line: usize, field: &str) -> InputError {
+    let shown: String = field.trim().chars().take(40).collect();
+    source.error_at(line, format!("`{shown}` is not a finite number")).allowed("finite numbers")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_fortran_and_c() {
+        assert_eq!(number(" -.1D+02 "), Some(-10.0));
+        assert_eq!(number(".5E-02"), Some(0.005));
+        for bad in ["nan", "inf", "-Infinity", "1e999", "", "1.0x", "0x10", "1_000"] {
+            assert_eq!(number(bad), None, "{bad}");
+        }
+        assert_eq!(leading_number(" .00244 SEC"), Some(0.00244));
+        assert_eq!(leading_number("0.005sec"), Some(0.005));
+        assert_eq!(leading_number("1e-2s"), Some(0.01));
+    }
+
+    #[test]
+    fn glued_fields_part_at_signs() {
+        let fields: Vec<_> = free_fields("-.123E-01-.456E-02  1.0+2.0").collect();
+        assert_eq!(fields, ["-.123E-01", "-.456E-02", "1.0", "+2.0"]);
+    }
+
+    #[test]
+    fn formats() {
+        let format = |per_line, width| Some(Format { per_line, width });
+        assert_eq!(fortran_format("(10I8)"), format(10, 8));
+        assert_eq!(fortran_format("(1E15.6)"), format(1, 15));
+        assert_eq!(fortran_format("(5f15.6)"), format(5, 15));
+        assert_eq!(fortran_format("(8(1pe10.4e1))"), format(8, 10));
+        assert_eq!(fortran_format("E15.6"), format(1, 15));
+        assert_eq!(fortran_format("(0F10.3)"), None);
+        assert_eq!(fortran_format("(8X)"), None);
+    }
+}

@@ -1,0 +1,5 @@
+//! stub
+use crate::{Result, case, ground::record::Record};
+pub fn generate(_: &case::Synthetic) -> Result<Record> {
+    todo!()
+}
