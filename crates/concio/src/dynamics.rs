@@ -2,6 +2,7 @@
 
 use crate::case::JointKind;
 use crate::error::{InputError, Result};
+use crate::excitation::Drive;
 use crate::integrate::stage::{power, spring_force};
 use crate::model::Model;
 use crate::record::{Channel, Energies};
@@ -18,10 +19,10 @@ fn joint_forces(model: &Model, state: &State, rub: Option<usize>, joint: usize) 
 
 /// Makes accelerations, powers and tangents consistent with displacements, velocities and motion at `state.t`:
 /// at the start, and where the motion has a jump.
-pub fn settle(model: &Model, state: &mut State) {
+pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
     let n = model.unknowns();
-    let ground = model.excitation.base_acceleration(state.t, state.t);
-    let (u1, v1) = model.excitation.top_relative(state.t, state.t);
+    let ground = drive.base_acceleration(state.t);
+    let (u1, v1) = drive.top(state.t);
     state.z[n + 1] = u1;
     state.v[n + 1] = v1;
     state.a.fill(0.0);
@@ -111,6 +112,20 @@ pub fn observe(model: &Model, state: &mut State, h: f64) {
     totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
 }
 
+/// The base's velocity jumps by `jump`: blocks keep their absolute velocity. What this does to the kinetic energy of
+/// the relative motion is work of the base.
+pub fn kick(model: &Model, state: &mut State, jump: f64) {
+    let n = model.unknowns();
+    let kinetic = |v: &[f64]| model.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum::<f64>();
+    let before = kinetic(&state.v[..n]);
+    for v in &mut state.v[..n] {
+        *v -= jump;
+    }
+    let after = kinetic(&state.v[..n]);
+    state.energies.input_base += after - before;
+    state.energies.kinetic = after;
+}
+
 fn peak(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |p, v| v.abs().max(p))
 }
@@ -197,7 +212,7 @@ impl Channels {
     }
 
     /// Appends one row of values.
-    pub fn sample(&self, model: &Model, state: &State, row: &mut Vec<f64>) {
+    pub fn sample(&self, model: &Model, drive: &Drive, state: &State, row: &mut Vec<f64>) {
         let (mut shear, mut pull) = (0.0, 0.0);
         let beam = model.floating_beam().unwrap_or(model.top());
         let mut add = |b: usize, f: f64| {
@@ -219,9 +234,9 @@ impl Channels {
         let mean = |values: &[f64]| {
             self.top_course.iter().map(|&i| values[i]).sum::<f64>() / self.top_course.len().max(1) as f64
         };
-        let (u0, a0) = model.excitation.base_motion(state.t);
+        let base = drive.base(state.t);
         let energies = &state.energies;
-        row.extend([a0, u0, shear, mean(&state.z), mean(&state.v), pull, state.z[beam]]);
+        row.extend([base.a, base.u, shear, mean(&state.z), mean(&state.v), pull, state.z[beam]]);
         row.push(peak(&state.z[..model.wall.blocks.len()]));
         let Energies { input_top, kinetic, elastic, damping, friction, bond, nonreciprocal, .. } = *energies;
         row.extend([energies.input(), kinetic, elastic, damping, friction, bond, nonreciprocal]);

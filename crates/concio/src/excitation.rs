@@ -1,103 +1,121 @@
-//! The motion of base and top beam in coordinates relative to the base.
+//! The motion of base and top beam as the equations see it: in coordinates relative to the base (model, section 2).
 
-/// A motion (stand-in until the ground module lands).
-#[derive(Debug, Clone, PartialEq)]
-pub enum GroundMotion {
-    /// None.
-    AtRest,
-    /// Piecewise-linear acceleration.
-    Samples {
-        /// interval
-        dt: f64,
-        /// values
-        acceleration: Vec<f64>,
-    },
-    /// Displacement sine.
-    Sine {
-        /// m
-        amplitude: f64,
-        /// Hz
-        frequency: f64,
-        /// s
-        ramp: f64,
-    },
-}
+use serde_json::{Value, json};
 
-impl GroundMotion {
-    fn acceleration(&self, t: f64) -> f64 {
-        match self {
-            GroundMotion::Samples { dt, acceleration } => {
-                let s = t / dt;
-                let i = s as usize;
-                if i + 1 >= acceleration.len() {
-                    return *acceleration.last().unwrap_or(&0.0);
-                }
-                acceleration[i] * (1.0 - (s - i as f64)) + acceleration[i + 1] * (s - i as f64)
-            }
-            _ => 0.0,
-        }
-    }
-    fn motion(&self, t: f64) -> (f64, f64) {
-        match *self {
-            GroundMotion::Sine { amplitude, frequency, ramp } => {
-                let w = 2.0 * std::f64::consts::PI * frequency;
-                let (r, dr) = if ramp > 0.0 && t < ramp { (t / ramp, 1.0 / ramp) } else { (1.0, 0.0) };
-                let (s, c) = (w * t).sin_cos();
-                (amplitude * s * r, amplitude * (w * c * r + s * dr))
-            }
-            _ => (0.0, 0.0),
-        }
-    }
-    fn next_break(&self, t: f64) -> f64 {
-        match self {
-            GroundMotion::Samples { dt, .. } => ((t / dt * (1.0 + 1e-12) + 1e-9).floor() + 1.0) * dt,
-            GroundMotion::Sine { ramp, .. } if t < *ramp => *ramp,
-            _ => f64::INFINITY,
-        }
-    }
-}
+use crate::case::{Beam, Sine};
+use crate::error::{InputError, Result};
+use crate::ground::signal::{GroundMotion, Kinematics, Segment};
+
+/// Samples per period when a closed form is printed for another solver.
+const PRINTED_PER_PERIOD: f64 = 100.0;
 
 /// What moves the wall, and for how long.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Excitation {
     /// U0.
     pub base: GroundMotion,
-    /// U1 of a driven beam.
+    /// U1; at rest unless the beam is driven.
     pub top: GroundMotion,
+    /// Whether U1 is prescribed; otherwise the top follows the base (tied) or is no support at all.
+    pub driven: bool,
+    /// The top's sine as the wall file gives it, for [`Excitation::system_motions`].
+    pub top_sine: Option<Sine>,
     /// End of the run [s].
     pub duration: f64,
 }
 
-impl Excitation {
-    /// Base acceleration at t [m/s²].
-    pub fn base_acceleration(&self, t: f64, _from: f64) -> f64 {
+/// The motion inside one smooth piece.
+#[derive(Debug, Clone, Copy)]
+pub struct Drive {
+    base: Segment,
+    top: Option<Segment>,
+    /// Last instant of the piece [s].
+    pub end: f64,
+}
+
+impl Drive {
+    /// Base acceleration at `t` [m/s²].
+    #[inline]
+    pub fn base_acceleration(&self, t: f64) -> f64 {
         self.base.acceleration(t)
     }
-    /// Displacement and velocity of the top relative to the base.
-    pub fn top_relative(&self, t: f64, _from: f64) -> (f64, f64) {
-        self.top.motion(t)
+    /// Absolute motion of the base.
+    pub fn base(&self, t: f64) -> Kinematics {
+        self.base.at(t)
     }
-    /// Motions as `concio system` prints them.
-    pub fn system_motions(&self) -> crate::error::Result<(serde_json::Value, serde_json::Value)> {
-        Ok((serde_json::Value::Null, serde_json::Value::Null))
-    }
-    /// Absolute displacement and acceleration of the base.
-    pub fn base_motion(&self, t: f64) -> (f64, f64) {
-        (self.base.motion(t).0, self.base.acceleration(t))
-    }
-    /// Longest step.
-    pub fn longest_step(&self) -> f64 {
-        match &self.top {
-            GroundMotion::Sine { frequency, .. } => 0.05 / frequency,
-            _ => f64::INFINITY,
+    /// Displacement [m] and velocity [m/s] of the top support relative to the base.
+    #[inline]
+    pub fn top(&self, t: f64) -> (f64, f64) {
+        match self.top {
+            None => (0.0, 0.0),
+            Some(top) => {
+                let (top, base) = (top.at(t), self.base.at(t));
+                (top.u - base.u, top.v - base.v)
+            }
         }
     }
-    /// Whether the acceleration or velocity jumps at t.
-    pub fn jumps_at(&self, _t: f64) -> bool {
-        false
+}
+
+impl Excitation {
+    /// A motion of the base alone.
+    pub fn of_base(base: GroundMotion, duration: f64) -> Self {
+        Excitation { base, top: GroundMotion::AtRest, driven: false, top_sine: None, duration }
     }
-    /// Next kink.
-    pub fn next_break(&self, t: f64) -> f64 {
-        self.base.next_break(t).min(self.top.next_break(t)).min(self.duration)
+    /// A driven top above a base at rest.
+    pub fn of_top(top: GroundMotion, duration: f64) -> Self {
+        Excitation { base: GroundMotion::AtRest, top, driven: true, top_sine: None, duration }
     }
+
+    /// The motion just after `t`.
+    pub fn drive(&self, t: f64) -> Drive {
+        let base = self.base.segment(t);
+        let top = self.driven.then(|| self.top.segment(t));
+        Drive { base, top, end: base.end.min(top.map_or(f64::INFINITY, |s| s.end)).min(self.duration) }
+    }
+    /// Longest step that resolves the motion [s].
+    pub fn longest_step(&self) -> f64 {
+        let top = if self.driven { self.top.longest_useful_step() } else { f64::INFINITY };
+        self.base.longest_useful_step().min(top)
+    }
+    /// Jump of the base's velocity at `t` [m/s].
+    pub fn base_velocity_jump(&self, t: f64) -> f64 {
+        self.base.velocity_jump(t)
+    }
+
+    /// Motions of base and top as `concio system` prints them. What is not a record is sampled, 100 points a period.
+    ///
+    /// # Errors
+    /// A driven top that is not a displacement sine, or stands on a moving base: the format cannot say it.
+    pub fn system_motions(&self, beam: Beam) -> Result<(Value, Value)> {
+        let base = match &self.base {
+            GroundMotion::AtRest => Value::Null,
+            moving => sampled(moving, self.duration),
+        };
+        if beam != Beam::Driven {
+            return Ok((base, Value::Null));
+        }
+        let refuse = |what: &str| {
+            InputError::new(format!("`concio system` cannot print {what}"))
+                .key("motion.top")
+                .allowed("a driven top with a displacement sine above a base at rest, or no driven top")
+        };
+        if base != Value::Null {
+            return Err(refuse("a driven top above a moving base").into());
+        }
+        match self.top_sine {
+            Some(Sine { amplitude: Some(amplitude), frequency, ramp, cycles: None, .. }) => {
+                let sine = json!({"amplitude": amplitude.si(), "frequency": frequency.si(), "ramp": ramp.si()});
+                Ok((base, json!({ "sine": sine })))
+            }
+            _ => Err(refuse("this motion of the top").into()),
+        }
+    }
+}
+
+fn sampled(motion: &GroundMotion, duration: f64) -> Value {
+    let step = motion.longest_useful_step();
+    let dt = motion.sample_interval().unwrap_or_else(|| (step * 20.0 / PRINTED_PER_PERIOD).min(duration / 1000.0));
+    let count = (duration / dt).ceil() as usize + 1;
+    let acceleration: Vec<f64> = (0..=count).map(|k| motion.acceleration(k as f64 * dt)).collect();
+    json!({"dt": dt, "acceleration": acceleration})
 }

@@ -7,11 +7,10 @@ mod dynamics;
 pub mod error;
 pub mod excitation;
 pub mod graph;
-pub mod ground;
 mod integrate;
 pub mod law;
 pub mod model;
-
+pub mod ground;
 pub mod outcome;
 pub mod pattern;
 pub mod quantity;
@@ -19,9 +18,8 @@ pub mod record;
 pub mod run;
 pub mod simulate;
 pub mod state;
-pub mod store;
 pub mod system;
-
+pub mod store;
 pub mod wall;
 
 pub use error::{Error, InputError, Result};

@@ -89,6 +89,8 @@ pub struct Energies {
     pub input_base: f64,
     /// Work of a driven top beam.
     pub input_top: f64,
+    /// Kinetic and elastic energy at t = 0.
+    pub initial: f64,
     /// Kinetic energy.
     pub kinetic: f64,
     /// Elastic energy of the joints.
@@ -108,9 +110,9 @@ impl Energies {
     pub fn input(&self) -> f64 {
         self.input_base + self.input_top
     }
-    /// E_kin + E_el + E_diss − W_in: 0 but for the errors of the integration.
+    /// E_kin + E_el − E_0 + E_diss − W_in: 0 but for the errors of the integration.
     pub fn residual(&self) -> f64 {
-        self.kinetic + self.elastic + self.damping + self.friction + self.bond + self.nonreciprocal - self.input()
+        self.kinetic + self.elastic + self.damping + self.friction + self.bond + self.nonreciprocal - self.initial - self.input()
     }
 }
 

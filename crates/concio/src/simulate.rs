@@ -4,8 +4,9 @@
 //! does no I/O and allocates nothing. The caller empties the buffer, shows progress, saves the state.
 
 use crate::case::Solver;
-use crate::dynamics::{Channels, observe, settle};
+use crate::dynamics::{Channels, kick, observe, settle};
 use crate::error::Result;
+use crate::excitation::Drive;
 use crate::integrate::stage::Failure;
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
@@ -28,8 +29,9 @@ pub struct Simulation<'m> {
     state: State,
     work: Step,
     recording: Recording,
-    /// Start of the smooth piece of the motion in which the state lies [s].
-    piece: f64,
+    /// The smooth piece of the motion in which the state lies; follows from the time.
+    drive: Drive,
+    longest_step: f64,
 }
 
 /// What [`Simulation::advance`] came to.
@@ -70,12 +72,14 @@ impl<'m> Simulation<'m> {
             channels: list,
         };
         let mut state = State::at_rest(model);
-        settle(model, &mut state);
+        let drive = model.excitation.drive(0.0);
+        settle(model, &drive, &mut state);
         state.step = (0.01 / model.stiffest.sqrt()).min(duration);
         if !state.step.is_finite() {
             state.step = duration;
         }
         observe(model, &mut state, 0.0);
+        state.energies.initial = state.energies.kinetic + state.energies.elastic;
         let frames = if layout.frame_every > 0 { BUFFER.div_ceil(layout.frame_every) } else { 0 };
         let recording = Recording {
             time: Vec::with_capacity(BUFFER),
@@ -85,9 +89,24 @@ impl<'m> Simulation<'m> {
             frame_velocity: Vec::with_capacity(frames * layout.unknowns),
         };
         let work = Step::new(model, solver.scheme);
-        let mut run = Simulation { model, solver: *solver, channels, layout, state, work, recording, piece: 0.0 };
+        let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
+        let mut run = Simulation { model, solver: *solver, channels, layout, state, work, recording, drive, longest_step };
         run.sample();
         Ok(run)
+    }
+
+    /// Starts from displacements and velocities relative to the base instead of rest; before the first step.
+    /// `z` and `v` have one value per unknown.
+    pub fn start_from(&mut self, z: &[f64], v: &[f64]) {
+        let n = self.model.unknowns();
+        self.state.z[..n].copy_from_slice(z);
+        self.state.v[..n].copy_from_slice(v);
+        settle(self.model, &self.drive, &mut self.state);
+        observe(self.model, &mut self.state, 0.0);
+        self.state.energies.initial = self.state.energies.kinetic + self.state.energies.elastic;
+        self.state.samples = 0;
+        self.clear_recording();
+        self.sample();
     }
 
     /// Takes at most `steps` steps, fewer when the buffer is full or the run ends.
@@ -109,14 +128,14 @@ impl<'m> Simulation<'m> {
 
     /// One accepted step, to the next break of the motion or sample at the farthest.
     fn step(&mut self) -> std::result::Result<(), StopReason> {
-        let break_at = self.model.excitation.next_break(self.state.t).min(self.model.excitation.duration);
+        let break_at = self.drive.end;
         let sample_at = self.state.samples as f64 * self.layout.interval;
         let target = if sample_at > self.state.t { break_at.min(sample_at) } else { break_at };
         let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
         let mut proposed = self.state.step;
         loop {
             let remaining = target - self.state.t;
-            let mut h = proposed.min(self.longest());
+            let mut h = proposed.min(self.longest_step);
             let lands = h >= remaining * (1.0 - 1e-9);
             if lands {
                 h = remaining;
@@ -124,7 +143,7 @@ impl<'m> Simulation<'m> {
                 h = 0.5 * remaining;
             }
             let tolerance = self.tolerance();
-            let attempt = self.work.attempt(self.model, &self.state, self.piece, h, tolerance);
+            let attempt = self.work.attempt(self.model, &self.state, &self.drive, h, tolerance);
             let factor = match attempt {
                 Ok(error) if error <= 1.0 => {
                     let grow = growth(error, self.work.error_order()).min(5.0);
@@ -157,10 +176,6 @@ impl<'m> Simulation<'m> {
         }
     }
 
-    fn longest(&self) -> f64 {
-        self.solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(self.model.excitation.longest_step())
-    }
-
     fn tolerance(&self) -> Tolerance {
         let [z, v] = self.state.scale;
         let floor = self.solver.floor.si();
@@ -176,11 +191,8 @@ impl<'m> Simulation<'m> {
         self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
         self.state.counters.factorisations += std::mem::take(&mut self.work.stage.factorisations);
         observe(self.model, &mut self.state, h);
-        if at_break {
-            self.piece = t;
-            if self.model.excitation.jumps_at(t) {
-                settle(self.model, &mut self.state);
-            }
+        if at_break && t < self.model.excitation.duration {
+            self.enter_piece(t);
         }
         if self.state.t >= self.state.samples as f64 * self.layout.interval
             && (self.state.samples as usize) < self.layout.samples
@@ -189,10 +201,26 @@ impl<'m> Simulation<'m> {
         }
     }
 
+    /// Goes on into the piece of the motion that starts at `t`. Records only have kinks there; where acceleration or
+    /// velocity jumps, the rates at the start of the next step are those after the jump.
+    fn enter_piece(&mut self, t: f64) {
+        let before = self.drive;
+        self.drive = self.model.excitation.drive(t);
+        let jump = self.model.excitation.base_velocity_jump(t);
+        if jump != 0.0 {
+            kick(self.model, &mut self.state, jump);
+        }
+        let (old, new) = (before.base_acceleration(t), self.drive.base_acceleration(t));
+        let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
+        if jump != 0.0 || !close(old, new) || !close(before.top(t).1, self.drive.top(t).1) {
+            settle(self.model, &self.drive, &mut self.state);
+        }
+    }
+
     fn sample(&mut self) {
         let (state, recording) = (&mut self.state, &mut self.recording);
         recording.time.push(state.samples as f64 * self.layout.interval);
-        self.channels.sample(self.model, state, &mut recording.values);
+        self.channels.sample(self.model, &self.drive, state, &mut recording.values);
         if self.layout.frame_every > 0 && state.samples.is_multiple_of(self.layout.frame_every as u64) {
             let n = self.layout.unknowns;
             recording.frame_time.push(state.samples as f64 * self.layout.interval);
@@ -230,15 +258,15 @@ impl<'m> Simulation<'m> {
     /// not part of it: empty it first.
     pub fn save(&self) -> Vec<u8> {
         // Plain vectors of numbers into memory: nothing that could fail.
-        postcard::to_stdvec(&(self.piece, &self.state)).unwrap_or_default()
+        postcard::to_stdvec(&self.state).unwrap_or_default()
     }
     /// Goes back to a saved state; false when the bytes are not one of this model's.
     pub fn restore(&mut self, bytes: &[u8]) -> bool {
-        let Ok((piece, state)) = postcard::from_bytes::<(f64, State)>(bytes) else { return false };
+        let Ok(state) = postcard::from_bytes::<State>(bytes) else { return false };
         if !state.fits(self.model) {
             return false;
         }
-        self.piece = piece;
+        self.drive = self.model.excitation.drive(state.t);
         self.state = state;
         self.clear_recording();
         true

@@ -47,7 +47,7 @@ pub fn system(model: &Model) -> Result<Value> {
             })
         })
         .collect();
-    let (base, top) = model.excitation.system_motions()?;
+    let (base, top) = model.excitation.system_motions(model.beam)?;
     Ok(json!({
         "mass": model.mass,
         "joints": joints,

@@ -5,6 +5,7 @@
 //! (Hosea & Shampine 1996): without the filter the stiff parts, which the scheme damps, would govern the step.
 
 use crate::case::Scheme;
+use crate::excitation::Drive;
 use crate::integrate::stage::{self, Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
 use crate::model::Model;
@@ -59,13 +60,13 @@ impl Step {
         self.tableau.error_order
     }
 
-    /// Tries a step of `h` from `state`, inside the smooth piece of the motion that starts at `from`. Returns the
+    /// Tries a step of `h` from `state`, inside the smooth piece `drive` of the motion. Returns the
     /// error over the tolerance; the result stays in `self` until [`Step::accept`].
     pub fn attempt(
         &mut self,
         model: &Model,
         state: &State,
-        from: f64,
+        drive: &Drive,
         h: f64,
         tolerance: Tolerance,
     ) -> Result<f64, Failure> {
@@ -79,8 +80,8 @@ impl Step {
         for i in 1..self.tableau.stages {
             let t = state.t + self.tableau.c[i] * h;
             self.predict(state, i, h, n);
-            let (u1, v1) = model.excitation.top_relative(t, from);
-            let ground = model.excitation.base_acceleration(t, from);
+            let (u1, v1) = drive.top(t);
+            let ground = drive.base_acceleration(t);
             self.stage.z[n + 1] = u1 - tau * v1;
             self.stage.solution[n + 1] = v1;
             self.stage.solve(model, &mut self.tangents, tau, ground, STAGE_ACCURACY * tolerance.v)?;
