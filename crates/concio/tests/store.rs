@@ -4,8 +4,8 @@ mod store_sample;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::time::Instant;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use concio::Error;
 use concio::record::{Channel, Recording};
@@ -351,6 +351,101 @@ fn every_prefix_of_a_journal_resumes_or_starts_anew() {
     }
 }
 
+/// Samples that the child of the tests below records.
+const LONG: Size = Size { samples: 30_001, channels: 20, courses: 5, bricks: 5, ..SMALL };
+
+/// Not a test: what the tests below start as a process of its own. Resumes or starts the journal in the folder that
+/// CONCIO_JOURNAL names and goes on to the end.
+#[test]
+#[ignore = "a process that other tests start"]
+fn journal_child() {
+    let Some(folder) = std::env::var_os("CONCIO_JOURNAL").map(PathBuf::from) else { return };
+    let header = header(&sample(LONG));
+    let (mut journal, first) = match Journal::resume(&folder, &header).unwrap() {
+        Some((journal, state)) => (journal, state.len() - 200),
+        None => (Journal::create(&folder, &header).unwrap(), 0),
+    };
+    go_on(&mut journal, &header, first..LONG.samples - 1);
+}
+
+/// Not a test: writes a result into the folder.
+#[test]
+#[ignore = "a process that other tests start"]
+fn result_child() {
+    let Some(folder) = std::env::var_os("CONCIO_JOURNAL").map(PathBuf::from) else { return };
+    write(&folder.join("result.h5"), &sample(LONG));
+}
+
+fn start_child(folder: &Path, name: &str, before: &str) -> Command {
+    let mut command = Command::new("sh");
+    command.args(["-c", &format!(r#"{before} exec "$0" --exact {name} --ignored --nocapture"#)]);
+    command.arg(std::env::current_exe().unwrap()).env("CONCIO_JOURNAL", folder);
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
+    command
+}
+
+#[cfg(unix)]
+#[test]
+fn a_killed_run_resumes_from_whatever_it_left() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = header(&sample(LONG));
+    let mut reached = Vec::new();
+    for attempt in 0..12 {
+        let mut child = start_child(folder.path(), "journal_child", "").spawn().unwrap();
+        let patience = Instant::now();
+        while !folder.path().join("checkpoint.bin").exists() && patience.elapsed() < Duration::from_secs(60) {
+            std::thread::yield_now();
+        }
+        std::thread::sleep(Duration::from_millis(7 * attempt));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let samples = match Journal::resume(folder.path(), &header).unwrap() {
+            Some((mut journal, found)) => {
+                let samples = found.len() - 200;
+                assert_eq!(found, state(samples));
+                assert!(journal.read_all().unwrap() == rows(&header.layout, 0..samples), "after {reached:?}");
+                samples
+            }
+            None => 0,
+        };
+        assert!(reached.last().is_none_or(|&before| samples >= before), "{samples} after {reached:?}");
+        reached.push(samples);
+    }
+    assert!(reached.last().is_some_and(|&samples| samples > 0), "no attempt came to a checkpoint");
+}
+
+/// A limit on the size of files stands for a full disk: the write fails half-way.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error_that_names_the_file_and_keeps_the_checkpoint() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = header(&sample(LONG));
+    let output = start_child(folder.path(), "journal_child", "trap '' XFSZ; ulimit -f 100;").output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && said.contains("Io {") && said.contains("journal.bin"), "{said}");
+    let (mut journal, found) = Journal::resume(folder.path(), &header).unwrap().expect("the checkpoint is whole");
+    let samples = found.len() - 200;
+    assert!(samples > 0 && journal.read_all().unwrap() == rows(&header.layout, 0..samples));
+    go_on(&mut journal, &header, samples..samples + 60);
+    assert!(journal.read_all().unwrap() == rows(&header.layout, 0..samples + 60));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_keeps_the_former_result() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    write(&path, &sample(SMALL));
+    for limit in [1, 100, 1000] {
+        let before = format!("trap '' XFSZ; ulimit -f {limit};");
+        let output = start_child(folder.path(), "result_child", &before).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && said.contains("Err` value") && said.contains("result.h5"), "{said}");
+        assert!(hdf5::read(&path).unwrap() == stored(sample(SMALL)));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary file is gone");
+    }
+}
+
 #[test]
 fn summary_has_the_keys_that_other_programs_read() {
     let s = sample(SMALL);
@@ -457,12 +552,29 @@ fn other_readers_agree() {
         export::npz(&run, &at("result.npz")).unwrap();
         export::vtkhdf(&run, &at("result.vtkhdf")).unwrap();
         let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/python/check_result.py");
-        let mut command = Command::new(&python);
-        command.arg(script).arg(at("result.h5"));
-        command.arg("--csv").arg(at("csv")).arg("--npz").arg(at("result.npz")).arg("--vtkhdf").arg(at("result.vtkhdf"));
-        let output = command.output().unwrap();
-        let said = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{size:?}: {said}");
+        let check = || {
+            let mut command = Command::new(&python);
+            command.arg(&script).arg(at("result.h5")).arg("--vtkhdf").arg(at("result.vtkhdf"));
+            let output = command.arg("--csv").arg(at("csv")).arg("--npz").arg(at("result.npz")).output().unwrap();
+            let said = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+            (output.status.success(), said.into_owned())
+        };
+        let (passed, said) = check();
+        assert!(passed, "{size:?}: {said}");
+
+        // The check must notice a single other value in each of the files.
+        let mut other = run.clone();
+        other.outcome.recording.values[10] += 1e-12;
+        other.wall.blocks[1].y[1] += 1e-12;
+        export::csv(&other, &at("csv")).unwrap();
+        let (passed, said) = check();
+        assert!(!passed && said.contains("mismatch: csv"), "{said}");
+        export::npz(&other, &at("result.npz")).unwrap();
+        let (passed, said) = check();
+        assert!(!passed && said.contains("mismatch: npz"), "{said}");
+        export::vtkhdf(&other, &at("result.vtkhdf")).unwrap();
+        let (passed, said) = check();
+        assert!(!passed && said.contains("points: values differ"), "{said}");
     }
 }
 
