@@ -173,6 +173,7 @@ impl Journal {
         let Journal { folder, file, _lock: lock, .. } = self;
         drop(file);
         remove_if_there(&checkpoint_path(&folder))?;
+        atomic::remove_leftover(&checkpoint_path(&folder))?;
         remove_if_there(&journal_path(&folder))?;
         lock.remove()
     }
