@@ -112,7 +112,9 @@ impl Energies {
     }
     /// E_kin + E_el − E_0 + E_diss − W_in: 0 but for the errors of the integration.
     pub fn residual(&self) -> f64 {
-        self.kinetic + self.elastic + self.damping + self.friction + self.bond + self.nonreciprocal - self.initial - self.input()
+        self.kinetic + self.elastic + self.damping + self.friction + self.bond + self.nonreciprocal
+            - self.initial
+            - self.input()
     }
 }
 

@@ -1,13 +1,20 @@
 //! From a wall file's content to a folder with results: what the command line, studies and tests call.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
-use crate::case::Case;
-use crate::error::Result;
+use serde_json::Value;
+
+use crate::case::{Beam, Case, Output, Signal, canonical_json};
+use crate::error::{Error, InputError, Result};
+use crate::excitation::Excitation;
+use crate::ground::signal;
 use crate::model::Model;
 use crate::outcome::Outcome;
+use crate::pattern;
 use crate::record::{Recording, StopReason};
 use crate::simulate::{Progress, Sampling, Simulation};
+use crate::store::{self, JointRow, Journal, JournalHeader, Provenance, RunFacts};
 
 /// A case made ready to run.
 #[derive(Debug, Clone)]
@@ -18,7 +25,7 @@ pub struct Prepared {
     pub model: Model,
     /// Intervals and channels, resolved.
     pub sampling: Sampling,
-    /// BLAKE3 of the resolved input, the bytes of its records and the schema version, in hex.
+    /// BLAKE3 of the resolved input, the bytes of its records and the versions of program and format, in hex.
     pub inputs_hash: String,
 }
 
@@ -48,38 +55,250 @@ pub struct Finished {
     /// The result.
     pub outcome: Outcome,
     /// What summary.json holds.
-    pub summary: serde_json::Value,
+    pub summary: Value,
     /// Time from which an earlier, killed run was taken up [s].
     pub resumed_from: Option<f64>,
 }
 
-/// Steps between two calls of the monitor.
-const STRIDE: u64 = 500;
+/// Name of the result in its folder.
+pub const RESULT: &str = "result.h5";
+/// Name of the summary in its folder.
+pub const SUMMARY: &str = "summary.json";
+
+/// Steps between two looks at the clock and the monitor.
+const STRIDE: u64 = 256;
+/// Time by the clock between two checkpoints: what a killed run can lose.
+const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(1);
+/// Relative displacement of a joint, as a fraction of its overlap, from which its geometry should not be taken as
+/// unchanged any more.
+const LARGE_SLIP: f64 = 0.1;
+
+/// Lays the wall, compiles motion and model. `folder` is where relative record paths start. The case must be valid
+/// ([`crate::case::CaseFile::validate`]).
+///
+/// # Errors
+/// Records that cannot be read, walls that do not stand, names that nothing bears.
+pub fn prepare(case: Case, folder: &Path) -> Result<Prepared> {
+    let wall = pattern::lay(&case)?;
+    let excitation = excitation(&case, folder)?;
+    let sampling = sampling(&case.output, &excitation)?;
+    let inputs_hash = inputs_hash(&case, folder)?;
+    let model = Model::compile(&case, wall, excitation)?;
+    Simulation::check(&model, &sampling)?;
+    Ok(Prepared { case, model, sampling, inputs_hash })
+}
+
+fn excitation(case: &Case, folder: &Path) -> Result<Excitation> {
+    let base = signal::compile(&case.motion.base, folder).map_err(|e| at_key(e, "motion.base"))?;
+    let top = signal::compile(&case.motion.top, folder).map_err(|e| at_key(e, "motion.top"))?;
+    let driven = case.load.beam == Beam::Driven;
+    let ends = [base.end(), top.end().filter(|_| driven)].into_iter().flatten();
+    let end = ends.reduce(f64::max).filter(|&end| end > 0.0);
+    let duration = case.motion.duration.map(|d| d.si()).or(end).ok_or_else(|| {
+        InputError::new("is needed: the motion has no end of its own").key("motion.duration").allowed("above 0 s")
+    })?;
+    let top_sine = if let Signal::Sine(sine) = case.motion.top { Some(sine) } else { None };
+    Ok(Excitation { base, top, driven, top_sine, duration })
+}
+
+fn at_key(error: Error, key: &str) -> Error {
+    match error {
+        Error::Input(e) if e.key.is_none() && e.file.is_none() => e.key(key).into(),
+        other => other,
+    }
+}
+
+fn sampling(output: &Output, excitation: &Excitation) -> Result<Sampling> {
+    let duration = excitation.duration;
+    let of_record = [&excitation.base, &excitation.top].into_iter().filter_map(|m| m.sample_interval());
+    let interval = match output.interval {
+        Some(interval) => interval.si(),
+        None => of_record.reduce(f64::min).unwrap_or(duration / 2000.0),
+    };
+    if !(interval <= duration) {
+        let what = format!("the interval of {interval} s is longer than the run of {duration} s");
+        return Err(InputError::new(what).key("output.interval").allowed(format!("up to {duration} s")).into());
+    }
+    let frames = output.frames.map_or(duration / 400.0, |f| f.si());
+    let frame_every = if frames == 0.0 { 0 } else { ((frames / interval).round() as usize).max(1) };
+    Ok(Sampling { interval, frame_every, blocks: output.blocks.clone(), joints: output.joints.clone() })
+}
+
+/// Hash of everything that the result depends on.
+fn inputs_hash(case: &Case, folder: &Path) -> Result<String> {
+    let mut hasher = blake3::Hasher::new();
+    let mut part = |bytes: &[u8]| {
+        hasher.update(&(bytes.len() as u64).to_le_bytes());
+        hasher.update(bytes);
+    };
+    part(env!("CARGO_PKG_VERSION").as_bytes());
+    part(&store::SCHEMA_VERSION.to_le_bytes());
+    part(canonical_json(case).as_bytes());
+    for signal in [&case.motion.base, &case.motion.top] {
+        if let Signal::Record(input) = signal {
+            let path = folder.join(&input.record);
+            part(&std::fs::read(&path).map_err(|e| Error::io(&path, e))?);
+        }
+    }
+    Ok(hasher.finalize().to_hex().to_string())
+}
+
+impl Prepared {
+    /// Where a result of this run comes from.
+    pub fn provenance(&self) -> Provenance {
+        Provenance {
+            case_json: canonical_json(&self.case),
+            inputs_hash: self.inputs_hash.clone(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            model: "shear".into(),
+        }
+    }
+}
 
 /// Runs `prepared` into the folder `out`; `monitor` is called now and then. `result.h5` and `summary.json` appear
-/// there whole or not at all; a run that was killed is taken up where its journal ends.
+/// there whole or not at all. A run that was killed or interrupted is taken up where its journal ends.
 ///
 /// # Errors
 /// The folder cannot be written, or belongs to another run that is under way.
 pub fn run(prepared: &Prepared, out: &Path, monitor: &mut dyn FnMut(&Status) -> Control) -> Result<Finished> {
-    let _ = out;
     let mut simulation = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling)?;
-    let mut all = Recording::default();
-    let reason = loop {
+    let (mut journal, resumed_from) = open_journal(prepared, &mut simulation, out)?;
+    let start = Instant::now();
+    let reason = integrate(&mut simulation, &mut journal, monitor)?;
+    let solve_seconds = start.elapsed().as_secs_f64();
+    let rows = journal.read_all()?;
+    let outcome = simulation.outcome(rows, reason);
+    let summary = write(prepared, &outcome, solve_seconds, out)?;
+    if reason != StopReason::Interrupted {
+        journal.remove()?;
+    }
+    Ok(Finished { outcome, summary, resumed_from })
+}
+
+/// Removes what an earlier, unfinished run left in `out`, so that the next one starts anew.
+///
+/// # Errors
+/// The files are there and cannot be removed.
+pub fn forget(out: &Path) -> Result<()> {
+    store::journal::discard(out)
+}
+
+fn open_journal(prepared: &Prepared, simulation: &mut Simulation<'_>, out: &Path) -> Result<(Journal, Option<f64>)> {
+    let header = JournalHeader {
+        inputs_hash: prepared.inputs_hash.clone(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        layout: simulation.layout().clone(),
+    };
+    if let Some((journal, state)) = Journal::resume(out, &header)?
+        && simulation.restore(&state)
+    {
+        return Ok((journal, Some(simulation.time())));
+    }
+    Ok((Journal::create(out, &header)?, None))
+}
+
+/// The loop around the time loop: moves rows to the journal, keeps checkpoints, asks the monitor.
+fn integrate(
+    simulation: &mut Simulation<'_>,
+    journal: &mut Journal,
+    monitor: &mut dyn FnMut(&Status) -> Control,
+) -> Result<StopReason> {
+    let mut kept = Instant::now();
+    loop {
         let progress = simulation.advance(STRIDE);
-        all.append(simulation.recording());
-        simulation.clear_recording();
-        if let Progress::Ended(reason) = progress {
-            break reason;
-        }
-        let status = Status {
-            time: simulation.time(),
-            duration: prepared.model.excitation.duration,
-            steps: simulation.state().counters.steps,
+        let stop = match progress {
+            Progress::Ended(reason) => Some(reason),
+            Progress::Running => (monitor(&simulation.status()) == Control::Stop).then_some(StopReason::Interrupted),
         };
-        if monitor(&status) == Control::Stop {
-            break StopReason::Interrupted;
+        let due = kept.elapsed() >= BETWEEN_CHECKPOINTS;
+        if due || stop.is_some() || simulation.buffer_is_full() {
+            if !simulation.recording().time.is_empty() {
+                journal.append(simulation.recording())?;
+                simulation.clear_recording();
+            }
+            if due || stop == Some(StopReason::Interrupted) {
+                journal.checkpoint(&simulation.save())?;
+                kept = Instant::now();
+            }
+        }
+        if let Some(reason) = stop {
+            return Ok(reason);
+        }
+    }
+}
+
+fn write(prepared: &Prepared, outcome: &Outcome, solve_seconds: f64, out: &Path) -> Result<Value> {
+    let (model, provenance, joints) = (&prepared.model, prepared.provenance(), joint_rows(&prepared.model));
+    let mut warnings = model.warnings.clone();
+    warnings.extend(large_slips(model, outcome));
+    let facts = RunFacts { duration: model.excitation.duration, solve_seconds, warnings };
+    let summary = store::summary(&provenance, &model.wall, &joints, outcome, &facts);
+    store::hdf5::write(&out.join(RESULT), &provenance, &model.wall, &joints, outcome)?;
+    store::write_summary(&out.join(SUMMARY), &summary)?;
+    Ok(summary)
+}
+
+/// The model keeps its joints as they were laid: says where that ceases to be a fair picture.
+fn large_slips(model: &Model, outcome: &Outcome) -> Option<String> {
+    let ratio = |e: usize| outcome.envelopes.joint_displacement[e] / model.joints[e].overlap;
+    let bed = |e: &usize| matches!(model.joints[*e].kind, crate::case::JointKind::Bed);
+    let worst = (0..model.joints.len()).filter(bed).max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
+    (ratio(worst) > LARGE_SLIP).then(|| {
+        format!(
+            "joint {} slid by {:.0} % of its overlap: overlaps and loads are kept as laid, so do not trust the result \
+             beyond this",
+            crate::graph::name(&model.wall, &model.joints[worst]),
+            100.0 * ratio(worst)
+        )
+    })
+}
+
+/// The joints of a model with their compiled numbers, as results keep them.
+pub fn joint_rows(model: &Model) -> Vec<JointRow> {
+    use crate::case::{FrictionLaw, SpringLaw};
+    let mut rubs = vec![None; model.joints.len()];
+    for rub in &model.rubs {
+        rubs[rub.joint as usize] = Some(rub);
+    }
+    let row = |(e, rub): (usize, Option<&crate::model::Rub>)| {
+        let (joint, law) = (&model.joints[e], &model.elastic[e]);
+        JointRow {
+            joint: joint.clone(),
+            name: crate::graph::name(&model.wall, joint),
+            law: match law {
+                l if l.unilateral => SpringLaw::NoTension,
+                l if l.stiffness == 0.0 && l.damping == 0.0 => SpringLaw::None,
+                _ => SpringLaw::Elastic,
+            },
+            stiffness: law.stiffness,
+            damping: law.damping,
+            normal_force: rub.map_or([0.0; 2], |r| r.normal),
+            friction: rub.map(|r| store::FrictionRow {
+                law: FrictionLaw::Stribeck,
+                static_: r.law.static_,
+                dynamic: r.law.dynamic,
+                slip_velocity: r.law.slip_velocity,
+                beta: r.law.beta,
+                alpha: r.law.alpha,
+            }),
         }
     };
-    Ok(Finished { outcome: simulation.outcome(all, reason), summary: serde_json::Value::Null, resumed_from: None })
+    rubs.into_iter().enumerate().map(row).collect()
+}
+
+/// Runs to the end in memory, without files.
+///
+/// # Errors
+/// As [`Simulation::new`].
+pub fn run_in_memory(prepared: &Prepared) -> Result<Outcome> {
+    let mut simulation = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling)?;
+    let mut rows = Recording::default();
+    loop {
+        let progress = simulation.advance(u64::MAX);
+        rows.append(simulation.recording());
+        simulation.clear_recording();
+        if let Progress::Ended(reason) = progress {
+            return Ok(simulation.outcome(rows, reason));
+        }
+    }
 }

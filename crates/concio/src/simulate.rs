@@ -12,6 +12,7 @@ use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::record::{Layout, Recording, StopReason};
+use crate::run::Status;
 use crate::state::State;
 
 /// Shortest step as a fraction of the shortest time scale 1/ω; below it the tolerance cannot be held.
@@ -90,9 +91,18 @@ impl<'m> Simulation<'m> {
         };
         let work = Step::new(model, solver.scheme);
         let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
-        let mut run = Simulation { model, solver: *solver, channels, layout, state, work, recording, drive, longest_step };
+        let mut run =
+            Simulation { model, solver: *solver, channels, layout, state, work, recording, drive, longest_step };
         run.sample();
         Ok(run)
+    }
+
+    /// Says whether the names in `sampling` are those of blocks and joints.
+    ///
+    /// # Errors
+    /// A name that no block or joint bears.
+    pub fn check(model: &Model, sampling: &Sampling) -> Result<()> {
+        Channels::new(model, &sampling.blocks, &sampling.joints).map(|_| ())
     }
 
     /// Starts from displacements and velocities relative to the base instead of rest; before the first step.
@@ -116,7 +126,7 @@ impl<'m> Simulation<'m> {
             if self.state.t >= end {
                 return Progress::Ended(StopReason::Completed);
             }
-            if self.recording.time.len() >= BUFFER {
+            if self.buffer_is_full() {
                 return Progress::Running;
             }
             if let Err(reason) = self.step() {
@@ -230,6 +240,14 @@ impl<'m> Simulation<'m> {
         state.samples += 1;
     }
 
+    /// Whether [`Simulation::advance`] waits for the buffer to be emptied.
+    pub fn buffer_is_full(&self) -> bool {
+        self.recording.time.len() >= BUFFER
+    }
+    /// How far the run is.
+    pub fn status(&self) -> Status {
+        Status { time: self.state.t, duration: self.model.excitation.duration, steps: self.state.counters.steps }
+    }
     /// Samples since the buffer was last cleared.
     pub fn recording(&self) -> &Recording {
         &self.recording
@@ -290,21 +308,4 @@ impl<'m> Simulation<'m> {
 /// Step factor 0.9 (1/error)^(1/order).
 fn growth(error: f64, order: f64) -> f64 {
     if error <= 0.0 { 5.0 } else { 0.9 * error.powf(-1.0 / order) }
-}
-
-/// Runs to the end in memory.
-///
-/// # Errors
-/// As [`Simulation::new`].
-pub fn simulate(model: &Model, solver: &Solver, sampling: &Sampling) -> Result<Outcome> {
-    let mut run = Simulation::new(model, solver, sampling)?;
-    let mut all = Recording::default();
-    loop {
-        let progress = run.advance(u64::MAX);
-        all.append(run.recording());
-        run.clear_recording();
-        if let Progress::Ended(reason) = progress {
-            return Ok(run.outcome(all, reason));
-        }
-    }
 }

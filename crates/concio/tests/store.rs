@@ -4,8 +4,9 @@ mod store_sample;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::time::Instant;
+use std::process::{Command, Stdio};
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
 
 use concio::Error;
 use concio::record::{Channel, Recording};
@@ -146,10 +147,15 @@ proptest! {
     /// A damaged file may still be readable where the damage hits a value; it must never panic or eat the memory.
     #[test]
     fn a_damaged_file_does_not_panic(places in prop::collection::vec((0.0..1.0f64, any::<u8>()), 1..20)) {
+        static WHOLE: OnceLock<Vec<u8>> = OnceLock::new();
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("result.h5");
-        write(&path, &sample(Size { samples: 21, channels: 4, courses: 2, bricks: 2, frame_every: 5, beam: false }));
-        let mut bytes = fs::read(&path).unwrap();
+        let whole = WHOLE.get_or_init(|| {
+            let size = Size { samples: 21, channels: 4, courses: 2, bricks: 2, frame_every: 5, beam: false };
+            write(&path, &sample(size));
+            fs::read(&path).unwrap()
+        });
+        let mut bytes = whole.clone();
         for (place, value) in places {
             let at = (place * bytes.len() as f64) as usize;
             bytes[at] = value;
@@ -197,6 +203,7 @@ fn a_journal_resumes_at_its_checkpoint() {
     assert!(journal.read_all().unwrap() == rows(&header.layout, 0..90));
     go_on(&mut journal, &header, 90..200);
     assert!(journal.read_all().unwrap() == rows(&header.layout, 0..200));
+    fs::write(at.join("checkpoint.bin.tmp"), "left behind by a kill").unwrap();
     journal.remove().unwrap();
     assert_eq!(fs::read_dir(&at).unwrap().count(), 0, "the folder is empty again");
 }
@@ -293,23 +300,41 @@ fn do_harm(path: &Path, older: &[u8], harm: &Harm) {
     fs::write(path, bytes).unwrap();
 }
 
+const HARMED: Size = Size { samples: 201, courses: 2, bricks: 2, ..SMALL };
+const FILES: [&str; 2] = ["journal.bin", "checkpoint.bin"];
+
+/// Journal and checkpoint of a run, each as it was at 70 and at 110 samples. Made once: a checkpoint waits for the disk.
+fn unharmed() -> &'static [[Vec<u8>; 2]; 2] {
+    static MADE: OnceLock<[[Vec<u8>; 2]; 2]> = OnceLock::new();
+    MADE.get_or_init(|| {
+        let header = header(&sample(HARMED));
+        let folder = tempfile::tempdir().unwrap();
+        let content = || FILES.map(|name| fs::read(folder.path().join(name)).unwrap());
+        let mut journal = Journal::create(folder.path(), &header).unwrap();
+        go_on(&mut journal, &header, 0..70);
+        let [older_journal, older_state] = content();
+        go_on(&mut journal, &header, 70..110);
+        let [journal, state] = content();
+        [[older_journal, journal], [older_state, state]]
+    })
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
     /// Whatever happens to either file: resuming gives a state with exactly the rows before it, or nothing.
     #[test]
-    fn a_harmed_journal_never_gives_wrong_data(journal_harm in prop::option::of(harm()), state_harm in prop::option::of(harm())) {
-        let s = sample(Size { samples: 201, courses: 2, bricks: 2, ..SMALL });
+    fn a_harmed_journal_never_gives_wrong_data(
+        journal_harm in prop::option::of(harm()),
+        state_harm in prop::option::of(harm()),
+    ) {
+        let header = header(&sample(HARMED));
         let folder = tempfile::tempdir().unwrap();
-        let header = header(&s);
-        let files = ["journal.bin", "checkpoint.bin"].map(|name| folder.path().join(name));
-        let mut journal = Journal::create(folder.path(), &header).unwrap();
-        go_on(&mut journal, &header, 0..70);
-        let older = files.each_ref().map(|file| fs::read(file).unwrap());
-        go_on(&mut journal, &header, 70..110);
-        drop(journal);
-        for ((file, older), harm) in files.iter().zip(&older).zip([&journal_harm, &state_harm]) {
+        let harms = [&journal_harm, &state_harm];
+        for ((name, [older, newer]), harm) in FILES.iter().zip(unharmed()).zip(harms) {
+            let path = folder.path().join(name);
+            fs::write(&path, newer).unwrap();
             if let Some(harm) = harm {
-                do_harm(file, older, harm);
+                do_harm(&path, older, harm);
             }
         }
         let resumed = Journal::resume(folder.path(), &header).unwrap();
@@ -319,13 +344,13 @@ proptest! {
             prop_assert!(samples == 60 || samples == 90);
             prop_assert_eq!(found, state(samples));
             prop_assert!(journal.read_all().unwrap() == rows(&header.layout, 0..samples));
-            go_on(&mut journal, &header, samples..120);
-            prop_assert!(journal.read_all().unwrap() == rows(&header.layout, 0..120));
+            go_on(&mut journal, &header, samples..samples + 20);
+            prop_assert!(journal.read_all().unwrap() == rows(&header.layout, 0..samples + 20));
         }
         // Starting anew works whatever is left in the folder.
         let mut journal = Journal::create(folder.path(), &header).unwrap();
-        go_on(&mut journal, &header, 0..30);
-        prop_assert!(journal.read_all().unwrap() == rows(&header.layout, 0..30));
+        go_on(&mut journal, &header, 0..20);
+        prop_assert!(journal.read_all().unwrap() == rows(&header.layout, 0..20));
     }
 }
 
@@ -348,6 +373,101 @@ fn every_prefix_of_a_journal_resumes_or_starts_anew() {
         if let Some((mut journal, _)) = resumed {
             assert!(journal.read_all().unwrap() == rows(&header.layout, 0..30), "cut at {length}");
         }
+    }
+}
+
+/// Samples that the child of the tests below records.
+const LONG: Size = Size { samples: 30_001, channels: 20, courses: 5, bricks: 5, ..SMALL };
+
+/// Not a test: what the tests below start as a process of its own. Resumes or starts the journal in the folder that
+/// CONCIO_JOURNAL names and goes on to the end.
+#[test]
+#[ignore = "a process that other tests start"]
+fn journal_child() {
+    let Some(folder) = std::env::var_os("CONCIO_JOURNAL").map(PathBuf::from) else { return };
+    let header = header(&sample(LONG));
+    let (mut journal, first) = match Journal::resume(&folder, &header).unwrap() {
+        Some((journal, state)) => (journal, state.len() - 200),
+        None => (Journal::create(&folder, &header).unwrap(), 0),
+    };
+    go_on(&mut journal, &header, first..LONG.samples - 1);
+}
+
+/// Not a test: writes a result into the folder.
+#[test]
+#[ignore = "a process that other tests start"]
+fn result_child() {
+    let Some(folder) = std::env::var_os("CONCIO_JOURNAL").map(PathBuf::from) else { return };
+    write(&folder.join("result.h5"), &sample(LONG));
+}
+
+fn start_child(folder: &Path, name: &str, before: &str) -> Command {
+    let mut command = Command::new("sh");
+    command.args(["-c", &format!(r#"{before} exec "$0" --exact {name} --ignored --nocapture"#)]);
+    command.arg(std::env::current_exe().unwrap()).env("CONCIO_JOURNAL", folder);
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
+    command
+}
+
+#[cfg(unix)]
+#[test]
+fn a_killed_run_resumes_from_whatever_it_left() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = header(&sample(LONG));
+    let mut reached = Vec::new();
+    for attempt in 0..12 {
+        let mut child = start_child(folder.path(), "journal_child", "").spawn().unwrap();
+        let patience = Instant::now();
+        while !folder.path().join("checkpoint.bin").exists() && patience.elapsed() < Duration::from_secs(60) {
+            std::thread::yield_now();
+        }
+        std::thread::sleep(Duration::from_millis(7 * attempt));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let samples = match Journal::resume(folder.path(), &header).unwrap() {
+            Some((mut journal, found)) => {
+                let samples = found.len() - 200;
+                assert_eq!(found, state(samples));
+                assert!(journal.read_all().unwrap() == rows(&header.layout, 0..samples), "after {reached:?}");
+                samples
+            }
+            None => 0,
+        };
+        assert!(reached.last().is_none_or(|&before| samples >= before), "{samples} after {reached:?}");
+        reached.push(samples);
+    }
+    assert!(reached.last().is_some_and(|&samples| samples > 0), "no attempt came to a checkpoint");
+}
+
+/// A limit on the size of files stands for a full disk: the write fails half-way.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error_that_names_the_file_and_keeps_the_checkpoint() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = header(&sample(LONG));
+    let output = start_child(folder.path(), "journal_child", "trap '' XFSZ; ulimit -f 100;").output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && said.contains("Io {") && said.contains("journal.bin"), "{said}");
+    let (mut journal, found) = Journal::resume(folder.path(), &header).unwrap().expect("the checkpoint is whole");
+    let samples = found.len() - 200;
+    assert!(samples > 0 && journal.read_all().unwrap() == rows(&header.layout, 0..samples));
+    go_on(&mut journal, &header, samples..samples + 60);
+    assert!(journal.read_all().unwrap() == rows(&header.layout, 0..samples + 60));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_keeps_the_former_result() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    write(&path, &sample(SMALL));
+    for limit in [1, 100, 1000] {
+        let before = format!("trap '' XFSZ; ulimit -f {limit};");
+        let output = start_child(folder.path(), "result_child", &before).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && said.contains("Err` value") && said.contains("result.h5"), "{said}");
+        assert!(hdf5::read(&path).unwrap() == stored(sample(SMALL)));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary file is gone");
     }
 }
 
@@ -457,12 +577,29 @@ fn other_readers_agree() {
         export::npz(&run, &at("result.npz")).unwrap();
         export::vtkhdf(&run, &at("result.vtkhdf")).unwrap();
         let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/python/check_result.py");
-        let mut command = Command::new(&python);
-        command.arg(script).arg(at("result.h5"));
-        command.arg("--csv").arg(at("csv")).arg("--npz").arg(at("result.npz")).arg("--vtkhdf").arg(at("result.vtkhdf"));
-        let output = command.output().unwrap();
-        let said = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{size:?}: {said}");
+        let check = || {
+            let mut command = Command::new(&python);
+            command.arg(&script).arg(at("result.h5")).arg("--vtkhdf").arg(at("result.vtkhdf"));
+            let output = command.arg("--csv").arg(at("csv")).arg("--npz").arg(at("result.npz")).output().unwrap();
+            let said = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+            (output.status.success(), said.into_owned())
+        };
+        let (passed, said) = check();
+        assert!(passed, "{size:?}: {said}");
+
+        // The check must notice a single other value in each of the files.
+        let mut other = run.clone();
+        other.outcome.recording.values[10] += 1e-12;
+        other.wall.blocks[1].y[1] += 1e-12;
+        export::csv(&other, &at("csv")).unwrap();
+        let (passed, said) = check();
+        assert!(!passed && said.contains("mismatch: csv"), "{said}");
+        export::npz(&other, &at("result.npz")).unwrap();
+        let (passed, said) = check();
+        assert!(!passed && said.contains("mismatch: npz"), "{said}");
+        export::vtkhdf(&other, &at("result.vtkhdf")).unwrap();
+        let (passed, said) = check();
+        assert!(!passed && said.contains("points: values differ"), "{said}");
     }
 }
 

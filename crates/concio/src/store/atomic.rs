@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs::{self, File};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
@@ -23,6 +24,14 @@ pub(super) fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<()>) -> R
 /// [`replace`] for content that is in memory already.
 pub(super) fn replace_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     replace(path, |temporary| fs::write(temporary, bytes).map_err(|e| Error::io(path, e)))
+}
+
+/// Removes what a killed [`replace`] of `path` may have left.
+pub(super) fn remove_leftover(path: &Path) -> Result<()> {
+    match fs::remove_file(temporary_name(path)?) {
+        Err(e) if e.kind() != ErrorKind::NotFound => Err(Error::io(path, e)),
+        _ => Ok(()),
+    }
 }
 
 /// Makes the names in a folder durable. Systems that cannot open a folder keep names durable by themselves.

@@ -94,6 +94,7 @@ fn write_head(sink: &mut Sink, provenance: &Provenance, outcome: &Outcome) -> Re
     sink.attribute("/", "inputs_hash", &provenance.inputs_hash)?;
     sink.attribute("/", "stop_reason", &keyword(&outcome.stop_reason))?;
     sink.number_attribute("/", "time_reached", outcome.time_reached)?;
+    // Once more as a dataset: `rust-hdf5` reads numbers from attributes of datasets only, not of groups.
     sink.number("schema_version", SCHEMA_VERSION, label("1", "Version of the layout of this file."))?;
     sink.texts("case", &[&provenance.case_json], "The resolved case, JSON.")
 }

@@ -64,6 +64,20 @@ struct Position {
     digest: [u8; DIGEST],
 }
 
+/// Removes journal and checkpoint from `folder`, if they are there.
+///
+/// # Errors
+/// [`Error::Io`] when a file cannot be removed, [`Error::Store`] when another run is writing to the folder.
+pub fn discard(folder: &Path) -> Result<()> {
+    if !folder.is_dir() {
+        return Ok(());
+    }
+    let lock = lock::Lock::take(folder)?;
+    remove_if_there(&checkpoint_path(folder))?;
+    remove_if_there(&journal_path(folder))?;
+    lock.remove()
+}
+
 impl Journal {
     /// Starts a journal in `folder`, which is made if need be. A journal that was there is lost.
     ///
@@ -159,6 +173,7 @@ impl Journal {
         let Journal { folder, file, _lock: lock, .. } = self;
         drop(file);
         remove_if_there(&checkpoint_path(&folder))?;
+        atomic::remove_leftover(&checkpoint_path(&folder))?;
         remove_if_there(&journal_path(&folder))?;
         lock.remove()
     }

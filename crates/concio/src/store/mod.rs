@@ -1,5 +1,5 @@
 //! What a run leaves on disk: one HDF5 file when it is over ([`hdf5`], with a [`vtkhdf`] group in it), a [`journal`]
-//! while it goes on, a [`summary`] in JSON, and copies in other formats ([`export`]). docs/results.md describes them all.
+//! while it goes on, a [`summary()`] in JSON, and copies in other formats ([`export`]). docs/results.md describes them all.
 
 mod atomic;
 pub mod export;
@@ -8,7 +8,7 @@ mod h5;
 pub mod hdf5;
 pub mod journal;
 mod read;
-pub mod summary;
+mod summary;
 pub mod vtkhdf;
 
 use crate::case::{FrictionLaw, SpringLaw};
@@ -16,7 +16,7 @@ use crate::outcome::Outcome;
 use crate::wall::{Joint, Wall};
 
 pub use journal::{Journal, JournalHeader};
-pub use summary::{RunFacts, summary, write_summary};
+pub use summary::{RunFacts, residual_relative, summary, top_force_rms, write_summary};
 
 /// Version of the layout of result files; raised when a reader of the former version would misread a file.
 pub const SCHEMA_VERSION: u32 = 1;

@@ -218,8 +218,8 @@ def check_vtk(path, blocks, envelopes, time, displacement, velocity):
     corners = np.zeros((n, 4, 3))
     corners[:, :, 0] = np.stack([blocks["x0"], blocks["x1"], blocks["x1"], blocks["x0"]], axis=1)
     corners[:, :, 1] = np.stack([blocks["y0"], blocks["y0"], blocks["y1"], blocks["y1"]], axis=1)
-    middle = len(time) // 2
-    for step in sorted({0, 1, middle, len(time) - 1} & set(range(max(len(time), 1)))):
+    # All steps of a short run; of a long one as many, the first and last among them.
+    for step in np.unique(np.linspace(0, max(len(time) - 1, 0), 200).astype(int)):
         if len(time):
             reader.UpdateTimeStep(time[step])
         else:
@@ -227,7 +227,8 @@ def check_vtk(path, blocks, envelopes, time, displacement, velocity):
         grid = reader.GetOutputDataObject(0)
         where = f"{path}: step {step}"
         require(grid.GetNumberOfPoints() == 4 * n and grid.GetNumberOfCells() == n, f"{where}: size of the grid")
-        require(all(grid.GetCellType(k) == 9 for k in range(n)), f"{where}: cells are not quadrilaterals")
+        if step == 0:
+            require(all(grid.GetCellType(k) == 9 for k in range(n)), f"{where}: cells are not quadrilaterals")
         equal(vtk_to_numpy(grid.GetPoints().GetData()), corners.reshape(-1, 3), f"{where}: points")
         equal(vtk_to_numpy(grid.GetCells().GetConnectivityArray()), np.arange(4 * n), f"{where}: connectivity")
         cell = {key: vtk_to_numpy(grid.GetCellData().GetArray(key)) for key in vtk_names(grid.GetCellData())}

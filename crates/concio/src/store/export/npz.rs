@@ -24,7 +24,7 @@ pub fn npz(run: &StoredRun, path: &Path) -> Result<()> {
     atomic::replace(path, |temporary| {
         let file = File::create(temporary).map_err(|e| Error::io(path, e))?;
         let mut archive = Archive { zip: ZipWriter::new(BufWriter::new(file)) };
-        let filled = fill(&mut archive, run).and_then(|()| Ok(archive.zip.finish()?.flush()?));
+        let filled = fill(&mut archive, run).and_then(|()| archive.zip.finish()?.flush());
         filled.map_err(|e| Error::io(path, e))
     })
 }

@@ -37,13 +37,21 @@ impl Lock {
 
     /// Removes the file, then gives up the lock.
     pub fn remove(self) -> Result<()> {
-        // Windows does not remove a file that is open; there the order cannot matter, because nobody can open a
-        // file that is about to go.
+        let path = self.path.clone();
         if cfg!(windows) {
-            drop(self.file);
-            return remove_if_there(&self.path);
+            // Windows does not remove a file that is open. Nor can another run open one that is about to go, so that
+            // the order matters on the other systems only.
+            drop(self);
+            return remove_if_there(&path);
         }
-        remove_if_there(&self.path)
+        remove_if_there(&path)
+    }
+}
+
+impl Drop for Lock {
+    /// Closing the file is not enough: a process forked meanwhile holds a copy of it until it runs its own program.
+    fn drop(&mut self) {
+        let _ = self.file.unlock();
     }
 }
 
