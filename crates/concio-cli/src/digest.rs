@@ -33,10 +33,7 @@ pub fn rows(outcome: &Outcome, summary: &Value) -> Vec<(&'static str, String)> {
     }
     rows.push(("energy residual", format!("{:.1e} of the largest work", residual(summary))));
     let counters = &outcome.counters;
-    rows.push((
-        "steps",
-        format!("{}, {} rejected, {} repeated", counters.steps, counters.rejected, counters.failed),
-    ));
+    rows.push(("steps", format!("{}, {} rejected, {} repeated", counters.steps, counters.rejected, counters.failed)));
     rows.push(("solver time", clock(number("/solve_seconds"))));
     rows
 }
@@ -46,11 +43,16 @@ pub fn residual(summary: &Value) -> f64 {
     summary.pointer("/energy/residual_relative").and_then(Value::as_f64).unwrap_or(f64::NAN)
 }
 
+/// What the user is warned of.
+pub fn warnings(summary: &Value) -> impl Iterator<Item = &str> {
+    summary.get("warnings").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str)
+}
+
 /// Why a run stopped early, and what to do about it.
 pub fn why(reason: StopReason) -> &'static str {
     match reason {
         StopReason::Completed => "the end was reached",
-        StopReason::Interrupted => "interrupted; what was computed is written",
+        StopReason::Interrupted => "interrupted; what was computed is written, and the same command goes on from here",
         StopReason::StepTooShort => {
             "the step became too short for the tolerance; raise solver.tolerance or check the stiffnesses and masses"
         }

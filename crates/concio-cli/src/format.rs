@@ -2,9 +2,8 @@
 
 /// A value with its unit and a decimal prefix, four significant digits: `1.198 µm`, `53.40 kN`.
 pub fn si(value: f64, unit: &str) -> String {
-    const PREFIXES: [(&str, f64); 8] = [
-        ("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9), ("p", 1e-12),
-    ];
+    const PREFIXES: [(&str, f64); 8] =
+        [("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9), ("p", 1e-12)];
     if value == 0.0 || !value.is_finite() {
         return format!("{value} {unit}").trim_end().into();
     }

@@ -10,8 +10,7 @@ use crate::failure::Failure;
 use crate::format::{columns, pairs, si, significant};
 use crate::{files, report};
 
-const KINDS: [JointKind; 5] =
-    [JointKind::Base, JointKind::Bed, JointKind::Head, JointKind::Connection, JointKind::Top];
+const KINDS: [JointKind; 5] = [JointKind::Base, JointKind::Bed, JointKind::Head, JointKind::Connection, JointKind::Top];
 
 /// Validates a wall file and prints what it describes.
 pub fn check(args: &Check) -> Result<(), Failure> {

@@ -15,8 +15,11 @@ pub fn reference() -> Result<(), Failure> {
     let mut command = Cli::command().term_width(100);
     command.build();
     section(&mut text, "concio", &mut command);
-    let names: Vec<String> =
-        command.get_subcommands().filter(|c| !c.is_hide_set() && c.get_name() != "help").map(|c| c.get_name().into()).collect();
+    let names: Vec<String> = command
+        .get_subcommands()
+        .filter(|c| !c.is_hide_set() && c.get_name() != "help")
+        .map(|c| c.get_name().into())
+        .collect();
     for name in names {
         if let Some(sub) = command.find_subcommand_mut(&name) {
             let mut sub = sub.clone().term_width(100);

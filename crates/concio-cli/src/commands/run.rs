@@ -62,7 +62,7 @@ fn refuse_a_file(out: &Path) -> Result<(), Failure> {
 }
 
 fn tell(finished: &Finished, prepared: &Prepared, report: &Path) -> Result<(), Failure> {
-    for warning in &prepared.model.warnings {
+    for warning in digest::warnings(&finished.summary) {
         eprintln!("warning: {warning}");
     }
     if let Some(time) = finished.resumed_from {

@@ -1,15 +1,12 @@
 //! When not to believe a result: what the model cannot show, and what this run strains.
 
-use concio::case::{FrictionLaw, JointKind};
+use concio::case::FrictionLaw;
 
 use super::Content;
 use crate::digest::residual;
-use crate::format::{si, significant};
 
 /// Residual of the energy account beyond which a run is not to be trusted.
 pub const LARGEST_RESIDUAL: f64 = 1e-3;
-/// Part of the shortest contact up to which displacements may be called small.
-const SMALL: f64 = 0.1;
 
 /// One sentence or two each; those of this run come first.
 pub fn list(content: &Content) -> Vec<String> {
@@ -44,15 +41,6 @@ fn of_this_run(content: &Content) -> Vec<String> {
              than {LARGEST_RESIDUAL}. Lower solver.tolerance."
         ));
     }
-    if let Some((moved, overlap)) = strained(content) {
-        doubts.push(format!(
-            "A joint moved by {}, which is {} % of its contact of {}: contacts and loads are those of the undeformed \
-             wall throughout.",
-            si(moved, "m"),
-            significant(100.0 * moved / overlap, 2),
-            si(overlap, "m")
-        ));
-    }
     if friction.law == FrictionLaw::Stribeck && outcome.totals.peak_slip_velocity > friction.slip_velocity.si() {
         doubts.push(
             "Joints slip in this run. Stick-slip is sensitive to the last digit: energies, envelopes and forces can be \
@@ -61,12 +49,4 @@ fn of_this_run(content: &Content) -> Vec<String> {
         );
     }
     doubts
-}
-
-/// The bed or support joint that moved most for its length, if that is no small displacement any more.
-fn strained(content: &Content) -> Option<(f64, f64)> {
-    let moved = &content.outcome.envelopes.joint_displacement;
-    let lying = |kind| matches!(kind, JointKind::Bed | JointKind::Base | JointKind::Top);
-    let all = content.joints.iter().zip(moved).filter(|(j, _)| lying(j.kind)).map(|(j, &d)| (d, j.overlap));
-    all.max_by(|a, b| (a.0 / a.1).total_cmp(&(b.0 / b.1))).filter(|(d, l)| d / l > SMALL)
 }

@@ -11,7 +11,10 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     let envelopes = &content.outcome.envelopes;
     let field = |title, unit, values| Field { title, unit, values };
     let views = [
-        ("displacement", Paint::Blocks(field("peak displacement relative to the base", "m", &envelopes.block_displacement))),
+        (
+            "displacement",
+            Paint::Blocks(field("peak displacement relative to the base", "m", &envelopes.block_displacement)),
+        ),
         ("slip", Paint::Joints(field("way slipped", "m", &envelopes.joint_slip))),
         ("opening", Paint::Joints(field("widest gap of the head joints", "m", &envelopes.joint_opening))),
         ("acceleration", Paint::Joints(field("peak relative acceleration", "m/s²", &envelopes.joint_acceleration))),
@@ -32,11 +35,23 @@ pub fn histories(content: &Content) -> Vec<String> {
             .filter(|c| c.y.iter().any(|v| *v != 0.0))
             .collect();
         if !shown.is_empty() {
-            figures.push(curves::draw(&Figure { title, x_label: "time [s]", quantity, unit, curves: shown, height: 250.0 }));
+            figures.push(curves::draw(&Figure {
+                title,
+                x_label: "time [s]",
+                quantity,
+                unit,
+                curves: shown,
+                height: 250.0,
+            }));
         }
     };
     let of = |name: &str| content.history(name);
-    add("Top of the wall, relative to the base", "displacement", "m", &[("top course", of("top/displacement")), ("top beam", driven)]);
+    add(
+        "Top of the wall, relative to the base",
+        "displacement",
+        "m",
+        &[("top course", of("top/displacement")), ("top beam", driven)],
+    );
     add("Largest displacement of a block at each instant", "displacement", "m", &[("", of("peak/displacement"))]);
     add("Motion of the base", "acceleration", "m/s²", &[("", of("base/acceleration"))]);
     add("Motion of the base", "displacement", "m", &[("", of("base/displacement"))]);

@@ -73,11 +73,6 @@ impl<'a> Content<'a> {
         let at = channels.iter().position(|c| c.name == name)?;
         Some(self.outcome.recording.values.chunks_exact(channels.len()).map(|row| row[at]).collect())
     }
-
-    /// What the user was warned of.
-    fn warnings(&self) -> impl Iterator<Item = &str> {
-        self.summary.get("warnings").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str)
-    }
 }
 
 fn name(folder: &Path) -> String {

@@ -51,7 +51,8 @@ fn section(page: &mut String, title: &str, body: &str) {
 }
 
 fn table(rows: &[(&str, String)]) -> String {
-    let row = |(name, value): &(&str, String)| format!("<tr><td>{}</td><td>{}</td></tr>\n", escape(name), escape(value));
+    let row =
+        |(name, value): &(&str, String)| format!("<tr><td>{}</td><td>{}</td></tr>\n", escape(name), escape(value));
     format!("<table>\n{}</table>\n", rows.iter().map(row).collect::<String>())
 }
 
@@ -71,7 +72,7 @@ fn head(page: &mut String, content: &Content) {
         let why = escape(digest::why(outcome.stop_reason));
         let _ = writeln!(page, "<p class=\"note bad\"><b>Stopped early at t = {at} s of {duration} s:</b> {why}.</p>");
     }
-    for warning in content.warnings() {
+    for warning in digest::warnings(content.summary) {
         let _ = writeln!(page, "<p class=\"note\"><b>Warning:</b> {}</p>", escape(warning));
     }
 }
@@ -80,14 +81,19 @@ const VIEWS: usize = 5;
 
 /// Shows the view whose button is chosen, without a script.
 fn view_rules() -> String {
-    (0..VIEWS).map(|k| format!("#v{k}:checked~#w{k}{}", if k + 1 < VIEWS { "," } else { "{display:block}\n" })).collect()
+    (0..VIEWS)
+        .map(|k| format!("#v{k}:checked~#w{k}{}", if k + 1 < VIEWS { "," } else { "{display:block}\n" }))
+        .collect()
 }
 
 fn wall(page: &mut String, content: &Content) {
     let (mut buttons, mut drawings) = (String::new(), String::new());
     for (k, (name, drawing)) in figures::walls(content).iter().enumerate() {
         let checked = if k == 0 { " checked" } else { "" };
-        let _ = write!(buttons, "<input type=\"radio\" name=\"view\" id=\"v{k}\"{checked}><label for=\"v{k}\">{name}</label>");
+        let _ = write!(
+            buttons,
+            "<input type=\"radio\" name=\"view\" id=\"v{k}\"{checked}><label for=\"v{k}\">{name}</label>"
+        );
         let _ = writeln!(drawings, "<div id=\"w{k}\">{drawing}</div>");
     }
     section(page, "The wall: peaks over the whole run", &format!("<div class=\"views\">{buttons}\n{drawings}</div>\n"));
