@@ -24,11 +24,6 @@ pub fn significant(value: f64, digits: i32) -> String {
     format!("{value:.decimals$}")
 }
 
-/// `3 blocks`, `1 block`.
-pub fn count(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
-}
-
 /// A time by the clock: `0.42 s`, `3 min 12 s`.
 pub fn clock(seconds: f64) -> String {
     if seconds < 60.0 {
