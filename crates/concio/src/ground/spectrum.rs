@@ -33,7 +33,10 @@ pub struct Spectrum {
 }
 
 /// Response spectrum of `acceleration` [m/s²] at samples `dt` [s] apart, for damping ratio ζ ≥ 0 and the periods
-/// given [s]. Oscillators start at rest. Peaks between steps are found from the cubic through their ends.
+/// given [s]. Oscillators start at rest.
+///
+/// Peaks are those at the ends of the steps, as in published spectra: at most 1 − cos(π/20) = 1.2 % below a peak
+/// between them (El Centro, T = 0.5 s, ζ = 2 %: 2.675 in at the samples, 2.688 in between two of them).
 /// A period that is not above 0 counts as 0.
 pub fn response_spectrum(dt: f64, acceleration: &[f64], damping: f64, periods: &[f64]) -> Spectrum {
     let pga = acceleration.iter().fold(0.0_f64, |peak, a| peak.max(a.abs()));
@@ -69,25 +72,10 @@ fn peak_displacement(dt: f64, acceleration: &[f64], damping: f64, period: f64) -
             let a0 = pair[0] + slope * part as f64;
             let (u1, v1) = step.advance(u, v, a0, a0 + slope);
             peak = peak.max(u1.abs());
-            if v * v1 < 0.0 {
-                peak = peak.max(turning_point(h, u, v, u1, v1).abs());
-            }
             (u, v) = (u1, v1);
         }
     }
     peak
-}
-
-/// Extremum of the cubic with the given ends and slopes of opposite sign.
-fn turning_point(h: f64, u0: f64, v0: f64, u1: f64, v1: f64) -> f64 {
-    // Slope along s = t/h: v0 + 2 b s + 3 c s²; its root in (0, 1), written so that nothing cancels.
-    let chord = (u1 - u0) / h;
-    let b = 3.0 * chord - 2.0 * v0 - v1;
-    let c = v0 + v1 - 2.0 * chord;
-    let q = -(b + b.signum() * (b * b - 3.0 * c * v0).max(0.0).sqrt());
-    let inside = |s: &f64| (0.0..=1.0).contains(s);
-    let s = [q / (3.0 * c), v0 / q].into_iter().find(inside).unwrap_or(0.0);
-    u0 + h * s * (v0 + s * (b + s * c))
 }
 
 /// Coefficients of (S1).

@@ -171,14 +171,12 @@ fn timed(source: &Source, table: &Table, options: &TextOptions) -> Result<(Inter
     let steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let typical = median(&steps);
     let rounding = table.first.iter().map(|field| resolution(field)).fold(0.0, f64::max);
+    // A column so coarsely rounded that a missing sample would pass for rounding must be even as it is.
+    let rounding = if rounding <= 0.5 * typical { rounding } else { 0.0 };
     let hint = "the first of two columns is time; with decimal commas, part the columns by semicolons";
     if !(typical > 0.0 && typical.is_finite()) {
         let error = source.error_at(table.lines[1], format!("the time column does not grow: step {typical} s"));
         return Err(error.allowed("equal steps above 0").help(hint).into());
-    }
-    if rounding > 0.5 * typical {
-        let what = format!("the time column is rounded to {rounding} s, too coarse for its step of {typical:.3e} s");
-        return Err(source.error_at(first_line, what).help("write it with more digits").into());
     }
     // Each of two times is off by half a unit of its last digit at most.
     let tolerance = STEP_TOLERANCE * typical + 1.001 * rounding;
@@ -266,9 +264,9 @@ fn no_unit(source: &Source, data_line: usize, quantity: HistoryQuantity) -> Inpu
 fn unit_words(line: &str) -> Vec<&str> {
     let mut words: Vec<&str> = bracketed(line).collect();
     let lower = line.to_ascii_lowercase();
-    for key in ["units of", "units", "unit"] {
-        let Some(at) = lower.find(key) else { continue };
-        let rest = line[at + key.len()..].trim_start().trim_start_matches(['=', ':']).trim_start();
+    let key = ["units of", "units", "unit"].into_iter().find_map(|key| lower.find(key).map(|at| at + key.len()));
+    if let Some(end_of_key) = key {
+        let rest = line[end_of_key..].trim_start().trim_start_matches(['=', ':']).trim_start();
         let end = rest.find(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"')).unwrap_or(rest.len());
         words.push(rest[..end].trim_end_matches('.'));
     }
@@ -296,7 +294,8 @@ mod tests {
     fn words_of_a_header() {
         assert_eq!(keyed_number("npts = 5, dt= .005 sec", "dt").map(|n| n.0), Some(0.005));
         assert_eq!(keyed_number("width = 5", "dt"), None);
-        assert_eq!(unit_words("# Units: cm/s2, corrected"), ["cm/s2"].repeat(2));
+        assert_eq!(unit_words("# Units: cm/s2, corrected"), ["cm/s2"]);
+        assert_eq!(unit_words("# acceleration in units of g."), ["g"]);
         assert_eq!(bracketed("time [s], acc [m/s2]").collect::<Vec<_>>(), ["s", "m/s2"]);
     }
 }
