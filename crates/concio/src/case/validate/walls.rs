@@ -198,20 +198,20 @@ fn random(f: &mut Findings, i: usize, panel: &Panel, r: &RandomTexture) {
             format!("0 … {} m, half of the shortest brick", shortest / 2.0),
         );
     }
-    if let Err(error) = fillable(panel, r) {
+    if let Some(error) = unfillable(panel, r) {
         f.add(error.key(format!("panel[{i}].random.width")));
     }
 }
 
-/// Some whole number of bricks with mortar between them makes up the width.
-fn fillable(panel: &Panel, r: &RandomTexture) -> Result<(), InputError> {
+/// The error when no whole number of bricks with mortar between them makes up the width.
+fn unfillable(panel: &Panel, r: &RandomTexture) -> Option<InputError> {
     let (mortar, width) = (panel.mortar.head.si(), r.width.si());
     let [low, high] = r.length.map(|l| l.si() + mortar);
     // n pitches between low and high make up width + mortar; n is the largest number that can.
     let slack = 1.0 + crate::pattern::SLACK;
     let n = ((width + mortar) / low * slack).floor();
     if n >= 1.0 && n * high * slack >= width + mortar {
-        return Ok(());
+        return None;
     }
     let (below, above) = (n * high - mortar, (n + 1.0) * low - mortar);
     let tidy = |v: f64| (v * 1e6).round() / 1e6;
@@ -220,8 +220,8 @@ fn fillable(panel: &Panel, r: &RandomTexture) -> Result<(), InputError> {
     } else {
         format!("from {} m", tidy(above))
     };
-    Err(InputError::new(format!("no number of bricks of {} to {} makes up {}", r.length[0], r.length[1], r.width))
-        .allowed(allowed))
+    let what = format!("no number of bricks of {} to {} makes up {}", r.length[0], r.length[1], r.width);
+    Some(InputError::new(what).allowed(allowed))
 }
 
 fn explicit(f: &mut Findings, i: usize, panel: &Panel) {
