@@ -101,7 +101,7 @@ fn table() -> Vec<Bad> {
         "driven beam at rest", edit("top = { sine = { amplitude = \"5 mm\", frequency = \"2 Hz\" } }", ""), "[motion]", "motion.top", "the beam is `driven` but has no motion", "sine";
         "top motion without a driven beam", edit("beam = \"driven\"", "beam = \"free\""), "top = { sine", "motion.top", "only a `driven` top beam takes a motion", "`none`";
         "sine with two amplitudes", edit("amplitude = \"5 mm\"", "amplitude = \"5 mm\", acceleration = \"0.8 g\""), "top = { sine", "motion.top.sine", "both a displacement and an acceleration", "exactly one";
-        "sine without frequency", edit(", frequency = \"2 Hz\"", ""), "top = { sine", "motion.top.sine.frequency", "the key is missing", "";
+        "sine without frequency", edit(", frequency = \"2 Hz\"", ""), "top = { sine", "motion.top.sine.frequency", "the key is missing", "f [Hz], above 0";
         "zero frequency", edit("\"2 Hz\"", "0"), "top = { sine", "motion.top.sine.frequency", "0 Hz is out of range", "above 0 Hz";
         "trim reversed", motion("{ record = \"a\", trim = [9, 3] }"), "base =", "motion.base.trim", "9 s comes before 3 s", "the first value below the second";
         "trim with one end", motion("{ record = \"a\", trim = [9] }"), "base =", "motion.base.trim", "the list has 1 values", "a list of 2 values";
@@ -130,8 +130,9 @@ fn table() -> Vec<Bad> {
         "a course left out", explicit(&[block(1, 0.0, 0.0, ""), block(3, 0.0, 0.05, "")]), "[[panel.block]]", "panel[0].block", "course 2 has no block", "without a gap";
         "listed courses beside each other", panel("bond = \"irregular\"\n[[panel.course]]\nheight = 0.1\nbricks = [0.25]\n[[panel.course]]\nheight = 0.1\nbricks = [0.25]\noffset = 0.3"), "[[panel.course]]", "panel[0].course[1]", "rests on nothing", "an overlap";
         "stagger that cannot be", random("width = 2, length = [0.2, 0.3], stagger = 0.15"), "random", "panel[0].random.stagger", "0.15 m cannot be held over bricks of 0.2 m", "0 … 0.1 m";
+        "stagger beyond the range", random("width = 2, length = [0.2, 0.24], stagger = 0.05"), "random", "panel[0].random.stagger", "0.05 m cannot be held over bricks of 0.2 m to 0.24 m", "0 … 0.04 m";
         "width that bricks cannot fill", random("width = 0.5, length = [0.2, 0.22], stagger = 0"), "random", "panel[0].random.width", "no number of bricks of 0.2 m to 0.22 m makes up 0.5 m", "up to 0.45 m, or from 0.62 m";
-        "a texture that is not found", random("width = 1.04, length = [0.2, 0.2], stagger = 0.05"), "random", "panel[0].random", "no texture was found", "smaller stagger";
+        "a texture that is not found", random("width = 2, length = [0.2, 0.25], stagger = 0.0499"), "random", "panel[0].random", "no texture was found that keeps 0.0499 m", "smaller stagger";
     });
     rows
 }
@@ -149,8 +150,10 @@ fn keys_and_values() -> Vec<Bad> {
         "key given twice", edit("courses = 6", "courses = 6\ncourses = 7"), "courses = 7", "", "duplicate key", "";
         "unknown key", edit("courses = 6", "corses = 6"), "corses", "panel[0].corses", "unknown key", "did you mean `courses`?";
         "hyphen in a key", edit("slip_velocity", "slip-velocity"), "friction", "joint.friction.slip-velocity", "unknown key", "did you mean `slip_velocity`?";
+        "one panel in one bracket", edit("[[panel]]", "[panel]"), "[panel]", "panel", "a table cannot stand here", "[[two brackets]]";
+        "brick without height", edit("height = \"55 mm\", ", ""), "brick =", "panel[0].brick.height", "the key is missing", "H [m], above 0";
         "unknown table", format!("{GOOD}[soil]\nvs = 200\n"), "[soil]", "soil", "unknown key", "`motion`";
-        "missing table", GOOD.split("[motion]").next().unwrap_or_default(), "model", "motion", "the key is missing", "";
+        "missing table", GOOD.split("[motion]").next().unwrap_or_default(), "model", "motion", "the key is missing", "Motion of base and top";
         "no joints and no set", "model = \"shear\"\n[[panel]]\n", "model", "joint", "the key is missing", "set = \"report\"";
         "wrong unit", edit("\"55 mm\"", "\"55 kg\""), "brick =", "panel[0].brick.height", "`kg` is not a unit of length", "m, cm, mm";
         "no unit in a text", edit("\"55 mm\"", "\"55\""), "brick =", "panel[0].brick.height", "`55` has no unit", "m, cm, mm";
@@ -204,6 +207,22 @@ fn every_bad_file_is_refused_with_place_cause_and_range() {
         let hints = format!("{} {}", e.allowed.unwrap_or_default(), e.help.unwrap_or_default());
         assert!(hints.contains(row.allowed), "{}: `{hints}`", row.title);
     }
+}
+
+/// The bound in an error is the bound in the documentation of its key.
+#[test]
+fn errors_and_documentation_give_the_same_bounds() {
+    let mut compared = 0;
+    for row in table().iter().filter(|r| r.cause.contains("is out of range")) {
+        let e = input_error(check(&row.text), row.title);
+        let about = concio::case::describe(row.key).unwrap_or_else(|| panic!("{} is not documented", row.key));
+        let bound = e.allowed.unwrap_or_default();
+        // The unit stands in brackets in the documentation; `above 0 kg` is `above 0` there.
+        let words: Vec<&str> = bound.split(' ').take(if bound.contains('…') { 3 } else { 2 }).collect();
+        assert!(about.to_lowercase().contains(&words.join(" ")), "{}: `{bound}` is not in `{about}`", row.key);
+        compared += 1;
+    }
+    assert!(compared >= 12, "only {compared} bounds");
 }
 
 /// Of several blocks alike it is the one at fault whose line is named.

@@ -11,6 +11,9 @@ use crate::InputError;
 /// Parts an error text into what is wrong and what is allowed: serde hands custom errors over as text only.
 pub(crate) const ALLOWED: &str = "; allowed: ";
 
+/// Said of a key that must be there and is not.
+pub(crate) const MISSING: &str = "the key is missing";
+
 /// Builds a `T` from a tree. The error comes with the byte it belongs to.
 pub(crate) fn from_node<'de, T: Deserialize<'de>>(node: &'de Node) -> Result<T, Fault> {
     T::deserialize(Cursor { node }).map_err(|e| {
@@ -143,7 +146,7 @@ impl de::Error for Failure {
         )
     }
     fn missing_field(field: &'static str) -> Self {
-        Failure::keyed(InputError::new("the key is missing"), field)
+        Failure::keyed(InputError::new(MISSING), field)
     }
     fn duplicate_field(field: &'static str) -> Self {
         Failure::keyed(InputError::new("the key is given twice"), field)
@@ -245,6 +248,7 @@ impl<'de> Deserializer<'de> for Cursor<'de> {
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
         match self.node.value {
             Value::List(_) => self.deserialize_any(visitor),
+            Value::Table(_) => Err(self.refuse("a list; in TOML, tables in a list stand under [[two brackets]]")),
             _ => Err(self.refuse("a list")),
         }
     }

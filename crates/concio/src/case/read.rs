@@ -143,8 +143,17 @@ fn resolve(source: Source, mut tree: Node) -> Result<CaseFile> {
     }
     preset(&mut tree).map_err(placed)?;
     require(&tree).map_err(placed)?;
-    let case = de::from_node(&tree).map_err(placed)?;
+    let case = de::from_node(&tree).map_err(|fault| placed(described(fault)))?;
     Ok(CaseFile { case, source, tree })
+}
+
+/// Adds to a missing key what belongs there.
+fn described(mut fault: Fault) -> Fault {
+    let e = &mut fault.error;
+    if e.what == de::MISSING && e.allowed.is_none() {
+        e.allowed = e.key.as_deref().and_then(super::describe).map(|text| text.trim_end_matches('.').to_string());
+    }
+    fault
 }
 
 /// Writes out what `friction.preset` stands for.
