@@ -15,7 +15,7 @@ mod templates;
 pub mod validate;
 
 pub use read::{CaseFile, LARGEST_FILE, Syntax, canonical_json, from_str, read};
-pub use templates::{example, schema, starter};
+pub use templates::{describe, example, schema, starter};
 pub use validate::validate;
 
 use schemars::JsonSchema;
@@ -218,7 +218,8 @@ pub struct RandomTexture {
     pub length: [Length; 2],
     /// Lowest and highest course [m], above 0, in this order.
     pub height: [Length; 2],
-    /// Least distance between the middles of head joints of adjacent courses [m], from 0 to half of the shortest brick.
+    /// Least distance between the middles of head joints of adjacent courses [m], from 0 to half of the shortest brick
+    /// and not above the difference of the two lengths.
     pub stagger: Length,
 }
 
