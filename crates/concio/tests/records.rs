@@ -163,7 +163,7 @@ fn counts_that_differ_are_refused_with_both() {
     let cosmos = cosmos_v2(&cm, DT, DT);
     assert_refused(&cosmos.replace("      20 acc", "      21 acc"), 48, "declares 21 samples, the file holds 20");
     assert_refused(&cosmos.replace("      20 acc", "      19 acc"), 68, "more samples than the 19");
-    let csmip = csmip_v2(&[cm.clone()], DT);
+    let csmip = csmip_v2(std::slice::from_ref(&cm), DT);
     assert_refused(&csmip.replacen("   20 POINTS", "99999 POINTS", 1), 46, "declares 99999 samples, the file holds 20");
     assert_refused(&csmip.replacen("   20 POINTS", "   16 POINTS", 1), 49, "more samples than the 16");
     let smc = usgs_smc(&cm, DT);

@@ -92,7 +92,8 @@ impl GroundMotion {
             GroundMotion::Samples(samples) => SLACK * samples.dt,
             GroundMotion::Pieces(pieces) => pieces.slack(),
         };
-        if !((t - after.start).abs() <= 2.0 * slack) {
+        let is_break = (t - after.start).abs() <= 2.0 * slack;
+        if !is_break {
             return 0.0;
         }
         let before = self.segment(after.start - 1e3 * slack);

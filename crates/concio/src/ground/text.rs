@@ -180,13 +180,14 @@ fn timed(source: &Source, table: &Table, options: &TextOptions) -> Result<(Inter
     }
     // Each of two times is off by half a unit of its last digit at most.
     let tolerance = STEP_TOLERANCE * typical + 1.001 * rounding;
-    if let Some(k) = steps.iter().position(|step| !((step - typical).abs() <= tolerance)) {
+    if let Some(k) = steps.iter().position(|step| (step - typical).abs() > tolerance) {
         let what = format!("the time column steps by {:.6e} s here and by {typical:.6e} s elsewhere", steps[k]);
         return Err(source.error_at(table.lines[k + 1], what).allowed("equal steps").help(hint).into());
     }
     let dt = (time[n - 1] - time[0]) / (n - 1) as f64;
     let given = options.dt.map(|dt| (first_line, dt)).or_else(|| named_interval(source, first_line));
-    if let Some((line, named)) = given.filter(|(_, named)| !((named - dt).abs() <= STEP_TOLERANCE * dt)) {
+    let agrees = |named: f64| (named - dt).abs() <= STEP_TOLERANCE * dt;
+    if let Some((line, named)) = given.filter(|(_, named)| !agrees(*named)) {
         let what = format!("the interval is named as {named} s, the time column steps by {dt:.6e} s");
         return Err(source.error_at(line, what).key("dt").into());
     }
