@@ -92,9 +92,9 @@ fn names_in_the_headers() {
     assert_eq!(
         names(&one("cosmos.v2c")),
         [
-            "Statn No: 00-000001 Code:XX-TST Nowhere",
+            "00-000001 Code:XX-TST Nowhere",
             "Test Event of Wed Jan 1, 2020 12:00 UTC",
-            "Sta Chan 1: 360 deg (Rcrdr Chan 1) Location: ground",
+            "1: 360 deg (Rcrdr Chan 1) Location: ground",
             "cm/sec2"
         ]
     );
@@ -124,6 +124,21 @@ fn csmip_fields_need_no_separators() {
 fn cosmos_interval_is_value_62() {
     let text = cosmos_v2(&decaying_sine(0.005, 50), 0.005, 0.02);
     assert_eq!(read_text(&text).unwrap()[0].dt, 0.005);
+}
+
+#[test]
+fn peer_headers_with_units_of_their_own() {
+    let g = peer_at2(&[0.125; 20], DT, Dialect::Plain, "\n");
+    let with = |line: &str| read_text(&g.replace("ACCELERATION TIME SERIES IN UNITS OF G", line));
+    for (line, first) in [
+        ("The units are (g)", 0.125 * G),
+        ("nothing about it", 0.125 * G),
+        ("acceleration [cm/s2]", 1.25e-3),
+        ("ACCELERATION IN UNITS OF M/S/S.", 0.125),
+    ] {
+        assert_eq!(with(line).unwrap()[0].acceleration[0], first, "{line}");
+    }
+    assert!(with("TIME SERIES IN UNITS OF CM/S").unwrap_err().to_string().contains("file:3: `CM/S` is not a unit"));
 }
 
 fn read_text(text: &str) -> concio::Result<Vec<Record>> {
@@ -185,6 +200,7 @@ fn samples_that_are_no_numbers_are_refused_with_their_line() {
     assert_refused("# units: g\n# dt = 0.01 s\n0.1\n0.2\nnan\n", 5, "`nan` is not a finite number");
     assert_refused("# units: g\n# dt = 0.01 s\nnan\n0.2\n", 3, "`nan` is not a finite number");
     assert_refused("# units: g\n# dt = 0.01 s\n1.0x\n0.2\n", 3, "`1.0x` is not a finite number");
+    assert_refused("t [s]\ta [g]\n0,00\t0,1\n0,01\t0,2\n", 2, "part the columns by semicolons");
     assert_refused("# units: g\n# dt = 0.01 s\n0.1\n0.2\nend of file\n", 5, "column");
     let peer = peer_at2(&[0.125; 20], DT, Dialect::Plain, "\n");
     assert_refused(&peer.replacen(".1250000E+00", "NaN", 1), 5, "`NaN` is not a finite number");

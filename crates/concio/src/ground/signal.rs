@@ -114,7 +114,7 @@ impl GroundMotion {
     pub fn end(&self) -> Option<f64> {
         match self {
             GroundMotion::AtRest => Some(0.0),
-            GroundMotion::Samples(samples) => Some((samples.motion.len() - 1) as f64 * samples.dt),
+            GroundMotion::Samples(samples) => Some(samples.motion.len().saturating_sub(1) as f64 * samples.dt),
             GroundMotion::Pieces(pieces) => pieces.end,
         }
     }

@@ -11,6 +11,8 @@
 
 use std::f64::consts::PI;
 
+use serde::Serialize;
+
 /// Steps in a period, at least.
 const STEPS_PER_PERIOD: f64 = 20.0;
 /// Periods below this fraction of the sample interval are taken as rigid: the free part of the response is below
@@ -18,7 +20,7 @@ const STEPS_PER_PERIOD: f64 = 20.0;
 const RIGID: f64 = 1e-3;
 
 /// Peaks of oscillators.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Spectrum {
     /// Damping ratio ζ.
     pub damping: f64,
@@ -33,7 +35,7 @@ pub struct Spectrum {
 }
 
 /// Response spectrum of `acceleration` [m/s²] at samples `dt` [s] apart, for damping ratio ζ ≥ 0 and the periods
-/// given [s]. Oscillators start at rest.
+/// given [s]. Oscillators start at rest and are followed up to the last sample.
 ///
 /// Peaks are those at the ends of the steps, as in published spectra: at most 1 − cos(π/20) = 1.2 % below a peak
 /// between them (El Centro, T = 0.5 s, ζ = 2 %: 2.675 in at the samples, 2.688 in between two of them).

@@ -67,7 +67,7 @@ fn table<'a>(source: &Source<'a>) -> Result<Table<'a>> {
         }
         for (column, field) in table.columns.iter_mut().zip(&fields) {
             let value = if line.contains(';') { number(&field.replace(',', ".")) } else { number(field) };
-            column.push(value.ok_or_else(|| not_a_number(source, index, field))?);
+            column.push(value.ok_or_else(|| bad_field(source, index, field))?);
         }
         table.lines.push(index);
         table.first.push(fields.first().copied().unwrap_or(""));
@@ -77,6 +77,12 @@ fn table<'a>(source: &Source<'a>) -> Result<Table<'a>> {
         return Err(error.allowed("PEER AT2, ITACA/ESM ASC, COSMOS V2, CSMIP V2, USGS SMC, columns of numbers").into());
     }
     Ok(table)
+}
+
+fn bad_field(source: &Source, line: usize, field: &str) -> InputError {
+    let error = not_a_number(source, line, field);
+    let commas = source.line(line).contains(',') && !source.line(line).contains(';');
+    if commas { error.help("with decimal commas, part the columns by semicolons") } else { error }
 }
 
 fn is_comment(line: &str) -> bool {
@@ -262,7 +268,7 @@ fn no_unit(source: &Source, data_line: usize, quantity: HistoryQuantity) -> Inpu
 }
 
 /// Words of a header line that may be a unit: in brackets, behind `units:`, behind `units of`.
-fn unit_words(line: &str) -> Vec<&str> {
+pub(super) fn unit_words(line: &str) -> Vec<&str> {
     let mut words: Vec<&str> = bracketed(line).collect();
     let lower = line.to_ascii_lowercase();
     let key = ["units of", "units", "unit"].into_iter().find_map(|key| lower.find(key).map(|at| at + key.len()));
