@@ -92,9 +92,9 @@ fn names_in_the_headers() {
     assert_eq!(
         names(&one("cosmos.v2c")),
         [
-            "Statn No: 00-000001 Code:XX-TST Nowhere",
+            "00-000001 Code:XX-TST Nowhere",
             "Test Event of Wed Jan 1, 2020 12:00 UTC",
-            "Sta Chan 1: 360 deg (Rcrdr Chan 1) Location: ground",
+            "1: 360 deg (Rcrdr Chan 1) Location: ground",
             "cm/sec2"
         ]
     );
@@ -124,6 +124,21 @@ fn csmip_fields_need_no_separators() {
 fn cosmos_interval_is_value_62() {
     let text = cosmos_v2(&decaying_sine(0.005, 50), 0.005, 0.02);
     assert_eq!(read_text(&text).unwrap()[0].dt, 0.005);
+}
+
+#[test]
+fn peer_headers_with_units_of_their_own() {
+    let g = peer_at2(&[0.125; 20], DT, Dialect::Plain, "\n");
+    let with = |line: &str| read_text(&g.replace("ACCELERATION TIME SERIES IN UNITS OF G", line));
+    for (line, first) in [
+        ("The units are (g)", 0.125 * G),
+        ("nothing about it", 0.125 * G),
+        ("acceleration [cm/s2]", 1.25e-3),
+        ("ACCELERATION IN UNITS OF M/S/S.", 0.125),
+    ] {
+        assert_eq!(with(line).unwrap()[0].acceleration[0], first, "{line}");
+    }
+    assert!(with("TIME SERIES IN UNITS OF CM/S").unwrap_err().to_string().contains("file:3: `CM/S` is not a unit"));
 }
 
 fn read_text(text: &str) -> concio::Result<Vec<Record>> {
@@ -163,7 +178,7 @@ fn counts_that_differ_are_refused_with_both() {
     let cosmos = cosmos_v2(&cm, DT, DT);
     assert_refused(&cosmos.replace("      20 acc", "      21 acc"), 48, "declares 21 samples, the file holds 20");
     assert_refused(&cosmos.replace("      20 acc", "      19 acc"), 68, "more samples than the 19");
-    let csmip = csmip_v2(&[cm.clone()], DT);
+    let csmip = csmip_v2(std::slice::from_ref(&cm), DT);
     assert_refused(&csmip.replacen("   20 POINTS", "99999 POINTS", 1), 46, "declares 99999 samples, the file holds 20");
     assert_refused(&csmip.replacen("   20 POINTS", "   16 POINTS", 1), 49, "more samples than the 16");
     let smc = usgs_smc(&cm, DT);
@@ -185,6 +200,7 @@ fn samples_that_are_no_numbers_are_refused_with_their_line() {
     assert_refused("# units: g\n# dt = 0.01 s\n0.1\n0.2\nnan\n", 5, "`nan` is not a finite number");
     assert_refused("# units: g\n# dt = 0.01 s\nnan\n0.2\n", 3, "`nan` is not a finite number");
     assert_refused("# units: g\n# dt = 0.01 s\n1.0x\n0.2\n", 3, "`1.0x` is not a finite number");
+    assert_refused("t [s]\ta [g]\n0,00\t0,1\n0,01\t0,2\n", 2, "part the columns by semicolons");
     assert_refused("# units: g\n# dt = 0.01 s\n0.1\n0.2\nend of file\n", 5, "column");
     let peer = peer_at2(&[0.125; 20], DT, Dialect::Plain, "\n");
     assert_refused(&peer.replacen(".1250000E+00", "NaN", 1), 5, "`NaN` is not a finite number");

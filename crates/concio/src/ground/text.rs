@@ -67,7 +67,7 @@ fn table<'a>(source: &Source<'a>) -> Result<Table<'a>> {
         }
         for (column, field) in table.columns.iter_mut().zip(&fields) {
             let value = if line.contains(';') { number(&field.replace(',', ".")) } else { number(field) };
-            column.push(value.ok_or_else(|| not_a_number(source, index, field))?);
+            column.push(value.ok_or_else(|| bad_field(source, index, field))?);
         }
         table.lines.push(index);
         table.first.push(fields.first().copied().unwrap_or(""));
@@ -77,6 +77,12 @@ fn table<'a>(source: &Source<'a>) -> Result<Table<'a>> {
         return Err(error.allowed("PEER AT2, ITACA/ESM ASC, COSMOS V2, CSMIP V2, USGS SMC, columns of numbers").into());
     }
     Ok(table)
+}
+
+fn bad_field(source: &Source, line: usize, field: &str) -> InputError {
+    let error = not_a_number(source, line, field);
+    let commas = source.line(line).contains(',') && !source.line(line).contains(';');
+    if commas { error.help("with decimal commas, part the columns by semicolons") } else { error }
 }
 
 fn is_comment(line: &str) -> bool {
@@ -180,13 +186,14 @@ fn timed(source: &Source, table: &Table, options: &TextOptions) -> Result<(Inter
     }
     // Each of two times is off by half a unit of its last digit at most.
     let tolerance = STEP_TOLERANCE * typical + 1.001 * rounding;
-    if let Some(k) = steps.iter().position(|step| !((step - typical).abs() <= tolerance)) {
+    if let Some(k) = steps.iter().position(|step| (step - typical).abs() > tolerance) {
         let what = format!("the time column steps by {:.6e} s here and by {typical:.6e} s elsewhere", steps[k]);
         return Err(source.error_at(table.lines[k + 1], what).allowed("equal steps").help(hint).into());
     }
     let dt = (time[n - 1] - time[0]) / (n - 1) as f64;
     let given = options.dt.map(|dt| (first_line, dt)).or_else(|| named_interval(source, first_line));
-    if let Some((line, named)) = given.filter(|(_, named)| !((named - dt).abs() <= STEP_TOLERANCE * dt)) {
+    let agrees = |named: f64| (named - dt).abs() <= STEP_TOLERANCE * dt;
+    if let Some((line, named)) = given.filter(|(_, named)| !agrees(*named)) {
         let what = format!("the interval is named as {named} s, the time column steps by {dt:.6e} s");
         return Err(source.error_at(line, what).key("dt").into());
     }
@@ -261,7 +268,7 @@ fn no_unit(source: &Source, data_line: usize, quantity: HistoryQuantity) -> Inpu
 }
 
 /// Words of a header line that may be a unit: in brackets, behind `units:`, behind `units of`.
-fn unit_words(line: &str) -> Vec<&str> {
+pub(super) fn unit_words(line: &str) -> Vec<&str> {
     let mut words: Vec<&str> = bracketed(line).collect();
     let lower = line.to_ascii_lowercase();
     let key = ["units of", "units", "unit"].into_iter().find_map(|key| lower.find(key).map(|at| at + key.len()));
