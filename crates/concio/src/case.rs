@@ -15,7 +15,7 @@ mod templates;
 pub mod validate;
 
 pub use read::{CaseFile, LARGEST_FILE, Syntax, canonical_json, from_str, read};
-pub use templates::{example, schema, starter};
+pub use templates::{describe, example, schema, starter};
 pub use validate::validate;
 
 use schemars::JsonSchema;
@@ -218,7 +218,8 @@ pub struct RandomTexture {
     pub length: [Length; 2],
     /// Lowest and highest course [m], above 0, in this order.
     pub height: [Length; 2],
-    /// Least distance between the middles of head joints of adjacent courses [m], from 0 to half of the shortest brick.
+    /// Least distance between the middles of head joints of adjacent courses [m], from 0 to half of the shortest brick
+    /// and not above the difference of the two lengths.
     pub stagger: Length,
 }
 
@@ -752,7 +753,7 @@ fn default_corners() -> [Time; 3] {
 pub struct Solver {
     /// The scheme.
     pub scheme: Scheme,
-    /// Relative tolerance of the local error against the largest motion so far, 1e-12 … 0.1. Default 1e-4.
+    /// Relative tolerance of the local error against the largest motion so far, 1e-12 … 0.1. Default 1e-3.
     #[schemars(range(min = 1e-12, max = 0.1))]
     pub tolerance: f64,
     /// Displacement [m] below which errors do not count, above 0. Default 1e-12.
@@ -764,7 +765,7 @@ pub struct Solver {
 
 impl Default for Solver {
     fn default() -> Self {
-        Solver { scheme: Scheme::TrBdf2, tolerance: 1e-4, floor: Length::from_si(1e-12), max_step: None }
+        Solver { scheme: Scheme::TrBdf2, tolerance: 1e-3, floor: Length::from_si(1e-14), max_step: None }
     }
 }
 

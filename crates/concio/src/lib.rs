@@ -16,6 +16,7 @@ pub mod pattern;
 pub mod quantity;
 pub mod record;
 pub mod run;
+pub mod samples;
 pub mod simulate;
 pub mod state;
 pub mod store;

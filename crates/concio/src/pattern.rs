@@ -221,7 +221,7 @@ fn names(case: &Case, wall: &Wall) -> Result<()> {
             let error = InputError::new(format!("no block is called `{name}`")).key(format!("output.blocks[{k}]"));
             let error = error.allowed("`all`, or names as `concio check` draws them");
             // A suggestion is sought among few names only: it compares with each.
-            let near = suggestion(name, seen.keys().copied().take(10_000));
+            let near = suggestion(name, wall.blocks.iter().map(|b| b.name.as_str()).take(10_000));
             return Err(near.map_or(error.clone(), |n| error.help(format!("did you mean `{n}`?"))).into());
         }
     }

@@ -32,17 +32,20 @@ impl<D: Dimension> Quantity<D> {
     pub const fn si(self) -> f64 {
         self.si
     }
-    /// Reads `"10 mm"`; the blank may be missing. The error names the units that are allowed.
+    /// Reads `"10 mm"`; the blank may be missing.
+    ///
+    /// # Errors
+    /// What is wrong and, after `; allowed: `, the units that are allowed.
     pub fn parse(text: &str) -> Result<Self, String> {
         let text = text.trim();
         let split = number_end(text);
         let (number, unit) = (&text[..split], text[split..].trim());
-        let value: f64 = number
-            .parse()
-            .map_err(|_| format!("`{text}` does not start with a number; write for example {}", Self::example()))?;
+        let value: f64 = number.parse().map_err(|_| {
+            format!("`{text}` does not start with a number; allowed: a text such as {}", Self::example())
+        })?;
         if unit.is_empty() {
             return Err(format!(
-                "`{text}` has no unit; write a bare number for {} or one of: {}",
+                "`{text}` has no unit; allowed: a number without quotes (in {}), or a text with one of {}",
                 D::UNITS[0].0,
                 Self::units()
             ));
@@ -96,8 +99,13 @@ impl<D: Dimension> fmt::Debug for Quantity<D> {
 
 impl<D: Dimension> fmt::Display for Quantity<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.si, D::UNITS[0].0)
+        write!(f, "{} {}", shown(self.si), D::UNITS[0].0)
     }
+}
+
+/// A number as a message shows it: with an exponent where zeros would have to be counted.
+pub(crate) fn shown(v: f64) -> String {
+    if v == 0.0 || !v.is_finite() || (1e-4..1e7).contains(&v.abs()) { v.to_string() } else { format!("{v:e}") }
 }
 
 impl<D: Dimension> Serialize for Quantity<D> {
@@ -114,7 +122,7 @@ impl<'de, D: Dimension> Deserialize<'de> for Quantity<D> {
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 write!(
                     f,
-                    "a {}: a number in {} or a string with its unit ({})",
+                    "a {}: a number in {} or a text with its unit ({})",
                     D::NAME,
                     D::UNITS[0].0,
                     Quantity::<D>::units()
@@ -143,7 +151,7 @@ impl<D: Dimension> JsonSchema for Quantity<D> {
     }
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": format!("A {}: a number in {}, or a string with one of the units {}.", D::NAME, D::UNITS[0].0, Self::units()),
+            "description": format!("A {}: a number in {}, or a text with one of the units {}.", D::NAME, D::UNITS[0].0, Self::units()),
             "anyOf": [{ "type": "number" }, { "type": "string", "pattern": "^\\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\\s*\\S+\\s*$" }],
         })
     }
@@ -212,3 +220,45 @@ dimension!(
     "kN/m3" = 1e3,
     "kN/m³" = 1e3
 );
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_converted() {
+        let length = |text| Length::parse(text).map(Quantity::si);
+        assert_eq!(length("10 mm"), Ok(0.01));
+        assert_eq!(length("10mm"), Ok(0.01));
+        assert_eq!(length(" -2.5e1 cm "), Ok(-0.25));
+        assert_eq!(length("1 ft"), Ok(0.3048));
+        assert_eq!(length("1e3 µm"), Ok(1e-3));
+        assert_eq!(Acceleration::parse("0.8 g").map(Quantity::si), Ok(0.8 * 9.81));
+        assert_eq!(ForcePerLength::parse("2 kN/m").map(Quantity::si), Ok(2e3));
+        assert_eq!(SpecificWeight::parse("18 kN/m3").map(Quantity::si), Ok(18e3));
+        assert_eq!(Mass::parse("3 t").map(Quantity::si), Ok(3e3));
+    }
+
+    #[test]
+    fn an_exponent_is_not_taken_for_a_unit() {
+        assert_eq!(Length::parse("1e2m").map(Quantity::si), Ok(100.0));
+        assert!(Length::parse("1e m").is_err());
+    }
+
+    #[test]
+    fn wrong_texts_name_what_is_allowed() {
+        for (text, cause) in [
+            ("", "does not start"),
+            ("mm", "does not start"),
+            ("1", "no unit"),
+            ("1 kg", "not a unit of length"),
+            ("1 MM", "not a unit"),
+            ("1.2.3 m", "does not start"),
+            ("- m", "does not start"),
+            ("nan m", "does not start"),
+        ] {
+            let message = Length::parse(text).expect_err(text);
+            assert!(message.contains(cause) && message.contains("; allowed: "), "{text}: {message}");
+        }
+    }
+}

@@ -79,8 +79,7 @@ impl<'m> Simulation<'m> {
         if !state.step.is_finite() {
             state.step = duration;
         }
-        observe(model, &mut state, 0.0);
-        state.energies.initial = state.energies.kinetic + state.energies.elastic;
+        begin_account(model, &mut state);
         let frames = if layout.frame_every > 0 { BUFFER.div_ceil(layout.frame_every) } else { 0 };
         let recording = Recording {
             time: Vec::with_capacity(BUFFER),
@@ -112,8 +111,7 @@ impl<'m> Simulation<'m> {
         self.state.z[..n].copy_from_slice(z);
         self.state.v[..n].copy_from_slice(v);
         settle(self.model, &self.drive, &mut self.state);
-        observe(self.model, &mut self.state, 0.0);
-        self.state.energies.initial = self.state.energies.kinetic + self.state.energies.elastic;
+        begin_account(self.model, &mut self.state);
         self.state.samples = 0;
         self.clear_recording();
         self.sample();
@@ -303,6 +301,13 @@ impl<'m> Simulation<'m> {
             stop_reason,
         }
     }
+}
+
+/// Starts envelopes and energy account from the state as it is: what energy it has is no residual.
+fn begin_account(model: &Model, state: &mut State) {
+    observe(model, state, 0.0);
+    state.energies.initial = state.energies.kinetic + state.energies.elastic;
+    state.totals.peak_residual = 0.0;
 }
 
 /// Step factor 0.9 (1/error)^(1/order).

@@ -5,20 +5,23 @@ use std::fmt::{self, Display};
 use serde::de::{self, DeserializeSeed, EnumAccess, IntoDeserializer, MapAccess, SeqAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, forward_to_deserialize_any};
 
-use super::node::{Entry, Node, Value};
+use super::node::{Entry, Fault, Node, Value};
 use crate::InputError;
 
 /// Parts an error text into what is wrong and what is allowed: serde hands custom errors over as text only.
 pub(crate) const ALLOWED: &str = "; allowed: ";
 
+/// Said of a key that must be there and is not.
+pub(crate) const MISSING: &str = "the key is missing";
+
 /// Builds a `T` from a tree. The error comes with the byte it belongs to.
-pub(crate) fn from_node<'de, T: Deserialize<'de>>(node: &'de Node) -> Result<T, (InputError, usize)> {
+pub(crate) fn from_node<'de, T: Deserialize<'de>>(node: &'de Node) -> Result<T, Fault> {
     T::deserialize(Cursor { node }).map_err(|e| {
-        let Fault { at, path, mut error } = *e.0;
+        let Parts { at, path, mut error } = *e.0;
         if !path.is_empty() {
             error.key = Some(joined(&path));
         }
-        (error, at.unwrap_or(node.at))
+        Fault::new(error, at.unwrap_or(node.at))
     })
 }
 
@@ -58,10 +61,10 @@ fn joined(path: &[Step]) -> String {
 
 /// Boxed: results are returned through every level of the tree.
 #[derive(Debug)]
-struct Failure(Box<Fault>);
+struct Failure(Box<Parts>);
 
 #[derive(Debug)]
-struct Fault {
+struct Parts {
     at: Option<usize>,
     path: Vec<Step>,
     error: InputError,
@@ -69,7 +72,7 @@ struct Fault {
 
 impl Failure {
     fn new(error: InputError) -> Self {
-        Failure(Box::new(Fault { at: None, path: Vec::new(), error }))
+        Failure(Box::new(Parts { at: None, path: Vec::new(), error }))
     }
     fn keyed(error: InputError, key: &str) -> Self {
         let mut failure = Failure::new(error);
@@ -143,7 +146,7 @@ impl de::Error for Failure {
         )
     }
     fn missing_field(field: &'static str) -> Self {
-        Failure::keyed(InputError::new("the key is missing"), field)
+        Failure::keyed(InputError::new(MISSING), field)
     }
     fn duplicate_field(field: &'static str) -> Self {
         Failure::keyed(InputError::new("the key is given twice"), field)
@@ -245,6 +248,7 @@ impl<'de> Deserializer<'de> for Cursor<'de> {
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
         match self.node.value {
             Value::List(_) => self.deserialize_any(visitor),
+            Value::Table(_) => Err(self.refuse("a list; in TOML, tables in a list stand under [[two brackets]]")),
             _ => Err(self.refuse("a list")),
         }
     }

@@ -111,6 +111,9 @@ impl Source {
         error.column = Some(column);
         self.named(error)
     }
+    pub fn place_fault(&self, fault: Fault) -> crate::Error {
+        self.locate(*fault.error, fault.at).into()
+    }
     /// Adds the file to an error.
     pub fn named(&self, error: InputError) -> InputError {
         match &self.path {
@@ -123,17 +126,27 @@ impl Source {
     }
 }
 
-/// An error and the byte it belongs to.
-type Fault = (InputError, usize);
+/// An error and the byte it belongs to. Boxed, for results are passed up through every level of the tree.
+#[derive(Debug)]
+pub(crate) struct Fault {
+    pub error: Box<InputError>,
+    pub at: usize,
+}
+
+impl Fault {
+    pub fn new(error: InputError, at: usize) -> Fault {
+        Fault { error: Box::new(error), at }
+    }
+}
 
 /// Parses TOML.
-pub(crate) fn parse_toml(source: &Source) -> Result<Node, InputError> {
+pub(crate) fn parse_toml(source: &Source) -> crate::Result<Node> {
     let table = DeTable::parse(&source.text).map_err(|e| {
         let message = e.message().trim().replace('\n', ", ");
         source.locate(InputError::new(format!("not valid TOML: {message}")), e.span().map_or(0, |s| s.start))
     })?;
     let at = table.span().start;
-    from_toml(&DeValue::Table(table.into_inner()), at, DEPTH).map_err(|(e, byte)| source.locate(e, byte))
+    from_toml(&DeValue::Table(table.into_inner()), at, DEPTH).map_err(|fault| source.place_fault(fault))
 }
 
 fn from_toml(value: &DeValue<'_>, at: usize, depth: usize) -> Result<Node, Fault> {
@@ -142,7 +155,7 @@ fn from_toml(value: &DeValue<'_>, at: usize, depth: usize) -> Result<Node, Fault
         DeValue::String(s) => Value::Text(s.to_string()),
         DeValue::Integer(i) => i128::from_str_radix(i.as_str(), i.radix())
             .map(Value::Int)
-            .map_err(|_| (InputError::new(format!("`{i}` is too large for a whole number")), at))?,
+            .map_err(|_| Fault::new(InputError::new(format!("`{i}` is too large for a whole number")), at))?,
         DeValue::Float(f) => number(f.as_str(), at)?,
         DeValue::Boolean(b) => Value::Bool(*b),
         DeValue::Datetime(d) => Value::Date(d.to_string()),
@@ -165,7 +178,7 @@ fn from_toml(value: &DeValue<'_>, at: usize, depth: usize) -> Result<Node, Fault
 }
 
 /// Parses JSON; only the standard's syntax.
-pub(crate) fn parse_json(source: &Source) -> Result<Node, InputError> {
+pub(crate) fn parse_json(source: &Source) -> crate::Result<Node> {
     let options = jsonc_parser::ParseOptions {
         allow_comments: false,
         allow_loose_object_property_names: false,
@@ -181,7 +194,7 @@ pub(crate) fn parse_json(source: &Source) -> Result<Node, InputError> {
     let parsed = jsonc_parser::parse_to_ast(&source.text, &jsonc_parser::CollectOptions::default(), &options)
         .map_err(|e| source.locate(InputError::new(format!("not valid JSON: {}", e.kind())), e.range().start))?;
     let value = parsed.value.ok_or_else(|| source.locate(InputError::new("the file is empty"), 0))?;
-    from_json(&value, DEPTH).map_err(|(e, byte)| source.locate(e, byte))
+    from_json(&value, DEPTH).map_err(|fault| source.place_fault(fault))
 }
 
 fn from_json(value: &ast::Value<'_>, depth: usize) -> Result<Node, Fault> {
@@ -207,7 +220,7 @@ fn json_table(object: &ast::Object<'_>, depth: usize) -> Result<Value, Fault> {
     for property in &object.properties {
         let (key, at) = (property.name.as_str(), property.range.start);
         if seen.insert(key, at).is_some() {
-            return Err((InputError::new("the key stands twice in one object").key(key), at));
+            return Err(Fault::new(InputError::new("the key stands twice in one object").key(key), at));
         }
         entries.push(Entry { key: key.to_string(), at, node: from_json(&property.value, depth)? });
     }
@@ -215,11 +228,13 @@ fn json_table(object: &ast::Object<'_>, depth: usize) -> Result<Value, Fault> {
 }
 
 fn number(text: &str, at: usize) -> Result<Value, Fault> {
-    text.parse::<f64>().map(Value::Float).map_err(|_| (InputError::new(format!("`{text}` is not a number")), at))
+    text.parse::<f64>()
+        .map(Value::Float)
+        .map_err(|_| Fault::new(InputError::new(format!("`{text}` is not a number")), at))
 }
 
 fn deeper(depth: usize, at: usize) -> Result<usize, Fault> {
-    depth
-        .checked_sub(1)
-        .ok_or_else(|| (InputError::new("values are nested too deeply").allowed(format!("up to {DEPTH} levels")), at))
+    depth.checked_sub(1).ok_or_else(|| {
+        Fault::new(InputError::new("values are nested too deeply").allowed(format!("up to {DEPTH} levels")), at)
+    })
 }

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::Path;
 
-use super::node::{Node, Source, Value, parse_json, parse_toml};
+use super::node::{Fault, Node, Source, Value, parse_json, parse_toml};
 use super::{Case, ParameterSet, de, sets, validate};
 use crate::wall::Wall;
 use crate::{Error, InputError, Result};
@@ -130,23 +130,34 @@ pub fn from_str(text: &str, syntax: Syntax, file: Option<&Path>) -> Result<CaseF
 }
 
 fn resolve(source: Source, mut tree: Node) -> Result<CaseFile> {
-    let placed = |(error, byte): (InputError, usize)| Error::from(source.locate(error, byte));
+    let placed = |fault: Fault| source.place_fault(fault);
     if let Some(node) = tree.get("set") {
-        let set: ParameterSet = de::from_node(node).map_err(|(e, byte)| {
-            let key = e.key.as_ref().map_or("set".to_string(), |k| format!("set.{k}"));
-            placed((e.key(key), byte))
+        let set: ParameterSet = de::from_node(node).map_err(|mut fault| {
+            fault.error.key = Some(fault.error.key.map_or("set".to_string(), |k| format!("set.{k}")));
+            placed(fault)
         })?;
-        validate::parameter_set(&set).map_err(|e| placed((e, node.at)))?;
+        if let Some(error) = validate::parameter_set(&set) {
+            return Err(placed(Fault::new(error, node.at)));
+        }
         sets::fill(&mut tree, &set).map_err(placed)?;
     }
     preset(&mut tree).map_err(placed)?;
     require(&tree).map_err(placed)?;
-    let case = de::from_node(&tree).map_err(placed)?;
+    let case = de::from_node(&tree).map_err(|fault| placed(described(fault)))?;
     Ok(CaseFile { case, source, tree })
 }
 
+/// Adds to a missing key what belongs there.
+fn described(mut fault: Fault) -> Fault {
+    let e = &mut fault.error;
+    if e.what == de::MISSING && e.allowed.is_none() {
+        e.allowed = e.key.as_deref().and_then(super::describe).map(|text| text.trim_end_matches('.').to_string());
+    }
+    fault
+}
+
 /// Writes out what `friction.preset` stands for.
-fn preset(tree: &mut Node) -> std::result::Result<(), (InputError, usize)> {
+fn preset(tree: &mut Node) -> std::result::Result<(), Fault> {
     let Some(friction) = tree.get_mut("joint").and_then(|j| j.get_mut("friction")) else { return Ok(()) };
     if friction.get("preset").and_then(Node::text) != Some("report") {
         return Ok(());
@@ -158,24 +169,22 @@ fn preset(tree: &mut Node) -> std::result::Result<(), (InputError, usize)> {
             && other != word
         {
             let error = InputError::new(format!("`{other}` contradicts `preset = \"report\"`"));
-            return Err((
-                error.key(format!("joint.friction.{key}")).allowed(format!("`{word}`, or no preset")),
-                given.at,
-            ));
+            let error = error.key(format!("joint.friction.{key}")).allowed(format!("`{word}`, or no preset"));
+            return Err(Fault::new(error, given.at));
         }
     }
     Ok(())
 }
 
 /// Keys that a law needs. Left to their defaults, a stiffness or a friction coefficient would silently be 0.
-fn require(tree: &Node) -> std::result::Result<(), (InputError, usize)> {
+fn require(tree: &Node) -> std::result::Result<(), Fault> {
     let Some(joint) = tree.get("joint") else { return missing_joint(tree) };
     for kind in ["bed", "head", "base", "top", "connection"] {
         let Some(spring) = joint.get(kind) else { continue };
         let law = spring.get("law").and_then(Node::text).unwrap_or_default();
         if ["elastic", "no-tension"].contains(&law) && !spring.has("stiffness") {
             let error = InputError::new(format!("the key is missing: law `{law}` needs it"));
-            return Err((error.key(format!("joint.{kind}.stiffness")).allowed("from 0 N/m"), spring.at));
+            return Err(Fault::new(error.key(format!("joint.{kind}.stiffness")).allowed("from 0 N/m"), spring.at));
         }
     }
     let Some(friction) = joint.get("friction") else { return Ok(()) };
@@ -183,7 +192,7 @@ fn require(tree: &Node) -> std::result::Result<(), (InputError, usize)> {
         for key in ["static", "dynamic"] {
             if !friction.has(key) {
                 let error = InputError::new("the key is missing: law `stribeck` needs it");
-                return Err((error.key(format!("joint.friction.{key}")).allowed("from 0"), friction.at));
+                return Err(Fault::new(error.key(format!("joint.friction.{key}")).allowed("from 0"), friction.at));
             }
         }
     }
@@ -191,11 +200,11 @@ fn require(tree: &Node) -> std::result::Result<(), (InputError, usize)> {
 }
 
 /// Says that a parameter set would give the joints, which serde's own message cannot know.
-fn missing_joint(tree: &Node) -> std::result::Result<(), (InputError, usize)> {
+fn missing_joint(tree: &Node) -> std::result::Result<(), Fault> {
     match tree.value {
         Value::Table(_) if tree.has("panel") => {
             let error = InputError::new("the key is missing").key("joint");
-            Err((error.help("give a [joint] table, or a parameter set such as `set = \"report\"`"), tree.at))
+            Err(Fault::new(error.help("give a [joint] table, or a parameter set such as `set = \"report\"`"), tree.at))
         }
         _ => Ok(()),
     }

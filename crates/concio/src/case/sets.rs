@@ -1,7 +1,7 @@
 //! The report's parameter sets: keys that the file leaves out are filled in the tree, before it is read as a `Case`.
 //! So the file wins key by key, and a missing key of a set is an error with a place like any other.
 
-use super::node::{Node, Value};
+use super::node::{Fault, Node, Value};
 use super::{ParameterSet, SetName};
 use crate::InputError;
 
@@ -85,7 +85,7 @@ fn label(name: SetName) -> &'static str {
 }
 
 /// Fills what the file leaves out from `set`. The error is about a key that neither the file nor the set gives.
-pub(super) fn fill(root: &mut Node, set: &ParameterSet) -> Result<(), (InputError, usize)> {
+pub(super) fn fill(root: &mut Node, set: &ParameterSet) -> Result<(), Fault> {
     let printed = printed(set.name);
     let at = |[low, high]: Range| low + set.at * (high - low);
     if let Some(Node { value: Value::List(panels), .. }) = root.get_mut("panel") {
@@ -110,13 +110,7 @@ pub(super) fn fill(root: &mut Node, set: &ParameterSet) -> Result<(), (InputErro
     fill_friction(joint, coefficients, set.name, place)
 }
 
-fn fill_panel(
-    panel: &mut Node,
-    index: usize,
-    printed: &Printed,
-    name: SetName,
-    mortar: f64,
-) -> Result<(), (InputError, usize)> {
+fn fill_panel(panel: &mut Node, index: usize, printed: &Printed, name: SetName, mortar: f64) -> Result<(), Fault> {
     panel.fill("brick", Value::Table(Vec::new()));
     if let Some(brick) = panel.get_mut("brick") {
         for (key, value) in ["length", "thickness", "height"].into_iter().zip(printed.brick) {
@@ -128,7 +122,7 @@ fn fill_panel(
                 let what =
                     format!("set `{}` of Table 1 prints no specific weight, so the file must give it", label(name));
                 let error = InputError::new(what).key(format!("panel[{index}].brick.specific_weight"));
-                return Err((error.allowed("above 0 N/m3"), brick.at));
+                return Err(Fault::new(error.allowed("above 0 N/m3"), brick.at));
             }
             None => {}
         }
@@ -149,12 +143,7 @@ fn fill_spring(joint: &mut Node, key: &str, law: &str, stiffness: f64) {
     }
 }
 
-fn fill_friction(
-    joint: &mut Node,
-    coefficients: Option<[f64; 2]>,
-    name: SetName,
-    place: usize,
-) -> Result<(), (InputError, usize)> {
+fn fill_friction(joint: &mut Node, coefficients: Option<[f64; 2]>, name: SetName, place: usize) -> Result<(), Fault> {
     let absent = !joint.has("friction");
     joint.fill("friction", Value::Table(Vec::new()));
     let Some(friction) = joint.get_mut("friction") else { return Ok(()) };
@@ -171,7 +160,7 @@ fn fill_friction(
                         format!("set `{}` of Table 1 prints no friction angle, so the file must give it", label(name));
                     let error = InputError::new(what).key(format!("joint.friction.{key}"));
                     let error = error.allowed("from 0").help("for a wall without friction write `law = \"none\"`");
-                    return Err((error, if absent { place } else { friction.at }));
+                    return Err(Fault::new(error, if absent { place } else { friction.at }));
                 }
             }
         }

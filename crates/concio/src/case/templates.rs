@@ -22,7 +22,28 @@ pub fn schema() -> Value {
         relax_definition(definitions, "Brick", &["length", "height", "thickness", "specific_weight"]);
         relax_definition(definitions, "Mortar", &["bed", "head"]);
     }
+    without_null(&mut schema);
     schema
+}
+
+/// Takes out the nulls that stand for absent values: in a wall file the key is left out instead.
+fn without_null(schema: &mut Value) {
+    match schema {
+        Value::Array(items) => items.iter_mut().for_each(without_null),
+        Value::Object(table) => {
+            if let Some(types) = table.get_mut("type").and_then(Value::as_array_mut) {
+                types.retain(|t| t != "null");
+                if let [only] = types.as_slice() {
+                    table["type"] = only.clone();
+                }
+            }
+            if let Some(options) = table.get_mut("anyOf").and_then(Value::as_array_mut) {
+                options.retain(|o| o.get("type").is_none_or(|t| t != "null"));
+            }
+            table.values_mut().for_each(without_null);
+        }
+        _ => {}
+    }
 }
 
 fn relax_definition(definitions: &mut Map<String, Value>, name: &str, keys: &[&str]) {
@@ -49,4 +70,32 @@ pub fn starter() -> &'static str {
 /// None in a released version: a test reads it.
 pub fn example() -> Result<CaseFile> {
     from_str(include_str!("builtin.toml"), Syntax::Toml, None)
+}
+
+/// What the schema says of a key (`panel[0].brick.length`): meaning, unit, bounds, default.
+pub fn describe(key: &str) -> Option<String> {
+    let schema = schema();
+    let steps: Vec<&str> = key.split(['.', '[']).filter(|s| !s.is_empty()).collect();
+    let found = follow(&schema, &schema, &steps)?;
+    found.get("description").and_then(Value::as_str).map(|text| text.replace('\n', " "))
+}
+
+/// The part of the schema that a path leads to. References are looked into only when the path goes on, so that the
+/// description is that of the key and not of its type.
+fn follow<'a>(root: &'a Value, at: &'a Value, steps: &[&str]) -> Option<&'a Value> {
+    let Some((step, rest)) = steps.split_first() else { return Some(at) };
+    let next = match step.strip_suffix(']') {
+        Some(_) => at.get("items"),
+        None => at.get("properties").and_then(|p| p.get(step)),
+    };
+    if let Some(next) = next {
+        // An item has no words of its own; those of its list speak for it.
+        let list = rest.is_empty() && step.ends_with(']') && next.get("description").is_none();
+        return if list { Some(at) } else { follow(root, next, rest) };
+    }
+    let reference = at.get("$ref").and_then(Value::as_str).and_then(|r| r.strip_prefix("#/$defs/"));
+    if let Some(definition) = reference.and_then(|name| root["$defs"].get(name)) {
+        return follow(root, definition, steps);
+    }
+    at.get("anyOf")?.as_array()?.iter().find_map(|option| follow(root, option, steps))
 }

@@ -4,7 +4,7 @@
 use std::fmt::Display;
 
 use super::{Beam, Case, ModelKind, ParameterSet, Signal};
-use crate::quantity::{Dimension, Quantity};
+use crate::quantity::{Dimension, Quantity, shown};
 use crate::{InputError, Result};
 
 mod joints;
@@ -33,11 +33,7 @@ pub fn findings(case: &Case) -> Vec<InputError> {
     if case.model == ModelKind::Planar {
         f.push("model", "model `planar` is not in this version yet", "`shear`");
     }
-    if let Some(set) = &case.set
-        && let Err(e) = parameter_set(set)
-    {
-        f.list.push(e);
-    }
+    f.list.extend(case.set.as_ref().and_then(parameter_set));
     walls::check(&mut f, case);
     joints::check(&mut f, case);
     load(&mut f, case);
@@ -64,10 +60,10 @@ pub fn joint_names(case: &Case) -> Vec<(String, &str)> {
     changes.chain(kept.map(|(k, name)| (format!("output.joints[{k}]"), name.as_str()))).collect()
 }
 
-pub(super) fn parameter_set(set: &ParameterSet) -> std::result::Result<(), InputError> {
+pub(super) fn parameter_set(set: &ParameterSet) -> Option<InputError> {
     let mut f = Findings::default();
     f.number("set.at", set.at, Bound::Between(0.0, 1.0));
-    f.list.pop().map_or(Ok(()), Err)
+    f.list.pop()
 }
 
 /// A bound as the documentation words it.
@@ -97,7 +93,7 @@ impl Bound {
             Bound::Finite => format!("a finite number{}", if unit.is_empty() { "" } else { " of either sign" }),
             Bound::From0 => format!("from 0{unit}"),
             Bound::Above0 => format!("above 0{unit}"),
-            Bound::Between(low, high) => format!("{low} … {high}{unit}"),
+            Bound::Between(low, high) => format!("{} … {}{unit}", shown(low), shown(high)),
         }
     }
 }
@@ -124,14 +120,14 @@ impl Findings {
         self.value(key, v, "", bound);
     }
     fn value(&mut self, key: impl Display, v: f64, unit: &str, bound: Bound) {
-        let [least, most] = MAGNITUDE;
+        let ([least, most], found) = (MAGNITUDE, format!("{}{unit}", shown(v)));
         if !bound.holds(v) {
-            self.push(key, format!("{v}{unit} is out of range"), bound.text(unit));
+            self.push(key, format!("{found} is out of range"), bound.text(unit));
         } else if v.abs() > most {
-            self.push(key, format!("{v}{unit} is too large"), format!("{}, up to {most:e}{unit}", bound.text(unit)));
+            self.push(key, format!("{found} is too large"), format!("{}, up to {most:e}{unit}", bound.text(unit)));
         } else if v != 0.0 && v.abs() < least {
             let allowed = format!("{}, and not below {least:e}{unit} in magnitude", bound.text(unit));
-            self.push(key, format!("{v}{unit} is too small"), allowed);
+            self.push(key, format!("{found} is too small"), allowed);
         }
     }
     /// Two values of which the first must be below the second (or equal to it, if `equal`).

@@ -54,7 +54,10 @@ pub fn measure(record: &Record) -> Measures {
     let (dt, a) = (record.dt, &record.acceleration);
     let (v, u) = match &record.displacement {
         None => integrate(dt, a, 0.0, 0.0),
-        Some(u) => (spline::first_derivatives(dt, u, a), u.iter().map(|x| x - u[0]).collect()),
+        Some(u) => (spline::first_derivatives(dt, u, a), {
+            let start = u.first().copied().unwrap_or(0.0);
+            u.iter().map(|x| x - start).collect()
+        }),
     };
     let (arias, [t5, t95]) = arias(dt, a);
     Measures {

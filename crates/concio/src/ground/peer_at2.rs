@@ -7,6 +7,8 @@ use crate::Result;
 use crate::case::HistoryQuantity;
 use crate::ground::record::{Format, Raw, Record, finish};
 use crate::ground::source::{Source, count, free_fields, leading_number, not_a_number, number, whole};
+use crate::ground::text::unit_words;
+use crate::ground::units;
 
 /// Lines in which the header is looked for.
 const HEADER: usize = 60;
@@ -18,7 +20,7 @@ pub(super) fn is_format(source: &Source) -> bool {
 
 pub(super) fn read(source: &Source) -> Result<Record> {
     let header = header(source)?;
-    let units = units(source, header.end)?;
+    let (units_line, units) = units(source, header.end)?;
     let mut values = Vec::new();
     for (index, line) in source.lines.iter().enumerate().skip(header.end) {
         for field in free_fields(line) {
@@ -40,7 +42,7 @@ pub(super) fn read(source: &Source) -> Result<Record> {
             event: source.line(1).trim().to_owned(),
             channel: String::new(),
             dt_line: header.dt_line,
-            units_line: 0,
+            units_line,
             data_line: header.end,
         },
     )
@@ -111,20 +113,23 @@ fn find<'a>(source: &Source<'a>, key: &str) -> Option<(usize, &'a str)> {
     None
 }
 
-/// The unit that the header names; g when it names none, as the format says.
-fn units(source: &Source, end: usize) -> Result<String> {
+/// The unit that the header names, and its line; g when it names none, as the format says. Programs that borrow the
+/// header's form for other units write them in brackets or behind `units:`.
+fn units(source: &Source, end: usize) -> Result<(usize, String)> {
     for (index, line) in source.head(end) {
         let upper = line.to_ascii_uppercase();
-        for other in ["VELOCITY TIME", "DISPLACEMENT TIME"] {
-            if upper.contains(other) {
-                let error = source.error_at(index, "this is not an acceleration history");
-                return Err(error.allowed("ACCELERATION").help("take the `.AT2` file of the same record").into());
-            }
+        if ["VELOCITY TIME", "DISPLACEMENT TIME"].iter().any(|other| upper.contains(other)) {
+            let error = source.error_at(index, "this is not an acceleration history");
+            return Err(error.allowed("ACCELERATION").help("take the `.AT2` file of the same record").into());
         }
         let Some(at) = upper.find("UNITS OF ") else { continue };
         let unit = line[at + "UNITS OF ".len()..].trim_start();
         let end = unit.find(|c: char| c.is_whitespace() || matches!(c, '.' | ',' | ';')).unwrap_or(unit.len());
-        return Ok(unit[..end].to_owned());
+        return Ok((index, unit[..end].to_owned()));
     }
-    Ok("g".to_owned())
+    let is_unit = |unit: &&str| units::factor(unit, HistoryQuantity::Acceleration).is_some();
+    let mut lines = source.head(end);
+    let named = lines.find_map(|(index, line)| unit_words(line).into_iter().find(is_unit).map(|unit| (index, unit)));
+    let (line, unit) = named.unwrap_or((0, "g"));
+    Ok((line, unit.to_owned()))
 }

@@ -126,15 +126,14 @@ pub fn read(path: &Path, options: &TextOptions) -> Result<Vec<Record>> {
 pub fn parse(bytes: &[u8], path: &Path, options: &TextOptions) -> Result<Vec<Record>> {
     let text = decode(bytes, path)?;
     let source = Source::new(path, &text);
-    let records = match detect(&source) {
+    match detect(&source) {
         Format::ItacaAsc => itaca_asc::read(&source).map(|record| vec![record]),
         Format::CosmosV2 => cosmos_v2::read(&source),
         Format::CsmipV2 => csmip_v2::read(&source),
         Format::UsgsSmc => usgs_smc::read(&source).map(|record| vec![record]),
         Format::PeerAt2 => peer_at2::read(&source).map(|record| vec![record]),
         Format::Text | Format::Synthetic => text::read(&source, options),
-    };
-    records
+    }
 }
 
 /// Bytes as text. Latin-1 letters in station names become replacement characters, which no field minds.
@@ -148,14 +147,14 @@ fn decode<'a>(bytes: &'a [u8], path: &Path) -> Result<Cow<'a, str>> {
 
 /// The format, from marks that only it has.
 fn detect(source: &Source) -> Format {
-    let marks: [(Format, fn(&Source) -> bool); 5] = [
-        (Format::ItacaAsc, itaca_asc::is_format),
-        (Format::CosmosV2, cosmos_v2::is_format),
-        (Format::UsgsSmc, usgs_smc::is_format),
-        (Format::CsmipV2, csmip_v2::is_format),
-        (Format::PeerAt2, peer_at2::is_format),
-    ];
-    marks.iter().find(|(_, is_format)| is_format(source)).map_or(Format::Text, |(format, _)| *format)
+    match source {
+        _ if itaca_asc::is_format(source) => Format::ItacaAsc,
+        _ if cosmos_v2::is_format(source) => Format::CosmosV2,
+        _ if usgs_smc::is_format(source) => Format::UsgsSmc,
+        _ if csmip_v2::is_format(source) => Format::CsmipV2,
+        _ if peer_at2::is_format(source) => Format::PeerAt2,
+        _ => Format::Text,
+    }
 }
 
 /// What a reader found, before units and checks.

@@ -92,7 +92,8 @@ impl GroundMotion {
             GroundMotion::Samples(samples) => SLACK * samples.dt,
             GroundMotion::Pieces(pieces) => pieces.slack(),
         };
-        if !((t - after.start).abs() <= 2.0 * slack) {
+        let is_break = (t - after.start).abs() <= 2.0 * slack;
+        if !is_break {
             return 0.0;
         }
         let before = self.segment(after.start - 1e3 * slack);
@@ -113,7 +114,7 @@ impl GroundMotion {
     pub fn end(&self) -> Option<f64> {
         match self {
             GroundMotion::AtRest => Some(0.0),
-            GroundMotion::Samples(samples) => Some((samples.motion.len() - 1) as f64 * samples.dt),
+            GroundMotion::Samples(samples) => Some(samples.motion.len().saturating_sub(1) as f64 * samples.dt),
             GroundMotion::Pieces(pieces) => pieces.end,
         }
     }

@@ -11,6 +11,8 @@
 
 use std::f64::consts::PI;
 
+use serde::Serialize;
+
 /// Steps in a period, at least.
 const STEPS_PER_PERIOD: f64 = 20.0;
 /// Periods below this fraction of the sample interval are taken as rigid: the free part of the response is below
@@ -18,7 +20,7 @@ const STEPS_PER_PERIOD: f64 = 20.0;
 const RIGID: f64 = 1e-3;
 
 /// Peaks of oscillators.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Spectrum {
     /// Damping ratio ζ.
     pub damping: f64,
@@ -33,7 +35,10 @@ pub struct Spectrum {
 }
 
 /// Response spectrum of `acceleration` [m/s²] at samples `dt` [s] apart, for damping ratio ζ ≥ 0 and the periods
-/// given [s]. Oscillators start at rest. Peaks between steps are found from the cubic through their ends.
+/// given [s]. Oscillators start at rest and are followed up to the last sample.
+///
+/// Peaks are those at the ends of the steps, as in published spectra: at most 1 − cos(π/20) = 1.2 % below a peak
+/// between them (El Centro, T = 0.5 s, ζ = 2 %: 2.675 in at the samples, 2.688 in between two of them).
 /// A period that is not above 0 counts as 0.
 pub fn response_spectrum(dt: f64, acceleration: &[f64], damping: f64, periods: &[f64]) -> Spectrum {
     let pga = acceleration.iter().fold(0.0_f64, |peak, a| peak.max(a.abs()));
@@ -69,25 +74,10 @@ fn peak_displacement(dt: f64, acceleration: &[f64], damping: f64, period: f64) -
             let a0 = pair[0] + slope * part as f64;
             let (u1, v1) = step.advance(u, v, a0, a0 + slope);
             peak = peak.max(u1.abs());
-            if v * v1 < 0.0 {
-                peak = peak.max(turning_point(h, u, v, u1, v1).abs());
-            }
             (u, v) = (u1, v1);
         }
     }
     peak
-}
-
-/// Extremum of the cubic with the given ends and slopes of opposite sign.
-fn turning_point(h: f64, u0: f64, v0: f64, u1: f64, v1: f64) -> f64 {
-    // Slope along s = t/h: v0 + 2 b s + 3 c s²; its root in (0, 1), written so that nothing cancels.
-    let chord = (u1 - u0) / h;
-    let b = 3.0 * chord - 2.0 * v0 - v1;
-    let c = v0 + v1 - 2.0 * chord;
-    let q = -(b + b.signum() * (b * b - 3.0 * c * v0).max(0.0).sqrt());
-    let inside = |s: &f64| (0.0..=1.0).contains(s);
-    let s = [q / (3.0 * c), v0 / q].into_iter().find(inside).unwrap_or(0.0);
-    u0 + h * s * (v0 + s * (b + s * c))
 }
 
 /// Coefficients of (S1).
@@ -134,4 +124,47 @@ fn series(c: f64, k: f64, start: [f64; 2], load: [f64; 2]) -> [f64; 2] {
         }
     }
     [value, slope]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Coefficients of Nigam and Jennings as Chopra tabulates them (Dynamics of Structures, table 5.2.1), for a unit
+    /// mass under the load p = −a.
+    fn closed_form(h: f64, omega: f64, z: f64) -> [f64; 4] {
+        let root = (1.0 - z * z).sqrt();
+        let (sin, cos) = (omega * root * h).sin_cos();
+        let decay = (-z * omega * h).exp();
+        let (k, s) = (omega * omega, 2.0 * z / (omega * h));
+        let a = decay * (z / root * sin + cos);
+        let b = decay * sin / (omega * root);
+        let c = (s + decay * (((1.0 - 2.0 * z * z) / (omega * root * h) - z / root) * sin - (1.0 + s) * cos)) / k;
+        let d = (1.0 - s + decay * ((2.0 * z * z - 1.0) / (omega * root * h) * sin + s * cos)) / k;
+        [a, b, -c, -d]
+    }
+
+    #[test]
+    fn coefficients_are_those_of_the_closed_form() {
+        for (h, omega, damping) in [(0.02, 12.0, 0.05), (0.01, 30.0, 0.0), (0.05, 6.0, 0.7)] {
+            let step = Step::new(h, omega, damping);
+            let found = [step.a[0][0], step.a[0][1], step.b[0][0], step.b[0][1]];
+            for (found, expected) in found.iter().zip(closed_form(h, omega, damping)) {
+                assert!((found - expected).abs() < 1e-12 * expected.abs().max(h * h), "{found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn many_short_steps_make_a_long_one() {
+        let (omega, damping, parts) = (3.0, 0.05, 64);
+        let (whole, part) = (Step::new(0.1, omega, damping), Step::new(0.1 / parts as f64, omega, damping));
+        let (mut u, mut v) = (0.01, -0.2);
+        let expected = whole.advance(u, v, 1.5, -0.5);
+        for k in 0..parts {
+            let a = |k: usize| 1.5 - 2.0 * k as f64 / parts as f64;
+            (u, v) = part.advance(u, v, a(k), a(k + 1));
+        }
+        assert!((u - expected.0).abs() < 1e-15 && (v - expected.1).abs() < 1e-14, "{u} {v} {expected:?}");
+    }
 }

@@ -67,7 +67,7 @@ fn table<'a>(source: &Source<'a>) -> Result<Table<'a>> {
         }
         for (column, field) in table.columns.iter_mut().zip(&fields) {
             let value = if line.contains(';') { number(&field.replace(',', ".")) } else { number(field) };
-            column.push(value.ok_or_else(|| not_a_number(source, index, field))?);
+            column.push(value.ok_or_else(|| bad_field(source, index, field))?);
         }
         table.lines.push(index);
         table.first.push(fields.first().copied().unwrap_or(""));
@@ -77,6 +77,12 @@ fn table<'a>(source: &Source<'a>) -> Result<Table<'a>> {
         return Err(error.allowed("PEER AT2, ITACA/ESM ASC, COSMOS V2, CSMIP V2, USGS SMC, columns of numbers").into());
     }
     Ok(table)
+}
+
+fn bad_field(source: &Source, line: usize, field: &str) -> InputError {
+    let error = not_a_number(source, line, field);
+    let commas = source.line(line).contains(',') && !source.line(line).contains(';');
+    if commas { error.help("with decimal commas, part the columns by semicolons") } else { error }
 }
 
 fn is_comment(line: &str) -> bool {
@@ -171,24 +177,23 @@ fn timed(source: &Source, table: &Table, options: &TextOptions) -> Result<(Inter
     let steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let typical = median(&steps);
     let rounding = table.first.iter().map(|field| resolution(field)).fold(0.0, f64::max);
+    // A column so coarsely rounded that a missing sample would pass for rounding must be even as it is.
+    let rounding = if rounding <= 0.5 * typical { rounding } else { 0.0 };
     let hint = "the first of two columns is time; with decimal commas, part the columns by semicolons";
     if !(typical > 0.0 && typical.is_finite()) {
         let error = source.error_at(table.lines[1], format!("the time column does not grow: step {typical} s"));
         return Err(error.allowed("equal steps above 0").help(hint).into());
     }
-    if rounding > 0.5 * typical {
-        let what = format!("the time column is rounded to {rounding} s, too coarse for its step of {typical:.3e} s");
-        return Err(source.error_at(first_line, what).help("write it with more digits").into());
-    }
     // Each of two times is off by half a unit of its last digit at most.
     let tolerance = STEP_TOLERANCE * typical + 1.001 * rounding;
-    if let Some(k) = steps.iter().position(|step| !((step - typical).abs() <= tolerance)) {
+    if let Some(k) = steps.iter().position(|step| (step - typical).abs() > tolerance) {
         let what = format!("the time column steps by {:.6e} s here and by {typical:.6e} s elsewhere", steps[k]);
         return Err(source.error_at(table.lines[k + 1], what).allowed("equal steps").help(hint).into());
     }
     let dt = (time[n - 1] - time[0]) / (n - 1) as f64;
     let given = options.dt.map(|dt| (first_line, dt)).or_else(|| named_interval(source, first_line));
-    if let Some((line, named)) = given.filter(|(_, named)| !((named - dt).abs() <= STEP_TOLERANCE * dt)) {
+    let agrees = |named: f64| (named - dt).abs() <= STEP_TOLERANCE * dt;
+    if let Some((line, named)) = given.filter(|(_, named)| !agrees(*named)) {
         let what = format!("the interval is named as {named} s, the time column steps by {dt:.6e} s");
         return Err(source.error_at(line, what).key("dt").into());
     }
@@ -263,12 +268,12 @@ fn no_unit(source: &Source, data_line: usize, quantity: HistoryQuantity) -> Inpu
 }
 
 /// Words of a header line that may be a unit: in brackets, behind `units:`, behind `units of`.
-fn unit_words(line: &str) -> Vec<&str> {
+pub(super) fn unit_words(line: &str) -> Vec<&str> {
     let mut words: Vec<&str> = bracketed(line).collect();
     let lower = line.to_ascii_lowercase();
-    for key in ["units of", "units", "unit"] {
-        let Some(at) = lower.find(key) else { continue };
-        let rest = line[at + key.len()..].trim_start().trim_start_matches(['=', ':']).trim_start();
+    let key = ["units of", "units", "unit"].into_iter().find_map(|key| lower.find(key).map(|at| at + key.len()));
+    if let Some(end_of_key) = key {
+        let rest = line[end_of_key..].trim_start().trim_start_matches(['=', ':']).trim_start();
         let end = rest.find(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"')).unwrap_or(rest.len());
         words.push(rest[..end].trim_end_matches('.'));
     }
@@ -296,7 +301,8 @@ mod tests {
     fn words_of_a_header() {
         assert_eq!(keyed_number("npts = 5, dt= .005 sec", "dt").map(|n| n.0), Some(0.005));
         assert_eq!(keyed_number("width = 5", "dt"), None);
-        assert_eq!(unit_words("# Units: cm/s2, corrected"), ["cm/s2"].repeat(2));
+        assert_eq!(unit_words("# Units: cm/s2, corrected"), ["cm/s2"]);
+        assert_eq!(unit_words("# acceleration in units of g."), ["g"]);
         assert_eq!(bracketed("time [s], acc [m/s2]").collect::<Vec<_>>(), ["s", "m/s2"]);
     }
 }

@@ -31,13 +31,9 @@ pub(super) fn read(source: &Source) -> Result<Record> {
     let integers = block(source, TEXT_LINES, INTEGER_LINES, INTEGERS)?;
     let reals_start = TEXT_LINES + INTEGER_LINES;
     let reals = block(source, reals_start, REAL_LINES, REALS)?;
-    let header = |values: &[f64], index: usize, line: usize, none: f64, what: &'static str| {
-        let found = values.get(index).copied().filter(|v| *v != none && *v > 0.0);
-        found.ok_or_else(|| source.error_at(line, format!("the header does not give the {what}")).key(what))
-    };
     let npts_line = TEXT_LINES + 2;
-    let npts = header(&integers, 16, npts_line, NO_INTEGER, "number of samples (integer 17)")?;
-    let rate = header(&reals, 1, reals_start, NO_REAL, "sampling rate (real 2)")?;
+    let npts = known(source, &integers, 16, npts_line, NO_INTEGER, "number of samples (integer 17)")?;
+    let rate = known(source, &reals, 1, reals_start, NO_REAL, "sampling rate (real 2)")?;
     let comments = integers.get(15).copied().filter(|n| (0.0..=1e4).contains(n)).unwrap_or(0.0) as usize;
     let data_line = reals_start + REAL_LINES + comments;
     let (values, end) = samples(source, data_line, npts as u64)?;
@@ -72,6 +68,12 @@ fn quantity(source: &Source) -> Result<HistoryQuantity> {
     }
 }
 
+/// A header value above 0 that is not the one that stands for "not known".
+fn known(source: &Source, values: &[f64], index: usize, line: usize, none: f64, what: &'static str) -> Result<f64> {
+    let found = values.get(index).copied().filter(|v| *v != none && *v > 0.0);
+    found.ok_or_else(|| source.error_at(line, format!("the header does not give the {what}")).key(what).into())
+}
+
 /// A header block of fixed-width numbers.
 fn block(source: &Source, start: usize, lines: usize, format: Format) -> Result<Vec<f64>> {
     let mut values = Vec::new();
@@ -94,7 +96,7 @@ fn samples(source: &Source, start: usize, declared: u64) -> Result<(Vec<f64>, us
     let first = source.line(start).trim_end();
     let fits = |format: &&Format| {
         let fields = fixed_fields(first, format.width).unwrap_or_default();
-        first.len() % format.width == 0
+        first.len().is_multiple_of(format.width)
             && fields.len() <= format.per_line
             && fields.iter().all(|field| number(field).is_some())
     };

@@ -238,11 +238,6 @@ impl Matrix {
             b[old as usize] = z[place];
         }
     }
-
-    /// Number of entries of L below its diagonal.
-    pub fn fill(&self) -> usize {
-        self.l_row.len()
-    }
 }
 
 /// Approximate minimum degree order of the graph: (old index at each place, place of each old index).

@@ -47,7 +47,7 @@ impl Site<'_> {
         let given = if self.panel.bond == Bond::Explicit { self.panel.blocks.get(rect.source) } else { None };
         given.and_then(|b| b.id.clone()).unwrap_or_else(|| block_name(self.index, course, place))
     }
-    fn sizes(&self, courses: &Courses) -> std::result::Result<(), InputError> {
+    fn sizes(&self, courses: &Courses) -> Result<()> {
         let (length, height) = (self.panel.brick.length.si(), self.panel.brick.height.si());
         for (r, k, rect) in each(courses) {
             let [dx, dy] = [rect.x, rect.y].map(|[a, b]| b - a);
@@ -60,13 +60,13 @@ impl Site<'_> {
                 let what =
                     format!("block {} ({dx} m by {dy} m) {what} to be told from rounding", self.name(r, k, rect));
                 let allowed = "sizes from 1e-5 of the panel's brick, coordinates up to 1e7 of it";
-                return Err(InputError::new(what).key(self.key(r, rect)).allowed(allowed));
+                return Err(InputError::new(what).key(self.key(r, rect)).allowed(allowed).into());
             }
         }
         Ok(())
     }
     /// Blocks of one course stand beside each other, else neighbours and supports could not be told.
-    fn side_by_side(&self, courses: &Courses) -> std::result::Result<(), InputError> {
+    fn side_by_side(&self, courses: &Courses) -> Result<()> {
         for (r, course) in courses.iter().enumerate() {
             for (k, pair) in course.windows(2).enumerate() {
                 if pair[1].x[0] >= pair[0].x[1] - self.tolerance {
@@ -80,14 +80,14 @@ impl Site<'_> {
                     format!("blocks {a} and {b} overlap")
                 };
                 let allowed = "blocks of one course side by side";
-                return Err(InputError::new(what).key(self.key(r, &pair[1])).allowed(allowed));
+                return Err(InputError::new(what).key(self.key(r, &pair[1])).allowed(allowed).into());
             }
         }
         Ok(())
     }
     /// Overlaps between any two blocks, by a line sweeping from left to right. The blocks it cuts do not overlap (else
     /// it had stopped), so a new one need be compared with its neighbours above and below only.
-    fn overlaps(&self, courses: &Courses) -> std::result::Result<(), InputError> {
+    fn overlaps(&self, courses: &Courses) -> Result<()> {
         let all: Vec<_> = each(courses).collect();
         let mut events = Vec::with_capacity(2 * all.len());
         for (i, (.., rect)) in all.iter().enumerate() {
@@ -108,7 +108,7 @@ impl Site<'_> {
             for (_, &other) in below.into_iter().chain(above) {
                 let y = all[other].2.y;
                 if y[1].min(rect.y[1]) - y[0].max(rect.y[0]) > self.tolerance {
-                    return Err(self.overlap(all[other], all[i]));
+                    return Err(self.overlap(all[other], all[i]).into());
                 }
             }
             cut.insert(Height(rect.y[0]), i);
@@ -122,7 +122,7 @@ impl Site<'_> {
         InputError::new(what).key(self.key(b.0, b.2)).allowed("blocks that share edges at most")
     }
     /// Every block of the course `upper` (number r + 1 from 0) lies on a block of the course below.
-    fn rests(&self, r: usize, lower: &[Rect], upper: &[Rect]) -> std::result::Result<(), InputError> {
+    fn rests(&self, r: usize, lower: &[Rect], upper: &[Rect]) -> Result<()> {
         let mut first = 0;
         for (k, rect) in upper.iter().enumerate() {
             while lower.get(first).is_some_and(|b| b.x[1] <= rect.x[0] + self.tolerance) {
@@ -136,7 +136,7 @@ impl Site<'_> {
                 let what =
                     format!("block {name} of course {} rests on nothing: its load has no way to the base", r + 2);
                 let allowed = format!("an overlap with a block of course {}", r + 1);
-                return Err(InputError::new(what).key(key).allowed(allowed));
+                return Err(InputError::new(what).key(key).allowed(allowed).into());
             }
             if let Some(over) = carriers.find(|b| b.y[1] > rect.y[0] + self.tolerance) {
                 let what = format!(
@@ -144,7 +144,7 @@ impl Site<'_> {
                     r + 2,
                     rect.y[0]
                 );
-                return Err(InputError::new(what).key(key).allowed(format!("from {} m", over.y[1])));
+                return Err(InputError::new(what).key(key).allowed(format!("from {} m", over.y[1])).into());
             }
         }
         Ok(())

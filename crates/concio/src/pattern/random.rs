@@ -1,15 +1,18 @@
 //! Irregular texture drawn from a seeded distribution (the report's Figure 14).
 //!
-//! Course heights are uniform between their bounds. A course is drawn from left to right: a brick's length is uniform
-//! over the lengths from which whole bricks can still make up the rest of the width and whose head joint keeps the
-//! stagger to the course below; the last brick takes what is left. Where nothing is left to draw from, the last bricks
-//! are taken back and drawn again, more of them each time in turn; where that goes on too long, the course below too.
+//! Course heights are uniform between their bounds. A course is drawn from left to right: the end of a brick is uniform
+//! over the places from which the course can still be completed, so no draw leads into a dead end. These places are
+//! found beforehand, from right to left: with the pitch p = length + mortar between p_low and p_high, a brick may begin
+//! at x if its head joint keeps the stagger to the course below and another brick may begin somewhere in
+//! x + p_low … x + p_high, or the course ends there. They form a few intervals per brick.
+//!
+//! A course over which none can be laid is drawn again, and with repeated failures more of the courses below it.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::{Courses, SLACK, stacked};
-use crate::case::{Panel, RandomTexture, validate};
+use crate::case::{Panel, RandomTexture};
 use crate::{InputError, Result};
 
 /// The generator: the same numbers for a seed on every machine and in every version.
@@ -56,28 +59,33 @@ pub(super) fn courses(panel: &Panel, texture: &RandomTexture, index: usize) -> R
     let rule = Rule::new(panel, texture);
     let mut dice = Dice::new(texture.seed);
     let count = panel.courses.unwrap_or(0);
-    // Dead ends are cheap but not free: enough for every texture that can be found with some luck.
-    let mut budget = 10_000 + 100 * validate::block_bound(panel) as u64;
-    let mut rows: Vec<Vec<f64>> = Vec::with_capacity(count);
+    let (mut failures, mut highest) = (0, 0);
+    let mut rows: Vec<Vec<f64>> = Vec::new();
     while rows.len() < count {
         let below = rows.last().map_or(Vec::new(), |row| rule.joints(row));
-        match rule.course(&mut dice, &below, &mut budget) {
-            Some(row) => rows.push(row),
-            None if budget == 0 => return Err(no_texture(texture, index, rows.len()).into()),
-            None => {
-                rows.pop();
-            }
+        if let Some(row) = rule.course(&mut dice, &below) {
+            rows.push(row);
+            continue;
         }
+        // Courses that were hard to get past do not count against those higher up.
+        failures = if rows.len() > highest { 1 } else { failures + 1 };
+        highest = highest.max(rows.len());
+        if failures > TRIES {
+            return Err(no_texture(texture, index, rows.len()).into());
+        }
+        rows.truncate(rows.len().saturating_sub(1 + failures % 8));
     }
     let height = texture.height.map(|h| h.si());
     Ok(stacked(panel, rows.into_iter().map(|row| (dice.between(height), 0.0, row))))
 }
 
+/// So often courses are drawn again without getting higher.
+const TRIES: usize = 200;
+
 fn no_texture(texture: &RandomTexture, index: usize, course: usize) -> InputError {
+    let stagger = texture.stagger;
     let what = format!(
-        "no texture was found that keeps {} between the head joints of courses {} and {}",
-        texture.stagger,
-        course,
+        "no texture was found that keeps {stagger} between the head joints of courses {course} and {}",
         course + 1
     );
     let help = "take a smaller stagger, a wider range of lengths, another width or another seed";
@@ -88,7 +96,8 @@ fn no_texture(texture: &RandomTexture, index: usize, course: usize) -> InputErro
 struct Rule {
     width: f64,
     mortar: f64,
-    length: [f64; 2],
+    /// Shortest and longest brick with a head joint.
+    pitch: [f64; 2],
     stagger: f64,
     /// Rounding allowed when bricks make up the width.
     slack: f64,
@@ -96,14 +105,14 @@ struct Rule {
 
 impl Rule {
     fn new(panel: &Panel, texture: &RandomTexture) -> Rule {
-        let width = texture.width.si();
-        Rule {
-            width,
-            mortar: panel.mortar.head.si(),
-            length: texture.length.map(|l| l.si()),
-            stagger: texture.stagger.si(),
-            slack: SLACK * width,
-        }
+        let (width, mortar) = (texture.width.si(), panel.mortar.head.si());
+        let pitch = texture.length.map(|l| l.si() + mortar);
+        Rule { width, mortar, pitch, stagger: texture.stagger.si(), slack: SLACK * width }
+    }
+
+    /// Where the course ends: a brick would begin there if it went on.
+    fn end(&self) -> f64 {
+        self.width + self.mortar
     }
 
     /// Middles of the head joints of a course.
@@ -116,82 +125,86 @@ impl Rule {
         ends.take(row.len().saturating_sub(1)).collect()
     }
 
-    /// Brick lengths of one course over the head joints `below`; none when it takes too many dead ends.
-    fn course(&self, dice: &mut Dice, below: &[f64], budget: &mut u64) -> Option<Vec<f64>> {
-        let mut row: Vec<f64> = Vec::new();
-        let mut starts = vec![0.0];
-        let mut dead_ends = 0usize;
+    /// Brick lengths of one course over the head joints `below`; none if there is no such course.
+    fn course(&self, dice: &mut Dice, below: &[f64]) -> Option<Vec<f64>> {
+        let begins = self.begins(below);
+        let mut row = Vec::new();
+        let mut x = 0.0;
         loop {
-            let x = starts.last().copied().unwrap_or(0.0);
-            let left = self.width - x;
-            let closes = left >= self.length[0] - self.slack && left <= self.length[1] + self.slack;
-            let open = self.open(x, left, below);
+            let (open, closes) = self.next(&begins, x);
             if closes && (open.is_empty() || dice.unit() < 0.5) {
-                row.push(left);
+                row.push(self.width - x);
                 return Some(row);
             }
-            if let Some(length) = dice.among(&open) {
-                row.push(length);
-                starts.push(x + length + self.mortar);
-                continue;
-            }
-            *budget = budget.checked_sub(1)?;
-            dead_ends += 1;
-            if *budget == 0 || dead_ends > 200 + 50 * starts.len() {
-                return None;
-            }
-            let keep = row.len().saturating_sub(1 + dead_ends % 8);
-            row.truncate(keep);
-            starts.truncate(keep + 1);
+            let next = dice.among(&open)?;
+            row.push(next - self.mortar - x);
+            x = next;
         }
     }
 
-    /// Lengths for a brick that begins at x with `left` to go, when others follow it.
-    fn open(&self, x: f64, left: f64, below: &[f64]) -> Vec<[f64; 2]> {
-        let mut open = Vec::new();
-        for [low, high] in self.fillable(left) {
-            // A joint of the course below forbids the middles of joints within the stagger around it.
-            let shift = x + self.mortar / 2.0;
-            let mut low = low;
-            let near = below.partition_point(|b| b + self.stagger - shift <= low);
-            for b in below[near..].iter().take_while(|b| **b - self.stagger - shift < high) {
-                let [from, to] = [b - self.stagger - shift, b + self.stagger - shift];
-                if from >= low {
-                    open.push([low, from]);
-                }
-                low = low.max(to);
-            }
-            if low <= high {
-                open.push([low, high]);
-            }
-        }
-        open
+    /// The intervals in which the brick after one at x may begin, and whether that one may be the last.
+    fn next(&self, begins: &[[f64; 2]], x: f64) -> (Vec<[f64; 2]>, bool) {
+        let [from, to] = [x + self.pitch[0], x + self.pitch[1]];
+        let closes = from <= self.end() + self.slack && to >= self.end() - self.slack;
+        // The first interval is the end of the course.
+        let near = begins[1..].partition_point(|[low, _]| *low > to + self.slack);
+        let open = begins[1 + near..].iter().take_while(|[_, high]| *high >= from - self.slack);
+        let cut = open.map(|[low, high]| {
+            let [a, b] = [low.max(from), high.min(to)];
+            // Ends that miss each other by rounding meet in a point.
+            if a <= b { [a, b] } else { [a.min(*high).max(*low); 2] }
+        });
+        (cut.collect(), closes)
     }
 
-    /// Lengths after which m ≥ 1 whole bricks can make up the rest: with pitches p = length + mortar,
-    /// m p_low ≤ left − length ≤ m p_high.
-    fn fillable(&self, left: f64) -> Vec<[f64; 2]> {
-        let [low, high] = self.length;
-        let [p_low, p_high] = self.length.map(|l| l + self.mortar);
-        // From this m on the ranges of m and m + 1 touch: every rest from m p_low on can be filled.
-        let touching = (p_low / (p_high - p_low)).ceil().max(1.0);
-        let least = ((left - high - self.slack) / p_high).ceil().max(1.0);
-        let most = ((left - low + self.slack) / p_low).floor();
-        let mut found = Vec::new();
-        let mut take = |a: f64, b: f64| {
-            let (a, b) = (a.max(low), b.min(high));
-            if a <= b {
-                found.push([a, b]);
+    /// Where bricks may begin so that the course can be completed: intervals from right to left, the first being the
+    /// end of the course.
+    fn begins(&self, below: &[f64]) -> Vec<[f64; 2]> {
+        let mut found = vec![[self.end() - self.slack, self.end() + self.slack]];
+        let mut first = 0;
+        for [low, high] in self.windows(below) {
+            // What is reached from a piece lies to the right of it when it is no longer than a pitch.
+            let pieces = (2.0 * (high - low) / self.pitch[0]).ceil().max(1.0) as usize;
+            for k in (0..pieces).rev() {
+                let at = |k: usize| low + (high - low) * k as f64 / pieces as f64;
+                self.extend(&mut found, &mut first, [at(k), at(k + 1)]);
             }
-        };
-        if most >= touching {
-            take(low, left - touching * p_low);
-        }
-        let mut m = most.min(touching - 1.0);
-        while m >= least {
-            take(left - m * p_high - self.slack, left - m * p_low + self.slack);
-            m -= 1.0;
         }
         found
+    }
+
+    /// Adds the part of a piece from which one of the intervals found so far is reached.
+    fn extend(&self, found: &mut Vec<[f64; 2]>, first: &mut usize, [low, high]: [f64; 2]) {
+        while found.get(*first).is_some_and(|i| i[0] > high + self.pitch[1]) {
+            *first += 1;
+        }
+        let mut k = *first;
+        while let Some([from, to]) = found.get(k).copied().filter(|i| i[1] >= low + self.pitch[0]) {
+            let [a, b] = [low.max(from - self.pitch[1]), high.min(to - self.pitch[0])];
+            match found.last_mut() {
+                Some(last) if a <= b && b >= last[0] => last[0] = last[0].min(a),
+                _ if a <= b => found.push([a, b]),
+                _ => {}
+            }
+            k += 1;
+        }
+    }
+
+    /// Where a brick may begin as far as the course below is concerned, from right to left.
+    fn windows(&self, below: &[f64]) -> Vec<[f64; 2]> {
+        let half = self.mortar / 2.0;
+        let mut high = self.end() - self.pitch[0];
+        let mut windows = Vec::with_capacity(below.len() + 1);
+        for joint in below.iter().rev() {
+            let low = joint + self.stagger + half;
+            if low <= high {
+                windows.push([low, high]);
+            }
+            high = high.min(joint - self.stagger + half);
+        }
+        if self.pitch[0] <= high {
+            windows.push([self.pitch[0], high]);
+        }
+        windows
     }
 }

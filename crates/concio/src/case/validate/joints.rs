@@ -1,7 +1,7 @@
 //! Joint laws and the changes to some joints.
 
 use super::{Bound, Findings};
-use crate::case::{Bond, Case, Friction, FrictionLaw, JointChange, Panel, Selector, Spring, SpringLaw};
+use crate::case::{Bond, Case, Friction, FrictionChange, FrictionLaw, JointChange, Panel, Selector, Spring, SpringLaw};
 use crate::{InputError, case::de::suggestion};
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
@@ -20,8 +20,17 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
         }
     }
     friction(f, &j.friction);
+    let names: Vec<String> = (0..case.panels.len()).map(|p| crate::pattern::panel_name(case, p)).collect();
+    // What an earlier change gave the same joints is not known here: after one that sets coefficients only a pair
+    // given together is compared.
+    let mut settled = true;
     for (i, change) in j.changes.iter().enumerate() {
-        self::change(f, i, change, case);
+        selector(f, i, &change.at, case, &names);
+        self::change(f, i, change);
+        if let Some(r) = &change.friction {
+            friction_change(f, i, r, &j.friction, settled);
+            settled &= r.static_.is_none() && r.dynamic.is_none();
+        }
     }
 }
 
@@ -76,8 +85,7 @@ fn below_static(f: &mut Findings, key: impl std::fmt::Display, dynamic: f64, sta
     }
 }
 
-fn change(f: &mut Findings, i: usize, change: &JointChange, case: &Case) {
-    selector(f, i, &change.at, case);
+fn change(f: &mut Findings, i: usize, change: &JointChange) {
     if change.spring.is_none() && change.friction.is_none() {
         f.push(format_args!("joint.change[{i}]"), "nothing is changed", "`spring`, `friction` or both");
     }
@@ -96,12 +104,9 @@ fn change(f: &mut Findings, i: usize, change: &JointChange, case: &Case) {
             }
         }
     }
-    friction_change(f, i, case);
 }
 
-fn friction_change(f: &mut Findings, i: usize, case: &Case) {
-    let common = &case.joint.friction;
-    let Some(r) = &case.joint.changes[i].friction else { return };
+fn friction_change(f: &mut Findings, i: usize, r: &FrictionChange, common: &Friction, settled: bool) {
     friction_law(f, format!("joint.change[{i}].friction.law"), r.law);
     if let Some(v) = r.slip_velocity {
         f.quantity(format_args!("joint.change[{i}].friction.slip_velocity"), v, Bound::Above0);
@@ -122,9 +127,6 @@ fn friction_change(f: &mut Findings, i: usize, case: &Case) {
         let what = "the key is missing: law `stribeck` needs it, and [joint.friction] gives none";
         f.push(format_args!("joint.change[{i}].friction.{key}"), what, "from 0");
     }
-    // What an earlier change gave the same joints is not known here: then only a pair given together is compared.
-    let earlier = case.joint.changes[..i].iter().filter_map(|c| c.friction);
-    let settled = !earlier.into_iter().any(|e| e.static_.is_some() || e.dynamic.is_some());
     let pair = match (r.static_, r.dynamic) {
         (Some(s), Some(d)) => Some((s, d, "dynamic")),
         (Some(s), None) if settled => Some((s, common.dynamic, "static")),
@@ -141,8 +143,7 @@ fn friction_change(f: &mut Findings, i: usize, case: &Case) {
     }
 }
 
-fn selector(f: &mut Findings, i: usize, at: &Selector, case: &Case) {
-    let names: Vec<String> = (0..case.panels.len()).map(|p| crate::pattern::panel_name(case, p)).collect();
+fn selector(f: &mut Findings, i: usize, at: &Selector, case: &Case, names: &[String]) {
     for (k, name) in at.panel.iter().enumerate() {
         if !names.contains(name) {
             let error = InputError::new(format!("no panel is called `{name}`"))
@@ -154,7 +155,7 @@ fn selector(f: &mut Findings, i: usize, at: &Selector, case: &Case) {
             });
         }
     }
-    let chosen = case.panels.iter().zip(&names).filter(|(_, n)| at.panel.is_empty() || at.panel.contains(n));
+    let chosen = case.panels.iter().zip(names).filter(|(_, n)| at.panel.is_empty() || at.panel.contains(n));
     let courses = chosen.map(|(p, _)| courses(p)).max().unwrap_or(0);
     for (k, course) in at.course.iter().enumerate() {
         // The top support counts as the course above the last.

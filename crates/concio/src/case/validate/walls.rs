@@ -198,30 +198,44 @@ fn random(f: &mut Findings, i: usize, panel: &Panel, r: &RandomTexture) {
             format!("0 … {} m, half of the shortest brick", shortest / 2.0),
         );
     }
-    if let Err(error) = fillable(panel, r) {
+    // The first head joints of two courses both lie between the shortest and the longest brick.
+    let range = r.length[1].si() - r.length[0].si();
+    if r.stagger.si() > range * (1.0 + crate::pattern::SLACK)
+        && panel.courses.is_some_and(|c| c > 1)
+        && r.width > r.length[1]
+    {
+        let what = format!("{} cannot be held over bricks of {} to {}", r.stagger, r.length[0], r.length[1]);
+        let allowed = format!("0 … {} m, the range of the lengths", tidy(range));
+        f.push(format_args!("panel[{i}].random.stagger"), what, allowed);
+    }
+    if let Some(error) = unfillable(panel, r) {
         f.add(error.key(format!("panel[{i}].random.width")));
     }
 }
 
-/// Some whole number of bricks with mortar between them makes up the width.
-fn fillable(panel: &Panel, r: &RandomTexture) -> Result<(), InputError> {
+/// To a micrometre, for messages.
+fn tidy(v: f64) -> f64 {
+    (v * 1e6).round() / 1e6
+}
+
+/// The error when no whole number of bricks with mortar between them makes up the width.
+fn unfillable(panel: &Panel, r: &RandomTexture) -> Option<InputError> {
     let (mortar, width) = (panel.mortar.head.si(), r.width.si());
     let [low, high] = r.length.map(|l| l.si() + mortar);
     // n pitches between low and high make up width + mortar; n is the largest number that can.
     let slack = 1.0 + crate::pattern::SLACK;
     let n = ((width + mortar) / low * slack).floor();
     if n >= 1.0 && n * high * slack >= width + mortar {
-        return Ok(());
+        return None;
     }
     let (below, above) = (n * high - mortar, (n + 1.0) * low - mortar);
-    let tidy = |v: f64| (v * 1e6).round() / 1e6;
     let allowed = if n >= 1.0 {
         format!("up to {} m, or from {} m", tidy(below), tidy(above))
     } else {
         format!("from {} m", tidy(above))
     };
-    Err(InputError::new(format!("no number of bricks of {} to {} makes up {}", r.length[0], r.length[1], r.width))
-        .allowed(allowed))
+    let what = format!("no number of bricks of {} to {} makes up {}", r.length[0], r.length[1], r.width);
+    Some(InputError::new(what).allowed(allowed))
 }
 
 fn explicit(f: &mut Findings, i: usize, panel: &Panel) {

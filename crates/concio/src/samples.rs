@@ -1,0 +1,164 @@
+//! Reference problems with known answers: small systems of masses and joints without a wall. Used by tests,
+//! benches and documents.
+
+use crate::case::{Beam, JointKind, Signal, Sine, Solver};
+use crate::error::Result;
+use crate::excitation::Excitation;
+use crate::ground::signal::{GroundMotion, compile};
+use crate::law::Stribeck;
+use crate::model::{Elastic, Model, Rub};
+use crate::quantity::{Length, Time};
+use crate::record::{Recording, StopReason};
+use crate::simulate::{Progress, Sampling, Simulation};
+use crate::wall::{Block, End, Joint, PanelInfo, Wall};
+
+/// A joint of a sample: which sides, which laws.
+#[derive(Debug, Clone, Copy)]
+pub struct Link {
+    /// Mass on side a.
+    pub a: usize,
+    /// Side b.
+    pub b: End,
+    /// Elastic and viscous part.
+    pub elastic: Elastic,
+    /// Friction: law and normal force [N].
+    pub friction: Option<(Stribeck, f64)>,
+}
+
+impl Link {
+    /// A spring k [N/m] and dashpot c [N s/m].
+    pub fn spring(a: usize, b: End, stiffness: f64, damping: f64) -> Self {
+        Link { a, b, elastic: Elastic { stiffness, damping, unilateral: false }, friction: None }
+    }
+    /// A spring that acts for x_a > x_b alone.
+    pub fn unilateral(a: usize, b: End, stiffness: f64) -> Self {
+        Link { a, b, elastic: Elastic { stiffness, damping: 0.0, unilateral: true }, friction: None }
+    }
+    /// Friction under a normal force [N].
+    pub fn friction(a: usize, b: End, law: Stribeck, normal: f64) -> Self {
+        let elastic = Elastic { stiffness: 0.0, damping: 0.0, unilateral: false };
+        Link { a, b, elastic, friction: Some((law, normal)) }
+    }
+}
+
+/// Friction (6) that is Coulomb's or Stribeck's but for a transition of width `slip_velocity`/`beta`.
+pub fn sharp_friction(static_: f64, dynamic: f64, slip_velocity: f64, beta: f64) -> Stribeck {
+    Stribeck { static_, dynamic, slip_velocity, beta, alpha: 0.0 }
+}
+
+/// A base acceleration A sin(2π f t) from rest.
+///
+/// # Errors
+/// Numbers that make no sine.
+pub fn shaking(acceleration: f64, frequency: f64) -> Result<GroundMotion> {
+    let sine = Sine {
+        amplitude: None,
+        acceleration: Some(acceleration.into()),
+        frequency: frequency.into(),
+        ramp: Time::from_si(0.0),
+        cycles: None,
+    };
+    compile(&Signal::Sine(sine), std::path::Path::new(""))
+}
+
+/// Compiles masses [kg] and links.
+pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
+    let n = masses.len();
+    let side = |b: End| match b {
+        End::Block(b) => b,
+        End::Base => n,
+        End::Top => n + 1,
+    };
+    let block = |i: usize| Block {
+        name: format!("m{}", i + 1),
+        panel: 0,
+        course: 0,
+        x: [i as f64, i as f64 + 1.0],
+        y: [0.0, 1.0],
+        thickness: 1.0,
+        specific_weight: masses[i] * crate::G,
+    };
+    let panel = PanelInfo {
+        name: "sample".into(),
+        courses: 1,
+        reference_length: 1.0,
+        reference_height: 1.0,
+        reference_mass: masses[0],
+        mortar: [0.0; 2],
+        connection: 0.0,
+    };
+    let kind = |link: &Link| match link.b {
+        _ if link.elastic.unilateral => JointKind::Head,
+        End::Base => JointKind::Base,
+        End::Top => JointKind::Top,
+        End::Block(_) => JointKind::Bed,
+    };
+    let joint = |link: &Link| Joint { kind: kind(link), a: link.a, b: link.b, weight: 1.0, overlap: 1.0, line: [0.0; 4] };
+    let rub = |(e, link): (usize, &Link)| {
+        link.friction.map(|(law, normal)| Rub { joint: e as u32, normal: [normal; 2], law })
+    };
+    let stiffest = links.iter().map(|l| l.elastic.stiffness / masses[l.a]).fold(1.0, f64::max);
+    Model {
+        wall: Wall { panels: vec![panel], blocks: (0..n).map(block).collect() },
+        joints: links.iter().map(joint).collect(),
+        beam: if excitation.driven { Beam::Driven } else { Beam::Free },
+        mass: masses.to_vec(),
+        sides: links.iter().map(|l| [l.a as u32, side(l.b) as u32]).collect(),
+        elastic: links.iter().map(|l| l.elastic).collect(),
+        rubs: links.iter().enumerate().filter_map(rub).collect(),
+        excitation,
+        reciprocal: true,
+        stiffest,
+        warnings: Vec::new(),
+    }
+}
+
+/// Histories of a sample, every `interval` from t = 0.
+#[derive(Debug, Clone)]
+pub struct Histories {
+    /// Rows of displacements relative to the base [m], one value per mass.
+    pub displacement: Vec<Vec<f64>>,
+    /// Rows of velocities relative to the base [m/s].
+    pub velocity: Vec<Vec<f64>>,
+    /// Largest residual of the energy account over the largest energy in play, initial or brought in.
+    pub residual: f64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Why it ended.
+    pub stop_reason: StopReason,
+}
+
+/// Runs a sample from given displacements and velocities.
+///
+/// # Errors
+/// As [`Simulation::new`].
+pub fn respond(model: &Model, solver: &Solver, interval: f64, z: &[f64], v: &[f64]) -> Result<Histories> {
+    let sampling = Sampling { interval, frame_every: 1, blocks: Vec::new(), joints: Vec::new() };
+    let mut run = Simulation::new(model, solver, &sampling)?;
+    run.start_from(z, v);
+    let mut rows = Recording::default();
+    let stop_reason = loop {
+        let progress = run.advance(u64::MAX);
+        rows.append(run.recording());
+        run.clear_recording();
+        if let Progress::Ended(reason) = progress {
+            break reason;
+        }
+    };
+    let n = model.unknowns();
+    let by_row = |values: &[f64]| values.chunks(n).map(<[f64]>::to_vec).collect();
+    let state = run.state();
+    let scale = state.totals.peak_input.max(state.energies.initial);
+    Ok(Histories {
+        displacement: by_row(&rows.frame_displacement),
+        velocity: by_row(&rows.frame_velocity),
+        residual: if scale > 0.0 { state.totals.peak_residual / scale } else { 0.0 },
+        steps: state.counters.steps,
+        stop_reason,
+    })
+}
+
+/// A solver of the given scheme and tolerance, without a floor that matters.
+pub fn solver(scheme: crate::case::Scheme, tolerance: f64) -> Solver {
+    Solver { scheme, tolerance, floor: Length::from_si(1e-15), max_step: None }
+}

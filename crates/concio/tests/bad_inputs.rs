@@ -1,0 +1,306 @@
+//! Wrong wall files: each error names file, line, key, cause and the allowed range. `cargo test --test bad_inputs --
+//! --nocapture` prints the table.
+
+use std::path::Path;
+
+use concio::case::{CaseFile, Syntax, from_str, read};
+use concio::{Error, InputError, Result};
+
+/// A right wall file; each wrong one differs from it in one place.
+const GOOD: &str = r#"model = "shear"
+
+[[panel]]
+bond = "running"
+courses = 6
+bricks = 4
+brick = { length = "250 mm", height = "55 mm", thickness = "120 mm", specific_weight = "18 kN/m3" }
+mortar = { bed = "10 mm", head = "10 mm" }
+
+[joint]
+damping_ratio = 0.05
+bed = { law = "elastic", stiffness = "5.4e7 N/m" }
+head = { law = "no-tension", stiffness = "5.4e7 N/m", rigidity = 1000 }
+friction = { law = "stribeck", static = 0.6, dynamic = 0.42, slip_velocity = "1 mm/s" }
+
+[load]
+top = "10 kN/m"
+beam = "driven"
+
+[motion]
+duration = "0.5 s"
+base = "none"
+top = { sine = { amplitude = "5 mm", frequency = "2 Hz" } }
+"#;
+
+/// A wrong file and what its error says.
+struct Bad {
+    title: &'static str,
+    text: String,
+    /// The first text of the line complained about.
+    line_with: &'static str,
+    key: &'static str,
+    cause: &'static str,
+    /// In `allowed` or, for suggestions, in `help`.
+    allowed: &'static str,
+}
+
+/// `GOOD` with one text replaced.
+fn edit(from: &str, to: &str) -> String {
+    assert!(GOOD.contains(from), "no `{from}` in the wall file");
+    GOOD.replacen(from, to, 1)
+}
+
+/// `GOOD` with another panel.
+fn panel(lines: &str) -> String {
+    let (head, tail) = GOOD.split_once("[[panel]]").expect("a panel");
+    let (_, tail) = tail.split_once("[joint]").expect("joints");
+    let brick = "brick = { length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18e3 }";
+    format!("{head}[[panel]]\n{brick}\n{lines}\n[joint]{tail}")
+}
+
+fn block(course: usize, x: f64, y: f64, more: &str) -> String {
+    format!("[[panel.block]]\ncourse = {course}\nx = {x}\ny = {y}\nlength = 0.25\nheight = 0.05\n{more}\n")
+}
+
+macro_rules! bad {
+    ($($title:literal, $text:expr, $line_with:literal, $key:literal, $cause:literal, $allowed:literal;)+) => {
+        vec![$(Bad { title: $title, text: $text.into(), line_with: $line_with, key: $key, cause: $cause, allowed: $allowed }),+]
+    };
+}
+
+fn table() -> Vec<Bad> {
+    let explicit = |blocks: &[String]| panel(&format!("bond = \"explicit\"\n{}", blocks.concat()));
+    let random = |rest: &str| {
+        panel(&format!(
+            "bond = \"irregular\"\ncourses = 4\nmortar = {{ bed = 0.01, head = 0.01 }}\nrandom = {{ seed = 1, height = [0.05, 0.06], {rest} }}"
+        ))
+    };
+    let motion = |base: &str| edit("base = \"none\"", &format!("base = {base}"));
+    let change = |lines: &str| edit("[load]", &format!("[[joint.change]]\n{lines}\n[load]"));
+    let mut rows = keys_and_values();
+    rows.extend(bad! {
+        "negative brick length", edit("\"250 mm\"", "\"-250 mm\""), "brick =", "panel[0].brick.length", "-0.25 m is out of range", "above 0 m";
+        "negative mass of the beam", edit("beam = \"driven\"", "beam = { mass = \"-1 t\" }"), "beam =", "load.beam.mass", "-1000 kg is out of range", "above 0 kg";
+        "zero thickness", edit("\"120 mm\"", "0"), "brick =", "panel[0].brick.thickness", "0 m is out of range", "above 0 m";
+        "weight that is no number", edit("\"18 kN/m3\"", "nan"), "brick =", "panel[0].brick.specific_weight", "NaN N/m3 is out of range", "above 0 N/m3";
+        "infinite load", edit("\"10 kN/m\"", "inf"), "top = inf", "load.top", "inf N/m is too large", "from 0 N/m";
+        "no courses", edit("courses = 6", "courses = 0"), "courses = 0", "panel[0].courses", "0 is out of range", "from 1";
+        "negative number of bricks", edit("bricks = 4", "bricks = -4"), "bricks =", "panel[0].bricks", "the number -4 cannot stand here", "a whole number from 0";
+        "bricks left out", edit("bricks = 4\n", ""), "[[panel]]", "panel[0].bricks", "bond `running` needs it", "from 1";
+        "a wall beyond all bounds", edit("courses = 6", "courses = 6000000000"), "[[panel]]", "panel[0]", "the wall would have up to 27000000000 blocks", "up to 4000000 blocks";
+        "mortar as long as the brick", edit("head = \"10 mm\"", "head = \"25 cm\""), "mortar", "panel[0].mortar.head", "leave no half brick", "below the brick's length, 0.25 m";
+        "zero slip velocity", edit("\"1 mm/s\"", "0"), "friction", "joint.friction.slip_velocity", "0 m/s is out of range", "above 0 m/s";
+        "dynamic friction above static", edit("dynamic = 0.42", "dynamic = 0.7"), "friction", "joint.friction.dynamic", "0.7 is above the static coefficient", "0 … 0.6";
+        "damping beyond its range", edit("damping_ratio = 0.05", "damping_ratio = 5"), "damping_ratio", "joint.damping_ratio", "5 is out of range", "0 … 2";
+        "zero rigidity", edit("rigidity = 1000", "rigidity = 0"), "head = { law", "joint.head.rigidity", "0 is out of range", "above 0";
+        "friction without numbers", edit("static = 0.6, ", ""), "friction", "joint.friction.static", "law `stribeck` needs it", "from 0";
+        "spring without stiffness", edit(", stiffness = \"5.4e7 N/m\"", ""), "bed = { law", "joint.bed.stiffness", "law `elastic` needs it", "from 0 N/m";
+        "planar model", edit("\"shear\"", "\"planar\""), "model", "model", "not in this version", "`shear`";
+        "rigid joints", edit("law = \"no-tension\"", "law = \"rigid\""), "head = { law", "joint.head.law", "not in this version", "`no-tension`";
+        "Coulomb friction", edit("\"stribeck\"", "\"coulomb\""), "friction", "joint.friction.law", "not in this version", "`stribeck`";
+        "driven beam at rest", edit("top = { sine = { amplitude = \"5 mm\", frequency = \"2 Hz\" } }", ""), "[motion]", "motion.top", "the beam is `driven` but has no motion", "sine";
+        "top motion without a driven beam", edit("beam = \"driven\"", "beam = \"free\""), "top = { sine", "motion.top", "only a `driven` top beam takes a motion", "`none`";
+        "sine with two amplitudes", edit("amplitude = \"5 mm\"", "amplitude = \"5 mm\", acceleration = \"0.8 g\""), "top = { sine", "motion.top.sine", "both a displacement and an acceleration", "exactly one";
+        "sine without frequency", edit(", frequency = \"2 Hz\"", ""), "top = { sine", "motion.top.sine.frequency", "the key is missing", "f [Hz], above 0";
+        "zero frequency", edit("\"2 Hz\"", "0"), "top = { sine", "motion.top.sine.frequency", "0 Hz is out of range", "above 0 Hz";
+        "trim reversed", motion("{ record = \"a\", trim = [9, 3] }"), "base =", "motion.base.trim", "9 s comes before 3 s", "the first value below the second";
+        "trim with one end", motion("{ record = \"a\", trim = [9] }"), "base =", "motion.base.trim", "the list has 1 values", "a list of 2 values";
+        "scaled twice", motion("{ record = \"a\", scale = 2, pga = 3 }"), "base =", "motion.base.pga", "both `scale` and `pga`", "one of them";
+        "negative sample interval", motion("{ record = \"a\", resample = \"-5 ms\" }"), "base =", "motion.base.resample", "-0.005 s is out of range", "above 0 s";
+        "order of a filter", motion("{ record = \"a\", baseline = { high_pass = 0.1, order = 9 } }"), "base =", "motion.base.baseline.order", "9 is out of range", "1 … 8";
+        "two baselines", motion("{ record = \"a\", baseline = { high_pass = 0.1, polynomial = 1 } }"), "base =", "motion.base.baseline", "either a polynomial or a high-pass", "{ polynomial = 2 }";
+        "two motions", motion("{ record = \"a\", sine = { amplitude = 1, frequency = 1 } }"), "base =", "motion.base", "more than one motion", "exactly one of";
+        "a path for a motion", motion("\"quake.at2\""), "base =", "motion.base", "`quake.at2` is not a motion; a file is given as { record", "\"none\"";
+        "no duration", edit("duration = \"0.5 s\"\n", ""), "[motion]", "motion.duration", "no record says how long", "above 0 s";
+        "output without end", format!("{GOOD}[output]\ninterval = 1e-12\n"), "interval", "output.interval", "more than 100,000,000 samples", "at least 5e-9 s";
+        "unknown block kept", format!("{GOOD}[output]\nblocks = [\"p1c1b1\", \"p1c9b1\"]\n"), "blocks =", "output.blocks[1]", "no block is called `p1c9b1`", "did you mean `p1c";
+        "tolerance", format!("{GOOD}[solver]\ntolerance = 0\n"), "tolerance", "solver.tolerance", "0 is out of range", "1e-12 … 0.1";
+        "unknown panel chosen", change("at = { panel = [\"tower\"] }\nspring = { stiffness = 0 }"), "at =", "joint.change[0].at.panel[0]", "no panel is called `tower`", "`p1`";
+        "course chosen that is not there", change("at = { course = [1, 8] }\nspring = { stiffness = 0 }"), "at =", "joint.change[0].at.course[1]", "course 8 does not exist", "1 … 6, and 7 for the top support";
+        "region turned round", change("at = { region = [1, 0, 0, 1] }\nspring = { stiffness = 0 }"), "at =", "joint.change[0].at.region", "encloses nothing", "x0 below x1";
+        "a change of nothing", change("at = { kind = [\"bed\"] }"), "[[joint.change]]", "joint.change[0]", "nothing is changed", "`spring`, `friction` or both";
+        "panels of one name", edit("[joint]", "[[panel]]\nname = \"p1\"\nbond = \"stack\"\ncourses = 1\nbricks = 1\nbrick = { length = 1, height = 1, thickness = 1, specific_weight = 1 }\n[joint]"), "name =", "panel[1].name", "panel[0] is called `p1` too", "names that differ";
+        "irregular without courses", panel("bond = \"irregular\""), "[[panel]]", "panel[0].course", "the courses are not given", "either [[panel.course]] or `random`";
+        "explicit without blocks", panel("bond = \"explicit\""), "[[panel]]", "panel[0].block", "the panel has no block", "at least one";
+        "a key of another bond", panel("bond = \"stack\"\ncourses = 1\nbricks = 1\nfirst = \"half\""), "first =", "panel[0].first", "does not go with bond `stack`", "with bond `running`";
+        "duplicate ids", explicit(&[block(1, 0.0, 0.0, "id = \"a\""), block(2, 0.0, 0.05, "id = \"a\" # again")]), "id = \"a\" # again", "panel[0].block[1].id", "`a` is the name of panel[0].block[0] already", "unique";
+        "overlapping blocks", explicit(&[block(1, 0.0, 0.0, "id = \"a\""), block(1, 0.2, 0.0, "id = \"b\""), block(2, 0.1, 0.05, "")]), "[[panel.block]]", "panel[0].block[1]", "blocks a and b overlap", "side by side";
+        "blocks through each other", explicit(&[block(1, 0.0, 0.0, ""), block(2, 0.1, 0.06, ""), block(3, 0.1, 0.08, "")]), "[[panel.block]]", "panel[0].block[2]", "blocks p1c2b1 and p1c3b1 overlap", "share edges at most";
+        "a wall without overlap", explicit(&[block(1, 0.0, 0.0, ""), block(2, 0.25, 0.05, "id = \"hanging\"")]), "[[panel.block]]", "panel[0].block[1]", "block hanging of course 2 rests on nothing", "an overlap with a block of course 1";
+        "a course left out", explicit(&[block(1, 0.0, 0.0, ""), block(3, 0.0, 0.05, "")]), "[[panel.block]]", "panel[0].block", "course 2 has no block", "without a gap";
+        "listed courses beside each other", panel("bond = \"irregular\"\n[[panel.course]]\nheight = 0.1\nbricks = [0.25]\n[[panel.course]]\nheight = 0.1\nbricks = [0.25]\noffset = 0.3"), "[[panel.course]]", "panel[0].course[1]", "rests on nothing", "an overlap";
+        "stagger that cannot be", random("width = 2, length = [0.2, 0.3], stagger = 0.15"), "random", "panel[0].random.stagger", "0.15 m cannot be held over bricks of 0.2 m", "0 … 0.1 m";
+        "stagger beyond the range", random("width = 2, length = [0.2, 0.24], stagger = 0.05"), "random", "panel[0].random.stagger", "0.05 m cannot be held over bricks of 0.2 m to 0.24 m", "0 … 0.04 m";
+        "width that bricks cannot fill", random("width = 0.5, length = [0.2, 0.22], stagger = 0"), "random", "panel[0].random.width", "no number of bricks of 0.2 m to 0.22 m makes up 0.5 m", "up to 0.45 m, or from 0.62 m";
+        "a texture that is not found", random("width = 2, length = [0.2, 0.25], stagger = 0.0499"), "random", "panel[0].random", "no texture was found that keeps 0.0499 m", "smaller stagger";
+    });
+    rows
+}
+
+/// Files that fail before any number is looked at.
+fn keys_and_values() -> Vec<Bad> {
+    let set = |name: &str, rest: &str| {
+        format!(
+            "model = \"shear\"\nset = {name}\n[[panel]]\nbond = \"stack\"\ncourses = 1\nbricks = 1\n{rest}\n[motion]\nduration = 1\n"
+        )
+    };
+    bad! {
+        "empty file", "  \n", "", "", "the file is empty", "concio new";
+        "not TOML", edit("courses = 6", "courses = = 6"), "courses", "", "not valid TOML", "";
+        "key given twice", edit("courses = 6", "courses = 6\ncourses = 7"), "courses = 7", "", "duplicate key", "";
+        "unknown key", edit("courses = 6", "corses = 6"), "corses", "panel[0].corses", "unknown key", "did you mean `courses`?";
+        "hyphen in a key", edit("slip_velocity", "slip-velocity"), "friction", "joint.friction.slip-velocity", "unknown key", "did you mean `slip_velocity`?";
+        "one panel in one bracket", edit("[[panel]]", "[panel]"), "[panel]", "panel", "a table cannot stand here", "[[two brackets]]";
+        "brick without height", edit("height = \"55 mm\", ", ""), "brick =", "panel[0].brick.height", "the key is missing", "H [m], above 0";
+        "unknown table", format!("{GOOD}[soil]\nvs = 200\n"), "[soil]", "soil", "unknown key", "`motion`";
+        "missing table", GOOD.split("[motion]").next().unwrap_or_default(), "model", "motion", "the key is missing", "Motion of base and top";
+        "no joints and no set", "model = \"shear\"\n[[panel]]\n", "model", "joint", "the key is missing", "set = \"report\"";
+        "wrong unit", edit("\"55 mm\"", "\"55 kg\""), "brick =", "panel[0].brick.height", "`kg` is not a unit of length", "m, cm, mm";
+        "no unit in a text", edit("\"55 mm\"", "\"55\""), "brick =", "panel[0].brick.height", "`55` has no unit", "m, cm, mm";
+        "a text where a number belongs", edit("static = 0.6", "static = \"0.6\""), "friction", "joint.friction.static", "the text \"0.6\" cannot stand here", "a number without a unit";
+        "a list where a length belongs", edit("\"55 mm\"", "[55]"), "brick =", "panel[0].brick.height", "a list cannot stand here", "a text with its unit";
+        "unknown word", edit("\"running\"", "\"runing\""), "bond", "panel[0].bond", "`runing` is not known here", "did you mean `running`?";
+        "unknown beam", edit("\"driven\"", "\"drive\""), "beam", "load.beam", "`drive` is not known here", "did you mean `driven`?";
+        "half a brick too many", edit("bricks = 4", "bricks = 4.5"), "bricks", "panel[0].bricks", "the number 4.5 cannot stand here", "a whole number";
+        "a date", edit("courses = 6", "courses = 2026-01-01"), "courses", "panel[0].courses", "a date cannot stand here", "a whole number";
+        "unknown set", set("\"p9\"", ""), "set", "set", "`p9` is not known here", "`p1`";
+        "set beyond its range", set("{ name = \"p1\", at = 1.5 }", ""), "set", "set.at", "1.5 is out of range", "0 … 1";
+        "what p4 does not print", set("\"p4\"", ""), "[[panel]]", "panel[0].brick.specific_weight", "set `p4` of Table 1 prints no specific weight", "above 0 N/m3";
+        "what p3 does not print", set("\"p3\"", ""), "model", "joint.friction.static", "set `p3` of Table 1 prints no friction angle", "law = \"none\"";
+        "preset contradicted", edit("slip_velocity =", "preset = \"report\", on = \"bed\", slip_velocity ="), "friction", "joint.friction.on", "`bed` contradicts", "`all`";
+    }
+}
+
+/// All checks that run before anything is computed.
+fn check(text: &str) -> Result<()> {
+    let file: CaseFile = from_str(text, Syntax::Toml, Some(Path::new("wall.toml")))?;
+    file.validate()?;
+    file.wall().map(|_| ())
+}
+
+fn input_error(result: Result<()>, title: &str) -> InputError {
+    match result {
+        Err(Error::Input(e)) => *e,
+        other => panic!("{title}: {other:?}"),
+    }
+}
+
+#[test]
+fn the_good_file_is_good() {
+    check(GOOD).unwrap_or_else(|e| panic!("{e}"));
+}
+
+#[test]
+fn every_bad_file_is_refused_with_place_cause_and_range() {
+    let rows = table();
+    assert!(rows.len() >= 25);
+    println!("| # | input | message |\n|---|---|---|");
+    for (i, row) in rows.iter().enumerate() {
+        let e = input_error(check(&row.text), row.title);
+        println!("| {} | {} | {} |", i + 1, row.title, e.to_string().replace('|', "\\|"));
+        assert_eq!(e.file.as_deref(), Some(Path::new("wall.toml")), "{}: {e}", row.title);
+        let line = e.line.unwrap_or_else(|| panic!("{}: no line in {e}", row.title));
+        let found = row.text.lines().nth(line - 1).unwrap_or_default();
+        assert!(found.starts_with(row.line_with), "{}: line {line} is `{found}`: {e}", row.title);
+        assert_eq!(e.key.as_deref().unwrap_or_default(), row.key, "{}: {e}", row.title);
+        assert!(e.what.contains(row.cause), "{}: {e}", row.title);
+        let hints = format!("{} {}", e.allowed.unwrap_or_default(), e.help.unwrap_or_default());
+        assert!(hints.contains(row.allowed), "{}: `{hints}`", row.title);
+    }
+}
+
+/// The bound in an error is the bound in the documentation of its key.
+#[test]
+fn errors_and_documentation_give_the_same_bounds() {
+    let mut compared = 0;
+    for row in table().iter().filter(|r| r.cause.contains("is out of range")) {
+        let e = input_error(check(&row.text), row.title);
+        let about = concio::case::describe(row.key).unwrap_or_else(|| panic!("{} is not documented", row.key));
+        let bound = e.allowed.unwrap_or_default();
+        // The unit stands in brackets in the documentation; `above 0 kg` is `above 0` there.
+        let words: Vec<&str> = bound.split(' ').take(if bound.contains('…') { 3 } else { 2 }).collect();
+        assert!(about.to_lowercase().contains(&words.join(" ")), "{}: `{bound}` is not in `{about}`", row.key);
+        compared += 1;
+    }
+    assert!(compared >= 12, "only {compared} bounds");
+}
+
+/// Of several blocks alike it is the one at fault whose line is named.
+#[test]
+fn the_line_is_that_of_the_block_at_fault() {
+    let text = panel(&format!("bond = \"explicit\"\n{}{}", block(1, 0.0, 0.0, ""), block(2, 0.25, 0.05, "")));
+    let e = input_error(check(&text), "hanging block");
+    let headers: Vec<usize> =
+        (1..).zip(text.lines()).filter(|(_, l)| *l == "[[panel.block]]").map(|(n, _)| n).collect();
+    assert_eq!(e.line, Some(headers[1]), "{e}");
+}
+
+#[test]
+fn columns_point_at_the_value_or_key() {
+    let text = edit("\"55 mm\"", "\"55 kg\"");
+    let e = input_error(check(&text), "unit");
+    let line = text.lines().nth(e.line.unwrap_or(1) - 1).unwrap_or_default();
+    assert_eq!(e.column, line.find("\"55 kg\"").map(|c| c + 1));
+    let text = edit("courses = 6", "title_µ = 1, corses = 6");
+    assert!(check(&text).is_err());
+}
+
+#[test]
+fn json_errors_have_places_too() {
+    let text = "{\n  \"model\": \"shear\",\n  \"panel\": [\n    { \"bond\": \"stack\", \"corses\": 3 }\n  ]\n}";
+    let e = from_str(text, Syntax::Json, None).err().map(|e| input_error(Err(e), "json"));
+    let e = e.expect("an error");
+    // `joint` is missing as well; the reader says so before it looks at the panels.
+    assert_eq!((e.line, e.key.as_deref()), (Some(1), Some("joint")));
+    let text = text.replace("\n}", ",\n  \"joint\": {}\n}");
+    let e = input_error(from_str(&text, Syntax::Json, None).map(|_| ()), "json");
+    assert_eq!((e.line, e.column, e.key.as_deref()), (Some(4), Some(24), Some("panel[0].corses")), "{e}");
+    for (bad, cause) in [
+        ("{\"model\": NaN}", "not valid JSON"),
+        ("{\"model\": 1, \"model\": 2}", "twice"),
+        ("{\"model\": null}", "null cannot stand here"),
+        ("[1]", "a list cannot stand here"),
+        ("{\"model\": \"shear\"} x", "not valid JSON"),
+        ("", "empty"),
+    ] {
+        let e = input_error(from_str(bad, Syntax::Json, None).map(|_| ()), bad);
+        assert!(e.to_string().contains(cause), "{bad}: {e}");
+        assert_eq!(e.line, Some(1), "{bad}: {e}");
+    }
+}
+
+#[test]
+fn deep_nesting_is_refused() {
+    for (text, syntax) in [
+        (format!("model = {}{}", "[".repeat(50_000), "]".repeat(50_000)), Syntax::Toml),
+        (format!("model = {}{}", "[".repeat(60), "]".repeat(60)), Syntax::Toml),
+        (format!("[{}]", vec!["a"; 5_000].join(".")), Syntax::Toml),
+        (format!("{}{}", "[".repeat(50_000), "]".repeat(50_000)), Syntax::Json),
+        (format!("{}1{}", "{\"a\":".repeat(60), "}".repeat(60)), Syntax::Json),
+    ] {
+        let e = input_error(from_str(&text, syntax, None).map(|_| ()), "nesting");
+        assert!(e.line.is_some(), "{e}");
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let missing = dir.path().join("missing.toml");
+    let e = input_error(read(&missing).map(|_| ()), "missing");
+    assert!(e.what.contains("cannot be read") && e.file.as_deref() == Some(missing.as_path()), "{e}");
+    assert!(e.allowed.is_some());
+
+    let e = input_error(read(dir.path()).map(|_| ()), "folder");
+    assert!(e.what.contains("is a folder"), "{e}");
+
+    let binary = dir.path().join("binary.toml");
+    std::fs::write(&binary, b"model = \"shear\"\n\xff\xfe").expect("written");
+    let e = input_error(read(&binary).map(|_| ()), "binary");
+    assert!(e.what.contains("not UTF-8") && e.line == Some(2), "{e}");
+
+    let empty = dir.path().join("empty.json");
+    std::fs::write(&empty, b"").expect("written");
+    let e = input_error(read(&empty).map(|_| ()), "empty");
+    assert!(e.what.contains("the file is empty"), "{e}");
+}
