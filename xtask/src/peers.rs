@@ -107,7 +107,12 @@ fn one(root: &Path, folder: &Path, peer: &Path, case: &Case) -> Outcome {
             return Err(format!("{key} may differ by {tolerance} only"));
         }
     }
-    println!("{:<15} solver time {:.2} s, CVODE {:.2} s", case.name, number(&ours, "solve_seconds")?, number(&theirs, "solve_seconds")?);
+    println!(
+        "{:<15} solver time {:.2} s, CVODE {:.2} s",
+        case.name,
+        number(&ours, "solve_seconds")?,
+        number(&theirs, "solve_seconds")?
+    );
     let Some(tolerance) = case.histories else { return Ok(()) };
     let peak = number(&theirs, "peak_relative_displacement")?;
     let difference = largest_difference(&out.join("csv/histories.csv"), &history)? / peak;

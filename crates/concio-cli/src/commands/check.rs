@@ -18,7 +18,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let prepared = wall_file::prepare(&file)?;
     let model = &prepared.model;
     for warning in &model.warnings {
-        eprintln!("warning: {warning}");
+        files::note(&format!("warning: {warning}"));
     }
     if let Some(path) = &args.svg {
         let names = model.joint_names();

@@ -7,6 +7,7 @@ use concio::store::{StoredRun, export, hdf5};
 
 use crate::args::Export;
 use crate::failure::Failure;
+use crate::files;
 
 /// Converts the result of a run.
 pub fn export(args: &Export) -> Result<(), Failure> {
@@ -18,7 +19,7 @@ pub fn export(args: &Export) -> Result<(), Failure> {
     };
     let out = args.out.clone().unwrap_or_else(|| args.dir.join(name));
     write(&run, &out)?;
-    eprintln!("{} is written.", out.display());
+    files::note(&format!("{} is written.", out.display()));
     Ok(())
 }
 

@@ -14,6 +14,8 @@ pub fn new(args: &New) -> Result<(), Failure> {
     }
     files::write_new(&args.file, text)?;
     let name = args.file.display();
-    eprintln!("{name} is written. Change it, look at it with `concio check {name}`, run it with `concio run {name}`.");
+    files::note(&format!(
+        "{name} is written. Change it, look at it with `concio check {name}`, run it with `concio run {name}`."
+    ));
     Ok(())
 }

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::export::stored;
 use crate::args::Plot;
 use crate::failure::Failure;
-use crate::report;
+use crate::{files, report};
 
 /// Makes the report of a run anew.
 pub fn plot(args: &Plot) -> Result<(), Failure> {
@@ -18,6 +18,6 @@ pub fn plot(args: &Plot) -> Result<(), Failure> {
     let summary: Value =
         serde_json::from_str(&text).map_err(|e| Error::Store { path: path.clone(), what: e.to_string() })?;
     let report = report::write(&args.dir, &report::Content::of_stored(&args.dir, &run, &summary)?)?;
-    eprintln!("open {}", report.display());
+    files::note(&format!("open {}", report.display()));
     Ok(())
 }

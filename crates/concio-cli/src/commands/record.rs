@@ -43,7 +43,10 @@ pub fn record(args: &Record) -> Result<(), Failure> {
     }
     files::print(&table(history, number, channels.len(), &measures))?;
     if channels.len() > 1 && args.channel.is_none() {
-        eprintln!("note: the file has {} channels; --channel chooses another than the first", channels.len());
+        files::note(&format!(
+            "note: the file has {} channels; --channel chooses another than the first",
+            channels.len()
+        ));
     }
     Ok(())
 }

@@ -18,7 +18,7 @@ pub fn run(args: &Run) -> Result<ExitCode, Failure> {
     let file = match &args.file {
         Some(path) => wall_file::read(path)?,
         None => {
-            eprintln!("No wall file is given: running the built-in example (`concio new` writes one to start from).");
+            files::note("No wall file is given: running the built-in example (`concio new` writes one to start from).");
             concio::case::example()?
         }
     };
@@ -63,15 +63,19 @@ fn refuse_a_file(out: &Path) -> Result<(), Failure> {
 
 fn tell(finished: &Finished, prepared: &Prepared, report: &Path) -> Result<(), Failure> {
     for warning in digest::warnings(&finished.summary) {
-        eprintln!("warning: {warning}");
+        files::note(&format!("warning: {warning}"));
     }
     if let Some(time) = finished.resumed_from {
-        eprintln!("An earlier run that was cut off has been taken up at t = {} s.", significant(time, 4));
+        files::note(&format!("An earlier run that was cut off has been taken up at t = {} s.", significant(time, 4)));
     }
     let reason = finished.outcome.stop_reason;
     if reason != StopReason::Completed {
         let at = significant(finished.outcome.time_reached, 6);
-        eprintln!("stopped early at t = {at} of {} s: {}", prepared.model.excitation.duration, digest::why(reason));
+        files::note(&format!(
+            "stopped early at t = {at} of {} s: {}",
+            prepared.model.excitation.duration,
+            digest::why(reason)
+        ));
     }
     let rows = digest::rows(&finished.outcome, &finished.summary);
     files::print(&format!("{}\nopen {}\n", pairs(&rows), report.display()))
