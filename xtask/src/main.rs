@@ -1,2 +1,101 @@
-//! Project chores: `cargo xtask ci` and the generated documents.
-fn main() {}
+//! Chores of the project: `cargo xtask ci` does everything that CI does, `cargo xtask docs` makes the generated
+//! documents. A check that this machine cannot make prints a line that starts with `skipped:`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+mod command;
+mod documents;
+mod examples;
+mod links;
+mod peers;
+mod python;
+
+use command::{Outcome, cargo, run};
+
+const USAGE: &str = "\
+cargo xtask ci         everything that CI does
+cargo xtask docs       make the generated documents (docs/cli.md, docs/wall.schema.json, docs/img)
+cargo xtask examples   run every wall file in examples/
+cargo xtask links      check the links of the documents
+cargo xtask peers      compare with CVODE";
+
+fn main() -> ExitCode {
+    let root = root();
+    let task = std::env::args().nth(1).unwrap_or_default();
+    let outcome = match task.as_str() {
+        "ci" => ci(&root),
+        "docs" => build(&root).and_then(|()| documents::make(&root)),
+        "examples" => build(&root).and_then(|()| examples::run_all(&root)),
+        "links" => links::check(&root),
+        "peers" => build(&root).and_then(|()| peers::compare(&root)),
+        _ => Err(USAGE.into()),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The root of the repository, the folder above this package.
+fn root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here).to_path_buf()
+}
+
+/// The `concio` program of this tree.
+fn concio(root: &Path) -> PathBuf {
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |d| root.join(d));
+    target.join("release").join(format!("concio{}", std::env::consts::EXE_SUFFIX))
+}
+
+fn build(root: &Path) -> Outcome {
+    run(cargo(root).args(["build", "--release", "--package", "concio-cli"]))
+}
+
+fn ci(root: &Path) -> Outcome {
+    let python = python::environment(root)?;
+    let steps: [(&str, &dyn Fn() -> Outcome); 10] = [
+        ("format", &|| run(cargo(root).args(["fmt", "--all", "--check"]))),
+        ("lints", &|| {
+            run(cargo(root).args(["clippy", "--release", "--workspace", "--all-targets", "--", "--deny", "warnings"]))
+        }),
+        ("build", &|| build(root)),
+        ("tests", &|| tests(root, python.as_deref())),
+        ("API documentation", &|| {
+            run(cargo(root).args(["doc", "--release", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
+        }),
+        ("generated documents", &|| documents::check(root)),
+        ("links", &|| links::check(root)),
+        ("examples", &|| examples::run_all(root)),
+        ("readers of results", &|| python::read_results(root, python.as_deref())),
+        ("comparison with CVODE", &|| peers::compare(root)),
+    ];
+    let start = Instant::now();
+    for (name, step) in steps {
+        println!("\n== {name}");
+        step().map_err(|why| format!("{name}: {why}"))?;
+    }
+    println!("\nAll checks passed in {:.0} s.", start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// Unit, integration and documentation tests; with cargo-nextest where it is installed.
+fn tests(root: &Path, python: Option<&Path>) -> Outcome {
+    let nextest = cargo(root).args(["nextest", "--version"]).output().is_ok_and(|o| o.status.success());
+    let mut all = cargo(root);
+    if nextest {
+        all.args(["nextest", "run", "--cargo-profile", "release", "--workspace"]);
+    } else {
+        all.args(["test", "--release", "--workspace", "--all-targets"]);
+    }
+    if let Some(python) = python {
+        all.env("CONCIO_PYTHON", python);
+    }
+    run(&mut all)?;
+    run(cargo(root).args(["test", "--release", "--workspace", "--doc"]))
+}

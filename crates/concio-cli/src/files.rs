@@ -17,6 +17,11 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Tells the user something on standard error, which may be closed.
+pub fn note(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
 /// Writes a file under a temporary name and renames it: a reader never sees half of it.
 pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
     let written = temporary(path, text).and_then(|file| file.persist(path).map_err(|e| e.error));

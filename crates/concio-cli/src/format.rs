@@ -2,9 +2,8 @@
 
 /// A value with its unit and a decimal prefix, four significant digits: `1.198 µm`, `53.40 kN`.
 pub fn si(value: f64, unit: &str) -> String {
-    const PREFIXES: [(&str, f64); 8] = [
-        ("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9), ("p", 1e-12),
-    ];
+    const PREFIXES: [(&str, f64); 8] =
+        [("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9), ("p", 1e-12)];
     if value == 0.0 || !value.is_finite() {
         return format!("{value} {unit}").trim_end().into();
     }
@@ -23,11 +22,6 @@ pub fn significant(value: f64, digits: i32) -> String {
     }
     let decimals = (digits - 1 - value.abs().log10().floor() as i32).max(0) as usize;
     format!("{value:.decimals$}")
-}
-
-/// `3 blocks`, `1 block`.
-pub fn count(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 /// A time by the clock: `0.42 s`, `3 min 12 s`.

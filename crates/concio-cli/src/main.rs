@@ -6,6 +6,7 @@ use clap::Parser;
 
 mod args;
 mod commands;
+mod digest;
 mod draw;
 mod failure;
 mod files;

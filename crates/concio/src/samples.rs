@@ -93,7 +93,8 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         End::Top => JointKind::Top,
         End::Block(_) => JointKind::Bed,
     };
-    let joint = |link: &Link| Joint { kind: kind(link), a: link.a, b: link.b, weight: 1.0, overlap: 1.0, line: [0.0; 4] };
+    let joint =
+        |link: &Link| Joint { kind: kind(link), a: link.a, b: link.b, weight: 1.0, overlap: 1.0, line: [0.0; 4] };
     let rub = |(e, link): (usize, &Link)| {
         link.friction.map(|(law, normal)| Rub { joint: e as u32, normal: [normal; 2], law })
     };

@@ -119,7 +119,8 @@ fn stick_slip_belt() {
     let slip = (2.0 * PI - 2.0 * ((release - centre) * omega / v).atan()) / omega;
     let period = slip + 2.0 * (release - centre) / v;
     assert!((period - 0.10140535380222271f64).abs() < 1e-14, "A4's T_total");
-    let peaks: Vec<usize> = (1..x.len() - 1).filter(|&i| x[i] > x[i - 1] && x[i] >= x[i + 1] && x[i] > release).collect();
+    let peaks: Vec<usize> =
+        (1..x.len() - 1).filter(|&i| x[i] > x[i - 1] && x[i] >= x[i + 1] && x[i] > release).collect();
     assert!(peaks.len() >= 8, "{peaks:?}");
     let measured = (peaks[peaks.len() - 1] - peaks[1]) as f64 * 1e-4 / (peaks.len() - 2) as f64;
     assert!((measured / period - 1.0).abs() < 0.01, "period {measured} against {period}");

@@ -12,9 +12,10 @@ mod new;
 mod plot;
 mod record;
 mod reference;
-mod run;
+pub mod run;
 mod schema;
 mod system;
+mod wall_file;
 
 /// Runs a command. Errors are shown by the caller.
 pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {

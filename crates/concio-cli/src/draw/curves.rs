@@ -70,7 +70,11 @@ pub fn draw(figure: &Figure) -> String {
         }
         plots.push(Plot::Line(line));
     }
-    let y_label = if figure.unit.is_empty() { figure.quantity.into() } else { format!("{} [{prefix}{}]", figure.quantity, figure.unit) };
+    let y_label = if figure.unit.is_empty() {
+        figure.quantity.into()
+    } else {
+        format!("{} [{prefix}{}]", figure.quantity, figure.unit)
+    };
     let mut layout = Layout::auto_from_plots(&plots)
         .with_width(WIDTH)
         .with_height(figure.height)
@@ -83,6 +87,13 @@ pub fn draw(figure: &Figure) -> String {
         .with_x_label(figure.x_label)
         .with_y_label(y_label)
         .with_legend_position(LegendPosition::OutsideRightTop);
+    // The axis ends where the data do.
+    let ends =
+        figure.curves.iter().flat_map(|c| [c.x.first(), c.x.last()]).flatten().copied().filter(|x| x.is_finite());
+    let [low, high] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |e, x| [e[0].min(x), e[1].max(x)]);
+    if low < high {
+        layout = layout.with_x_axis_min(low).with_x_axis_max(high);
+    }
     if largest == 0.0 {
         // A curve that is zero throughout has no range of its own.
         layout = layout.with_y_axis_min(-1.0).with_y_axis_max(1.0);
@@ -100,7 +111,9 @@ pub fn stack(figures: &[String]) -> String {
         width = width.max(w);
         y += h;
     }
-    format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{y}\" viewBox=\"0 0 {width} {y}\">\n{body}</svg>\n")
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{y}\" viewBox=\"0 0 {width} {y}\">\n{body}</svg>\n"
+    )
 }
 
 /// Points that look the same as all: of every column of pixels the first, lowest, highest and last.

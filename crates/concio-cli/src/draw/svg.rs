@@ -61,6 +61,11 @@ impl Canvas {
         }
     }
 
+    /// Letters that follow have an edge in the colour of mortar, to be read over lines; to be closed with `</g>`.
+    pub fn open_halo(&mut self) {
+        self.raw(r##"<g stroke="#f3f1ed" stroke-width="1.6" paint-order="stroke">"##);
+    }
+
     /// A text of that size; `upright` turns it by a quarter to the left.
     pub fn text(&mut self, [x, y]: [f64; 2], size: f64, anchor: Anchor, upright: bool, fill: &str, text: &str) {
         let anchor = match anchor {

@@ -16,7 +16,7 @@ const DETAILED: usize = 1500;
 /// Width of a letter over the size of the font, on the safe side for the usual sans-serif fonts.
 const LETTER: f64 = 0.62;
 /// Smallest and largest letters [px].
-const LETTERS: [f64; 2] = [5.5, 13.0];
+const LETTERS: [f64; 2] = [4.8, 13.0];
 /// Shades in which values are drawn when elements are merged.
 const SHADES: usize = 32;
 
@@ -163,8 +163,16 @@ fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
     }
     for (i, block) in wall.blocks.iter().enumerate() {
         let title = match paint {
-            Paint::Blocks(field) => format!("{}: {}", block.name, si(field.values.get(i).copied().unwrap_or(0.0), field.unit)),
-            _ => format!("{}: {} × {}, {}", block.name, si(block.length(), "m"), si(block.height(), "m"), mass(block.mass())),
+            Paint::Blocks(field) => {
+                format!("{}: {}", block.name, si(field.values.get(i).copied().unwrap_or(0.0), field.unit))
+            }
+            _ => format!(
+                "{}: {} × {}, {}",
+                block.name,
+                si(block.length(), "m"),
+                si(block.height(), "m"),
+                mass(block.mass())
+            ),
         };
         let (fill, letters) = match fraction(i) {
             Some(f) => (shade(f), if f > 0.55 { "#fff" } else { "#111" }),
@@ -201,11 +209,14 @@ fn joints(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
         let mut order: Vec<usize> = (0..subject.joints.len()).collect();
         order.sort_by(|&a, &b| fraction(a).total_cmp(&fraction(b)));
         for e in order {
-            let title = format!("{}: {}", subject.names[e], si(field.values.get(e).copied().unwrap_or(0.0), field.unit));
+            let title =
+                format!("{}: {}", subject.names[e], si(field.values.get(e).copied().unwrap_or(0.0), field.unit));
             canvas.path(&data(e), &attributes(&shade(fraction(e)), fraction(e)), Some(&title));
         }
     } else {
-        for (number, (fill, members)) in shades((0..subject.joints.len()).map(|e| Some(fraction(e)))).into_iter().enumerate() {
+        for (number, (fill, members)) in
+            shades((0..subject.joints.len()).map(|e| Some(fraction(e)))).into_iter().enumerate()
+        {
             let d: String = members.iter().map(|&e| data(e)).collect();
             canvas.path(&d, &attributes(&fill, number as f64 / SHADES as f64), None);
         }
@@ -216,6 +227,7 @@ fn joint_names(canvas: &mut Canvas, view: &View, subject: &Subject) {
     if subject.wall.blocks.len() + subject.joints.len() > DETAILED {
         return;
     }
+    canvas.open_halo();
     for (joint, name) in subject.joints.iter().zip(subject.names) {
         let [x0, y0, x1, y1] = view.line(joint.line);
         let mortar = subject.wall.panels[subject.wall.blocks[joint.a].panel].mortar;
@@ -231,6 +243,7 @@ fn joint_names(canvas: &mut Canvas, view: &View, subject: &Subject) {
             }
         }
     }
+    canvas.raw("</g>");
 }
 
 /// A text in the middle of a rectangle, at most `size` high; nothing when it would not fit.
@@ -244,8 +257,7 @@ fn label(canvas: &mut Canvas, [x0, y0, x1, y1]: [f64; 4], size: f64, upright: bo
 }
 
 fn dimensions(canvas: &mut Canvas, view: &View) {
-    let [left, top, right, bottom] =
-        view.rectangle([view.bounds[0], view.bounds[2]], [view.bounds[1], view.bounds[3]]);
+    let [left, top, right, bottom] = view.rectangle([view.bounds[0], view.bounds[2]], [view.bounds[1], view.bounds[3]]);
     let (y, x) = (bottom + 24.0, left - 22.0);
     let d = [
         line([left, y, right, y]),
@@ -274,8 +286,7 @@ fn round_length(length: f64) -> f64 {
     [5.0, 2.0, 1.0].into_iter().map(|m| m * power).find(|l| *l <= length * 1.000_001).unwrap_or(power)
 }
 
-const KINDS: [JointKind; 5] =
-    [JointKind::Bed, JointKind::Head, JointKind::Base, JointKind::Top, JointKind::Connection];
+const KINDS: [JointKind; 5] = [JointKind::Bed, JointKind::Head, JointKind::Base, JointKind::Top, JointKind::Connection];
 
 /// What the kinds are called.
 pub fn kind_name(kind: JointKind) -> &'static str {
@@ -346,11 +357,16 @@ fn shades(fractions: impl Iterator<Item = Option<f64>>) -> Vec<(String, Vec<usiz
         let class = fraction.map_or(SHADES, |f| ((f * SHADES as f64) as usize).min(SHADES - 1));
         classes[class].push(i);
     }
-    let colour = |class: usize| if class == SHADES { "#f4d9c0".into() } else { shade((class as f64 + 0.5) / SHADES as f64) };
+    let colour =
+        |class: usize| if class == SHADES { "#f4d9c0".into() } else { shade((class as f64 + 0.5) / SHADES as f64) };
     classes.into_iter().enumerate().filter(|(_, m)| !m.is_empty()).map(|(c, m)| (colour(c), m)).collect()
 }
 
 /// A mass in kilograms or tonnes.
 pub fn mass(kilograms: f64) -> String {
-    if kilograms < 1000.0 { format!("{} kg", crate::format::significant(kilograms, 4)) } else { si(kilograms / 1000.0, "t") }
+    if kilograms < 1000.0 {
+        format!("{} kg", crate::format::significant(kilograms, 4))
+    } else {
+        si(kilograms / 1000.0, "t")
+    }
 }

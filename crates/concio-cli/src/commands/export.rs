@@ -1,0 +1,34 @@
+//! `concio export`.
+
+use std::path::{Path, PathBuf};
+
+use concio::InputError;
+use concio::store::{StoredRun, export, hdf5};
+
+use crate::args::Export;
+use crate::failure::Failure;
+use crate::files;
+
+/// Converts the result of a run.
+pub fn export(args: &Export) -> Result<(), Failure> {
+    let run = stored(&args.dir)?;
+    let (name, write): (&str, fn(&StoredRun, &Path) -> concio::Result<()>) = match args {
+        Export { csv: true, .. } => ("csv", export::csv),
+        Export { npz: true, .. } => ("result.npz", export::npz),
+        _ => ("result.vtkhdf", export::vtkhdf),
+    };
+    let out = args.out.clone().unwrap_or_else(|| args.dir.join(name));
+    write(&run, &out)?;
+    files::note(&format!("{} is written.", out.display()));
+    Ok(())
+}
+
+/// Reads the result in a folder.
+pub fn stored(folder: &Path) -> Result<StoredRun, Failure> {
+    let path: PathBuf = folder.join("result.h5");
+    if !path.is_file() {
+        let error = InputError::new("there is no result.h5 in this folder").in_file(folder);
+        return Err(error.allowed("the folder that `concio run` wrote to").into());
+    }
+    Ok(hdf5::read(&path)?)
+}

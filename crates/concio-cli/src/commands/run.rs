@@ -1,0 +1,100 @@
+//! `concio run`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use concio::record::StopReason;
+use concio::run::{Control, Finished, Prepared};
+
+use super::wall_file;
+use crate::args::Run;
+use crate::failure::{Failure, STOPPED};
+use crate::format::{pairs, significant};
+use crate::progress::Progress;
+use crate::{digest, files, report, stop};
+
+/// Runs a wall file, writes results and report, prints what matters.
+pub fn run(args: &Run) -> Result<ExitCode, Failure> {
+    let file = match &args.file {
+        Some(path) => wall_file::read(path)?,
+        None => {
+            files::note("No wall file is given: running the built-in example (`concio new` writes one to start from).");
+            concio::case::example()?
+        }
+    };
+    let prepared = wall_file::prepare(&file)?;
+    let out = args.out.clone().unwrap_or_else(|| default_folder(args.file.as_deref()));
+    refuse_a_file(&out)?;
+    if args.fresh {
+        concio::run::forget(&out)?;
+    }
+    let finished = simulate(&prepared, &out)?;
+    let report = report::write(&out, &report::Content::of_run(&out, &prepared, &finished, Some(file.text())))?;
+    let stopped = finished.outcome.stop_reason != StopReason::Completed;
+    tell(&finished, &prepared, &report)?;
+    Ok(if stopped { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS })
+}
+
+fn simulate(prepared: &Prepared, out: &Path) -> Result<Finished, Failure> {
+    stop::listen()?;
+    let mut progress = Progress::new();
+    let finished = concio::run::run(prepared, out, &mut |status| {
+        progress.show(status);
+        if stop::asked() { Control::Stop } else { Control::Continue }
+    });
+    progress.clear();
+    Ok(finished?)
+}
+
+/// `concio-run/NAME` in the working directory.
+fn default_folder(file: Option<&Path>) -> PathBuf {
+    let name = file.map_or("example".as_ref(), |f| f.file_stem().unwrap_or(f.as_os_str()));
+    Path::new("concio-run").join(name)
+}
+
+/// The engine would only find out after the whole run.
+fn refuse_a_file(out: &Path) -> Result<(), Failure> {
+    if out.exists() && !out.is_dir() {
+        let error = concio::InputError::new("the folder for the results is a file").in_file(out);
+        return Err(error.help("give another folder with --out").into());
+    }
+    Ok(())
+}
+
+fn tell(finished: &Finished, prepared: &Prepared, report: &Path) -> Result<(), Failure> {
+    for warning in digest::warnings(&finished.summary) {
+        files::note(&format!("warning: {warning}"));
+    }
+    if let Some(time) = finished.resumed_from {
+        files::note(&format!("An earlier run that was cut off has been taken up at t = {} s.", significant(time, 4)));
+    }
+    let reason = finished.outcome.stop_reason;
+    if reason != StopReason::Completed {
+        let at = significant(finished.outcome.time_reached, 6);
+        files::note(&format!(
+            "stopped early at t = {at} of {} s: {}",
+            prepared.model.excitation.duration,
+            digest::why(reason)
+        ));
+    }
+    let rows = digest::rows(&finished.outcome, &finished.summary);
+    files::print(&format!("{}\nopen {}\n", pairs(&rows), report.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_folder_bears_the_name_of_the_wall() {
+        assert_eq!(default_folder(None), Path::new("concio-run/example"));
+        assert_eq!(default_folder(Some(Path::new("walls/nave.toml"))), Path::new("concio-run/nave"));
+    }
+
+    /// The report quotes it.
+    #[test]
+    fn the_built_in_example_has_a_text() {
+        let file = concio::case::example().expect("the example is valid");
+        assert!(file.text().contains("[[panel]]"));
+    }
+}

@@ -1,0 +1,61 @@
+//! The numbers of a run that the terminal and the report both show.
+
+use concio::outcome::Outcome;
+use concio::record::StopReason;
+use serde_json::Value;
+
+use crate::format::{clock, si};
+
+/// Names and values, the important ones first.
+pub fn rows(outcome: &Outcome, summary: &Value) -> Vec<(&'static str, String)> {
+    let (totals, energies) = (&outcome.totals, &outcome.energies);
+    let number = |pointer: &str| summary.pointer(pointer).and_then(Value::as_f64).unwrap_or(f64::NAN);
+    let opening = outcome.envelopes.joint_opening.iter().copied().fold(0.0, f64::max);
+    let mut rows = vec![
+        ("peak displacement", format!("{} relative to the base", si(totals.peak_relative_displacement, "m"))),
+        ("peak slip velocity", si(totals.peak_slip_velocity, "m/s")),
+        ("head joints", format!("opened {}, pressed in {}", si(opening, "m"), si(-totals.minimum_gap, "m"))),
+    ];
+    if totals.top_force_peak > 0.0 {
+        let rms = si(number("/top_force_rms"), "N");
+        rows.push(("force of the top beam", format!("{} peak, {rms} rms", si(totals.top_force_peak, "N"))));
+    }
+    rows.push(("work done on the wall", si(energies.input(), "J")));
+    rows.push(("  kinetic", si(energies.kinetic, "J")));
+    rows.push(("  elastic", si(energies.elastic, "J")));
+    rows.push(("  damping", si(energies.damping, "J")));
+    rows.push(("  friction", si(energies.friction, "J")));
+    if energies.bond != 0.0 {
+        rows.push(("  broken bonds", si(energies.bond, "J")));
+    }
+    if energies.nonreciprocal != 0.0 {
+        rows.push(("  unbalanced friction", si(energies.nonreciprocal, "J")));
+    }
+    rows.push(("energy residual", format!("{:.1e} of the largest work", residual(summary))));
+    let counters = &outcome.counters;
+    rows.push(("steps", format!("{}, {} rejected, {} repeated", counters.steps, counters.rejected, counters.failed)));
+    rows.push(("solver time", clock(number("/solve_seconds"))));
+    rows
+}
+
+/// Residual of the energy account over the largest work.
+pub fn residual(summary: &Value) -> f64 {
+    summary.pointer("/energy/residual_relative").and_then(Value::as_f64).unwrap_or(f64::NAN)
+}
+
+/// What the user is warned of.
+pub fn warnings(summary: &Value) -> impl Iterator<Item = &str> {
+    summary.get("warnings").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str)
+}
+
+/// Why a run stopped early, and what to do about it.
+pub fn why(reason: StopReason) -> &'static str {
+    match reason {
+        StopReason::Completed => "the end was reached",
+        StopReason::Interrupted => "interrupted; what was computed is written, and the same command goes on from here",
+        StopReason::StepTooShort => {
+            "the step became too short for the tolerance; raise solver.tolerance or check the stiffnesses and masses"
+        }
+        StopReason::NotFinite => "a value became infinite; check the stiffnesses, the masses and the motion",
+    }
+}

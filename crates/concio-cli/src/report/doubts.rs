@@ -1,0 +1,52 @@
+//! When not to believe a result: what the model cannot show, and what this run strains.
+
+use concio::case::FrictionLaw;
+
+use super::Content;
+use crate::digest::residual;
+
+/// Residual of the energy account beyond which a run is not to be trusted.
+pub const LARGEST_RESIDUAL: f64 = 1e-3;
+
+/// One sentence or two each; those of this run come first.
+pub fn list(content: &Content) -> Vec<String> {
+    let mut doubts = of_this_run(content);
+    doubts.push(
+        "Blocks move horizontally only. Rocking, uplift, flexure and diagonal cracking cannot occur in this model: a \
+         slender wall, or one under little load, may fail in those ways first."
+            .into(),
+    );
+    doubts.push(
+        "Normal forces are those of statics, constant in time: vertical shaking and the change of load through \
+         overturning are left out."
+            .into(),
+    );
+    if content.case.joint.friction.law == FrictionLaw::Stribeck {
+        doubts.push(
+            "Friction is a smooth function of velocity: a joint that sticks creeps slowly under load instead of \
+             holding for ever."
+                .into(),
+        );
+    }
+    doubts
+}
+
+fn of_this_run(content: &Content) -> Vec<String> {
+    let (outcome, friction) = (content.outcome, &content.case.joint.friction);
+    let mut doubts = Vec::new();
+    let residual = residual(content.summary);
+    if !(residual <= LARGEST_RESIDUAL) {
+        doubts.push(format!(
+            "The energy account of this run does not close: its residual is {residual:.1e} of the largest work, more \
+             than {LARGEST_RESIDUAL}. Lower solver.tolerance."
+        ));
+    }
+    if friction.law == FrictionLaw::Stribeck && outcome.totals.peak_slip_velocity > friction.slip_velocity.si() {
+        doubts.push(
+            "Joints slip in this run. Stick-slip is sensitive to the last digit: energies, envelopes and forces can be \
+             relied on, the course of a single history after many slips cannot."
+                .into(),
+        );
+    }
+    doubts
+}

@@ -1,0 +1,99 @@
+//! The figures of the report.
+
+use super::{Content, beam_label};
+use crate::draw::curves::{self, Curve, Figure};
+use crate::draw::wall::{self, Field, Paint, Subject};
+
+/// The wall under one name per view.
+pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
+    let beam = beam_label(&content.case);
+    let subject = Subject { wall: content.wall, joints: &content.joints, names: &content.names, beam: &beam };
+    let envelopes = &content.outcome.envelopes;
+    let field = |title, unit, values| Field { title, unit, values };
+    let views = [
+        (
+            "displacement",
+            Paint::Blocks(field("peak displacement relative to the base", "m", &envelopes.block_displacement)),
+        ),
+        ("slip", Paint::Joints(field("way slipped", "m", &envelopes.joint_slip))),
+        ("opening", Paint::Joints(field("widest gap of the head joints", "m", &envelopes.joint_opening))),
+        ("acceleration", Paint::Joints(field("peak relative acceleration", "m/s²", &envelopes.joint_acceleration))),
+        ("dissipation", Paint::Joints(field("energy dissipated", "J", &envelopes.joint_dissipation))),
+    ];
+    views.into_iter().map(|(name, paint)| (name, wall::draw(&subject, paint))).collect()
+}
+
+/// Motions and forces over time.
+pub fn histories(content: &Content) -> Vec<String> {
+    let t = &content.outcome.recording.time;
+    let driven = content.history("beam/displacement").filter(|y| y.iter().any(|v| *v != 0.0));
+    let mut figures = Vec::new();
+    let mut add = |title, quantity, unit, curves: &[(&str, Option<Vec<f64>>)]| {
+        let shown: Vec<Curve> = curves
+            .iter()
+            .filter_map(|(name, y)| Some(Curve { name, x: t, y: y.as_deref()? }))
+            .filter(|c| c.y.iter().any(|v| *v != 0.0))
+            .collect();
+        if !shown.is_empty() {
+            figures.push(curves::draw(&Figure {
+                title,
+                x_label: "time [s]",
+                quantity,
+                unit,
+                curves: shown,
+                height: 250.0,
+            }));
+        }
+    };
+    let of = |name: &str| content.history(name);
+    add(
+        "Top of the wall, relative to the base",
+        "displacement",
+        "m",
+        &[("top course", of("top/displacement")), ("top beam", driven)],
+    );
+    add("Largest displacement of a block at each instant", "displacement", "m", &[("", of("peak/displacement"))]);
+    add("Motion of the base", "acceleration", "m/s²", &[("", of("base/acceleration"))]);
+    add("Motion of the base", "displacement", "m", &[("", of("base/displacement"))]);
+    add("Horizontal forces on the wall", "force", "N", &[("base", of("base/shear")), ("top beam", of("top/force"))]);
+    figures
+}
+
+/// The energy account over time, and its residual.
+pub fn energies(content: &Content) -> Vec<String> {
+    let t = &content.outcome.recording.time;
+    let parts: [&'static str; 7] = ["input", "friction", "damping", "elastic", "kinetic", "bond", "nonreciprocal"];
+    let of = |name: &&'static str| content.history(&format!("energy/{name}")).map(|y| (*name, y));
+    let found: Vec<(&'static str, Vec<f64>)> =
+        parts.iter().filter_map(of).filter(|(_, y)| y.iter().any(|v| *v != 0.0)).collect();
+    let curves = found.iter().map(|(name, y)| Curve { name: title(name), x: t, y }).collect();
+    let account = Figure {
+        title: "Energy by mechanism",
+        x_label: "time [s]",
+        quantity: "energy",
+        unit: "J",
+        curves,
+        height: 340.0,
+    };
+    let mut figures = vec![curves::draw(&account)];
+    if let Some(residual) = content.history("energy/residual") {
+        figures.push(curves::draw(&Figure {
+            title: "Residual of the account: kinetic + elastic + dissipated − work done",
+            curves: vec![Curve { name: "", x: t, y: &residual }],
+            height: 200.0,
+            ..account
+        }));
+    }
+    figures
+}
+
+fn title(channel: &str) -> &str {
+    match channel {
+        "input" => "work done on the wall",
+        "friction" => "dissipated by friction",
+        "damping" => "dissipated by damping",
+        "bond" => "broken bonds",
+        "nonreciprocal" => "unbalanced friction",
+        other => other,
+    }
+}

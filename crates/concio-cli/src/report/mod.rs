@@ -1,0 +1,97 @@
+//! report.html: one file without references to others, to be read anywhere and years later.
+
+use std::path::{Path, PathBuf};
+
+use concio::case::{self, Beam, Case, Syntax};
+use concio::outcome::Outcome;
+use concio::run::{Finished, Prepared};
+use concio::store::StoredRun;
+use concio::wall::{Joint, Wall};
+use serde_json::Value;
+
+use crate::failure::Failure;
+use crate::files;
+
+mod doubts;
+mod figures;
+mod page;
+
+/// What a report is made of.
+#[derive(Debug)]
+pub struct Content<'a> {
+    /// Name of the run, from its folder.
+    pub name: String,
+    /// The resolved input.
+    pub case: Case,
+    /// The wall file as it was given.
+    pub text: Option<&'a str>,
+    /// Blocks.
+    pub wall: &'a Wall,
+    /// Joints and their names.
+    pub joints: Vec<Joint>,
+    /// Names of the joints.
+    pub names: Vec<String>,
+    /// The result.
+    pub outcome: &'a Outcome,
+    /// Content of summary.json.
+    pub summary: &'a Value,
+}
+
+impl<'a> Content<'a> {
+    /// Of a run that has just ended.
+    pub fn of_run(out: &Path, prepared: &'a Prepared, finished: &'a Finished, text: Option<&'a str>) -> Self {
+        Content {
+            name: name(out),
+            case: prepared.case.clone(),
+            text,
+            wall: &prepared.model.wall,
+            joints: prepared.model.joints.clone(),
+            names: prepared.model.joint_names(),
+            outcome: &finished.outcome,
+            summary: &finished.summary,
+        }
+    }
+
+    /// Of a run read back from its files.
+    pub fn of_stored(folder: &Path, run: &'a StoredRun, summary: &'a Value) -> Result<Self, Failure> {
+        let case = case::from_str(&run.provenance.case_json, Syntax::Json, None)?.case;
+        Ok(Content {
+            name: name(folder),
+            case,
+            text: None,
+            wall: &run.wall,
+            joints: run.joints.iter().map(|j| j.joint.clone()).collect(),
+            names: run.joints.iter().map(|j| j.name.clone()).collect(),
+            outcome: &run.outcome,
+            summary,
+        })
+    }
+
+    /// A history by the name of its channel.
+    fn history(&self, name: &str) -> Option<Vec<f64>> {
+        let channels = &self.outcome.layout.channels;
+        let at = channels.iter().position(|c| c.name == name)?;
+        Some(self.outcome.recording.values.chunks_exact(channels.len()).map(|row| row[at]).collect())
+    }
+}
+
+fn name(folder: &Path) -> String {
+    folder.file_name().map_or_else(|| "run".into(), |n| n.to_string_lossy().into_owned())
+}
+
+/// Writes the report into the folder of the run; its path.
+pub fn write(folder: &Path, content: &Content) -> Result<PathBuf, Failure> {
+    let path = folder.join("report.html");
+    files::write(&path, &page::html(content))?;
+    Ok(path)
+}
+
+/// What the top beam does, as it is written on it.
+pub fn beam_label(case: &Case) -> String {
+    match case.load.beam {
+        Beam::Free => String::new(),
+        Beam::Driven => "top beam, driven".into(),
+        Beam::Tied => "top beam, moves with the base".into(),
+        Beam::Mass(m) => format!("top beam, {}", crate::draw::wall::mass(m.si())),
+    }
+}

@@ -1,0 +1,271 @@
+//! The commands as a user types them: output, files, exit status.
+
+use std::fs;
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+use snapbox::str;
+
+mod support;
+use support::{Desk, PROGRAM, WALL};
+
+#[test]
+fn run_writes_its_files_and_names_the_report() {
+    let desk = Desk::new();
+    let run = desk.concio("run wall.toml").assert().success().stderr_eq(str![""]);
+    let stdout = String::from_utf8_lossy(&run.get_output().stdout).into_owned();
+    for part in ["peak displacement", "peak slip velocity", "energy residual", "open concio-run/wall/report.html"] {
+        assert!(stdout.contains(part), "{part}:\n{stdout}");
+    }
+    let summary = desk.json("concio-run/wall/summary.json");
+    for key in [
+        "blocks",
+        "joints",
+        "unknowns",
+        "steps",
+        "solve_seconds",
+        "peak_relative_displacement",
+        "peak_slip_velocity",
+        "top_work",
+        "top_force_peak",
+        "top_force_rms",
+        "minimum_gap",
+    ] {
+        assert!(summary[key].is_number(), "{key} in {summary}");
+    }
+    for key in ["input", "kinetic", "elastic", "damping", "friction", "bond", "residual_relative"] {
+        assert!(summary["energy"][key].is_number(), "energy.{key} in {summary}");
+    }
+    assert_eq!(summary["stop_reason"], "completed");
+    assert!(summary["peak_slip_velocity"].as_f64() > Some(1e-3), "the joints of this wall slip");
+    let names = fs::read_dir(desk.path("concio-run/wall")).expect("the folder").count();
+    assert_eq!(names, 3, "result, summary and report, and no journal any more");
+}
+
+#[test]
+fn run_without_a_file_says_what_it_runs() {
+    let desk = Desk::new();
+    let run = desk.concio("run").assert().success();
+    let output = run.get_output();
+    assert!(String::from_utf8_lossy(&output.stderr).contains("built-in example"));
+    assert!(String::from_utf8_lossy(&output.stdout).ends_with("open concio-run/example/report.html\n"));
+    let summary = desk.json("concio-run/example/summary.json");
+    assert!(summary["peak_slip_velocity"].as_f64() > Some(1e-3), "its joints slip");
+}
+
+#[test]
+fn equal_inputs_give_equal_results() {
+    let desk = Desk::new();
+    for out in ["a", "b"] {
+        desk.concio(&format!("run wall.toml --out {out}")).assert().success();
+    }
+    assert!(fs::read(desk.path("a/result.h5")).expect("a") == fs::read(desk.path("b/result.h5")).expect("b"));
+}
+
+#[test]
+fn the_report_needs_nothing_else() {
+    let desk = Desk::new();
+    desk.concio("run wall.toml --out r").assert().success();
+    let report = desk.get("r/report.html");
+    for part in ["Small wall", "Energy by mechanism", "Summary", "When not to believe", "[[panel]]", "p1c4b2"] {
+        assert!(report.contains(part), "{part}");
+    }
+    for reference in ["src=", "href=", "@import", "url(", "<script"] {
+        assert!(!report.contains(reference), "{reference}");
+    }
+    assert!(report.len() < 2_000_000, "{} bytes", report.len());
+    fs::remove_file(desk.path("r/report.html")).expect("the report");
+    desk.concio("plot r").assert().success();
+    assert!(desk.get("r/report.html").contains("Energy by mechanism"));
+}
+
+/// Ctrl-C, then the same command: the result is that of a run that nobody stopped.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_goes_on_to_the_same_bits() {
+    let desk = Desk::new();
+    desk.put("long.toml", WALL.replace("0.05 s\"\ntop", "0.4 s\"\ntop"));
+    desk.concio("run long.toml --out whole").assert().success();
+    let mut child = Command::new(PROGRAM)
+        .args(["run", "long.toml", "--out", "parts"])
+        .current_dir(desk.path(""))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("concio starts");
+    while !desk.path("parts/journal.bin").exists() {
+        assert!(child.try_wait().expect("the state of the run").is_none(), "it ended before it could be stopped");
+        std::thread::yield_now();
+    }
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.expect("kill").success());
+    let output = child.wait_with_output().expect("the run ends");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("stopped early at t = "));
+    assert_eq!(desk.json("parts/summary.json")["stop_reason"], "interrupted");
+    assert!(desk.get("parts/report.html").contains("Stopped early"));
+    let again = desk.concio("run long.toml --out parts").assert().success();
+    assert!(String::from_utf8_lossy(&again.get_output().stderr).contains("taken up at t = "));
+    assert!(
+        fs::read(desk.path("parts/result.h5")).expect("parts")
+            == fs::read(desk.path("whole/result.h5")).expect("whole")
+    );
+}
+
+#[test]
+fn check_says_what_the_wall_is() {
+    let desk = Desk::new();
+    desk.concio("check wall.toml --svg wall.svg").assert().success().stderr_eq(str![""]).stdout_eq(str![[r#"
+Small wall
+
+  panel  courses  blocks     width    height      mass
+  p1           4      10  510.0 mm  260.0 mm  23.78 kg
+
+  joints  number                stiffness  friction         normal force
+  base         2               108.0 MN/m     0.600  2.616 kN … 2.616 kN
+[..]
+  unknowns  10
+  mass      23.78 kg
+  motion    0.05 s, 2001 samples kept
+
+wall.toml is a valid wall file.
+
+"#]]);
+    let drawing = desk.get("wall.svg");
+    assert!(drawing.starts_with("<svg ") && drawing.ends_with("</svg>\n"));
+    for name in ["p1c1b1", "p1c4b3", "base|p1c1b2", "p1c1b1|p1c2b1"] {
+        assert!(drawing.contains(&format!(">{name}<")), "{name}");
+    }
+    assert_eq!(desk.list(), ["wall.svg", "wall.toml"]);
+}
+
+#[test]
+fn new_writes_a_valid_file_and_overwrites_none() {
+    let desk = Desk::new();
+    desk.concio("new fresh.toml").assert().success();
+    desk.concio("check fresh.toml").assert().success();
+    desk.concio("new wall.toml").assert().code(2).stderr_eq(str![[r#"
+error: wall.toml: the file exists and is not overwritten
+help: give another name, or remove it first
+
+"#]]);
+    assert_eq!(desk.get("wall.toml"), WALL);
+    let printed = desk.concio("new -").assert().success();
+    assert_eq!(String::from_utf8_lossy(&printed.get_output().stdout), desk.get("fresh.toml"));
+}
+
+#[test]
+fn the_schema_documents_every_key() {
+    let desk = Desk::new();
+    let printed = desk.concio("schema").assert().success();
+    let schema: Value = serde_json::from_slice(&printed.get_output().stdout).expect("JSON");
+    for key in ["model", "panel", "joint", "load", "motion", "solver", "output"] {
+        let property = &schema["properties"][key];
+        assert!(property["description"].is_string() || property["$ref"].is_string(), "{key}: {property}");
+    }
+}
+
+/// A record of PEER with a peak that is known: 0.25 g.
+const AT2: &str = "PEER STRONG MOTION DATABASE RECORD\nTest event, 1/1/2000, Test station, 090\n\
+                   ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=     5, DT=   .0100 SEC\n  0.0 0.1 -0.25 0.1 0.0\n";
+
+#[test]
+fn record_measures_an_accelerogram() {
+    let desk = Desk::new();
+    desk.put("test.AT2", AT2);
+    let printed = desk.concio("record test.AT2 --json --svg test.svg").assert().success();
+    let json: Value = serde_json::from_slice(&printed.get_output().stdout).expect("JSON");
+    assert_eq!((json["npts"].as_u64(), json["dt"].as_f64()), (Some(5), Some(0.01)));
+    let pga = json["pga"].as_f64().expect("pga");
+    assert!((pga - 0.25 * 9.80665).abs() < 1e-12, "{pga}");
+    // π/(2g) ∫a² dt by the trapezoidal rule: (0.1² + 0.25² + 0.1²) g² 0.01 s.
+    let arias = std::f64::consts::FRAC_PI_2 * 9.80665 * 0.0825 * 0.01;
+    assert!((json["arias"].as_f64().expect("arias") - arias).abs() < 1e-12);
+    for key in ["pgv", "pgd", "d5_95", "housner"] {
+        assert!(json[key].is_number(), "{key}");
+    }
+    for key in ["units", "format", "station", "event"] {
+        assert!(json[key].is_string(), "{key}");
+    }
+    assert_eq!(json["spectrum"]["period"].as_array().map(Vec::len), json["spectrum"]["psa"].as_array().map(Vec::len));
+    assert!(desk.get("test.svg").contains("response spectrum"));
+    let table = desk.concio("record test.AT2").assert().success();
+    assert!(String::from_utf8_lossy(&table.get_output().stdout).contains("0.2500 g"));
+}
+
+#[test]
+fn record_asks_for_what_a_column_leaves_unsaid() {
+    let desk = Desk::new();
+    desk.put("column.txt", "0.0\n1.0\n-2.0\n0.5\n");
+    let refused = desk.concio("record column.txt").assert().code(2);
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).starts_with("error: column.txt:"));
+    let told = desk.concio("record column.txt --dt 0.01 --units cm/s2 --json").assert().success();
+    let json: Value = serde_json::from_slice(&told.get_output().stdout).expect("JSON");
+    assert_eq!(json["pga"].as_f64(), Some(0.02));
+    desk.put("test.AT2", AT2);
+    let refused = desk.concio("record test.AT2 --channel 2").assert().code(2);
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("allowed: 1 … 1"));
+}
+
+#[test]
+fn system_is_the_wall_in_numbers() {
+    let desk = Desk::new();
+    let printed = desk.concio("system wall.toml").assert().success();
+    let system: Value = serde_json::from_slice(&printed.get_output().stdout).expect("JSON");
+    let masses: Vec<f64> = system["mass"].as_array().expect("mass").iter().filter_map(Value::as_f64).collect();
+    // γ L H B / g of a whole brick.
+    assert!((masses[0] - 18000.0 * 0.25 * 0.055 * 0.12 / 9.81).abs() < 1e-12, "{masses:?}");
+    let joints = system["joints"].as_array().expect("joints");
+    let of = |side: &str| joints.iter().filter(|j| j["b"] == side).count();
+    assert_eq!((masses.len(), of("base"), of("top")), (10, 2, 3));
+    let head = joints.iter().find(|j| j["law"] == "no-tension").expect("a head joint");
+    assert_eq!(head["stiffness"].as_f64(), Some(5.4e10));
+    assert!(head["friction"].is_null());
+    assert_eq!(system["base"], Value::Null);
+    assert_eq!(system["top"]["sine"]["amplitude"].as_f64(), Some(0.002));
+    assert_eq!(system["duration"].as_f64(), Some(0.05));
+}
+
+#[test]
+fn results_are_exported() {
+    let desk = Desk::new();
+    desk.concio("run wall.toml --out r").assert().success();
+    desk.concio("export r --csv").assert().success().stdout_eq(str![""]);
+    assert!(desk.get("r/csv/histories.csv").starts_with("time [s],"));
+    desk.concio("export r --npz --out run.npz").assert().success();
+    assert!(fs::read(desk.path("run.npz")).expect("the archive").starts_with(b"PK"));
+    desk.concio("export r --vtkhdf").assert().success();
+    assert!(fs::read(desk.path("r/result.vtkhdf")).expect("the file").starts_with(b"\x89HDF"));
+    desk.concio("export r").assert().code(2);
+    desk.concio("export nothing --csv").assert().code(2);
+    desk.put("r/result.h5", "not a result");
+    desk.concio("export r --csv --out other").assert().code(1);
+    assert!(!desk.path("other").exists());
+}
+
+#[test]
+fn help_teaches_by_example() {
+    let desk = Desk::new();
+    for command in ["run", "check", "new", "schema", "record", "system", "export", "plot", "completions"] {
+        let help = desk.concio(&format!("{command} --help")).assert().success();
+        let help = String::from_utf8_lossy(&help.get_output().stdout).into_owned();
+        assert!(help.contains("Example") && help.contains(&format!("concio {command}")), "{command}:\n{help}");
+    }
+    let script = desk.concio("completions bash").assert().success();
+    assert!(String::from_utf8_lossy(&script.get_output().stdout).contains("_concio"));
+    desk.concio("rum wall.toml").assert().code(2);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let mut child = Command::new(PROGRAM)
+        .arg("schema")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("concio starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("it ends");
+    assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+}

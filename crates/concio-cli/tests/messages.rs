@@ -1,0 +1,101 @@
+//! Wrong inputs as a user meets them: file, line, cause and allowed range on standard error, exit status 2, nothing
+//! written.
+
+use snapbox::str;
+
+mod support;
+use support::{Desk, WALL};
+
+/// What is wrong, the text that is replaced in the wall and by what, and parts of the message.
+const WRONG: [(&str, &str, &str, &[&str]); 12] = [
+    ("unknown key", "courses = 4", "corses = 4", &["bad.toml:6:", "corses", "courses"]),
+    ("wrong unit", "\"55 mm\"", "\"55 kg\"", &["bad.toml:8:", "kg", "mm"]),
+    ("no unit", "\"250 mm\"", "\"250\"", &["bad.toml:8:", "unit"]),
+    ("negative length", "\"250 mm\"", "\"-250 mm\"", &["bad.toml:8:", "panel[0].brick.length", "above 0"]),
+    ("no courses", "courses = 4", "courses = 0", &["bad.toml:6:", "courses", "from 1"]),
+    ("negative load", "top = \"10 kN/m\"", "top = \"-1 kN/m\"", &["bad.toml:19:", "load.top"]),
+    ("no slip velocity", "\"1 mm/s\"", "\"0 mm/s\"", &["bad.toml:16:", "slip_velocity", "above 0"]),
+    ("dynamic above static", "dynamic = 0.42", "dynamic = 0.7", &["bad.toml:16:", "dynamic"]),
+    ("a beam that nobody drives", "beam = \"driven\"", "beam = \"free\"", &["bad.toml:", "motion.top"]),
+    ("broken TOML", "[joint]", "[joint", &["bad.toml:11:"]),
+    ("a record that is not there", "top = { sine", "base = { record = \"no.at2\" }\ntop = { sine", &["no.at2"]),
+    ("law of a later version", "law = \"elastic\"", "law = \"rigid\"", &["bad.toml:13:", "rigid"]),
+];
+
+#[test]
+fn wrong_walls_are_refused_with_their_place() {
+    for (name, old, new, parts) in WRONG {
+        let desk = Desk::new();
+        let wall = WALL.replace(old, new);
+        assert_ne!(wall, WALL, "{name}");
+        desk.put("bad.toml", wall);
+        for command in ["check bad.toml --svg wall.svg", "run bad.toml", "system bad.toml"] {
+            let refused = desk.concio(command).assert().code(2).stdout_eq(str![""]);
+            let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+            assert!(message.starts_with("error: "), "{name}: {message}");
+            for part in parts {
+                assert!(message.contains(part), "{name}, {part}:\n{message}");
+            }
+        }
+        assert_eq!(desk.list(), ["bad.toml", "wall.toml"], "{name}: nothing is written");
+    }
+}
+
+#[test]
+fn a_message_shows_the_line_and_a_caret() {
+    let desk = Desk::new();
+    desk.put("bad.toml", WALL.replace("courses = 4", "courses = 0"));
+    desk.concio("check bad.toml").assert().code(2).stderr_eq(str![[r#"
+error: bad.toml:6:11: panel[0].courses: [..]
+6 | courses = 0
+  |           ^
+allowed: [..]
+
+"#]]);
+}
+
+#[test]
+fn all_mistakes_are_told_at_once() {
+    let desk = Desk::new();
+    desk.put("bad.toml", WALL.replace("courses = 4", "courses = 0").replace("\"1 mm/s\"", "\"0 mm/s\""));
+    let refused = desk.concio("check bad.toml").assert().code(2);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert_eq!(message.matches("error: bad.toml:").count(), 2, "{message}");
+}
+
+#[test]
+fn files_that_are_no_wall_files() {
+    let desk = Desk::new();
+    desk.put("empty.toml", "");
+    desk.put("binary.toml", [0xff, 0x00, 0x9b, 0x1b]);
+    for file in ["none.toml", "empty.toml", "binary.toml", "."] {
+        let refused = desk.concio(&format!("run {file}")).assert().code(2).stdout_eq(str![""]);
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(message.starts_with(&format!("error: {file}")), "{message}");
+        assert!(!message.contains('\u{1b}'), "control characters of a file must not reach the terminal");
+    }
+    assert_eq!(desk.list(), ["binary.toml", "empty.toml", "wall.toml"]);
+}
+
+#[test]
+fn a_record_is_named_with_its_line() {
+    let desk = Desk::new();
+    desk.put("bad.txt", "# dt = 0.01 s, units: g\n0.0\n0.1\nnan\n");
+    let refused = desk.concio("record bad.txt --json --svg out.svg").assert().code(2).stdout_eq(str![""]);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(message.starts_with("error: bad.txt:4: "), "{message}");
+    assert_eq!(desk.list(), ["bad.txt", "wall.toml"]);
+}
+
+#[test]
+fn a_folder_that_cannot_be() {
+    let desk = Desk::new();
+    desk.concio("run wall.toml --out wall.toml").assert().code(2).stderr_eq(str![[r#"
+error: wall.toml: the folder for the results is a file
+help: give another folder with --out
+
+"#]]);
+    desk.concio("run wall.toml --out wall.toml/deeper").assert().code(1).stdout_eq(str![""]);
+    desk.concio("check wall.toml --svg no/such/folder/wall.svg").assert().code(1);
+    assert_eq!(desk.list(), ["wall.toml"]);
+}

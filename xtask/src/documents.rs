@@ -1,0 +1,50 @@
+//! Documents that are made by the program itself, so that they cannot disagree with it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::command::{Outcome, read};
+use crate::concio;
+
+/// Makes all of them.
+pub fn make(root: &Path) -> Outcome {
+    for (path, text) in all(root)? {
+        let file = root.join(path);
+        if let Some(folder) = file.parent() {
+            fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+        }
+        fs::write(&file, text).map_err(|e| format!("{}: {e}", file.display()))?;
+        println!("{path}");
+    }
+    Ok(())
+}
+
+/// Fails when one of them is not what the program makes today.
+pub fn check(root: &Path) -> Outcome {
+    for (path, text) in all(root)? {
+        let found = fs::read_to_string(root.join(path)).map_err(|e| format!("{path}: {e}"))?;
+        if found != text {
+            return Err(format!("{path} is not current: run `cargo xtask docs` and commit it"));
+        }
+        println!("{path} is current");
+    }
+    Ok(())
+}
+
+fn all(root: &Path) -> Result<[(&'static str, String); 3], String> {
+    let print = |args: &[&str]| read(Command::new(concio(root)).args(args).current_dir(root));
+    Ok([
+        ("docs/cli.md", print(&["reference"])?),
+        ("docs/wall.schema.json", print(&["schema"])?),
+        ("docs/img/first-wall.svg", drawing(root)?),
+    ])
+}
+
+/// The picture of the README.
+fn drawing(root: &Path) -> Result<String, String> {
+    let out: PathBuf = root.join("target").join("first-wall.svg");
+    let mut check = Command::new(concio(root));
+    read(check.args(["check", "examples/01-first-wall.toml", "--svg"]).arg(&out).current_dir(root))?;
+    fs::read_to_string(&out).map_err(|e| format!("{}: {e}", out.display()))
+}

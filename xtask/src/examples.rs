@@ -1,0 +1,72 @@
+//! Runs every wall file in examples/ and looks at its energy account.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+use crate::command::{Outcome, read};
+use crate::concio;
+
+/// Largest residual of the energy account over the largest work.
+const LARGEST_RESIDUAL: f64 = 1e-3;
+
+/// The results of an example.
+pub fn folder(root: &Path, name: &str) -> PathBuf {
+    root.join("target").join("examples-out").join(name)
+}
+
+/// Runs them all.
+pub fn run_all(root: &Path) -> Outcome {
+    let files = wall_files(root)?;
+    println!("{:<28} {:>6} {:>6} {:>9} {:>8} {:>9}", "example", "blocks", "joints", "steps", "s", "residual");
+    for file in files {
+        one(root, &file)?;
+    }
+    Ok(())
+}
+
+fn wall_files(root: &Path) -> Result<Vec<PathBuf>, String> {
+    let folder = root.join("examples");
+    let entries = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let mut files: Vec<PathBuf> = entries.filter_map(|e| e.ok().map(|e| e.path())).filter(|p| is_wall(p)).collect();
+    files.sort();
+    if files.is_empty() { Err("there are no examples".into()) } else { Ok(files) }
+}
+
+fn is_wall(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e == "toml" || e == "json")
+}
+
+fn one(root: &Path, file: &Path) -> Outcome {
+    let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let text = fs::read_to_string(file).map_err(|e| format!("{}: {e}", file.display()))?;
+    if !text.starts_with("# ") {
+        return Err(format!("{name}: an example starts with a comment on what it shows"));
+    }
+    let out = folder(root, &name);
+    read(Command::new(concio(root)).arg("run").arg(file).arg("--fresh").arg("--out").arg(&out))?;
+    let summary = fs::read_to_string(out.join("summary.json")).map_err(|e| format!("{name}: {e}"))?;
+    let summary: Value = serde_json::from_str(&summary).map_err(|e| format!("{name}: {e}"))?;
+    let number = |pointer: &str| summary.pointer(pointer).and_then(Value::as_f64).unwrap_or(f64::NAN);
+    let residual = number("/energy/residual_relative");
+    println!(
+        "{name:<28} {:>6} {:>6} {:>9} {:>8.2} {residual:>9.1e}",
+        number("/blocks"),
+        number("/joints"),
+        number("/steps"),
+        number("/solve_seconds")
+    );
+    for file in ["result.h5", "report.html"] {
+        if !out.join(file).is_file() {
+            return Err(format!("{name}: {file} is missing"));
+        }
+    }
+    // Written so that a residual that is not a number fails too.
+    if residual <= LARGEST_RESIDUAL {
+        Ok(())
+    } else {
+        Err(format!("{name}: the residual of the energy account is {residual:.1e}, more than {LARGEST_RESIDUAL}"))
+    }
+}
