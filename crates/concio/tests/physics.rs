@@ -1,0 +1,289 @@
+//! Walls as a whole: balances, equivalences, determinism.
+
+use std::path::Path;
+
+use concio::case::{Case, Syntax, from_str};
+use concio::model::Model;
+use concio::outcome::Outcome;
+use concio::record::StopReason;
+use concio::run::{Prepared, prepare, run_in_memory};
+use concio::simulate::{Progress, Simulation};
+use concio::store::residual_relative;
+
+const PANEL: &str = r#"
+model = "shear"
+set = "report"
+[[panel]]
+bond = "running"
+courses = 6
+bricks = 4
+[joint]
+friction = { law = "stribeck", static = 0.6, dynamic = 0.42 }
+"#;
+
+const SLIPPING: &str = r#"
+[load]
+top = "10 kN/m"
+beam = "driven"
+[motion]
+duration = "0.1 s"
+top = { sine = { amplitude = "10 mm", frequency = "3 Hz" } }
+"#;
+
+const SHAKEN: &str = r#"
+[load]
+top = "2 kN/m"
+[motion]
+duration = "2 s"
+base = { synthetic = { seed = 3, pga = "0.8 g", duration = "4 s" } }
+"#;
+
+fn ready(text: &str) -> Prepared {
+    let file = from_str(text, Syntax::Toml, None).unwrap();
+    file.validate().unwrap();
+    prepare(file.case.clone(), Path::new("")).unwrap()
+}
+
+fn outcome(text: &str) -> Outcome {
+    let out = run_in_memory(&ready(text)).unwrap();
+    assert_eq!(out.stop_reason, StopReason::Completed);
+    out
+}
+
+fn edited(text: &str, edit: impl FnOnce(&mut Case)) -> Prepared {
+    let mut case = from_str(text, Syntax::Toml, None).unwrap().case;
+    edit(&mut case);
+    prepare(case, Path::new("")).unwrap()
+}
+
+fn channel<'a>(out: &'a Outcome, name: &str) -> Vec<f64> {
+    let c = out.layout.channels.iter().position(|c| c.name == name).unwrap();
+    out.recording.values.chunks(out.layout.channels.len()).map(|row| row[c]).collect()
+}
+
+/// The 6 × 4 panel: 27 blocks in courses of 4 and 5, 4 + 5·8 + 5·… joints as counted by hand.
+#[test]
+fn joints_of_the_six_by_four_panel() {
+    use concio::case::JointKind::*;
+    let model = ready(&format!("{PANEL}{SLIPPING}")).model;
+    assert_eq!(model.wall.blocks.len(), 27);
+    let count = |kind| model.joints.iter().filter(|j| j.kind == kind).count();
+    // Bed: 5 interfaces of 8 half-brick contacts. Head: 3 in each course of 4, 4 in each of 5.
+    assert_eq!((count(Base), count(Bed), count(Head), count(Top)), (4, 40, 21, 5));
+    // w = 2ℓ/L: a brick on the base 2; (L − t)/2 of overlap 0.96.
+    for joint in &model.joints {
+        let expected = match joint.kind {
+            Base => 2.0,
+            Bed => 0.96,
+            Top if joint.overlap < 0.2 => 0.96,
+            Top => 2.0,
+            _ => 1.0,
+        };
+        assert!((joint.weight - expected).abs() < 1e-12, "{:?}", joint);
+    }
+}
+
+/// Statics: what the base joints carry is the weight of the wall and q times the length of the top course.
+#[test]
+fn transmitted_loads_add_up_to_weight_and_top_load() {
+    for extra in ["", "[[panel]]\nbond = \"stack\"\ncourses = 4\nbricks = 3\n"] {
+        let text = format!("{PANEL}{SLIPPING}").replace("[joint]", &format!("{extra}[joint]"));
+        let model = ready(&text).model;
+        let weight: f64 = model.wall.blocks.iter().map(|b| b.weight()).sum();
+        let top: f64 = model
+            .wall
+            .blocks
+            .iter()
+            .filter(|b| b.course + 1 == model.wall.panels[b.panel].courses)
+            .map(|b| b.length() * 1e4)
+            .sum();
+        let base: f64 = model
+            .rubs
+            .iter()
+            .filter(|r| model.joints[r.joint as usize].kind == concio::case::JointKind::Base)
+            .map(|r| r.normal[0])
+            .sum();
+        assert!((base / (weight + top) - 1.0).abs() < 1e-12, "{base} against {}", weight + top);
+    }
+}
+
+/// A wall under its own statics: with stiffness alone, a constant base acceleration settles where the base shear is
+/// the inertia force of the whole mass.
+#[test]
+fn base_shear_balances_inertia() {
+    let text = format!("{PANEL}[load]\ntop = 0\n[motion]\nduration = \"0.2 s\"\nbase = {{ pulse = {{ shape = \"rectangular\", acceleration = \"0.1 g\", duration = \"1 s\" }} }}\n");
+    let p = edited(&text, |c| {
+        c.joint.friction.law = concio::case::FrictionLaw::None;
+        c.joint.damping_ratio = 0.5;
+    });
+    let out = run_in_memory(&p).unwrap();
+    let shear = *channel(&out, "base/shear").last().unwrap();
+    let mass: f64 = p.model.mass.iter().sum();
+    // Mass times base acceleration; blocks are at rest relative to the base by then.
+    assert!((shear / (mass * 0.981) - 1.0).abs() < 1e-6, "{shear} against {}", mass * 0.981);
+}
+
+#[test]
+fn energy_balances_in_every_regime() {
+    let irregular = r#"
+model = "shear"
+set = "report"
+[[panel]]
+bond = "irregular"
+random = { seed = 5, width = "1.2 m", length = ["150 mm", "300 mm"], height = ["50 mm", "80 mm"], stagger = "30 mm" }
+courses = 6
+[[panel]]
+bond = "stack"
+courses = 5
+bricks = 3
+[joint]
+friction = { law = "stribeck", static = 0.4, dynamic = 0.28 }
+[load]
+top = "20 kN/m"
+beam = { mass = "4 t" }
+[motion]
+duration = "1 s"
+base = { sine = { acceleration = "0.8 g", frequency = "4 Hz" } }
+"#;
+    let cases = [
+        ("slipping", format!("{PANEL}{SLIPPING}")),
+        ("shaken", format!("{PANEL}{SHAKEN}")),
+        ("frictionless", format!("{PANEL}{SLIPPING}").replace("law = \"stribeck\"", "law = \"none\"")),
+        ("report preset", format!("{PANEL}{SLIPPING}").replace("dynamic = 0.42", "dynamic = 0.42, preset = \"report\"")),
+        ("irregular, two panels, floor", irregular.to_string()),
+    ];
+    for (name, text) in cases {
+        let out = outcome(&text);
+        let residual = residual_relative(&out);
+        assert!(residual <= 1e-3, "{name}: residual {residual:e}");
+        assert!(out.energies.input() > 0.0 && out.energies.damping > 0.0, "{name}: {:?}", out.energies);
+        assert_eq!(out.energies.nonreciprocal != 0.0, name == "report preset", "{name}: {:?}", out.energies);
+        let joints: f64 = out.envelopes.joint_dissipation.iter().sum();
+        let account = out.energies.damping + out.energies.friction;
+        assert!((joints / account - 1.0).abs() < 1e-9, "{name}: joints {joints} against account {account}");
+    }
+}
+
+/// The wall slips, and head joints open: what the slipping case is there for.
+#[test]
+fn the_driven_panel_slips_and_opens() {
+    let out = outcome(&format!("{PANEL}{SLIPPING}"));
+    assert!(out.totals.peak_slip_velocity > 1e-2, "{:?}", out.totals);
+    assert!(out.envelopes.joint_opening.iter().any(|&g| g > 1e-7));
+    // No interpenetration beyond what κ allows: closing force over κ K_V.
+    assert!(out.totals.minimum_gap > -1e-6, "{}", out.totals.minimum_gap);
+}
+
+/// Mirror image: reversing the motion of a symmetric wall reverses the response. Head joints are no exception,
+/// because left and right change places. Smooth regime, where round-off is not amplified.
+#[test]
+fn mirrored_motion_mirrors_the_response() {
+    let text = format!("{PANEL}{SHAKEN}");
+    let one = outcome(&text);
+    let other = outcome(&text.replace("base = {", "base = {").replace("pga = \"0.8 g\"", "pga = \"0.8 g\""));
+    assert_eq!(one, other, "same input, same bits");
+    let sine = |sign: &str| {
+        outcome(&format!(
+            "{PANEL}[load]\ntop = \"2 kN/m\"\n[motion]\nduration = \"0.5 s\"\nbase = {{ sine = {{ acceleration = \"{sign}0.5 g\", frequency = \"5 Hz\" }} }}\n"
+        ))
+    };
+    let (plus, minus) = (sine(""), sine("-"));
+    let (a, b) = (channel(&plus, "top/displacement"), channel(&minus, "top/displacement"));
+    let peak = a.iter().fold(0.0f64, |p, x| p.max(x.abs()));
+    for (x, y) in a.iter().zip(&b) {
+        assert!((x + y).abs() < 1e-6 * peak, "{x} against {y}");
+    }
+}
+
+/// A tied beam is a driven beam that follows the base; both are the base carried to the top.
+#[test]
+fn tied_beam_equals_a_driven_one_with_the_same_motion() {
+    let motion = |beam: &str, top: &str| {
+        format!(
+            "{PANEL}[load]\ntop = \"5 kN/m\"\nbeam = \"{beam}\"\n[motion]\nduration = \"0.5 s\"\nbase = {{ sine = {{ acceleration = \"0.5 g\", frequency = \"5 Hz\" }} }}\n{top}"
+        )
+    };
+    let tied = outcome(&motion("tied", ""));
+    let driven = outcome(&motion("driven", "top = { sine = { acceleration = \"0.5 g\", frequency = \"5 Hz\" } }\n"));
+    let (a, b) = (channel(&tied, "peak/displacement"), channel(&driven, "peak/displacement"));
+    let peak = a.iter().fold(0.0f64, |p, x| p.max(x.abs()));
+    for (x, y) in a.iter().zip(&b) {
+        assert!((x - y).abs() < 1e-9 * peak, "{x} against {y}");
+    }
+}
+
+/// Runs side by side on two threads give the bits of runs one after the other.
+#[test]
+fn same_bits_on_any_number_of_threads() {
+    let p = ready(&format!("{PANEL}{SLIPPING}"));
+    let alone = run_in_memory(&p).unwrap();
+    let together: Vec<Outcome> = std::thread::scope(|s| {
+        let handles: Vec<_> = (0..2).map(|_| s.spawn(|| run_in_memory(&p).unwrap())).collect();
+        handles.into_iter().map(|h| h.join().unwrap()).collect()
+    });
+    for out in together {
+        assert_eq!(out, alone);
+    }
+}
+
+/// A state saved anywhere and restored into a new simulation continues with the same bits.
+#[test]
+fn a_restored_state_continues_with_the_same_bits() {
+    for text in [format!("{PANEL}{SLIPPING}"), format!("{PANEL}{SHAKEN}")] {
+        let p = ready(&text);
+        let whole = run_in_memory(&p).unwrap();
+        let new = || Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
+        let mut rows = concio::record::Recording::default();
+        let mut run = new();
+        let mut stride = 1;
+        let reason = loop {
+            let progress = run.advance(stride);
+            rows.append(run.recording());
+            run.clear_recording();
+            if let Progress::Ended(reason) = progress {
+                break reason;
+            }
+            let bytes = run.save();
+            run = new();
+            assert!(run.restore(&bytes));
+            stride = stride * 3 % 1009;
+        };
+        assert_eq!(run.outcome(rows, reason), whole);
+    }
+}
+
+#[test]
+fn a_foreign_state_is_refused() {
+    let p = ready(&format!("{PANEL}{SHAKEN}"));
+    let other = ready(&format!("{PANEL}{SHAKEN}").replace("courses = 6", "courses = 5"));
+    let bytes = Simulation::new(&other.model, &other.case.solver, &other.sampling).unwrap().save();
+    let mut run = Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
+    assert!(!run.restore(&bytes));
+    assert!(!run.restore(&bytes[..bytes.len() / 2]));
+}
+
+/// The stiffness factor takes the elastic force away and leaves the damping (case 5 of the report).
+#[test]
+fn a_stiffness_factor_of_zero_leaves_the_damping() {
+    let text = format!("{PANEL}{SLIPPING}");
+    let model = |factor: f64| edited(&text, |c| c.joint.bed.stiffness_factor = factor).model;
+    let (with, without): (Model, Model) = (model(1.0), model(0.0));
+    for ((a, b), joint) in with.elastic.iter().zip(&without.elastic).zip(&with.joints) {
+        assert_eq!(a.damping, b.damping);
+        assert_eq!(b.stiffness == 0.0, joint.kind != concio::case::JointKind::Head, "{joint:?}");
+    }
+}
+
+/// A floor so heavy that nothing moves it is a tied beam seen from above: as M grows, a free-floating beam under a
+/// moving base stays where it is in space.
+#[test]
+fn a_very_heavy_beam_stays_in_space() {
+    let text = format!(
+        "{PANEL}[load]\ntop = \"5 kN/m\"\nbeam = {{ mass = 1e12 }}\n[motion]\nduration = \"0.2 s\"\nbase = {{ sine = {{ amplitude = \"1 mm\", frequency = \"5 Hz\", ramp = \"0.2 s\" }} }}\n"
+    );
+    let out = outcome(&text);
+    let (beam, base) = (channel(&out, "beam/displacement"), channel(&out, "base/displacement"));
+    for (x, y) in beam.iter().zip(&base) {
+        assert!((x + y).abs() < 1e-8, "beam {x} relative to a base at {y}");
+    }
+}
