@@ -111,7 +111,9 @@ fn transmitted_loads_add_up_to_weight_and_top_load() {
 /// the inertia force of the whole mass.
 #[test]
 fn base_shear_balances_inertia() {
-    let text = format!("{PANEL}[load]\ntop = 0\n[motion]\nduration = \"0.2 s\"\nbase = {{ pulse = {{ shape = \"rectangular\", acceleration = \"0.1 g\", duration = \"1 s\" }} }}\n");
+    let text = format!(
+        "{PANEL}[load]\ntop = 0\n[motion]\nduration = \"0.2 s\"\nbase = {{ pulse = {{ shape = \"rectangular\", acceleration = \"0.1 g\", duration = \"1 s\" }} }}\n"
+    );
     let p = edited(&text, |c| {
         c.joint.friction.law = concio::case::FrictionLaw::None;
         c.joint.damping_ratio = 0.5;
@@ -149,7 +151,10 @@ base = { sine = { acceleration = "0.8 g", frequency = "4 Hz" } }
         ("slipping", format!("{PANEL}{SLIPPING}")),
         ("shaken", format!("{PANEL}{SHAKEN}")),
         ("frictionless", format!("{PANEL}{SLIPPING}").replace("law = \"stribeck\"", "law = \"none\"")),
-        ("report preset", format!("{PANEL}{SLIPPING}").replace("dynamic = 0.42", "dynamic = 0.42, preset = \"report\"")),
+        (
+            "report preset",
+            format!("{PANEL}{SLIPPING}").replace("dynamic = 0.42", "dynamic = 0.42, preset = \"report\""),
+        ),
         ("irregular, two panels, floor", irregular.to_string()),
     ];
     for (name, text) in cases {
