@@ -60,9 +60,17 @@ pub fn draw(subject: &Subject, paint: Paint) -> String {
     let view = View::of(subject.wall);
     let mut canvas = Canvas::default();
     supports(&mut canvas, &view, subject);
-    mortar(&mut canvas, &view, subject.wall);
-    blocks(&mut canvas, &view, subject, paint);
-    joints(&mut canvas, &view, subject, paint);
+    // In a large wall what does not carry the values would only hide them, at the cost of megabytes.
+    let large = !is_detailed(subject);
+    if large && matches!(paint, Paint::Joints(_)) {
+        outlines(&mut canvas, &view, subject.wall);
+    } else {
+        mortar(&mut canvas, &view, subject.wall);
+        blocks(&mut canvas, &view, subject, paint);
+    }
+    if !(large && matches!(paint, Paint::Blocks(_))) {
+        joints(&mut canvas, &view, subject, paint);
+    }
     if let Paint::Kinds = paint {
         joint_names(&mut canvas, &view, subject);
     }
@@ -73,6 +81,11 @@ pub fn draw(subject: &Subject, paint: Paint) -> String {
     }
     let label = format!("wall of {} blocks and {} joints", subject.wall.blocks.len(), subject.joints.len());
     canvas.finish(view.size, &label)
+}
+
+/// Whether each block and joint is an element of its own.
+fn is_detailed(subject: &Subject) -> bool {
+    subject.wall.blocks.len() + subject.joints.len() <= DETAILED
 }
 
 /// From metres to pixels.
@@ -130,11 +143,28 @@ fn supports(canvas: &mut Canvas, view: &View, subject: &Subject) {
     }
 }
 
+/// A rectangle around each panel.
+fn outlines(canvas: &mut Canvas, view: &View, wall: &Wall) {
+    for panel in 0..wall.panels.len() {
+        let mut b = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+        for block in wall.blocks.iter().filter(|b| b.panel == panel) {
+            b = [b[0].min(block.x[0]), b[1].min(block.y[0]), b[2].max(block.x[1]), b[3].max(block.y[1])];
+        }
+        if b[0] < b[2] {
+            canvas.path(&rectangle(view.rectangle([b[0], b[2]], [b[1], b[3]])), r##"fill="#f3f1ed""##, None);
+        }
+    }
+}
+
 /// Every block with half a joint around it, in one path: what is not covered by blocks afterwards is mortar.
 fn mortar(canvas: &mut Canvas, view: &View, wall: &Wall) {
     let mut d = String::new();
     for block in &wall.blocks {
         let panel = &wall.panels[block.panel];
+        // Thinner than that it cannot be seen.
+        if panel.mortar.iter().all(|t| t * view.scale < 0.4) {
+            continue;
+        }
         let half = panel.mortar.map(|t| 0.5 * t);
         let low = (block.y[0] - panel.mortar[0]).max(view.bounds[1]);
         let x = [block.x[0] - half[1], block.x[1] + half[1]].map(|x| x.clamp(view.bounds[0], view.bounds[2]));
@@ -154,7 +184,7 @@ fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
         _ => None,
     };
     let outline = |i: usize| view.rectangle(wall.blocks[i].x, wall.blocks[i].y);
-    if wall.blocks.len() + subject.joints.len() > DETAILED {
+    if !is_detailed(subject) {
         for (fill, members) in shades((0..wall.blocks.len()).map(fraction)) {
             let d: String = members.iter().map(|&i| rectangle(outline(i))).collect();
             canvas.path(&d, &attributes(&fill), None);
@@ -185,7 +215,7 @@ fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
 
 fn joints(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
     let thin = (0.003 * view.scale).clamp(0.5, 1.6);
-    let detailed = subject.wall.blocks.len() + subject.joints.len() <= DETAILED;
+    let detailed = is_detailed(subject);
     let data = |e: usize| line(view.line(subject.joints[e].line));
     let Paint::Joints(field) = paint else {
         for kind in KINDS {
@@ -224,7 +254,7 @@ fn joints(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
 }
 
 fn joint_names(canvas: &mut Canvas, view: &View, subject: &Subject) {
-    if subject.wall.blocks.len() + subject.joints.len() > DETAILED {
+    if !is_detailed(subject) {
         return;
     }
     canvas.open_halo();
