@@ -61,7 +61,7 @@ fn channel<'a>(out: &'a Outcome, name: &str) -> Vec<f64> {
     out.recording.values.chunks(out.layout.channels.len()).map(|row| row[c]).collect()
 }
 
-/// The 6 × 4 panel: 27 blocks in courses of 4 and 5, 4 + 5·8 + 5·… joints as counted by hand.
+/// The 6 × 4 panel: 27 blocks in courses of 4 and 5, joints as counted by hand.
 #[test]
 fn joints_of_the_six_by_four_panel() {
     use concio::case::JointKind::*;
@@ -183,10 +183,6 @@ fn the_driven_panel_slips_and_opens() {
 /// because left and right change places. Smooth regime, where round-off is not amplified.
 #[test]
 fn mirrored_motion_mirrors_the_response() {
-    let text = format!("{PANEL}{SHAKEN}");
-    let one = outcome(&text);
-    let other = outcome(&text.replace("base = {", "base = {").replace("pga = \"0.8 g\"", "pga = \"0.8 g\""));
-    assert_eq!(one, other, "same input, same bits");
     let sine = |sign: &str| {
         outcome(&format!(
             "{PANEL}[load]\ntop = \"2 kN/m\"\n[motion]\nduration = \"0.5 s\"\nbase = {{ sine = {{ acceleration = \"{sign}0.5 g\", frequency = \"5 Hz\" }} }}\n"
