@@ -3,8 +3,10 @@
 //! Both are written so that the process may be killed at any instant. A checkpoint belongs to a length of the journal;
 //! resuming cuts the journal to that length and goes on from there. `journal.bin` is a header and blocks:
 //!
-//!     block   = kind (1 byte) | length of payload (8 bytes, little-endian) | payload | digest (32 bytes)
-//!     digest  = BLAKE3(digest of the block before | kind | length | payload)
+//! ```text
+//! block   = kind (1 byte) | length of payload (8 bytes, little-endian) | payload | digest (32 bytes)
+//! digest  = BLAKE3(digest of the block before | kind | length | payload)
+//! ```
 //!
 //! so a digest stands for everything up to it. A checkpoint holds the digest at its length: if the journal was
 //! changed, cut short or mixed with another one, the two do not match and the run starts anew.
