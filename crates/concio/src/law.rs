@@ -48,6 +48,12 @@ impl Stribeck {
     }
 }
 
+/// Elastic force of a joint at relative displacement `d` [N].
+#[inline]
+pub fn spring_force(unilateral: bool, stiffness: f64, d: f64) -> f64 {
+    if unilateral && d <= 0.0 { 0.0 } else { stiffness * d }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
