@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
+mod api;
 mod command;
 mod documents;
 mod examples;
@@ -66,9 +67,7 @@ fn ci(root: &Path) -> Outcome {
         }),
         ("build", &|| build(root)),
         ("tests", &|| tests(root, python.as_deref())),
-        ("API documentation", &|| {
-            run(cargo(root).args(["doc", "--release", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
-        }),
+        ("API documentation", &|| api::check(root)),
         ("generated documents", &|| documents::check(root)),
         ("links", &|| links::check(root)),
         ("examples", &|| examples::run_all(root)),

@@ -138,7 +138,7 @@ fn largest_difference(ours: &Path, theirs: &Path) -> Result<f64, String> {
     let header = lines.next().unwrap_or("");
     let is_block = |name: &str| name.trim_matches('"').starts_with("block/") && name.contains("/displacement");
     let columns: Vec<usize> = header.split(',').enumerate().filter(|(_, n)| is_block(n)).map(|(k, _)| k).collect();
-    if columns.is_empty() || values.len() % columns.len() != 0 {
+    if columns.is_empty() || !values.len().is_multiple_of(columns.len()) {
         return Err(format!("{} columns of blocks, {} values of CVODE", columns.len(), values.len()));
     }
     let rows: Vec<&str> = lines.skip(1).collect();

@@ -25,26 +25,17 @@ pub struct Cli {
     pub command: Command,
 }
 
-/// The commands.
+/// The commands; what they do is said at their arguments.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Simulate a wall and write its results and report.
     Run(Run),
-    /// Validate a wall file and say what it describes.
     Check(Check),
-    /// Write a commented wall file to start from.
     New(New),
-    /// Print the JSON Schema of the wall file.
     Schema(Schema),
-    /// Measure and draw an accelerogram.
     Record(Record),
-    /// Print the assembled system as JSON, for other solvers.
     System(System),
-    /// Convert a result to CSV, NPZ or VTKHDF.
     Export(Export),
-    /// Draw the report of a result again.
     Plot(Plot),
-    /// Print the completions of a shell.
     Completions(Completions),
     /// Print this reference as Markdown.
     #[command(hide = true)]

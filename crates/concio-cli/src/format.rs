@@ -8,9 +8,9 @@ pub fn si(value: f64, unit: &str) -> String {
         return format!("{value} {unit}").trim_end().into();
     }
     // Rounded first: 999.96 reads 1.000 k, not 1000.
-    let size = significant(value.abs(), 4).parse::<f64>().unwrap_or(value.abs());
-    match PREFIXES.iter().find(|(_, factor)| size >= *factor) {
-        Some((prefix, factor)) if size < 1e12 => format!("{} {prefix}{unit}", significant(value / factor, 4)),
+    let value: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    match PREFIXES.iter().find(|(_, factor)| value.abs() >= *factor) {
+        Some((prefix, factor)) if value.abs() < 1e12 => format!("{} {prefix}{unit}", significant(value / factor, 4)),
         _ => format!("{value:.3e} {unit}"),
     }
 }

@@ -12,13 +12,17 @@ use crate::files;
 /// Converts the result of a run.
 pub fn export(args: &Export) -> Result<(), Failure> {
     let run = stored(&args.dir)?;
-    let (name, write): (&str, fn(&StoredRun, &Path) -> concio::Result<()>) = match args {
-        Export { csv: true, .. } => ("csv", export::csv),
-        Export { npz: true, .. } => ("result.npz", export::npz),
-        _ => ("result.vtkhdf", export::vtkhdf),
-    };
-    let out = args.out.clone().unwrap_or_else(|| args.dir.join(name));
-    write(&run, &out)?;
+    let out = |name| args.out.clone().unwrap_or_else(|| args.dir.join(name));
+    let out = if args.csv {
+        let out = out("csv");
+        export::csv(&run, &out).map(|()| out)
+    } else if args.npz {
+        let out = out("result.npz");
+        export::npz(&run, &out).map(|()| out)
+    } else {
+        let out = out("result.vtkhdf");
+        export::vtkhdf(&run, &out).map(|()| out)
+    }?;
     files::note(&format!("{} is written.", out.display()));
     Ok(())
 }

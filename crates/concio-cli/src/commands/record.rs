@@ -131,6 +131,7 @@ fn drawing(history: &History, m: &Measures, spectrum: &Spectrum) -> String {
             unit,
             curves: vec![Curve { name: "", x: &t, y }],
             height: 240.0,
+            right: curves::NO_LEGEND,
         })
     };
     let title = [&history.event, &history.station, &history.channel].map(String::as_str).into_iter();
@@ -149,6 +150,7 @@ fn drawing(history: &History, m: &Measures, spectrum: &Spectrum) -> String {
         unit: "m/s²",
         curves: vec![Curve { name: "", x: &spectrum.periods, y: &spectrum.psa }],
         height: 300.0,
+        right: curves::NO_LEGEND,
     }));
     curves::stack(&figures)
 }

@@ -8,6 +8,12 @@ use kuva::render::render::render_multiple;
 
 /// Width of a figure [px].
 const WIDTH: f64 = 900.0;
+/// Room to the left for the numbers of the axis [px].
+const LEFT: f64 = 74.0;
+/// Room to the right of figures without a legend [px].
+pub const NO_LEGEND: f64 = 24.0;
+/// Room to the right of figures with a legend [px].
+pub const LEGEND: f64 = 190.0;
 /// Columns of pixels that a curve covers; more points than two in a column cannot be seen.
 const COLUMNS: usize = 700;
 
@@ -37,6 +43,8 @@ pub struct Figure<'a> {
     pub curves: Vec<Curve<'a>>,
     /// Height [px].
     pub height: f64,
+    /// Room to the right for the legend [px]: equal in figures whose time axes are to be compared.
+    pub right: f64,
 }
 
 /// Colours and dash patterns of the curves; the colours differ in brightness too.
@@ -45,8 +53,8 @@ const STYLES: [(&str, &str); 8] = [
     ("#c0390b", "7 3"),
     ("#2a8f4f", "2 3"),
     ("#8a5bb5", "9 3 2 3"),
-    ("#d08a00", "12 4"),
-    ("#555555", "4 2"),
+    ("#d08a00", "4 1.5"),
+    ("#555555", "12 4"),
     ("#1fa3b8", "1 2"),
     ("#b03a7e", "10 2 2 2 2 2"),
 ];
@@ -84,6 +92,7 @@ pub fn draw(figure: &Figure) -> String {
         .with_tick_size(11)
         .with_body_size(11)
         .with_font_family("DejaVu Sans, Arial, sans-serif")
+        .with_force_margins(LEFT, figure.right)
         .with_x_label(figure.x_label)
         .with_y_label(y_label)
         .with_legend_position(LegendPosition::OutsideRightTop);
@@ -186,6 +195,7 @@ mod tests {
             unit: "m",
             curves: vec![Curve { name: "", x, y }],
             height: 260.0,
+            right: NO_LEGEND,
         };
         for (x, y) in [(&[][..], &[][..]), (&[0.0, 1.0], &[0.0, 0.0]), (&[0.0, 1.0], &[f64::NAN, f64::INFINITY])] {
             assert!(draw(&figure(x, y)).starts_with("<svg viewBox="));

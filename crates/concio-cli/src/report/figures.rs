@@ -42,6 +42,7 @@ pub fn histories(content: &Content) -> Vec<String> {
                 unit,
                 curves: shown,
                 height: 250.0,
+                right: curves::LEGEND,
             }));
         }
     };
@@ -74,6 +75,7 @@ pub fn energies(content: &Content) -> Vec<String> {
         unit: "J",
         curves,
         height: 340.0,
+        right: curves::LEGEND,
     };
     let mut figures = vec![curves::draw(&account)];
     if let Some(residual) = content.history("energy/residual") {

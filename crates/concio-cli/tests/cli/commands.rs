@@ -6,8 +6,7 @@ use std::process::{Command, Stdio};
 use serde_json::Value;
 use snapbox::str;
 
-mod support;
-use support::{Desk, PROGRAM, WALL};
+use crate::support::{Desk, PROGRAM, WALL};
 
 #[test]
 fn run_writes_its_files_and_names_the_report() {
@@ -70,6 +69,7 @@ fn the_report_needs_nothing_else() {
     for part in ["Small wall", "Energy by mechanism", "Summary", "When not to believe", "[[panel]]", "p1c4b2"] {
         assert!(report.contains(part), "{part}");
     }
+    let report = report.replace("url(#", "within(");
     for reference in ["src=", "href=", "@import", "url(", "<script"] {
         assert!(!report.contains(reference), "{reference}");
     }
@@ -119,13 +119,17 @@ fn check_says_what_the_wall_is() {
 Small wall
 
   panel  courses  blocks     width    height      mass
-  p1           4      10  510.0 mm  260.0 mm  23.78 kg
+  p1           4      10  510.0 mm  260.0 mm  23.98 kg
 
   joints  number                stiffness  friction         normal force
-  base         2               108.0 MN/m     0.600  2.616 kN … 2.616 kN
-[..]
+  base         2               108.0 MN/m     0.600             2.568 kN
+  bed         12               51.84 MN/m     0.600  [..]
+  head         6               54.00 GN/m         –                    –
+  top          3  51.84 MN/m … 108.0 MN/m     0.600  1.200 kN … 2.500 kN
+  all         23
+
   unknowns  10
-  mass      23.78 kg
+  mass      23.98 kg
   motion    0.05 s, 2001 samples kept
 
 wall.toml is a valid wall file.
