@@ -338,8 +338,8 @@ fn a_driven_beam_has_its_acceleration() {
     let a = &run.state().a;
     assert!((a[p.model.top()] / beam - 1.0).abs() < 1e-9, "{} against {beam}", a[p.model.top()]);
     for joint in p.model.joints.iter().filter(|j| j.kind == concio::case::JointKind::Top) {
-        // Seven equal interfaces: the top course has about 13/14 of the beam's motion.
-        assert!((a[joint.a] / beam - 13.0 / 14.0).abs() < 0.05, "{} with a beam of {beam}", a[joint.a]);
+        // Seven springs in a row, nearly equal: the top course has about 6/7 of the motion of the beam.
+        assert!((a[joint.a] / beam - 6.0 / 7.0).abs() < 0.02, "{} with a beam of {beam}", a[joint.a]);
     }
 }
 
