@@ -1,4 +1,4 @@
-//! The motion of base and top beam as the equations see it: in coordinates relative to the base (model, section 2).
+//! The motion of base and top beam as the equations see it: in coordinates relative to the base (theory, section 2).
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! Blocks → joints, from geometry alone; and the vertical load that each joint carries (model, sections 1 and 3).
+//! Blocks → joints, from geometry alone; and the vertical load that each joint carries (theory, sections 1 and 3).
 
 use crate::case::{JointKind, NormalForce};
 use crate::pattern::CONTACT_TOLERANCE;

@@ -1,5 +1,5 @@
 //! The compiled system: immutable arrays that the time loop reads. One horizontal unknown per block, and one for
-//! a top beam with mass (model, sections 2 and 3).
+//! a top beam with mass (theory, sections 2 and 3).
 
 use std::collections::{BTreeSet, HashMap};
 

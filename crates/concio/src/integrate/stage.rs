@@ -8,7 +8,7 @@
 //! * Where the tangent of (6) misses the law by much, the next tangent is not taken at the new velocity w but where
 //!   the law meets the line through the new point (w, f) of slope −Z, Z being the impedance τ⁻¹(1/J_aa + 1/J_bb)⁻¹
 //!   that the joint sees with its neighbours held. On the steep branch this follows the force, on the flat one the
-//!   velocity, as limiting does for diodes in circuit simulators; plain Newton cycles between the two (model,
+//!   velocity, as limiting does for diodes in circuit simulators; plain Newton cycles between the two (theory,
 //!   section 6).
 //! * Unilateral joints keep an active set; a joint whose state changes makes another iteration.
 //!
