@@ -756,7 +756,7 @@ pub struct Solver {
     /// Relative tolerance of the local error against the largest motion so far, 1e-12 … 0.1. Default 1e-3.
     #[schemars(range(min = 1e-12, max = 0.1))]
     pub tolerance: f64,
-    /// Displacement [m] below which errors do not count, above 0. Default 1e-12.
+    /// Displacement [m] below which errors do not count, above 0. Default 1e-14.
     pub floor: Length,
     /// Longest step [s], above 0; default none but the sample interval of the records.
     #[serde(skip_serializing_if = "Option::is_none")]

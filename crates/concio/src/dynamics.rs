@@ -1,20 +1,58 @@
 //! Forces, envelopes and sampled channels from a state.
 
+use std::collections::HashMap;
+
 use crate::case::JointKind;
 use crate::error::{InputError, Result};
 use crate::excitation::Drive;
-use crate::integrate::stage::{power, spring_force};
+use crate::law::spring_force;
 use crate::model::Model;
 use crate::record::{Channel, Energies};
-use crate::state::State;
+use crate::state::{Power, State};
 
 /// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N].
 fn joint_forces(model: &Model, state: &State, rub: Option<usize>, joint: usize) -> (f64, f64, f64) {
     let [a, b] = model.sides[joint].map(|s| s as usize);
     let (d, w) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
     let law = &model.elastic[joint];
-    let friction = rub.map_or(0.0, |r| model.rubs[r].normal[0] * model.rubs[r].law.value(w));
+    let friction = rub.map_or(0.0, |r| model.rubs[r].normal[0] * state.tangents.mu[r]);
     (spring_force(law.unilateral, law.stiffness, d), law.damping * w, friction)
+}
+
+/// Rates of the energy account, and of each joint's dissipation into `joint` [W], at velocities `v`.
+/// `mu` are the laws there; `z` displacements, for the force on the top.
+pub fn power(model: &Model, z: &[f64], v: &[f64], mu: &[f64], ground: f64, joint: &mut [f64]) -> Power {
+    let mut p = Power::default();
+    for (m, v) in model.mass.iter().zip(v) {
+        p.base -= m * v;
+    }
+    p.base *= ground;
+    let top = model.top();
+    let mut pull = 0.0;
+    for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
+        let (a, b) = (a as usize, b as usize);
+        let w = v[a] - v[b];
+        joint[e] = law.damping * w * w;
+        p.damping += joint[e];
+        if b == top {
+            pull += law.damping * w + spring_force(law.unilateral, law.stiffness, z[a] - z[b]);
+        }
+    }
+    for (rub, &mu) in model.rubs.iter().zip(mu) {
+        let [a, b] = model.sides[rub.joint as usize];
+        let (a, b) = (a as usize, b as usize);
+        let lost = 0.5 * (rub.normal[0] + rub.normal[1]) * mu * (v[a] - v[b]);
+        p.friction += lost;
+        joint[rub.joint as usize] += lost;
+        if !model.reciprocal && b < model.unknowns() {
+            p.nonreciprocal += 0.5 * (rub.normal[0] - rub.normal[1]) * mu * (v[a] + v[b]);
+        }
+        if b == top {
+            pull += rub.normal[0] * mu;
+        }
+    }
+    p.top = -pull * v[top];
+    p
 }
 
 /// Makes accelerations, powers and tangents consistent with displacements, velocities and motion at `state.t`:
@@ -22,9 +60,9 @@ fn joint_forces(model: &Model, state: &State, rub: Option<usize>, joint: usize) 
 pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
     let n = model.unknowns();
     let ground = drive.base_acceleration(state.t);
-    let (u1, v1) = drive.top(state.t);
-    state.z[n + 1] = u1;
-    state.v[n + 1] = v1;
+    let top = drive.top(state.t);
+    state.z[n + 1] = top.u;
+    state.v[n + 1] = top.v;
     state.a.fill(0.0);
     for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
         let (a, b) = (a as usize, b as usize);
@@ -50,7 +88,7 @@ pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
         *a = *a / m - ground;
     }
     state.a[n] = 0.0;
-    state.a[n + 1] = 0.0;
+    state.a[n + 1] = top.a;
     state.power = power(model, &state.z, &state.v, &state.tangents.mu, ground, &mut state.joint_power);
 }
 
@@ -188,9 +226,10 @@ impl Channels {
         let joint_names = model.joint_names();
         let mut watched: Vec<Watched> =
             chosen("output.blocks", "block", blocks, &block_names)?.into_iter().map(Watched::Block).collect();
-        for e in chosen("output.joints", "joint", joints, &joint_names)? {
-            watched.push(Watched::Joint(e, model.rubs.iter().position(|r| r.joint as usize == e)));
-        }
+        let rub = model.rub_of_joint();
+        watched.extend(
+            chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(|e| Watched::Joint(e, rub[e])),
+        );
         let channel =
             |name: String, unit: &str, text: &str| Channel { name, unit: unit.into(), description: text.into() };
         let mut list: Vec<Channel> = ALWAYS.iter().map(|(n, u, d)| channel((*n).into(), u, d)).collect();
@@ -261,9 +300,10 @@ fn chosen(key: &str, what: &str, asked: &[String], names: &[String]) -> Result<V
     if asked.iter().any(|a| a == "all") {
         return Ok((0..names.len()).collect());
     }
+    let places: HashMap<&String, usize> = names.iter().enumerate().map(|(i, n)| (n, i)).collect();
     let mut indices = Vec::with_capacity(asked.len());
     for name in asked {
-        let i = names.iter().position(|n| n == name).ok_or_else(|| {
+        let i = *places.get(name).ok_or_else(|| {
             InputError::new(format!("no {what} is named `{name}`"))
                 .key(key)
                 .allowed(format!("\"all\", or names as `concio check` draws them, for example {}", names[0]))

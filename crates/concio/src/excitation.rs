@@ -1,4 +1,4 @@
-//! The motion of base and top beam as the equations see it: in coordinates relative to the base (model, section 2).
+//! The motion of base and top beam as the equations see it: in coordinates relative to the base (theory, section 2).
 
 use serde_json::{Value, json};
 
@@ -8,6 +8,9 @@ use crate::ground::signal::{GroundMotion, Kinematics, Segment};
 
 /// Samples per period when a closed form is printed for another solver.
 const PRINTED_PER_PERIOD: f64 = 100.0;
+
+/// Samples that are printed at most.
+const MOST_PRINTED: f64 = 1e7;
 
 /// What moves the wall, and for how long.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,14 +46,14 @@ impl Drive {
     pub fn base(&self, t: f64) -> Kinematics {
         self.base.at(t)
     }
-    /// Displacement [m] and velocity [m/s] of the top support relative to the base.
+    /// Motion of the top support relative to the base.
     #[inline]
-    pub fn top(&self, t: f64) -> (f64, f64) {
+    pub fn top(&self, t: f64) -> Kinematics {
         match self.top {
-            None => (0.0, 0.0),
+            None => Kinematics::default(),
             Some(top) => {
                 let (top, base) = (top.at(t), self.base.at(t));
-                (top.u - base.u, top.v - base.v)
+                Kinematics { u: top.u - base.u, v: top.v - base.v, a: top.a - base.a }
             }
         }
     }
@@ -68,8 +71,8 @@ impl Excitation {
 
     /// The motion just after `t`.
     pub fn drive(&self, t: f64) -> Drive {
-        let base = self.base.segment(t);
-        let top = self.driven.then(|| self.top.segment(t));
+        let base = piece(&self.base, t);
+        let top = self.driven.then(|| piece(&self.top, t));
         Drive { base, top, end: base.end.min(top.map_or(f64::INFINITY, |s| s.end)).min(self.duration) }
     }
     /// Longest step that resolves the motion [s].
@@ -85,20 +88,24 @@ impl Excitation {
     /// Motions of base and top as `concio system` prints them. What is not a record is sampled, 100 points a period.
     ///
     /// # Errors
-    /// A driven top that is not a displacement sine, or stands on a moving base: the format cannot say it.
+    /// A driven top that is not a displacement sine, or stands on a moving base; a base motion with jumps: the format
+    /// cannot say it.
     pub fn system_motions(&self, beam: Beam) -> Result<(Value, Value)> {
+        let refuse = |what: &str| {
+            InputError::new(format!("`concio system` cannot print {what}"))
+                .key("motion")
+                .allowed("a base motion without jumps, or a driven top with a displacement sine above a base at rest")
+        };
         let base = match &self.base {
             GroundMotion::AtRest => Value::Null,
-            moving => sampled(moving, self.duration),
+            moving if jumps(moving, self.duration) => {
+                return Err(refuse("a base motion whose acceleration or velocity jumps").into());
+            }
+            moving => sampled(moving, self.duration).ok_or_else(|| refuse("a base motion of so many samples"))?,
         };
         if beam != Beam::Driven {
             return Ok((base, Value::Null));
         }
-        let refuse = |what: &str| {
-            InputError::new(format!("`concio system` cannot print {what}"))
-                .key("motion.top")
-                .allowed("a driven top with a displacement sine above a base at rest, or no driven top")
-        };
         if base != Value::Null {
             return Err(refuse("a driven top above a moving base").into());
         }
@@ -112,10 +119,39 @@ impl Excitation {
     }
 }
 
-fn sampled(motion: &GroundMotion, duration: f64) -> Value {
+/// The piece just after `t`; one that ends within rounding of `t` counts as ended, so that breaks of base and top that
+/// are meant to coincide do.
+fn piece(motion: &GroundMotion, t: f64) -> Segment {
+    let segment = motion.segment(t);
+    if segment.end - t <= 1e-12 * t.abs().max(1e-3) { motion.segment(segment.end) } else { segment }
+}
+
+/// Whether acceleration or velocity jump at a break of the motion.
+fn jumps(motion: &GroundMotion, duration: f64) -> bool {
+    let mut t = 0.0;
+    while t < duration {
+        let before = motion.segment(t);
+        if motion.velocity_jump(t) != 0.0 {
+            return true;
+        }
+        if before.end < duration {
+            let (left, right) = (before.acceleration(before.end), motion.acceleration(before.end));
+            if (left - right).abs() > 1e-9 * left.abs().max(right.abs()) {
+                return true;
+            }
+        }
+        t = before.end;
+    }
+    motion.acceleration(0.0) != 0.0 && motion.sample_interval().is_none()
+}
+
+fn sampled(motion: &GroundMotion, duration: f64) -> Option<Value> {
     let step = motion.longest_useful_step();
     let dt = motion.sample_interval().unwrap_or_else(|| (step * 20.0 / PRINTED_PER_PERIOD).min(duration / 1000.0));
-    let count = (duration / dt).ceil() as usize + 1;
-    let acceleration: Vec<f64> = (0..=count).map(|k| motion.acceleration(k as f64 * dt)).collect();
-    json!({"dt": dt, "acceleration": acceleration})
+    let count = (duration / dt).ceil() + 1.0;
+    if !(count <= MOST_PRINTED) {
+        return None;
+    }
+    let acceleration: Vec<f64> = (0..=count as usize).map(|k| motion.acceleration(k as f64 * dt)).collect();
+    Some(json!({"dt": dt, "acceleration": acceleration}))
 }

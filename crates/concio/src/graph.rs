@@ -1,18 +1,12 @@
-//! Blocks → joints, from geometry alone; and the vertical load that each joint carries (model, sections 1 and 3).
+//! Blocks → joints, from geometry alone; and the vertical load that each joint carries (theory, sections 1 and 3).
 
-use crate::case::{FrictionOn, JointKind, NormalForce};
-use crate::error::{InputError, Result};
+use crate::case::{JointKind, NormalForce};
+use crate::pattern::CONTACT_TOLERANCE;
 use crate::wall::{Block, End, Joint, Wall};
-
-/// Overlaps below this fraction of the reference length are no contact: round-off of the pattern, not geometry.
-const TOLERANCE: f64 = 1e-6;
 
 /// Finds all joints: base, then course by course bed and head joints of each panel, then connections, then the
 /// joints of a top beam if there is one. The order is part of the result format.
-///
-/// # Errors
-/// A block that lies on nothing: no base, no overlap with the course below.
-pub fn joints(wall: &Wall, beam: bool) -> Result<Vec<Joint>> {
+pub fn joints(wall: &Wall, beam: bool) -> Vec<Joint> {
     let courses = courses(wall);
     let mut joints = Vec::new();
     for (panel, rows) in courses.iter().enumerate() {
@@ -21,7 +15,7 @@ pub fn joints(wall: &Wall, beam: bool) -> Result<Vec<Joint>> {
             joints.push(support(wall, i, JointKind::Base, End::Base));
         }
         for (r, row) in rows.iter().enumerate() {
-            heads(wall, row, wall.panels[panel].mortar[1] + TOLERANCE * reference, &mut joints);
+            heads(wall, row, wall.panels[panel].mortar[1] + CONTACT_TOLERANCE * reference, &mut joints);
             if let Some(above) = rows.get(r + 1) {
                 beds(wall, row, above, reference, &mut joints);
             }
@@ -37,8 +31,7 @@ pub fn joints(wall: &Wall, beam: bool) -> Result<Vec<Joint>> {
             }
         }
     }
-    all_supported(wall, &joints)?;
-    Ok(joints)
+    joints
 }
 
 /// Block indices by panel and course, from left to right.
@@ -90,7 +83,7 @@ fn beds(wall: &Wall, below: &[usize], above: &[usize], reference: f64, joints: &
         let (low, high) = (&wall.blocks[below[i]], &wall.blocks[above[j]]);
         let x = [low.x[0].max(high.x[0]), low.x[1].min(high.x[1])];
         let overlap = x[1] - x[0];
-        if overlap > TOLERANCE * reference {
+        if overlap > CONTACT_TOLERANCE * reference {
             let y = 0.5 * (low.y[1] + high.y[0]);
             joints.push(Joint {
                 kind: JointKind::Bed,
@@ -110,9 +103,11 @@ fn beds(wall: &Wall, below: &[usize], above: &[usize], reference: f64, joints: &
 }
 
 /// Joints between the last blocks of one panel and the first of the next, where their heights overlap; the weight
-/// is that height over the left panel's brick height, so that equal courses have weight 1.
+/// is that height over the left panel's brick height, so that equal courses have weight 1. Where a course stands back
+/// by more than the connection's thickness (toothed ends) there is air and no joint.
 fn connections(wall: &Wall, panel: usize, left: &[Vec<usize>], right: &[Vec<usize>], joints: &mut Vec<Joint>) {
     let reference = wall.panels[panel].reference_height;
+    let widest = wall.panels[panel + 1].connection + CONTACT_TOLERANCE * wall.panels[panel].reference_length;
     let (mut r, mut s) = (0, 0);
     while r < left.len() && s < right.len() {
         let (Some(&i), Some(&j)) = (left[r].last(), right[s].first()) else {
@@ -126,32 +121,11 @@ fn connections(wall: &Wall, panel: usize, left: &[Vec<usize>], right: &[Vec<usiz
         };
         let (a, b) = (&wall.blocks[i], &wall.blocks[j]);
         let y = [a.y[0].max(b.y[0]), a.y[1].min(b.y[1])];
-        if y[1] - y[0] > TOLERANCE * reference {
+        if b.x[0] - a.x[1] <= widest && y[1] - y[0] > CONTACT_TOLERANCE * reference {
             let weight = (y[1] - y[0]) / reference;
             joints.push(upright(JointKind::Connection, i, j, a, b, y, weight));
         }
         if a.y[1] < b.y[1] { r += 1 } else { s += 1 }
-    }
-}
-
-fn all_supported(wall: &Wall, joints: &[Joint]) -> Result<()> {
-    let mut rests = vec![false; wall.blocks.len()];
-    for joint in joints {
-        match (joint.kind, joint.b) {
-            (JointKind::Base, _) => rests[joint.a] = true,
-            (JointKind::Bed, End::Block(upper)) => rests[upper] = true,
-            _ => {}
-        }
-    }
-    match rests.iter().position(|&r| !r) {
-        None => Ok(()),
-        Some(i) => Err(InputError::new(format!(
-            "block {} rests on nothing: it overlaps no block of the course below",
-            wall.blocks[i].name
-        ))
-        .key("panel")
-        .allowed(format!("an overlap above {TOLERANCE} of the reference brick's length"))
-        .into()),
     }
 }
 
@@ -165,15 +139,12 @@ pub fn name(wall: &Wall, joint: &Joint) -> String {
     }
 }
 
-/// Normal force of each joint, in the equations of its two sides [N]: `[in a's, in b's]`, for joints that rub.
-/// `load` is q [N/m].
-pub fn normal_forces(wall: &Wall, joints: &[Joint], load: f64, on: FrictionOn, from: NormalForce) -> Vec<[f64; 2]> {
-    let forces = match from {
+/// Normal force of each joint, in the equations of its two sides [N]: `[in a's, in b's]`. `load` is q [N/m].
+pub fn normal_forces(wall: &Wall, joints: &[Joint], load: f64, from: NormalForce) -> Vec<[f64; 2]> {
+    match from {
         NormalForce::Transmitted => transmitted(wall, joints, load),
         NormalForce::Overburden => overburden(wall, joints, load),
-    };
-    let rubs = |kind| on == FrictionOn::All || matches!(kind, JointKind::Bed | JointKind::Base | JointKind::Top);
-    joints.iter().zip(forces).map(|(joint, n)| if rubs(joint.kind) { n } else { [0.0; 2] }).collect()
+    }
 }
 
 /// Weight and top load handed down course by course in proportion to the overlaps. Head joints carry nothing.

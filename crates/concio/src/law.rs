@@ -1,4 +1,4 @@
-//! Joint laws as functions of relative displacement and velocity (model, section 3).
+//! Joint laws as functions of relative displacement and velocity (theory, section 3).
 //!
 //! (2) F^el = w K_H δ, (3) F^el = κ K_V δ for a closed head joint and 0 for an open one, (4) F^v = w C δ̇,
 //! (5) F^fr = N μ(δ̇), (6) μ(v) = (2/π) arctan(β v/δ_v) [(μ_s − μ_d) e^{−|v|/δ_v} + μ_d] + α |v| v.
@@ -46,6 +46,12 @@ impl Stribeck {
     pub fn slope_at_rest(&self) -> f64 {
         FRAC_2_PI * self.beta / self.slip_velocity * self.static_
     }
+}
+
+/// Elastic force of a joint at relative displacement `d` [N].
+#[inline]
+pub fn spring_force(unilateral: bool, stiffness: f64, d: f64) -> f64 {
+    if unilateral && d <= 0.0 { 0.0 } else { stiffness * d }
 }
 
 #[cfg(test)]

@@ -25,5 +25,5 @@ pub mod wall;
 
 pub use error::{Error, InputError, Result};
 
-/// Acceleration of gravity [m/s²] (model, head).
+/// Acceleration of gravity [m/s²] (theory).
 pub const G: f64 = 9.81;

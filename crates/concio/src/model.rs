@@ -1,7 +1,7 @@
 //! The compiled system: immutable arrays that the time loop reads. One horizontal unknown per block, and one for
-//! a top beam with mass (model, sections 2 and 3).
+//! a top beam with mass (theory, sections 2 and 3).
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use crate::case::{
     Beam, Case, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointKind, Joints, NormalForce, Selector, Spring,
@@ -34,7 +34,8 @@ pub struct Model {
     pub excitation: Excitation,
     /// True when every joint's normal force is the same on both sides: the stage matrices are symmetric then.
     pub reciprocal: bool,
-    /// Largest ω² = Σk/m of a block over its bilateral joints [1/s²]: the time scale of the first step.
+    /// Largest ω² = Σk/m of a block over its bilateral joints [1/s²], never 0: the time scale of the first step and
+    /// of the floor of the velocities.
     pub stiffest: f64,
     /// Things a user should know before believing the result.
     pub warnings: Vec<String>,
@@ -82,10 +83,10 @@ impl Model {
     /// Blocks that rest on nothing, selectors that name no joint, laws of a later version.
     pub fn compile(case: &Case, wall: Wall, excitation: Excitation) -> Result<Model> {
         let beam = case.load.beam;
-        let joints = graph::joints(&wall, !matches!(beam, Beam::Free))?;
+        let joints = graph::joints(&wall, !matches!(beam, Beam::Free));
         let laws = resolve(case, &wall, &joints)?;
-        let (on, from) = friction_choice(&case.joint.friction);
-        let normal = graph::normal_forces(&wall, &joints, case.load.top.si(), on, from);
+        let (_, from) = friction_choice(&case.joint.friction);
+        let normal = graph::normal_forces(&wall, &joints, case.load.top.si(), from);
         let mut mass: Vec<f64> = wall.blocks.iter().map(|b| b.mass()).collect();
         let floating = if let Beam::Mass(m) = beam {
             mass.push(m.si());
@@ -105,18 +106,26 @@ impl Model {
         let sides: Vec<[u32; 2]> = joints.iter().map(side).collect();
         let elastic: Vec<Elastic> =
             joints.iter().zip(&laws).map(|(joint, law)| compile_elastic(&wall, joint, law)).collect();
-        let mut rubs = Vec::new();
-        for (e, (law, &normal)) in laws.iter().zip(&normal).enumerate() {
-            if let (Some(law), true) = (law.friction, normal[0] > 0.0 || normal[1] > 0.0) {
-                rubs.push(Rub { joint: e as u32, normal, law });
-            }
-        }
+        let rub = |(e, (law, &normal)): (usize, (&JointLaw, &[f64; 2]))| {
+            let loaded = normal[0] > 0.0 || normal[1] > 0.0;
+            law.rubs().filter(|_| loaded).map(|law| Rub { joint: e as u32, normal, law })
+        };
+        let rubs: Vec<Rub> = laws.iter().zip(&normal).enumerate().filter_map(rub).collect();
         let reciprocal = rubs.iter().all(|r| sides[r.joint as usize][1] as usize >= n || r.normal[0] == r.normal[1]);
-        let stiffest = stiffest(&mass, &sides, &elastic);
-        let warnings = warnings(case, &wall, &normal);
+        let stiffest = stiffest(&mass, &sides, &elastic, excitation.duration);
+        let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
+        let warnings = warnings(case, &wall, rubs.len(), idle, reciprocal);
         Ok(Model { wall, joints, beam, mass, sides, elastic, rubs, excitation, reciprocal, stiffest, warnings })
     }
 
+    /// Index in [`Model::rubs`] of every joint that rubs.
+    pub fn rub_of_joint(&self) -> Vec<Option<usize>> {
+        let mut index = vec![None; self.joints.len()];
+        for (r, rub) in self.rubs.iter().enumerate() {
+            index[rub.joint as usize] = Some(r);
+        }
+        index
+    }
     /// Name of every joint.
     pub fn joint_names(&self) -> Vec<String> {
         self.joints.iter().map(|j| graph::name(&self.wall, j)).collect()
@@ -135,14 +144,21 @@ fn friction_choice(friction: &Friction) -> (FrictionOn, NormalForce) {
     }
 }
 
-fn stiffest(mass: &[f64], sides: &[[u32; 2]], elastic: &[Elastic]) -> f64 {
+/// Largest ω² = Σk/m of an unknown over its bilateral joints; where there are none, over the closed unilateral ones;
+/// and no less than one swing in the run, so that a wall without stiffness has a time scale too.
+pub(crate) fn stiffest(mass: &[f64], sides: &[[u32; 2]], elastic: &[Elastic], duration: f64) -> f64 {
     let n = mass.len();
-    let mut sum = vec![0.0; n + 2];
-    for (side, law) in sides.iter().zip(elastic).filter(|(_, law)| !law.unilateral) {
-        sum[side[0] as usize] += law.stiffness;
-        sum[side[1] as usize] += law.stiffness;
-    }
-    mass.iter().zip(&sum).map(|(m, k)| k / m).fold(0.0, f64::max)
+    let over = |unilateral: bool| {
+        let mut sum = vec![0.0; n + 2];
+        for (side, law) in sides.iter().zip(elastic).filter(|(_, law)| law.unilateral == unilateral) {
+            sum[side[0] as usize] += law.stiffness;
+            sum[side[1] as usize] += law.stiffness;
+        }
+        mass.iter().zip(&sum).map(|(m, k)| k / m).fold(0.0, f64::max)
+    };
+    let bilateral = over(false);
+    let largest = if bilateral > 0.0 { bilateral } else { over(true) };
+    largest.max((std::f64::consts::TAU / duration).powi(2))
 }
 
 fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
@@ -168,13 +184,28 @@ fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
 struct JointLaw {
     spring: Spring,
     damping_ratio: f64,
-    friction: Option<Stribeck>,
-    friction_law: FrictionLaw,
+    friction: FrictionLaw,
     parameters: Stribeck,
+    /// Whether this joint is one of those that rub, by `friction.on` or by a change of its own.
+    may_rub: bool,
+}
+
+impl JointLaw {
+    fn rubs(&self) -> Option<Stribeck> {
+        (self.may_rub && self.friction != FrictionLaw::None).then_some(self.parameters)
+    }
 }
 
 fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLaw>> {
     let settings = &case.joint;
+    for (kind, key, spring) in [
+        (JointKind::Bed, "bed", Some(settings.bed)),
+        (JointKind::Base, "base", settings.base),
+        (JointKind::Top, "top", settings.top),
+    ] {
+        let law = spring.map_or(SpringLaw::Elastic, |s| s.law);
+        check_spring(kind, law).map_err(|e| e.key(format!("joint.{key}.law")))?;
+    }
     let mut laws: Vec<JointLaw> = joints.iter().map(|j| common_law(settings, j.kind)).collect();
     for (number, change) in settings.changes.iter().enumerate() {
         let chosen = select(&change.at, wall, joints).map_err(|e| e.key(format!("joint.change[{number}].at")))?;
@@ -188,7 +219,8 @@ fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLaw>> 
                 law.damping_ratio = c.damping_ratio.unwrap_or(law.damping_ratio);
             }
             if let Some(c) = &change.friction {
-                law.friction_law = c.law.unwrap_or(law.friction_law);
+                law.friction = c.law.unwrap_or(law.friction);
+                law.may_rub = true;
                 let p = &mut law.parameters;
                 p.static_ = c.static_.unwrap_or(p.static_);
                 p.dynamic = c.dynamic.unwrap_or(p.dynamic);
@@ -196,10 +228,21 @@ fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLaw>> 
                 p.beta = c.beta.unwrap_or(p.beta);
                 p.alpha = c.alpha.unwrap_or(p.alpha);
             }
-            law.friction = (law.friction_law != FrictionLaw::None).then_some(law.parameters);
+            check_spring(joints[e].kind, law.spring.law)
+                .map_err(|e| e.key(format!("joint.change[{number}].spring.law")))?;
         }
     }
     Ok(laws)
+}
+
+/// Bed and support joints slide both ways: a law for one direction has no meaning there.
+fn check_spring(kind: JointKind, law: SpringLaw) -> std::result::Result<(), InputError> {
+    let upright = matches!(kind, JointKind::Head | JointKind::Connection);
+    if law == SpringLaw::NoTension && !upright {
+        let what = "law `no-tension` is for head joints and connections; this joint slides in both directions";
+        return Err(InputError::new(what).allowed("elastic, none"));
+    }
+    Ok(())
 }
 
 fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {
@@ -221,9 +264,10 @@ fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {
     JointLaw {
         spring,
         damping_ratio: spring.damping_ratio.unwrap_or(settings.damping_ratio),
-        friction: (f.law != FrictionLaw::None).then_some(parameters),
-        friction_law: f.law,
+        friction: f.law,
         parameters,
+        may_rub: friction_choice(f).0 == FrictionOn::All
+            || matches!(kind, JointKind::Bed | JointKind::Base | JointKind::Top),
     }
 }
 
@@ -235,16 +279,15 @@ pub fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Resu
     let mut listed = None;
     if !at.joints.is_empty() {
         let names: HashMap<String, usize> = joints.iter().enumerate().map(|(e, j)| (graph::name(wall, j), e)).collect();
-        let mut set = Vec::new();
+        let mut set = BTreeSet::new();
         for name in &at.joints {
             let e = names.get(name).ok_or_else(|| {
                 InputError::new(format!("no joint is named `{name}`"))
                     .allowed("names as `concio check` lists and draws them, for example base|p1c1b1 or p1c1b1|p1c2b1")
             })?;
-            if set.contains(e) {
+            if !set.insert(*e) {
                 return Err(InputError::new(format!("joint `{name}` is listed twice")).allowed("each joint once"));
             }
-            set.push(*e);
         }
         listed = Some(set);
     }
@@ -280,18 +323,21 @@ pub fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Resu
     Ok(chosen)
 }
 
-fn warnings(case: &Case, wall: &Wall, normal: &[[f64; 2]]) -> Vec<String> {
+/// `rubs` joints rub, `idle` ones have a friction law but no normal force.
+fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool) -> Vec<String> {
     let mut warnings = Vec::new();
-    let rubs = case.joint.friction.law != FrictionLaw::None;
-    let choice = friction_choice(&case.joint.friction);
-    if rubs && choice == (FrictionOn::All, NormalForce::Transmitted) {
-        warnings
-            .push("friction on all joints with transmitted loads: head joints carry no weight and do not rub".into());
+    if idle > 0 && rubs > 0 {
+        warnings.push(format!(
+            "{idle} joints have a friction law but carry no weight and do not rub (head joints, with transmitted loads)"
+        ));
     }
-    if rubs && choice.1 == NormalForce::Overburden {
-        warnings.push("overburden loads: action and reaction of friction differ, energy is not conserved (see energy/nonreciprocal)".into());
+    if !reciprocal {
+        warnings.push(
+            "overburden loads: action and reaction of friction differ, energy is not conserved (see energy/nonreciprocal)"
+                .into(),
+        );
     }
-    if rubs && normal.iter().all(|n| n[0] == 0.0) {
+    if rubs == 0 && idle > 0 {
         warnings.push("friction is given but no joint carries a normal force".into());
     }
     if let Beam::Mass(m) = case.load.beam {

@@ -1,4 +1,4 @@
-//! From a [`Case`] to the blocks of its wall (model, section 1).
+//! From a [`Case`] to the blocks of its wall (theory, section 1).
 //!
 //! The base is at y = 0 and the first course of a panel lies on a bed of mortar, so it begins at y = t_b; every
 //! further course lies t_b above the one below. The left edge of the first panel's unshifted courses is at x = 0. A

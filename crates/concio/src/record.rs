@@ -89,7 +89,7 @@ pub struct Energies {
     pub input_base: f64,
     /// Work of a driven top beam.
     pub input_top: f64,
-    /// Kinetic and elastic energy at t = 0.
+    /// Kinetic and elastic energy at t = 0 that no work of the run brought.
     pub initial: f64,
     /// Kinetic energy.
     pub kinetic: f64,

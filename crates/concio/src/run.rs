@@ -12,7 +12,7 @@ use crate::ground::signal;
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::pattern;
-use crate::record::{Recording, StopReason};
+use crate::record::StopReason;
 use crate::simulate::{Progress, Sampling, Simulation};
 use crate::store::{self, JointRow, Journal, JournalHeader, Provenance, RunFacts};
 
@@ -65,10 +65,12 @@ pub const RESULT: &str = "result.h5";
 /// Name of the summary in its folder.
 pub const SUMMARY: &str = "summary.json";
 
-/// Steps between two looks at the clock and the monitor.
-const STRIDE: u64 = 256;
+/// Time by the clock between two looks at it and at the monitor, about: the steps in between are chosen for it.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(40);
 /// Time by the clock between two checkpoints: what a killed run can lose.
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(1);
+/// Samples that a run may keep.
+const MOST_SAMPLES: f64 = 1e7;
 /// Relative displacement of a joint, as a fraction of its overlap, from which its geometry should not be taken as
 /// unchanged any more.
 const LARGE_SLIP: f64 = 0.1;
@@ -113,11 +115,12 @@ fn sampling(output: &Output, excitation: &Excitation) -> Result<Sampling> {
     let of_record = [&excitation.base, &excitation.top].into_iter().filter_map(|m| m.sample_interval());
     let interval = match output.interval {
         Some(interval) => interval.si(),
-        None => of_record.reduce(f64::min).unwrap_or(duration / 2000.0),
+        None => of_record.reduce(f64::min).unwrap_or(duration / 2000.0).min(duration),
     };
-    if !(interval <= duration) {
-        let what = format!("the interval of {interval} s is longer than the run of {duration} s");
-        return Err(InputError::new(what).key("output.interval").allowed(format!("up to {duration} s")).into());
+    if !(interval <= duration && duration / interval <= MOST_SAMPLES) {
+        let what = format!("{interval} s for a run of {duration} s");
+        let allowed = format!("{} s to {duration} s, for at most {MOST_SAMPLES:.0} samples", duration / MOST_SAMPLES);
+        return Err(InputError::new(what).key("output.interval").allowed(allowed).into());
     }
     let frames = output.frames.map_or(duration / 400.0, |f| f.si());
     let frame_every = if frames == 0.0 { 0 } else { ((frames / interval).round() as usize).max(1) };
@@ -204,8 +207,12 @@ fn integrate(
     monitor: &mut dyn FnMut(&Status) -> Control,
 ) -> Result<StopReason> {
     let mut kept = Instant::now();
+    let mut stride = 1;
     loop {
-        let progress = simulation.advance(STRIDE);
+        let looked = Instant::now();
+        let progress = simulation.advance(stride);
+        // How many steps go between two looks changes nothing in the result.
+        stride = if looked.elapsed() < BETWEEN_LOOKS { (2 * stride).min(1 << 14) } else { (stride / 2).max(1) };
         let stop = match progress {
             Progress::Ended(reason) => Some(reason),
             Progress::Running => (monitor(&simulation.status()) == Control::Stop).then_some(StopReason::Interrupted),
@@ -256,11 +263,8 @@ fn large_slips(model: &Model, outcome: &Outcome) -> Option<String> {
 /// The joints of a model with their compiled numbers, as results keep them.
 pub fn joint_rows(model: &Model) -> Vec<JointRow> {
     use crate::case::{FrictionLaw, SpringLaw};
-    let mut rubs = vec![None; model.joints.len()];
-    for rub in &model.rubs {
-        rubs[rub.joint as usize] = Some(rub);
-    }
-    let row = |(e, rub): (usize, Option<&crate::model::Rub>)| {
+    let row = |(e, rub): (usize, Option<usize>)| {
+        let rub = rub.map(|r| &model.rubs[r]);
         let (joint, law) = (&model.joints[e], &model.elastic[e]);
         JointRow {
             joint: joint.clone(),
@@ -283,7 +287,7 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
             }),
         }
     };
-    rubs.into_iter().enumerate().map(row).collect()
+    model.rub_of_joint().into_iter().enumerate().map(row).collect()
 }
 
 /// Runs to the end in memory, without files.
@@ -292,13 +296,6 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
 /// As [`Simulation::new`].
 pub fn run_in_memory(prepared: &Prepared) -> Result<Outcome> {
     let mut simulation = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling)?;
-    let mut rows = Recording::default();
-    loop {
-        let progress = simulation.advance(u64::MAX);
-        rows.append(simulation.recording());
-        simulation.clear_recording();
-        if let Progress::Ended(reason) = progress {
-            return Ok(simulation.outcome(rows, reason));
-        }
-    }
+    let (rows, reason) = simulation.run_to_end();
+    Ok(simulation.outcome(rows, reason))
 }

@@ -6,10 +6,10 @@ use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::ground::signal::{GroundMotion, compile};
 use crate::law::Stribeck;
-use crate::model::{Elastic, Model, Rub};
+use crate::model::{Elastic, Model, Rub, stiffest};
 use crate::quantity::{Length, Time};
-use crate::record::{Recording, StopReason};
-use crate::simulate::{Progress, Sampling, Simulation};
+use crate::record::StopReason;
+use crate::simulate::{Sampling, Simulation};
 use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 
 /// A joint of a sample: which sides, which laws.
@@ -98,14 +98,16 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
     let rub = |(e, link): (usize, &Link)| {
         link.friction.map(|(law, normal)| Rub { joint: e as u32, normal: [normal; 2], law })
     };
-    let stiffest = links.iter().map(|l| l.elastic.stiffness / masses[l.a]).fold(1.0, f64::max);
+    let sides: Vec<[u32; 2]> = links.iter().map(|l| [l.a as u32, side(l.b) as u32]).collect();
+    let elastic: Vec<Elastic> = links.iter().map(|l| l.elastic).collect();
+    let stiffest = stiffest(masses, &sides, &elastic, excitation.duration);
     Model {
         wall: Wall { panels: vec![panel], blocks: (0..n).map(block).collect() },
         joints: links.iter().map(joint).collect(),
         beam: if excitation.driven { Beam::Driven } else { Beam::Free },
         mass: masses.to_vec(),
-        sides: links.iter().map(|l| [l.a as u32, side(l.b) as u32]).collect(),
-        elastic: links.iter().map(|l| l.elastic).collect(),
+        sides,
+        elastic,
         rubs: links.iter().enumerate().filter_map(rub).collect(),
         excitation,
         reciprocal: true,
@@ -137,15 +139,7 @@ pub fn respond(model: &Model, solver: &Solver, interval: f64, z: &[f64], v: &[f6
     let sampling = Sampling { interval, frame_every: 1, blocks: Vec::new(), joints: Vec::new() };
     let mut run = Simulation::new(model, solver, &sampling)?;
     run.start_from(z, v);
-    let mut rows = Recording::default();
-    let stop_reason = loop {
-        let progress = run.advance(u64::MAX);
-        rows.append(run.recording());
-        run.clear_recording();
-        if let Progress::Ended(reason) = progress {
-            break reason;
-        }
-    };
+    let (rows, stop_reason) = run.run_to_end();
     let n = model.unknowns();
     let by_row = |values: &[f64]| values.chunks(n).map(<[f64]>::to_vec).collect();
     let state = run.state();

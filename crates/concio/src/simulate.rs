@@ -74,6 +74,7 @@ impl<'m> Simulation<'m> {
         };
         let mut state = State::at_rest(model);
         let drive = model.excitation.drive(0.0);
+        kick(model, &mut state, model.excitation.base_velocity_jump(0.0));
         settle(model, &drive, &mut state);
         state.step = (0.01 / model.stiffest.sqrt()).min(duration);
         if !state.step.is_finite() {
@@ -137,8 +138,9 @@ impl<'m> Simulation<'m> {
     /// One accepted step, to the next break of the motion or sample at the farthest.
     fn step(&mut self) -> std::result::Result<(), StopReason> {
         let break_at = self.drive.end;
-        let sample_at = self.state.samples as f64 * self.layout.interval;
-        let target = if sample_at > self.state.t { break_at.min(sample_at) } else { break_at };
+        // A sample that falls on a break but for rounding is taken there.
+        let at_break = self.next_sample() >= break_at - self.slack();
+        let target = if at_break { break_at } else { self.next_sample() };
         let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
         let mut proposed = self.state.step;
         loop {
@@ -158,7 +160,7 @@ impl<'m> Simulation<'m> {
                     let free = h * grow;
                     // A step cut short by a landing says little about the one that the error allows.
                     self.state.step = if lands && proposed > h { free.max(proposed) } else { free };
-                    self.accept(if lands { target } else { self.state.t + h }, h, target == break_at && lands);
+                    self.accept(if lands { target } else { self.state.t + h }, h, at_break && lands);
                     return Ok(());
                 }
                 Ok(error) if error.is_finite() => {
@@ -184,6 +186,19 @@ impl<'m> Simulation<'m> {
         }
     }
 
+    /// When the next sample is due [s]; +∞ after the last.
+    fn next_sample(&self) -> f64 {
+        if self.state.samples >= self.layout.samples as u64 {
+            return f64::INFINITY;
+        }
+        (self.state.samples as f64 * self.layout.interval).min(self.model.excitation.duration)
+    }
+
+    /// Instants closer than this are one [s].
+    fn slack(&self) -> f64 {
+        1e-9 * self.layout.interval
+    }
+
     fn tolerance(&self) -> Tolerance {
         let [z, v] = self.state.scale;
         let floor = self.solver.floor.si();
@@ -202,9 +217,7 @@ impl<'m> Simulation<'m> {
         if at_break && t < self.model.excitation.duration {
             self.enter_piece(t);
         }
-        if self.state.t >= self.state.samples as f64 * self.layout.interval
-            && (self.state.samples as usize) < self.layout.samples
-        {
+        if t >= self.next_sample() - self.slack() {
             self.sample();
         }
     }
@@ -220,7 +233,7 @@ impl<'m> Simulation<'m> {
         }
         let (old, new) = (before.base_acceleration(t), self.drive.base_acceleration(t));
         let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
-        if jump != 0.0 || !close(old, new) || !close(before.top(t).1, self.drive.top(t).1) {
+        if jump != 0.0 || !close(old, new) || !close(before.top(t).v, self.drive.top(t).v) {
             settle(self.model, &self.drive, &mut self.state);
         }
     }
@@ -288,6 +301,19 @@ impl<'m> Simulation<'m> {
         true
     }
 
+    /// Runs to the end in memory: all rows, and why it ended.
+    pub fn run_to_end(&mut self) -> (Recording, StopReason) {
+        let mut rows = Recording::default();
+        loop {
+            let progress = self.advance(u64::MAX);
+            rows.append(&self.recording);
+            self.clear_recording();
+            if let Progress::Ended(reason) = progress {
+                return (rows, reason);
+            }
+        }
+    }
+
     /// The result, with the recording that the caller collected.
     pub fn outcome(self, recording: Recording, stop_reason: StopReason) -> Outcome {
         Outcome {
@@ -306,7 +332,7 @@ impl<'m> Simulation<'m> {
 /// Starts envelopes and energy account from the state as it is: what energy it has is no residual.
 fn begin_account(model: &Model, state: &mut State) {
     observe(model, state, 0.0);
-    state.energies.initial = state.energies.kinetic + state.energies.elastic;
+    state.energies.initial = state.energies.kinetic + state.energies.elastic - state.energies.input();
     state.totals.peak_residual = 0.0;
 }
 

@@ -11,10 +11,7 @@ use crate::model::Model;
 /// A driven top on a moving base: the format has one motion for the top and it is relative to the base.
 pub fn system(model: &Model) -> Result<Value> {
     let (base, top) = (model.base(), model.top());
-    let mut rub = vec![None; model.joints.len()];
-    for r in &model.rubs {
-        rub[r.joint as usize] = Some(r);
-    }
+    let rub: Vec<_> = model.rub_of_joint().into_iter().map(|r| r.map(|r| &model.rubs[r])).collect();
     let side = |b: usize| {
         if b == base {
             json!("base")

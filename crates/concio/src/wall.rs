@@ -30,7 +30,7 @@ impl Block {
     pub fn height(&self) -> f64 {
         self.y[1] - self.y[0]
     }
-    /// m_i = γ L_i H_i B / g [kg] (model, section 1).
+    /// m_i = γ L_i H_i B / g [kg] (theory, section 1).
     pub fn mass(&self) -> f64 {
         self.weight() / crate::G
     }

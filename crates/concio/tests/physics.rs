@@ -288,3 +288,146 @@ fn a_very_heavy_beam_stays_in_space() {
         assert!((x + y).abs() < 1e-8, "beam {x} relative to a base at {y}");
     }
 }
+
+/// Case 5 of the report: without bed stiffness there is no elastic time scale but the head joints'.
+#[test]
+fn a_wall_without_bed_stiffness_runs() {
+    for motion in [SLIPPING, SHAKEN] {
+        let mut p = edited(&format!("{PANEL}{motion}"), |c| c.joint.bed.stiffness_factor = 0.0);
+        p.model.excitation.duration = p.model.excitation.duration.min(0.5);
+        let out = run_in_memory(&p).unwrap();
+        assert_eq!(out.stop_reason, StopReason::Completed);
+        assert!(residual_relative(&out) < 1e-3, "{:e}", residual_relative(&out));
+        assert!(out.totals.peak_relative_displacement > 0.0);
+    }
+}
+
+/// A wall with neither springs nor friction stays in space while its base moves.
+#[test]
+fn free_blocks_stay_in_space() {
+    let text = format!(
+        "{PANEL}[load]\ntop = 0\n[motion]\nduration = \"0.3 s\"\nbase = {{ ramp = {{ amplitude = \"3 mm\", rise = \"0.2 s\" }} }}\n"
+    );
+    let p = edited(&text, |c| {
+        c.joint.friction.law = concio::case::FrictionLaw::None;
+        c.joint.damping_ratio = 0.0;
+        c.joint.bed.stiffness_factor = 0.0;
+    });
+    let out = run_in_memory(&p).unwrap();
+    // The base starts with a jump of its velocity, which the blocks do not share.
+    for (top, base) in channel(&out, "top/displacement").iter().zip(channel(&out, "base/displacement")) {
+        assert!((top + base).abs() < 1e-12, "{top} above a base at {base}");
+    }
+    assert!((channel(&out, "base/displacement").last().unwrap() - 3e-3).abs() < 1e-12);
+}
+
+/// The relative acceleration of the top joints is that of block and beam, not of the block alone.
+#[test]
+fn a_driven_beam_has_its_acceleration() {
+    let text = format!(
+        "{PANEL}[load]\ntop = 0\nbeam = \"driven\"\n[motion]\nduration = \"0.4375 s\"\ntop = {{ sine = {{ amplitude = \"1 mm\", frequency = \"4 Hz\", ramp = \"0.25 s\" }} }}\n"
+    );
+    let p = edited(&text, |c| {
+        c.joint.friction.law = concio::case::FrictionLaw::None;
+        c.joint.damping_ratio = 0.3;
+    });
+    let mut run = Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
+    assert_eq!(run.run_to_end().1, StopReason::Completed);
+    // At 1.75 cycles the sine is at its trough: a = A ω².
+    let beam = 1e-3 * (2.0 * std::f64::consts::PI * 4.0f64).powi(2);
+    let a = &run.state().a;
+    assert!((a[p.model.top()] / beam - 1.0).abs() < 1e-9, "{} against {beam}", a[p.model.top()]);
+    for joint in p.model.joints.iter().filter(|j| j.kind == concio::case::JointKind::Top) {
+        // Seven springs in a row, nearly equal: the top course has about 6/7 of the motion of the beam.
+        assert!((a[joint.a] / beam - 6.0 / 7.0).abs() < 0.02, "{} with a beam of {beam}", a[joint.a]);
+    }
+}
+
+/// Every run ends with a sample at its end, also where the interval is no binary fraction of it.
+#[test]
+fn no_sample_is_missed_or_doubled() {
+    for (interval, duration) in [(0.005f64, 0.7f64), (0.01, 0.7), (0.004, 1.4), (0.1, 0.3), (0.03, 0.33), (0.07, 0.5)] {
+        let text = format!(
+            "{PANEL}[load]\ntop = 0\n[motion]\nduration = {duration}\nbase = {{ synthetic = {{ seed = 1, pga = 0.1, duration = 4, dt = 0.01 }} }}\n[output]\ninterval = {interval}\nframes = {interval}\n"
+        );
+        let out = outcome(&text);
+        let rows = out.recording.time.len();
+        assert_eq!(rows, out.layout.samples, "interval {interval}, duration {duration}");
+        assert_eq!(rows, (duration / interval + 1e-6).floor() as usize + 1);
+        assert_eq!(out.recording.frame_time.len(), rows);
+        // Steps between a sample and a break that coincide but for rounding would show as wild accelerations.
+        let worst = out.envelopes.block_acceleration.iter().fold(0.0f64, |a, x| a.max(*x));
+        assert!(worst < 1.0, "interval {interval}: {worst} m/s² under a base of 0.1 m/s²");
+    }
+}
+
+/// Frictionless runs reuse factors; a restored one must count and compute the same.
+#[test]
+fn a_restored_frictionless_run_is_the_same() {
+    let p = edited(&format!("{PANEL}{SLIPPING}"), |c| {
+        c.joint.friction.law = concio::case::FrictionLaw::None;
+        c.solver.max_step = Some((1.0 / 16384.0).into());
+    });
+    let whole = run_in_memory(&p).unwrap();
+    let new = || Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
+    let (mut run, mut rows) = (new(), concio::record::Recording::default());
+    let reason = loop {
+        let progress = run.advance(37);
+        rows.append(run.recording());
+        run.clear_recording();
+        if let Progress::Ended(reason) = progress {
+            break reason;
+        }
+        let bytes = run.save();
+        run = new();
+        assert!(run.restore(&bytes));
+    };
+    assert_eq!(run.outcome(rows, reason), whole);
+}
+
+/// What is not a number ends the run with that reason instead of passing every comparison.
+#[test]
+fn not_a_number_stops_the_run() {
+    let p = ready(&format!("{PANEL}{SHAKEN}"));
+    let mut run = Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
+    let n = p.model.unknowns();
+    run.start_from(&vec![f64::NAN; n], &vec![0.0; n]);
+    assert_eq!(run.run_to_end().1, StopReason::NotFinite);
+}
+
+/// Toothed ends leave air between panels in every second course.
+#[test]
+fn connections_do_not_reach_across_air() {
+    let flush = format!("{PANEL}{SLIPPING}")
+        .replace("[joint]", "[[panel]]\nbond = \"running\"\ncourses = 6\nbricks = 4\n[joint]");
+    let count = |text: &str| {
+        let model = ready(text).model;
+        model.joints.iter().filter(|j| j.kind == concio::case::JointKind::Connection).count()
+    };
+    assert_eq!(count(&flush), 6);
+    assert_eq!(count(&flush.replacen("bricks = 4", "bricks = 4\nends = \"toothed\"", 1)), 3);
+}
+
+/// Friction given to head joints by a change of their own makes them rub, whatever `friction.on` says.
+#[test]
+fn a_change_may_let_head_joints_rub() {
+    let text = format!("{PANEL}{SLIPPING}").replace(
+        "[load]",
+        "[[joint.change]]\nat = { kind = [\"head\"], course = [1] }\nfriction = { static = 0.3, dynamic = 0.2 }\n[load]",
+    );
+    let text = text.replace("dynamic = 0.42", "dynamic = 0.42, normal_force = \"overburden\"");
+    let model = ready(&text).model;
+    let heads = model.rubs.iter().filter(|r| model.joints[r.joint as usize].kind == concio::case::JointKind::Head);
+    assert_eq!(heads.count(), 3);
+}
+
+#[test]
+fn a_one_way_law_on_bed_joints_is_refused() {
+    for line in ["bed = { law = \"no-tension\", stiffness = 1e7 }", "top = { law = \"no-tension\", stiffness = 1e7 }"] {
+        let text = format!("{PANEL}{SLIPPING}").replace("[joint]", &format!("[joint]\n{line}"));
+        let file = from_str(&text, Syntax::Toml, None).unwrap();
+        let refused = file.validate().and_then(|()| prepare(file.case.clone(), Path::new("")).map(|_| ()));
+        let message = refused.unwrap_err().to_string();
+        assert!(message.contains("no-tension") && message.contains("elastic"), "{message}");
+    }
+}

@@ -8,7 +8,7 @@ use crate::InputError;
 /// A printed range; a single number has equal ends.
 type Range = [f64; 2];
 
-/// What the report prints of a set (model, section 5), in SI.
+/// What the report prints of a set (Table 1 and section 4.2), in SI.
 struct Printed {
     /// L, B, H of the brick [m].
     brick: [f64; 3],

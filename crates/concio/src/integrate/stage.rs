@@ -8,7 +8,7 @@
 //! * Where the tangent of (6) misses the law by much, the next tangent is not taken at the new velocity w but where
 //!   the law meets the line through the new point (w, f) of slope −Z, Z being the impedance τ⁻¹(1/J_aa + 1/J_bb)⁻¹
 //!   that the joint sees with its neighbours held. On the steep branch this follows the force, on the flat one the
-//!   velocity, as limiting does for diodes in circuit simulators; plain Newton cycles between the two (model,
+//!   velocity, as limiting does for diodes in circuit simulators; plain Newton cycles between the two (theory,
 //!   section 6).
 //! * Unilateral joints keep an active set; a joint whose state changes makes another iteration.
 //!
@@ -18,7 +18,7 @@
 use crate::integrate::linear::Matrix;
 use crate::law::Stribeck;
 use crate::model::Model;
-use crate::state::{Power, Tangents};
+use crate::state::Tangents;
 
 /// Iterations after which a stage is given up and the step halved.
 const MOST_ITERATIONS: usize = 30;
@@ -84,6 +84,11 @@ impl Stage {
         }
     }
 
+    /// Forgets the factors: what a step does must not depend on what was tried before it.
+    pub fn forget_factors(&mut self) {
+        self.factors_for = 0.0;
+    }
+
     /// Solves (T1) for τ = `tau` [s] and base acceleration `ground` [m/s²]; `accuracy` [m/s] is the error of V that
     /// is allowed. `self.z`, `self.v` hold z_p and V_p, `self.solution` the top's velocity in its last place (and
     /// z_p there is u_1 − τ u̇_1, so that z = z_p + τ V holds for all).
@@ -108,28 +113,40 @@ impl Stage {
             let flipped = self.flip(model, tangents, tau);
             self.mismatch(model, tangents, tau);
             self.matrix.solve(&mut self.rhs);
-            let mut correction = 0.0f64;
+            // A sum, because a maximum would pass over what is not a number.
+            let (mut correction, mut sum) = (0.0f64, 0.0);
             for d in &self.rhs {
                 correction = correction.max(d.abs());
+                sum += d.abs();
             }
-            if !correction.is_finite() {
+            if !sum.is_finite() {
                 return Err(Failure::NotFinite);
             }
             if !flipped && correction <= accuracy {
-                for (v, d) in self.solution.iter_mut().zip(&self.rhs) {
-                    *v -= d;
-                }
-                tangents.mu.copy_from_slice(&self.mu);
-                tangents.slope.copy_from_slice(&self.slope);
-                for (c, rub) in tangents.velocity.iter_mut().zip(&model.rubs) {
-                    let [a, b] = model.sides[rub.joint as usize];
-                    *c = self.solution[a as usize] - self.solution[b as usize];
-                }
+                self.finish(model, tangents);
                 return Ok(());
             }
             self.move_tangents(model, tangents, tau);
         }
         Err(Failure::TooLong)
+    }
+
+    /// Applies the last correction and leaves the tangents at the solution.
+    fn finish(&mut self, model: &Model, tangents: &mut Tangents) {
+        for (r, rub) in model.rubs.iter().enumerate() {
+            let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
+            tangents.velocity[r] = self.solution[a] - self.solution[b];
+        }
+        for (v, d) in self.solution.iter_mut().zip(&self.rhs) {
+            *v -= d;
+        }
+        for (r, rub) in model.rubs.iter().enumerate() {
+            let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
+            let w = self.solution[a] - self.solution[b];
+            tangents.mu[r] = self.mu[r] + self.slope[r] * (w - tangents.velocity[r]);
+            tangents.slope[r] = self.slope[r];
+            tangents.velocity[r] = w;
+        }
     }
 
     /// J = M + τ Σ B (c + τ k + N μ') Bᵀ, factorised.
@@ -257,6 +274,9 @@ fn meet(law: &Stribeck, z: f64, c: f64) -> f64 {
         return 0.0;
     }
     let (mut low, mut high) = (0.0, c / z);
+    if !high.is_finite() {
+        return 0.0;
+    }
     let width = law.slip_velocity / law.beta;
     // Start on the branch that the right side points to: the inverse of the arctangent, or the velocity.
     let ratio = c / law.static_;
@@ -280,46 +300,4 @@ fn meet(law: &Stribeck, z: f64, c: f64) -> f64 {
         v = if next > low && next < high { next } else { (low.max(1e-3 * width) * high).sqrt().clamp(low, high) };
     }
     sign * v
-}
-
-/// Rates of the energy account, and of each joint's dissipation into `joint` [W], at velocities `v`.
-/// `mu` are the laws there; `z` displacements, for the force on the top.
-pub fn power(model: &Model, z: &[f64], v: &[f64], mu: &[f64], ground: f64, joint: &mut [f64]) -> Power {
-    let mut p = Power::default();
-    for (m, v) in model.mass.iter().zip(v) {
-        p.base -= m * v;
-    }
-    p.base *= ground;
-    let top = model.top();
-    let mut pull = 0.0;
-    for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
-        let (a, b) = (a as usize, b as usize);
-        let w = v[a] - v[b];
-        joint[e] = law.damping * w * w;
-        p.damping += joint[e];
-        if b == top {
-            pull += law.damping * w + spring_force(law.unilateral, law.stiffness, z[a] - z[b]);
-        }
-    }
-    for (rub, &mu) in model.rubs.iter().zip(mu) {
-        let [a, b] = model.sides[rub.joint as usize];
-        let (a, b) = (a as usize, b as usize);
-        let lost = 0.5 * (rub.normal[0] + rub.normal[1]) * mu * (v[a] - v[b]);
-        p.friction += lost;
-        joint[rub.joint as usize] += lost;
-        if !model.reciprocal && b < model.unknowns() {
-            p.nonreciprocal += 0.5 * (rub.normal[0] - rub.normal[1]) * mu * (v[a] + v[b]);
-        }
-        if b == top {
-            pull += rub.normal[0] * mu;
-        }
-    }
-    p.top = -pull * v[top];
-    p
-}
-
-/// Elastic force of a joint at relative displacement `d` [N].
-#[inline]
-pub fn spring_force(unilateral: bool, stiffness: f64, d: f64) -> f64 {
-    if unilateral && d <= 0.0 { 0.0 } else { stiffness * d }
 }

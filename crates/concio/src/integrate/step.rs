@@ -5,8 +5,9 @@
 //! (Hosea & Shampine 1996): without the filter the stiff parts, which the scheme damps, would govern the step.
 
 use crate::case::Scheme;
+use crate::dynamics::power;
 use crate::excitation::Drive;
-use crate::integrate::stage::{self, Failure, Stage};
+use crate::integrate::stage::{Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
 use crate::model::Model;
 use crate::state::{Power, State, Tangents};
@@ -23,6 +24,7 @@ pub struct Step {
     stage_joint_power: Vec<Vec<f64>>,
     error_v: Vec<f64>,
     error_z: Vec<f64>,
+    top_acceleration: f64,
     /// Displacement of the end of the step, with base and top.
     pub z: Vec<f64>,
 }
@@ -51,6 +53,7 @@ impl Step {
             stage_joint_power: rows(model.joints.len()),
             error_v: vec![0.0; n],
             error_z: vec![0.0; n],
+            top_acceleration: 0.0,
             z: vec![0.0; n + 2],
         }
     }
@@ -77,13 +80,15 @@ impl Step {
         self.stage_power[0] = state.power;
         self.stage_joint_power[0].copy_from_slice(&state.joint_power);
         self.tangents.copy_from(&state.tangents);
+        self.stage.forget_factors();
         for i in 1..self.tableau.stages {
             let t = state.t + self.tableau.c[i] * h;
             self.predict(state, i, h, n);
-            let (u1, v1) = drive.top(t);
+            let top = drive.top(t);
             let ground = drive.base_acceleration(t);
-            self.stage.z[n + 1] = u1 - tau * v1;
-            self.stage.solution[n + 1] = v1;
+            self.stage.z[n + 1] = top.u - tau * top.v;
+            self.stage.solution[n + 1] = top.v;
+            self.top_acceleration = top.a;
             self.stage.solve(model, &mut self.tangents, tau, ground, STAGE_ACCURACY * tolerance.v)?;
             let (v, a) = (&mut self.stage_v[i], &mut self.stage_a[i]);
             v.copy_from_slice(&self.stage.solution);
@@ -93,8 +98,7 @@ impl Step {
             for k in 0..n + 2 {
                 self.z[k] = self.stage.z[k] + tau * v[k];
             }
-            self.stage_power[i] =
-                stage::power(model, &self.z, v, &self.tangents.mu, ground, &mut self.stage_joint_power[i]);
+            self.stage_power[i] = power(model, &self.z, v, &self.tangents.mu, ground, &mut self.stage_joint_power[i]);
         }
         Ok(self.error(model, h, tau, tolerance))
     }
@@ -142,12 +146,14 @@ impl Step {
             }
         }
         self.stage.matrix.solve(&mut self.error_v);
-        let mut worst = 0.0f64;
+        let (mut worst, mut sum) = (0.0f64, 0.0);
         for (ev, ez) in self.error_v.iter().zip(&self.error_z) {
             let ez = ez + tau * ev;
             worst = worst.max(ev.abs() / tolerance.v).max(ez.abs() / tolerance.z);
+            sum += ev + ez;
         }
-        worst
+        // A maximum passes over what is not a number, a sum does not.
+        if sum.is_finite() { worst } else { f64::INFINITY }
     }
 
     /// Moves `state` to the end of the step that was attempted.
@@ -158,6 +164,7 @@ impl Step {
         state.z.copy_from_slice(&self.z);
         state.v.copy_from_slice(&self.stage_v[last]);
         state.a[..n].copy_from_slice(&self.stage_a[last]);
+        state.a[n + 1] = self.top_acceleration;
         state.power = self.stage_power[last];
         for i in 0..=last {
             self.stage_power[i].accrue(h * self.tableau.b[i], &mut state.energies);

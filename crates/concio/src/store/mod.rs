@@ -53,7 +53,7 @@ pub struct JointRow {
     pub friction: Option<FrictionRow>,
 }
 
-/// Friction of one joint (model, equation 6).
+/// Friction of one joint (theory, equation 6).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionRow {
     /// The law.
