@@ -20,7 +20,7 @@ pub fn make(root: &Path) -> Outcome {
     Ok(())
 }
 
-/// Fails when one of them is not what the program makes today.
+/// Fails when one of them is not what the program makes today, or a wall file that a document shows is wrong.
 pub fn check(root: &Path) -> Outcome {
     for (path, text) in all(root)? {
         let found = fs::read_to_string(root.join(path)).map_err(|e| format!("{path}: {e}"))?;
@@ -29,7 +29,26 @@ pub fn check(root: &Path) -> Outcome {
         }
         println!("{path} is current");
     }
-    Ok(())
+    walls_in_readme(root)
+}
+
+/// A record for the wall files in documents, which name one.
+const RECORD: &str = "Record\n\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 4, DT= 0.01 SEC\n0.0 0.1 -0.2 0.0\n";
+
+/// The wall files that the README shows are valid.
+fn walls_in_readme(root: &Path) -> Outcome {
+    let text = fs::read_to_string(root.join("README.md")).map_err(|e| format!("README.md: {e}"))?;
+    let walls: Vec<&str> = text.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    let folder = root.join("target").join("readme");
+    fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).map_err(|e| format!("{name}: {e}"));
+    write("quake.at2", RECORD)?;
+    for wall in &walls {
+        write("wall.toml", wall)?;
+        read(Command::new(concio(root)).args(["check", "wall.toml"]).current_dir(&folder))?;
+    }
+    println!("{} wall file(s) in README.md are valid", walls.len());
+    if walls.is_empty() { Err("README.md shows no wall file".into()) } else { Ok(()) }
 }
 
 fn all(root: &Path) -> Result<[(&'static str, String); 3], String> {

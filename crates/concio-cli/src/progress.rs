@@ -28,10 +28,12 @@ impl Progress {
     pub fn show(&mut self, status: &Status) {
         let first = *self.first.get_or_insert(status.time);
         let position = |time: f64| (time / status.duration * LENGTH) as u64;
+        let message = || format!("t = {:.3} of {} s, {} steps", status.time, status.duration, status.steps);
         if self.bar.is_none() && self.started.elapsed() > PATIENCE {
             // The remaining time is reckoned from what this process has done.
-            let bar = ProgressBar::new(LENGTH as u64).with_position(position(first)).with_elapsed(PATIENCE);
+            let bar = ProgressBar::new(LENGTH as u64).with_position(position(first));
             bar.reset_eta();
+            bar.set_message(message());
             if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}  {eta} left") {
                 bar.set_style(style);
             }
@@ -39,7 +41,7 @@ impl Progress {
         }
         if let Some(bar) = &self.bar {
             bar.set_position(position(status.time));
-            bar.set_message(format!("t = {:.3} of {} s, {} steps", status.time, status.duration, status.steps));
+            bar.set_message(message());
         }
     }
 
