@@ -149,6 +149,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         energies: Energies {
             input_base: 1.5,
             input_top: 2.5,
+            initial: 0.015625,
             kinetic: 0.125,
             elastic: 0.25,
             damping: 0.5,
