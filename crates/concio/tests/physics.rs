@@ -56,7 +56,7 @@ fn edited(text: &str, edit: impl FnOnce(&mut Case)) -> Prepared {
     prepare(case, Path::new("")).unwrap()
 }
 
-fn channel<'a>(out: &'a Outcome, name: &str) -> Vec<f64> {
+fn channel(out: &Outcome, name: &str) -> Vec<f64> {
     let c = out.layout.channels.iter().position(|c| c.name == name).unwrap();
     out.recording.values.chunks(out.layout.channels.len()).map(|row| row[c]).collect()
 }
