@@ -156,7 +156,6 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             friction: 3.0,
             bond: 0.0625,
             nonreciprocal: 0.03125,
-            initial: 0.0,
         },
         totals: Totals {
             peak_relative_displacement: 1.1e-3,
