@@ -11,7 +11,7 @@ use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::graph;
 use crate::law::Stribeck;
-use crate::wall::{End, Joint, Wall};
+use crate::wall::{Block, End, Joint, Wall};
 
 /// Everything a run needs and nothing it changes.
 #[derive(Debug, Clone)]
@@ -358,8 +358,10 @@ fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool
         warnings.extend((0..wall.panels.len()).filter_map(|panel| under_beam(wall, panel)));
     }
     if let Beam::Mass(m) = case.load.beam {
-        let length: f64 =
-            wall.blocks.iter().filter(|b| b.course + 1 == wall.panels[b.panel].courses).map(|b| b.length()).sum();
+        let carries: Vec<bool> =
+            (0..wall.panels.len()).map(|p| graph::below_beam(wall, p) <= graph::packing(wall, p)).collect();
+        let under = |b: &&Block| carries[b.panel] && b.course + 1 == wall.panels[b.panel].courses;
+        let length: f64 = wall.blocks.iter().filter(under).map(Block::length).sum();
         let load = case.load.top.si() * length;
         if m.si() * crate::G > 1.001 * load {
             warnings.push(format!(
