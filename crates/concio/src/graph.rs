@@ -25,13 +25,35 @@ pub fn joints(wall: &Wall, beam: bool) -> Vec<Joint> {
         connections(wall, left, &pair[0], &pair[1], &mut joints);
     }
     if beam {
-        for rows in &courses {
+        for (_, rows) in
+            courses.iter().enumerate().filter(|(panel, _)| below_beam(wall, *panel) <= packing(wall, *panel))
+        {
             for &i in rows.last().into_iter().flatten() {
                 joints.push(support(wall, i, JointKind::Top, End::Top));
             }
         }
     }
     joints
+}
+
+/// How far the top of a panel lies below the level of the beam, which lies on the highest panel [m].
+pub fn below_beam(wall: &Wall, panel: usize) -> f64 {
+    let top = |panel: Option<usize>| {
+        let of_panel = wall.blocks.iter().filter(|b| panel.is_none_or(|p| b.panel == p));
+        of_panel.map(|b| b.y[1]).fold(f64::NEG_INFINITY, f64::max)
+    };
+    top(None) - top(Some(panel))
+}
+
+/// A gap under the beam up to half a brick's height is packed with mortar and carries; a wider one is air [m].
+pub fn packing(wall: &Wall, panel: usize) -> f64 {
+    0.5 * wall.panels[panel].reference_height
+}
+
+/// q of each panel [N/m]: under a beam only the panels that it lies on are loaded.
+fn loads(wall: &Wall, load: f64, beam: bool) -> Vec<f64> {
+    let carries = |panel: usize| !beam || below_beam(wall, panel) <= packing(wall, panel);
+    (0..wall.panels.len()).map(|panel| if carries(panel) { load } else { 0.0 }).collect()
 }
 
 /// Block indices by panel and course, from left to right.
@@ -139,16 +161,18 @@ pub fn name(wall: &Wall, joint: &Joint) -> String {
     }
 }
 
-/// Normal force of each joint, in the equations of its two sides [N]: `[in a's, in b's]`. `load` is q [N/m].
-pub fn normal_forces(wall: &Wall, joints: &[Joint], load: f64, from: NormalForce) -> Vec<[f64; 2]> {
+/// Normal force of each joint, in the equations of its two sides [N]: `[in a's, in b's]`. `load` is q [N/m], brought by
+/// the beam where there is one.
+pub fn normal_forces(wall: &Wall, joints: &[Joint], load: f64, beam: bool, from: NormalForce) -> Vec<[f64; 2]> {
+    let loads = loads(wall, load, beam);
     match from {
-        NormalForce::Transmitted => transmitted(wall, joints, load),
-        NormalForce::Overburden => overburden(wall, joints, load),
+        NormalForce::Transmitted => transmitted(wall, joints, &loads),
+        NormalForce::Overburden => overburden(wall, joints, &loads),
     }
 }
 
 /// Weight and top load handed down course by course in proportion to the overlaps. Head joints carry nothing.
-fn transmitted(wall: &Wall, joints: &[Joint], load: f64) -> Vec<[f64; 2]> {
+fn transmitted(wall: &Wall, joints: &[Joint], loads: &[f64]) -> Vec<[f64; 2]> {
     let mut below: Vec<Vec<usize>> = vec![Vec::new(); wall.blocks.len()];
     for (e, joint) in joints.iter().enumerate() {
         match (joint.kind, joint.b) {
@@ -161,7 +185,7 @@ fn transmitted(wall: &Wall, joints: &[Joint], load: f64) -> Vec<[f64; 2]> {
     let mut forces = vec![[0.0; 2]; joints.len()];
     for (i, block) in wall.blocks.iter().enumerate() {
         if block.course + 1 == wall.panels[block.panel].courses {
-            carried[i] = load * block.length();
+            carried[i] = loads[block.panel] * block.length();
         }
     }
     for (e, joint) in joints.iter().enumerate() {
@@ -187,7 +211,7 @@ fn transmitted(wall: &Wall, joints: &[Joint], load: f64) -> Vec<[f64; 2]> {
 
 /// The report's 3.1: every joint of block i carries w (m_i g + P0_i) in block i's equation, with
 /// P0_i = q L_i + γ B L_i (y_max − y_i); y are centres of gravity, y_max that of the panel's top course.
-fn overburden(wall: &Wall, joints: &[Joint], load: f64) -> Vec<[f64; 2]> {
+fn overburden(wall: &Wall, joints: &[Joint], loads: &[f64]) -> Vec<[f64; 2]> {
     let centre = |b: &Block| 0.5 * (b.y[0] + b.y[1]);
     let mut highest = vec![f64::NEG_INFINITY; wall.panels.len()];
     for block in &wall.blocks {
@@ -196,7 +220,7 @@ fn overburden(wall: &Wall, joints: &[Joint], load: f64) -> Vec<[f64; 2]> {
     let of = |i: usize| {
         let b = &wall.blocks[i];
         let above = b.specific_weight * b.thickness * b.length() * (highest[b.panel] - centre(b));
-        b.weight() + load * b.length() + above
+        b.weight() + loads[b.panel] * b.length() + above
     };
     let pair = |joint: &Joint| {
         let a = of(joint.a);

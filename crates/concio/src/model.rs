@@ -11,7 +11,7 @@ use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::graph;
 use crate::law::Stribeck;
-use crate::wall::{End, Joint, Wall};
+use crate::wall::{Block, End, Joint, Wall};
 
 /// Everything a run needs and nothing it changes.
 #[derive(Debug, Clone)]
@@ -83,10 +83,11 @@ impl Model {
     /// Blocks that rest on nothing, selectors that name no joint, laws of a later version.
     pub fn compile(case: &Case, wall: Wall, excitation: Excitation) -> Result<Model> {
         let beam = case.load.beam;
-        let joints = graph::joints(&wall, !matches!(beam, Beam::Free));
+        let has_beam = !matches!(beam, Beam::Free);
+        let joints = graph::joints(&wall, has_beam);
         let laws = resolve(case, &wall, &joints)?;
         let (_, from) = friction_choice(&case.joint.friction);
-        let normal = graph::normal_forces(&wall, &joints, case.load.top.si(), from);
+        let normal = graph::normal_forces(&wall, &joints, case.load.top.si(), has_beam, from);
         let mut mass: Vec<f64> = wall.blocks.iter().map(|b| b.mass()).collect();
         let floating = if let Beam::Mass(m) = beam {
             mass.push(m.si());
@@ -323,6 +324,19 @@ pub fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Resu
     Ok(chosen)
 }
 
+/// Says what becomes of a panel whose top does not reach the beam's bed joint.
+fn under_beam(wall: &Wall, panel: usize) -> Option<String> {
+    let (gap, info) = (graph::below_beam(wall, panel), &wall.panels[panel]);
+    let consequence = if gap > graph::packing(wall, panel) {
+        "more than half a brick: it carries neither the beam nor load.top"
+    } else if gap > 0.5 * info.mortar[0] + 1e-6 * info.reference_height {
+        "the gap is taken as packed with mortar"
+    } else {
+        return None;
+    };
+    Some(format!("panel {} ends {:.0} mm below the highest one under the beam; {consequence}", info.name, 1e3 * gap))
+}
+
 /// `rubs` joints rub, `idle` ones have a friction law but no normal force.
 fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -340,9 +354,14 @@ fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool
     if rubs == 0 && idle > 0 {
         warnings.push("friction is given but no joint carries a normal force".into());
     }
+    if case.load.beam != Beam::Free {
+        warnings.extend((0..wall.panels.len()).filter_map(|panel| under_beam(wall, panel)));
+    }
     if let Beam::Mass(m) = case.load.beam {
-        let length: f64 =
-            wall.blocks.iter().filter(|b| b.course + 1 == wall.panels[b.panel].courses).map(|b| b.length()).sum();
+        let carries: Vec<bool> =
+            (0..wall.panels.len()).map(|p| graph::below_beam(wall, p) <= graph::packing(wall, p)).collect();
+        let under = |b: &&Block| carries[b.panel] && b.course + 1 == wall.panels[b.panel].courses;
+        let length: f64 = wall.blocks.iter().filter(under).map(Block::length).sum();
         let load = case.load.top.si() * length;
         if m.si() * crate::G > 1.001 * load {
             warnings.push(format!(

@@ -86,7 +86,7 @@ fn joints_of_the_six_by_four_panel() {
 /// Statics: what the base joints carry is the weight of the wall and q times the length of the top course.
 #[test]
 fn transmitted_loads_add_up_to_weight_and_top_load() {
-    for extra in ["", "[[panel]]\nbond = \"stack\"\ncourses = 4\nbricks = 3\n"] {
+    for extra in ["", "[[panel]]\nbond = \"stack\"\ncourses = 6\nbricks = 3\n"] {
         let text = format!("{PANEL}{SLIPPING}").replace("[joint]", &format!("{extra}[joint]"));
         let model = ready(&text).model;
         let weight: f64 = model.wall.blocks.iter().map(|b| b.weight()).sum();
@@ -430,4 +430,33 @@ fn a_one_way_law_on_bed_joints_is_refused() {
         let message = refused.unwrap_err().to_string();
         assert!(message.contains("no-tension") && message.contains("elastic"), "{message}");
     }
+}
+
+/// A panel that ends well below the beam carries neither beam nor load; one that nearly reaches it does.
+#[test]
+fn a_low_panel_does_not_carry_the_beam() {
+    let text = |courses: usize| {
+        format!("{PANEL}{SLIPPING}")
+            .replace("[joint]", &format!("[[panel]]\nbond = \"stack\"\ncourses = {courses}\nbricks = 2\n[joint]"))
+    };
+    let top = |model: &Model| {
+        let joint =
+            |j: &&concio::wall::Joint| j.kind == concio::case::JointKind::Top && model.wall.blocks[j.a].panel == 1;
+        model.joints.iter().filter(joint).count()
+    };
+    let (equal, low) = (ready(&text(6)).model, ready(&text(5)).model);
+    assert_eq!((top(&equal), top(&low)), (2, 0));
+    assert!(equal.warnings.is_empty(), "{:?}", equal.warnings);
+    assert!(low.warnings.iter().any(|w| w.contains("p2") && w.contains("65 mm")), "{:?}", low.warnings);
+    // Its base then carries its own weight alone.
+    let base = |model: &Model| {
+        let of_panel = |r: &&concio::model::Rub| {
+            let joint = &model.joints[r.joint as usize];
+            joint.kind == concio::case::JointKind::Base && model.wall.blocks[joint.a].panel == 1
+        };
+        model.rubs.iter().filter(of_panel).map(|r| r.normal[0]).sum::<f64>()
+    };
+    let weight: f64 = low.wall.blocks.iter().filter(|b| b.panel == 1).map(|b| b.weight()).sum();
+    assert!((base(&low) / weight - 1.0).abs() < 1e-12);
+    assert!(base(&equal) > 10.0 * weight);
 }

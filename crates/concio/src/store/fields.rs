@@ -59,9 +59,10 @@ pub(super) const JOINT_ENVELOPES: [Field<Envelopes, Vec<f64>>; 8] = [
 ];
 
 /// The energy account.
-pub(super) const ENERGIES: [Field<Energies, f64>; 8] = [
+pub(super) const ENERGIES: [Field<Energies, f64>; 9] = [
     field!("input_base", "J", input_base, "Work of the base motion on the motion relative to the base."),
     field!("input_top", "J", input_top, "Work of the driven top beam."),
+    field!("initial", "J", initial, "Kinetic and elastic energy at t = 0 that no work of the run brought."),
     field!("kinetic", "J", kinetic, "Kinetic energy."),
     field!("elastic", "J", elastic, "Elastic energy of the joints."),
     field!("damping", "J", damping, "Energy dissipated by viscous damping."),

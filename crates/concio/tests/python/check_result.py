@@ -24,7 +24,7 @@ JOINT_ENVELOPES = BLOCK_ENVELOPES | {
     "force": "N",
     "dissipation": "J",
 }
-ENERGIES = ["input_base", "input_top", "kinetic", "elastic", "damping", "friction", "bond", "nonreciprocal"]
+ENERGIES = ["input_base", "input_top", "initial", "kinetic", "elastic", "damping", "friction", "bond", "nonreciprocal"]
 TOTALS = {
     "peak_relative_displacement": "m",
     "peak_slip_velocity": "m/s",

@@ -149,13 +149,13 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         energies: Energies {
             input_base: 1.5,
             input_top: 2.5,
+            initial: 0.015625,
             kinetic: 0.125,
             elastic: 0.25,
             damping: 0.5,
             friction: 3.0,
             bond: 0.0625,
             nonreciprocal: 0.03125,
-            initial: 0.0,
         },
         totals: Totals {
             peak_relative_displacement: 1.1e-3,
