@@ -63,6 +63,7 @@ fn all(root: &Path) -> Result<[(&'static str, String); 3], String> {
 /// The picture of the README.
 fn drawing(root: &Path) -> Result<String, String> {
     let out: PathBuf = root.join("target").join("first-wall.svg");
+    fs::create_dir_all(root.join("target")).map_err(|e| format!("target: {e}"))?;
     let mut check = Command::new(concio(root));
     read(check.args(["check", "examples/01-first-wall.toml", "--svg"]).arg(&out).current_dir(root))?;
     fs::read_to_string(&out).map_err(|e| format!("{}: {e}", out.display()))

@@ -55,7 +55,7 @@ fn concio(root: &Path) -> PathBuf {
 }
 
 fn build(root: &Path) -> Outcome {
-    run(cargo(root).args(["build", "--release", "--package", "concio-cli"]))
+    run(cargo(root).args(["build", "--locked", "--release", "--package", "concio-cli"]))
 }
 
 fn ci(root: &Path) -> Outcome {
@@ -63,7 +63,16 @@ fn ci(root: &Path) -> Outcome {
     let steps: [(&str, &dyn Fn() -> Outcome); 10] = [
         ("format", &|| run(cargo(root).args(["fmt", "--all", "--check"]))),
         ("lints", &|| {
-            run(cargo(root).args(["clippy", "--release", "--workspace", "--all-targets", "--", "--deny", "warnings"]))
+            run(cargo(root).args([
+                "clippy",
+                "--locked",
+                "--release",
+                "--workspace",
+                "--all-targets",
+                "--",
+                "--deny",
+                "warnings",
+            ]))
         }),
         ("build", &|| build(root)),
         ("tests", &|| tests(root, python.as_deref())),
@@ -88,13 +97,13 @@ fn tests(root: &Path, python: Option<&Path>) -> Outcome {
     let nextest = cargo(root).args(["nextest", "--version"]).output().is_ok_and(|o| o.status.success());
     let mut all = cargo(root);
     if nextest {
-        all.args(["nextest", "run", "--cargo-profile", "release", "--workspace"]);
+        all.args(["nextest", "run", "--locked", "--cargo-profile", "release", "--workspace"]);
     } else {
-        all.args(["test", "--release", "--workspace", "--all-targets"]);
+        all.args(["test", "--locked", "--release", "--workspace", "--all-targets"]);
     }
     if let Some(python) = python {
         all.env("CONCIO_PYTHON", python);
     }
     run(&mut all)?;
-    run(cargo(root).args(["test", "--release", "--workspace", "--doc"]))
+    run(cargo(root).args(["test", "--locked", "--release", "--workspace", "--doc"]))
 }

@@ -17,7 +17,7 @@ bricks = 6
 top = "10 kN/m"
 beam = "driven"
 [motion]
-duration = "0.6 s"
+duration = "1.2 s"
 top = { sine = { amplitude = "5 mm", frequency = "3 Hz", ramp = "0.3 s" } }
 "#;
 const KILLS: u32 = 10;
@@ -60,7 +60,7 @@ fn ten_kills_at_random_moments_change_nothing() {
     let last = last.unwrap();
     assert!(last.status.success(), "{}", String::from_utf8_lossy(&last.stderr));
     println!("{killed} runs killed, {resumable} left a checkpoint");
-    assert!(killed > 0, "every run ended before it was killed: the wall is too quick for this test");
+    assert!(killed > 0 && resumable > 0, "no run was killed after a checkpoint: the wall is too quick for this test");
     let bytes = |out: &Path| fs::read(out.join("result.h5")).unwrap();
     assert!(bytes(&whole) == bytes(&broken), "the results differ");
     assert!(!broken.join("journal.bin").exists() && !broken.join("checkpoint.bin").exists());

@@ -112,7 +112,8 @@ fn at_key(error: Error, key: &str) -> Error {
 
 fn sampling(output: &Output, excitation: &Excitation) -> Result<Sampling> {
     let duration = excitation.duration;
-    let of_record = [&excitation.base, &excitation.top].into_iter().filter_map(|m| m.sample_interval());
+    let top = excitation.driven.then_some(&excitation.top);
+    let of_record = [Some(&excitation.base), top].into_iter().flatten().filter_map(|m| m.sample_interval());
     let interval = match output.interval {
         Some(interval) => interval.si(),
         None => of_record.reduce(f64::min).unwrap_or(duration / 2000.0).min(duration),
@@ -171,7 +172,7 @@ pub fn run(prepared: &Prepared, out: &Path, monitor: &mut dyn FnMut(&Status) -> 
     let solve_seconds = start.elapsed().as_secs_f64();
     let rows = journal.read_all()?;
     let outcome = simulation.outcome(rows, reason);
-    let summary = write(prepared, &outcome, solve_seconds, out)?;
+    let summary = write(prepared, &outcome, solve_seconds, resumed_from, out)?;
     if reason != StopReason::Interrupted {
         journal.remove()?;
     }
@@ -234,11 +235,17 @@ fn integrate(
     }
 }
 
-fn write(prepared: &Prepared, outcome: &Outcome, solve_seconds: f64, out: &Path) -> Result<Value> {
+fn write(
+    prepared: &Prepared,
+    outcome: &Outcome,
+    solve_seconds: f64,
+    resumed_from: Option<f64>,
+    out: &Path,
+) -> Result<Value> {
     let (model, provenance, joints) = (&prepared.model, prepared.provenance(), joint_rows(&prepared.model));
     let mut warnings = model.warnings.clone();
     warnings.extend(large_slips(model, outcome));
-    let facts = RunFacts { duration: model.excitation.duration, solve_seconds, warnings };
+    let facts = RunFacts { duration: model.excitation.duration, solve_seconds, resumed_from, warnings };
     let summary = store::summary(&provenance, &model.wall, &joints, outcome, &facts);
     store::hdf5::write(&out.join(RESULT), &provenance, &model.wall, &joints, outcome)?;
     store::write_summary(&out.join(SUMMARY), &summary)?;

@@ -143,7 +143,7 @@ pub fn respond(model: &Model, solver: &Solver, interval: f64, z: &[f64], v: &[f6
     let n = model.unknowns();
     let by_row = |values: &[f64]| values.chunks(n).map(<[f64]>::to_vec).collect();
     let state = run.state();
-    let scale = state.totals.peak_input.max(state.energies.initial);
+    let scale = state.totals.peak_input.max(state.energies.initial.abs());
     Ok(Histories {
         displacement: by_row(&rows.frame_displacement),
         velocity: by_row(&rows.frame_velocity),

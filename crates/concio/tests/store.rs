@@ -474,7 +474,7 @@ fn a_full_disk_keeps_the_former_result() {
 #[test]
 fn summary_has_the_keys_that_other_programs_read() {
     let s = sample(SMALL);
-    let facts = RunFacts { duration: 0.1, solve_seconds: 0.5, warnings: vec!["One.".into()] };
+    let facts = RunFacts { duration: 0.1, solve_seconds: 0.5, resumed_from: None, warnings: vec!["One.".into()] };
     let summary = store::summary(&s.provenance, &s.wall, &s.joints, &s.outcome, &facts);
     let number = |key: &str| summary.pointer(key).and_then(|v| v.as_f64()).unwrap_or_else(|| panic!("no {key}"));
     assert_eq!(number("/blocks"), 12.0);

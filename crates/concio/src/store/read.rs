@@ -24,7 +24,8 @@ use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 pub fn read(path: &Path) -> Result<StoredRun> {
     let source = Source::open(path)?;
     let schema_version = check_format(&source)?;
-    let wall = Wall { panels: read_panels(&source)?, blocks: read_blocks(&source)? };
+    let panels = read_panels(&source)?;
+    let wall = Wall { blocks: read_blocks(&source, panels.len())?, panels };
     let joints = read_joints(&source, wall.blocks.len())?;
     let layout = read_layout(&source)?;
     if layout.unknowns < wall.blocks.len() {
@@ -85,7 +86,7 @@ fn read_panels(source: &Source) -> Result<Vec<PanelInfo>> {
     Ok(panels)
 }
 
-fn read_blocks(source: &Source) -> Result<Vec<Block>> {
+fn read_blocks(source: &Source, panel_count: usize) -> Result<Vec<Block>> {
     let names = source.texts("wall/blocks/name")?;
     let panels: Vec<i64> = source.list("wall/blocks/panel", names.len())?;
     let courses: Vec<i64> = source.list("wall/blocks/course", names.len())?;
@@ -93,7 +94,8 @@ fn read_blocks(source: &Source) -> Result<Vec<Block>> {
     for ((name, panel), course) in names.into_iter().zip(panels).zip(courses) {
         blocks.push(Block {
             name,
-            panel: index(source, "wall/blocks/panel", panel)?,
+            panel: index(source, "wall/blocks/panel", panel)
+                .and_then(|p| if p < panel_count { Ok(p) } else { Err(no_panel(source, p)) })?,
             course: index(source, "wall/blocks/course", course)?,
             x: [0.0; 2],
             y: [0.0; 2],
@@ -103,6 +105,10 @@ fn read_blocks(source: &Source) -> Result<Vec<Block>> {
     }
     read_columns(source, "wall/blocks", &fields::BLOCKS, &mut blocks)?;
     Ok(blocks)
+}
+
+fn no_panel(source: &Source, panel: usize) -> crate::error::Error {
+    source.wrong("wall/blocks/panel", format!("there is no panel {panel}"))
 }
 
 fn read_joints(source: &Source, blocks: usize) -> Result<Vec<JointRow>> {

@@ -15,8 +15,10 @@ use crate::wall::Wall;
 pub struct RunFacts {
     /// Duration asked for [s].
     pub duration: f64,
-    /// Time by the clock that solving took [s].
+    /// Time by the clock that solving took [s], since the resume if there was one.
     pub solve_seconds: f64,
+    /// Time from which a run that had been cut off was taken up [s].
+    pub resumed_from: Option<f64>,
     /// What the user should know, one sentence each.
     pub warnings: Vec<String>,
 }
@@ -41,6 +43,7 @@ pub fn summary(
         "stop_reason": outcome.stop_reason,
         "steps": outcome.counters.steps,
         "solve_seconds": facts.solve_seconds,
+        "resumed_from": facts.resumed_from,
         "peak_relative_displacement": totals.peak_relative_displacement,
         "peak_slip_velocity": totals.peak_slip_velocity,
         "top_work": outcome.energies.input_top,
@@ -66,11 +69,12 @@ pub fn write_summary(path: &Path, summary: &Value) -> Result<()> {
     atomic::replace_bytes(path, text.as_bytes())
 }
 
-/// Largest residual of the energy account over the largest work done on the wall, both over the whole run; 0 when
-/// no work was done. The work at the end is no measure: what a driven beam gives it may take back.
+/// Largest residual of the energy account over the largest energy in play, the work done on the wall or what it had at
+/// the start, all over the whole run; 0 when there was none. The work at the end is no measure: what a driven beam gives it may take back.
 pub fn residual_relative(outcome: &Outcome) -> f64 {
     let totals = &outcome.totals;
-    if totals.peak_input == 0.0 { 0.0 } else { totals.peak_residual / totals.peak_input }
+    let scale = totals.peak_input.max(outcome.energies.initial.abs());
+    if scale == 0.0 { 0.0 } else { totals.peak_residual / scale }
 }
 
 /// Root mean square of the force of the top beam over the time reached [N].
@@ -80,6 +84,7 @@ pub fn top_force_rms(outcome: &Outcome) -> f64 {
 
 fn energy(energies: &Energies, residual_relative: f64) -> Value {
     json!({
+        "initial": energies.initial,
         "input": energies.input(),
         "kinetic": energies.kinetic,
         "elastic": energies.elastic,

@@ -25,6 +25,8 @@ impl Lock {
                     let what = "another run is writing to this folder; wait for it or choose another folder";
                     return Err(Error::Store { path: folder.to_path_buf(), what: what.into() });
                 }
+                // Some network file systems have no locks: better a run without this guard than none.
+                Err(TryLockError::Error(e)) if no_locks_here(&e) => {}
                 Err(TryLockError::Error(e)) => return Err(Error::io(&path, e)),
             }
             // Between opening and locking, a run that ended may have removed the file: a lock on a file without a
@@ -53,6 +55,13 @@ impl Drop for Lock {
     fn drop(&mut self) {
         let _ = self.file.unlock();
     }
+}
+
+/// Whether the file system says that it knows no locks (ENOLCK, ENOSYS, EOPNOTSUPP).
+fn no_locks_here(error: &std::io::Error) -> bool {
+    const ENOLCK: i32 = 37;
+    error.kind() == std::io::ErrorKind::Unsupported
+        || (cfg!(target_os = "linux") && error.raw_os_error() == Some(ENOLCK))
 }
 
 #[cfg(unix)]
