@@ -14,6 +14,9 @@ const KINDS: [JointKind; 5] = [JointKind::Base, JointKind::Bed, JointKind::Head,
 
 /// Validates a wall file and prints what it describes.
 pub fn check(args: &Check) -> Result<(), Failure> {
+    if let Some(path) = &args.svg {
+        files::guard(path, "svg", &[&args.file])?;
+    }
     let file = wall_file::read(&args.file)?;
     let prepared = wall_file::prepare(&file)?;
     let model = &prepared.model;

@@ -20,6 +20,9 @@ const PERIODS: (usize, f64, f64) = (120, 0.02, 10.0);
 
 /// Prints and draws the measures of a record.
 pub fn record(args: &Record) -> Result<(), Failure> {
+    if let Some(path) = &args.svg {
+        files::guard(path, "svg", &[&args.file])?;
+    }
     let options = TextOptions {
         quantity: match args.quantity {
             Quantity::Acceleration => HistoryQuantity::Acceleration,

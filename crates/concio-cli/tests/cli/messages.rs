@@ -98,3 +98,35 @@ help: give another folder with --out
     desk.concio("check wall.toml --svg no/such/folder/wall.svg").assert().code(1);
     assert_eq!(desk.list(), ["wall.toml"]);
 }
+
+/// Outputs that would replace a file of the user's own, and what is said of them.
+#[test]
+fn files_of_the_user_are_not_overwritten() {
+    let desk = Desk::new();
+    desk.put("quake.txt", "# dt = 0.01 s, units: g\n0.0\n0.1\n-0.2\n");
+    desk.put("notes.md", "mine");
+    desk.concio("run wall.toml --out r").assert().success();
+    let own = ["wall.toml", "quake.txt", "notes.md"];
+    let before = own.map(|name| desk.get(name));
+    for (line, part) in [
+        ("check wall.toml --svg wall.toml", "overwrite the input"),
+        ("check wall.toml --svg ./r/../wall.toml", "overwrite the input"),
+        ("check wall.toml --svg notes.md", "ending in .svg"),
+        ("check wall.toml --svg r", "is a folder"),
+        ("record quake.txt --svg quake.txt", "overwrite the input"),
+        ("record quake.txt --svg wall.toml", "ending in .svg"),
+        ("export r --npz --out wall.toml", "ending in .npz"),
+        ("export r --vtkhdf --out r/result.h5", "ending in .vtkhdf"),
+        ("export r --csv --out notes.md", "is a file"),
+    ] {
+        let refused = desk.concio(line).assert().code(2).stdout_eq(str![""]);
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(message.contains(part) && message.contains("help: give another"), "{line}: {message}");
+    }
+    assert_eq!(own.map(|name| desk.get(name)), before);
+    // What the program wrote itself it may write again.
+    for line in ["check wall.toml --svg w.svg", "record quake.txt --svg w.svg", "export r --npz --out a.npz"] {
+        desk.concio(line).assert().success();
+        desk.concio(line).assert().success();
+    }
+}
