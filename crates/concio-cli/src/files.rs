@@ -13,7 +13,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => Ok(()),
         Err(e) if e.kind() == ErrorKind::BrokenPipe => Err(Failure::ReaderGone),
-        Err(e) => Err(Failure::Other(format!("standard output: {e}"))),
+        Err(e) => Err(Failure::Other(format!("standard output: {e}"), None)),
     }
 }
 
