@@ -4,7 +4,7 @@ use std::path::Path;
 
 use concio::case::{Beam, PulseShape, RecordInput, Signal};
 use concio::ground::record::{self, Record, TextOptions};
-use concio::ground::{STANDARD_GRAVITY, measure, process, synthetic};
+use concio::ground::{measure, process, synthetic};
 use concio::run::Prepared;
 
 use crate::failure::Failure;
@@ -83,12 +83,7 @@ fn samples(record: &Record) -> String {
 fn peak(record: &Record) -> String {
     let pga = measure(record).pga;
     let size = pga.value.abs();
-    format!(
-        "PGA {} m/s² = {} g at {}",
-        significant(size, 4),
-        significant(size / STANDARD_GRAVITY, 4),
-        seconds(pga.time)
-    )
+    format!("PGA {} m/s² = {} g at {}", significant(size, 4), significant(size / concio::G, 4), seconds(pga.time))
 }
 
 /// How much of a record the run goes through.
@@ -162,5 +157,5 @@ fn closed_form(signal: &Signal) -> String {
 }
 
 fn acceleration(a: f64) -> String {
-    format!("acceleration {} m/s² = {} g", significant(a, 4), significant(a / STANDARD_GRAVITY, 4))
+    format!("acceleration {} m/s² = {} g", significant(a, 4), significant(a / concio::G, 4))
 }

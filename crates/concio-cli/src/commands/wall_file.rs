@@ -37,14 +37,11 @@ fn named(file: &CaseFile, error: Error) -> Error {
     if let Some((key, _)) = found {
         let key = format!("{key}.record");
         let place = match file.locate(InputError::new("").key(&*key).into()) {
-            Error::Input(InputError { file: Some(path), line: Some(line), .. }) => {
-                format!("the record is named in {}:{line} as {key}", path.display())
-            }
-            _ => format!("the record is named as {key}"),
+            Error::Input(at) => at.file.zip(at.line).map(|(path, line)| format!("{}:{line}", path.display())),
+            _ => None,
         };
-        // The readers speak of the wall file too when they name a key of it, so their own hint comes first.
-        error.help = Some(error.help.take().map_or(place.clone(), |help| format!("{help}\n      {place}")));
+        let place = format!("the record is named in {} as {key}", place.unwrap_or_else(|| "the wall file".into()));
+        error.help = Some(error.help.take().map_or_else(|| place.clone(), |help| format!("{help}; {place}")));
     }
     Error::Input(error)
 }
-

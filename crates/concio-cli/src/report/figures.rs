@@ -19,10 +19,7 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     let of_blocks = of_blocks.get(..content.wall.blocks.len()).unwrap_or(of_blocks);
     let field = |title, unit, values| Field { title, unit, values };
     let views = [
-        (
-            "displacement",
-            Paint::Blocks(field("peak displacement relative to the base", "m", of_blocks)),
-        ),
+        ("displacement", Paint::Blocks(field("peak displacement relative to the base", "m", of_blocks))),
         ("slip", Paint::Joints(field("way slipped", "m", &envelopes.joint_slip))),
         ("opening", Paint::Joints(field("widest gap of the head joints", "m", &envelopes.joint_opening))),
         ("acceleration", Paint::Joints(field("peak relative acceleration", "m/s²", &envelopes.joint_acceleration))),

@@ -25,8 +25,8 @@ pub(crate) fn from_node<'de, T: Deserialize<'de>>(node: &'de Node) -> Result<T, 
     })
 }
 
-/// The closest of `known` to `word`, if it is close: the fewest letters mistyped, then the most alike from the start,
-/// then the nearest letters and digits, so that of numbered names the nearest number wins.
+/// The closest of `known` to `word`, if it is close: the fewest letters mistyped, then the longer word, since letters
+/// are left out more often than added (a plural), then the most alike from the start, then the nearest letters and digits, so that of numbered names the nearest number wins.
 pub(crate) fn suggestion<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let plain = |text: &str| text.to_lowercase().replace('-', "_");
     let word = plain(word);
@@ -38,7 +38,8 @@ pub(crate) fn suggestion<'a>(word: &str, known: impl IntoIterator<Item = &'a str
         let apart: u32 = word.chars().zip(other.chars()).map(|(a, b)| u32::from(a).abs_diff(u32::from(b))).sum();
         near.then_some((mistyped, alike, apart, name))
     });
-    let best = ranked.min_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)).then(a.2.cmp(&b.2)));
+    let best = ranked
+        .min_by(|a, b| a.0.cmp(&b.0).then(b.3.len().cmp(&a.3.len())).then(b.1.total_cmp(&a.1)).then(a.2.cmp(&b.2)));
     best.map(|(.., name)| name)
 }
 

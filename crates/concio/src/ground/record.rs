@@ -132,6 +132,10 @@ pub fn parse(bytes: &[u8], path: &Path, options: &TextOptions) -> Result<Vec<Rec
         Format::CsmipV2 => csmip_v2::read(&source),
         Format::UsgsSmc => usgs_smc::read(&source).map(|record| vec![record]),
         Format::PeerAt2 => peer_at2::read(&source).map(|record| vec![record]),
+        Format::Text | Format::Synthetic if text.trim_start().starts_with(['{', '<']) => {
+            let error = source.error("the file is JSON or a page of markup, none of the formats that are read");
+            Err(error.allowed("PEER AT2, ITACA/ESM ASC, COSMOS V2, CSMIP V2, USGS SMC, columns of numbers").into())
+        }
         Format::Text | Format::Synthetic => text::read(&source, options),
     }
 }
