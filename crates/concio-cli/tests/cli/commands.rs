@@ -351,3 +351,30 @@ fn a_report_shows_the_histories_asked_for() {
         assert!(report.contains(part), "{part}");
     }
 }
+
+/// The blocks of the guide that hold whole tables make one valid wall file.
+#[test]
+fn the_guide_to_the_wall_file_is_valid() {
+    let guide = include_str!("../../../../docs/wall-file.md");
+    let blocks = guide.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next());
+    let text: String = blocks.filter(|b| b.starts_with(['[', 't'])).collect();
+    assert!(text.contains("[output]") && text.contains("title ="), "{text}");
+    let desk = Desk::new();
+    desk.put("quake.at2", AT2);
+    desk.put("guide.toml", text);
+    desk.concio("check guide.toml").assert().success();
+}
+
+/// The wall in the README is the built-in one, and so is the first example.
+#[test]
+fn the_first_wall_is_the_same_everywhere() {
+    let readme = include_str!("../../../../README.md");
+    let snippet = readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a wall file");
+    let example = include_str!("../../../../examples/01-first-wall.toml");
+    let built_in = concio::case::example().expect("the built-in wall").case;
+    for text in [snippet, example] {
+        let mut case = concio::case::from_str(text, concio::case::Syntax::Toml, None).expect("a wall file").case;
+        case.title = built_in.title.clone();
+        assert_eq!(case, built_in);
+    }
+}

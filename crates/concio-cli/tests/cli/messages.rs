@@ -21,7 +21,7 @@ const WRONG: [(&str, &str, &str, &[&str]); 16] = [
         "a record that is not there",
         "top = { sine",
         "base = { record = \"no.at2\" }\ntop = { sine",
-        &["no.at2", "bad.toml:22 as motion.base.record"],
+        &["no.at2", "bad.toml:23 as motion.base.record"],
     ),
     ("letters swapped", "courses = 4", "coures = 4", &["bad.toml:6:", "did you mean `courses`?"]),
     ("a decimal comma", "static = 0.6", "static = 0,6", &["bad.toml:15:", "write 0.6"]),
