@@ -71,12 +71,14 @@ pub struct Run {
 /// Validate a wall file and say what it describes.
 ///
 /// Lists everything that is wrong with the file, each with its line and the allowed range. If nothing is, prints
-/// what the wall consists of: panels, joints of each kind, mass, normal forces. Nothing is simulated.
+/// what the wall consists of: panels, joints of each kind, mass, normal forces, and what moves it: record, scale, peak
+/// acceleration, how much of it is used. Nothing is simulated.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   concio check wall.toml
-  concio check wall.toml --svg wall.svg    a drawing with the names of blocks and joints")]
+  concio check wall.toml --svg wall.svg    a drawing with the names of blocks and joints
+  concio check wall.toml --joints          every joint by name")]
 pub struct Check {
     /// Wall file, TOML or JSON.
     #[arg(value_hint = ValueHint::FilePath)]
@@ -84,6 +86,9 @@ pub struct Check {
     /// Draw the wall into this file.
     #[arg(long, value_name = "OUT", value_hint = ValueHint::FilePath)]
     pub svg: Option<PathBuf>,
+    /// List every joint: name, kind, course, weight, normal force.
+    #[arg(long)]
+    pub joints: bool,
 }
 
 /// Write a commented wall file to start from.

@@ -24,8 +24,8 @@ const EXCERPT: usize = 100;
 pub enum Failure {
     /// Mistakes in the input, one or more.
     Input(Vec<InputError>),
-    /// Something else went wrong.
-    Other(String),
+    /// Something else went wrong, and what may mend it.
+    Other(String, Option<&'static str>),
     /// Whoever read the output has gone, as `head` does: nothing to complain about.
     ReaderGone,
 }
@@ -34,7 +34,15 @@ impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
             Error::Input(e) => Failure::Input(vec![*e]),
-            other => Failure::Other(other.to_string()),
+            // Named by its kind: the system's text may bear the name of a temporary file.
+            Error::Io { path, source } => {
+                let what = match source.kind() {
+                    io::ErrorKind::Other => source.to_string(),
+                    kind => kind.to_string(),
+                };
+                Failure::Other(format!("{}: {what}", path.display()), remedy(source.kind()))
+            }
+            other => Failure::Other(other.to_string(), None),
         }
     }
 }
@@ -57,12 +65,26 @@ impl Failure {
                 print(&errors.iter().map(render).collect::<Vec<_>>().join("\n"));
                 ExitCode::from(WRONG_INPUT)
             }
-            Failure::Other(what) => {
-                print(&format!("{RED}error{RED:#}: {what}\n"));
+            Failure::Other(what, help) => {
+                let help = help.map_or(String::new(), |help| format!("{BLUE}help{BLUE:#}: {help}\n"));
+                print(&format!("{RED}error{RED:#}: {what}\n{help}"));
                 ExitCode::from(STOPPED)
             }
             Failure::ReaderGone => ExitCode::SUCCESS,
         }
+    }
+}
+
+/// What the user can do about a file that cannot be read or written.
+fn remedy(kind: io::ErrorKind) -> Option<&'static str> {
+    match kind {
+        io::ErrorKind::NotFound => Some("make the folder first, or give another name"),
+        io::ErrorKind::NotADirectory => Some("a part of the path is a file: give another name"),
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            Some("this place may not be written to: give another name")
+        }
+        io::ErrorKind::StorageFull => Some("the disk is full"),
+        _ => None,
     }
 }
 

@@ -13,7 +13,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => Ok(()),
         Err(e) if e.kind() == ErrorKind::BrokenPipe => Err(Failure::ReaderGone),
-        Err(e) => Err(Failure::Other(format!("standard output: {e}"))),
+        Err(e) => Err(Failure::Other(format!("standard output: {e}"), None)),
     }
 }
 
@@ -26,6 +26,26 @@ pub fn note(text: &str) {
 pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
     let written = temporary(path, text).and_then(|file| file.persist(path).map_err(|e| e.error));
     written.map(drop).map_err(|e| Error::io(path, e).into())
+}
+
+/// Refuses an output that would replace one of the user's own files: an input of the same command, or any file that
+/// does not bear the ending of what is written. To be called before the work is done.
+pub fn guard(out: &Path, ending: &str, inputs: &[&Path]) -> Result<(), Failure> {
+    let Ok(target) = out.canonicalize() else { return Ok(()) };
+    let refuse = |what: String| {
+        let error = InputError::new(what).in_file(out);
+        Err(error.help(format!("give another name, ending in .{ending}")).into())
+    };
+    if inputs.iter().any(|input| input.canonicalize().is_ok_and(|input| input == target)) {
+        return refuse("the output would overwrite the input".into());
+    }
+    if target.is_dir() {
+        return refuse("the output is a folder".into());
+    }
+    if !out.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending)) {
+        return refuse(format!("the file exists, and only a file ending in .{ending} is replaced"));
+    }
+    Ok(())
 }
 
 /// As [`write`], but a file of that name is an error.

@@ -24,6 +24,17 @@ pub fn significant(value: f64, digits: i32) -> String {
     format!("{value:.decimals$}")
 }
 
+/// A time in seconds as it is, without the digits that rounding leaves behind: `12.325 s`, `39.99 s`, `65 s`.
+pub fn seconds(value: f64) -> String {
+    format!("{} s", plain(value))
+}
+
+/// At most nine significant digits, no zeros behind the last.
+pub fn plain(value: f64) -> String {
+    let text = significant(value, 9);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
+}
+
 /// A time by the clock: `0.42 s`, `3 min 12 s`.
 pub fn clock(seconds: f64) -> String {
     if seconds < 60.0 {
@@ -70,6 +81,9 @@ mod tests {
 
     #[test]
     fn times() {
+        assert_eq!(seconds(49.995000000000005), "49.995 s");
+        assert_eq!((seconds(65.0), seconds(0.0), seconds(12.325)), ("65 s".into(), "0 s".into(), "12.325 s".into()));
+        assert_eq!(plain(1000.0), "1000");
         assert_eq!(clock(0.4166), "0.417 s");
         assert_eq!(clock(192.2), "3 min 12 s");
         assert_eq!(clock(7500.0), "2 h 5 min");

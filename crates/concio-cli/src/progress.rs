@@ -1,14 +1,21 @@
-//! The progress bar: only on a terminal, and only for runs that last.
+//! Progress of runs that last: a bar on a terminal, a line now and then in a log.
 
+use std::io::{self, IsTerminal};
 use std::time::{Duration, Instant};
 
 use concio::run::Status;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::files;
+use crate::format::{clock, seconds, significant};
+
 /// How long a run may take before a bar appears.
 const PATIENCE: Duration = Duration::from_millis(500);
 /// Length of the bar in steps of progress.
 const LENGTH: f64 = 10_000.0;
+
+/// Time between two lines where standard error is no terminal, as in the log of a batch job.
+const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
 /// Progress of one run.
 pub struct Progress {
@@ -16,39 +23,93 @@ pub struct Progress {
     /// Time of the run when the first status came [s]: a resumed run does not start at 0.
     first: Option<f64>,
     bar: Option<ProgressBar>,
+    /// Whether lines are printed instead of a bar, and when the last one was.
+    lines: Option<Instant>,
+    /// Whether an unfinished run lay in the folder.
+    unfinished: bool,
 }
 
 impl Progress {
-    /// Nothing is shown yet.
-    pub fn new() -> Self {
-        Progress { started: Instant::now(), first: None, bar: None }
+    /// Nothing is shown yet. `unfinished`: an unfinished run lies in the folder.
+    pub fn new(unfinished: bool) -> Self {
+        let started = Instant::now();
+        let lines = (!io::stderr().is_terminal()).then_some(started);
+        Progress { started, first: None, bar: None, lines, unfinished }
     }
 
-    /// Shows how far the run is. Does nothing when standard error is no terminal.
+    /// Shows how far the run is: a bar on a terminal, a line now and then elsewhere. Says at first what became of an
+    /// unfinished run in the folder.
     pub fn show(&mut self, status: &Status) {
+        if self.first.is_none() && self.unfinished {
+            files::note(&match taken_up(status) {
+                Some(time) => format!("taken up at t = {} of {}", time, seconds(status.duration)),
+                None => "An unfinished run lies in the folder, but of other inputs or damaged: it is discarded.".into(),
+            });
+        }
         let first = *self.first.get_or_insert(status.time);
-        let position = |time: f64| (time / status.duration * LENGTH) as u64;
-        let message = || format!("t = {:.3} of {} s, {} steps", status.time, status.duration, status.steps);
-        if self.bar.is_none() && self.started.elapsed() > PATIENCE {
-            // The remaining time is reckoned from what this process has done.
-            let bar = ProgressBar::new(LENGTH as u64).with_position(position(first));
-            bar.reset_eta();
-            bar.set_message(message());
-            if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}  {eta} left") {
+        let elapsed = self.started.elapsed();
+        if let Some(last) = &mut self.lines {
+            if last.elapsed() >= BETWEEN_LINES {
+                *last = Instant::now();
+                let percent = 100.0 * status.time / status.duration;
+                files::note(&format!("{percent:.0} %  {}", line(status, first, elapsed)));
+            }
+            return;
+        }
+        if self.bar.is_none() && elapsed > PATIENCE {
+            let bar = ProgressBar::new(LENGTH as u64);
+            if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}") {
                 bar.set_style(style);
             }
             self.bar = Some(bar);
         }
         if let Some(bar) = &self.bar {
-            bar.set_position(position(status.time));
-            bar.set_message(message());
+            bar.set_position((status.time / status.duration * LENGTH) as u64);
+            bar.set_message(line(status, first, elapsed));
         }
     }
 
-    /// Takes the bar away.
-    pub fn clear(self) {
+    /// Takes the bar away; whether it has been said that an earlier run was taken up.
+    pub fn clear(self) -> bool {
         if let Some(bar) = self.bar {
             bar.finish_and_clear();
         }
+        self.unfinished && self.first.is_some()
+    }
+}
+
+/// Where an unfinished run was taken up; none when this one began at t = 0: the first look comes after one step.
+fn taken_up(status: &Status) -> Option<String> {
+    (status.steps > 1).then(|| format!("{} s", significant(status.time, 4)))
+}
+
+/// How far the run is, and the time left as this process's own progress from `first` lets expect.
+fn line(status: &Status, first: f64, elapsed: Duration) -> String {
+    let done = status.time - first;
+    let left = if done > 0.0 {
+        format!(", {} left", clock(elapsed.as_secs_f64() * (status.duration - status.time) / done))
+    } else {
+        String::new()
+    };
+    format!("t = {:.3} of {}, {} steps{left}", status.time, seconds(status.duration), status.steps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_is_reckoned_from_this_session() {
+        let status = Status { time: 5.0, duration: 6.0, steps: 1000 };
+        // One second of motion in two minutes, one second to go; a run taken up at 4 s did not make the other four.
+        let text = line(&status, 4.0, Duration::from_secs(120));
+        assert_eq!(text, "t = 5.000 of 6 s, 1000 steps, 2 min 0 s left");
+        assert_eq!(line(&status, 5.0, Duration::from_secs(120)), "t = 5.000 of 6 s, 1000 steps");
+    }
+
+    #[test]
+    fn a_run_from_the_start_is_not_taken_up() {
+        assert_eq!(taken_up(&Status { time: 1e-5, duration: 1.0, steps: 1 }), None);
+        assert_eq!(taken_up(&Status { time: 0.25, duration: 1.0, steps: 900 }), Some("0.2500 s".into()));
     }
 }

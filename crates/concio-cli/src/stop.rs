@@ -17,7 +17,7 @@ pub fn listen() -> Result<(), Failure> {
             process::exit(BY_SIGNAL);
         }
     };
-    ctrlc::set_handler(heard).map_err(|e| Failure::Other(format!("signals cannot be handled: {e}")))
+    ctrlc::set_handler(heard).map_err(|e| Failure::Other(format!("signals cannot be handled: {e}"), None))
 }
 
 /// Whether the user has asked to stop.

@@ -7,17 +7,21 @@ use super::wall_file;
 use crate::args::Check;
 use crate::draw::wall::{self, Paint, Subject, kind_name, mass};
 use crate::failure::Failure;
-use crate::format::{columns, pairs, si, significant};
+use crate::format::{columns, pairs, seconds, si, significant};
 use crate::{files, report};
 
 const KINDS: [JointKind; 5] = [JointKind::Base, JointKind::Bed, JointKind::Head, JointKind::Connection, JointKind::Top];
 
 /// Validates a wall file and prints what it describes.
 pub fn check(args: &Check) -> Result<(), Failure> {
+    if let Some(path) = &args.svg {
+        files::guard(path, "svg", &[&args.file])?;
+    }
     let file = wall_file::read(&args.file)?;
     let prepared = wall_file::prepare(&file)?;
     let model = &prepared.model;
-    for warning in &model.warnings {
+    let motion = wall_file::motion(&file, &prepared)?;
+    for warning in model.warnings.iter().chain(&motion.warnings) {
         files::note(&format!("warning: {warning}"));
     }
     if let Some(path) = &args.svg {
@@ -31,14 +35,16 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let general = pairs(&[
         ("unknowns", model.unknowns().to_string()),
         ("mass", mass(model.mass.iter().sum())),
-        ("motion", format!("{duration} s, {samples} samples kept")),
+        ("duration", format!("{}, {samples} samples kept", seconds(duration))),
     ]);
+    let list = if args.joints { format!("\n{}", columns(&joint_list(model))) } else { String::new() };
     let title = &prepared.case.title;
     let title = if title.is_empty() { String::new() } else { format!("{title}\n\n") };
     let text = format!(
-        "{title}{}\n{}\n{general}\n{} is a valid wall file.\n",
+        "{title}{}\n{}\n{general}\n{}{list}\n{} is a valid wall file.\n",
         columns(&panel_rows(model)),
         columns(&joint_rows(model)),
+        pairs(&motion.rows),
         args.file.display()
     );
     files::print(&text)
@@ -77,6 +83,17 @@ fn joint_rows(model: &Model) -> Vec<Vec<String>> {
         rows.push(vec![kind_name(kind).into(), members.len().to_string(), stiffness, friction, normal]);
     }
     rows.push(vec!["all".into(), model.joints.len().to_string()]);
+    rows
+}
+
+fn joint_list(model: &Model) -> Vec<Vec<String>> {
+    let mut rows = vec![["joint", "kind", "course", "weight", "normal force"].map(String::from).to_vec()];
+    let rubs = model.rub_of_joint();
+    for ((joint, name), rub) in model.joints.iter().zip(model.joint_names()).zip(rubs) {
+        let normal = rub.map_or("–".into(), |r| range(model.rubs[r].normal.into_iter(), |v| si(v, "N")));
+        let course = (model.wall.blocks[joint.a].course + 1).to_string();
+        rows.push(vec![name, kind_name(joint.kind).into(), course, significant(joint.weight, 4), normal]);
+    }
     rows
 }
 

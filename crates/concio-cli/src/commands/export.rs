@@ -11,6 +11,9 @@ use crate::files;
 
 /// Converts the result of a run.
 pub fn export(args: &Export) -> Result<(), Failure> {
+    if let Some(out) = &args.out {
+        guard(args, out)?;
+    }
     let run = stored(&args.dir)?;
     let out = |name| args.out.clone().unwrap_or_else(|| args.dir.join(name));
     let out = if args.csv {
@@ -24,6 +27,18 @@ pub fn export(args: &Export) -> Result<(), Failure> {
         export::vtkhdf(&run, &out).map(|()| out)
     }?;
     files::note(&format!("{} is written.", out.display()));
+    Ok(())
+}
+
+/// Refuses an output that would replace a file of another kind.
+fn guard(args: &Export, out: &Path) -> Result<(), Failure> {
+    if !args.csv {
+        return files::guard(out, if args.npz { "npz" } else { "vtkhdf" }, &[]);
+    }
+    if out.exists() && !out.is_dir() {
+        let error = InputError::new("the folder for the tables is a file").in_file(out);
+        return Err(error.help("give another folder with --out").into());
+    }
     Ok(())
 }
 

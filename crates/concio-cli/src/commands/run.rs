@@ -9,9 +9,12 @@ use concio::run::{Control, Finished, Prepared};
 use super::wall_file;
 use crate::args::Run;
 use crate::failure::{Failure, STOPPED};
-use crate::format::{pairs, significant};
+use crate::format::{pairs, seconds, significant};
 use crate::progress::Progress;
 use crate::{digest, files, report, stop};
+
+/// What an unfinished run leaves in its folder.
+const CHECKPOINT: &str = "checkpoint.bin";
 
 /// Runs a wall file, writes results and report, prints what matters.
 pub fn run(args: &Run) -> Result<ExitCode, Failure> {
@@ -28,6 +31,9 @@ pub fn run(args: &Run) -> Result<ExitCode, Failure> {
     if args.fresh {
         concio::run::forget(&out)?;
     }
+    for warning in prepared.model.warnings.iter().chain(&wall_file::motion(&file, &prepared)?.warnings) {
+        files::note(&format!("warning: {warning}"));
+    }
     let finished = simulate(&prepared, &out)?;
     let report = report::write(&out, &report::Content::of_run(&out, &prepared, &finished, Some(file.text())))?;
     let stopped = finished.outcome.stop_reason != StopReason::Completed;
@@ -37,13 +43,18 @@ pub fn run(args: &Run) -> Result<ExitCode, Failure> {
 
 fn simulate(prepared: &Prepared, out: &Path) -> Result<Finished, Failure> {
     stop::listen()?;
-    let mut progress = Progress::new();
+    let mut progress = Progress::new(out.join(CHECKPOINT).exists());
     let finished = concio::run::run(prepared, out, &mut |status| {
         progress.show(status);
         if stop::asked() { Control::Stop } else { Control::Continue }
     });
-    progress.clear();
-    Ok(finished?)
+    let told = progress.clear();
+    let finished = finished?;
+    // A run taken up so near its end that it was over before the first look.
+    if let Some(time) = finished.resumed_from.filter(|_| !told) {
+        files::note(&format!("taken up at t = {} s", significant(time, 4)));
+    }
+    Ok(finished)
 }
 
 /// `concio-run/NAME` in the working directory.
@@ -62,20 +73,15 @@ fn refuse_a_file(out: &Path) -> Result<(), Failure> {
 }
 
 fn tell(finished: &Finished, prepared: &Prepared, report: &Path) -> Result<(), Failure> {
-    for warning in digest::warnings(&finished.summary) {
+    // Those of the model were told before the run.
+    let known = &prepared.model.warnings;
+    for warning in digest::warnings(&finished.summary).filter(|w| !known.iter().any(|k| k == w)) {
         files::note(&format!("warning: {warning}"));
-    }
-    if let Some(time) = finished.resumed_from {
-        files::note(&format!("An earlier run that was cut off has been taken up at t = {} s.", significant(time, 4)));
     }
     let reason = finished.outcome.stop_reason;
     if reason != StopReason::Completed {
-        let at = significant(finished.outcome.time_reached, 6);
-        files::note(&format!(
-            "stopped early at t = {at} of {} s: {}",
-            prepared.model.excitation.duration,
-            digest::why(reason)
-        ));
+        let [at, end] = [finished.outcome.time_reached, prepared.model.excitation.duration].map(seconds);
+        files::note(&format!("stopped early at t = {at} of {end}: {}", digest::why(reason)));
     }
     let rows = digest::rows(&finished.outcome, &finished.summary);
     files::print(&format!("{}\nopen {}\n", pairs(&rows), report.display()))

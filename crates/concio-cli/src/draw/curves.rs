@@ -45,6 +45,8 @@ pub struct Figure<'a> {
     pub height: f64,
     /// Room to the right for the legend [px]: equal in figures whose time axes are to be compared.
     pub right: f64,
+    /// Whether the abscissae, above 0, are on a logarithmic axis.
+    pub logarithmic: bool,
 }
 
 /// Colours and dash patterns of the curves; the colours differ in brightness too.
@@ -102,6 +104,9 @@ pub fn draw(figure: &Figure) -> String {
     let [low, high] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |e, x| [e[0].min(x), e[1].max(x)]);
     if low < high {
         layout = layout.with_x_axis_min(low).with_x_axis_max(high);
+    }
+    if figure.logarithmic && low > 0.0 {
+        layout = layout.with_log_x();
     }
     if largest == 0.0 {
         // A curve that is zero throughout has no range of its own.
@@ -196,6 +201,7 @@ mod tests {
             curves: vec![Curve { name: "", x, y }],
             height: 260.0,
             right: NO_LEGEND,
+            logarithmic: false,
         };
         for (x, y) in [(&[][..], &[][..]), (&[0.0, 1.0], &[0.0, 0.0]), (&[0.0, 1.0], &[f64::NAN, f64::INFINITY])] {
             assert!(draw(&figure(x, y)).starts_with("<svg viewBox="));

@@ -25,6 +25,10 @@ pub fn px(v: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').into()
 }
 
+/// From the middle of a line of text down to its baseline, over the size of the font. Renderers do not agree on
+/// `dominant-baseline`.
+const MIDDLE: f64 = 0.35;
+
 /// Where a text stands with respect to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
@@ -76,10 +80,11 @@ impl Canvas {
         let turn = if upright { format!(r#" transform="rotate(-90 {} {})""#, px(x), px(y)) } else { String::new() };
         let _ = writeln!(
             self.body,
-            r#"<text x="{}" y="{}" font-size="{}" text-anchor="{anchor}" dominant-baseline="central" fill="{fill}"{turn}>{}</text>"#,
+            r#"<text x="{}" y="{}" font-size="{}" text-anchor="{anchor}" dy="{}" fill="{fill}"{turn}>{}</text>"#,
             px(x),
             px(y),
             px(size),
+            px(MIDDLE * size),
             escape(text)
         );
     }

@@ -23,6 +23,11 @@ pub fn list(content: &Content) -> Vec<String> {
     );
     if content.case.joint.friction.law == FrictionLaw::Stribeck {
         doubts.push(
+            "The springs of the bed joints stay elastic beside friction, however far a joint slips: forces may exceed \
+             the friction capacity, and the wall never slides off."
+                .into(),
+        );
+        doubts.push(
             "Friction is a smooth function of velocity: a joint that sticks creeps slowly under load instead of \
              holding for ever."
                 .into(),
@@ -34,6 +39,11 @@ pub fn list(content: &Content) -> Vec<String> {
 fn of_this_run(content: &Content) -> Vec<String> {
     let (outcome, friction) = (content.outcome, &content.case.joint.friction);
     let mut doubts = Vec::new();
+    let energies = &outcome.energies;
+    let slips = outcome.totals.peak_slip_velocity > friction.slip_velocity.si();
+    if friction.law == FrictionLaw::Stribeck && !slips && energies.friction > energies.damping {
+        doubts.push("No joint slipped: the friction work is creep of the regularised law.".into());
+    }
     let residual = residual(content.summary);
     if !(residual <= LARGEST_RESIDUAL) {
         doubts.push(format!(
@@ -41,7 +51,7 @@ fn of_this_run(content: &Content) -> Vec<String> {
              than {LARGEST_RESIDUAL}. Lower solver.tolerance."
         ));
     }
-    if friction.law == FrictionLaw::Stribeck && outcome.totals.peak_slip_velocity > friction.slip_velocity.si() {
+    if friction.law == FrictionLaw::Stribeck && slips {
         doubts.push(
             "Joints slip in this run. Stick-slip is sensitive to the last digit: energies, envelopes and forces can be \
              relied on, the course of a single history after many slips cannot."

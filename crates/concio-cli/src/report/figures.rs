@@ -1,20 +1,25 @@
 //! The figures of the report.
 
+use concio::record::Channel;
+
 use super::{Content, beam_label};
 use crate::draw::curves::{self, Curve, Figure};
 use crate::draw::wall::{self, Field, Paint, Subject};
+
+/// Single blocks and joints whose histories a report shows.
+const ASKED: usize = 12;
 
 /// The wall under one name per view.
 pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     let beam = beam_label(&content.case);
     let subject = Subject { wall: content.wall, joints: &content.joints, names: &content.names, beam: &beam };
     let envelopes = &content.outcome.envelopes;
+    // A massive beam is one more unknown behind the blocks; the colours are those of the blocks.
+    let of_blocks = &envelopes.block_displacement;
+    let of_blocks = of_blocks.get(..content.wall.blocks.len()).unwrap_or(of_blocks);
     let field = |title, unit, values| Field { title, unit, values };
     let views = [
-        (
-            "displacement",
-            Paint::Blocks(field("peak displacement relative to the base", "m", &envelopes.block_displacement)),
-        ),
+        ("displacement", Paint::Blocks(field("peak displacement relative to the base", "m", of_blocks))),
         ("slip", Paint::Joints(field("way slipped", "m", &envelopes.joint_slip))),
         ("opening", Paint::Joints(field("widest gap of the head joints", "m", &envelopes.joint_opening))),
         ("acceleration", Paint::Joints(field("peak relative acceleration", "m/s²", &envelopes.joint_acceleration))),
@@ -43,6 +48,7 @@ pub fn histories(content: &Content) -> Vec<String> {
                 curves: shown,
                 height: 250.0,
                 right: curves::LEGEND,
+                logarithmic: false,
             }));
         }
     };
@@ -58,6 +64,46 @@ pub fn histories(content: &Content) -> Vec<String> {
     add("Motion of the base", "displacement", "m", &[("", of("base/displacement"))]);
     add("Horizontal forces on the wall", "force", "N", &[("base", of("base/shear")), ("top beam", of("top/force"))]);
     figures
+}
+
+/// Histories of the blocks and joints that the wall file asks for, at most [`ASKED`] of them, and how many are left
+/// out: of a block its displacement, of a joint its relative displacement and its forces.
+pub fn asked(content: &Content) -> (Vec<String>, usize) {
+    let channels = content.outcome.layout.channels.iter();
+    let single = |c: &&Channel| c.name.starts_with("block/") || c.name.starts_with("joint/");
+    let mut owners: Vec<&str> = channels.filter(single).filter_map(|c| Some(c.name.rsplit_once('/')?.0)).collect();
+    owners.dedup();
+    let figures = owners.iter().take(ASKED).flat_map(|owner| of_owner(content, owner)).collect();
+    (figures, owners.len().saturating_sub(ASKED))
+}
+
+fn of_owner(content: &Content, owner: &str) -> Vec<String> {
+    let title = owner.replacen('/', " ", 1);
+    let draw = |unit: &'static str| {
+        let of_unit = content.outcome.layout.channels.iter().filter(|c| c.unit == unit);
+        let found: Vec<(&str, Vec<f64>)> = of_unit
+            .filter(|c| c.name.rsplit_once('/').is_some_and(|(o, _)| o == owner))
+            .filter_map(|c| Some((c.name.rsplit_once('/')?.1, content.history(&c.name)?)))
+            .collect();
+        let named = found.len() > 1;
+        let curves = found.iter().map(|(name, y)| Curve {
+            name: if named { name } else { "" },
+            x: &content.outcome.recording.time,
+            y,
+        });
+        let quantity = if named { "force" } else { found.first()?.0 };
+        Some(curves::draw(&Figure {
+            title: &title,
+            x_label: "time [s]",
+            quantity,
+            unit,
+            curves: curves.collect(),
+            height: 200.0,
+            right: curves::LEGEND,
+            logarithmic: false,
+        }))
+    };
+    ["m", "N"].into_iter().filter_map(draw).collect()
 }
 
 /// The energy account over time, and its residual.
@@ -76,6 +122,7 @@ pub fn energies(content: &Content) -> Vec<String> {
         curves,
         height: 340.0,
         right: curves::LEGEND,
+        logarithmic: false,
     };
     let mut figures = vec![curves::draw(&account)];
     if let Some(residual) = content.history("energy/residual") {

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::{Content, doubts, figures};
 use crate::digest;
 use crate::draw::escape;
-use crate::format::significant;
+use crate::format::seconds;
 
 /// Largest input that the page quotes [bytes]; it is in result.h5 in any case.
 const LARGEST_INPUT: usize = 200_000;
@@ -38,12 +38,26 @@ pub fn html(content: &Content) -> String {
     wall(&mut page, content);
     section(&mut page, "Summary", &table(&digest::rows(content.outcome, content.summary)));
     section(&mut page, "Histories", &figures::histories(content).concat());
+    asked(&mut page, content);
     section(&mut page, "Energy", &figures::energies(content).concat());
     let list: String = doubts::list(content).iter().map(|d| format!("<li>{}</li>\n", escape(d))).collect();
     section(&mut page, "When not to believe this result", &format!("<ul>\n{list}</ul>\n"));
     input(&mut page, content);
     page.push_str("</body>\n</html>\n");
     page
+}
+
+/// The blocks and joints of `output.blocks` and `output.joints`.
+fn asked(page: &mut String, content: &Content) {
+    let (figures, left_out) = figures::asked(content);
+    if figures.is_empty() {
+        return;
+    }
+    let mut body = figures.concat();
+    if left_out > 0 {
+        let _ = writeln!(body, "<p class=\"small\">{left_out} more blocks and joints are in result.h5.</p>");
+    }
+    section(page, "Blocks and joints asked for", &body);
 }
 
 fn section(page: &mut String, title: &str, body: &str) {
@@ -62,15 +76,15 @@ fn head(page: &mut String, content: &Content) {
     let duration = content.summary.get("duration").and_then(Value::as_f64).unwrap_or(outcome.time_reached);
     let _ = writeln!(
         page,
-        "<p>{} blocks, {} joints, {} s of motion.</p>",
+        "<p>{} blocks, {} joints, {} of motion.</p>",
         content.wall.blocks.len(),
         content.joints.len(),
-        significant(outcome.time_reached, 6)
+        seconds(outcome.time_reached)
     );
     if outcome.stop_reason != StopReason::Completed {
-        let at = significant(outcome.time_reached, 6);
+        let [at, duration] = [outcome.time_reached, duration].map(seconds);
         let why = escape(digest::why(outcome.stop_reason));
-        let _ = writeln!(page, "<p class=\"note bad\"><b>Stopped early at t = {at} s of {duration} s:</b> {why}.</p>");
+        let _ = writeln!(page, "<p class=\"note bad\"><b>Stopped early at t = {at} of {duration}:</b> {why}.</p>");
     }
     for warning in digest::warnings(content.summary) {
         let _ = writeln!(page, "<p class=\"note\"><b>Warning:</b> {}</p>", escape(warning));

@@ -130,7 +130,10 @@ Small wall
 
   unknowns  10
   mass      23.98 kg
-  motion    0.05 s, 2001 samples kept
+  duration  0.05 s, 2001 samples kept
+
+  base  at rest
+  top   sine of 2 Hz, displacement 2.000 mm, ramp of 0.05 s
 
 wall.toml is a valid wall file.
 
@@ -272,4 +275,106 @@ fn a_reader_that_goes_away_is_no_error() {
     drop(child.stdout.take());
     let output = child.wait_with_output().expect("it ends");
     assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+}
+
+/// [`WALL`] shaken at its base by [`AT2`], scaled to 0.5 g; the run is as long as the record without `duration`.
+fn shaken(duration: &str) -> String {
+    let (head, _) = WALL.split_once("[load]").expect("the wall has loads");
+    format!(
+        "{head}[load]\ntop = \"10 kN/m\"\n[motion]\n{duration}\nbase = {{ record = \"test.AT2\", pga = \"0.5 g\" }}\n"
+    )
+}
+
+#[test]
+fn check_says_how_a_record_is_used() {
+    let desk = Desk::new();
+    desk.put("test.AT2", AT2);
+    for (duration, used, warning) in [
+        ("", "used whole", None),
+        (
+            "duration = \"0.02 s\"",
+            "0.02 s of 0.04 s used",
+            Some("cuts the record of the base: 0.02 s of 0.04 s is used"),
+        ),
+        ("duration = \"1 s\"", "then 0.96 s without acceleration", Some("ends at 0.04 s, the run at 1 s: silence")),
+    ] {
+        desk.put("shaken.toml", shaken(duration));
+        let done = desk.concio("check shaken.toml").assert().success();
+        let [out, err] = [&done.get_output().stdout, &done.get_output().stderr].map(|b| String::from_utf8_lossy(b));
+        // The peak of 0.25 g by the record's g of 9.80665 m/s2 becomes 0.5 g by the wall's of 9.81 m/s2.
+        for part in [
+            "test.AT2, PEER AT2, channel 1 of 1",
+            "5 samples every 0.01 s, 0.04 s",
+            "scale factor 2.0007",
+            "4.905 m/s² = 0.5000 g at 0.02 s",
+            used,
+        ] {
+            assert!(out.contains(part), "{part}:\n{out}");
+        }
+        match warning {
+            Some(part) => assert!(err.contains(part), "{err}"),
+            None => assert_eq!(err, ""),
+        }
+        let run = desk.concio("run shaken.toml --fresh").assert().success();
+        assert_eq!(String::from_utf8_lossy(&run.get_output().stderr), err);
+    }
+}
+
+#[test]
+fn check_lists_joints() {
+    let desk = Desk::new();
+    let list = desk.concio("check wall.toml --joints").assert().success();
+    let list = String::from_utf8_lossy(&list.get_output().stdout).into_owned();
+    let row = list.lines().find(|l| l.trim_start().starts_with("base|p1c1b1 ")).expect("a joint");
+    let fields: Vec<&str> = row.split_whitespace().collect();
+    assert_eq!(fields, ["base|p1c1b1", "base", "1", "2.000", "2.568", "kN"], "{list}");
+}
+
+#[test]
+fn an_unfinished_run_of_other_inputs_is_discarded_aloud() {
+    let desk = Desk::new();
+    fs::create_dir_all(desk.path("r")).expect("a folder");
+    desk.put("r/checkpoint.bin", "of another run");
+    let run = desk.concio("run wall.toml --out r").assert().success();
+    let said = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+    assert!(said.contains("of other inputs or damaged: it is discarded"), "{said}");
+    assert!(!said.contains("taken up"), "{said}");
+}
+
+#[test]
+fn a_report_shows_the_histories_asked_for() {
+    let desk = Desk::new();
+    desk.put("wall.toml", format!("{WALL}\n[output]\nblocks = [\"p1c4b1\"]\njoints = [\"base|p1c1b1\"]\n"));
+    desk.concio("run wall.toml --out r").assert().success();
+    let report = desk.get("r/report.html");
+    for part in ["Blocks and joints asked for", "block p1c4b1", "joint base|p1c1b1", "never slides off"] {
+        assert!(report.contains(part), "{part}");
+    }
+}
+
+/// The blocks of the guide that hold whole tables make one valid wall file.
+#[test]
+fn the_guide_to_the_wall_file_is_valid() {
+    let guide = include_str!("../../../../docs/wall-file.md");
+    let blocks = guide.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next());
+    let text: String = blocks.filter(|b| b.starts_with(['[', 't'])).collect();
+    assert!(text.contains("[output]") && text.contains("title ="), "{text}");
+    let desk = Desk::new();
+    desk.put("quake.at2", AT2);
+    desk.put("guide.toml", text);
+    desk.concio("check guide.toml").assert().success();
+}
+
+/// The wall in the README is the built-in one, and so is the first example.
+#[test]
+fn the_first_wall_is_the_same_everywhere() {
+    let readme = include_str!("../../../../README.md");
+    let snippet = readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a wall file");
+    let example = include_str!("../../../../examples/01-first-wall.toml");
+    let built_in = concio::case::example().expect("the built-in wall").case;
+    for text in [snippet, example] {
+        let mut case = concio::case::from_str(text, concio::case::Syntax::Toml, None).expect("a wall file").case;
+        case.title = built_in.title.clone();
+        assert_eq!(case, built_in);
+    }
 }

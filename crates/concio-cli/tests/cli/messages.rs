@@ -6,7 +6,7 @@ use snapbox::str;
 use crate::support::{Desk, WALL};
 
 /// What is wrong, the text that is replaced in the wall and by what, and parts of the message.
-const WRONG: [(&str, &str, &str, &[&str]); 12] = [
+const WRONG: [(&str, &str, &str, &[&str]); 16] = [
     ("unknown key", "courses = 4", "corses = 4", &["bad.toml:6:", "corses", "courses"]),
     ("wrong unit", "\"55 mm\"", "\"55 kg\"", &["bad.toml:8:", "kg", "mm"]),
     ("no unit", "\"250 mm\"", "\"250\"", &["bad.toml:8:", "unit"]),
@@ -17,7 +17,16 @@ const WRONG: [(&str, &str, &str, &[&str]); 12] = [
     ("dynamic above static", "dynamic = 0.42", "dynamic = 0.7", &["bad.toml:15:", "dynamic"]),
     ("a beam that nobody drives", "beam = \"driven\"", "beam = \"free\"", &["bad.toml:", "motion.top"]),
     ("broken TOML", "[joint]", "[joint", &["bad.toml:11:"]),
-    ("a record that is not there", "top = { sine", "base = { record = \"no.at2\" }\ntop = { sine", &["no.at2"]),
+    (
+        "a record that is not there",
+        "top = { sine",
+        "base = { record = \"no.at2\" }\ntop = { sine",
+        &["no.at2", "bad.toml:23 as motion.base.record"],
+    ),
+    ("letters swapped", "courses = 4", "coures = 4", &["bad.toml:6:", "did you mean `courses`?"]),
+    ("a decimal comma", "static = 0.6", "static = 0,6", &["bad.toml:15:", "write 0.6"]),
+    ("a decimal comma in a text", "\"250 mm\"", "\"2,5 m\"", &["bad.toml:8:", "write 2.5"]),
+    ("an open brace", "head = \"10 mm\" }", "head = \"10 mm\"", &["bad.toml:", "of line 9 not closed?"]),
     ("law of a later version", "law = \"elastic\"", "law = \"rigid\"", &["bad.toml:13:", "rigid"]),
 ];
 
@@ -97,4 +106,61 @@ help: give another folder with --out
     desk.concio("run wall.toml --out wall.toml/deeper").assert().code(1).stdout_eq(str![""]);
     desk.concio("check wall.toml --svg no/such/folder/wall.svg").assert().code(1);
     assert_eq!(desk.list(), ["wall.toml"]);
+}
+
+/// Outputs that would replace a file of the user's own, and what is said of them.
+#[test]
+fn files_of_the_user_are_not_overwritten() {
+    let desk = Desk::new();
+    desk.put("quake.txt", "# dt = 0.01 s, units: g\n0.0\n0.1\n-0.2\n");
+    desk.put("notes.md", "mine");
+    desk.concio("run wall.toml --out r").assert().success();
+    let own = ["wall.toml", "quake.txt", "notes.md"];
+    let before = own.map(|name| desk.get(name));
+    for (line, part) in [
+        ("check wall.toml --svg wall.toml", "overwrite the input"),
+        ("check wall.toml --svg ./r/../wall.toml", "overwrite the input"),
+        ("check wall.toml --svg notes.md", "ending in .svg"),
+        ("check wall.toml --svg r", "is a folder"),
+        ("record quake.txt --svg quake.txt", "overwrite the input"),
+        ("record quake.txt --svg wall.toml", "ending in .svg"),
+        ("export r --npz --out wall.toml", "ending in .npz"),
+        ("export r --vtkhdf --out r/result.h5", "ending in .vtkhdf"),
+        ("export r --csv --out notes.md", "is a file"),
+    ] {
+        let refused = desk.concio(line).assert().code(2).stdout_eq(str![""]);
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(message.contains(part) && message.contains("help: give another"), "{line}: {message}");
+    }
+    assert_eq!(own.map(|name| desk.get(name)), before);
+    // What the program wrote itself it may write again.
+    for line in ["check wall.toml --svg w.svg", "record quake.txt --svg w.svg", "export r --npz --out a.npz"] {
+        desk.concio(line).assert().success();
+        desk.concio(line).assert().success();
+    }
+}
+
+#[test]
+fn an_option_that_was_meant() {
+    let desk = Desk::new();
+    let refused = desk.concio("run wall.toml --otu r").assert().code(2);
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("'--out'"));
+}
+
+#[test]
+fn files_that_are_no_records() {
+    let desk = Desk::new();
+    for (name, content, part) in [
+        ("sheet.xlsx", &b"PK\x03\x04\x14\x00"[..], "spreadsheet"),
+        ("picture.txt", b"\x89PNG\r\n\x1a\n", "picture"),
+        ("data.bin", b"1.0\n\x00\x01", "binary"),
+        ("page.json", b"{ \"NPTS\": 5, \"note\": \"NPTS = 5\" }\n", "JSON"),
+        ("prose.txt", b"The NPTS of this record is not known.\n", "no samples"),
+        ("column.txt", b"0\n1\n2\n", "give --dt 0.005"),
+    ] {
+        desk.put(name, content);
+        let refused = desk.concio(&format!("record {name}")).assert().code(2).stdout_eq(str![""]);
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(message.contains(part) && !message.contains("wall file"), "{name}: {message}");
+    }
 }

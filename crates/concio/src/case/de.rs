@@ -25,19 +25,40 @@ pub(crate) fn from_node<'de, T: Deserialize<'de>>(node: &'de Node) -> Result<T, 
     })
 }
 
-/// The closest of `known` to `word`, if it is close.
+/// The closest of `known` to `word`, if it is close: the fewest letters mistyped, then the longer word, since letters
+/// are left out more often than added (a plural), then the most alike from the start, then the nearest letters and digits, so that of numbered names the nearest number wins.
 pub(crate) fn suggestion<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let plain = word.to_lowercase().replace('-', "_");
-    known
-        .into_iter()
-        .map(|k| (strsim::jaro_winkler(&plain, &k.to_lowercase().replace('-', "_")), k))
-        .filter(|(score, _)| *score > 0.8)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, k)| k)
+    let plain = |text: &str| text.to_lowercase().replace('-', "_");
+    let word = plain(word);
+    let ranked = known.into_iter().filter_map(|name| {
+        let other = plain(name);
+        let mistyped = strsim::damerau_levenshtein(&word, &other);
+        let alike = strsim::jaro_winkler(&word, &other);
+        let near = alike > 0.8 || (mistyped == 1 && word.len() > 1);
+        let apart: u32 = word.chars().zip(other.chars()).map(|(a, b)| u32::from(a).abs_diff(u32::from(b))).sum();
+        near.then_some((mistyped, alike, apart, name))
+    });
+    let best = ranked
+        .min_by(|a, b| a.0.cmp(&b.0).then(b.3.len().cmp(&a.3.len())).then(b.1.total_cmp(&a.1)).then(a.2.cmp(&b.2)));
+    best.map(|(.., name)| name)
+}
+
+/// Words that the wall file knows but this version refuses: not offered as what could stand there.
+const NOT_YET: [&str; 2] = ["rigid", "coulomb"];
+
+/// What to write instead when `text` starts with a number with a decimal comma.
+pub(crate) fn decimal_comma(text: &str) -> Option<String> {
+    let text = text.trim();
+    let (whole, rest) = text.split_once(',')?;
+    let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
+    let unsigned = whole.strip_prefix(['+', '-']).unwrap_or(whole);
+    let is_number = !unsigned.is_empty() && unsigned.bytes().all(|b| b.is_ascii_digit()) && !digits.is_empty();
+    is_number.then(|| format!("decimals take a point: write {whole}.{digits}"))
 }
 
 fn list(words: &[&str]) -> String {
-    words.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(", ")
+    let offered = words.iter().filter(|w| !NOT_YET.contains(w));
+    offered.map(|w| format!("`{w}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// A step of a key path; paths are built from the inside out.
@@ -81,6 +102,12 @@ impl Failure {
     }
     fn at(mut self, byte: usize) -> Self {
         self.0.at.get_or_insert(byte);
+        self
+    }
+    fn with_decimal_comma(mut self, text: &str) -> Self {
+        if self.0.error.help.is_none() {
+            self.0.error.help = decimal_comma(text);
+        }
         self
     }
     fn within(mut self, step: Step) -> Self {
@@ -130,7 +157,7 @@ impl de::Error for Failure {
     }
     fn unknown_variant(variant: &str, expected: &'static [&'static str]) -> Self {
         let error = InputError::new(format!("`{variant}` is not known here")).allowed(list(expected));
-        Failure::new(match suggestion(variant, expected.iter().copied()) {
+        Failure::new(match suggestion(variant, expected.iter().copied().filter(|w| !NOT_YET.contains(w))) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error,
         })
@@ -205,7 +232,10 @@ impl<'de> Deserializer<'de> for Cursor<'de> {
     type Error = Failure;
 
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
-        self.visit(visitor).map_err(|e: Failure| e.at(self.node.at))
+        self.visit(visitor).map_err(|e: Failure| match &self.node.value {
+            Value::Text(text) => e.at(self.node.at).with_decimal_comma(text),
+            _ => e.at(self.node.at),
+        })
     }
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
         visitor.visit_some(self)
@@ -363,5 +393,34 @@ impl<'de> de::VariantAccess<'de> for UnitOnly {
     }
     fn struct_variant<V: Visitor<'de>>(self, _: &'static [&'static str], _: V) -> Result<V::Value, Failure> {
         Err(de::Error::invalid_type(Unexpected::UnitVariant, &"a table"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_word_is_suggested() {
+        for (word, known, near) in [
+            ("coures", &["course", "courses", "bricks"][..], Some("courses")),
+            ("corses", &["course", "courses"], Some("courses")),
+            ("brick", &["bricks", "brick"], Some("brick")),
+            ("stiff", &["stiffness", "law"], Some("stiffness")),
+            ("p1c9b1", &["p1c1b1", "p1c5b1", "p1c6b1", "p1c2b9"], Some("p1c6b1")),
+            ("otu", &["out", "fresh"], Some("out")),
+            ("x", &["y", "law"], None),
+            ("zebra", &["law", "stiffness"], None),
+        ] {
+            assert_eq!(suggestion(word, known.iter().copied()), near, "{word}");
+        }
+    }
+
+    #[test]
+    fn decimal_commas() {
+        assert_eq!(decimal_comma(" 0,6 g").as_deref(), Some("decimals take a point: write 0.6"));
+        for other in ["0.6", "a,6", "1, 2", ",5", "0,x"] {
+            assert_eq!(decimal_comma(other), None, "{other}");
+        }
     }
 }

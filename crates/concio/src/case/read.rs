@@ -123,10 +123,50 @@ pub fn from_str(text: &str, syntax: Syntax, file: Option<&Path>) -> Result<CaseF
         return Err(source.locate(error, 0).into());
     }
     let tree = match syntax {
-        Syntax::Toml => parse_toml(&source)?,
+        Syntax::Toml => parse_toml(&source).map_err(|e| hinted(e, &source.text))?,
         Syntax::Json => parse_json(&source)?,
     };
     resolve(source, tree)
+}
+
+/// Adds to an error of the TOML parser what it is often owed to.
+fn hinted(error: Error, text: &str) -> Error {
+    let Error::Input(mut error) = error else { return error };
+    if let (None, Some(number)) = (&error.help, error.line) {
+        let line = text.lines().nth(number - 1).unwrap_or("");
+        let values = line.split(['=', '{']).skip(1);
+        error.help = values.map(str::trim).find_map(de::decimal_comma).or_else(|| {
+            let opened = unclosed(text, number)?;
+            Some(format!("is the `{{` or `[` of line {opened} not closed?"))
+        });
+    }
+    Error::Input(error)
+}
+
+/// Line of the innermost bracket that is opened before line `end` (from 1) and not closed by then. Texts and comments
+/// are passed over; texts of several lines are not known, for the hint is a question.
+fn unclosed(text: &str, end: usize) -> Option<usize> {
+    let mut open = Vec::new();
+    for (index, line) in text.lines().enumerate().take(end.saturating_sub(1)) {
+        let mut quote = None;
+        let mut letters = line.chars();
+        while let Some(c) = letters.next() {
+            match (quote, c) {
+                (Some('"'), '\\') => {
+                    letters.next();
+                }
+                (Some(q), _) => quote = (q != c).then_some(q),
+                (None, '"' | '\'') => quote = Some(c),
+                (None, '#') => break,
+                (None, '{' | '[') => open.push(index + 1),
+                (None, '}' | ']') => {
+                    open.pop();
+                }
+                _ => {}
+            }
+        }
+    }
+    open.pop()
 }
 
 fn resolve(source: Source, mut tree: Node) -> Result<CaseFile> {

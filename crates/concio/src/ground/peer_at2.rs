@@ -13,9 +13,13 @@ use crate::ground::units;
 /// Lines in which the header is looked for.
 const HEADER: usize = 60;
 
-/// A line with the word NPTS that is not a comment of a text file.
+/// A line with the word NPTS and its value that is not a comment of a text file. Prose and other formats (JSON) may
+/// mention the word.
 pub(super) fn is_format(source: &Source) -> bool {
-    find(source, "NPTS").is_some()
+    find(source, "NPTS").is_some_and(|(index, after)| {
+        let leads = source.line(index).split_whitespace().next().and_then(count).is_some();
+        leads || after.trim_start().starts_with(['=', ':'])
+    })
 }
 
 pub(super) fn read(source: &Source) -> Result<Record> {

@@ -61,6 +61,11 @@ pub fn prepare(record: Record, input: &RecordInput) -> Result<Record> {
     Ok(record)
 }
 
+/// A number without the digits that rounding leaves behind.
+fn tidy(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
+}
+
 /// Keeps the samples from `from` to `to` [s]; the first of them is at t = 0 then.
 ///
 /// # Errors
@@ -70,7 +75,7 @@ pub fn trim(record: &mut Record, from: f64, to: f64) -> Result<()> {
     let first = (from / record.dt - SLACK).ceil();
     let last = (to / record.dt + SLACK).floor();
     if !(range.contains(&from) && range.contains(&to) && last >= first + 1.0) {
-        let allowed = format!("0 ≤ from < to ≤ {} s, two samples or more", record.duration());
+        let allowed = format!("0 ≤ from < to ≤ {} s, two samples or more", tidy(record.duration()));
         return Err(InputError::new(format!("from {from} s to {to} s")).key("trim").allowed(allowed).into());
     }
     let last = (last as usize).min(record.npts() - 1);
@@ -135,7 +140,7 @@ fn high_pass(record: &mut Record, corner: f64, order: usize) -> Result<()> {
     let nyquist = 0.5 / record.dt;
     if !(corner > 0.0 && corner < nyquist) {
         let error = InputError::new(format!("corner {corner} Hz")).key("baseline.high-pass");
-        return Err(error.allowed(format!("above 0, below the Nyquist frequency {nyquist} Hz")).into());
+        return Err(error.allowed(format!("above 0, below the Nyquist frequency {} Hz", tidy(nyquist))).into());
     }
     if !(1..=8).contains(&order) {
         return Err(InputError::new(format!("order {order}")).key("baseline.order").allowed("1 … 8").into());

@@ -132,6 +132,10 @@ pub fn parse(bytes: &[u8], path: &Path, options: &TextOptions) -> Result<Vec<Rec
         Format::CsmipV2 => csmip_v2::read(&source),
         Format::UsgsSmc => usgs_smc::read(&source).map(|record| vec![record]),
         Format::PeerAt2 => peer_at2::read(&source).map(|record| vec![record]),
+        Format::Text | Format::Synthetic if text.trim_start().starts_with(['{', '<']) => {
+            let error = source.error("the file is JSON or a page of markup, none of the formats that are read");
+            Err(error.allowed("PEER AT2, ITACA/ESM ASC, COSMOS V2, CSMIP V2, USGS SMC, columns of numbers").into())
+        }
         Format::Text | Format::Synthetic => text::read(&source, options),
     }
 }
@@ -142,7 +146,26 @@ fn decode<'a>(bytes: &'a [u8], path: &Path) -> Result<Cow<'a, str>> {
         let error = InputError::new("the file is UTF-16").in_file(path);
         return Err(error.allowed("UTF-8 or ASCII").help("save it as plain text").into());
     }
+    if let Some(kind) = binary(bytes) {
+        let error = InputError::new(format!("the file is {kind}, not text")).in_file(path);
+        return Err(error.allowed("text").help("save it as CSV or text").into());
+    }
     Ok(String::from_utf8_lossy(bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes)))
+}
+
+/// What a file that is not text is, from its first bytes.
+fn binary(bytes: &[u8]) -> Option<&'static str> {
+    const KINDS: [(&[u8], &str); 7] = [
+        (b"PK\x03\x04", "a spreadsheet or a zip archive"),
+        (b"\xd0\xcf\x11\xe0", "a spreadsheet or document of old"),
+        (b"\x89PNG", "a picture"),
+        (b"\xff\xd8\xff", "a picture"),
+        (b"%PDF", "a PDF document"),
+        (b"\x1f\x8b", "a gzip archive"),
+        (b"\x89HDF", "an HDF5 file"),
+    ];
+    let known = KINDS.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, kind)| *kind);
+    known.or_else(|| bytes.iter().take(4096).any(|b| *b == 0).then_some("a binary file"))
 }
 
 /// The format, from marks that only it has.

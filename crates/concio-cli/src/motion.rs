@@ -1,0 +1,161 @@
+//! What moves base and top, in words and numbers, and what a run leaves of a record.
+
+use std::path::Path;
+
+use concio::case::{Beam, PulseShape, RecordInput, Signal};
+use concio::ground::record::{self, Record, TextOptions};
+use concio::ground::{measure, process, synthetic};
+use concio::run::Prepared;
+
+use crate::failure::Failure;
+use crate::format::{seconds, significant};
+
+/// Lines that say what moves the wall, and warnings of what the run cuts off a record or adds to it.
+#[derive(Debug, Default)]
+pub struct Motion {
+    /// Names and values.
+    pub rows: Vec<(&'static str, String)>,
+    /// Things to know before the result is believed.
+    pub warnings: Vec<String>,
+}
+
+/// The motion of a run; `folder` is where relative record paths start.
+pub fn describe(prepared: &Prepared, folder: &Path) -> Result<Motion, Failure> {
+    let (motion, duration) = (&prepared.case.motion, prepared.model.excitation.duration);
+    let driven = prepared.case.load.beam == Beam::Driven;
+    let mut found = Motion::default();
+    for (name, signal) in [("base", &motion.base), ("top", &motion.top)] {
+        if name == "top" && !driven {
+            continue;
+        }
+        match signal {
+            Signal::Record(input) => of_record(&mut found, name, input, folder, duration)?,
+            Signal::Synthetic(input) => {
+                let made = synthetic::generate(input)?;
+                found.rows.push((name, format!("synthetic accelerogram, seed {}", input.seed)));
+                found.rows.push(("", samples(&made)));
+                found.rows.push(("", peak(&made)));
+                used(&mut found, name, "accelerogram", &made, duration);
+            }
+            closed => found.rows.push((name, closed_form(closed))),
+        }
+    }
+    Ok(found)
+}
+
+fn of_record(
+    found: &mut Motion,
+    name: &'static str,
+    input: &RecordInput,
+    folder: &Path,
+    duration: f64,
+) -> Result<(), Failure> {
+    let path = folder.join(&input.record);
+    let channels = record::read(&path, &TextOptions::from(input))?;
+    let prepared = process::load(input, folder)?;
+    let number = input.channel.unwrap_or(1);
+    let (format, label) = channels.get(number - 1).map_or(("", ""), |r| (r.format.name(), r.channel.as_str()));
+    let channel = format!("channel {number} of {} {label}", channels.len());
+    found.rows.push((name, format!("{}, {format}, {}", path.display(), channel.trim_end())));
+    if channels.len() > 1 && input.channel.is_none() {
+        found.warnings.push(format!(
+            "motion.{name}: the record has {} channels and none is chosen: the first is taken (`channel = 1`)",
+            channels.len()
+        ));
+    }
+    found.rows.push(("", samples(&prepared)));
+    found.rows.push(("", format!("scale factor {}, {}", significant(factor(input, folder)?, 5), peak(&prepared))));
+    used(found, name, "record", &prepared, duration);
+    Ok(())
+}
+
+/// What the values are multiplied by.
+fn factor(input: &RecordInput, folder: &Path) -> Result<f64, Failure> {
+    let Some(pga) = input.pga else { return Ok(input.scale.unwrap_or(1.0)) };
+    let unscaled = process::load(&RecordInput { pga: None, scale: None, ..input.clone() }, folder)?;
+    Ok(pga.si() / measure(&unscaled).pga.value.abs())
+}
+
+fn samples(record: &Record) -> String {
+    format!("{} samples every {}, {}", record.npts(), seconds(record.dt), seconds(record.duration()))
+}
+
+fn peak(record: &Record) -> String {
+    let pga = measure(record).pga;
+    let size = pga.value.abs();
+    format!("PGA {} m/s² = {} g at {}", significant(size, 4), significant(size / concio::G, 4), seconds(pga.time))
+}
+
+/// How much of a record the run goes through.
+fn used(found: &mut Motion, name: &str, what: &str, record: &Record, duration: f64) {
+    let whole = record.duration();
+    let slack = 1e-6 * whole;
+    if duration < whole - slack {
+        let part = format!("{} of {}", seconds(duration), seconds(whole));
+        found.rows.push(("", format!("{part} used")));
+        let m = measure(record);
+        let t95 = m.t5 + m.d5_95;
+        let strong = if duration < t95 {
+            format!(", and ends before the strong shaking does (95 % of the Arias intensity at {})", seconds(t95))
+        } else {
+            String::new()
+        };
+        found.warnings.push(format!(
+            "motion.duration cuts the {what} of the {name}: {part} is used{strong}; without `duration` the run takes it \
+             whole"
+        ));
+    } else if duration > whole + slack {
+        found.rows.push(("", format!("used whole, then {} without acceleration", seconds(duration - whole))));
+        found.warnings.push(format!(
+            "the {what} of the {name} ends at {}, the run at {}: silence follows it",
+            seconds(whole),
+            seconds(duration)
+        ));
+    } else {
+        found.rows.push(("", "used whole".into()));
+    }
+}
+
+/// A motion that is no record, with its numbers.
+fn closed_form(signal: &Signal) -> String {
+    match signal {
+        Signal::None | Signal::Record(_) | Signal::Synthetic(_) => "at rest".into(),
+        Signal::Sine(s) => {
+            let size = match (s.amplitude, s.acceleration) {
+                (Some(u), _) => format!("displacement {}", crate::format::si(u.si(), "m")),
+                (None, Some(a)) => acceleration(a.si()),
+                (None, None) => String::new(),
+            };
+            let ramp = if s.ramp.si() > 0.0 { format!(", ramp of {}", seconds(s.ramp.si())) } else { String::new() };
+            let cycles = s.cycles.map_or(String::new(), |n| format!(", {n} cycles"));
+            format!("sine of {} Hz, {size}{ramp}{cycles}", s.frequency.si())
+        }
+        Signal::Ramp(r) => format!(
+            "ramp to {} from {} within {}",
+            crate::format::si(r.amplitude.si(), "m"),
+            seconds(r.start.si()),
+            seconds(r.rise.si())
+        ),
+        Signal::Pulse(p) => {
+            let shape = match p.shape {
+                PulseShape::Rectangular => "rectangular pulse",
+                PulseShape::HalfSine => "half-sine pulse",
+                PulseShape::OneSine => "one-sine pulse",
+                PulseShape::Ricker => "Ricker pulse",
+            };
+            let place = format!("{} from {}", seconds(p.duration.si()), seconds(p.start.si()));
+            format!("{shape}, {}, {place}", acceleration(p.acceleration.si()))
+        }
+        Signal::Sweep(s) => format!(
+            "sine swept from {} to {} Hz in {}, {}",
+            s.frequency[0].si(),
+            s.frequency[1].si(),
+            seconds(s.duration.si()),
+            acceleration(s.acceleration.si())
+        ),
+    }
+}
+
+fn acceleration(a: f64) -> String {
+    format!("acceleration {} m/s² = {} g", significant(a, 4), significant(a / concio::G, 4))
+}
