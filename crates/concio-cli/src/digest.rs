@@ -14,11 +14,14 @@ pub fn rows(outcome: &Outcome, summary: &Value) -> Vec<(&'static str, String)> {
     let mut rows = vec![
         ("peak displacement", format!("{} relative to the base", si(totals.peak_relative_displacement, "m"))),
         ("peak slip velocity", si(totals.peak_slip_velocity, "m/s")),
-        ("head joints", format!("opened {}, pressed in {}", si(opening, "m"), si(-totals.minimum_gap, "m"))),
+        ("head joints", format!("opened {}, pressed in {}", si(opening, "m"), si(0.0 - totals.minimum_gap, "m"))),
     ];
     if totals.top_force_peak > 0.0 {
         let rms = si(number("/top_force_rms"), "N");
         rows.push(("force of the top beam", format!("{} peak, {rms} rms", si(totals.top_force_peak, "N"))));
+    }
+    if energies.initial != 0.0 {
+        rows.push(("energy at the start", si(energies.initial, "J")));
     }
     rows.push(("work done on the wall", si(energies.input(), "J")));
     rows.push(("  kinetic", si(energies.kinetic, "J")));

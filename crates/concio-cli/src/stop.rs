@@ -10,7 +10,8 @@ static ASKED: AtomicBool = AtomicBool::new(false);
 /// Status by which shells know that a signal ended a program: 128 + SIGINT.
 const BY_SIGNAL: i32 = 130;
 
-/// Listens from now on, also for SIGTERM and SIGHUP, with which batch systems end a job.
+/// Listens from now on. Other signals are left as they are: `nohup` must hold, and what SIGTERM cuts off is taken up
+/// from the journal.
 pub fn listen() -> Result<(), Failure> {
     let heard = || {
         if ASKED.swap(true, Ordering::SeqCst) {

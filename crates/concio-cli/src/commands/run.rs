@@ -63,7 +63,7 @@ fn default_folder(file: Option<&Path>) -> PathBuf {
     Path::new("concio-run").join(name)
 }
 
-/// The engine would only find out after the whole run.
+/// A message in the words of the command line, before anything is made.
 fn refuse_a_file(out: &Path) -> Result<(), Failure> {
     if out.exists() && !out.is_dir() {
         let error = concio::InputError::new("the folder for the results is a file").in_file(out);

@@ -83,7 +83,7 @@ impl Record {
     }
 }
 
-/// What a text file of columns may leave unsaid. The other formats name all of it and take no options.
+/// What a text file of columns may leave unsaid. The other formats name all of it, and options must agree with them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TextOptions {
     /// What the values are.
@@ -126,7 +126,8 @@ pub fn read(path: &Path, options: &TextOptions) -> Result<Vec<Record>> {
 pub fn parse(bytes: &[u8], path: &Path, options: &TextOptions) -> Result<Vec<Record>> {
     let text = decode(bytes, path)?;
     let source = Source::new(path, &text);
-    match detect(&source) {
+    let format = detect(&source);
+    let records = match format {
         Format::ItacaAsc => itaca_asc::read(&source).map(|record| vec![record]),
         Format::CosmosV2 => cosmos_v2::read(&source),
         Format::CsmipV2 => csmip_v2::read(&source),
@@ -136,7 +137,40 @@ pub fn parse(bytes: &[u8], path: &Path, options: &TextOptions) -> Result<Vec<Rec
             let error = source.error("the file is JSON or a page of markup, none of the formats that are read");
             Err(error.allowed("PEER AT2, ITACA/ESM ASC, COSMOS V2, CSMIP V2, USGS SMC, columns of numbers").into())
         }
-        Format::Text | Format::Synthetic => text::read(&source, options),
+        Format::Text | Format::Synthetic => return text::read(&source, options),
+    }?;
+    for record in &records {
+        agree(&source, record, options)?;
+    }
+    Ok(records)
+}
+
+/// These formats name unit, quantity and interval themselves. What the input says beside that must not contradict it:
+/// to follow either in silence would give wrong numbers.
+fn agree(source: &Source, record: &Record, options: &TextOptions) -> Result<()> {
+    let differ = |key: &str, found: String, given: String| {
+        let error = source.error(format!("the file says {found}, the input {given}")).key(key);
+        Err(error.allowed("what the file says, or nothing").into())
+    };
+    let found = match record.displacement {
+        Some(_) => HistoryQuantity::Displacement,
+        None => HistoryQuantity::Acceleration,
+    };
+    if options.quantity != HistoryQuantity::Acceleration && options.quantity != found {
+        return differ("quantity", "acceleration".into(), "displacement".into());
+    }
+    if let Some(given) = &options.units {
+        let factor = |unit: &str| units::factor(unit, found);
+        // The names of units in headers are free text; one that is not known cannot be compared.
+        if factor(given).is_none() || (factor(&record.units).is_some() && factor(given) != factor(&record.units)) {
+            return differ("units", format!("`{}`", record.units), format!("`{given}`"));
+        }
+    }
+    match options.dt {
+        Some(given) if (given - record.dt).abs() > 1e-6 * record.dt => {
+            differ("dt", format!("{} s", record.dt), format!("{given} s"))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -141,7 +141,10 @@ fn named_interval(source: &Source, data_line: usize) -> Option<(usize, f64)> {
         let lower = line.to_lowercase();
         let period = PERIOD.iter().find_map(|key| keyed_number(&lower, key));
         let period = period.map(|(value, unit)| if unit.starts_with("ms") { value * 1e-3 } else { value });
-        let rate = || RATE.iter().find_map(|key| keyed_number(&lower, key)).map(|(value, _)| 1.0 / value);
+        let rate = || {
+            let (value, unit) = RATE.iter().find_map(|key| keyed_number(&lower, key))?;
+            Some(if unit.starts_with("khz") { 1e-3 / value } else { 1.0 / value })
+        };
         period.or_else(rate).map(|dt| (index, dt))
     })
 }
