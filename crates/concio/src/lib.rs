@@ -2,6 +2,7 @@
 //!
 //! Main path: [`case`] → [`pattern`] → [`graph`] → [`model`] → [`simulate`] → [`outcome`].
 
+mod assign;
 pub mod case;
 mod dynamics;
 pub mod error;

@@ -1,13 +1,9 @@
 //! The compiled system: immutable arrays that the time loop reads. One horizontal unknown per block, and one for
 //! a top beam with mass (theory, sections 2 and 3).
 
-use std::collections::{BTreeSet, HashMap};
-
-use crate::case::{
-    Beam, Case, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointKind, Joints, NormalForce, Selector, Spring,
-    SpringLaw,
-};
-use crate::error::{InputError, Result};
+use crate::assign::{JointLaw, friction_choice, resolve};
+use crate::case::{Beam, Case, JointKind, SpringLaw};
+use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::graph;
 use crate::law::Stribeck;
@@ -137,14 +133,6 @@ impl Model {
     }
 }
 
-/// Which joints rub and where their normal force comes from, the preset taken into account.
-fn friction_choice(friction: &Friction) -> (FrictionOn, NormalForce) {
-    match friction.preset {
-        Some(FrictionPreset::Report) => (FrictionOn::All, NormalForce::Overburden),
-        None => (friction.on, friction.normal_force),
-    }
-}
-
 /// Largest ω² = Σk/m of an unknown over its bilateral joints; where there are none, over the closed unilateral ones;
 /// and no less than one swing in the run, so that a wall without stiffness has a time scale too.
 pub(crate) fn stiffest(mass: &[f64], sides: &[[u32; 2]], elastic: &[Elastic], duration: f64) -> f64 {
@@ -178,150 +166,6 @@ fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
         damping: joint.weight * 2.0 * damping * (spring.stiffness.si() * reference).sqrt(),
         unilateral,
     }
-}
-
-/// What holds for one joint after all changes.
-#[derive(Debug, Clone, Copy)]
-struct JointLaw {
-    spring: Spring,
-    damping_ratio: f64,
-    friction: FrictionLaw,
-    parameters: Stribeck,
-    /// Whether this joint is one of those that rub, by `friction.on` or by a change of its own.
-    may_rub: bool,
-}
-
-impl JointLaw {
-    fn rubs(&self) -> Option<Stribeck> {
-        (self.may_rub && self.friction != FrictionLaw::None).then_some(self.parameters)
-    }
-}
-
-fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLaw>> {
-    let settings = &case.joint;
-    for (kind, key, spring) in [
-        (JointKind::Bed, "bed", Some(settings.bed)),
-        (JointKind::Base, "base", settings.base),
-        (JointKind::Top, "top", settings.top),
-    ] {
-        let law = spring.map_or(SpringLaw::Elastic, |s| s.law);
-        check_spring(kind, law).map_err(|e| e.key(format!("joint.{key}.law")))?;
-    }
-    let mut laws: Vec<JointLaw> = joints.iter().map(|j| common_law(settings, j.kind)).collect();
-    for (number, change) in settings.changes.iter().enumerate() {
-        let chosen = select(&change.at, wall, joints).map_err(|e| e.key(format!("joint.change[{number}].at")))?;
-        for e in chosen {
-            let law = &mut laws[e];
-            if let Some(c) = &change.spring {
-                law.spring.law = c.law.unwrap_or(law.spring.law);
-                law.spring.stiffness = c.stiffness.unwrap_or(law.spring.stiffness);
-                law.spring.rigidity = c.rigidity.unwrap_or(law.spring.rigidity);
-                law.spring.stiffness_factor = c.stiffness_factor.unwrap_or(law.spring.stiffness_factor);
-                law.damping_ratio = c.damping_ratio.unwrap_or(law.damping_ratio);
-            }
-            if let Some(c) = &change.friction {
-                law.friction = c.law.unwrap_or(law.friction);
-                law.may_rub = true;
-                let p = &mut law.parameters;
-                p.static_ = c.static_.unwrap_or(p.static_);
-                p.dynamic = c.dynamic.unwrap_or(p.dynamic);
-                p.slip_velocity = c.slip_velocity.map_or(p.slip_velocity, |v| v.si());
-                p.beta = c.beta.unwrap_or(p.beta);
-                p.alpha = c.alpha.unwrap_or(p.alpha);
-            }
-            check_spring(joints[e].kind, law.spring.law)
-                .map_err(|e| e.key(format!("joint.change[{number}].spring.law")))?;
-        }
-    }
-    Ok(laws)
-}
-
-/// Bed and support joints slide both ways: a law for one direction has no meaning there.
-fn check_spring(kind: JointKind, law: SpringLaw) -> std::result::Result<(), InputError> {
-    let upright = matches!(kind, JointKind::Head | JointKind::Connection);
-    if law == SpringLaw::NoTension && !upright {
-        let what = "law `no-tension` is for head joints and connections; this joint slides in both directions";
-        return Err(InputError::new(what).allowed("elastic, none"));
-    }
-    Ok(())
-}
-
-fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {
-    let spring = match kind {
-        JointKind::Bed => settings.bed,
-        JointKind::Head => settings.head,
-        JointKind::Base => settings.base.unwrap_or(settings.bed),
-        JointKind::Top => settings.top.unwrap_or(settings.bed),
-        JointKind::Connection => settings.connection.unwrap_or(settings.head),
-    };
-    let f = &settings.friction;
-    let parameters = Stribeck {
-        static_: f.static_,
-        dynamic: f.dynamic,
-        slip_velocity: f.slip_velocity.si(),
-        beta: f.beta,
-        alpha: f.alpha,
-    };
-    JointLaw {
-        spring,
-        damping_ratio: spring.damping_ratio.unwrap_or(settings.damping_ratio),
-        friction: f.law,
-        parameters,
-        may_rub: friction_choice(f).0 == FrictionOn::All
-            || matches!(kind, JointKind::Bed | JointKind::Base | JointKind::Top),
-    }
-}
-
-/// Indices of the joints for which all conditions hold.
-///
-/// # Errors
-/// A name that no joint or panel bears, or conditions that hold for no joint.
-pub fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Result<Vec<usize>, InputError> {
-    let mut listed = None;
-    if !at.joints.is_empty() {
-        let names: HashMap<String, usize> = joints.iter().enumerate().map(|(e, j)| (graph::name(wall, j), e)).collect();
-        let mut set = BTreeSet::new();
-        for name in &at.joints {
-            let e = names.get(name).ok_or_else(|| {
-                InputError::new(format!("no joint is named `{name}`"))
-                    .allowed("names as `concio check` lists and draws them, for example base|p1c1b1 or p1c1b1|p1c2b1")
-            })?;
-            if !set.insert(*e) {
-                return Err(InputError::new(format!("joint `{name}` is listed twice")).allowed("each joint once"));
-            }
-        }
-        listed = Some(set);
-    }
-    for name in &at.panel {
-        if !wall.panels.iter().any(|p| p.name == *name) {
-            let all = wall.panels.iter().map(|p| p.name.as_str()).collect::<Vec<_>>().join(", ");
-            return Err(InputError::new(format!("no panel is named `{name}`")).allowed(all));
-        }
-    }
-    let holds = |joint: &Joint| {
-        let block = &wall.blocks[joint.a];
-        let course = match (joint.kind, joint.b) {
-            (JointKind::Bed, End::Block(upper)) => wall.blocks[upper].course + 1,
-            (JointKind::Top, _) => block.course + 2,
-            _ => block.course + 1,
-        };
-        let middle = [0.5 * (joint.line[0] + joint.line[2]), 0.5 * (joint.line[1] + joint.line[3])];
-        (at.kind.is_empty() || at.kind.contains(&joint.kind))
-            && (at.panel.is_empty() || at.panel.contains(&wall.panels[block.panel].name))
-            && (at.course.is_empty() || at.course.contains(&course))
-            && at.region.is_none_or(|[x0, y0, x1, y1]| {
-                (x0.si()..=x1.si()).contains(&middle[0]) && (y0.si()..=y1.si()).contains(&middle[1])
-            })
-    };
-    let chosen: Vec<usize> = match listed {
-        Some(set) => set.into_iter().filter(|&e| holds(&joints[e])).collect(),
-        None => (0..joints.len()).filter(|&e| holds(&joints[e])).collect(),
-    };
-    if chosen.is_empty() {
-        return Err(InputError::new("no joint meets these conditions")
-            .allowed("conditions that hold together for at least one joint; `concio check` lists all joints"));
-    }
-    Ok(chosen)
 }
 
 /// Says what becomes of a panel whose top does not reach the beam's bed joint.
