@@ -86,7 +86,9 @@ fn ci(root: &Path) -> Outcome {
     let start = Instant::now();
     for (name, step) in steps {
         println!("\n== {name}");
+        let start = Instant::now();
         step().map_err(|why| format!("{name}: {why}"))?;
+        println!("   {:.0} s", start.elapsed().as_secs_f64());
     }
     println!("\nAll checks passed in {:.0} s.", start.elapsed().as_secs_f64());
     Ok(())
