@@ -86,7 +86,8 @@ fn taken_up(status: &Status) -> Option<String> {
 /// How far the run is, and the time left as this process's own progress from `first` lets expect.
 fn line(status: &Status, first: f64, elapsed: Duration) -> String {
     let done = status.time - first;
-    let left = if done > 0.0 {
+    // Less than this says nothing: a start from rest takes its first steps in nanoseconds.
+    let left = if done > 1e-3 * status.duration {
         format!(", {} left", clock(elapsed.as_secs_f64() * (status.duration - status.time) / done))
     } else {
         String::new()
@@ -105,6 +106,7 @@ mod tests {
         let text = line(&status, 4.0, Duration::from_secs(120));
         assert_eq!(text, "t = 5.000 of 6 s, 1000 steps, 2 min 0 s left");
         assert_eq!(line(&status, 5.0, Duration::from_secs(120)), "t = 5.000 of 6 s, 1000 steps");
+        assert_eq!(line(&status, 4.999, Duration::from_secs(120)), "t = 5.000 of 6 s, 1000 steps");
     }
 
     #[test]
