@@ -36,6 +36,7 @@ pub enum Command {
     System(System),
     Export(Export),
     Plot(Plot),
+    Cases(Cases),
     Completions(Completions),
     /// Print this reference as Markdown.
     #[command(hide = true)]
@@ -218,6 +219,26 @@ pub struct Plot {
     /// Folder of a run.
     #[arg(value_hint = ValueHint::DirPath)]
     pub dir: PathBuf,
+}
+
+/// Run the cases of the research report and answer its findings.
+///
+/// The five cases of the report's parametric analyses (its Figures 22 to 27) are built in; their wall files are those of
+/// examples/report. Each is run under several settings of what the report does not print, and each again with changes too
+/// small to mean anything, because stick-slip makes single trajectories chaotic. Every finding of the report is answered
+/// yes or no with the numbers that decide; docs/report-cases.md explains them.
+///
+/// Writes a folder per case as `concio run` does, findings.json and findings.md. What is done is not done again: after
+/// Ctrl-C or a kill the same command goes on.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio cases
+  concio cases --out report-cases")]
+pub struct Cases {
+    /// Folder of the results.
+    #[arg(short, long, value_name = "DIR", default_value = "concio-run/report-cases", value_hint = ValueHint::DirPath)]
+    pub out: PathBuf,
 }
 
 /// Print the completions of a shell.
