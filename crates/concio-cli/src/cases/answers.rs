@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::findings::{FINDINGS, Finding, Set};
 use super::jobs::Job;
-use super::measures::{Measures, median};
+use super::measures::{Measures, median, rank_correlation};
 use super::walls::{MEMBERS, Setting, Which};
 
 /// Version of findings.json; raised when readers of the former would misread it.
@@ -86,7 +86,7 @@ fn under(setting: Setting, runs: &BTreeMap<Job, Measures>) -> Value {
 }
 
 /// Peak relative accelerations of the bed and support joints, the largest first; mean over the members, because the
-/// peak of one chaotic run is partly chance. `agreement` is the mean rank correlation of a member with that mean.
+/// peak of one chaotic run is partly chance. `agreement` is the mean rank correlation of two members.
 fn accelerations(runs: &BTreeMap<Job, Measures>, which: Which) -> Value {
     let of = |member| runs.get(&Job { setting: Setting::Files, which, member });
     let members: Vec<Vec<f64>> =
@@ -94,9 +94,15 @@ fn accelerations(runs: &BTreeMap<Job, Measures>, which: Which) -> Value {
     let names: Vec<&String> = of(0).iter().flat_map(|m| m.accelerations.iter().map(|(n, _)| n)).collect();
     let count = members.len().max(1) as f64;
     let means: Vec<f64> = (0..names.len()).map(|e| members.iter().map(|m| m[e]).sum::<f64>() / count).collect();
-    let agreement = members.iter().map(|m| super::measures::rank_correlation(m, &means)).sum::<f64>() / count;
+    let agreement = pairwise(&members);
     let mut order: Vec<usize> = (0..names.len()).collect();
     order.sort_by(|a, b| means[*b].total_cmp(&means[*a]));
     let joints: Vec<Value> = order.iter().map(|&e| json!({ "joint": names[e], "acceleration": means[e] })).collect();
     json!({ "case": which.name(), "agreement": agreement, "joints": joints })
+}
+
+fn pairwise(members: &[Vec<f64>]) -> f64 {
+    let pairs = (0..members.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+    let found: Vec<f64> = pairs.map(|(a, b)| rank_correlation(&members[a], &members[b])).collect();
+    found.iter().sum::<f64>() / found.len().max(1) as f64
 }

@@ -23,7 +23,7 @@ use crate::{files, report, stop};
 /// Name of the file of [`Kept`] in the folder of results.
 const KEPT: &str = "measures.json";
 /// Raised when [`Measures`] means something else, so that older files are not believed.
-const MEANING: u32 = 1;
+const MEANING: u32 = 2;
 
 /// One run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -7,6 +7,7 @@
 use concio::case::JointKind;
 use concio::moment::Moment;
 use concio::store::{StoredRun, residual_relative, top_force_rms};
+use concio::wall::End;
 use serde::{Deserialize, Serialize};
 
 /// δ_v [m/s] of section 4.2, for joints that have none of their own: a frictionless wall is measured by the same yard.
@@ -73,6 +74,11 @@ pub struct Measures {
     pub accelerations: Vec<(String, f64)>,
     /// Overlap of the same joints [m].
     pub overlaps: Vec<f64>,
+    /// Mass of the lighter block at the same joints [kg].
+    pub lighter_masses: Vec<f64>,
+    /// Of the same joints at the frame at which one of them has the largest |relative acceleration| of all frames: that
+    /// over the median joint's.
+    pub uneven_at_instant: f64,
 }
 
 /// Reads them off a run that keeps frames. Lists are never empty: a wall has support joints and blocks.
@@ -116,6 +122,8 @@ pub fn of(run: &StoredRun) -> Measures {
         linked_by_chance: watched.chance,
         accelerations: beds.iter().map(|&e| (run.joints[e].name.clone(), env.joint_acceleration[e])).collect(),
         overlaps: beds.iter().map(|&e| run.joints[e].joint.overlap).collect(),
+        lighter_masses: beds.iter().map(|&e| lighter_mass(run, e)).collect(),
+        uneven_at_instant: uneven_at_instant(run, &beds),
     }
 }
 
@@ -183,6 +191,23 @@ fn rms(run: &StoredRun) -> [f64; 2] {
         let rows = frames.clone().map(|f| &values[f * n..f * n + blocks]);
         (rows.flatten().map(|v| v * v).sum::<f64>() / count).sqrt()
     })
+}
+
+/// Of a support, that of its block.
+fn lighter_mass(run: &StoredRun, joint: usize) -> f64 {
+    let (joint, mass) = (&run.joints[joint].joint, |b: usize| run.wall.blocks[b].mass());
+    match joint.b {
+        End::Block(b) => mass(joint.a).min(mass(b)),
+        End::Base | End::Top => mass(joint.a),
+    }
+}
+
+/// 0 when nothing moves at all.
+fn uneven_at_instant(run: &StoredRun, joints: &[usize]) -> f64 {
+    let at = |m: Moment| joints.iter().map(|&e| m.joint(e).acceleration.abs()).collect::<Vec<f64>>();
+    let rows = frames(run).filter_map(|f| Moment::of(run, f)).map(at);
+    let peak = rows.max_by(|a, b| largest(a).total_cmp(&largest(b))).unwrap_or_default();
+    if median(&peak) > 0.0 { largest(&peak) / median(&peak) } else { 0.0 }
 }
 
 /// Largest value; 0 of an empty list.

@@ -4,70 +4,68 @@ use std::fmt::Write as _;
 
 use serde_json::Value;
 
-use crate::format::{plain, si, significant};
+use crate::format::{columns, plain, si, significant};
 
 /// For the terminal.
 pub fn text(findings: &Value) -> String {
     let mut out = String::new();
-    for finding in list(findings, "findings") {
-        let _ = writeln!(
-            out,
-            "{:<4}Figure {}: {}",
-            word(finding, "answer"),
-            word(finding, "figure"),
-            word(finding, "claim")
-        );
-        for number in list(finding, "numbers") {
-            let _ = writeln!(out, "      {:<62} {}", word(number, "name"), value(number));
-        }
-        let _ = writeln!(out, "      {} of {} perturbed runs say so\n", votes(finding), finding["members"]["of"]);
+    for (k, finding) in list(findings, "findings").enumerate() {
+        let [answer, claim, figure] = ["answer", "claim", "figure"].map(|key| word(finding, key));
+        let _ = writeln!(out, "{:>2}  {:<4}{claim} ({figure}; {})", k + 1, answer.to_uppercase(), votes(finding));
+        let row = |n: &Value| vec![format!("      {}", word(n, "name")), value(n)];
+        out.push_str(&columns(&list(finding, "numbers").map(row).collect::<Vec<_>>()));
+        out.push('\n');
     }
-    let _ = writeln!(out, "Under other settings ({}):", codes(findings));
+    out.push_str("Under other settings:\n");
+    let heads = (1..=list(findings, "findings").count()).map(|k| k.to_string());
+    let mut rows = vec![[String::new()].into_iter().chain(heads).collect::<Vec<_>>()];
     for setting in list(findings, "settings") {
-        let answers = answers(findings, setting).into_iter().map(|a| format!("{a:<4}")).collect::<String>();
-        let _ = writeln!(out, "  {:<38} {}", word(setting, "name"), answers.trim_end());
+        let answers = answers(findings, setting).into_iter().map(str::to_string);
+        rows.push([word(setting, "name").to_string()].into_iter().chain(answers).collect());
     }
-    out
+    out + &columns(&rows)
 }
 
 /// The tables of docs/report-cases.md.
 pub fn markdown(findings: &Value) -> String {
-    let mut out = String::from(
-        "| figure | the report finds | here | what decides (lowest … highest of the perturbed runs) |\n|---|---|---|---|\n",
+    let mut out = String::from("| | figure | the report finds | here | runs that say so |\n|---|---|---|---|---|\n");
+    for (k, finding) in list(findings, "findings").enumerate() {
+        let [figure, claim, answer] = ["figure", "claim", "answer"].map(|key| word(finding, key));
+        let _ = writeln!(out, "| {} | {figure} | {claim} | **{answer}** | {} |", k + 1, votes(finding));
+    }
+    out.push_str(
+        "\nWhat decides; in brackets the extremes of the perturbed runs:\n\n| | | value |\n|---|---|---|\n",
     );
-    for finding in list(findings, "findings") {
-        let numbers = list(finding, "numbers").map(|n| format!("{}: {}", word(n, "name"), value(n)));
-        let (yes, of) = (votes(finding), &finding["members"]["of"]);
-        let _ = writeln!(
-            out,
-            "| {} | {} | **{}**, {yes} of {of} | {} |",
-            word(finding, "figure"),
-            word(finding, "claim"),
-            word(finding, "answer"),
-            numbers.collect::<Vec<_>>().join("<br>")
-        );
+    for (k, finding) in list(findings, "findings").enumerate() {
+        for number in list(finding, "numbers") {
+            let _ = writeln!(out, "| {} | {} | {} |", k + 1, word(number, "name"), value(number));
+        }
     }
-    out.push_str("\n| criterion for a yes | |\n|---|---|\n");
-    for finding in list(findings, "findings") {
-        let _ = writeln!(out, "| {} | {} |", word(finding, "claim"), word(finding, "criterion"));
+    out.push_str("\nWhat had to hold for a yes:\n\n");
+    for (k, finding) in list(findings, "findings").enumerate() {
+        let _ = writeln!(out, "{}. {}", k + 1, word(finding, "criterion"));
     }
-    let heads = list(findings, "findings").map(|f| word(f, "figure")).collect::<Vec<_>>();
-    let _ = writeln!(out, "\n| setting | {} |\n|---|{}", heads.join(" | "), "---|".repeat(heads.len()));
+    let count = list(findings, "findings").count();
+    let heads: Vec<String> = (1..=count).map(|k| k.to_string()).collect();
+    out.push_str("\nUnder other settings, one run of each case:\n\n");
+    let _ = writeln!(out, "| | {} |\n|---|{}", heads.join(" | "), "---|".repeat(count));
     for setting in list(findings, "settings") {
         let _ = writeln!(out, "| {} | {} |", word(setting, "name"), answers(findings, setting).join(" | "));
     }
-    out.push_str("\n| texture | joints with the largest relative accelerations, mean of the perturbed runs | agreement of the runs |\n|---|---|---|\n");
+    out + &accelerations(findings)
+}
+
+fn accelerations(findings: &Value) -> String {
+    let mut out = String::from(
+        "\nBed and support joints with the largest peak relative accelerations, mean of the perturbed runs, and how far two \
+         such runs agree on the order of all joints (rank correlation):\n\n| case | joints | agreement |\n|---|---|---|\n",
+    );
     for map in list(findings, "accelerations") {
         let joint =
-            |j: &Value| format!("`{}` {}", word(j, "joint").replace('|', "\\|"), si(real(j, "acceleration"), "m/s²"));
+            |j: &Value| format!("`{}` {}", word(j, "joint").replace('|', "\\|"), short(real(j, "acceleration"), "m/s²"));
         let joints: Vec<String> = list(map, "joints").take(3).map(joint).collect();
-        let _ = writeln!(
-            out,
-            "| {} | {} | {} |",
-            word(map, "case"),
-            joints.join(", "),
-            significant(real(map, "agreement"), 2)
-        );
+        let agreement = significant(real(map, "agreement"), 2);
+        let _ = writeln!(out, "| {} | {} | {agreement} |", word(map, "case"), joints.join(", "));
     }
     out
 }
@@ -84,28 +82,43 @@ fn real(value: &Value, key: &str) -> f64 {
     value[key].as_f64().unwrap_or(f64::NAN)
 }
 
-/// How many perturbed runs give the answer that is given.
-fn votes(finding: &Value) -> u64 {
+/// `5 of 5`: how many runs by themselves give the answer that is given.
+fn votes(finding: &Value) -> String {
     let [yes, of] = ["yes", "of"].map(|key| finding["members"][key].as_u64().unwrap_or(0));
-    if word(finding, "answer") == "yes" { yes } else { of - yes.min(of) }
-}
-
-fn codes(findings: &Value) -> String {
-    list(findings, "findings").map(|f| word(f, "figure")).collect::<Vec<_>>().join(", ")
+    format!("{} of {of}", if word(finding, "answer") == "yes" { yes } else { of - yes.min(of) })
 }
 
 fn answers<'a>(findings: &'a Value, setting: &'a Value) -> Vec<&'a str> {
     list(findings, "findings").map(|f| word(&setting["answers"][word(f, "id")], "answer")).collect()
 }
 
-/// `5.80 µm (5.79 … 5.81)`: three digits are more than chaotic runs agree on.
+/// `13.2 µm (12.4 µm … 14.5 µm)`.
 fn value(number: &Value) -> String {
     let unit = word(number, "unit");
-    let [value, low, high] = ["value", "low", "high"].map(|key| real(number, key));
-    let show = |v: f64| if unit.is_empty() { plain(rounded(v)) } else { si(rounded(v), unit) };
-    if show(low) == show(high) { show(value) } else { format!("{} ({} … {})", show(value), show(low), show(high)) }
+    let [value, low, high] = ["value", "low", "high"].map(|key| short(real(number, key), unit));
+    if low == high { value } else { format!("{value} ({low} … {high})") }
 }
 
-fn rounded(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
+/// Three digits: more than chaotic runs agree on.
+fn short(value: f64, unit: &str) -> String {
+    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    if unit.is_empty() {
+        return plain(rounded);
+    }
+    match si(rounded, unit).split_once(' ') {
+        Some((digits, unit)) => format!("{} {unit}", digits.parse().map_or(digits.into(), plain)),
+        None => si(rounded, unit),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(short(1.3234e-5, "m"), "13.2 µm");
+        assert_eq!(short(8437.0, "m/s²"), "8.44 km/s²");
+        assert_eq!((short(1317.0, ""), short(0.0, ""), short(0.0, "m")), ("1320".into(), "0".into(), "0 m".into()));
+    }
 }
