@@ -6,6 +6,8 @@ use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
 
+use super::thin;
+
 /// Width of a figure [px].
 const WIDTH: f64 = 900.0;
 /// Room to the left for the numbers of the axis [px].
@@ -67,7 +69,7 @@ pub fn draw(figure: &Figure) -> String {
     let (prefix, factor) = prefix(largest, figure.unit);
     let mut plots = Vec::new();
     for (curve, (colour, dashes)) in figure.curves.iter().zip(STYLES.iter().cycle()) {
-        let points: Vec<(f64, f64)> = thin(curve.x, curve.y).into_iter().map(|(x, y)| (x, y / factor)).collect();
+        let points: Vec<(f64, f64)> = thin::columns(curve.x, curve.y, COLUMNS).into_iter().map(|(x, y)| (x, y / factor)).collect();
         if points.is_empty() {
             continue;
         }
@@ -130,26 +132,8 @@ pub fn stack(figures: &[String]) -> String {
     )
 }
 
-/// Points that look the same as all: of every column of pixels the first, lowest, highest and last.
-fn thin(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
-    let points: Vec<(f64, f64)> =
-        x.iter().copied().zip(y.iter().copied()).filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
-    if points.len() <= 2 * COLUMNS {
-        return points;
-    }
-    let mut kept = Vec::with_capacity(2 * COLUMNS + 2);
-    for column in 0..COLUMNS {
-        let part = &points[column * points.len() / COLUMNS..(column + 1) * points.len() / COLUMNS];
-        let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
-        let (Some(low), Some(high)) = (part.iter().min_by(by_value), part.iter().max_by(by_value)) else { continue };
-        kept.extend(if low.0 <= high.0 { [*low, *high] } else { [*high, *low] });
-    }
-    kept.extend(points.last());
-    kept
-}
-
 /// The decimal prefix that brings `largest` between 1 and 1000, and its factor.
-fn prefix(largest: f64, unit: &str) -> (&'static str, f64) {
+pub fn prefix(largest: f64, unit: &str) -> (&'static str, f64) {
     const PREFIXES: [(&str, f64); 7] =
         [("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)];
     // Accelerations are read in m/s² whatever their size, and numbers without unit bear no prefix.
@@ -179,17 +163,6 @@ fn with_view_box(svg: String) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn thinning_keeps_every_peak() {
-        let x: Vec<f64> = (0..100_000).map(f64::from).collect();
-        let mut y = vec![0.0; x.len()];
-        (y[31_415], y[92_653]) = (7.0, -3.0);
-        let kept = thin(&x, &y);
-        assert!(kept.len() <= 2 * COLUMNS + 1);
-        assert!(kept.contains(&(31_415.0, 7.0)) && kept.contains(&(92_653.0, -3.0)));
-        assert!(kept.windows(2).all(|w| w[0].0 <= w[1].0));
-    }
 
     #[test]
     fn figures_of_nothing_and_of_what_is_not_finite_are_drawn() {
