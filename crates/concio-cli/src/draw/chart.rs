@@ -140,15 +140,17 @@ pub fn draw(sheet: &Sheet) -> Drawing {
 
 /// Ranges and ticks of a plot of about that size.
 fn scales(panel: &Panel, size: [f64; 2]) -> Axes {
-    let values = |get: fn(&Line) -> &[f64]| panel.lines.iter().flat_map(get).copied().collect::<Vec<_>>();
+    let all = |level: bool| -> Vec<f64> {
+        panel.lines.iter().flat_map(|l| if level { l.x.iter() } else { l.y.iter() }).copied().collect()
+    };
     let of = |axis: &Axis, all: Vec<f64>, room: f64, most: usize| {
         let range = axis.range.unwrap_or_else(|| around(all.iter(), room));
         if axis.logarithmic { Scale::logarithmic(range) } else { Scale::linear(range, axis.unit, most) }
     };
     let room = if panel.rising { 0.0 } else { 0.05 };
     Axes {
-        x: of(&panel.x, values(|l| &l.x), room, (size[0] / 32.0).max(2.0) as usize),
-        y: of(&panel.y, values(|l| &l.y), 0.06, (size[1] / 17.0).clamp(2.0, 7.0) as usize),
+        x: of(&panel.x, all(true), room, (size[0] / 32.0).max(2.0) as usize),
+        y: of(&panel.y, all(false), 0.06, (size[1] / 17.0).clamp(2.0, 7.0) as usize),
     }
 }
 

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use concio::InputError;
-use concio::case::{self, Beam, Case, JointKind, Syntax};
+use concio::case::{self, Case, JointKind, Syntax};
+use concio::moment::{JointMotion, Moment};
 use concio::store::StoredRun;
-use concio::wall::End;
 
 use crate::failure::Failure;
 
@@ -90,17 +90,12 @@ impl<'a> Data<'a> {
         Some(self.run.outcome.recording.values.chunks_exact(channels.len()).map(move |row| row[at]))
     }
 
-    /// Number of frames.
-    pub fn frames(&self) -> usize {
-        self.run.outcome.recording.frame_time.len()
-    }
-
     /// The frames in the window; none kept is an error that says how to keep them.
     ///
     /// # Errors
     /// There are none.
-    pub fn shown_frames(&self) -> Result<Range<usize>, InputError> {
-        if self.frames() == 0 {
+    fn shown_frames(&self) -> Result<Range<usize>, InputError> {
+        if self.run.outcome.recording.frame_time.is_empty() {
             return Err(InputError::new("the run kept no frames")
                 .help("run the wall file again with `frames = \"1 ms\"` or the like under [output]"));
         }
@@ -118,60 +113,43 @@ impl<'a> Data<'a> {
         format!("{first} s to {last} s, the time of the {} frames", times.len())
     }
 
-    /// Displacements of all unknowns at a frame [m], relative to the base.
-    pub fn displacement(&self, frame: usize) -> &[f64] {
-        let unknowns = self.run.outcome.layout.unknowns;
-        &self.run.outcome.recording.frame_displacement[frame * unknowns..(frame + 1) * unknowns]
+    fn moments(&self, frames: Range<usize>) -> impl Iterator<Item = Moment<'a>> {
+        let run = self.run;
+        frames.filter_map(move |f| Moment::of(run, f))
     }
 
-    fn velocity(&self, frame: usize) -> &[f64] {
-        let unknowns = self.run.outcome.layout.unknowns;
-        &self.run.outcome.recording.frame_velocity[frame * unknowns..(frame + 1) * unknowns]
-    }
-
-    /// The frame of an instant.
+    /// The frame nearest to an instant.
     ///
     /// # Errors
     /// There are no frames; the instant lies outside of them.
-    pub fn frame(&self, instant: Instant) -> Result<usize, InputError> {
+    pub fn moment(&self, instant: Instant) -> Result<Moment<'a>, InputError> {
         let shown = self.shown_frames()?;
         let times = &self.run.outcome.recording.frame_time;
-        match instant {
+        let frame = match instant {
             Instant::Peak => {
-                let blocks = self.run.wall.blocks.len();
-                let size = |f: &usize| self.displacement(*f)[..blocks].iter().fold(0.0f64, |m, z| m.max(z.abs()));
-                Ok(shown.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0))
+                let size = |f: &usize| self.largest_displacement(*f);
+                shown.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0)
             }
             Instant::At(t) => {
                 let [first, last] = [times[0], times[times.len() - 1]];
                 // An instant up to half an interval beyond the last frame is still nearest to it.
                 let slack = if times.len() > 1 { 0.5 * (times[1] - times[0]) } else { 1e-9 };
                 if !(t >= first && t <= last + slack) {
-                    return Err(InputError::new(format!("{t} s is outside of the run")).key("--at").allowed(self.frame_span()));
+                    let error = InputError::new(format!("{t} s is outside of the run")).key("--at");
+                    return Err(error.allowed(self.frame_span()));
                 }
                 let after = times.partition_point(|f| *f < t).min(times.len() - 1);
-                Ok(if after > 0 && t - times[after - 1] < times[after] - t { after - 1 } else { after })
+                if after > 0 && t - times[after - 1] < times[after] - t { after - 1 } else { after }
             }
-        }
+        };
+        Moment::of(self.run, frame).ok_or_else(|| InputError::new(format!("the run has no frame {frame}")))
     }
 
-    /// Time of a frame [s].
-    pub fn frame_time(&self, frame: usize) -> f64 {
-        self.run.outcome.recording.frame_time[frame]
-    }
-
-    /// Displacement of the top beam relative to the base at a frame [m]; none without a beam.
-    pub fn beam_displacement(&self, frame: usize) -> Option<f64> {
-        self.beam(frame, "beam/displacement", Self::displacement)
-    }
-
-    fn beam(&self, frame: usize, channel: &str, of_frame: fn(&Self, usize) -> &[f64]) -> Option<f64> {
-        match self.case.load.beam {
-            Beam::Free => None,
-            Beam::Tied => Some(0.0),
-            Beam::Mass(_) => of_frame(self, frame).last().copied(),
-            Beam::Driven => self.column(channel)?.nth(frame * self.run.outcome.layout.frame_every),
-        }
+    /// Of the blocks at a frame, relative to the base [m].
+    fn largest_displacement(&self, frame: usize) -> f64 {
+        let (unknowns, blocks) = (self.run.outcome.layout.unknowns, self.run.wall.blocks.len());
+        let row = &self.run.outcome.recording.frame_displacement[frame * unknowns..frame * unknowns + blocks];
+        row.iter().fold(0.0f64, |m, z| m.max(z.abs()))
     }
 
     /// Motion of a block relative to the base: at every sample when the wall file names it, else at the frames.
@@ -185,10 +163,12 @@ impl<'a> Data<'a> {
             return Ok(Motion { time: u.time, displacement: u.values, velocity: v.values });
         }
         let frames = self.shown_frames().map_err(|e| or_ask(e, "blocks", name))?;
+        let of = |m: Moment| (m.time(), m.block(block));
+        let rows: Vec<_> = self.moments(frames).map(of).collect();
         Ok(Motion {
-            time: frames.clone().map(|f| self.frame_time(f)).collect(),
-            displacement: frames.clone().map(|f| self.displacement(f)[block]).collect(),
-            velocity: frames.map(|f| self.velocity(f)[block]).collect(),
+            time: rows.iter().map(|r| r.0).collect(),
+            displacement: rows.iter().map(|r| r.1.displacement).collect(),
+            velocity: rows.iter().map(|r| r.1.velocity).collect(),
         })
     }
 
@@ -196,34 +176,45 @@ impl<'a> Data<'a> {
     /// joints that of the lower block against the upper, or of a block against base or beam.
     ///
     /// # Errors
-    /// Neither samples nor frames were kept; the velocity of a driven beam is not known.
+    /// Neither samples nor frames were kept.
     pub fn joint_motion(&self, joint: usize) -> Result<Motion, InputError> {
         let name = &self.run.joints[joint].name;
         let of = |what: &str| self.channel(&format!("joint/{name}/{what}"));
         if let (Some(d), Some(v)) = (of("slip"), of("velocity")) {
             return Ok(Motion { time: d.time, displacement: d.values, velocity: v.values });
         }
-        let frames = self.shown_frames().map_err(|e| or_ask(e, "joints", name))?;
-        let over = |displaced: bool| -> Option<Vec<f64>> { frames.clone().map(|f| self.between(joint, f, displaced)).collect() };
-        let time = frames.clone().map(|f| self.frame_time(f)).collect();
-        match (over(true), over(false)) {
-            (Some(displacement), Some(velocity)) => Ok(Motion { time, displacement, velocity }),
-            _ => Err(InputError::new(format!("the motion of the top beam at joint {name} was not kept"))
-                .help("run the wall file again with this version")),
-        }
+        let (time, rows) = self.joint_frames(joint)?;
+        Ok(Motion {
+            time,
+            displacement: rows.iter().map(|m| m.slip).collect(),
+            velocity: rows.iter().map(|m| m.velocity).collect(),
+        })
     }
 
-    fn between(&self, joint: usize, frame: usize, displaced: bool) -> Option<f64> {
-        let joint = &self.run.joints[joint].joint;
-        let (of_frame, channel): (fn(&Self, usize) -> &[f64], _) =
-            if displaced { (Self::displacement, "beam/displacement") } else { (Self::velocity, "beam/velocity") };
-        let a = of_frame(self, frame)[joint.a];
-        let b = match joint.b {
-            End::Block(b) => of_frame(self, frame)[b],
-            End::Base => 0.0,
-            End::Top => self.beam(frame, channel, of_frame)?,
+    /// Slip [m] and friction force [N] of a joint, so signed that friction against the motion encloses an area above 0.
+    ///
+    /// # Errors
+    /// Neither samples nor frames were kept.
+    pub fn joint_friction(&self, joint: usize) -> Result<[Vec<f64>; 2], InputError> {
+        let row = &self.run.joints[joint];
+        let of = |what: &str| self.channel(&format!("joint/{}/{what}", row.name));
+        let [slip, mut force] = match (of("slip"), of("friction")) {
+            (Some(slip), Some(force)) => [slip.values, force.values],
+            _ => {
+                let (_, rows) = self.joint_frames(joint)?;
+                [rows.iter().map(|m| m.slip).collect(), rows.iter().map(|m| m.friction).collect()]
+            }
         };
-        Some(if is_upright(joint.kind) { b - a } else { a - b })
+        // The force is that on the left block, the gap grows with the motion of the right one.
+        if is_upright(row.joint.kind) {
+            force.iter_mut().for_each(|f| *f = -*f);
+        }
+        Ok([slip, force])
+    }
+
+    fn joint_frames(&self, joint: usize) -> Result<(Vec<f64>, Vec<JointMotion>), InputError> {
+        let frames = self.shown_frames().map_err(|e| or_ask(e, "joints", &self.run.joints[joint].name))?;
+        Ok(self.moments(frames).map(|m| (m.time(), m.joint(joint))).unzip())
     }
 
     /// The block of that name.
@@ -241,17 +232,6 @@ impl<'a> Data<'a> {
     /// There is none.
     pub fn joint(&self, name: &str) -> Result<usize, InputError> {
         find("joint", "--joints", name, self.run.joints.iter().map(|j| j.name.as_str()))
-    }
-
-    /// What a figure of blocks or joints is drawn from, to be told: frames may miss what samples show.
-    pub fn frame_interval(&self) -> f64 {
-        self.run.outcome.layout.interval * self.run.outcome.layout.frame_every as f64
-    }
-
-    /// Whether the wall file asked for the histories of this joint.
-    pub fn has_joint_channels(&self, joint: usize) -> bool {
-        let channel = format!("joint/{}/slip", self.run.joints[joint].name);
-        self.run.outcome.layout.channels.iter().any(|c| c.name == channel)
     }
 }
 

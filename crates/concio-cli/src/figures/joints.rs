@@ -3,7 +3,7 @@
 use concio::InputError;
 use concio::case::JointKind;
 
-use super::data::{Data, is_upright};
+use super::data::{Data, Motion, is_upright};
 use super::{Options, asked, largest, letter};
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::draw::output::Drawing;
@@ -31,7 +31,7 @@ pub fn histories(data: &Data, options: &Options) -> Result<Drawing, InputError> 
     let range = around(motions.iter().flat_map(|m| &m.displacement), 0.06);
     let upright = chosen.iter().filter(|&&e| is_upright(joints[e].joint.kind)).count();
     let quantity = if upright == chosen.len() { "gap" } else if upright == 0 { "slip" } else { "gap, slip" };
-    let panel = |(k, (&e, motion)): (usize, (&usize, &'_ super::data::Motion))| Panel {
+    let panel = |(k, (&e, motion)): (usize, (&usize, &Motion))| Panel {
         heading: letter(k, chosen.len(), &format!("{}, {}", joints[e].name, kind(joints[e].joint.kind))),
         x: Axis { quantity: "time".into(), unit: "s", ..Axis::default() },
         y: Axis { quantity: quantity.into(), unit: "m", range: Some(range), ..Axis::default() },
@@ -76,7 +76,7 @@ pub fn hysteresis(data: &Data, options: &Options) -> Result<Drawing, InputError>
         return Err(InputError::new("no joint of this wall rubs").help("give the joints friction in the wall file"));
     }
     let loops: Result<Vec<_>, _> = chosen.iter().map(|&e| data.joint_friction(e)).collect();
-    let panel = |(k, (&e, (slip, force))): (usize, (&usize, (Vec<f64>, Vec<f64>)))| Panel {
+    let panel = |(k, (&e, [slip, force])): (usize, (&usize, [Vec<f64>; 2]))| Panel {
         heading: letter(k, chosen.len(), &joints[e].name),
         x: Axis { quantity: "slip".into(), unit: "m", ..Axis::default() },
         y: Axis { quantity: "friction force".into(), unit: "N", ..Axis::default() },

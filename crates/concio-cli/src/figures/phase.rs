@@ -64,7 +64,7 @@ fn draw(
         heading: letter(k, portraits.len(), name),
         x: Axis { quantity: displacement.into(), unit: "m", ..Axis::default() },
         y: Axis { quantity: velocity.into(), unit: "m/s", ..Axis::default() },
-        lines: vec![Line { x: (&motion.displacement).into(), y: (&motion.velocity).into(), style: 0 }],
+        lines: vec![Line { x: motion.displacement.clone().into(), y: motion.velocity.clone().into(), style: 0 }],
         rising: false,
     };
     let columns = options.columns(if portraits.len() > 1 { 2 } else { 1 });

@@ -81,16 +81,16 @@ fn has_beam(data: &Data) -> bool {
 
 /// The panel at an instant, displacements enlarged, over its outline at rest.
 pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
-    let frame = data.frame(options.at)?;
+    let moment = data.moment(options.at)?;
     let blocks = &data.run.wall.blocks;
-    let moved = &data.displacement(frame)[..blocks.len()];
-    let beam = if has_beam(data) { data.beam_displacement(frame) } else { None };
+    let moved: Vec<f64> = (0..blocks.len()).map(|i| moment.block(i).displacement).collect();
+    let beam = has_beam(data).then(|| moment.beam().displacement);
     let all = moved.iter().chain(&beam);
     let [low, high] = all.fold([0.0f64; 2], |e, z| [e[0].min(*z), e[1].max(*z)]);
     let largest = high.max(-low);
     let scale = options.scale.unwrap_or_else(|| automatic_scale(data, largest));
     let out = [-low * scale, high * scale];
-    let time = format!("t = {}", crate::format::seconds(rounded(data.frame_time(frame))));
+    let time = format!("t = {}", crate::format::seconds(rounded(moment.time())));
     let drawn = if scale == 1.0 { "displacements to scale".into() } else { format!("displacements × {}", plain(scale)) };
     let mut canvas = Canvas::default();
     let peak = format!("largest {}", si(largest, "m"));
@@ -104,7 +104,7 @@ pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         view.beam(&mut canvas, data, z * scale, r##"fill="#c9c9c9" stroke="#222" stroke-width="0.5""##);
     }
     let brick = format!(r##"fill="{BRICK}" fill-opacity="0.92" stroke="#333" stroke-width="0.5""##);
-    for (block, z) in blocks.iter().zip(moved) {
+    for (block, z) in blocks.iter().zip(&moved) {
         canvas.path(&shift(*z, block), &brick, Some(&format!("{}: {}", block.name, si(*z, "m"))));
     }
     view.ground(&mut canvas);
@@ -112,7 +112,7 @@ pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     Ok(Drawing {
         body: canvas.into_body(),
         size: [options.points(), bottom],
-        title: format!("Deformed wall at {} s, displacements × {}", plain(rounded(data.frame_time(frame))), plain(scale)),
+        title: format!("Deformed wall at {} s, displacements × {}", plain(rounded(moment.time())), plain(scale)),
     })
 }
 
@@ -186,16 +186,16 @@ fn short(length: f64) -> String {
 pub fn peak_acceleration(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let peaks = &data.run.outcome.envelopes.joint_acceleration;
     let largest = largest(peaks)?;
-    map(data, options, peaks, largest, &["peak over the whole history".into()])
+    Ok(map(data, options, peaks, largest, &["peak over the whole history".into()]))
 }
 
 /// Joints coloured by their relative acceleration at an instant, over the largest in the whole history.
 pub fn acceleration(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let largest = largest(&data.run.outcome.envelopes.joint_acceleration)?;
-    let frame = data.frame(options.at)?;
-    let values: Vec<f64> = data.joint_accelerations(frame)?.iter().map(|a| a.abs()).collect();
-    let time = format!("t = {}", crate::format::seconds(rounded(data.frame_time(frame))));
-    map(data, options, &values, largest, &[time])
+    let moment = data.moment(options.at)?;
+    let values: Vec<f64> = (0..data.run.joints.len()).map(|e| moment.joint(e).acceleration.abs()).collect();
+    let time = format!("t = {}", crate::format::seconds(rounded(moment.time())));
+    Ok(map(data, options, &values, largest, &[time]))
 }
 
 fn largest(peaks: &[f64]) -> Result<f64, InputError> {
@@ -203,7 +203,7 @@ fn largest(peaks: &[f64]) -> Result<f64, InputError> {
     if largest > 0.0 { Ok(largest) } else { Err(InputError::new("no joint moved: there are no relative accelerations")) }
 }
 
-fn map(data: &Data, options: &Options, values: &[f64], largest: f64, texts: &[String]) -> Result<Drawing, InputError> {
+fn map(data: &Data, options: &Options, values: &[f64], largest: f64, texts: &[String]) -> Drawing {
     let mut canvas = Canvas::default();
     let head = headings(&mut canvas, options.points(), texts);
     let view = View::new(data, options.points(), [0.0; 2], head);
@@ -228,7 +228,7 @@ fn map(data: &Data, options: &Options, values: &[f64], largest: f64, texts: &[St
     }
     let bottom = colour_bar(&mut canvas, &view, options.points(), largest);
     let title = "Joints coloured by relative acceleration over the largest in the whole history".into();
-    Ok(Drawing { body: canvas.into_body(), size: [options.points(), bottom], title })
+    Drawing { body: canvas.into_body(), size: [options.points(), bottom], title }
 }
 
 /// The colours from 0 to 1 with what they stand for; where it ends [pt].
