@@ -236,7 +236,8 @@ pub struct Plot {
     /// Folder for the figures; default DIR/figures.
     #[arg(short, long, value_name = "FOLDER", value_hint = ValueHint::DirPath, requires = "figure")]
     pub out: Option<PathBuf>,
-    /// Instant of deformed and acceleration, such as "1.25 s", or peak: that of the largest relative displacement.
+    /// Instant of deformed and acceleration, such as "1.25 s", or peak: that of the largest displacement, of
+    /// acceleration that of the largest relative acceleration.
     #[arg(long, value_name = "TIME", value_parser = instant, default_value = "peak", requires = "figure")]
     pub at: Instant,
     /// How many times larger displacements are drawn; default a round number that shows them.

@@ -74,6 +74,9 @@ fn draw(args: &Plot, run: &StoredRun) -> Result<(), Failure> {
         files::write(&path, &content)?;
         files::print(&format!("{}\n", path.display()))?;
     }
+    for (figure, drawing) in drawings.iter().filter(|(_, d)| !d.note.is_empty()) {
+        files::note(&format!("note: figure {}: {}", figure.name(), drawing.note));
+    }
     for error in left_out {
         files::note(&format!("note: left out: {error}"));
     }

@@ -77,6 +77,8 @@ pub struct Panel<'a> {
     pub lines: Vec<Line<'a>>,
     /// Whether the abscissae of all curves rise, as time does.
     pub rising: bool,
+    /// Whether the plot below shows the numbers of the level axis for both.
+    pub bare: bool,
 }
 
 /// Plots in rows and columns.
@@ -90,8 +92,6 @@ pub struct Sheet<'a> {
     pub panels: Vec<Panel<'a>>,
     /// Columns.
     pub columns: usize,
-    /// Whether the plots of a column have one level axis in common, labelled at the lowest.
-    pub shared: bool,
     /// Width of the whole [pt].
     pub width: f64,
     /// Height of a plot [pt]; none for plots as high as wide.
@@ -110,7 +110,6 @@ pub fn draw(sheet: &Sheet) -> Drawing {
     let rows = sheet.panels.len().div_ceil(columns);
     let guess = sheet.height.unwrap_or(sheet.width / columns as f64 * 0.6);
     let mut axes: Vec<Axes> = sheet.panels.iter().map(|p| scales(p, [sheet.width / columns as f64, guess])).collect();
-    unify(sheet, &mut axes);
     // Equal margins in a column, the same in all columns, so that all plots are of one size.
     let widest = axes.iter().flat_map(|a| a.y.labels()).map(|l| font::width(&l, LETTERS[0].into())).fold(0.0, f64::max);
     let left = 3.0 + f64::from(LETTERS[1]) + 3.0 + widest + GAP;
@@ -126,16 +125,14 @@ pub fn draw(sheet: &Sheet) -> Drawing {
         let members = row * columns..((row + 1) * columns).min(sheet.panels.len());
         let headed = sheet.panels[members.clone()].iter().any(|p| !p.heading.is_empty());
         top += if headed { f64::from(LETTERS[1]) + 5.0 } else { 5.0 };
-        for k in members {
+        for k in members.clone() {
             let x = (k % columns) as f64 * (left + width + right) + left;
-            let lowest = !sheet.shared || k + columns >= sheet.panels.len();
-            panel(&mut canvas, &sheet.panels[k], &axes[k], [x, top, width, height], [left, 0.0], lowest);
+            panel(&mut canvas, &sheet.panels[k], &axes[k], [x, top, width, height], left);
         }
-        top += height;
-        let last = row + 1 == rows;
-        top += if last || !sheet.shared { 2.0 * GAP + f64::from(LETTERS[0] + LETTERS[1]) + 4.0 } else { 0.0 };
+        let bare = sheet.panels[members].iter().all(|p| p.bare);
+        top += height + if bare { 1.0 } else { 2.0 * GAP + f64::from(LETTERS[0] + LETTERS[1]) + 4.0 };
     }
-    Drawing { body: canvas.into_body(), size: [sheet.width, top], title: sheet.title.clone() }
+    Drawing { body: canvas.into_body(), size: [sheet.width, top], title: sheet.title.clone(), note: String::new() }
 }
 
 /// Ranges and ticks of a plot of about that size.
@@ -150,21 +147,7 @@ fn scales(panel: &Panel, size: [f64; 2]) -> Axes {
     let room = if panel.rising { 0.0 } else { 0.05 };
     Axes {
         x: of(&panel.x, all(true), room, (size[0] / 32.0).max(2.0) as usize),
-        y: of(&panel.y, all(false), 0.06, (size[1] / 17.0).clamp(2.0, 7.0) as usize),
-    }
-}
-
-/// Plots that share their level axis show the same part of it.
-fn unify(sheet: &Sheet, axes: &mut [Axes]) {
-    if !sheet.shared {
-        return;
-    }
-    let ends = axes.iter().map(|a| a.x.range.map(|v| v * a.x.factor));
-    let range = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |r, e| [r[0].min(e[0]), r[1].max(e[1])]);
-    for (panel, axes) in sheet.panels.iter().zip(axes) {
-        if !panel.x.logarithmic {
-            axes.x = Scale::linear(range, panel.x.unit, (sheet.width / 32.0) as usize);
-        }
+        y: of(&panel.y, all(false), 0.06, (size[1] / 14.0).clamp(3.0, 7.0) as usize),
     }
 }
 
@@ -179,32 +162,39 @@ fn fit_numbers(panel: &Panel, axes: &mut Axes, width: f64) {
         let labels = axes.x.labels();
         let widest = labels.iter().map(|l| font::width(l, LETTERS[0].into())).fold(0.0, f64::max);
         let apart = width * axes.x.step / (axes.x.range[1] - axes.x.range[0]);
-        if widest + 9.0 <= apart {
+        if widest + 4.0 <= apart {
             return;
         }
     }
 }
 
 /// One plot with its frame at `[x, y, width, height]`.
-fn panel(canvas: &mut Canvas, panel: &Panel, axes: &Axes, frame: [f64; 4], margin: [f64; 2], lowest: bool) {
+fn panel(canvas: &mut Canvas, panel: &Panel, axes: &Axes, frame: [f64; 4], margin: f64) {
     let [x, y, width, height] = frame;
     canvas.raw(&format!(
         r#"<g transform="translate({} {})" stroke-linejoin="round">{}</g>"#,
         px(x - ROOM),
         px(y - ROOM),
-        library(panel, axes, [width, height], lowest)
+        library(panel, axes, [width, height])
     ));
     let size = f64::from(LETTERS[1]);
     if !panel.heading.is_empty() {
         canvas.text([x, y - 2.0 - 0.5 * size], size, Anchor::Start, false, "#000", &panel.heading);
     }
-    let upright = [x - margin[0] + 3.0 + 0.5 * size, y + 0.5 * height];
+    let upright = [x - margin + 3.0 + 0.5 * size, y + 0.5 * height];
     let label = name(&panel.y, &axes.y);
     canvas.text(upright, shrunk(&label, size, height + 8.0), Anchor::Middle, true, "#000", &label);
-    if lowest {
+    if !panel.bare {
         let below = y + height + 2.0 * GAP + f64::from(LETTERS[0]) + 0.5 * size;
         let label = name(&panel.x, &axes.x);
-        canvas.text([x + 0.5 * width, below], shrunk(&label, size, width + 24.0), Anchor::Middle, false, "#000", &label);
+        canvas.text(
+            [x + 0.5 * width, below],
+            shrunk(&label, size, width + 24.0),
+            Anchor::Middle,
+            false,
+            "#000",
+            &label,
+        );
     }
 }
 
@@ -216,11 +206,15 @@ fn shrunk(text: &str, size: f64, room: f64) -> f64 {
 
 /// `displacement [µm]`.
 fn name(axis: &Axis, scale: &Scale) -> String {
-    if axis.unit.is_empty() { axis.quantity.clone() } else { format!("{} [{}{}]", axis.quantity, scale.prefix, axis.unit) }
+    if axis.unit.is_empty() {
+        axis.quantity.clone()
+    } else {
+        format!("{} [{}{}]", axis.quantity, scale.prefix, axis.unit)
+    }
 }
 
 /// Frame, ticks, numbers and curves, with [`ROOM`] around them.
-fn library(panel: &Panel, axes: &Axes, [width, height]: [f64; 2], lowest: bool) -> String {
+fn library(panel: &Panel, axes: &Axes, [width, height]: [f64; 2]) -> String {
     let plots: Vec<Plot> = panel.lines.iter().filter_map(|l| curve(panel, l, axes, width)).collect();
     let [x, y] = [axes.x.range, axes.y.range];
     let mut layout = Layout::auto_from_plots(&plots)
@@ -241,10 +235,18 @@ fn library(panel: &Panel, axes: &Axes, [width, height]: [f64; 2], lowest: bool) 
         .with_tick_width(STROKES[1])
         .with_tick_length(2.5)
         .with_minor_ticks(if axes.x.logarithmic || axes.y.logarithmic { 1 } else { 2 })
-        .with_x_tick_format(format(&axes.x, lowest))
+        .with_x_tick_format(format(&axes.x, !panel.bare))
         .with_y_tick_format(format(&axes.y, true));
-    if axes.x.logarithmic { layout = layout.with_log_x() } else { layout = layout.with_x_tick_step(axes.x.step) }
-    if axes.y.logarithmic { layout = layout.with_log_y() } else { layout = layout.with_y_tick_step(axes.y.step) }
+    if axes.x.logarithmic {
+        layout = layout.with_log_x()
+    } else {
+        layout = layout.with_x_tick_step(axes.x.step)
+    }
+    if axes.y.logarithmic {
+        layout = layout.with_log_y()
+    } else {
+        layout = layout.with_y_tick_step(axes.y.step)
+    }
     let mut scene = render_multiple(plots, layout);
     scene.background_color = None;
     let svg = SvgBackend::new().render_scene(&scene);

@@ -69,7 +69,8 @@ pub fn draw(figure: &Figure) -> String {
     let (prefix, factor) = prefix(largest, figure.unit);
     let mut plots = Vec::new();
     for (curve, (colour, dashes)) in figure.curves.iter().zip(STYLES.iter().cycle()) {
-        let points: Vec<(f64, f64)> = thin::columns(curve.x, curve.y, COLUMNS).into_iter().map(|(x, y)| (x, y / factor)).collect();
+        let points: Vec<(f64, f64)> =
+            thin::columns(curve.x, curve.y, COLUMNS).into_iter().map(|(x, y)| (x, y / factor)).collect();
         if points.is_empty() {
             continue;
         }

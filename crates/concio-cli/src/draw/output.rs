@@ -28,6 +28,8 @@ pub struct Drawing {
     pub size: [f64; 2],
     /// What it shows, for those who cannot see it and for the properties of a PDF.
     pub title: String,
+    /// What to know before it is believed; empty for nothing.
+    pub note: String,
 }
 
 impl Drawing {
@@ -141,8 +143,9 @@ mod tests {
     use super::*;
 
     fn drawing() -> Drawing {
-        let body = "<text x=\"10\" y=\"20\" font-size=\"8\">time [s] &amp; µm</text><path d=\"M0 0L50 25\" stroke=\"#000\"/>";
-        Drawing { body: body.into(), size: [85.0 * POINTS, 40.0 * POINTS], title: "A < B".into() }
+        let body =
+            "<text x=\"10\" y=\"20\" font-size=\"8\">time [s] &amp; µm</text><path d=\"M0 0L50 25\" stroke=\"#000\"/>";
+        Drawing { body: body.into(), size: [85.0 * POINTS, 40.0 * POINTS], title: "A < B".into(), note: String::new() }
     }
 
     #[test]

@@ -8,6 +8,7 @@ use concio::moment::{JointMotion, Moment};
 use concio::store::StoredRun;
 
 use crate::failure::Failure;
+use crate::format::si;
 
 /// A run and the part of it that is shown.
 #[derive(Debug)]
@@ -38,12 +39,15 @@ pub struct Motion {
     pub displacement: Vec<f64>,
     /// Relative velocity [m/s].
     pub velocity: Vec<f64>,
+    /// Whether every sample was kept, and not only the frames.
+    pub sampled: bool,
 }
 
 /// An instant of the run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Instant {
-    /// That of the frame with the largest displacement of a block relative to the base.
+    /// That of the frame with the largest displacement of a block relative to the base; for accelerations that with the
+    /// largest relative acceleration of a joint.
     Peak,
     /// This one [s]; the nearest frame is drawn.
     At(f64),
@@ -80,7 +84,10 @@ impl<'a> Data<'a> {
     pub fn channel(&self, name: &str) -> Option<History> {
         let recording = &self.run.outcome.recording;
         let shown = self.shown(&recording.time);
-        Some(History { time: recording.time[shown.clone()].to_vec(), values: self.column(name)?.skip(shown.start).take(shown.len()).collect() })
+        Some(History {
+            time: recording.time[shown.clone()].to_vec(),
+            values: self.column(name)?.skip(shown.start).take(shown.len()).collect(),
+        })
     }
 
     /// All values of a channel.
@@ -118,16 +125,16 @@ impl<'a> Data<'a> {
         frames.filter_map(move |f| Moment::of(run, f))
     }
 
-    /// The frame nearest to an instant.
+    /// The frame nearest to an instant; [`Instant::Peak`] is that at which `peak` is largest.
     ///
     /// # Errors
     /// There are no frames; the instant lies outside of them.
-    pub fn moment(&self, instant: Instant) -> Result<Moment<'a>, InputError> {
+    pub fn moment(&self, instant: Instant, peak: fn(&Self, &Moment) -> f64) -> Result<Moment<'a>, InputError> {
         let shown = self.shown_frames()?;
         let times = &self.run.outcome.recording.frame_time;
         let frame = match instant {
             Instant::Peak => {
-                let size = |f: &usize| self.largest_displacement(*f);
+                let size = |f: &usize| Moment::of(self.run, *f).map_or(0.0, |m| peak(self, &m));
                 shown.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0)
             }
             Instant::At(t) => {
@@ -145,11 +152,24 @@ impl<'a> Data<'a> {
         Moment::of(self.run, frame).ok_or_else(|| InputError::new(format!("the run has no frame {frame}")))
     }
 
-    /// Of the blocks at a frame, relative to the base [m].
-    fn largest_displacement(&self, frame: usize) -> f64 {
-        let (unknowns, blocks) = (self.run.outcome.layout.unknowns, self.run.wall.blocks.len());
-        let row = &self.run.outcome.recording.frame_displacement[frame * unknowns..frame * unknowns + blocks];
-        row.iter().fold(0.0f64, |m, z| m.max(z.abs()))
+    /// Blocks, or joints, whose histories the wall file asks for.
+    pub fn asked_for(&self, what: &str) -> Vec<String> {
+        let channels = self.run.outcome.layout.channels.iter();
+        let of = |name: &str| Some(name.strip_prefix(what)?.strip_prefix('/')?.rsplit_once('/')?.0.to_string());
+        let mut found: Vec<String> = channels.filter_map(|c| of(&c.name)).collect();
+        found.dedup();
+        found
+    }
+
+    /// What to know of a figure in which these blocks, or joints, are known at the frames alone.
+    pub fn coarse(&self, key: &str, names: &[&str]) -> String {
+        let layout = &self.run.outcome.layout;
+        if names.is_empty() || layout.frame_every <= 1 {
+            return String::new();
+        }
+        let apart = si(layout.interval * layout.frame_every as f64, "s");
+        let list = names.iter().map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(", ");
+        format!("drawn from frames {apart} apart; a run with `{key} = [{list}]` under [output] keeps every sample")
     }
 
     /// Motion of a block relative to the base: at every sample when the wall file names it, else at the frames.
@@ -160,7 +180,7 @@ impl<'a> Data<'a> {
         let name = &self.run.wall.blocks[block].name;
         let of = |what: &str| self.channel(&format!("block/{name}/{what}"));
         if let (Some(u), Some(v)) = (of("displacement"), of("velocity")) {
-            return Ok(Motion { time: u.time, displacement: u.values, velocity: v.values });
+            return Ok(Motion { time: u.time, displacement: u.values, velocity: v.values, sampled: true });
         }
         let frames = self.shown_frames().map_err(|e| or_ask(e, "blocks", name))?;
         let of = |m: Moment| (m.time(), m.block(block));
@@ -169,6 +189,7 @@ impl<'a> Data<'a> {
             time: rows.iter().map(|r| r.0).collect(),
             displacement: rows.iter().map(|r| r.1.displacement).collect(),
             velocity: rows.iter().map(|r| r.1.velocity).collect(),
+            sampled: false,
         })
     }
 
@@ -181,13 +202,14 @@ impl<'a> Data<'a> {
         let name = &self.run.joints[joint].name;
         let of = |what: &str| self.channel(&format!("joint/{name}/{what}"));
         if let (Some(d), Some(v)) = (of("slip"), of("velocity")) {
-            return Ok(Motion { time: d.time, displacement: d.values, velocity: v.values });
+            return Ok(Motion { time: d.time, displacement: d.values, velocity: v.values, sampled: true });
         }
         let (time, rows) = self.joint_frames(joint)?;
         Ok(Motion {
             time,
             displacement: rows.iter().map(|m| m.slip).collect(),
             velocity: rows.iter().map(|m| m.velocity).collect(),
+            sampled: false,
         })
     }
 
@@ -247,14 +269,20 @@ fn or_ask(error: InputError, key: &str, name: &str) -> InputError {
     }
 }
 
-fn find<'n>(what: &str, key: &str, name: &str, names: impl Iterator<Item = &'n str> + Clone) -> Result<usize, InputError> {
+fn find<'n>(
+    what: &str,
+    key: &str,
+    name: &str,
+    names: impl Iterator<Item = &'n str> + Clone,
+) -> Result<usize, InputError> {
     if let Some(at) = names.clone().position(|n| n == name) {
         return Ok(at);
     }
     let near = names.clone().map(|n| (strsim::damerau_levenshtein(name, n), n)).min();
     let example = names.clone().next().unwrap_or_default();
     let error = InputError::new(format!("no {what} is named `{name}`")).key(key);
-    let error = error.allowed(format!("names as `concio check --svg` draws them, for example {example}, parted by commas"));
+    let error =
+        error.allowed(format!("names as `concio check --svg` draws them, for example {example}, parted by commas"));
     Err(match near {
         Some((distance, near)) if distance <= 2 => error.help(format!("did you mean `{near}`?")),
         _ => error,

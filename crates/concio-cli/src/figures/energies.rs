@@ -2,8 +2,8 @@
 
 use concio::InputError;
 
-use super::data::Data;
 use super::Options;
+use super::data::Data;
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::draw::output::Drawing;
 
@@ -20,7 +20,8 @@ const MECHANISMS: [(&str, &str); 7] = [
 
 /// The account of energies, without mechanisms that stay at zero.
 pub fn energies(data: &Data, options: &Options) -> Result<Drawing, InputError> {
-    let found = MECHANISMS.iter().filter_map(|(channel, name)| Some((*name, data.channel(&format!("energy/{channel}"))?)));
+    let found =
+        MECHANISMS.iter().filter_map(|(channel, name)| Some((*name, data.channel(&format!("energy/{channel}"))?)));
     let found: Vec<_> = found.filter(|(_, h)| h.values.iter().any(|v| *v != 0.0)).collect();
     if found.is_empty() {
         return Err(InputError::new("no work is done in the time shown").key("--from, --to"));
@@ -33,13 +34,13 @@ pub fn energies(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         y: Axis { quantity: "energy".into(), unit: "J", ..Axis::default() },
         lines: lines.collect(),
         rising: true,
+        bare: false,
     };
     Ok(chart::draw(&Sheet {
         title: "Energies by mechanism over time".into(),
         legend: found.iter().map(|(name, _)| (*name).into()).collect(),
         panels: vec![panel],
         columns: 1,
-        shared: false,
         width: options.points(),
         height: Some(0.55 * options.points().min(360.0)),
     }))

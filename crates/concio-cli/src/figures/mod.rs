@@ -83,7 +83,11 @@ fn letter(k: usize, of: usize, heading: &str) -> String {
 }
 
 /// The blocks or joints asked for, no more than a figure can show.
-fn asked(names: &[String], key: &str, find: impl Fn(&str) -> Result<usize, InputError>) -> Result<Vec<usize>, InputError> {
+fn asked(
+    names: &[String],
+    key: &str,
+    find: impl Fn(&str) -> Result<usize, InputError>,
+) -> Result<Vec<usize>, InputError> {
     if names.len() > MOST {
         let error = InputError::new(format!("{} names are given", names.len())).key(key);
         return Err(error.allowed(format!("up to {MOST} in one figure")));

@@ -35,6 +35,7 @@ pub fn motion(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         return Err(InputError::new("neither base nor beam moves in the time shown").key("--from, --to"));
     }
     const SHOWN: [(&str, &str); 3] = [("acceleration", "m/s²"), ("velocity", "m/s"), ("displacement", "m")];
+    let columns = options.columns(1);
     let mut panels: Vec<Panel> = SHOWN
         .iter()
         .enumerate()
@@ -48,6 +49,7 @@ pub fn motion(data: &Data, options: &Options) -> Result<Drawing, InputError> {
                 .map(|(style, m)| Line { x: (&m.time).into(), y: (&m.histories[k]).into(), style })
                 .collect(),
             rising: true,
+            bare: columns == 1 && k < 2,
         })
         .collect();
     panels.push(spectrum(data, &found));
@@ -56,8 +58,7 @@ pub fn motion(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         title: "Motion of base and top beam, and response spectrum with 5 % damping".into(),
         legend: if named { found.iter().map(|m| m.name.into()).collect() } else { Vec::new() },
         panels,
-        columns: options.columns(1),
-        shared: false,
+        columns,
         width: options.points(),
         height: Some(62.0),
     }))
@@ -84,6 +85,7 @@ fn spectrum<'a>(data: &Data, found: &[Moved]) -> Panel<'a> {
         y: Axis { quantity: "pseudo-acc.".into(), unit: "m/s²", range: Some([0.0, 1.08 * top]), logarithmic: false },
         lines,
         rising: true,
+        bare: false,
     }
 }
 
@@ -109,7 +111,17 @@ fn velocity(h: f64, a: &[f64], u: &[f64]) -> Vec<f64> {
     let n = a.len().min(u.len());
     let forward = |k: usize| (u[k + 1] - u[k]) / h - h * (2.0 * a[k] + a[k + 1]) / 6.0;
     let backward = |k: usize| (u[k] - u[k - 1]) / h + h * (2.0 * a[k] + a[k - 1]) / 6.0;
-    (0..n).map(|k| if k + 1 < n { forward(k) } else if n > 1 { backward(k) } else { 0.0 }).collect()
+    (0..n)
+        .map(|k| {
+            if k + 1 < n {
+                forward(k)
+            } else if n > 1 {
+                backward(k)
+            } else {
+                0.0
+            }
+        })
+        .collect()
 }
 
 #[cfg(test)]

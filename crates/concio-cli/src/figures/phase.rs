@@ -12,18 +12,26 @@ const FEW: usize = 4;
 
 /// Of blocks; of those that moved most in courses spread over the height unless they are named.
 pub fn blocks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
-    let chosen = if options.blocks.is_empty() { spread(data) } else { asked(&options.blocks, "--blocks", |n| data.block(n))? };
+    let known = data.asked_for("block");
+    let chosen = match (options.blocks.is_empty(), known.is_empty()) {
+        (false, _) => asked(&options.blocks, "--blocks", |n| data.block(n))?,
+        (true, false) => known.iter().take(FEW).map(|n| data.block(n)).collect::<Result<_, _>>()?,
+        (true, true) => spread(data),
+    };
     let blocks = &data.run.wall.blocks;
     let portraits: Result<Vec<_>, _> =
         chosen.iter().map(|&i| Ok((blocks[i].name.clone(), data.block_motion(i)?))).collect();
     let title = "Phase portraits of blocks: velocity over displacement, relative to the base";
-    draw(options, title, ["displacement", "velocity"], &portraits?)
+    draw(data, options, title, ["displacement", "velocity"], &portraits?)
 }
 
 /// Of joints; of head and bed joints that moved most unless they are named.
 pub fn joints(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let joints = &data.run.joints;
-    let chosen = if options.joints.is_empty() {
+    let known = data.asked_for("joint");
+    let chosen = if options.joints.is_empty() && !known.is_empty() {
+        known.iter().take(FEW).map(|n| data.joint(n)).collect::<Result<_, _>>()?
+    } else if options.joints.is_empty() {
         let peaks = &data.run.outcome.envelopes.joint_displacement;
         let of = |upright: bool| largest(peaks, |e| is_upright(joints[e].joint.kind) == upright, FEW / 2);
         [of(true), of(false)].concat()
@@ -36,7 +44,7 @@ pub fn joints(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let portraits: Result<Vec<_>, _> =
         chosen.iter().map(|&e| Ok((joints[e].name.clone(), data.joint_motion(e)?))).collect();
     let title = "Phase portraits of joints: relative velocity over relative displacement of their sides";
-    draw(options, title, ["rel. displacement", "rel. velocity"], &portraits?)
+    draw(data, options, title, ["rel. displacement", "rel. velocity"], &portraits?)
 }
 
 /// Of up to [`FEW`] courses, spread over the height of the wall, the block that moved most, the highest first.
@@ -55,6 +63,7 @@ fn spread(data: &Data) -> Vec<usize> {
 }
 
 fn draw(
+    data: &Data,
     options: &Options,
     title: &str,
     [displacement, velocity]: [&str; 2],
@@ -66,15 +75,18 @@ fn draw(
         y: Axis { quantity: velocity.into(), unit: "m/s", ..Axis::default() },
         lines: vec![Line { x: motion.displacement.clone().into(), y: motion.velocity.clone().into(), style: 0 }],
         rising: false,
+        bare: false,
     };
     let columns = options.columns(if portraits.len() > 1 { 2 } else { 1 });
-    Ok(chart::draw(&Sheet {
+    let coarse: Vec<&str> = portraits.iter().filter(|p| !p.1.sampled).map(|p| p.0.as_str()).collect();
+    let key = if displacement.starts_with("rel") { "joints" } else { "blocks" };
+    let drawing = chart::draw(&Sheet {
         title: title.into(),
         legend: Vec::new(),
         panels: portraits.iter().enumerate().map(panel).collect(),
         columns,
-        shared: false,
         width: options.points(),
         height: (portraits.len() == 1).then_some(0.6 * options.points().min(400.0)),
-    }))
+    });
+    Ok(Drawing { note: data.coarse(key, &coarse), ..drawing })
 }

@@ -27,13 +27,14 @@ pub fn force(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         y: Axis { quantity: "force of top beam".into(), unit: "N", ..Axis::default() },
         lines: vec![Line { x: u.values.into(), y: f.values.into(), style: 0 }],
         rising: false,
+        bare: false,
     };
     Ok(chart::draw(&Sheet {
-        title: "Horizontal force of the top beam on the wall over the displacement of the top relative to the base".into(),
+        title: "Horizontal force of the top beam on the wall over the displacement of the top relative to the base"
+            .into(),
         legend: Vec::new(),
         panels: vec![panel],
         columns: 1,
-        shared: false,
         width: options.points(),
         height: Some(0.6 * options.points().min(360.0)),
     }))

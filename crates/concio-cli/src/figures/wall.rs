@@ -2,6 +2,7 @@
 
 use concio::InputError;
 use concio::case::JointKind;
+use concio::moment::Moment;
 
 use super::Options;
 use super::data::Data;
@@ -81,7 +82,7 @@ fn has_beam(data: &Data) -> bool {
 
 /// The panel at an instant, displacements enlarged, over its outline at rest.
 pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
-    let moment = data.moment(options.at)?;
+    let moment = data.moment(options.at, largest_displacement)?;
     let blocks = &data.run.wall.blocks;
     let moved: Vec<f64> = (0..blocks.len()).map(|i| moment.block(i).displacement).collect();
     let beam = has_beam(data).then(|| moment.beam().displacement);
@@ -91,9 +92,10 @@ pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let scale = options.scale.unwrap_or_else(|| automatic_scale(data, largest));
     let out = [-low * scale, high * scale];
     let time = format!("t = {}", crate::format::seconds(rounded(moment.time())));
-    let drawn = if scale == 1.0 { "displacements to scale".into() } else { format!("displacements × {}", plain(scale)) };
+    let drawn =
+        if scale == 1.0 { "displacements to scale".into() } else { format!("displacements × {}", plain(scale)) };
     let mut canvas = Canvas::default();
-    let peak = format!("largest {}", si(largest, "m"));
+    let peak = format!("largest {}", short(three(largest)));
     let head = headings(&mut canvas, options.points(), &[time, drawn, peak]);
     let view = View::new(data, options.points(), out, head);
     let rest = r##"fill="#e6e6e6" stroke="#8c8c8c" stroke-width="0.4""##;
@@ -103,7 +105,7 @@ pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         view.beam(&mut canvas, data, 0.0, rest);
         view.beam(&mut canvas, data, z * scale, r##"fill="#c9c9c9" stroke="#222" stroke-width="0.5""##);
     }
-    let brick = format!(r##"fill="{BRICK}" fill-opacity="0.92" stroke="#333" stroke-width="0.5""##);
+    let brick = format!(r##"fill="{BRICK}" stroke="#333" stroke-width="0.5""##);
     for (block, z) in blocks.iter().zip(&moved) {
         canvas.path(&shift(*z, block), &brick, Some(&format!("{}: {}", block.name, si(*z, "m"))));
     }
@@ -113,7 +115,21 @@ pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         body: canvas.into_body(),
         size: [options.points(), bottom],
         title: format!("Deformed wall at {} s, displacements × {}", plain(rounded(moment.time())), plain(scale)),
+        note: String::new(),
     })
+}
+
+fn largest_displacement(data: &Data, moment: &Moment) -> f64 {
+    (0..data.run.wall.blocks.len()).map(|i| moment.block(i).displacement.abs()).fold(0.0, f64::max)
+}
+
+fn largest_acceleration(data: &Data, moment: &Moment) -> f64 {
+    (0..data.run.joints.len()).map(|e| moment.joint(e).acceleration.abs()).fold(0.0, f64::max)
+}
+
+/// Three significant digits.
+fn three(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 /// A time without the digits that sums of intervals leave behind.
@@ -135,7 +151,9 @@ fn headings(canvas: &mut Canvas, width: f64, texts: &[String]) -> f64 {
     let mut lines: Vec<String> = Vec::new();
     for text in texts {
         match lines.last_mut() {
-            Some(last) if font::width(&format!("{last}, {text}"), size) <= width - 2.0 * SIDE => *last += &format!(", {text}"),
+            Some(last) if font::width(&format!("{last}, {text}"), size) <= width - 2.0 * SIDE => {
+                *last += &format!(", {text}")
+            }
             _ => lines.push(text.clone()),
         }
     }
@@ -160,7 +178,11 @@ fn bars(canvas: &mut Canvas, view: &View, width: f64, displacements: Option<(f64
     };
     let wall = view.bounds[1] - view.bounds[0];
     let length = round_length(0.25 * wall);
-    let text = if length < 1.0 { format!("{} mm", plain((length * 1e6).round() / 1e3)) } else { format!("{} m", plain(length)) };
+    let text = if length < 1.0 {
+        format!("{} mm", plain((length * 1e6).round() / 1e3))
+    } else {
+        format!("{} m", plain(length))
+    };
     let end = bar(canvas, SIDE, length * view.scale, &format!("wall: {text}"));
     if let Some((scale, largest)) = displacements {
         let length = round_length(largest);
@@ -192,7 +214,7 @@ pub fn peak_acceleration(data: &Data, options: &Options) -> Result<Drawing, Inpu
 /// Joints coloured by their relative acceleration at an instant, over the largest in the whole history.
 pub fn acceleration(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let largest = largest(&data.run.outcome.envelopes.joint_acceleration)?;
-    let moment = data.moment(options.at)?;
+    let moment = data.moment(options.at, largest_acceleration)?;
     let values: Vec<f64> = (0..data.run.joints.len()).map(|e| moment.joint(e).acceleration.abs()).collect();
     let time = format!("t = {}", crate::format::seconds(rounded(moment.time())));
     Ok(map(data, options, &values, largest, &[time]))
@@ -200,7 +222,11 @@ pub fn acceleration(data: &Data, options: &Options) -> Result<Drawing, InputErro
 
 fn largest(peaks: &[f64]) -> Result<f64, InputError> {
     let largest = peaks.iter().copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
-    if largest > 0.0 { Ok(largest) } else { Err(InputError::new("no joint moved: there are no relative accelerations")) }
+    if largest > 0.0 {
+        Ok(largest)
+    } else {
+        Err(InputError::new("no joint moved: there are no relative accelerations"))
+    }
 }
 
 fn map(data: &Data, options: &Options, values: &[f64], largest: f64, texts: &[String]) -> Drawing {
@@ -220,15 +246,17 @@ fn map(data: &Data, options: &Options, values: &[f64], largest: f64, texts: &[St
             let [x0, y0, x1, y1] = data.run.joints[e].joint.line;
             let [ax, ay, ..] = view.rectangle([x0; 2], [y0; 2]);
             let [bx, by, ..] = view.rectangle([x1; 2], [y1; 2]);
-            let (fill, width) = if cased { ("#6e6e6e".into(), width + 0.5) } else { (shade(values[e] / largest), width) };
+            let (fill, width) =
+                if cased { ("#6e6e6e".into(), width + 0.5) } else { (shade(values[e] / largest), width) };
             let attributes = format!(r#"fill="none" stroke="{fill}" stroke-width="{}""#, px(width));
-            let title = (!cased).then(|| format!("{}: {}", data.run.joints[e].name, significant(values[e] / largest, 3)));
+            let title =
+                (!cased).then(|| format!("{}: {}", data.run.joints[e].name, significant(values[e] / largest, 3)));
             canvas.path(&line([ax, ay, bx, by]), &attributes, title.as_deref());
         }
     }
     let bottom = colour_bar(&mut canvas, &view, options.points(), largest);
     let title = "Joints coloured by relative acceleration over the largest in the whole history".into();
-    Drawing { body: canvas.into_body(), size: [options.points(), bottom], title }
+    Drawing { body: canvas.into_body(), size: [options.points(), bottom], title, note: String::new() }
 }
 
 /// The colours from 0 to 1 with what they stand for; where it ends [pt].
@@ -246,12 +274,18 @@ fn colour_bar(canvas: &mut Canvas, view: &View, width: f64, largest: f64) -> f64
     for k in 0..=5 {
         let at = x + long * f64::from(k) / 5.0;
         frame.push_str(&line([at, y + high, at, y + high + 2.0]));
-        let label = if k == 0 { "0".into() } else if k == 5 { "1".into() } else { format!("0.{}", 2 * k) };
+        let label = if k == 0 {
+            "0".into()
+        } else if k == 5 {
+            "1".into()
+        } else {
+            format!("0.{}", 2 * k)
+        };
         canvas.text([at, y + high + 4.0 + 0.5 * small], small, Anchor::Middle, false, "#000", &label);
     }
     canvas.path(&frame, r##"fill="none" stroke="#000" stroke-width="0.5""##, None);
     let below = y + high + 6.0 + small + 0.5 * size;
-    let peak = significant(largest, 3);
+    let peak = plain(three(largest));
     let text = format!("relative acceleration [1], 1 = {peak} m/s²");
     canvas.text([0.5 * width, below], size, Anchor::Middle, false, "#000", &text);
     below + 0.5 * size + 4.0
