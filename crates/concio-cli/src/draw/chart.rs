@@ -2,6 +2,7 @@
 //! labels, headings and one legend placed here so that margins are equal and nothing overlaps.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::{LinePlot, LineStyle};
@@ -261,7 +262,7 @@ fn format(scale: &Scale, shown: bool) -> TickFormat {
         (true, true) => logarithmic_label(v, scale.range),
         (true, false) => scale.label(v),
     };
-    TickFormat::Custom(std::sync::Arc::new(text))
+    TickFormat::Custom(Arc::new(text))
 }
 
 fn curve(panel: &Panel, line: &Line, axes: &Axes, width: f64) -> Option<Plot> {
@@ -291,7 +292,7 @@ fn legend(canvas: &mut Canvas, sheet: &Sheet, left: f64) -> f64 {
     }
     let (mut x, mut y) = (left, 3.0 + 0.5 * size);
     for (style, name) in entries {
-        let width = 18.0 + 4.0 + font::width(name, size);
+        let width = 16.0 + 3.0 + font::width(name, size);
         if x > left && x + width > sheet.width - 2.0 {
             (x, y) = (left, y + size + 3.0);
         }
@@ -301,9 +302,9 @@ fn legend(canvas: &mut Canvas, sheet: &Sheet, left: f64) -> f64 {
             1.3 * STROKES[0],
             if dashes.is_empty() { "none" } else { dashes }
         );
-        canvas.path(&line([x, y, x + 18.0, y]), &attributes, None);
-        canvas.text([x + 22.0, y], size, Anchor::Start, false, "#000", name);
-        x += width + 12.0;
+        canvas.path(&line([x, y, x + 16.0, y]), &attributes, None);
+        canvas.text([x + 19.0, y], size, Anchor::Start, false, "#000", name);
+        x += width + 10.0;
     }
     y + 0.5 * size
 }

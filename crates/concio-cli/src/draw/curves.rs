@@ -1,11 +1,14 @@
 //! Curves over time or period, drawn by kuva. Curves of one figure differ in dash pattern, not in colour alone.
 
+use std::sync::Arc;
+
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::{LegendPosition, LinePlot, LineStyle};
-use kuva::render::layout::Layout;
+use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
 
+use super::scale::logarithmic_label;
 use super::thin;
 
 /// Width of a figure [px].
@@ -109,7 +112,9 @@ pub fn draw(figure: &Figure) -> String {
         layout = layout.with_x_axis_min(low).with_x_axis_max(high);
     }
     if figure.logarithmic && low > 0.0 {
-        layout = layout.with_log_x();
+        // Plain decimals: the library would write 1e-1.
+        let format = move |v: f64| logarithmic_label(v, [low, high]);
+        layout = layout.with_log_x().with_x_tick_format(TickFormat::Custom(Arc::new(format)));
     }
     if largest == 0.0 {
         // A curve that is zero throughout has no range of its own.

@@ -17,20 +17,31 @@ pub struct Scale {
     pub logarithmic: bool,
 }
 
-/// The distance of ticks, 1, 2 or 5 times a power of ten, at which at most `most` of them lie in `span`.
-pub fn step(span: f64, most: usize) -> f64 {
-    let least = span / most.max(1) as f64;
-    let power = 10f64.powf(least.log10().floor());
-    [1.0, 2.0, 5.0].into_iter().map(|m| m * power).find(|s| *s >= least * 0.999_999).unwrap_or(10.0 * power)
+/// The least distance of ticks, 1, 2, 2.5 or 5 times a power of ten, at which at most `most` of them lie in `range`.
+pub fn step(range: [f64; 2], most: usize) -> f64 {
+    let power = 10f64.powf(((range[1] - range[0]) / most.max(1) as f64).log10().floor() - 1.0);
+    let steps = [1.0, 10.0, 100.0, 1000.0].into_iter().flat_map(|p| [1.0, 2.0, 2.5, 5.0].map(|m| m * p * power));
+    let number = |s: f64| (range[1] / s + 1e-9).floor() - (range[0] / s - 1e-9).ceil() + 1.0;
+    steps.into_iter().find(|s| number(*s) <= most as f64).unwrap_or(range[1] - range[0])
+}
+
+/// Decimals in which multiples of a step are exact.
+fn decimals(step: f64) -> usize {
+    let exact = |d: &i32| {
+        let scaled = step * 10f64.powi(*d);
+        (scaled - scaled.round()).abs() < 1e-6 * scaled
+    };
+    (0..9).find(exact).unwrap_or(9) as usize
 }
 
 impl Scale {
     /// A linear axis from `range[0]` to `range[1]` in SI, with at most `most` ticks.
     pub fn linear(range: [f64; 2], unit: &str, most: usize) -> Scale {
         let largest = range.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        let (prefix, factor) = prefix(largest, unit);
+        // Times are read in seconds unless they are all short.
+        let (prefix, factor) = if unit == "s" && largest >= 0.1 { ("", 1.0) } else { prefix(largest, unit) };
         let range = range.map(|v| v / factor);
-        Scale { prefix, factor, range, step: step(range[1] - range[0], most), logarithmic: false }
+        Scale { prefix, factor, range, step: step(range, most), logarithmic: false }
     }
 
     /// A logarithmic axis; both ends above 0.
@@ -55,8 +66,7 @@ impl Scale {
 
 /// As many decimals as the step needs, a minus sign and not a hyphen, no signed zero.
 fn linear_label(value: f64, step: f64) -> String {
-    let decimals = (-(step.log10() + 1e-9).floor()).clamp(0.0, 9.0) as usize;
-    let text = format!("{value:.decimals$}");
+    let text = format!("{value:.0$}", decimals(step));
     match text.strip_prefix('-') {
         Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.into(),
         Some(digits) => format!("−{digits}"),
@@ -98,9 +108,16 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_few() {
-        for (span, most, expected) in [(1.0, 5, 0.2), (0.9, 4, 0.5), (7.3e-6, 5, 2e-6), (400.0, 4, 100.0)] {
-            assert!((step(span, most) / expected - 1.0).abs() < 1e-9, "{span} {most}");
+        for (range, most, expected) in [
+            ([0.0, 1.0], 6, 0.2),
+            ([-425.0, 425.0], 4, 250.0),
+            ([-425.0, 425.0], 5, 200.0),
+            ([1.1e-6, 8.4e-6], 5, 2e-6),
+            ([0.01, 0.99], 3, 0.25),
+        ] {
+            assert!((step(range, most) / expected - 1.0).abs() < 1e-9, "{range:?} {most}: {}", step(range, most));
         }
+        assert_eq!([0.25, 2.5, 25.0, 0.1, 0.002, 3e3].map(decimals), [2, 1, 0, 1, 3, 0]);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use concio::moment::{JointMotion, Moment};
 use concio::store::StoredRun;
 
 use crate::failure::Failure;
-use crate::format::si;
+use crate::format::short;
 
 /// A run and the part of it that is shown.
 #[derive(Debug)]
@@ -167,7 +167,7 @@ impl<'a> Data<'a> {
         if names.is_empty() || layout.frame_every <= 1 {
             return String::new();
         }
-        let apart = si(layout.interval * layout.frame_every as f64, "s");
+        let apart = short(layout.interval * layout.frame_every as f64, "s");
         let list = names.iter().map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(", ");
         format!("drawn from frames {apart} apart; a run with `{key} = [{list}]` under [output] keeps every sample")
     }

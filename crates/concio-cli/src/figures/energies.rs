@@ -9,9 +9,9 @@ use crate::draw::output::Drawing;
 
 /// Channels and what they are called.
 const MECHANISMS: [(&str, &str); 7] = [
-    ("input", "work done on the wall"),
-    ("friction", "dissipated by friction"),
-    ("damping", "dissipated by damping"),
+    ("input", "work done"),
+    ("friction", "friction"),
+    ("damping", "damping"),
     ("elastic", "elastic"),
     ("kinetic", "kinetic"),
     ("bond", "broken bonds"),

@@ -11,7 +11,7 @@ use crate::draw::font;
 use crate::draw::output::Drawing;
 use crate::draw::svg::{Anchor, Canvas, line, px, rectangle};
 use crate::draw::wall::{BRICK, LIGHT, ground, round_length, shade};
-use crate::format::{plain, si, significant};
+use crate::format::{plain, short, si, significant};
 
 /// Height of the wall over the width of the figure, at most.
 const TALLEST: f64 = 1.15;
@@ -95,7 +95,7 @@ pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let drawn =
         if scale == 1.0 { "displacements to scale".into() } else { format!("displacements × {}", plain(scale)) };
     let mut canvas = Canvas::default();
-    let peak = format!("largest {}", short(three(largest)));
+    let peak = format!("largest {}", short(three(largest), "m"));
     let head = headings(&mut canvas, options.points(), &[time, drawn, peak]);
     let view = View::new(data, options.points(), out, head);
     let rest = r##"fill="#e6e6e6" stroke="#8c8c8c" stroke-width="0.4""##;
@@ -187,21 +187,13 @@ fn bars(canvas: &mut Canvas, view: &View, width: f64, displacements: Option<(f64
     if let Some((scale, largest)) = displacements {
         let length = round_length(largest);
         let drawn = length * scale * view.scale;
-        let text = format!("displacement: {}", short(length));
+        let text = format!("displacement: {}", short(length, "m"));
         let room = drawn + 4.0 + font::width(&text, size);
         if end + 14.0 + room <= width - 2.0 {
             bar(canvas, (width - SIDE - room).max(end + 14.0), drawn, &text);
         }
     }
     y + 8.0
-}
-
-/// `5 µm`: a round length without zeros behind it.
-fn short(length: f64) -> String {
-    let text = si(length, "m");
-    let (number, unit) = text.split_once(' ').unwrap_or((&text, ""));
-    let number = if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number };
-    format!("{number} {unit}")
 }
 
 /// Joints coloured by the largest relative acceleration of each, over the largest of all.
