@@ -11,6 +11,7 @@ mod commands;
 mod digest;
 mod draw;
 mod failure;
+mod figures;
 mod files;
 mod format;
 mod motion;

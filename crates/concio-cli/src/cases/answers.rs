@@ -9,6 +9,8 @@ use super::jobs::Job;
 use super::measures::{Measures, median, rank_correlation};
 use super::walls::{MEMBERS, Setting, Which};
 
+/// What findings.json says it is.
+pub const FORMAT: &str = "concio-findings";
 /// Version of findings.json; raised when readers of the former would misread it.
 const FORMAT_VERSION: u32 = 1;
 
@@ -18,7 +20,7 @@ pub fn of(runs: &BTreeMap<Job, Measures>) -> Value {
     let findings: Vec<Value> = FINDINGS.iter().map(|f| answer(f, runs)).collect();
     let settings: Vec<Value> = Setting::ALL.iter().map(|s| under(*s, runs)).collect();
     json!({
-        "format": "concio-findings",
+        "format": FORMAT,
         "format_version": FORMAT_VERSION,
         "version": env!("CARGO_PKG_VERSION"),
         "runs": runs.len(),

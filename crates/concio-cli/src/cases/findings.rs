@@ -156,10 +156,18 @@ pub const FINDINGS: [Finding; 11] = [
         criterion: "The opening of the median head joint and the widest opening are smaller by a third or more.",
         numbers: |s| {
             vec![
-                number("opening of the median head joint, case 4 over 1", "", s.four.typical_opening / s.one.typical_opening),
+                number(
+                    "opening of the median head joint, case 4 over 1",
+                    "",
+                    s.four.typical_opening / s.one.typical_opening,
+                ),
                 number("widest opening, case 4 over 1", "", s.four.widest_opening / s.one.widest_opening),
                 number("widest opening, μ_d = μ_s over case 1", "", s.control.widest_opening / s.one.widest_opening),
-                number("displacement of the median bed joint, case 4 over 1", "", s.four.typical_slip / s.one.typical_slip),
+                number(
+                    "displacement of the median bed joint, case 4 over 1",
+                    "",
+                    s.four.typical_slip / s.one.typical_slip,
+                ),
             ]
         },
         holds: |n| n[0] <= 2.0 / 3.0 && n[1] <= 2.0 / 3.0,
@@ -171,9 +179,17 @@ pub const FINDINGS: [Finding; 11] = [
         criterion: "Rms displacement and rms velocity of the blocks both change by a factor of two or more.",
         numbers: |s| {
             vec![
-                number("rms displacement of the blocks, case 5 over 1", "", s.five.rms_displacement / s.one.rms_displacement),
+                number(
+                    "rms displacement of the blocks, case 5 over 1",
+                    "",
+                    s.five.rms_displacement / s.one.rms_displacement,
+                ),
                 number("rms velocity of the blocks, case 5 over 1", "", s.five.rms_velocity / s.one.rms_velocity),
-                number("largest displacement of a block, case 5 over 1", "", s.five.peak_displacement / s.one.peak_displacement),
+                number(
+                    "largest displacement of a block, case 5 over 1",
+                    "",
+                    s.five.peak_displacement / s.one.peak_displacement,
+                ),
             ]
         },
         holds: |n| strongly(n[0]) && strongly(n[1]),

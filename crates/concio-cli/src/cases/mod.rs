@@ -2,11 +2,13 @@
 //! by finding: yes or no, with the numbers that decide.
 //!
 //! `jobs` runs `walls`, `measures` reads numbers off a run, `findings` says what decides, `answers` applies it to all
-//! settings and members, `page` writes it down.
+//! settings and members, `page` writes it down and `pictures` draws
+//! what the report draws.
 
 pub mod answers;
 pub mod findings;
 pub mod jobs;
 pub mod measures;
 pub mod page;
+pub mod pictures;
 pub mod walls;

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::Value;
 
-use crate::format::{columns, plain, si, significant};
+use crate::format::{self, columns, plain, significant};
 
 /// For the terminal.
 pub fn text(findings: &Value) -> String {
@@ -33,9 +33,7 @@ pub fn markdown(findings: &Value) -> String {
         let [figure, claim, answer] = ["figure", "claim", "answer"].map(|key| word(finding, key));
         let _ = writeln!(out, "| {} | {figure} | {claim} | **{answer}** | {} |", k + 1, votes(finding));
     }
-    out.push_str(
-        "\nWhat decides; in brackets the extremes of the perturbed runs:\n\n| | | value |\n|---|---|---|\n",
-    );
+    out.push_str("\nWhat decides; in brackets the extremes of the perturbed runs:\n\n| | | value |\n|---|---|---|\n");
     for (k, finding) in list(findings, "findings").enumerate() {
         for number in list(finding, "numbers") {
             let _ = writeln!(out, "| {} | {} | {} |", k + 1, word(number, "name"), value(number));
@@ -61,8 +59,9 @@ fn accelerations(findings: &Value) -> String {
          such runs agree on the order of all joints (rank correlation):\n\n| case | joints | agreement |\n|---|---|---|\n",
     );
     for map in list(findings, "accelerations") {
-        let joint =
-            |j: &Value| format!("`{}` {}", word(j, "joint").replace('|', "\\|"), short(real(j, "acceleration"), "m/s²"));
+        let joint = |j: &Value| {
+            format!("`{}` {}", word(j, "joint").replace('|', "\\|"), short(real(j, "acceleration"), "m/s²"))
+        };
         let joints: Vec<String> = list(map, "joints").take(3).map(joint).collect();
         let agreement = significant(real(map, "agreement"), 2);
         let _ = writeln!(out, "| {} | {} | {agreement} |", word(map, "case"), joints.join(", "));
@@ -102,13 +101,7 @@ fn value(number: &Value) -> String {
 /// Three digits: more than chaotic runs agree on.
 fn short(value: f64, unit: &str) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    if unit.is_empty() {
-        return plain(rounded);
-    }
-    match si(rounded, unit).split_once(' ') {
-        Some((digits, unit)) => format!("{} {unit}", digits.parse().map_or(digits.into(), plain)),
-        None => si(rounded, unit),
-    }
+    if unit.is_empty() { plain(rounded) } else { format::short(rounded, unit) }
 }
 
 #[cfg(test)]
