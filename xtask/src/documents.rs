@@ -51,12 +51,13 @@ fn walls_in_readme(root: &Path) -> Outcome {
     if walls.is_empty() { Err("README.md shows no wall file".into()) } else { Ok(()) }
 }
 
-fn all(root: &Path) -> Result<[(&'static str, String); 3], String> {
+fn all(root: &Path) -> Result<[(&'static str, String); 4], String> {
     let print = |args: &[&str]| read(Command::new(concio(root)).args(args).current_dir(root));
     Ok([
         ("docs/cli.md", print(&["reference"])?),
         ("docs/wall.schema.json", print(&["schema"])?),
         ("docs/img/first-wall.svg", drawing(root)?),
+        (PAGE, page_of_cases(root)?),
     ])
 }
 
@@ -67,4 +68,18 @@ fn drawing(root: &Path) -> Result<String, String> {
     let mut check = Command::new(concio(root));
     read(check.args(["check", "examples/01-first-wall.toml", "--svg"]).arg(&out).current_dir(root))?;
     fs::read_to_string(&out).map_err(|e| format!("{}: {e}", out.display()))
+}
+
+/// The page on the cases of the report; its tables stand between these lines.
+const PAGE: &str = "docs/report-cases.md";
+const TABLES: [&str; 2] = ["<!-- tables: made by cargo xtask docs -->\n", "<!-- end of tables -->\n"];
+
+/// With the tables of docs/report-cases.json, which a test of the command line holds against new runs.
+fn page_of_cases(root: &Path) -> Result<String, String> {
+    let tables = ["cases", "--tables", "docs/report-cases.json"];
+    let tables = read(Command::new(concio(root)).args(tables).current_dir(root))?;
+    let text = fs::read_to_string(root.join(PAGE)).map_err(|e| format!("{PAGE}: {e}"))?;
+    let parts = text.split_once(TABLES[0]).and_then(|(head, rest)| Some((head, rest.split_once(TABLES[1])?.1)));
+    let (head, tail) = parts.ok_or_else(|| format!("{PAGE}: the lines around its tables are missing"))?;
+    Ok([head, TABLES[0], &tables, TABLES[1], tail].concat())
 }

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 mod api;
+mod cases;
 mod command;
 mod documents;
 mod examples;
@@ -17,7 +18,8 @@ use command::{Outcome, cargo, run};
 
 const USAGE: &str = "\
 cargo xtask ci         everything that CI does
-cargo xtask docs       make the generated documents (docs/cli.md, docs/wall.schema.json, docs/img)
+cargo xtask docs       make the generated documents (docs/cli.md, docs/wall.schema.json, docs/img, tables of pages)
+cargo xtask cases      run the cases of the report anew and make docs/report-cases.md and its pictures from them
 cargo xtask examples   run every wall file in examples/
 cargo xtask links      check the links of the documents
 cargo xtask peers      compare with CVODE";
@@ -27,6 +29,7 @@ fn main() -> ExitCode {
     let task = std::env::args().nth(1).unwrap_or_default();
     let outcome = match task.as_str() {
         "ci" => ci(&root),
+        "cases" => build(&root).and_then(|()| cases::make(&root)).and_then(|()| documents::make(&root)),
         "docs" => build(&root).and_then(|()| documents::make(&root)),
         "examples" => build(&root).and_then(|()| examples::run_all(&root)),
         "links" => links::check(&root),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value, json};
 
-use super::findings::{FINDINGS, Finding, Set};
+use super::findings::{FINDINGS, Finding, Number, Set};
 use super::jobs::Job;
 use super::measures::{Measures, median, rank_correlation};
 use super::walls::{MEMBERS, Setting, Which};
@@ -15,7 +15,7 @@ pub const FORMAT: &str = "concio-findings";
 const FORMAT_VERSION: u32 = 1;
 
 /// The content of findings.json. Every number is the median over the members of the wall files, `low` and `high` the
-/// extremes; the answer is the criterion applied to the medians, `members.yes` to each member by itself.
+/// extremes, `runs` the members themselves, the unchanged wall files first; the answer is the criterion applied to the medians, `members.yes` to each member by itself.
 pub fn of(runs: &BTreeMap<Job, Measures>) -> Value {
     let findings: Vec<Value> = FINDINGS.iter().map(|f| answer(f, runs)).collect();
     let settings: Vec<Value> = Setting::ALL.iter().map(|s| under(*s, runs)).collect();
@@ -49,15 +49,12 @@ fn answer(finding: &Finding, runs: &BTreeMap<Job, Measures>) -> Value {
     let names = members.first().map(|m| (finding.numbers)(m)).unwrap_or_default();
     let columns = |k: usize| rows.iter().map(|r| r[k]).collect::<Vec<f64>>();
     let medians: Vec<f64> = (0..names.len()).map(|k| median(&columns(k))).collect();
-    let numbers: Vec<Value> = names
-        .iter()
-        .enumerate()
-        .map(|(k, n)| {
-            let column = columns(k);
-            let [low, high] = [column.iter().copied().reduce(f64::min), column.iter().copied().reduce(f64::max)];
-            json!({ "name": n.name, "unit": n.unit, "value": medians[k], "low": low, "high": high })
-        })
-        .collect();
+    let number = |(k, n): (usize, &Number)| {
+        let runs = columns(k);
+        let [low, high] = [f64::min, f64::max].map(|pick| runs.iter().copied().reduce(pick));
+        json!({ "name": n.name, "unit": n.unit, "value": medians[k], "low": low, "high": high, "runs": runs })
+    };
+    let numbers: Vec<Value> = names.iter().enumerate().map(number).collect();
     let yes = rows.iter().filter(|r| (finding.holds)(r)).count();
     json!({
         "id": finding.id,

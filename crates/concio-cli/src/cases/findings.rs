@@ -63,9 +63,9 @@ pub const FINDINGS: [Finding; 11] = [
                 number("the same without friction, case 4", "", s.four.typical_jumps),
                 number("the same with μ_d = μ_s", "", s.control.typical_jumps),
                 number("slip starts of the median joint, case 1", "", s.one.typical_onsets),
-                number("the same without friction, case 4", "", s.four.typical_onsets),
+                number("slip starts of the median joint without friction, case 4", "", s.four.typical_onsets),
                 number("jumps of joints at a change between stick and slip", "", s.one.linked_jumps),
-                number("the same by chance", "", s.one.linked_by_chance),
+                number("frames within reach of such a change", "", s.one.linked_by_chance),
             ]
         },
         holds: |n| n[0] > 0.0 && n[0] >= 10.0 * n[1].max(n[2]) && n[3] > 0.0 && n[3] >= 10.0 * n[4] && n[5] > n[6],
@@ -94,13 +94,13 @@ pub const FINDINGS: [Finding; 11] = [
         numbers: |s| {
             vec![
                 number("share of friction in the dissipation, case 1", "", share(s.one)),
-                number("the same, case 2", "", share(s.two)),
+                number("share of friction in the dissipation, case 2", "", share(s.two)),
                 number("slip starts of the median joint, case 1", "Hz", s.one.onset_rate),
-                number("the same, case 2", "Hz", s.two.onset_rate),
+                number("slip starts of the median joint, case 2", "Hz", s.two.onset_rate),
                 number("opening of the median head joint, case 1", "m", s.one.typical_opening),
-                number("the same, case 2", "m", s.two.typical_opening),
+                number("opening of the median head joint, case 2", "m", s.two.typical_opening),
                 number("jumps of the median block, case 1", "", s.one.typical_jumps),
-                number("the same, case 2", "", s.two.typical_jumps),
+                number("jumps of the median block, case 2", "", s.two.typical_jumps),
             ]
         },
         holds: |n| {
@@ -206,7 +206,7 @@ pub const FINDINGS: [Finding; 11] = [
                 number("the same without friction, case 4", "", s.four.most_onsets),
                 number("the same, case 1", "", s.one.most_onsets),
                 number("jumps of the median block, case 5", "", s.five.typical_jumps),
-                number("the same, case 1", "", s.one.typical_jumps),
+                number("jumps of the median block, case 1", "", s.one.typical_jumps),
             ]
         },
         holds: |n| n[0] <= 2.0 * n[1] && n[4] > 0.0 && 10.0 * n[3] <= n[4],
@@ -221,7 +221,7 @@ pub const FINDINGS: [Finding; 11] = [
                 number("largest over median at that instant, case 1", "", s.one.uneven_at_instant),
                 number("the same, case 2", "", s.two.uneven_at_instant),
                 number("largest over median of the peaks of the whole run, case 1", "", unevenness(s.one)),
-                number("the same, case 2", "", unevenness(s.two)),
+                number("largest over median of the peaks of the whole run, case 2", "", unevenness(s.two)),
                 number("largest, case 1", "m/s²", largest(&values(s.one))),
                 number("largest, case 2", "m/s²", largest(&values(s.two))),
             ]
@@ -239,7 +239,7 @@ pub const FINDINGS: [Finding; 11] = [
                 number("rank correlation with the lighter block's mass, case 1", "", with_mass(s.one)),
                 number("the same, case 2", "", with_mass(s.two)),
                 number("rank correlation with the contact length, case 1", "", with_overlap(s.one)),
-                number("the same, case 2", "", with_overlap(s.two)),
+                number("rank correlation with the contact length, case 2", "", with_overlap(s.two)),
             ]
         },
         holds: |n| n[0].abs() >= 0.5 && n[1].abs() >= 0.5,
@@ -291,4 +291,43 @@ fn with_overlap(m: &Measures) -> f64 {
 
 fn with_mass(m: &Measures) -> f64 {
     rank_correlation(&values(m), &m.lighter_masses)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn blank() -> Measures {
+        let zeros: serde_json::Value = serde_json::json!({
+            "inputs_hash": "", "input": 1.0, "friction": 1.0, "damping": 1.0, "nonreciprocal": 0.0, "residual": 0.0,
+            "top_force_rms": 1.0, "peak_displacement": 1.0, "rms_displacement": 1.0, "rms_velocity": 1.0,
+            "widest_opening": 1.0, "typical_opening": 1.0, "deepest_closure": 0.0, "closure_of_force": 0.0,
+            "widest_slip": 1.0, "typical_slip": 1.0, "peak_slip_velocity": 1.0, "most_onsets": 1.0,
+            "typical_onsets": 1.0, "onset_rate": 1.0, "typical_jumps": 0.0, "most_jumps": 0.0, "linked_jumps": 0.0,
+            "linked_by_chance": 0.0, "accelerations": [["a", 1.0], ["b", 2.0]], "overlaps": [1.0, 2.0],
+            "lighter_masses": [1.0, 1.0], "uneven_at_instant": 1.0
+        });
+        serde_json::from_value(zeros).expect("measures")
+    }
+
+    #[test]
+    fn a_wall_in_which_nothing_changes_confirms_nothing_but_what_is_true_of_rest() {
+        let m = blank();
+        let set = Set { one: &m, two: &m, three: &m, four: &m, five: &m, control: &m };
+        let yes = FINDINGS.iter().filter(|f| {
+            let values: Vec<f64> = (f.numbers)(&set).iter().map(|n| n.value).collect();
+            (f.holds)(&values)
+        });
+        assert_eq!(yes.map(|f| f.id).collect::<Vec<_>>(), ["no-interpenetration"]);
+    }
+
+    #[test]
+    fn numbers_of_a_finding_have_names_of_their_own() {
+        let m = blank();
+        let set = Set { one: &m, two: &m, three: &m, four: &m, five: &m, control: &m };
+        for finding in &FINDINGS {
+            let names: std::collections::BTreeSet<&str> = (finding.numbers)(&set).iter().map(|n| n.name).collect();
+            assert_eq!(names.len(), (finding.numbers)(&set).len(), "{}", finding.id);
+        }
+    }
 }
