@@ -50,7 +50,28 @@ pub fn markdown(findings: &Value) -> String {
     for setting in list(findings, "settings") {
         let _ = writeln!(out, "| {} | {} |", word(setting, "name"), answers(findings, setting).join(" | "));
     }
-    out + &accelerations(findings)
+    out + &differences(findings) + &accelerations(findings)
+}
+
+/// The numbers behind the answers that another setting changes.
+fn differences(findings: &Value) -> String {
+    let mut out = String::from(
+        "\nThe numbers where the answer is another than for the wall files:\n\n| setting | | answer | numbers |\n|---|---|---|---|\n",
+    );
+    for setting in list(findings, "settings") {
+        for (k, finding) in list(findings, "findings").enumerate() {
+            let there = &setting["answers"][word(finding, "id")];
+            if word(there, "answer") == word(finding, "answer") {
+                continue;
+            }
+            let values = list(there, "numbers").map(|v| v.as_f64().unwrap_or(f64::NAN));
+            let numbers = list(finding, "numbers").zip(values);
+            let numbers = numbers.map(|(n, v)| format!("{}: {}", word(n, "name"), short(v, word(n, "unit"))));
+            let numbers = numbers.collect::<Vec<_>>().join("; ");
+            let _ = writeln!(out, "| {} | {} | {} | {numbers} |", word(setting, "name"), k + 1, word(there, "answer"));
+        }
+    }
+    out
 }
 
 fn accelerations(findings: &Value) -> String {
