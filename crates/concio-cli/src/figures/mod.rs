@@ -15,6 +15,9 @@ mod wall;
 
 pub use data::{Data, Instant};
 
+#[cfg(test)]
+mod tests;
+
 /// Most blocks or joints that a figure shows.
 const MOST: usize = 12;
 

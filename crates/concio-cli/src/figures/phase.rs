@@ -20,9 +20,9 @@ pub fn blocks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     };
     let blocks = &data.run.wall.blocks;
     let portraits: Result<Vec<_>, _> =
-        chosen.iter().map(|&i| Ok((blocks[i].name.clone(), data.block_motion(i)?))).collect();
+        chosen.iter().map(|&i| Ok((blocks[i].name.as_str(), "displacement", data.block_motion(i)?))).collect();
     let title = "Phase portraits of blocks: velocity over displacement, relative to the base";
-    draw(data, options, title, ["displacement", "velocity"], &portraits?)
+    draw(data, options, title, &portraits?)
 }
 
 /// Of joints; of head and bed joints that moved most unless they are named.
@@ -41,10 +41,13 @@ pub fn joints(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     if chosen.is_empty() {
         return Err(InputError::new("no joint moved").help("name joints with --joints"));
     }
-    let portraits: Result<Vec<_>, _> =
-        chosen.iter().map(|&e| Ok((joints[e].name.clone(), data.joint_motion(e)?))).collect();
+    let portrait = |&e: &usize| {
+        let quantity = if is_upright(joints[e].joint.kind) { "gap" } else { "slip" };
+        Ok((joints[e].name.as_str(), quantity, data.joint_motion(e)?))
+    };
+    let portraits: Result<Vec<_>, _> = chosen.iter().map(portrait).collect();
     let title = "Phase portraits of joints: relative velocity over relative displacement of their sides";
-    draw(data, options, title, ["rel. displacement", "rel. velocity"], &portraits?)
+    draw(data, options, title, &portraits?)
 }
 
 /// Of up to [`FEW`] courses, spread over the height of the wall, the block that moved most, the highest first.
@@ -62,31 +65,30 @@ fn spread(data: &Data) -> Vec<usize> {
     if found.is_empty() { (0..wall.blocks.len().min(1)).collect() } else { found }
 }
 
+/// Names, what the displacement is called, and motions.
 fn draw(
     data: &Data,
     options: &Options,
     title: &str,
-    [displacement, velocity]: [&str; 2],
-    portraits: &[(String, Motion)],
+    portraits: &[(&str, &str, Motion)],
 ) -> Result<Drawing, InputError> {
-    let panel = |(k, (name, motion)): (usize, &(String, Motion))| Panel {
+    let panel = |(k, (name, quantity, motion)): (usize, &(&str, &str, Motion))| Panel {
         heading: letter(k, portraits.len(), name),
-        x: Axis { quantity: displacement.into(), unit: "m", ..Axis::default() },
-        y: Axis { quantity: velocity.into(), unit: "m/s", ..Axis::default() },
+        x: Axis { quantity: (*quantity).into(), unit: "m", ..Axis::default() },
+        y: Axis { quantity: "velocity".into(), unit: "m/s", ..Axis::default() },
         lines: vec![Line { x: motion.displacement.clone().into(), y: motion.velocity.clone().into(), style: 0 }],
         rising: false,
         bare: false,
     };
-    let columns = options.columns(if portraits.len() > 1 { 2 } else { 1 });
-    let coarse: Vec<&str> = portraits.iter().filter(|p| !p.1.sampled).map(|p| p.0.as_str()).collect();
-    let key = if displacement.starts_with("rel") { "joints" } else { "blocks" };
     let drawing = chart::draw(&Sheet {
         title: title.into(),
         legend: Vec::new(),
         panels: portraits.iter().enumerate().map(panel).collect(),
-        columns,
+        columns: options.columns(if portraits.len() > 1 { 2 } else { 1 }),
         width: options.points(),
         height: (portraits.len() == 1).then_some(0.6 * options.points().min(400.0)),
     });
-    Ok(Drawing { note: data.coarse(key, &coarse), ..drawing })
+    let coarse: Vec<&str> = portraits.iter().filter(|p| !p.2.sampled).map(|p| p.0).collect();
+    let of_blocks = portraits.iter().all(|p| p.1 == "displacement");
+    Ok(Drawing { note: data.coarse(if of_blocks { "blocks" } else { "joints" }, &coarse), ..drawing })
 }

@@ -277,8 +277,9 @@ fn colour_bar(canvas: &mut Canvas, view: &View, width: f64, largest: f64) -> f64
     }
     canvas.path(&frame, r##"fill="none" stroke="#000" stroke-width="0.5""##, None);
     let below = y + high + 6.0 + small + 0.5 * size;
-    let peak = plain(three(largest));
-    let text = format!("relative acceleration [1], 1 = {peak} m/s²");
+    // Large ones in m/s², as accelerations are read.
+    let peak = if largest < 0.1 { short(three(largest), "m/s²") } else { format!("{} m/s²", plain(three(largest))) };
+    let text = format!("relative acceleration [1], 1 = {peak}");
     canvas.text([0.5 * width, below], size, Anchor::Middle, false, "#000", &text);
     below + 0.5 * size + 4.0
 }
