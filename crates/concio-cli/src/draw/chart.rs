@@ -30,8 +30,10 @@ const ROOM: f64 = 60.0;
 const RIGHT: f64 = 7.0;
 /// Width of a plot that is always left [pt].
 const SMALLEST: f64 = 20.0;
-/// From the axis to its numbers [pt].
-const GAP: f64 = 4.0;
+/// Between the numbers of the level axis [pt].
+const APART: f64 = 4.0;
+/// From the upright axis to its numbers, as the library places them, and from the level axis to its label [pt].
+const GAP: [f64; 2] = [5.5, 8.0];
 
 /// Colours and dash patterns [pt] of the curves of one plot: the brightness differs too.
 pub const STYLES: [(&str, &str); 8] = [
@@ -117,7 +119,7 @@ pub fn draw(sheet: &Sheet) -> Drawing {
     let mut axes: Vec<Axes> = sheet.panels.iter().map(|p| scales(p, [sheet.width / columns as f64, guess])).collect();
     // Equal margins in a column, the same in all columns, so that all plots are of one size.
     let widest = axes.iter().flat_map(|a| a.y.labels()).map(|l| font::width(&l, LETTERS[0].into())).fold(0.0, f64::max);
-    let left = 3.0 + f64::from(LETTERS[1]) + 3.0 + widest + GAP;
+    let left = 2.0 + f64::from(LETTERS[1]) + 3.0 + widest + GAP[0];
     // The last number below an axis may reach beyond it by half.
     let (mut right, mut width) = (RIGHT, 0.0);
     for _ in 0..2 {
@@ -138,7 +140,7 @@ pub fn draw(sheet: &Sheet) -> Drawing {
             panel(&mut canvas, &sheet.panels[k], &axes[k], [x, top, width, height], left);
         }
         let bare = sheet.panels[members].iter().all(|p| p.bare);
-        top += height + if bare { 1.0 } else { 2.0 * GAP + f64::from(LETTERS[0] + LETTERS[1]) + 4.0 };
+        top += height + if bare { 1.0 } else { GAP[1] + f64::from(LETTERS[0] + LETTERS[1]) + 4.0 };
     }
     Drawing { body: canvas.into_body(), size: [sheet.width, top], title: sheet.title.clone(), note: String::new() }
 }
@@ -159,21 +161,21 @@ fn scales(panel: &Panel, size: [f64; 2]) -> Axes {
     }
 }
 
-/// Takes ticks away until their numbers stand apart; the width of the widest.
+/// Takes ticks away until their numbers stand apart; the width of the last number.
 fn fit_numbers(panel: &Panel, axes: &mut Axes, width: f64) -> f64 {
-    let widest = |scale: &Scale| scale.labels().iter().map(|l| font::width(l, LETTERS[0].into())).fold(0.0, f64::max);
-    if axes.x.logarithmic {
-        return widest(&axes.x);
-    }
-    let range = axes.x.range.map(|v| v * axes.x.factor);
-    for most in (2..=8).rev() {
-        axes.x = Scale::linear(range, panel.x.unit, most);
-        let apart = width * axes.x.step / (axes.x.range[1] - axes.x.range[0]);
-        if widest(&axes.x) + 4.0 <= apart {
-            break;
+    let widths =
+        |scale: &Scale| -> Vec<f64> { scale.labels().iter().map(|l| font::width(l, LETTERS[0].into())).collect() };
+    if !axes.x.logarithmic {
+        let range = axes.x.range.map(|v| v * axes.x.factor);
+        for most in (2..=8).rev() {
+            axes.x = Scale::linear(range, panel.x.unit, most);
+            let apart = width * axes.x.step / (axes.x.range[1] - axes.x.range[0]);
+            if widths(&axes.x).windows(2).all(|w| 0.5 * (w[0] + w[1]) + APART <= apart) {
+                break;
+            }
         }
     }
-    widest(&axes.x)
+    widths(&axes.x).last().copied().unwrap_or(0.0)
 }
 
 /// One plot with its frame at `[x, y, width, height]`.
@@ -189,11 +191,11 @@ fn panel(canvas: &mut Canvas, panel: &Panel, axes: &Axes, frame: [f64; 4], margi
     if !panel.heading.is_empty() {
         canvas.text([x, y - 2.0 - 0.5 * size], size, Anchor::Start, false, "#000", &panel.heading);
     }
-    let upright = [x - margin + 3.0 + 0.5 * size, y + 0.5 * height];
+    let upright = [x - margin + 2.0 + 0.5 * size, y + 0.5 * height];
     let label = name(&panel.y, &axes.y);
     canvas.text(upright, shrunk(&label, size, height + 8.0), Anchor::Middle, true, "#000", &label);
     if !panel.bare {
-        let below = y + height + 2.0 * GAP + f64::from(LETTERS[0]) + 0.5 * size;
+        let below = y + height + GAP[1] + f64::from(LETTERS[0]) + 0.5 * size;
         let label = name(&panel.x, &axes.x);
         canvas.text(
             [x + 0.5 * width, below],
@@ -274,7 +276,10 @@ fn format(scale: &Scale, shown: bool) -> TickFormat {
 
 fn curve(panel: &Panel, line: &Line, axes: &Axes, width: f64) -> Option<Plot> {
     let points = if panel.rising {
-        thin::columns(&line.x, &line.y, (COLUMNS_PER_POINT * width) as usize)
+        // First what a column of the paper cannot show, then what a straight line shows as well.
+        let (x, y): (Vec<f64>, Vec<f64>) =
+            thin::columns(&line.x, &line.y, (COLUMNS_PER_POINT * width) as usize).into_iter().unzip();
+        thin::path(&x, &y, NEAR)
     } else {
         thin::path(&line.x, &line.y, NEAR)
     };
@@ -341,7 +346,8 @@ mod tests {
 
     /// Points of the curve in the first style.
     fn points(drawing: &Drawing) -> Vec<[f64; 2]> {
-        let (before, _) = drawing.body.split_once("\" stroke=\"#0b2545\"").expect("a curve");
+        // The legend, drawn before it, has the style too.
+        let (before, _) = drawing.body.rsplit_once("\" stroke=\"#0b2545\"").expect("a curve");
         let (_, d) = before.rsplit_once("d=\"").expect("its path");
         let numbers: Vec<f64> = d.split(['M', 'L', ' ']).filter_map(|n| n.parse().ok()).collect();
         numbers.chunks_exact(2).map(|p| [p[0], p[1]]).collect()
