@@ -3,7 +3,7 @@
 use concio::InputError;
 
 use super::data::{Data, Motion, is_upright};
-use super::{Options, asked, largest, letter};
+use super::{Options, asked, choose, largest, letter};
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::draw::output::Drawing;
 
@@ -12,11 +12,10 @@ const FEW: usize = 4;
 
 /// Of blocks; of those that moved most in courses spread over the height unless they are named.
 pub fn blocks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
-    let known = data.asked_for("block");
-    let chosen = match (options.blocks.is_empty(), known.is_empty()) {
-        (false, _) => asked(&options.blocks, "--blocks", |n| data.block(n))?,
-        (true, false) => known.iter().take(FEW).map(|n| data.block(n)).collect::<Result<_, _>>()?,
-        (true, true) => spread(data),
+    let chosen = if options.blocks.is_empty() {
+        choose(&data.sampled_blocks(), FEW, |among| spread(data, among))
+    } else {
+        asked(&options.blocks, "--blocks", |n| data.block(n))?
     };
     let blocks = &data.run.wall.blocks;
     let portraits: Result<Vec<_>, _> =
@@ -28,13 +27,12 @@ pub fn blocks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
 /// Of joints; of head and bed joints that moved most unless they are named.
 pub fn joints(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let joints = &data.run.joints;
-    let known = data.asked_for("joint");
-    let chosen = if options.joints.is_empty() && !known.is_empty() {
-        known.iter().take(FEW).map(|n| data.joint(n)).collect::<Result<_, _>>()?
-    } else if options.joints.is_empty() {
-        let peaks = &data.run.outcome.envelopes.joint_displacement;
-        let of = |upright: bool| largest(peaks, |e| is_upright(joints[e].joint.kind) == upright, FEW / 2);
-        [of(true), of(false)].concat()
+    let chosen = if options.joints.is_empty() {
+        choose(&data.sampled_joints(), FEW, |among| {
+            let peaks = &data.run.outcome.envelopes.joint_displacement;
+            let is = |e: usize, upright: bool| among(e) && is_upright(joints[e].joint.kind) == upright;
+            [true, false].map(|upright| largest(peaks, |e| is(e, upright), FEW / 2)).concat()
+        })
     } else {
         asked(&options.joints, "--joints", |n| data.joint(n))?
     };
@@ -51,11 +49,11 @@ pub fn joints(data: &Data, options: &Options) -> Result<Drawing, InputError> {
 }
 
 /// Of up to [`FEW`] courses, spread over the height of the wall, the block that moved most, the highest first.
-fn spread(data: &Data) -> Vec<usize> {
+fn spread(data: &Data, among: &dyn Fn(usize) -> bool) -> Vec<usize> {
     let wall = &data.run.wall;
     let peaks = &data.run.outcome.envelopes.block_displacement;
     let most = |panel: usize, course: usize| {
-        largest(peaks, |i| wall.blocks.get(i).is_some_and(|b| b.panel == panel && b.course == course), 1)
+        largest(peaks, |i| among(i) && wall.blocks.get(i).is_some_and(|b| b.panel == panel && b.course == course), 1)
     };
     let tallest = (0..wall.panels.len()).max_by_key(|&p| (wall.panels[p].courses, usize::MAX - p)).unwrap_or(0);
     let courses = wall.panels.get(tallest).map_or(0, |p| p.courses);

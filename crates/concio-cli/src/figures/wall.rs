@@ -86,6 +86,10 @@ pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let blocks = &data.run.wall.blocks;
     let moved: Vec<f64> = (0..blocks.len()).map(|i| moment.block(i).displacement).collect();
     let beam = has_beam(data).then(|| moment.beam().displacement);
+    if moved.iter().chain(&beam).any(|z| !z.is_finite()) {
+        let what = format!("displacements at {} s are not finite", plain(moment.time()));
+        return Err(InputError::new(what).key("--at").help("the run failed there: choose an earlier instant"));
+    }
     let all = moved.iter().chain(&beam);
     let [low, high] = all.fold([0.0f64; 2], |e, z| [e[0].min(*z), e[1].max(*z)]);
     let largest = high.max(-low);
