@@ -23,7 +23,7 @@ pub fn note(text: &str) {
 }
 
 /// Writes a file under a temporary name and renames it: a reader never sees half of it.
-pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
+pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<(), Failure> {
     let written = temporary(path, content.as_ref()).and_then(|file| file.persist(path).map_err(|e| e.error));
     written.map(drop).map_err(|e| Error::io(path, e).into())
 }

@@ -42,6 +42,17 @@ fn findings_follow_from_the_result_files() {
     nothing_is_run_twice(&out);
 }
 
+#[test]
+fn wrong_files_are_told_before_anything_is_run() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("summary.json");
+    fs::write(&file, "{}").expect("a file");
+    let run = |args: [&str; 2]| Command::new(PROGRAM).arg("cases").args(args).env("NO_COLOR", "1").assert().code(2);
+    let path = file.to_string_lossy().into_owned();
+    run(["--tables", &path]).stderr_eq("[..]is not a findings.json of `concio cases`\n");
+    run(["--out", &path]).stderr_eq("[..]the folder for the results is a file\n...");
+}
+
 /// The number of a finding, of the unchanged wall files.
 fn told(findings: &Value, id: &str, name: &str) -> f64 {
     let of = |list: &Value, key: &str, value: &str| {

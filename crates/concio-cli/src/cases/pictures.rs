@@ -33,7 +33,7 @@ pub fn draw(out: &Path) -> Result<(), Failure> {
         for figure in shown {
             let drawing = one(&run, figure)?;
             let svg = drawing.outlined().map_err(|why| Failure::Other(why.to_string(), None))?;
-            files::write(&folder.join(format!("{}-{}.svg", which.name(), figure.name())), svg)?;
+            files::write(&folder.join(format!("{}-{}.svg", which.name(), figure.name())), &svg)?;
         }
     }
     Ok(())
@@ -42,7 +42,9 @@ pub fn draw(out: &Path) -> Result<(), Failure> {
 fn one(run: &StoredRun, figure: Figure) -> Result<crate::draw::output::Drawing, Failure> {
     let window = if figure == Figure::Phase { PORTRAIT } else { [None; 2] };
     let data = Data::new(run, window)?;
-    let head = |name: &String| run.joints.iter().any(|j| j.name == *name && j.joint.kind == JointKind::Head);
-    let joints = data.asked_for("joint").into_iter().filter(head).collect();
+    let sampled =
+        run.outcome.layout.channels.iter().filter_map(|c| c.name.strip_prefix("joint/")?.strip_suffix("/slip"));
+    let head = |name: &&str| run.joints.iter().any(|j| j.name == *name && j.joint.kind == JointKind::Head);
+    let joints = sampled.filter(head).map(str::to_string).collect();
     Ok(figures::draw(figure, &data, &Options { joints, ..Options::default() })?)
 }

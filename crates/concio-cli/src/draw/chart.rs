@@ -26,8 +26,14 @@ const COLUMNS_PER_POINT: f64 = 4.0;
 const NEAR: f64 = 2e-4;
 /// Room around a plot that the library draws into for the numbers [pt].
 const ROOM: f64 = 60.0;
-/// From the axis to its numbers [pt].
-const GAP: f64 = 4.0;
+/// Room to the right of a plot [pt].
+const RIGHT: f64 = 7.0;
+/// Width of a plot that is always left [pt].
+const SMALLEST: f64 = 20.0;
+/// Between the numbers of the level axis [pt].
+const APART: f64 = 4.0;
+/// From the upright axis to its numbers, as the library places them, and from the level axis to its label [pt].
+const GAP: [f64; 2] = [5.5, 8.0];
 
 /// Colours and dash patterns [pt] of the curves of one plot: the brightness differs too.
 pub const STYLES: [(&str, &str); 8] = [
@@ -113,13 +119,16 @@ pub fn draw(sheet: &Sheet) -> Drawing {
     let mut axes: Vec<Axes> = sheet.panels.iter().map(|p| scales(p, [sheet.width / columns as f64, guess])).collect();
     // Equal margins in a column, the same in all columns, so that all plots are of one size.
     let widest = axes.iter().flat_map(|a| a.y.labels()).map(|l| font::width(&l, LETTERS[0].into())).fold(0.0, f64::max);
-    let left = 3.0 + f64::from(LETTERS[1]) + 3.0 + widest + GAP;
-    let right = 7.0;
-    let width = sheet.width / columns as f64 - left - right;
-    let height = sheet.height.unwrap_or(width);
-    for (panel, axes) in sheet.panels.iter().zip(&mut axes) {
-        fit_numbers(panel, axes, width);
+    let left = 2.0 + f64::from(LETTERS[1]) + 3.0 + widest + GAP[0];
+    // The last number below an axis may reach beyond it by half.
+    let (mut right, mut width) = (RIGHT, 0.0);
+    for _ in 0..2 {
+        width = (sheet.width / columns as f64 - left - right).max(SMALLEST);
+        for (panel, axes) in sheet.panels.iter().zip(&mut axes) {
+            right = f64::max(right, 0.5 * fit_numbers(panel, axes, width) + 1.0);
+        }
     }
+    let height = sheet.height.unwrap_or(width);
     let mut canvas = Canvas::default();
     let mut top = legend(&mut canvas, sheet, left);
     for row in 0..rows {
@@ -131,7 +140,7 @@ pub fn draw(sheet: &Sheet) -> Drawing {
             panel(&mut canvas, &sheet.panels[k], &axes[k], [x, top, width, height], left);
         }
         let bare = sheet.panels[members].iter().all(|p| p.bare);
-        top += height + if bare { 1.0 } else { 2.0 * GAP + f64::from(LETTERS[0] + LETTERS[1]) + 4.0 };
+        top += height + if bare { 1.0 } else { GAP[1] + f64::from(LETTERS[0] + LETTERS[1]) + 4.0 };
     }
     Drawing { body: canvas.into_body(), size: [sheet.width, top], title: sheet.title.clone(), note: String::new() }
 }
@@ -152,21 +161,21 @@ fn scales(panel: &Panel, size: [f64; 2]) -> Axes {
     }
 }
 
-/// Takes ticks away until their numbers stand apart.
-fn fit_numbers(panel: &Panel, axes: &mut Axes, width: f64) {
-    if axes.x.logarithmic {
-        return;
-    }
-    let range = axes.x.range.map(|v| v * axes.x.factor);
-    for most in (2..=8).rev() {
-        axes.x = Scale::linear(range, panel.x.unit, most);
-        let labels = axes.x.labels();
-        let widest = labels.iter().map(|l| font::width(l, LETTERS[0].into())).fold(0.0, f64::max);
-        let apart = width * axes.x.step / (axes.x.range[1] - axes.x.range[0]);
-        if widest + 4.0 <= apart {
-            return;
+/// Takes ticks away until their numbers stand apart; the width of the last number.
+fn fit_numbers(panel: &Panel, axes: &mut Axes, width: f64) -> f64 {
+    let widths =
+        |scale: &Scale| -> Vec<f64> { scale.labels().iter().map(|l| font::width(l, LETTERS[0].into())).collect() };
+    if !axes.x.logarithmic {
+        let range = axes.x.range.map(|v| v * axes.x.factor);
+        for most in (2..=8).rev() {
+            axes.x = Scale::linear(range, panel.x.unit, most);
+            let apart = width * axes.x.step / (axes.x.range[1] - axes.x.range[0]);
+            if widths(&axes.x).windows(2).all(|w| 0.5 * (w[0] + w[1]) + APART <= apart) {
+                break;
+            }
         }
     }
+    widths(&axes.x).last().copied().unwrap_or(0.0)
 }
 
 /// One plot with its frame at `[x, y, width, height]`.
@@ -182,15 +191,15 @@ fn panel(canvas: &mut Canvas, panel: &Panel, axes: &Axes, frame: [f64; 4], margi
     if !panel.heading.is_empty() {
         canvas.text([x, y - 2.0 - 0.5 * size], size, Anchor::Start, false, "#000", &panel.heading);
     }
-    let upright = [x - margin + 3.0 + 0.5 * size, y + 0.5 * height];
+    let upright = [x - margin + 2.0 + 0.5 * size, y + 0.5 * height];
     let label = name(&panel.y, &axes.y);
     canvas.text(upright, shrunk(&label, size, height + 8.0), Anchor::Middle, true, "#000", &label);
     if !panel.bare {
-        let below = y + height + 2.0 * GAP + f64::from(LETTERS[0]) + 0.5 * size;
+        let below = y + height + GAP[1] + f64::from(LETTERS[0]) + 0.5 * size;
         let label = name(&panel.x, &axes.x);
         canvas.text(
             [x + 0.5 * width, below],
-            shrunk(&label, size, width + 24.0),
+            shrunk(&label, size, width + 2.0 * RIGHT - 2.0),
             Anchor::Middle,
             false,
             "#000",
@@ -267,7 +276,10 @@ fn format(scale: &Scale, shown: bool) -> TickFormat {
 
 fn curve(panel: &Panel, line: &Line, axes: &Axes, width: f64) -> Option<Plot> {
     let points = if panel.rising {
-        thin::columns(&line.x, &line.y, (COLUMNS_PER_POINT * width) as usize)
+        // First what a column of the paper cannot show, then what a straight line shows as well.
+        let (x, y): (Vec<f64>, Vec<f64>) =
+            thin::columns(&line.x, &line.y, (COLUMNS_PER_POINT * width) as usize).into_iter().unzip();
+        thin::path(&x, &y, NEAR)
     } else {
         thin::path(&line.x, &line.y, NEAR)
     };
@@ -307,4 +319,83 @@ fn legend(canvas: &mut Canvas, sheet: &Sheet, left: f64) -> f64 {
         x += width + 10.0;
     }
     y + 0.5 * size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sheet<'a>(x: &'a [f64], y: &'a [f64], rising: bool) -> Sheet<'a> {
+        let axis = |unit, range| Axis { quantity: "a quantity".into(), unit, range: Some(range), ..Axis::default() };
+        Sheet {
+            title: String::new(),
+            legend: vec!["one".into(), "two".into()],
+            panels: vec![Panel {
+                heading: "(a)".into(),
+                x: axis("s", [0.0, 100.0]),
+                y: axis("N", [-10.0, 10.0]),
+                lines: vec![Line { x: x.into(), y: y.into(), style: 0 }],
+                rising,
+                bare: false,
+            }],
+            columns: 1,
+            width: 241.0,
+            height: Some(100.0),
+        }
+    }
+
+    /// Points of the curve in the first style.
+    fn points(drawing: &Drawing) -> Vec<[f64; 2]> {
+        // The legend, drawn before it, has the style too.
+        let (before, _) = drawing.body.rsplit_once("\" stroke=\"#0b2545\"").expect("a curve");
+        let (_, d) = before.rsplit_once("d=\"").expect("its path");
+        let numbers: Vec<f64> = d.split(['M', 'L', ' ']).filter_map(|n| n.parse().ok()).collect();
+        numbers.chunks_exact(2).map(|p| [p[0], p[1]]).collect()
+    }
+
+    /// 100 pt stand for 20 N: a peak of 7 N lies 15 pt below the upper edge, wherever it is among many points.
+    #[test]
+    fn curves_carry_the_peaks_of_their_histories() {
+        let x: Vec<f64> = (0..200_001).map(|k| 5e-4 * f64::from(k)).collect();
+        let mut y: Vec<f64> = x.iter().map(|t| (3.0 * t).sin()).collect();
+        (y[77_777], y[123_456]) = (7.0, -9.0);
+        for rising in [true, false] {
+            let drawn = points(&draw(&sheet(&x, &y, rising)));
+            assert!(drawn.len() < 3_000, "{}", drawn.len());
+            let [low, high] = drawn.iter().fold([0.0f64, 1e9], |e, p| [e[0].max(p[1]), e[1].min(p[1])]);
+            assert!((high - (ROOM + 15.0)).abs() < 0.011 && (low - (ROOM + 95.0)).abs() < 0.011, "{low} {high}");
+        }
+    }
+
+    #[test]
+    fn axes_and_legend_are_named() {
+        let drawing = draw(&sheet(&[0.0, 100.0], &[0.0, 5.0], true));
+        for text in ["a quantity [s]", "a quantity [N]", ">one<", ">two<", ">−10<", ">100<"] {
+            assert!(drawing.body.contains(text), "{text}");
+        }
+        assert!(!drawing.body.contains("1e-") && drawing.size[0] == 241.0);
+    }
+
+    #[test]
+    fn nothing_and_what_is_not_finite_are_drawn() {
+        for (x, y) in [(&[][..], &[][..]), (&[0.0, 1.0], &[0.0, 0.0]), (&[0.0, 1.0], &[f64::NAN, f64::INFINITY])] {
+            let mut sheet = sheet(x, y, true);
+            (sheet.panels[0].x.range, sheet.panels[0].y.range) = (None, None);
+            assert!(draw(&sheet).png(50.0).is_ok());
+        }
+    }
+
+    /// Two styles differ in their dashes, or much in brightness.
+    #[test]
+    fn styles_differ_in_print() {
+        let grey = |hex: &str| {
+            let part = |k: usize| f64::from(u8::from_str_radix(&hex[k..k + 2], 16).unwrap_or(0));
+            0.299 * part(1) + 0.587 * part(3) + 0.114 * part(5)
+        };
+        for (k, a) in STYLES.iter().enumerate() {
+            for b in &STYLES[..k] {
+                assert!(a.1 != b.1 || (grey(a.0) - grey(b.0)).abs() > 60.0, "{a:?} {b:?}");
+            }
+        }
+    }
 }

@@ -187,4 +187,19 @@ mod tests {
         }
         assert!(draw(&figure(&[0.0, 1.0], &[0.0, 3e-6])).contains("displacement [µm]"));
     }
+
+    #[test]
+    fn numbers_of_logarithmic_axes_are_decimals() {
+        let svg = draw(&Figure {
+            title: "",
+            x_label: "period [s]",
+            quantity: "pseudo-acceleration",
+            unit: "m/s²",
+            curves: vec![Curve { name: "", x: &[0.02, 0.1, 10.0], y: &[1.0, 3.0, 0.1] }],
+            height: 300.0,
+            right: NO_LEGEND,
+            logarithmic: true,
+        });
+        assert!(svg.contains(">0.1<") && svg.contains(">10<") && !svg.contains("1e"), "{svg}");
+    }
 }

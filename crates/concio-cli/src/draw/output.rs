@@ -53,7 +53,7 @@ impl Drawing {
     /// What the library says.
     pub fn outlined(&self) -> Result<String, String> {
         let tree = self.tree()?;
-        let options = WriteOptions { preserve_text: false, coordinates_precision: 4, ..WriteOptions::default() };
+        let options = WriteOptions { preserve_text: false, coordinates_precision: 2, ..WriteOptions::default() };
         let text = tree.to_string(&options);
         let (_, rest) = text.split_once('>').ok_or("the drawing is empty")?;
         let [wide, high] = self.size.map(|v| v / POINTS);

@@ -1,5 +1,6 @@
 //! What figures are drawn from: a stored run, histories of its blocks and joints, instants.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use concio::InputError;
@@ -134,7 +135,10 @@ impl<'a> Data<'a> {
         let times = &self.run.outcome.recording.frame_time;
         let frame = match instant {
             Instant::Peak => {
-                let size = |f: &usize| Moment::of(self.run, *f).map_or(0.0, |m| peak(self, &m));
+                let size = |f: &usize| {
+                    let value = Moment::of(self.run, *f).map_or(0.0, |m| peak(self, &m));
+                    if value.is_finite() { value } else { -1.0 }
+                };
                 shown.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0)
             }
             Instant::At(t) => {
@@ -152,13 +156,20 @@ impl<'a> Data<'a> {
         Moment::of(self.run, frame).ok_or_else(|| InputError::new(format!("the run has no frame {frame}")))
     }
 
-    /// Blocks, or joints, whose histories the wall file asks for.
-    pub fn asked_for(&self, what: &str) -> Vec<String> {
+    /// Blocks whose histories the wall file asks for, in its order.
+    pub fn sampled_blocks(&self) -> Vec<usize> {
+        self.sampled("block/", "/displacement", self.run.wall.blocks.iter().map(|b| b.name.as_str()))
+    }
+
+    /// Joints whose histories the wall file asks for, in its order.
+    pub fn sampled_joints(&self) -> Vec<usize> {
+        self.sampled("joint/", "/slip", self.run.joints.iter().map(|j| j.name.as_str()))
+    }
+
+    fn sampled<'n>(&self, start: &str, end: &str, names: impl Iterator<Item = &'n str>) -> Vec<usize> {
+        let places: HashMap<&str, usize> = names.enumerate().map(|(i, n)| (n, i)).collect();
         let channels = self.run.outcome.layout.channels.iter();
-        let of = |name: &str| Some(name.strip_prefix(what)?.strip_prefix('/')?.rsplit_once('/')?.0.to_string());
-        let mut found: Vec<String> = channels.filter_map(|c| of(&c.name)).collect();
-        found.dedup();
-        found
+        channels.filter_map(|c| places.get(c.name.strip_prefix(start)?.strip_suffix(end)?).copied()).collect()
     }
 
     /// What to know of a figure in which these blocks, or joints, are known at the frames alone.

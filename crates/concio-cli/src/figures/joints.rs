@@ -4,7 +4,7 @@ use concio::InputError;
 use concio::case::JointKind;
 
 use super::data::{Data, Motion, is_upright};
-use super::{Options, asked, largest, letter};
+use super::{Options, asked, choose, largest, letter};
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::draw::output::Drawing;
 use crate::draw::scale::around;
@@ -16,13 +16,12 @@ const FEW: usize = 4;
 /// are named. All have one scale.
 pub fn histories(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let joints = &data.run.joints;
-    let known = data.asked_for("joint");
-    let chosen = if options.joints.is_empty() && !known.is_empty() {
-        known.iter().take(FEW).map(|n| data.joint(n)).collect::<Result<_, _>>()?
-    } else if options.joints.is_empty() {
-        let peaks = &data.run.outcome.envelopes.joint_displacement;
-        let heads = largest(peaks, |e| joints[e].joint.kind == JointKind::Head, FEW);
-        if heads.is_empty() { largest(peaks, |_| true, FEW) } else { heads }
+    let chosen = if options.joints.is_empty() {
+        choose(&data.sampled_joints(), FEW, |among| {
+            let peaks = &data.run.outcome.envelopes.joint_displacement;
+            let heads = largest(peaks, |e| among(e) && joints[e].joint.kind == JointKind::Head, FEW);
+            if heads.is_empty() { largest(peaks, among, FEW) } else { heads }
+        })
     } else {
         asked(&options.joints, "--joints", |n| data.joint(n))?
     };
@@ -75,11 +74,10 @@ fn kind(kind: JointKind) -> &'static str {
 pub fn hysteresis(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let joints = &data.run.joints;
     let rubs = |e: usize| joints[e].friction.is_some();
-    let known: Vec<usize> = data.asked_for("joint").iter().map(|n| data.joint(n)).collect::<Result<_, _>>()?;
-    let chosen = if options.joints.is_empty() && known.iter().any(|&e| rubs(e)) {
-        known.iter().copied().filter(|&e| rubs(e)).take(2).collect()
-    } else if options.joints.is_empty() {
-        largest(&data.run.outcome.envelopes.joint_dissipation, rubs, 2)
+    let known: Vec<usize> = data.sampled_joints().into_iter().filter(|&e| rubs(e)).collect();
+    let chosen = if options.joints.is_empty() {
+        let dissipated = &data.run.outcome.envelopes.joint_dissipation;
+        choose(&known, 2, |among| largest(dissipated, |e| among(e) && rubs(e), 2))
     } else {
         asked(&options.joints, "--joints", |n| data.joint(n))?
     };

@@ -1,5 +1,7 @@
 //! Figures for print: functions from a run and options to drawings, one file per family.
 
+use std::collections::HashSet;
+
 use concio::InputError;
 
 use crate::args::Figure;
@@ -14,6 +16,9 @@ mod top;
 mod wall;
 
 pub use data::{Data, Instant};
+
+#[cfg(test)]
+mod tests;
 
 /// Most blocks or joints that a figure shows.
 const MOST: usize = 12;
@@ -93,6 +98,16 @@ fn asked(
         return Err(error.allowed(format!("up to {MOST} in one figure")));
     }
     names.iter().map(|n| find(n)).collect()
+}
+
+/// What a figure shows when nothing is named: those whose every sample is known if they are few, else the choice of
+/// `best` among them, else among all.
+fn choose(sampled: &[usize], few: usize, best: impl Fn(&dyn Fn(usize) -> bool) -> Vec<usize>) -> Vec<usize> {
+    if !sampled.is_empty() && sampled.len() <= few {
+        return sampled.to_vec();
+    }
+    let known: HashSet<usize> = sampled.iter().copied().collect();
+    best(&|i| known.is_empty() || known.contains(&i))
 }
 
 /// Places of the largest values, the largest first, of those that `of` lets through and that are above 0.

@@ -86,6 +86,10 @@ pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let blocks = &data.run.wall.blocks;
     let moved: Vec<f64> = (0..blocks.len()).map(|i| moment.block(i).displacement).collect();
     let beam = has_beam(data).then(|| moment.beam().displacement);
+    if moved.iter().chain(&beam).any(|z| !z.is_finite()) {
+        let what = format!("displacements at {} s are not finite", plain(moment.time()));
+        return Err(InputError::new(what).key("--at").help("the run failed there: choose an earlier instant"));
+    }
     let all = moved.iter().chain(&beam);
     let [low, high] = all.fold([0.0f64; 2], |e, z| [e[0].min(*z), e[1].max(*z)]);
     let largest = high.max(-low);
@@ -277,8 +281,9 @@ fn colour_bar(canvas: &mut Canvas, view: &View, width: f64, largest: f64) -> f64
     }
     canvas.path(&frame, r##"fill="none" stroke="#000" stroke-width="0.5""##, None);
     let below = y + high + 6.0 + small + 0.5 * size;
-    let peak = plain(three(largest));
-    let text = format!("relative acceleration [1], 1 = {peak} m/s²");
+    // Large ones in m/s², as accelerations are read.
+    let peak = if largest < 0.1 { short(three(largest), "m/s²") } else { format!("{} m/s²", plain(three(largest))) };
+    let text = format!("relative acceleration [1], 1 = {peak}");
     canvas.text([0.5 * width, below], size, Anchor::Middle, false, "#000", &text);
     below + 0.5 * size + 4.0
 }
