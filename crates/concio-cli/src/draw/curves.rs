@@ -1,10 +1,15 @@
 //! Curves over time or period, drawn by kuva. Curves of one figure differ in dash pattern, not in colour alone.
 
+use std::sync::Arc;
+
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::{LegendPosition, LinePlot, LineStyle};
-use kuva::render::layout::Layout;
+use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
+
+use super::scale::logarithmic_label;
+use super::thin;
 
 /// Width of a figure [px].
 const WIDTH: f64 = 900.0;
@@ -67,7 +72,8 @@ pub fn draw(figure: &Figure) -> String {
     let (prefix, factor) = prefix(largest, figure.unit);
     let mut plots = Vec::new();
     for (curve, (colour, dashes)) in figure.curves.iter().zip(STYLES.iter().cycle()) {
-        let points: Vec<(f64, f64)> = thin(curve.x, curve.y).into_iter().map(|(x, y)| (x, y / factor)).collect();
+        let points: Vec<(f64, f64)> =
+            thin::columns(curve.x, curve.y, COLUMNS).into_iter().map(|(x, y)| (x, y / factor)).collect();
         if points.is_empty() {
             continue;
         }
@@ -106,7 +112,9 @@ pub fn draw(figure: &Figure) -> String {
         layout = layout.with_x_axis_min(low).with_x_axis_max(high);
     }
     if figure.logarithmic && low > 0.0 {
-        layout = layout.with_log_x();
+        // Plain decimals: the library would write 1e-1.
+        let format = move |v: f64| logarithmic_label(v, [low, high]);
+        layout = layout.with_log_x().with_x_tick_format(TickFormat::Custom(Arc::new(format)));
     }
     if largest == 0.0 {
         // A curve that is zero throughout has no range of its own.
@@ -130,26 +138,8 @@ pub fn stack(figures: &[String]) -> String {
     )
 }
 
-/// Points that look the same as all: of every column of pixels the first, lowest, highest and last.
-fn thin(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
-    let points: Vec<(f64, f64)> =
-        x.iter().copied().zip(y.iter().copied()).filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
-    if points.len() <= 2 * COLUMNS {
-        return points;
-    }
-    let mut kept = Vec::with_capacity(2 * COLUMNS + 2);
-    for column in 0..COLUMNS {
-        let part = &points[column * points.len() / COLUMNS..(column + 1) * points.len() / COLUMNS];
-        let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
-        let (Some(low), Some(high)) = (part.iter().min_by(by_value), part.iter().max_by(by_value)) else { continue };
-        kept.extend(if low.0 <= high.0 { [*low, *high] } else { [*high, *low] });
-    }
-    kept.extend(points.last());
-    kept
-}
-
 /// The decimal prefix that brings `largest` between 1 and 1000, and its factor.
-fn prefix(largest: f64, unit: &str) -> (&'static str, f64) {
+pub fn prefix(largest: f64, unit: &str) -> (&'static str, f64) {
     const PREFIXES: [(&str, f64); 7] =
         [("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)];
     // Accelerations are read in m/s² whatever their size, and numbers without unit bear no prefix.
@@ -179,17 +169,6 @@ fn with_view_box(svg: String) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn thinning_keeps_every_peak() {
-        let x: Vec<f64> = (0..100_000).map(f64::from).collect();
-        let mut y = vec![0.0; x.len()];
-        (y[31_415], y[92_653]) = (7.0, -3.0);
-        let kept = thin(&x, &y);
-        assert!(kept.len() <= 2 * COLUMNS + 1);
-        assert!(kept.contains(&(31_415.0, 7.0)) && kept.contains(&(92_653.0, -3.0)));
-        assert!(kept.windows(2).all(|w| w[0].0 <= w[1].0));
-    }
 
     #[test]
     fn figures_of_nothing_and_of_what_is_not_finite_are_drawn() {
