@@ -1,6 +1,6 @@
 //! What documents show is tried: wall files are valid, commands can be typed and print what is quoted.
 //!
-//! A block of TOML with a line `model = …` is a wall file and is checked; where it begins with `# wall.toml` it also is
+//! A block of TOML with `model` and `[[panel]]` is a wall file and is checked; where it begins with `# wall.toml` it also is
 //! the file of that name for the commands that follow. In a block marked `console` every line `$ concio …` is run in a
 //! folder of the document's own; the lines below it have to come in the output, in this order. `…` stands for what is
 //! left out: whole lines, or a part of one. Numbers that `concio run` prints are compared with a tolerance, because stick-slip
@@ -87,7 +87,7 @@ fn blocks(text: &str) -> Vec<Block<'_>> {
 }
 
 fn is_wall(text: &str) -> bool {
-    text.lines().any(|l| l.starts_with("model = "))
+    ["model = ", "[[panel]]"].iter().all(|start| text.lines().any(|l| l.starts_with(start)))
 }
 
 fn wall(root: &Path, desk: &Path, text: &str) -> Outcome {
@@ -106,7 +106,8 @@ fn session(root: &Path, desk: &Path, text: &str) -> Result<usize, String> {
         let line = line.split(" #").next().unwrap_or(line).trim();
         let Some(arguments) = line.strip_prefix("concio ") else { continue };
         let (said, _) = type_in(root, desk, arguments)?;
-        missing(&said, quoted)
+        let tolerance = if arguments.starts_with("run") { RUN_TOLERANCE } else { 0.0 };
+        missing(&said, quoted, tolerance)
             .map_err(|lost| format!("`{line}` does not print `{lost}` (or not at this place), but:\n{said}"))?;
         count += 1;
     }
