@@ -46,7 +46,8 @@ fn own(source: &str) -> BTreeSet<String> {
 fn number(text: &str) -> Option<String> {
     let (inside, _) = text.split_once(')')?;
     let digits = inside.strip_prefix(|c: char| c.is_ascii_uppercase()).unwrap_or(inside);
-    let is_number = (1..=2).contains(&digits.len()) && digits.bytes().all(|b| b.is_ascii_digit());
+    let is_number =
+        (1..=2).contains(&digits.len()) && !digits.starts_with('0') && digits.bytes().all(|b| b.is_ascii_digit());
     is_number.then(|| inside.to_string())
 }
 
