@@ -9,18 +9,24 @@ mod api;
 mod cases;
 mod command;
 mod documents;
+mod equations;
 mod examples;
+mod gallery;
 mod links;
 mod peers;
 mod python;
+mod shown;
+mod symbols;
 
 use command::{Outcome, cargo, run};
 
 const USAGE: &str = "\
 cargo xtask ci         everything that CI does
-cargo xtask docs       make the generated documents (docs/cli.md, docs/wall.schema.json, docs/img, tables of pages)
-cargo xtask cases      run the cases of the report anew and make docs/report-cases.md and its pictures from them
+cargo xtask docs       make the generated documents (reference, schema, symbols, gallery, pictures)
+cargo xtask cases      run the cases of the report anew; docs/report-cases.md and its pictures follow from them
 cargo xtask examples   run every wall file in examples/
+cargo xtask shown      try the wall files and commands that documents show
+cargo xtask equations  check the numbers of equations
 cargo xtask links      check the links of the documents
 cargo xtask peers      compare with CVODE";
 
@@ -32,6 +38,8 @@ fn main() -> ExitCode {
         "cases" => build(&root).and_then(|()| cases::make(&root)).and_then(|()| documents::make(&root)),
         "docs" => build(&root).and_then(|()| documents::make(&root)),
         "examples" => build(&root).and_then(|()| examples::run_all(&root)),
+        "shown" => build(&root).and_then(|()| shown::check(&root)),
+        "equations" => equations::check(&root),
         "links" => links::check(&root),
         "peers" => build(&root).and_then(|()| peers::compare(&root)),
         _ => Err(USAGE.into()),

@@ -39,8 +39,8 @@ impl Drawing {
         let [wide, high] = self.size.map(|v| v / POINTS);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide:.3}mm\" height=\"{high:.3}mm\" \
-             viewBox=\"0 0 {w:.2} {h:.2}\" role=\"img\" aria-label=\"{}\" font-family=\"{FAMILY}\">\n\
-             <rect width=\"{w:.2}\" height=\"{h:.2}\" fill=\"#fff\"/>\n{}</svg>\n",
+             viewBox=\"0 0 {w:.4} {h:.4}\" role=\"img\" aria-label=\"{}\" font-family=\"{FAMILY}\">\n\
+             <rect width=\"{w:.4}\" height=\"{h:.4}\" fill=\"#fff\"/>\n{}</svg>\n",
             escape(&self.title),
             self.body
         )
