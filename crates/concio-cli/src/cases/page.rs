@@ -119,8 +119,11 @@ fn value(number: &Value) -> String {
     if low == high { value } else { format!("{value} ({low} … {high})") }
 }
 
-/// Three digits: more than chaotic runs agree on.
+/// Three digits: more than chaotic runs agree on. A ratio to what a run does not have (the force of no beam) is none.
 fn short(value: f64, unit: &str) -> String {
+    if !value.is_finite() {
+        return "none".into();
+    }
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     if unit.is_empty() { plain(rounded) } else { format::short(rounded, unit) }
 }
@@ -133,6 +136,7 @@ mod tests {
     fn numbers_are_short() {
         assert_eq!(short(1.3234e-5, "m"), "13.2 µm");
         assert_eq!(short(8437.0, "m/s²"), "8.44 km/s²");
+        assert_eq!(short(f64::NAN, ""), "none");
         assert_eq!((short(1317.0, ""), short(0.0, ""), short(0.0, "m")), ("1320".into(), "0".into(), "0 m".into()));
     }
 }
