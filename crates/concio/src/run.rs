@@ -75,8 +75,8 @@ const MOST_SAMPLES: f64 = 1e7;
 /// unchanged any more.
 const LARGE_SLIP: f64 = 0.1;
 
-/// Lays the wall, compiles motion and model; numbers that are hardly meant join the model's warnings. `folder` is where relative record paths start. The case must be valid
-/// ([`crate::case::CaseFile::validate`]).
+/// Lays the wall, compiles motion and model; numbers that are hardly meant join the model's warnings. `folder` is where
+/// relative record paths start. The case must be valid ([`crate::case::CaseFile::validate`]).
 ///
 /// # Errors
 /// Records that cannot be read, walls that do not stand, names that nothing bears.
