@@ -21,7 +21,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let prepared = wall_file::prepare(&file)?;
     let model = &prepared.model;
     let motion = wall_file::motion(&file, &prepared)?;
-    for warning in model.warnings.iter().chain(&motion.warnings) {
+    for warning in &model.warnings {
         files::note(&format!("warning: {warning}"));
     }
     if let Some(path) = &args.svg {
