@@ -182,7 +182,7 @@ pub struct Channels {
     top_course: Vec<usize>,
 }
 
-const ALWAYS: [(&str, &str, &str); 8] = [
+const ALWAYS: [(&str, &str, &str); 10] = [
     ("base/acceleration", "m/s2", "absolute acceleration of the base"),
     ("base/displacement", "m", "absolute displacement of the base"),
     ("base/shear", "N", "horizontal force of the base on the wall"),
@@ -190,6 +190,8 @@ const ALWAYS: [(&str, &str, &str); 8] = [
     ("top/velocity", "m/s", "mean velocity of the top courses relative to the base"),
     ("top/force", "N", "horizontal force of the top beam on the wall"),
     ("beam/displacement", "m", "displacement of the top beam relative to the base"),
+    ("beam/velocity", "m/s", "velocity of the top beam relative to the base"),
+    ("beam/acceleration", "m/s2", "acceleration of the top beam relative to the base"),
     ("peak/displacement", "m", "largest absolute displacement of a block relative to the base at the moment"),
 ];
 const ENERGIES: [(&str, &str); 9] = [
@@ -275,7 +277,8 @@ impl Channels {
         };
         let base = drive.base(state.t);
         let energies = &state.energies;
-        row.extend([base.a, base.u, shear, mean(&state.z), mean(&state.v), pull, state.z[beam]]);
+        row.extend([base.a, base.u, shear, mean(&state.z), mean(&state.v), pull]);
+        row.extend([state.z[beam], state.v[beam], state.a[beam]]);
         row.push(peak(&state.z[..model.wall.blocks.len()]));
         let Energies { input_top, kinetic, elastic, damping, friction, bond, nonreciprocal, .. } = *energies;
         row.extend([energies.input(), kinetic, elastic, damping, friction, bond, nonreciprocal]);

@@ -12,6 +12,7 @@ pub mod ground;
 mod integrate;
 pub mod law;
 pub mod model;
+pub mod moment;
 pub mod outcome;
 pub mod pattern;
 pub mod quantity;

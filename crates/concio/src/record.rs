@@ -42,6 +42,8 @@ pub struct Recording {
     pub frame_displacement: Vec<f64>,
     /// `frame_time.len()` rows: velocity of every unknown relative to the base [m/s].
     pub frame_velocity: Vec<f64>,
+    /// `frame_time.len()` rows: acceleration of every unknown relative to the base [m/s²].
+    pub frame_acceleration: Vec<f64>,
 }
 
 impl Recording {
@@ -52,6 +54,50 @@ impl Recording {
         self.frame_time.extend_from_slice(&other.frame_time);
         self.frame_displacement.extend_from_slice(&other.frame_displacement);
         self.frame_velocity.extend_from_slice(&other.frame_velocity);
+        self.frame_acceleration.extend_from_slice(&other.frame_acceleration);
+    }
+
+    /// The arrays in the order in which a journal keeps them, with the length of a row of each.
+    pub(crate) fn arrays(&self, layout: &Layout) -> [(&Vec<f64>, usize); 6] {
+        let n = layout.unknowns;
+        [
+            (&self.time, 1),
+            (&self.values, layout.channels.len()),
+            (&self.frame_time, 1),
+            (&self.frame_displacement, n),
+            (&self.frame_velocity, n),
+            (&self.frame_acceleration, n),
+        ]
+    }
+
+    /// The same arrays, to be filled: samples first, then frames.
+    pub(crate) fn arrays_mut(&mut self) -> [&mut Vec<f64>; 6] {
+        [
+            &mut self.time,
+            &mut self.values,
+            &mut self.frame_time,
+            &mut self.frame_displacement,
+            &mut self.frame_velocity,
+            &mut self.frame_acceleration,
+        ]
+    }
+
+    /// Empties it and keeps its room.
+    pub(crate) fn clear(&mut self) {
+        self.arrays_mut().into_iter().for_each(Vec::clear);
+    }
+
+    /// Empty, with room for so many samples and frames.
+    pub(crate) fn with_room(layout: &Layout, samples: usize, frames: usize) -> Self {
+        let room = |rows: usize, width: usize| Vec::with_capacity(rows.saturating_mul(width));
+        Recording {
+            time: room(samples, 1),
+            values: room(samples, layout.channels.len()),
+            frame_time: room(frames, 1),
+            frame_displacement: room(frames, layout.unknowns),
+            frame_velocity: room(frames, layout.unknowns),
+            frame_acceleration: room(frames, layout.unknowns),
+        }
     }
 }
 

@@ -82,13 +82,7 @@ impl<'m> Simulation<'m> {
         }
         begin_account(model, &mut state);
         let frames = if layout.frame_every > 0 { BUFFER.div_ceil(layout.frame_every) } else { 0 };
-        let recording = Recording {
-            time: Vec::with_capacity(BUFFER),
-            values: Vec::with_capacity(BUFFER * layout.channels.len()),
-            frame_time: Vec::with_capacity(frames),
-            frame_displacement: Vec::with_capacity(frames * layout.unknowns),
-            frame_velocity: Vec::with_capacity(frames * layout.unknowns),
-        };
+        let recording = Recording::with_room(&layout, BUFFER, frames);
         let work = Step::new(model, solver.scheme);
         let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
         let mut run =
@@ -247,6 +241,7 @@ impl<'m> Simulation<'m> {
             recording.frame_time.push(state.samples as f64 * self.layout.interval);
             recording.frame_displacement.extend_from_slice(&state.z[..n]);
             recording.frame_velocity.extend_from_slice(&state.v[..n]);
+            recording.frame_acceleration.extend_from_slice(&state.a[..n]);
         }
         state.samples += 1;
     }
@@ -265,10 +260,7 @@ impl<'m> Simulation<'m> {
     }
     /// Empties the buffer, keeping its memory.
     pub fn clear_recording(&mut self) {
-        let r = &mut self.recording;
-        for v in [&mut r.time, &mut r.values, &mut r.frame_time, &mut r.frame_displacement, &mut r.frame_velocity] {
-            v.clear();
-        }
+        self.recording.clear();
     }
     /// What is kept.
     pub fn layout(&self) -> &Layout {

@@ -77,6 +77,7 @@ pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outco
     let frame = recording.frame_time.len() * unknowns;
     expect("frames of displacement", recording.frame_displacement.len(), frame)?;
     expect("frames of velocity", recording.frame_velocity.len(), frame)?;
+    expect("frames of acceleration", recording.frame_acceleration.len(), frame)?;
     for field in &fields::BLOCK_ENVELOPES {
         expect(field.name, (field.get)(&outcome.envelopes).len(), unknowns)?;
     }
@@ -185,7 +186,9 @@ fn write_frames(sink: &mut Sink, layout: &Layout, recording: &Recording) -> Resu
     let displacement = label("m", "Displacement of every unknown relative to the base.");
     sink.array("frames/displacement", &shape, &recording.frame_displacement, displacement)?;
     let velocity = label("m/s", "Velocity of every unknown relative to the base.");
-    sink.array("frames/velocity", &shape, &recording.frame_velocity, velocity)
+    sink.array("frames/velocity", &shape, &recording.frame_velocity, velocity)?;
+    let acceleration = label("m/s2", "Acceleration of every unknown relative to the base.");
+    sink.array("frames/acceleration", &shape, &recording.frame_acceleration, acceleration)
 }
 
 fn write_sums(sink: &mut Sink, outcome: &Outcome) -> Result<()> {

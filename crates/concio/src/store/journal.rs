@@ -205,7 +205,7 @@ impl Journal {
         }
         let mut unused = Recording::default();
         while let Some((kind, payload)) = reader.next_block()? {
-            rows::clear(&mut unused);
+            unused.clear();
             if kind != ROWS || rows::decode(&payload, &self.layout, &mut unused).is_none() {
                 return Ok(false);
             }

@@ -174,7 +174,8 @@ fn read_recording(source: &Source, layout: &Layout) -> Result<Recording> {
     let shape = [Some(frame_time.len()), Some(layout.unknowns)];
     let frame_displacement = source.array("frames/displacement", &shape)?;
     let frame_velocity = source.array("frames/velocity", &shape)?;
-    Ok(Recording { time, values, frame_time, frame_displacement, frame_velocity })
+    let frame_acceleration = source.array("frames/acceleration", &shape)?;
+    Ok(Recording { time, values, frame_time, frame_displacement, frame_velocity, frame_acceleration })
 }
 
 fn read_envelopes(source: &Source, unknowns: usize, joints: usize) -> Result<Envelopes> {

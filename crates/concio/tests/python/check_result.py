@@ -111,11 +111,11 @@ class Result:
 def check_head(result):
     attributes = result.file.attrs
     require(attributes["format"] == "concio-result", "attribute format")
-    require(attributes["schema_version"] == 1, "attribute schema_version")
+    require(attributes["schema_version"] == 2, "attribute schema_version")
     require(attributes["stop_reason"] in STOP_REASONS, f"stop_reason {attributes['stop_reason']!r}")
     for name in ["version", "model", "inputs_hash"]:
         require(isinstance(attributes[name], str) and attributes[name], f"attribute {name}")
-    require(result.array("schema_version", (), "u4", "1") == 1, "schema_version")
+    require(result.array("schema_version", (), "u4", "1") == 2, "schema_version")
     (case,) = result.texts("case", 1)
     require(isinstance(json.loads(case), dict), "case is no JSON object")
 
@@ -178,6 +178,7 @@ def check_frames(result, unknowns):
     require((np.diff(time) > 0).all(), "times of frames do not rise")
     displacement = result.array("frames/displacement", (frames, unknowns), "f8", "m")
     velocity = result.array("frames/velocity", (frames, unknowns), "f8", "m/s")
+    result.array("frames/acceleration", (frames, unknowns), "f8", "m/s2")
     return time, displacement, velocity
 
 

@@ -196,6 +196,7 @@ pub fn rows(layout: &Layout, range: std::ops::Range<usize>) -> Recording {
             rows.frame_time.push(t);
             rows.frame_displacement.extend((0..layout.unknowns).map(|u| 1e-3 * (t * 30.0 + u as f64 * 0.01).sin()));
             rows.frame_velocity.extend((0..layout.unknowns).map(|u| 3e-2 * (t * 30.0 + u as f64 * 0.01).cos()));
+            rows.frame_acceleration.extend((0..layout.unknowns).map(|u| -0.9 * (t * 30.0 + u as f64 * 0.01).sin()));
         }
     }
     rows

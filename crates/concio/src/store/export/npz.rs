@@ -125,7 +125,8 @@ fn fill_recording(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
     archive.list("frames/time", &recording.frame_time)?;
     let shape = [recording.frame_time.len(), layout.unknowns];
     archive.array("frames/displacement", &shape, recording.frame_displacement.iter().copied())?;
-    archive.array("frames/velocity", &shape, recording.frame_velocity.iter().copied())
+    archive.array("frames/velocity", &shape, recording.frame_velocity.iter().copied())?;
+    archive.array("frames/acceleration", &shape, recording.frame_acceleration.iter().copied())
 }
 
 fn fill_sums(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {

@@ -1,0 +1,130 @@
+//! A stored run at one of its frames: displacement, velocity and acceleration of every block, and the relative motion
+//! and the forces of every joint by equations (2) to (6) of the theory. Signs are those of the sampled channels.
+
+use crate::case::{FrictionLaw, JointKind, SpringLaw};
+use crate::law::{Stribeck, spring_force};
+use crate::store::{FrictionRow, StoredRun};
+use crate::wall::End;
+
+/// Motion of a block or of the top beam, relative to the base.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Motion {
+    /// [m]
+    pub displacement: f64,
+    /// [m/s]
+    pub velocity: f64,
+    /// [m/s²]
+    pub acceleration: f64,
+}
+
+/// Relative motion and forces of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct JointMotion {
+    /// Relative displacement [m]: the gap of a head joint or connection (positive is open), else lower side less upper.
+    pub slip: f64,
+    /// Its rate [m/s].
+    pub velocity: f64,
+    /// Its second rate [m/s²].
+    pub acceleration: f64,
+    /// Elastic force on the lower or left block, against its relative motion [N].
+    pub elastic: f64,
+    /// Viscous force, same sign [N].
+    pub damping: f64,
+    /// Friction force, same sign [N].
+    pub friction: f64,
+}
+
+/// One frame of a run.
+#[derive(Debug, Clone, Copy)]
+pub struct Moment<'r> {
+    run: &'r StoredRun,
+    frame: usize,
+    beam: Motion,
+}
+
+impl<'r> Moment<'r> {
+    /// Frame `frame` of `run`; none when the run has no such frame.
+    pub fn of(run: &'r StoredRun, frame: usize) -> Option<Self> {
+        let recording = &run.outcome.recording;
+        recording.frame_time.get(frame)?;
+        Some(Moment { run, frame, beam: beam(run, frame) })
+    }
+
+    /// Time [s].
+    pub fn time(&self) -> f64 {
+        self.run.outcome.recording.frame_time[self.frame]
+    }
+
+    /// Motion of the top beam, driven, tied or with mass; at rest when there is none.
+    pub fn beam(&self) -> Motion {
+        self.beam
+    }
+
+    /// Motion of block `block`, below `wall.blocks.len()`.
+    pub fn block(&self, block: usize) -> Motion {
+        unknown(self.run, self.frame, block)
+    }
+
+    /// Relative motion and forces of joint `joint`, below `joints.len()`.
+    pub fn joint(&self, joint: usize) -> JointMotion {
+        let row = &self.run.joints[joint];
+        let a = self.block(row.joint.a);
+        let b = match row.joint.b {
+            End::Block(b) => self.block(b),
+            End::Base => Motion::default(),
+            End::Top => self.beam,
+        };
+        let (d, w) = (a.displacement - b.displacement, a.velocity - b.velocity);
+        let upright = matches!(row.joint.kind, JointKind::Head | JointKind::Connection);
+        let sign = if upright { -1.0 } else { 1.0 };
+        let unilateral = upright && matches!(row.law, SpringLaw::NoTension | SpringLaw::Rigid);
+        JointMotion {
+            slip: sign * d,
+            velocity: sign * w,
+            acceleration: sign * (a.acceleration - b.acceleration),
+            elastic: spring_force(unilateral, row.stiffness, d),
+            damping: row.damping * w,
+            friction: row.friction.as_ref().map_or(0.0, |law| row.normal_force[0] * coefficient(law, w)),
+        }
+    }
+}
+
+fn unknown(run: &StoredRun, frame: usize, index: usize) -> Motion {
+    let recording = &run.outcome.recording;
+    let at = frame * run.outcome.layout.unknowns + index;
+    Motion {
+        displacement: recording.frame_displacement[at],
+        velocity: recording.frame_velocity[at],
+        acceleration: recording.frame_acceleration[at],
+    }
+}
+
+/// A beam with mass is the last unknown; the others are sampled channels, a frame being every `frame_every`th sample.
+fn beam(run: &StoredRun, frame: usize) -> Motion {
+    let layout = &run.outcome.layout;
+    if layout.unknowns > run.wall.blocks.len() {
+        return unknown(run, frame, layout.unknowns - 1);
+    }
+    let sample = frame * layout.frame_every;
+    let width = layout.channels.len();
+    let value = |name: &str| {
+        let at = layout.channels.iter().position(|c| c.name == name)?;
+        run.outcome.recording.values.get(sample * width + at).copied()
+    };
+    let of = |quantity: &str| value(&format!("beam/{quantity}")).unwrap_or(0.0);
+    Motion { displacement: of("displacement"), velocity: of("velocity"), acceleration: of("acceleration") }
+}
+
+fn coefficient(law: &FrictionRow, velocity: f64) -> f64 {
+    match law.law {
+        FrictionLaw::None => 0.0,
+        FrictionLaw::Stribeck | FrictionLaw::Coulomb => Stribeck {
+            static_: law.static_,
+            dynamic: law.dynamic,
+            slip_velocity: law.slip_velocity,
+            beta: law.beta,
+            alpha: law.alpha,
+        }
+        .value(velocity),
+    }
+}
