@@ -56,8 +56,16 @@ export const LAYOUT = 1;
 export class Report {
     readonly blocks: number;
     readonly joints: number;
-    /** Panel, course, edges [m] and mass [kg] of the blocks. */
-    readonly block: { x0: Float64Array; x1: Float64Array; y0: Float64Array; y1: Float64Array; mass: Float64Array };
+    /** Edges [m] and mass [kg] of the blocks, thickness of the mortar below and beside them [m]. */
+    readonly block: {
+        x0: Float64Array;
+        x1: Float64Array;
+        y0: Float64Array;
+        y1: Float64Array;
+        mass: Float64Array;
+        bed: Float64Array;
+        head: Float64Array;
+    };
     /** Sides as columns of the frames (−1: the base), contact lines [m], laws in SI. */
     readonly joint: {
         a: Int32Array;
@@ -89,10 +97,15 @@ export class Report {
         this.joints = contents.joint_names.length;
         const real = (name: string) => this.array(name) as Float64Array;
         const whole = (name: string) => this.array(name) as Int32Array;
-        const { x0, x1, y0, y1, mass } = Object.fromEntries(
-            ["x0", "x1", "y0", "y1", "mass"].map((name) => [name, real(`block/${name}`)]),
-        );
-        this.block = { x0, x1, y0, y1, mass };
+        this.block = {
+            x0: real("block/x0"),
+            x1: real("block/x1"),
+            y0: real("block/y0"),
+            y1: real("block/y1"),
+            mass: real("block/mass"),
+            bed: real("block/bed"),
+            head: real("block/head"),
+        };
         this.beam = contents.beam.kind === "free" ? -1 : this.blocks;
         this.joint = {
             a: whole("joint/a"),
@@ -106,8 +119,8 @@ export class Report {
             damping: real("joint/damping"),
             normal: real("joint/normal_force_a"),
             friction: whole("joint/friction"),
-            unilateral: contents.joint_laws.map((law) => law === "no-tension"),
-            upright: contents.joint_kinds.map((kind) => kind === "head" || kind === "connection"),
+            unilateral: contents.joint_laws.map((law, k) => isUpright(contents.joint_kinds[k]) && ["no-tension", "rigid"].includes(law)),
+            upright: contents.joint_kinds.map(isUpright),
         };
         this.frames = new Frames(this);
     }
@@ -148,4 +161,8 @@ export function readPage(page: Document): Report {
     const text = (id: string) => page.getElementById(id)?.textContent ?? "";
     const contents = JSON.parse(text("concio-contents")) as Contents;
     return new Report(contents, decode(text("concio-numbers").trim()).buffer);
+}
+
+function isUpright(kind: string): boolean {
+    return kind === "head" || kind === "connection";
 }

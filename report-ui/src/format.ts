@@ -14,14 +14,15 @@ export function significant(value: number, digits: number): string {
     return minus(rounded.toFixed(Math.min(decimals, 30)));
 }
 
-/** A value with its unit and a decimal prefix, four significant digits unless said: `1.198 µm`, `53.40 kN`. */
+/** A value with its unit and a decimal prefix, four significant digits unless said: `1.198 µm`, `53.40 kN`; nobody
+ * reads km/s². */
 export function si(value: number, unit: string, digits = 4): string {
     if (value === 0 || !Number.isFinite(value)) {
         return `${plainText(value)} ${unit}`.trim();
     }
     const rounded = Number(value.toExponential(digits - 1));
     const size = Math.abs(rounded);
-    const prefix = PREFIXES.find(([, factor]) => size >= factor);
+    const prefix = PREFIXES.find(([, factor]) => size >= factor && !(factor > 1 && unit === "m/s²"));
     if (unit === "" || prefix === undefined || size >= 1e12) {
         const small = unit === "" && size >= 1e-3 && size < 1e5;
         return `${small ? significant(rounded, digits) : minus(rounded.toExponential(digits - 1))} ${unit}`.trim();

@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::case::{Beam, Case, Output, Signal, canonical_json};
 use crate::error::{Error, InputError, Result};
 use crate::excitation::Excitation;
-use crate::ground::signal;
+use crate::ground::{coverage, signal};
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::pattern;
@@ -85,7 +85,9 @@ pub fn prepare(case: Case, folder: &Path) -> Result<Prepared> {
     let excitation = excitation(&case, folder)?;
     let sampling = sampling(&case.output, &excitation)?;
     let inputs_hash = inputs_hash(&case, folder)?;
-    let model = Model::compile(&case, wall, excitation)?;
+    let of_records = coverage::warnings(&case, folder, excitation.duration)?;
+    let mut model = Model::compile(&case, wall, excitation)?;
+    model.warnings.extend(of_records);
     Simulation::check(&model, &sampling)?;
     Ok(Prepared { case, model, sampling, inputs_hash })
 }

@@ -44,7 +44,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
         "{title}{}\n{}\n{general}\n{}{list}\n{} is a valid wall file.\n",
         columns(&panel_rows(model)),
         columns(&joint_rows(model)),
-        pairs(&motion.rows),
+        pairs(&motion),
         args.file.display()
     );
     files::print(&text)

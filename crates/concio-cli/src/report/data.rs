@@ -196,6 +196,10 @@ fn wall(pack: &mut Pack, content: &Content) {
     column("y0", |b| b.y[0]);
     column("y1", |b| b.y[1]);
     column("mass", Block::mass);
+    for (number, name) in ["bed", "head"].into_iter().enumerate() {
+        let mortar = |b: &Block| content.wall.panels[b.panel].mortar[number];
+        pack.reals(&format!("block/{name}"), &content.wall.blocks.iter().map(mortar).collect::<Vec<_>>());
+    }
 }
 
 /// Sides, lines and laws of the joints; the different friction laws.
