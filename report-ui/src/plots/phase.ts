@@ -37,7 +37,7 @@ export class PhasePlot {
             axes: [axis(...x, size("x"), { size: 34 }), axis(...y, size("y"), UPRIGHT)],
             // The library draws functions of x; a trajectory returns, so it is drawn by hand over two points of frame.
             series: [{}, { stroke: "transparent", points: { show: false } }],
-            hooks: { draw: [(plot) => this.trace(plot)] },
+            hooks: { draw: [(plot) => this.trace(plot), () => this.place()] },
         };
         this.plot = this.panel.show(options, [[left, right], [low, high]]);
         this.panel.name(curves, "");
@@ -46,7 +46,6 @@ export class PhasePlot {
         this.marks = curves.map((c) => h("div", { class: "dot", style: `background:${c.colour}` }));
         this.plot.over.append(...this.marks);
         this.plot.over.addEventListener("pointerdown", (event) => this.goToNearest(event));
-        this.place();
     }
 
     private trace(plot: uPlot): void {
@@ -71,7 +70,7 @@ export class PhasePlot {
 
     private place(): void {
         const plot = this.plot;
-        if (plot === null) {
+        if (plot === null || this.marks.length !== this.curves.length) {
             return;
         }
         this.marks.forEach((mark, c) => {

@@ -30,6 +30,8 @@ export class TimePlot {
             cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
             scales: { x: { time: false }, y: { range: (_, low, high) => range(low, high) } },
             axes: [axis("time", "s", 1, { size: 34 }), axis(label, unit, top, UPRIGHT)],
+            // Scales are settled with the first drawing only.
+            hooks: { draw: [() => this.place()] },
             series: [{}, ...curves.map((c) => ({ stroke: c.colour, dash: c.dash, width: 1.4, points: { show: false } }))],
         };
         this.plot = this.panel.show(options, [time, ...curves.map((c) => c.values)] as unknown as uPlot.AlignedData);

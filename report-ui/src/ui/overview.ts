@@ -119,9 +119,9 @@ function responseSpectrum(store: Store): HTMLElement | null {
             legend: { show: false },
             padding: [8, 12, 0, 0],
             cursor: { show: false },
-            scales: { x: { time: false, distr: 3 }, y: { range: (_, __, high) => [0, high * 1.08 || 1] } },
+            scales: { x: { time: false, distr: 3, range: () => [period[0], period[period.length - 1]] }, y: { range: (_, __, high) => [0, high * 1.08 || 1] } },
             axes: [
-                axis("period", "s", 1, { size: 34, splits: () => [0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 4] }),
+                axis("period", "s", 1, { size: 34, splits: () => [0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 4], filter: (_, splits) => splits }),
                 axis("pseudo-acceleration", "m/s²", largest(psa), UPRIGHT),
             ],
             series: [{}, { stroke: LINES[0].colour, width: 1.5, points: { show: false } }],

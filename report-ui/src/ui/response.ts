@@ -32,7 +32,7 @@ export class Response {
         const heading = h("h3", {}, owner === "block" ? "Blocks" : "Joints");
         const choices = h("div", { class: "controls" },
             this.choice("history of", this.quantities, this.shown, (q) => (this.shown = q)),
-            this.choice("over displacement", this.quantities.slice(1), this.upright, (q) => (this.upright = q)),
+            this.choice("phase portrait", this.quantities.slice(1), this.upright, (q) => (this.upright = q)),
         );
         this.plots.append(this.time.panel.element, this.phase.panel.element);
         this.element.append(h("div", { class: "bar" }, heading, choices), this.plots, this.empty);

@@ -65,7 +65,10 @@ export class View {
 /** The factor that makes the largest displacement of the run plain to see: 1, 2 or 5 times a power of ten. */
 export function automaticScale(report: Report, view: View): number {
     const displacement = QUANTITIES.find((q) => q.key === "displacement" && q.owner === "block" && q.when === "peak");
-    const peak = displacement === undefined ? 0 : largest(envelope(report, displacement));
+    const ofBlocks = displacement === undefined ? 0 : largest(envelope(report, displacement).subarray(0, report.blocks));
+    // A beam that slides far over the wall may go half a step out of the picture, but not leave it.
+    const ofBeam = report.beam < 0 ? 0 : largest(report.frames.history("displacement", report.beam));
+    const peak = Math.max(ofBlocks, ofBeam / 2);
     return rounded((SHOWN * Math.max(view.width, view.height)) / peak);
 }
 
