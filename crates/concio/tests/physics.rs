@@ -468,7 +468,7 @@ fn a_moment_of_a_stored_run_is_what_was_sampled() {
     let massive = SLIPPING.replace("\"driven\"", "{ mass = \"1 t\" }").replace("top = {", "base = {");
     for motion in [SLIPPING, SHAKEN, &massive] {
         let text = format!(
-            "{PANEL}{motion}[output]\ninterval = \"2 ms\"\nframes = \"6 ms\"\nblocks = [\"all\"]\njoints = [\"all\"]\n"
+            "{PANEL}{motion}[output]\ninterval = \"2 ms\"\nframes = \"6 ms\"\nblocks = [\"all\"]\njoints = [\"all\"]\n[solver]\ntolerance = 1e-5\n"
         );
         let p = ready(&text);
         let outcome = run_in_memory(&p).unwrap();
