@@ -36,7 +36,9 @@ export async function open(browser, results, options = {}) {
 
 /** Goes to a frame as a user does: by the keys. */
 export async function goTo(page, frame) {
-    await page.locator("body").press("Home");
+    // In a list the keys are the list's.
+    await page.evaluate(() => document.activeElement.blur());
+    await page.keyboard.press("Home");
     for (let k = 0; k < Math.floor(frame / 10); k++) {
         await page.keyboard.press("Shift+ArrowRight");
     }

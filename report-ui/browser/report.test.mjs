@@ -161,6 +161,7 @@ test("selected blocks and joints have histories with the numbers of the result a
         }
     }
     // A click in a plot moves the time.
+    await plots.first().scrollIntoViewIfNeeded();
     const area = await plots.first().locator(".u-over").first().boundingBox();
     await page.mouse.click(area.x + 0.25 * area.width, area.y + 0.5 * area.height);
     const seconds = parseFloat((await page.locator(".clock").textContent()).replace("t = ", ""));

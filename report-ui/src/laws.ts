@@ -33,15 +33,16 @@ export function isFunction(law: FrictionLaw): boolean {
  * of head joints and connections are those of the gap: positive opens. Forces are those on the lower or left
  * block, against its relative motion.
  *
- * Where the run kept the force of a law that is no function of the motion, `stored` gives it; NaN is a force that
- * cannot be known.
+ * Where the page holds the force of a law that is no function of the motion, `kept` gives it; NaN is a force that cannot
+ * be known.
  */
 export function jointValue(
     report: Report,
     joint: number,
     key: JointKey,
     motion: (field: Field, unknown: number) => number,
-    stored?: (key: JointKey) => number | undefined,
+    kept?: Float32Array,
+    at = 0,
 ): number {
     const { a, b, upright, unilateral, stiffness, damping, normal, friction } = report.joint;
     const difference = (field: Field) => motion(field, a[joint]) - motion(field, b[joint]);
@@ -49,9 +50,8 @@ export function jointValue(
         const value = difference(key);
         return upright[joint] ? 0 - value : value;
     }
-    const kept = stored?.(key);
     if (kept !== undefined) {
-        return kept;
+        return kept[at + joint];
     }
     if (key === "elastic") {
         return spring(unilateral[joint], stiffness[joint], difference("displacement"));

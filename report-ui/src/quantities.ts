@@ -93,8 +93,14 @@ export class Moment {
         if (q.owner === "block") {
             return this.field(q.key as Field)[index];
         }
+        return this.joint(q.key as JointKey, keptForce(this.report, q))(index);
+    }
+
+    /** A quantity of any joint at this frame. */
+    private joint(key: JointKey, kept: Float32Array | undefined): (index: number) => number {
+        const { report, frame } = this;
         const motion = (field: Field, unknown: number) => (unknown < 0 ? 0 : this.field(field)[unknown]);
-        return jointValue(this.report, index, q.key as JointKey, motion, storedForce(this.report, this.frame, index));
+        return (index) => jointValue(report, index, key, motion, kept, frame * report.joints);
     }
 
     /** One quantity of all blocks or joints. */
@@ -102,8 +108,16 @@ export class Moment {
         if (q.when === "peak") {
             return envelope(this.report, q);
         }
-        const length = q.owner === "block" ? this.report.blocks : this.report.joints;
-        return Float64Array.from({ length }, (_, index) => this.value(q, index));
+        const { blocks, joints } = this.report;
+        if (q.owner === "block") {
+            return this.field(q.key as Field).subarray(0, blocks);
+        }
+        const value = this.joint(q.key as JointKey, keptForce(this.report, q));
+        const values = new Float64Array(joints);
+        for (let e = 0; e < joints; e++) {
+            values[e] = value(e);
+        }
+        return values;
     }
 }
 
@@ -112,18 +126,17 @@ export function history(report: Report, q: Quantity, index: number): Float64Arra
     if (q.owner === "block") {
         return report.frames.history(q.key as Field, index);
     }
+    const kept = keptForce(report, q);
     return Float64Array.from({ length: report.frames.count }, (_, frame) => {
         const motion = (field: Field, unknown: number) => report.frames.value(field, frame, unknown);
-        return jointValue(report, index, q.key as JointKey, motion, storedForce(report, frame, index));
+        return jointValue(report, index, q.key as JointKey, motion, kept, frame * report.joints);
     });
 }
 
-/** Forces of the joints kept with the frames, for laws that are no functions of the motion. */
-function storedForce(report: Report, frame: number, joint: number): (key: JointKey) => number | undefined {
-    return (key) => {
-        const name = `frame/joint/${key}`;
-        return report.has(name) ? (report.array(name) as Float32Array)[frame * report.joints + joint] : undefined;
-    };
+/** Forces of all joints at all frames, where the page holds them: for laws that are no functions of the motion. */
+function keptForce(report: Report, q: Quantity): Float32Array | undefined {
+    const name = `frame/joint/${q.key}`;
+    return report.has(name) ? (report.array(name) as Float32Array) : undefined;
 }
 
 /** Largest size that a quantity has in the whole run, from the envelopes. */

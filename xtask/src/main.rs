@@ -12,6 +12,7 @@ mod examples;
 mod links;
 mod peers;
 mod python;
+mod report_ui;
 
 use command::{Outcome, cargo, run};
 
@@ -20,6 +21,7 @@ cargo xtask ci         everything that CI does
 cargo xtask docs       make the generated documents (docs/cli.md, docs/wall.schema.json, docs/img)
 cargo xtask examples   run every wall file in examples/
 cargo xtask links      check the links of the documents
+cargo xtask report-ui  build the program of the interactive report into the tree (needs Node.js)
 cargo xtask peers      compare with CVODE";
 
 fn main() -> ExitCode {
@@ -30,6 +32,7 @@ fn main() -> ExitCode {
         "docs" => build(&root).and_then(|()| documents::make(&root)),
         "examples" => build(&root).and_then(|()| examples::run_all(&root)),
         "links" => links::check(&root),
+        "report-ui" => report_ui::build(&root),
         "peers" => build(&root).and_then(|()| peers::compare(&root)),
         _ => Err(USAGE.into()),
     };
@@ -60,7 +63,7 @@ fn build(root: &Path) -> Outcome {
 
 fn ci(root: &Path) -> Outcome {
     let python = python::environment(root)?;
-    let steps: [(&str, &dyn Fn() -> Outcome); 10] = [
+    let steps: [(&str, &dyn Fn() -> Outcome); 11] = [
         ("format", &|| run(cargo(root).args(["fmt", "--all", "--check"]))),
         ("lints", &|| {
             run(cargo(root).args([
@@ -81,6 +84,7 @@ fn ci(root: &Path) -> Outcome {
         ("links", &|| links::check(root)),
         ("examples", &|| examples::run_all(root)),
         ("readers of results", &|| python::read_results(root, python.as_deref())),
+        ("interactive report", &|| report_ui::check(root)),
         ("comparison with CVODE", &|| peers::compare(root)),
     ];
     let start = Instant::now();
