@@ -197,11 +197,16 @@ test("curves of the run show the channels at the moment", async () => {
 });
 
 test("it plays, pauses and scrubs", async () => {
-    const { page, problems } = await open(browser, runs.driven.results);
+    const { results, truth } = runs.driven;
+    const { page, problems } = await open(browser, results);
     const { frames, time } = await numbers(page);
     const clock = page.locator(".clock");
-    assert.equal(await clock.textContent(), "t = 0.000 s");
+    // It opens at the largest displacement and plays from the start.
+    const sizes = time.map((_, frame) => at(truth, "peak/displacement", frame));
+    const peak = sizes.indexOf(Math.max(...sizes));
+    assert.equal(await clock.textContent(), `t = ${time[peak].toFixed(3)} s`);
     await page.locator("body").press(" ");
+    await page.waitForFunction((peak) => Number(document.querySelector(".player input").value) < peak / 2, peak);
     await page.waitForFunction(() => document.querySelector(".player input").value !== "0");
     assert.equal(await page.locator(".play").getAttribute("aria-label"), "Pause");
     await page.keyboard.press(" ");
@@ -221,6 +226,8 @@ test("it plays, pauses and scrubs", async () => {
     await page.locator("body").press("Home");
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
     assert.notDeepEqual(await page.locator(".stage canvas").screenshot(), before, "the wall does not move");
+    await page.locator(".peak").click();
+    assert.equal(await clock.textContent(), `t = ${time[peak].toFixed(3)} s`);
     assert.deepEqual(problems, []);
 });
 

@@ -32,6 +32,10 @@ export class Store {
     baseMoves = false;
     hover: Item | null = null;
     selected: Item[] = [];
+    /** Frame with the largest displacement of a block, as far as frames show it. */
+    readonly peakFrame: number;
+    /** Whether the time is still the one at which the page opened. */
+    private untouched = true;
     private readonly listeners: Record<Topic, (() => void)[]> = { frame: [], play: [], view: [], hover: [], selection: [] };
     private readonly peaks = new Map<Quantity, number>();
 
@@ -39,6 +43,11 @@ export class Store {
         this.moment = new Moment(report);
         const when = report.frames.count > 0 ? "moment" : "peak";
         this.paint = QUANTITIES.find((q) => q.owner === "block" && q.when === when) as Quantity;
+        const channel = report.channel("peak/displacement");
+        const sizes = channel < 0 ? new Float64Array(1) : report.atFrames(channel);
+        this.peakFrame = sizes.reduce((best, size, k) => (size > sizes[best] ? k : best), 0);
+        // A wall at rest says nothing: the page opens at its largest displacement, and plays from the start.
+        this.moment.frame = this.peakFrame;
     }
 
     on(topic: Topic, listener: () => void): void {
@@ -60,6 +69,7 @@ export class Store {
     /** Goes to a frame; beyond the ends, to the end. */
     go(frame: number): void {
         const last = this.report.frames.count - 1;
+        this.untouched = false;
         const at = Math.max(0, Math.min(last, Math.round(frame)));
         if (at !== this.moment.frame && last >= 0) {
             this.moment.frame = at;
@@ -72,7 +82,7 @@ export class Store {
     }
 
     play(on: boolean): void {
-        if (on && this.frame >= this.report.frames.count - 1) {
+        if (on && (this.untouched || this.frame >= this.report.frames.count - 1)) {
             this.go(0);
         }
         this.playing = on && this.report.frames.count > 1;

@@ -32,7 +32,9 @@ pub fn check(root: &Path) -> Outcome {
     for name in ["app.js", "app.css"] {
         let bytes = |folder: &Path| fs::read(folder.join(name)).map_err(|e| format!("{name}: {e}"));
         if bytes(&fresh)? != bytes(&root.join(BUNDLE))? {
-            return Err(format!("{BUNDLE}/{name} is not what {SOURCES}/ builds to: run `cargo xtask report-ui`, commit it"));
+            return Err(format!(
+                "{BUNDLE}/{name} is not what {SOURCES}/ builds to: run `cargo xtask report-ui`, commit it"
+            ));
         }
     }
     println!("{BUNDLE} is current");

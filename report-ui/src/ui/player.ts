@@ -31,8 +31,12 @@ export class Player {
         } }, ...SPEEDS.map((s) => h("option", { value: s, selected: s === store.speed }, speedText(s))));
         const step = (label: string, sign: string, by: number) =>
             h("button", { type: "button", class: "step", "aria-label": label, title: label, "onclick": () => this.step(by) }, sign);
+        const peak = h("button", { type: "button", class: "peak", title: "To the largest displacement of a block", "onclick": () => {
+            store.play(false);
+            store.go(store.peakFrame);
+        } }, "peak");
         this.element.append(
-            this.button, step("One frame back", "‹", -1), step("One frame on", "›", 1), this.slider, this.clock,
+            this.button, step("One frame back", "‹", -1), step("One frame on", "›", 1), peak, this.slider, this.clock,
             h("label", { class: "field" }, h("span", {}, "speed"), speeds),
         );
         store.on("frame", () => this.show());

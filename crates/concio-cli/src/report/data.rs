@@ -149,7 +149,10 @@ impl Buckets {
         if self.buckets == 0 {
             return time.to_vec();
         }
-        (0..self.buckets).flat_map(|b| self.ends(b).into_iter().take(1).chain([self.middle(b)])).map(|s| time[s]).collect()
+        (0..self.buckets)
+            .flat_map(|b| self.ends(b).into_iter().take(1).chain([self.middle(b)]))
+            .map(|s| time[s])
+            .collect()
     }
     fn middle(&self, bucket: usize) -> usize {
         let [start, end] = self.ends(bucket);

@@ -65,7 +65,9 @@ impl Pack {
 /// What one step of a row is worth: a power of two, so that multiples of it are exact.
 fn quantum(row: &[f64]) -> f64 {
     let largest = row.iter().filter(|v| v.is_finite()).fold(0.0, |m: f64, v| m.max(v.abs()));
-    if largest == 0.0 { 1.0 } else { 2f64.powi(largest.log2().ceil() as i32 - (BITS as i32 - 2)) }
+    // Powers below that are no normal numbers; motions so small are none.
+    let exponent = (largest.log2().ceil() as i32).max(-900) - (BITS as i32 - 2);
+    if largest == 0.0 { 1.0 } else { 2f64.powi(exponent) }
 }
 
 fn steps(value: f64, quantum: f64) -> i64 {
@@ -99,7 +101,8 @@ mod tests {
     #[test]
     fn rows_without_size_and_values_that_are_not_finite() {
         assert_eq!(back(0.0, &[0.0, 0.0]), 0.0);
-        assert_eq!(back(1e-300, &[1e-300]), 1e-300);
+        assert_eq!(back(1e-300, &[1e-300]), 0.0);
+        assert_eq!(back(2f64.powi(-899), &[2f64.powi(-899)]), 2f64.powi(-899));
         assert_eq!(steps(f64::NAN, quantum(&[f64::NAN, 1.0])), NOT_FINITE);
         assert_eq!(steps(f64::INFINITY, 1.0), NOT_FINITE);
     }

@@ -62,8 +62,11 @@ fn unchosen(name: &str, input: &RecordInput, folder: &Path) -> Result<Option<Str
         return Ok(None);
     }
     let channels = record::read(&folder.join(&input.record), &TextOptions::from(input))?.len();
-    let warning =
-        || format!("motion.{name}: the record has {channels} channels and none is chosen: the first is taken (`channel = 1`)");
+    let warning = || {
+        format!(
+            "motion.{name}: the record has {channels} channels and none is chosen: the first is taken (`channel = 1`)"
+        )
+    };
     Ok((channels > 1).then(warning))
 }
 
