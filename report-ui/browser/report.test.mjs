@@ -168,6 +168,20 @@ test("selected blocks and joints have histories with the numbers of the result a
     assert.ok(Math.abs(seconds - 0.25 * time.at(-1)) < 0.02 * time.at(-1), `the click went to ${seconds} s`);
     const frame = time.findIndex((t) => Math.abs(t - seconds) < 5e-4);
     await assertTable(page.locator(`[data-item="joint/${joint}"]`), truth, "joint", joint, frame);
+    // Shift and a drag enlarge, a double click shows all again; the time stays.
+    const [left, right] = [0.4, 0.6].map((part) => area.x + part * area.width);
+    const span = () => page.evaluate(() => window.concioReport.span());
+    const whole = await span();
+    await page.keyboard.down("Shift");
+    await page.mouse.move(left, area.y + 40);
+    await page.mouse.down();
+    await page.mouse.move(right, area.y + 60, { steps: 3 });
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+    assert.ok((await span()) < 0.25 * whole, "the stretch is not enlarged");
+    await page.mouse.dblclick(left, area.y + 40);
+    assert.equal(await span(), whole);
+    await goTo(page, frame);
     // A click in a phase portrait goes to the point nearest to it.
     const portrait = await plots.first().locator(".u-over").nth(1).boundingBox();
     await page.mouse.click(portrait.x + 2, portrait.y + 0.5 * portrait.height);

@@ -55,15 +55,19 @@ function build(host: HTMLElement): void {
     const right = h("div", { class: "right" }, find, new Cards(store).element);
     const wall = h("section", { id: "wall" }, h("h2", {}, "The wall"), h("div", { class: "columns" }, left, right));
     host.append(wall);
+    let span = () => 0;
     if (moving) {
         const responses = (["block", "joint"] as const).map((owner) => new Response(store, owner));
-        host.append(h("section", { id: "selected" }, h("h2", {}, "What is selected, over time"), ...responses.map((r) => r.element)));
+        const hint = "A click in a plot moves the time; dragging with Shift enlarges a stretch of time, a double click shows all again.";
+        const head = [h("h2", {}, "What is selected, over time"), h("p", { class: "small" }, hint)];
+        host.append(h("section", { id: "selected" }, ...head, ...responses.map((r) => r.element)));
         responses.forEach((response) => response.render());
+        span = () => responses[0].span;
     }
     host.append(...overview(store));
     addButtons(document);
-    // For measurements of the time a picture takes.
-    Object.assign(window, { concioReport: { store, stage } });
+    // For measurements of the time a picture takes, and for tests.
+    Object.assign(window, { concioReport: { store, stage, span } });
 }
 
 const host = document.getElementById("app");

@@ -1,4 +1,4 @@
-/** Curves over time with a line at the moment; a click or a drag moves the moment. */
+/** Curves over time with a line at the moment; a click or a drag moves the moment, with Shift it enlarges a stretch. */
 
 import uPlot from "uplot";
 import { h } from "../dom";
@@ -27,7 +27,12 @@ export class TimePlot {
         const options: Omit<uPlot.Options, "width" | "height"> = {
             legend: { show: false },
             padding: [8, 12, 0, 0],
-            cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
+            cursor: {
+                y: false,
+                points: { show: false },
+                drag: { x: true, y: false, setScale: true },
+                bind: { mousedown: (_, __, handler) => (event) => (event.shiftKey ? handler(event) : null) },
+            },
             scales: { x: { time: false }, y: { range: (_, low, high) => range(low, high) } },
             axes: [axis("time", "s", 1, { size: 34 }), axis(label, unit, top, UPRIGHT)],
             // Scales are settled with the first drawing only.
@@ -39,8 +44,15 @@ export class TimePlot {
         this.panel.place.setAttribute("role", "img");
         this.panel.place.setAttribute("aria-label", `${this.title} over time: ${curves.map((c) => c.name || label).join(", ")}`);
         this.plot.over.append(this.now);
+        this.plot.over.style.overflow = "hidden";
         this.follow(this.plot);
         this.update();
+    }
+
+    /** Length of time shown [s]. */
+    get span(): number {
+        const { min, max } = this.plot?.scales.x ?? {};
+        return (max ?? 0) - (min ?? 0);
     }
 
     private follow(plot: uPlot): void {
@@ -49,11 +61,13 @@ export class TimePlot {
             this.store.goToTime(plot.posToVal(left, "x"));
         };
         plot.over.addEventListener("pointerdown", (event) => {
-            this.store.play(false);
-            go(event);
+            if (!event.shiftKey) {
+                this.store.play(false);
+                go(event);
+            }
         });
         plot.over.addEventListener("pointermove", (event) => {
-            if (event.buttons === 1) {
+            if (event.buttons === 1 && !event.shiftKey) {
                 go(event);
             }
         });

@@ -48,6 +48,11 @@ export class Response {
         return h("label", { class: "field" }, h("span", {}, label), select);
     }
 
+    /** Length of time that the histories show [s]. */
+    get span(): number {
+        return this.time.span;
+    }
+
     render(): void {
         const { store, owner } = this;
         const members = store.of(owner);
