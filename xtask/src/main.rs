@@ -22,6 +22,7 @@ cargo xtask docs       make the generated documents (docs/cli.md, docs/wall.sche
 cargo xtask examples   run every wall file in examples/
 cargo xtask links      check the links of the documents
 cargo xtask report-ui  build the program of the interactive report into the tree (needs Node.js)
+cargo xtask report-ui-check   its bundle is current, its tests pass, a browser shows the numbers of the result
 cargo xtask peers      compare with CVODE";
 
 fn main() -> ExitCode {
@@ -33,6 +34,7 @@ fn main() -> ExitCode {
         "examples" => build(&root).and_then(|()| examples::run_all(&root)),
         "links" => links::check(&root),
         "report-ui" => report_ui::build(&root),
+        "report-ui-check" => build(&root).and_then(|()| report_ui::check(&root)),
         "peers" => build(&root).and_then(|()| peers::compare(&root)),
         _ => Err(USAGE.into()),
     };
