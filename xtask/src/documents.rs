@@ -1,5 +1,6 @@
 //! Documents that are made by the program itself, so that they cannot disagree with it.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,8 +8,20 @@ use std::process::Command;
 use crate::command::{Outcome, read};
 use crate::concio;
 
+/// Figures of docs/figures.md: example, options, name of the picture. Not compared by [`check`]: where joints stick and
+/// slip a run ends elsewhere with another mathematical library.
+const FIGURES: [(&str, &str, &str); 6] = [
+    ("02-driven-top", "--figure deformed", "deformed"),
+    ("02-driven-top", "--figure phase --blocks p1c6b4,p1c2b1", "phase"),
+    ("02-driven-top", "--figure joint-histories --joints p1c6b4|p1c6b5,p1c5b3|p1c5b4", "joint-histories"),
+    ("02-driven-top", "--figure peak-acceleration", "peak-acceleration"),
+    ("04-two-panels", "--figure top-force", "top-force"),
+    ("01-first-wall", "--figure energies", "energies"),
+];
+
 /// Makes all of them.
 pub fn make(root: &Path) -> Outcome {
+    figures(root)?;
     for (path, text) in all(root)? {
         let file = root.join(path);
         if let Some(folder) = file.parent() {
@@ -58,6 +71,24 @@ fn all(root: &Path) -> Result<[(&'static str, String); 3], String> {
         ("docs/wall.schema.json", print(&["schema"])?),
         ("docs/img/first-wall.svg", drawing(root)?),
     ])
+}
+
+/// The pictures of docs/figures.md.
+fn figures(root: &Path) -> Outcome {
+    let folder = root.join("target").join("figures");
+    for example in FIGURES.map(|f| f.0).iter().collect::<BTreeSet<_>>() {
+        let wall = root.join("examples").join(format!("{example}.toml"));
+        read(Command::new(concio(root)).arg("run").arg(wall).arg("--fresh").arg("--out").arg(folder.join(example)))?;
+    }
+    for (example, options, name) in FIGURES {
+        let run = folder.join(example);
+        read(Command::new(concio(root)).arg("plot").arg(&run).args(options.split(' ')))?;
+        let drawn = run.join("figures").join(format!("{name}.svg"));
+        let path = format!("docs/img/{name}.svg");
+        fs::copy(&drawn, root.join(&path)).map_err(|e| format!("{}: {e}", drawn.display()))?;
+        println!("{path}");
+    }
+    Ok(())
 }
 
 /// The picture of the README.

@@ -10,6 +10,7 @@ mod commands;
 mod digest;
 mod draw;
 mod failure;
+mod figures;
 mod files;
 mod format;
 mod motion;
