@@ -6,6 +6,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 
 mod args;
+mod cases;
 mod commands;
 mod digest;
 mod draw;

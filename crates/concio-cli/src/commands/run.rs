@@ -36,8 +36,9 @@ pub fn run(args: &Run) -> Result<ExitCode, Failure> {
     }
     let finished = simulate(&prepared, &out)?;
     let joints = concio::run::joint_rows(&prepared.model);
-    let source = (args.file.as_deref(), file.text());
-    let report = report::write(&out, &report::Content::of_run(&out, &prepared, &joints, &finished, source))?;
+    let mut content = report::Content::of_run(&out, &prepared, &joints, &finished, file.text());
+    content.command = Some(report::command(args.file.as_deref(), &out));
+    let report = report::write(&out, &content)?;
     let stopped = finished.outcome.stop_reason != StopReason::Completed;
     tell(&finished, &prepared, &report)?;
     Ok(if stopped { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS })
@@ -66,7 +67,7 @@ fn default_folder(file: Option<&Path>) -> PathBuf {
 }
 
 /// A message in the words of the command line, before anything is made.
-fn refuse_a_file(out: &Path) -> Result<(), Failure> {
+pub fn refuse_a_file(out: &Path) -> Result<(), Failure> {
     if out.exists() && !out.is_dir() {
         let error = concio::InputError::new("the folder for the results is a file").in_file(out);
         return Err(error.help("give another folder with --out").into());

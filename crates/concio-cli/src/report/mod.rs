@@ -40,19 +40,20 @@ pub struct Content<'a> {
 }
 
 impl<'a> Content<'a> {
-    /// Of a run that has just ended: of the wall file `file` with content `text`, `joints` those of its model.
+    /// Of a run that has just ended: `joints` are those of its model, `text` is its wall file. The command is the caller's
+    /// to add.
     pub fn of_run(
         out: &Path,
         prepared: &'a Prepared,
         joints: &'a [JointRow],
         finished: &'a Finished,
-        (file, text): (Option<&Path>, &'a str),
+        text: &'a str,
     ) -> Self {
         Content {
             name: name(out),
             case: prepared.case.clone(),
             text: Some(text),
-            command: Some(command(file, out)),
+            command: None,
             wall: &prepared.model.wall,
             joints,
             outcome: &finished.outcome,
@@ -83,8 +84,8 @@ impl<'a> Content<'a> {
     }
 }
 
-/// What was typed, as a shell takes it.
-fn command(file: Option<&Path>, out: &Path) -> String {
+/// What was typed to run `file`, or the built-in example, as a shell takes it.
+pub fn command(file: Option<&Path>, out: &Path) -> String {
     let words = file.into_iter().chain([Path::new("--out"), out]);
     let quoted = words.map(|word| {
         let word = word.display().to_string();
