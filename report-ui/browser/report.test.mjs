@@ -306,7 +306,7 @@ test("the wall is enlarged by keys, wheel and buttons, and drags; blocks are fou
     await page.keyboard.press("+");
     assert.equal(await factor(), "× 2.3");
     const clock = await page.locator(".clock").textContent();
-    const block = "p1c4b2";
+    const block = "p1c4b3";
     const [x, y] = await locate(page, "block", block);
     await page.keyboard.press("ArrowRight");
     assert.equal(await page.locator(".clock").textContent(), clock, "the arrow keys shift the enlarged wall, not the time");
@@ -365,6 +365,7 @@ test("it is laid out anew for paper, and for the window again", async () => {
     }));
     const drawn = (await widths()).length;
     const before = (await widths())[0];
+    const wide = await page.locator(".stage canvas").boundingBox();
     await page.emulateMedia({ media: "print" });
     await page.waitForFunction((drawn) => document.querySelectorAll(".uplot").length > drawn, drawn);
     assert.ok((await page.evaluate(() => document.body.getBoundingClientRect().width)) <= 186 / 25.4 * 96 + 1);
@@ -374,7 +375,8 @@ test("it is laid out anew for paper, and for the window again", async () => {
     const canvas = await page.locator(".stage canvas").boundingBox();
     assert.ok(canvas.width <= 703, `${canvas.width} px of wall`);
     await page.emulateMedia({ media: "screen" });
-    assert.deepEqual((await widths())[0], before);
+    await page.waitForFunction((width) => document.querySelector(".uplot").getBoundingClientRect().width === width, before[0]);
+    await page.waitForFunction((width) => document.querySelector(".stage canvas").getBoundingClientRect().width === width, wide.width);
     assert.deepEqual(problems, []);
 });
 

@@ -9,8 +9,10 @@ const DRAG = 5;
 /** Way of the wheel that enlarges by e [px]. */
 const WHEEL = 400;
 
+const HINT = "The wheel with Ctrl, or without once the wall is clicked; two fingers; the keys +, − and 0. An enlarged wall is dragged.";
+
 export class Zoom {
-    readonly element = h("div", { class: "zoom", role: "group", "aria-label": "Size of the wall" });
+    readonly element = h("div", { class: "zoom", role: "group", "aria-label": "Size of the wall", title: HINT });
     private readonly factor = h("output", { class: "factor" });
     /** Pointers that are down, by their numbers. */
     private readonly down = new Map<number, [number, number]>();
