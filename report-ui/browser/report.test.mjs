@@ -261,7 +261,7 @@ test("everything can be reached with the keyboard, and focus is seen", async () 
         assert.notEqual(outline, "none", `focus on ${name} is not seen`);
         reached.add(name.replace(/^Wall of.*/, "wall").replace(/^(colour by|displacements|history of|speed).*/, "$1"));
     }
-    for (const name of ["wall", "Play", "Time", "Speed", "colour by", "displacements", "Choose blocks and joints from a list", "history of"]) {
+    for (const name of ["wall", "Larger", "Whole wall", "Play", "Time", "Speed", "colour by", "displacements", "Choose blocks and joints from a list", "history of"]) {
         assert.ok(reached.has(name), `${name} is not reached: ${[...reached].join("; ")}`);
     }
     const clock = page.locator(".clock");

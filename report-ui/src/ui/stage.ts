@@ -16,6 +16,8 @@ import { Zoom } from "./zoom";
 const [MANY, LONG] = [150, 1.9];
 /** Height of the wall on paper, at most [px]. */
 const ON_PAPER = 430;
+/** Change of the height allowed that the wall is not fitted anew for: the bars of a phone's browser come and go [px]. */
+const SLIGHT = 100;
 
 export class Stage {
     readonly element = h("div", { class: "stage" });
@@ -100,7 +102,7 @@ export class Stage {
     private resize(): void {
         const width = Math.floor(this.element.clientWidth);
         const most = isPrinting() ? ON_PAPER : Math.min(900, Math.max(220, 0.72 * window.innerHeight));
-        if (width === 0 || (width === this.size[0] && most === this.most)) {
+        if (width === 0 || (width === this.size[0] && Math.abs(most - this.most) < SLIGHT)) {
             return;
         }
         this.most = most;
