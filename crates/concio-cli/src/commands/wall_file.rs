@@ -18,7 +18,9 @@ pub fn read(path: &Path) -> Result<CaseFile, Failure> {
 
 /// Lays the wall, compiles the system, reads the records.
 pub fn prepare(file: &CaseFile) -> Result<Prepared, Failure> {
-    Ok(run::prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)))?)
+    let mut prepared = run::prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)))?;
+    prepared.model.warnings.splice(0..0, file.unit_doubts());
+    Ok(prepared)
 }
 
 /// What moves the wall: names and values.

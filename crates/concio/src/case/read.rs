@@ -80,6 +80,12 @@ impl CaseFile {
     pub fn validate(&self) -> Result<()> {
         self.findings().into_iter().next().map_or(Ok(()), |e| Err(e.into()))
     }
+    /// One sentence for each peak acceleration that is written without a unit and so small that it was hardly meant in
+    /// m/s²: `pga = 0.3`. Beside the doubts that [`crate::run::prepare`] has of the values alone, which do not know
+    /// whether there was a unit.
+    pub fn unit_doubts(&self) -> Vec<String> {
+        plausible::bare_accelerations(&self.tree)
+    }
     /// The blocks of the wall ([`crate::pattern::lay`]), with file and line in errors.
     pub fn wall(&self) -> Result<Wall> {
         crate::pattern::lay(&self.case).map_err(|e| self.locate(e))
