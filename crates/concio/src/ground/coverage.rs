@@ -75,8 +75,8 @@ fn unchosen(name: &str, input: &RecordInput, folder: &Path) -> Result<Option<Str
     Ok((channels > 1).then(warning))
 }
 
-/// A record that is used as a whole is judged by its user, who sees the same in `concio record`; what `trim` and
-/// `baseline` make of it is seen nowhere else. A displacement history may end where it likes.
+/// A motion is judged as it moves the wall, after `trim`, `baseline` and scaling: `concio record` sees only the file. A
+/// displacement history may end where it likes.
 fn drifting(name: &str, record: &Record) -> Option<String> {
     if record.displacement.is_some() {
         return None;
