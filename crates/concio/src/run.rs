@@ -277,7 +277,8 @@ fn large_slips(model: &Model, outcome: &Outcome) -> Option<String> {
 
 /// Whether friction did work although no joint with friction ever passed its slip velocity: creep of the regularised law.
 pub fn only_creeps(joints: &[JointRow], outcome: &Outcome) -> bool {
-    let mut laws = joints.iter().zip(&outcome.envelopes.joint_velocity).filter_map(|(j, v)| j.friction.map(|f| (f, *v)));
+    let mut laws =
+        joints.iter().zip(&outcome.envelopes.joint_velocity).filter_map(|(j, v)| j.friction.map(|f| (f, *v)));
     outcome.energies.friction > 0.0 && laws.all(|(law, velocity)| velocity <= law.slip_velocity)
 }
 

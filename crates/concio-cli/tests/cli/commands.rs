@@ -142,7 +142,7 @@ Small wall
   joints  number                stiffness  friction         normal force
   base         2               108.0 MN/m     0.600             2.568 kN
   bed         12               51.84 MN/m     0.600  [..]
-  head         6               54.00 GN/m         –                    –
+  head         6       54.00 GN/m (κ K_V)         –                    –
   top          3  51.84 MN/m … 108.0 MN/m     0.600  1.200 kN … 2.500 kN
   all         23
 

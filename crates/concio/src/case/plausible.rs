@@ -5,8 +5,8 @@
 
 use std::f64::consts::PI;
 
-use super::{Beam, Case, FrictionChange, Panel, Signal, SpringChange};
 use super::node::{Node, Value};
+use super::{Beam, Case, FrictionChange, Panel, Signal, SpringChange};
 use crate::quantity::shown;
 
 /// What a quantity is expected to be, in SI.

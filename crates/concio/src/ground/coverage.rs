@@ -13,6 +13,9 @@ const SLACK: f64 = 1e-6;
 /// Displacement at the end of a motion, over its largest, from which it is called drift; `concio record` uses the same.
 pub const DRIFT: f64 = 0.5;
 
+/// Displacement [m] at the end of a motion below which nobody minds.
+const SMALLEST_DRIFT: f64 = 0.01;
+
 /// How a run of `duration` [s] covers a record.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Coverage {
@@ -83,7 +86,7 @@ fn drifting(name: &str, record: &Record) -> Option<String> {
     }
     let m = measure(record);
     let (end, peak) = (m.final_displacement, m.pgd.value.abs());
-    (end.abs() > DRIFT * peak && peak > 0.0).then(|| {
+    (end.abs() > DRIFT * peak && end.abs() > SMALLEST_DRIFT).then(|| {
         format!(
             "the motion of the {name} as processed drifts: its displacement ends at {:.0} mm, its largest is {:.0} mm; \
              `baseline = {{ high_pass = \"0.1 Hz\" }}` takes that away (the acceleration is hardly touched)",
