@@ -174,7 +174,7 @@ help: give another folder with --out
 
 "#]]);
     desk.concio("run wall.toml --out wall.toml/deeper").assert().code(1).stdout_eq(str![""]);
-    desk.concio("check wall.toml --svg no/such/folder/wall.svg").assert().code(1);
+    desk.concio("check wall.toml --svg no/such/folder/wall.svg").assert().code(2);
     assert_eq!(desk.list(), ["wall.toml"]);
 }
 
