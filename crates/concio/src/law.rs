@@ -5,6 +5,8 @@
 
 use std::f64::consts::FRAC_2_PI;
 
+use crate::elementary::{atan_of_positive, exp_of_negative};
+
 /// Velocity-dependent dry friction (6).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stribeck {
@@ -22,14 +24,14 @@ pub struct Stribeck {
 
 impl Stribeck {
     /// μ(v) and dμ/dv [s/m] at v [m/s]; odd in v.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, v: f64) -> (f64, f64) {
         let speed = v.abs();
         let steep = self.beta / self.slip_velocity;
         let z = speed * steep;
-        let decay = (self.static_ - self.dynamic) * (-speed / self.slip_velocity).exp();
+        let decay = (self.static_ - self.dynamic) * exp_of_negative(speed / self.slip_velocity);
         let level = decay + self.dynamic;
-        let angle = FRAC_2_PI * z.atan();
+        let angle = FRAC_2_PI * atan_of_positive(z);
         let value = angle * level + self.alpha * speed * speed;
         let slope =
             FRAC_2_PI * steep / (1.0 + z * z) * level - angle * decay / self.slip_velocity + 2.0 * self.alpha * speed;

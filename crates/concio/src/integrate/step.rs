@@ -145,7 +145,7 @@ impl Step {
                 }
             }
         }
-        self.stage.matrix.solve(&mut self.error_v);
+        self.stage.solve_linear(&mut self.error_v);
         let (mut worst, mut sum) = (0.0f64, 0.0);
         for (ev, ez) in self.error_v.iter().zip(&self.error_z) {
             let ez = ez + tau * ev;
