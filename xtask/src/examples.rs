@@ -27,7 +27,8 @@ pub fn run_all(root: &Path) -> Outcome {
     Ok(())
 }
 
-fn wall_files(root: &Path) -> Result<Vec<PathBuf>, String> {
+/// The wall files of examples/, in order.
+pub fn wall_files(root: &Path) -> Result<Vec<PathBuf>, String> {
     let folder = root.join("examples");
     let entries = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut files: Vec<PathBuf> = entries.filter_map(|e| e.ok().map(|e| e.path())).filter(|p| is_wall(p)).collect();

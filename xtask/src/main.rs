@@ -6,19 +6,27 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 mod api;
+mod cases;
 mod command;
 mod documents;
+mod equations;
 mod examples;
+mod gallery;
 mod links;
 mod peers;
 mod python;
+mod shown;
+mod symbols;
 
 use command::{Outcome, cargo, run};
 
 const USAGE: &str = "\
 cargo xtask ci         everything that CI does
-cargo xtask docs       make the generated documents (docs/cli.md, docs/wall.schema.json, docs/img)
+cargo xtask docs       make the generated documents (reference, schema, symbols, gallery, pictures)
+cargo xtask cases      run the cases of the report anew; docs/report-cases.md and its pictures follow from them
 cargo xtask examples   run every wall file in examples/
+cargo xtask shown      try the wall files and commands that documents show
+cargo xtask equations  check the numbers of equations
 cargo xtask links      check the links of the documents
 cargo xtask peers      compare with CVODE";
 
@@ -27,8 +35,11 @@ fn main() -> ExitCode {
     let task = std::env::args().nth(1).unwrap_or_default();
     let outcome = match task.as_str() {
         "ci" => ci(&root),
+        "cases" => build(&root).and_then(|()| cases::make(&root)).and_then(|()| documents::make(&root)),
         "docs" => build(&root).and_then(|()| documents::make(&root)),
         "examples" => build(&root).and_then(|()| examples::run_all(&root)),
+        "shown" => build(&root).and_then(|()| shown::check(&root)),
+        "equations" => equations::check(&root),
         "links" => links::check(&root),
         "peers" => build(&root).and_then(|()| peers::compare(&root)),
         _ => Err(USAGE.into()),

@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
+use concio::quantity::{Length, Time};
+
+use crate::figures::{DOUBLE, Instant, SINGLE};
 
 /// In-plane earthquake response of block masonry.
 ///
@@ -36,6 +39,7 @@ pub enum Command {
     System(System),
     Export(Export),
     Plot(Plot),
+    Cases(Cases),
     Completions(Completions),
     /// Print this reference as Markdown.
     #[command(hide = true)]
@@ -207,17 +211,186 @@ pub struct Export {
     pub out: Option<PathBuf>,
 }
 
-/// Draw the report of a result again.
+/// Draw figures of a result for print, or its report again.
 ///
-/// Makes report.html anew from result.h5 and summary.json, for example after an update of Concio.
+/// Without --figure, report.html is made anew from result.h5 and summary.json, for example after an update of Concio.
+/// With --figure, figures are drawn into DIR/figures, sized for a column of a journal; docs/figures.md shows them all.
+/// A figure that is asked for by name and cannot be made is an error; of `all`, those that can be made are.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Example:
-  concio plot concio-run/wall")]
+Examples:
+  concio plot concio-run/wall                                      the report
+  concio plot concio-run/wall --figure all                         every figure, SVG in concio-run/wall/figures
+  concio plot concio-run/wall --figure deformed --at \"1.25 s\" --scale 5000 --format pdf
+  concio plot concio-run/wall --figure phase --blocks p1c6b1,p1c3b2 --width double
+  concio plot concio-run/wall --figure joint-histories --joints \"p1c3b1|p1c3b2\" --from \"2 s\" --to \"3 s\"")]
 pub struct Plot {
     /// Folder of a run.
     #[arg(value_hint = ValueHint::DirPath)]
     pub dir: PathBuf,
+    /// Figure to draw; may be given several times or with commas between names.
+    #[arg(long, value_name = "NAME", value_enum, value_delimiter = ',')]
+    pub figure: Vec<Figures>,
+    /// Format of the files: SVG with letters as outlines, PNG, PDF.
+    #[arg(long, value_enum, default_value = "svg", requires = "figure")]
+    pub format: Format,
+    /// Folder for the figures; default DIR/figures.
+    #[arg(short, long, value_name = "FOLDER", value_hint = ValueHint::DirPath, requires = "figure")]
+    pub out: Option<PathBuf>,
+    /// Instant of deformed and acceleration, such as "1.25 s", or peak: that of the largest displacement, of
+    /// acceleration that of the largest relative acceleration.
+    #[arg(long, value_name = "TIME", value_parser = instant, default_value = "peak", requires = "figure")]
+    pub at: Instant,
+    /// How many times larger displacements are drawn; default a round number that shows them.
+    #[arg(long, value_name = "FACTOR", value_parser = positive, requires = "figure")]
+    pub scale: Option<f64>,
+    /// Blocks of phase, by name, with commas between them; default those that moved most.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "figure")]
+    pub blocks: Vec<String>,
+    /// Joints of joint-phase, joint-histories and hysteresis, by name; default those that moved or dissipated most.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "figure")]
+    pub joints: Vec<String>,
+    /// Start of the time shown, such as "2 s".
+    #[arg(long, value_name = "TIME", value_parser = time, requires = "figure")]
+    pub from: Option<f64>,
+    /// End of the time shown.
+    #[arg(long, value_name = "TIME", value_parser = time, requires = "figure")]
+    pub to: Option<f64>,
+    /// Width in print: single (85 mm), double (180 mm), or a length of 40 mm to 400 mm such as "120 mm".
+    #[arg(long, value_parser = width, default_value = "single", requires = "figure")]
+    pub width: f64,
+    /// Resolution of PNG [pixels per inch], 50 to 1200.
+    #[arg(long, value_name = "DPI", value_parser = clap::value_parser!(u32).range(50..=1200), default_value = "300", requires = "figure")]
+    pub dpi: u32,
+}
+
+/// What `--figure` takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Figures {
+    /// One figure.
+    One(Figure),
+    /// Every figure that can be made.
+    All,
+}
+
+impl ValueEnum for Figures {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [Figures; 11] = [
+            Figures::One(Figure::Deformed),
+            Figures::One(Figure::Phase),
+            Figures::One(Figure::JointPhase),
+            Figures::One(Figure::JointHistories),
+            Figures::One(Figure::PeakAcceleration),
+            Figures::One(Figure::Acceleration),
+            Figures::One(Figure::Hysteresis),
+            Figures::One(Figure::TopForce),
+            Figures::One(Figure::Energies),
+            Figures::One(Figure::Motion),
+            Figures::All,
+        ];
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
+        match self {
+            Figures::One(figure) => figure.to_possible_value(),
+            Figures::All => Some(clap::builder::PossibleValue::new("all").help("Every figure that can be made")),
+        }
+    }
+}
+
+/// The figures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Figure {
+    /// The wall at an instant, displacements enlarged, over its outline at rest.
+    Deformed,
+    /// Velocity over displacement of blocks, relative to the base.
+    Phase,
+    /// Relative velocity over relative displacement of joints.
+    JointPhase,
+    /// Relative displacement of neighbouring blocks over time.
+    JointHistories,
+    /// Joints coloured by their peak relative acceleration over the largest of all.
+    PeakAcceleration,
+    /// Joints coloured by their relative acceleration at an instant over the largest in the whole history.
+    Acceleration,
+    /// Friction force over slip of joints.
+    Hysteresis,
+    /// Force of the top beam over its displacement.
+    TopForce,
+    /// Energies by mechanism over time.
+    Energies,
+    /// Motion of base and driven beam, and response spectrum with 5 % damping.
+    Motion,
+}
+
+impl Figure {
+    /// Its name on the command line and, with an ending, that of its file.
+    pub fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |v| v.get_name().into())
+    }
+}
+
+/// Formats of figures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Vectors for text processors and browsers.
+    Svg,
+    /// Pixels.
+    Png,
+    /// Vectors for LaTeX and journals; text can be selected.
+    Pdf,
+}
+
+fn time(text: &str) -> Result<f64, String> {
+    Time::parse(text).map(Time::si)
+}
+
+fn instant(text: &str) -> Result<Instant, String> {
+    if text == "peak" { Ok(Instant::Peak) } else { time(text).map(Instant::At) }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(v) if v > 0.0 && v.is_finite() => Ok(v),
+        _ => Err("allowed: a number above 0".into()),
+    }
+}
+
+/// In millimetres.
+fn width(text: &str) -> Result<f64, String> {
+    let width = match text {
+        "single" => SINGLE,
+        "double" => DOUBLE,
+        length => 1e3 * Length::parse(length).map_err(|why| format!("{why}; also single, double"))?.si(),
+    };
+    if (40.0..=400.0).contains(&width) { Ok(width) } else { Err("allowed: 40 mm to 400 mm, single, double".into()) }
+}
+
+/// Run the cases of the research report and answer its findings.
+///
+/// The five cases of the report's parametric analyses (its Figures 22 to 27) are built in; their wall files are those of
+/// examples/report. Each is run under several settings of what the report does not print, and each again with changes too
+/// small to mean anything, because stick-slip makes single trajectories chaotic. Every finding of the report is answered
+/// yes or no with the numbers that decide; docs/report-cases.md explains them.
+///
+/// Writes a folder per case as `concio run` does, findings.json and findings.md. What is done is not done again: after
+/// Ctrl-C or a kill the same command goes on.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio cases
+  concio cases --figures --out report-cases")]
+pub struct Cases {
+    /// Folder of the results.
+    #[arg(short, long, value_name = "DIR", default_value = "concio-run/report-cases", value_hint = ValueHint::DirPath)]
+    pub out: PathBuf,
+    /// Draw what the report's Figures 22 to 27 show, as SVG in DIR/figures.
+    #[arg(long)]
+    pub figures: bool,
+    /// Print the tables of a findings.json as Markdown and run nothing.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["out", "figures"])]
+    pub tables: Option<PathBuf>,
 }
 
 /// Print the completions of a shell.

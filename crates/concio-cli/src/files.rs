@@ -23,8 +23,8 @@ pub fn note(text: &str) {
 }
 
 /// Writes a file under a temporary name and renames it: a reader never sees half of it.
-pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    let written = temporary(path, text).and_then(|file| file.persist(path).map_err(|e| e.error));
+pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<(), Failure> {
+    let written = temporary(path, content.as_ref()).and_then(|file| file.persist(path).map_err(|e| e.error));
     written.map(drop).map_err(|e| Error::io(path, e).into())
 }
 
@@ -50,7 +50,7 @@ pub fn guard(out: &Path, ending: &str, inputs: &[&Path]) -> Result<(), Failure> 
 
 /// As [`write`], but a file of that name is an error.
 pub fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
-    let written = temporary(path, text).and_then(|file| file.persist_noclobber(path).map_err(|e| e.error));
+    let written = temporary(path, text.as_bytes()).and_then(|file| file.persist_noclobber(path).map_err(|e| e.error));
     match written {
         Ok(_) => Ok(()),
         Err(e) if e.kind() == ErrorKind::AlreadyExists => {
@@ -61,7 +61,7 @@ pub fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
     }
 }
 
-fn temporary(path: &Path, text: &str) -> io::Result<tempfile::NamedTempFile> {
+fn temporary(path: &Path, content: &[u8]) -> io::Result<tempfile::NamedTempFile> {
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
@@ -71,7 +71,7 @@ fn temporary(path: &Path, text: &str) -> io::Result<tempfile::NamedTempFile> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
     let mut file = builder.tempfile_in(folder)?;
-    file.write_all(text.as_bytes())?;
+    file.write_all(content)?;
     file.as_file().sync_all()?;
     Ok(file)
 }

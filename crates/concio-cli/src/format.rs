@@ -15,6 +15,14 @@ pub fn si(value: f64, unit: &str) -> String {
     }
 }
 
+/// As [`si`], without zeros behind the last digit: `15 ms`.
+pub fn short(value: f64, unit: &str) -> String {
+    let text = si(value, unit);
+    let (number, unit) = text.split_once(' ').unwrap_or((&text, ""));
+    let number = if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number };
+    format!("{number} {unit}")
+}
+
 /// Decimal notation with that many significant digits.
 pub fn significant(value: f64, digits: i32) -> String {
     if value == 0.0 || !value.is_finite() {

@@ -6,10 +6,12 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 
 mod args;
+mod cases;
 mod commands;
 mod digest;
 mod draw;
 mod failure;
+mod figures;
 mod files;
 mod format;
 mod motion;

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 pub(crate) mod de;
 mod forms;
 mod node;
+pub mod plausible;
 mod read;
 mod sets;
 mod templates;

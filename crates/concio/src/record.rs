@@ -128,7 +128,7 @@ pub struct Envelopes {
     pub joint_dissipation: Vec<f64>,
 }
 
-/// The energy account at one instant [J]; all work is done in coordinates relative to the base.
+/// The energy account (7) at one instant [J]; all work is done in coordinates relative to the base.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energies {
     /// Work of the base motion (inertia forces −m a on the relative motion).

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::error::Result;
 use crate::model::Model;
 
-/// The system in coordinates relative to the base: masses, joints, motion (the format is fixed in docs/system.md).
+/// The system (1) in coordinates relative to the base: masses, joints, motion (the format is fixed in docs/system.md).
 ///
 /// # Errors
 /// A driven top on a moving base: the format has one motion for the top and it is relative to the base.

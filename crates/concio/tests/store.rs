@@ -3,6 +3,7 @@
 mod store_sample;
 
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
@@ -83,6 +84,34 @@ fn equal_runs_give_equal_bytes() {
         export::npz(&run, &folder.path().join(name)).unwrap();
         assert_eq!(fs::read(folder.path().join(name)).unwrap(), fs::read(folder.path().join("1.npz")).unwrap(), "{k}");
     }
+}
+
+/// Panels, friction and all else of the wall are in the archive as in the HDF5 file.
+#[test]
+fn an_archive_holds_the_whole_wall() {
+    let folder = tempfile::tempdir().unwrap();
+    let (result, archive) = (folder.path().join("result.h5"), folder.path().join("result.npz"));
+    write(&result, &sample(SMALL));
+    let run = hdf5::read(&result).unwrap();
+    export::npz(&run, &archive).unwrap();
+    let mut zip = zip::ZipArchive::new(fs::File::open(&archive).unwrap()).unwrap();
+    let mut numbers = |name: &str| -> Vec<f64> {
+        let mut bytes = Vec::new();
+        zip.by_name(&format!("{name}.npy")).unwrap().read_to_end(&mut bytes).unwrap();
+        npyz::NpyFile::new(&bytes[..]).unwrap().into_vec().unwrap()
+    };
+    let panels = &run.wall.panels;
+    let lengths: Vec<f64> = panels.iter().map(|p| p.reference_length).collect();
+    assert_eq!(numbers("wall/panels/reference_length"), lengths);
+    let connections: Vec<f64> = panels.iter().map(|p| p.connection).collect();
+    assert_eq!(numbers("wall/panels/connection"), connections);
+    let static_: Vec<f64> = run.joints.iter().map(|j| j.friction.map_or(0.0, |f| f.static_)).collect();
+    assert_eq!(numbers("wall/joints/friction_static"), static_);
+    let mut rubs = Vec::new();
+    zip.by_name("wall/joints/friction.npy").unwrap().read_to_end(&mut rubs).unwrap();
+    let rubs: Vec<u8> = npyz::NpyFile::new(&rubs[..]).unwrap().into_vec().unwrap();
+    let expected: Vec<u8> = run.joints.iter().map(|j| u8::from(j.friction.is_some())).collect();
+    assert!(rubs == expected && rubs.contains(&0) && rubs.contains(&1), "{rubs:?}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use crate::args::Command;
 use crate::failure::Failure;
 
+mod cases;
 mod check;
 mod completions;
 mod export;
@@ -21,6 +22,7 @@ mod wall_file;
 pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
     match command {
         Command::Run(args) => return run::run(&args),
+        Command::Cases(args) => return cases::cases(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(_) => schema::schema(),

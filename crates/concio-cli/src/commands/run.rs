@@ -64,7 +64,7 @@ fn default_folder(file: Option<&Path>) -> PathBuf {
 }
 
 /// A message in the words of the command line, before anything is made.
-fn refuse_a_file(out: &Path) -> Result<(), Failure> {
+pub fn refuse_a_file(out: &Path) -> Result<(), Failure> {
     if out.exists() && !out.is_dir() {
         let error = concio::InputError::new("the folder for the results is a file").in_file(out);
         return Err(error.help("give another folder with --out").into());

@@ -1,10 +1,15 @@
 //! Curves over time or period, drawn by kuva. Curves of one figure differ in dash pattern, not in colour alone.
 
+use std::sync::Arc;
+
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::{LegendPosition, LinePlot, LineStyle};
-use kuva::render::layout::Layout;
+use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
+
+use super::scale::logarithmic_label;
+use super::thin;
 
 /// Width of a figure [px].
 const WIDTH: f64 = 900.0;
@@ -67,7 +72,8 @@ pub fn draw(figure: &Figure) -> String {
     let (prefix, factor) = prefix(largest, figure.unit);
     let mut plots = Vec::new();
     for (curve, (colour, dashes)) in figure.curves.iter().zip(STYLES.iter().cycle()) {
-        let points: Vec<(f64, f64)> = thin(curve.x, curve.y).into_iter().map(|(x, y)| (x, y / factor)).collect();
+        let points: Vec<(f64, f64)> =
+            thin::columns(curve.x, curve.y, COLUMNS).into_iter().map(|(x, y)| (x, y / factor)).collect();
         if points.is_empty() {
             continue;
         }
@@ -106,7 +112,9 @@ pub fn draw(figure: &Figure) -> String {
         layout = layout.with_x_axis_min(low).with_x_axis_max(high);
     }
     if figure.logarithmic && low > 0.0 {
-        layout = layout.with_log_x();
+        // Plain decimals: the library would write 1e-1.
+        let format = move |v: f64| logarithmic_label(v, [low, high]);
+        layout = layout.with_log_x().with_x_tick_format(TickFormat::Custom(Arc::new(format)));
     }
     if largest == 0.0 {
         // A curve that is zero throughout has no range of its own.
@@ -130,26 +138,8 @@ pub fn stack(figures: &[String]) -> String {
     )
 }
 
-/// Points that look the same as all: of every column of pixels the first, lowest, highest and last.
-fn thin(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
-    let points: Vec<(f64, f64)> =
-        x.iter().copied().zip(y.iter().copied()).filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
-    if points.len() <= 2 * COLUMNS {
-        return points;
-    }
-    let mut kept = Vec::with_capacity(2 * COLUMNS + 2);
-    for column in 0..COLUMNS {
-        let part = &points[column * points.len() / COLUMNS..(column + 1) * points.len() / COLUMNS];
-        let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
-        let (Some(low), Some(high)) = (part.iter().min_by(by_value), part.iter().max_by(by_value)) else { continue };
-        kept.extend(if low.0 <= high.0 { [*low, *high] } else { [*high, *low] });
-    }
-    kept.extend(points.last());
-    kept
-}
-
 /// The decimal prefix that brings `largest` between 1 and 1000, and its factor.
-fn prefix(largest: f64, unit: &str) -> (&'static str, f64) {
+pub fn prefix(largest: f64, unit: &str) -> (&'static str, f64) {
     const PREFIXES: [(&str, f64); 7] =
         [("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)];
     // Accelerations are read in m/s² whatever their size, and numbers without unit bear no prefix.
@@ -181,17 +171,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn thinning_keeps_every_peak() {
-        let x: Vec<f64> = (0..100_000).map(f64::from).collect();
-        let mut y = vec![0.0; x.len()];
-        (y[31_415], y[92_653]) = (7.0, -3.0);
-        let kept = thin(&x, &y);
-        assert!(kept.len() <= 2 * COLUMNS + 1);
-        assert!(kept.contains(&(31_415.0, 7.0)) && kept.contains(&(92_653.0, -3.0)));
-        assert!(kept.windows(2).all(|w| w[0].0 <= w[1].0));
-    }
-
-    #[test]
     fn figures_of_nothing_and_of_what_is_not_finite_are_drawn() {
         let figure = |x: &'static [f64], y: &'static [f64]| Figure {
             title: "t",
@@ -207,5 +186,20 @@ mod tests {
             assert!(draw(&figure(x, y)).starts_with("<svg viewBox="));
         }
         assert!(draw(&figure(&[0.0, 1.0], &[0.0, 3e-6])).contains("displacement [µm]"));
+    }
+
+    #[test]
+    fn numbers_of_logarithmic_axes_are_decimals() {
+        let svg = draw(&Figure {
+            title: "",
+            x_label: "period [s]",
+            quantity: "pseudo-acceleration",
+            unit: "m/s²",
+            curves: vec![Curve { name: "", x: &[0.02, 0.1, 10.0], y: &[1.0, 3.0, 0.1] }],
+            height: 300.0,
+            right: NO_LEGEND,
+            logarithmic: true,
+        });
+        assert!(svg.contains(">0.1<") && svg.contains(">10<") && !svg.contains("1e"), "{svg}");
     }
 }

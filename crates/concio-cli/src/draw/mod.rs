@@ -1,7 +1,12 @@
 //! Figures as SVG: the wall by own hand, curves by the plotting library.
 
+pub mod chart;
 pub mod curves;
-mod svg;
+pub mod font;
+pub mod output;
+pub mod scale;
+pub mod svg;
+pub mod thin;
 pub mod wall;
 
 pub use svg::escape;

@@ -89,6 +89,11 @@ impl Canvas {
         );
     }
 
+    /// The elements alone.
+    pub fn into_body(self) -> String {
+        self.body
+    }
+
     /// The whole drawing.
     pub fn finish(self, [width, height]: [f64; 2], label: &str) -> String {
         let (w, h) = (px(width), px(height));

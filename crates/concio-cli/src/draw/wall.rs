@@ -7,6 +7,10 @@ use concio::wall::{Joint, Wall};
 use super::svg::{Anchor, Canvas, line, px, rectangle};
 use crate::format::si;
 
+/// Colour of bricks.
+pub const BRICK: &str = "#f4d9c0";
+/// Colour of bricks beside coloured joints.
+pub const LIGHT: &str = "#fbf6f1";
 /// Largest size of the wall itself [px].
 const LARGEST: [f64; 2] = [820.0, 620.0];
 /// Room around it for dimensions and legend [px]: left, top, right, bottom.
@@ -126,13 +130,7 @@ impl View {
 
 fn supports(canvas: &mut Canvas, view: &View, subject: &Subject) {
     let [left, right, base] = [view.x(view.bounds[0]), view.x(view.bounds[2]), view.y(view.bounds[1])];
-    let mut hatch = line([left - 6.0, base, right + 6.0, base]);
-    let mut x = left;
-    while x <= right + 4.0 {
-        hatch.push_str(&line([x, base, x - 6.0, base + 7.0]));
-        x += 8.0;
-    }
-    canvas.path(&hatch, r##"fill="none" stroke="#222" stroke-width="1""##, Some("base"));
+    ground(canvas, [left, right, base], 1.0);
     let tops = subject.joints.iter().filter(|j| j.kind == JointKind::Top);
     let ends = tops.fold([f64::INFINITY, f64::NEG_INFINITY], |e, j| [e[0].min(j.line[0]), e[1].max(j.line[2])]);
     if ends[0] < ends[1] {
@@ -141,6 +139,17 @@ fn supports(canvas: &mut Canvas, view: &View, subject: &Subject) {
         canvas.path(&rectangle(beam), r##"fill="#d8d8d8" stroke="#222" stroke-width="1""##, Some(subject.beam));
         label(canvas, beam, 11.0, false, "#111", subject.beam);
     }
+}
+
+/// The base under a wall from left to right; `size` makes the hatching coarser.
+pub fn ground(canvas: &mut Canvas, [left, right, base]: [f64; 3], size: f64) {
+    let mut hatch = line([left - 6.0 * size, base, right + 6.0 * size, base]);
+    let mut x = left;
+    while x <= right + 4.0 * size {
+        hatch.push_str(&line([x, base, x - 6.0 * size, base + 7.0 * size]));
+        x += 8.0 * size;
+    }
+    canvas.path(&hatch, &format!(r##"fill="none" stroke="#222" stroke-width="{}""##, px(size)), Some("base"));
 }
 
 /// A rectangle around each panel.
@@ -206,7 +215,7 @@ fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
         };
         let (fill, letters) = match fraction(i) {
             Some(f) => (shade(f), if f > 0.55 { "#fff" } else { "#111" }),
-            None => ("#f4d9c0".into(), "#111"),
+            None => (BRICK.into(), "#111"),
         };
         canvas.path(&rectangle(outline(i)), &attributes(&fill), Some(&title));
         label(canvas, outline(i), LETTERS[1], false, letters, &block.name);
@@ -311,7 +320,7 @@ fn dimensions(canvas: &mut Canvas, view: &View) {
 }
 
 /// The largest of 1, 2, 5 times a power of ten not above `length`.
-fn round_length(length: f64) -> f64 {
+pub fn round_length(length: f64) -> f64 {
     let power = 10f64.powf(length.log10().floor());
     [5.0, 2.0, 1.0].into_iter().map(|m| m * power).find(|l| *l <= length * 1.000_001).unwrap_or(power)
 }
@@ -375,7 +384,7 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 /// Colour of a fraction 0 … 1 of the largest value; the brightness falls steadily.
-fn shade(fraction: f64) -> String {
+pub fn shade(fraction: f64) -> String {
     let f = if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 1.0 };
     format!("#{:x}", colorous::YELLOW_ORANGE_RED.eval_continuous(0.06 + 0.94 * f))
 }
@@ -388,7 +397,7 @@ fn shades(fractions: impl Iterator<Item = Option<f64>>) -> Vec<(String, Vec<usiz
         classes[class].push(i);
     }
     let colour =
-        |class: usize| if class == SHADES { "#f4d9c0".into() } else { shade((class as f64 + 0.5) / SHADES as f64) };
+        |class: usize| if class == SHADES { BRICK.into() } else { shade((class as f64 + 0.5) / SHADES as f64) };
     classes.into_iter().enumerate().filter(|(_, m)| !m.is_empty()).map(|(c, m)| (colour(c), m)).collect()
 }
 

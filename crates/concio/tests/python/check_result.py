@@ -262,11 +262,11 @@ def check_npz(path, file):
                 equal(np.array([t.decode() for t in array]), np.array(file[name].asstr()[()]), f"npz: {name}")
             else:
                 equal(array, file[name][()], f"npz: {name}")
-        tops = ["case", "wall/blocks", "wall/joints", "history", "frames", "envelope", "energy", "totals", "counters"]
+        tops = ["case", "wall", "history", "frames", "envelope", "energy", "totals", "counters"]
         wanted = []
         file.visititems(lambda name, item: wanted.append(name) if isinstance(item, h5py.Dataset) else None)
         wanted = {w for w in wanted if any(w == top or w.startswith(top + "/") for top in tops)}
-        missing = wanted - set(archive.files) - {"wall/joints/friction"}
+        missing = wanted - set(archive.files)
         require(not missing, f"npz: {sorted(missing)} missing")
 
 

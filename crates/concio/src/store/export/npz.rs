@@ -87,6 +87,7 @@ fn fill(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
     archive.texts("inputs_hash", &[&provenance.inputs_hash])?;
     archive.texts("stop_reason", &[keyword(&run.outcome.stop_reason)])?;
     fill_blocks(archive, run)?;
+    fill_panels(archive, run)?;
     fill_joints(archive, run)?;
     fill_recording(archive, run)?;
     fill_sums(archive, run)
@@ -101,6 +102,13 @@ fn fill_blocks(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
     columns(archive, "wall/blocks", &fields::BLOCKS, blocks)
 }
 
+fn fill_panels(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
+    let panels = &run.wall.panels;
+    archive.texts("wall/panels/name", &panels.iter().map(|p| &p.name).collect::<Vec<_>>())?;
+    archive.integers("wall/panels/courses", panels.iter().map(|p| p.courses as i64))?;
+    columns(archive, "wall/panels", &fields::PANELS, panels)
+}
+
 fn fill_joints(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
     let joints = &run.joints;
     archive.texts("wall/joints/name", &joints.iter().map(|j| &j.name).collect::<Vec<_>>())?;
@@ -109,6 +117,7 @@ fn fill_joints(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
     archive.integers("wall/joints/a", joints.iter().map(|j| j.joint.a as i64))?;
     archive.integers("wall/joints/b", joints.iter().map(|j| other_side(j.joint.b)))?;
     columns(archive, "wall/joints", &fields::JOINTS, joints)?;
+    archive.array("wall/joints/friction", &[joints.len()], joints.iter().map(|j| u8::from(j.friction.is_some())))?;
     let friction: Vec<FrictionRow> = joints.iter().map(|j| j.friction.unwrap_or(NO_FRICTION)).collect();
     archive.texts("wall/joints/friction_law", &friction.iter().map(|f| keyword(&f.law)).collect::<Vec<_>>())?;
     columns(archive, "wall/joints", &fields::FRICTION, &friction)

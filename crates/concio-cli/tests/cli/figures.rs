@@ -1,0 +1,163 @@
+//! `concio plot --figure` as a user types it.
+
+use std::fs;
+
+use resvg::usvg::{Options, Tree};
+
+use crate::support::{Desk, WALL};
+
+const NAMES: [&str; 10] = [
+    "deformed",
+    "phase",
+    "joint-phase",
+    "joint-histories",
+    "peak-acceleration",
+    "acceleration",
+    "hysteresis",
+    "top-force",
+    "energies",
+    "motion",
+];
+
+/// A desk with a result in `r`.
+fn drawn_from(wall: &str) -> Desk {
+    let desk = Desk::new();
+    desk.put("wall.toml", wall);
+    desk.concio("run wall.toml --out r").assert().success();
+    desk
+}
+
+fn told(done: &snapbox::cmd::OutputAssert) -> [String; 2] {
+    let output = done.get_output();
+    [&output.stdout, &output.stderr].map(|b| String::from_utf8_lossy(b).into_owned())
+}
+
+#[test]
+fn every_figure_is_drawn_and_listed() {
+    let desk = drawn_from(WALL);
+    let [listed, _] = told(&desk.concio("plot r --figure all").assert().success());
+    let expected: Vec<String> = NAMES.iter().map(|n| format!("r/figures/{n}.svg")).collect();
+    assert_eq!(listed.lines().collect::<Vec<_>>(), expected);
+    for (name, words) in [
+        ("deformed", &["t = ", "displacements × ", "wall: 100 mm"][..]),
+        ("phase", &["displacement [", "velocity [mm/s]", "(a) p1c4b"]),
+        ("joint-phase", &["slip [", "gap [", "velocity [mm/s]"]),
+        ("joint-histories", &["gap [", "time [", "head joint"]),
+        ("peak-acceleration", &["relative acceleration [1], 1 = ", " m/s²", "peak over the whole history"]),
+        ("acceleration", &["relative acceleration [1], 1 = ", "t = "]),
+        ("hysteresis", &["friction force [kN]", "slip ["]),
+        ("top-force", &["force of top beam [kN]", "displacement of top beam ["]),
+        ("energies", &["energy [", "time [", "work done", "friction"]),
+        ("motion", &["acceleration [m/s²]", "period [s]", "top beam, relative to the base"]),
+    ] {
+        let svg = desk.get(&format!("r/figures/{name}.svg"));
+        let tree = Tree::from_str(&svg, &Options::default()).expect(name);
+        // 85 mm at 96 px to the inch.
+        assert!((tree.size().width() - 321.26).abs() < 0.01, "{name}: {}", tree.size().width());
+        for word in words {
+            assert!(svg.contains(word), "{name}: {word}");
+        }
+        // Letters are outlines: no program needs a font to show the file.
+        assert!(!svg.contains("<text") && !svg.contains("font"), "{name}");
+    }
+}
+
+#[test]
+fn the_report_is_made_without_a_figure() {
+    let desk = drawn_from(WALL);
+    fs::remove_file(desk.path("r/report.html")).expect("the report");
+    desk.concio("plot r").assert().success();
+    assert!(desk.path("r/report.html").exists() && !desk.path("r/figures").exists());
+    let [_, error] = told(&desk.concio("plot r --scale 5").assert().code(2));
+    assert!(error.contains("--figure"), "{error}");
+}
+
+#[test]
+fn instant_and_scale_are_printed_in_the_figure() {
+    let desk = drawn_from(WALL);
+    let plot = |more: &[&str]| {
+        desk.concio("plot r --figure deformed").args(more.iter().copied()).assert().success();
+        desk.get("r/figures/deformed.svg")
+    };
+    let svg = plot(&["--at", "20 ms", "--scale", "5000"]);
+    assert!(svg.contains("t = 0.02 s") && svg.contains("displacements × 5000"), "{:.600}", svg);
+    assert!(plot(&["--scale", "1"]).contains("displacements to scale"));
+    // The same run, the same bytes.
+    assert_eq!(plot(&["--width", "double"]), plot(&["--width", "180 mm"]));
+}
+
+#[test]
+fn files_have_the_size_asked_for() {
+    let desk = drawn_from(WALL);
+    desk.concio("plot r --figure energies,top-force --format png --width double --dpi 150 --out p").assert().success();
+    let png = fs::read(desk.path("p/energies.png")).expect("a PNG");
+    assert!(png.starts_with(b"\x89PNG\r\n\x1a\n") && desk.path("p/top-force.png").exists());
+    // 180 mm at 150 pixels to the inch.
+    assert_eq!(png[16..20], 1063u32.to_be_bytes());
+    desk.concio("plot r --figure energies --format pdf --out p").assert().success();
+    let pdf = fs::read(desk.path("p/energies.pdf")).expect("a PDF");
+    assert!(pdf.starts_with(b"%PDF-") && pdf.trim_ascii_end().ends_with(b"%%EOF"));
+    let text = String::from_utf8_lossy(&pdf);
+    assert!(
+        text.contains("DejaVuSans") && !text.contains("/Subtype /Image"),
+        "vectors, and text in the font that is shipped"
+    );
+}
+
+#[test]
+fn what_cannot_be_drawn_says_what_to_do_and_leaves_nothing() {
+    let desk = drawn_from(WALL);
+    for (more, parts) in [
+        (&["--figure", "deformd"][..], &["deformed", "deformd"][..]),
+        (&["--figure", "phase", "--blocks", "p1c4b9"], &["no block is named `p1c4b9`", "did you mean `p1c4b"]),
+        (&["--figure", "all", "--joints", "nothing"], &["no joint is named `nothing`", "for example base|p1c1b1"]),
+        (&["--figure", "deformed", "--at", "9 s"], &["9 s is outside of the run", "allowed: 0 s to 0.05 s"]),
+        (&["--figure", "deformed", "--at", "9"], &["has no unit"]),
+        (&["--figure", "phase", "--from", "2 s"], &["--from", "allowed: a part of 0 s to 0.05 s"]),
+        (
+            &["--figure", "hysteresis", "--joints", "p1c1b1|p1c1b2"],
+            &["has no friction", "choose bed or support joints"],
+        ),
+        (&["--figure", "deformed", "--width", "5 mm"], &["allowed: 40 mm to 400 mm"]),
+    ] {
+        let [_, error] = told(&desk.concio("plot r").args(more.iter().copied()).assert().code(2));
+        for part in parts {
+            assert!(error.contains(part), "{more:?}: {part}\n{error}");
+        }
+        assert!(!desk.path("r/figures").exists(), "{more:?}");
+    }
+}
+
+#[test]
+fn all_leaves_out_what_the_run_did_not_keep() {
+    let free = WALL.replace("beam = \"driven\"", "beam = \"free\"");
+    let (head, _) = free.split_once("top = { sine").expect("the motion of the top");
+    let base = "base = { sine = { acceleration = \"0.3 g\", frequency = \"5 Hz\" } }\n[output]\nframes = 0\n";
+    let desk = drawn_from(&format!("{head}{base}"));
+    let [listed, notes] = told(&desk.concio("plot r --figure all").assert().success());
+    assert_eq!(
+        listed.lines().collect::<Vec<_>>(),
+        ["r/figures/peak-acceleration.svg", "r/figures/energies.svg", "r/figures/motion.svg"]
+    );
+    for part in
+        ["note: left out: figure deformed: the run kept no frames", "figure top-force: the wall has no top beam"]
+    {
+        assert!(notes.contains(part), "{part}\n{notes}");
+    }
+    let [_, error] = told(&desk.concio("plot r --figure phase").assert().code(2));
+    assert!(error.contains("the run kept no frames") && error.contains("blocks = ["), "{error}");
+    let [_, error] = told(&desk.concio("plot r --figure top-force").assert().code(2));
+    assert!(error.contains("beam = \"driven\""), "{error}");
+}
+
+/// Blocks and joints of the wall file are drawn from every sample; of others a note says how to have them.
+#[test]
+fn frames_are_told_from_samples() {
+    let wall = format!("{WALL}\n[output]\nblocks = [\"p1c4b1\"]\n");
+    let desk = drawn_from(&wall);
+    let [_, notes] = told(&desk.concio("plot r --figure phase").assert().success());
+    assert_eq!(notes, "");
+    assert!(desk.get("r/figures/phase.svg").contains("<desc>") && desk.get("r/figures/phase.svg").contains("p1c4b1"));
+    let [_, notes] = told(&desk.concio("plot r --figure phase --blocks p1c1b1").assert().success());
+    assert!(notes.contains("drawn from frames") && notes.contains("blocks = [\"p1c1b1\"]"), "{notes}");
+}

@@ -1,0 +1,208 @@
+//! Numbers that are allowed but hardly meant: a bare number is in SI, so `length = 300` is a brick of 300 m.
+//!
+//! The limits are generous on purpose: whatever has been built or tested lies within. A number outside is a warning and
+//! no error, because nothing but its size speaks against it.
+
+use std::f64::consts::PI;
+
+use super::{Beam, Case, FrictionChange, Panel, Signal, SpringChange};
+use crate::quantity::shown;
+
+/// What a quantity is expected to be, in SI.
+struct Expected {
+    /// Limits beyond which a warning is due.
+    limits: [f64; 2],
+    /// What it mostly is: a guess at what was meant lies in here.
+    usual: [f64; 2],
+    /// Unit of the limits in a message.
+    unit: &'static str,
+    /// Mistakes of unit: factor on the number as it was read, unit in which the guess is written, that unit in SI.
+    slips: &'static [(f64, &'static str, f64)],
+}
+
+const FROM_MM: (f64, &str, f64) = (1e-3, "mm", 1e-3);
+const FROM_CM: (f64, &str, f64) = (1e-2, "cm", 1e-2);
+
+/// Brick lengths and heights: from a chip of stone to the largest ashlar.
+const BRICK: Expected =
+    Expected { limits: [5e-3, 5.0], usual: [0.03, 2.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
+/// Joints: 0 is a dry wall, more than 100 mm is no joint.
+const MORTAR: Expected = Expected { limits: [1e-4, 0.1], usual: [1e-3, 0.05], unit: "m", slips: &[FROM_MM, FROM_CM] };
+/// A panel: no wall of one panel is a kilometre long.
+const PANEL: Expected =
+    Expected { limits: [0.05, 1e3], usual: [0.2, 100.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
+/// From the lightest aerated concrete, 2.5 kN/m³, to a block of steel, 78 kN/m³. Densities in kg/m³ fall below.
+const WEIGHT: Expected = Expected {
+    limits: [2.5e3, 1e5],
+    usual: [5e3, 3.5e4],
+    unit: "N/m3",
+    slips: &[(1e3, "kN/m3", 1e3), (crate::G, "kN/m3", 1e3), (1e-3, "kN/m3", 1e3)],
+};
+/// Rubber of 1 MPa, 10 mm thick, under half a brick has 5e5 N/m; steel of 1 mm over a metre has some 1e13 N/m.
+const STIFFNESS: Expected = Expected {
+    limits: [1e3, 1e13],
+    usual: [1e6, 1e10],
+    unit: "N/m",
+    slips: &[(1e6, "MN/m", 1e6), (1e3, "kN/m", 1e3), (1e-3, "N/m", 1.0)],
+};
+/// δ_v: faster than 0.1 m/s is beyond what joints reach in most earthquakes, so that they would never slip.
+const SLIP_VELOCITY: Expected =
+    Expected { limits: [1e-7, 0.1], usual: [1e-5, 0.02], unit: "m/s", slips: &[(1e-3, "mm/s", 1e-3)] };
+/// From a person on a metre of wall to 10 MPa on a wall of one metre.
+const LOAD: Expected =
+    Expected { limits: [1e2, 1e7], usual: [1e3, 2e6], unit: "N/m", slips: &[(1e3, "kN/m", 1e3), (1e-3, "kN/m", 1e3)] };
+/// A beam of the laboratory to the floors of a tower.
+const BEAM: Expected =
+    Expected { limits: [10.0, 1e7], usual: [100.0, 1e6], unit: "kg", slips: &[(1e3, "t", 1e3), (1e-3, "t", 1e3)] };
+/// The largest peak acceleration ever recorded is some 4 g.
+const SHAKING: Expected =
+    Expected { limits: [1e-4, 60.0], usual: [0.05, 20.0], unit: "m/s2", slips: &[(1e-2, "cm/s2", 1e-2)] };
+/// Ground displacements and strokes of actuators.
+const STROKE: Expected = Expected { limits: [1e-8, 3.0], usual: [1e-4, 0.5], unit: "m", slips: &[FROM_MM, FROM_CM] };
+/// Sample intervals of records.
+const INTERVAL: Expected =
+    Expected { limits: [1e-5, 0.2], usual: [1e-4, 0.05], unit: "s", slips: &[(1e-3, "ms", 1e-3)] };
+
+/// Coefficients of friction above this are rather angles in degrees.
+const LARGEST_FRICTION: f64 = 2.0;
+
+/// One sentence for each number of a valid case that is allowed but unlikely, in the order of the wall file.
+pub fn doubts(case: &Case) -> Vec<String> {
+    let mut doubts = Doubts(Vec::new());
+    for (index, panel) in case.panels.iter().enumerate() {
+        of_panel(&mut doubts, &format!("panel[{index}]"), panel);
+    }
+    of_joints(&mut doubts, case);
+    doubts.look("load.top", case.load.top.si(), &LOAD);
+    if let Beam::Mass(mass) = case.load.beam {
+        doubts.look("load.beam.mass", mass.si(), &BEAM);
+    }
+    of_signal(&mut doubts, "motion.base", &case.motion.base);
+    of_signal(&mut doubts, "motion.top", &case.motion.top);
+    doubts.0
+}
+
+struct Doubts(Vec<String>);
+
+impl Doubts {
+    /// Zero is always meant.
+    fn look(&mut self, key: &str, value: f64, expected: &Expected) {
+        let [low, high] = expected.limits;
+        let size = value.abs();
+        if size == 0.0 || (low..=high).contains(&size) {
+            return;
+        }
+        let (than, limit) = if size < low { ("less", low) } else { ("more", high) };
+        let within = |v: f64| (expected.usual[0]..=expected.usual[1]).contains(&v);
+        let guess = expected.slips.iter().find(|(factor, ..)| within(size * factor));
+        let meant = guess.map_or(String::new(), |&(factor, unit, si)| {
+            format!("; did you mean \"{} {unit}\"?", shown(rounded(value * factor / si)))
+        });
+        let unit = expected.unit;
+        self.0.push(format!("{key} is {} {unit}, {than} than {} {unit}{meant}", shown(rounded(value)), shown(limit)));
+    }
+
+    fn look_at_friction(&mut self, key: &str, coefficient: f64) {
+        if coefficient > LARGEST_FRICTION {
+            let tangent = (coefficient < 90.0).then(|| (coefficient * PI / 180.0).tan());
+            let meant = tangent.map_or(String::new(), |t| {
+                format!("; did you mean {:.2}, the tangent of {} degrees?", t, shown(coefficient))
+            });
+            self.0.push(format!("{key} is {}, more than {LARGEST_FRICTION}{meant}", shown(coefficient)));
+        }
+    }
+}
+
+/// Six significant digits: conversions leave traces in the last ones.
+fn rounded(v: f64) -> f64 {
+    format!("{v:.5e}").parse().unwrap_or(v)
+}
+
+fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {
+    let brick = &panel.brick;
+    for (key, value) in [("length", brick.length), ("height", brick.height), ("thickness", brick.thickness)] {
+        doubts.look(&format!("{at}.brick.{key}"), value.si(), &BRICK);
+    }
+    doubts.look(&format!("{at}.brick.specific_weight"), brick.specific_weight.si(), &WEIGHT);
+    doubts.look(&format!("{at}.mortar.bed"), panel.mortar.bed.si(), &MORTAR);
+    doubts.look(&format!("{at}.mortar.head"), panel.mortar.head.si(), &MORTAR);
+    if let Some(connection) = panel.connection {
+        doubts.look(&format!("{at}.connection"), connection.si(), &MORTAR);
+    }
+    for (c, course) in panel.course_list.iter().enumerate() {
+        doubts.look(&format!("{at}.course[{c}].height"), course.height.si(), &BRICK);
+        for (b, length) in course.bricks.iter().enumerate() {
+            doubts.look(&format!("{at}.course[{c}].bricks[{b}]"), length.si(), &BRICK);
+        }
+    }
+    if let Some(random) = &panel.random {
+        doubts.look(&format!("{at}.random.width"), random.width.si(), &PANEL);
+        for (key, [low, high]) in [("length", random.length), ("height", random.height)] {
+            doubts.look(&format!("{at}.random.{key}[0]"), low.si(), &BRICK);
+            doubts.look(&format!("{at}.random.{key}[1]"), high.si(), &BRICK);
+        }
+    }
+    for (b, block) in panel.blocks.iter().enumerate() {
+        doubts.look(&format!("{at}.block[{b}].length"), block.length.si(), &BRICK);
+        doubts.look(&format!("{at}.block[{b}].height"), block.height.si(), &BRICK);
+        if let Some(weight) = block.specific_weight {
+            doubts.look(&format!("{at}.block[{b}].specific_weight"), weight.si(), &WEIGHT);
+        }
+    }
+}
+
+fn of_joints(doubts: &mut Doubts, case: &Case) {
+    let joint = &case.joint;
+    let others = [("base", joint.base), ("top", joint.top), ("connection", joint.connection)];
+    let springs = [("bed", Some(joint.bed)), ("head", Some(joint.head))].into_iter().chain(others);
+    for (kind, spring) in springs {
+        if let Some(spring) = spring {
+            doubts.look(&format!("joint.{kind}.stiffness"), spring.stiffness.si(), &STIFFNESS);
+        }
+    }
+    doubts.look_at_friction("joint.friction.static", joint.friction.static_);
+    doubts.look("joint.friction.slip_velocity", joint.friction.slip_velocity.si(), &SLIP_VELOCITY);
+    for (index, change) in joint.changes.iter().enumerate() {
+        let at = format!("joint.change[{index}]");
+        if let Some(SpringChange { stiffness: Some(stiffness), .. }) = change.spring {
+            doubts.look(&format!("{at}.spring.stiffness"), stiffness.si(), &STIFFNESS);
+        }
+        if let Some(FrictionChange { static_: Some(coefficient), .. }) = change.friction {
+            doubts.look_at_friction(&format!("{at}.friction.static"), coefficient);
+        }
+        if let Some(FrictionChange { slip_velocity: Some(velocity), .. }) = change.friction {
+            doubts.look(&format!("{at}.friction.slip_velocity"), velocity.si(), &SLIP_VELOCITY);
+        }
+    }
+}
+
+fn of_signal(doubts: &mut Doubts, at: &str, signal: &Signal) {
+    match signal {
+        Signal::None => {}
+        Signal::Record(record) => {
+            if let Some(pga) = record.pga {
+                doubts.look(&format!("{at}.pga"), pga.si(), &SHAKING);
+            }
+            for (key, interval) in [("resample", record.resample), ("dt", record.dt)] {
+                if let Some(interval) = interval {
+                    doubts.look(&format!("{at}.{key}"), interval.si(), &INTERVAL);
+                }
+            }
+        }
+        Signal::Sine(sine) => {
+            if let Some(amplitude) = sine.amplitude {
+                doubts.look(&format!("{at}.sine.amplitude"), amplitude.si(), &STROKE);
+            }
+            if let Some(acceleration) = sine.acceleration {
+                doubts.look(&format!("{at}.sine.acceleration"), acceleration.si(), &SHAKING);
+            }
+        }
+        Signal::Ramp(ramp) => doubts.look(&format!("{at}.ramp.amplitude"), ramp.amplitude.si(), &STROKE),
+        Signal::Pulse(pulse) => doubts.look(&format!("{at}.pulse.acceleration"), pulse.acceleration.si(), &SHAKING),
+        Signal::Sweep(sweep) => doubts.look(&format!("{at}.sweep.acceleration"), sweep.acceleration.si(), &SHAKING),
+        Signal::Synthetic(synthetic) => {
+            doubts.look(&format!("{at}.synthetic.pga"), synthetic.pga.si(), &SHAKING);
+            doubts.look(&format!("{at}.synthetic.dt"), synthetic.dt.si(), &INTERVAL);
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Numbers that are allowed but hardly meant are told, with a guess at what was meant.
+
+use std::path::Path;
+
+use concio::case::plausible::doubts;
+use concio::case::{Case, Syntax, from_str, starter};
+
+const WALL: &str = r#"
+model = "shear"
+[[panel]]
+bond = "running"
+courses = 2
+bricks = 2
+brick = { length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18000 }
+mortar = { bed = 0.01, head = 0.01 }
+[joint]
+bed = { law = "elastic", stiffness = 5.4e7 }
+head = { law = "no-tension", stiffness = 5.4e7 }
+friction = { law = "stribeck", static = 0.6, dynamic = 0.4, slip_velocity = 0.001 }
+[load]
+top = 40000
+beam = { mass = 4000 }
+[motion]
+base = { synthetic = { seed = 1, pga = 3.0, duration = 5.0, dt = 0.005 } }
+"#;
+
+fn case(text: &str) -> Case {
+    let file = from_str(text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    file.validate().unwrap_or_else(|e| panic!("{e}\n{text}"));
+    file.case
+}
+
+#[test]
+fn an_ordinary_wall_raises_none() {
+    assert_eq!(doubts(&case(WALL)), Vec::<String>::new());
+    assert_eq!(doubts(&case(starter())), Vec::<String>::new());
+}
+
+/// Each number is one that engineers write when they forget that a bare number is in SI.
+#[test]
+fn each_mistake_of_unit_is_told_with_a_guess() {
+    for (right, wrong, told) in [
+        ("length = 0.25", "length = 300", "panel[0].brick.length is 300 m, more than 5 m; did you mean \"300 mm\"?"),
+        ("length = 0.25", "length = 25", "panel[0].brick.length is 25 m, more than 5 m; did you mean \"25 cm\"?"),
+        ("height = 0.055", "height = \"0.055 mm\"", "less than 0.005 m; did you mean \"0.055 m\"?"),
+        ("bed = 0.01", "bed = 10", "panel[0].mortar.bed is 10 m, more than 0.1 m; did you mean \"10 mm\"?"),
+        ("18000", "18", "specific_weight is 18 N/m3, less than 2500 N/m3; did you mean \"18 kN/m3\"?"),
+        ("18000", "1800", "specific_weight is 1800 N/m3, less than 2500 N/m3; did you mean \"17.658 kN/m3\"?"),
+        ("18000", "\"18000 kN/m3\"", "more than 100000 N/m3; did you mean \"18 kN/m3\"?"),
+        (
+            "stiffness = 5.4e7 }\nhead",
+            "stiffness = 54 }\nhead",
+            "joint.bed.stiffness is 54 N/m, less than 1000 N/m; did you mean \"54 MN/m\"?",
+        ),
+        (
+            "static = 0.6",
+            "static = 30",
+            "joint.friction.static is 30, more than 2; did you mean 0.58, the tangent of 30 degrees?",
+        ),
+        ("slip_velocity = 0.001", "slip_velocity = 1", "more than 0.1 m/s; did you mean \"1 mm/s\"?"),
+        ("top = 40000", "top = 40", "load.top is 40 N/m, less than 100 N/m; did you mean \"40 kN/m\"?"),
+        ("mass = 4000", "mass = 4", "load.beam.mass is 4 kg, less than 10 kg; did you mean \"4 t\"?"),
+        ("pga = 3.0", "pga = 300", "pga is 300 m/s2, more than 60 m/s2; did you mean \"300 cm/s2\"?"),
+        ("dt = 0.005", "dt = 0.5", "motion.base.synthetic.dt is 0.5 s, more than 0.2 s"),
+    ] {
+        assert!(WALL.contains(right), "{right}");
+        let found = doubts(&case(&WALL.replacen(right, wrong, 1)));
+        // 300 m of brick still make a wall: nothing else is doubted.
+        assert!(found.len() == 1 && found[0].contains(told), "{wrong}: {found:?}");
+    }
+}
+
+#[test]
+fn the_doubts_are_warnings_of_a_prepared_run() {
+    let prepared =
+        concio::run::prepare(case(&WALL.replace("mass = 4000", "mass = 4")), Path::new(".")).expect("a wall");
+    assert!(prepared.model.warnings.iter().any(|w| w.starts_with("load.beam.mass is 4 kg")));
+}

@@ -1,0 +1,61 @@
+//! docs/gallery.md: every wall file of examples/ with the drawing that the program makes of it.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::command::read;
+use crate::{concio, examples};
+
+const HEAD: &str = "\
+# Gallery
+
+<!-- Made by `cargo xtask docs`; change the comments in examples/ instead. -->
+
+The walls of [examples/](../examples/README.md), drawn by `concio check FILE --svg OUT`. Each can be run as it is, for
+instance `concio run examples/04-two-panels.toml`; the report of the run then shows how the wall moves. Lines are joints,
+coloured by kind; the block above is the top beam, what stands below the wall is its base.
+";
+
+/// The page and its pictures, as paths from the root with their content.
+pub fn make(root: &Path) -> Result<Vec<(String, String)>, String> {
+    let mut page = HEAD.to_string();
+    let mut files = Vec::new();
+    let scratch = root.join("target").join("gallery.svg");
+    for wall in examples::wall_files(root)? {
+        let name = wall.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let text = fs::read_to_string(&wall).map_err(|e| format!("{}: {e}", wall.display()))?;
+        let mut check = Command::new(concio(root));
+        read(check.arg("check").arg(&wall).arg("--svg").arg(&scratch).current_dir(root))?;
+        let picture = fs::read_to_string(&scratch).map_err(|e| format!("{}: {e}", scratch.display()))?;
+        let (title, about) = (title(&text), comment(&text));
+        let file = wall.file_name().unwrap_or_default().to_string_lossy();
+        page += &format!("\n## {title}\n\n![{title}](img/{name}.svg)\n\n{about} ([{file}](../examples/{file}))\n");
+        files.push((format!("docs/img/{name}.svg"), picture));
+    }
+    files.push(("docs/gallery.md".into(), page));
+    Ok(files)
+}
+
+/// The comment that the file opens with, as one paragraph.
+fn comment(text: &str) -> String {
+    let lines = text.lines().map_while(|l| l.strip_prefix('#')).map(str::trim);
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn title(text: &str) -> &str {
+    let titles = text.lines().filter_map(|l| l.strip_prefix("title = \""));
+    titles.filter_map(|t| t.strip_suffix('"')).next().unwrap_or("Untitled")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_example_tells_what_it_shows() {
+        let text = "# A first wall: six\n# courses.\ntitle = \"Brick panel\"\n# not this\n";
+        assert_eq!(comment(text), "A first wall: six\ncourses.");
+        assert_eq!(title(text), "Brick panel");
+    }
+}

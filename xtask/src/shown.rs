@@ -1,0 +1,180 @@
+//! What documents show is tried: wall files are valid, commands can be typed and print what is quoted.
+//!
+//! A block of TOML with `model` and `[[panel]]` is a wall file and is checked; where it begins with `# wall.toml` it also is
+//! the file of that name for the commands that follow. In a block marked `console` every line `$ concio …` is run in a
+//! folder of the document's own; the lines below it have to come in the output, in this order. `…` stands for what is
+//! left out: whole lines, or a part of one. Numbers that `concio run` prints are compared with a tolerance, because stick-slip
+//! amplifies the last digit of a machine's exponential.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::command::Outcome;
+use crate::concio;
+
+/// The record that the guide uses, from the root.
+pub const RECORD: &str = "docs/guide/quake.at2";
+
+/// Documents with wall files and commands, from the root.
+fn documents(root: &Path) -> Result<Vec<PathBuf>, String> {
+    let mut documents = vec![root.join("README.md"), root.join("docs/wall-file.md")];
+    for folder in ["docs/guide", "docs/howto"] {
+        let folder = root.join(folder);
+        let entries = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+        let mut found: Vec<PathBuf> = entries.filter_map(|e| e.ok().map(|e| e.path())).collect();
+        found.retain(|p| p.extension().is_some_and(|e| e == "md"));
+        found.sort();
+        documents.append(&mut found);
+    }
+    Ok(documents)
+}
+
+/// Tries all of them.
+pub fn check(root: &Path) -> Outcome {
+    let (mut walls, mut commands) = (0, 0);
+    for document in documents(root)? {
+        let text = fs::read_to_string(&document).map_err(|e| format!("{}: {e}", document.display()))?;
+        let name = document.strip_prefix(root).unwrap_or(&document).display().to_string();
+        let desk = desk(root, &name)?;
+        for block in blocks(&text) {
+            let tried = match block.language {
+                "toml" if is_wall(block.text) => {
+                    walls += 1;
+                    wall(root, &desk, block.text)
+                }
+                "console" => session(root, &desk, block.text).map(|n| commands += n),
+                _ => Ok(()),
+            };
+            tried.map_err(|why| format!("{name}, line {}: {why}", block.line))?;
+        }
+    }
+    println!("{walls} wall files and {commands} commands shown in documents hold");
+    if walls == 0 || commands == 0 { Err("the documents show no wall files or no commands".into()) } else { Ok(()) }
+}
+
+/// An empty folder with the guide's record in it.
+fn desk(root: &Path, name: &str) -> Result<PathBuf, String> {
+    let desk = root.join("target").join("shown").join(name.replace(['/', '.'], "-"));
+    let fail = |e: std::io::Error| format!("{}: {e}", desk.display());
+    if desk.exists() {
+        fs::remove_dir_all(&desk).map_err(fail)?;
+    }
+    fs::create_dir_all(&desk).map_err(fail)?;
+    fs::copy(root.join(RECORD), desk.join("quake.at2")).map_err(fail)?;
+    Ok(desk)
+}
+
+struct Block<'a> {
+    language: &'a str,
+    /// Line of its first line, from 1.
+    line: usize,
+    text: &'a str,
+}
+
+fn blocks(text: &str) -> Vec<Block<'_>> {
+    let mut blocks = Vec::new();
+    let mut line = 1;
+    for (k, part) in text.split("```").enumerate() {
+        if k % 2 == 1
+            && let Some((language, text)) = part.split_once('\n')
+        {
+            blocks.push(Block { language: language.trim(), line: line + 1, text });
+        }
+        line += part.matches('\n').count();
+    }
+    blocks
+}
+
+fn is_wall(text: &str) -> bool {
+    ["model = ", "[[panel]]"].iter().all(|start| text.lines().any(|l| l.starts_with(start)))
+}
+
+fn wall(root: &Path, desk: &Path, text: &str) -> Outcome {
+    let named = text.lines().next().and_then(|l| l.strip_prefix("# ")).filter(|n| n.ends_with(".toml"));
+    let name = named.unwrap_or("shown.toml");
+    fs::write(desk.join(name), text).map_err(|e| format!("{name}: {e}"))?;
+    let (said, status) = type_in(root, desk, &format!("check {name}"))?;
+    if status == Some(0) { Ok(()) } else { Err(format!("this wall file is wrong:\n{said}")) }
+}
+
+/// Runs the commands of a block; gives back how many there were.
+fn session(root: &Path, desk: &Path, text: &str) -> Result<usize, String> {
+    let mut count = 0;
+    for part in format!("\n{text}").split("\n$ ").skip(1) {
+        let (line, quoted) = part.split_once('\n').unwrap_or((part, ""));
+        let line = line.split(" #").next().unwrap_or(line).trim();
+        let Some(arguments) = line.strip_prefix("concio ") else { continue };
+        let (said, _) = type_in(root, desk, arguments)?;
+        let tolerance = if arguments.starts_with("run") { RUN_TOLERANCE } else { 0.0 };
+        missing(&said, quoted, tolerance)
+            .map_err(|lost| format!("`{line}` does not print `{lost}` (or not at this place), but:\n{said}"))?;
+        count += 1;
+    }
+    Ok(count)
+}
+
+fn type_in(root: &Path, desk: &Path, arguments: &str) -> Result<(String, Option<i32>), String> {
+    let mut command = Command::new(concio(root));
+    let output = command.args(arguments.split_whitespace()).current_dir(desk).env("NO_COLOR", "1").output();
+    let output = output.map_err(|e| format!("{}: {e}", concio(root).display()))?;
+    let said = String::from_utf8_lossy(&output.stderr) + String::from_utf8_lossy(&output.stdout);
+    Ok((said.into_owned(), output.status.code()))
+}
+
+/// Relative difference allowed between a number that a run prints and the one quoted.
+const RUN_TOLERANCE: f64 = 0.2;
+
+/// Equal word by word, numbers up to `tolerance`.
+fn alike(line: &str, quote: &str, tolerance: f64) -> bool {
+    let [line, quote] = [line, quote].map(|t| t.split_whitespace().collect::<Vec<_>>());
+    line.len() == quote.len() && line.iter().zip(&quote).all(|(a, b)| same_word(a, b, tolerance))
+}
+
+fn same_word(a: &str, b: &str, tolerance: f64) -> bool {
+    let number = |word: &str| word.trim_end_matches(',').parse::<f64>().ok();
+    match (number(a), number(b)) {
+        (Some(x), Some(y)) if tolerance > 0.0 => (x - y).abs() <= tolerance * x.abs().max(y.abs()),
+        _ => a == b,
+    }
+}
+
+/// The first quoted line that `said` does not hold after those before it.
+fn missing<'a>(said: &str, quoted: &'a str, tolerance: f64) -> Result<(), &'a str> {
+    let mut lines = said.lines().map(str::trim);
+    for quote in quoted.lines().map(str::trim).filter(|l| !l.is_empty() && *l != "…") {
+        let matches = |line: &str| match quote.split_once('…') {
+            Some((start, end)) => line.starts_with(start.trim_end()) && line.ends_with(end.trim_start()),
+            None => alike(line, quote, tolerance),
+        };
+        if !lines.any(matches) {
+            return Err(quote);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_have_a_language_and_a_line() {
+        let found = blocks("a\n```toml\nmodel = 1\n```\nb\n```console\n$ x\n```\n");
+        let found: Vec<_> = found.iter().map(|b| (b.language, b.line, b.text)).collect();
+        assert_eq!(found, [("toml", 3, "model = 1\n"), ("console", 7, "$ x\n")]);
+    }
+
+    #[test]
+    fn quotes_may_leave_out_but_not_invent() {
+        let said = "one\n  two  3 s\nfour\n";
+        assert_eq!(missing(said, "one\n…\nfour\n", 0.0), Ok(()));
+        assert_eq!(missing(said, "two …\n", 0.0), Ok(()));
+        assert_eq!(missing(said, "two … s\n", 0.0), Ok(()));
+        assert_eq!(missing(said, "two … m\n", 0.0), Err("two … m"));
+        assert_eq!(missing(said, "four\none\n", 0.0), Err("one"));
+        assert_eq!(missing(said, "three\n", 0.0), Err("three"));
+        assert_eq!(missing(said, "two 3.3 s\n", 0.2), Ok(()));
+        assert_eq!(missing(said, "two 3.3 s\n", 0.05), Err("two 3.3 s"));
+    }
+}

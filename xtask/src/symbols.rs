@@ -1,0 +1,188 @@
+//! docs/symbols.md: one table of the symbols, held against the sources, the schema and the equations that it names.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::equations;
+
+/// A symbol and where it is met.
+struct Symbol {
+    symbol: &'static str,
+    meaning: &'static str,
+    unit: &'static str,
+    /// Keys of the wall file, parted by blanks; none when it is computed.
+    keys: &'static str,
+    /// `file word`: a source of the engine and a word that stands in it.
+    code: &'static str,
+    /// Equations of docs/theory.md, or a section of it.
+    source: &'static str,
+}
+
+const fn row(
+    symbol: &'static str,
+    meaning: &'static str,
+    unit: &'static str,
+    keys: &'static str,
+    code: &'static str,
+    source: &'static str,
+) -> Symbol {
+    Symbol { symbol, meaning, unit, keys, code, source }
+}
+
+#[rustfmt::skip]
+const SYMBOLS: [Symbol; 47] = [
+    row("L", "length of the brick", "m", "panel.brick.length", "case.rs length", "section 1"),
+    row("H", "height of the brick", "m", "panel.brick.height", "case.rs height", "section 1"),
+    row("B", "thickness of the brick, out of plane", "m", "panel.brick.thickness", "case.rs thickness", "section 1"),
+    row("γ", "specific weight", "N/m³", "panel.brick.specific_weight panel.block.specific_weight", "wall.rs specific_weight", "section 1"),
+    row("t_b", "thickness of bed joints", "m", "panel.mortar.bed", "wall.rs mortar", "section 1"),
+    row("t_h", "thickness of head joints", "m", "panel.mortar.head", "wall.rs mortar", "section 1"),
+    row("g", "gravity, 9.81", "m/s²", "", "lib.rs G", "section 1"),
+    row("m_i", "mass of block i", "kg", "", "wall.rs mass", "(1)"),
+    row("M_ref", "mass of the panel's reference brick", "kg", "", "wall.rs reference_mass", "(4)"),
+    row("L_ref", "length of the panel's reference brick", "m", "panel.brick.length", "wall.rs reference_length", "section 1"),
+    row("ℓ", "overlap: contact length of a joint", "m", "", "wall.rs overlap", "section 1"),
+    row("w", "overlap weight, 2 ℓ/L_ref", "1", "", "wall.rs weight", "(2) (4)"),
+    row("x_i", "absolute displacement of block i", "m", "", "law.rs δ", "(1)"),
+    row("z_i", "displacement of block i relative to the base", "m", "", "record.rs block_displacement", "section 2"),
+    row("δ", "head joint: x_right − x_left, positive when it opens", "m", "", "record.rs joint_opening", "(3)"),
+    row("U₀", "motion of the base", "m", "motion.base", "excitation.rs base", "section 2"),
+    row("U₁", "motion of a driven top beam", "m", "motion.top", "excitation.rs top", "section 2"),
+    row("K_H", "stiffness of the bed joint of a half-brick contact", "N/m", "joint.bed.stiffness joint.base.stiffness joint.top.stiffness", "case.rs stiffness", "(2)"),
+    row("K_V", "stiffness of a head joint", "N/m", "joint.head.stiffness joint.connection.stiffness", "case.rs stiffness", "(3)"),
+    row("κ", "how much stiffer a closed no-tension joint is", "1", "joint.head.rigidity", "case.rs rigidity", "(3)"),
+    row("ζ", "damping ratio of an interface", "1", "joint.damping_ratio joint.bed.damping_ratio", "case.rs damping_ratio", "(4)"),
+    row("C", "damping constant, 2 ζ √(K M_ref)", "N s/m", "", "model.rs damping", "(4)"),
+    row("F^el", "elastic force of a joint", "N", "", "law.rs spring_force", "(2) (3)"),
+    row("F^v", "viscous force of a joint", "N", "", "dynamics.rs damping", "(4)"),
+    row("F^fr", "friction force of a joint", "N", "", "dynamics.rs friction", "(5)"),
+    row("N", "normal force of a joint", "N", "joint.friction.normal_force", "graph.rs load", "(5)"),
+    row("μ", "coefficient of friction at a slip velocity", "1", "joint.friction.law", "law.rs at", "(6)"),
+    row("μ_s", "static coefficient of friction", "1", "joint.friction.static", "law.rs static_", "(6)"),
+    row("μ_d", "dynamic coefficient of friction", "1", "joint.friction.dynamic", "law.rs dynamic", "(6)"),
+    row("δ_v", "slip velocity: beyond it a joint slips", "m/s", "joint.friction.slip_velocity", "law.rs slip_velocity", "(6)"),
+    row("β", "steepness of friction at rest", "1", "joint.friction.beta", "law.rs beta", "(6)"),
+    row("α", "growth of friction with the square of the velocity", "s²/m²", "joint.friction.alpha", "law.rs alpha", "(6)"),
+    row("q", "vertical load at the top, per length of brick", "N/m", "load.top", "case.rs top", "section 3"),
+    row("P0_i", "load above block i, as the report has it", "N", "", "graph.rs overburden", "section 3"),
+    row("M_b", "mass of the top beam", "kg", "load.beam.mass", "case.rs Mass", "section 2"),
+    row("E_kin", "kinetic energy, relative to the base", "J", "", "record.rs kinetic", "(7)"),
+    row("E_el", "elastic energy of the joints", "J", "", "record.rs elastic", "(7)"),
+    row("E_0", "energy at t = 0 that no work brought", "J", "", "record.rs initial", "(7)"),
+    row("D_damping", "dissipated by viscous damping", "J", "", "record.rs damping", "(7)"),
+    row("D_friction", "dissipated by friction", "J", "", "record.rs friction", "(7)"),
+    row("D_nonreciprocal", "taken out by friction whose action differs from its reaction", "J", "", "record.rs nonreciprocal", "(7)"),
+    row("W_base", "work of the base motion on the relative motion", "J", "", "record.rs input_base", "(7)"),
+    row("W_top", "work of the driven top beam", "J", "", "record.rs input_top", "(7)"),
+    row("R", "residual of the energy account", "J", "", "outcome.rs peak_residual", "(7)"),
+    row("h", "length of a step", "s", "solver.max_step", "integrate/step.rs h", "(S1)"),
+    row("τ", "γ h of the scheme, length of a stage", "s", "", "integrate/stage.rs τ", "(T1)"),
+    row("e", "estimated local error", "m, m/s", "solver.tolerance solver.floor", "integrate/step.rs error", "(P1)"),
+];
+
+const HEAD: &str = "\
+# Symbols
+
+<!-- Made by `cargo xtask docs` from the table in xtask/src/symbols.rs. -->
+
+Numbers in brackets are the equations of [theory.md](theory.md), sections those of that page; the wall file is described in
+[wall-file.md](wall-file.md). Code is a file of `crates/concio/src/` and the name in it. In the wall file a number
+without a unit is in the unit given here (SI).
+
+| symbol | meaning | unit | wall file | code | source |
+|---|---|---|---|---|---|
+";
+
+/// The page, from what the table names; fails where it names what is not there.
+pub fn page(root: &Path, schema: &str) -> Result<String, String> {
+    let schema: Value = serde_json::from_str(schema).map_err(|e| format!("schema: {e}"))?;
+    let theory = fs::read_to_string(root.join(equations::THEORY)).map_err(|e| format!("{}: {e}", equations::THEORY))?;
+    let mut page = HEAD.to_string();
+    for s in &SYMBOLS {
+        let found = keys(&schema, s).and_then(|()| code(root, s)).and_then(|()| source(&theory, s));
+        found.map_err(|why| format!("docs/symbols.md, {}: {why}", s.symbol))?;
+        let keys: Vec<String> = s.keys.split_whitespace().map(|k| format!("`{k}`")).collect();
+        let (file, word) = s.code.split_once(' ').unwrap_or((s.code, ""));
+        let keys = if keys.is_empty() { "–".into() } else { keys.join(", ") };
+        let code = format!("`{file}` `{word}`");
+        page += &format!("| {} | {} | {} | {keys} | {code} | {} |\n", s.symbol, s.meaning, s.unit, s.source);
+    }
+    Ok(page)
+}
+
+/// Every key is in the schema.
+fn keys(schema: &Value, s: &Symbol) -> Result<(), String> {
+    for key in s.keys.split_whitespace() {
+        let mut places = vec![schema];
+        for part in key.split('.') {
+            places = places.into_iter().flat_map(|p| tables(schema, p)).filter_map(|t| t.get(part)).collect();
+        }
+        if places.is_empty() {
+            return Err(format!("the wall file has no key `{key}`"));
+        }
+    }
+    Ok(())
+}
+
+/// Properties of a schema: its own, and those of what it refers to, lists or chooses among.
+fn tables<'a>(schema: &'a Value, part: &'a Value) -> Vec<&'a Value> {
+    let mut found: Vec<&Value> = part.get("properties").into_iter().collect();
+    if let Some(name) = part.get("$ref").and_then(Value::as_str).and_then(|r| r.strip_prefix("#/$defs/")) {
+        found.extend(schema.pointer(&format!("/$defs/{name}")).into_iter().flat_map(|d| tables(schema, d)));
+    }
+    found.extend(part.get("items").into_iter().flat_map(|i| tables(schema, i)));
+    for choice in ["anyOf", "oneOf", "allOf"] {
+        let choices = part.get(choice).and_then(Value::as_array).into_iter().flatten();
+        found.extend(choices.flat_map(|c| tables(schema, c)));
+    }
+    found
+}
+
+/// The file is there and holds the word.
+fn code(root: &Path, s: &Symbol) -> Result<(), String> {
+    let (file, word) = s.code.split_once(' ').ok_or_else(|| format!("`{}` names no word", s.code))?;
+    let path = root.join("crates/concio/src").join(file);
+    let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let found = text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|w| w == word);
+    if found { Ok(()) } else { Err(format!("`{word}` does not stand in {file}")) }
+}
+
+/// Equations and sections are in the theory.
+fn source(theory: &str, s: &Symbol) -> Result<(), String> {
+    let known = equations::defined(theory);
+    let found = match s.source.strip_prefix("section ") {
+        Some(number) => theory.lines().any(|l| l.starts_with(&format!("## {number}. "))),
+        None => s.source.split(' ').all(|n| known.contains(n.trim_matches(['(', ')']))),
+    };
+    if found { Ok(()) } else { Err(format!("{} is not in {}", s.source, equations::THEORY)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROW: Symbol = row("K", "stiffness", "N/m", "joint.bed.stiffness", "law.rs at", "(2)");
+
+    #[test]
+    fn keys_are_followed_through_references_lists_and_choices() {
+        let schema = serde_json::json!({
+            "properties": { "joint": { "anyOf": [{ "$ref": "#/$defs/J" }] } },
+            "$defs": { "J": { "properties": { "bed": { "items": { "properties": { "stiffness": {} } } } } } },
+        });
+        assert_eq!(keys(&schema, &ROW), Ok(()));
+        let wrong = Symbol { keys: "joint.bed.stifness", ..ROW };
+        assert!(keys(&schema, &wrong).is_err());
+    }
+
+    #[test]
+    fn sources_are_equations_or_sections() {
+        let theory = "## 1. Wall\n\n    (2) F\n    (3) F\n";
+        assert!(source(theory, &ROW).is_ok());
+        assert!(source(theory, &Symbol { source: "(2) (3)", ..ROW }).is_ok());
+        assert!(source(theory, &Symbol { source: "(4)", ..ROW }).is_err());
+        assert!(source(theory, &Symbol { source: "section 1", ..ROW }).is_ok());
+        assert!(source(theory, &Symbol { source: "section 2", ..ROW }).is_err());
+    }
+}
