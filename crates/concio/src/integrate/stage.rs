@@ -15,6 +15,8 @@
 //! The iteration ends when the correction that the remaining force mismatch would cause, through the last factors,
 //! is below the tolerance; that correction is still applied.
 
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::integrate::joints::{Joints, Rubs};
@@ -28,6 +30,8 @@ use crate::state::Tangents;
 const MOST_ITERATIONS: usize = 12;
 /// Mismatch of tangent and law, as a fraction of μ_s, beyond which the next tangent is moved along the law.
 const FAR: f64 = 0.02;
+/// How near to the law, as a fraction of μ_s, that place has to be found.
+const MEETING: f64 = 0.01;
 
 /// Scratch of the stage. Unknowns are numbered by their place in the elimination order, base and top last; only
 /// `z`, `v` and `solution` are in the order of the model.
@@ -392,8 +396,7 @@ impl Stage {
                 let seen = |i: usize| self.diagonal[i].recip();
                 let free = seen(a) + if b < n { seen(b) } else { 0.0 };
                 let impedance = 1.0 / (self.tau * 0.5 * (normals[0] + normals[1]) * free);
-                at = meet(law, impedance, target + impedance * w);
-                (mu, slope) = law.at(at);
+                (at, mu, slope) = meet(law, impedance, target + impedance * w);
             }
             tangents.velocity[r] = at;
             tangents.mu[r] = mu;
@@ -402,28 +405,31 @@ impl Stage {
     }
 }
 
-/// Velocity at which μ(v) + z v = c: safeguarded Newton inside the bracket [0, c/z]. Three digits are enough, it is
-/// only where the next tangent is drawn.
-fn meet(law: &Stribeck, z: f64, c: f64) -> f64 {
+/// Velocity at which μ(v) + z v = c, and the law there with its slope: safeguarded Newton inside the bracket [0, c/z].
+/// Two digits are enough, it is only where the next tangent is drawn.
+fn meet(law: &Stribeck, z: f64, c: f64) -> (f64, f64, f64) {
     let (sign, c) = (c.signum(), c.abs());
-    if c == 0.0 {
-        return 0.0;
-    }
     let (mut low, mut high) = (0.0, c / z);
-    if !high.is_finite() {
-        return 0.0;
+    if c == 0.0 || !high.is_finite() {
+        return (0.0, 0.0, law.slope_at_rest());
     }
     let width = law.slip_velocity / law.beta;
-    // Start on the branch that the right side points to: the inverse of the arctangent, or the velocity.
+    // Start on the branch that the right side points to: the inverse of the arctangent (to a tenth), or the velocity.
     let ratio = c / law.static_;
-    let mut v = if ratio < 0.95 { width * (std::f64::consts::FRAC_PI_2 * ratio).tan() } else { high };
+    let mut v = if ratio < 0.95 {
+        let square = ratio * ratio;
+        width * ratio * (FRAC_PI_2 - (FRAC_PI_2 - 2.0 * FRAC_2_PI) * square) / (1.0 - square)
+    } else {
+        high
+    };
     if !(v > low && v < high) {
         v = 0.5 * high;
     }
+    let mut found = law.at(v);
     for _ in 0..20 {
-        let (mu, slope) = law.at(v);
+        let (mu, slope) = found;
         let f = mu + z * v - c;
-        if f.abs() <= 1e-3 * law.static_ {
+        if f.abs() <= MEETING * law.static_ {
             break;
         }
         if f < 0.0 {
@@ -434,6 +440,7 @@ fn meet(law: &Stribeck, z: f64, c: f64) -> f64 {
         let next = v - f / (slope + z);
         // Bisect in the geometric mean: the law lives on scales from δ_v/β to metres per second.
         v = if next > low && next < high { next } else { (low.max(1e-3 * width) * high).sqrt().clamp(low, high) };
+        found = law.at(v);
     }
-    sign * v
+    (sign * v, sign * found.0, found.1)
 }
