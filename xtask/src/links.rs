@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::command::Outcome;
 
 /// Folders whose names at the start of a word in backticks make it a path of the tree.
-const TREE: [&str; 5] = ["crates/", "docs/", "examples/", "xtask/", ".ci/"];
+const TREE: [&str; 6] = ["crates/", "docs/", "examples/", "xtask/", "report-ui/", ".ci/"];
 
 /// Checks every Markdown file of the project.
 pub fn check(root: &Path) -> Outcome {
@@ -38,7 +38,8 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Outcome {
     let entries = fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     for path in entries.filter_map(|e| e.ok().map(|e| e.path())) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if path.is_dir() && !name.starts_with('.') && name != "target" && name != "concio-run" {
+        let skipped = name.starts_with('.') || ["target", "concio-run", "node_modules"].contains(&name.as_str());
+        if path.is_dir() && !skipped {
             collect(&path, files)?;
         } else if name.ends_with(".md") {
             files.push(path);

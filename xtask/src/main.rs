@@ -15,6 +15,7 @@ mod gallery;
 mod links;
 mod peers;
 mod python;
+mod report_ui;
 mod shown;
 mod symbols;
 
@@ -28,6 +29,8 @@ cargo xtask examples   run every wall file in examples/
 cargo xtask shown      try the wall files and commands that documents show
 cargo xtask equations  check the numbers of equations
 cargo xtask links      check the links of the documents
+cargo xtask report-ui  build the program of the interactive report into the tree (needs Node.js)
+cargo xtask report-ui-check   its bundle is current, its tests pass, a browser shows the numbers of the result
 cargo xtask peers      compare with CVODE";
 
 fn main() -> ExitCode {
@@ -41,6 +44,8 @@ fn main() -> ExitCode {
         "shown" => build(&root).and_then(|()| shown::check(&root)),
         "equations" => equations::check(&root),
         "links" => links::check(&root),
+        "report-ui" => report_ui::build(&root),
+        "report-ui-check" => build(&root).and_then(|()| report_ui::check(&root)),
         "peers" => build(&root).and_then(|()| peers::compare(&root)),
         _ => Err(USAGE.into()),
     };
@@ -71,7 +76,7 @@ fn build(root: &Path) -> Outcome {
 
 fn ci(root: &Path) -> Outcome {
     let python = python::environment(root)?;
-    let steps: [(&str, &dyn Fn() -> Outcome); 10] = [
+    let steps: [(&str, &dyn Fn() -> Outcome); 11] = [
         ("format", &|| run(cargo(root).args(["fmt", "--all", "--check"]))),
         ("lints", &|| {
             run(cargo(root).args([
@@ -92,6 +97,7 @@ fn ci(root: &Path) -> Outcome {
         ("links", &|| links::check(root)),
         ("examples", &|| examples::run_all(root)),
         ("readers of results", &|| python::read_results(root, python.as_deref())),
+        ("interactive report", &|| report_ui::check(root)),
         ("comparison with CVODE", &|| peers::compare(root)),
     ];
     let start = Instant::now();

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use concio::case::{Beam, PulseShape, RecordInput, Signal};
+use concio::ground::coverage::{Coverage, coverage};
 use concio::ground::record::{self, Record, TextOptions};
 use concio::ground::{measure, process, synthetic};
 use concio::run::Prepared;
@@ -10,20 +11,14 @@ use concio::run::Prepared;
 use crate::failure::Failure;
 use crate::format::{seconds, significant};
 
-/// Lines that say what moves the wall, and warnings of what the run cuts off a record or adds to it.
-#[derive(Debug, Default)]
-pub struct Motion {
-    /// Names and values.
-    pub rows: Vec<(&'static str, String)>,
-    /// Things to know before the result is believed.
-    pub warnings: Vec<String>,
-}
+/// Lines that say what moves the wall: names and values.
+type Rows = Vec<(&'static str, String)>;
 
 /// The motion of a run; `folder` is where relative record paths start.
-pub fn describe(prepared: &Prepared, folder: &Path) -> Result<Motion, Failure> {
+pub fn describe(prepared: &Prepared, folder: &Path) -> Result<Rows, Failure> {
     let (motion, duration) = (&prepared.case.motion, prepared.model.excitation.duration);
     let driven = prepared.case.load.beam == Beam::Driven;
-    let mut found = Motion::default();
+    let mut found = Rows::new();
     for (name, signal) in [("base", &motion.base), ("top", &motion.top)] {
         if name == "top" && !driven {
             continue;
@@ -32,19 +27,19 @@ pub fn describe(prepared: &Prepared, folder: &Path) -> Result<Motion, Failure> {
             Signal::Record(input) => of_record(&mut found, name, input, folder, duration)?,
             Signal::Synthetic(input) => {
                 let made = synthetic::generate(input)?;
-                found.rows.push((name, format!("synthetic accelerogram, seed {}", input.seed)));
-                found.rows.push(("", samples(&made)));
-                found.rows.push(("", peak(&made)));
-                used(&mut found, name, "accelerogram", &made, duration);
+                found.push((name, format!("synthetic accelerogram, seed {}", input.seed)));
+                found.push(("", samples(&made)));
+                found.push(("", peak(&made)));
+                used(&mut found, &made, duration);
             }
-            closed => found.rows.push((name, closed_form(closed))),
+            closed => found.push((name, closed_form(closed))),
         }
     }
     Ok(found)
 }
 
 fn of_record(
-    found: &mut Motion,
+    found: &mut Rows,
     name: &'static str,
     input: &RecordInput,
     folder: &Path,
@@ -56,16 +51,10 @@ fn of_record(
     let number = input.channel.unwrap_or(1);
     let (format, label) = channels.get(number - 1).map_or(("", ""), |r| (r.format.name(), r.channel.as_str()));
     let channel = format!("channel {number} of {} {label}", channels.len());
-    found.rows.push((name, format!("{}, {format}, {}", path.display(), channel.trim_end())));
-    if channels.len() > 1 && input.channel.is_none() {
-        found.warnings.push(format!(
-            "motion.{name}: the record has {} channels and none is chosen: the first is taken (`channel = 1`)",
-            channels.len()
-        ));
-    }
-    found.rows.push(("", samples(&prepared)));
-    found.rows.push(("", format!("scale factor {}, {}", significant(factor(input, folder)?, 5), peak(&prepared))));
-    used(found, name, "record", &prepared, duration);
+    found.push((name, format!("{}, {format}, {}", path.display(), channel.trim_end())));
+    found.push(("", samples(&prepared)));
+    found.push(("", format!("scale factor {}, {}", significant(factor(input, folder)?, 5), peak(&prepared))));
+    used(found, &prepared, duration);
     Ok(())
 }
 
@@ -87,33 +76,13 @@ fn peak(record: &Record) -> String {
 }
 
 /// How much of a record the run goes through.
-fn used(found: &mut Motion, name: &str, what: &str, record: &Record, duration: f64) {
-    let whole = record.duration();
-    let slack = 1e-6 * whole;
-    if duration < whole - slack {
-        let part = format!("{} of {}", seconds(duration), seconds(whole));
-        found.rows.push(("", format!("{part} used")));
-        let m = measure(record);
-        let t95 = m.t5 + m.d5_95;
-        let strong = if duration < t95 {
-            format!(", and ends before the strong shaking does (95 % of the Arias intensity at {})", seconds(t95))
-        } else {
-            String::new()
-        };
-        found.warnings.push(format!(
-            "motion.duration cuts the {what} of the {name}: {part} is used{strong}; without `duration` the run takes it \
-             whole"
-        ));
-    } else if duration > whole + slack {
-        found.rows.push(("", format!("used whole, then {} without acceleration", seconds(duration - whole))));
-        found.warnings.push(format!(
-            "the {what} of the {name} ends at {}, the run at {}: silence follows it",
-            seconds(whole),
-            seconds(duration)
-        ));
-    } else {
-        found.rows.push(("", "used whole".into()));
-    }
+fn used(found: &mut Rows, record: &Record, duration: f64) {
+    let text = match coverage(record, duration) {
+        Coverage::Whole => "used whole".into(),
+        Coverage::Cut => format!("{} of {} used", seconds(duration), seconds(record.duration())),
+        Coverage::Silence(rest) => format!("used whole, then {} without acceleration", seconds(rest)),
+    };
+    found.push(("", text));
 }
 
 /// A motion that is no record, with its numbers.

@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::case::{Beam, Case, Output, Signal, canonical_json, plausible};
 use crate::error::{Error, InputError, Result};
 use crate::excitation::Excitation;
-use crate::ground::signal;
+use crate::ground::{coverage, signal};
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::pattern;
@@ -75,7 +75,8 @@ const MOST_SAMPLES: f64 = 1e7;
 /// unchanged any more.
 const LARGE_SLIP: f64 = 0.1;
 
-/// Lays the wall, compiles motion and model; numbers that are hardly meant join the model's warnings. `folder` is where relative record paths start. The case must be valid
+/// Lays the wall, compiles motion and model; numbers that are hardly meant and records that the run cuts or outlasts join
+/// the model's warnings. `folder` is where relative record paths start. The case must be valid
 /// ([`crate::case::CaseFile::validate`]).
 ///
 /// # Errors
@@ -85,8 +86,10 @@ pub fn prepare(case: Case, folder: &Path) -> Result<Prepared> {
     let excitation = excitation(&case, folder)?;
     let sampling = sampling(&case.output, &excitation)?;
     let inputs_hash = inputs_hash(&case, folder)?;
+    let of_records = coverage::warnings(&case, folder, excitation.duration)?;
     let mut model = Model::compile(&case, wall, excitation)?;
     model.warnings.splice(0..0, plausible::doubts(&case));
+    model.warnings.extend(of_records);
     Simulation::check(&model, &sampling)?;
     Ok(Prepared { case, model, sampling, inputs_hash })
 }

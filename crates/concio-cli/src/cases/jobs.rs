@@ -132,7 +132,8 @@ fn is_done(folder: &Path, hash: &str) -> bool {
 fn in_folder(prepared: &Prepared, folder: &Path, text: &str) -> Result<Option<StoredRun>, Failure> {
     let look = |_: &run::Status| if stop::asked() { Control::Stop } else { Control::Continue };
     let finished = run::run(prepared, folder, &mut { look })?;
-    report::write(folder, &report::Content::of_run(folder, prepared, &finished, Some(text)))?;
+    let joints = run::joint_rows(&prepared.model);
+    report::write(folder, &report::Content::of_run(folder, prepared, &joints, &finished, text))?;
     if finished.outcome.stop_reason == StopReason::Interrupted {
         return Ok(None);
     }

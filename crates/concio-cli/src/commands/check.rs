@@ -21,7 +21,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let prepared = wall_file::prepare(&file)?;
     let model = &prepared.model;
     let motion = wall_file::motion(&file, &prepared)?;
-    for warning in model.warnings.iter().chain(&motion.warnings) {
+    for warning in &model.warnings {
         files::note(&format!("warning: {warning}"));
     }
     if let Some(path) = &args.svg {
@@ -44,7 +44,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
         "{title}{}\n{}\n{general}\n{}{list}\n{} is a valid wall file.\n",
         columns(&panel_rows(model)),
         columns(&joint_rows(model)),
-        pairs(&motion.rows),
+        pairs(&motion),
         args.file.display()
     );
     files::print(&text)

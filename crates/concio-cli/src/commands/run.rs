@@ -31,11 +31,14 @@ pub fn run(args: &Run) -> Result<ExitCode, Failure> {
     if args.fresh {
         concio::run::forget(&out)?;
     }
-    for warning in prepared.model.warnings.iter().chain(&wall_file::motion(&file, &prepared)?.warnings) {
+    for warning in &prepared.model.warnings {
         files::note(&format!("warning: {warning}"));
     }
     let finished = simulate(&prepared, &out)?;
-    let report = report::write(&out, &report::Content::of_run(&out, &prepared, &finished, Some(file.text())))?;
+    let joints = concio::run::joint_rows(&prepared.model);
+    let mut content = report::Content::of_run(&out, &prepared, &joints, &finished, file.text());
+    content.command = Some(report::command(args.file.as_deref(), &out));
+    let report = report::write(&out, &content)?;
     let stopped = finished.outcome.stop_reason != StopReason::Completed;
     tell(&finished, &prepared, &report)?;
     Ok(if stopped { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS })

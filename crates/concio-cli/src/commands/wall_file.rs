@@ -7,7 +7,7 @@ use concio::run::{self, Prepared};
 use concio::{Error, InputError};
 
 use crate::failure::Failure;
-use crate::motion::{self, Motion};
+use crate::motion;
 
 /// Reads and validates a wall file.
 pub fn read(path: &Path) -> Result<CaseFile, Failure> {
@@ -21,8 +21,8 @@ pub fn prepare(file: &CaseFile) -> Result<Prepared, Failure> {
     Ok(run::prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)))?)
 }
 
-/// What moves the wall.
-pub fn motion(file: &CaseFile, prepared: &Prepared) -> Result<Motion, Failure> {
+/// What moves the wall: names and values.
+pub fn motion(file: &CaseFile, prepared: &Prepared) -> Result<Vec<(&'static str, String)>, Failure> {
     motion::describe(prepared, file.folder())
 }
 

@@ -12,7 +12,8 @@ const ASKED: usize = 12;
 /// The wall under one name per view.
 pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     let beam = beam_label(&content.case);
-    let subject = Subject { wall: content.wall, joints: &content.joints, names: &content.names, beam: &beam };
+    let (joints, names): (Vec<_>, Vec<_>) = content.joints.iter().map(|j| (j.joint.clone(), j.name.clone())).unzip();
+    let subject = Subject { wall: content.wall, joints: &joints, names: &names, beam: &beam };
     let envelopes = &content.outcome.envelopes;
     // A massive beam is one more unknown behind the blocks; the colours are those of the blocks.
     let of_blocks = &envelopes.block_displacement;

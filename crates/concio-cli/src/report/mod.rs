@@ -5,15 +5,17 @@ use std::path::{Path, PathBuf};
 use concio::case::{self, Beam, Case, Syntax};
 use concio::outcome::Outcome;
 use concio::run::{Finished, Prepared};
-use concio::store::StoredRun;
-use concio::wall::{Joint, Wall};
+use concio::store::{JointRow, StoredRun};
+use concio::wall::Wall;
 use serde_json::Value;
 
 use crate::failure::Failure;
 use crate::files;
 
+mod data;
 mod doubts;
 mod figures;
+mod pack;
 mod page;
 
 /// What a report is made of.
@@ -25,12 +27,12 @@ pub struct Content<'a> {
     pub case: Case,
     /// The wall file as it was given.
     pub text: Option<&'a str>,
+    /// The command that made the result, where it is known.
+    pub command: Option<String>,
     /// Blocks.
     pub wall: &'a Wall,
-    /// Joints and their names.
-    pub joints: Vec<Joint>,
-    /// Names of the joints.
-    pub names: Vec<String>,
+    /// Joints and their laws.
+    pub joints: &'a [JointRow],
     /// The result.
     pub outcome: &'a Outcome,
     /// Content of summary.json.
@@ -38,15 +40,22 @@ pub struct Content<'a> {
 }
 
 impl<'a> Content<'a> {
-    /// Of a run that has just ended.
-    pub fn of_run(out: &Path, prepared: &'a Prepared, finished: &'a Finished, text: Option<&'a str>) -> Self {
+    /// Of a run that has just ended: `joints` are those of its model, `text` is its wall file. The command is the caller's
+    /// to add.
+    pub fn of_run(
+        out: &Path,
+        prepared: &'a Prepared,
+        joints: &'a [JointRow],
+        finished: &'a Finished,
+        text: &'a str,
+    ) -> Self {
         Content {
             name: name(out),
             case: prepared.case.clone(),
-            text,
+            text: Some(text),
+            command: None,
             wall: &prepared.model.wall,
-            joints: prepared.model.joints.clone(),
-            names: prepared.model.joint_names(),
+            joints,
             outcome: &finished.outcome,
             summary: &finished.summary,
         }
@@ -59,9 +68,9 @@ impl<'a> Content<'a> {
             name: name(folder),
             case,
             text: None,
+            command: None,
             wall: &run.wall,
-            joints: run.joints.iter().map(|j| j.joint.clone()).collect(),
-            names: run.joints.iter().map(|j| j.name.clone()).collect(),
+            joints: &run.joints,
             outcome: &run.outcome,
             summary,
         })
@@ -73,6 +82,17 @@ impl<'a> Content<'a> {
         let at = channels.iter().position(|c| c.name == name)?;
         Some(self.outcome.recording.values.chunks_exact(channels.len()).map(|row| row[at]).collect())
     }
+}
+
+/// What was typed to run `file`, or the built-in example, as a shell takes it.
+pub fn command(file: Option<&Path>, out: &Path) -> String {
+    let words = file.into_iter().chain([Path::new("--out"), out]);
+    let quoted = words.map(|word| {
+        let word = word.display().to_string();
+        let plain = |c: char| c.is_alphanumeric() || "._-/\\:".contains(c);
+        if word.chars().all(plain) { word } else { format!("'{}'", word.replace('\'', "'\\''")) }
+    });
+    format!("concio run {}", quoted.collect::<Vec<_>>().join(" "))
 }
 
 fn name(folder: &Path) -> String {

@@ -1,50 +1,138 @@
-//! The page around the figures.
+//! The page: text that needs no script, the interactive part's program and data, and figures for readers without
+//! scripts.
 
 use std::fmt::Write as _;
 
 use concio::record::StopReason;
 use serde_json::Value;
 
-use super::{Content, doubts, figures};
+use super::{Content, data, doubts, figures};
 use crate::digest;
 use crate::draw::escape;
-use crate::format::seconds;
+use crate::format::{seconds, si};
 
 /// Largest input that the page quotes [bytes]; it is in result.h5 in any case.
-const LARGEST_INPUT: usize = 200_000;
-
-const STYLE: &str = "\
-body{font:15px/1.5 'DejaVu Sans',Arial,sans-serif;color:#111;max-width:960px;margin:2em auto;padding:0 1em}
-h1{font-size:1.5em;margin-bottom:0}h2{font-size:1.15em;margin-top:2em;border-bottom:1px solid #bbb}
-svg{max-width:100%;height:auto}table{border-collapse:collapse}td{padding:.15em 1.2em .15em 0;vertical-align:top}
-td:first-child{white-space:pre}td+td{font-variant-numeric:tabular-nums}
-.note{border-left:5px solid #999;padding:.2em 1em;background:#f4f4f4}.bad{border-color:#b00;background:#fdecea}
-pre{background:#f4f4f4;padding:1em;overflow:auto;font-size:13px}.small{color:#555;font-size:.9em;overflow-wrap:anywhere}
-.views>input{position:absolute;opacity:0}.views>label{display:inline-block;padding:.2em .8em;border:1px solid #999;cursor:pointer}
-.views>input:checked+label{background:#333;color:#fff}.views>input:focus-visible+label{outline:2px solid #06c}
-.views>div{display:none}@media print{details{display:block}}";
+const LARGEST_INPUT: usize = 1_000_000;
+/// The program of the page, built from `report-ui/`.
+const PROGRAM: &str = include_str!("app/app.js");
+const STYLE: &str = include_str!("app/app.css");
+/// A browser that obeys it fetches nothing, whatever a name in a wall file may contain.
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
 
 /// The report as HTML.
 pub fn html(content: &Content) -> String {
-    let title = if content.case.title.is_empty() { &content.name } else { &content.case.title };
-    let mut page = format!(
+    let title = escape(if content.case.title.is_empty() { &content.name } else { &content.case.title });
+    let (contents, numbers) = data::payload(content);
+    let mut page = String::with_capacity(numbers.len() + contents.len() + (1 << 20));
+    let _ = write!(
+        page,
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n<style>\n{STYLE}\n{1}</style>\n</head>\n<body>\n\
-         <h1>{0}</h1>\n",
-        escape(title),
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n\
+         <style>\n{STYLE}\n</style>\n<noscript><style>\n{}</style></noscript>\n</head>\n<body>\n\
+         <header>\n<h1>{title}</h1>\n",
         view_rules()
     );
     head(&mut page, content);
-    wall(&mut page, content);
-    section(&mut page, "Summary", &table(&digest::rows(content.outcome, content.summary)));
-    section(&mut page, "Histories", &figures::histories(content).concat());
-    asked(&mut page, content);
-    section(&mut page, "Energy", &figures::energies(content).concat());
+    page.push_str("</header>\n<main>\n");
+    tiles(&mut page, content);
+    page.push_str("<div id=\"app\"></div>\n");
+    without_script(&mut page, content);
+    section(&mut page, "summary", "Summary", &table(&digest::rows(content.outcome, content.summary)));
     let list: String = doubts::list(content).iter().map(|d| format!("<li>{}</li>\n", escape(d))).collect();
-    section(&mut page, "When not to believe this result", &format!("<ul>\n{list}</ul>\n"));
+    section(&mut page, "doubts", "When not to believe this result", &format!("<ul>\n{list}</ul>\n"));
+    reproduction(&mut page, content);
     input(&mut page, content);
-    page.push_str("</body>\n</html>\n");
+    let _ = write!(
+        page,
+        "</main>\n<script type=\"application/json\" id=\"concio-contents\">{contents}</script>\n\
+         <script type=\"text/plain\" id=\"concio-numbers\">{numbers}</script>\n\
+         <script>\n{PROGRAM}</script>\n</body>\n</html>\n"
+    );
     page
+}
+
+fn section(page: &mut String, id: &str, title: &str, body: &str) {
+    let _ = writeln!(page, "<section id=\"{id}\">\n<h2>{title}</h2>\n{body}</section>");
+}
+
+fn table(rows: &[(&str, String)]) -> String {
+    let row = |(name, value): &(&str, String)| {
+        let class = if name.starts_with(' ') { " class=\"part\"" } else { "" };
+        format!("<tr{class}><th scope=\"row\">{}</th><td>{}</td></tr>\n", escape(name.trim()), escape(value))
+    };
+    format!("<table class=\"facts\">\n{}</table>\n", rows.iter().map(row).collect::<String>())
+}
+
+/// What the run is, whether it reached its end, and what the user was warned of.
+fn head(page: &mut String, content: &Content) {
+    let outcome = content.outcome;
+    let duration = content.summary.get("duration").and_then(Value::as_f64).unwrap_or(outcome.time_reached);
+    let _ = writeln!(
+        page,
+        "<p class=\"lead\">{} blocks, {} joints, {} of motion · Concio {}</p>",
+        content.wall.blocks.len(),
+        content.joints.len(),
+        seconds(outcome.time_reached),
+        escape(text(content, "version"))
+    );
+    if outcome.stop_reason != StopReason::Completed {
+        let [at, duration] = [outcome.time_reached, duration].map(seconds);
+        let why = escape(digest::why(outcome.stop_reason));
+        let _ = writeln!(page, "<p class=\"note bad\"><b>Stopped early at t = {at} of {duration}:</b> {why}.</p>");
+    }
+    for warning in digest::warnings(content.summary) {
+        let _ = writeln!(page, "<p class=\"note\"><b>Warning:</b> {}</p>", escape(warning));
+    }
+}
+
+/// The numbers that are looked for first.
+fn tiles(page: &mut String, content: &Content) {
+    let (totals, energies) = (&content.outcome.totals, &content.outcome.energies);
+    let residual = digest::residual(content.summary);
+    let closes = residual <= doubts::LARGEST_RESIDUAL;
+    let mut tiles = vec![
+        ("peak displacement", si(totals.peak_relative_displacement, "m"), "of a block, relative to the base"),
+        ("peak slip velocity", si(totals.peak_slip_velocity, "m/s"), "of bed and support joints"),
+        ("work done on the wall", si(energies.input(), "J"), "by base and top, over the whole run"),
+        (
+            "energy residual",
+            format!("{residual:.1e}"),
+            if closes { "of the largest work: the account closes" } else { "of the largest work: too much" },
+        ),
+    ];
+    if totals.top_force_peak > 0.0 {
+        tiles.insert(2, ("peak top force", si(totals.top_force_peak, "N"), "of the top beam on the wall"));
+    }
+    page.push_str("<dl class=\"tiles\">\n");
+    for (name, value, note) in tiles {
+        let class = if name == "energy residual" && !closes { " class=\"bad\"" } else { "" };
+        let _ = writeln!(page, "<div{class}><dt>{name}</dt><dd><b>{value}</b><span>{note}</span></dd></div>");
+    }
+    page.push_str("</dl>\n");
+}
+
+/// For readers whose browser runs no scripts: peaks and histories as drawings.
+fn without_script(page: &mut String, content: &Content) {
+    page.push_str(
+        "<noscript>\n<p class=\"note\">The animated wall and the histories of its blocks and joints need JavaScript, which \
+         is switched off or not there. Nothing is loaded from elsewhere. What follows are drawings of the same run.</p>\n",
+    );
+    let (mut buttons, mut drawings) = (String::new(), String::new());
+    for (k, (name, drawing)) in figures::walls(content).iter().enumerate() {
+        let checked = if k == 0 { " checked" } else { "" };
+        let _ = write!(
+            buttons,
+            "<input type=\"radio\" name=\"view\" id=\"v{k}\"{checked}><label for=\"v{k}\">{name}</label>"
+        );
+        let _ = writeln!(drawings, "<div id=\"w{k}\">{drawing}</div>");
+    }
+    let views = format!("<div class=\"views\">{buttons}\n{drawings}</div>\n");
+    section(page, "walls", "The wall: peaks over the whole run", &views);
+    section(page, "histories", "Histories", &figures::histories(content).concat());
+    asked(page, content);
+    section(page, "energies", "Energy", &figures::energies(content).concat());
+    page.push_str("</noscript>\n");
 }
 
 /// The blocks and joints of `output.blocks` and `output.joints`.
@@ -57,76 +145,65 @@ fn asked(page: &mut String, content: &Content) {
     if left_out > 0 {
         let _ = writeln!(body, "<p class=\"small\">{left_out} more blocks and joints are in result.h5.</p>");
     }
-    section(page, "Blocks and joints asked for", &body);
-}
-
-fn section(page: &mut String, title: &str, body: &str) {
-    let _ = writeln!(page, "<h2>{title}</h2>\n{body}");
-}
-
-fn table(rows: &[(&str, String)]) -> String {
-    let row =
-        |(name, value): &(&str, String)| format!("<tr><td>{}</td><td>{}</td></tr>\n", escape(name), escape(value));
-    format!("<table>\n{}</table>\n", rows.iter().map(row).collect::<String>())
-}
-
-/// What the run is, whether it reached its end, and what the user was warned of.
-fn head(page: &mut String, content: &Content) {
-    let outcome = content.outcome;
-    let duration = content.summary.get("duration").and_then(Value::as_f64).unwrap_or(outcome.time_reached);
-    let _ = writeln!(
-        page,
-        "<p>{} blocks, {} joints, {} of motion.</p>",
-        content.wall.blocks.len(),
-        content.joints.len(),
-        seconds(outcome.time_reached)
-    );
-    if outcome.stop_reason != StopReason::Completed {
-        let [at, duration] = [outcome.time_reached, duration].map(seconds);
-        let why = escape(digest::why(outcome.stop_reason));
-        let _ = writeln!(page, "<p class=\"note bad\"><b>Stopped early at t = {at} of {duration}:</b> {why}.</p>");
-    }
-    for warning in digest::warnings(content.summary) {
-        let _ = writeln!(page, "<p class=\"note\"><b>Warning:</b> {}</p>", escape(warning));
-    }
+    section(page, "asked", "Blocks and joints asked for", &body);
 }
 
 const VIEWS: usize = 5;
 
 /// Shows the view whose button is chosen, without a script.
 fn view_rules() -> String {
-    (0..VIEWS)
-        .map(|k| format!("#v{k}:checked~#w{k}{}", if k + 1 < VIEWS { "," } else { "{display:block}\n" }))
-        .collect()
+    let shown: Vec<String> = (0..VIEWS).map(|k| format!("#v{k}:checked~#w{k}")).collect();
+    format!(".views>div{{display:none}}\n{}{{display:block}}\n", shown.join(","))
 }
 
-fn wall(page: &mut String, content: &Content) {
-    let (mut buttons, mut drawings) = (String::new(), String::new());
-    for (k, (name, drawing)) in figures::walls(content).iter().enumerate() {
-        let checked = if k == 0 { " checked" } else { "" };
-        let _ = write!(
-            buttons,
-            "<input type=\"radio\" name=\"view\" id=\"v{k}\"{checked}><label for=\"v{k}\">{name}</label>"
-        );
-        let _ = writeln!(drawings, "<div id=\"w{k}\">{drawing}</div>");
+/// How to get this result again, and how to know that it is this one.
+fn reproduction(page: &mut String, content: &Content) {
+    let mut body = String::new();
+    match &content.command {
+        Some(command) => {
+            let _ = writeln!(
+                body,
+                "<p>This command made it, in the folder where it was typed:</p>\n<pre class=\"copy\">{}</pre>",
+                escape(command)
+            );
+        }
+        None => body.push_str(
+            "<p>Save the resolved input below as <code>case.json</code>, beside the records that it names, and run it:</p>\n\
+             <pre class=\"copy\">concio run case.json --out again</pre>\n",
+        ),
     }
-    section(page, "The wall: peaks over the whole run", &format!("<div class=\"views\">{buttons}\n{drawings}</div>\n"));
+    let _ = writeln!(
+        body,
+        "<p>Version and hash tell whether two results come of equal inputs, records included: Concio {}, \
+         <code>inputs_hash</code></p>\n<pre class=\"copy\">{}</pre>",
+        escape(text(content, "version")),
+        escape(text(content, "inputs_hash"))
+    );
+    section(page, "reproduce", "To reproduce it", &body);
+}
+
+fn text<'a>(content: &'a Content, key: &str) -> &'a str {
+    content.summary.get(key).and_then(Value::as_str).unwrap_or("–")
 }
 
 fn input(page: &mut String, content: &Content) {
     let resolved = serde_json::to_string_pretty(&content.case).unwrap_or_default();
     let mut body = String::new();
-    if let Some(text) = content.text {
-        quote(&mut body, "Wall file", text, true);
+    match content.text {
+        Some(text) => quote(&mut body, "wall-file", "Wall file, as it was given", text, true),
+        None => body.push_str("<p class=\"small\">The wall file itself is not kept with a result.</p>\n"),
     }
-    quote(&mut body, "Resolved input, defaults and units in it (SI)", &resolved, content.text.is_none());
-    let of = |key: &str| escape(content.summary.get(key).and_then(Value::as_str).unwrap_or("–"));
-    let _ = writeln!(body, "<p class=\"small\">Concio {}, inputs {}</p>", of("version"), of("inputs_hash"));
-    section(page, "Input", &body);
+    let title = "Resolved input: defaults filled in, SI units";
+    quote(&mut body, "resolved", title, &resolved, content.text.is_none());
+    section(page, "input", "Input", &body);
 }
 
-fn quote(body: &mut String, title: &str, text: &str, open: bool) {
+fn quote(body: &mut String, id: &str, title: &str, text: &str, open: bool) {
     let open = if open { " open" } else { "" };
     let text = if text.len() > LARGEST_INPUT { "Too long to be quoted here: it is in result.h5." } else { text };
-    let _ = writeln!(body, "<details{open}><summary>{title}</summary><pre>{}</pre></details>", escape(text));
+    let text = escape(text);
+    let _ = writeln!(
+        body,
+        "<details{open}><summary>{title}</summary><pre id=\"{id}\" class=\"copy long\" tabindex=\"0\">{text}</pre></details>"
+    );
 }

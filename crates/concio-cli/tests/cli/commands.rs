@@ -69,14 +69,32 @@ fn the_report_needs_nothing_else() {
     for part in ["Small wall", "Energy by mechanism", "Summary", "When not to believe", "[[panel]]", "p1c4b2"] {
         assert!(report.contains(part), "{part}");
     }
+    let hash = desk.json("r/summary.json")["inputs_hash"].as_str().expect("a hash").to_string();
+    for part in ["concio run wall.toml --out r", &hash, "default-src 'none'", "The MIT License", "<noscript>"] {
+        assert!(report.contains(part), "{part}");
+    }
     let report = report.replace("url(#", "within(");
-    for reference in ["src=", "href=", "@import", "url(", "<script"] {
+    for reference in ["src=", "href=", "@import", "url(", "<link", "<iframe"] {
         assert!(!report.contains(reference), "{reference}");
     }
     assert!(report.len() < 2_000_000, "{} bytes", report.len());
     fs::remove_file(desk.path("r/report.html")).expect("the report");
     desk.concio("plot r").assert().success();
-    assert!(desk.get("r/report.html").contains("Energy by mechanism"));
+    let report = desk.get("r/report.html");
+    assert!(report.contains("Energy by mechanism") && report.contains("concio run case.json"));
+}
+
+/// What a user gives as a title or name must not end the script that carries it.
+#[test]
+fn a_title_cannot_break_the_report() {
+    let desk = Desk::new();
+    let title = "</script><b>Small & wall";
+    desk.put("wall.toml", WALL.replace("Small wall", title));
+    desk.concio("run wall.toml --out r").assert().success();
+    let report = desk.get("r/report.html");
+    assert!(!report.contains("</script><b>"));
+    assert!(report.contains("&lt;/script&gt;&lt;b&gt;Small &amp; wall"));
+    assert!(report.contains("\\u003c/script>"));
 }
 
 /// Ctrl-C, then the same command: the result is that of a run that nobody stopped.
@@ -317,6 +335,13 @@ fn check_says_how_a_record_is_used() {
         }
         let run = desk.concio("run shaken.toml --fresh").assert().success();
         assert_eq!(String::from_utf8_lossy(&run.get_output().stderr), err);
+        // What the terminal said stays with the result.
+        let kept = desk.json("concio-run/shaken/summary.json")["warnings"].to_string();
+        let report = desk.get("concio-run/shaken/report.html");
+        match warning {
+            Some(part) => assert!(kept.contains(part) && report.contains(part), "{kept}"),
+            None => assert_eq!(kept, "[]"),
+        }
     }
 }
 

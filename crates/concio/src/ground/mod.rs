@@ -3,6 +3,7 @@
 //!
 //! Path of a record: [`record::read`] → [`process::prepare`] → [`measures`], or → [`signal::compile`].
 
+pub mod coverage;
 pub mod measures;
 pub mod process;
 pub mod record;

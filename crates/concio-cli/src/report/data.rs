@@ -1,0 +1,296 @@
+//! What the page's program gets: a table of contents in JSON, and the numbers behind it in base64.
+
+use concio::case::Beam;
+use concio::ground::response_spectrum;
+use concio::store::{FrictionRow, JointRow};
+use concio::wall::{Block, End};
+use serde_json::{Value, json};
+
+use super::pack::Pack;
+use super::{Content, beam_label};
+
+/// Layout of the data; the page's program refuses another.
+const LAYOUT: u32 = 1;
+/// Bytes that frames may take [bytes]; beyond it only every second, third, … goes into the page. A wall of 20 × 20 bricks
+/// with 2,000 frames stays below.
+const MOST_FRAMES: usize = 16 << 20;
+/// Bytes of one unknown in one frame: displacement, velocity, acceleration.
+const UNKNOWN: usize = 15;
+/// Points of a history; a longer one is drawn by the lowest and highest value of short intervals.
+const MOST_POINTS: usize = 6000;
+/// Histories that the page gets beyond those that every run keeps.
+const MOST_ASKED: usize = 80;
+/// Damping ratio of the spectrum.
+const DAMPING: f64 = 0.05;
+/// Periods of the spectrum [s]: that many from the shortest to the longest, at equal ratios.
+const PERIODS: (usize, f64, f64) = (180, 0.02, 4.0);
+
+/// The table of contents as JSON that may stand in a page, and the numbers in base64.
+pub fn payload(content: &Content) -> (String, String) {
+    let mut pack = Pack::default();
+    let frames = frames(&mut pack, content);
+    let (channels, curve) = histories(&mut pack, content, &frames);
+    let spectrum = spectrum(&mut pack, content);
+    wall(&mut pack, content);
+    let frictions = joints(&mut pack, content.joints);
+    envelopes(&mut pack, content);
+    let (arrays, numbers) = pack.finish();
+    let names = |of: &dyn Fn(&JointRow) -> Value| content.joints.iter().map(of).collect::<Vec<Value>>();
+    let contents = json!({
+        "layout": LAYOUT,
+        "name": content.name,
+        "title": content.case.title,
+        "block_names": content.wall.blocks.iter().map(|b| &b.name).collect::<Vec<_>>(),
+        "joint_names": names(&|j| json!(j.name)),
+        "joint_kinds": names(&|j| json!(j.joint.kind)),
+        "joint_laws": names(&|j| json!(j.law)),
+        "frictions": frictions,
+        "beam": { "kind": beam_kind(content.case.load.beam), "label": beam_label(&content.case) },
+        "frames": { "recorded": content.outcome.recording.frame_time.len(), "every": frames.every },
+        "curve": curve,
+        "channels": channels,
+        "spectrum": spectrum,
+        "arrays": arrays,
+    });
+    // No text in it can end the script element that it stands in.
+    (contents.to_string().replace('<', "\\u003c"), numbers)
+}
+
+fn beam_kind(beam: Beam) -> &'static str {
+    match beam {
+        Beam::Free => "free",
+        Beam::Driven => "driven",
+        Beam::Tied => "tied",
+        Beam::Mass(_) => "mass",
+    }
+}
+
+/// Which frames the page gets: every so many, and the samples that they are.
+struct Kept {
+    every: usize,
+    samples: Vec<usize>,
+}
+
+fn frames(pack: &mut Pack, content: &Content) -> Kept {
+    let (recording, layout) = (&content.outcome.recording, &content.outcome.layout);
+    let recorded = recording.frame_time.len();
+    let blocks = content.wall.blocks.len();
+    let has_beam = content.case.load.beam != Beam::Free;
+    let unknowns = blocks + usize::from(has_beam);
+    let every = (recorded * unknowns * UNKNOWN).div_ceil(MOST_FRAMES).max(1);
+    let kept: Vec<usize> = (0..recorded).step_by(every).collect();
+    let samples: Vec<usize> = kept.iter().map(|k| k * layout.frame_every).collect();
+    pack.reals("frame/time", &kept.iter().map(|&k| recording.frame_time[k]).collect::<Vec<_>>());
+    for (name, values) in [
+        ("displacement", &recording.frame_displacement),
+        ("velocity", &recording.frame_velocity),
+        ("acceleration", &recording.frame_acceleration),
+    ] {
+        let beam = content.history(&format!("beam/{name}")).filter(|_| has_beam);
+        let mut rows = Vec::with_capacity(kept.len() * unknowns);
+        for (&k, &sample) in kept.iter().zip(&samples) {
+            rows.extend_from_slice(&values[k * layout.unknowns..][..blocks]);
+            // A beam without an unknown of its own is known from its history.
+            rows.extend(beam.as_ref().map(|b| b.get(sample).copied().unwrap_or(f64::NAN)));
+        }
+        pack.rows(&format!("frame/{name}"), rows.chunks_exact(unknowns));
+    }
+    Kept { every, samples }
+}
+
+/// Histories: their values at the frames, and curves that look like all samples.
+fn histories(pack: &mut Pack, content: &Content, frames: &Kept) -> (Vec<Value>, Value) {
+    let (recording, layout) = (&content.outcome.recording, &content.outcome.layout);
+    let width = layout.channels.len();
+    let single = |name: &str| name.starts_with("block/") || name.starts_with("joint/");
+    let (asked, always): (Vec<usize>, Vec<usize>) = (0..width).partition(|&c| single(&layout.channels[c].name));
+    let left_out = asked.len().saturating_sub(MOST_ASKED);
+    let chosen: Vec<usize> = always.into_iter().chain(asked.into_iter().take(MOST_ASKED)).collect();
+    let samples = recording.time.len();
+    let buckets = Buckets::of(samples);
+    pack.reals("curve/time", &buckets.times(&recording.time));
+    let (mut at_frames, mut curves) = (Vec::new(), Vec::new());
+    for &c in &chosen {
+        let values: Vec<f64> = recording.values.chunks_exact(width).map(|row| row[c]).collect();
+        at_frames.extend(frames.samples.iter().map(|&s| values.get(s).copied().unwrap_or(f64::NAN)));
+        buckets.curve(&values, &mut curves);
+    }
+    pack.reals("channel/frames", &at_frames);
+    pack.curves("curve/values", &curves);
+    let channels = chosen.iter().map(|&c| json!(layout.channels[c])).collect();
+    let curve = json!({
+        "samples": samples,
+        "points": buckets.points(),
+        "interval": layout.interval,
+        "left_out": left_out,
+    });
+    (channels, curve)
+}
+
+/// Samples put together two by two for every bucket: its lowest and its highest value, in the order they come.
+struct Buckets {
+    samples: usize,
+    /// 0 when every sample is kept.
+    buckets: usize,
+}
+
+impl Buckets {
+    fn of(samples: usize) -> Self {
+        Buckets { samples, buckets: if samples > MOST_POINTS { MOST_POINTS / 2 } else { 0 } }
+    }
+    fn points(&self) -> usize {
+        if self.buckets == 0 { self.samples } else { 2 * self.buckets }
+    }
+    fn ends(&self, bucket: usize) -> [usize; 2] {
+        [bucket, bucket + 1].map(|b| b * self.samples / self.buckets)
+    }
+    /// The first sample of a bucket and the one in its middle stand for the two.
+    fn times(&self, time: &[f64]) -> Vec<f64> {
+        if self.buckets == 0 {
+            return time.to_vec();
+        }
+        (0..self.buckets)
+            .flat_map(|b| self.ends(b).into_iter().take(1).chain([self.middle(b)]))
+            .map(|s| time[s])
+            .collect()
+    }
+    fn middle(&self, bucket: usize) -> usize {
+        let [start, end] = self.ends(bucket);
+        start + (end - start) / 2
+    }
+    fn curve(&self, values: &[f64], into: &mut Vec<f32>) {
+        if self.buckets == 0 {
+            into.extend(values.iter().map(|v| *v as f32));
+            return;
+        }
+        for bucket in 0..self.buckets {
+            let [start, end] = self.ends(bucket);
+            let part = &values[start..end];
+            let by_value = |a: &usize, b: &usize| part[*a].total_cmp(&part[*b]);
+            let low = (0..part.len()).min_by(by_value).unwrap_or(0);
+            let high = (0..part.len()).max_by(by_value).unwrap_or(0);
+            into.extend([low.min(high), low.max(high)].map(|k| part[k] as f32));
+        }
+    }
+}
+
+/// The response spectrum of the base motion, if the base moves.
+fn spectrum(pack: &mut Pack, content: &Content) -> Option<Value> {
+    let acceleration = content.history("base/acceleration")?;
+    let interval = content.outcome.layout.interval;
+    let moves = acceleration.len() > 2 && acceleration.iter().all(|a| a.is_finite());
+    if !moves || acceleration.iter().all(|a| *a == 0.0) {
+        return None;
+    }
+    let (n, low, high) = PERIODS;
+    let periods: Vec<f64> = (0..n).map(|k| low * (high / low).powf(k as f64 / (n - 1) as f64)).collect();
+    let spectrum = response_spectrum(interval, &acceleration, DAMPING, &periods);
+    pack.reals("spectrum/period", &spectrum.periods);
+    pack.reals("spectrum/psa", &spectrum.psa);
+    Some(json!({ "damping": DAMPING, "interval": interval }))
+}
+
+fn wall(pack: &mut Pack, content: &Content) {
+    let mut column = |name: &str, value: fn(&Block) -> f64| {
+        pack.reals(&format!("block/{name}"), &content.wall.blocks.iter().map(value).collect::<Vec<_>>());
+    };
+    column("x0", |b| b.x[0]);
+    column("x1", |b| b.x[1]);
+    column("y0", |b| b.y[0]);
+    column("y1", |b| b.y[1]);
+    column("mass", Block::mass);
+    for (number, name) in ["bed", "head"].into_iter().enumerate() {
+        let mortar = |b: &Block| content.wall.panels[b.panel].mortar[number];
+        pack.reals(&format!("block/{name}"), &content.wall.blocks.iter().map(mortar).collect::<Vec<_>>());
+    }
+}
+
+/// Sides, lines and laws of the joints; the different friction laws.
+fn joints(pack: &mut Pack, joints: &[JointRow]) -> Vec<Value> {
+    let side = |end: End| match end {
+        End::Block(b) => b as i32,
+        End::Base => -1,
+        End::Top => -2,
+    };
+    let mut laws: Vec<FrictionRow> = Vec::new();
+    let friction: Vec<i32> = joints
+        .iter()
+        .map(|j| {
+            let Some(law) = j.friction else { return -1 };
+            let known = laws.iter().position(|l| *l == law).unwrap_or_else(|| {
+                laws.push(law);
+                laws.len() - 1
+            });
+            known as i32
+        })
+        .collect();
+    pack.indices("joint/a", &joints.iter().map(|j| j.joint.a as i32).collect::<Vec<_>>());
+    pack.indices("joint/b", &joints.iter().map(|j| side(j.joint.b)).collect::<Vec<_>>());
+    pack.indices("joint/friction", &friction);
+    let mut column = |name: &str, value: fn(&JointRow) -> f64| {
+        pack.reals(&format!("joint/{name}"), &joints.iter().map(value).collect::<Vec<_>>());
+    };
+    column("x0", |j| j.joint.line[0]);
+    column("y0", |j| j.joint.line[1]);
+    column("x1", |j| j.joint.line[2]);
+    column("y1", |j| j.joint.line[3]);
+    column("overlap", |j| j.joint.overlap);
+    column("stiffness", |j| j.stiffness);
+    column("damping", |j| j.damping);
+    column("normal_force_a", |j| j.normal_force[0]);
+    laws.iter()
+        .map(|l| {
+            json!({"law": l.law, "static": l.static_, "dynamic": l.dynamic, "slip_velocity": l.slip_velocity,
+                "beta": l.beta, "alpha": l.alpha})
+        })
+        .collect()
+}
+
+fn envelopes(pack: &mut Pack, content: &Content) {
+    let e = &content.outcome.envelopes;
+    for (name, values) in [
+        ("block/displacement", &e.block_displacement),
+        ("block/velocity", &e.block_velocity),
+        ("block/acceleration", &e.block_acceleration),
+        ("joint/displacement", &e.joint_displacement),
+        ("joint/velocity", &e.joint_velocity),
+        ("joint/acceleration", &e.joint_acceleration),
+        ("joint/slip", &e.joint_slip),
+        ("joint/opening", &e.joint_opening),
+        ("joint/closing", &e.joint_closing),
+        ("joint/force", &e.joint_force),
+        ("joint/dissipation", &e.joint_dissipation),
+    ] {
+        pack.reals(&format!("envelope/{name}"), values);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_keep_every_peak_and_their_order() {
+        let mut values = vec![0.0; 100_000];
+        (values[31_415], values[92_653], values[92_654]) = (7.0, -3.0, 5.0);
+        let buckets = Buckets::of(values.len());
+        let mut curve = Vec::new();
+        buckets.curve(&values, &mut curve);
+        assert_eq!(curve.len(), buckets.points());
+        assert_eq!(curve.len(), MOST_POINTS);
+        let nonzero: Vec<f32> = curve.iter().copied().filter(|v| *v != 0.0).collect();
+        assert_eq!(nonzero, [7.0, -3.0, 5.0]);
+        let time: Vec<f64> = (0..values.len()).map(|k| k as f64).collect();
+        let times = buckets.times(&time);
+        assert_eq!(times.len(), MOST_POINTS);
+        assert!(times.windows(2).all(|w| w[0] < w[1]));
+    }
+
+    #[test]
+    fn short_histories_are_kept_whole() {
+        let buckets = Buckets::of(3);
+        let mut curve = Vec::new();
+        buckets.curve(&[1.0, 2.0, 3.0], &mut curve);
+        assert_eq!((curve, buckets.times(&[0.0, 0.1, 0.2])), (vec![1.0, 2.0, 3.0], vec![0.0, 0.1, 0.2]));
+    }
+}

@@ -1,0 +1,141 @@
+//! What a run leaves of a record: whether it is cut off or followed by silence, and which channel was taken unasked.
+
+use std::path::Path;
+
+use crate::case::{Beam, Case, RecordInput, Signal};
+use crate::error::Result;
+use crate::ground::record::{self, Record, TextOptions};
+use crate::ground::{measure, process, synthetic};
+
+/// Difference of run and record that does not count, over the length of the record.
+const SLACK: f64 = 1e-6;
+
+/// How a run of `duration` [s] covers a record.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Coverage {
+    /// To its end and no further.
+    Whole,
+    /// The record ends later.
+    Cut,
+    /// The run ends later [s]: so long without acceleration.
+    Silence(f64),
+}
+
+/// How a run of `duration` [s] covers `record`.
+pub fn coverage(record: &Record, duration: f64) -> Coverage {
+    let whole = record.duration();
+    if duration < whole - SLACK * whole {
+        Coverage::Cut
+    } else if duration > whole + SLACK * whole {
+        Coverage::Silence(duration - whole)
+    } else {
+        Coverage::Whole
+    }
+}
+
+/// What a user should know of the records of a case before believing a run of `duration` [s], one sentence each.
+/// `folder` is where relative record paths start.
+///
+/// # Errors
+/// Records that cannot be read.
+pub fn warnings(case: &Case, folder: &Path, duration: f64) -> Result<Vec<String>> {
+    let driven = case.load.beam == Beam::Driven;
+    let motions = [("base", &case.motion.base, true), ("top", &case.motion.top, driven)];
+    let mut found = Vec::new();
+    for (name, signal, _) in motions.into_iter().filter(|m| m.2) {
+        match signal {
+            Signal::Record(input) => {
+                found.extend(unchosen(name, input, folder)?);
+                found.extend(uncovered(name, "record", &process::load(input, folder)?, duration));
+            }
+            Signal::Synthetic(input) => {
+                found.extend(uncovered(name, "accelerogram", &synthetic::generate(input)?, duration));
+            }
+            _ => {}
+        }
+    }
+    Ok(found)
+}
+
+fn unchosen(name: &str, input: &RecordInput, folder: &Path) -> Result<Option<String>> {
+    if input.channel.is_some() {
+        return Ok(None);
+    }
+    let channels = record::read(&folder.join(&input.record), &TextOptions::from(input))?.len();
+    let warning = || {
+        format!(
+            "motion.{name}: the record has {channels} channels and none is chosen: the first is taken (`channel = 1`)"
+        )
+    };
+    Ok((channels > 1).then(warning))
+}
+
+fn uncovered(name: &str, what: &str, record: &Record, duration: f64) -> Option<String> {
+    let whole = seconds(record.duration());
+    match coverage(record, duration) {
+        Coverage::Whole => None,
+        Coverage::Cut => {
+            let m = measure(record);
+            let t95 = m.t5 + m.d5_95;
+            let strong = if duration < t95 {
+                let t95 = seconds(t95);
+                format!(", and ends before the strong shaking does (95 % of the Arias intensity at {t95})")
+            } else {
+                String::new()
+            };
+            Some(format!(
+                "motion.duration cuts the {what} of the {name}: {} of {whole} is used{strong}; without `duration` the \
+                 run takes it whole",
+                seconds(duration)
+            ))
+        }
+        Coverage::Silence(_) => {
+            let end = seconds(duration);
+            Some(format!("the {what} of the {name} ends at {whole}, the run at {end}: silence follows it"))
+        }
+    }
+}
+
+/// At most nine significant digits, no zeros behind the last.
+fn seconds(value: f64) -> String {
+    let digits: f64 = format!("{value:.8e}").parse().unwrap_or(value);
+    format!("{digits} s")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ground::Format;
+
+    fn record(npts: usize) -> Record {
+        Record {
+            format: Format::Text,
+            dt: 0.01,
+            acceleration: (0..npts).map(|k| (0.3 * k as f64).sin()).collect(),
+            displacement: None,
+            units: String::new(),
+            station: String::new(),
+            event: String::new(),
+            channel: String::new(),
+        }
+    }
+
+    #[test]
+    fn a_record_is_covered_cut_or_followed_by_silence() {
+        let record = record(101);
+        assert_eq!(coverage(&record, 1.0), Coverage::Whole);
+        assert_eq!(coverage(&record, 1.0 + 1e-9), Coverage::Whole);
+        assert_eq!(coverage(&record, 0.5), Coverage::Cut);
+        assert_eq!(coverage(&record, 1.5), Coverage::Silence(0.5));
+        let cut = uncovered("base", "record", &record, 0.5).expect("a warning");
+        assert!(cut.contains("0.5 s of 1 s is used, and ends before the strong shaking does"), "{cut}");
+        assert!(!uncovered("base", "record", &record, 0.99).expect("a warning").contains("strong shaking"));
+        let silence = uncovered("top", "record", &record, 1.5).expect("a warning");
+        assert_eq!(silence, "the record of the top ends at 1 s, the run at 1.5 s: silence follows it");
+    }
+
+    #[test]
+    fn times_bear_no_digits_of_rounding() {
+        assert_eq!((seconds(49.995_000_000_000_005), seconds(65.0)), ("49.995 s".into(), "65 s".into()));
+    }
+}

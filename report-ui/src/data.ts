@@ -1,0 +1,168 @@
+/** What the page brings along: a table of contents in JSON and the numbers in one block of bytes behind it. */
+
+import { decode } from "./base64";
+import { Frames } from "./frames";
+
+/** Friction of a joint, equation (6) of the theory. */
+export interface FrictionLaw {
+    law: string;
+    static: number;
+    dynamic: number;
+    slip_velocity: number;
+    beta: number;
+    alpha: number;
+}
+
+/** A history that the run kept at every sample. */
+export interface Channel {
+    name: string;
+    unit: string;
+    description: string;
+}
+
+/** Where an array lies in the bytes. */
+interface Place {
+    type: "f64" | "f32" | "u32" | "i32" | "i8";
+    at: number;
+    count: number;
+}
+
+/** The table of contents; docs/results.md describes what it points to. */
+export interface Contents {
+    layout: number;
+    name: string;
+    title: string;
+    block_names: string[];
+    joint_names: string[];
+    joint_kinds: string[];
+    joint_laws: string[];
+    frictions: FrictionLaw[];
+    beam: { kind: "free" | "driven" | "tied" | "mass"; label: string };
+    frames: { recorded: number; every: number };
+    curve: { samples: number; points: number; interval: number; left_out: number };
+    channels: Channel[];
+    spectrum: { damping: number; interval: number } | null;
+    arrays: Record<string, Place>;
+}
+
+type Numbers = Float64Array | Float32Array | Uint32Array | Int32Array | Int8Array;
+
+const TYPES = { f64: Float64Array, f32: Float32Array, u32: Uint32Array, i32: Int32Array, i8: Int8Array };
+
+/** Layout of the data that this program reads. */
+export const LAYOUT = 1;
+
+/** The data of a report. Blocks, joints and unknowns are called by their indices. */
+export class Report {
+    readonly blocks: number;
+    readonly joints: number;
+    /** Edges [m] and mass [kg] of the blocks, thickness of the mortar below and beside them [m]. */
+    readonly block: {
+        x0: Float64Array;
+        x1: Float64Array;
+        y0: Float64Array;
+        y1: Float64Array;
+        mass: Float64Array;
+        bed: Float64Array;
+        head: Float64Array;
+    };
+    /** Sides as columns of the frames (−1: the base), contact lines [m], laws in SI. */
+    readonly joint: {
+        a: Int32Array;
+        b: Int32Array;
+        x0: Float64Array;
+        y0: Float64Array;
+        x1: Float64Array;
+        y1: Float64Array;
+        overlap: Float64Array;
+        stiffness: Float64Array;
+        damping: Float64Array;
+        normal: Float64Array;
+        /** Index into `contents.frictions`, −1 for none. */
+        friction: Int32Array;
+        /** Compression only. */
+        unilateral: boolean[];
+        /** Head joints and connections: their relative displacement is a gap. */
+        upright: boolean[];
+    };
+    /** Column of the top beam in the frames, −1 without a beam. */
+    readonly beam: number;
+    readonly frames: Frames;
+
+    constructor(readonly contents: Contents, private readonly bytes: ArrayBuffer) {
+        if (contents.layout !== LAYOUT) {
+            throw new Error(`the data have layout ${contents.layout}, this page reads ${LAYOUT}`);
+        }
+        this.blocks = contents.block_names.length;
+        this.joints = contents.joint_names.length;
+        const real = (name: string) => this.array(name) as Float64Array;
+        const whole = (name: string) => this.array(name) as Int32Array;
+        this.block = {
+            x0: real("block/x0"),
+            x1: real("block/x1"),
+            y0: real("block/y0"),
+            y1: real("block/y1"),
+            mass: real("block/mass"),
+            bed: real("block/bed"),
+            head: real("block/head"),
+        };
+        this.beam = contents.beam.kind === "free" ? -1 : this.blocks;
+        this.joint = {
+            a: whole("joint/a"),
+            b: whole("joint/b").map((side) => (side === -2 ? this.beam : side)),
+            x0: real("joint/x0"),
+            y0: real("joint/y0"),
+            x1: real("joint/x1"),
+            y1: real("joint/y1"),
+            overlap: real("joint/overlap"),
+            stiffness: real("joint/stiffness"),
+            damping: real("joint/damping"),
+            normal: real("joint/normal_force_a"),
+            friction: whole("joint/friction"),
+            unilateral: contents.joint_laws.map((law, k) => isUpright(contents.joint_kinds[k]) && ["no-tension", "rigid"].includes(law)),
+            upright: contents.joint_kinds.map(isUpright),
+        };
+        this.frames = new Frames(this);
+    }
+
+    has(name: string): boolean {
+        return name in this.contents.arrays;
+    }
+
+    /** An array by its name. */
+    array(name: string): Numbers {
+        const place = this.contents.arrays[name];
+        if (place === undefined) {
+            throw new Error(`the data of the report lack ${name}`);
+        }
+        return new TYPES[place.type](this.bytes, place.at, place.count);
+    }
+
+    /** Column of a channel, −1 when the run kept none of that name. */
+    channel(name: string): number {
+        return this.contents.channels.findIndex((channel) => channel.name === name);
+    }
+
+    /** A channel's curve over `curve/time`. */
+    curve(channel: number): Float32Array {
+        const points = this.contents.curve.points;
+        return (this.array("curve/values") as Float32Array).subarray(channel * points, (channel + 1) * points);
+    }
+
+    /** A channel's values at the frames. */
+    atFrames(channel: number): Float64Array {
+        const count = this.frames.count;
+        return (this.array("channel/frames") as Float64Array).subarray(channel * count, (channel + 1) * count);
+    }
+}
+
+/** Reads the data out of the page. */
+export function readPage(page: Document): Report {
+    const text = (id: string) => page.getElementById(id)?.textContent ?? "";
+    const contents = JSON.parse(text("concio-contents")) as Contents;
+    return new Report(contents, decode(text("concio-numbers").trim()).buffer);
+}
+
+function isUpright(kind: string): boolean {
+    return kind === "head" || kind === "connection";
+}

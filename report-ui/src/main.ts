@@ -1,0 +1,81 @@
+/** The interactive report: reads the data of the page and puts the wall, its controls and its plots into it. */
+
+import "uplot/dist/uPlot.min.css";
+import "./style.css";
+import { readPage } from "./data";
+import { h } from "./dom";
+import { envelope, quantitiesOf } from "./quantities";
+import type { Owner } from "./quantities";
+import { Store } from "./store";
+import { Cards } from "./ui/cards";
+import { controls } from "./ui/controls";
+import { addButtons } from "./ui/extras";
+import { overview } from "./ui/overview";
+import { Picker } from "./ui/picker";
+import { Player } from "./ui/player";
+import { Response } from "./ui/response";
+import { Stage } from "./ui/stage";
+
+/** Selects the block or joint with the largest peak of the first of these that is not zero throughout. */
+function selectWorst(store: Store, owner: Owner, keys: string[]): void {
+    for (const key of keys) {
+        const quantity = quantitiesOf(owner, "peak").find((q) => q.key === key);
+        if (quantity === undefined) {
+            continue;
+        }
+        const values = envelope(store.report, quantity).subarray(0, owner === "block" ? store.report.blocks : undefined);
+        const index = values.reduce((best, value, k) => (value > values[best] ? k : best), 0);
+        if (values[index] > 0) {
+            store.toggle({ owner, index });
+            return;
+        }
+    }
+}
+
+function frameNote(store: Store): string {
+    const { recorded, every } = store.report.contents.frames;
+    if (recorded === 0) {
+        return "This run kept no frames, so there is no motion to show: set output.frames in the wall file. Colours show peaks.";
+    }
+    return every === 1 ? "" : `To keep the page small it holds every ${every === 2 ? "second" : every === 3 ? "third" : `${every}th`} of ${recorded} frames; result.h5 holds all. Peaks are those of all steps.`;
+}
+
+function build(host: HTMLElement): void {
+    const store = new Store(readPage(document));
+    const stage = new Stage(store);
+    const moving = store.report.frames.count > 0;
+    selectWorst(store, "block", ["displacement"]);
+    selectWorst(store, "joint", ["slip", "displacement"]);
+    const note = frameNote(store);
+    const left = h("div", { class: "left" }, stage.element, ...(moving ? [new Player(store).element] : []), controls(store, stage));
+    if (note !== "") {
+        left.append(h("p", { class: "small" }, note));
+    }
+    const find = h("details", { class: "find" }, h("summary", {}, "Choose blocks and joints from a list"), new Picker(store).element);
+    const right = h("div", { class: "right" }, find, new Cards(store).element);
+    const wall = h("section", { id: "wall" }, h("h2", {}, "The wall"), h("div", { class: "columns" }, left, right));
+    host.append(wall);
+    let span = () => 0;
+    if (moving) {
+        const responses = (["block", "joint"] as const).map((owner) => new Response(store, owner));
+        const hint = "A click in a plot moves the time; dragging with Shift enlarges a stretch of time, a double click shows all again.";
+        const head = [h("h2", {}, "What is selected, over time"), h("p", { class: "small" }, hint)];
+        host.append(h("section", { id: "selected" }, ...head, ...responses.map((r) => r.element)));
+        responses.forEach((response) => response.render());
+        span = () => responses[0].span;
+    }
+    host.append(...overview(store));
+    addButtons(document);
+    // For measurements of the time a picture takes, and for tests.
+    Object.assign(window, { concioReport: { store, stage, span } });
+}
+
+const host = document.getElementById("app");
+if (host !== null) {
+    try {
+        build(host);
+    } catch (error) {
+        host.replaceChildren(h("p", { class: "note bad" }, `The interactive part of this report cannot be shown: ${String(error)}`));
+        throw error;
+    }
+}

@@ -1,0 +1,149 @@
+/** The canvas with the wall, what the pointer does on it, the colour bar. */
+
+import { h, setText } from "../dom";
+import { si, unitText } from "../format";
+import type { Scale } from "../colour";
+import { largest } from "../quantities";
+import type { Store } from "../store";
+import { draw, shifts } from "../wall/draw";
+import type { Shifts } from "../wall/draw";
+import { pick } from "../wall/pick";
+import { automaticScale, baseScale, View } from "../wall/view";
+import { Tooltip } from "./tooltip";
+
+export class Stage {
+    readonly element = h("div", { class: "stage" });
+    readonly view: View;
+    /** Factor on displacements that suits the run. */
+    readonly automatic: number;
+    /** Factor on the motion of the base; 0 when the base is at rest. */
+    readonly baseFactor: number;
+    private readonly canvas = h("canvas", { tabindex: 0, role: "img" });
+    private readonly context: CanvasRenderingContext2D;
+    private readonly bar = new ColourBar();
+    private readonly tooltip: Tooltip;
+    private readonly column: Float64Array;
+    private readonly base: Float64Array | null;
+    private at: Shifts;
+    private size: [number, number] = [0, 0];
+    private waiting = false;
+
+    constructor(private readonly store: Store) {
+        const { report } = store;
+        this.view = new View(report);
+        this.automatic = automaticScale(report, this.view);
+        store.magnify = this.automatic;
+        const channel = report.channel("base/displacement");
+        this.base = channel < 0 ? null : report.atFrames(channel);
+        const peak = this.base === null ? 0 : largest(this.base);
+        this.baseFactor = peak > 0 ? baseScale(peak, this.view) : 0;
+        this.column = new Float64Array(report.frames.unknowns);
+        this.at = { column: this.column, base: 0 };
+        this.context = this.canvas.getContext("2d") as CanvasRenderingContext2D;
+        this.tooltip = new Tooltip(store);
+        this.element.append(this.canvas, this.tooltip.element, this.bar.element);
+        new ResizeObserver(() => this.resize()).observe(this.element);
+        (["frame", "view", "hover", "selection"] as const).forEach((topic) => store.on(topic, () => this.redraw()));
+        this.listen();
+    }
+
+    /** Draws with the next picture of the screen, however often it is called before. */
+    redraw(): void {
+        if (!this.waiting) {
+            this.waiting = true;
+            requestAnimationFrame(() => {
+                this.waiting = false;
+                this.paint();
+            });
+        }
+    }
+
+    /** Draws at once. */
+    paint(): void {
+        if (this.size[0] === 0) {
+            return;
+        }
+        const { store, view } = this;
+        const moves = store.baseMoves && this.base !== null && this.baseFactor > 0;
+        const baseShift = moves && this.base !== null ? this.base[store.frame] * this.baseFactor * view.zoom : 0;
+        this.at = shifts(store, view, baseShift, this.column);
+        this.bar.show(store, draw(this.context, this.size, view, store, this.at));
+        this.describe();
+    }
+
+    private describe(): void {
+        const { blocks, joints } = this.store.report;
+        const label = `Wall of ${blocks} blocks and ${joints} joints, coloured by ${this.store.paint.label}. `
+            + "Space plays, the arrow keys step, the list beside the wall selects.";
+        if (this.canvas.getAttribute("aria-label") !== label) {
+            this.canvas.setAttribute("aria-label", label);
+        }
+    }
+
+    private resize(): void {
+        const width = Math.floor(this.element.clientWidth);
+        if (width === 0 || width === this.size[0]) {
+            return;
+        }
+        const most = Math.min(460, Math.max(220, 0.52 * window.innerHeight));
+        const height = Math.ceil(this.view.fit(width, most));
+        const ratio = window.devicePixelRatio || 1;
+        this.canvas.width = Math.round(width * ratio);
+        this.canvas.height = Math.round(height * ratio);
+        this.canvas.style.height = `${height}px`;
+        this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+        this.size = [width, height];
+        this.paint();
+    }
+
+    private listen(): void {
+        const under = (event: PointerEvent | MouseEvent, reach: number) => {
+            const area = this.canvas.getBoundingClientRect();
+            const [x, y] = [event.clientX - area.left, event.clientY - area.top];
+            this.tooltip.at = [x, y, area.width];
+            return pick(this.view, this.store.report, this.at, x, y, reach);
+        };
+        this.canvas.addEventListener("pointermove", (event) => {
+            this.store.setHover(under(event, event.pointerType === "touch" ? 12 : 6));
+            this.tooltip.place();
+        });
+        this.canvas.addEventListener("pointerleave", (event) => {
+            if (event.pointerType !== "touch") {
+                this.store.setHover(null);
+            }
+        });
+        this.canvas.addEventListener("click", (event) => {
+            const touch = (event as PointerEvent).pointerType === "touch";
+            const item = under(event, touch ? 12 : 6);
+            this.store.setHover(item);
+            this.tooltip.place();
+            if (item !== null) {
+                this.store.toggle(item);
+            }
+        });
+    }
+}
+
+/** What the colours stand for, with numbers at both ends. */
+class ColourBar {
+    readonly element = h("div", { class: "colour-bar" });
+    private readonly title = h("span", { class: "what" });
+    private readonly strip = h("span", { class: "strip" });
+    private readonly ends = [h("span"), h("span"), h("span")];
+
+    constructor() {
+        const marks = h("span", { class: "marks" }, ...this.ends);
+        this.element.append(this.title, h("span", { class: "scale" }, this.strip, marks));
+    }
+
+    show(store: Store, scale: Scale): void {
+        const { paint } = store;
+        const when = paint.when === "peak" ? "peak over the run" : "at the moment";
+        const what = paint.owner === "block" ? "blocks" : "joints";
+        setText(this.title, `${paint.label} of the ${what}, ${when}`);
+        this.strip.style.backgroundImage = `linear-gradient(to right, ${scale.stops.join(",")})`;
+        [scale.low, 0.5 * (scale.low + scale.high), scale.high].forEach((value, k) =>
+            setText(this.ends[k], value === 0 ? "0" : si(value, unitText(paint.unit), 3)),
+        );
+    }
+}

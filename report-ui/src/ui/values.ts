@@ -1,0 +1,78 @@
+/** The numbers of a block or joint: at the moment and at their peaks. */
+
+import { h, setText } from "../dom";
+import { si, unitText } from "../format";
+import { quantitiesOf } from "../quantities";
+import type { Quantity } from "../quantities";
+import type { Item, Store } from "../store";
+
+/** A number on the page and where it comes from. */
+export interface Cell {
+    element: HTMLDataElement;
+    value: () => number;
+    unit: string;
+}
+
+/** Brings numbers up to date. */
+export function fill(cells: Cell[]): void {
+    for (const { element, value, unit } of cells) {
+        const now = value();
+        element.value = String(now);
+        setText(element, si(now, unit));
+    }
+}
+
+/** One row per quantity: at the moment, peak. */
+export function valueTable(store: Store, item: Item): { table: HTMLTableElement; cells: Cell[] } {
+    const cells: Cell[] = [];
+    const cell = (q: Quantity | undefined) => {
+        if (q === undefined) {
+            return h("td", {}, "");
+        }
+        const element = h("data", { "data-key": `${q.when}/${q.key}` });
+        cells.push({ element, value: () => store.moment.value(q, item.index), unit: unitText(q.unit) });
+        return h("td", {}, element);
+    };
+    const peaks = quantitiesOf(item.owner, "peak").filter((q) => applies(store, item, q));
+    const now = store.report.frames.count > 0 ? quantitiesOf(item.owner, "moment") : [];
+    const peakOf = (q: Quantity) => peaks.find((p) => p.key === (q.key === "elastic" ? "force" : q.key));
+    const paired = now.map((q) => [q, peakOf(q)] as const);
+    const single = peaks.filter((p) => !paired.some(([, peak]) => peak === p)).map((p) => [undefined, p] as const);
+    const rows = [...paired, ...single].map(([q, p]) => {
+        const label = q?.label ?? p?.label ?? "";
+        return h("tr", {}, h("th", { scope: "row" }, label), cell(q), cell(p));
+    });
+    const head = h("tr", {}, h("td"), h("th", { scope: "col" }, "now"), h("th", { scope: "col" }, "peak"));
+    fill(cells);
+    return { table: h("table", { class: "values" }, h("thead", {}, head), h("tbody", {}, ...rows)), cells };
+}
+
+/** Opening and closing are of head joints and connections, slip of joints that rub. */
+function applies(store: Store, item: Item, q: Quantity): boolean {
+    const { upright, friction } = store.report.joint;
+    if (item.owner === "joint" && (q.key === "opening" || q.key === "closing")) {
+        return upright[item.index];
+    }
+    return item.owner === "block" || q.key !== "slip" || friction[item.index] >= 0;
+}
+
+/** What a block or joint is, in a few words. */
+export function facts(store: Store, { owner, index }: Item): string {
+    const { report } = store;
+    if (owner === "block") {
+        const { x0, x1, y0, y1, mass } = report.block;
+        const size = `${si(x1[index] - x0[index], "m", 3)} × ${si(y1[index] - y0[index], "m", 3)}`;
+        return `block, ${size}, ${si(mass[index] * 1000, "g", 3)}`;
+    }
+    const { stiffness, normal, friction, overlap } = report.joint;
+    const { joint_kinds, joint_laws, frictions } = report.contents;
+    const law = frictions[friction[index]];
+    const parts = [
+        `${joint_kinds[index]} joint of ${si(overlap[index], "m", 3)}`,
+        `${joint_laws[index]}, ${si(stiffness[index], "N/m", 3)}`,
+    ];
+    if (law !== undefined) {
+        parts.push(`N = ${si(normal[index], "N", 3)}, μs = ${law.static}, μd = ${law.dynamic}`);
+    }
+    return parts.join("; ");
+}

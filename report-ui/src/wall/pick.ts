@@ -1,0 +1,48 @@
+/** What lies under the pointer. */
+
+import type { Report } from "../data";
+import type { Item } from "../store";
+import { line } from "./draw";
+import type { Shifts } from "./draw";
+import type { View } from "./view";
+
+/** The joint within `reach` pixels of a point, else the block around it. */
+export function pick(view: View, report: Report, at: Shifts, x: number, y: number, reach: number): Item | null {
+    const block = blockAt(view, report, at, x, y);
+    // Inside a small block joints are only as near as a third of it, else the block could not be reached.
+    const limit = block === null ? reach : Math.min(reach, nearLimit(view, report, block));
+    let [nearest, found] = [limit, -1];
+    for (let e = 0; e < report.joints; e++) {
+        const distance = distanceTo(line(view, report, at, e), x, y);
+        if (distance < nearest) {
+            [nearest, found] = [distance, e];
+        }
+    }
+    if (found >= 0) {
+        return { owner: "joint", index: found };
+    }
+    return block === null ? null : { owner: "block", index: block };
+}
+
+function nearLimit(view: View, report: Report, i: number): number {
+    const { x0, x1, y0, y1 } = report.block;
+    return 0.3 * view.zoom * Math.min(x1[i] - x0[i], y1[i] - y0[i]);
+}
+
+function blockAt(view: View, report: Report, at: Shifts, x: number, y: number): number | null {
+    const { x0, x1, y0, y1 } = report.block;
+    for (let i = report.blocks - 1; i >= 0; i--) {
+        const left = view.x(x0[i]) + at.column[i];
+        if (x >= left && x <= left + (x1[i] - x0[i]) * view.zoom && y >= view.y(y1[i]) && y <= view.y(y0[i])) {
+            return i;
+        }
+    }
+    return null;
+}
+
+function distanceTo([x0, y0, x1, y1]: [number, number, number, number], x: number, y: number): number {
+    const [dx, dy] = [x1 - x0, y1 - y0];
+    const length = dx * dx + dy * dy;
+    const t = length === 0 ? 0 : Math.max(0, Math.min(1, ((x - x0) * dx + (y - y0) * dy) / length));
+    return Math.hypot(x - x0 - t * dx, y - y0 - t * dy);
+}

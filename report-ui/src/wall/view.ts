@@ -1,0 +1,87 @@
+/** Where the wall lies on the canvas, and how much its displacements are enlarged. */
+
+import type { Report } from "../data";
+import { envelope, largest, QUANTITIES } from "../quantities";
+
+/** Part of the wall's larger side that the largest displacement takes on the canvas. */
+const SHOWN = 0.05;
+/** The same for the motion of the base. */
+const BASE_SHOWN = 0.06;
+
+export interface Bounds {
+    left: number;
+    right: number;
+    bottom: number;
+    top: number;
+}
+
+export class View {
+    readonly bounds: Bounds;
+    /** Pixels per metre. */
+    zoom = 1;
+    /** Left and right end of the top beam, null without one. */
+    readonly beam: [number, number] | null;
+    private originX = 0;
+    private originY = 0;
+
+    constructor(report: Report) {
+        const { x0, x1, y0, y1 } = report.block;
+        const ends = (values: Float64Array, better: (a: number, b: number) => number) => values.reduce((a, b) => better(a, b));
+        this.bounds = { left: ends(x0, Math.min), right: ends(x1, Math.max), bottom: ends(y0, Math.min), top: ends(y1, Math.max) };
+        const tops = report.contents.joint_kinds.flatMap((kind, e) => (kind === "top" ? [e] : []));
+        const end = (line: Float64Array, better: (a: number, b: number) => number) => tops.map((e) => line[e]).reduce((a, b) => better(a, b));
+        this.beam = tops.length === 0 ? null : [end(report.joint.x0, Math.min), end(report.joint.x1, Math.max)];
+    }
+
+    get width(): number {
+        return this.bounds.right - this.bounds.left;
+    }
+
+    get height(): number {
+        return this.bounds.top - this.bounds.bottom;
+    }
+
+    /** Fits the wall into a canvas of that width and at most that height; the height taken, all in pixels. */
+    fit(width: number, most: number): number {
+        const [above, below] = [this.beam === null ? 12 : 40, 20];
+        const side = Math.max(16, width * 0.09);
+        const room = Math.max(60, most - above - below);
+        this.zoom = Math.min((width - 2 * side) / this.width, room / this.height);
+        const height = this.height * this.zoom + above + below;
+        this.originX = 0.5 * (width - this.width * this.zoom) - this.bounds.left * this.zoom;
+        this.originY = above + this.bounds.top * this.zoom;
+        return height;
+    }
+
+    x(x: number): number {
+        return this.originX + x * this.zoom;
+    }
+
+    y(y: number): number {
+        return this.originY - y * this.zoom;
+    }
+}
+
+/** The factor that makes the largest displacement of the run plain to see: 1, 2 or 5 times a power of ten. */
+export function automaticScale(report: Report, view: View): number {
+    const displacement = QUANTITIES.find((q) => q.key === "displacement" && q.owner === "block" && q.when === "peak");
+    const ofBlocks = displacement === undefined ? 0 : largest(envelope(report, displacement).subarray(0, report.blocks));
+    // A beam that slides far over the wall may go half a step out of the picture, but not leave it.
+    const ofBeam = report.beam < 0 ? 0 : largest(report.frames.history("displacement", report.beam));
+    const peak = Math.max(ofBlocks, ofBeam / 2);
+    return rounded((SHOWN * Math.max(view.width, view.height)) / peak);
+}
+
+/** The factor for the motion of the base. */
+export function baseScale(peak: number, view: View): number {
+    return rounded((BASE_SHOWN * Math.max(view.width, view.height)) / peak);
+}
+
+/** The largest of 1, 2, 5 times a power of ten not above a factor. */
+export function rounded(factor: number): number {
+    if (!(factor > 0) || !Number.isFinite(factor)) {
+        return 1;
+    }
+    const power = 10 ** Math.floor(Math.log10(factor) + 1e-9);
+    return [5, 2, 1].map((m) => m * power).find((f) => f <= factor * (1 + 1e-9)) ?? power;
+}

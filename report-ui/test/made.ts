@@ -1,0 +1,69 @@
+/** A small made-up report: two blocks, a beam, joints of three kinds, three frames. */
+
+import type { Contents, FrictionLaw } from "../src/data";
+import { LAYOUT, Report } from "../src/data";
+import { FIELDS } from "../src/frames";
+
+export const LAW: FrictionLaw = { law: "stribeck", static: 0.6, dynamic: 0.42, slip_velocity: 1e-3, beta: 100, alpha: 0.7 };
+
+/** Displacements of left block, right block and beam at three frames; velocities and accelerations are multiples. */
+export const MOTION = [
+    [0, 0, 0],
+    [4.999e-3, 4.999e-3 + 1.234567e-7, -5e-3],
+    [-1e-3, -2e-3, NaN],
+];
+
+type Numbers = Float64Array | Float32Array | Uint32Array | Int32Array | Int8Array;
+const KINDS = new Map<Function, "f64" | "f32" | "u32" | "i32" | "i8">([
+    [Float64Array, "f64"], [Float32Array, "f32"], [Uint32Array, "u32"], [Int32Array, "i32"], [Int8Array, "i8"],
+]);
+
+export function made(more: Record<string, Numbers> = {}): Report {
+    const real = (...values: number[]) => Float64Array.from(values);
+    const arrays: Record<string, Numbers> = {
+        "block/x0": real(0, 0.26), "block/x1": real(0.25, 0.51), "block/y0": real(0, 0), "block/y1": real(0.05, 0.05),
+        "block/mass": real(3, 3), "block/bed": real(0.01, 0.01), "block/head": real(0.01, 0.01),
+        "joint/a": Int32Array.from([0, 0, 1]), "joint/b": Int32Array.from([-1, 1, -2]), "joint/friction": Int32Array.from([0, -1, 0]),
+        "joint/x0": real(0, 0.255, 0.26), "joint/x1": real(0.25, 0.255, 0.51), "joint/y0": real(0, 0, 0.05), "joint/y1": real(0, 0.05, 0.05),
+        "joint/overlap": real(0.25, 0.05, 0.25), "joint/stiffness": real(1e8, 5e10, 1e8), "joint/damping": real(2000, 1000, 2000),
+        "joint/normal_force_a": real(1000, 0, 900),
+        "frame/time": real(0, 0.1, 0.2),
+        "envelope/block/displacement": real(1, 2, 9), "envelope/block/velocity": real(1, 2, 9), "envelope/block/acceleration": real(1, 2, 9),
+        "envelope/joint/velocity": real(1e-3, 2e-3, 0),
+        ...frames(),
+        ...more,
+    };
+    const contents: Contents = {
+        layout: LAYOUT, name: "made", title: "", block_names: ["p1c1b1", "p1c1b2"],
+        joint_names: ["base|p1c1b1", "p1c1b1|p1c1b2", "p1c1b2|top"], joint_kinds: ["base", "head", "top"],
+        joint_laws: ["elastic", "no-tension", "elastic"], frictions: [LAW], beam: { kind: "mass", label: "beam" },
+        frames: { recorded: 3, every: 1 }, curve: { samples: 3, points: 3, interval: 0.1, left_out: 0 }, channels: [], spectrum: null,
+        arrays: {},
+    };
+    let at = 0;
+    const parts = Object.entries(arrays).map(([name, values]) => {
+        contents.arrays[name] = { type: KINDS.get(values.constructor) ?? "f64", at, count: values.length };
+        const start = at;
+        at = Math.ceil((at + values.byteLength) / 8) * 8;
+        return { values, start };
+    });
+    const bytes = new Uint8Array(at);
+    parts.forEach(({ values, start }) => bytes.set(new Uint8Array(values.buffer, values.byteOffset, values.byteLength), start));
+    return new Report(contents, bytes.buffer);
+}
+
+function frames(): Record<string, Numbers> {
+    const arrays: Record<string, Numbers> = {};
+    FIELDS.forEach((field, k) => {
+        const rows = MOTION.map((row) => row.map((v) => v * 10 ** k));
+        const quanta = rows.map((row) => {
+            const largest = Math.max(...row.filter(Number.isFinite).map(Math.abs));
+            return largest === 0 ? 1 : 2 ** (Math.ceil(Math.log2(largest)) - 38);
+        });
+        const steps = rows.flatMap((row, r) => row.map((v) => (Number.isFinite(v) ? Math.round(v / quanta[r]) : -(2 ** 39))));
+        arrays[`frame/${field}/quantum`] = Float64Array.from(quanta);
+        arrays[`frame/${field}/low`] = Uint32Array.from(steps.map((s) => ((s % 2 ** 32) + 2 ** 32) % 2 ** 32));
+        arrays[`frame/${field}/high`] = Int8Array.from(steps.map((s) => Math.floor(s / 2 ** 32)));
+    });
+    return arrays;
+}
