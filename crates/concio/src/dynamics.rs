@@ -77,10 +77,14 @@ pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
     for (r, rub) in model.rubs.iter().enumerate() {
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         let w = state.v[a] - state.v[b];
-        let (mu, slope) = rub.law.at(w);
+        // A set-valued joint at rest goes on sticking, held by the force that held it: how much it has to be now,
+        // and whether that is too much, the next stage will say.
+        state.tangents.stuck[r] = rub.law.sticks() && w == 0.0;
+        if !state.tangents.stuck[r] {
+            (state.tangents.mu[r], state.tangents.slope[r]) = rub.law.at(w);
+        }
         state.tangents.velocity[r] = w;
-        state.tangents.mu[r] = mu;
-        state.tangents.slope[r] = slope;
+        let mu = state.tangents.mu[r];
         state.a[a] -= rub.normal[0] * mu;
         state.a[b] += rub.normal[1] * mu;
     }
@@ -135,7 +139,7 @@ pub fn observe(model: &Model, state: &mut State, h: f64) {
     for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         let w = (state.v[a] - state.v[b]).abs();
-        if w > rub.law.slip_velocity {
+        if w > if rub.law.sticks() { 0.0 } else { rub.law.slip_velocity } {
             env.joint_slip[rub.joint as usize] += h * w;
         }
         if b == top {

@@ -16,17 +16,27 @@ pub struct Stribeck {
     pub dynamic: f64,
     /// δ_v [m/s].
     pub slip_velocity: f64,
-    /// β.
+    /// β; infinite for the set-valued law, which sticks truly: at rest any |μ| ≤ μ_s, in slip (6) without its first
+    /// factor. With δ_v = 0 besides, slip has μ_d at once (Coulomb).
     pub beta: f64,
     /// α [s²/m²].
     pub alpha: f64,
 }
 
 impl Stribeck {
-    /// μ(v) and dμ/dv [s/m] at v [m/s]; odd in v.
+    /// Whether the law is set-valued at rest.
+    pub fn sticks(&self) -> bool {
+        self.beta.is_infinite()
+    }
+
+    /// μ(v) and dμ/dv [s/m] at v [m/s]; odd in v. At rest a set-valued law has no one value: 0 stands for it.
     #[inline(always)]
     pub fn at(&self, v: f64) -> (f64, f64) {
         let speed = v.abs();
+        if self.sticks() {
+            let (level, slope) = self.in_slip(speed);
+            return (if v == 0.0 { 0.0 } else { level.copysign(v) }, slope);
+        }
         let steep = self.beta / self.slip_velocity;
         let z = speed * steep;
         let decay = (self.static_ - self.dynamic) * exp_of_negative(speed / self.slip_velocity);
@@ -36,6 +46,17 @@ impl Stribeck {
         let slope =
             FRAC_2_PI * steep / (1.0 + z * z) * level - angle * decay / self.slip_velocity + 2.0 * self.alpha * speed;
         (value.copysign(v), slope)
+    }
+
+    /// Of the set-valued law: |μ| at the speed [m/s] of a slip, and its slope [s/m].
+    pub fn in_slip(&self, speed: f64) -> (f64, f64) {
+        let (decay, falling) = if self.slip_velocity > 0.0 {
+            let decay = (self.static_ - self.dynamic) * exp_of_negative(speed / self.slip_velocity);
+            (decay, decay / self.slip_velocity)
+        } else {
+            (0.0, 0.0)
+        };
+        (decay + self.dynamic + self.alpha * speed * speed, 2.0 * self.alpha * speed - falling)
     }
 
     /// μ(v) alone.

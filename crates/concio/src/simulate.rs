@@ -75,7 +75,9 @@ impl<'m> Simulation<'m> {
         let mut state = State::at_rest(model);
         let drive = model.excitation.drive(0.0);
         kick(model, &mut state, model.excitation.base_velocity_jump(0.0));
+        let mut work = Step::new(model, solver.scheme);
         settle(model, &drive, &mut state);
+        work.stage.join(model, &state.tangents, &mut state.a);
         state.step = (0.01 / model.stiffest.sqrt()).min(duration);
         if !state.step.is_finite() {
             state.step = duration;
@@ -83,7 +85,6 @@ impl<'m> Simulation<'m> {
         begin_account(model, &mut state);
         let frames = if layout.frame_every > 0 { BUFFER.div_ceil(layout.frame_every) } else { 0 };
         let recording = Recording::with_room(&layout, BUFFER, frames);
-        let work = Step::new(model, solver.scheme);
         let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
         let mut run =
             Simulation { model, solver: *solver, channels, layout, state, work, recording, drive, longest_step };
@@ -105,11 +106,17 @@ impl<'m> Simulation<'m> {
         let n = self.model.unknowns();
         self.state.z[..n].copy_from_slice(z);
         self.state.v[..n].copy_from_slice(v);
-        settle(self.model, &self.drive, &mut self.state);
+        self.settle();
         begin_account(self.model, &mut self.state);
         self.state.samples = 0;
         self.clear_recording();
         self.sample();
+    }
+
+    /// Makes what follows from displacements and velocities consistent with the motion at this instant.
+    fn settle(&mut self) {
+        settle(self.model, &self.drive, &mut self.state);
+        self.work.stage.join(self.model, &self.state.tangents, &mut self.state.a);
     }
 
     /// Takes at most `steps` steps, fewer when the buffer is full or the run ends.
@@ -228,7 +235,7 @@ impl<'m> Simulation<'m> {
         let (old, new) = (before.base_acceleration(t), self.drive.base_acceleration(t));
         let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
         if jump != 0.0 || !close(old, new) || !close(before.top(t).v, self.drive.top(t).v) {
-            settle(self.model, &self.drive, &mut self.state);
+            self.settle();
         }
     }
 

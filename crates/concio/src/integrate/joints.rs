@@ -67,21 +67,28 @@ pub struct Rubs {
     slip_velocity: Vec<f64>,
     steep: Vec<f64>,
     alpha: Vec<f64>,
+    /// The joints among these, by index here, whose law is set-valued.
+    pub sticking: Vec<u32>,
 }
+
+/// Steepness by which a set-valued law in slip goes through the same operations as (6): any speed is far up the branch.
+const VERTICAL: f64 = 1e200;
 
 impl Rubs {
     pub fn new(model: &Model, joints: &Joints) -> Self {
         let rubs = || model.rubs.iter();
+        let at_once = |r: &crate::model::Rub| r.law.sticks() && r.law.slip_velocity == 0.0;
         Rubs {
             joint: rubs().map(|r| r.joint).collect(),
             sides: rubs().map(|r| joints.sides[r.joint as usize]).collect(),
             slot: rubs().map(|r| joints.slot[r.joint as usize]).collect(),
             normal: rubs().map(|r| r.normal).collect(),
-            excess: rubs().map(|r| r.law.static_ - r.law.dynamic).collect(),
+            excess: rubs().map(|r| if at_once(r) { 0.0 } else { r.law.static_ - r.law.dynamic }).collect(),
             dynamic: rubs().map(|r| r.law.dynamic).collect(),
-            slip_velocity: rubs().map(|r| r.law.slip_velocity).collect(),
-            steep: rubs().map(|r| r.law.beta / r.law.slip_velocity).collect(),
+            slip_velocity: rubs().map(|r| if at_once(r) { 1.0 } else { r.law.slip_velocity }).collect(),
+            steep: rubs().map(|r| if r.law.sticks() { VERTICAL } else { r.law.beta / r.law.slip_velocity }).collect(),
             alpha: rubs().map(|r| r.law.alpha).collect(),
+            sticking: (0..model.rubs.len() as u32).filter(|&r| model.rubs[r as usize].law.sticks()).collect(),
         }
     }
 

@@ -19,6 +19,7 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::integrate::groups::Groups;
 use crate::integrate::joints::{Joints, Rubs};
 use crate::integrate::linear::Matrix;
 use crate::law::Stribeck;
@@ -32,6 +33,11 @@ const MOST_ITERATIONS: usize = 12;
 const FAR: f64 = 0.02;
 /// How near to the law, as a fraction of μ_s, that place has to be found.
 const MEETING: f64 = 0.01;
+/// Stiffness that holds a sticking joint while its friction is sought, over the impedance that it sees: each iteration
+/// leaves about the inverse of it of the velocity.
+const HOLD: f64 = 1e6;
+/// Velocity that a sticking joint may be left with before it is set to rest, as a fraction of the accuracy.
+const STILL: f64 = 1e-3;
 
 /// Scratch of the stage. Unknowns are numbered by their place in the elimination order, base and top last; only
 /// `z`, `v` and `solution` are in the order of the model.
@@ -64,6 +70,9 @@ pub struct Stage {
     velocity: Vec<f64>,
     mu: Vec<f64>,
     slope: Vec<f64>,
+    /// Slopes that hold the joints with set-valued laws, [`HOLD`] times their impedance.
+    hold: Vec<f64>,
+    groups: Groups,
     /// Whether the factors hold for `tau` and `closed`, no joint rubbing.
     factors_hold: bool,
     /// Counts.
@@ -131,6 +140,8 @@ impl Stage {
             velocity: zeros(rubs.len()),
             mu: zeros(rubs.len()),
             slope: zeros(rubs.len()),
+            hold: zeros(rubs.len()),
+            groups: Groups::new(n),
             factors_hold: false,
             iterations: 0,
             factorisations: 0,
@@ -177,7 +188,7 @@ impl Stage {
             self.closed.copy_from_slice(&tangents.closed);
             self.assemble_elastic();
         }
-        self.start();
+        self.start(tangents);
         self.load_elastic(ground);
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
@@ -196,8 +207,9 @@ impl Stage {
             if !sum.is_finite() {
                 return Err(Failure::NotFinite);
             }
-            if !flipped && correction <= accuracy {
-                self.finish(tangents);
+            let settled = self.settled(model, tangents, accuracy);
+            if !flipped && settled && correction <= accuracy {
+                self.finish(model, tangents);
                 return Ok(());
             }
             if flipped {
@@ -241,7 +253,15 @@ impl Stage {
 
     /// Relative displacements and velocities of the prediction.
     #[inline(always)]
-    fn start(&mut self) {
+    fn start(&mut self, tangents: &mut Tangents) {
+        for &r in &self.rubs.sticking {
+            let r = r as usize;
+            self.hold[r] = HOLD * self.impedance(r);
+            if tangents.stuck[r] {
+                tangents.slope[r] = self.hold[r];
+                tangents.velocity[r] = 0.0;
+            }
+        }
         let (z, v, tau) = (&self.z, &self.v, self.tau);
         for (gap, &e) in self.gap.iter_mut().zip(&self.joints.one_sided) {
             let [a, b] = self.joints.of_model[e as usize].map(|s| s as usize);
@@ -350,6 +370,14 @@ impl Stage {
             *w = before + change[a as usize] - change[b as usize];
         }
         rubs.laws(&self.velocity, &mut self.mu, &mut self.slope);
+        for &r in &rubs.sticking {
+            let r = r as usize;
+            if tangents.stuck[r] {
+                // What holds it is not a function of velocity: the tangent is the law.
+                self.mu[r] = tangents.mu[r] + tangents.slope[r] * self.velocity[r];
+                self.slope[r] = tangents.slope[r];
+            }
+        }
         self.rhs.fill(0.0);
         let rhs = &mut self.rhs[..];
         let laws = tangents.mu.iter().zip(&tangents.slope).zip(&tangents.velocity).zip(&self.velocity).zip(&self.mu);
@@ -362,9 +390,60 @@ impl Stage {
         self.rhs[n..].fill(0.0);
     }
 
+    /// τ⁻¹(1/J_aa + 1/J_bb)⁻¹/N: change of μ over change of velocity, neighbours held. The joint's own tangent is not
+    /// part of what it sees; its neighbours', whose falling slopes may outweigh the rest, are left out too.
+    #[inline(always)]
+    fn impedance(&self, r: usize) -> f64 {
+        let [a, b] = self.rubs.sides[r].map(|s| s as usize);
+        let [in_a, in_b] = self.rubs.normal[r];
+        let free = self.diagonal[a].recip() + self.diagonal.get(b).map_or(0.0, |d| d.recip());
+        1.0 / (self.tau * 0.5 * (in_a + in_b) * free)
+    }
+
+    /// Whether every joint with a set-valued law is where its tangent was drawn: at rest within μ_s, or slipping the
+    /// way it was meant to.
+    #[inline(always)]
+    fn settled(&self, model: &Model, tangents: &Tangents, accuracy: f64) -> bool {
+        self.rubs.sticking.iter().all(|&r| {
+            let r = r as usize;
+            let w = self.velocity[r];
+            if tangents.stuck[r] {
+                self.mu[r].abs() <= model.rubs[r].law.static_ && w.abs() <= STILL * accuracy
+            } else {
+                w * tangents.velocity[r] > 0.0
+            }
+        })
+    }
+
+    /// Puts a set-valued law where it meets the line of slope −Z through the last point: at rest, or in slip.
+    #[inline(always)]
+    fn place(&self, law: &Stribeck, r: usize, tangents: &mut Tangents) {
+        let w = self.velocity[r];
+        let target = tangents.mu[r] + tangents.slope[r] * (w - tangents.velocity[r]);
+        if !tangents.stuck[r] && w * tangents.velocity[r] > 0.0 {
+            // Slipping on: Newton's tangent.
+            (tangents.velocity[r], tangents.mu[r], tangents.slope[r]) = (w, self.mu[r], self.slope[r]);
+            return;
+        }
+        let impedance = self.impedance(r);
+        let c = if tangents.stuck[r] { target } else { target + impedance * w };
+        tangents.stuck[r] = c.abs() <= law.static_;
+        if tangents.stuck[r] {
+            (tangents.velocity[r], tangents.mu[r], tangents.slope[r]) = (0.0, c, self.hold[r]);
+            return;
+        }
+        let mut speed = 0.0;
+        for _ in 0..3 {
+            speed = (c.abs() - law.in_slip(speed).0) / impedance;
+        }
+        let speed = speed.max(f64::MIN_POSITIVE);
+        let (level, slope) = law.in_slip(speed);
+        (tangents.velocity[r], tangents.mu[r], tangents.slope[r]) = (speed.copysign(c), level.copysign(c), slope);
+    }
+
     /// Applies the last correction and leaves the tangents at the solution.
     #[inline(always)]
-    fn finish(&mut self, tangents: &mut Tangents) {
+    fn finish(&mut self, model: &Model, tangents: &mut Tangents) {
         for (change, d) in self.change.iter_mut().zip(&self.rhs) {
             *change -= d;
         }
@@ -377,25 +456,44 @@ impl Stage {
             tangents.slope[r] = self.slope[r];
             tangents.velocity[r] = w;
         }
+        if !self.rubs.sticking.is_empty() {
+            self.rest(model, tangents);
+        }
+    }
+
+    /// Sticking joints come to rest altogether: blocks that hang together have one velocity.
+    fn rest(&mut self, model: &Model, tangents: &mut Tangents) {
+        self.groups.find(model, &tangents.stuck);
+        self.groups.average(&model.mass, &mut self.solution);
+        for &r in &self.rubs.sticking {
+            if tangents.stuck[r as usize] {
+                tangents.velocity[r as usize] = 0.0;
+            }
+        }
+    }
+
+    /// Gives blocks that stick together one acceleration [m/s²], that of the support if they stick to one.
+    pub fn join(&mut self, model: &Model, tangents: &Tangents, acceleration: &mut [f64]) {
+        if !self.rubs.sticking.is_empty() {
+            self.groups.find(model, &tangents.stuck);
+            self.groups.average(&model.mass, acceleration);
+        }
     }
 
     #[inline(always)]
     fn move_tangents(&mut self, model: &Model, tangents: &mut Tangents) {
-        let n = self.mass.len();
         for r in 0..self.rubs.len() {
             let w = self.velocity[r];
             let old = tangents.slope[r];
             let target = tangents.mu[r] + old * (w - tangents.velocity[r]);
             let (mut at, mut mu, mut slope) = (w, self.mu[r], self.slope[r]);
             let law = &model.rubs[r].law;
+            if law.sticks() {
+                self.place(law, r, tangents);
+                continue;
+            }
             if (mu - target).abs() > FAR * law.static_ {
-                let [a, b] = self.rubs.sides[r].map(|s| s as usize);
-                let normals = self.rubs.normal[r];
-                // The joint's own tangent is not part of what it sees; its neighbours' falling slopes, which may
-                // outweigh the rest, are left out too.
-                let seen = |i: usize| self.diagonal[i].recip();
-                let free = seen(a) + if b < n { seen(b) } else { 0.0 };
-                let impedance = 1.0 / (self.tau * 0.5 * (normals[0] + normals[1]) * free);
+                let impedance = self.impedance(r);
                 (at, mu, slope) = meet(law, impedance, target + impedance * w);
             }
             tangents.velocity[r] = at;

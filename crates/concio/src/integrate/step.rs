@@ -165,6 +165,7 @@ impl Step {
         state.v.copy_from_slice(&self.stage_v[last]);
         state.a[..n].copy_from_slice(&self.stage_a[last]);
         state.a[n + 1] = self.top_acceleration;
+        self.stage.join(model, &self.tangents, &mut state.a);
         state.power = self.stage_power[last];
         for i in 0..=last {
             self.stage_power[i].accrue(h * self.tableau.b[i], &mut state.energies);
