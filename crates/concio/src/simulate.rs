@@ -4,7 +4,7 @@
 //! does no I/O and allocates nothing. The caller empties the buffer, shows progress, saves the state.
 
 use crate::case::Solver;
-use crate::dynamics::{Channels, kick, observe, settle};
+use crate::dynamics::{Channels, accelerate, kick, observe, settle};
 use crate::error::Result;
 use crate::excitation::Drive;
 use crate::integrate::stage::Failure;
@@ -76,8 +76,7 @@ impl<'m> Simulation<'m> {
         let drive = model.excitation.drive(0.0);
         kick(model, &mut state, model.excitation.base_velocity_jump(0.0));
         let mut work = Step::new(model, solver.scheme);
-        settle(model, &drive, &mut state);
-        work.stage.join(model, &state.tangents, &mut state.a);
+        settle_all(model, &drive, &mut work, &mut state);
         state.step = (0.01 / model.stiffest.sqrt()).min(duration);
         if !state.step.is_finite() {
             state.step = duration;
@@ -115,8 +114,7 @@ impl<'m> Simulation<'m> {
 
     /// Makes what follows from displacements and velocities consistent with the motion at this instant.
     fn settle(&mut self) {
-        settle(self.model, &self.drive, &mut self.state);
-        self.work.stage.join(self.model, &self.state.tangents, &mut self.state.a);
+        settle_all(self.model, &self.drive, &mut self.work, &mut self.state);
     }
 
     /// Takes at most `steps` steps, fewer when the buffer is full or the run ends.
@@ -325,6 +323,16 @@ impl<'m> Simulation<'m> {
             counters: self.state.counters,
             stop_reason,
         }
+    }
+}
+
+/// [`settle`], and which of the joints at rest let go under the forces of this instant.
+fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) {
+    settle(model, drive, state);
+    if model.rubs.iter().any(|r| r.law.sticks()) {
+        work.let_go(model, drive, state);
+        accelerate(model, drive, state);
+        work.stage.join(model, &state.tangents, &mut state.a);
     }
 }
 

@@ -38,6 +38,8 @@ pub struct Tolerance {
 
 /// Allowed error of the stage iteration as a fraction of the tolerance of the step.
 const STAGE_ACCURACY: f64 = 0.02;
+/// Step in which nothing moves, over the shortest time scale of the model.
+const INSTANT: f64 = 1e-6;
 
 impl Step {
     pub fn new(model: &Model, scheme: Scheme) -> Self {
@@ -101,6 +103,27 @@ impl Step {
             self.stage_power[i] = power(model, &self.z, v, &self.tangents.mu, ground, &mut self.stage_joint_power[i]);
         }
         Ok(self.error(model, h, tau, tolerance))
+    }
+
+    /// Finds which joints with set-valued laws that are at rest let go, and how much friction holds the others, by an
+    /// implicit step too short for anything to move.
+    pub fn let_go(&mut self, model: &Model, drive: &Drive, state: &mut State) {
+        let n = model.unknowns();
+        let tau = INSTANT / model.stiffest.sqrt();
+        let largest = state.a[..n].iter().fold(0.0f64, |m, a| m.max(a.abs()));
+        let (top, stage) = (drive.top(state.t), &mut self.stage);
+        stage.z.copy_from_slice(&state.z);
+        stage.v.copy_from_slice(&state.v);
+        stage.solution[n + 1] = top.v + tau * top.a;
+        stage.forget_factors();
+        self.tangents.copy_from(&state.tangents);
+        let found = stage.solve(model, &mut self.tangents, tau, drive.base_acceleration(state.t), 1e-6 * tau * largest);
+        if found.is_ok() {
+            state.tangents.mu.copy_from_slice(&self.tangents.mu);
+            state.tangents.stuck.copy_from_slice(&self.tangents.stuck);
+            state.tangents.velocity.copy_from_slice(&self.tangents.velocity);
+            state.tangents.slope.copy_from_slice(&self.tangents.slope);
+        }
     }
 
     fn predict(&mut self, state: &State, i: usize, h: f64, n: usize) {
