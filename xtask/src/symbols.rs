@@ -14,7 +14,7 @@ struct Symbol {
     unit: &'static str,
     /// Keys of the wall file, parted by blanks; none when it is computed.
     keys: &'static str,
-    /// `file word`: a source of the engine and a word that stands in it.
+    /// `file word`: a source of the engine and a word that stands in it; empty where the code has no name for it.
     code: &'static str,
     /// Equations of docs/theory.md, or a section of it.
     source: &'static str,
@@ -45,7 +45,7 @@ const SYMBOLS: [Symbol; 47] = [
     row("L_ref", "length of the panel's reference brick", "m", "panel.brick.length", "wall.rs reference_length", "section 1"),
     row("ℓ", "overlap: contact length of a joint", "m", "", "wall.rs overlap", "section 1"),
     row("w", "overlap weight, 2 ℓ/L_ref", "1", "", "wall.rs weight", "(2) (4)"),
-    row("x_i", "absolute displacement of block i", "m", "", "law.rs δ", "(1)"),
+    row("x_i", "absolute displacement of block i", "m", "", "", "(1)"),
     row("z_i", "displacement of block i relative to the base", "m", "", "record.rs block_displacement", "section 2"),
     row("δ", "head joint: x_right − x_left, positive when it opens", "m", "", "record.rs joint_opening", "(3)"),
     row("U₀", "motion of the base", "m", "motion.base", "excitation.rs base", "section 2"),
@@ -104,9 +104,8 @@ pub fn page(root: &Path, schema: &str) -> Result<String, String> {
         let found = keys(&schema, s).and_then(|()| code(root, s)).and_then(|()| source(&theory, s));
         found.map_err(|why| format!("docs/symbols.md, {}: {why}", s.symbol))?;
         let keys: Vec<String> = s.keys.split_whitespace().map(|k| format!("`{k}`")).collect();
-        let (file, word) = s.code.split_once(' ').unwrap_or((s.code, ""));
         let keys = if keys.is_empty() { "–".into() } else { keys.join(", ") };
-        let code = format!("`{file}` `{word}`");
+        let code = s.code.split_once(' ').map_or("–".into(), |(file, word)| format!("`{file}` `{word}`"));
         page += &format!("| {} | {} | {} | {keys} | {code} | {} |\n", s.symbol, s.meaning, s.unit, s.source);
     }
     Ok(page)
@@ -142,6 +141,9 @@ fn tables<'a>(schema: &'a Value, part: &'a Value) -> Vec<&'a Value> {
 
 /// The file is there and holds the word.
 fn code(root: &Path, s: &Symbol) -> Result<(), String> {
+    if s.code.is_empty() {
+        return Ok(());
+    }
     let (file, word) = s.code.split_once(' ').ok_or_else(|| format!("`{}` names no word", s.code))?;
     let path = root.join("crates/concio/src").join(file);
     let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;

@@ -15,7 +15,8 @@ pub const FORMAT: &str = "concio-findings";
 const FORMAT_VERSION: u32 = 1;
 
 /// The content of findings.json. Every number is the median over the members of the wall files, `low` and `high` the
-/// extremes, `runs` the members themselves, the unchanged wall files first; the answer is the criterion applied to the medians, `members.yes` to each member by itself.
+/// extremes, `runs` the members themselves, the unchanged wall files first; the answer is the criterion applied to the
+/// medians, `members.yes` to each member by itself.
 pub fn of(runs: &BTreeMap<Job, Measures>) -> Value {
     let findings: Vec<Value> = FINDINGS.iter().map(|f| answer(f, runs)).collect();
     let settings: Vec<Value> = Setting::ALL.iter().map(|s| under(*s, runs)).collect();

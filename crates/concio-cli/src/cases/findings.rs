@@ -1,5 +1,5 @@
-//! The findings of the report and by what each is decided. A criterion is stated before it is measured and holds for
-//! every setting alike; docs/report-cases.md says what came of each.
+//! The findings of the report and by what each is decided. A criterion holds for every setting alike; docs/report-cases.md
+//! says what came of each, and where a measure replaced one that had been tried before.
 
 use super::measures::{Measures, largest, median, rank_correlation};
 

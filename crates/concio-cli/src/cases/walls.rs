@@ -178,7 +178,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_run_is_a_valid_wall_and_no_two_are_the_same() {
+    fn every_run_is_a_valid_wall_and_no_two_are_the_same_but_for_coefficients_without_friction() {
         let mut hashes = std::collections::BTreeSet::new();
         for setting in Setting::ALL {
             for which in Which::ALL {
@@ -190,8 +190,8 @@ mod tests {
                 }
             }
         }
-        // Without friction neither its coefficients nor its forces make a difference to the wall file's hash.
-        assert!(hashes.len() > 6 * 8 * MEMBERS);
+        // Without friction its coefficients make no difference: case 4 is the same wall with the lower and the upper ones.
+        assert_eq!(hashes.len(), (Which::ALL.len() * Setting::ALL.len() - 1) * MEMBERS);
     }
 
     fn file_folder() -> &'static std::path::Path {

@@ -98,10 +98,10 @@ impl<'a> Data<'a> {
         Some(self.run.outcome.recording.values.chunks_exact(channels.len()).map(move |row| row[at]))
     }
 
-    /// The frames in the window; none kept is an error that says how to keep them.
+    /// The frames in the window.
     ///
     /// # Errors
-    /// There are none.
+    /// No frames were kept, which says how to keep them; none lies in the window.
     fn shown_frames(&self) -> Result<Range<usize>, InputError> {
         if self.run.outcome.recording.frame_time.is_empty() {
             return Err(InputError::new("the run kept no frames")
@@ -224,7 +224,8 @@ impl<'a> Data<'a> {
         })
     }
 
-    /// Slip [m] and friction force [N] of a joint, so signed that friction against the motion encloses an area above 0.
+    /// Slip [m] and friction force [N] of a joint, so signed that friction against the motion encloses an area above 0. Under
+    /// overburden loads the force is that on the lower or left block, and the area is not what the joint dissipates.
     ///
     /// # Errors
     /// Neither samples nor frames were kept.

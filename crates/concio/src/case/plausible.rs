@@ -48,7 +48,7 @@ const STIFFNESS: Expected = Expected {
 /// δ_v: faster than 0.1 m/s is beyond what joints reach in most earthquakes, so that they would never slip.
 const SLIP_VELOCITY: Expected =
     Expected { limits: [1e-7, 0.1], usual: [1e-5, 0.02], unit: "m/s", slips: &[(1e-3, "mm/s", 1e-3)] };
-/// From a person on a metre of wall to 10 MPa on a wall of one metre.
+/// From less than a person on a metre of wall, 100 N, to 10 MPa on a wall of one metre.
 const LOAD: Expected =
     Expected { limits: [1e2, 1e7], usual: [1e3, 2e6], unit: "N/m", slips: &[(1e3, "kN/m", 1e3), (1e-3, "kN/m", 1e3)] };
 /// A beam of the laboratory to the floors of a tower.
