@@ -69,9 +69,27 @@ pub fn atan_of_positive(z: f64) -> f64 {
         1.945_506_571_482_613_964_425e2,
     ];
     let (far, middle) = (z > 2.414_213_562_373_095, z > 0.66);
-    let top = if far { -1.0 } else if middle { z - 1.0 } else { z };
-    let bottom = if far { z } else if middle { z + 1.0 } else { 1.0 };
-    let turned = if far { FRAC_PI_2 } else if middle { FRAC_PI_4 } else { 0.0 };
+    let top = if far {
+        -1.0
+    } else if middle {
+        z - 1.0
+    } else {
+        z
+    };
+    let bottom = if far {
+        z
+    } else if middle {
+        z + 1.0
+    } else {
+        1.0
+    };
+    let turned = if far {
+        FRAC_PI_2
+    } else if middle {
+        FRAC_PI_4
+    } else {
+        0.0
+    };
     let t = top / bottom;
     let s = t * t;
     let p = (((P[0] * s + P[1]) * s + P[2]) * s + P[3]) * s + P[4];

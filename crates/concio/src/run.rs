@@ -289,11 +289,15 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
             damping: law.damping,
             normal_force: rub.map_or([0.0; 2], |r| r.normal),
             friction: rub.map(|r| store::FrictionRow {
-                law: FrictionLaw::Stribeck,
+                law: match r.law.sticks() {
+                    false => FrictionLaw::Stribeck,
+                    true if r.law.slip_velocity == 0.0 => FrictionLaw::Coulomb,
+                    true => FrictionLaw::StribeckStick,
+                },
                 static_: r.law.static_,
                 dynamic: r.law.dynamic,
                 slip_velocity: r.law.slip_velocity,
-                beta: r.law.beta,
+                beta: if r.law.sticks() { 0.0 } else { r.law.beta },
                 alpha: r.law.alpha,
             }),
         }

@@ -70,6 +70,7 @@ impl<'m> Simulation<'m> {
             samples: (duration / sampling.interval * (1.0 + 1e-12) + 1e-9).floor() as usize + 1,
             frame_every: sampling.frame_every,
             unknowns: model.unknowns(),
+            held: if model.sticks() { model.joints.len() } else { 0 },
             channels: list,
         };
         let mut state = State::at_rest(model);
@@ -247,6 +248,13 @@ impl<'m> Simulation<'m> {
             recording.frame_displacement.extend_from_slice(&state.z[..n]);
             recording.frame_velocity.extend_from_slice(&state.v[..n]);
             recording.frame_acceleration.extend_from_slice(&state.a[..n]);
+            if self.layout.held > 0 {
+                let from = recording.frame_friction.len();
+                recording.frame_friction.resize(from + self.layout.held, 0.0);
+                for (rub, mu) in self.model.rubs.iter().zip(&state.tangents.mu) {
+                    recording.frame_friction[from + rub.joint as usize] = rub.normal[0] * mu;
+                }
+            }
         }
         state.samples += 1;
     }
@@ -329,7 +337,7 @@ impl<'m> Simulation<'m> {
 /// [`settle`], and which of the joints at rest let go under the forces of this instant.
 fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) {
     settle(model, drive, state);
-    if model.rubs.iter().any(|r| r.law.sticks()) {
+    if model.sticks() {
         work.let_go(model, drive, state);
         accelerate(model, drive, state);
         work.stage.join(model, &state.tangents, &mut state.a);

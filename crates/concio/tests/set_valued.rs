@@ -145,7 +145,8 @@ fn what_sticks_stays() {
         })
         .collect();
     // A step of base acceleration of 0.4 g: 392 N on each of the blocks.
-    let pulse = Pulse { shape: PulseShape::Rectangular, acceleration: 3.92.into(), duration: 1e4.into(), start: 0.5.into() };
+    let pulse =
+        Pulse { shape: PulseShape::Rectangular, acceleration: 3.92.into(), duration: 1e4.into(), start: 0.5.into() };
     let motion = Excitation::of_base(signal(Signal::Pulse(pulse)), 1000.0);
     let model = lumped(&[M; 5], &links, motion);
     let h = respond(&model, &fine(1e-4), 10.0, &[0.0; 5], &[0.0; 5]).unwrap();

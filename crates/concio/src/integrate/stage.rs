@@ -70,8 +70,8 @@ pub struct Stage {
     velocity: Vec<f64>,
     mu: Vec<f64>,
     slope: Vec<f64>,
-    /// Slopes that hold the joints with set-valued laws, [`HOLD`] times their impedance.
-    hold: Vec<f64>,
+    /// Slope that holds the joints with set-valued laws, [`HOLD`] times the largest impedance.
+    hold: f64,
     groups: Groups,
     /// Whether the factors hold for `tau` and `closed`, no joint rubbing.
     factors_hold: bool,
@@ -140,7 +140,7 @@ impl Stage {
             velocity: zeros(rubs.len()),
             mu: zeros(rubs.len()),
             slope: zeros(rubs.len()),
-            hold: zeros(rubs.len()),
+            hold: 0.0,
             groups: Groups::new(n),
             factors_hold: false,
             iterations: 0,
@@ -254,11 +254,12 @@ impl Stage {
     /// Relative displacements and velocities of the prediction.
     #[inline(always)]
     fn start(&mut self, tangents: &mut Tangents) {
+        // One slope for all: joints side by side then bear equal parts of what each can bear.
+        self.hold = HOLD * self.rubs.sticking.iter().fold(0.0f64, |m, &r| m.max(self.impedance(r as usize)));
         for &r in &self.rubs.sticking {
             let r = r as usize;
-            self.hold[r] = HOLD * self.impedance(r);
             if tangents.stuck[r] {
-                tangents.slope[r] = self.hold[r];
+                tangents.slope[r] = self.hold;
                 tangents.velocity[r] = 0.0;
             }
         }
@@ -410,7 +411,7 @@ impl Stage {
             if tangents.stuck[r] {
                 self.mu[r].abs() <= model.rubs[r].law.static_ && w.abs() <= STILL * accuracy
             } else {
-                w * tangents.velocity[r] > 0.0
+                w * tangents.velocity[r].signum() >= -STILL * accuracy
             }
         })
     }
@@ -429,7 +430,7 @@ impl Stage {
         let c = if tangents.stuck[r] { target } else { target + impedance * w };
         tangents.stuck[r] = c.abs() <= law.static_;
         if tangents.stuck[r] {
-            (tangents.velocity[r], tangents.mu[r], tangents.slope[r]) = (0.0, c, self.hold[r]);
+            (tangents.velocity[r], tangents.mu[r], tangents.slope[r]) = (0.0, c, self.hold);
             return;
         }
         let mut speed = 0.0;
