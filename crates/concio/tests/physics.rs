@@ -582,7 +582,7 @@ fn a_sticking_run_is_restored_and_its_friction_is_kept() {
     assert!(second.restore(&saved));
     second.run_to_end();
     assert_eq!(second.time(), p.model.excitation.duration);
-    assert!(second.state() == whole.state(), "other bits after a restart");
+    assert!(second.save() == whole.save(), "other bits after a restart");
     let run = StoredRun {
         schema_version: concio::store::SCHEMA_VERSION,
         provenance: p.provenance(),

@@ -38,6 +38,8 @@ const MEETING: f64 = 0.01;
 const HOLD: f64 = 1e6;
 /// Velocity that a sticking joint may be left with before it is set to rest, as a fraction of the accuracy.
 const STILL: f64 = 1e-3;
+/// Friction by which a sticking joint may exceed μ_s, as a fraction of it: what holds it is known to about this.
+const EXCESS: f64 = 1e-7;
 
 /// Scratch of the stage. Unknowns are numbered by their place in the elimination order, base and top last; only
 /// `z`, `v` and `solution` are in the order of the model.
@@ -195,7 +197,7 @@ impl Stage {
             self.assemble(model, tangents)?;
             self.right_side(tangents);
             self.matrix.solve(&mut self.change[..n]);
-            let flipped = self.flip(tangents);
+            let flipped = self.flip(tangents, accuracy);
             self.mismatch(tangents);
             self.matrix.solve(&mut self.rhs[..n]);
             // A sum, because a maximum would pass over what is not a number.
@@ -348,17 +350,21 @@ impl Stage {
         self.change[n..].fill(0.0);
     }
 
-    /// Brings the active set up to date; true when it changed.
+    /// Brings the active set up to date; true when it changed. A joint whose force is too small to be felt stays as it
+    /// is: at rest the sign of its gap is rounding, and would change for ever.
     #[inline(always)]
-    fn flip(&mut self, tangents: &mut Tangents) -> bool {
+    fn flip(&mut self, tangents: &mut Tangents, accuracy: f64) -> bool {
         let mut flipped = false;
         for (gap, &e) in self.gap.iter().zip(&self.joints.one_sided) {
             let e = e as usize;
             let [a, b] = self.joints.sides[e].map(|s| s as usize);
-            let closed = gap + self.tau * (self.change[a] - self.change[b]) > 0.0;
-            flipped |= closed != tangents.closed[e];
-            tangents.closed[e] = closed;
-            self.closed[e] = closed;
+            let d = gap + self.tau * (self.change[a] - self.change[b]);
+            let felt = self.tau * self.joints.stiffness[e] * d.abs() > STILL * accuracy * self.mass[a];
+            if felt && (d > 0.0) != tangents.closed[e] {
+                flipped = true;
+                tangents.closed[e] = d > 0.0;
+                self.closed[e] = d > 0.0;
+            }
         }
         flipped
     }
@@ -409,7 +415,7 @@ impl Stage {
             let r = r as usize;
             let w = self.velocity[r];
             if tangents.stuck[r] {
-                self.mu[r].abs() <= model.rubs[r].law.static_ && w.abs() <= STILL * accuracy
+                self.mu[r].abs() <= model.rubs[r].law.static_ * (1.0 + EXCESS) && w.abs() <= STILL * accuracy
             } else {
                 w * tangents.velocity[r].signum() >= -STILL * accuracy
             }
@@ -428,7 +434,7 @@ impl Stage {
         }
         let impedance = self.impedance(r);
         let c = if tangents.stuck[r] { target } else { target + impedance * w };
-        tangents.stuck[r] = c.abs() <= law.static_;
+        tangents.stuck[r] = c.abs() <= law.static_ * (1.0 + EXCESS);
         if tangents.stuck[r] {
             (tangents.velocity[r], tangents.mu[r], tangents.slope[r]) = (0.0, c, self.hold);
             return;

@@ -118,6 +118,8 @@ impl Step {
         stage.forget_factors();
         self.tangents.copy_from(&state.tangents);
         let found = stage.solve(model, &mut self.tangents, tau, drive.base_acceleration(state.t), 1e-6 * tau * largest);
+        // Not work of a step: a restored run, which is not settled anew, must count the same.
+        (stage.iterations, stage.factorisations) = (0, 0);
         if found.is_ok() {
             state.tangents.mu.copy_from_slice(&self.tangents.mu);
             state.tangents.stuck.copy_from_slice(&self.tangents.stuck);
