@@ -20,7 +20,7 @@ for (const folder of process.argv.slice(2)) {
         const all = {};
         for (const label of ["displacement", "friction force"]) {
             const select = document.querySelector("#paint");
-            select.value = [...select.options].find((o) => o.text === label).value;
+            select.value = [...select.options].find((o) => o.text.startsWith(label)).value;
             select.dispatchEvent(new Event("change"));
             const count = Math.min(400, store.report.frames.count);
             const found = [];

@@ -261,7 +261,7 @@ test("everything can be reached with the keyboard, and focus is seen", async () 
         assert.notEqual(outline, "none", `focus on ${name} is not seen`);
         reached.add(name.replace(/^Wall of.*/, "wall").replace(/^(colour by|displacements|history of|speed).*/, "$1"));
     }
-    for (const name of ["wall", "Play", "Time", "Speed", "colour by", "displacements", "Choose blocks and joints from a list", "history of"]) {
+    for (const name of ["wall", "Larger", "Whole wall", "Play", "Time", "Speed", "colour by", "displacements", "Choose blocks and joints from a list", "history of"]) {
         assert.ok(reached.has(name), `${name} is not reached: ${[...reached].join("; ")}`);
     }
     const clock = page.locator(".clock");
@@ -291,6 +291,92 @@ test("colours follow the choice, and the bar tells their range", async () => {
     await page.waitForFunction(() => document.querySelector(".colour-bar .what").textContent.startsWith("way slipped"));
     const high = await page.locator(".colour-bar .marks span").last().textContent();
     assert.ok(Math.abs(shown(high, "m").value / most - 1) < 6e-3, `${high} for ${most}`);
+    assert.deepEqual(problems, []);
+});
+
+const painted = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+test("the wall is enlarged by keys, wheel and buttons, and drags; blocks are found where they are drawn", async () => {
+    const { page, problems } = await open(browser, runs.driven.results);
+    const factor = () => page.locator(".zoom .factor").textContent();
+    const whole = await page.locator(".stage canvas").screenshot();
+    await page.locator(".zoom button", { hasText: "+" }).click();
+    assert.equal(await factor(), "× 1.5");
+    await page.locator(".stage canvas").focus();
+    await page.keyboard.press("+");
+    assert.equal(await factor(), "× 2.3");
+    const clock = await page.locator(".clock").textContent();
+    const block = "p1c4b3";
+    const [x, y] = await locate(page, "block", block);
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await page.locator(".clock").textContent(), clock, "the arrow keys shift the enlarged wall, not the time");
+    const [shifted] = await locate(page, "block", block);
+    assert.ok(shifted < x - 5, `${x} px to ${shifted} px`);
+    await page.mouse.move(shifted, y);
+    await page.waitForSelector(".tooltip:not([hidden])");
+    assert.equal(await page.locator(".tooltip strong").textContent(), block);
+    const selected = await page.locator(".cards strong").allTextContents();
+    await page.mouse.down();
+    await page.mouse.move(shifted + 30, y, { steps: 4 });
+    await page.mouse.up();
+    const [dragged] = await locate(page, "block", block);
+    assert.ok(Math.abs(dragged - shifted - 30) < 1, `${shifted} px to ${dragged} px`);
+    assert.deepEqual(await page.locator(".cards strong").allTextContents(), selected, "a drag does not select");
+    await page.mouse.wheel(0, -200);
+    await page.waitForFunction(() => window.concioReport.stage.view.enlarged > 3);
+    const [wheeled, level] = await locate(page, "block", block);
+    assert.ok(Math.hypot(wheeled - dragged, level - y) < 2, "what is under the pointer stays there");
+    await page.locator(".zoom button", { hasText: "whole wall" }).click();
+    assert.equal(await factor(), "× 1.0");
+    await page.mouse.move(0, 0);
+    await page.locator("body").press("Shift");
+    await painted(page);
+    await page.evaluate(() => document.activeElement.blur());
+    assert.deepEqual(await page.locator(".stage canvas").screenshot(), whole);
+    assert.deepEqual(problems, []);
+});
+
+test("nothing slipped: no scale, and the joint shown first is none of the slivers", async () => {
+    const still = example("01-first-wall").replace(/\[motion\][^]*/, "");
+    const motion = '[motion]\nduration = "0.2 s"\nbase = { pulse = { shape = "one-sine", acceleration = "0.01 g", duration = "0.1 s" } }\n';
+    const results = run(place.folder, "still", `${still}${motion}${KEEP_ALL}`);
+    const truth = read(results);
+    assert.ok([...truth.peaks.joint.values()].every((j) => Number(j.slip) === 0), "a joint slipped");
+    const { page, problems } = await open(browser, results);
+    await page.locator("#paint").selectOption({ label: "way slipped" });
+    await page.waitForSelector(".colour-bar .nothing:not([hidden])");
+    assert.equal(await page.locator(".colour-bar .nothing").textContent(), "no joint slipped");
+    assert.ok(!(await page.locator(".colour-bar .scale").isVisible()));
+    const opened = [...truth.peaks.joint.entries()].filter(([name]) => Number(truth.joints.get(name).overlap) > 0.01);
+    const widest = opened.reduce((a, b) => (Number(b[1].opening) > Number(a[1].opening) ? b : a))[0];
+    assert.equal(await page.locator(".cards strong").first().textContent(), widest);
+    await page.locator("#paint").selectOption({ label: "energy dissipated" });
+    await page.waitForSelector(".colour-bar .scale:not([hidden])");
+    assert.ok(!(await page.locator(".colour-bar .nothing").isVisible()));
+    assert.deepEqual(problems, []);
+});
+
+test("it is laid out anew for paper, and for the window again", async () => {
+    const { page, problems } = await open(browser, runs.driven.results);
+    const widths = () => page.evaluate(() => [...document.querySelectorAll(".uplot")].map((plot) => {
+        const area = plot.closest(".plot").getBoundingClientRect();
+        const beyond = plot.getBoundingClientRect().right - Math.min(area.right, document.body.getBoundingClientRect().right);
+        return [plot.getBoundingClientRect().width, beyond];
+    }));
+    const drawn = (await widths()).length;
+    const before = (await widths())[0];
+    const wide = await page.locator(".stage canvas").boundingBox();
+    await page.emulateMedia({ media: "print" });
+    await page.waitForFunction((drawn) => document.querySelectorAll(".uplot").length > drawn, drawn);
+    assert.ok((await page.evaluate(() => document.body.getBoundingClientRect().width)) <= 186 / 25.4 * 96 + 1);
+    for (const [width, beyond] of await widths()) {
+        assert.ok(width < 703 && beyond < 1, `a plot of ${width} px reaches ${beyond} px beyond its place`);
+    }
+    const canvas = await page.locator(".stage canvas").boundingBox();
+    assert.ok(canvas.width <= 703, `${canvas.width} px of wall`);
+    await page.emulateMedia({ media: "screen" });
+    await page.waitForFunction((width) => document.querySelector(".uplot").getBoundingClientRect().width === width, before[0]);
+    await page.waitForFunction((width) => document.querySelector(".stage canvas").getBoundingClientRect().width === width, wide.width);
     assert.deepEqual(problems, []);
 });
 

@@ -32,12 +32,15 @@ export interface Scale {
     stops: string[];
     low: number;
     high: number;
+    /** Whether no value differs from zero: then the ends say nothing. */
+    zero: boolean;
 }
 
 /** The scale for values up to `largest`, either sign if `signed`. */
 export function scale(largest: number, signed: boolean): Scale {
     const high = largest > 0 ? largest : 1;
-    return { colours: signed ? SIGNED_TABLE : SIZES_TABLE, stops: signed ? SIGNED : SIZES, low: signed ? -high : 0, high };
+    const [colours, stops] = signed ? [SIGNED_TABLE, SIGNED] : [SIZES_TABLE, SIZES];
+    return { colours, stops, low: signed ? -high : 0, high, zero: !(largest > 0) };
 }
 
 const SIZES_TABLE = table(SIZES);

@@ -38,10 +38,18 @@ export function prefixOf(largest: number, unit: string): [string, number] {
     return PREFIXES.find(([, factor]) => largest >= factor) ?? ["p", 1e-12];
 }
 
-/** A time in seconds with as many decimals as tell the frames `interval` apart. */
+/** A time in seconds with as many decimals as multiples of `interval` [s] have; at most two more than its first digit. */
 export function seconds(time: number, interval: number): string {
-    const decimals = interval > 0 ? Math.min(6, Math.max(1, Math.ceil(-Math.log10(interval)))) : 3;
-    return `${minus(time.toFixed(decimals))} s`;
+    return `${minus(time.toFixed(interval > 0 ? decimalsOf(interval) : 3))} s`;
+}
+
+function decimalsOf(interval: number): number {
+    const first = Math.max(1, Math.ceil(-Math.log10(interval) - 1e-9));
+    const isWhole = (decimals: number) => {
+        const digits = interval * 10 ** decimals;
+        return Math.abs(digits - Math.round(digits)) < 1e-6 * digits;
+    };
+    return Math.min(9, [first, first + 1].find(isWhole) ?? first + 2);
 }
 
 /** Superscripts in place of the digits of units as files spell them: `m/s2` becomes `m/s²`. */

@@ -4,8 +4,8 @@ import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { readPage } from "./data";
 import { h } from "./dom";
-import { envelope, quantitiesOf } from "./quantities";
-import type { Owner } from "./quantities";
+import { firstItems } from "./first";
+import { followPrinting } from "./layout";
 import { Store } from "./store";
 import { Cards } from "./ui/cards";
 import { controls } from "./ui/controls";
@@ -16,22 +16,6 @@ import { Player } from "./ui/player";
 import { Response } from "./ui/response";
 import { Stage } from "./ui/stage";
 
-/** Selects the block or joint with the largest peak of the first of these that is not zero throughout. */
-function selectWorst(store: Store, owner: Owner, keys: string[]): void {
-    for (const key of keys) {
-        const quantity = quantitiesOf(owner, "peak").find((q) => q.key === key);
-        if (quantity === undefined) {
-            continue;
-        }
-        const values = envelope(store.report, quantity).subarray(0, owner === "block" ? store.report.blocks : undefined);
-        const index = values.reduce((best, value, k) => (value > values[best] ? k : best), 0);
-        if (values[index] > 0) {
-            store.toggle({ owner, index });
-            return;
-        }
-    }
-}
-
 function frameNote(store: Store): string {
     const { recorded, every } = store.report.contents.frames;
     if (recorded === 0) {
@@ -41,11 +25,11 @@ function frameNote(store: Store): string {
 }
 
 function build(host: HTMLElement): void {
+    followPrinting();
     const store = new Store(readPage(document));
     const stage = new Stage(store);
     const moving = store.report.frames.count > 0;
-    selectWorst(store, "block", ["displacement"]);
-    selectWorst(store, "joint", ["slip", "displacement"]);
+    firstItems(store.report).forEach((item) => store.toggle(item));
     const note = frameNote(store);
     const left = h("div", { class: "left" }, stage.element, ...(moving ? [new Player(store).element] : []), controls(store, stage));
     if (note !== "") {
@@ -53,7 +37,7 @@ function build(host: HTMLElement): void {
     }
     const find = h("details", { class: "find" }, h("summary", {}, "Choose blocks and joints from a list"), new Picker(store).element);
     const right = h("div", { class: "right" }, find, new Cards(store).element);
-    const wall = h("section", { id: "wall" }, h("h2", {}, "The wall"), h("div", { class: "columns" }, left, right));
+    const wall = h("section", { id: "wall" }, h("h2", {}, "The wall"), h("div", { class: stage.wide ? "columns wide" : "columns" }, left, right));
     host.append(wall);
     let span = () => 0;
     if (moving) {

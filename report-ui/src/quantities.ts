@@ -53,6 +53,11 @@ function quantity(key: string, owner: Owner, when: Quantity["when"], label: stri
     return { key, owner, when, label, unit };
 }
 
+/** Label that says what the motion of a block is measured against, for places without a heading that does. */
+export function fullLabel(q: Quantity): string {
+    return q.owner === "block" ? `${q.label} relative to the base` : q.label;
+}
+
 export function quantitiesOf(owner: Owner, when: Quantity["when"]): Quantity[] {
     return QUANTITIES.filter((q) => q.owner === owner && q.when === when);
 }

@@ -18,7 +18,11 @@ test("numbers as the command line writes them", () => {
 });
 
 test("times, ticks, counts, units", () => {
-    expect(seconds(0.3, 0.00125)).toBe("0.300 s");
+    expect(seconds(0.3, 0.00125)).toBe("0.30000 s");
+    expect(seconds(0.015, 0.015)).toBe("0.015 s");
+    expect(seconds(0.0375, 0.0125)).toBe("0.0375 s");
+    expect(seconds(1, 1 / 3)).toBe("1.000 s");
+    expect(seconds(0.3, 0.1 * 3 - 0.2)).toBe("0.3 s");
     expect(seconds(12, 0.01)).toBe("12.00 s");
     expect(tick(0.1 + 0.2)).toBe("0.3");
     expect(count(19600)).toBe("19\u202f600");
@@ -49,4 +53,5 @@ test("values find their step", () => {
     const signed = scale(2, true);
     expect([-9, -2, 0, 2, 9, NaN].map((v) => step(signed, v))).toEqual([0, 0, 64, STEPS - 1, STEPS - 1, -1]);
     expect(step(scale(0, false), 0)).toBe(0);
+    expect([scale(0, false), scale(NaN, true), signed].map((s) => s.zero)).toEqual([true, true, false]);
 });

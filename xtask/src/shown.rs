@@ -2,7 +2,8 @@
 //!
 //! A block of TOML with `model` and `[[panel]]` is a wall file and is checked; where it begins with `# wall.toml` it also is
 //! the file of that name for the commands that follow. In a block marked `console` every line `$ concio …` is run in a
-//! folder of the document's own; the lines below it have to come in the output, in this order. `…` stands for what is
+//! folder of the document's own and has to end with status 0, or with another one in a block marked `console fails`; the
+//! lines below it have to come in the output, in this order. `…` stands for what is
 //! left out: whole lines, or a part of one. Numbers that `concio run` prints are compared with a tolerance, because stick-slip
 //! amplifies the last digit of a machine's exponential.
 
@@ -43,7 +44,8 @@ pub fn check(root: &Path) -> Outcome {
                     walls += 1;
                     wall(root, &desk, block.text)
                 }
-                "console" => session(root, &desk, block.text).map(|n| commands += n),
+                "console" => session(root, &desk, block.text, false).map(|n| commands += n),
+                "console fails" => session(root, &desk, block.text, true).map(|n| commands += n),
                 _ => Ok(()),
             };
             tried.map_err(|why| format!("{name}, line {}: {why}", block.line))?;
@@ -99,19 +101,27 @@ fn wall(root: &Path, desk: &Path, text: &str) -> Outcome {
 }
 
 /// Runs the commands of a block; gives back how many there were.
-fn session(root: &Path, desk: &Path, text: &str) -> Result<usize, String> {
+fn session(root: &Path, desk: &Path, text: &str, fails: bool) -> Result<usize, String> {
     let mut count = 0;
     for part in format!("\n{text}").split("\n$ ").skip(1) {
         let (line, quoted) = part.split_once('\n').unwrap_or((part, ""));
         let line = line.split(" #").next().unwrap_or(line).trim();
         let Some(arguments) = line.strip_prefix("concio ") else { continue };
-        let (said, _) = type_in(root, desk, arguments)?;
+        let (said, status) = type_in(root, desk, arguments)?;
+        if !expected(status, fails) {
+            return Err(format!("`{line}` ends with status {status:?}:\n{said}"));
+        }
         let tolerance = if arguments.starts_with("run") { RUN_TOLERANCE } else { 0.0 };
         missing(&said, quoted, tolerance)
             .map_err(|lost| format!("`{line}` does not print `{lost}` (or not at this place), but:\n{said}"))?;
         count += 1;
     }
     Ok(count)
+}
+
+/// A command that is ended by a signal has no status and is never expected.
+fn expected(status: Option<i32>, fails: bool) -> bool {
+    status.is_some_and(|s| (s != 0) == fails)
 }
 
 fn type_in(root: &Path, desk: &Path, arguments: &str) -> Result<(String, Option<i32>), String> {
@@ -163,6 +173,14 @@ mod tests {
         let found = blocks("a\n```toml\nmodel = 1\n```\nb\n```console\n$ x\n```\n");
         let found: Vec<_> = found.iter().map(|b| (b.language, b.line, b.text)).collect();
         assert_eq!(found, [("toml", 3, "model = 1\n"), ("console", 7, "$ x\n")]);
+    }
+
+    #[test]
+    fn commands_end_as_their_block_says() {
+        assert!(expected(Some(0), false) && expected(Some(2), true));
+        assert!(!expected(Some(1), false) && !expected(Some(0), true));
+        assert!(!expected(None, false) && !expected(None, true));
+        assert_eq!(blocks("```console fails\n$ x\n```\n")[0].language, "console fails");
     }
 
     #[test]

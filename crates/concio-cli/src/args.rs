@@ -343,7 +343,16 @@ pub enum Format {
 }
 
 fn time(text: &str) -> Result<f64, String> {
+    with_unit(text, "s")?;
     Time::parse(text).map(Time::si)
+}
+
+/// On the command line, other than in a wall file, a number alone is no quantity: quotes make no difference there.
+fn with_unit(text: &str, unit: &str) -> Result<(), String> {
+    match text.trim().parse::<f64>() {
+        Ok(_) => Err(format!("the unit is missing: write {}{unit}", text.trim())),
+        Err(_) => Ok(()),
+    }
 }
 
 fn instant(text: &str) -> Result<Instant, String> {
@@ -362,7 +371,10 @@ fn width(text: &str) -> Result<f64, String> {
     let width = match text {
         "single" => SINGLE,
         "double" => DOUBLE,
-        length => 1e3 * Length::parse(length).map_err(|why| format!("{why}; also single, double"))?.si(),
+        length => {
+            with_unit(length, "mm")?;
+            1e3 * Length::parse(length).map_err(|why| format!("{why}; also single, double"))?.si()
+        }
     };
     if (40.0..=400.0).contains(&width) { Ok(width) } else { Err("allowed: 40 mm to 400 mm, single, double".into()) }
 }

@@ -2,12 +2,13 @@
 
 use concio::outcome::Outcome;
 use concio::record::StopReason;
+use concio::store::JointRow;
 use serde_json::Value;
 
 use crate::format::{clock, si};
 
 /// Names and values, the important ones first.
-pub fn rows(outcome: &Outcome, summary: &Value) -> Vec<(&'static str, String)> {
+pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'static str, String)> {
     let (totals, energies) = (&outcome.totals, &outcome.energies);
     let number = |pointer: &str| summary.pointer(pointer).and_then(Value::as_f64).unwrap_or(f64::NAN);
     let opening = outcome.envelopes.joint_opening.iter().copied().fold(0.0, f64::max);
@@ -27,7 +28,8 @@ pub fn rows(outcome: &Outcome, summary: &Value) -> Vec<(&'static str, String)> {
     rows.push(("  kinetic", si(energies.kinetic, "J")));
     rows.push(("  elastic", si(energies.elastic, "J")));
     rows.push(("  damping", si(energies.damping, "J")));
-    rows.push(("  friction", si(energies.friction, "J")));
+    let creeps = concio::run::only_creeps(joints, outcome);
+    rows.push((if creeps { "  friction (creep)" } else { "  friction" }, si(energies.friction, "J")));
     if energies.bond != 0.0 {
         rows.push(("  broken bonds", si(energies.bond, "J")));
     }

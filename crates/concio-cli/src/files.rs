@@ -29,8 +29,12 @@ pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<(), F
 }
 
 /// Refuses an output that would replace one of the user's own files: an input of the same command, or any file that
-/// does not bear the ending of what is written. To be called before the work is done.
+/// does not bear the ending of what is written; and a folder that does not exist. To be called before the work is done.
 pub fn guard(out: &Path, ending: &str, inputs: &[&Path]) -> Result<(), Failure> {
+    if let Some(folder) = out.parent().filter(|p| !p.as_os_str().is_empty() && !p.exists()) {
+        let error = InputError::new(format!("the folder {} does not exist", folder.display())).in_file(out);
+        return Err(error.help("make it first, or give another name").into());
+    }
     let Ok(target) = out.canonicalize() else { return Ok(()) };
     let refuse = |what: String| {
         let error = InputError::new(what).in_file(out);

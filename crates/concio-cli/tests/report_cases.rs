@@ -173,13 +173,13 @@ fn jumps_and_stick_slip(findings: &Value, runs: &[Case]) {
     let starts: Vec<Vec<f64>> = runs.iter().map(Case::slip_starts).collect();
     let id = "jumps-from-stick-slip";
     same(jumps[0], told(findings, id, "jumps of the median block, case 1"), 0.0);
-    same(jumps[3], told(findings, id, "the same without friction, case 4"), 0.0);
+    same(jumps[3], told(findings, id, "jumps of the median block without friction, case 4"), 0.0);
     same(middle(starts[0].clone()), told(findings, id, "slip starts of the median joint, case 1"), 0.0);
     same(jumps[1], told(findings, "irregular-alike", "jumps of the median block, case 2"), 0.0);
     let id = "no-bed-stiffness-no-stick-slip";
     same(most(&starts[4]), told(findings, id, "slip starts of the joint with most of them, case 5"), 0.0);
-    same(most(&starts[3]), told(findings, id, "the same without friction, case 4"), 0.0);
-    same(most(&starts[0]), told(findings, id, "the same, case 1"), 0.0);
+    same(most(&starts[3]), told(findings, id, "slip starts of the joint with most of them, case 4"), 0.0);
+    same(most(&starts[0]), told(findings, id, "slip starts of the joint with most of them, case 1"), 0.0);
     same(jumps[4], told(findings, id, "jumps of the median block, case 5"), 0.0);
     // The answers themselves, by these numbers.
     assert!(jumps[0] > 10.0 * jumps[3].max(1.0) && jumps[1] > 10.0 && jumps[4] * 10.0 <= jumps[0]);
@@ -204,7 +204,9 @@ fn openings(findings: &Value, runs: &[Case]) {
     // (3): the deepest closure is the largest force over the stiffness of the closed joint.
     let first = &runs[0].run;
     let pressed = runs[0].joints(true).into_iter().map(|e| first.outcome.envelopes.joint_force[e] / (1000.0 * 5.4e7));
-    same(pressed.fold(0.0, f64::max), told(findings, "no-interpenetration", "deepest closure, case 1"), 1e-9);
+    let deepest = told(findings, "no-interpenetration", "deepest closure, case 1");
+    same(pressed.fold(0.0, f64::max), deepest, 1e-9);
+    assert!(deepest <= 0.05 * told_widest);
 }
 
 fn other_numbers(findings: &Value, runs: &[Case]) {
@@ -221,7 +223,7 @@ fn other_numbers(findings: &Value, runs: &[Case]) {
     same(fast(4) / fast(0), told(findings, id, "rms velocity of the blocks, case 5 over 1"), 1e-9);
     let id = "accelerations-follow-sizes";
     same(with_mass(&runs[0]), told(findings, id, "rank correlation with the lighter block's mass, case 1"), 1e-9);
-    same(with_mass(&runs[1]), told(findings, id, "the same, case 2"), 1e-9);
+    same(with_mass(&runs[1]), told(findings, id, "rank correlation with the lighter block's mass, case 2"), 1e-9);
 }
 
 /// Spearman's coefficient as Pearson's of the ranks, of peak relative acceleration and lighter mass.

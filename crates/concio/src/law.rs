@@ -1,7 +1,7 @@
 //! Joint laws as functions of relative displacement and velocity (theory, section 3).
 //!
 //! (2) F^el = w K_H δ, (3) F^el = κ K_V δ for a closed head joint and 0 for an open one, (4) F^v = w C δ̇,
-//! (5) F^fr = N μ(δ̇), (6) μ(v) = (2/π) arctan(β v/δ_v) [(μ_s − μ_d) e^{−|v|/δ_v} + μ_d] + α |v| v.
+//! (5) F^fr = N μ(δ̇), (6a) and (6b) for the laws that stick truly, (6) μ(v) = (2/π) arctan(β v/δ_v) [(μ_s − μ_d) e^{−|v|/δ_v} + μ_d] + α |v| v.
 
 use std::f64::consts::FRAC_2_PI;
 
@@ -48,7 +48,7 @@ impl Stribeck {
         (value.copysign(v), slope)
     }
 
-    /// Of the set-valued law: |μ| at the speed [m/s] of a slip, and its slope [s/m].
+    /// Of the set-valued laws (6a) and (6b): |μ| at the speed [m/s] of a slip, and its slope [s/m].
     pub fn in_slip(&self, speed: f64) -> (f64, f64) {
         let (decay, falling) = if self.slip_velocity > 0.0 {
             let decay = (self.static_ - self.dynamic) * exp_of_negative(speed / self.slip_velocity);

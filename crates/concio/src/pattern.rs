@@ -203,6 +203,26 @@ fn block_name(panel: usize, course: usize, place: usize) -> String {
     format!("p{}c{}b{}", panel + 1, course + 1, place + 1)
 }
 
+/// What is there of the panel or course that a name such as `p1c9b1` speaks of; `None` for other names.
+pub fn out_of_reach<'a>(name: &str, blocks: impl Iterator<Item = &'a crate::wall::Block> + Clone) -> Option<String> {
+    let rest = name.strip_prefix('p')?;
+    let (panel, rest) = rest.split_once('c')?;
+    let (course, place) = rest.split_once('b')?;
+    let [panel, course, place] = [panel, course, place].map(|n| n.parse::<usize>().ok().filter(|n| *n > 0));
+    let (panel, course, place) = (panel?, course?, place?);
+    let panels = blocks.clone().map(|b| b.panel + 1).max()?;
+    if panel > panels {
+        return Some(format!("the wall has {panels} panel{}", if panels == 1 { "" } else { "s" }));
+    }
+    let of_panel = blocks.filter(move |b| b.panel + 1 == panel);
+    let courses = of_panel.clone().map(|b| b.course + 1).max()?;
+    if course > courses {
+        return Some(format!("panel {panel} has {courses} courses"));
+    }
+    let count = of_panel.filter(|b| b.course + 1 == course).count();
+    (place > count).then(|| format!("course {course} of panel {panel} has {count} blocks"))
+}
+
 /// Names are unique, and the blocks to be recorded exist.
 fn names(case: &Case, wall: &Wall) -> Result<()> {
     let own = case.panels.iter().any(|p| p.blocks.iter().any(|b| b.id.is_some()));
@@ -222,7 +242,9 @@ fn names(case: &Case, wall: &Wall) -> Result<()> {
             let error = error.allowed("`all`, or names as `concio check` draws them");
             // A suggestion is sought among few names only: it compares with each.
             let near = suggestion(name, wall.blocks.iter().map(|b| b.name.as_str()).take(10_000));
-            return Err(near.map_or(error.clone(), |n| error.help(format!("did you mean `{n}`?"))).into());
+            let meant = near.map(|n| format!("did you mean `{n}`?"));
+            let help: Vec<String> = out_of_reach(name, wall.blocks.iter()).into_iter().chain(meant).collect();
+            return Err(if help.is_empty() { error } else { error.help(help.join("; ")) }.into());
         }
     }
     Ok(())

@@ -75,6 +75,9 @@ const MOST_SAMPLES: f64 = 1e7;
 /// unchanged any more.
 const LARGE_SLIP: f64 = 0.1;
 
+/// Friction work of joints that never slip, over the largest energy in play, that could be taken for damage.
+const NOTICEABLE_CREEP: f64 = 0.05;
+
 /// Lays the wall, compiles motion and model; numbers that are hardly meant and records that the run cuts or outlasts join
 /// the model's warnings. `folder` is where relative record paths start. The case must be valid
 /// ([`crate::case::CaseFile::validate`]).
@@ -249,6 +252,7 @@ fn write(
     let (model, provenance, joints) = (&prepared.model, prepared.provenance(), joint_rows(&prepared.model));
     let mut warnings = model.warnings.clone();
     warnings.extend(large_slips(model, outcome));
+    warnings.extend(creep(&joints, outcome));
     let facts = RunFacts { duration: model.excitation.duration, solve_seconds, resumed_from, warnings };
     let summary = store::summary(&provenance, &model.wall, &joints, outcome, &facts);
     store::hdf5::write(&out.join(RESULT), &provenance, &model.wall, &joints, outcome)?;
@@ -267,6 +271,25 @@ fn large_slips(model: &Model, outcome: &Outcome) -> Option<String> {
              beyond this",
             crate::graph::name(&model.wall, &model.joints[worst]),
             100.0 * ratio(worst)
+        )
+    })
+}
+
+/// Whether friction did work although no joint with friction ever passed its slip velocity: creep of the regularised law.
+pub fn only_creeps(joints: &[JointRow], outcome: &Outcome) -> bool {
+    let mut laws =
+        joints.iter().zip(&outcome.envelopes.joint_velocity).filter_map(|(j, v)| j.friction.map(|f| (f, *v)));
+    outcome.energies.friction > 0.0 && laws.all(|(law, velocity)| velocity <= law.slip_velocity)
+}
+
+/// Says that friction work is no sign of damage, where there is enough of it to be taken for one.
+fn creep(joints: &[JointRow], outcome: &Outcome) -> Option<String> {
+    let most = outcome.totals.peak_input.max(outcome.energies.initial.abs());
+    let friction = outcome.energies.friction;
+    (friction > NOTICEABLE_CREEP * most && only_creeps(joints, outcome)).then(|| {
+        format!(
+            "no joint slipped: the friction work, {:.0} % of the largest work, is creep of the regularised law",
+            100.0 * friction / most
         )
     })
 }

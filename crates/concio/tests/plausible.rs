@@ -24,6 +24,21 @@ beam = { mass = 4000 }
 base = { synthetic = { seed = 1, pga = 3.0, duration = 5.0, dt = 0.005 } }
 "#;
 
+/// A bare number that reads like a multiple of g is asked about; one with a unit never is.
+#[test]
+fn bare_accelerations_are_asked_about() {
+    let doubts = |pga: &str| {
+        let text = WALL.replace("pga = 3.0", &format!("pga = {pga}"));
+        concio::case::from_str(&text, concio::case::Syntax::Toml, None).expect("a wall file").unit_doubts()
+    };
+    let told = ["motion.base.synthetic.pga is 0.3 m/s2, a number without a unit; did you mean \"0.3 g\"?"];
+    assert_eq!(doubts("0.3"), told);
+    assert_eq!(doubts("1").len(), 1);
+    for fine in ["1.5", "3.0", "\"0.3 m/s2\"", "\"0.03 g\"", "\"0.3 g\""] {
+        assert_eq!(doubts(fine), [""; 0], "{fine}");
+    }
+}
+
 fn case(text: &str) -> Case {
     let file = from_str(text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}\n{text}"));
     file.validate().unwrap_or_else(|e| panic!("{e}\n{text}"));

@@ -3,6 +3,7 @@
 import uPlot from "uplot";
 import { swatch } from "../dom";
 import { h, setText } from "../dom";
+import { onLayout } from "../layout";
 import { prefixOf, si, tick } from "../format";
 
 export interface Curve {
@@ -55,6 +56,7 @@ export class Panel {
             this.element.append(h("p", { class: "small" }, note));
         }
         new ResizeObserver(() => this.resize()).observe(this.place);
+        onLayout(() => this.resize());
     }
 
     get width(): number {

@@ -2,7 +2,7 @@
 
 import { h } from "../dom";
 import { count } from "../format";
-import { quantitiesOf, QUANTITIES } from "../quantities";
+import { fullLabel, quantitiesOf, QUANTITIES } from "../quantities";
 import type { Store } from "../store";
 import { rounded } from "../wall/view";
 import type { Stage } from "./stage";
@@ -28,7 +28,7 @@ function paintChoice(store: Store): HTMLElement {
         (["block", "joint"] as const).map((owner) => {
             const label = `${owner === "block" ? "Blocks" : "Joints"}, ${when === "moment" ? "at the moment" : "peak over the run"}`;
             const options = quantitiesOf(owner, when).map((q) =>
-                h("option", { value: QUANTITIES.indexOf(q), selected: q === store.paint }, q.label),
+                h("option", { value: QUANTITIES.indexOf(q), selected: q === store.paint }, fullLabel(q)),
             );
             return { when, group: h("optgroup", { label }, ...options) };
         }),

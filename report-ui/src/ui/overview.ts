@@ -3,6 +3,7 @@
 import { LINES } from "../colour";
 import { h } from "../dom";
 import { count, unitText } from "../format";
+import { onLayout } from "../layout";
 import { Panel, UPRIGHT, axis } from "../plots/frame";
 import { TimePlot } from "../plots/time";
 import { largest } from "../quantities";
@@ -88,20 +89,18 @@ function figures(store: Store, list: Figure[]): HTMLElement[] {
     });
 }
 
-/** Draws when the element comes near the window: a long page opens at once. */
+/** Draws when the element comes near the window, or is printed: a long page opens at once. */
 function later(element: HTMLElement, show: () => void): void {
-    const observer = new IntersectionObserver((entries) => {
-        if (entries.some((entry) => entry.isIntersecting)) {
+    let waits = true;
+    const now = () => {
+        if (waits) {
+            waits = false;
             observer.disconnect();
-            window.removeEventListener("beforeprint", now);
             show();
         }
-    }, { rootMargin: "400px" });
-    const now = () => {
-        observer.disconnect();
-        show();
     };
-    window.addEventListener("beforeprint", now, { once: true });
+    const observer = new IntersectionObserver((entries) => entries.some((entry) => entry.isIntersecting) && now(), { rootMargin: "400px" });
+    onLayout((printing) => printing && now());
     observer.observe(element);
 }
 

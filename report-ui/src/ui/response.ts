@@ -3,6 +3,7 @@
 import { LINES } from "../colour";
 import { h } from "../dom";
 import { unitText } from "../format";
+import { coarseness } from "../coarse";
 import { PhasePlot } from "../plots/phase";
 import { TimePlot } from "../plots/time";
 import { history, quantitiesOf } from "../quantities";
@@ -14,6 +15,7 @@ export class Response {
     readonly element = h("div", { class: "response" });
     private readonly plots = h("div", { class: "pair" });
     private readonly empty: HTMLElement;
+    private readonly note: HTMLElement;
     private readonly time: TimePlot;
     private readonly phase: PhasePlot;
     private readonly quantities: Quantity[];
@@ -26,16 +28,18 @@ export class Response {
         [this.shown, this.upright] = this.quantities;
         this.upright = this.quantities[1];
         const name = owner === "block" ? "blocks" : "joints";
-        this.time = new TimePlot(store, `Selected ${name}`, 230);
-        this.phase = new PhasePlot(store, `Phase portrait of the ${name}`, 230);
+        const against = owner === "block" ? ", relative to the base" : "";
+        this.time = new TimePlot(store, `Selected ${name}${against}`, 230);
+        this.phase = new PhasePlot(store, `Phase portrait of the ${name}${against}`, 230);
         this.empty = h("p", { class: "empty" }, `No ${owner} is selected.`);
+        this.note = h("p", { class: "small frames" }, coarseness(store.report));
         const heading = h("h3", {}, owner === "block" ? "Blocks" : "Joints");
         const choices = h("div", { class: "controls" },
             this.choice("history of", this.quantities, this.shown, (q) => (this.shown = q)),
             this.choice("phase portrait", this.quantities.slice(1), this.upright, (q) => (this.upright = q)),
         );
         this.plots.append(this.time.panel.element, this.phase.panel.element);
-        this.element.append(h("div", { class: "bar" }, heading, choices), this.plots, this.empty);
+        this.element.append(h("div", { class: "bar" }, heading, choices), this.plots, this.note, this.empty);
         store.on("selection", () => this.render());
     }
 
@@ -57,6 +61,7 @@ export class Response {
         const { store, owner } = this;
         const members = store.of(owner);
         this.plots.hidden = members.length === 0;
+        this.note.hidden = this.plots.hidden;
         this.empty.hidden = members.length > 0;
         if (members.length === 0) {
             return;

@@ -1,15 +1,23 @@
 /** The canvas with the wall, what the pointer does on it, the colour bar. */
 
-import { h, setText } from "../dom";
-import { si, unitText } from "../format";
-import type { Scale } from "../colour";
+import { h } from "../dom";
+import { isPrinting, onLayout } from "../layout";
 import { largest } from "../quantities";
 import type { Store } from "../store";
 import { draw, shifts } from "../wall/draw";
 import type { Shifts } from "../wall/draw";
 import { pick } from "../wall/pick";
 import { automaticScale, baseScale, View } from "../wall/view";
+import { ColourBar } from "./bar";
 import { Tooltip } from "./tooltip";
+import { Zoom } from "./zoom";
+
+/** A wall of at least so many blocks that is at least so many times as long as high takes the whole width of the page. */
+const [MANY, LONG] = [150, 1.9];
+/** Height of the wall on paper, at most [px]. */
+const ON_PAPER = 430;
+/** Change of the height allowed that the wall is not fitted anew for: the bars of a phone's browser come and go [px]. */
+const SLIGHT = 100;
 
 export class Stage {
     readonly element = h("div", { class: "stage" });
@@ -22,10 +30,15 @@ export class Stage {
     private readonly context: CanvasRenderingContext2D;
     private readonly bar = new ColourBar();
     private readonly tooltip: Tooltip;
+    private readonly zoom: Zoom;
+    /** Whether the wall needs the whole width of the page. */
+    readonly wide: boolean;
     private readonly column: Float64Array;
     private readonly base: Float64Array | null;
     private at: Shifts;
     private size: [number, number] = [0, 0];
+    /** Height that the canvas may take [px]. */
+    private most = 0;
     private waiting = false;
 
     constructor(private readonly store: Store) {
@@ -41,8 +54,13 @@ export class Stage {
         this.at = { column: this.column, base: 0 };
         this.context = this.canvas.getContext("2d") as CanvasRenderingContext2D;
         this.tooltip = new Tooltip(store);
+        this.wide = report.blocks >= MANY && this.view.width >= LONG * this.view.height;
+        this.zoom = new Zoom(this.canvas, this.view, () => this.redraw());
+        this.bar.element.append(this.zoom.element);
         this.element.append(this.canvas, this.tooltip.element, this.bar.element);
         new ResizeObserver(() => this.resize()).observe(this.element);
+        window.addEventListener("resize", () => this.resize());
+        onLayout(() => this.resize());
         (["frame", "view", "hover", "selection"] as const).forEach((topic) => store.on(topic, () => this.redraw()));
         this.listen();
     }
@@ -74,7 +92,8 @@ export class Stage {
     private describe(): void {
         const { blocks, joints } = this.store.report;
         const label = `Wall of ${blocks} blocks and ${joints} joints, coloured by ${this.store.paint.label}. `
-            + "Space plays, the arrow keys step, the list beside the wall selects.";
+            + "Space plays, the arrow keys step, the list beside the wall selects; plus, minus and 0 enlarge it, "
+            + "then the arrow keys shift it.";
         if (this.canvas.getAttribute("aria-label") !== label) {
             this.canvas.setAttribute("aria-label", label);
         }
@@ -82,11 +101,13 @@ export class Stage {
 
     private resize(): void {
         const width = Math.floor(this.element.clientWidth);
-        if (width === 0 || width === this.size[0]) {
+        const most = isPrinting() ? ON_PAPER : Math.min(900, Math.max(220, 0.72 * window.innerHeight));
+        if (width === 0 || (width === this.size[0] && Math.abs(most - this.most) < SLIGHT)) {
             return;
         }
-        const most = Math.min(460, Math.max(220, 0.52 * window.innerHeight));
+        this.most = most;
         const height = Math.ceil(this.view.fit(width, most));
+        this.zoom.show();
         const ratio = window.devicePixelRatio || 1;
         this.canvas.width = Math.round(width * ratio);
         this.canvas.height = Math.round(height * ratio);
@@ -113,6 +134,9 @@ export class Stage {
             }
         });
         this.canvas.addEventListener("click", (event) => {
+            if (this.zoom.moved) {
+                return;
+            }
             const touch = (event as PointerEvent).pointerType === "touch";
             const item = under(event, touch ? 12 : 6);
             this.store.setHover(item);
@@ -121,29 +145,5 @@ export class Stage {
                 this.store.toggle(item);
             }
         });
-    }
-}
-
-/** What the colours stand for, with numbers at both ends. */
-class ColourBar {
-    readonly element = h("div", { class: "colour-bar" });
-    private readonly title = h("span", { class: "what" });
-    private readonly strip = h("span", { class: "strip" });
-    private readonly ends = [h("span"), h("span"), h("span")];
-
-    constructor() {
-        const marks = h("span", { class: "marks" }, ...this.ends);
-        this.element.append(this.title, h("span", { class: "scale" }, this.strip, marks));
-    }
-
-    show(store: Store, scale: Scale): void {
-        const { paint } = store;
-        const when = paint.when === "peak" ? "peak over the run" : "at the moment";
-        const what = paint.owner === "block" ? "blocks" : "joints";
-        setText(this.title, `${paint.label} of the ${what}, ${when}`);
-        this.strip.style.backgroundImage = `linear-gradient(to right, ${scale.stops.join(",")})`;
-        [scale.low, 0.5 * (scale.low + scale.high), scale.high].forEach((value, k) =>
-            setText(this.ends[k], value === 0 ? "0" : si(value, unitText(paint.unit), 3)),
-        );
     }
 }

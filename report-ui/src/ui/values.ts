@@ -42,7 +42,8 @@ export function valueTable(store: Store, item: Item): { table: HTMLTableElement;
         const label = q?.label ?? p?.label ?? "";
         return h("tr", {}, h("th", { scope: "row" }, label), cell(q), cell(p));
     });
-    const head = h("tr", {}, h("td"), h("th", { scope: "col" }, "now"), h("th", { scope: "col" }, "peak"));
+    const measured = item.owner === "block" ? h("th", { class: "against" }, "relative to the base") : h("td");
+    const head = h("tr", {}, measured, h("th", { scope: "col" }, "now"), h("th", { scope: "col" }, "peak"));
     fill(cells);
     return { table: h("table", { class: "values" }, h("thead", {}, head), h("tbody", {}, ...rows)), cells };
 }

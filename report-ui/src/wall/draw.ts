@@ -11,6 +11,8 @@ const MORTAR = "#e6e1d8";
 const INK = "#222";
 const FONT = "system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
 
+/** Width of the joint that does most, over the width of one that does nothing. */
+const THICKEST = 3.3;
 /** Blocks up to which each bears its name. */
 const MOST_NAMED = 250;
 
@@ -155,7 +157,7 @@ function colouredJoints(
     }
     const size = (k: number) => (colours.low < 0 ? Math.abs((2 * k) / (STEPS - 1) - 1) : k / (STEPS - 1));
     const order = Array.from({ length: STEPS }, (_, k) => k).sort((a, b) => size(a) - size(b));
-    const thin = Math.max(1, Math.min(2.5, 0.005 * view.zoom));
+    const thin = thinnest(view);
     const stroke = (list: number[], colour: string, width: number) => {
         if (list.length === 0) {
             return;
@@ -171,7 +173,12 @@ function colouredJoints(
         context.stroke();
     };
     stroke(members[0], "#fff", thin);
-    order.forEach((k) => stroke(members[k + 1], colours.colours[k], thin * (1.3 + 2 * size(k))));
+    order.forEach((k) => stroke(members[k + 1], colours.colours[k], thin * (1.3 + (THICKEST - 1.3) * size(k))));
+}
+
+/** Width of a joint that does nothing [px]. */
+function thinnest(view: View): number {
+    return Math.max(1, Math.min(2.5, 0.005 * view.zoom));
 }
 
 function beam(context: CanvasRenderingContext2D, view: View, report: Report, at: Shifts): void {
@@ -191,7 +198,7 @@ function beam(context: CanvasRenderingContext2D, view: View, report: Report, at:
 
 function names(context: CanvasRenderingContext2D, view: View, store: Store, at: Shifts, values: ArrayLike<number>, colours: Scale): void {
     const { block, blocks, contents } = store.report;
-    if (blocks > MOST_NAMED) {
+    if (blocks > MOST_NAMED * view.enlarged ** 2) {
         return;
     }
     for (let i = 0; i < blocks; i++) {
@@ -218,6 +225,7 @@ function text(context: CanvasRenderingContext2D, words: string, x: number, y: nu
     context.fillText(words, x, y + 0.5);
 }
 
+/** A frame around an item, outside of it: it must not hide the colour. */
 function mark(
     context: CanvasRenderingContext2D,
     view: View,
@@ -225,22 +233,30 @@ function mark(
     at: Shifts,
     item: Item,
     colour: string,
-    width: number,
+    widest: number,
 ): void {
     const i = item.index;
-    const outline = new Path2D();
+    let [left, top, right, bottom, gap] = [0, 0, 0, 0, 0];
     if (item.owner === "block") {
         const { x0, x1, y0, y1 } = report.block;
-        const left = view.x(x0[i]) + at.column[i];
-        outline.rect(left, view.y(y1[i]), (x1[i] - x0[i]) * view.zoom, (y1[i] - y0[i]) * view.zoom);
+        left = view.x(x0[i]) + at.column[i];
+        [right, top, bottom] = [left + (x1[i] - x0[i]) * view.zoom, view.y(y1[i]), view.y(y0[i])];
     } else {
-        const [xa, ya, xb, yb] = line(view, report, at, i);
-        const flat = ya === yb;
-        outline.rect(xa - (flat ? 1 : 4), Math.min(ya, yb) - (flat ? 4 : 1), xb - xa + (flat ? 2 : 8), Math.abs(yb - ya) + (flat ? 8 : 2));
+        [left, top, right, bottom] = line(view, report, at, i);
+        [top, bottom] = [Math.min(top, bottom), Math.max(top, bottom)];
+        gap = 0.5 * THICKEST * thinnest(view);
     }
+    // In a wall of small blocks a wide frame would hide the neighbours.
+    const { x0, x1, y0, y1 } = report.block;
+    const side = view.zoom * Math.min(x1[0] - x0[0], y1[0] - y0[0]);
+    const width = Math.max(1, Math.min(widest, 0.12 * side));
+    const edge = Math.min(1, 0.5 * width);
+    const grow = gap + 0.5 * width + edge;
+    const outline = new Path2D();
+    outline.rect(left - grow, top - grow, right - left + 2 * grow, bottom - top + 2 * grow);
     // A light edge around the mark keeps it plain on dark colours.
     context.strokeStyle = "#fff";
-    context.lineWidth = width + 2;
+    context.lineWidth = width + 2 * edge;
     context.stroke(outline);
     context.strokeStyle = colour;
     context.lineWidth = width;

@@ -7,6 +7,8 @@ import { envelope, largest, QUANTITIES } from "../quantities";
 const SHOWN = 0.05;
 /** The same for the motion of the base. */
 const BASE_SHOWN = 0.06;
+/** Largest enlargement of the wall over its whole. */
+const MOST_ENLARGED = 40;
 
 export interface Bounds {
     left: number;
@@ -19,10 +21,14 @@ export class View {
     readonly bounds: Bounds;
     /** Pixels per metre. */
     zoom = 1;
+    /** Times that the wall is larger than when it fits. */
+    enlarged = 1;
     /** Left and right end of the top beam, null without one. */
     readonly beam: [number, number] | null;
     private originX = 0;
     private originY = 0;
+    /** Place of the wall's corner when it fits [px], and size of the canvas. */
+    private home = { zoom: 1, x: 0, y: 0, width: 0, height: 0 };
 
     constructor(report: Report) {
         const { x0, x1, y0, y1 } = report.block;
@@ -50,7 +56,31 @@ export class View {
         const height = this.height * this.zoom + above + below;
         this.originX = 0.5 * (width - this.width * this.zoom) - this.bounds.left * this.zoom;
         this.originY = above + this.bounds.top * this.zoom;
+        this.home = { zoom: this.zoom, x: this.originX, y: this.originY, width, height: Math.ceil(height) };
+        this.enlarged = 1;
         return height;
+    }
+
+    /** Enlarges by a factor, the point of the canvas at (x, y) [px] stays; between the whole wall and `MOST_ENLARGED`. */
+    enlarge(factor: number, x = 0.5 * this.home.width, y = 0.5 * this.home.height): void {
+        const enlarged = Math.max(1, Math.min(MOST_ENLARGED, this.enlarged * factor));
+        const by = enlarged / this.enlarged;
+        this.enlarged = enlarged;
+        this.zoom = this.home.zoom * enlarged;
+        this.moveTo(x + (this.originX - x) * by, y + (this.originY - y) * by);
+    }
+
+    /** Shifts the wall on the canvas [px], as far as it fills it. */
+    pan(dx: number, dy: number): void {
+        this.moveTo(this.originX + dx, this.originY + dy);
+    }
+
+    /** No edge of the picture as it is when the wall fits comes into the canvas. */
+    private moveTo(x: number, y: number): void {
+        const { home, enlarged } = this;
+        const within = (value: number, at: number, length: number) => Math.min(at * enlarged, Math.max(at * enlarged - length * (enlarged - 1), value));
+        this.originX = within(x, home.x, home.width);
+        this.originY = within(y, home.y, home.height);
     }
 
     x(x: number): number {

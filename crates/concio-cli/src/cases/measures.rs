@@ -47,8 +47,6 @@ pub struct Measures {
     pub typical_opening: f64,
     /// Deepest closure of a head joint [m].
     pub deepest_closure: f64,
-    /// Largest F/(κ K_V) of a head joint [m].
-    pub closure_of_force: f64,
     /// Largest |relative displacement| of a bed or support joint [m].
     pub widest_slip: f64,
     /// Median over bed and support joints of the largest |relative displacement| [m].
@@ -89,7 +87,6 @@ pub fn of(run: &StoredRun) -> Measures {
     let pick = |values: &[f64], of: &[usize]| of.iter().map(|&e| values[e]).collect::<Vec<f64>>();
     let openings = pick(&env.joint_opening, &heads);
     let slips = pick(&env.joint_displacement, &beds);
-    let closures = heads.iter().map(|&e| env.joint_force[e] / run.joints[e].stiffness);
     let watched = watch_joints(run, &beds);
     let jumps = block_jumps(run);
     let time = outcome.time_reached * (1.0 - TRANSIENT);
@@ -109,7 +106,6 @@ pub fn of(run: &StoredRun) -> Measures {
         widest_opening: largest(&openings),
         typical_opening: median(&openings),
         deepest_closure: -outcome.totals.minimum_gap,
-        closure_of_force: closures.fold(0.0, f64::max),
         widest_slip: largest(&slips),
         typical_slip: median(&slips),
         peak_slip_velocity: outcome.totals.peak_slip_velocity,

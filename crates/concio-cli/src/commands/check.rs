@@ -80,6 +80,8 @@ fn joint_rows(model: &Model) -> Vec<Vec<String>> {
         let friction = range(rubs.iter().map(|r| r.law.static_), |v| significant(v, 3));
         let normal = range(rubs.iter().flat_map(|r| r.normal), |v| si(v, "N"));
         let stiffness = range(members.iter().map(|&e| model.elastic[e].stiffness), |v| si(v, "N/m"));
+        let unilateral = members.iter().any(|&e| model.elastic[e].unilateral);
+        let stiffness = if unilateral { format!("{stiffness} (κ K_V)") } else { stiffness };
         rows.push(vec![kind_name(kind).into(), members.len().to_string(), stiffness, friction, normal]);
     }
     rows.push(vec!["all".into(), model.joints.len().to_string()]);

@@ -1,6 +1,7 @@
 //! `concio record`.
 
 use concio::case::HistoryQuantity;
+use concio::ground::coverage::DRIFT;
 use concio::ground::process::integrate;
 use concio::ground::record::{self, Format, Record as History, TextOptions};
 use concio::ground::{Measures, Spectrum, measure, response_spectrum};
@@ -140,7 +141,7 @@ fn table(history: &History, channel: usize, channels: usize, m: &Measures) -> St
         ("Housner intensity", format!("{} m", significant(m.housner, 4))),
     ]));
     // A displacement that ends far from where it was is drift: the record wants a baseline correction.
-    if m.final_displacement.abs() > 0.5 * m.pgd.value.abs() && m.pgd.value != 0.0 {
+    if m.final_displacement.abs() > DRIFT * m.pgd.value.abs() && m.pgd.value != 0.0 {
         text.push_str(&format!(
             "\nThe displacement ends at {}: the record drifts. A baseline correction in the wall file takes it away:\n\
              baseline = {{ high_pass = \"0.1 Hz\" }}\n",

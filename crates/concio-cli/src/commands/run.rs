@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use concio::record::StopReason;
 use concio::run::{Control, Finished, Prepared};
+use concio::store::JointRow;
 
 use super::wall_file;
 use crate::args::Run;
@@ -40,7 +41,7 @@ pub fn run(args: &Run) -> Result<ExitCode, Failure> {
     content.command = Some(report::command(args.file.as_deref(), &out));
     let report = report::write(&out, &content)?;
     let stopped = finished.outcome.stop_reason != StopReason::Completed;
-    tell(&finished, &prepared, &report)?;
+    tell(&finished, &prepared, &joints, &report)?;
     Ok(if stopped { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS })
 }
 
@@ -75,7 +76,7 @@ pub fn refuse_a_file(out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-fn tell(finished: &Finished, prepared: &Prepared, report: &Path) -> Result<(), Failure> {
+fn tell(finished: &Finished, prepared: &Prepared, joints: &[JointRow], report: &Path) -> Result<(), Failure> {
     // Those of the model were told before the run.
     let known = &prepared.model.warnings;
     for warning in digest::warnings(&finished.summary).filter(|w| !known.iter().any(|k| k == w)) {
@@ -86,7 +87,7 @@ fn tell(finished: &Finished, prepared: &Prepared, report: &Path) -> Result<(), F
         let [at, end] = [finished.outcome.time_reached, prepared.model.excitation.duration].map(seconds);
         files::note(&format!("stopped early at t = {at} of {end}: {}", digest::why(reason)));
     }
-    let rows = digest::rows(&finished.outcome, &finished.summary);
+    let rows = digest::rows(&finished.outcome, joints, &finished.summary);
     files::print(&format!("{}\nopen {}\n", pairs(&rows), report.display()))
 }
 

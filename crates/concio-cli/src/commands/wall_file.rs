@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use concio::case::{self, CaseFile, Signal};
+use concio::ground::record::{self, TextOptions};
 use concio::run::{self, Prepared};
 use concio::{Error, InputError};
 
@@ -11,14 +12,26 @@ use crate::motion;
 
 /// Reads and validates a wall file.
 pub fn read(path: &Path) -> Result<CaseFile, Failure> {
-    let file = case::read(path)?;
+    let file = case::read(path).map_err(|e| if is_record(path) { of_record(e) } else { e })?;
     let findings = file.findings();
     if findings.is_empty() { Ok(file) } else { Err(Failure::Input(findings)) }
 }
 
+/// Whether a file that is no wall file can be read as an accelerogram.
+fn is_record(path: &Path) -> bool {
+    record::read(path, &TextOptions::default()).is_ok()
+}
+
+fn of_record(error: Error) -> Error {
+    let Error::Input(error) = error else { return error };
+    error.help("this looks like a record: `concio record` measures it, and a wall file names it").into()
+}
+
 /// Lays the wall, compiles the system, reads the records.
 pub fn prepare(file: &CaseFile) -> Result<Prepared, Failure> {
-    Ok(run::prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)))?)
+    let mut prepared = run::prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)))?;
+    prepared.model.warnings.splice(0..0, file.unit_doubts());
+    Ok(prepared)
 }
 
 /// What moves the wall: names and values.

@@ -257,7 +257,12 @@ impl<'a> Data<'a> {
     /// There is none.
     pub fn block(&self, name: &str) -> Result<usize, InputError> {
         let names = self.run.wall.blocks.iter().map(|b| b.name.as_str());
-        find("block", "--blocks", name, names)
+        find("block", "--blocks", name, names).map_err(|mut error| {
+            let known = concio::pattern::out_of_reach(name, self.run.wall.blocks.iter());
+            let help: Vec<String> = known.into_iter().chain(error.help.take()).collect();
+            error.help = (!help.is_empty()).then(|| help.join("; "));
+            error
+        })
     }
 
     /// The joint of that name.

@@ -99,8 +99,10 @@ pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let drawn =
         if scale == 1.0 { "displacements to scale".into() } else { format!("displacements × {}", plain(scale)) };
     let mut canvas = Canvas::default();
-    let peak = format!("largest {}", short(three(largest), "m"));
-    let head = headings(&mut canvas, options.points(), &[time, drawn, peak]);
+    let of_blocks = moved.iter().fold(0.0, |m, z| z.abs().max(m));
+    let mut texts = vec![time, drawn, format!("blocks up to {}", short(three(of_blocks), "m"))];
+    texts.extend(beam.map(|z| format!("beam {}", short(three(z), "m"))));
+    let head = headings(&mut canvas, options.points(), &texts);
     let view = View::new(data, options.points(), out, head);
     let rest = r##"fill="#e6e6e6" stroke="#8c8c8c" stroke-width="0.4""##;
     let shift = |z: f64, b: &concio::wall::Block| rectangle(view.rectangle(b.x.map(|x| x + z * scale), b.y));
@@ -252,7 +254,19 @@ fn map(data: &Data, options: &Options, values: &[f64], largest: f64, texts: &[St
     }
     let bottom = colour_bar(&mut canvas, &view, options.points(), largest);
     let title = "Joints coloured by relative acceleration over the largest in the whole history".into();
-    Drawing { body: canvas.into_body(), size: [options.points(), bottom], title, note: String::new() }
+    Drawing { body: canvas.into_body(), size: [options.points(), bottom], title, note: hits(data) }
+}
+
+/// What accelerations depend on where joints close with a hit; empty without such joints.
+fn hits(data: &Data) -> String {
+    use concio::case::SpringLaw;
+    if !data.run.joints.iter().any(|j| j.law == SpringLaw::NoTension) {
+        return String::new();
+    }
+    format!(
+        "peaks are hits of head joints as they close and go about with √κ (joint.head.rigidity = {} here)",
+        plain(data.case.joint.head.rigidity)
+    )
 }
 
 /// The colours from 0 to 1 with what they stand for; where it ends [pt].

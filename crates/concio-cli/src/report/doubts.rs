@@ -39,11 +39,7 @@ pub fn list(content: &Content) -> Vec<String> {
 fn of_this_run(content: &Content) -> Vec<String> {
     let (outcome, friction) = (content.outcome, &content.case.joint.friction);
     let mut doubts = Vec::new();
-    let energies = &outcome.energies;
     let slips = outcome.totals.peak_slip_velocity > friction.slip_velocity.si();
-    if friction.law == FrictionLaw::Stribeck && !slips && energies.friction > energies.damping {
-        doubts.push("No joint slipped: the friction work is creep of the regularised law.".into());
-    }
     let residual = residual(content.summary);
     if !(residual <= LARGEST_RESIDUAL) {
         doubts.push(format!(

@@ -112,7 +112,7 @@ fn what_cannot_be_drawn_says_what_to_do_and_leaves_nothing() {
         (&["--figure", "phase", "--blocks", "p1c4b9"], &["no block is named `p1c4b9`", "did you mean `p1c4b"]),
         (&["--figure", "all", "--joints", "nothing"], &["no joint is named `nothing`", "for example base|p1c1b1"]),
         (&["--figure", "deformed", "--at", "9 s"], &["9 s is outside of the run", "allowed: 0 s to 0.05 s"]),
-        (&["--figure", "deformed", "--at", "9"], &["has no unit"]),
+        (&["--figure", "deformed", "--at", "9"], &["write 9s"]),
         (&["--figure", "phase", "--from", "2 s"], &["--from", "allowed: a part of 0 s to 0.05 s"]),
         (
             &["--figure", "hysteresis", "--joints", "p1c1b1|p1c1b2"],

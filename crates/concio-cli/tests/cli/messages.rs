@@ -6,7 +6,7 @@ use snapbox::str;
 use crate::support::{Desk, WALL};
 
 /// What is wrong, the text that is replaced in the wall and by what, and parts of the message.
-const WRONG: [(&str, &str, &str, &[&str]); 16] = [
+const WRONG: [(&str, &str, &str, &[&str]); 20] = [
     ("unknown key", "courses = 4", "corses = 4", &["bad.toml:6:", "corses", "courses"]),
     ("wrong unit", "\"55 mm\"", "\"55 kg\"", &["bad.toml:8:", "kg", "mm"]),
     ("no unit", "\"250 mm\"", "\"250\"", &["bad.toml:8:", "unit"]),
@@ -27,6 +27,15 @@ const WRONG: [(&str, &str, &str, &[&str]); 16] = [
     ("a decimal comma", "static = 0.6", "static = 0,6", &["bad.toml:15:", "write 0.6"]),
     ("a decimal comma in a text", "\"250 mm\"", "\"2,5 m\"", &["bad.toml:8:", "write 2.5"]),
     ("an open brace", "head = \"10 mm\" }", "head = \"10 mm\"", &["bad.toml:", "of line 9 not closed?"]),
+    (
+        "a required key misspelt",
+        "static = 0.6",
+        "statc = 0.6",
+        &["joint.friction.static", "is `statc` meant to be `static`?"],
+    ),
+    ("a required table misspelt", "[load]", "[laod]", &["laod", "`load`"]),
+    ("number of courses", "courses = 4", "course = 4", &["bad.toml:6:", "did you mean `courses`?"]),
+    ("single brackets", "[[panel]]", "[panel]\n[panel]", &["bad.toml:5:", "`[[panel]]`"]),
     ("law of a later version", "law = \"elastic\"", "law = \"rigid\"", &["bad.toml:13:", "rigid"]),
 ];
 
@@ -47,6 +56,67 @@ fn wrong_walls_are_refused_with_their_place() {
         }
         assert_eq!(desk.list(), ["bad.toml", "wall.toml"], "{name}: nothing is written");
     }
+}
+
+/// A record given as a wall file, a folder that is not there, and names beyond the wall.
+#[test]
+fn what_was_meant_is_guessed() {
+    let desk = Desk::new();
+    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/guide/quake.at2");
+    desk.put("quake.at2", std::fs::read(record).expect("the record of the guide"));
+    desk.put("reach.toml", format!("{WALL}[output]\nblocks = [\"p1c9b1\"]\n"));
+    let told = [
+        ("check quake.at2", "`concio record` measures it"),
+        ("check wall.toml --svg nodir/x.svg", "the folder nodir does not exist"),
+        ("record quake.at2 --svg nodir/x.svg", "the folder nodir does not exist"),
+        ("check reach.toml", "panel 1 has 4 courses"),
+        ("plot r --figure deformed --at 3", "write 3s"),
+        ("plot r --figure deformed --width 85", "write 85mm"),
+    ];
+    for (command, part) in told {
+        let refused = desk.concio(command).assert().code(2).stdout_eq(str![""]);
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(message.contains(part), "{command}:\n{message}");
+    }
+}
+
+/// Friction work below the slip velocity is called creep, wherever the numbers of a run are told.
+#[test]
+fn a_wall_in_which_nothing_slips_only_creeps() {
+    let desk = Desk::new();
+    let creeps = |line: &str, name: &str| {
+        let run = desk.concio(line).assert().success();
+        let [out, err] =
+            [&run.get_output().stdout, &run.get_output().stderr].map(|t| String::from_utf8_lossy(t).into_owned());
+        let summary = desk.json(&format!("{name}/summary.json"));
+        let warned = |text: &str| text.contains("no joint slipped: the friction work");
+        let found = [out.contains("friction (creep)"), warned(&err), warned(&summary["warnings"].to_string())];
+        assert_eq!(warned(&desk.get(&format!("{name}/report.html"))), found[2]);
+        found
+    };
+    assert_eq!(creeps("run wall.toml --out slips", "slips"), [false; 3]);
+    desk.put(
+        "held.toml",
+        WALL.replace("\"2 mm\"", "\"1 um\"").replace("slip_velocity = \"1 mm/s\"", "slip_velocity = \"100 mm/s\""),
+    );
+    assert_eq!(creeps("run held.toml --out held", "held"), [true; 3]);
+}
+
+/// As a person types what was meant in g.
+#[test]
+fn accelerations_without_a_unit_are_asked_about() {
+    let desk = Desk::new();
+    let sine =
+        |a: &str| format!("top = {{ sine = {{ acceleration = {a}, frequency = \"2 Hz\", ramp = \"0.05 s\" }} }}\n");
+    let (head, _) = WALL.split_once("top = { sine").expect("the motion");
+    desk.put("bare.toml", format!("{head}{}", sine("0.3")));
+    desk.put("unit.toml", format!("{head}{}", sine("\"0.03 g\"")));
+    let said = |line: &str| {
+        let checked = desk.concio(line).assert().success();
+        String::from_utf8_lossy(&checked.get_output().stderr).into_owned()
+    };
+    assert!(said("check bare.toml").contains("motion.top.sine.acceleration is 0.3 m/s2"));
+    assert_eq!(said("check unit.toml"), "");
 }
 
 #[test]
@@ -104,7 +174,7 @@ help: give another folder with --out
 
 "#]]);
     desk.concio("run wall.toml --out wall.toml/deeper").assert().code(1).stdout_eq(str![""]);
-    desk.concio("check wall.toml --svg no/such/folder/wall.svg").assert().code(1);
+    desk.concio("check wall.toml --svg no/such/folder/wall.svg").assert().code(2);
     assert_eq!(desk.list(), ["wall.toml"]);
 }
 

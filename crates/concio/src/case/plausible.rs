@@ -5,6 +5,7 @@
 
 use std::f64::consts::PI;
 
+use super::node::{Node, Value};
 use super::{Beam, Case, FrictionChange, Panel, Signal, SpringChange};
 use crate::quantity::shown;
 
@@ -111,6 +112,31 @@ impl Doubts {
             self.0.push(format!("{key} is {}, more than {LARGEST_FRICTION}{meant}", shown(coefficient)));
         }
     }
+}
+
+/// Peak accelerations of a motion, below `motion.base` and `motion.top`.
+const ACCELERATIONS: [&str; 5] =
+    ["pga", "sine.acceleration", "pulse.acceleration", "sweep.acceleration", "synthetic.pga"];
+/// Bare accelerations below this [m/s²], 0.15 g, shake few walls, and as multiples of g are what is mostly tested.
+const SMALL_SHAKING: f64 = 1.5;
+
+/// One sentence for each peak acceleration written without a unit that reads like a multiple of g.
+pub(super) fn bare_accelerations(tree: &Node) -> Vec<String> {
+    let keys = ["base", "top"].into_iter().flat_map(|end| ACCELERATIONS.map(|key| format!("motion.{end}.{key}")));
+    let doubt = |key: String| {
+        let node = key.split('.').try_fold(tree, |node, step| node.get(step))?;
+        let value = match node.value {
+            Value::Float(v) => v,
+            Value::Int(i) => i as f64,
+            _ => return None,
+        };
+        let small = value.abs() >= SHAKING.limits[0] && value.abs() < SMALL_SHAKING;
+        small.then(|| {
+            let value = shown(value);
+            format!("{key} is {value} m/s2, a number without a unit; did you mean \"{value} g\"?")
+        })
+    };
+    keys.filter_map(doubt).collect()
 }
 
 /// Six significant digits: conversions leave traces in the last ones.

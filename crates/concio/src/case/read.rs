@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::node::{Fault, Node, Source, Value, parse_json, parse_toml};
-use super::{Case, ParameterSet, de, sets, validate};
+use super::{Case, ParameterSet, de, plausible, sets, validate};
 use crate::wall::Wall;
 use crate::{Error, InputError, Result};
 
@@ -80,6 +80,12 @@ impl CaseFile {
     pub fn validate(&self) -> Result<()> {
         self.findings().into_iter().next().map_or(Ok(()), |e| Err(e.into()))
     }
+    /// One sentence for each peak acceleration that is written without a unit and so small that it was hardly meant in
+    /// m/s²: `pga = 0.3`. Beside the doubts that [`crate::run::prepare`] has of the values alone, which do not know
+    /// whether there was a unit.
+    pub fn unit_doubts(&self) -> Vec<String> {
+        plausible::bare_accelerations(&self.tree)
+    }
     /// The blocks of the wall ([`crate::pattern::lay`]), with file and line in errors.
     pub fn wall(&self) -> Result<Wall> {
         crate::pattern::lay(&self.case).map_err(|e| self.locate(e))
@@ -136,6 +142,9 @@ fn hinted(error: Error, text: &str) -> Error {
         let line = text.lines().nth(number - 1).unwrap_or("");
         let values = line.split(['=', '{']).skip(1);
         error.help = values.map(str::trim).find_map(de::decimal_comma).or_else(|| {
+            if line.trim_start().starts_with("[panel]") {
+                return Some("panels stand under two brackets each: `[[panel]]`".into());
+            }
             let opened = unclosed(text, number)?;
             Some(format!("is the `{{` or `[` of line {opened} not closed?"))
         });
@@ -183,17 +192,38 @@ fn resolve(source: Source, mut tree: Node) -> Result<CaseFile> {
     }
     preset(&mut tree).map_err(placed)?;
     require(&tree).map_err(placed)?;
-    let case = de::from_node(&tree).map_err(|fault| placed(described(fault)))?;
+    let case = de::from_node(&tree).map_err(|fault| placed(described(fault, &tree)))?;
     Ok(CaseFile { case, source, tree })
 }
 
-/// Adds to a missing key what belongs there.
-fn described(mut fault: Fault) -> Fault {
+/// Adds to a missing key what belongs there, and to a number of courses under the key of their list the other key.
+fn described(mut fault: Fault, tree: &Node) -> Fault {
     let e = &mut fault.error;
+    if e.help.is_none() && e.what.starts_with("the number") && e.key.as_ref().is_some_and(|k| k.ends_with("].course")) {
+        e.help = Some("did you mean `courses`?".into());
+    }
+    if e.what == de::MISSING && e.help.is_none() {
+        e.help = e.key.as_deref().and_then(|key| misspelt(tree, key));
+    }
     if e.what == de::MISSING && e.allowed.is_none() {
         e.allowed = e.key.as_deref().and_then(super::describe).map(|text| text.trim_end_matches('.').to_string());
     }
     fault
+}
+
+/// Asks whether a key beside the missing one, unknown itself, is that key with a typing error.
+fn misspelt(tree: &Node, missing: &str) -> Option<String> {
+    let (above, name) = missing.rsplit_once('.').map_or(("", missing), |(above, name)| (above, name));
+    let step = |node: &'_ Node, step: &str| match (&node.value, step.strip_suffix(']')) {
+        (Value::List(items), Some(index)) => items.get(index.parse::<usize>().ok()?).cloned(),
+        _ => node.get(step).cloned(),
+    };
+    let table = above.split(['.', '[']).filter(|s| !s.is_empty()).try_fold(tree.clone(), |n, s| step(&n, s))?;
+    let Value::Table(entries) = &table.value else { return None };
+    let path = |key: &str| if above.is_empty() { key.to_string() } else { format!("{above}.{key}") };
+    let unknown = entries.iter().map(|e| e.key.as_str()).filter(|k| super::describe(&path(k)).is_none());
+    let near = de::suggestion(name, unknown)?;
+    Some(format!("is `{near}` meant to be `{name}`?"))
 }
 
 /// Writes out what `friction.preset` stands for.
@@ -224,7 +254,9 @@ fn require(tree: &Node) -> std::result::Result<(), Fault> {
         let law = spring.get("law").and_then(Node::text).unwrap_or_default();
         if ["elastic", "no-tension"].contains(&law) && !spring.has("stiffness") {
             let error = InputError::new(format!("the key is missing: law `{law}` needs it"));
-            return Err(Fault::new(error.key(format!("joint.{kind}.stiffness")).allowed("from 0 N/m"), spring.at));
+            let mut error = error.key(format!("joint.{kind}.stiffness")).allowed("from 0 N/m");
+            error.help = misspelt(tree, &format!("joint.{kind}.stiffness"));
+            return Err(Fault::new(error, spring.at));
         }
     }
     let Some(friction) = joint.get("friction") else { return Ok(()) };
@@ -233,7 +265,9 @@ fn require(tree: &Node) -> std::result::Result<(), Fault> {
         for key in ["static", "dynamic"] {
             if !friction.has(key) {
                 let error = InputError::new(format!("the key is missing: law `{law}` needs it"));
-                return Err(Fault::new(error.key(format!("joint.friction.{key}")).allowed("from 0"), friction.at));
+                let mut error = error.key(format!("joint.friction.{key}")).allowed("from 0");
+                error.help = misspelt(tree, &format!("joint.friction.{key}"));
+                return Err(Fault::new(error, friction.at));
             }
         }
     }

@@ -10,6 +10,12 @@ use crate::ground::{measure, process, synthetic};
 /// Difference of run and record that does not count, over the length of the record.
 const SLACK: f64 = 1e-6;
 
+/// Displacement at the end of a motion, over its largest, from which it is called drift; `concio record` uses the same.
+pub const DRIFT: f64 = 0.5;
+
+/// Displacement [m] at the end of a motion below which nobody minds.
+const SMALLEST_DRIFT: f64 = 0.01;
+
 /// How a run of `duration` [s] covers a record.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Coverage {
@@ -46,7 +52,9 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64) -> Result<Vec<String>
         match signal {
             Signal::Record(input) => {
                 found.extend(unchosen(name, input, folder)?);
-                found.extend(uncovered(name, "record", &process::load(input, folder)?, duration));
+                let record = process::load(input, folder)?;
+                found.extend(uncovered(name, "record", &record, duration));
+                found.extend(drifting(name, &record));
             }
             Signal::Synthetic(input) => {
                 found.extend(uncovered(name, "accelerogram", &synthetic::generate(input)?, duration));
@@ -68,6 +76,24 @@ fn unchosen(name: &str, input: &RecordInput, folder: &Path) -> Result<Option<Str
         )
     };
     Ok((channels > 1).then(warning))
+}
+
+/// A motion is judged as it moves the wall, after `trim`, `baseline` and scaling: `concio record` sees only the file. A
+/// displacement history may end where it likes.
+fn drifting(name: &str, record: &Record) -> Option<String> {
+    if record.displacement.is_some() {
+        return None;
+    }
+    let m = measure(record);
+    let (end, peak) = (m.final_displacement, m.pgd.value.abs());
+    (end.abs() > DRIFT * peak && end.abs() > SMALLEST_DRIFT).then(|| {
+        format!(
+            "the motion of the {name} as processed drifts: its displacement ends at {:.0} mm, its largest is {:.0} mm; \
+             `baseline = {{ high_pass = \"0.1 Hz\" }}` takes that away (the acceleration is hardly touched)",
+            1e3 * end,
+            1e3 * peak
+        )
+    })
 }
 
 fn uncovered(name: &str, what: &str, record: &Record, duration: f64) -> Option<String> {
@@ -132,6 +158,20 @@ mod tests {
         assert!(!uncovered("base", "record", &record, 0.99).expect("a warning").contains("strong shaking"));
         let silence = uncovered("top", "record", &record, 1.5).expect("a warning");
         assert_eq!(silence, "the record of the top ends at 1 s, the run at 1.5 s: silence follows it");
+    }
+
+    #[test]
+    fn a_motion_that_ends_away_from_its_start_drifts() {
+        // One second of 1 m/s² one way and one back comes to rest 1 m away; back again, it ends where it began.
+        let mut there = record(0);
+        there.acceleration = [vec![1.0; 100], vec![-1.0; 101]].concat();
+        let warning = drifting("base", &there).expect("a warning");
+        assert!(warning.contains("ends at 1000 mm, its largest is 1000 mm"), "{warning}");
+        let mut back = record(0);
+        back.acceleration = [vec![1.0; 100], vec![-1.0; 200], vec![1.0; 100]].concat();
+        assert_eq!(drifting("base", &back), None);
+        there.displacement = Some(vec![0.0; 201]);
+        assert_eq!(drifting("base", &there), None);
     }
 
     #[test]
