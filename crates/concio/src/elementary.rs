@@ -48,25 +48,23 @@ pub fn exp_of_negative(x: f64) -> f64 {
 
 /// arctan z for z ≥ 0; relative error below 5·10⁻¹⁶.
 ///
-/// Reduced to |t| ≤ tan(π/8)·… by arctan z = π/4 + arctan((z−1)/(z+1)) and π/2 − arctan(1/z), then the rational
-/// approximation t + t³ P(t²)/Q(t²) of S. L. Moshier, *Methods and Programs for Mathematical Functions* (1989), for
-/// |t| ≤ 0.66.
+/// Reduced by arctan z = π/4 + arctan((z−1)/(z+1)) and π/2 − arctan(1/z) to |t| ≤ 0.66, and there the
+/// rational approximation t + t³ P(t²)/Q(t²) of S. L. Moshier, *Methods and Programs for Mathematical Functions* (1989).
 #[inline(always)]
 pub fn atan_of_positive(z: f64) -> f64 {
     const P: [f64; 5] = [
-        -8.750_608_600_031_904_122_785e-1,
-        -1.615_753_718_733_365_076_637e1,
-        -7.500_855_792_314_704_667_340e1,
-        -1.228_866_684_490_136_173_410e2,
-        -6.485_021_904_942_025_371_773e1,
+        -0.875_060_860_003_190_4,
+        -16.157_537_187_333_652,
+        -75.008_557_923_147_05,
+        -122.886_668_449_013_61,
+        -64.850_219_049_420_25,
     ];
-    const Q: [f64; 6] = [
-        1.0,
-        2.485_846_490_142_306_297_962e1,
-        1.650_270_098_316_988_542_046e2,
-        4.328_810_604_912_902_668_951e2,
-        4.853_903_996_359_136_964_868e2,
-        1.945_506_571_482_613_964_425e2,
+    const Q: [f64; 5] = [
+        24.858_464_901_423_062,
+        165.027_009_831_698_85,
+        432.881_060_491_290_27,
+        485.390_399_635_913_7,
+        194.550_657_148_261_4,
     ];
     let (far, middle) = (z > 2.414_213_562_373_095, z > 0.66);
     let top = if far {
@@ -93,8 +91,7 @@ pub fn atan_of_positive(z: f64) -> f64 {
     let t = top / bottom;
     let s = t * t;
     let p = (((P[0] * s + P[1]) * s + P[2]) * s + P[3]) * s + P[4];
-    let q = ((((s + Q[1]) * s + Q[2]) * s + Q[3]) * s + Q[4]) * s + Q[5];
-    debug_assert_eq!(Q[0], 1.0);
+    let q = ((((s + Q[0]) * s + Q[1]) * s + Q[2]) * s + Q[3]) * s + Q[4];
     turned + (t + t * s * (p / q))
 }
 

@@ -1,7 +1,8 @@
 //! Joint laws as functions of relative displacement and velocity (theory, section 3).
 //!
 //! (2) F^el = w K_H δ, (3) F^el = κ K_V δ for a closed head joint and 0 for an open one, (4) F^v = w C δ̇,
-//! (5) F^fr = N μ(δ̇), (6a) and (6b) for the laws that stick truly, (6) μ(v) = (2/π) arctan(β v/δ_v) [(μ_s − μ_d) e^{−|v|/δ_v} + μ_d] + α |v| v.
+//! (5) F^fr = N μ(δ̇), with (6a) and (6b) for the laws that stick truly, or
+//! (6) μ(v) = (2/π) arctan(β v/δ_v) [(μ_s − μ_d) e^{−|v|/δ_v} + μ_d] + α |v| v.
 
 use std::f64::consts::FRAC_2_PI;
 

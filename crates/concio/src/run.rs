@@ -279,7 +279,7 @@ fn large_slips(model: &Model, outcome: &Outcome) -> Option<String> {
 pub fn only_creeps(joints: &[JointRow], outcome: &Outcome) -> bool {
     let mut laws =
         joints.iter().zip(&outcome.envelopes.joint_velocity).filter_map(|(j, v)| j.friction.map(|f| (f, *v)));
-    outcome.energies.friction > 0.0 && laws.all(|(law, velocity)| velocity <= law.slip_velocity)
+    outcome.energies.friction > 0.0 && laws.all(|(law, velocity)| velocity <= law.creeps_below())
 }
 
 /// Says that friction work is no sign of damage, where there is enough of it to be taken for one.

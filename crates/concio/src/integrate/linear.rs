@@ -74,7 +74,7 @@ impl Matrix {
             let (s, e) = (start[c as usize] as usize, start[c as usize + 1] as usize);
             (s + row[s..e].partition_point(|&x| x < r)) as u32
         };
-        let slots = pairs.iter().map(|pair| placed(pair)).map(|(r, c)| at(r, c)).collect();
+        let slots = pairs.iter().map(placed).map(|(r, c)| at(r, c)).collect();
         let columns = || (0..n).map(|k| &row[start[k] as usize..start[k + 1] as usize]);
         let count: usize = columns().map(|c| c.len() * c.len().saturating_sub(1) / 2).sum();
         let mut updates = Vec::new();
