@@ -33,7 +33,14 @@ pub(crate) struct JointLaw {
 impl JointLaw {
     /// The friction law, if the joint has one and is among those that rub.
     pub fn rubs(&self) -> Option<Stribeck> {
-        (self.may_rub && self.friction != FrictionLaw::None).then_some(self.parameters)
+        let law = self.parameters;
+        match self.friction {
+            _ if !self.may_rub => None,
+            FrictionLaw::None => None,
+            FrictionLaw::Stribeck => Some(law),
+            FrictionLaw::StribeckStick => Some(Stribeck { beta: f64::INFINITY, ..law }),
+            FrictionLaw::Coulomb => Some(Stribeck { beta: f64::INFINITY, slip_velocity: 0.0, ..law }),
+        }
     }
 }
 

@@ -332,11 +332,11 @@ pub enum SpringLaw {
 pub struct Friction {
     /// The law; a wall without the table has none.
     pub law: FrictionLaw,
-    /// μ_s, from 0; `stribeck` needs it.
+    /// μ_s, from 0; every law but `none` needs it.
     #[serde(rename = "static", default)]
     #[schemars(range(min = 0.0))]
     pub static_: f64,
-    /// μ_d, from 0 to μ_s; `stribeck` needs it.
+    /// μ_d, from 0 to μ_s; every law but `none` needs it.
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub dynamic: f64,
@@ -391,8 +391,11 @@ impl Default for Friction {
 pub enum FrictionLaw {
     /// Velocity-dependent, regularised, equation (6).
     Stribeck,
-    /// Set-valued with true stick (not in this version: refused with a message).
+    /// Set-valued: sticks truly up to μ_s, slips at μ_d from the first instant, equation (6a). Coulomb's own law
+    /// has μ_d = μ_s.
     Coulomb,
+    /// Set-valued: sticks truly up to μ_s, in slip as `stribeck`, equation (6b); `beta` has no meaning.
+    StribeckStick,
     /// No friction.
     None,
 }

@@ -55,32 +55,45 @@ pub fn power(model: &Model, z: &[f64], v: &[f64], mu: &[f64], ground: f64, joint
     p
 }
 
-/// Makes accelerations, powers and tangents consistent with displacements, velocities and motion at `state.t`:
+/// Makes tangents, accelerations and powers consistent with displacements, velocities and motion at `state.t`:
 /// at the start, and where the motion has a jump.
 pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
     let n = model.unknowns();
-    let ground = drive.base_acceleration(state.t);
     let top = drive.top(state.t);
     state.z[n + 1] = top.u;
     state.v[n + 1] = top.v;
-    state.a.fill(0.0);
     for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
-        let (a, b) = (a as usize, b as usize);
-        let (d, w) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
         if law.unilateral {
-            state.tangents.closed[e] = d > 0.0;
+            state.tangents.closed[e] = state.z[a as usize] - state.z[b as usize] > 0.0;
         }
-        let f = law.damping * w + spring_force(law.unilateral, law.stiffness, d);
-        state.a[a] -= f;
-        state.a[b] += f;
     }
     for (r, rub) in model.rubs.iter().enumerate() {
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         let w = state.v[a] - state.v[b];
-        let (mu, slope) = rub.law.at(w);
+        // A set-valued joint at rest sticks, held by the force that held it, until it is found to let go.
+        state.tangents.stuck[r] = rub.law.sticks() && w == 0.0;
+        if !state.tangents.stuck[r] {
+            (state.tangents.mu[r], state.tangents.slope[r]) = rub.law.at(w);
+        }
         state.tangents.velocity[r] = w;
-        state.tangents.mu[r] = mu;
-        state.tangents.slope[r] = slope;
+    }
+    accelerate(model, drive, state);
+}
+
+/// Accelerations and powers from displacements, velocities, friction in `state.tangents` and motion at `state.t`.
+pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
+    let n = model.unknowns();
+    let ground = drive.base_acceleration(state.t);
+    state.a.fill(0.0);
+    for (law, &[a, b]) in model.elastic.iter().zip(&model.sides) {
+        let (a, b) = (a as usize, b as usize);
+        let (d, w) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
+        let f = law.damping * w + spring_force(law.unilateral, law.stiffness, d);
+        state.a[a] -= f;
+        state.a[b] += f;
+    }
+    for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
+        let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         state.a[a] -= rub.normal[0] * mu;
         state.a[b] += rub.normal[1] * mu;
     }
@@ -88,7 +101,7 @@ pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
         *a = *a / m - ground;
     }
     state.a[n] = 0.0;
-    state.a[n + 1] = top.a;
+    state.a[n + 1] = drive.top(state.t).a;
     state.power = power(model, &state.z, &state.v, &state.tangents.mu, ground, &mut state.joint_power);
 }
 
@@ -135,7 +148,7 @@ pub fn observe(model: &Model, state: &mut State, h: f64) {
     for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         let w = (state.v[a] - state.v[b]).abs();
-        if w > rub.law.slip_velocity {
+        if w > if rub.law.sticks() { 0.0 } else { rub.law.slip_velocity } {
             env.joint_slip[rub.joint as usize] += h * w;
         }
         if b == top {

@@ -1,9 +1,12 @@
 //! Joint laws as functions of relative displacement and velocity (theory, section 3).
 //!
 //! (2) F^el = w K_H δ, (3) F^el = κ K_V δ for a closed head joint and 0 for an open one, (4) F^v = w C δ̇,
-//! (5) F^fr = N μ(δ̇), (6) μ(v) = (2/π) arctan(β v/δ_v) [(μ_s − μ_d) e^{−|v|/δ_v} + μ_d] + α |v| v.
+//! (5) F^fr = N μ(δ̇), with (6a) and (6b) for the laws that stick truly, or
+//! (6) μ(v) = (2/π) arctan(β v/δ_v) [(μ_s − μ_d) e^{−|v|/δ_v} + μ_d] + α |v| v.
 
 use std::f64::consts::FRAC_2_PI;
+
+use crate::elementary::{atan_of_positive, exp_of_negative};
 
 /// Velocity-dependent dry friction (6).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,26 +17,47 @@ pub struct Stribeck {
     pub dynamic: f64,
     /// δ_v [m/s].
     pub slip_velocity: f64,
-    /// β.
+    /// β; infinite for the set-valued law, which sticks truly: at rest any |μ| ≤ μ_s, in slip (6) without its first
+    /// factor. With δ_v = 0 besides, slip has μ_d at once (Coulomb).
     pub beta: f64,
     /// α [s²/m²].
     pub alpha: f64,
 }
 
 impl Stribeck {
-    /// μ(v) and dμ/dv [s/m] at v [m/s]; odd in v.
-    #[inline]
+    /// Whether the law is set-valued at rest.
+    pub fn sticks(&self) -> bool {
+        self.beta.is_infinite()
+    }
+
+    /// μ(v) and dμ/dv [s/m] at v [m/s]; odd in v. At rest a set-valued law has no one value: 0 stands for it.
+    #[inline(always)]
     pub fn at(&self, v: f64) -> (f64, f64) {
         let speed = v.abs();
+        if self.sticks() {
+            let (level, slope) = self.in_slip(speed);
+            return (if v == 0.0 { 0.0 } else { level.copysign(v) }, slope);
+        }
         let steep = self.beta / self.slip_velocity;
         let z = speed * steep;
-        let decay = (self.static_ - self.dynamic) * (-speed / self.slip_velocity).exp();
+        let decay = (self.static_ - self.dynamic) * exp_of_negative(speed / self.slip_velocity);
         let level = decay + self.dynamic;
-        let angle = FRAC_2_PI * z.atan();
+        let angle = FRAC_2_PI * atan_of_positive(z);
         let value = angle * level + self.alpha * speed * speed;
         let slope =
             FRAC_2_PI * steep / (1.0 + z * z) * level - angle * decay / self.slip_velocity + 2.0 * self.alpha * speed;
         (value.copysign(v), slope)
+    }
+
+    /// Of the set-valued laws (6a) and (6b): |μ| at the speed [m/s] of a slip, and its slope [s/m].
+    pub fn in_slip(&self, speed: f64) -> (f64, f64) {
+        let (decay, falling) = if self.slip_velocity > 0.0 {
+            let decay = (self.static_ - self.dynamic) * exp_of_negative(speed / self.slip_velocity);
+            (decay, decay / self.slip_velocity)
+        } else {
+            (0.0, 0.0)
+        };
+        (decay + self.dynamic + self.alpha * speed * speed, 2.0 * self.alpha * speed - falling)
     }
 
     /// μ(v) alone.

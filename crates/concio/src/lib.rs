@@ -5,6 +5,7 @@
 mod assign;
 pub mod case;
 mod dynamics;
+mod elementary;
 pub mod error;
 pub mod excitation;
 pub mod graph;

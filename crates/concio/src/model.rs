@@ -115,6 +115,11 @@ impl Model {
         Ok(Model { wall, joints, beam, mass, sides, elastic, rubs, excitation, reciprocal, stiffest, warnings })
     }
 
+    /// Whether a joint has a set-valued friction law.
+    pub fn sticks(&self) -> bool {
+        self.rubs.iter().any(|r| r.law.sticks())
+    }
+
     /// Index in [`Model::rubs`] of every joint that rubs.
     pub fn rub_of_joint(&self) -> Vec<Option<usize>> {
         let mut index = vec![None; self.joints.len()];

@@ -1,7 +1,7 @@
 //! A stored run at one of its frames: displacement, velocity and acceleration of every block, and the relative motion
 //! and the forces of every joint by equations (2) to (6) of the theory. Signs are those of the sampled channels.
 
-use crate::case::{FrictionLaw, JointKind, SpringLaw};
+use crate::case::{JointKind, SpringLaw};
 use crate::law::{Stribeck, spring_force};
 use crate::store::{FrictionRow, StoredRun};
 use crate::wall::End;
@@ -30,7 +30,7 @@ pub struct JointMotion {
     pub elastic: f64,
     /// Viscous force, same sign [N].
     pub damping: f64,
-    /// Friction force, same sign [N].
+    /// Friction force, same sign [N]: by (6), or as the frame holds it where a law is set-valued.
     pub friction: f64,
 }
 
@@ -84,7 +84,7 @@ impl<'r> Moment<'r> {
             acceleration: sign * (a.acceleration - b.acceleration),
             elastic: spring_force(unilateral, row.stiffness, d),
             damping: row.damping * w,
-            friction: row.friction.as_ref().map_or(0.0, |law| row.normal_force[0] * coefficient(law, w)),
+            friction: friction(self.run, self.frame, joint, w),
         }
     }
 }
@@ -115,16 +115,19 @@ fn beam(run: &StoredRun, frame: usize) -> Motion {
     Motion { displacement: of("displacement"), velocity: of("velocity"), acceleration: of("acceleration") }
 }
 
-fn coefficient(law: &FrictionRow, velocity: f64) -> f64 {
-    match law.law {
-        FrictionLaw::None => 0.0,
-        FrictionLaw::Stribeck | FrictionLaw::Coulomb => Stribeck {
-            static_: law.static_,
-            dynamic: law.dynamic,
-            slip_velocity: law.slip_velocity,
-            beta: law.beta,
-            alpha: law.alpha,
-        }
-        .value(velocity),
+/// What a frame holds of a joint's friction [N], or (6) at the relative velocity `w`.
+fn friction(run: &StoredRun, frame: usize, joint: usize, w: f64) -> f64 {
+    let held = run.outcome.layout.held;
+    if held > 0 {
+        return run.outcome.recording.frame_friction[frame * held + joint];
     }
+    let row = &run.joints[joint];
+    let law = |f: &FrictionRow| Stribeck {
+        static_: f.static_,
+        dynamic: f.dynamic,
+        slip_velocity: f.slip_velocity,
+        beta: f.beta,
+        alpha: f.alpha,
+    };
+    row.friction.as_ref().map_or(0.0, |f| row.normal_force[0] * law(f).value(w))
 }

@@ -25,6 +25,10 @@ pub struct Layout {
     pub frame_every: usize,
     /// Number of unknowns in a frame (blocks, then the beam's if it has mass).
     pub unknowns: usize,
+    /// Number of joints whose friction a frame holds: all of them where a law is set-valued, since what holds a joint
+    /// at rest follows from no velocity; otherwise none.
+    #[serde(default)]
+    pub held: usize,
     /// The histories.
     pub channels: Vec<Channel>,
 }
@@ -44,6 +48,8 @@ pub struct Recording {
     pub frame_velocity: Vec<f64>,
     /// `frame_time.len()` rows: acceleration of every unknown relative to the base [m/s²].
     pub frame_acceleration: Vec<f64>,
+    /// `frame_time.len()` rows: friction force on side a of every joint [N]; rows of none unless a law is set-valued.
+    pub frame_friction: Vec<f64>,
 }
 
 impl Recording {
@@ -55,10 +61,11 @@ impl Recording {
         self.frame_displacement.extend_from_slice(&other.frame_displacement);
         self.frame_velocity.extend_from_slice(&other.frame_velocity);
         self.frame_acceleration.extend_from_slice(&other.frame_acceleration);
+        self.frame_friction.extend_from_slice(&other.frame_friction);
     }
 
     /// The arrays in the order in which a journal keeps them, with the length of a row of each.
-    pub(crate) fn arrays(&self, layout: &Layout) -> [(&Vec<f64>, usize); 6] {
+    pub(crate) fn arrays(&self, layout: &Layout) -> [(&Vec<f64>, usize); 7] {
         let n = layout.unknowns;
         [
             (&self.time, 1),
@@ -67,11 +74,12 @@ impl Recording {
             (&self.frame_displacement, n),
             (&self.frame_velocity, n),
             (&self.frame_acceleration, n),
+            (&self.frame_friction, layout.held),
         ]
     }
 
     /// The same arrays, to be filled: samples first, then frames.
-    pub(crate) fn arrays_mut(&mut self) -> [&mut Vec<f64>; 6] {
+    pub(crate) fn arrays_mut(&mut self) -> [&mut Vec<f64>; 7] {
         [
             &mut self.time,
             &mut self.values,
@@ -79,6 +87,7 @@ impl Recording {
             &mut self.frame_displacement,
             &mut self.frame_velocity,
             &mut self.frame_acceleration,
+            &mut self.frame_friction,
         ]
     }
 
@@ -97,6 +106,7 @@ impl Recording {
             frame_displacement: room(frames, layout.unknowns),
             frame_velocity: room(frames, layout.unknowns),
             frame_acceleration: room(frames, layout.unknowns),
+            frame_friction: room(frames, layout.held),
         }
     }
 }

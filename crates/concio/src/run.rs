@@ -279,7 +279,7 @@ fn large_slips(model: &Model, outcome: &Outcome) -> Option<String> {
 pub fn only_creeps(joints: &[JointRow], outcome: &Outcome) -> bool {
     let mut laws =
         joints.iter().zip(&outcome.envelopes.joint_velocity).filter_map(|(j, v)| j.friction.map(|f| (f, *v)));
-    outcome.energies.friction > 0.0 && laws.all(|(law, velocity)| velocity <= law.slip_velocity)
+    outcome.energies.friction > 0.0 && laws.all(|(law, velocity)| velocity <= law.creeps_below())
 }
 
 /// Says that friction work is no sign of damage, where there is enough of it to be taken for one.
@@ -312,11 +312,15 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
             damping: law.damping,
             normal_force: rub.map_or([0.0; 2], |r| r.normal),
             friction: rub.map(|r| store::FrictionRow {
-                law: FrictionLaw::Stribeck,
+                law: match r.law.sticks() {
+                    false => FrictionLaw::Stribeck,
+                    true if r.law.slip_velocity == 0.0 => FrictionLaw::Coulomb,
+                    true => FrictionLaw::StribeckStick,
+                },
                 static_: r.law.static_,
                 dynamic: r.law.dynamic,
                 slip_velocity: r.law.slip_velocity,
-                beta: r.law.beta,
+                beta: if r.law.sticks() { 0.0 } else { r.law.beta },
                 alpha: r.law.alpha,
             }),
         }

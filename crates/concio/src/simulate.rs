@@ -4,7 +4,7 @@
 //! does no I/O and allocates nothing. The caller empties the buffer, shows progress, saves the state.
 
 use crate::case::Solver;
-use crate::dynamics::{Channels, kick, observe, settle};
+use crate::dynamics::{Channels, accelerate, kick, observe, settle};
 use crate::error::Result;
 use crate::excitation::Drive;
 use crate::integrate::stage::Failure;
@@ -70,12 +70,14 @@ impl<'m> Simulation<'m> {
             samples: (duration / sampling.interval * (1.0 + 1e-12) + 1e-9).floor() as usize + 1,
             frame_every: sampling.frame_every,
             unknowns: model.unknowns(),
+            held: if model.sticks() { model.joints.len() } else { 0 },
             channels: list,
         };
         let mut state = State::at_rest(model);
         let drive = model.excitation.drive(0.0);
         kick(model, &mut state, model.excitation.base_velocity_jump(0.0));
-        settle(model, &drive, &mut state);
+        let mut work = Step::new(model, solver.scheme);
+        settle_all(model, &drive, &mut work, &mut state);
         state.step = (0.01 / model.stiffest.sqrt()).min(duration);
         if !state.step.is_finite() {
             state.step = duration;
@@ -83,7 +85,6 @@ impl<'m> Simulation<'m> {
         begin_account(model, &mut state);
         let frames = if layout.frame_every > 0 { BUFFER.div_ceil(layout.frame_every) } else { 0 };
         let recording = Recording::with_room(&layout, BUFFER, frames);
-        let work = Step::new(model, solver.scheme);
         let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
         let mut run =
             Simulation { model, solver: *solver, channels, layout, state, work, recording, drive, longest_step };
@@ -105,11 +106,16 @@ impl<'m> Simulation<'m> {
         let n = self.model.unknowns();
         self.state.z[..n].copy_from_slice(z);
         self.state.v[..n].copy_from_slice(v);
-        settle(self.model, &self.drive, &mut self.state);
+        self.settle();
         begin_account(self.model, &mut self.state);
         self.state.samples = 0;
         self.clear_recording();
         self.sample();
+    }
+
+    /// Makes what follows from displacements and velocities consistent with the motion at this instant.
+    fn settle(&mut self) {
+        settle_all(self.model, &self.drive, &mut self.work, &mut self.state);
     }
 
     /// Takes at most `steps` steps, fewer when the buffer is full or the run ends.
@@ -228,7 +234,7 @@ impl<'m> Simulation<'m> {
         let (old, new) = (before.base_acceleration(t), self.drive.base_acceleration(t));
         let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
         if jump != 0.0 || !close(old, new) || !close(before.top(t).v, self.drive.top(t).v) {
-            settle(self.model, &self.drive, &mut self.state);
+            self.settle();
         }
     }
 
@@ -242,6 +248,13 @@ impl<'m> Simulation<'m> {
             recording.frame_displacement.extend_from_slice(&state.z[..n]);
             recording.frame_velocity.extend_from_slice(&state.v[..n]);
             recording.frame_acceleration.extend_from_slice(&state.a[..n]);
+            if self.layout.held > 0 {
+                let from = recording.frame_friction.len();
+                recording.frame_friction.resize(from + self.layout.held, 0.0);
+                for (rub, mu) in self.model.rubs.iter().zip(&state.tangents.mu) {
+                    recording.frame_friction[from + rub.joint as usize] = rub.normal[0] * mu;
+                }
+            }
         }
         state.samples += 1;
     }
@@ -318,6 +331,16 @@ impl<'m> Simulation<'m> {
             counters: self.state.counters,
             stop_reason,
         }
+    }
+}
+
+/// [`settle`], and which of the joints at rest let go under the forces of this instant.
+fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) {
+    settle(model, drive, state);
+    if model.sticks() {
+        work.let_go(model, drive, state);
+        accelerate(model, drive, state);
+        work.stage.join(model, &state.tangents, &mut state.a);
     }
 }
 

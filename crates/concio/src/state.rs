@@ -76,6 +76,8 @@ pub struct Tangents {
     pub slope: Vec<f64>,
     /// Whether the elastic law acts, per joint.
     pub closed: Vec<bool>,
+    /// Whether a joint with a set-valued law sticks, per rubbing joint; `mu` is then the friction that holds it.
+    pub stuck: Vec<bool>,
 }
 
 impl Tangents {
@@ -84,8 +86,9 @@ impl Tangents {
         Tangents {
             velocity: vec![0.0; model.rubs.len()],
             mu: vec![0.0; model.rubs.len()],
-            slope: model.rubs.iter().map(|r| r.law.slope_at_rest()).collect(),
+            slope: model.rubs.iter().map(|r| if r.law.sticks() { 0.0 } else { r.law.slope_at_rest() }).collect(),
             closed: model.elastic.iter().map(|law| !law.unilateral).collect(),
+            stuck: model.rubs.iter().map(|r| r.law.sticks()).collect(),
         }
     }
     /// Copies without allocating.
@@ -94,6 +97,7 @@ impl Tangents {
         self.mu.copy_from_slice(&other.mu);
         self.slope.copy_from_slice(&other.slope);
         self.closed.copy_from_slice(&other.closed);
+        self.stuck.copy_from_slice(&other.stuck);
     }
 }
 
@@ -119,6 +123,7 @@ impl State {
             .all(|x| x.len() == e)
             && [&self.tangents.velocity, &self.tangents.mu, &self.tangents.slope].iter().all(|x| x.len() == r)
             && self.tangents.closed.len() == e
+            && self.tangents.stuck.len() == r
     }
 
     /// At rest at t = 0.

@@ -2,14 +2,19 @@
 
 use serde_json::{Value, json};
 
-use crate::error::Result;
+use crate::error::{InputError, Result};
 use crate::model::Model;
 
 /// The system (1) in coordinates relative to the base: masses, joints, motion (the format is fixed in docs/system.md).
 ///
 /// # Errors
-/// A driven top on a moving base: the format has one motion for the top and it is relative to the base.
+/// A driven top on a moving base: the format has one motion for the top and it is relative to the base. Set-valued
+/// friction, which the format cannot express.
 pub fn system(model: &Model) -> Result<Value> {
+    if model.sticks() {
+        let error = InputError::new("set-valued friction has no place in the system for other solvers");
+        return Err(error.key("joint.friction.law").allowed("`stribeck`, `none`").into());
+    }
     let (base, top) = (model.base(), model.top());
     let rub: Vec<_> = model.rub_of_joint().into_iter().map(|r| r.map(|r| &model.rubs[r])).collect();
     let side = |b: usize| {

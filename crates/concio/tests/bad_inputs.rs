@@ -97,7 +97,6 @@ fn table() -> Vec<Bad> {
         "spring without stiffness", edit(", stiffness = \"5.4e7 N/m\"", ""), "bed = { law", "joint.bed.stiffness", "law `elastic` needs it", "from 0 N/m";
         "planar model", edit("\"shear\"", "\"planar\""), "model", "model", "not in this version", "`shear`";
         "rigid joints", edit("law = \"no-tension\"", "law = \"rigid\""), "head = { law", "joint.head.law", "not in this version", "`no-tension`";
-        "Coulomb friction", edit("\"stribeck\"", "\"coulomb\""), "friction", "joint.friction.law", "not in this version", "`stribeck`";
         "driven beam at rest", edit("top = { sine = { amplitude = \"5 mm\", frequency = \"2 Hz\" } }", ""), "[motion]", "motion.top", "the beam is `driven` but has no motion", "sine";
         "top motion without a driven beam", edit("beam = \"driven\"", "beam = \"free\""), "top = { sine", "motion.top", "only a `driven` top beam takes a motion", "`none`";
         "sine with two amplitudes", edit("amplitude = \"5 mm\"", "amplitude = \"5 mm\", acceleration = \"0.8 g\""), "top = { sine", "motion.top.sine", "both a displacement and an acceleration", "exactly one";

@@ -45,6 +45,11 @@ fn ready(text: &str) -> Prepared {
     prepare(file.case.clone(), Path::new("")).unwrap()
 }
 
+/// The panel with a set-valued law.
+fn sticking(motion: &str, law: &str) -> String {
+    format!("{PANEL}{motion}").replace("law = \"stribeck\"", &format!("law = \"{law}\""))
+}
+
 fn outcome(text: &str) -> Outcome {
     let out = run_in_memory(&ready(text)).unwrap();
     assert_eq!(out.stop_reason, StopReason::Completed);
@@ -157,13 +162,16 @@ base = { sine = { acceleration = "0.8 g", frequency = "4 Hz" } }
             format!("{PANEL}{SLIPPING}").replace("dynamic = 0.42", "dynamic = 0.42, preset = \"report\""),
         ),
         ("irregular, two panels, floor", irregular.to_string()),
+        ("true stick", sticking(SLIPPING, "coulomb")),
+        ("true stick, report preset", sticking(SLIPPING, "coulomb").replace("0.42", "0.42, preset = \"report\"")),
+        ("true stick, falling", sticking(SLIPPING, "stribeck-stick")),
     ];
     for (name, text) in cases {
         let out = outcome(&text);
         let residual = residual_relative(&out);
         assert!(residual <= 1e-3, "{name}: residual {residual:e}");
         assert!(out.energies.input() > 0.0 && out.energies.damping > 0.0, "{name}: {:?}", out.energies);
-        assert_eq!(out.energies.nonreciprocal != 0.0, name == "report preset", "{name}: {:?}", out.energies);
+        assert_eq!(out.energies.nonreciprocal != 0.0, name.ends_with("report preset"), "{name}: {:?}", out.energies);
         let joints: f64 = out.envelopes.joint_dissipation.iter().sum();
         let account = out.energies.damping + out.energies.friction;
         assert!((joints / account - 1.0).abs() < 1e-9, "{name}: joints {joints} against account {account}");
@@ -520,4 +528,78 @@ fn a_moment_of_a_stored_run_is_what_was_sampled() {
         }
         assert!(Moment::of(&run, out.recording.frame_time.len()).is_none());
     }
+}
+
+/// A shaken wall whose joints can bear it moves exactly nowhere, where the regularised law creeps.
+#[test]
+fn what_sticks_does_not_move() {
+    for law in ["coulomb", "stribeck-stick"] {
+        let text = sticking(SHAKEN, law).replace("0.8 g", "0.1 g").replace("2 kN/m", "20 kN/m");
+        let out = outcome(&text);
+        assert_eq!(out.totals.peak_relative_displacement, 0.0, "{law}");
+        assert_eq!(out.energies.friction, 0.0);
+        // The joints carry what it takes to go along with the base.
+        let mass: f64 = ready(&text).model.mass.iter().sum();
+        let (shear, base) = (channel(&out, "base/shear"), channel(&out, "base/acceleration"));
+        for (f, a) in shear.iter().zip(&base) {
+            assert!((f - mass * a).abs() <= 1e-6 * mass * 0.981, "{f} against {}", mass * a);
+        }
+    }
+}
+
+/// The set-valued law is the limit of (6) for steep first branches: work and force of the beam.
+#[test]
+fn a_steep_law_comes_near_the_set_valued_one() {
+    let work = |text: &str| {
+        let out = outcome(text);
+        (out.energies.input_top, out.totals.top_force_square.sqrt())
+    };
+    let limit = work(&sticking(SLIPPING, "stribeck-stick"));
+    let error = |beta: &str| {
+        let steep = format!("{PANEL}{SLIPPING}").replace("0.42 }", &format!("0.42, beta = {beta} }}"));
+        let (w, f) = work(&steep);
+        ((w / limit.0 - 1.0).abs(), (f / limit.1 - 1.0).abs())
+    };
+    let (coarse, fine) = (error("10"), error("1000"));
+    assert!(fine.0 < 0.02 && fine.1 < 0.002, "{fine:?}");
+    assert!(fine.0 < coarse.0, "{coarse:?} {fine:?}");
+}
+
+/// Bits of a set-valued run survive a restart anywhere, and its frames hold the friction that was sampled.
+#[test]
+fn a_sticking_run_is_restored_and_its_friction_is_kept() {
+    let text = format!(
+        "{}[output]\ninterval = \"1 ms\"\nframes = \"5 ms\"\njoints = [\"all\"]\n",
+        sticking(SLIPPING, "coulomb")
+    );
+    let p = ready(&text);
+    let mut whole = Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
+    let (rows, _) = whole.run_to_end();
+    let mut first = Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
+    first.advance(137);
+    let saved = first.save();
+    let mut second = Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
+    assert!(second.restore(&saved));
+    second.run_to_end();
+    assert_eq!(second.time(), p.model.excitation.duration);
+    assert!(second.save() == whole.save(), "other bits after a restart");
+    let run = StoredRun {
+        schema_version: concio::store::SCHEMA_VERSION,
+        provenance: p.provenance(),
+        wall: p.model.wall.clone(),
+        joints: joint_rows(&p.model),
+        outcome: whole.outcome(rows, StopReason::Completed),
+    };
+    let out = &run.outcome;
+    let mut held = 0;
+    for frame in 0..out.recording.frame_time.len() {
+        let moment = Moment::of(&run, frame).unwrap();
+        for (e, name) in p.model.joint_names().iter().enumerate() {
+            let c = out.layout.channels.iter().position(|c| c.name == format!("joint/{name}/friction")).unwrap();
+            let sampled = out.recording.values[frame * out.layout.frame_every * out.layout.channels.len() + c];
+            assert_eq!(moment.joint(e).friction, sampled);
+            held += usize::from(moment.joint(e).velocity == 0.0 && sampled != 0.0);
+        }
+    }
+    assert!(held > 100, "joints at rest are held by friction: {held}");
 }

@@ -95,6 +95,10 @@ fn frames(pack: &mut Pack, content: &Content) -> Kept {
         }
         pack.rows(&format!("frame/{name}"), rows.chunks_exact(unknowns));
     }
+    if layout.held > 0 {
+        let rows = kept.iter().flat_map(|&k| &recording.frame_friction[k * layout.held..][..layout.held]);
+        pack.curves("frame/joint/friction", &rows.map(|f| *f as f32).collect::<Vec<_>>());
+    }
     Kept { every, samples }
 }
 

@@ -21,12 +21,14 @@ pub fn list(content: &Content) -> Vec<String> {
          overturning are left out."
             .into(),
     );
-    if content.case.joint.friction.law == FrictionLaw::Stribeck {
+    if content.case.joint.friction.law != FrictionLaw::None {
         doubts.push(
             "The springs of the bed joints stay elastic beside friction, however far a joint slips: forces may exceed \
              the friction capacity, and the wall never slides off."
                 .into(),
         );
+    }
+    if content.case.joint.friction.law == FrictionLaw::Stribeck {
         doubts.push(
             "Friction is a smooth function of velocity: a joint that sticks creeps slowly under load instead of \
              holding for ever."
@@ -37,9 +39,10 @@ pub fn list(content: &Content) -> Vec<String> {
 }
 
 fn of_this_run(content: &Content) -> Vec<String> {
-    let (outcome, friction) = (content.outcome, &content.case.joint.friction);
+    let outcome = content.outcome;
     let mut doubts = Vec::new();
-    let slips = outcome.totals.peak_slip_velocity > friction.slip_velocity.si();
+    let speeds = content.joints.iter().zip(&outcome.envelopes.joint_velocity);
+    let slips = speeds.filter_map(|(j, v)| Some((j.friction?, *v))).any(|(law, v)| v > law.creeps_below());
     let residual = residual(content.summary);
     if !(residual <= LARGEST_RESIDUAL) {
         doubts.push(format!(
@@ -47,7 +50,7 @@ fn of_this_run(content: &Content) -> Vec<String> {
              than {LARGEST_RESIDUAL}. Lower solver.tolerance."
         ));
     }
-    if friction.law == FrictionLaw::Stribeck && slips {
+    if slips {
         doubts.push(
             "Joints slip in this run. Stick-slip is sensitive to the last digit: energies, envelopes and forces can be \
              relied on, the course of a single history after many slips cannot."

@@ -44,7 +44,7 @@ pub(crate) fn suggestion<'a>(word: &str, known: impl IntoIterator<Item = &'a str
 }
 
 /// Words that the wall file knows but this version refuses: not offered as what could stand there.
-const NOT_YET: [&str; 2] = ["rigid", "coulomb"];
+const NOT_YET: [&str; 1] = ["rigid"];
 
 /// What to write instead when `text` starts with a number with a decimal comma.
 pub(crate) fn decimal_comma(text: &str) -> Option<String> {

@@ -260,10 +260,11 @@ fn require(tree: &Node) -> std::result::Result<(), Fault> {
         }
     }
     let Some(friction) = joint.get("friction") else { return Ok(()) };
-    if friction.get("law").and_then(Node::text) == Some("stribeck") {
+    let law = friction.get("law").and_then(Node::text).unwrap_or_default();
+    if ["stribeck", "stribeck-stick", "coulomb"].contains(&law) {
         for key in ["static", "dynamic"] {
             if !friction.has(key) {
-                let error = InputError::new("the key is missing: law `stribeck` needs it");
+                let error = InputError::new(format!("the key is missing: law `{law}` needs it"));
                 let mut error = error.key(format!("joint.friction.{key}")).allowed("from 0");
                 error.help = misspelt(tree, &format!("joint.friction.{key}"));
                 return Err(Fault::new(error, friction.at));

@@ -1,39 +1,45 @@
 //! Sparse factorisation with a pattern settled once: A = L D U with unit triangles, U = Lᵀ when A is symmetric.
 //!
-//! Up-looking, one row of L (and one column of U) at a time, after T. A. Davis, *Direct Methods for Sparse Linear
-//! Systems*, SIAM 2006, sections 4.7–4.8; the unsymmetric case has a symmetric pattern because every entry is a
-//! joint. The order is approximate minimum degree (faer). No pivoting: the stage matrix is symmetric positive
-//! definite for any step that makes sense, and a pivot that is not positive is reported instead of divided by.
-//! Nothing is allocated after [`Matrix::new`].
+//! The order is approximate minimum degree (faer); the unsymmetric case has a symmetric pattern because every entry is
+//! a joint. Unknowns are numbered by their place in that order throughout, so that nothing is permuted while solving.
+//! Small systems are eliminated column by column along a list of all updates made beforehand; large ones, for which
+//! that list would be long, row by row after T. A. Davis, *Direct Methods for Sparse Linear Systems*, SIAM 2006,
+//! sections 4.7–4.8. No pivoting: the stage matrix is symmetric positive definite for any step that makes sense, and
+//! a pivot that is not positive is reported instead of divided by. Nothing is allocated after [`Matrix::new`].
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
+/// Updates up to which the list of them is kept (12 bytes each).
+const LONGEST_LIST: usize = 200_000;
+
 /// A matrix with the pattern of a joint graph, and its factors.
 #[derive(Debug, Clone)]
 pub struct Matrix {
     n: usize,
-    /// Old index at each place of the elimination order, and the inverse.
-    order: Vec<u32>,
+    /// Place of each unknown in the elimination order.
     place: Vec<u32>,
-    /// Diagonal of A by place.
-    diagonal: Vec<f64>,
-    /// Off-diagonal of A by rows of the lower triangle, and the mirror image.
-    row_start: Vec<u32>,
-    row_column: Vec<u32>,
-    lower: Vec<f64>,
-    upper: Vec<f64>,
-    /// L by columns; `l_value[p]` is L(r, k), `u_value[p]` is U(k, r).
-    l_start: Vec<u32>,
-    l_row: Vec<u32>,
-    l_value: Vec<f64>,
-    u_value: Vec<f64>,
-    /// Rows of L: columns, ascending, and where they stand in `l_value`.
+    /// Diagonal of A, then D⁻¹.
+    pub diagonal: Vec<f64>,
+    /// The pattern of L by columns: where each starts, row and column of every entry.
+    start: Vec<u32>,
+    row: Vec<u32>,
+    column: Vec<u32>,
+    /// A below the diagonal, and its mirror image above; destroyed by the factorisation.
+    pub lower: Vec<f64>,
+    pub upper: Vec<f64>,
+    /// L, and U by rows.
+    scaled: Vec<f64>,
+    turned: Vec<f64>,
+    /// Entries and updates of every column.
+    counts: Vec<[u32; 2]>,
+    /// For every column and every two rows in it, the later one outside: where their update goes, and the two entries.
+    /// Empty when it would be too long.
+    updates: Vec<[u32; 3]>,
+    /// Rows of L: columns, ascending, and where they stand in `lower`.
     reach_start: Vec<u32>,
     reach: Vec<Reach>,
-    pivot: Vec<f64>,
-    inverse_pivot: Vec<f64>,
     x: Vec<f64>,
     y: Vec<f64>,
     symmetric: bool,
@@ -50,54 +56,55 @@ struct Reach {
 pub struct NotPositive;
 
 impl Matrix {
-    /// A zero matrix of order `n` with a diagonal and the pairs (i, j), i ≠ j, on both sides of it. Returns too
-    /// the slot of each pair, for [`Matrix::add`].
+    /// A matrix of order `n` with a diagonal and the pairs (i, j), i ≠ j, on both sides of it. Returns too where each
+    /// pair stands in `lower` and `upper`.
     pub fn new(n: usize, pairs: &[(usize, usize)]) -> (Self, Vec<u32>) {
-        let (order, place) = elimination_order(n, pairs);
-        let mut rows: Vec<Vec<u32>> = vec![Vec::new(); n];
+        let place = elimination_order(n, pairs);
         let placed = |&(i, j): &(usize, usize)| {
             let (p, q) = (place[i], place[j]);
             (p.max(q), p.min(q))
         };
+        let mut rows: Vec<Vec<u32>> = vec![Vec::new(); n];
         for pair in pairs {
             let (r, c) = placed(pair);
             rows[r as usize].push(c);
         }
-        let mut row_start = vec![0u32];
-        let mut row_column = Vec::new();
-        for row in &mut rows {
-            row.sort_unstable();
-            row.dedup();
-            row_column.extend_from_slice(row);
-            row_start.push(row_column.len() as u32);
+        let (start, row, reach_start, reach) = symbolic(&rows);
+        let at = |r: u32, c: u32| {
+            let (s, e) = (start[c as usize] as usize, start[c as usize + 1] as usize);
+            (s + row[s..e].partition_point(|&x| x < r)) as u32
+        };
+        let slots = pairs.iter().map(placed).map(|(r, c)| at(r, c)).collect();
+        let columns = || (0..n).map(|k| &row[start[k] as usize..start[k + 1] as usize]);
+        let count: usize = columns().map(|c| c.len() * c.len().saturating_sub(1) / 2).sum();
+        let mut updates = Vec::new();
+        if count <= LONGEST_LIST {
+            for k in 0..n {
+                let first = start[k];
+                let column = &row[first as usize..start[k + 1] as usize];
+                for (p, &r) in (first..).zip(column) {
+                    updates.extend((first..p).zip(column).map(|(q, &c)| [at(r, c), p, q]));
+                }
+            }
         }
-        let slots = pairs
-            .iter()
-            .map(|pair| {
-                let (r, c) = placed(pair);
-                let (s, e) = (row_start[r as usize] as usize, row_start[r as usize + 1] as usize);
-                (s + row_column[s..e].partition_point(|&x| x < c)) as u32
-            })
-            .collect();
-        let (l_start, l_row, reach_start, reach) = symbolic(n, &row_start, &row_column);
-        let (entries, fill) = (row_column.len(), l_row.len());
+        let counts = columns().map(|c| [c.len(), c.len() * c.len().saturating_sub(1) / 2].map(|x| x as u32)).collect();
+        let column = (0..n as u32).flat_map(|k| std::iter::repeat_n(k, columns_of(&start, k))).collect();
+        let fill = row.len();
         let matrix = Matrix {
             n,
-            order,
             place,
             diagonal: vec![0.0; n],
-            row_start,
-            row_column,
-            lower: vec![0.0; entries],
-            upper: vec![0.0; entries],
-            l_start,
-            l_row,
-            l_value: vec![0.0; fill],
-            u_value: vec![0.0; fill],
+            start,
+            row,
+            column,
+            scaled: vec![0.0; fill],
+            turned: vec![0.0; fill],
+            counts,
+            lower: vec![0.0; fill],
+            upper: vec![0.0; fill],
+            updates,
             reach_start,
             reach,
-            pivot: vec![0.0; n],
-            inverse_pivot: vec![0.0; n],
             x: vec![0.0; n],
             y: vec![0.0; n],
             symmetric: true,
@@ -105,143 +112,166 @@ impl Matrix {
         (matrix, slots)
     }
 
-    /// Sets A to diag(d).
-    pub fn set_diagonal(&mut self, d: &[f64]) {
-        for (place, &old) in self.order.iter().enumerate() {
-            self.diagonal[place] = d[old as usize];
-        }
-        self.lower.fill(0.0);
-        self.upper.fill(0.0);
+    /// Place of each unknown in the elimination order: the number it has in `diagonal` and in [`Matrix::solve`].
+    pub fn places(&self) -> &[u32] {
+        &self.place
     }
 
-    /// Adds `s` to A(i, i).
-    #[inline]
-    pub fn add_diagonal(&mut self, i: usize, s: f64) {
-        self.diagonal[self.place[i] as usize] += s;
-    }
-
-    /// The diagonal entry of A at i.
-    #[inline]
-    pub fn diagonal(&self, i: usize) -> f64 {
-        self.diagonal[self.place[i] as usize]
-    }
-
-    /// Adds the coupling of a joint between i and j whose slot is `slot`: `in_i` is −A(i, j), `in_j` is −A(j, i);
-    /// each goes with the opposite sign to its row's diagonal.
-    #[inline]
-    pub fn add(&mut self, slot: u32, i: usize, j: usize, in_i: f64, in_j: f64) {
-        let (p, q) = (self.place[i] as usize, self.place[j] as usize);
-        self.diagonal[p] += in_i;
-        self.diagonal[q] += in_j;
-        let (low, up) = if p > q { (in_i, in_j) } else { (in_j, in_i) };
-        self.lower[slot as usize] -= low;
-        self.upper[slot as usize] -= up;
-    }
-
-    /// Factorises A. With `symmetric` the mirror image is not read.
+    /// Factorises what `diagonal`, `lower` and `upper` hold, in place. With `symmetric`, `upper` is not read.
     ///
     /// # Errors
     /// [`NotPositive`] when a pivot is not above zero; the factors are then of no use.
+    #[inline(always)]
     pub fn factorise(&mut self, symmetric: bool) -> Result<(), NotPositive> {
         self.symmetric = symmetric;
-        if symmetric { self.factorise_symmetric() } else { self.factorise_unsymmetric() }
+        match (symmetric, self.updates.is_empty() && self.row.len() >= self.n) {
+            (true, false) => self.columns_symmetric(),
+            (true, true) => self.rows_symmetric(),
+            (false, false) => self.columns_unsymmetric(),
+            (false, true) => self.rows_unsymmetric(),
+        }
     }
 
-    fn factorise_symmetric(&mut self) -> Result<(), NotPositive> {
+    /// Column by column; loops are flat because columns are short.
+    #[inline(always)]
+    fn columns_symmetric(&mut self) -> Result<(), NotPositive> {
+        let (diagonal, lower, scaled) = (&mut self.diagonal[..], &mut self.lower[..], &mut self.scaled[..]);
+        let (mut rows, mut updates, mut from) = (&self.row[..], &self.updates[..], 0);
+        for k in 0..diagonal.len() {
+            let d = diagonal[k];
+            if !(d > 0.0) {
+                return Err(NotPositive);
+            }
+            let inverse = 1.0 / d;
+            diagonal[k] = inverse;
+            let [entries, count] = self.counts[k].map(|c| c as usize);
+            let (of_column, rest) = rows.split_at(entries);
+            rows = rest;
+            let to = from + entries;
+            for ((&r, value), l) in of_column.iter().zip(&lower[from..to]).zip(&mut scaled[from..to]) {
+                *l = value * inverse;
+                diagonal[r as usize] -= *l * value;
+            }
+            from = to;
+            let (of_column, rest) = updates.split_at(count);
+            updates = rest;
+            for &[at, p, q] in of_column {
+                lower[at as usize] -= scaled[p as usize] * lower[q as usize];
+            }
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn columns_unsymmetric(&mut self) -> Result<(), NotPositive> {
+        let (diagonal, lower, upper) = (&mut self.diagonal[..], &mut self.lower[..], &mut self.upper[..]);
+        let (scaled, turned) = (&mut self.scaled[..], &mut self.turned[..]);
+        let (mut updates, mut from) = (&self.updates[..], 0);
+        for k in 0..diagonal.len() {
+            let d = diagonal[k];
+            if !(d > 0.0) {
+                return Err(NotPositive);
+            }
+            let inverse = 1.0 / d;
+            diagonal[k] = inverse;
+            let [entries, count] = self.counts[k].map(|c| c as usize);
+            for p in from..from + entries {
+                scaled[p] = lower[p] * inverse;
+                turned[p] = upper[p] * inverse;
+                diagonal[self.row[p] as usize] -= scaled[p] * upper[p];
+            }
+            from += entries;
+            let (of_column, rest) = updates.split_at(count);
+            updates = rest;
+            for &[at, p, q] in of_column {
+                lower[at as usize] -= scaled[p as usize] * upper[q as usize];
+                upper[at as usize] -= turned[p as usize] * lower[q as usize];
+            }
+        }
+        Ok(())
+    }
+
+    fn rows_symmetric(&mut self) -> Result<(), NotPositive> {
         for i in 0..self.n {
-            for e in self.row_start[i] as usize..self.row_start[i + 1] as usize {
-                self.x[self.row_column[e] as usize] = self.lower[e];
+            let reach = self.reach_start[i] as usize..self.reach_start[i + 1] as usize;
+            for Reach { column, at } in &self.reach[reach.clone()] {
+                self.x[*column as usize] = self.lower[*at as usize];
             }
             let mut d = self.diagonal[i];
-            for t in self.reach_start[i] as usize..self.reach_start[i + 1] as usize {
+            for t in reach {
                 let Reach { column, at } = self.reach[t];
                 let (k, at) = (column as usize, at as usize);
-                let xk = std::mem::take(&mut self.x[k]);
-                let start = self.l_start[k] as usize;
-                for (l, &r) in self.l_value[start..at].iter().zip(&self.l_row[start..at]) {
+                let xk = self.x[k];
+                let start = self.start[k] as usize;
+                for (l, &r) in self.scaled[start..at].iter().zip(&self.row[start..at]) {
                     self.x[r as usize] -= l * xk;
                 }
-                let l = xk * self.inverse_pivot[k];
+                let l = xk * self.diagonal[k];
                 d -= l * xk;
-                self.l_value[at] = l;
+                self.scaled[at] = l;
             }
-            if d > 0.0 {
-                self.inverse_pivot[i] = 1.0 / d;
-            } else {
-                return Err(self.abandon());
+            if !(d > 0.0) {
+                return Err(NotPositive);
             }
+            self.diagonal[i] = 1.0 / d;
         }
         Ok(())
     }
 
-    fn factorise_unsymmetric(&mut self) -> Result<(), NotPositive> {
+    fn rows_unsymmetric(&mut self) -> Result<(), NotPositive> {
         for i in 0..self.n {
-            for e in self.row_start[i] as usize..self.row_start[i + 1] as usize {
-                let c = self.row_column[e] as usize;
-                self.x[c] = self.lower[e];
-                self.y[c] = self.upper[e];
+            let reach = self.reach_start[i] as usize..self.reach_start[i + 1] as usize;
+            for Reach { column, at } in &self.reach[reach.clone()] {
+                self.x[*column as usize] = self.lower[*at as usize];
+                self.y[*column as usize] = self.upper[*at as usize];
             }
             let mut d = self.diagonal[i];
-            for t in self.reach_start[i] as usize..self.reach_start[i + 1] as usize {
+            for t in reach {
                 let Reach { column, at } = self.reach[t];
                 let (k, at) = (column as usize, at as usize);
-                let xk = std::mem::take(&mut self.x[k]);
-                let yk = std::mem::take(&mut self.y[k]);
-                for p in self.l_start[k] as usize..at {
-                    let r = self.l_row[p] as usize;
-                    self.x[r] -= self.u_value[p] * xk;
-                    self.y[r] -= self.l_value[p] * yk;
+                let (xk, yk) = (self.x[k], self.y[k]);
+                for p in self.start[k] as usize..at {
+                    let r = self.row[p] as usize;
+                    self.x[r] -= self.turned[p] * xk;
+                    self.y[r] -= self.scaled[p] * yk;
                 }
-                let l = xk * self.inverse_pivot[k];
+                let l = xk * self.diagonal[k];
                 d -= l * yk;
-                self.l_value[at] = l;
-                self.u_value[at] = yk * self.inverse_pivot[k];
+                self.scaled[at] = l;
+                self.turned[at] = yk * self.diagonal[k];
             }
-            if d > 0.0 {
-                self.inverse_pivot[i] = 1.0 / d;
-            } else {
-                return Err(self.abandon());
+            if !(d > 0.0) {
+                return Err(NotPositive);
             }
+            self.diagonal[i] = 1.0 / d;
         }
         Ok(())
     }
 
-    fn abandon(&mut self) -> NotPositive {
-        self.x.fill(0.0);
-        self.y.fill(0.0);
-        NotPositive
-    }
-
-    /// Solves A x = b in place with the last factors.
-    pub fn solve(&mut self, b: &mut [f64]) {
-        let z = &mut self.pivot;
-        for (place, &old) in self.order.iter().enumerate() {
-            z[place] = b[old as usize];
+    /// Solves A x = b in place with the last factors; b by place.
+    #[inline(always)]
+    pub fn solve(&self, b: &mut [f64]) {
+        let b = &mut b[..self.n];
+        for ((&r, &c), l) in self.row.iter().zip(&self.column).zip(&self.scaled) {
+            b[r as usize] -= l * b[c as usize];
         }
-        for k in 0..self.n {
-            let zk = z[k];
-            let column = self.l_start[k] as usize..self.l_start[k + 1] as usize;
-            for (l, &r) in self.l_value[column.clone()].iter().zip(&self.l_row[column]) {
-                z[r as usize] -= l * zk;
-            }
+        for (b, d) in b.iter_mut().zip(&self.diagonal) {
+            *b *= d;
         }
-        let u = if self.symmetric { &self.l_value } else { &self.u_value };
-        for k in (0..self.n).rev() {
-            let column = self.l_start[k] as usize..self.l_start[k + 1] as usize;
-            let mut zk = z[k] * self.inverse_pivot[k];
-            for (u, &r) in u[column.clone()].iter().zip(&self.l_row[column]) {
-                zk -= u * z[r as usize];
-            }
-            z[k] = zk;
-        }
-        for (place, &old) in self.order.iter().enumerate() {
-            b[old as usize] = z[place];
+        let upper = if self.symmetric { &self.scaled } else { &self.turned };
+        for ((&r, &c), u) in self.row.iter().zip(&self.column).zip(upper).rev() {
+            b[c as usize] -= u * b[r as usize];
         }
     }
 }
 
-/// Approximate minimum degree order of the graph: (old index at each place, place of each old index).
-fn elimination_order(n: usize, pairs: &[(usize, usize)]) -> (Vec<u32>, Vec<u32>) {
+/// Entries of column `k`.
+fn columns_of(start: &[u32], k: u32) -> usize {
+    (start[k as usize + 1] - start[k as usize]) as usize
+}
+
+/// Approximate minimum degree order of the graph: the place of each unknown.
+fn elimination_order(n: usize, pairs: &[(usize, usize)]) -> Vec<u32> {
     let mut columns: Vec<Vec<usize>> = vec![Vec::new(); n];
     for &(i, j) in pairs {
         columns[i].push(j);
@@ -262,22 +292,22 @@ fn elimination_order(n: usize, pairs: &[(usize, usize)]) -> (Vec<u32>, Vec<u32>)
     let stack = MemStack::new(&mut memory);
     if amd::order(&mut perm, &mut inverse, pattern, amd::Control::default(), stack).is_err() {
         // Only an overflow of the index type can fail; the natural order is right too, just slower.
-        perm = (0..n).collect();
         inverse = (0..n).collect();
     }
-    (perm.iter().map(|&i| i as u32).collect(), inverse.iter().map(|&i| i as u32).collect())
+    inverse.iter().map(|&i| i as u32).collect()
 }
 
 /// Columns of L and rows of L from the rows of the lower triangle of A (elimination tree reach).
-fn symbolic(n: usize, row_start: &[u32], row_column: &[u32]) -> (Vec<u32>, Vec<u32>, Vec<u32>, Vec<Reach>) {
+fn symbolic(lower: &[Vec<u32>]) -> (Vec<u32>, Vec<u32>, Vec<u32>, Vec<Reach>) {
     const NONE: u32 = u32::MAX;
+    let n = lower.len();
     let mut parent = vec![NONE; n];
     let mut mark = vec![NONE; n];
     let mut rows: Vec<Vec<u32>> = Vec::with_capacity(n);
     for i in 0..n {
         mark[i] = i as u32;
         let mut row = Vec::new();
-        for &c in &row_column[row_start[i] as usize..row_start[i + 1] as usize] {
+        for &c in &lower[i] {
             let mut k = c;
             while mark[k as usize] != i as u32 {
                 mark[k as usize] = i as u32;
@@ -338,29 +368,40 @@ mod tests {
                 }
             }
         }
-        for symmetric in [true, false] {
+        for (symmetric, listed) in [(true, true), (false, true), (true, false), (false, false)] {
             let (mut m, slots) = Matrix::new(n, &pairs);
-            let mass: Vec<f64> = (0..n).map(|i| 1.0 + 0.01 * i as f64).collect();
+            assert!(!m.updates.is_empty());
+            if !listed {
+                m.updates.clear();
+            }
+            let place = m.places().to_vec();
             let mut dense = vec![vec![0.0; n]; n];
-            m.set_diagonal(&mass);
             for i in 0..n {
-                dense[i][i] = mass[i];
+                dense[i][i] = 1.0 + 0.01 * i as f64;
             }
             for (e, (&(i, j), &slot)) in pairs.iter().zip(&slots).enumerate() {
                 let s = 1.0 + (e % 5) as f64 * 100.0;
                 let t = if symmetric { s } else { s * 1.3 };
-                m.add(slot, i, j, s, t);
                 dense[i][i] += s;
                 dense[i][j] -= s;
                 dense[j][j] += t;
                 dense[j][i] -= t;
+                let (low, up) = if place[i] > place[j] { (s, t) } else { (t, s) };
+                m.lower[slot as usize] -= low;
+                m.upper[slot as usize] -= up;
+            }
+            for i in 0..n {
+                m.diagonal[place[i] as usize] = dense[i][i];
             }
             m.factorise(symmetric).expect("diagonally dominant");
             let b: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
-            let mut x = b.clone();
+            let mut x = vec![0.0; n];
+            for i in 0..n {
+                x[place[i] as usize] = b[i];
+            }
             m.solve(&mut x);
             for i in 0..n {
-                let product: f64 = (0..n).map(|j| dense[i][j] * x[j]).sum();
+                let product: f64 = (0..n).map(|j| dense[i][j] * x[place[j] as usize]).sum();
                 assert!((product - b[i]).abs() < 1e-11, "row {i}: {product} against {}", b[i]);
             }
         }
@@ -368,12 +409,16 @@ mod tests {
 
     #[test]
     fn reports_a_pivot_that_is_not_positive() {
-        let (mut m, slots) = Matrix::new(2, &[(0, 1)]);
-        m.set_diagonal(&[1.0, 1.0]);
-        m.add(slots[0], 0, 1, -2.0, -2.0);
-        assert_eq!(m.factorise(true), Err(NotPositive));
-        m.set_diagonal(&[1.0, 1.0]);
-        m.add(slots[0], 0, 1, 2.0, 2.0);
-        assert_eq!(m.factorise(true), Ok(()));
+        for (listed, coupling, expected) in
+            [(true, 2.0, Err(NotPositive)), (false, 2.0, Err(NotPositive)), (true, -0.5, Ok(())), (false, -0.5, Ok(()))]
+        {
+            let (mut m, slots) = Matrix::new(3, &[(0, 1), (1, 2), (0, 2)]);
+            if !listed {
+                m.updates.clear();
+            }
+            m.diagonal.fill(1.0);
+            m.lower[slots[0] as usize] = coupling;
+            assert_eq!(m.factorise(true), expected);
+        }
     }
 }

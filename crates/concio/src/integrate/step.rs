@@ -38,6 +38,8 @@ pub struct Tolerance {
 
 /// Allowed error of the stage iteration as a fraction of the tolerance of the step.
 const STAGE_ACCURACY: f64 = 0.02;
+/// Step in which nothing moves, over the shortest time scale of the model.
+const INSTANT: f64 = 1e-6;
 
 impl Step {
     pub fn new(model: &Model, scheme: Scheme) -> Self {
@@ -103,6 +105,29 @@ impl Step {
         Ok(self.error(model, h, tau, tolerance))
     }
 
+    /// Finds which joints with set-valued laws that are at rest let go, and how much friction holds the others, by an
+    /// implicit step too short for anything to move.
+    pub fn let_go(&mut self, model: &Model, drive: &Drive, state: &mut State) {
+        let n = model.unknowns();
+        let tau = INSTANT / model.stiffest.sqrt();
+        let largest = state.a[..n].iter().fold(0.0f64, |m, a| m.max(a.abs()));
+        let (top, stage) = (drive.top(state.t), &mut self.stage);
+        stage.z.copy_from_slice(&state.z);
+        stage.v.copy_from_slice(&state.v);
+        stage.solution[n + 1] = top.v + tau * top.a;
+        stage.forget_factors();
+        self.tangents.copy_from(&state.tangents);
+        let found = stage.solve(model, &mut self.tangents, tau, drive.base_acceleration(state.t), 1e-6 * tau * largest);
+        // Not work of a step: a restored run, which is not settled anew, must count the same.
+        (stage.iterations, stage.factorisations) = (0, 0);
+        if found.is_ok() {
+            state.tangents.mu.copy_from_slice(&self.tangents.mu);
+            state.tangents.stuck.copy_from_slice(&self.tangents.stuck);
+            state.tangents.velocity.copy_from_slice(&self.tangents.velocity);
+            state.tangents.slope.copy_from_slice(&self.tangents.slope);
+        }
+    }
+
     fn predict(&mut self, state: &State, i: usize, h: f64, n: usize) {
         self.stage.z[..n].copy_from_slice(&state.z[..n]);
         self.stage.v[..n].copy_from_slice(&state.v[..n]);
@@ -145,7 +170,7 @@ impl Step {
                 }
             }
         }
-        self.stage.matrix.solve(&mut self.error_v);
+        self.stage.solve_linear(&mut self.error_v);
         let (mut worst, mut sum) = (0.0f64, 0.0);
         for (ev, ez) in self.error_v.iter().zip(&self.error_z) {
             let ez = ez + tau * ev;
@@ -165,6 +190,7 @@ impl Step {
         state.v.copy_from_slice(&self.stage_v[last]);
         state.a[..n].copy_from_slice(&self.stage_a[last]);
         state.a[n + 1] = self.top_acceleration;
+        self.stage.join(model, &self.tangents, &mut state.a);
         state.power = self.stage_power[last];
         for i in 0..=last {
             self.stage_power[i].accrue(h * self.tableau.b[i], &mut state.energies);

@@ -78,6 +78,7 @@ pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outco
     expect("frames of displacement", recording.frame_displacement.len(), frame)?;
     expect("frames of velocity", recording.frame_velocity.len(), frame)?;
     expect("frames of acceleration", recording.frame_acceleration.len(), frame)?;
+    expect("frames of friction", recording.frame_friction.len(), recording.frame_time.len() * layout.held)?;
     for field in &fields::BLOCK_ENVELOPES {
         expect(field.name, (field.get)(&outcome.envelopes).len(), unknowns)?;
     }
@@ -163,6 +164,8 @@ fn write_layout(sink: &mut Sink, layout: &Layout) -> Result<()> {
     sink.number("layout/samples", layout.samples as u64, label("1", "Samples of the whole run, the first included."))?;
     sink.number("layout/frame_every", layout.frame_every as u64, label("1", "Samples from frame to frame; 0: none."))?;
     sink.number("layout/unknowns", layout.unknowns as u64, label("1", "Unknowns: blocks, then the beam's."))?;
+    let held = label("1", "Joints whose friction the frames hold: all where a law is set-valued, else 0.");
+    sink.number("layout/held", layout.held as u64, held)?;
     let names: Vec<&str> = layout.channels.iter().map(|c| c.name.as_str()).collect();
     sink.texts("layout/channels", &names, "Names of the channels, in order.")?;
     sink.texts("layout/paths", &fields::channel_paths(&layout.channels), "Where each channel is, under /history.")
@@ -188,7 +191,12 @@ fn write_frames(sink: &mut Sink, layout: &Layout, recording: &Recording) -> Resu
     let velocity = label("m/s", "Velocity of every unknown relative to the base.");
     sink.array("frames/velocity", &shape, &recording.frame_velocity, velocity)?;
     let acceleration = label("m/s2", "Acceleration of every unknown relative to the base.");
-    sink.array("frames/acceleration", &shape, &recording.frame_acceleration, acceleration)
+    sink.array("frames/acceleration", &shape, &recording.frame_acceleration, acceleration)?;
+    if layout.held > 0 {
+        let friction = label("N", "Friction force of every joint on its lower or left side.");
+        sink.array("frames/friction", &[recording.frame_time.len(), layout.held], &recording.frame_friction, friction)?;
+    }
+    Ok(())
 }
 
 fn write_sums(sink: &mut Sink, outcome: &Outcome) -> Result<()> {

@@ -70,6 +70,16 @@ pub struct FrictionRow {
     pub alpha: f64,
 }
 
+impl FrictionRow {
+    /// Velocity up to which motion is creep of the regularised law and no slip [m/s]; 0 for laws that stick truly.
+    pub fn creeps_below(&self) -> f64 {
+        match self.law {
+            FrictionLaw::Stribeck => self.slip_velocity,
+            FrictionLaw::StribeckStick | FrictionLaw::Coulomb | FrictionLaw::None => 0.0,
+        }
+    }
+}
+
 /// Everything a result file holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredRun {

@@ -156,6 +156,7 @@ fn read_layout(source: &Source) -> Result<Layout> {
         samples: count(source, "layout/samples")?,
         frame_every: count(source, "layout/frame_every")?,
         unknowns: count(source, "layout/unknowns")?,
+        held: count(source, "layout/held")?,
         channels,
     })
 }
@@ -175,7 +176,11 @@ fn read_recording(source: &Source, layout: &Layout) -> Result<Recording> {
     let frame_displacement = source.array("frames/displacement", &shape)?;
     let frame_velocity = source.array("frames/velocity", &shape)?;
     let frame_acceleration = source.array("frames/acceleration", &shape)?;
-    Ok(Recording { time, values, frame_time, frame_displacement, frame_velocity, frame_acceleration })
+    let frame_friction = match layout.held {
+        0 => Vec::new(),
+        held => source.array("frames/friction", &[Some(frame_time.len()), Some(held)])?,
+    };
+    Ok(Recording { time, values, frame_time, frame_displacement, frame_velocity, frame_acceleration, frame_friction })
 }
 
 fn read_envelopes(source: &Source, unknowns: usize, joints: usize) -> Result<Envelopes> {

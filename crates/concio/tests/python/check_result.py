@@ -151,7 +151,7 @@ def check_joints(result, blocks):
     require(set(laws) <= {"elastic", "no-tension", "rigid", "none"}, f"laws {set(laws)}")
     rubs = result.array("wall/joints/friction", (n,), "u1", "1")
     friction_laws = result.texts("wall/joints/friction_law", n)
-    require(set(friction_laws) <= {"stribeck", "coulomb", "none"}, f"friction laws {set(friction_laws)}")
+    require(set(friction_laws) <= {"stribeck", "stribeck-stick", "coulomb", "none"}, f"friction laws {set(friction_laws)}")
     columns = {key: result.array(f"wall/joints/{key}", (n,), "f8", unit) for key, unit in JOINT_COLUMNS.items()}
     require(not columns["friction_static"][rubs == 0].any(), "a joint that does not rub has a coefficient")
     return names, columns
@@ -179,6 +179,9 @@ def check_frames(result, unknowns):
     displacement = result.array("frames/displacement", (frames, unknowns), "f8", "m")
     velocity = result.array("frames/velocity", (frames, unknowns), "f8", "m/s")
     result.array("frames/acceleration", (frames, unknowns), "f8", "m/s2")
+    held = int(result.array("layout/held", (), "u8", "1"))
+    if held:
+        result.array("frames/friction", (frames, held), "f8", "N")
     return time, displacement, velocity
 
 

@@ -123,6 +123,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         samples: size.samples,
         frame_every: size.frame_every,
         unknowns,
+        held: 3,
         channels: channels(size.channels, wall),
     };
     let recording = rows(&layout, 0..size.samples);
@@ -196,6 +197,7 @@ pub fn rows(layout: &Layout, range: std::ops::Range<usize>) -> Recording {
             rows.frame_time.push(t);
             rows.frame_displacement.extend((0..layout.unknowns).map(|u| 1e-3 * (t * 30.0 + u as f64 * 0.01).sin()));
             rows.frame_velocity.extend((0..layout.unknowns).map(|u| 3e-2 * (t * 30.0 + u as f64 * 0.01).cos()));
+            rows.frame_friction.extend((0..layout.held).map(|e| 50.0 * (t * 20.0 + e as f64 * 0.1).sin()));
             rows.frame_acceleration.extend((0..layout.unknowns).map(|u| -0.9 * (t * 30.0 + u as f64 * 0.01).sin()));
         }
     }

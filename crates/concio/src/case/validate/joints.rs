@@ -57,19 +57,7 @@ fn law(f: &mut Findings, key: String, law: Option<SpringLaw>) {
     }
 }
 
-fn friction_law(f: &mut Findings, key: String, law: Option<FrictionLaw>) {
-    if law == Some(FrictionLaw::Coulomb) {
-        f.add(
-            InputError::new("law `coulomb` (set-valued, true stick) is not in this version yet")
-                .key(key)
-                .allowed("`stribeck`, `none`")
-                .help("`stribeck` with a small `slip_velocity` comes near it"),
-        );
-    }
-}
-
 fn friction(f: &mut Findings, r: &Friction) {
-    friction_law(f, "joint.friction.law".into(), Some(r.law));
     f.number("joint.friction.static", r.static_, Bound::From0);
     f.number("joint.friction.dynamic", r.dynamic, Bound::From0);
     f.quantity("joint.friction.slip_velocity", r.slip_velocity, Bound::Above0);
@@ -107,7 +95,6 @@ fn change(f: &mut Findings, i: usize, change: &JointChange) {
 }
 
 fn friction_change(f: &mut Findings, i: usize, r: &FrictionChange, common: &Friction, settled: bool) {
-    friction_law(f, format!("joint.change[{i}].friction.law"), r.law);
     if let Some(v) = r.slip_velocity {
         f.quantity(format_args!("joint.change[{i}].friction.slip_velocity"), v, Bound::Above0);
     }
@@ -121,10 +108,18 @@ fn friction_change(f: &mut Findings, i: usize, r: &FrictionChange, common: &Fric
             f.number(format_args!("joint.change[{i}].friction.{key}"), v, bound);
         }
     }
-    let rubs = r.law == Some(FrictionLaw::Stribeck) && common.law == FrictionLaw::None && common.static_ == 0.0;
-    if rubs && (r.static_.is_none() || r.dynamic.is_none()) {
+    let law = r.law.filter(|law| *law != FrictionLaw::None);
+    let rubs = law.filter(|_| common.law == FrictionLaw::None && common.static_ == 0.0);
+    if let Some(law) = rubs
+        && (r.static_.is_none() || r.dynamic.is_none())
+    {
         let key = if r.static_.is_none() { "static" } else { "dynamic" };
-        let what = "the key is missing: law `stribeck` needs it, and [joint.friction] gives none";
+        let name = match law {
+            FrictionLaw::Coulomb => "coulomb",
+            FrictionLaw::StribeckStick => "stribeck-stick",
+            FrictionLaw::Stribeck | FrictionLaw::None => "stribeck",
+        };
+        let what = format!("the key is missing: law `{name}` needs it, and [joint.friction] gives none");
         f.push(format_args!("joint.change[{i}].friction.{key}"), what, "from 0");
     }
     let pair = match (r.static_, r.dynamic) {

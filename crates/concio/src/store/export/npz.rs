@@ -135,7 +135,12 @@ fn fill_recording(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
     let shape = [recording.frame_time.len(), layout.unknowns];
     archive.array("frames/displacement", &shape, recording.frame_displacement.iter().copied())?;
     archive.array("frames/velocity", &shape, recording.frame_velocity.iter().copied())?;
-    archive.array("frames/acceleration", &shape, recording.frame_acceleration.iter().copied())
+    archive.array("frames/acceleration", &shape, recording.frame_acceleration.iter().copied())?;
+    if layout.held > 0 {
+        let shape = [recording.frame_time.len(), layout.held];
+        archive.array("frames/friction", &shape, recording.frame_friction.iter().copied())?;
+    }
+    Ok(())
 }
 
 fn fill_sums(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {

@@ -1,0 +1,120 @@
+//! The joints of a model as the stage reads them: one array per quantity, unknowns by their place in the elimination
+//! order.
+
+use std::f64::consts::FRAC_2_PI;
+
+use crate::elementary::{atan_of_positive, exp_of_negative};
+use crate::model::Model;
+
+/// Where a joint's coupling stands in the matrix, if it has one: joints with a support do not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Slot(u32);
+
+impl Slot {
+    #[inline(always)]
+    pub fn at(self) -> Option<usize> {
+        (self.0 != u32::MAX).then_some(self.0 as usize)
+    }
+}
+
+/// All joints.
+#[derive(Debug, Clone)]
+pub struct Joints {
+    /// Both sides by place; base and top keep their numbers n and n + 1.
+    pub sides: Vec<[u32; 2]>,
+    /// Both sides in the order of the model.
+    pub of_model: Vec<[u32; 2]>,
+    pub slot: Vec<Slot>,
+    pub stiffness: Vec<f64>,
+    pub damping: Vec<f64>,
+    /// Joints whose stiffness acts in compression only.
+    pub one_sided: Vec<u32>,
+}
+
+impl Joints {
+    /// `slots`: of the joints between two unknowns, in their order.
+    pub fn new(model: &Model, places: &[u32], slots: &[u32]) -> Self {
+        let n = model.unknowns();
+        let place = |i: u32| places.get(i as usize).copied().unwrap_or(i);
+        let mut slots = slots.iter();
+        let slot = |side: &[u32; 2]| {
+            let found = if (side[1] as usize) < n { slots.next() } else { None };
+            Slot(found.copied().unwrap_or(u32::MAX))
+        };
+        Joints {
+            sides: model.sides.iter().map(|s| s.map(place)).collect(),
+            of_model: model.sides.clone(),
+            slot: model.sides.iter().map(slot).collect(),
+            stiffness: model.elastic.iter().map(|law| law.stiffness).collect(),
+            damping: model.elastic.iter().map(|law| law.damping).collect(),
+            one_sided: (0..model.joints.len() as u32).filter(|&e| model.elastic[e as usize].unilateral).collect(),
+        }
+    }
+}
+
+/// The joints that rub.
+#[derive(Debug, Clone)]
+pub struct Rubs {
+    /// Index of the joint.
+    pub joint: Vec<u32>,
+    pub sides: Vec<[u32; 2]>,
+    pub slot: Vec<Slot>,
+    /// Normal force in the equation of each side [N].
+    pub normal: Vec<[f64; 2]>,
+    /// μ_s − μ_d, μ_d, δ_v, β/δ_v, α.
+    excess: Vec<f64>,
+    dynamic: Vec<f64>,
+    slip_velocity: Vec<f64>,
+    steep: Vec<f64>,
+    alpha: Vec<f64>,
+    /// The joints among these, by index here, whose law is set-valued.
+    pub sticking: Vec<u32>,
+}
+
+/// Steepness by which a set-valued law in slip goes through the same operations as (6): any speed is far up the branch.
+const VERTICAL: f64 = 1e200;
+
+impl Rubs {
+    pub fn new(model: &Model, joints: &Joints) -> Self {
+        let rubs = || model.rubs.iter();
+        let at_once = |r: &crate::model::Rub| r.law.sticks() && r.law.slip_velocity == 0.0;
+        Rubs {
+            joint: rubs().map(|r| r.joint).collect(),
+            sides: rubs().map(|r| joints.sides[r.joint as usize]).collect(),
+            slot: rubs().map(|r| joints.slot[r.joint as usize]).collect(),
+            normal: rubs().map(|r| r.normal).collect(),
+            excess: rubs().map(|r| if at_once(r) { 0.0 } else { r.law.static_ - r.law.dynamic }).collect(),
+            dynamic: rubs().map(|r| r.law.dynamic).collect(),
+            slip_velocity: rubs().map(|r| if at_once(r) { 1.0 } else { r.law.slip_velocity }).collect(),
+            steep: rubs().map(|r| if r.law.sticks() { VERTICAL } else { r.law.beta / r.law.slip_velocity }).collect(),
+            alpha: rubs().map(|r| r.law.alpha).collect(),
+            sticking: (0..model.rubs.len() as u32).filter(|&r| model.rubs[r as usize].law.sticks()).collect(),
+        }
+    }
+
+    pub fn len(&self) -> usize {
+        self.joint.len()
+    }
+
+    /// (6) and its slope at the velocities `w` of all joints: the operations of [`Stribeck::at`], joint by joint, and
+    /// so its bits. One plain loop, which becomes vector instructions.
+    ///
+    /// [`Stribeck::at`]: crate::law::Stribeck::at
+    #[inline(always)]
+    pub fn laws(&self, w: &[f64], mu: &mut [f64], slope: &mut [f64]) {
+        let n = w.len();
+        let (excess, dynamic, slip) = (&self.excess[..n], &self.dynamic[..n], &self.slip_velocity[..n]);
+        let (steep, alpha) = (&self.steep[..n], &self.alpha[..n]);
+        let (mu, slope) = (&mut mu[..n], &mut slope[..n]);
+        for r in 0..n {
+            let speed = w[r].abs();
+            let z = speed * steep[r];
+            let decay = excess[r] * exp_of_negative(speed / slip[r]);
+            let level = decay + dynamic[r];
+            let angle = FRAC_2_PI * atan_of_positive(z);
+            let value = angle * level + alpha[r] * speed * speed;
+            slope[r] = FRAC_2_PI * steep[r] / (1.0 + z * z) * level - angle * decay / slip[r] + 2.0 * alpha[r] * speed;
+            mu[r] = value.copysign(w[r]);
+        }
+    }
+}

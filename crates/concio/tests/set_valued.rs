@@ -1,0 +1,156 @@
+//! Friction that sticks truly, against closed forms. A3 to A6 are those of the project's reference collection; each
+//! is computed here from its formula too, where there is one.
+
+use std::f64::consts::PI;
+
+use concio::case::{Pulse, PulseShape, Ramp, Scheme, Signal, Solver};
+use concio::excitation::Excitation;
+use concio::ground::signal::{GroundMotion, compile};
+use concio::law::Stribeck;
+use concio::record::StopReason;
+use concio::samples::{Histories, Link, lumped, respond, shaking, solver};
+use concio::wall::End;
+
+const M: f64 = 100.0;
+const K: f64 = 4e5;
+const N: f64 = 981.0;
+
+fn coulomb(static_: f64, dynamic: f64) -> Stribeck {
+    Stribeck { static_, dynamic, slip_velocity: 0.0, beta: f64::INFINITY, alpha: 0.0 }
+}
+
+fn fine(tolerance: f64) -> Solver {
+    solver(Scheme::TrBdf2, tolerance)
+}
+
+fn first(h: &Histories) -> Vec<f64> {
+    h.displacement.iter().map(|row| row[0]).collect()
+}
+
+fn signal(signal: Signal) -> GroundMotion {
+    compile(&signal, std::path::Path::new("")).unwrap()
+}
+
+/// A3: amplitudes fall by 2μN/k each half cycle, and after eight the block stays where it is, at 0.228 mm.
+#[test]
+fn coulomb_decrement_and_where_it_stops() {
+    let (mu, x0) = (0.3, 0.012);
+    let links = [Link::spring(0, End::Base, K, 0.0), Link::friction(0, End::Base, coulomb(mu, mu), N)];
+    let half = PI / (K / M).sqrt();
+    let model = lumped(&[M], &links, Excitation::of_base(GroundMotion::AtRest, 12.0 * half));
+    // Samples at the turning points.
+    let h = respond(&model, &fine(1e-9), half, &[x0], &[0.0]).unwrap();
+    let x = first(&h);
+    for k in 0..=8 {
+        let exact = (x0 - k as f64 * 2.0 * mu * N / K) * if k % 2 == 0 { 1.0 } else { -1.0 };
+        assert!((x[k] - exact).abs() <= 1e-6 * x0, "half cycle {k}: {} against {exact}", x[k]);
+    }
+    assert!((x[8] - 0.000228).abs() < 1e-6 * x0, "{}", x[8]);
+    assert_eq!(x[9..], [x[9]; 4], "it moved after it stopped");
+    assert!(h.residual < 1e-6, "energy residual {}", h.residual);
+}
+
+/// A4: a block on a belt of 0.05 m/s, μ_s 0.6, μ_k 0.4.
+#[test]
+fn stick_slip_belt() {
+    let (mu_s, mu_k, v) = (0.6, 0.4, 0.05f64);
+    let links = [Link::spring(0, End::Base, K, 0.0), Link::friction(0, End::Top, coulomb(mu_s, mu_k), N)];
+    let ramp = Ramp { amplitude: (v * 100.0).into(), start: 0.0.into(), rise: 100.0.into() };
+    let model = lumped(&[M], &links, Excitation::of_top(signal(Signal::Ramp(ramp)), 1.0));
+    let h = respond(&model, &fine(1e-9), 1e-5, &[mu_k * N / K], &[v]).unwrap();
+    let x = first(&h);
+    let (release, centre) = (mu_s * N / K, mu_k * N / K);
+    let omega = (K / M).sqrt();
+    let slip = (2.0 * PI - 2.0 * ((release - centre) * omega / v).atan()) / omega;
+    let period = slip + 2.0 * (release - centre) / v;
+    assert!((period - 0.10140535380222271f64).abs() < 1e-14, "A4's T_total");
+    // Sticking, the block passes the centre at the speed of the belt: instants to a fraction of a sample.
+    let passes: Vec<f64> = (1..x.len())
+        .filter(|&i| x[i - 1] < centre && x[i] >= centre)
+        .map(|i| 1e-5 * (i as f64 - (x[i] - centre) / (x[i] - x[i - 1])))
+        .collect();
+    assert!(passes.len() >= 8, "{passes:?}");
+    let measured = (passes[passes.len() - 1] - passes[0]) / (passes.len() - 1) as f64;
+    assert!((measured / period - 1.0).abs() < 1e-6, "period {measured} against {period}");
+    let largest = x.iter().fold(0.0f64, |a, x| a.max(*x));
+    let exact = centre + ((release - centre).powi(2) + (v / omega).powi(2)).sqrt();
+    assert!((largest / exact - 1.0).abs() < 1e-6, "{largest} against {exact}");
+}
+
+/// A5: steady amplitude of a block with Coulomb friction under P0 cos ωt, in units of P0/k, also where it sticks for
+/// part of the cycle and Den Hartog's formula does not hold (the exact piecewise solution then).
+#[test]
+fn den_hartog() {
+    let rows = [
+        (0.8, 0.2, 2.7114152554374567),
+        (0.8, 0.5, 2.332234987541274),
+        (0.8, 0.7, 1.8037904161326552),
+        (1.25, 0.2, 1.7082175349494955),
+        (1.25, 0.5, 1.2825568503425595),
+        (1.25, 0.7, 0.43636165101798075),
+        (2.0, 0.2, 0.3179797338056601),
+        (2.0, 0.5, 0.22047927592206112),
+        (2.0, 0.7, 0.07009969363428104),
+        (0.6, 0.5, 1.486581571431088),
+        (0.9, 0.5, 4.215903716779148),
+    ];
+    let omega = (K / M).sqrt();
+    for (beta, ratio, exact) in rows {
+        let frequency = beta * omega / (2.0 * PI);
+        let a = 9.0;
+        let mu = ratio * M * a / N;
+        let links = [Link::spring(0, End::Base, K, 0.0), Link::friction(0, End::Base, coulomb(mu, mu), N)];
+        let cycles = 80.0;
+        let motion = Excitation::of_base(shaking(a, frequency).unwrap(), cycles / frequency);
+        let model = lumped(&[M], &links, motion);
+        let h = respond(&model, &fine(1e-7), 1.0 / (frequency * 400.0), &[0.0], &[0.0]).unwrap();
+        let x = first(&h);
+        let last = &x[x.len() - 400..];
+        let (low, high) = last.iter().fold((0.0f64, 0.0f64), |(l, h), x| (l.min(*x), h.max(*x)));
+        let amplitude = 0.5 * (high - low) / (M * a / K);
+        // Between samples, 1/400 of a cycle apart, a peak is missed by up to 3e-5 of itself.
+        assert!((amplitude / exact - 1.0).abs() < 1e-4, "β {beta}, F/P0 {ratio}: {amplitude} against {exact}");
+    }
+}
+
+/// A6: slip of a rigid block (μ 0.2) under pulses of 0.5 g and 0.2 s: V²/2 (1/(μg) − 1/A) for the rectangle.
+#[test]
+fn newmark_pulses() {
+    let v: f64 = 4.905 * 0.2;
+    let rectangle: f64 = 0.5 * v * v * (1.0 / (0.2 * 9.81) - 1.0 / 4.905);
+    assert!((rectangle - 0.14715).abs() < 1e-12);
+    for (shape, exact) in [(PulseShape::Rectangular, rectangle), (PulseShape::HalfSine, 0.04495112308557409)] {
+        let pulse = Pulse { shape, acceleration: 4.905.into(), duration: 0.2.into(), start: 0.0.into() };
+        let motion = Excitation::of_base(signal(Signal::Pulse(pulse)), 0.6);
+        let model = lumped(&[M], &[Link::friction(0, End::Base, coulomb(0.2, 0.2), M * 9.81)], motion);
+        let h = respond(&model, &fine(1e-8), 1e-3, &[0.0], &[0.0]).unwrap();
+        assert_eq!(h.stop_reason, StopReason::Completed);
+        let slip = first(&h).last().unwrap().abs();
+        assert!((slip / exact - 1.0).abs() < 1e-5, "{shape:?}: {slip} against {exact}");
+    }
+}
+
+/// Blocks on a slope of their own: five in a row, each stuck to the next and to the base, pushed by less than they can
+/// bear. Nothing moves, in 1000 s.
+#[test]
+fn what_sticks_stays() {
+    let links: Vec<Link> = (0..5)
+        .flat_map(|i| {
+            let next = if i < 4 { End::Block(i + 1) } else { End::Base };
+            [
+                Link::spring(i, End::Base, K, 100.0),
+                Link::friction(i, next, coulomb(0.5, 0.3), N),
+                Link::friction(i, End::Base, coulomb(0.5, 0.3), N),
+            ]
+        })
+        .collect();
+    // A step of base acceleration of 0.4 g: 392 N on each of the blocks.
+    let pulse =
+        Pulse { shape: PulseShape::Rectangular, acceleration: 3.92.into(), duration: 1e4.into(), start: 0.5.into() };
+    let motion = Excitation::of_base(signal(Signal::Pulse(pulse)), 1000.0);
+    let model = lumped(&[M; 5], &links, motion);
+    let h = respond(&model, &fine(1e-4), 10.0, &[0.0; 5], &[0.0; 5]).unwrap();
+    assert_eq!(h.stop_reason, StopReason::Completed);
+    assert!(h.displacement.iter().flatten().all(|x| *x == 0.0), "{:?}", h.displacement.last());
+    assert!(h.velocity.iter().flatten().all(|v| *v == 0.0));
+}
