@@ -274,7 +274,7 @@ fn exported_gaps(findings: &Value, out: &Path) {
     assert!(low < 0.0 && low >= -told(findings, "no-interpenetration", "deepest closure, case 1"));
 }
 
-/// Chaotic runs differ between processors: numbers may leave the documented range by its own width or a hundredth,
+/// Chaotic runs differ between processors: numbers may leave the documented range by twice its width or a twentieth,
 /// answers may not change.
 fn as_documented(findings: &Value) {
     let page = json(&PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/report-cases.json"));
@@ -291,7 +291,7 @@ fn as_documented(findings: &Value) {
         {
             assert_eq!(new["name"], old["name"]);
             let [value, low, high] = [&new["value"], &old["low"], &old["high"]].map(|v| v.as_f64().expect("a number"));
-            let room = (high - low).max(0.01 * high.abs()).max(0.01 * low.abs());
+            let room = (2.0 * (high - low)).max(0.05 * high.abs()).max(0.05 * low.abs());
             assert!(
                 low - room <= value && value <= high + room,
                 "{id}: {} is {value}, was {low} to {high}",
