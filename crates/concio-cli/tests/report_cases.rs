@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use concio::case::JointKind;
 use concio::store::{StoredRun, hdf5};
 use concio::wall::End;
 use serde_json::Value;
@@ -97,7 +96,7 @@ impl Case {
 
     /// Places of bed and support joints, or of the others.
     fn joints(&self, upright: bool) -> Vec<usize> {
-        let is = |e: &usize| matches!(self.run.joints[*e].joint.kind, JointKind::Head | JointKind::Connection);
+        let is = |e: &usize| self.run.joints[*e].joint.kind.is_upright();
         (0..self.run.joints.len()).filter(|e| is(e) == upright).collect()
     }
 
@@ -109,6 +108,31 @@ impl Case {
             End::Top => self.beam[f],
         };
         self.frames.iter().map(|&f| self.velocity(sides.a, f) - other(f)).collect()
+    }
+
+    /// Largest relative acceleration of bed and support joints over the median: at the instant of the largest, from the
+    /// frames, and of the peaks of all steps.
+    fn unevenness(&self) -> [f64; 2] {
+        let (n, outcome) = (self.run.outcome.layout.unknowns, &self.run.outcome);
+        let channels = &outcome.layout.channels;
+        let beam = channels.iter().position(|c| c.name == "beam/acceleration").expect("the channel");
+        let at = |f: usize| -> Vec<f64> {
+            let block = |b: usize| outcome.recording.frame_acceleration[f * n + b];
+            let of = |e: usize| {
+                let joint = &self.run.joints[e].joint;
+                let other = match joint.b {
+                    End::Block(b) => block(b),
+                    End::Base => 0.0,
+                    End::Top => outcome.recording.values[f * channels.len() + beam],
+                };
+                (block(joint.a) - other).abs()
+            };
+            self.joints(false).into_iter().map(of).collect()
+        };
+        let rows = self.frames.iter().map(|&f| at(f));
+        let instant = rows.max_by(|a, b| most(a).total_cmp(&most(b))).expect("frames");
+        let peaks: Vec<f64> = self.joints(false).into_iter().map(|e| outcome.envelopes.joint_acceleration[e]).collect();
+        [instant, peaks].map(|values| most(&values) / middle(values))
     }
 
     fn jumps(&self) -> f64 {
@@ -215,6 +239,24 @@ fn other_numbers(findings: &Value, runs: &[Case]) {
     same(share(0), told(findings, "irregular-alike", "share of friction in the dissipation, case 1"), 1e-12);
     let work = |k: usize| energies(k).input_top + energies(k).input_base;
     same(work(3) / work(0), told(findings, "stiffness-and-friction-govern", "work, case 4 over 1"), 1e-12);
+    let force = |k: usize| {
+        let channels = &runs[k].run.outcome.layout.channels;
+        let at = channels.iter().position(|c| c.name == "top/force").expect("the channel");
+        let rows = runs[k].run.outcome.recording.values.chunks_exact(channels.len());
+        (rows.clone().map(|row| row[at] * row[at]).sum::<f64>() / rows.len() as f64).sqrt()
+    };
+    // Samples against the integral over all steps.
+    let id = "stiffness-and-friction-govern";
+    same(force(4) / force(0), told(findings, id, "rms force of the beam, case 5 over 1"), 0.02);
+    same(force(3) / force(0), told(findings, id, "rms force of the beam, case 4 over 1"), 0.02);
+    assert!(work(3) <= 0.5 * work(0) && force(4) <= 0.5 * force(0));
+    for (k, name) in [(0, "case 1"), (1, "case 2")] {
+        let [instant, peaks] = runs[k].unevenness();
+        let told = |what: &str| told(findings, "uneven-accelerations", &format!("{what}, {name}"));
+        same(instant, told("largest over median at that instant"), 1e-9);
+        same(peaks, told("largest over median of the peaks of the whole run"), 1e-9);
+        assert!(instant >= 2.0);
+    }
     let recording = |k: usize| &runs[k].run.outcome.recording;
     let moved = |k: usize| runs[k].rms(&recording(k).frame_displacement);
     let fast = |k: usize| runs[k].rms(&recording(k).frame_velocity);

@@ -89,8 +89,7 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
 
 /// Bed and support joints slide both ways: a law for one direction has no meaning there.
 fn check_spring(kind: JointKind, law: SpringLaw) -> std::result::Result<(), InputError> {
-    let upright = matches!(kind, JointKind::Head | JointKind::Connection);
-    if law == SpringLaw::NoTension && !upright {
+    if law == SpringLaw::NoTension && !kind.is_upright() {
         let what = "law `no-tension` is for head joints and connections; this joint slides in both directions";
         return Err(InputError::new(what).allowed("elastic, none"));
     }

@@ -478,6 +478,13 @@ pub enum JointKind {
     Connection,
 }
 
+impl JointKind {
+    /// Whether blocks stand side by side at it: head joints and connections of panels, which open and close.
+    pub fn is_upright(self) -> bool {
+        matches!(self, JointKind::Head | JointKind::Connection)
+    }
+}
+
 /// What a [`JointChange`] changes of the elastic law.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use crate::case::JointKind;
 use crate::error::{InputError, Result};
 use crate::excitation::Drive;
 use crate::law::spring_force;
@@ -133,7 +132,7 @@ pub fn observe(model: &Model, state: &mut State, h: f64) {
         env.joint_velocity[e] = env.joint_velocity[e].max(w.abs());
         env.joint_acceleration[e] = env.joint_acceleration[e].max(dw.abs());
         env.joint_force[e] = env.joint_force[e].max(f.abs());
-        if matches!(model.joints[e].kind, JointKind::Head | JointKind::Connection) {
+        if model.joints[e].kind.is_upright() {
             // d = x_left − x_right: the gap is −d.
             env.joint_opening[e] = env.joint_opening[e].max(-d);
             env.joint_closing[e] = env.joint_closing[e].max(d);
@@ -301,8 +300,7 @@ impl Channels {
                 Watched::Block(i) => row.extend([state.z[i], state.v[i], state.a[i]]),
                 Watched::Joint(e, rub) => {
                     let [a, b] = model.sides[e].map(|s| s as usize);
-                    let upright = matches!(model.joints[e].kind, JointKind::Head | JointKind::Connection);
-                    let sign = if upright { -1.0 } else { 1.0 };
+                    let sign = if model.joints[e].kind.is_upright() { -1.0 } else { 1.0 };
                     let (elastic, viscous, friction) = joint_forces(model, state, rub, e);
                     let (d, v) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
                     row.extend([sign * d, sign * v, elastic, viscous, friction]);

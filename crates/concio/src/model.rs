@@ -2,7 +2,7 @@
 //! a top beam with mass (theory, sections 2 and 3).
 
 use crate::assign::{JointLaw, friction_choice, resolve};
-use crate::case::{Beam, Case, JointKind, SpringLaw};
+use crate::case::{Beam, Case, SpringLaw};
 use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::graph;
@@ -157,7 +157,7 @@ pub(crate) fn stiffest(mass: &[f64], sides: &[[u32; 2]], elastic: &[Elastic], du
 
 fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
     let spring = &law.spring;
-    let upright = matches!(joint.kind, JointKind::Head | JointKind::Connection);
+    let upright = joint.kind.is_upright();
     let (stiffness, damping, unilateral) = match spring.law {
         SpringLaw::None => (0.0, 0.0, false),
         SpringLaw::Elastic => (spring.stiffness.si(), law.damping_ratio, false),

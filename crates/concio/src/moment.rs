@@ -1,7 +1,7 @@
 //! A stored run at one of its frames: displacement, velocity and acceleration of every block, and the relative motion
 //! and the forces of every joint by equations (2) to (6) of the theory. Signs are those of the sampled channels.
 
-use crate::case::{JointKind, SpringLaw};
+use crate::case::SpringLaw;
 use crate::law::{Stribeck, spring_force};
 use crate::store::{FrictionRow, StoredRun};
 use crate::wall::End;
@@ -75,7 +75,7 @@ impl<'r> Moment<'r> {
             End::Top => self.beam,
         };
         let (d, w) = (a.displacement - b.displacement, a.velocity - b.velocity);
-        let upright = matches!(row.joint.kind, JointKind::Head | JointKind::Connection);
+        let upright = row.joint.kind.is_upright();
         let sign = if upright { -1.0 } else { 1.0 };
         let unilateral = upright && matches!(row.law, SpringLaw::NoTension | SpringLaw::Rigid);
         JointMotion {

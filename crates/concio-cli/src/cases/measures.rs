@@ -4,7 +4,6 @@
 //! Frames are the only history used, because they hold every block; a wall file of `examples/report` keeps one frame
 //! per 0.1 ms. Faster changes than that are counted once.
 
-use concio::case::JointKind;
 use concio::moment::Moment;
 use concio::store::{StoredRun, residual_relative, top_force_rms};
 use concio::wall::End;
@@ -82,7 +81,7 @@ pub struct Measures {
 /// Reads them off a run that keeps frames. Lists are never empty: a wall has support joints and blocks.
 pub fn of(run: &StoredRun) -> Measures {
     let (outcome, env) = (&run.outcome, &run.outcome.envelopes);
-    let upright = |e: &usize| matches!(run.joints[*e].joint.kind, JointKind::Head | JointKind::Connection);
+    let upright = |e: &usize| run.joints[*e].joint.kind.is_upright();
     let (heads, beds): (Vec<usize>, Vec<usize>) = (0..run.joints.len()).partition(upright);
     let pick = |values: &[f64], of: &[usize]| of.iter().map(|&e| values[e]).collect::<Vec<f64>>();
     let openings = pick(&env.joint_opening, &heads);

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use concio::InputError;
-use concio::case::{self, Case, JointKind, Syntax};
+use concio::case::{self, Case, Syntax};
 use concio::moment::{JointMotion, Moment};
 use concio::store::StoredRun;
 
@@ -240,7 +240,7 @@ impl<'a> Data<'a> {
             }
         };
         // The force is that on the left block, the gap grows with the motion of the right one.
-        if is_upright(row.joint.kind) {
+        if row.joint.kind.is_upright() {
             force.iter_mut().for_each(|f| *f = -*f);
         }
         Ok([slip, force])
@@ -272,11 +272,6 @@ impl<'a> Data<'a> {
     pub fn joint(&self, name: &str) -> Result<usize, InputError> {
         find("joint", "--joints", name, self.run.joints.iter().map(|j| j.name.as_str()))
     }
-}
-
-/// Whether a joint opens and closes rather than slides.
-pub fn is_upright(kind: JointKind) -> bool {
-    matches!(kind, JointKind::Head | JointKind::Connection)
 }
 
 fn or_ask(error: InputError, key: &str, name: &str) -> InputError {

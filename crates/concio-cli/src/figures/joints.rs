@@ -3,7 +3,7 @@
 use concio::InputError;
 use concio::case::JointKind;
 
-use super::data::{Data, Motion, is_upright};
+use super::data::{Data, Motion};
 use super::{Options, asked, choose, largest, letter};
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::draw::output::Drawing;
@@ -33,7 +33,7 @@ pub fn histories(data: &Data, options: &Options) -> Result<Drawing, InputError> 
     let coarse: Vec<&str> =
         chosen.iter().zip(&motions).filter(|(_, m)| !m.sampled).map(|(&e, _)| joints[e].name.as_str()).collect();
     let range = around(motions.iter().flat_map(|m| &m.displacement), 0.06);
-    let upright = chosen.iter().filter(|&&e| is_upright(joints[e].joint.kind)).count();
+    let upright = chosen.iter().filter(|&&e| joints[e].joint.kind.is_upright()).count();
     let quantity = if upright == chosen.len() {
         "gap"
     } else if upright == 0 {

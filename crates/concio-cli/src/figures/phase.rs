@@ -2,7 +2,7 @@
 
 use concio::InputError;
 
-use super::data::{Data, Motion, is_upright};
+use super::data::{Data, Motion};
 use super::{Options, asked, choose, largest, letter};
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::draw::output::Drawing;
@@ -30,7 +30,7 @@ pub fn joints(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let chosen = if options.joints.is_empty() {
         choose(&data.sampled_joints(), FEW, |among| {
             let peaks = &data.run.outcome.envelopes.joint_displacement;
-            let is = |e: usize, upright: bool| among(e) && is_upright(joints[e].joint.kind) == upright;
+            let is = |e: usize, upright: bool| among(e) && joints[e].joint.kind.is_upright() == upright;
             [true, false].map(|upright| largest(peaks, |e| is(e, upright), FEW / 2)).concat()
         })
     } else {
@@ -40,7 +40,7 @@ pub fn joints(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         return Err(InputError::new("no joint moved").help("name joints with --joints"));
     }
     let portrait = |&e: &usize| {
-        let quantity = if is_upright(joints[e].joint.kind) { "gap" } else { "slip" };
+        let quantity = if joints[e].joint.kind.is_upright() { "gap" } else { "slip" };
         Ok((joints[e].name.as_str(), quantity, data.joint_motion(e)?))
     };
     let portraits: Result<Vec<_>, _> = chosen.iter().map(portrait).collect();

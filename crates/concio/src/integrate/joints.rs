@@ -118,3 +118,39 @@ impl Rubs {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::excitation::Excitation;
+    use crate::ground::signal::GroundMotion;
+    use crate::law::Stribeck;
+    use crate::samples::{Link, lumped};
+    use crate::wall::End;
+
+    /// The loop over all joints gives the bits of the law of each.
+    #[test]
+    fn all_laws_at_once_are_the_law_of_each() {
+        let law = |slip_velocity, beta, alpha| Stribeck { static_: 0.6, dynamic: 0.42, slip_velocity, beta, alpha };
+        let laws =
+            [law(1e-3, 100.0, 0.0), law(1e-2, 3.0, 0.7), law(1e-3, f64::INFINITY, 0.2), law(0.0, f64::INFINITY, 0.0)];
+        let links: Vec<Link> = laws.iter().map(|law| Link::friction(0, End::Base, *law, 100.0)).collect();
+        let model = lumped(&[1.0], &links, Excitation::of_base(GroundMotion::AtRest, 1.0));
+        let rubs = Rubs::new(&model, &Joints::new(&model, &[0], &[]));
+        let (mut mu, mut slope) = ([0.0; 4], [0.0; 4]);
+        for size in [1e-12, 1e-9, 1e-6, 1e-5, 3e-4, 1e-3, 0.05, 2.0] {
+            for w in [size, -size] {
+                rubs.laws(&[w; 4], &mut mu, &mut slope);
+                for (r, law) in laws.iter().enumerate() {
+                    let (exact, steep) = law.at(w);
+                    if law.sticks() {
+                        // The limit goes another way to the same numbers.
+                        assert!((mu[r] - exact).abs() <= 1e-15 && (slope[r] - steep).abs() <= 1e-12 * steep.abs());
+                    } else {
+                        assert_eq!((mu[r], slope[r]), (exact, steep), "{law:?} at {w}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -187,8 +187,7 @@ impl Stage {
         self.v[n + 1] = self.solution[n + 1];
         if self.tau != tau || self.closed != tangents.closed {
             self.tau = tau;
-            self.closed.copy_from_slice(&tangents.closed);
-            self.assemble_elastic();
+            self.assemble_elastic(tangents);
         }
         self.start(tangents);
         self.load_elastic(ground);
@@ -215,7 +214,7 @@ impl Stage {
                 return Ok(());
             }
             if flipped {
-                self.assemble_elastic();
+                self.assemble_elastic(tangents);
                 self.load_elastic(ground);
             }
             self.move_tangents(model, tangents);
@@ -237,8 +236,9 @@ impl Stage {
 
     /// Diagonal and lower triangle without friction.
     #[inline(always)]
-    fn assemble_elastic(&mut self) {
+    fn assemble_elastic(&mut self, tangents: &Tangents) {
         self.factors_hold = false;
+        self.closed.copy_from_slice(&tangents.closed);
         self.diagonal.copy_from_slice(&self.mass);
         self.lower.fill(0.0);
         let j = &self.joints;
@@ -363,7 +363,6 @@ impl Stage {
             if felt && (d > 0.0) != tangents.closed[e] {
                 flipped = true;
                 tangents.closed[e] = d > 0.0;
-                self.closed[e] = d > 0.0;
             }
         }
         flipped
