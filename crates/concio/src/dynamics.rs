@@ -4,17 +4,18 @@ use std::collections::HashMap;
 
 use crate::error::{InputError, Result};
 use crate::excitation::Drive;
+use crate::integrate::dense::extreme;
 use crate::law::spring_force;
-use crate::model::Model;
+use crate::model::{Elastic, Model};
 use crate::record::{Channel, Energies};
-use crate::state::{Power, State};
+use crate::state::{Instant, Power, State, View};
 
 /// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N].
-fn joint_forces(model: &Model, state: &State, rub: Option<usize>, joint: usize) -> (f64, f64, f64) {
+fn joint_forces(model: &Model, at: View, rub: Option<usize>, joint: usize) -> (f64, f64, f64) {
     let [a, b] = model.sides[joint].map(|s| s as usize);
-    let (d, w) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
+    let (d, w) = (at.z[a] - at.z[b], at.v[a] - at.v[b]);
     let law = &model.elastic[joint];
-    let friction = rub.map_or(0.0, |r| model.rubs[r].normal[0] * state.tangents.mu[r]);
+    let friction = rub.map_or(0.0, |r| model.rubs[r].normal[0] * at.mu[r]);
     (spring_force(law.unilateral, law.stiffness, d), law.damping * w, friction)
 }
 
@@ -104,23 +105,28 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
     state.power = power(model, &state.z, &state.v, &state.tangents.mu, ground, &mut state.joint_power);
 }
 
-/// Brings kinetic and elastic energy, envelopes and totals up to date after an accepted step of `h`.
-pub fn observe(model: &Model, state: &mut State, h: f64) {
+/// Brings kinetic and elastic energy, envelopes and totals up to date after an accepted step of `h` that began with the
+/// displacements and velocities `start`.
+pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
     let n = model.unknowns();
+    let [z_0, v_0] = start;
     let env = &mut state.envelopes;
-    let mut kinetic = 0.0;
+    let (mut kinetic, mut largest) = (0.0, 0.0f64);
     for i in 0..n {
         let (z, v) = (state.z[i].abs(), state.v[i].abs());
         kinetic += 0.5 * model.mass[i] * v * v;
-        env.block_displacement[i] = env.block_displacement[i].max(z);
+        let farthest = z.max(extreme([z_0[i], state.z[i]], [v_0[i], state.v[i]], h).abs());
+        if i < model.wall.blocks.len() {
+            largest = largest.max(farthest);
+        }
+        env.block_displacement[i] = env.block_displacement[i].max(farthest);
         env.block_velocity[i] = env.block_velocity[i].max(v);
         env.block_acceleration[i] = env.block_acceleration[i].max(state.a[i].abs());
         state.scale[0] = state.scale[0].max(z);
         state.scale[1] = state.scale[1].max(v);
     }
     let totals = &mut state.totals;
-    totals.peak_relative_displacement =
-        totals.peak_relative_displacement.max(peak(&state.z[..model.wall.blocks.len()]));
+    totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
     let top = model.floating_beam().unwrap_or(model.top());
     let (mut elastic, mut pull) = (0.0, 0.0);
     for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
@@ -128,15 +134,19 @@ pub fn observe(model: &Model, state: &mut State, h: f64) {
         let (d, w, dw) = (state.z[a] - state.z[b], state.v[a] - state.v[b], state.a[a] - state.a[b]);
         let f = spring_force(law.unilateral, law.stiffness, d);
         elastic += 0.5 * f * d;
-        env.joint_displacement[e] = env.joint_displacement[e].max(d.abs());
+        // Where the relative motion turned inside the step, or its start, which is known already.
+        let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], w], h);
+        let (least, most) = (d.min(turn), d.max(turn));
+        env.joint_displacement[e] = env.joint_displacement[e].max(most.max(-least));
         env.joint_velocity[e] = env.joint_velocity[e].max(w.abs());
         env.joint_acceleration[e] = env.joint_acceleration[e].max(dw.abs());
-        env.joint_force[e] = env.joint_force[e].max(f.abs());
+        let force = |d: f64| spring_force(law.unilateral, law.stiffness, d);
+        env.joint_force[e] = env.joint_force[e].max(force(most).max(-force(least)));
         if model.joints[e].kind.is_upright() {
             // d = x_left − x_right: the gap is −d.
-            env.joint_opening[e] = env.joint_opening[e].max(-d);
-            env.joint_closing[e] = env.joint_closing[e].max(d);
-            totals.minimum_gap = totals.minimum_gap.min(-d);
+            env.joint_opening[e] = env.joint_opening[e].max(-least);
+            env.joint_closing[e] = env.joint_closing[e].max(most);
+            totals.minimum_gap = totals.minimum_gap.min(-most);
         } else {
             totals.peak_slip_velocity = totals.peak_slip_velocity.max(w.abs());
         }
@@ -160,6 +170,16 @@ pub fn observe(model: &Model, state: &mut State, h: f64) {
     state.energies.elastic = elastic;
     totals.peak_input = totals.peak_input.max(state.energies.input().abs());
     totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
+}
+
+/// Kinetic and elastic energy of an instant inside a step, which observes neither.
+pub fn stored_energy(model: &Model, at: &mut Instant) {
+    at.energies.kinetic = model.mass.iter().zip(&at.v).map(|(m, v)| 0.5 * m * v * v).sum();
+    let of_joint = |(law, &[a, b]): (&Elastic, &[u32; 2])| {
+        let d = at.z[a as usize] - at.z[b as usize];
+        0.5 * spring_force(law.unilateral, law.stiffness, d) * d
+    };
+    at.energies.elastic = model.elastic.iter().zip(&model.sides).map(of_joint).sum();
 }
 
 /// The base's velocity jumps by `jump`: blocks keep their absolute velocity. What this does to the kinetic energy of
@@ -265,7 +285,7 @@ impl Channels {
     }
 
     /// Appends one row of values.
-    pub fn sample(&self, model: &Model, drive: &Drive, state: &State, row: &mut Vec<f64>) {
+    pub fn sample(&self, model: &Model, drive: &Drive, at: View, row: &mut Vec<f64>) {
         let (mut shear, mut pull) = (0.0, 0.0);
         let beam = model.floating_beam().unwrap_or(model.top());
         let mut add = |b: usize, f: f64| {
@@ -277,32 +297,32 @@ impl Channels {
         };
         for (e, side) in model.sides.iter().enumerate() {
             if side[1] as usize >= beam.min(model.base()) {
-                let (elastic, viscous, _) = joint_forces(model, state, None, e);
+                let (elastic, viscous, _) = joint_forces(model, at, None, e);
                 add(side[1] as usize, elastic + viscous);
             }
         }
-        for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
+        for (rub, mu) in model.rubs.iter().zip(at.mu) {
             add(model.sides[rub.joint as usize][1] as usize, rub.normal[0] * mu);
         }
         let mean = |values: &[f64]| {
             self.top_course.iter().map(|&i| values[i]).sum::<f64>() / self.top_course.len().max(1) as f64
         };
-        let base = drive.base(state.t);
-        let energies = &state.energies;
-        row.extend([base.a, base.u, shear, mean(&state.z), mean(&state.v), pull]);
-        row.extend([state.z[beam], state.v[beam], state.a[beam]]);
-        row.push(peak(&state.z[..model.wall.blocks.len()]));
+        let base = drive.base(at.t);
+        let energies = at.energies;
+        row.extend([base.a, base.u, shear, mean(at.z), mean(at.v), pull]);
+        row.extend([at.z[beam], at.v[beam], at.a[beam]]);
+        row.push(peak(&at.z[..model.wall.blocks.len()]));
         let Energies { input_top, kinetic, elastic, damping, friction, bond, nonreciprocal, .. } = *energies;
         row.extend([energies.input(), kinetic, elastic, damping, friction, bond, nonreciprocal]);
         row.extend([energies.residual(), input_top]);
         for w in &self.watched {
             match *w {
-                Watched::Block(i) => row.extend([state.z[i], state.v[i], state.a[i]]),
+                Watched::Block(i) => row.extend([at.z[i], at.v[i], at.a[i]]),
                 Watched::Joint(e, rub) => {
                     let [a, b] = model.sides[e].map(|s| s as usize);
                     let sign = if model.joints[e].kind.is_upright() { -1.0 } else { 1.0 };
-                    let (elastic, viscous, friction) = joint_forces(model, state, rub, e);
-                    let (d, v) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
+                    let (elastic, viscous, friction) = joint_forces(model, at, rub, e);
+                    let (d, v) = (at.z[a] - at.z[b], at.v[a] - at.v[b]);
                     row.extend([sign * d, sign * v, elastic, viscous, friction]);
                 }
             }

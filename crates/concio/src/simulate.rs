@@ -13,12 +13,12 @@ use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::record::{Layout, Recording, StopReason};
 use crate::run::Status;
-use crate::state::State;
+use crate::state::{Instant, State, View};
 
 /// Shortest step as a fraction of the shortest time scale 1/ω; below it the tolerance cannot be held.
 const SHORTEST: f64 = 1e-9;
-/// Samples that the record buffer holds.
-const BUFFER: usize = 256;
+/// A step ends at every so many samples at the latest; the record buffer holds twice as many.
+const WINDOW: usize = 128;
 
 /// A run under way.
 #[derive(Debug, Clone)]
@@ -30,6 +30,8 @@ pub struct Simulation<'m> {
     state: State,
     work: Step,
     recording: Recording,
+    /// An instant inside a step, of which a sample is taken.
+    instant: Instant,
     /// The smooth piece of the motion in which the state lies; follows from the time.
     drive: Drive,
     longest_step: f64,
@@ -83,11 +85,12 @@ impl<'m> Simulation<'m> {
             state.step = duration;
         }
         begin_account(model, &mut state);
-        let frames = if layout.frame_every > 0 { BUFFER.div_ceil(layout.frame_every) } else { 0 };
-        let recording = Recording::with_room(&layout, BUFFER, frames);
+        let frames = if layout.frame_every > 0 { (2 * WINDOW).div_ceil(layout.frame_every) } else { 0 };
+        let recording = Recording::with_room(&layout, 2 * WINDOW, frames);
         let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
+        let instant = Instant::new(model);
         let mut run =
-            Simulation { model, solver: *solver, channels, layout, state, work, recording, drive, longest_step };
+            Simulation { model, solver: *solver, channels, layout, state, work, recording, instant, drive, longest_step };
         run.sample();
         Ok(run)
     }
@@ -135,12 +138,13 @@ impl<'m> Simulation<'m> {
         if self.state.t >= end { Progress::Ended(StopReason::Completed) } else { Progress::Running }
     }
 
-    /// One accepted step, to the next break of the motion or sample at the farthest.
+    /// One accepted step, to the next break of the motion at the farthest, or to a sample that ends a window.
     fn step(&mut self) -> std::result::Result<(), StopReason> {
         let break_at = self.drive.end;
+        let window_end = self.sample_time(self.state.samples.next_multiple_of(WINDOW as u64));
         // A sample that falls on a break but for rounding is taken there.
-        let at_break = self.next_sample() >= break_at - self.slack();
-        let target = if at_break { break_at } else { self.next_sample() };
+        let at_break = window_end >= break_at - self.slack();
+        let target = if at_break { break_at } else { window_end };
         let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
         let mut proposed = self.state.step;
         loop {
@@ -186,12 +190,12 @@ impl<'m> Simulation<'m> {
         }
     }
 
-    /// When the next sample is due [s]; +∞ after the last.
-    fn next_sample(&self) -> f64 {
-        if self.state.samples >= self.layout.samples as u64 {
+    /// When sample `k` is due [s]; +∞ after the last.
+    fn sample_time(&self, k: u64) -> f64 {
+        if k >= self.layout.samples as u64 {
             return f64::INFINITY;
         }
-        (self.state.samples as f64 * self.layout.interval).min(self.model.excitation.duration)
+        (k as f64 * self.layout.interval).min(self.model.excitation.duration)
     }
 
     /// Instants closer than this are one [s].
@@ -213,12 +217,27 @@ impl<'m> Simulation<'m> {
         self.state.counters.steps += 1;
         self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
         self.state.counters.factorisations += std::mem::take(&mut self.work.stage.factorisations);
-        observe(self.model, &mut self.state, h);
+        observe(self.model, &mut self.state, h, self.work.start());
+        self.samples_before(t, h);
         if at_break && t < self.model.excitation.duration {
             self.enter_piece(t);
         }
-        if t >= self.next_sample() - self.slack() {
+        if self.sample_time(self.state.samples) <= t + self.slack() {
             self.sample();
+        }
+    }
+
+    /// Takes the samples that lie inside the step of `h` that ended at `t`.
+    fn samples_before(&mut self, t: f64, h: f64) {
+        loop {
+            let due = self.sample_time(self.state.samples);
+            if due >= t - self.slack() {
+                return;
+            }
+            self.work.inside(self.model, &self.drive, &self.state, h, due, &mut self.instant);
+            let Simulation { model, drive, channels, layout, state, recording, instant, .. } = self;
+            keep(model, drive, channels, layout, instant.view(), state.samples, recording);
+            state.samples += 1;
         }
     }
 
@@ -238,30 +257,16 @@ impl<'m> Simulation<'m> {
         }
     }
 
+    /// Takes the sample that is due at the state's own instant.
     fn sample(&mut self) {
-        let (state, recording) = (&mut self.state, &mut self.recording);
-        recording.time.push(state.samples as f64 * self.layout.interval);
-        self.channels.sample(self.model, &self.drive, state, &mut recording.values);
-        if self.layout.frame_every > 0 && state.samples.is_multiple_of(self.layout.frame_every as u64) {
-            let n = self.layout.unknowns;
-            recording.frame_time.push(state.samples as f64 * self.layout.interval);
-            recording.frame_displacement.extend_from_slice(&state.z[..n]);
-            recording.frame_velocity.extend_from_slice(&state.v[..n]);
-            recording.frame_acceleration.extend_from_slice(&state.a[..n]);
-            if self.layout.held > 0 {
-                let from = recording.frame_friction.len();
-                recording.frame_friction.resize(from + self.layout.held, 0.0);
-                for (rub, mu) in self.model.rubs.iter().zip(&state.tangents.mu) {
-                    recording.frame_friction[from + rub.joint as usize] = rub.normal[0] * mu;
-                }
-            }
-        }
+        let Simulation { model, drive, channels, layout, state, recording, .. } = self;
+        keep(model, drive, channels, layout, state.view(), state.samples, recording);
         state.samples += 1;
     }
 
     /// Whether [`Simulation::advance`] waits for the buffer to be emptied.
     pub fn buffer_is_full(&self) -> bool {
-        self.recording.time.len() >= BUFFER
+        self.recording.time.len() >= WINDOW
     }
     /// How far the run is.
     pub fn status(&self) -> Status {
@@ -334,6 +339,36 @@ impl<'m> Simulation<'m> {
     }
 }
 
+/// Appends sample `k`, and the frame if one is due.
+fn keep(
+    model: &Model,
+    drive: &Drive,
+    channels: &Channels,
+    layout: &Layout,
+    at: View,
+    k: u64,
+    recording: &mut Recording,
+) {
+    let t = k as f64 * layout.interval;
+    recording.time.push(t);
+    channels.sample(model, drive, at, &mut recording.values);
+    if layout.frame_every == 0 || !k.is_multiple_of(layout.frame_every as u64) {
+        return;
+    }
+    let n = layout.unknowns;
+    recording.frame_time.push(t);
+    recording.frame_displacement.extend_from_slice(&at.z[..n]);
+    recording.frame_velocity.extend_from_slice(&at.v[..n]);
+    recording.frame_acceleration.extend_from_slice(&at.a[..n]);
+    if layout.held > 0 {
+        let from = recording.frame_friction.len();
+        recording.frame_friction.resize(from + layout.held, 0.0);
+        for (rub, mu) in model.rubs.iter().zip(at.mu) {
+            recording.frame_friction[from + rub.joint as usize] = rub.normal[0] * mu;
+        }
+    }
+}
+
 /// [`settle`], and which of the joints at rest let go under the forces of this instant.
 fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) {
     settle(model, drive, state);
@@ -346,7 +381,8 @@ fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) 
 
 /// Starts envelopes and energy account from the state as it is: what energy it has is no residual.
 fn begin_account(model: &Model, state: &mut State) {
-    observe(model, state, 0.0);
+    let (z, v) = (state.z.clone(), state.v.clone());
+    observe(model, state, 0.0, [&z, &v]);
     state.energies.initial = state.energies.kinetic + state.energies.elastic - state.energies.input();
     state.totals.peak_residual = 0.0;
 }

@@ -39,6 +39,54 @@ pub struct State {
     pub counters: Counters,
 }
 
+/// Motion, friction and energies at one instant: those of a [`State`], or of an instant inside a step.
+#[derive(Debug, Clone, Copy)]
+pub struct View<'a> {
+    /// Time [s].
+    pub t: f64,
+    /// Displacement, velocity and acceleration relative to the base: unknowns, then base and top.
+    pub z: &'a [f64],
+    /// [m/s]
+    pub v: &'a [f64],
+    /// [m/s²]
+    pub a: &'a [f64],
+    /// Friction coefficient of every joint that rubs.
+    pub mu: &'a [f64],
+    /// The energy account.
+    pub energies: &'a Energies,
+}
+
+/// What a [`View`] shows, where it is not a state's.
+#[derive(Debug, Clone)]
+pub struct Instant {
+    /// Time [s].
+    pub t: f64,
+    /// Displacement [m].
+    pub z: Vec<f64>,
+    /// Velocity [m/s].
+    pub v: Vec<f64>,
+    /// Acceleration [m/s²].
+    pub a: Vec<f64>,
+    /// Friction coefficients.
+    pub mu: Vec<f64>,
+    /// The energy account.
+    pub energies: Energies,
+}
+
+impl Instant {
+    /// Room for an instant of `model`.
+    pub fn new(model: &Model) -> Self {
+        let zeros = || vec![0.0; model.unknowns() + 2];
+        let energies = Energies::default();
+        Instant { t: 0.0, z: zeros(), v: zeros(), a: zeros(), mu: vec![0.0; model.rubs.len()], energies }
+    }
+    /// What it holds.
+    pub fn view(&self) -> View<'_> {
+        let Instant { t, z, v, a, mu, energies } = self;
+        View { t: *t, z, v, a, mu, energies }
+    }
+}
+
 /// Rates of the works in [`Energies`] [W].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Power {
@@ -102,6 +150,11 @@ impl Tangents {
 }
 
 impl State {
+    /// The motion, friction and energies at its instant.
+    pub fn view(&self) -> View<'_> {
+        View { t: self.t, z: &self.z, v: &self.v, a: &self.a, mu: &self.tangents.mu, energies: &self.energies }
+    }
+
     /// Whether all arrays have the lengths that `model` needs.
     pub fn fits(&self, model: &Model) -> bool {
         let (n, e, r) = (model.unknowns(), model.joints.len(), model.rubs.len());

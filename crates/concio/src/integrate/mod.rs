@@ -1,5 +1,6 @@
 //! One step of a scheme, its error estimate, and the linear algebra behind it.
 
+pub(crate) mod dense;
 pub(crate) mod groups;
 pub(crate) mod joints;
 pub(crate) mod linear;

@@ -5,16 +5,19 @@
 //! (Hosea & Shampine 1996): without the filter the stiff parts, which the scheme damps, would govern the step.
 
 use crate::case::Scheme;
-use crate::dynamics::power;
+use crate::dynamics::{power, stored_energy};
 use crate::excitation::Drive;
+use crate::integrate::dense::{hermite, weights};
 use crate::integrate::stage::{Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
 use crate::model::Model;
-use crate::state::{Power, State, Tangents};
+use crate::record::Energies;
+use crate::state::{Instant, Power, State, Tangents};
 
 /// Scratch of a step; nothing here outlives it but the tangents, which belong to the state.
 #[derive(Debug, Clone)]
 pub struct Step {
+    scheme: Scheme,
     tableau: Tableau,
     pub stage: Stage,
     tangents: Tangents,
@@ -25,6 +28,10 @@ pub struct Step {
     error_v: Vec<f64>,
     error_z: Vec<f64>,
     top_acceleration: f64,
+    /// Displacement, energy account and friction at the start of the accepted step.
+    start_z: Vec<f64>,
+    start_energies: Energies,
+    start_friction: Tangents,
     /// Displacement of the end of the step, with base and top.
     pub z: Vec<f64>,
 }
@@ -46,6 +53,7 @@ impl Step {
         let n = model.unknowns();
         let rows = |len: usize| vec![vec![0.0; len]; STAGES];
         Step {
+            scheme,
             tableau: tableau(scheme),
             stage: Stage::new(model),
             tangents: Tangents::at_rest(model),
@@ -56,6 +64,9 @@ impl Step {
             error_v: vec![0.0; n],
             error_z: vec![0.0; n],
             top_acceleration: 0.0,
+            start_z: vec![0.0; n + 2],
+            start_energies: Energies::default(),
+            start_friction: Tangents::at_rest(model),
             z: vec![0.0; n + 2],
         }
     }
@@ -185,6 +196,11 @@ impl Step {
     pub fn accept(&mut self, model: &Model, state: &mut State, t: f64, h: f64) {
         let n = model.unknowns();
         let last = self.tableau.stages - 1;
+        self.start_z.copy_from_slice(&state.z);
+        self.start_energies = state.energies;
+        if model.sticks() {
+            self.start_friction.copy_from(&state.tangents);
+        }
         state.t = t;
         state.z.copy_from_slice(&self.z);
         state.v.copy_from_slice(&self.stage_v[last]);
@@ -203,5 +219,66 @@ impl Step {
         }
         state.joint_power.copy_from_slice(&self.stage_joint_power[last]);
         state.tangents.copy_from(&self.tangents);
+    }
+
+    /// Displacements and velocities at the start of the accepted step.
+    pub fn start(&self) -> [&[f64]; 2] {
+        [&self.start_z, &self.stage_v[0]]
+    }
+
+    /// Motion, friction and energies at `t`, inside the accepted step of `h` that `end` is the end of.
+    pub fn inside(&self, model: &Model, drive: &Drive, end: &State, h: f64, t: f64, at: &mut Instant) {
+        let (n, last) = (model.unknowns(), self.tableau.stages - 1);
+        let x = 1.0 - (end.t - t) / h;
+        let w = weights(self.scheme, &self.tableau.c, last, x, h);
+        at.t = t;
+        for k in 0..n {
+            at.z[k] = self.start_z[k] + w.of_end * (end.z[k] - self.start_z[k]);
+        }
+        at.v.fill(0.0);
+        at.a.fill(0.0);
+        for i in 0..=last {
+            let (v, a) = (&self.stage_v[i], &self.stage_a[i]);
+            for k in 0..n {
+                at.z[k] += w.of_z[i] * v[k];
+                at.v[k] += w.of_v[i] * v[k] + w.of_a[i] * a[k];
+                at.a[k] += w.rate_v[i] * v[k] + w.rate_a[i] * a[k];
+            }
+        }
+        let top = drive.top(t);
+        (at.z[n + 1], at.v[n + 1], at.a[n + 1]) = (top.u, top.v, top.a);
+        self.friction_inside(model, end, x, at);
+        self.account_inside(end, h, x, at);
+        stored_energy(model, at);
+    }
+
+    fn friction_inside(&self, model: &Model, end: &State, x: f64, at: &mut Instant) {
+        for (r, rub) in model.rubs.iter().enumerate() {
+            let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
+            let w = at.v[a] - at.v[b];
+            at.mu[r] = if rub.law.sticks() && w == 0.0 {
+                let [from, to] = [self.start_friction.mu[r], end.tangents.mu[r]];
+                from + x * (to - from)
+            } else {
+                rub.law.value(w)
+            };
+        }
+    }
+
+    /// The works so far: cubic in time, with the rates at both ends.
+    fn account_inside(&self, end: &State, h: f64, x: f64, at: &mut Instant) {
+        let [to_end, from, to] = hermite(x);
+        let (e_0, e_1, p_0, p_1) = (&self.start_energies, &end.energies, &self.stage_power[0], &end.power);
+        let cubic = |e: fn(&Energies) -> f64, p: fn(&Power) -> f64| {
+            e(e_0) + to_end * (e(e_1) - e(e_0)) + h * (from * p(p_0) + to * p(p_1))
+        };
+        at.energies = Energies {
+            input_base: cubic(|e| e.input_base, |p| p.base),
+            input_top: cubic(|e| e.input_top, |p| p.top),
+            damping: cubic(|e| e.damping, |p| p.damping),
+            friction: cubic(|e| e.friction, |p| p.friction),
+            nonreciprocal: cubic(|e| e.nonreciprocal, |p| p.nonreciprocal),
+            ..*e_0
+        };
     }
 }
