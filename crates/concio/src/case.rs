@@ -764,7 +764,7 @@ fn default_corners() -> [Time; 3] {
 pub struct Solver {
     /// The scheme.
     pub scheme: Scheme,
-    /// Relative tolerance of the local error against the largest motion so far, 1e-12 … 0.1. Default 1e-3.
+    /// Relative tolerance of the local error against the largest motion so far, 1e-12 … 0.1. Default 1e-2.
     #[schemars(range(min = 1e-12, max = 0.1))]
     pub tolerance: f64,
     /// Displacement [m] below which errors do not count, above 0. Default 1e-14.
@@ -776,7 +776,7 @@ pub struct Solver {
 
 impl Default for Solver {
     fn default() -> Self {
-        Solver { scheme: Scheme::TrBdf2, tolerance: 1e-3, floor: Length::from_si(1e-14), max_step: None }
+        Solver { scheme: Scheme::TrBdf2, tolerance: 1e-2, floor: Length::from_si(1e-14), max_step: None }
     }
 }
 

@@ -8,7 +8,7 @@ use crate::integrate::dense::extreme;
 use crate::law::spring_force;
 use crate::model::{Elastic, Model};
 use crate::record::{Channel, Energies};
-use crate::state::{Instant, Power, State, View};
+use crate::state::{Power, State, View};
 
 /// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N].
 fn joint_forces(model: &Model, at: View, rub: Option<usize>, joint: usize) -> (f64, f64, f64) {
@@ -105,16 +105,15 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
     state.power = power(model, &state.z, &state.v, &state.tangents.mu, ground, &mut state.joint_power);
 }
 
-/// Brings kinetic and elastic energy, envelopes and totals up to date after an accepted step of `h` that began with the
+/// Brings envelopes and totals up to date after an accepted step of `h` that began with the
 /// displacements and velocities `start`.
 pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
     let n = model.unknowns();
     let [z_0, v_0] = start;
     let env = &mut state.envelopes;
-    let (mut kinetic, mut largest) = (0.0, 0.0f64);
+    let mut largest = 0.0f64;
     for i in 0..n {
         let (z, v) = (state.z[i].abs(), state.v[i].abs());
-        kinetic += 0.5 * model.mass[i] * v * v;
         let farthest = z.max(extreme([z_0[i], state.z[i]], [v_0[i], state.v[i]], h).abs());
         if i < model.wall.blocks.len() {
             largest = largest.max(farthest);
@@ -128,12 +127,11 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
     let totals = &mut state.totals;
     totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
     let top = model.floating_beam().unwrap_or(model.top());
-    let (mut elastic, mut pull) = (0.0, 0.0);
+    let mut pull = 0.0;
     for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
         let (a, b) = (a as usize, b as usize);
         let (d, w, dw) = (state.z[a] - state.z[b], state.v[a] - state.v[b], state.a[a] - state.a[b]);
         let f = spring_force(law.unilateral, law.stiffness, d);
-        elastic += 0.5 * f * d;
         // Where the relative motion turned inside the step, or its start, which is known already.
         let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], w], h);
         let (least, most) = (d.min(turn), d.max(turn));
@@ -166,20 +164,18 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
     }
     totals.top_force_peak = totals.top_force_peak.max(pull.abs());
     totals.top_force_square += h * pull * pull;
-    state.energies.kinetic = kinetic;
-    state.energies.elastic = elastic;
     totals.peak_input = totals.peak_input.max(state.energies.input().abs());
     totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
 }
 
-/// Kinetic and elastic energy of an instant inside a step, which observes neither.
-pub fn stored_energy(model: &Model, at: &mut Instant) {
-    at.energies.kinetic = model.mass.iter().zip(&at.v).map(|(m, v)| 0.5 * m * v * v).sum();
+/// Kinetic and elastic energy at displacements `z` and velocities `v`.
+pub fn stored_energy(model: &Model, z: &[f64], v: &[f64], energies: &mut Energies) {
+    energies.kinetic = model.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum();
     let of_joint = |(law, &[a, b]): (&Elastic, &[u32; 2])| {
-        let d = at.z[a as usize] - at.z[b as usize];
+        let d = z[a as usize] - z[b as usize];
         0.5 * spring_force(law.unilateral, law.stiffness, d) * d
     };
-    at.energies.elastic = model.elastic.iter().zip(&model.sides).map(of_joint).sum();
+    energies.elastic = model.elastic.iter().zip(&model.sides).map(of_joint).sum();
 }
 
 /// The base's velocity jumps by `jump`: blocks keep their absolute velocity. What this does to the kinetic energy of
