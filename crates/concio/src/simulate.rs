@@ -20,7 +20,14 @@ const SHORTEST: f64 = 1e-9;
 /// What one step may add to the residual of the energy account, over the tolerance and the largest work so far. Chosen
 /// so that the examples close within 10⁻⁴ at the default tolerance (decision 0003).
 const ENERGY: f64 = 5e-5;
-/// A step ends at every so many samples at the latest; the record buffer holds twice as many.
+/// Most by which a step is longer than the one before: longer leaps fail more often than they save.
+const MOST_GROWTH: f64 = 2.0;
+/// Tolerance below which the energy is held no tighter: rounding, and the velocities that joints coming to rest lose.
+const FINEST: f64 = 1e-4;
+/// Steps shorter than this over the shortest time scale are not shortened further for the energy's sake: friction that
+/// jumps loses what it loses.
+const UNFELT: f64 = 1e-4;
+/// Samples in a step at most; the record buffer holds twice as many.
 const WINDOW: usize = 128;
 
 /// A run under way.
@@ -141,13 +148,13 @@ impl<'m> Simulation<'m> {
         if self.state.t >= end { Progress::Ended(StopReason::Completed) } else { Progress::Running }
     }
 
-    /// One accepted step, to the next break of the motion at the farthest, or to a sample that ends a window.
+    /// One accepted step, to the next break of the motion or frame at the farthest.
     fn step(&mut self) -> std::result::Result<(), StopReason> {
         let break_at = self.drive.end;
-        let window_end = self.sample_time(self.state.samples.next_multiple_of(WINDOW as u64));
+        let frame_at = self.sample_time(self.landing());
         // A sample that falls on a break but for rounding is taken there.
-        let at_break = window_end >= break_at - self.slack();
-        let target = if at_break { break_at } else { window_end };
+        let at_break = frame_at >= break_at - self.slack();
+        let target = if at_break { break_at } else { frame_at };
         let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
         let mut proposed = self.state.step;
         loop {
@@ -159,11 +166,13 @@ impl<'m> Simulation<'m> {
             } else if h > 0.5 * remaining {
                 h = 0.5 * remaining;
             }
-            let tolerance = self.tolerance();
+            let tolerance = self.tolerance(h);
             let attempt = self.work.attempt(self.model, &self.state, &self.drive, h, tolerance);
             let factor = match attempt {
                 Ok(error) if error <= 1.0 => {
-                    let grow = growth(error, self.work.error_order()).min(5.0);
+                    // What has just been too long is not tried again at once.
+                    let most = if proposed < self.state.step { 1.0 } else { MOST_GROWTH };
+                    let grow = growth(error, self.work.error_order()).min(most);
                     let free = h * grow;
                     // A step cut short by a landing says little about the one that the error allows.
                     self.state.step = if lands && proposed > h { free.max(proposed) } else { free };
@@ -193,6 +202,13 @@ impl<'m> Simulation<'m> {
         }
     }
 
+    /// The next sample at which a step has to end: a frame, whose accelerations then obey (1), or for the buffer's sake.
+    fn landing(&self) -> u64 {
+        let every = |count: usize| self.state.samples.next_multiple_of(count.max(1) as u64);
+        let frame = if self.layout.frame_every > 0 { every(self.layout.frame_every) } else { u64::MAX };
+        every(WINDOW).min(frame)
+    }
+
     /// When sample `k` is due [s]; +∞ after the last.
     fn sample_time(&self, k: u64) -> f64 {
         if k >= self.layout.samples as u64 {
@@ -206,13 +222,16 @@ impl<'m> Simulation<'m> {
         1e-9 * self.layout.interval
     }
 
-    fn tolerance(&self) -> Tolerance {
+    /// Of a step of `h` [s].
+    fn tolerance(&self, h: f64) -> Tolerance {
         let [z, v] = self.state.scale;
+        let work = self.state.totals.peak_input + self.state.energies.initial;
+        let felt = h * self.model.stiffest.sqrt() > UNFELT;
         let floor = self.solver.floor.si();
         Tolerance {
             z: self.solver.tolerance * z + floor,
             v: self.solver.tolerance * v + floor * self.model.stiffest.sqrt(),
-            energy: self.solver.tolerance * ENERGY * (self.state.totals.peak_input + self.state.energies.initial),
+            energy: if felt { self.solver.tolerance.max(FINEST) * ENERGY * work } else { f64::INFINITY },
         }
     }
 
@@ -394,5 +413,5 @@ fn begin_account(model: &Model, state: &mut State) {
 
 /// Step factor 0.9 (1/error)^(1/order).
 fn growth(error: f64, order: f64) -> f64 {
-    if error <= 0.0 { 5.0 } else { 0.9 * error.powf(-1.0 / order) }
+    if error <= 0.0 { MOST_GROWTH } else { 0.9 * error.powf(-1.0 / order) }
 }

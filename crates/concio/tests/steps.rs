@@ -8,6 +8,7 @@ use concio::ground::record::{Format, Record};
 use concio::ground::signal::{GroundMotion, compile, from_record};
 use concio::law::Stribeck;
 use concio::model::Model;
+use concio::record::StopReason;
 use concio::samples::{Histories, Link, lumped, respond, solver};
 use concio::wall::End;
 
@@ -51,7 +52,7 @@ fn a_late_pulse_is_not_stepped_over() {
     };
     let exact = |t: f64| forced(t - start) + forced(t - start - length);
     for (scheme, tolerance, allowed) in
-        [(Scheme::TrBdf2, 1e-2, 0.02), (Scheme::TrBdf2, 1e-6, 2e-5), (Scheme::Esdirk4, 1e-2, 0.02)]
+        [(Scheme::TrBdf2, 1e-2, 0.02), (Scheme::TrBdf2, 1e-6, 4e-4), (Scheme::Esdirk4, 1e-2, 0.02)]
     {
         let h = respond(&model, &solver(scheme, tolerance), 1e-3, &[0.0], &[0.0]).unwrap();
         let x = first(&h);
@@ -84,7 +85,7 @@ fn a_single_spike_of_a_record_is_not_stepped_over() {
         let from = (at - 1) as f64 * dt;
         slope * (to_a_ramp(t - from) - 2.0 * to_a_ramp(t - from - dt) + to_a_ramp(t - from - 2.0 * dt))
     };
-    for (tolerance, allowed) in [(1e-2, 0.02), (1e-6, 1e-4)] {
+    for (tolerance, allowed) in [(1e-2, 0.02), (1e-6, 1e-3)] {
         let h = respond(&model, &solver(Scheme::TrBdf2, tolerance), 1e-3, &[0.0], &[0.0]).unwrap();
         let x = first(&h);
         let times = || (0..x.len()).map(|k| 1e-3 * k as f64);
@@ -109,7 +110,7 @@ fn samples_inside_steps_are_as_good_as_the_steps() {
             (h.steps, (0..h.displacement.len()).map(|k| x(k).max(v(k))).fold(0.0, f64::max))
         };
         let ((few, at_ends), (many, inside)) = (worst(end / 4.0), worst(end / 5000.0));
-        assert!(many < 2000 && few <= many, "{scheme:?} {tolerance:e}: {few} and {many} steps for 5000 samples");
+        assert!(many < 2500 && few <= many, "{scheme:?} {tolerance:e}: {few} and {many} steps for 5000 samples");
         assert!(inside <= 2.0 * at_ends + 3.0 * tolerance, "{scheme:?} {tolerance:e}: {inside:e} against {at_ends:e}");
     }
 }
@@ -141,6 +142,7 @@ fn belt(law: Stribeck, solver: Solver) -> f64 {
     let ramp = Ramp { amplitude: (v * 100.0).into(), start: 0.0.into(), rise: 100.0.into() };
     let model = lumped(&[M], &links, Excitation::of_top(signal(Signal::Ramp(ramp)), end));
     let h = respond(&model, &solver, end, &[0.4 * N / K], &[v]).unwrap();
+    assert_eq!(h.stop_reason, StopReason::Completed);
     *first(&h).last().unwrap()
 }
 
