@@ -3,8 +3,8 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::case::{
-    Case, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointKind, Joints, NormalForce, Selector, Spring,
-    SpringLaw,
+    Case, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointKind, Joints, NormalForce, Selector,
+    Spring, SpringLaw,
 };
 use crate::error::{InputError, Result};
 use crate::graph;
@@ -28,6 +28,32 @@ pub(crate) struct JointLaw {
     parameters: Stribeck,
     /// Whether this joint is one of those that rub, by `friction.on` or by a change of its own.
     may_rub: bool,
+    /// Its bond, if it is one of those that have one; `on` has no meaning here.
+    pub bond: Option<BondValues>,
+}
+
+/// Bond of one joint, per area, in SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct BondValues {
+    /// f_t, c [Pa] and tan φ.
+    pub tensile_strength: f64,
+    pub cohesion: f64,
+    pub tan_angle: f64,
+    /// G_f^I, G_f^II [N/m].
+    pub energy: [f64; 2],
+    pub residual: f64,
+}
+
+impl BondValues {
+    fn of(bond: &JointBond) -> Self {
+        BondValues {
+            tensile_strength: bond.tensile_strength.si(),
+            cohesion: bond.cohesion.si(),
+            tan_angle: bond.friction_angle.si().tan(),
+            energy: [bond.mode_1_energy.si(), bond.mode_2_energy.si()],
+            residual: bond.residual_stiffness,
+        }
+    }
 }
 
 impl JointLaw {
@@ -80,6 +106,15 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
                 p.beta = c.beta.unwrap_or(p.beta);
                 p.alpha = c.alpha.unwrap_or(p.alpha);
             }
+            if let Some(c) = &change.bond {
+                let b = law.bond.get_or_insert(BondValues::of(&JointBond::default()));
+                b.tensile_strength = c.tensile_strength.map_or(b.tensile_strength, |v| v.si());
+                b.cohesion = c.cohesion.map_or(b.cohesion, |v| v.si());
+                b.tan_angle = c.friction_angle.map_or(b.tan_angle, |v| v.si().tan());
+                b.energy[0] = c.mode_1_energy.map_or(b.energy[0], |v| v.si());
+                b.energy[1] = c.mode_2_energy.map_or(b.energy[1], |v| v.si());
+                b.residual = c.residual_stiffness.unwrap_or(b.residual);
+            }
             check_spring(joints[e].kind, law.spring.law)
                 .map_err(|e| e.key(format!("joint.change[{number}].spring.law")))?;
         }
@@ -119,6 +154,7 @@ fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {
         parameters,
         may_rub: friction_choice(f).0 == FrictionOn::All
             || matches!(kind, JointKind::Bed | JointKind::Base | JointKind::Top),
+        bond: settings.bond.as_ref().filter(|b| b.on.contains(&kind)).map(BondValues::of),
     }
 }
 

@@ -7,9 +7,31 @@ use crate::excitation::Drive;
 use crate::law::spring_force;
 use crate::model::Model;
 use crate::record::{Channel, Energies};
-use crate::state::{Power, State};
+use crate::state::{BondState, Power, State};
 
-/// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N].
+/// Displacements and velocities with what the laws add to them, at one instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Instant<'a> {
+    pub z: &'a [f64],
+    pub v: &'a [f64],
+    /// μ of the joints that rub.
+    pub mu: &'a [f64],
+    /// The bonds at the start of the step.
+    pub bonds: &'a [BondState],
+}
+
+/// What bonds change of the elastic forces on side a [N]: `change(joint, force)` for every one.
+fn bonds_beyond(model: &Model, bonds: &[BondState], z: &[f64], mut change: impl FnMut(usize, f64)) {
+    for (bond, state) in model.bonds.iter().zip(bonds) {
+        let e = bond.joint as usize;
+        let [a, b] = model.sides[e].map(|s| s as usize);
+        let d = z[a] - z[b];
+        change(e, bond.beyond(&model.elastic[e], bond.law.damage_at(state.damage, d), d));
+    }
+}
+
+/// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N]; without what a
+/// bond changes of it.
 fn joint_forces(model: &Model, state: &State, rub: Option<usize>, joint: usize) -> (f64, f64, f64) {
     let [a, b] = model.sides[joint].map(|s| s as usize);
     let (d, w) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
@@ -18,9 +40,9 @@ fn joint_forces(model: &Model, state: &State, rub: Option<usize>, joint: usize) 
     (spring_force(law.unilateral, law.stiffness, d), law.damping * w, friction)
 }
 
-/// Rates of the energy account, and of each joint's dissipation into `joint` [W], at velocities `v`.
-/// `mu` are the laws there; `z` displacements, for the force on the top.
-pub fn power(model: &Model, z: &[f64], v: &[f64], mu: &[f64], ground: f64, joint: &mut [f64]) -> Power {
+/// Rates of the energy account, and of each joint's dissipation into `joint` [W].
+pub fn power(model: &Model, at: Instant<'_>, ground: f64, joint: &mut [f64]) -> Power {
+    let Instant { z, v, mu, bonds } = at;
     let mut p = Power::default();
     for (m, v) in model.mass.iter().zip(v) {
         p.base -= m * v;
@@ -50,6 +72,11 @@ pub fn power(model: &Model, z: &[f64], v: &[f64], mu: &[f64], ground: f64, joint
             pull += rub.normal[0] * mu;
         }
     }
+    bonds_beyond(model, bonds, z, |e, force| {
+        if model.sides[e][1] as usize == top {
+            pull += force;
+        }
+    });
     p.top = -pull * v[top];
     p
 }
@@ -76,6 +103,15 @@ pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
         }
         state.tangents.velocity[r] = w;
     }
+    // Of a bonded joint the cracked part rubs, if there is any.
+    for (bond, damage) in model.bonds.iter().zip(state.bonds.iter().map(|b| b.damage)) {
+        let Some(r) = bond.rub.map(|r| r as usize).filter(|_| damage < 1.0) else { continue };
+        let law = model.rubs[r].law.times(damage);
+        state.tangents.stuck[r] &= damage > 0.0;
+        if !state.tangents.stuck[r] {
+            (state.tangents.mu[r], state.tangents.slope[r]) = law.at(state.tangents.velocity[r]);
+        }
+    }
     accelerate(model, drive, state);
 }
 
@@ -91,6 +127,12 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
         state.a[a] -= f;
         state.a[b] += f;
     }
+    let a = &mut state.a;
+    bonds_beyond(model, &state.bonds, &state.z, |e, force| {
+        let [i, k] = model.sides[e].map(|s| s as usize);
+        a[i] -= force;
+        a[k] += force;
+    });
     for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         state.a[a] -= rub.normal[0] * mu;
@@ -101,7 +143,8 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
     }
     state.a[n] = 0.0;
     state.a[n + 1] = drive.top(state.t).a;
-    state.power = power(model, &state.z, &state.v, &state.tangents.mu, ground, &mut state.joint_power);
+    let at = Instant { z: &state.z, v: &state.v, mu: &state.tangents.mu, bonds: &state.bonds };
+    state.power = power(model, at, ground, &mut state.joint_power);
 }
 
 /// Brings kinetic and elastic energy, envelopes and totals up to date after an accepted step of `h`.
@@ -154,6 +197,18 @@ pub fn observe(model: &Model, state: &mut State, h: f64) {
             pull += rub.normal[0] * mu;
         }
     }
+    for (bond, held) in model.bonds.iter().zip(&mut state.bonds) {
+        let e = bond.joint as usize;
+        let [a, b] = model.sides[e].map(|s| s as usize);
+        let d = state.z[a] - state.z[b];
+        let beyond = bond.beyond(&model.elastic[e], held.damage, d);
+        elastic += 0.5 * beyond * d;
+        held.peak = held.peak.max(bond.force(&model.elastic[e], held.damage, d).abs());
+        env.joint_force[e] = held.peak;
+        if b == top {
+            pull += beyond;
+        }
+    }
     totals.top_force_peak = totals.top_force_peak.max(pull.abs());
     totals.top_force_square += h * pull * pull;
     state.energies.kinetic = kinetic;
@@ -184,7 +239,8 @@ fn peak(values: &[f64]) -> f64 {
 #[derive(Debug, Clone, Copy)]
 enum Watched {
     Block(usize),
-    Joint(usize, Option<usize>),
+    /// The joint, its place among those that rub and among those with a bond.
+    Joint(usize, Option<usize>, Option<usize>),
 }
 
 /// The channels of a run: what they are and how to read them off a state.
@@ -230,6 +286,9 @@ const JOINT: [(&str, &str, &str); 5] = [
     ("friction", "N", "friction force, same sign"),
 ];
 
+/// Beside them, of joints with a bond.
+const DAMAGE: (&str, &str, &str) = ("damage", "1", "cracked part of the bond, 0 to 1");
+
 impl Channels {
     /// The channels for the block and joint names asked for (`all` for every one).
     ///
@@ -240,10 +299,9 @@ impl Channels {
         let joint_names = model.joint_names();
         let mut watched: Vec<Watched> =
             chosen("output.blocks", "block", blocks, &block_names)?.into_iter().map(Watched::Block).collect();
-        let rub = model.rub_of_joint();
-        watched.extend(
-            chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(|e| Watched::Joint(e, rub[e])),
-        );
+        let (rub, bond) = (model.rub_of_joint(), model.bond_of_joint());
+        let joint = |e: usize| Watched::Joint(e, rub[e], bond[e]);
+        watched.extend(chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(joint));
         let channel =
             |name: String, unit: &str, text: &str| Channel { name, unit: unit.into(), description: text.into() };
         let mut list: Vec<Channel> = ALWAYS.iter().map(|(n, u, d)| channel((*n).into(), u, d)).collect();
@@ -253,8 +311,14 @@ impl Channels {
                 Watched::Block(i) => {
                     list.extend(BLOCK.iter().map(|(n, u, d)| channel(format!("block/{}/{n}", block_names[i]), u, d)));
                 }
-                Watched::Joint(e, _) => {
-                    list.extend(JOINT.iter().map(|(n, u, d)| channel(format!("joint/{}/{n}", joint_names[e]), u, d)));
+                Watched::Joint(e, _, bond) => {
+                    let of_bond = bond.map(|_| &DAMAGE);
+                    list.extend(
+                        JOINT
+                            .iter()
+                            .chain(of_bond)
+                            .map(|(n, u, d)| channel(format!("joint/{}/{n}", joint_names[e]), u, d)),
+                    );
                 }
             }
         }
@@ -281,6 +345,7 @@ impl Channels {
                 add(side[1] as usize, elastic + viscous);
             }
         }
+        bonds_beyond(model, &state.bonds, &state.z, |e, force| add(model.sides[e][1] as usize, force));
         for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
             add(model.sides[rub.joint as usize][1] as usize, rub.normal[0] * mu);
         }
@@ -298,12 +363,15 @@ impl Channels {
         for w in &self.watched {
             match *w {
                 Watched::Block(i) => row.extend([state.z[i], state.v[i], state.a[i]]),
-                Watched::Joint(e, rub) => {
+                Watched::Joint(e, rub, bond) => {
                     let [a, b] = model.sides[e].map(|s| s as usize);
                     let sign = if model.joints[e].kind.is_upright() { -1.0 } else { 1.0 };
                     let (elastic, viscous, friction) = joint_forces(model, state, rub, e);
                     let (d, v) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
+                    let bond = bond.map(|b| (&model.bonds[b], state.bonds[b].damage));
+                    let elastic = bond.map_or(elastic, |(bond, damage)| bond.force(&model.elastic[e], damage, d));
                     row.extend([sign * d, sign * v, elastic, viscous, friction]);
+                    row.extend(bond.map(|(_, damage)| damage));
                 }
             }
         }

@@ -26,9 +26,12 @@ pub struct Layout {
     /// Number of unknowns in a frame (blocks, then the beam's if it has mass).
     pub unknowns: usize,
     /// Number of joints whose friction a frame holds: all of them where a law is set-valued, since what holds a joint
-    /// at rest follows from no velocity; otherwise none.
+    /// at rest follows from no velocity, or a joint is bonded; otherwise none.
     #[serde(default)]
     pub held: usize,
+    /// Number of bonded joints, whose damage a frame holds.
+    #[serde(default)]
+    pub bonded: usize,
     /// The histories.
     pub channels: Vec<Channel>,
 }
@@ -48,8 +51,11 @@ pub struct Recording {
     pub frame_velocity: Vec<f64>,
     /// `frame_time.len()` rows: acceleration of every unknown relative to the base [m/s²].
     pub frame_acceleration: Vec<f64>,
-    /// `frame_time.len()` rows: friction force on side a of every joint [N]; rows of none unless a law is set-valued.
+    /// `frame_time.len()` rows: friction force on side a of every joint [N]; rows of none unless a law is set-valued or a
+    /// joint is bonded.
     pub frame_friction: Vec<f64>,
+    /// `frame_time.len()` rows: cracked part of every bonded joint, 0 … 1.
+    pub frame_damage: Vec<f64>,
 }
 
 impl Recording {
@@ -62,10 +68,11 @@ impl Recording {
         self.frame_velocity.extend_from_slice(&other.frame_velocity);
         self.frame_acceleration.extend_from_slice(&other.frame_acceleration);
         self.frame_friction.extend_from_slice(&other.frame_friction);
+        self.frame_damage.extend_from_slice(&other.frame_damage);
     }
 
     /// The arrays in the order in which a journal keeps them, with the length of a row of each.
-    pub(crate) fn arrays(&self, layout: &Layout) -> [(&Vec<f64>, usize); 7] {
+    pub(crate) fn arrays(&self, layout: &Layout) -> [(&Vec<f64>, usize); 8] {
         let n = layout.unknowns;
         [
             (&self.time, 1),
@@ -75,11 +82,12 @@ impl Recording {
             (&self.frame_velocity, n),
             (&self.frame_acceleration, n),
             (&self.frame_friction, layout.held),
+            (&self.frame_damage, layout.bonded),
         ]
     }
 
     /// The same arrays, to be filled: samples first, then frames.
-    pub(crate) fn arrays_mut(&mut self) -> [&mut Vec<f64>; 7] {
+    pub(crate) fn arrays_mut(&mut self) -> [&mut Vec<f64>; 8] {
         [
             &mut self.time,
             &mut self.values,
@@ -88,6 +96,7 @@ impl Recording {
             &mut self.frame_velocity,
             &mut self.frame_acceleration,
             &mut self.frame_friction,
+            &mut self.frame_damage,
         ]
     }
 
@@ -107,6 +116,7 @@ impl Recording {
             frame_velocity: room(frames, layout.unknowns),
             frame_acceleration: room(frames, layout.unknowns),
             frame_friction: room(frames, layout.held),
+            frame_damage: room(frames, layout.bonded),
         }
     }
 }

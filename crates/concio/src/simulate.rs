@@ -7,16 +7,21 @@ use crate::case::Solver;
 use crate::dynamics::{Channels, accelerate, kick, observe, settle};
 use crate::error::Result;
 use crate::excitation::Drive;
+use crate::integrate::cracks;
 use crate::integrate::stage::Failure;
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::record::{Layout, Recording, StopReason};
+use crate::record::{Energies, Layout, Recording, StopReason};
 use crate::run::Status;
 use crate::state::State;
 
 /// Shortest step as a fraction of the shortest time scale 1/ω; below it the tolerance cannot be held.
 const SHORTEST: f64 = 1e-9;
+/// By how much a brittle bond may exceed its strength when it cracks, over the tolerance of the solver: 10⁻⁵ by default.
+const EXCESS: f64 = 1e-2;
+/// Times that a step is cut to end where a bond cracks.
+const MOST_CUTS: usize = 20;
 /// Samples that the record buffer holds.
 const BUFFER: usize = 256;
 
@@ -70,7 +75,8 @@ impl<'m> Simulation<'m> {
             samples: (duration / sampling.interval * (1.0 + 1e-12) + 1e-9).floor() as usize + 1,
             frame_every: sampling.frame_every,
             unknowns: model.unknowns(),
-            held: if model.sticks() { model.joints.len() } else { 0 },
+            held: if model.sticks() || !model.bonds.is_empty() { model.joints.len() } else { 0 },
+            bonded: model.bonds.len(),
             channels: list,
         };
         let mut state = State::at_rest(model);
@@ -107,6 +113,12 @@ impl<'m> Simulation<'m> {
         self.state.z[..n].copy_from_slice(z);
         self.state.v[..n].copy_from_slice(v);
         self.settle();
+        if !self.model.bonds.is_empty() {
+            // What is strained beyond its strength from the start is cracked from the start.
+            let (z, v) = (self.state.z.clone(), self.state.v.clone());
+            cracks::grow(self.model, &mut self.state, &z, &v, 0.0);
+            self.settle();
+        }
         begin_account(self.model, &mut self.state);
         self.state.samples = 0;
         self.clear_recording();
@@ -143,23 +155,31 @@ impl<'m> Simulation<'m> {
         let target = if at_break { break_at } else { self.next_sample() };
         let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
         let mut proposed = self.state.step;
+        // A step that ends where a bond cracks.
+        let (mut cut, mut cuts) = (None, 0);
         loop {
             let remaining = target - self.state.t;
             let mut h = proposed.min(self.longest_step);
-            let lands = h >= remaining * (1.0 - 1e-9);
+            let lands = cut.is_none() && h >= remaining * (1.0 - 1e-9);
             if lands {
                 h = remaining;
             } else if h > 0.5 * remaining {
                 h = 0.5 * remaining;
             }
+            h = cut.take().unwrap_or(h);
             let tolerance = self.tolerance();
             let attempt = self.work.attempt(self.model, &self.state, &self.drive, h, tolerance);
             let factor = match attempt {
                 Ok(error) if error <= 1.0 => {
+                    if let Some(earlier) = self.first_crack(h).filter(|&s| cuts < MOST_CUTS && s * h > shortest) {
+                        cuts += 1;
+                        cut = Some(earlier * h);
+                        continue;
+                    }
                     let grow = growth(error, self.work.error_order()).min(5.0);
                     let free = h * grow;
                     // A step cut short by a landing says little about the one that the error allows.
-                    self.state.step = if lands && proposed > h { free.max(proposed) } else { free };
+                    self.state.step = if (lands || cuts > 0) && proposed > h { free.max(proposed) } else { free };
                     self.accept(if lands { target } else { self.state.t + h }, h, at_break && lands);
                     return Ok(());
                 }
@@ -208,8 +228,18 @@ impl<'m> Simulation<'m> {
         }
     }
 
+    /// The fraction of the step of `h` that was attempted at which a brittle bond cracks, if it goes beyond.
+    fn first_crack(&self, h: f64) -> Option<f64> {
+        let excess = (EXCESS * self.solver.tolerance).clamp(1e-9, 1e-4);
+        cracks::first(self.model, &self.state, &self.work.z, self.work.v(), h, excess)
+    }
+
     fn accept(&mut self, t: f64, h: f64, at_break: bool) {
+        let broke = cracks::grow(self.model, &mut self.state, &self.work.z, self.work.v(), h);
         self.work.accept(self.model, &mut self.state, t, h);
+        if broke {
+            self.settle();
+        }
         self.state.counters.steps += 1;
         self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
         self.state.counters.factorisations += std::mem::take(&mut self.work.stage.factorisations);
@@ -248,6 +278,7 @@ impl<'m> Simulation<'m> {
             recording.frame_displacement.extend_from_slice(&state.z[..n]);
             recording.frame_velocity.extend_from_slice(&state.v[..n]);
             recording.frame_acceleration.extend_from_slice(&state.a[..n]);
+            recording.frame_damage.extend(state.bonds.iter().map(|bond| bond.damage));
             if self.layout.held > 0 {
                 let from = recording.frame_friction.len();
                 recording.frame_friction.resize(from + self.layout.held, 0.0);
@@ -321,7 +352,9 @@ impl<'m> Simulation<'m> {
 
     /// The result, with the recording that the caller collected.
     pub fn outcome(self, recording: Recording, stop_reason: StopReason) -> Outcome {
+        let bonds = self.model.bonds.iter().zip(&self.state.bonds).map(|(bond, state)| bond.row(state)).collect();
         Outcome {
+            bonds,
             layout: self.layout,
             recording,
             time_reached: self.state.t,
@@ -347,7 +380,8 @@ fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) 
 /// Starts envelopes and energy account from the state as it is: what energy it has is no residual.
 fn begin_account(model: &Model, state: &mut State) {
     observe(model, state, 0.0);
-    state.energies.initial = state.energies.kinetic + state.energies.elastic - state.energies.input();
+    let Energies { kinetic, elastic, bond, .. } = state.energies;
+    state.energies.initial = kinetic + elastic + bond - state.energies.input();
     state.totals.peak_residual = 0.0;
 }
 

@@ -27,6 +27,8 @@ pub struct State {
     pub joint_power: Vec<f64>,
     /// Tangents of the joints' laws, from which the next step starts.
     pub tangents: Tangents,
+    /// What has become of the bonds, in the order of the model's.
+    pub bonds: Vec<BondState>,
     /// Samples kept so far.
     pub samples: u64,
     /// Energy account.
@@ -37,6 +39,29 @@ pub struct State {
     pub totals: Totals,
     /// Work of the solver.
     pub counters: Counters,
+}
+
+/// What a run has done to a bond.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BondState {
+    /// κ: largest |δ|, or widest gap, that counted for the damage so far [m]; 0 while the bond is intact.
+    pub reach: f64,
+    /// D, 0 … 1.
+    pub damage: f64,
+    /// Energy that breaking took [J].
+    pub spent: f64,
+    /// Largest |elastic force| of the joint so far [N].
+    pub peak: f64,
+    /// When it first cracked [s]; infinite while it is intact.
+    pub cracked: f64,
+    /// When nothing was left of it [s]; infinite until then.
+    pub broken: f64,
+}
+
+impl BondState {
+    /// Of an intact bond.
+    pub const INTACT: BondState =
+        BondState { reach: 0.0, damage: 0.0, spent: 0.0, peak: 0.0, cracked: f64::INFINITY, broken: f64::INFINITY };
 }
 
 /// Rates of the works in [`Energies`] [W].
@@ -83,13 +108,19 @@ pub struct Tangents {
 impl Tangents {
     /// Of all joints at rest, unilateral joints open (δ = 0).
     pub fn at_rest(model: &Model) -> Self {
-        Tangents {
+        let mut tangents = Tangents {
             velocity: vec![0.0; model.rubs.len()],
             mu: vec![0.0; model.rubs.len()],
             slope: model.rubs.iter().map(|r| if r.law.sticks() { 0.0 } else { r.law.slope_at_rest() }).collect(),
             closed: model.elastic.iter().map(|law| !law.unilateral).collect(),
             stuck: model.rubs.iter().map(|r| r.law.sticks()).collect(),
+        };
+        // An intact bond does not rub.
+        for r in model.bonds.iter().filter_map(|b| b.rub) {
+            tangents.slope[r as usize] = 0.0;
+            tangents.stuck[r as usize] = false;
         }
+        tangents
     }
     /// Copies without allocating.
     pub fn copy_from(&mut self, other: &Tangents) {
@@ -124,6 +155,7 @@ impl State {
             && [&self.tangents.velocity, &self.tangents.mu, &self.tangents.slope].iter().all(|x| x.len() == r)
             && self.tangents.closed.len() == e
             && self.tangents.stuck.len() == r
+            && self.bonds.len() == model.bonds.len()
     }
 
     /// At rest at t = 0.
@@ -140,6 +172,7 @@ impl State {
             scale: [0.0; 2],
             joint_power: zeros(e),
             tangents: Tangents::at_rest(model),
+            bonds: vec![BondState::INTACT; model.bonds.len()],
             samples: 0,
             energies: Energies::default(),
             envelopes: Envelopes {

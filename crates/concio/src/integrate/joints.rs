@@ -4,6 +4,7 @@
 use std::f64::consts::FRAC_2_PI;
 
 use crate::elementary::{atan_of_positive, exp_of_negative};
+use crate::law::Stribeck;
 use crate::model::Model;
 
 /// Where a joint's coupling stands in the matrix, if it has one: joints with a support do not.
@@ -69,6 +70,8 @@ pub struct Rubs {
     alpha: Vec<f64>,
     /// The joints among these, by index here, whose law is set-valued.
     pub sticking: Vec<u32>,
+    /// Cracked part of each, 0 … 1; empty where no joint is bonded.
+    cracked: Vec<f64>,
 }
 
 /// Steepness by which a set-valued law in slip goes through the same operations as (6): any speed is far up the branch.
@@ -88,6 +91,7 @@ impl Rubs {
             slip_velocity: rubs().map(|r| if at_once(r) { 1.0 } else { r.law.slip_velocity }).collect(),
             steep: rubs().map(|r| if r.law.sticks() { VERTICAL } else { r.law.beta / r.law.slip_velocity }).collect(),
             alpha: rubs().map(|r| r.law.alpha).collect(),
+            cracked: if model.bonds.is_empty() { Vec::new() } else { vec![1.0; model.rubs.len()] },
             sticking: (0..model.rubs.len() as u32).filter(|&r| model.rubs[r as usize].law.sticks()).collect(),
         }
     }
@@ -96,10 +100,26 @@ impl Rubs {
         self.joint.len()
     }
 
+    /// Makes a part of joint `r` rub, from 0 to 1: the rest is bonded.
+    pub fn crack(&mut self, model: &Model, r: usize, part: f64) {
+        if self.cracked[r] != part {
+            let law = model.rubs[r].law.times(part);
+            self.cracked[r] = part;
+            self.excess[r] = if law.sticks() && law.slip_velocity == 0.0 { 0.0 } else { law.static_ - law.dynamic };
+            self.dynamic[r] = law.dynamic;
+            self.alpha[r] = law.alpha;
+        }
+    }
+
+    /// The law of the cracked part of joint `r`.
+    #[inline(always)]
+    pub fn law(&self, model: &Model, r: usize) -> Stribeck {
+        let law = model.rubs[r].law;
+        if self.cracked.is_empty() { law } else { law.times(self.cracked[r]) }
+    }
+
     /// (6) and its slope at the velocities `w` of all joints: the operations of [`Stribeck::at`], joint by joint, and
     /// so its bits. One plain loop, which becomes vector instructions.
-    ///
-    /// [`Stribeck::at`]: crate::law::Stribeck::at
     #[inline(always)]
     pub fn laws(&self, w: &[f64], mu: &mut [f64], slope: &mut [f64]) {
         let n = w.len();
@@ -124,7 +144,6 @@ mod tests {
     use super::*;
     use crate::excitation::Excitation;
     use crate::ground::signal::GroundMotion;
-    use crate::law::Stribeck;
     use crate::samples::{Link, lumped};
     use crate::wall::End;
 

@@ -1,5 +1,7 @@
 //! One step of a scheme, its error estimate, and the linear algebra behind it.
 
+pub(crate) mod bonds;
+pub(crate) mod cracks;
 pub(crate) mod groups;
 pub(crate) mod joints;
 pub(crate) mod linear;

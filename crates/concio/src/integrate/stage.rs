@@ -19,12 +19,13 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::integrate::bonds::Bonds;
 use crate::integrate::groups::Groups;
 use crate::integrate::joints::{Joints, Rubs};
 use crate::integrate::linear::Matrix;
 use crate::law::Stribeck;
 use crate::model::Model;
-use crate::state::Tangents;
+use crate::state::{BondState, Tangents};
 
 /// Iterations after which a stage is given up and the step shortened. Of the stages that converge, 99 in 100 take
 /// fewer than eight.
@@ -49,6 +50,7 @@ pub struct Stage {
     pub matrix: Matrix,
     joints: Joints,
     rubs: Rubs,
+    bonds: Bonds,
     mass: Vec<f64>,
     /// z_p and V_p, with base and top at the end.
     pub z: Vec<f64>,
@@ -150,13 +152,21 @@ impl Stage {
             matrix,
             joints,
             rubs,
+            bonds: Bonds::new(model),
             mass,
         }
     }
 
-    /// Forgets the factors: what a step does must not depend on what was tried before it.
-    pub fn forget_factors(&mut self) {
+    /// Starts a step: forgets the factors, because what it does must not depend on what was tried before it, and takes
+    /// over the damage of the bonds.
+    pub fn begin(&mut self, model: &Model, bonds: &[BondState]) {
         self.tau = 0.0;
+        self.bonds.hold(model, bonds, &mut self.joints, &mut self.rubs);
+    }
+
+    /// Visits the tangent stiffness of every bond [N/m] with the joint's index; closed head joints are left out.
+    pub fn bond_tangents(&self, closed: &[bool], add: impl FnMut(usize, f64)) {
+        self.bonds.tangents(closed, add);
     }
 
     /// Solves (T1) for τ = `tau` [s] and base acceleration `ground` [m/s²]; `accuracy` [m/s] is the error of V that
@@ -189,7 +199,7 @@ impl Stage {
             self.tau = tau;
             self.assemble_elastic(tangents);
         }
-        self.start(tangents);
+        self.start(model, tangents);
         self.load_elastic(ground);
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
@@ -197,7 +207,7 @@ impl Stage {
             self.right_side(tangents);
             self.matrix.solve(&mut self.change[..n]);
             let flipped = self.flip(tangents, accuracy);
-            self.mismatch(tangents);
+            self.mismatch(model, tangents);
             self.matrix.solve(&mut self.rhs[..n]);
             // A sum, because a maximum would pass over what is not a number.
             let (mut correction, mut sum) = (0.0f64, 0.0);
@@ -251,11 +261,20 @@ impl Stage {
                 self.lower[slot] -= s;
             }
         }
+        let (tau, diagonal, lower) = (self.tau, &mut self.diagonal[..], &mut self.lower[..]);
+        self.bonds.open(&self.closed, |e, stiffness| {
+            let ([a, b], s) = (j.sides[e], tau * tau * stiffness);
+            diagonal[a as usize] += s;
+            if let Some(slot) = j.slot[e].at() {
+                diagonal[b as usize] += s;
+                lower[slot] -= s;
+            }
+        });
     }
 
     /// Relative displacements and velocities of the prediction.
     #[inline(always)]
-    fn start(&mut self, tangents: &mut Tangents) {
+    fn start(&mut self, model: &Model, tangents: &mut Tangents) {
         // One slope for all: joints side by side then bear equal parts of what each can bear.
         self.hold = HOLD * self.rubs.sticking.iter().fold(0.0f64, |m, &r| m.max(self.impedance(r as usize)));
         for &r in &self.rubs.sticking {
@@ -266,6 +285,9 @@ impl Stage {
             }
         }
         let (z, v, tau) = (&self.z, &self.v, self.tau);
+        if self.bonds.start(model, &self.joints, &mut self.rubs, [z, v], tau) {
+            self.factors_hold = false;
+        }
         for (gap, &e) in self.gap.iter_mut().zip(&self.joints.one_sided) {
             let [a, b] = self.joints.of_model[e as usize].map(|s| s as usize);
             *gap = z[a] - z[b] + tau * (v[a] - v[b]);
@@ -293,6 +315,13 @@ impl Stage {
             self.load[a as usize] -= f;
             self.load[b as usize] += f;
         }
+        let load = &mut self.load[..];
+        self.bonds.open(&self.closed, |e, stiffness| {
+            let ([a, b], [i, k]) = (j.sides[e], j.of_model[e].map(|s| s as usize));
+            let f = tau * stiffness * (z[i] - z[k] + tau * (v[i] - v[k]));
+            load[a as usize] -= f;
+            load[b as usize] += f;
+        });
     }
 
     /// J = M + τ Σ B (c + τ k + N μ') Bᵀ, factorised.
@@ -303,6 +332,15 @@ impl Stage {
         }
         self.matrix.diagonal.copy_from_slice(&self.diagonal);
         self.matrix.lower.copy_from_slice(&self.lower);
+        let (j, matrix, square) = (&self.joints, &mut self.matrix, self.tau * self.tau);
+        self.bonds.slopes(|e, slope| {
+            let ([a, b], s) = (j.sides[e], square * slope);
+            matrix.diagonal[a as usize] += s;
+            if let Some(slot) = j.slot[e].at() {
+                matrix.diagonal[b as usize] += s;
+                matrix.lower[slot] -= s;
+            }
+        });
         let rubs = &self.rubs;
         if model.reciprocal {
             let (diagonal, lower) = (&mut self.matrix.diagonal[..], &mut self.matrix.lower[..]);
@@ -316,7 +354,8 @@ impl Stage {
                 }
             }
         } else {
-            self.matrix.upper.copy_from_slice(&self.lower);
+            let matrix = &mut self.matrix;
+            matrix.upper.copy_from_slice(&matrix.lower);
             for (r, &[a, b]) in rubs.sides.iter().enumerate() {
                 let s = rubs.normal[r].map(|normal| self.tau * tangents.slope[r] * normal);
                 self.matrix.diagonal[a as usize] += s[0];
@@ -346,6 +385,12 @@ impl Stage {
             change[a as usize] -= normal[0] * f;
             change[b as usize] += normal[1] * f;
         }
+        let j = &self.joints;
+        self.bonds.forces(|e, force| {
+            let [a, b] = j.sides[e];
+            change[a as usize] -= tau * force;
+            change[b as usize] += tau * force;
+        });
         let n = self.mass.len();
         self.change[n..].fill(0.0);
     }
@@ -370,12 +415,14 @@ impl Stage {
 
     /// The laws at the new velocities, and τ Σ B N (μ − tangent) into `rhs`.
     #[inline(always)]
-    fn mismatch(&mut self, tangents: &Tangents) {
+    fn mismatch(&mut self, model: &Model, tangents: &Tangents) {
+        self.bonds.look(model, &self.joints, &mut self.rubs, &self.change, self.tau);
         let (rubs, change, tau) = (&self.rubs, &self.change[..], self.tau);
         for ((&[a, b], before), w) in rubs.sides.iter().zip(&self.before).zip(&mut self.velocity) {
             *w = before + change[a as usize] - change[b as usize];
         }
         rubs.laws(&self.velocity, &mut self.mu, &mut self.slope);
+        self.bonds.rub_more(&self.mu, &mut self.slope, tau);
         for &r in &rubs.sticking {
             let r = r as usize;
             if tangents.stuck[r] {
@@ -392,6 +439,12 @@ impl Stage {
             rhs[a as usize] += normal[0] * missed;
             rhs[b as usize] -= normal[1] * missed;
         }
+        let j = &self.joints;
+        self.bonds.mismatch(|e, force| {
+            let [a, b] = j.sides[e];
+            rhs[a as usize] += tau * force;
+            rhs[b as usize] -= tau * force;
+        });
         let n = self.mass.len();
         self.rhs[n..].fill(0.0);
     }
@@ -412,11 +465,12 @@ impl Stage {
     fn settled(&self, model: &Model, tangents: &Tangents, accuracy: f64) -> bool {
         self.rubs.sticking.iter().all(|&r| {
             let r = r as usize;
-            let w = self.velocity[r];
+            let (w, most) = (self.velocity[r], self.rubs.law(model, r).static_);
             if tangents.stuck[r] {
-                self.mu[r].abs() <= model.rubs[r].law.static_ * (1.0 + EXCESS) && w.abs() <= STILL * accuracy
+                self.mu[r].abs() <= most * (1.0 + EXCESS) && w.abs() <= STILL * accuracy
             } else {
-                w * tangents.velocity[r].signum() >= -STILL * accuracy
+                // A joint whose bond is whole does not rub whichever way it moves.
+                most == 0.0 || w * tangents.velocity[r].signum() >= -STILL * accuracy
             }
         })
     }
@@ -433,7 +487,7 @@ impl Stage {
         }
         let impedance = self.impedance(r);
         let c = if tangents.stuck[r] { target } else { target + impedance * w };
-        tangents.stuck[r] = c.abs() <= law.static_ * (1.0 + EXCESS);
+        tangents.stuck[r] = law.static_ > 0.0 && c.abs() <= law.static_ * (1.0 + EXCESS);
         if tangents.stuck[r] {
             (tangents.velocity[r], tangents.mu[r], tangents.slope[r]) = (0.0, c, self.hold);
             return;
@@ -488,12 +542,15 @@ impl Stage {
 
     #[inline(always)]
     fn move_tangents(&mut self, model: &Model, tangents: &mut Tangents) {
+        if self.bonds.move_tangents() {
+            self.factors_hold = false;
+        }
         for r in 0..self.rubs.len() {
             let w = self.velocity[r];
             let old = tangents.slope[r];
             let target = tangents.mu[r] + old * (w - tangents.velocity[r]);
             let (mut at, mut mu, mut slope) = (w, self.mu[r], self.slope[r]);
-            let law = &model.rubs[r].law;
+            let law = &self.rubs.law(model, r);
             if law.sticks() {
                 self.place(law, r, tangents);
                 continue;

@@ -5,7 +5,7 @@
 //! (Hosea & Shampine 1996): without the filter the stiff parts, which the scheme damps, would govern the step.
 
 use crate::case::Scheme;
-use crate::dynamics::power;
+use crate::dynamics::{Instant, power};
 use crate::excitation::Drive;
 use crate::integrate::stage::{Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
@@ -82,7 +82,7 @@ impl Step {
         self.stage_power[0] = state.power;
         self.stage_joint_power[0].copy_from_slice(&state.joint_power);
         self.tangents.copy_from(&state.tangents);
-        self.stage.forget_factors();
+        self.stage.begin(model, &state.bonds);
         for i in 1..self.tableau.stages {
             let t = state.t + self.tableau.c[i] * h;
             self.predict(state, i, h, n);
@@ -100,7 +100,8 @@ impl Step {
             for k in 0..n + 2 {
                 self.z[k] = self.stage.z[k] + tau * v[k];
             }
-            self.stage_power[i] = power(model, &self.z, v, &self.tangents.mu, ground, &mut self.stage_joint_power[i]);
+            let at = Instant { z: &self.z, v, mu: &self.tangents.mu, bonds: &state.bonds };
+            self.stage_power[i] = power(model, at, ground, &mut self.stage_joint_power[i]);
         }
         Ok(self.error(model, h, tau, tolerance))
     }
@@ -115,7 +116,7 @@ impl Step {
         stage.z.copy_from_slice(&state.z);
         stage.v.copy_from_slice(&state.v);
         stage.solution[n + 1] = top.v + tau * top.a;
-        stage.forget_factors();
+        stage.begin(model, &state.bonds);
         self.tangents.copy_from(&state.tangents);
         let found = stage.solve(model, &mut self.tangents, tau, drive.base_acceleration(state.t), 1e-6 * tau * largest);
         // Not work of a step: a restored run, which is not settled anew, must count the same.
@@ -170,6 +171,18 @@ impl Step {
                 }
             }
         }
+        let (error_v, error_z, closed) = (&mut self.error_v, &self.error_z, &self.tangents.closed);
+        self.stage.bond_tangents(closed, |e, stiffness| {
+            let [a, b] = model.sides[e].map(|s| s as usize);
+            let beyond = stiffness - if closed[e] { model.elastic[e].stiffness } else { 0.0 };
+            if beyond != 0.0 {
+                let f = tau * beyond * (error_z[a] - if b < n { error_z[b] } else { 0.0 });
+                error_v[a] -= f;
+                if b < n {
+                    error_v[b] += f;
+                }
+            }
+        });
         self.stage.solve_linear(&mut self.error_v);
         let (mut worst, mut sum) = (0.0f64, 0.0);
         for (ev, ez) in self.error_v.iter().zip(&self.error_z) {
@@ -179,6 +192,11 @@ impl Step {
         }
         // A maximum passes over what is not a number, a sum does not.
         if sum.is_finite() { worst } else { f64::INFINITY }
+    }
+
+    /// Velocity of the end of the step that was attempted, with base and top [m/s].
+    pub fn v(&self) -> &[f64] {
+        &self.stage_v[self.tableau.stages - 1]
     }
 
     /// Moves `state` to the end of the step that was attempted.

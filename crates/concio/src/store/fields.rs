@@ -1,7 +1,7 @@
 //! Tables of the quantities a result holds: name on disk, unit, meaning, and where they are kept. Writer, reader and
 //! exports go through the same tables, so that none of them can forget a quantity that the others know.
 
-use crate::outcome::Totals;
+use crate::outcome::{BondRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes};
 use crate::store::{FrictionRow, JointRow};
 use crate::wall::{Block, PanelInfo};
@@ -137,6 +137,19 @@ pub(super) const FRICTION: [Field<FrictionRow, f64>; 5] = [
     field!("friction_slip_velocity", "m/s", slip_velocity, "Slip velocity; 0 without friction."),
     field!("friction_beta", "1", beta, "Slope of the first branch; 0 without friction."),
     field!("friction_alpha", "s2/m2", alpha, "Slope of the slip branch; 0 without friction."),
+];
+
+/// Real quantities of a bond.
+pub(super) const BONDS: [Field<BondRow, f64>; 9] = [
+    field!("strength", "N", strength, "Force at which the joint cracks."),
+    field!("stiffness", "N/m", stiffness, "Stiffness of the intact joint; of a head joint in tension."),
+    field!("residual_stiffness", "1", residual_stiffness, "Fraction of the stiffness that a cracked joint keeps."),
+    field!("energy", "J", energy, "Energy that it takes to break the bond."),
+    field!("decay", "m", decay, "Length over which the strength falls; 0 when the bond is brittle."),
+    field!("damage", "1", damage, "Cracked part at the end, 0 to 1."),
+    field!("spent", "J", spent, "Energy that breaking has taken."),
+    field!("cracked", "s", cracked, "Time of the first crack; infinite when there was none."),
+    field!("broken", "s", broken, "Time at which nothing was left of the bond; infinite when something is."),
 ];
 
 /// Where each channel is kept under `/history`: its name, unless HDF5 could not hold it under that name beside the

@@ -8,7 +8,7 @@ use serde::de::value::{Error as KeywordError, StrDeserializer};
 
 use crate::case::JointKind;
 use crate::error::Result;
-use crate::outcome::{Outcome, Totals};
+use crate::outcome::{BondRow, Outcome, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Layout, Recording};
 use crate::store::fields::{self, Field};
 use crate::store::h5::Source;
@@ -27,7 +27,8 @@ pub fn read(path: &Path) -> Result<StoredRun> {
     let panels = read_panels(&source)?;
     let wall = Wall { blocks: read_blocks(&source, panels.len())?, panels };
     let joints = read_joints(&source, wall.blocks.len())?;
-    let layout = read_layout(&source)?;
+    let bonds = read_bonds(&source, joints.len())?;
+    let layout = read_layout(&source, bonds.len())?;
     if layout.unknowns < wall.blocks.len() {
         let what = format!("is {} for {} blocks", layout.unknowns, wall.blocks.len());
         return Err(source.wrong("layout/unknowns", what));
@@ -36,6 +37,7 @@ pub fn read(path: &Path) -> Result<StoredRun> {
     let envelopes = read_envelopes(&source, layout.unknowns, joints.len())?;
     let outcome = Outcome {
         recording,
+        bonds,
         envelopes,
         energies: read_numbers(&source, "energy", &fields::ENERGIES, Energies::default())?,
         totals: read_numbers(&source, "totals", &fields::TOTALS, Totals::default())?,
@@ -142,7 +144,25 @@ fn read_friction(source: &Source, joints: usize) -> Result<Vec<Option<FrictionRo
     Ok(rows.into_iter().zip(rubs).map(|(row, rubs)| (rubs != 0).then_some(row)).collect())
 }
 
-fn read_layout(source: &Source) -> Result<Layout> {
+/// None in a file without them.
+fn read_bonds(source: &Source, joints: usize) -> Result<Vec<BondRow>> {
+    if !source.has("bonds/joint") {
+        return Ok(Vec::new());
+    }
+    let indices: Vec<i64> = source.array("bonds/joint", &[None])?;
+    let mut bonds = Vec::with_capacity(indices.len());
+    for value in indices {
+        let joint = index(source, "bonds/joint", value)?;
+        if joint >= joints {
+            return Err(source.wrong("bonds/joint", format!("names joint {joint} of {joints}")));
+        }
+        bonds.push(BondRow { joint, ..BondRow::default() });
+    }
+    read_columns(source, "bonds", &fields::BONDS, &mut bonds)?;
+    Ok(bonds)
+}
+
+fn read_layout(source: &Source, bonded: usize) -> Result<Layout> {
     let names = source.texts("layout/channels")?;
     let unlabelled = |name| Channel { name, unit: String::new(), description: String::new() };
     let mut channels: Vec<Channel> = names.into_iter().map(unlabelled).collect();
@@ -157,6 +177,7 @@ fn read_layout(source: &Source) -> Result<Layout> {
         frame_every: count(source, "layout/frame_every")?,
         unknowns: count(source, "layout/unknowns")?,
         held: count(source, "layout/held")?,
+        bonded,
         channels,
     })
 }
@@ -180,7 +201,20 @@ fn read_recording(source: &Source, layout: &Layout) -> Result<Recording> {
         0 => Vec::new(),
         held => source.array("frames/friction", &[Some(frame_time.len()), Some(held)])?,
     };
-    Ok(Recording { time, values, frame_time, frame_displacement, frame_velocity, frame_acceleration, frame_friction })
+    let frame_damage = match layout.bonded {
+        0 => Vec::new(),
+        bonded => source.array("frames/damage", &[Some(frame_time.len()), Some(bonded)])?,
+    };
+    Ok(Recording {
+        time,
+        values,
+        frame_time,
+        frame_displacement,
+        frame_velocity,
+        frame_acceleration,
+        frame_friction,
+        frame_damage,
+    })
 }
 
 fn read_envelopes(source: &Source, unknowns: usize, joints: usize) -> Result<Envelopes> {

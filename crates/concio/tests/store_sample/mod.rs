@@ -2,7 +2,7 @@
 //! shows; they obey no mechanics.
 
 use concio::case::{FrictionLaw, JointKind, SpringLaw};
-use concio::outcome::{Outcome, Totals};
+use concio::outcome::{BondRow, Outcome, Totals};
 use concio::record::{Channel, Counters, Energies, Envelopes, Layout, Recording, StopReason};
 use concio::store::{FrictionRow, JointRow, Provenance};
 use concio::wall::{Block, End, Joint, PanelInfo, Wall};
@@ -124,6 +124,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         frame_every: size.frame_every,
         unknowns,
         held: 3,
+        bonded: 2,
         channels: channels(size.channels, wall),
     };
     let recording = rows(&layout, 0..size.samples);
@@ -142,7 +143,20 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         joint_force: per_joint(10.0),
         joint_dissipation: per_joint(11.0),
     };
+    let bond = |k: usize| BondRow {
+        joint: k,
+        strength: 4.5e3 + k as f64,
+        stiffness: 5.4e7,
+        residual_stiffness: 0.25,
+        energy: 0.75,
+        decay: 1e-5 * k as f64,
+        damage: 0.5 + 0.5 * k as f64,
+        spent: 0.125,
+        cracked: 1e-3,
+        broken: if k == 0 { f64::INFINITY } else { 2e-3 },
+    };
     Outcome {
+        bonds: (0..layout.bonded).map(bond).collect(),
         time_reached: layout.interval * (size.samples - 1) as f64,
         layout,
         recording,
@@ -198,6 +212,7 @@ pub fn rows(layout: &Layout, range: std::ops::Range<usize>) -> Recording {
             rows.frame_displacement.extend((0..layout.unknowns).map(|u| 1e-3 * (t * 30.0 + u as f64 * 0.01).sin()));
             rows.frame_velocity.extend((0..layout.unknowns).map(|u| 3e-2 * (t * 30.0 + u as f64 * 0.01).cos()));
             rows.frame_friction.extend((0..layout.held).map(|e| 50.0 * (t * 20.0 + e as f64 * 0.1).sin()));
+            rows.frame_damage.extend((0..layout.bonded).map(|b| (0.5 + t * 20.0 + b as f64 * 0.1).min(1.0)));
             rows.frame_acceleration.extend((0..layout.unknowns).map(|u| -0.9 * (t * 30.0 + u as f64 * 0.01).sin()));
         }
     }

@@ -140,6 +140,12 @@ fn fill_recording(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
         let shape = [recording.frame_time.len(), layout.held];
         archive.array("frames/friction", &shape, recording.frame_friction.iter().copied())?;
     }
+    if layout.bonded > 0 {
+        let shape = [recording.frame_time.len(), layout.bonded];
+        archive.array("frames/damage", &shape, recording.frame_damage.iter().copied())?;
+        archive.integers("bonds/joint", run.outcome.bonds.iter().map(|b| b.joint as i64))?;
+        columns(archive, "bonds", &fields::BONDS, &run.outcome.bonds)?;
+    }
     Ok(())
 }
 

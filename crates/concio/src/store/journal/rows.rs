@@ -6,7 +6,7 @@ use crate::record::{Layout, Recording};
 pub(super) fn encode(rows: &Recording, layout: &Layout) -> Result<Vec<u8>, String> {
     let (samples, frames) = (rows.time.len(), rows.frame_time.len());
     let arrays = rows.arrays(layout);
-    let counts = [samples, samples, frames, frames, frames, frames, frames];
+    let counts = [samples, samples, frames, frames, frames, frames, frames, frames];
     for ((array, width), rows) in arrays.iter().zip(counts) {
         if array.len() != rows * width {
             let found = array.len();
@@ -29,7 +29,7 @@ pub(super) fn decode(bytes: &[u8], layout: &Layout, to: &mut Recording) -> Optio
     let samples = usize::try_from(u64::from_le_bytes(*samples)).ok()?;
     let frames = usize::try_from(u64::from_le_bytes(*frames)).ok()?;
     let widths = to.arrays(layout).map(|(_, width)| width);
-    let counts = [samples, samples, frames, frames, frames, frames, frames];
+    let counts = [samples, samples, frames, frames, frames, frames, frames, frames];
     for ((array, width), rows) in to.arrays_mut().into_iter().zip(widths).zip(counts) {
         bytes = take(bytes, rows.checked_mul(width)?, array)?;
     }
@@ -53,6 +53,6 @@ pub(super) fn with_capacity(layout: &Layout, bytes: u64) -> Recording {
     Recording::with_room(
         layout,
         limit(layout.samples, layout.channels.len()),
-        limit(frames, 3 * layout.unknowns + layout.held),
+        limit(frames, 3 * layout.unknowns + layout.held + layout.bonded),
     )
 }
