@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::ground::signal::{GroundMotion, compile};
 use crate::law::Stribeck;
-use crate::model::{Elastic, Model, Rub, stiffest};
+use crate::model::{Contact, Elastic, Model, Rub, stiffest};
 use crate::quantity::{Length, Time};
 use crate::record::StopReason;
 use crate::simulate::{Sampling, Simulation};
@@ -23,21 +23,27 @@ pub struct Link {
     pub elastic: Elastic,
     /// Friction: law and normal force [N].
     pub friction: Option<(Stribeck, f64)>,
+    /// Restitution of a rigid unilateral joint.
+    pub rigid: Option<f64>,
 }
 
 impl Link {
     /// A spring k [N/m] and dashpot c [N s/m].
     pub fn spring(a: usize, b: End, stiffness: f64, damping: f64) -> Self {
-        Link { a, b, elastic: Elastic { stiffness, damping, unilateral: false }, friction: None }
+        Link { a, b, elastic: Elastic { stiffness, damping, unilateral: false }, friction: None, rigid: None }
     }
     /// A spring that acts for x_a > x_b alone.
     pub fn unilateral(a: usize, b: End, stiffness: f64) -> Self {
-        Link { a, b, elastic: Elastic { stiffness, damping: 0.0, unilateral: true }, friction: None }
+        Link { a, b, elastic: Elastic { stiffness, damping: 0.0, unilateral: true }, friction: None, rigid: None }
+    }
+    /// A rigid contact that never lets x_a exceed x_b, with restitution e.
+    pub fn rigid(a: usize, b: End, restitution: f64) -> Self {
+        Link { rigid: Some(restitution), ..Link::spring(a, b, 0.0, 0.0) }
     }
     /// Friction under a normal force [N].
     pub fn friction(a: usize, b: End, law: Stribeck, normal: f64) -> Self {
         let elastic = Elastic { stiffness: 0.0, damping: 0.0, unilateral: false };
-        Link { a, b, elastic, friction: Some((law, normal)) }
+        Link { a, b, elastic, friction: Some((law, normal)), rigid: None }
     }
 }
 
@@ -88,7 +94,7 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         connection: 0.0,
     };
     let kind = |link: &Link| match link.b {
-        _ if link.elastic.unilateral => JointKind::Head,
+        _ if link.elastic.unilateral || link.rigid.is_some() => JointKind::Head,
         End::Base => JointKind::Base,
         End::Top => JointKind::Top,
         End::Block(_) => JointKind::Bed,
@@ -98,6 +104,7 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
     let rub = |(e, link): (usize, &Link)| {
         link.friction.map(|(law, normal)| Rub { joint: e as u32, normal: [normal; 2], law })
     };
+    let rigid = |(e, link): (usize, &Link)| link.rigid.map(|restitution| Contact { joint: e as u32, restitution });
     let sides: Vec<[u32; 2]> = links.iter().map(|l| [l.a as u32, side(l.b) as u32]).collect();
     let elastic: Vec<Elastic> = links.iter().map(|l| l.elastic).collect();
     let stiffest = stiffest(masses, &sides, &elastic, excitation.duration);
@@ -109,6 +116,7 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         sides,
         elastic,
         rubs: links.iter().enumerate().filter_map(rub).collect(),
+        contacts: links.iter().enumerate().filter_map(rigid).collect(),
         excitation,
         reciprocal: true,
         stiffest,

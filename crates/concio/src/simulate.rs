@@ -4,14 +4,16 @@
 //! does no I/O and allocates nothing. The caller empties the buffer, shows progress, saves the state.
 
 use crate::case::Solver;
-use crate::dynamics::{Channels, accelerate, kick, observe, settle};
+use crate::dynamics::{Channels, accelerate, book_impact, kick, observe, settle};
 use crate::error::Result;
 use crate::excitation::Drive;
+use crate::integrate::events;
+use crate::integrate::impact::Impacts;
 use crate::integrate::stage::Failure;
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::record::{Layout, Recording, StopReason};
+use crate::record::{Event, EventKind, Layout, Recording, StopReason};
 use crate::run::Status;
 use crate::state::State;
 
@@ -19,6 +21,11 @@ use crate::state::State;
 const SHORTEST: f64 = 1e-9;
 /// Samples that the record buffer holds.
 const BUFFER: usize = 256;
+/// Events that it holds, beside as many as may happen at one instant.
+const EVENTS: usize = 1024;
+/// Closing velocity below which an impact is taken as plastic, over the tolerance of velocities: bounces that the
+/// tolerance does not see come to an end.
+const PLASTIC: f64 = 0.1;
 
 /// A run under way.
 #[derive(Debug, Clone)]
@@ -84,7 +91,7 @@ impl<'m> Simulation<'m> {
         }
         begin_account(model, &mut state);
         let frames = if layout.frame_every > 0 { BUFFER.div_ceil(layout.frame_every) } else { 0 };
-        let recording = Recording::with_room(&layout, BUFFER, frames);
+        let recording = Recording::with_room(&layout, BUFFER, frames, EVENTS + events::at_once(model));
         let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
         let mut run =
             Simulation { model, solver: *solver, channels, layout, state, work, recording, drive, longest_step };
@@ -106,15 +113,22 @@ impl<'m> Simulation<'m> {
         let n = self.model.unknowns();
         self.state.z[..n].copy_from_slice(z);
         self.state.v[..n].copy_from_slice(v);
+        self.clear_recording();
         self.settle();
         begin_account(self.model, &mut self.state);
         self.state.samples = 0;
-        self.clear_recording();
         self.sample();
     }
 
-    /// Makes what follows from displacements and velocities consistent with the motion at this instant.
+    /// Lets the impacts happen that are due at this instant, and makes what follows from displacements and velocities
+    /// consistent with the motion.
     fn settle(&mut self) {
+        if Impacts::due(self.model, &self.state) {
+            let slow = PLASTIC * self.tolerance().v;
+            let heard = &mut self.recording.events;
+            collide(self.model, &mut self.work, &mut self.state, slow, |event| heard.push(event));
+            self.state.counters.events += 1;
+        }
         settle_all(self.model, &self.drive, &mut self.work, &mut self.state);
     }
 
@@ -143,6 +157,8 @@ impl<'m> Simulation<'m> {
         let target = if at_break { break_at } else { self.next_sample() };
         let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
         let mut proposed = self.state.step;
+        // Where a step ends because something happens there.
+        let mut event = events::near(self.model, &self.state, proposed.min(target - self.state.t));
         loop {
             let remaining = target - self.state.t;
             let mut h = proposed.min(self.longest_step);
@@ -152,14 +168,22 @@ impl<'m> Simulation<'m> {
             } else if h > 0.5 * remaining {
                 h = 0.5 * remaining;
             }
+            let (h, lands) = event.map_or((h, lands), |at| (at, false));
             let tolerance = self.tolerance();
             let attempt = self.work.attempt(self.model, &self.state, &self.drive, h, tolerance);
             let factor = match attempt {
                 Ok(error) if error <= 1.0 => {
+                    let first = events::first(self.model, &self.state, &self.work.z, self.work.v(), h);
+                    if first.is_some() {
+                        self.state.counters.located += 1;
+                        event = first;
+                        continue;
+                    }
                     let grow = growth(error, self.work.error_order()).min(5.0);
                     let free = h * grow;
                     // A step cut short by a landing says little about the one that the error allows.
-                    self.state.step = if lands && proposed > h { free.max(proposed) } else { free };
+                    let cut = (lands || event.is_some()) && proposed > h;
+                    self.state.step = if cut { free.max(proposed) } else { free };
                     self.accept(if lands { target } else { self.state.t + h }, h, at_break && lands);
                     return Ok(());
                 }
@@ -182,6 +206,7 @@ impl<'m> Simulation<'m> {
             if h <= shortest {
                 return Err(StopReason::StepTooShort);
             }
+            event = None;
             proposed = h * factor;
         }
     }
@@ -214,11 +239,22 @@ impl<'m> Simulation<'m> {
         self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
         self.state.counters.factorisations += std::mem::take(&mut self.work.stage.factorisations);
         observe(self.model, &mut self.state, h);
+        self.happen();
         if at_break && t < self.model.excitation.duration {
             self.enter_piece(t);
         }
         if t >= self.next_sample() - self.slack() {
             self.sample();
+        }
+    }
+
+    /// What a step that ended at an event leads to.
+    fn happen(&mut self) {
+        let residual = std::mem::take(&mut self.work.stage.contact_residual);
+        self.state.totals.contact_residual = self.state.totals.contact_residual.max(residual);
+        if Impacts::due(self.model, &self.state) {
+            self.settle();
+            observe(self.model, &mut self.state, 0.0);
         }
     }
 
@@ -261,7 +297,7 @@ impl<'m> Simulation<'m> {
 
     /// Whether [`Simulation::advance`] waits for the buffer to be emptied.
     pub fn buffer_is_full(&self) -> bool {
-        self.recording.time.len() >= BUFFER
+        self.recording.time.len() >= BUFFER || self.recording.events.len() >= EVENTS
     }
     /// How far the run is.
     pub fn status(&self) -> Status {
@@ -334,10 +370,21 @@ impl<'m> Simulation<'m> {
     }
 }
 
+/// The impacts that are due, booked and told.
+fn collide(model: &Model, work: &mut Step, state: &mut State, slow: f64, mut tell: impl FnMut(Event)) {
+    let residual = work.impacts.solve(model, state, slow);
+    state.totals.contact_residual = state.totals.contact_residual.max(residual);
+    let time = state.t;
+    let Impacts { before, after, impulse, .. } = &work.impacts;
+    book_impact(model, state, [before, after, impulse], |joint, value| {
+        tell(Event { time, joint, kind: EventKind::Impact, value });
+    });
+}
+
 /// [`settle`], and which of the joints at rest let go under the forces of this instant.
 fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) {
     settle(model, drive, state);
-    if model.sticks() {
+    if model.set_valued() {
         work.let_go(model, drive, state);
         accelerate(model, drive, state);
         work.stage.join(model, &state.tangents, &mut state.a);
@@ -347,7 +394,8 @@ fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) 
 /// Starts envelopes and energy account from the state as it is: what energy it has is no residual.
 fn begin_account(model: &Model, state: &mut State) {
     observe(model, state, 0.0);
-    state.energies.initial = state.energies.kinetic + state.energies.elastic - state.energies.input();
+    state.energies.initial = 0.0;
+    state.energies.initial = state.energies.residual();
     state.totals.peak_residual = 0.0;
 }
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::error::{Error, Result};
 use crate::outcome::Outcome;
-use crate::record::{Layout, Recording};
+use crate::record::{Event, Layout, Recording};
 use crate::store::fields::{self, Field};
 use crate::store::h5::{Sink, label};
 use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, atomic, vtkhdf};
@@ -46,6 +46,7 @@ pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointR
         write_layout(&mut sink, &outcome.layout)?;
         write_history(&mut sink, &outcome.layout, &outcome.recording)?;
         write_frames(&mut sink, &outcome.layout, &outcome.recording)?;
+        write_events(&mut sink, &outcome.recording.events)?;
         write_sums(&mut sink, outcome)?;
         vtkhdf::write_group(&mut sink, wall, outcome)?;
         sink.close()
@@ -197,6 +198,16 @@ fn write_frames(sink: &mut Sink, layout: &Layout, recording: &Recording) -> Resu
         sink.array("frames/friction", &[recording.frame_time.len(), layout.held], &recording.frame_friction, friction)?;
     }
     Ok(())
+}
+
+fn write_events(sink: &mut Sink, events: &[Event]) -> Result<()> {
+    let numbers = |of: fn(&Event) -> f64| events.iter().map(of).collect::<Vec<_>>();
+    let joints: Vec<i64> = events.iter().map(|e| i64::from(e.joint)).collect();
+    let kinds: Vec<String> = events.iter().map(|e| keyword(&e.kind)).collect();
+    sink.list("events/time", &numbers(|e| e.time), label("s", "When it happened."))?;
+    sink.list("events/joint", &joints, label("1", "Index of the joint."))?;
+    sink.texts("events/kind", &kinds, "What happened.")?;
+    sink.list("events/value", &numbers(|e| e.value), label("SI", "Impulse of an impact [N s]."))
 }
 
 fn write_sums(sink: &mut Sink, outcome: &Outcome) -> Result<()> {
