@@ -93,6 +93,7 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
                 law.spring.law = c.law.unwrap_or(law.spring.law);
                 law.spring.stiffness = c.stiffness.unwrap_or(law.spring.stiffness);
                 law.spring.rigidity = c.rigidity.unwrap_or(law.spring.rigidity);
+                law.spring.restitution = c.restitution.or(law.spring.restitution);
                 law.spring.stiffness_factor = c.stiffness_factor.unwrap_or(law.spring.stiffness_factor);
                 law.damping_ratio = c.damping_ratio.unwrap_or(law.damping_ratio);
             }
@@ -124,11 +125,16 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
 
 /// Bed and support joints slide both ways: a law for one direction has no meaning there.
 fn check_spring(kind: JointKind, law: SpringLaw) -> std::result::Result<(), InputError> {
-    if law == SpringLaw::NoTension && !kind.is_upright() {
-        let what = "law `no-tension` is for head joints and connections; this joint slides in both directions";
-        return Err(InputError::new(what).allowed("elastic, none"));
+    let name = match law {
+        SpringLaw::NoTension => "no-tension",
+        SpringLaw::Rigid => "rigid",
+        SpringLaw::Elastic | SpringLaw::None => return Ok(()),
+    };
+    if kind.is_upright() {
+        return Ok(());
     }
-    Ok(())
+    let what = format!("law `{name}` is for head joints and connections; this joint slides in both directions");
+    Err(InputError::new(what).allowed("elastic, none"))
 }
 
 fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {

@@ -194,7 +194,7 @@ pub(crate) fn compile(
             continue;
         }
         let stiffness = joint.weight * law.spring.stiffness.si() * law.spring.stiffness_factor;
-        if law.spring.law == SpringLaw::None || stiffness == 0.0 {
+        if matches!(law.spring.law, SpringLaw::None | SpringLaw::Rigid) || stiffness == 0.0 {
             return Err(without_stiffness(&graph::name(wall, joint)).into());
         }
         let (residual, energy) = if opens { (0.0, b.energy[0]) } else { (b.residual, b.energy[1]) };

@@ -304,6 +304,11 @@ pub struct Spring {
     #[serde(default = "one")]
     #[schemars(range(min = 0.0))]
     pub stiffness_factor: f64,
+    /// e of equation (R4), 0 … 1: what a rigid joint gives back of the closing velocity of an impact. For law `rigid`
+    /// alone; default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restitution: Option<f64>,
     /// ζ of this kind of joint, 0 … 2; default the common one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 2.0))]
@@ -325,7 +330,8 @@ pub enum SpringLaw {
     Elastic,
     /// Compression only, κ times the stiffness, equation (3).
     NoTension,
-    /// Unilateral and rigid, set-valued (not in this version: refused with a message).
+    /// Compression only and rigid: sides part freely and never overlap, equations (R1) to (R4). For head joints and
+    /// connections; `stiffness` gives it its damping (4) alone.
     Rigid,
     /// No elastic force and no damping.
     None,
@@ -555,6 +561,10 @@ pub struct SpringChange {
     /// κ, above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<f64>,
+    /// As [`Spring::restitution`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restitution: Option<f64>,
     /// Factor on the elastic force alone, from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_factor: Option<f64>,

@@ -4,18 +4,18 @@ use std::collections::HashMap;
 
 use crate::error::{InputError, Result};
 use crate::excitation::Drive;
+use crate::integrate::events::TOUCHING;
 use crate::law::spring_force;
 use crate::model::Model;
 use crate::record::{Channel, Energies};
-use crate::state::{BondState, Power, State};
+use crate::state::{BondState, Power, State, Tangents};
 
-/// Displacements and velocities with what the laws add to them, at one instant.
+/// Displacements and velocities with what the laws are there.
 #[derive(Debug, Clone, Copy)]
 pub struct Instant<'a> {
     pub z: &'a [f64],
     pub v: &'a [f64],
-    /// μ of the joints that rub.
-    pub mu: &'a [f64],
+    pub laws: &'a Tangents,
     /// The bonds at the start of the step.
     pub bonds: &'a [BondState],
 }
@@ -30,19 +30,21 @@ fn bonds_beyond(model: &Model, bonds: &[BondState], z: &[f64], mut change: impl 
     }
 }
 
-/// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N]; without what a
-/// bond changes of it.
-fn joint_forces(model: &Model, state: &State, rub: Option<usize>, joint: usize) -> (f64, f64, f64) {
+/// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N]. What a rigid joint
+/// bears counts as elastic; what a bond changes is left out.
+fn joint_forces(model: &Model, state: &State, index: [Option<usize>; 2], joint: usize) -> (f64, f64, f64) {
+    let [rub, contact] = index;
     let [a, b] = model.sides[joint].map(|s| s as usize);
     let (d, w) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
     let law = &model.elastic[joint];
     let friction = rub.map_or(0.0, |r| model.rubs[r].normal[0] * state.tangents.mu[r]);
-    (spring_force(law.unilateral, law.stiffness, d), law.damping * w, friction)
+    let borne = contact.map_or(0.0, |c| state.tangents.reaction[c]);
+    (spring_force(law.unilateral, law.stiffness, d) + borne, law.damping * w, friction)
 }
 
 /// Rates of the energy account, and of each joint's dissipation into `joint` [W].
 pub fn power(model: &Model, at: Instant<'_>, ground: f64, joint: &mut [f64]) -> Power {
-    let Instant { z, v, mu, bonds } = at;
+    let Instant { z, v, laws, bonds } = at;
     let mut p = Power::default();
     for (m, v) in model.mass.iter().zip(v) {
         p.base -= m * v;
@@ -59,7 +61,7 @@ pub fn power(model: &Model, at: Instant<'_>, ground: f64, joint: &mut [f64]) -> 
             pull += law.damping * w + spring_force(law.unilateral, law.stiffness, z[a] - z[b]);
         }
     }
-    for (rub, &mu) in model.rubs.iter().zip(mu) {
+    for (rub, &mu) in model.rubs.iter().zip(&laws.mu) {
         let [a, b] = model.sides[rub.joint as usize];
         let (a, b) = (a as usize, b as usize);
         let lost = 0.5 * (rub.normal[0] + rub.normal[1]) * mu * (v[a] - v[b]);
@@ -77,6 +79,12 @@ pub fn power(model: &Model, at: Instant<'_>, ground: f64, joint: &mut [f64]) -> 
             pull += force;
         }
     });
+    // Closed, a rigid joint does no work but that of the support that it presses.
+    for (contact, borne) in model.contacts.iter().zip(&laws.reaction) {
+        if model.sides[contact.joint as usize][1] as usize == top {
+            pull += borne;
+        }
+    }
     p.top = -pull * v[top];
     p
 }
@@ -112,6 +120,14 @@ pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
             (state.tangents.mu[r], state.tangents.slope[r]) = law.at(state.tangents.velocity[r]);
         }
     }
+    for (c, contact) in model.contacts.iter().enumerate() {
+        let [a, b] = model.sides[contact.joint as usize].map(|s| s as usize);
+        let touches = state.z[a] - state.z[b] >= -TOUCHING;
+        state.tangents.contact[c] = touches && state.v[a] == state.v[b];
+        if !state.tangents.contact[c] {
+            state.tangents.reaction[c] = 0.0;
+        }
+    }
     accelerate(model, drive, state);
 }
 
@@ -138,12 +154,17 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
         state.a[a] -= rub.normal[0] * mu;
         state.a[b] += rub.normal[1] * mu;
     }
+    for (contact, borne) in model.contacts.iter().zip(&state.tangents.reaction) {
+        let [a, b] = model.sides[contact.joint as usize].map(|s| s as usize);
+        state.a[a] -= borne;
+        state.a[b] += borne;
+    }
     for (a, m) in state.a.iter_mut().zip(&model.mass) {
         *a = *a / m - ground;
     }
     state.a[n] = 0.0;
     state.a[n + 1] = drive.top(state.t).a;
-    let at = Instant { z: &state.z, v: &state.v, mu: &state.tangents.mu, bonds: &state.bonds };
+    let at = Instant { z: &state.z, v: &state.v, laws: &state.tangents, bonds: &state.bonds };
     state.power = power(model, at, ground, &mut state.joint_power);
 }
 
@@ -209,6 +230,13 @@ pub fn observe(model: &Model, state: &mut State, h: f64) {
             pull += beyond;
         }
     }
+    for (contact, borne) in model.contacts.iter().zip(&state.tangents.reaction) {
+        let e = contact.joint as usize;
+        env.joint_force[e] = env.joint_force[e].max(*borne);
+        if model.sides[e][1] as usize == top {
+            pull += borne;
+        }
+    }
     totals.top_force_peak = totals.top_force_peak.max(pull.abs());
     totals.top_force_square += h * pull * pull;
     state.energies.kinetic = kinetic;
@@ -216,6 +244,36 @@ pub fn observe(model: &Model, state: &mut State, h: f64) {
     totals.peak_input = totals.peak_input.max(state.energies.input().abs());
     totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
 }
+
+/// Makes an impact part of the account: `before`, `after` are w⁻ and w⁺ [m/s] of the rigid joints and `impulse` what they
+/// bore [N s]. What a joint loses is p (w⁻ + w⁺)/2, which is ½ m_eff (1 − e²) w⁻² where one alone closes. Impacts that
+/// exceed all earlier ones of their joint by a tenth are told to `tell` by joint and impulse.
+pub fn book_impact(
+    model: &Model,
+    state: &mut State,
+    [before, after, impulse]: [&[f64]; 3],
+    mut tell: impl FnMut(u32, f64),
+) {
+    let env = &mut state.envelopes;
+    for (c, contact) in model.contacts.iter().enumerate().filter(|(c, _)| impulse[*c] > 0.0) {
+        let (e, p) = (contact.joint as usize, impulse[c]);
+        let lost = 0.5 * p * (before[c] + after[c]);
+        state.energies.impact += lost;
+        env.joint_dissipation[e] += lost;
+        if model.sides[e][1] as usize == model.top() {
+            state.energies.input_top -= p * state.v[model.top()];
+        }
+        if p > NOTABLE * env.joint_impulse[e] {
+            tell(contact.joint, p);
+        }
+        env.joint_impulse[e] = env.joint_impulse[e].max(p);
+        env.joint_impacts[e] += 1.0;
+        state.counters.impacts += 1;
+    }
+}
+
+/// Impulse from which an impact is listed, over the largest before it in its joint.
+const NOTABLE: f64 = 1.1;
 
 /// The base's velocity jumps by `jump`: blocks keep their absolute velocity. What this does to the kinetic energy of
 /// the relative motion is work of the base.
@@ -239,8 +297,8 @@ fn peak(values: &[f64]) -> f64 {
 #[derive(Debug, Clone, Copy)]
 enum Watched {
     Block(usize),
-    /// The joint, its place among those that rub and among those with a bond.
-    Joint(usize, Option<usize>, Option<usize>),
+    /// With its index among the joints that rub and among the rigid ones, and that among the bonds.
+    Joint(usize, [Option<usize>; 2], Option<usize>),
 }
 
 /// The channels of a run: what they are and how to read them off a state.
@@ -262,13 +320,14 @@ const ALWAYS: [(&str, &str, &str); 10] = [
     ("beam/acceleration", "m/s2", "acceleration of the top beam relative to the base"),
     ("peak/displacement", "m", "largest absolute displacement of a block relative to the base at the moment"),
 ];
-const ENERGIES: [(&str, &str); 9] = [
+const ENERGIES: [(&str, &str); 10] = [
     ("input", "work done on the wall by base and top motion"),
     ("kinetic", "kinetic energy of the motion relative to the base"),
     ("elastic", "elastic energy of the joints"),
     ("damping", "dissipated by viscous damping"),
     ("friction", "dissipated by friction"),
     ("bond", "dissipated by the breaking of bonds"),
+    ("impact", "lost in the impacts of rigid joints"),
     ("nonreciprocal", "taken out by friction whose action differs from its reaction"),
     ("residual", "kinetic + elastic + dissipated - input"),
     ("top", "part of input that a driven top beam brings"),
@@ -281,7 +340,11 @@ const BLOCK: [(&str, &str, &str); 3] = [
 const JOINT: [(&str, &str, &str); 5] = [
     ("slip", "m", "relative displacement (gap of a head joint: positive is open)"),
     ("velocity", "m/s", "relative velocity (positive opens a head joint)"),
-    ("elastic", "N", "elastic force on the lower or left block, against its relative motion"),
+    (
+        "elastic",
+        "N",
+        "elastic force, or that of rigid contact, on the lower or left block, against its relative motion",
+    ),
     ("damping", "N", "viscous force, same sign"),
     ("friction", "N", "friction force, same sign"),
 ];
@@ -299,8 +362,8 @@ impl Channels {
         let joint_names = model.joint_names();
         let mut watched: Vec<Watched> =
             chosen("output.blocks", "block", blocks, &block_names)?.into_iter().map(Watched::Block).collect();
-        let (rub, bond) = (model.rub_of_joint(), model.bond_of_joint());
-        let joint = |e: usize| Watched::Joint(e, rub[e], bond[e]);
+        let (rub, contact, bond) = (model.rub_of_joint(), model.contact_of_joint(), model.bond_of_joint());
+        let joint = |e: usize| Watched::Joint(e, [rub[e], contact[e]], bond[e]);
         watched.extend(chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(joint));
         let channel =
             |name: String, unit: &str, text: &str| Channel { name, unit: unit.into(), description: text.into() };
@@ -341,13 +404,16 @@ impl Channels {
         };
         for (e, side) in model.sides.iter().enumerate() {
             if side[1] as usize >= beam.min(model.base()) {
-                let (elastic, viscous, _) = joint_forces(model, state, None, e);
+                let (elastic, viscous, _) = joint_forces(model, state, [None, None], e);
                 add(side[1] as usize, elastic + viscous);
             }
         }
         bonds_beyond(model, &state.bonds, &state.z, |e, force| add(model.sides[e][1] as usize, force));
         for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
             add(model.sides[rub.joint as usize][1] as usize, rub.normal[0] * mu);
+        }
+        for (contact, borne) in model.contacts.iter().zip(&state.tangents.reaction) {
+            add(model.sides[contact.joint as usize][1] as usize, *borne);
         }
         let mean = |values: &[f64]| {
             self.top_course.iter().map(|&i| values[i]).sum::<f64>() / self.top_course.len().max(1) as f64
@@ -357,16 +423,16 @@ impl Channels {
         row.extend([base.a, base.u, shear, mean(&state.z), mean(&state.v), pull]);
         row.extend([state.z[beam], state.v[beam], state.a[beam]]);
         row.push(peak(&state.z[..model.wall.blocks.len()]));
-        let Energies { input_top, kinetic, elastic, damping, friction, bond, nonreciprocal, .. } = *energies;
-        row.extend([energies.input(), kinetic, elastic, damping, friction, bond, nonreciprocal]);
+        let Energies { input_top, kinetic, elastic, damping, friction, bond, impact, nonreciprocal, .. } = *energies;
+        row.extend([energies.input(), kinetic, elastic, damping, friction, bond, impact, nonreciprocal]);
         row.extend([energies.residual(), input_top]);
         for w in &self.watched {
             match *w {
                 Watched::Block(i) => row.extend([state.z[i], state.v[i], state.a[i]]),
-                Watched::Joint(e, rub, bond) => {
+                Watched::Joint(e, index, bond) => {
                     let [a, b] = model.sides[e].map(|s| s as usize);
                     let sign = if model.joints[e].kind.is_upright() { -1.0 } else { 1.0 };
-                    let (elastic, viscous, friction) = joint_forces(model, state, rub, e);
+                    let (elastic, viscous, friction) = joint_forces(model, state, index, e);
                     let (d, v) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
                     let bond = bond.map(|b| (&model.bonds[b], state.bonds[b].damage));
                     let elastic = bond.map_or(elastic, |(bond, damage)| bond.force(&model.elastic[e], damage, d));

@@ -29,6 +29,8 @@ pub struct Model {
     pub rubs: Vec<Rub>,
     /// The joints whose mortar holds until it cracks; `elastic` has their springs as they are before.
     pub bonds: Vec<Bonded>,
+    /// The rigid unilateral joints, in the order of the joints.
+    pub contacts: Vec<Contact>,
     /// Motion of base and top, and the end of the run.
     pub excitation: Excitation,
     /// True when every joint's normal force is the same on both sides: the stage matrices are symmetric then.
@@ -60,6 +62,15 @@ pub struct Rub {
     pub normal: [f64; 2],
     /// μ(v).
     pub law: Stribeck,
+}
+
+/// A joint that lets its sides part and never lets them overlap: (R1), (R2).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Index of the joint.
+    pub joint: u32,
+    /// Newton's coefficient of restitution e, 0 … 1.
+    pub restitution: f64,
 }
 
 impl Model {
@@ -116,7 +127,41 @@ impl Model {
         let stiffest = stiffest(&mass, &sides, &elastic, excitation.duration);
         let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
         let warnings = warnings(case, &wall, rubs.len(), idle, reciprocal);
-        Ok(Model { wall, joints, beam, mass, sides, elastic, rubs, bonds, excitation, reciprocal, stiffest, warnings })
+        let rigid = |(e, law): (usize, &JointLaw)| {
+            let spring = &law.spring;
+            (spring.law == SpringLaw::Rigid)
+                .then_some(Contact { joint: e as u32, restitution: spring.restitution.unwrap_or(0.0) })
+        };
+        let contacts = laws.iter().enumerate().filter_map(rigid).collect();
+        Ok(Model {
+            wall,
+            joints,
+            beam,
+            mass,
+            sides,
+            elastic,
+            rubs,
+            bonds,
+            contacts,
+            excitation,
+            reciprocal,
+            stiffest,
+            warnings,
+        })
+    }
+
+    /// Whether a joint has a law that is no function of the motion: friction that sticks truly, or rigid contact.
+    pub fn set_valued(&self) -> bool {
+        !self.contacts.is_empty() || self.sticks()
+    }
+
+    /// Index in [`Model::contacts`] of every rigid joint.
+    pub fn contact_of_joint(&self) -> Vec<Option<usize>> {
+        let mut index = vec![None; self.joints.len()];
+        for (c, contact) in self.contacts.iter().enumerate() {
+            index[contact.joint as usize] = Some(c);
+        }
+        index
     }
 
     /// Whether a joint has a set-valued friction law.
@@ -174,9 +219,9 @@ fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
     let (stiffness, damping, unilateral) = match spring.law {
         SpringLaw::None => (0.0, 0.0, false),
         SpringLaw::Elastic => (spring.stiffness.si(), law.damping_ratio, false),
-        SpringLaw::NoTension | SpringLaw::Rigid => {
-            (spring.stiffness.si() * spring.rigidity, law.damping_ratio, upright)
-        }
+        SpringLaw::NoTension => (spring.stiffness.si() * spring.rigidity, law.damping_ratio, upright),
+        // What it bears follows from the motion of its sides, not from a stiffness.
+        SpringLaw::Rigid => (0.0, law.damping_ratio, false),
     };
     let reference = wall.panels[wall.blocks[joint.a].panel].reference_mass;
     Elastic {

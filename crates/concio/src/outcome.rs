@@ -74,6 +74,9 @@ pub struct Totals {
     pub top_force_square: f64,
     /// Most negative gap of a head joint or connection [m], from 0 down.
     pub minimum_gap: f64,
+    /// Largest relative velocity that rigid contact was left with where it should be 0, over all steps and impacts
+    /// [m/s]: the residual of the contact problem.
+    pub contact_residual: f64,
     /// Largest |work done on the wall| so far [J].
     pub peak_input: f64,
     /// Largest |residual of the energy account| so far [J].

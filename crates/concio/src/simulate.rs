@@ -4,26 +4,29 @@
 //! does no I/O and allocates nothing. The caller empties the buffer, shows progress, saves the state.
 
 use crate::case::Solver;
-use crate::dynamics::{Channels, accelerate, kick, observe, settle};
+use crate::dynamics::{Channels, accelerate, book_impact, kick, observe, settle};
 use crate::error::Result;
 use crate::excitation::Drive;
 use crate::integrate::cracks;
+use crate::integrate::events;
+use crate::integrate::impact::Impacts;
 use crate::integrate::stage::Failure;
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::record::{Energies, Layout, Recording, StopReason};
+use crate::record::{Event, EventKind, Layout, Recording, StopReason};
 use crate::run::Status;
 use crate::state::State;
 
 /// Shortest step as a fraction of the shortest time scale 1/ω; below it the tolerance cannot be held.
 const SHORTEST: f64 = 1e-9;
-/// By how much a brittle bond may exceed its strength when it cracks, over the tolerance of the solver: 10⁻⁵ by default.
-const EXCESS: f64 = 1e-2;
-/// Times that a step is cut to end where a bond cracks.
-const MOST_CUTS: usize = 20;
 /// Samples that the record buffer holds.
 const BUFFER: usize = 256;
+/// Events that it holds, beside as many as may happen at one instant.
+const EVENTS: usize = 1024;
+/// Closing velocity below which an impact is taken as plastic, over the tolerance of velocities: bounces that the
+/// tolerance does not see come to an end.
+const PLASTIC: f64 = 0.1;
 
 /// A run under way.
 #[derive(Debug, Clone)]
@@ -90,7 +93,7 @@ impl<'m> Simulation<'m> {
         }
         begin_account(model, &mut state);
         let frames = if layout.frame_every > 0 { BUFFER.div_ceil(layout.frame_every) } else { 0 };
-        let recording = Recording::with_room(&layout, BUFFER, frames);
+        let recording = Recording::with_room(&layout, BUFFER, frames, EVENTS + events::at_once(model));
         let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
         let mut run =
             Simulation { model, solver: *solver, channels, layout, state, work, recording, drive, longest_step };
@@ -112,21 +115,29 @@ impl<'m> Simulation<'m> {
         let n = self.model.unknowns();
         self.state.z[..n].copy_from_slice(z);
         self.state.v[..n].copy_from_slice(v);
+        self.clear_recording();
         self.settle();
         if !self.model.bonds.is_empty() {
             // What is strained beyond its strength from the start is cracked from the start.
             let (z, v) = (self.state.z.clone(), self.state.v.clone());
-            cracks::grow(self.model, &mut self.state, &z, &v, 0.0);
+            let heard = &mut self.recording.events;
+            cracks::grow(self.model, &mut self.state, &z, &v, 0.0, |event| heard.push(event));
             self.settle();
         }
         begin_account(self.model, &mut self.state);
         self.state.samples = 0;
-        self.clear_recording();
         self.sample();
     }
 
-    /// Makes what follows from displacements and velocities consistent with the motion at this instant.
+    /// Lets the impacts happen that are due at this instant, and makes what follows from displacements and velocities
+    /// consistent with the motion.
     fn settle(&mut self) {
+        if Impacts::due(self.model, &self.state) {
+            let slow = PLASTIC * self.tolerance().v;
+            let heard = &mut self.recording.events;
+            collide(self.model, &mut self.work, &mut self.state, slow, |event| heard.push(event));
+            self.state.counters.events += 1;
+        }
         settle_all(self.model, &self.drive, &mut self.work, &mut self.state);
     }
 
@@ -155,31 +166,33 @@ impl<'m> Simulation<'m> {
         let target = if at_break { break_at } else { self.next_sample() };
         let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
         let mut proposed = self.state.step;
-        // A step that ends where a bond cracks.
-        let (mut cut, mut cuts) = (None, 0);
+        // Where a step ends because something happens there.
+        let mut event = events::near(self.model, &self.state, proposed.min(target - self.state.t));
         loop {
             let remaining = target - self.state.t;
             let mut h = proposed.min(self.longest_step);
-            let lands = cut.is_none() && h >= remaining * (1.0 - 1e-9);
+            let lands = h >= remaining * (1.0 - 1e-9);
             if lands {
                 h = remaining;
             } else if h > 0.5 * remaining {
                 h = 0.5 * remaining;
             }
-            h = cut.take().unwrap_or(h);
+            let (h, lands) = event.map_or((h, lands), |at| (at, false));
             let tolerance = self.tolerance();
             let attempt = self.work.attempt(self.model, &self.state, &self.drive, h, tolerance);
             let factor = match attempt {
                 Ok(error) if error <= 1.0 => {
-                    if let Some(earlier) = self.first_crack(h).filter(|&s| cuts < MOST_CUTS && s * h > shortest) {
-                        cuts += 1;
-                        cut = Some(earlier * h);
+                    let first = events::first(self.model, &self.state, &self.work.z, self.work.v(), h);
+                    if first.is_some() {
+                        self.state.counters.located += 1;
+                        event = first;
                         continue;
                     }
                     let grow = growth(error, self.work.error_order()).min(5.0);
                     let free = h * grow;
                     // A step cut short by a landing says little about the one that the error allows.
-                    self.state.step = if (lands || cuts > 0) && proposed > h { free.max(proposed) } else { free };
+                    let cut = (lands || event.is_some()) && proposed > h;
+                    self.state.step = if cut { free.max(proposed) } else { free };
                     self.accept(if lands { target } else { self.state.t + h }, h, at_break && lands);
                     return Ok(());
                 }
@@ -202,6 +215,7 @@ impl<'m> Simulation<'m> {
             if h <= shortest {
                 return Err(StopReason::StepTooShort);
             }
+            event = None;
             proposed = h * factor;
         }
     }
@@ -228,14 +242,14 @@ impl<'m> Simulation<'m> {
         }
     }
 
-    /// The fraction of the step of `h` that was attempted at which a brittle bond cracks, if it goes beyond.
-    fn first_crack(&self, h: f64) -> Option<f64> {
-        let excess = (EXCESS * self.solver.tolerance).clamp(1e-9, 1e-4);
-        cracks::first(self.model, &self.state, &self.work.z, self.work.v(), h, excess)
-    }
-
     fn accept(&mut self, t: f64, h: f64, at_break: bool) {
-        let broke = cracks::grow(self.model, &mut self.state, &self.work.z, self.work.v(), h);
+        let heard = &mut self.recording.events;
+        let from = heard.len();
+        let broke =
+            cracks::grow(self.model, &mut self.state, &self.work.z, self.work.v(), h, |event| heard.push(event));
+        heard[from..].sort_unstable_by(|a, b| {
+            a.time.total_cmp(&b.time).then((a.joint, a.kind as u8).cmp(&(b.joint, b.kind as u8)))
+        });
         self.work.accept(self.model, &mut self.state, t, h);
         if broke {
             self.settle();
@@ -244,11 +258,22 @@ impl<'m> Simulation<'m> {
         self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
         self.state.counters.factorisations += std::mem::take(&mut self.work.stage.factorisations);
         observe(self.model, &mut self.state, h);
+        self.happen();
         if at_break && t < self.model.excitation.duration {
             self.enter_piece(t);
         }
         if t >= self.next_sample() - self.slack() {
             self.sample();
+        }
+    }
+
+    /// What a step that ended at an event leads to.
+    fn happen(&mut self) {
+        let residual = std::mem::take(&mut self.work.stage.contact_residual);
+        self.state.totals.contact_residual = self.state.totals.contact_residual.max(residual);
+        if Impacts::due(self.model, &self.state) {
+            self.settle();
+            observe(self.model, &mut self.state, 0.0);
         }
     }
 
@@ -292,7 +317,7 @@ impl<'m> Simulation<'m> {
 
     /// Whether [`Simulation::advance`] waits for the buffer to be emptied.
     pub fn buffer_is_full(&self) -> bool {
-        self.recording.time.len() >= BUFFER
+        self.recording.time.len() >= BUFFER || self.recording.events.len() >= EVENTS
     }
     /// How far the run is.
     pub fn status(&self) -> Status {
@@ -367,10 +392,21 @@ impl<'m> Simulation<'m> {
     }
 }
 
+/// The impacts that are due, booked and told.
+fn collide(model: &Model, work: &mut Step, state: &mut State, slow: f64, mut tell: impl FnMut(Event)) {
+    let residual = work.impacts.solve(model, state, slow);
+    state.totals.contact_residual = state.totals.contact_residual.max(residual);
+    let time = state.t;
+    let Impacts { before, after, impulse, .. } = &work.impacts;
+    book_impact(model, state, [before, after, impulse], |joint, value| {
+        tell(Event { time, joint, kind: EventKind::Impact, value });
+    });
+}
+
 /// [`settle`], and which of the joints at rest let go under the forces of this instant.
 fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) {
     settle(model, drive, state);
-    if model.sticks() {
+    if model.set_valued() {
         work.let_go(model, drive, state);
         accelerate(model, drive, state);
         work.stage.join(model, &state.tangents, &mut state.a);
@@ -380,8 +416,8 @@ fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) 
 /// Starts envelopes and energy account from the state as it is: what energy it has is no residual.
 fn begin_account(model: &Model, state: &mut State) {
     observe(model, state, 0.0);
-    let Energies { kinetic, elastic, bond, .. } = state.energies;
-    state.energies.initial = kinetic + elastic + bond - state.energies.input();
+    state.energies.initial = 0.0;
+    state.energies.initial = state.energies.residual();
     state.totals.peak_residual = 0.0;
 }
 

@@ -103,6 +103,10 @@ pub struct Tangents {
     pub closed: Vec<bool>,
     /// Whether a joint with a set-valued law sticks, per rubbing joint; `mu` is then the friction that holds it.
     pub stuck: Vec<bool>,
+    /// Whether the sides of a rigid joint touch and move as one, per rigid joint.
+    pub contact: Vec<bool>,
+    /// What they press each other with [N], from 0; 0 while they do not.
+    pub reaction: Vec<f64>,
 }
 
 impl Tangents {
@@ -114,6 +118,8 @@ impl Tangents {
             slope: model.rubs.iter().map(|r| if r.law.sticks() { 0.0 } else { r.law.slope_at_rest() }).collect(),
             closed: model.elastic.iter().map(|law| !law.unilateral).collect(),
             stuck: model.rubs.iter().map(|r| r.law.sticks()).collect(),
+            contact: vec![true; model.contacts.len()],
+            reaction: vec![0.0; model.contacts.len()],
         };
         // An intact bond does not rub.
         for r in model.bonds.iter().filter_map(|b| b.rub) {
@@ -129,6 +135,8 @@ impl Tangents {
         self.slope.copy_from_slice(&other.slope);
         self.closed.copy_from_slice(&other.closed);
         self.stuck.copy_from_slice(&other.stuck);
+        self.contact.copy_from_slice(&other.contact);
+        self.reaction.copy_from_slice(&other.reaction);
     }
 }
 
@@ -148,6 +156,8 @@ impl State {
                 &env.joint_closing,
                 &env.joint_force,
                 &env.joint_dissipation,
+                &env.joint_impulse,
+                &env.joint_impacts,
                 &self.joint_power,
             ]
             .iter()
@@ -156,6 +166,8 @@ impl State {
             && self.tangents.closed.len() == e
             && self.tangents.stuck.len() == r
             && self.bonds.len() == model.bonds.len()
+            && self.tangents.contact.len() == model.contacts.len()
+            && self.tangents.reaction.len() == model.contacts.len()
     }
 
     /// At rest at t = 0.
@@ -187,6 +199,8 @@ impl State {
                 joint_closing: zeros(e),
                 joint_force: zeros(e),
                 joint_dissipation: zeros(e),
+                joint_impulse: zeros(e),
+                joint_impacts: zeros(e),
             },
             totals: Totals::default(),
             counters: Counters::default(),

@@ -53,6 +53,30 @@ impl Joints {
     }
 }
 
+/// The rigid joints.
+#[derive(Debug, Clone)]
+pub struct Contacts {
+    /// Both sides by place, and in the order of the model.
+    pub sides: Vec<[u32; 2]>,
+    pub of_model: Vec<[u32; 2]>,
+    pub slot: Vec<Slot>,
+}
+
+impl Contacts {
+    pub fn new(model: &Model, joints: &Joints) -> Self {
+        let indices = || model.contacts.iter().map(|c| c.joint as usize);
+        Contacts {
+            sides: indices().map(|e| joints.sides[e]).collect(),
+            of_model: indices().map(|e| joints.of_model[e]).collect(),
+            slot: indices().map(|e| joints.slot[e]).collect(),
+        }
+    }
+
+    pub fn len(&self) -> usize {
+        self.sides.len()
+    }
+}
+
 /// The joints that rub.
 #[derive(Debug, Clone)]
 pub struct Rubs {

@@ -2,7 +2,9 @@
 
 pub(crate) mod bonds;
 pub(crate) mod cracks;
+pub(crate) mod events;
 pub(crate) mod groups;
+pub(crate) mod impact;
 pub(crate) mod joints;
 pub(crate) mod linear;
 pub(crate) mod stage;

@@ -12,6 +12,10 @@
 //!   section 6).
 //! * Unilateral joints keep an active set; a joint whose state changes makes another iteration.
 //!
+//! A rigid joint that touches is closed, w = 0 under a force λ ≥ 0, or open, w ≤ 0 under none (R2). It is held like a
+//! sticking joint, by a slope from the force found last; one that would have to pull is opened, one whose sides approach
+//! each other is closed.
+//!
 //! The iteration ends when the correction that the remaining force mismatch would cause, through the last factors,
 //! is below the tolerance; that correction is still applied.
 
@@ -20,8 +24,9 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::integrate::bonds::Bonds;
+use crate::integrate::events::TOUCHING;
 use crate::integrate::groups::Groups;
-use crate::integrate::joints::{Joints, Rubs};
+use crate::integrate::joints::{Contacts, Joints, Rubs};
 use crate::integrate::linear::Matrix;
 use crate::law::Stribeck;
 use crate::model::Model;
@@ -30,6 +35,9 @@ use crate::state::{BondState, Tangents};
 /// Iterations after which a stage is given up and the step shortened. Of the stages that converge, 99 in 100 take
 /// fewer than eight.
 const MOST_ITERATIONS: usize = 12;
+/// The same where joints are rigid, and iterations after which these open or close one at a time, by least index.
+const MOST_WITH_CONTACTS: usize = 40;
+const AT_ONCE: usize = 8;
 /// Mismatch of tangent and law, as a fraction of μ_s, beyond which the next tangent is moved along the law.
 const FAR: f64 = 0.02;
 /// How near to the law, as a fraction of μ_s, that place has to be found.
@@ -51,6 +59,7 @@ pub struct Stage {
     joints: Joints,
     rubs: Rubs,
     bonds: Bonds,
+    contacts: Contacts,
     mass: Vec<f64>,
     /// z_p and V_p, with base and top at the end.
     pub z: Vec<f64>,
@@ -76,6 +85,16 @@ pub struct Stage {
     slope: Vec<f64>,
     /// Slope that holds the joints with set-valued laws, [`HOLD`] times the largest impedance.
     hold: f64,
+    /// Whether a rigid joint may close: it touched when the step began.
+    pub eligible: Vec<bool>,
+    /// The same for this stage: it still touches, or is closed.
+    touching: Vec<bool>,
+    /// Slope that holds closed rigid joints [N s/m]; w_p and w of all rigid joints.
+    clamp: f64,
+    parting: Vec<f64>,
+    closing: Vec<f64>,
+    /// Largest |w| that a closed rigid joint was left with before it was set to rest [m/s].
+    pub contact_residual: f64,
     groups: Groups,
     /// Whether the factors hold for `tau` and `closed`, no joint rubbing.
     factors_hold: bool,
@@ -122,6 +141,7 @@ impl Stage {
         let (matrix, slots) = Matrix::new(n, &pairs);
         let joints = Joints::new(model, matrix.places(), &slots);
         let rubs = Rubs::new(model, &joints);
+        let contacts = Contacts::new(model, &joints);
         let mut mass = vec![0.0; n];
         for (m, &place) in model.mass.iter().zip(matrix.places()) {
             mass[place as usize] = *m;
@@ -145,6 +165,12 @@ impl Stage {
             mu: zeros(rubs.len()),
             slope: zeros(rubs.len()),
             hold: 0.0,
+            eligible: vec![false; contacts.len()],
+            touching: vec![false; contacts.len()],
+            clamp: 0.0,
+            parting: zeros(contacts.len()),
+            closing: zeros(contacts.len()),
+            contact_residual: 0.0,
             groups: Groups::new(n),
             factors_hold: false,
             iterations: 0,
@@ -153,6 +179,7 @@ impl Stage {
             joints,
             rubs,
             bonds: Bonds::new(model),
+            contacts,
             mass,
         }
     }
@@ -201,7 +228,8 @@ impl Stage {
         }
         self.start(model, tangents);
         self.load_elastic(ground);
-        for _ in 0..MOST_ITERATIONS {
+        let most = if self.contacts.len() > 0 { MOST_WITH_CONTACTS } else { MOST_ITERATIONS };
+        for iteration in 0..most {
             self.iterations += 1;
             self.assemble(model, tangents)?;
             self.right_side(tangents);
@@ -218,7 +246,7 @@ impl Stage {
             if !sum.is_finite() {
                 return Err(Failure::NotFinite);
             }
-            let settled = self.settled(model, tangents, accuracy);
+            let settled = self.settled(model, tangents, accuracy) && self.contacts_settled(tangents, accuracy);
             if !flipped && settled && correction <= accuracy {
                 self.finish(model, tangents);
                 return Ok(());
@@ -228,6 +256,7 @@ impl Stage {
                 self.load_elastic(ground);
             }
             self.move_tangents(model, tangents);
+            self.move_contacts(tangents, accuracy, iteration >= AT_ONCE);
         }
         Err(Failure::TooLong)
     }
@@ -296,6 +325,7 @@ impl Stage {
             let [a, b] = self.joints.of_model[e as usize].map(|s| s as usize);
             *before = v[a] - v[b];
         }
+        self.start_contacts(tangents);
     }
 
     /// −τ (M a_0 + Σ B (c w_p + k (δ_p + τ w_p))).
@@ -327,7 +357,7 @@ impl Stage {
     /// J = M + τ Σ B (c + τ k + N μ') Bᵀ, factorised.
     #[inline(always)]
     fn assemble(&mut self, model: &Model, tangents: &Tangents) -> Result<(), Failure> {
-        if self.factors_hold && self.rubs.len() == 0 {
+        if self.factors_hold && self.rubs.len() == 0 && self.contacts.len() == 0 {
             return Ok(());
         }
         self.matrix.diagonal.copy_from_slice(&self.diagonal);
@@ -367,6 +397,7 @@ impl Stage {
                 }
             }
         }
+        self.assemble_contacts(model, tangents);
         self.factorisations += 1;
         self.factors_hold = false;
         self.matrix.factorise(model.reciprocal).map_err(|_| Failure::TooLong)?;
@@ -391,6 +422,7 @@ impl Stage {
             change[a as usize] -= tau * force;
             change[b as usize] += tau * force;
         });
+        self.push_contacts(tangents);
         let n = self.mass.len();
         self.change[n..].fill(0.0);
     }
@@ -423,6 +455,9 @@ impl Stage {
         }
         rubs.laws(&self.velocity, &mut self.mu, &mut self.slope);
         self.bonds.rub_more(&self.mu, &mut self.slope, tau);
+        for ((w, before), &[a, b]) in self.closing.iter_mut().zip(&self.parting).zip(&self.contacts.sides) {
+            *w = before + change[a as usize] - change[b as usize];
+        }
         for &r in &rubs.sticking {
             let r = r as usize;
             if tangents.stuck[r] {
@@ -516,15 +551,16 @@ impl Stage {
             tangents.slope[r] = self.slope[r];
             tangents.velocity[r] = w;
         }
-        if !self.rubs.sticking.is_empty() {
+        self.finish_contacts(tangents);
+        if !self.rubs.sticking.is_empty() || self.contacts.len() > 0 {
             self.rest(model, tangents);
         }
     }
 
     /// Sticking joints come to rest altogether: blocks that hang together have one velocity.
     fn rest(&mut self, model: &Model, tangents: &mut Tangents) {
-        self.groups.find(model, &tangents.stuck);
-        self.groups.average(&model.mass, &mut self.solution);
+        let Tangents { stuck, contact, .. } = tangents;
+        self.groups.rest(model, stuck, contact, &self.touching, &mut self.solution);
         for &r in &self.rubs.sticking {
             if tangents.stuck[r as usize] {
                 tangents.velocity[r as usize] = 0.0;
@@ -532,10 +568,97 @@ impl Stage {
         }
     }
 
+    /// Which rigid joints touch, the slope that holds them, and their velocities in the prediction.
+    fn start_contacts(&mut self, tangents: &Tangents) {
+        self.clamp = 0.0;
+        for (c, &[a, b]) in self.contacts.sides.iter().enumerate() {
+            let free = self.diagonal[a as usize].recip() + self.diagonal.get(b as usize).map_or(0.0, |d| d.recip());
+            self.clamp = self.clamp.max(HOLD / (self.tau * free));
+            let [i, k] = self.contacts.of_model[c].map(|s| s as usize);
+            self.parting[c] = self.v[i] - self.v[k];
+            let touches = tangents.contact[c] || self.z[i] - self.z[k] >= -TOUCHING;
+            self.touching[c] = self.eligible[c] && touches;
+        }
+    }
+
+    /// The slopes of closed rigid joints, added to the matrix.
+    #[inline(always)]
+    fn assemble_contacts(&mut self, model: &Model, tangents: &Tangents) {
+        let s = self.tau * self.clamp;
+        for (c, &[a, b]) in self.contacts.sides.iter().enumerate().filter(|(c, _)| tangents.contact[*c]) {
+            self.matrix.diagonal[a as usize] += s;
+            if let Some(slot) = self.contacts.slot[c].at() {
+                self.matrix.diagonal[b as usize] += s;
+                self.matrix.lower[slot] -= s;
+                if !model.reciprocal {
+                    self.matrix.upper[slot] -= s;
+                }
+            }
+        }
+    }
+
+    /// Force λ + σ w_p of closed rigid joints, on the right side.
+    #[inline(always)]
+    fn push_contacts(&mut self, tangents: &Tangents) {
+        for (c, &[a, b]) in self.contacts.sides.iter().enumerate().filter(|(c, _)| tangents.contact[*c]) {
+            let f = self.tau * (tangents.reaction[c] + self.clamp * self.parting[c]);
+            self.change[a as usize] -= f;
+            self.change[b as usize] += f;
+        }
+    }
+
+    /// What rigid joint `c` has to do, if it is not as it is: open when it would pull so that it is felt, close when
+    /// its sides approach each other.
+    #[inline(always)]
+    fn turns(&self, c: usize, tangents: &Tangents, accuracy: f64) -> bool {
+        if tangents.contact[c] {
+            let force = tangents.reaction[c] + self.clamp * self.closing[c];
+            self.tau * force < -STILL * accuracy * self.mass[self.contacts.sides[c][0] as usize]
+        } else {
+            self.touching[c] && self.closing[c] > 0.0
+        }
+    }
+
+    #[inline(always)]
+    fn contacts_settled(&self, tangents: &Tangents, accuracy: f64) -> bool {
+        (0..self.contacts.len()).all(|c| {
+            !self.turns(c, tangents, accuracy) && (!tangents.contact[c] || self.closing[c].abs() <= STILL * accuracy)
+        })
+    }
+
+    /// Keeps the forces found, opens and closes rigid joints: all that have to, or the first of them alone.
+    #[inline(always)]
+    fn move_contacts(&mut self, tangents: &mut Tangents, accuracy: f64, one: bool) {
+        let mut moved = false;
+        for c in 0..self.contacts.len() {
+            if self.turns(c, tangents, accuracy) && !(one && moved) {
+                moved = true;
+                tangents.contact[c] = !tangents.contact[c];
+                tangents.reaction[c] = 0.0;
+            } else if tangents.contact[c] {
+                tangents.reaction[c] += self.clamp * self.closing[c];
+            }
+        }
+    }
+
+    /// Forces of the closed rigid joints at the solution.
+    #[inline(always)]
+    fn finish_contacts(&mut self, tangents: &mut Tangents) {
+        for (c, &[a, b]) in self.contacts.sides.iter().enumerate() {
+            if tangents.contact[c] {
+                let w = self.parting[c] + self.change[a as usize] - self.change[b as usize];
+                tangents.reaction[c] = (tangents.reaction[c] + self.clamp * w).max(0.0);
+                self.contact_residual = self.contact_residual.max(w.abs());
+            } else {
+                tangents.reaction[c] = 0.0;
+            }
+        }
+    }
+
     /// Gives blocks that stick together one acceleration [m/s²], that of the support if they stick to one.
     pub fn join(&mut self, model: &Model, tangents: &Tangents, acceleration: &mut [f64]) {
-        if !self.rubs.sticking.is_empty() {
-            self.groups.find(model, &tangents.stuck);
+        if !self.rubs.sticking.is_empty() || self.contacts.len() > 0 {
+            self.groups.find(model, &tangents.stuck, &tangents.contact);
             self.groups.average(&model.mass, acceleration);
         }
     }

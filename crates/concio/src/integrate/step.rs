@@ -7,6 +7,8 @@
 use crate::case::Scheme;
 use crate::dynamics::{Instant, power};
 use crate::excitation::Drive;
+use crate::integrate::events::TOUCHING;
+use crate::integrate::impact::Impacts;
 use crate::integrate::stage::{Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
 use crate::model::Model;
@@ -17,6 +19,7 @@ use crate::state::{Power, State, Tangents};
 pub struct Step {
     tableau: Tableau,
     pub stage: Stage,
+    pub impacts: Impacts,
     tangents: Tangents,
     stage_v: Vec<Vec<f64>>,
     stage_a: Vec<Vec<f64>>,
@@ -48,6 +51,7 @@ impl Step {
         Step {
             tableau: tableau(scheme),
             stage: Stage::new(model),
+            impacts: Impacts::new(model),
             tangents: Tangents::at_rest(model),
             stage_v: rows(n + 2),
             stage_a: rows(n),
@@ -83,6 +87,7 @@ impl Step {
         self.stage_joint_power[0].copy_from_slice(&state.joint_power);
         self.tangents.copy_from(&state.tangents);
         self.stage.begin(model, &state.bonds);
+        self.find_touching(model, state);
         for i in 1..self.tableau.stages {
             let t = state.t + self.tableau.c[i] * h;
             self.predict(state, i, h, n);
@@ -100,10 +105,23 @@ impl Step {
             for k in 0..n + 2 {
                 self.z[k] = self.stage.z[k] + tau * v[k];
             }
-            let at = Instant { z: &self.z, v, mu: &self.tangents.mu, bonds: &state.bonds };
+            let at = Instant { z: &self.z, v, laws: &self.tangents, bonds: &state.bonds };
             self.stage_power[i] = power(model, at, ground, &mut self.stage_joint_power[i]);
         }
         Ok(self.error(model, h, tau, tolerance))
+    }
+
+    /// Which rigid joints touch as the step begins: these alone may close in it otherwise than by an impact.
+    fn find_touching(&mut self, model: &Model, state: &State) {
+        for (touches, contact) in self.stage.eligible.iter_mut().zip(&model.contacts) {
+            let [a, b] = model.sides[contact.joint as usize].map(|s| s as usize);
+            *touches = state.z[a] - state.z[b] >= -TOUCHING;
+        }
+    }
+
+    /// Velocity at the end of the step that was attempted, with base and top.
+    pub fn v(&self) -> &[f64] {
+        &self.stage_v[self.tableau.stages - 1]
     }
 
     /// Finds which joints with set-valued laws that are at rest let go, and how much friction holds the others, by an
@@ -112,6 +130,7 @@ impl Step {
         let n = model.unknowns();
         let tau = INSTANT / model.stiffest.sqrt();
         let largest = state.a[..n].iter().fold(0.0f64, |m, a| m.max(a.abs()));
+        self.find_touching(model, state);
         let (top, stage) = (drive.top(state.t), &mut self.stage);
         stage.z.copy_from_slice(&state.z);
         stage.v.copy_from_slice(&state.v);
@@ -126,6 +145,8 @@ impl Step {
             state.tangents.stuck.copy_from_slice(&self.tangents.stuck);
             state.tangents.velocity.copy_from_slice(&self.tangents.velocity);
             state.tangents.slope.copy_from_slice(&self.tangents.slope);
+            state.tangents.contact.copy_from_slice(&self.tangents.contact);
+            state.tangents.reaction.copy_from_slice(&self.tangents.reaction);
         }
     }
 
@@ -192,11 +213,6 @@ impl Step {
         }
         // A maximum passes over what is not a number, a sum does not.
         if sum.is_finite() { worst } else { f64::INFINITY }
-    }
-
-    /// Velocity of the end of the step that was attempted, with base and top [m/s].
-    pub fn v(&self) -> &[f64] {
-        &self.stage_v[self.tableau.stages - 1]
     }
 
     /// Moves `state` to the end of the step that was attempted.

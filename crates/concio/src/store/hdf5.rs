@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::error::{Error, Result};
 use crate::outcome::Outcome;
-use crate::record::{Layout, Recording};
+use crate::record::{Event, Layout, Recording};
 use crate::store::fields::{self, Field};
 use crate::store::h5::{Sink, label};
 use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, atomic, vtkhdf};
@@ -47,6 +47,7 @@ pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointR
         write_history(&mut sink, &outcome.layout, &outcome.recording)?;
         write_frames(&mut sink, &outcome.layout, &outcome.recording)?;
         write_bonds(&mut sink, outcome)?;
+        write_events(&mut sink, &outcome.recording.events)?;
         write_sums(&mut sink, outcome)?;
         vtkhdf::write_group(&mut sink, wall, outcome)?;
         sink.close()
@@ -218,6 +219,17 @@ fn write_bonds(sink: &mut Sink, outcome: &Outcome) -> Result<()> {
     let shape = [outcome.recording.frame_time.len(), outcome.layout.bonded];
     let damage = label("1", "Cracked part of every bonded joint, 0 to 1, in the order of /bonds.");
     sink.array("frames/damage", &shape, &outcome.recording.frame_damage, damage)
+}
+
+fn write_events(sink: &mut Sink, events: &[Event]) -> Result<()> {
+    let numbers = |of: fn(&Event) -> f64| events.iter().map(of).collect::<Vec<_>>();
+    let joints: Vec<i64> = events.iter().map(|e| i64::from(e.joint)).collect();
+    let kinds: Vec<String> = events.iter().map(|e| keyword(&e.kind)).collect();
+    sink.list("events/time", &numbers(|e| e.time), label("s", "When it happened."))?;
+    sink.list("events/joint", &joints, label("1", "Index of the joint."))?;
+    sink.texts("events/kind", &kinds, "What happened.")?;
+    let value = label("SI", "Impulse of an impact [N s]; stretch of a bond that cracks or is broken [m].");
+    sink.list("events/value", &numbers(|e| e.value), value)
 }
 
 fn write_sums(sink: &mut Sink, outcome: &Outcome) -> Result<()> {

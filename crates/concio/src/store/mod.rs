@@ -19,7 +19,7 @@ pub use journal::{Journal, JournalHeader};
 pub use summary::{RunFacts, residual_relative, summary, top_force_rms, write_summary};
 
 /// Version of the layout of result files; raised when a reader of the former version would misread a file.
-pub const SCHEMA_VERSION: u32 = 2;
+pub const SCHEMA_VERSION: u32 = 3;
 
 /// Where a result comes from. Nothing in it depends on clock, machine or folder: equal inputs give equal files.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -51,6 +51,8 @@ pub struct JointRow {
     pub normal_force: [f64; 2],
     /// Friction; none for a joint that does not rub.
     pub friction: Option<FrictionRow>,
+    /// Restitution of a rigid joint; 0 for the others.
+    pub restitution: f64,
 }
 
 /// Friction of one joint (theory, equation 6).

@@ -9,7 +9,7 @@ use serde::de::value::{Error as KeywordError, StrDeserializer};
 use crate::case::JointKind;
 use crate::error::Result;
 use crate::outcome::{BondRow, Outcome, Totals};
-use crate::record::{Channel, Counters, Energies, Envelopes, Layout, Recording};
+use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording};
 use crate::store::fields::{self, Field};
 use crate::store::h5::Source;
 use crate::store::hdf5::{BASE, FORMAT, NO_FRICTION, TOP};
@@ -33,7 +33,7 @@ pub fn read(path: &Path) -> Result<StoredRun> {
         let what = format!("is {} for {} blocks", layout.unknowns, wall.blocks.len());
         return Err(source.wrong("layout/unknowns", what));
     }
-    let recording = read_recording(&source, &layout)?;
+    let recording = read_recording(&source, &layout, joints.len())?;
     let envelopes = read_envelopes(&source, layout.unknowns, joints.len())?;
     let outcome = Outcome {
         recording,
@@ -130,7 +130,16 @@ fn read_joints(source: &Source, blocks: usize) -> Result<Vec<JointRow>> {
         };
         let joint = Joint { kind: kinds[k], a, b, weight: 0.0, overlap: 0.0, line: [0.0; 4] };
         let (law, friction) = (laws[k], friction[k]);
-        joints.push(JointRow { joint, name, law, stiffness: 0.0, damping: 0.0, normal_force: [0.0; 2], friction });
+        joints.push(JointRow {
+            joint,
+            name,
+            law,
+            stiffness: 0.0,
+            damping: 0.0,
+            normal_force: [0.0; 2],
+            friction,
+            restitution: 0.0,
+        });
     }
     read_columns(source, "wall/joints", &fields::JOINTS, &mut joints)?;
     Ok(joints)
@@ -182,7 +191,7 @@ fn read_layout(source: &Source, bonded: usize) -> Result<Layout> {
     })
 }
 
-fn read_recording(source: &Source, layout: &Layout) -> Result<Recording> {
+fn read_recording(source: &Source, layout: &Layout, joints: usize) -> Result<Recording> {
     let time: Vec<f64> = source.array("history/time", &[None])?;
     let width = layout.channels.len();
     let mut values = vec![0.0; time.len() * width];
@@ -205,6 +214,7 @@ fn read_recording(source: &Source, layout: &Layout) -> Result<Recording> {
         0 => Vec::new(),
         bonded => source.array("frames/damage", &[Some(frame_time.len()), Some(bonded)])?,
     };
+    let events = read_events(source, joints)?;
     Ok(Recording {
         time,
         values,
@@ -214,7 +224,24 @@ fn read_recording(source: &Source, layout: &Layout) -> Result<Recording> {
         frame_acceleration,
         frame_friction,
         frame_damage,
+        events,
     })
+}
+
+fn read_events(source: &Source, joints: usize) -> Result<Vec<Event>> {
+    let time: Vec<f64> = source.array("events/time", &[None])?;
+    let joint: Vec<i64> = source.list("events/joint", time.len())?;
+    let kinds: Vec<EventKind> = read_keywords(source, "events/kind", time.len())?;
+    let value: Vec<f64> = source.list("events/value", time.len())?;
+    let mut events = Vec::with_capacity(time.len());
+    for (k, &kind) in kinds.iter().enumerate() {
+        let index = index(source, "events/joint", joint[k])?;
+        if index >= joints {
+            return Err(source.wrong("events/joint", format!("names joint {index} of {joints}")));
+        }
+        events.push(Event { time: time[k], joint: index as u32, kind, value: value[k] });
+    }
+    Ok(events)
 }
 
 fn read_envelopes(source: &Source, unknowns: usize, joints: usize) -> Result<Envelopes> {

@@ -50,6 +50,7 @@ pub fn summary(
         "top_force_peak": totals.top_force_peak,
         "top_force_rms": top_force_rms(outcome),
         "minimum_gap": totals.minimum_gap,
+        "contact_residual": totals.contact_residual,
         "energy": energy(&outcome.energies, residual_relative(outcome)),
         "counters": outcome.counters,
         "inputs_hash": provenance.inputs_hash,
@@ -91,6 +92,7 @@ fn energy(energies: &Energies, residual_relative: f64) -> Value {
         "damping": energies.damping,
         "friction": energies.friction,
         "bond": energies.bond,
+        "impact": energies.impact,
         "nonreciprocal": energies.nonreciprocal,
         "residual_relative": residual_relative,
     })

@@ -3,7 +3,7 @@
 
 use concio::case::{FrictionLaw, JointKind, SpringLaw};
 use concio::outcome::{BondRow, Outcome, Totals};
-use concio::record::{Channel, Counters, Energies, Envelopes, Layout, Recording, StopReason};
+use concio::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use concio::store::{FrictionRow, JointRow, Provenance};
 use concio::wall::{Block, End, Joint, PanelInfo, Wall};
 
@@ -113,6 +113,7 @@ fn joint(k: usize, kind: JointKind, a: usize, b: End, wall: &Wall) -> JointRow {
         damping: 1e3 + f,
         normal_force: [100.0 + f, 101.0 + f],
         friction: rubs.then_some(friction),
+        restitution: 0.01 * f,
     }
 }
 
@@ -142,6 +143,8 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         joint_closing: per_joint(9.0),
         joint_force: per_joint(10.0),
         joint_dissipation: per_joint(11.0),
+        joint_impulse: per_joint(12.0),
+        joint_impacts: per_joint(13.0),
     };
     let bond = |k: usize| BondRow {
         joint: k,
@@ -170,6 +173,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             damping: 0.5,
             friction: 3.0,
             bond: 0.0625,
+            impact: 0.0078125,
             nonreciprocal: 0.03125,
         },
         totals: Totals {
@@ -178,10 +182,20 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             top_force_peak: 2.3e5,
             top_force_square: 4.0e8,
             minimum_gap: -1.0e-9,
+            contact_residual: 3.0e-16,
             peak_input: 8.0,
             peak_residual: 2.0e-6,
         },
-        counters: Counters { steps: 10, rejected: 20, failed: 30, iterations: 40, factorisations: 50 },
+        counters: Counters {
+            steps: 10,
+            rejected: 20,
+            failed: 30,
+            iterations: 40,
+            factorisations: 50,
+            events: 60,
+            located: 70,
+            impacts: 80,
+        },
         stop_reason: StopReason::Completed,
     }
 }
@@ -206,6 +220,9 @@ pub fn rows(layout: &Layout, range: std::ops::Range<usize>) -> Recording {
     for k in range {
         let t = layout.interval * k as f64;
         rows.time.push(t);
+        if k % 97 == 5 {
+            rows.events.push(Event { time: t, joint: (k % 3) as u32, kind: EventKind::Impact, value: 0.5 * t });
+        }
         rows.values.extend((0..layout.channels.len()).map(|c| (c as f64 + 1.0) * (t * 40.0 + c as f64).sin()));
         if layout.frame_every > 0 && k % layout.frame_every == 0 {
             rows.frame_time.push(t);

@@ -46,23 +46,22 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
 const DAMPING: Bound = Bound::Between(0.0, 2.0);
 
 fn spring(f: &mut Findings, kind: &str, s: &Spring) {
-    law(f, format!("joint.{kind}.law"), Some(s.law));
     f.quantity(format_args!("joint.{kind}.stiffness"), s.stiffness, Bound::From0);
     f.number(format_args!("joint.{kind}.rigidity"), s.rigidity, Bound::Above0);
     f.number(format_args!("joint.{kind}.stiffness_factor"), s.stiffness_factor, Bound::From0);
+    restitution(f, format!("joint.{kind}.restitution"), s.restitution, Some(s.law));
     if let Some(ratio) = s.damping_ratio {
         f.number(format_args!("joint.{kind}.damping_ratio"), ratio, DAMPING);
     }
 }
 
-fn law(f: &mut Findings, key: String, law: Option<SpringLaw>) {
-    if law == Some(SpringLaw::Rigid) {
-        f.add(
-            InputError::new("law `rigid` (unilateral, set-valued) is not in this version yet")
-                .key(key)
-                .allowed("`elastic`, `no-tension`, `none`")
-                .help("`no-tension` with a large `rigidity` comes near it"),
-        );
+/// Restitution of a joint whose law is `law`, if it is known here.
+fn restitution(f: &mut Findings, key: String, restitution: Option<f64>, law: Option<SpringLaw>) {
+    let Some(e) = restitution else { return };
+    if law.is_some_and(|law| law != SpringLaw::Rigid) {
+        f.push(key, "is for law `rigid` alone", "law = \"rigid\", or no `restitution`");
+    } else {
+        f.number(key, e, Bound::Between(0.0, 1.0));
     }
 }
 
@@ -130,7 +129,8 @@ fn change(f: &mut Findings, i: usize, change: &JointChange) {
         f.push(format_args!("joint.change[{i}]"), "nothing is changed", "`spring`, `friction` or `bond`");
     }
     if let Some(s) = &change.spring {
-        law(f, format!("joint.change[{i}].spring.law"), s.law);
+        // Without a law the joint keeps its own, which is not known here: a restitution of no rigid joint has no effect.
+        restitution(f, format!("joint.change[{i}].spring.restitution"), s.restitution, s.law);
         if let Some(v) = s.stiffness {
             f.quantity(format_args!("joint.change[{i}].spring.stiffness"), v, Bound::From0);
         }
