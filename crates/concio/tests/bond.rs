@@ -380,7 +380,7 @@ fn the_first_crack_comes_at_strength_over_demand() {
     assert!(residual(&above) < 1e-4, "energy residual {}", residual(&above));
 }
 
-const WEAK: &str = r#"bond = { cohesion = "10 kPa", tensile_strength = "4 kPa", friction_angle = "20 deg", mode_1_energy = "0.02 N/m", mode_2_energy = "0.15 N/m" }"#;
+const WEAK: &str = r#"bond = { cohesion = "1 kPa", tensile_strength = "0.1 kPa", friction_angle = "5 deg", mode_1_energy = "1e-4 N/m", mode_2_energy = "5e-3 N/m" }"#;
 
 /// A wall that cracks, brittle and softening: the account closes, restarts and repetitions give the same bits.
 #[test]
@@ -460,7 +460,9 @@ fn the_energy_of_a_joint_converges_with_the_tolerance() {
     };
     let errors = [1e-3, 1e-4, 1e-5, 1e-6].map(error);
     println!("{errors:?}");
-    assert!(errors[0] < 1e-3 && errors[3] < 1e-4 && errors[3] < errors[0], "{errors:?}");
+    // Order 2 of the scheme against order 3 of its error estimate: the error falls by 10^(2/3) with each power of ten.
+    assert!(errors[0] < 1e-2 && errors[3] < 5e-4, "{errors:?}");
+    assert!(errors.windows(2).all(|e| e[1] < 0.5 * e[0]), "{errors:?}");
 }
 
 /// What only the laid wall shows: energies below what joints store at their strength, bonds without stiffness.

@@ -36,6 +36,9 @@ pub fn grow(model: &Model, state: &mut State, z: &[f64], v: &[f64], h: f64, mut 
             happened(EventKind::Break, end, reach);
             jumps = true;
         }
+        // The largest force comes just before it is gone.
+        let before = law.damage_at(held.damage, d);
+        held.peak = held.peak.max(bond.force(&model.elastic[bond.joint as usize], before, d).abs());
         held.reach = reach;
         held.damage = if held.broken.is_finite() { 1.0 } else { law.damage(reach).0 };
         let spent = law.spent(reach, held.damage);
