@@ -1,10 +1,8 @@
 //! A stored run at one of its frames: displacement, velocity and acceleration of every block, and the relative motion
 //! and the forces of every joint by equations (2) to (6) of the theory. Signs are those of the sampled channels.
 
-use crate::bond::Bonded;
-use crate::case::SpringLaw;
-use crate::law::{Stribeck, spring_force};
-use crate::model::Elastic;
+use crate::law::Stribeck;
+use crate::outcome::BondRow;
 use crate::store::{FrictionRow, StoredRun};
 use crate::wall::End;
 
@@ -79,18 +77,11 @@ impl<'r> Moment<'r> {
         let (d, w) = (a.displacement - b.displacement, a.velocity - b.velocity);
         let upright = row.joint.kind.is_upright();
         let sign = if upright { -1.0 } else { 1.0 };
-        let unilateral = upright && matches!(row.law, SpringLaw::NoTension | SpringLaw::Rigid);
         JointMotion {
             slip: sign * d,
             velocity: sign * w,
             acceleration: sign * (a.acceleration - b.acceleration),
-            elastic: match self.bond(joint) {
-                Some((bond, damage)) => {
-                    let elastic = Elastic { stiffness: row.stiffness, damping: row.damping, unilateral };
-                    bond.force(&elastic, damage, d)
-                }
-                None => spring_force(unilateral, row.stiffness, d),
-            },
+            elastic: row.elastic_force(d, self.bond(joint)),
             damping: row.damping * w,
             friction: friction(self.run, self.frame, joint, w),
         }
@@ -103,13 +94,12 @@ impl Moment<'_> {
         self.bond(joint).map(|(_, damage)| damage)
     }
 
-    fn bond(&self, joint: usize) -> Option<(Bonded, f64)> {
+    fn bond(&self, joint: usize) -> Option<(&BondRow, f64)> {
         let bonds = &self.run.outcome.bonds;
         // In the order of the joints.
         let b = bonds.binary_search_by_key(&joint, |bond| bond.joint).ok()?;
         let damage = *self.run.outcome.recording.frame_damage.get(self.frame * bonds.len() + b)?;
-        let law = bonds[b].law(self.run.joints[joint].joint.kind.is_upright());
-        Some((Bonded { joint: joint as u32, rub: None, law }, damage))
+        Some((&bonds[b], damage))
     }
 }
 

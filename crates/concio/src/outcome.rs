@@ -28,6 +28,14 @@ pub struct Outcome {
     pub time_reached: f64,
 }
 
+impl Outcome {
+    /// The bond that cracked first, of several at once the one of the first joint; none when none cracked.
+    pub fn first_crack(&self) -> Option<&BondRow> {
+        let cracked = self.bonds.iter().filter(|b| b.cracked.is_finite());
+        cracked.min_by(|a, b| a.cracked.total_cmp(&b.cracked))
+    }
+}
+
 /// A bonded joint and what became of it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BondRow {

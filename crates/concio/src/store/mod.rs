@@ -11,8 +11,11 @@ mod read;
 mod summary;
 pub mod vtkhdf;
 
+use crate::bond::Bonded;
 use crate::case::{FrictionLaw, SpringLaw};
-use crate::outcome::Outcome;
+use crate::law::spring_force;
+use crate::model::Elastic;
+use crate::outcome::{BondRow, Outcome};
 use crate::wall::{Joint, Wall};
 
 pub use journal::{Journal, JournalHeader};
@@ -53,6 +56,22 @@ pub struct JointRow {
     pub friction: Option<FrictionRow>,
     /// Restitution of a rigid joint; 0 for the others.
     pub restitution: f64,
+}
+
+impl JointRow {
+    /// Elastic force on the lower or left block, against its relative motion [N], at x_a − x_b = `d` [m]; `bond` is the
+    /// joint's bond, if it has one, and its cracked part.
+    pub fn elastic_force(&self, d: f64, bond: Option<(&BondRow, f64)>) -> f64 {
+        let upright = self.joint.kind.is_upright();
+        let unilateral = upright && matches!(self.law, SpringLaw::NoTension | SpringLaw::Rigid);
+        match bond {
+            None => spring_force(unilateral, self.stiffness, d),
+            Some((bond, damage)) => {
+                let elastic = Elastic { stiffness: self.stiffness, damping: self.damping, unilateral };
+                Bonded { joint: 0, rub: None, law: bond.law(upright) }.force(&elastic, damage, d)
+            }
+        }
+    }
 }
 
 /// Friction of one joint (theory, equation 6).

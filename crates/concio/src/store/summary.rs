@@ -51,6 +51,7 @@ pub fn summary(
         "top_force_rms": top_force_rms(outcome),
         "minimum_gap": totals.minimum_gap,
         "contact_residual": totals.contact_residual,
+        "bonds": bonds(outcome, joints),
         "energy": energy(&outcome.energies, residual_relative(outcome)),
         "counters": outcome.counters,
         "inputs_hash": provenance.inputs_hash,
@@ -81,6 +82,22 @@ pub fn residual_relative(outcome: &Outcome) -> f64 {
 /// Root mean square of the force of the top beam over the time reached [N].
 pub fn top_force_rms(outcome: &Outcome) -> f64 {
     if outcome.time_reached > 0.0 { (outcome.totals.top_force_square / outcome.time_reached).sqrt() } else { 0.0 }
+}
+
+/// How many bonds cracked and broke, and which was the first; null where no joint is bonded.
+fn bonds(outcome: &Outcome, joints: &[JointRow]) -> Value {
+    let bonds = &outcome.bonds;
+    if bonds.is_empty() {
+        return Value::Null;
+    }
+    let first = outcome.first_crack();
+    json!({
+        "joints": bonds.len(),
+        "cracked": bonds.iter().filter(|b| b.damage > 0.0).count(),
+        "broken": bonds.iter().filter(|b| b.damage == 1.0).count(),
+        "first_crack": first.map(|b| b.cracked),
+        "first_joint": first.and_then(|b| joints.get(b.joint)).map(|j| &j.name),
+    })
 }
 
 fn energy(energies: &Energies, residual_relative: f64) -> Value {
