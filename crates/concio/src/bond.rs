@@ -260,3 +260,62 @@ fn thickness(wall: &Wall, joint: &Joint) -> f64 {
         End::Base | End::Top => of(joint.a),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STRENGTH: f64 = 2e3;
+    const STIFFNESS: f64 = 5e7;
+
+    fn soft(residual: f64) -> Bond {
+        let least = 0.5 * (1.0 - residual) * STRENGTH * STRENGTH / STIFFNESS;
+        Bond::new(STRENGTH, STIFFNESS, residual, 5.0 * least, false).unwrap()
+    }
+
+    #[test]
+    fn the_slope_of_damage_is_its_derivative() {
+        let bond = soft(0.0);
+        for factor in [1.001, 1.1, 2.0, 5.0, 20.0] {
+            let (d, h) = (factor * bond.limit(), 1e-6 * bond.limit());
+            let difference = (bond.damage(d + h).0 - bond.damage(d - h).0) / (2.0 * h);
+            assert!((difference / bond.damage(d).1 - 1.0).abs() < 1e-6, "at {factor} δ_0");
+        }
+        assert_eq!(bond.damage(bond.limit()), (0.0, 0.0));
+    }
+
+    /// The area under force over displacement, summed up, is G_f A; what is spent grows to it and takes the elastic part along.
+    #[test]
+    fn the_area_under_the_curve_is_the_energy() {
+        for residual in [0.0, 0.25] {
+            let bond = soft(residual);
+            let end = bond.limit() + bond.decay * (1.0 / BROKEN).ln();
+            assert!(!bond.is_broken(end * (1.0 - 1e-9)) && bond.is_broken(end * (1.0 + 1e-9)));
+            let force = |d: f64| bond.secant(bond.damage(d).0) * d - residual * STIFFNESS * d;
+            let n = 200_000;
+            let step = end / f64::from(n);
+            let area: f64 = (0..n).map(|k| step * force((f64::from(k) + 0.5) * step)).sum();
+            assert!((area / bond.energy() - 1.0).abs() < 1e-8, "{area} J of {}", bond.energy());
+            assert!((bond.spent(end, 1.0) / bond.energy() - 1.0).abs() < 1e-12);
+            assert_eq!(bond.spent(bond.limit(), 0.0), 0.0);
+        }
+    }
+
+    #[test]
+    fn limits_of_the_law() {
+        let least = 0.5 * STRENGTH * STRENGTH / STIFFNESS;
+        assert!(Bond::new(STRENGTH, STIFFNESS, 0.0, 0.999 * least, false).is_none());
+        assert!(Bond::new(STRENGTH, STIFFNESS, 1.0, least, false).is_none(), "nothing to soften");
+        let brittle = Bond::new(STRENGTH, STIFFNESS, 0.0, 0.0, true).unwrap();
+        assert!(brittle.is_brittle() && (brittle.energy() / least - 1.0).abs() < 1e-14);
+        assert!((brittle.spent(brittle.limit(), 1.0) / least - 1.0).abs() < 1e-14);
+        // Intact, to the bit; closed, the law of the head joint.
+        assert_eq!((brittle.secant(0.0), brittle.secant(1.0)), (STIFFNESS, 0.0));
+        let head = Bonded { joint: 0, rub: None, law: brittle };
+        let elastic = Elastic { stiffness: 1e3 * STIFFNESS, damping: 0.0, unilateral: true };
+        for damage in [0.0, 0.5, 1.0] {
+            assert_eq!(head.force(&elastic, damage, 1e-6), 1e-3 * STIFFNESS);
+            assert_eq!(head.force(&elastic, damage, -1e-6), -1e-6 * STIFFNESS * (1.0 - damage));
+        }
+    }
+}

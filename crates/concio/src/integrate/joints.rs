@@ -135,11 +135,22 @@ impl Rubs {
         }
     }
 
-    /// The law of the cracked part of joint `r`.
+    /// The law of the cracked part of joint `r`; `room` is where it is put if that is not the whole.
     #[inline(always)]
-    pub fn law(&self, model: &Model, r: usize) -> Stribeck {
-        let law = model.rubs[r].law;
-        if self.cracked.is_empty() { law } else { law.times(self.cracked[r]) }
+    pub fn law<'a>(&self, model: &'a Model, r: usize, room: &'a mut Stribeck) -> &'a Stribeck {
+        let law = &model.rubs[r].law;
+        if self.cracked.is_empty() {
+            return law;
+        }
+        *room = law.times(self.cracked[r]);
+        room
+    }
+
+    /// μ_s of the cracked part of joint `r`.
+    #[inline(always)]
+    pub fn most(&self, model: &Model, r: usize) -> f64 {
+        let most = model.rubs[r].law.static_;
+        if self.cracked.is_empty() { most } else { self.cracked[r] * most }
     }
 
     /// (6) and its slope at the velocities `w` of all joints: the operations of [`Stribeck::at`], joint by joint, and

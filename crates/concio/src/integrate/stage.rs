@@ -500,7 +500,7 @@ impl Stage {
     fn settled(&self, model: &Model, tangents: &Tangents, accuracy: f64) -> bool {
         self.rubs.sticking.iter().all(|&r| {
             let r = r as usize;
-            let (w, most) = (self.velocity[r], self.rubs.law(model, r).static_);
+            let (w, most) = (self.velocity[r], self.rubs.most(model, r));
             if tangents.stuck[r] {
                 self.mu[r].abs() <= most * (1.0 + EXCESS) && w.abs() <= STILL * accuracy
             } else {
@@ -668,12 +668,13 @@ impl Stage {
         if self.bonds.move_tangents() {
             self.factors_hold = false;
         }
+        let mut room = NO_FRICTION;
         for r in 0..self.rubs.len() {
             let w = self.velocity[r];
             let old = tangents.slope[r];
             let target = tangents.mu[r] + old * (w - tangents.velocity[r]);
             let (mut at, mut mu, mut slope) = (w, self.mu[r], self.slope[r]);
-            let law = &self.rubs.law(model, r);
+            let law = self.rubs.law(model, r, &mut room);
             if law.sticks() {
                 self.place(law, r, tangents);
                 continue;
@@ -688,6 +689,9 @@ impl Stage {
         }
     }
 }
+
+/// Where a law is put together.
+const NO_FRICTION: Stribeck = Stribeck { static_: 0.0, dynamic: 0.0, slip_velocity: 1.0, beta: 1.0, alpha: 0.0 };
 
 /// Velocity at which μ(v) + z v = c, and the law there with its slope: safeguarded Newton inside the bracket [0, c/z].
 /// Two digits are enough, it is only where the next tangent is drawn.
