@@ -3,6 +3,7 @@
 //! Main path: [`case`] → [`pattern`] → [`graph`] → [`model`] → [`simulate`] → [`outcome`].
 
 mod assign;
+pub mod bond;
 pub mod case;
 mod dynamics;
 mod elementary;

@@ -4,14 +4,17 @@
 //! does no I/O and allocates nothing. The caller empties the buffer, shows progress, saves the state.
 
 use crate::case::Solver;
-use crate::dynamics::{Channels, accelerate, kick, observe, settle, stored_energy};
+use crate::dynamics::{Channels, accelerate, book_impact, kick, observe, settle, stored_energy};
 use crate::error::Result;
 use crate::excitation::Drive;
+use crate::integrate::cracks;
+use crate::integrate::events;
+use crate::integrate::impact::Impacts;
 use crate::integrate::stage::Failure;
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::record::{Layout, Recording, StopReason};
+use crate::record::{Event, EventKind, Layout, Recording, StopReason};
 use crate::run::Status;
 use crate::state::{Instant, State, View};
 
@@ -29,6 +32,11 @@ const FINEST: f64 = 1e-4;
 const UNFELT: f64 = 1e-4;
 /// Samples in a step at most; the record buffer holds twice as many.
 const WINDOW: usize = 128;
+/// Events that it holds, beside as many as may happen at one instant.
+const EVENTS: usize = 1024;
+/// Closing velocity below which an impact is taken as plastic, over the tolerance of velocities: bounces that the
+/// tolerance does not see come to an end.
+const PLASTIC: f64 = 0.1;
 
 /// A run under way.
 #[derive(Debug, Clone)]
@@ -82,7 +90,8 @@ impl<'m> Simulation<'m> {
             samples: (duration / sampling.interval * (1.0 + 1e-12) + 1e-9).floor() as usize + 1,
             frame_every: sampling.frame_every,
             unknowns: model.unknowns(),
-            held: if model.sticks() { model.joints.len() } else { 0 },
+            held: if model.sticks() || !model.bonds.is_empty() { model.joints.len() } else { 0 },
+            bonded: model.bonds.len(),
             channels: list,
         };
         let mut state = State::at_rest(model);
@@ -96,7 +105,7 @@ impl<'m> Simulation<'m> {
         }
         begin_account(model, &mut state);
         let frames = if layout.frame_every > 0 { (2 * WINDOW).div_ceil(layout.frame_every) } else { 0 };
-        let recording = Recording::with_room(&layout, 2 * WINDOW, frames);
+        let recording = Recording::with_room(&layout, 2 * WINDOW, frames, EVENTS + events::at_once(model));
         let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
         let instant = Instant::new(model);
         let mut run =
@@ -119,15 +128,29 @@ impl<'m> Simulation<'m> {
         let n = self.model.unknowns();
         self.state.z[..n].copy_from_slice(z);
         self.state.v[..n].copy_from_slice(v);
+        self.clear_recording();
         self.settle();
+        if !self.model.bonds.is_empty() {
+            // What is strained beyond its strength from the start is cracked from the start.
+            let (z, v) = (self.state.z.clone(), self.state.v.clone());
+            let heard = &mut self.recording.events;
+            cracks::grow(self.model, &mut self.state, &z, &v, 0.0, |event| heard.push(event));
+            self.settle();
+        }
         begin_account(self.model, &mut self.state);
         self.state.samples = 0;
-        self.clear_recording();
         self.sample();
     }
 
-    /// Makes what follows from displacements and velocities consistent with the motion at this instant.
+    /// Lets the impacts happen that are due at this instant, and makes what follows from displacements and velocities
+    /// consistent with the motion.
     fn settle(&mut self) {
+        if Impacts::due(self.model, &self.state) {
+            let slow = PLASTIC * self.tolerance().v;
+            let heard = &mut self.recording.events;
+            collide(self.model, &mut self.work, &mut self.state, slow, |event| heard.push(event));
+            self.state.counters.events += 1;
+        }
         settle_all(self.model, &self.drive, &mut self.work, &mut self.state);
     }
 
@@ -157,6 +180,8 @@ impl<'m> Simulation<'m> {
         let target = if at_break { break_at } else { frame_at };
         let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
         let mut proposed = self.state.step;
+        // Where a step ends because something happens there.
+        let mut event = events::near(self.model, &self.state, proposed.min(target - self.state.t));
         loop {
             let remaining = target - self.state.t;
             let mut h = proposed.min(self.longest_step);
@@ -166,16 +191,24 @@ impl<'m> Simulation<'m> {
             } else if h > 0.5 * remaining {
                 h = 0.5 * remaining;
             }
+            let (h, lands) = event.map_or((h, lands), |at| (at, false));
             let tolerance = self.tolerance(h);
             let attempt = self.work.attempt(self.model, &self.state, &self.drive, h, tolerance);
             let factor = match attempt {
                 Ok(error) if error <= 1.0 => {
+                    let first = events::first(self.model, &self.state, &self.work.z, self.work.v(), h);
+                    if first.is_some() {
+                        self.state.counters.located += 1;
+                        event = first;
+                        continue;
+                    }
                     // What has just been too long is not tried again at once.
                     let most = if proposed < self.state.step { 1.0 } else { MOST_GROWTH };
                     let grow = growth(error, self.work.error_order()).min(most);
                     let free = h * grow;
                     // A step cut short by a landing says little about the one that the error allows.
-                    self.state.step = if lands && proposed > h { free.max(proposed) } else { free };
+                    let cut = (lands || event.is_some()) && proposed > h;
+                    self.state.step = if cut { free.max(proposed) } else { free };
                     self.accept(if lands { target } else { self.state.t + h }, h, at_break && lands);
                     return Ok(());
                 }
@@ -198,6 +231,7 @@ impl<'m> Simulation<'m> {
             if h <= shortest {
                 return Err(StopReason::StepTooShort);
             }
+            event = None;
             proposed = h * factor;
         }
     }
@@ -236,12 +270,24 @@ impl<'m> Simulation<'m> {
     }
 
     fn accept(&mut self, t: f64, h: f64, at_break: bool) {
+        self.work.begin(self.model, &self.state);
+        let heard = &mut self.recording.events;
+        let from = heard.len();
+        let broke =
+            cracks::grow(self.model, &mut self.state, &self.work.z, self.work.v(), h, |event| heard.push(event));
+        heard[from..].sort_unstable_by(|a, b| {
+            a.time.total_cmp(&b.time).then((a.joint, a.kind as u8).cmp(&(b.joint, b.kind as u8)))
+        });
         self.work.accept(self.model, &mut self.state, t, h);
+        if broke {
+            self.settle();
+        }
         self.state.counters.steps += 1;
         self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
         self.state.counters.factorisations += std::mem::take(&mut self.work.stage.factorisations);
         observe(self.model, &mut self.state, h, self.work.start());
         self.samples_before(t, h);
+        self.happen();
         if at_break && t < self.model.excitation.duration {
             self.enter_piece(t);
         }
@@ -261,6 +307,16 @@ impl<'m> Simulation<'m> {
             let Simulation { model, drive, channels, layout, state, recording, instant, .. } = self;
             keep(model, drive, channels, layout, instant.view(), state.samples, recording);
             state.samples += 1;
+        }
+    }
+
+    /// What a step that ended at an event leads to.
+    fn happen(&mut self) {
+        let residual = std::mem::take(&mut self.work.stage.contact_residual);
+        self.state.totals.contact_residual = self.state.totals.contact_residual.max(residual);
+        if Impacts::due(self.model, &self.state) {
+            self.settle();
+            observe(self.model, &mut self.state, 0.0, self.work.start());
         }
     }
 
@@ -289,7 +345,7 @@ impl<'m> Simulation<'m> {
 
     /// Whether [`Simulation::advance`] waits for the buffer to be emptied.
     pub fn buffer_is_full(&self) -> bool {
-        self.recording.time.len() >= WINDOW
+        self.recording.time.len() >= WINDOW || self.recording.events.len() >= EVENTS
     }
     /// How far the run is.
     pub fn status(&self) -> Status {
@@ -349,7 +405,9 @@ impl<'m> Simulation<'m> {
 
     /// The result, with the recording that the caller collected.
     pub fn outcome(self, recording: Recording, stop_reason: StopReason) -> Outcome {
+        let bonds = self.model.bonds.iter().zip(&self.state.bonds).map(|(bond, state)| bond.row(state)).collect();
         Outcome {
+            bonds,
             layout: self.layout,
             recording,
             time_reached: self.state.t,
@@ -383,6 +441,7 @@ fn keep(
     recording.frame_displacement.extend_from_slice(&at.z[..n]);
     recording.frame_velocity.extend_from_slice(&at.v[..n]);
     recording.frame_acceleration.extend_from_slice(&at.a[..n]);
+    recording.frame_damage.extend(at.bonds.iter().map(|bond| bond.damage));
     if layout.held > 0 {
         let from = recording.frame_friction.len();
         recording.frame_friction.resize(from + layout.held, 0.0);
@@ -392,10 +451,22 @@ fn keep(
     }
 }
 
-/// [`settle`], and which of the joints at rest let go under the forces of this instant.
+/// The impacts that are due, booked and told.
+fn collide(model: &Model, work: &mut Step, state: &mut State, slow: f64, mut tell: impl FnMut(Event)) {
+    let residual = work.impacts.solve(model, state, slow);
+    state.totals.contact_residual = state.totals.contact_residual.max(residual);
+    let time = state.t;
+    let Impacts { before, after, impulse, .. } = &work.impacts;
+    book_impact(model, state, [before, after, impulse], |joint, value| {
+        tell(Event { time, joint, kind: EventKind::Impact, value });
+    });
+}
+
+/// [`settle`], which of the joints at rest let go under the forces of this instant, and the energy stored.
 fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) {
     settle(model, drive, state);
-    if model.sticks() {
+    stored_energy(model, &state.bonds, &state.z, &state.v, &mut state.energies);
+    if model.set_valued() {
         work.let_go(model, drive, state);
         accelerate(model, drive, state);
         work.stage.join(model, &state.tangents, &mut state.a);
@@ -405,9 +476,9 @@ fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) 
 /// Starts envelopes and energy account from the state as it is: what energy it has is no residual.
 fn begin_account(model: &Model, state: &mut State) {
     let (z, v) = (state.z.clone(), state.v.clone());
-    stored_energy(model, &z, &v, &mut state.energies);
     observe(model, state, 0.0, [&z, &v]);
-    state.energies.initial = state.energies.kinetic + state.energies.elastic - state.energies.input();
+    state.energies.initial = 0.0;
+    state.energies.initial = state.energies.residual();
     state.totals.peak_residual = 0.0;
 }
 

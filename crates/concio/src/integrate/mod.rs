@@ -1,7 +1,11 @@
 //! One step of a scheme, its error estimate, and the linear algebra behind it.
 
+pub(crate) mod bonds;
+pub(crate) mod cracks;
 pub(crate) mod dense;
+pub(crate) mod events;
 pub(crate) mod groups;
+pub(crate) mod impact;
 pub(crate) mod joints;
 pub(crate) mod linear;
 pub(crate) mod stage;

@@ -8,14 +8,17 @@
 //!   (P2)  |Δ(E_kin + E_el + E_diss − W_in)| ≤ 5·10⁻⁵ · tolerance · max |W_in|
 
 use crate::case::Scheme;
-use crate::dynamics::{power, stored_energy};
+use crate::dynamics::{Moving, power, stored_energy};
 use crate::excitation::Drive;
+use crate::integrate::cracks;
 use crate::integrate::dense::{hermite, weights};
+use crate::integrate::events::TOUCHING;
+use crate::integrate::impact::Impacts;
 use crate::integrate::stage::{Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
 use crate::model::Model;
 use crate::record::Energies;
-use crate::state::{Instant, Power, State, Tangents};
+use crate::state::{BondState, Instant, Power, State, Tangents};
 
 /// Scratch of a step; nothing here outlives it but the tangents, which belong to the state.
 #[derive(Debug, Clone)]
@@ -23,6 +26,7 @@ pub struct Step {
     scheme: Scheme,
     tableau: Tableau,
     pub stage: Stage,
+    pub impacts: Impacts,
     tangents: Tangents,
     stage_v: Vec<Vec<f64>>,
     stage_a: Vec<Vec<f64>>,
@@ -36,7 +40,8 @@ pub struct Step {
     start_energies: Energies,
     /// The energy account at the end of the step.
     account: Energies,
-    start_friction: Tangents,
+    start_laws: Tangents,
+    start_bonds: Vec<BondState>,
     /// Displacement of the end of the step, with base and top.
     pub z: Vec<f64>,
 }
@@ -65,6 +70,7 @@ impl Step {
             scheme,
             tableau: tableau(scheme),
             stage: Stage::new(model),
+            impacts: Impacts::new(model),
             tangents: Tangents::at_rest(model),
             stage_v: rows(n + 2),
             stage_a: rows(n),
@@ -76,7 +82,8 @@ impl Step {
             start_z: vec![0.0; n + 2],
             start_energies: Energies::default(),
             account: Energies::default(),
-            start_friction: Tangents::at_rest(model),
+            start_laws: Tangents::at_rest(model),
+            start_bonds: vec![BondState::INTACT; model.bonds.len()],
             z: vec![0.0; n + 2],
         }
     }
@@ -103,7 +110,8 @@ impl Step {
         self.stage_power[0] = state.power;
         self.stage_joint_power[0].copy_from_slice(&state.joint_power);
         self.tangents.copy_from(&state.tangents);
-        self.stage.forget_factors();
+        self.stage.begin(model, &state.bonds);
+        self.find_touching(model, state);
         for i in 1..self.tableau.stages {
             let t = state.t + self.tableau.c[i] * h;
             self.predict(state, i, h, n);
@@ -121,7 +129,8 @@ impl Step {
             for k in 0..n + 2 {
                 self.z[k] = self.stage.z[k] + tau * v[k];
             }
-            self.stage_power[i] = power(model, &self.z, v, &self.tangents.mu, ground, &mut self.stage_joint_power[i]);
+            let at = Moving { z: &self.z, v, laws: &self.tangents, bonds: &state.bonds };
+            self.stage_power[i] = power(model, at, ground, &mut self.stage_joint_power[i]);
         }
         let error = self.error(model, h, tau, tolerance);
         let unbalanced = self.account(model, state, h);
@@ -130,17 +139,31 @@ impl Step {
         Ok(if judged { error.max(unbalanced.abs() / tolerance.energy) } else { error })
     }
 
+    /// Which rigid joints touch as the step begins: these alone may close in it otherwise than by an impact.
+    fn find_touching(&mut self, model: &Model, state: &State) {
+        for (touches, contact) in self.stage.eligible.iter_mut().zip(&model.contacts) {
+            let [a, b] = model.sides[contact.joint as usize].map(|s| s as usize);
+            *touches = state.z[a] - state.z[b] >= -TOUCHING;
+        }
+    }
+
+    /// Velocity at the end of the step that was attempted, with base and top.
+    pub fn v(&self) -> &[f64] {
+        &self.stage_v[self.tableau.stages - 1]
+    }
+
     /// Finds which joints with set-valued laws that are at rest let go, and how much friction holds the others, by an
     /// implicit step too short for anything to move.
     pub fn let_go(&mut self, model: &Model, drive: &Drive, state: &mut State) {
         let n = model.unknowns();
         let tau = INSTANT / model.stiffest.sqrt();
         let largest = state.a[..n].iter().fold(0.0f64, |m, a| m.max(a.abs()));
+        self.find_touching(model, state);
         let (top, stage) = (drive.top(state.t), &mut self.stage);
         stage.z.copy_from_slice(&state.z);
         stage.v.copy_from_slice(&state.v);
         stage.solution[n + 1] = top.v + tau * top.a;
-        stage.forget_factors();
+        stage.begin(model, &state.bonds);
         self.tangents.copy_from(&state.tangents);
         let found = stage.solve(model, &mut self.tangents, tau, drive.base_acceleration(state.t), 1e-6 * tau * largest);
         // Not work of a step: a restored run, which is not settled anew, must count the same.
@@ -150,6 +173,8 @@ impl Step {
             state.tangents.stuck.copy_from_slice(&self.tangents.stuck);
             state.tangents.velocity.copy_from_slice(&self.tangents.velocity);
             state.tangents.slope.copy_from_slice(&self.tangents.slope);
+            state.tangents.contact.copy_from_slice(&self.tangents.contact);
+            state.tangents.reaction.copy_from_slice(&self.tangents.reaction);
         }
     }
 
@@ -195,6 +220,18 @@ impl Step {
                 }
             }
         }
+        let (error_v, error_z, closed) = (&mut self.error_v, &self.error_z, &self.tangents.closed);
+        self.stage.bond_tangents(closed, |e, stiffness| {
+            let [a, b] = model.sides[e].map(|s| s as usize);
+            let beyond = stiffness - if closed[e] { model.elastic[e].stiffness } else { 0.0 };
+            if beyond != 0.0 {
+                let f = tau * beyond * (error_z[a] - if b < n { error_z[b] } else { 0.0 });
+                error_v[a] -= f;
+                if b < n {
+                    error_v[b] += f;
+                }
+            }
+        });
         self.stage.solve_linear(&mut self.error_v);
         let (mut worst, mut sum) = (0.0f64, 0.0);
         for (ev, ez) in self.error_v.iter().zip(&self.error_z) {
@@ -213,19 +250,25 @@ impl Step {
         for i in 0..=last {
             self.stage_power[i].accrue(h * self.tableau.b[i], &mut self.account);
         }
-        stored_energy(model, &self.z, &self.stage_v[last], &mut self.account);
+        self.account.bond += cracks::spending(model, &state.bonds, &self.z);
+        stored_energy(model, &state.bonds, &self.z, &self.stage_v[last], &mut self.account);
         self.account.residual() - state.energies.residual()
+    }
+
+    /// Keeps what [`Step::inside`] needs of `state`, before anything of the accepted step happens to it.
+    pub fn begin(&mut self, model: &Model, state: &State) {
+        self.start_z.copy_from_slice(&state.z);
+        self.start_energies = state.energies;
+        if model.set_valued() {
+            self.start_laws.copy_from(&state.tangents);
+        }
+        self.start_bonds.copy_from_slice(&state.bonds);
     }
 
     /// Moves `state` to the end of the step that was attempted.
     pub fn accept(&mut self, model: &Model, state: &mut State, t: f64, h: f64) {
         let n = model.unknowns();
         let last = self.tableau.stages - 1;
-        self.start_z.copy_from_slice(&state.z);
-        self.start_energies = state.energies;
-        if model.sticks() {
-            self.start_friction.copy_from(&state.tangents);
-        }
         state.t = t;
         state.z.copy_from_slice(&self.z);
         state.v.copy_from_slice(&self.stage_v[last]);
@@ -233,7 +276,8 @@ impl Step {
         state.a[n + 1] = self.top_acceleration;
         self.stage.join(model, &self.tangents, &mut state.a);
         state.power = self.stage_power[last];
-        state.energies = self.account;
+        // What cracking took is booked where bonds crack.
+        state.energies = Energies { bond: state.energies.bond, ..self.account };
         for i in 0..=last {
             let weight = h * self.tableau.b[i];
             if weight != 0.0 {
@@ -272,21 +316,30 @@ impl Step {
         }
         let top = drive.top(t);
         (at.z[n + 1], at.v[n + 1], at.a[n + 1]) = (top.u, top.v, top.a);
-        self.friction_inside(model, end, x, at);
+        self.laws_inside(model, end, x, at);
         self.account_inside(end, h, x, at);
-        stored_energy(model, &at.z, &at.v, &mut at.energies);
+        at.energies.bond += cracks::spending(model, &self.start_bonds, &at.z);
+        stored_energy(model, &self.start_bonds, &at.z, &at.v, &mut at.energies);
     }
 
-    fn friction_inside(&self, model: &Model, end: &State, x: f64, at: &mut Instant) {
+    fn laws_inside(&self, model: &Model, end: &State, x: f64, at: &mut Instant) {
+        let mix = |from: f64, to: f64| from + x * (to - from);
         for (r, rub) in model.rubs.iter().enumerate() {
             let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
             let w = at.v[a] - at.v[b];
             at.mu[r] = if rub.law.sticks() && w == 0.0 {
-                let [from, to] = [self.start_friction.mu[r], end.tangents.mu[r]];
-                from + x * (to - from)
+                mix(self.start_laws.mu[r], end.tangents.mu[r])
             } else {
                 rub.law.value(w)
             };
+        }
+        for (c, borne) in at.reaction.iter_mut().enumerate() {
+            *borne = mix(self.start_laws.reaction[c], end.tangents.reaction[c]);
+        }
+        at.bonds.copy_from_slice(&self.start_bonds);
+        for (bond, held) in model.bonds.iter().zip(&mut at.bonds) {
+            let [a, b] = model.sides[bond.joint as usize].map(|s| s as usize);
+            held.damage = bond.law.damage_at(held.damage, at.z[a] - at.z[b]);
         }
     }
 
