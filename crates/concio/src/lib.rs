@@ -4,6 +4,7 @@
 
 mod assign;
 pub mod case;
+pub mod constrained;
 mod dynamics;
 mod elementary;
 pub mod error;

@@ -1,6 +1,7 @@
 //! Rigid unilateral contact with Newton's law of impact, against closed forms and hand calculation.
 
 use concio::case::{Pulse, PulseShape, Scheme, Signal, Solver, Syntax, from_str};
+use concio::constrained::{self, Heads};
 use concio::excitation::Excitation;
 use concio::ground::signal::{GroundMotion, compile};
 use concio::model::Model;
@@ -292,4 +293,57 @@ base = { synthetic = { seed = 3, pga = "0.8 g", duration = "4 s" } }
     assert_eq!(reason, StopReason::Completed);
     assert!(state.totals.minimum_gap >= -1e-12);
     assert!(state.totals.peak_residual <= 1e-4 * state.totals.peak_input);
+}
+
+/// A row of three bricks, the first bedded softly: it swings against the others under a pulse.
+const ROW: &str = r#"
+model = "shear"
+set = "report"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 3
+[joint]
+damping_ratio = 0.02
+head = { law = "no-tension", stiffness = "5.4e7 N/m" }
+friction = { law = "none" }
+[[joint.change]]
+at = { joints = ["base|p1c1b1"] }
+spring = { stiffness = "1e7 N/m" }
+[motion]
+duration = "4 ms"
+base = { pulse = { shape = "half-sine", acceleration = "1 g", duration = "2 ms" } }
+[solver]
+tolerance = 1e-7
+[output]
+interval = "0.01 ms"
+"#;
+
+/// As κ grows, no-tension springs come to what rigid contact with e = 1 does.
+#[test]
+fn no_tension_converges_to_rigid_contact() {
+    let file = from_str(ROW, Syntax::Toml, None).unwrap();
+    file.validate().unwrap();
+    let prepared = prepare(file.case.clone(), std::path::Path::new("")).unwrap();
+    let blocks: Vec<String> = (1..=3).map(|b| format!("p1c1b{b}")).collect();
+    let run = |heads| constrained::respond(&prepared, heads, &blocks, &[]).unwrap();
+    let rigid = run(Heads::Rigid(1.0));
+    assert!(rigid.deepest() <= 1e-12);
+    assert!(rigid.outcome.counters.impacts >= 2, "{:?}", rigid.outcome.counters);
+    let kappas = [10.0, 100.0, 1e3, 1e4, 1e5, 1e6];
+    let differences: Vec<f64> = kappas
+        .iter()
+        .map(|&kappa| {
+            let spring = run(Heads::NoTension(Some(kappa)));
+            let of = |b: &String| {
+                let name = format!("block/{b}/displacement");
+                constrained::difference(&spring.history(&name).unwrap(), &rigid.history(&name).unwrap())
+            };
+            blocks.iter().map(of).fold(0.0, f64::max)
+        })
+        .collect();
+    let rate = constrained::rate(&kappas, &differences).unwrap();
+    println!("differences {differences:?}, rate {rate}, impacts {}", rigid.outcome.counters.impacts);
+    assert!(run(Heads::Free).deepest() > 1e-6);
+    assert!((-0.65..=-0.4).contains(&rate), "{rate}: {differences:?}");
 }
