@@ -31,6 +31,7 @@ use crate::integrate::linear::Matrix;
 use crate::law::Stribeck;
 use crate::model::Model;
 use crate::state::{BondState, Tangents};
+use crate::wall::Block;
 
 /// Iterations after which a stage is given up and the step shortened. Of the stages that converge, 99 in 100 take
 /// fewer than eight.
@@ -142,7 +143,9 @@ impl Stage {
         let coupled = |s: &&[u32; 2]| (s[1] as usize) < n;
         let pairs: Vec<(usize, usize)> =
             model.sides.iter().filter(coupled).map(|s| (s[0] as usize, s[1] as usize)).collect();
-        let (matrix, slots) = Matrix::new(n, &pairs);
+        let centre = |b: &Block| [0.5 * (b.x[0] + b.x[1]), 0.5 * (b.y[0] + b.y[1])];
+        let centres: Vec<[f64; 2]> = model.wall.blocks.iter().map(centre).collect();
+        let (matrix, slots) = Matrix::new(n, &pairs, &centres, model.reciprocal);
         let joints = Joints::new(model, matrix.places(), &slots);
         let rubs = Rubs::new(model, &joints);
         let contacts = Contacts::new(model, &joints);
@@ -405,7 +408,7 @@ impl Stage {
         self.assemble_contacts(model, tangents);
         self.factorisations += 1;
         self.factors_hold = false;
-        self.matrix.factorise(model.reciprocal).map_err(|_| Failure::TooLong)?;
+        self.matrix.factorise().map_err(|_| Failure::TooLong)?;
         self.factors_hold = true;
         Ok(())
     }
