@@ -5,6 +5,7 @@
 mod assign;
 pub mod bond;
 pub mod case;
+pub mod constrained;
 mod dynamics;
 mod elementary;
 pub mod error;

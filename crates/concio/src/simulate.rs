@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::excitation::Drive;
 use crate::integrate::cracks;
 use crate::integrate::events;
-use crate::integrate::impact::Impacts;
+use crate::integrate::impact::{COLLISIONS, Impacts};
 use crate::integrate::stage::Failure;
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
@@ -394,13 +394,18 @@ impl<'m> Simulation<'m> {
 
 /// The impacts that are due, booked and told.
 fn collide(model: &Model, work: &mut Step, state: &mut State, slow: f64, mut tell: impl FnMut(Event)) {
-    let residual = work.impacts.solve(model, state, slow);
-    state.totals.contact_residual = state.totals.contact_residual.max(residual);
     let time = state.t;
-    let Impacts { before, after, impulse, .. } = &work.impacts;
-    book_impact(model, state, [before, after, impulse], |joint, value| {
-        tell(Event { time, joint, kind: EventKind::Impact, value });
-    });
+    for collision in 0.. {
+        let residual = work.impacts.solve(model, state, slow, collision);
+        state.totals.contact_residual = state.totals.contact_residual.max(residual);
+        let Impacts { before, after, impulse, .. } = &work.impacts;
+        book_impact(model, state, [before, after, impulse], |joint, value| {
+            tell(Event { time, joint, kind: EventKind::Impact, value });
+        });
+        if !Impacts::due(model, state) || collision > 2 * COLLISIONS {
+            return;
+        }
+    }
 }
 
 /// [`settle`], and which of the joints at rest let go under the forces of this instant.

@@ -153,6 +153,11 @@ impl Rubs {
         if self.cracked.is_empty() { most } else { self.cracked[r] * most }
     }
 
+    /// |μ| and its slope [s/m] of a set-valued law as slip begins.
+    pub fn breaking_away(&self, r: usize) -> (f64, f64) {
+        (self.excess[r] + self.dynamic[r], -self.excess[r] / self.slip_velocity[r])
+    }
+
     /// (6) and its slope at the velocities `w` of all joints: the operations of [`Stribeck::at`], joint by joint, and
     /// so its bits. One plain loop, which becomes vector instructions.
     #[inline(always)]

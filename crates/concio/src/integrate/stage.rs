@@ -47,6 +47,8 @@ const MEETING: f64 = 0.01;
 const HOLD: f64 = 1e6;
 /// Velocity that a sticking joint may be left with before it is set to rest, as a fraction of the accuracy.
 const STILL: f64 = 1e-3;
+/// Speed that is none [m/s]: below it a set-valued law in slip has no slope of its own.
+const AT_REST: f64 = 1e-150;
 /// Friction by which a sticking joint may exceed μ_s, as a fraction of it: what holds it is known to about this.
 const EXCESS: f64 = 1e-7;
 
@@ -464,6 +466,10 @@ impl Stage {
                 // What holds it is not a function of velocity: the tangent is the law.
                 self.mu[r] = tangents.mu[r] + tangents.slope[r] * self.velocity[r];
                 self.slope[r] = tangents.slope[r];
+            } else if self.velocity[r].abs() < AT_REST {
+                // Meant to slip, at rest because others hold both sides: the steep foot of the law is none of its own.
+                let (level, slope) = rubs.breaking_away(r);
+                (self.mu[r], self.slope[r]) = (level.copysign(tangents.velocity[r]), slope);
             }
         }
         self.rhs.fill(0.0);
