@@ -146,7 +146,7 @@ impl<'m> Simulation<'m> {
     /// consistent with the motion.
     fn settle(&mut self) {
         if Impacts::due(self.model, &self.state) {
-            let slow = PLASTIC * self.tolerance().v;
+            let slow = PLASTIC * self.tolerance(0.0).v;
             let heard = &mut self.recording.events;
             collide(self.model, &mut self.work, &mut self.state, slow, |event| heard.push(event));
             self.state.counters.events += 1;

@@ -103,6 +103,8 @@ impl Instant {
         let Instant { t, z, v, a, mu, reaction, bonds, energies } = self;
         View { t: *t, z, v, a, mu, reaction, bonds, energies }
     }
+}
+
 /// What a run has done to a bond.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BondState {
