@@ -39,6 +39,7 @@ pub enum Command {
     System(System),
     Export(Export),
     Plot(Plot),
+    Compare(Compare),
     Cases(Cases),
     Completions(Completions),
     /// Print this reference as Markdown.
@@ -369,6 +370,13 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+fn fraction(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(v) if (0.0..=1.0).contains(&v) => Ok(v),
+        _ => Err("allowed: 0 to 1".into()),
+    }
+}
+
 /// In millimetres.
 fn width(text: &str) -> Result<f64, String> {
     let width = match text {
@@ -406,6 +414,60 @@ pub struct Cases {
     /// Print the tables of a findings.json as Markdown and run nothing.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["out", "figures"])]
     pub tables: Option<PathBuf>,
+}
+
+/// Set runs of one wall against each other.
+#[derive(Debug, Args)]
+pub struct Compare {
+    /// What is compared.
+    #[command(subcommand)]
+    pub what: Comparison,
+}
+
+/// What `compare` compares.
+#[derive(Debug, Subcommand)]
+pub enum Comparison {
+    Constrained(Constrained),
+}
+
+/// Head joints that are free, no-tension springs, or rigid.
+///
+/// Runs the wall three times: with head joints that only damp, so that blocks may overlap; with no-tension springs of the
+/// rigidity that the file gives; with rigid unilateral contact. All else is as in the file. Joints count as head joints
+/// where their law is no-tension or rigid. This is what the research report's Figures 17 and 18 show.
+///
+/// Prints the deepest interpenetration of each, and draws displacements, velocities and gaps of pairs of neighbouring
+/// blocks. Writes compare.json and the figures pair-1, pair-2, … into the folder.
+///
+/// With --rigidity the wall is also run with no-tension springs of these rigidities: the largest difference of the
+/// displacements of the pairs from those of rigid contact, over their peak, and the power of the rigidity with which it
+/// goes, are printed and drawn (convergence). Springs give back what they take up: as they become stiffer they come to rigid
+/// contact with restitution 1. Where the motion is chaotic, differences stay as large as the motion itself.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio compare constrained wall.toml
+  concio compare constrained wall.toml --pairs 'p1c1b1|p1c1b2,p1c3b1|p1c3b2' --format pdf
+  concio compare constrained wall.toml --rigidity 10,100,1e3,1e4,1e5,1e6")]
+pub struct Constrained {
+    /// Wall file, TOML or JSON.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// Folder of the results; default concio-run/NAME-constrained, NAME being that of the wall file without its ending.
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
+    /// Head joints or connections, by name, with commas between them; default the two that overlap most when free.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub pairs: Vec<String>,
+    /// Restitution of the rigid joints to which the file gives none, 0 to 1.
+    #[arg(long, value_name = "E", value_parser = fraction, default_value = "1")]
+    pub restitution: f64,
+    /// Rigidities of no-tension springs to run besides, above 0, with commas between them.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = positive)]
+    pub rigidity: Vec<f64>,
+    /// Format of the figures.
+    #[arg(long, value_enum, default_value = "svg")]
+    pub format: Format,
 }
 
 /// Print the completions of a shell.

@@ -151,6 +151,7 @@ impl<'m> Simulation<'m> {
             collide(self.model, &mut self.work, &mut self.state, slow, |event| heard.push(event));
             self.state.counters.events += 1;
         }
+        self.work.linger(false);
         settle_all(self.model, &self.drive, &mut self.work, &mut self.state);
     }
 
@@ -315,6 +316,7 @@ impl<'m> Simulation<'m> {
         let residual = std::mem::take(&mut self.work.stage.contact_residual);
         self.state.totals.contact_residual = self.state.totals.contact_residual.max(residual);
         if Impacts::due(self.model, &self.state) {
+            self.work.linger(true);
             self.settle();
             observe(self.model, &mut self.state, 0.0, self.work.start());
         }

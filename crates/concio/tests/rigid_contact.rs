@@ -223,15 +223,15 @@ const SLIPPING: &str = r#"
 top = "10 kN/m"
 beam = "driven"
 [motion]
-duration = "0.1 s"
-top = { sine = { amplitude = "10 mm", frequency = "3 Hz" } }
+duration = "0.3 s"
+top = { sine = { amplitude = "5 mm", frequency = "2 Hz", ramp = "0.5 s" } }
 "#;
 
 /// The slipping panel with rigid head joints, under every friction law: no gap below −1e-12 m after any step, an account
 /// that closes, the same bits twice and from a restored state.
 #[test]
 fn slipping_panels_never_interpenetrate() {
-    for (friction, e) in [("stribeck", 0.0), ("stribeck", 0.5), ("coulomb", 0.0), ("stribeck-stick", 0.3)] {
+    for (friction, e) in [("stribeck", 0.0), ("stribeck", 1.0), ("coulomb", 0.5), ("stribeck-stick", 0.3)] {
         let prepared =
             panel(&format!("law = \"rigid\", stiffness = \"5.4e7 N/m\", restitution = {e}"), friction, SLIPPING);
         let model = &prepared.model;
@@ -245,7 +245,7 @@ fn slipping_panels_never_interpenetrate() {
                 deepest = deepest.max(run.state().z[a] - run.state().z[b]);
             }
             run.clear_recording();
-            if kept.is_none() && run.time() > 0.03 {
+            if kept.is_none() && run.time() > 0.1 {
                 kept = Some(run.save());
             }
             if let Progress::Ended(reason) = progress {

@@ -7,6 +7,7 @@ use crate::failure::Failure;
 
 mod cases;
 mod check;
+mod compare;
 mod completions;
 mod export;
 mod new;
@@ -24,6 +25,7 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Run(args) => return run::run(&args),
         Command::Cases(args) => return cases::cases(&args),
         Command::Check(args) => check::check(&args),
+        Command::Compare(args) => compare::compare(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(_) => schema::schema(),
         Command::Record(args) => record::record(&args),

@@ -12,10 +12,13 @@
 use crate::model::Model;
 use crate::state::State;
 
-/// How near to each other the sides of a rigid joint touch, and how far they may overlap when a step ends [m].
+/// How near to each other the sides of a rigid joint touch [m].
 pub const TOUCHING: f64 = 1e-13;
 /// By which fraction a brittle bond may exceed its strength when the step ends at which it cracks.
 const EXCEEDING: f64 = 1e-7;
+/// What sides that touched before may overlap by at last [m], and the least that they come nearer in an event.
+const OVERLAP: f64 = 5e-13;
+const LEAST: f64 = 5e-16;
 /// How near, as a fraction of the step, an event must be to be aimed at before the step is tried.
 const NEAR: f64 = 0.01;
 
@@ -48,9 +51,13 @@ impl Watch {
     fn reach(self, d: f64) -> Reach {
         match self {
             Watch::Closing => {
-                let from = d.max(0.0);
-                let target = if d < -TOUCHING { 0.0 } else { from + 0.5 * TOUCHING };
-                Reach { target, limit: from + TOUCHING }
+                if d < -TOUCHING {
+                    return Reach { target: 0.0, limit: TOUCHING };
+                }
+                // Sides that touch and creep towards each other from rest leave where they are with the square of
+                // time: the event is where they have got a little nearer, each time less.
+                let room = (0.25 * (OVERLAP - d.max(0.0))).max(LEAST);
+                Reach { target: d.max(0.0) + room, limit: d.max(0.0) + 1.5 * room }
             }
             Watch::Cracking { limit } => {
                 Reach { target: limit * (1.0 + 0.5 * EXCEEDING), limit: limit * (1.0 + EXCEEDING) }

@@ -41,6 +41,8 @@ pub struct Impacts {
     plastic: Vec<bool>,
     /// Joints that do not part at first, and may not close more after all.
     resting: Vec<bool>,
+    /// Joints that touched when the step began at whose end they collide: they bounce no higher than is seen.
+    pub lingering: Vec<bool>,
     target: Vec<f64>,
     /// w⁻ of every rigid joint [m/s].
     pub before: Vec<f64>,
@@ -74,6 +76,7 @@ impl Impacts {
             active: vec![false; c],
             plastic: vec![false; c],
             resting: vec![false; c],
+            lingering: vec![false; c],
             target: vec![0.0; c],
             before: vec![0.0; c],
             after: vec![0.0; c],
@@ -92,7 +95,7 @@ impl Impacts {
     }
 
     /// Solves (R3) and (R4) for the velocities in `state`, once; `collision` counts from 0 at one instant. Joints that
-    /// close more slowly than `slow` [m/s] stay closed, so that bounces come to an end. Returns the largest
+    /// close more slowly than `slow` [m/s], or are `lingering`, stay closed, so that bounces come to an end. Returns the largest
     /// |w⁺ − target| [m/s] of the joints that bear.
     pub fn solve(&mut self, model: &Model, state: &mut State, slow: f64, collision: usize) -> f64 {
         let at_most = if collision < COLLISIONS { 1.0 } else { 0.0 };
@@ -139,7 +142,7 @@ impl Impacts {
             self.touching[c] = state.z[a] - state.z[b] >= -TOUCHING;
             self.resting[c] = self.touching[c] && (w >= 0.0 || at_most == 0.0);
             self.before[c] = w;
-            let e = if w > 0.0 && w <= slow { 0.0 } else { contact.restitution.min(at_most) };
+            let e = if w > 0.0 && (w <= slow || self.lingering[c]) { 0.0 } else { contact.restitution.min(at_most) };
             // No negative zero: a target of 0 is rest.
             self.target[c] = if e > 0.0 { -e * w } else { 0.0 };
             self.active[c] = self.touching[c] && w > 0.0;

@@ -147,6 +147,13 @@ impl Step {
         }
     }
 
+    /// Lets joints that touched when the last step began collide without bouncing; without a step, none.
+    pub fn linger(&mut self, after_step: bool) {
+        for (lingers, touched) in self.impacts.lingering.iter_mut().zip(&self.stage.eligible) {
+            *lingers = after_step && *touched;
+        }
+    }
+
     /// Velocity at the end of the step that was attempted, with base and top.
     pub fn v(&self) -> &[f64] {
         &self.stage_v[self.tableau.stages - 1]

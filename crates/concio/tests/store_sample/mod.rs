@@ -125,7 +125,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         frame_every: size.frame_every,
         unknowns,
         held: 3,
-        bonded: 2,
+        bonded: joints.min(2),
         channels: channels(size.channels, wall),
     };
     let recording = rows(&layout, 0..size.samples);
