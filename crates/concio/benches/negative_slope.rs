@@ -81,7 +81,8 @@ fn row(first: &str, slip_velocity: f64, tolerance: f64, max_step: Option<f64>) {
 }
 
 fn main() {
-    let head = "work J | rms force kN | peak force kN | slip, all joints mm | fastest slip mm/s | steps | energy residual |";
+    let head =
+        "work J | rms force kN | peak force kN | slip, all joints mm | fastest slip mm/s | steps | energy residual |";
     for slip_velocity in [1e-2, 3e-3, 1e-3, 3e-4, 1e-4] {
         println!("\nδ_v = {slip_velocity:e} m/s\n\n| tolerance | {head}\n|---|---|---|---|---|---|---|---|");
         for tolerance in [1e-1, 3e-2, 1e-2, 1e-3, 1e-4] {
@@ -89,7 +90,9 @@ fn main() {
         }
     }
     for slip_velocity in [1e-2, 1e-3, 1e-4] {
-        println!("\nδ_v = {slip_velocity:e} m/s, tolerance 1e-2\n\n| longest step s | {head}\n|---|---|---|---|---|---|---|---|");
+        println!(
+            "\nδ_v = {slip_velocity:e} m/s, tolerance 1e-2\n\n| longest step s | {head}\n|---|---|---|---|---|---|---|---|"
+        );
         for step in [1e-4, 3e-5, 1e-5, 3e-6] {
             row(&format!("{step:.0e}"), slip_velocity, 1e-2, Some(step));
         }

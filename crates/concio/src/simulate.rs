@@ -108,8 +108,18 @@ impl<'m> Simulation<'m> {
         let recording = Recording::with_room(&layout, 2 * WINDOW, frames, EVENTS + events::at_once(model));
         let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
         let instant = Instant::new(model);
-        let mut run =
-            Simulation { model, solver: *solver, channels, layout, state, work, recording, instant, drive, longest_step };
+        let mut run = Simulation {
+            model,
+            solver: *solver,
+            channels,
+            layout,
+            state,
+            work,
+            recording,
+            instant,
+            drive,
+            longest_step,
+        };
         run.sample();
         Ok(run)
     }

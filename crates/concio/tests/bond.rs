@@ -460,9 +460,8 @@ fn the_energy_of_a_joint_converges_with_the_tolerance() {
     };
     let errors = [1e-3, 1e-4, 1e-5, 1e-6].map(error);
     println!("{errors:?}");
-    // Order 2 of the scheme against order 3 of its error estimate: the error falls by 10^(2/3) with each power of ten.
-    assert!(errors[0] < 1e-2 && errors[3] < 5e-4, "{errors:?}");
-    assert!(errors.windows(2).all(|e| e[1] < 0.5 * e[0]), "{errors:?}");
+    // At loose tolerances the energy account, whose part in a step is held, governs the step.
+    assert!(errors[0] < 5e-4 && errors[3] < 5e-5 && errors[3] < 0.5 * errors[0], "{errors:?}");
 }
 
 /// What only the laid wall shows: energies below what joints store at their strength, bonds without stiffness.

@@ -221,10 +221,7 @@ fn groups(n: usize, entries: &[(u32, u32)]) -> supernodal::SymbolicSupernodalCho
 
 /// The groups right below each group: those whose first row below is one of its columns.
 fn hang(fronts: &mut [Front], rows: &[u32], group_of: &[u32]) -> Vec<u32> {
-    let above: Vec<Option<u32>> = fronts
-        .iter()
-        .map(|f| f.below(rows).first().map(|&r| group_of[r as usize]))
-        .collect();
+    let above: Vec<Option<u32>> = fronts.iter().map(|f| f.below(rows).first().map(|&r| group_of[r as usize])).collect();
     let mut count = vec![0u32; fronts.len() + 1];
     for &a in above.iter().flatten() {
         count[a as usize + 1] += 1;

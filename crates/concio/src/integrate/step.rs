@@ -347,6 +347,10 @@ impl Step {
         for (bond, held) in model.bonds.iter().zip(&mut at.bonds) {
             let [a, b] = model.sides[bond.joint as usize].map(|s| s as usize);
             held.damage = bond.law.damage_at(held.damage, at.z[a] - at.z[b]);
+            if let Some(r) = bond.rub {
+                // Only the cracked part rubs.
+                at.mu[r as usize] = model.rubs[r as usize].law.times(held.damage).value(at.v[a] - at.v[b]);
+            }
         }
     }
 
