@@ -80,6 +80,9 @@ pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outco
     expect("frames of velocity", recording.frame_velocity.len(), frame)?;
     expect("frames of acceleration", recording.frame_acceleration.len(), frame)?;
     expect("frames of friction", recording.frame_friction.len(), recording.frame_time.len() * layout.held)?;
+    if let Some(event) = recording.events.iter().find(|e| e.joint as usize >= joints.len()) {
+        return refuse(format!("not written: an event names joint {} of {}", event.joint, joints.len()));
+    }
     for field in &fields::BLOCK_ENVELOPES {
         expect(field.name, (field.get)(&outcome.envelopes).len(), unknowns)?;
     }
