@@ -86,6 +86,9 @@ pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outco
     if let Some(bond) = outcome.bonds.iter().find(|b| b.joint >= joints.len()) {
         return refuse(format!("not written: a bond of joint {} of {}", bond.joint, joints.len()));
     }
+    if let Some(event) = recording.events.iter().find(|e| e.joint as usize >= joints.len()) {
+        return refuse(format!("not written: an event names joint {} of {}", event.joint, joints.len()));
+    }
     for field in &fields::BLOCK_ENVELOPES {
         expect(field.name, (field.get)(&outcome.envelopes).len(), unknowns)?;
     }
