@@ -104,7 +104,6 @@ fn table() -> Vec<Bad> {
         "bond with a key too many", edit("[load]", "[joint.bond]\ncohesion = 1e5\nshear = 3\n[load]"), "shear", "joint.bond.shear", "unknown key", "cohesion";
         "change of a bond out of range", change("at = { kind = [\"bed\"] }\nbond = { mode_2_energy = -1 }"), "bond =", "joint.change[0].bond.mode_2_energy", "-1 N/m is out of range", "from 0 N/m";
         "planar model", edit("\"shear\"", "\"planar\""), "model", "model", "not in this version", "`shear`";
-        "rigid joints", edit("law = \"no-tension\"", "law = \"rigid\""), "head = { law", "joint.head.law", "not in this version", "`no-tension`";
         "driven beam at rest", edit("top = { sine = { amplitude = \"5 mm\", frequency = \"2 Hz\" } }", ""), "[motion]", "motion.top", "the beam is `driven` but has no motion", "sine";
         "top motion without a driven beam", edit("beam = \"driven\"", "beam = \"free\""), "top = { sine", "motion.top", "only a `driven` top beam takes a motion", "`none`";
         "sine with two amplitudes", edit("amplitude = \"5 mm\"", "amplitude = \"5 mm\", acceleration = \"0.8 g\""), "top = { sine", "motion.top.sine", "both a displacement and an acceleration", "exactly one";
@@ -125,7 +124,7 @@ fn table() -> Vec<Bad> {
         "unknown panel chosen", change("at = { panel = [\"tower\"] }\nspring = { stiffness = 0 }"), "at =", "joint.change[0].at.panel[0]", "no panel is called `tower`", "`p1`";
         "course chosen that is not there", change("at = { course = [1, 8] }\nspring = { stiffness = 0 }"), "at =", "joint.change[0].at.course[1]", "course 8 does not exist", "1 … 6, and 7 for the top support";
         "region turned round", change("at = { region = [1, 0, 0, 1] }\nspring = { stiffness = 0 }"), "at =", "joint.change[0].at.region", "encloses nothing", "x0 below x1";
-        "a change of nothing", change("at = { kind = [\"bed\"] }"), "[[joint.change]]", "joint.change[0]", "nothing is changed", "`spring`, `friction` or both";
+        "a change of nothing", change("at = { kind = [\"bed\"] }"), "[[joint.change]]", "joint.change[0]", "nothing is changed", "`spring`, `friction` or `bond`";
         "panels of one name", edit("[joint]", "[[panel]]\nname = \"p1\"\nbond = \"stack\"\ncourses = 1\nbricks = 1\nbrick = { length = 1, height = 1, thickness = 1, specific_weight = 1 }\n[joint]"), "name =", "panel[1].name", "panel[0] is called `p1` too", "names that differ";
         "irregular without courses", panel("bond = \"irregular\""), "[[panel]]", "panel[0].course", "the courses are not given", "either [[panel.course]] or `random`";
         "explicit without blocks", panel("bond = \"explicit\""), "[[panel]]", "panel[0].block", "the panel has no block", "at least one";
