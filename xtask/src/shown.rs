@@ -19,7 +19,7 @@ pub const RECORD: &str = "docs/guide/quake.at2";
 
 /// Documents with wall files and commands, from the root.
 fn documents(root: &Path) -> Result<Vec<PathBuf>, String> {
-    let mut documents = vec![root.join("README.md"), root.join("docs/wall-file.md")];
+    let mut documents = vec![root.join("README.md"), root.join("docs/wall-file.md"), root.join("docs/constrained.md")];
     for folder in ["docs/guide", "docs/howto"] {
         let folder = root.join(folder);
         let entries = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;

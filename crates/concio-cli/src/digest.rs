@@ -43,6 +43,9 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
     if energies.bond != 0.0 {
         rows.push(("  broken bonds", si(energies.bond, "J")));
     }
+    if energies.impact != 0.0 {
+        rows.push(("  impacts", si(energies.impact, "J")));
+    }
     if energies.nonreciprocal != 0.0 {
         rows.push(("  unbalanced friction", si(energies.nonreciprocal, "J")));
     }

@@ -561,7 +561,7 @@ pub struct SpringChange {
     /// κ, above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<f64>,
-    /// As [`Spring::restitution`].
+    /// e, 0 … 1, of a rigid joint.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: Option<f64>,

@@ -26,7 +26,8 @@ pub struct JointMotion {
     pub velocity: f64,
     /// Its second rate [m/s²].
     pub acceleration: f64,
-    /// Elastic force on the lower or left block, against its relative motion [N].
+    /// Elastic force on the lower or left block, against its relative motion [N]; 0 for a rigid joint, whose force follows
+    /// from no motion.
     pub elastic: f64,
     /// Viscous force, same sign [N].
     pub damping: f64,

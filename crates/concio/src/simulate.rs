@@ -138,7 +138,7 @@ impl<'m> Simulation<'m> {
             collide(self.model, &mut self.work, &mut self.state, slow, |event| heard.push(event));
             self.state.counters.events += 1;
         }
-        self.work.linger(false);
+        self.work.linger(self.model, &self.state, 0.0);
         settle_all(self.model, &self.drive, &mut self.work, &mut self.state);
     }
 
@@ -259,7 +259,7 @@ impl<'m> Simulation<'m> {
         self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
         self.state.counters.factorisations += std::mem::take(&mut self.work.stage.factorisations);
         observe(self.model, &mut self.state, h);
-        self.happen();
+        self.happen(h);
         if at_break && t < self.model.excitation.duration {
             self.enter_piece(t);
         }
@@ -268,12 +268,12 @@ impl<'m> Simulation<'m> {
         }
     }
 
-    /// What a step that ended at an event leads to.
-    fn happen(&mut self) {
+    /// What a step of `h` that ended at an event leads to.
+    fn happen(&mut self, h: f64) {
         let residual = std::mem::take(&mut self.work.stage.contact_residual);
         self.state.totals.contact_residual = self.state.totals.contact_residual.max(residual);
         if Impacts::due(self.model, &self.state) {
-            self.work.linger(true);
+            self.work.linger(self.model, &self.state, h);
             self.settle();
             observe(self.model, &mut self.state, 0.0);
         }

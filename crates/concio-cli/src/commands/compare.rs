@@ -188,22 +188,34 @@ fn drawn(pair: &Pair, runs: &[Variant]) -> Drawing {
 
 fn converging(convergence: &[(f64, f64)]) -> Drawing {
     let (x, y): (Vec<f64>, Vec<f64>) = convergence.iter().copied().filter(|(_, d)| *d > 0.0).unzip();
-    let axis = |quantity: &str| Axis { quantity: quantity.into(), logarithmic: true, ..Axis::default() };
+    let axis = |quantity: &str, values: &[f64]| Axis {
+        quantity: quantity.into(),
+        logarithmic: true,
+        range: Some(decades(values)),
+        ..Axis::default()
+    };
     chart::draw(&Sheet {
         title: "Difference of no-tension from rigid head joints over the rigidity".into(),
         legend: Vec::new(),
         panels: vec![Panel {
             heading: String::new(),
-            x: axis("rigidity κ"),
-            y: axis("difference"),
+            x: axis("rigidity κ", &x),
+            y: axis("difference", &y),
             lines: vec![Line { x: x.into(), y: y.into(), style: 0 }],
             rising: false,
             bare: false,
         }],
         columns: 1,
-        width: 0.5 * SIZE[0],
+        width: 0.7 * SIZE[0],
         height: Some(2.0 * SIZE[1]),
     })
+}
+
+/// Powers of ten around values above 0.
+fn decades(values: &[f64]) -> [f64; 2] {
+    let (low, high) = values.iter().fold((f64::INFINITY, 0.0f64), |(l, h), v| (l.min(*v), h.max(*v)));
+    let (low, high) = ((low.log10() + 1e-9).floor(), (high.log10() - 1e-9).ceil());
+    [10f64.powf(low), 10f64.powf(high.max(low + 1.0))]
 }
 
 fn summary(runs: &[Variant], pairs: &[Pair], convergence: &[(f64, f64)], rate: Option<f64>) -> Value {

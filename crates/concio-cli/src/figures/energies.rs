@@ -8,13 +8,14 @@ use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::draw::output::Drawing;
 
 /// Channels and what they are called.
-const MECHANISMS: [(&str, &str); 7] = [
+const MECHANISMS: [(&str, &str); 8] = [
     ("input", "work done"),
     ("friction", "friction"),
     ("damping", "damping"),
     ("elastic", "elastic"),
     ("kinetic", "kinetic"),
     ("bond", "broken bonds"),
+    ("impact", "impacts"),
     ("nonreciprocal", "unbalanced friction"),
 ];
 

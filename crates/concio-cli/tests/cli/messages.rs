@@ -6,7 +6,7 @@ use snapbox::str;
 use crate::support::{Desk, WALL};
 
 /// What is wrong, the text that is replaced in the wall and by what, and parts of the message.
-const WRONG: [(&str, &str, &str, &[&str]); 20] = [
+const WRONG: [(&str, &str, &str, &[&str]); 21] = [
     ("unknown key", "courses = 4", "corses = 4", &["bad.toml:6:", "corses", "courses"]),
     ("wrong unit", "\"55 mm\"", "\"55 kg\"", &["bad.toml:8:", "kg", "mm"]),
     ("no unit", "\"250 mm\"", "\"250\"", &["bad.toml:8:", "unit"]),
@@ -36,7 +36,18 @@ const WRONG: [(&str, &str, &str, &[&str]); 20] = [
     ("a required table misspelt", "[load]", "[laod]", &["laod", "`load`"]),
     ("number of courses", "courses = 4", "course = 4", &["bad.toml:6:", "did you mean `courses`?"]),
     ("single brackets", "[[panel]]", "[panel]\n[panel]", &["bad.toml:5:", "`[[panel]]`"]),
-    ("law of a later version", "law = \"elastic\"", "law = \"rigid\"", &["bad.toml:13:", "rigid"]),
+    (
+        "a bed joint that does not slide",
+        "law = \"elastic\"",
+        "law = \"rigid\"",
+        &["bad.toml:13:", "`rigid` is for head joints", "elastic, none"],
+    ),
+    (
+        "too much restitution",
+        "rigidity = 1000",
+        "restitution = 0.5",
+        &["bad.toml:14:", "joint.head.restitution", "`rigid`"],
+    ),
 ];
 
 #[test]

@@ -41,6 +41,8 @@ pub struct Tolerance {
 
 /// Allowed error of the stage iteration as a fraction of the tolerance of the step.
 const STAGE_ACCURACY: f64 = 0.02;
+/// Way of a joint in a step from one impact to the next below which it has not bounced [m].
+const LOW: f64 = 10.0 * TOUCHING;
 /// Step in which nothing moves, over the shortest time scale of the model.
 const INSTANT: f64 = 1e-6;
 
@@ -119,10 +121,13 @@ impl Step {
         }
     }
 
-    /// Lets joints that touched when the last step began collide without bouncing; without a step, none.
-    pub fn linger(&mut self, after_step: bool) {
-        for (lingers, touched) in self.impacts.lingering.iter_mut().zip(&self.stage.eligible) {
-            *lingers = after_step && *touched;
+    /// Says which joints touched when the last step, of `h` [s], began, and hardly left each other in it: they collide
+    /// without bouncing. With h = 0 none.
+    pub fn linger(&mut self, model: &Model, state: &State, h: f64) {
+        let joints = self.impacts.lingering.iter_mut().zip(&self.stage.eligible).zip(&model.contacts);
+        for ((lingers, touched), contact) in joints {
+            let [a, b] = model.sides[contact.joint as usize].map(|s| s as usize);
+            *lingers = h > 0.0 && *touched && (state.v[a] - state.v[b]) * h <= LOW;
         }
     }
 
@@ -146,7 +151,7 @@ impl Step {
         self.tangents.copy_from(&state.tangents);
         let found = stage.solve(model, &mut self.tangents, tau, drive.base_acceleration(state.t), 1e-6 * tau * largest);
         // Not work of a step: a restored run, which is not settled anew, must count the same.
-        (stage.iterations, stage.factorisations) = (0, 0);
+        (stage.iterations, stage.factorisations, stage.contact_residual) = (0, 0, 0.0);
         if found.is_ok() {
             state.tangents.mu.copy_from_slice(&self.tangents.mu);
             state.tangents.stuck.copy_from_slice(&self.tangents.stuck);

@@ -23,19 +23,22 @@ JOINT_ENVELOPES = BLOCK_ENVELOPES | {
     "closing": "m",
     "force": "N",
     "dissipation": "J",
+    "impulse": "N s",
+    "impacts": "1",
 }
-ENERGIES = ["input_base", "input_top", "initial", "kinetic", "elastic", "damping", "friction", "bond", "nonreciprocal"]
+ENERGIES = ["input_base", "input_top", "initial", "kinetic", "elastic", "damping", "friction", "bond", "impact", "nonreciprocal"]
 TOTALS = {
     "peak_relative_displacement": "m",
     "peak_slip_velocity": "m/s",
     "top_force_peak": "N",
     "top_force_square": "N2 s",
     "minimum_gap": "m",
+    "contact_residual": "m/s",
     "peak_input": "J",
     "peak_residual": "J",
     "time_reached": "s",
 }
-COUNTERS = ["steps", "rejected", "failed", "iterations", "factorisations"]
+COUNTERS = ["steps", "rejected", "failed", "iterations", "factorisations", "events", "located", "impacts"]
 BLOCK_COLUMNS = {"x0": "m", "x1": "m", "y0": "m", "y1": "m", "thickness": "m", "specific_weight": "N/m3", "mass": "kg"}
 PANEL_COLUMNS = {
     "reference_length": "m",
@@ -60,6 +63,7 @@ JOINT_COLUMNS = {
     "damping": "N s/m",
     "normal_force_a": "N",
     "normal_force_b": "N",
+    "restitution": "1",
     "friction_static": "1",
     "friction_dynamic": "1",
     "friction_slip_velocity": "m/s",
@@ -115,11 +119,11 @@ class Result:
 def check_head(result):
     attributes = result.file.attrs
     require(attributes["format"] == "concio-result", "attribute format")
-    require(attributes["schema_version"] == 2, "attribute schema_version")
+    require(attributes["schema_version"] == 3, "attribute schema_version")
     require(attributes["stop_reason"] in STOP_REASONS, f"stop_reason {attributes['stop_reason']!r}")
     for name in ["version", "model", "inputs_hash"]:
         require(isinstance(attributes[name], str) and attributes[name], f"attribute {name}")
-    require(result.array("schema_version", (), "u4", "1") == 2, "schema_version")
+    require(result.array("schema_version", (), "u4", "1") == 3, "schema_version")
     (case,) = result.texts("case", 1)
     require(isinstance(json.loads(case), dict), "case is no JSON object")
 
@@ -186,8 +190,17 @@ def check_frames(result, unknowns):
     held = int(result.array("layout/held", (), "u8", "1"))
     if held:
         result.array("frames/friction", (frames, held), "f8", "N")
+<<<<<<< HEAD
     if "bonds" in result.file:
         check_bonds(result, frames)
+=======
+    events = result.array("events/time", result.file["events/time"].shape, "f8", "s")
+    require((np.diff(events) >= 0).all(), "events are not in the order of time")
+    joints = result.array("events/joint", events.shape, "i8", "1")
+    require((joints >= 0).all(), "events/joint")
+    require(set(result.texts("events/kind", len(events))) <= {"impact"}, "events/kind")
+    result.array("events/value", events.shape, "f8", "SI")
+>>>>>>> rigid
     return time, displacement, velocity
 
 
@@ -281,7 +294,7 @@ def check_npz(path, file):
                 equal(np.array([t.decode() for t in array]), np.array(file[name].asstr()[()]), f"npz: {name}")
             else:
                 equal(array, file[name][()], f"npz: {name}")
-        tops = ["case", "wall", "history", "frames", "envelope", "energy", "totals", "counters"]
+        tops = ["case", "wall", "history", "frames", "events", "envelope", "energy", "totals", "counters"]
         wanted = []
         file.visititems(lambda name, item: wanted.append(name) if isinstance(item, h5py.Dataset) else None)
         wanted = {w for w in wanted if any(w == top or w.startswith(top + "/") for top in tops)}

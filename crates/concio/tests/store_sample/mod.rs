@@ -128,7 +128,8 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         bonded: joints.min(2),
         channels: channels(size.channels, wall),
     };
-    let recording = rows(&layout, 0..size.samples);
+    let mut recording = rows(&layout, 0..size.samples);
+    recording.events.retain(|e| (e.joint as usize) < joints);
     let per_unknown = |scale: f64| (0..unknowns).map(|k| scale * (k as f64 + 1.0)).collect::<Vec<_>>();
     let per_joint = |scale: f64| (0..joints).map(|k| scale * (k as f64 + 1.0)).collect::<Vec<_>>();
     let envelopes = Envelopes {
