@@ -104,13 +104,10 @@ fn table() -> Vec<Bad> {
         "bond with a key too many", edit("[load]", "[joint.bond]\ncohesion = 1e5\nshear = 3\n[load]"), "shear", "joint.bond.shear", "unknown key", "cohesion";
         "change of a bond out of range", change("at = { kind = [\"bed\"] }\nbond = { mode_2_energy = -1 }"), "bond =", "joint.change[0].bond.mode_2_energy", "-1 N/m is out of range", "from 0 N/m";
         "planar model", edit("\"shear\"", "\"planar\""), "model", "model", "not in this version", "`shear`";
-<<<<<<< HEAD
-=======
         "restitution above one", edit("law = \"no-tension\"", "law = \"rigid\", restitution = 1.2"), "head = { law", "joint.head.restitution", "1.2 is out of range", "0 … 1";
         "negative restitution", edit("law = \"no-tension\"", "law = \"rigid\", restitution = -0.1"), "head = { law", "joint.head.restitution", "-0.1 is out of range", "0 … 1";
         "restitution of a spring", edit("law = \"no-tension\"", "law = \"no-tension\", restitution = 0.5"), "head = { law", "joint.head.restitution", "for law `rigid` alone", "law = \"rigid\"";
         "restitution of a change", change("at = { kind = [\"head\"] }\nspring = { law = \"rigid\", restitution = 2 }"), "spring =", "joint.change[0].spring.restitution", "2 is out of range", "0 … 1";
->>>>>>> rigid
         "driven beam at rest", edit("top = { sine = { amplitude = \"5 mm\", frequency = \"2 Hz\" } }", ""), "[motion]", "motion.top", "the beam is `driven` but has no motion", "sine";
         "top motion without a driven beam", edit("beam = \"driven\"", "beam = \"free\""), "top = { sine", "motion.top", "only a `driven` top beam takes a motion", "`none`";
         "sine with two amplitudes", edit("amplitude = \"5 mm\"", "amplitude = \"5 mm\", acceleration = \"0.8 g\""), "top = { sine", "motion.top.sine", "both a displacement and an acceleration", "exactly one";

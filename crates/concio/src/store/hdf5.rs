@@ -81,15 +81,13 @@ pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outco
     expect("frames of velocity", recording.frame_velocity.len(), frame)?;
     expect("frames of acceleration", recording.frame_acceleration.len(), frame)?;
     expect("frames of friction", recording.frame_friction.len(), recording.frame_time.len() * layout.held)?;
-<<<<<<< HEAD
     expect("frames of damage", recording.frame_damage.len(), recording.frame_time.len() * layout.bonded)?;
     expect("list of bonds", outcome.bonds.len(), layout.bonded)?;
     if let Some(bond) = outcome.bonds.iter().find(|b| b.joint >= joints.len()) {
         return refuse(format!("not written: a bond of joint {} of {}", bond.joint, joints.len()));
-=======
+    }
     if let Some(event) = recording.events.iter().find(|e| e.joint as usize >= joints.len()) {
         return refuse(format!("not written: an event names joint {} of {}", event.joint, joints.len()));
->>>>>>> rigid
     }
     for field in &fields::BLOCK_ENVELOPES {
         expect(field.name, (field.get)(&outcome.envelopes).len(), unknowns)?;

@@ -190,17 +190,14 @@ def check_frames(result, unknowns):
     held = int(result.array("layout/held", (), "u8", "1"))
     if held:
         result.array("frames/friction", (frames, held), "f8", "N")
-<<<<<<< HEAD
     if "bonds" in result.file:
         check_bonds(result, frames)
-=======
     events = result.array("events/time", result.file["events/time"].shape, "f8", "s")
     require((np.diff(events) >= 0).all(), "events are not in the order of time")
     joints = result.array("events/joint", events.shape, "i8", "1")
     require((joints >= 0).all(), "events/joint")
-    require(set(result.texts("events/kind", len(events))) <= {"impact"}, "events/kind")
+    require(set(result.texts("events/kind", len(events))) <= {"impact", "crack", "break"}, "events/kind")
     result.array("events/value", events.shape, "f8", "SI")
->>>>>>> rigid
     return time, displacement, velocity
 
 
@@ -294,7 +291,7 @@ def check_npz(path, file):
                 equal(np.array([t.decode() for t in array]), np.array(file[name].asstr()[()]), f"npz: {name}")
             else:
                 equal(array, file[name][()], f"npz: {name}")
-        tops = ["case", "wall", "history", "frames", "events", "envelope", "energy", "totals", "counters"]
+        tops = ["case", "wall", "history", "frames", "bonds", "events", "envelope", "energy", "totals", "counters"]
         wanted = []
         file.visititems(lambda name, item: wanted.append(name) if isinstance(item, h5py.Dataset) else None)
         wanted = {w for w in wanted if any(w == top or w.startswith(top + "/") for top in tops)}
