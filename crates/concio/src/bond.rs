@@ -3,7 +3,7 @@
 //!   (B1)  F = k [1 − (1 − η) D] δ + D N μ(δ̇),   D = 0 intact … 1 cracked
 //!   (B2)  F_0 = c A + N tan φ of bed and support joints, f_t A of head joints and connections, which are bonded
 //!         against opening alone and keep F^el of their law in compression
-//!   (B3)  D = 1 − (δ_0/κ) e^{−(κ − δ_0)/δ_c},   κ = max |δ| so far,   δ_0 = F_0/k;   brittle: D = 1 from δ_0 on
+//!   (B3)  D = 1 − (δ_0/δ_m) e^{−(δ_m − δ_0)/δ_c},   δ_m = max |δ| so far,   δ_0 = F_0/k;   brittle: D = 1 from δ_0 on
 //!   (B4)  G_f A = (1 − η) F_0 [½ δ_0 + (1 − ε) δ_c],   the work done on a joint that is opened for good
 //!
 //! A part D of the joint is cracked and rubs, the rest is elastic (Alfano & Sacco 2006); strengths and exponential

@@ -191,6 +191,7 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
     let totals = &mut state.totals;
     totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
     let top = model.floating_beam().unwrap_or(model.top());
+    let mut contacts = model.contacts.iter().peekable();
     let mut pull = 0.0;
     for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
         let (a, b) = (a as usize, b as usize);
@@ -198,7 +199,9 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
         let f = spring_force(law.unilateral, law.stiffness, d);
         // Where the relative motion turned inside the step, or its start, which is known already.
         let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], w], h);
-        let (least, most) = (d.min(turn), d.max(turn));
+        // A rigid joint never closes inside a step, whatever the parabola says.
+        let rigid = contacts.next_if(|c| c.joint as usize == e).is_some();
+        let (least, most) = (d.min(turn), if rigid { d } else { d.max(turn) });
         env.joint_displacement[e] = env.joint_displacement[e].max(most.max(-least));
         env.joint_velocity[e] = env.joint_velocity[e].max(w.abs());
         env.joint_acceleration[e] = env.joint_acceleration[e].max(dw.abs());
@@ -231,7 +234,9 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
         let [a, b] = model.sides[e].map(|s| s as usize);
         let d = state.z[a] - state.z[b];
         let beyond = bond.beyond(&model.elastic[e], held.damage, d);
-        held.peak = held.peak.max(bond.force(&model.elastic[e], held.damage, d).abs());
+        let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], state.v[a] - state.v[b]], h);
+        let force = |d: f64| bond.force(&model.elastic[e], held.damage, d).abs();
+        held.peak = held.peak.max(force(d)).max(force(turn));
         env.joint_force[e] = held.peak;
         if b == top {
             pull += beyond;

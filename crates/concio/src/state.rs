@@ -108,7 +108,7 @@ impl Instant {
 /// What a run has done to a bond.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BondState {
-    /// κ: largest |δ|, or widest gap, that counted for the damage so far [m]; 0 while the bond is intact.
+    /// δ_m: largest |δ|, or widest gap, that counted for the damage so far [m]; 0 while the bond is intact.
     pub reach: f64,
     /// D, 0 … 1.
     pub damage: f64,

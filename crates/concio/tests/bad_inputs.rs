@@ -128,7 +128,7 @@ fn table() -> Vec<Bad> {
         "unknown panel chosen", change("at = { panel = [\"tower\"] }\nspring = { stiffness = 0 }"), "at =", "joint.change[0].at.panel[0]", "no panel is called `tower`", "`p1`";
         "course chosen that is not there", change("at = { course = [1, 8] }\nspring = { stiffness = 0 }"), "at =", "joint.change[0].at.course[1]", "course 8 does not exist", "1 … 6, and 7 for the top support";
         "region turned round", change("at = { region = [1, 0, 0, 1] }\nspring = { stiffness = 0 }"), "at =", "joint.change[0].at.region", "encloses nothing", "x0 below x1";
-        "a change of nothing", change("at = { kind = [\"bed\"] }"), "[[joint.change]]", "joint.change[0]", "nothing is changed", "`spring`, `friction` or both";
+        "a change of nothing", change("at = { kind = [\"bed\"] }"), "[[joint.change]]", "joint.change[0]", "nothing is changed", "`spring`, `friction` or `bond`";
         "panels of one name", edit("[joint]", "[[panel]]\nname = \"p1\"\nbond = \"stack\"\ncourses = 1\nbricks = 1\nbrick = { length = 1, height = 1, thickness = 1, specific_weight = 1 }\n[joint]"), "name =", "panel[1].name", "panel[0] is called `p1` too", "names that differ";
         "irregular without courses", panel("bond = \"irregular\""), "[[panel]]", "panel[0].course", "the courses are not given", "either [[panel.course]] or `random`";
         "explicit without blocks", panel("bond = \"explicit\""), "[[panel]]", "panel[0].block", "the panel has no block", "at least one";

@@ -178,7 +178,7 @@ fn cracks_are_drawn_and_told() {
         "{described}"
     );
     assert!(!described.contains(" 0 of 23 bonds"), "{described}");
-    desk.concio("plot r --figure cracks --at 0").assert().success();
+    desk.concio("plot r --figure cracks --at 0s").assert().success();
     let svg = desk.get("r/figures/cracks.svg");
     let described = svg.lines().find(|l| l.contains("<desc>")).expect("a description");
     assert!(described.contains(" 0 of 23 bonds cracked, 0 of them broken"), "{described}");

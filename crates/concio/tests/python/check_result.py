@@ -291,7 +291,7 @@ def check_npz(path, file):
                 equal(np.array([t.decode() for t in array]), np.array(file[name].asstr()[()]), f"npz: {name}")
             else:
                 equal(array, file[name][()], f"npz: {name}")
-        tops = ["case", "wall", "history", "frames", "events", "envelope", "energy", "totals", "counters"]
+        tops = ["case", "wall", "history", "frames", "bonds", "events", "envelope", "energy", "totals", "counters"]
         wanted = []
         file.visititems(lambda name, item: wanted.append(name) if isinstance(item, h5py.Dataset) else None)
         wanted = {w for w in wanted if any(w == top or w.startswith(top + "/") for top in tops)}
