@@ -23,16 +23,52 @@ const BUFFER: usize = 256;
 /// A run under way.
 #[derive(Debug, Clone)]
 pub struct Simulation<'m> {
-    model: &'m Model,
-    solver: Solver,
+    pub(crate) model: &'m Model,
+    pub(crate) solver: Solver,
     channels: Channels,
     layout: Layout,
-    state: State,
+    pub(crate) state: State,
     work: Step,
     recording: Recording,
     /// The smooth piece of the motion in which the state lies; follows from the time.
-    drive: Drive,
+    pub(crate) drive: Drive,
     longest_step: f64,
+}
+
+/// A step under way: where it aims, and its present try.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Plan {
+    /// Where the step ends at the latest [s]: a break of the motion or a sample.
+    target: f64,
+    /// Whether that is a break of the motion.
+    at_break: bool,
+    /// Step that the error control asks for [s].
+    proposed: f64,
+    /// Step of the present try [s], and whether it ends at `target`.
+    pub h: f64,
+    lands: bool,
+}
+
+impl Plan {
+    /// Where the present try ends [s], from `t`.
+    pub fn end(&self, t: f64) -> f64 {
+        if self.lands { self.target } else { t + self.h }
+    }
+    /// Whether it ends at a break of the motion.
+    pub fn meets_break(&self) -> bool {
+        self.at_break && self.lands
+    }
+}
+
+/// What becomes of a try.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    /// It is the step.
+    Accept,
+    /// A shorter one follows.
+    Repeat,
+    /// The run ends.
+    Stop(StopReason),
 }
 
 /// What [`Simulation::advance`] came to.
@@ -137,53 +173,77 @@ impl<'m> Simulation<'m> {
 
     /// One accepted step, to the next break of the motion or sample at the farthest.
     fn step(&mut self) -> std::result::Result<(), StopReason> {
+        let mut plan = self.plan();
+        loop {
+            self.size(&mut plan);
+            let tolerance = self.tolerance();
+            let attempt = self.work.attempt(self.model, &self.state, &self.drive, plan.h, tolerance);
+            match self.judge(attempt, &mut plan) {
+                Verdict::Accept => {
+                    self.accept(plan);
+                    return Ok(());
+                }
+                Verdict::Repeat => {}
+                Verdict::Stop(reason) => return Err(reason),
+            }
+        }
+    }
+
+    /// Where the next step aims.
+    pub(crate) fn plan(&self) -> Plan {
         let break_at = self.drive.end;
         // A sample that falls on a break but for rounding is taken there.
         let at_break = self.next_sample() >= break_at - self.slack();
         let target = if at_break { break_at } else { self.next_sample() };
-        let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
-        let mut proposed = self.state.step;
-        loop {
-            let remaining = target - self.state.t;
-            let mut h = proposed.min(self.longest_step);
-            let lands = h >= remaining * (1.0 - 1e-9);
-            if lands {
-                h = remaining;
-            } else if h > 0.5 * remaining {
-                h = 0.5 * remaining;
-            }
-            let tolerance = self.tolerance();
-            let attempt = self.work.attempt(self.model, &self.state, &self.drive, h, tolerance);
-            let factor = match attempt {
-                Ok(error) if error <= 1.0 => {
-                    let grow = growth(error, self.work.error_order()).min(5.0);
-                    let free = h * grow;
-                    // A step cut short by a landing says little about the one that the error allows.
-                    self.state.step = if lands && proposed > h { free.max(proposed) } else { free };
-                    self.accept(if lands { target } else { self.state.t + h }, h, at_break && lands);
-                    return Ok(());
-                }
-                Ok(error) if error.is_finite() => {
-                    self.state.counters.rejected += 1;
-                    growth(error, self.work.error_order()).clamp(0.1, 0.8)
-                }
-                Err(Failure::TooLong) => {
-                    self.state.counters.failed += 1;
-                    0.4
-                }
-                Ok(_) | Err(Failure::NotFinite) => {
-                    self.state.counters.failed += 1;
-                    if h <= shortest {
-                        return Err(StopReason::NotFinite);
-                    }
-                    0.25
-                }
-            };
-            if h <= shortest {
-                return Err(StopReason::StepTooShort);
-            }
-            proposed = h * factor;
+        Plan { target, at_break, proposed: self.state.step, h: 0.0, lands: false }
+    }
+
+    /// Length of the next try.
+    pub(crate) fn size(&self, plan: &mut Plan) {
+        let remaining = plan.target - self.state.t;
+        let mut h = plan.proposed.min(self.longest_step);
+        plan.lands = h >= remaining * (1.0 - 1e-9);
+        if plan.lands {
+            h = remaining;
+        } else if h > 0.5 * remaining {
+            h = 0.5 * remaining;
         }
+        plan.h = h;
+    }
+
+    /// What becomes of a try with this error over the tolerance, and how long the next one is.
+    pub(crate) fn judge(&mut self, attempt: std::result::Result<f64, Failure>, plan: &mut Plan) -> Verdict {
+        let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
+        let (h, order) = (plan.h, self.work.error_order());
+        let factor = match attempt {
+            Ok(error) if error <= 1.0 => {
+                let grow = growth(error, order).min(5.0);
+                let free = h * grow;
+                // A step cut short by a landing says little about the one that the error allows.
+                self.state.step = if plan.lands && plan.proposed > h { free.max(plan.proposed) } else { free };
+                return Verdict::Accept;
+            }
+            Ok(error) if error.is_finite() => {
+                self.state.counters.rejected += 1;
+                growth(error, order).clamp(0.1, 0.8)
+            }
+            Err(Failure::TooLong) => {
+                self.state.counters.failed += 1;
+                0.4
+            }
+            Ok(_) | Err(Failure::NotFinite) => {
+                self.state.counters.failed += 1;
+                if h <= shortest {
+                    return Verdict::Stop(StopReason::NotFinite);
+                }
+                0.25
+            }
+        };
+        if h <= shortest {
+            return Verdict::Stop(StopReason::StepTooShort);
+        }
+        plan.proposed = h * factor;
+        Verdict::Repeat
     }
 
     /// When the next sample is due [s]; +∞ after the last.
@@ -199,7 +259,7 @@ impl<'m> Simulation<'m> {
         1e-9 * self.layout.interval
     }
 
-    fn tolerance(&self) -> Tolerance {
+    pub(crate) fn tolerance(&self) -> Tolerance {
         let [z, v] = self.state.scale;
         let floor = self.solver.floor.si();
         Tolerance {
@@ -208,37 +268,51 @@ impl<'m> Simulation<'m> {
         }
     }
 
-    fn accept(&mut self, t: f64, h: f64, at_break: bool) {
-        self.work.accept(self.model, &mut self.state, t, h);
+    fn accept(&mut self, plan: Plan) {
+        let t = plan.end(self.state.t);
+        self.work.accept(self.model, &mut self.state, t, plan.h);
         self.state.counters.steps += 1;
         self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
         self.state.counters.factorisations += std::mem::take(&mut self.work.stage.factorisations);
-        observe(self.model, &mut self.state, h);
-        if at_break && t < self.model.excitation.duration {
-            self.enter_piece(t);
+        observe(self.model, &mut self.state, plan.h);
+        if plan.meets_break()
+            && t < self.model.excitation.duration
+            && let Some(jump) = self.turn_piece(t)
+        {
+            self.restart(jump);
         }
-        if t >= self.next_sample() - self.slack() {
+        if self.sample_is_due() {
             self.sample();
         }
     }
 
+    /// Whether the time reached is that of the next sample.
+    pub(crate) fn sample_is_due(&self) -> bool {
+        self.state.t >= self.next_sample() - self.slack()
+    }
+
     /// Goes on into the piece of the motion that starts at `t`. Records only have kinks there; where acceleration or
-    /// velocity jumps, the rates at the start of the next step are those after the jump.
-    fn enter_piece(&mut self, t: f64) {
+    /// velocity jumps, the jump of the base's velocity [m/s], with which to call [`Simulation::restart`].
+    pub(crate) fn turn_piece(&mut self, t: f64) -> Option<f64> {
         let before = self.drive;
         self.drive = self.model.excitation.drive(t);
         let jump = self.model.excitation.base_velocity_jump(t);
+        let (old, new) = (before.base_acceleration(t), self.drive.base_acceleration(t));
+        let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
+        let smooth = jump == 0.0 && close(old, new) && close(before.top(t).v, self.drive.top(t).v);
+        (!smooth).then_some(jump)
+    }
+
+    /// The rates at the start of the next step are those after a jump of the motion.
+    pub(crate) fn restart(&mut self, jump: f64) {
         if jump != 0.0 {
             kick(self.model, &mut self.state, jump);
         }
-        let (old, new) = (before.base_acceleration(t), self.drive.base_acceleration(t));
-        let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
-        if jump != 0.0 || !close(old, new) || !close(before.top(t).v, self.drive.top(t).v) {
-            self.settle();
-        }
+        self.settle();
     }
 
-    fn sample(&mut self) {
+    /// Keeps the state as a sample.
+    pub(crate) fn sample(&mut self) {
         let (state, recording) = (&mut self.state, &mut self.recording);
         recording.time.push(state.samples as f64 * self.layout.interval);
         self.channels.sample(self.model, &self.drive, state, &mut recording.values);

@@ -117,6 +117,11 @@ impl Matrix {
         &self.place
     }
 
+    /// The pattern of L by columns: where each starts, and the row of every entry.
+    pub fn pattern(&self) -> (&[u32], &[u32]) {
+        (&self.start, &self.row)
+    }
+
     /// Factorises what `diagonal`, `lower` and `upper` hold, in place. With `symmetric`, `upper` is not read.
     ///
     /// # Errors

@@ -37,7 +37,7 @@ pub struct Tolerance {
 }
 
 /// Allowed error of the stage iteration as a fraction of the tolerance of the step.
-const STAGE_ACCURACY: f64 = 0.02;
+pub const STAGE_ACCURACY: f64 = 0.02;
 /// Step in which nothing moves, over the shortest time scale of the model.
 const INSTANT: f64 = 1e-6;
 

@@ -1,0 +1,329 @@
+//! One run in its lane: what [`crate::simulate::Simulation`] decides between the steps, with the same operations.
+
+use crate::ground::signal::Kinematics;
+use crate::integrate::stage::Failure;
+use crate::integrate::step::{STAGE_ACCURACY, Tolerance};
+use crate::integrate::tableau::STAGES;
+use crate::lanes::account::{Account, Totals};
+use crate::lanes::rows::WIDTH;
+use crate::lanes::work::{
+    ACCURACY, BAD_PIVOT, CORRECTION, ERROR_SUM, ERROR_V, ERROR_Z, FLIPPED, GROUND, MOST_ITERATIONS, SCALE_V, SCALE_Z,
+    STAGE, STEP, SUM, TAU, WEIGHTS, Work,
+};
+use crate::outcome::Outcome;
+use crate::record::{Recording, StopReason};
+use crate::simulate::{Plan, Simulation, Verdict};
+use crate::state::Power;
+
+/// What a lane does after an iteration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Next {
+    /// Another one.
+    Iterate {
+        /// A joint has opened or closed.
+        flipped: bool,
+    },
+    /// The stage has converged.
+    Stage,
+    /// The step is too long.
+    Shorter,
+}
+
+/// A run in a lane. Its state is in the rows; the arrays of `run` are brought up to date where they are read.
+pub struct Lane<'m> {
+    number: usize,
+    run: Simulation<'m>,
+    rows: Recording,
+    plan: Plan,
+    tolerance: Tolerance,
+    /// Stage of the step under way, from 1, and its iterations so far.
+    pub stage: usize,
+    iterations: u32,
+    /// Work since the last accepted step.
+    all_iterations: u64,
+    factorisations: u64,
+    factors_hold: bool,
+    failure: Option<Failure>,
+    /// Why the run has stopped.
+    pub stopped: Option<StopReason>,
+    top: Kinematics,
+    /// Base acceleration at the stages of the step under way, and of the step that waits for its account.
+    ground: [f64; STAGES],
+    settled_ground: [f64; STAGES],
+    settled_step: f64,
+    /// Whether an accepted step waits for its account.
+    pub pending: bool,
+}
+
+impl<'m> Lane<'m> {
+    pub fn new(number: usize, run: Simulation<'m>) -> Self {
+        Lane {
+            number,
+            run,
+            rows: Recording::default(),
+            plan: Plan::default(),
+            tolerance: Tolerance { z: 0.0, v: 0.0 },
+            stage: 0,
+            iterations: 0,
+            all_iterations: 0,
+            factorisations: 0,
+            factors_hold: false,
+            failure: None,
+            stopped: None,
+            top: Kinematics::default(),
+            ground: [0.0; STAGES],
+            settled_ground: [0.0; STAGES],
+            settled_step: 0.0,
+            pending: false,
+        }
+    }
+
+    /// Share of the run that is done, from 0 to 1.
+    pub fn share(&self) -> f64 {
+        let status = self.run.status();
+        status.time / status.duration
+    }
+
+    /// Writes model and state into lane `i`.
+    pub fn load(&mut self, w: &mut Work, account: &mut Account, i: usize) {
+        let model = self.run.model;
+        for (m, &p) in model.mass.iter().zip(&w.topology.place) {
+            w.mass.set(p as usize, i, *m);
+        }
+        for (e, law) in model.elastic.iter().enumerate() {
+            w.damping.set(e, i, law.damping);
+            w.stiffness.set(e, i, law.stiffness);
+        }
+        for (r, rub) in model.rubs.iter().enumerate() {
+            let law = &rub.law;
+            w.normal.set(r, i, rub.normal[0]);
+            w.normals.set(r, i, rub.normal[0] + rub.normal[1]);
+            w.static_.set(r, i, law.static_);
+            w.excess.set(r, i, law.static_ - law.dynamic);
+            w.dynamic.set(r, i, law.dynamic);
+            w.slip.set(r, i, law.slip_velocity);
+            w.steep.set(r, i, law.beta / law.slip_velocity);
+            w.alpha.set(r, i, law.alpha);
+            w.width.set(r, i, law.slip_velocity / law.beta);
+            w.slope_at_rest.set(r, i, law.slope_at_rest());
+        }
+        self.forget_stages(w, i);
+        self.load_state(w, account, i);
+    }
+
+    fn load_state(&mut self, w: &mut Work, account: &mut Account, i: usize) {
+        let state = &mut self.run.state;
+        for (k, &p) in w.topology.place.iter().enumerate() {
+            w.z.set(p as usize, i, state.z[k]);
+            w.v.set(p as usize, i, state.v[k]);
+            w.a.set(p as usize, i, state.a[k]);
+        }
+        let t = &state.tangents;
+        for rows in [&mut w.tangents, &mut w.saved] {
+            for r in 0..t.mu.len() {
+                rows.velocity.set(r, i, t.velocity[r]);
+                rows.mu.set(r, i, t.mu[r]);
+                rows.slope.set(r, i, t.slope[r]);
+            }
+        }
+        for (e, law) in self.run.model.elastic.iter().enumerate() {
+            w.engaged.set(e, i, if t.closed[e] { law.stiffness } else { 0.0 });
+        }
+        for (k, joint) in w.topology.one_sided.iter().enumerate() {
+            w.saved_engaged.set(k, i, w.engaged.at(joint.joint as usize, i));
+        }
+        for (e, power) in state.joint_power.iter().enumerate() {
+            account.joint_power.set(e, i, *power);
+        }
+        account.load(i, &w.topology.place, &mut state.envelopes);
+    }
+
+    /// What is left in stages that have not been reached is multiplied by 0, and must be finite for that.
+    fn forget_stages(&self, w: &mut Work, i: usize) {
+        for rows in w.stage_v.iter_mut().chain(&mut w.stage_a) {
+            for k in 0..rows.len() {
+                rows.set(k, i, 0.0);
+            }
+        }
+    }
+
+    /// Brings displacements, velocities, accelerations and tangents of the run up to date.
+    fn unload_state(&mut self, w: &Work, i: usize) {
+        let state = &mut self.run.state;
+        for (k, &p) in w.topology.place.iter().enumerate() {
+            state.z[k] = w.z.at(p as usize, i);
+            state.v[k] = w.v.at(p as usize, i);
+            state.a[k] = w.a.at(p as usize, i);
+        }
+        let t = &mut state.tangents;
+        for r in 0..t.mu.len() {
+            t.velocity[r] = w.saved.velocity.at(r, i);
+            t.mu[r] = w.saved.mu.at(r, i);
+            t.slope[r] = w.saved.slope.at(r, i);
+        }
+        for (k, joint) in w.topology.one_sided.iter().enumerate() {
+            t.closed[joint.joint as usize] = w.saved_engaged.at(k, i) > 0.0;
+        }
+    }
+
+    /// Starts a step from the state.
+    pub fn begin_step(&mut self, w: &mut Work, i: usize) {
+        self.plan = self.run.plan();
+        self.begin_attempt(w, i);
+    }
+
+    /// Starts the next try of the step.
+    pub fn begin_attempt(&mut self, w: &mut Work, i: usize) {
+        self.run.size(&mut self.plan);
+        self.tolerance = self.run.tolerance();
+        self.factors_hold = false;
+        w.lane.set(STEP, i, self.plan.h);
+        w.lane.set(TAU, i, w.tableau.diagonal * self.plan.h);
+        w.lane.set(ACCURACY, i, STAGE_ACCURACY * self.tolerance.v);
+        self.begin_stage(w, i, 1);
+    }
+
+    /// Starts a stage.
+    pub fn begin_stage(&mut self, w: &mut Work, i: usize, stage: usize) {
+        (self.stage, self.iterations) = (stage, 0);
+        let h = self.plan.h;
+        let tau = w.tableau.diagonal * h;
+        let t = self.run.state.t + w.tableau.c[stage] * h;
+        let top = self.run.drive.top(t);
+        let n = w.topology.unknowns as usize;
+        w.before_z.set(n + 1, i, top.u - tau * top.v);
+        w.before_v.set(n + 1, i, top.v);
+        self.top = top;
+        self.ground[stage] = self.run.drive.base_acceleration(t);
+        w.lane.set(GROUND, i, self.ground[stage]);
+        w.lane.set(STAGE, i, stage as f64);
+        for j in 0..w.tableau.stages {
+            w.lane.set(WEIGHTS + j, i, if j < stage { h * w.tableau.a[stage][j] } else { 0.0 });
+        }
+    }
+
+    /// What the iteration has come to.
+    pub fn judge(&mut self, w: &Work, i: usize) -> Next {
+        self.iterations += 1;
+        self.all_iterations += 1;
+        if !(self.factors_hold && w.topology.rubs.is_empty()) {
+            self.factorisations += 1;
+        }
+        let flipped = w.lane.at(FLIPPED, i) > 0.0;
+        self.factors_hold = !flipped;
+        if w.lane.at(BAD_PIVOT, i) > 0.0 {
+            self.failure = Some(Failure::TooLong);
+        } else if !w.lane.at(SUM, i).is_finite() {
+            self.failure = Some(Failure::NotFinite);
+        } else if !flipped && w.lane.at(CORRECTION, i) <= w.lane.at(ACCURACY, i) {
+            return Next::Stage;
+        } else if self.iterations == MOST_ITERATIONS {
+            self.failure = Some(Failure::TooLong);
+        } else {
+            return Next::Iterate { flipped };
+        }
+        self.fail(w, i);
+        Next::Shorter
+    }
+
+    fn fail(&mut self, _w: &Work, _i: usize) {
+        if let Some(failure) = self.failure.take()
+            && let Verdict::Stop(reason) = self.run.judge(Err(failure), &mut self.plan)
+        {
+            self.stopped = Some(reason);
+        }
+    }
+
+    /// Whether the step whose last stage has ended is accepted; how long the next try is follows.
+    pub fn verdict(&mut self, w: &Work, i: usize) -> bool {
+        let error = (w.lane.at(ERROR_V, i) / self.tolerance.v).max(w.lane.at(ERROR_Z, i) / self.tolerance.z);
+        let error = if w.lane.at(ERROR_SUM, i).is_finite() { error } else { f64::INFINITY };
+        match self.run.judge(Ok(error), &mut self.plan) {
+            Verdict::Accept => true,
+            Verdict::Repeat => false,
+            Verdict::Stop(reason) => {
+                self.stopped = Some(reason);
+                false
+            }
+        }
+    }
+
+    /// The run at the end of its step, whose account waits.
+    pub fn accept(&mut self, w: &mut Work, account: &mut Account, i: usize) {
+        w.a.set(w.topology.unknowns as usize + 1, i, self.top.a);
+        let state = &mut self.run.state;
+        state.t = self.plan.end(state.t);
+        state.scale[0] = state.scale[0].max(w.lane.at(SCALE_Z, i));
+        state.scale[1] = state.scale[1].max(w.lane.at(SCALE_V, i));
+        state.counters.steps += 1;
+        state.counters.iterations += std::mem::take(&mut self.all_iterations);
+        state.counters.factorisations += std::mem::take(&mut self.factorisations);
+        (self.settled_step, self.settled_ground, self.pending) = (self.plan.h, self.ground, true);
+        account.step[i] = self.plan.h;
+    }
+
+    /// Where the run has arrived: the jump of the base's velocity if the rates start anew, whether a sample is due,
+    /// whether the run ends.
+    pub fn arrives(&mut self) -> (Option<f64>, bool, bool) {
+        let t = self.run.state.t;
+        let ends = t >= self.run.model.excitation.duration;
+        let restarts = if self.plan.meets_break() && !ends { self.run.turn_piece(t) } else { None };
+        (restarts, self.run.sample_is_due(), ends)
+    }
+
+    /// Takes up a jump of the motion.
+    pub fn restart(&mut self, w: &mut Work, account: &mut Account, i: usize, jump: f64) {
+        self.unload_state(w, i);
+        account.unload(i, &w.topology.place, &mut self.run.state.envelopes);
+        self.run.restart(jump);
+        self.load_state(w, account, i);
+    }
+
+    /// Keeps a sample.
+    pub fn sample(&mut self, w: &Work, i: usize) {
+        self.unload_state(w, i);
+        self.run.sample();
+        if self.run.buffer_is_full() {
+            self.rows.append(self.run.recording());
+            self.run.clear_recording();
+        }
+    }
+
+    /// The account of the step that waited.
+    pub fn enter_account(&mut self, w: &Work, totals: &Totals, i: usize) {
+        self.pending = false;
+        let (h, state) = (self.settled_step, &mut self.run.state);
+        let mut power = state.power;
+        power.accrue(h * w.tableau.b[0], &mut state.energies);
+        for stage in 1..w.tableau.stages {
+            power = Power {
+                base: totals.momentum[stage][i] * self.settled_ground[stage],
+                top: totals.top[stage][i],
+                damping: totals.damping[stage][i],
+                friction: totals.friction[stage][i],
+                nonreciprocal: 0.0,
+            };
+            power.accrue(h * w.tableau.b[stage], &mut state.energies);
+        }
+        state.power = power;
+        state.energies.kinetic = totals.kinetic[i];
+        state.energies.elastic = totals.elastic[i];
+        let (sum, energies, pull) = (&mut state.totals, &state.energies, totals.pull[i]);
+        sum.peak_relative_displacement = sum.peak_relative_displacement.max(totals.displacement[i]);
+        sum.peak_slip_velocity = sum.peak_slip_velocity.max(totals.slip_velocity[i]);
+        sum.minimum_gap = sum.minimum_gap.min(-totals.closing[i]);
+        sum.top_force_peak = sum.top_force_peak.max(pull.abs());
+        sum.top_force_square += h * pull * pull;
+        sum.peak_input = sum.peak_input.max(energies.input().abs());
+        sum.peak_residual = sum.peak_residual.max(energies.residual().abs());
+    }
+
+    /// Number and result of the run, which ends with `reason`, or because it is complete.
+    pub fn outcome(mut self, w: &Work, account: &Account, i: usize, reason: Option<StopReason>) -> (usize, Outcome) {
+        account.unload(i, &w.topology.place, &mut self.run.state.envelopes);
+        self.rows.append(self.run.recording());
+        (self.number, self.run.outcome(self.rows, reason.unwrap_or(StopReason::Completed)))
+    }
+}
+
+const _: () = assert!(WIDTH == 8);
