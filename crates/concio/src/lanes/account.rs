@@ -7,23 +7,32 @@
 use pulp::{Simd, WithSimd};
 
 use crate::integrate::tableau::STAGES;
-use crate::lanes::rows::{Mask, Rows, V, WIDTH};
+use crate::lanes::rows::{Groups, Mask, V, WIDTH};
 use crate::lanes::topology::NONE;
-use crate::lanes::work::{PENDING, Work};
+use crate::lanes::work::{ACCELERATION, DAMPING, NORMAL, NORMALS, PENDING, SLIP, VELOCITY, Work, Z};
 use crate::record::Envelopes;
 
 /// Per-joint and per-unknown sums and peaks of all lanes.
 #[derive(Debug)]
 pub struct Account {
-    /// Rate of each joint's dissipation at the last accepted state [W].
-    pub joint_power: Rows,
     /// Peaks of displacement, velocity and acceleration.
-    pub unknowns: [Rows; 3],
-    /// Peaks of displacement, velocity, acceleration, force, opening and closing; slip; dissipation.
-    pub joints: [Rows; 8],
+    pub unknowns: Groups<3>,
+    /// Rows [`DISPLACEMENT`] to [`POWER`].
+    pub joints: Groups<9>,
     /// Step of the waiting account [s].
     pub step: [f64; WIDTH],
 }
+
+/// Rows of [`Account::joints`]: the envelopes, and the rate of the dissipation at the last accepted state [W].
+const DISPLACEMENT: usize = 0;
+const SPEED: usize = 1;
+const RATE: usize = 2;
+const FORCE: usize = 3;
+const OPENING: usize = 4;
+const CLOSING: usize = 5;
+const SLIPPED: usize = 6;
+const DISSIPATION: usize = 7;
+pub const POWER: usize = 8;
 
 /// What the account of a step comes to, lane by lane; the powers by stage.
 #[derive(Debug, Clone, Default)]
@@ -41,47 +50,37 @@ pub struct Totals {
     pub pull: [f64; WIDTH],
 }
 
-/// Place of the dissipation in [`Account::joints`].
-const DISSIPATION: usize = 7;
-
 impl Account {
     pub fn new(unknowns: usize, joints: usize) -> Self {
-        Account {
-            joint_power: Rows::new(joints),
-            unknowns: std::array::from_fn(|_| Rows::new(unknowns)),
-            joints: std::array::from_fn(|_| Rows::new(joints)),
-            step: [0.0; WIDTH],
-        }
+        Account { unknowns: Groups::new(unknowns), joints: Groups::new(joints), step: [0.0; WIDTH] }
     }
 
-    /// The envelopes as rows of [`Account::unknowns`] and [`Account::joints`].
+    /// The envelopes in the order of the rows.
     fn envelopes(from: &mut Envelopes) -> ([&mut Vec<f64>; 3], [&mut Vec<f64>; 8]) {
-        (
-            [&mut from.block_displacement, &mut from.block_velocity, &mut from.block_acceleration],
-            [
-                &mut from.joint_displacement,
-                &mut from.joint_velocity,
-                &mut from.joint_acceleration,
-                &mut from.joint_force,
-                &mut from.joint_opening,
-                &mut from.joint_closing,
-                &mut from.joint_slip,
-                &mut from.joint_dissipation,
-            ],
-        )
+        let joints = [
+            &mut from.joint_displacement,
+            &mut from.joint_velocity,
+            &mut from.joint_acceleration,
+            &mut from.joint_force,
+            &mut from.joint_opening,
+            &mut from.joint_closing,
+            &mut from.joint_slip,
+            &mut from.joint_dissipation,
+        ];
+        ([&mut from.block_displacement, &mut from.block_velocity, &mut from.block_acceleration], joints)
     }
 
     /// Takes the envelopes of a run into its lane.
     pub fn load(&mut self, lane: usize, place: &[u32], envelopes: &mut Envelopes) {
         let (unknowns, joints) = Self::envelopes(envelopes);
-        for (rows, values) in self.unknowns.iter_mut().zip(unknowns) {
+        for (row, values) in unknowns.into_iter().enumerate() {
             for (value, &p) in values.iter().zip(place) {
-                rows.set(p as usize, lane, *value);
+                self.unknowns.set(p as usize, row, lane, *value);
             }
         }
-        for (rows, values) in self.joints.iter_mut().zip(joints) {
+        for (row, values) in joints.into_iter().enumerate() {
             for (e, value) in values.iter().enumerate() {
-                rows.set(e, lane, *value);
+                self.joints.set(e, row, lane, *value);
             }
         }
     }
@@ -89,14 +88,14 @@ impl Account {
     /// Gives them back.
     pub fn unload(&self, lane: usize, place: &[u32], envelopes: &mut Envelopes) {
         let (unknowns, joints) = Self::envelopes(envelopes);
-        for (rows, values) in self.unknowns.iter().zip(unknowns) {
+        for (row, values) in unknowns.into_iter().enumerate() {
             for (value, &p) in values.iter_mut().zip(place) {
-                *value = rows.at(p as usize, lane);
+                *value = self.unknowns.at(p as usize, row, lane);
             }
         }
-        for (rows, values) in self.joints.iter().zip(joints) {
+        for (row, values) in joints.into_iter().enumerate() {
             for (e, value) in values.iter_mut().enumerate() {
-                *value = rows.at(e, lane);
+                *value = self.joints.at(e, row, lane);
             }
         }
     }
@@ -129,53 +128,48 @@ impl Settle<'_> {
         let (last, n) = (w.tableau.stages - 1, t.unknowns);
         let waits = Mask::of(w.lane.read(simd).at(PENDING as u32));
         let step = V::of(simd, self.account.step);
-        let mass = w.mass.read(simd);
-        let mut power = self.account.joint_power.write(simd);
-        let mut sums = self.account.joints[DISSIPATION].write(simd);
-        let weight = step * w.tableau.b[0];
-        for e in 0..t.joints.len() as u32 {
-            sums.set_where(waits, e, sums.at(e) + weight * power.at(e));
-        }
-        let (damping, stiffness, normals) = (w.damping.read(simd), w.stiffness.read(simd), w.normals.read(simd));
-        let normal = w.normal.read(simd);
+        let (mass, searches, rubs) = (w.mass.read(simd), w.searches.read(simd), w.rubs.read(simd));
+        let (joints, stiffness) = (w.joints.read(simd), w.stiffness.read(simd));
+        let mut account = self.account.joints.write(simd);
         for i in 1..=last {
-            let (z, v, mu) = (w.stage_z[i].read(simd), w.stage_v[i].read(simd), w.stage_mu[i].read(simd));
+            let (stage, mu) = (w.stages[i].read(simd), w.stage_mu[i].read(simd));
             let weight = step * w.tableau.b[i];
             let mut momentum = zero;
-            for k in 0..n {
-                let p = t.place[k as usize];
-                momentum = momentum - mass.at(p) * v.at(p);
+            for &p in &t.place[..n as usize] {
+                momentum = momentum - mass.at(p) * stage.of(p, VELOCITY);
             }
             let (mut damped, mut rubbed, mut pull) = (zero, zero, zero);
-            for (e, joint) in (0u32..).zip(&t.joints) {
-                let [a, b] = joint.sides;
-                let difference = v.at(a) - v.at(b);
-                let mut lost = damping.at(e) * difference * difference;
-                damped = damped + lost;
-                if joint.to_top {
-                    let d = z.at(a) - z.at(b);
-                    let force = stiffness.at(e) * d;
-                    let force = if joint.one_sided == NONE { force } else { d.above(zero).pick(force, zero) };
-                    pull = pull + (damping.at(e) * difference + force);
+            let of_joint = account.iter_mut().zip(joints.iter()).zip(stiffness.iter());
+            for (((mut sums, joint), stiffness), at) in of_joint.zip(&t.joints) {
+                if i == 1 {
+                    let lost = sums.row(DISSIPATION) + (step * w.tableau.b[0]) * sums.row(POWER);
+                    sums.set_where(waits, DISSIPATION, lost);
                 }
-                if joint.rub != NONE {
-                    let mu = mu.at(joint.rub);
-                    let by_friction = 0.5 * normals.at(joint.rub) * mu * difference;
+                let ([za, va, _], [zb, vb, _]) = (stage.at(at.sides[0]), stage.at(at.sides[1]));
+                let difference = va - vb;
+                let mut lost = joint.row(DAMPING) * difference * difference;
+                damped = damped + lost;
+                if at.to_top {
+                    let force = spring(simd, at.one_sided, stiffness, za - zb);
+                    pull = pull + (joint.row(DAMPING) * difference + force);
+                }
+                if at.rub != NONE {
+                    let by_friction = 0.5 * searches.of(at.rub, NORMALS) * mu.at(at.rub) * difference;
                     rubbed = rubbed + by_friction;
                     lost = lost + by_friction;
                 }
-                sums.set_where(waits, e, sums.at(e) + weight * lost);
+                sums.set_where(waits, DISSIPATION, sums.row(DISSIPATION) + weight * lost);
                 if i == last {
-                    power.set_where(waits, e, lost);
+                    sums.set_where(waits, POWER, lost);
                 }
             }
             for &r in &t.rubs_of_top {
-                pull = pull + normal.at(r) * mu.at(r);
+                pull = pull + rubs.of(r, NORMAL) * mu.at(r);
             }
             self.totals.momentum[i] = momentum.numbers();
             self.totals.damping[i] = damped.numbers();
             self.totals.friction[i] = rubbed.numbers();
-            self.totals.top[i] = (pull.negated() * v.at(n + 1)).numbers();
+            self.totals.top[i] = (pull.negated() * stage.of(n + 1, VELOCITY)).numbers();
         }
     }
 
@@ -184,17 +178,19 @@ impl Settle<'_> {
     fn observe_unknowns<S: Simd>(&mut self, simd: S) {
         let (w, t) = (self.work, &self.work.topology);
         let waits = Mask::of(w.lane.read(simd).at(PENDING as u32));
-        let (z, v, a, mass) = (w.z.read(simd), w.v.read(simd), w.a.read(simd), w.mass.read(simd));
-        let [of_z, of_v, of_a] = &mut self.account.unknowns;
-        let (mut of_z, mut of_v, mut of_a) = (of_z.write(simd), of_v.write(simd), of_a.write(simd));
+        let (state, mass) = (w.state.read(simd), w.mass.read(simd));
+        let mut peaks = self.account.unknowns.write(simd);
         let (mut kinetic, mut most) = (V::splat(simd, 0.0), V::splat(simd, 0.0));
-        for k in 0..t.unknowns {
-            let p = t.place[k as usize];
-            let (z, v) = (z.at(p).abs(), v.at(p).abs());
+        for (k, &p) in (0..t.unknowns).zip(&t.place) {
+            let [z, v, a] = state.at(p).map(
+                #[inline(always)]
+                |x| x.abs(),
+            );
             kinetic = kinetic + 0.5 * mass.at(p) * v * v;
-            of_z.raise_where(waits, p, z);
-            of_v.raise_where(waits, p, v);
-            of_a.raise_where(waits, p, a.at(p).abs());
+            let mut peaks = peaks.group(p);
+            peaks.raise_where(waits, Z, z);
+            peaks.raise_where(waits, VELOCITY, v);
+            peaks.raise_where(waits, ACCELERATION, a);
             if k < t.blocks {
                 most = most.max(z);
             }
@@ -210,46 +206,48 @@ impl Settle<'_> {
         let zero = V::splat(simd, 0.0);
         let waits = Mask::of(w.lane.read(simd).at(PENDING as u32));
         let step = V::of(simd, self.account.step);
-        let (z, v, a) = (w.z.read(simd), w.v.read(simd), w.a.read(simd));
-        let (damping, stiffness, normal) = (w.damping.read(simd), w.stiffness.read(simd), w.normal.read(simd));
-        let (mu, slip_velocity) = (w.stage_mu[w.tableau.stages - 1].read(simd), w.slip.read(simd));
-        let rows = &mut self.account.joints;
-        let [of_d, of_w, of_dw, of_f, opening, closing, slip, _] = rows.each_mut().map(|rows| rows.write(simd));
-        let (mut of_d, mut of_w, mut of_dw, mut of_f) = (of_d, of_w, of_dw, of_f);
-        let (mut opening, mut closing, mut slip) = (opening, closing, slip);
-        let (mut elastic, mut pull) = (zero, zero);
-        let (mut fastest, mut deepest) = (zero, zero);
-        for (e, joint) in (0u32..).zip(&t.joints) {
-            let [i, k] = joint.sides;
-            let (d, dv) = (z.at(i) - z.at(k), v.at(i) - v.at(k));
-            let force = stiffness.at(e) * d;
-            let force = if joint.one_sided == NONE { force } else { d.above(zero).pick(force, zero) };
+        let (state, joints, stiffness) = (w.state.read(simd), w.joints.read(simd), w.stiffness.read(simd));
+        let (mu, rubs) = (w.stage_mu[w.tableau.stages - 1].read(simd), w.rubs.read(simd));
+        let mut account = self.account.joints.write(simd);
+        let (mut elastic, mut pull, mut fastest, mut deepest) = (zero, zero, zero, zero);
+        let of_joint = account.iter_mut().zip(joints.iter()).zip(stiffness.iter());
+        for (((mut peaks, joint), stiffness), at) in of_joint.zip(&t.joints) {
+            let ([za, va, aa], [zb, vb, ab]) = (state.at(at.sides[0]), state.at(at.sides[1]));
+            let (d, dv) = (za - zb, va - vb);
+            let force = spring(simd, at.one_sided, stiffness, d);
             elastic = elastic + 0.5 * force * d;
-            of_d.raise_where(waits, e, d.abs());
-            of_w.raise_where(waits, e, dv.abs());
-            of_dw.raise_where(waits, e, (a.at(i) - a.at(k)).abs());
-            of_f.raise_where(waits, e, force.abs());
-            if joint.upright {
-                opening.raise_where(waits, e, d.negated());
-                closing.raise_where(waits, e, d);
+            peaks.raise_where(waits, DISPLACEMENT, d.abs());
+            peaks.raise_where(waits, SPEED, dv.abs());
+            peaks.raise_where(waits, RATE, (aa - ab).abs());
+            peaks.raise_where(waits, FORCE, force.abs());
+            if at.upright {
+                peaks.raise_where(waits, OPENING, d.negated());
+                peaks.raise_where(waits, CLOSING, d);
                 deepest = deepest.max(d);
             } else {
                 fastest = fastest.max(dv.abs());
             }
-            if joint.to_beam {
-                pull = pull + (force + damping.at(e) * dv);
+            if at.to_beam {
+                pull = pull + (force + joint.row(DAMPING) * dv);
             }
-            if joint.rub != NONE {
-                let slips = dv.abs().above(slip_velocity.at(joint.rub)).and(waits);
-                slip.set_where(slips, e, slip.at(e) + step * dv.abs());
+            if at.rub != NONE {
+                let slips = dv.abs().above(rubs.of(at.rub, SLIP)).and(waits);
+                peaks.set_where(slips, SLIPPED, peaks.row(SLIPPED) + step * dv.abs());
             }
         }
         for &r in &t.rubs_of_beam {
-            pull = pull + normal.at(r) * mu.at(r);
+            pull = pull + rubs.of(r, NORMAL) * mu.at(r);
         }
         self.totals.elastic = elastic.numbers();
         self.totals.slip_velocity = fastest.numbers();
         self.totals.closing = deepest.numbers();
         self.totals.pull = pull.numbers();
     }
+}
+
+/// Elastic force of a joint at relative displacement `d`.
+#[inline(always)]
+fn spring<S: Simd>(simd: S, one_sided: u32, stiffness: V<S>, d: V<S>) -> V<S> {
+    let (force, zero) = (stiffness * d, V::splat(simd, 0.0));
+    if one_sided == NONE { force } else { d.above(zero).pick(force, zero) }
 }

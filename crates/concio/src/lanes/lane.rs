@@ -4,11 +4,11 @@ use crate::ground::signal::Kinematics;
 use crate::integrate::stage::Failure;
 use crate::integrate::step::{STAGE_ACCURACY, Tolerance};
 use crate::integrate::tableau::STAGES;
-use crate::lanes::account::{Account, Totals};
-use crate::lanes::rows::WIDTH;
+use crate::lanes::account::{Account, POWER, Totals};
 use crate::lanes::work::{
-    ACCURACY, BAD_PIVOT, CORRECTION, ERROR_SUM, ERROR_V, ERROR_Z, FLIPPED, GROUND, MOST_ITERATIONS, SCALE_V, SCALE_Z,
-    STAGE, STEP, SUM, TAU, WEIGHTS, Work,
+    ACCELERATION, ACCURACY, ALPHA, AT, BAD_PIVOT, CORRECTION, DAMPING, DYNAMIC, ENGAGED, ERROR_SUM, ERROR_V, ERROR_Z,
+    EXCESS, FLIPPED, GROUND, MOST_ITERATIONS, MU, NORMAL, NORMALS, SAVED, SCALE_V, SCALE_Z, SLIP, SLOPE, SLOPE_AT_REST,
+    STAGE, STATIC, STEEP, STEP, STIFFNESS, SUM, TAU, VELOCITY, WEIGHTS, WIDTH_AT_REST, Work, Z,
 };
 use crate::outcome::Outcome;
 use crate::record::{Recording, StopReason};
@@ -43,7 +43,8 @@ pub struct Lane<'m> {
     all_iterations: u64,
     factorisations: u64,
     factors_hold: bool,
-    failure: Option<Failure>,
+    /// Whether something was not finite in the try that has just been given up.
+    not_finite: bool,
     /// Why the run has stopped.
     pub stopped: Option<StopReason>,
     top: Kinematics,
@@ -68,7 +69,7 @@ impl<'m> Lane<'m> {
             all_iterations: 0,
             factorisations: 0,
             factors_hold: false,
-            failure: None,
+            not_finite: false,
             stopped: None,
             top: Kinematics::default(),
             ground: [0.0; STAGES],
@@ -91,21 +92,29 @@ impl<'m> Lane<'m> {
             w.mass.set(p as usize, i, *m);
         }
         for (e, law) in model.elastic.iter().enumerate() {
-            w.damping.set(e, i, law.damping);
+            w.joints.set(e, DAMPING, i, law.damping);
             w.stiffness.set(e, i, law.stiffness);
         }
         for (r, rub) in model.rubs.iter().enumerate() {
             let law = &rub.law;
-            w.normal.set(r, i, rub.normal[0]);
-            w.normals.set(r, i, rub.normal[0] + rub.normal[1]);
-            w.static_.set(r, i, law.static_);
-            w.excess.set(r, i, law.static_ - law.dynamic);
-            w.dynamic.set(r, i, law.dynamic);
-            w.slip.set(r, i, law.slip_velocity);
-            w.steep.set(r, i, law.beta / law.slip_velocity);
-            w.alpha.set(r, i, law.alpha);
-            w.width.set(r, i, law.slip_velocity / law.beta);
-            w.slope_at_rest.set(r, i, law.slope_at_rest());
+            let constants = [
+                rub.normal[0],
+                law.static_ - law.dynamic,
+                law.dynamic,
+                law.slip_velocity,
+                law.beta / law.slip_velocity,
+                law.alpha,
+            ];
+            for (row, value) in [NORMAL, EXCESS, DYNAMIC, SLIP, STEEP, ALPHA].into_iter().zip(constants) {
+                w.rubs.set(r, row, i, value);
+            }
+            w.searches.set(r, STATIC, i, law.static_);
+            w.searches.set(r, WIDTH_AT_REST, i, law.slip_velocity / law.beta);
+            w.searches.set(r, SLOPE_AT_REST, i, law.slope_at_rest());
+            w.searches.set(r, NORMALS, i, rub.normal[0] + rub.normal[1]);
+        }
+        for (k, joint) in w.topology.one_sided.iter().enumerate() {
+            w.one_sided.set(k, STIFFNESS, i, model.elastic[joint.joint as usize].stiffness);
         }
         self.forget_stages(w, i);
         self.load_state(w, account, i);
@@ -114,35 +123,36 @@ impl<'m> Lane<'m> {
     fn load_state(&mut self, w: &mut Work, account: &mut Account, i: usize) {
         let state = &mut self.run.state;
         for (k, &p) in w.topology.place.iter().enumerate() {
-            w.z.set(p as usize, i, state.z[k]);
-            w.v.set(p as usize, i, state.v[k]);
-            w.a.set(p as usize, i, state.a[k]);
+            w.state.set(p as usize, Z, i, state.z[k]);
+            w.state.set(p as usize, VELOCITY, i, state.v[k]);
+            w.state.set(p as usize, ACCELERATION, i, state.a[k]);
         }
         let t = &state.tangents;
         for rows in [&mut w.tangents, &mut w.saved] {
             for r in 0..t.mu.len() {
-                rows.velocity.set(r, i, t.velocity[r]);
-                rows.mu.set(r, i, t.mu[r]);
-                rows.slope.set(r, i, t.slope[r]);
+                rows.set(r, AT, i, t.velocity[r]);
+                rows.set(r, MU, i, t.mu[r]);
+                rows.set(r, SLOPE, i, t.slope[r]);
             }
         }
         for (e, law) in self.run.model.elastic.iter().enumerate() {
-            w.engaged.set(e, i, if t.closed[e] { law.stiffness } else { 0.0 });
+            w.joints.set(e, ENGAGED, i, if t.closed[e] { law.stiffness } else { 0.0 });
         }
         for (k, joint) in w.topology.one_sided.iter().enumerate() {
-            w.saved_engaged.set(k, i, w.engaged.at(joint.joint as usize, i));
+            w.one_sided.set(k, SAVED, i, w.joints.at(joint.joint as usize, ENGAGED, i));
         }
         for (e, power) in state.joint_power.iter().enumerate() {
-            account.joint_power.set(e, i, *power);
+            account.joints.set(e, POWER, i, *power);
         }
         account.load(i, &w.topology.place, &mut state.envelopes);
     }
 
     /// What is left in stages that have not been reached is multiplied by 0, and must be finite for that.
     fn forget_stages(&self, w: &mut Work, i: usize) {
-        for rows in w.stage_v.iter_mut().chain(&mut w.stage_a) {
-            for k in 0..rows.len() {
-                rows.set(k, i, 0.0);
+        for stage in &mut w.stages {
+            for k in 0..stage.len() {
+                stage.set(k, VELOCITY, i, 0.0);
+                stage.set(k, ACCELERATION, i, 0.0);
             }
         }
     }
@@ -151,18 +161,18 @@ impl<'m> Lane<'m> {
     fn unload_state(&mut self, w: &Work, i: usize) {
         let state = &mut self.run.state;
         for (k, &p) in w.topology.place.iter().enumerate() {
-            state.z[k] = w.z.at(p as usize, i);
-            state.v[k] = w.v.at(p as usize, i);
-            state.a[k] = w.a.at(p as usize, i);
+            state.z[k] = w.state.at(p as usize, Z, i);
+            state.v[k] = w.state.at(p as usize, VELOCITY, i);
+            state.a[k] = w.state.at(p as usize, ACCELERATION, i);
         }
         let t = &mut state.tangents;
         for r in 0..t.mu.len() {
-            t.velocity[r] = w.saved.velocity.at(r, i);
-            t.mu[r] = w.saved.mu.at(r, i);
-            t.slope[r] = w.saved.slope.at(r, i);
+            t.velocity[r] = w.saved.at(r, AT, i);
+            t.mu[r] = w.saved.at(r, MU, i);
+            t.slope[r] = w.saved.at(r, SLOPE, i);
         }
         for (k, joint) in w.topology.one_sided.iter().enumerate() {
-            t.closed[joint.joint as usize] = w.saved_engaged.at(k, i) > 0.0;
+            t.closed[joint.joint as usize] = w.one_sided.at(k, SAVED, i) > 0.0;
         }
     }
 
@@ -177,6 +187,9 @@ impl<'m> Lane<'m> {
         self.run.size(&mut self.plan);
         self.tolerance = self.run.tolerance();
         self.factors_hold = false;
+        if std::mem::take(&mut self.not_finite) {
+            self.forget_stages(w, i);
+        }
         w.lane.set(STEP, i, self.plan.h);
         w.lane.set(TAU, i, w.tableau.diagonal * self.plan.h);
         w.lane.set(ACCURACY, i, STAGE_ACCURACY * self.tolerance.v);
@@ -191,8 +204,8 @@ impl<'m> Lane<'m> {
         let t = self.run.state.t + w.tableau.c[stage] * h;
         let top = self.run.drive.top(t);
         let n = w.topology.unknowns as usize;
-        w.before_z.set(n + 1, i, top.u - tau * top.v);
-        w.before_v.set(n + 1, i, top.v);
+        w.prediction.set(n + 1, Z, i, top.u - tau * top.v);
+        w.prediction.set(n + 1, VELOCITY, i, top.v);
         self.top = top;
         self.ground[stage] = self.run.drive.base_acceleration(t);
         w.lane.set(GROUND, i, self.ground[stage]);
@@ -211,33 +224,29 @@ impl<'m> Lane<'m> {
         }
         let flipped = w.lane.at(FLIPPED, i) > 0.0;
         self.factors_hold = !flipped;
-        if w.lane.at(BAD_PIVOT, i) > 0.0 {
-            self.failure = Some(Failure::TooLong);
+        let failure = if w.lane.at(BAD_PIVOT, i) > 0.0 {
+            Failure::TooLong
         } else if !w.lane.at(SUM, i).is_finite() {
-            self.failure = Some(Failure::NotFinite);
+            Failure::NotFinite
         } else if !flipped && w.lane.at(CORRECTION, i) <= w.lane.at(ACCURACY, i) {
             return Next::Stage;
         } else if self.iterations == MOST_ITERATIONS {
-            self.failure = Some(Failure::TooLong);
+            Failure::TooLong
         } else {
             return Next::Iterate { flipped };
-        }
-        self.fail(w, i);
-        Next::Shorter
-    }
-
-    fn fail(&mut self, _w: &Work, _i: usize) {
-        if let Some(failure) = self.failure.take()
-            && let Verdict::Stop(reason) = self.run.judge(Err(failure), &mut self.plan)
-        {
+        };
+        self.not_finite = failure == Failure::NotFinite;
+        if let Verdict::Stop(reason) = self.run.judge(Err(failure), &mut self.plan) {
             self.stopped = Some(reason);
         }
+        Next::Shorter
     }
 
     /// Whether the step whose last stage has ended is accepted; how long the next try is follows.
     pub fn verdict(&mut self, w: &Work, i: usize) -> bool {
         let error = (w.lane.at(ERROR_V, i) / self.tolerance.v).max(w.lane.at(ERROR_Z, i) / self.tolerance.z);
         let error = if w.lane.at(ERROR_SUM, i).is_finite() { error } else { f64::INFINITY };
+        self.not_finite = !error.is_finite();
         match self.run.judge(Ok(error), &mut self.plan) {
             Verdict::Accept => true,
             Verdict::Repeat => false,
@@ -250,7 +259,7 @@ impl<'m> Lane<'m> {
 
     /// The run at the end of its step, whose account waits.
     pub fn accept(&mut self, w: &mut Work, account: &mut Account, i: usize) {
-        w.a.set(w.topology.unknowns as usize + 1, i, self.top.a);
+        w.state.set(w.topology.unknowns as usize + 1, ACCELERATION, i, self.top.a);
         let state = &mut self.run.state;
         state.t = self.plan.end(state.t);
         state.scale[0] = state.scale[0].max(w.lane.at(SCALE_Z, i));
@@ -325,5 +334,3 @@ impl<'m> Lane<'m> {
         (self.number, self.run.outcome(self.rows, reason.unwrap_or(StopReason::Completed)))
     }
 }
-
-const _: () = assert!(WIDTH == 8);

@@ -6,7 +6,9 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use pulp::{Simd, WithSimd};
 
 use crate::lanes::rows::{Law, V, WIDTH, friction};
-use crate::lanes::work::{Miss, TAU, Work};
+use crate::lanes::work::{
+    ALPHA, AT, DYNAMIC, EXCESS, MU, Miss, NORMALS, SLIP, SLOPE, SLOPE_AT_REST, STATIC, STEEP, TAU, WIDTH_AT_REST, Work,
+};
 
 /// As in the stage of a single run.
 const MEETING: f64 = 0.01;
@@ -25,116 +27,96 @@ impl WithSimd for Meet<'_> {
         for some in misses.chunks(WIDTH) {
             let pack = work.pack(some);
             let found = pack.search(simd);
-            work.unpack(some, &pack, found);
+            work.unpack(some, found);
         }
         work.misses = misses;
     }
 }
 
-/// Up to eight searches. Places that are not taken search what is found at once.
+/// Up to eight searches. Places that are not taken find the law met at once.
 struct Pack {
-    /// Z, |c| and the sign of c, upper end of the bracket, δ_v/β, first velocity.
-    z: [f64; WIDTH],
-    c: [f64; WIDTH],
-    sign: [f64; WIDTH],
-    high: [f64; WIDTH],
+    /// τ, the diagonal on both sides, the sum of N on both sides: what the impedance follows from.
+    tau: [f64; WIDTH],
+    diagonals: [[f64; WIDTH]; 2],
+    normals: [f64; WIDTH],
+    /// Where the tangent was at the last velocity, and that velocity.
+    target: [f64; WIDTH],
+    velocity: [f64; WIDTH],
     width: [f64; WIDTH],
-    v: [f64; WIDTH],
     static_: [f64; WIDTH],
-    excess: [f64; WIDTH],
-    dynamic: [f64; WIDTH],
-    slip: [f64; WIDTH],
-    steep: [f64; WIDTH],
-    alpha: [f64; WIDTH],
-    /// Whether the law is met at rest because there is no line to meet it elsewhere.
-    at_rest: [bool; WIDTH],
+    slope_at_rest: [f64; WIDTH],
+    law: [[f64; WIDTH]; 5],
 }
 
 impl Work {
     fn pack(&self, misses: &[Miss]) -> Pack {
         let (zero, one) = ([0.0; WIDTH], [1.0; WIDTH]);
         let mut p = Pack {
-            z: one,
-            c: zero,
-            sign: one,
-            high: one,
+            tau: one,
+            diagonals: [one; 2],
+            normals: one,
+            target: zero,
+            velocity: zero,
             width: one,
-            v: zero,
             static_: one,
-            excess: zero,
-            dynamic: zero,
-            slip: one,
-            steep: one,
-            alpha: zero,
-            at_rest: [false; WIDTH],
+            slope_at_rest: zero,
+            law: [zero, zero, one, one, zero],
         };
         for (i, miss) in misses.iter().enumerate() {
             let (r, lane) = (miss.rub as usize, miss.lane as usize);
-            let [a, b] = self.topology.rubs[r].sides.map(|s| s as usize);
-            let mut free = self.elastic_diagonal.at(a, lane).recip();
-            free += if b < self.topology.unknowns as usize { self.elastic_diagonal.at(b, lane).recip() } else { 0.0 };
-            let tau = self.lane.at(TAU, lane);
-            let z = 1.0 / (tau * 0.5 * self.normals.at(r, lane) * free);
-            let c = miss.target + z * self.velocity.at(r, lane);
-            let high = c.abs() / z;
-            (p.static_[i], p.steep[i]) = (self.static_.at(r, lane), self.steep.at(r, lane));
-            if c == 0.0 || !high.is_finite() {
-                p.at_rest[i] = true;
-                continue;
+            let [a, b] = self.topology.rubs[r].sides;
+            p.tau[i] = self.lane.at(TAU, lane);
+            p.diagonals[0][i] = self.elastic_diagonal.at(a as usize, lane);
+            // Base and top do not give way.
+            let gives_way = b < self.topology.unknowns;
+            p.diagonals[1][i] = if gives_way { self.elastic_diagonal.at(b as usize, lane) } else { f64::INFINITY };
+            (p.target[i], p.velocity[i]) = (miss.target, self.laws.at(r, AT, lane));
+            for (row, to) in [STATIC, WIDTH_AT_REST, SLOPE_AT_REST, NORMALS].into_iter().zip([
+                &mut p.static_,
+                &mut p.width,
+                &mut p.slope_at_rest,
+                &mut p.normals,
+            ]) {
+                to[i] = self.searches.at(r, row, lane);
             }
-            (p.z[i], p.c[i], p.sign[i], p.high[i]) = (z, c.abs(), c.signum(), high);
-            (p.excess[i], p.dynamic[i]) = (self.excess.at(r, lane), self.dynamic.at(r, lane));
-            (p.slip[i], p.alpha[i]) = (self.slip.at(r, lane), self.alpha.at(r, lane));
-            p.width[i] = self.width.at(r, lane);
-            p.v[i] = first(p.c[i], high, p.width[i], p.static_[i]);
+            for (row, to) in [EXCESS, DYNAMIC, SLIP, STEEP, ALPHA].into_iter().zip(&mut p.law) {
+                to[i] = self.rubs.at(r, row, lane);
+            }
         }
         p
     }
 
-    fn unpack(&mut self, misses: &[Miss], pack: &Pack, found: [[f64; WIDTH]; 3]) {
-        let [v, mu, slope] = found;
+    fn unpack(&mut self, misses: &[Miss], found: [[f64; WIDTH]; 3]) {
         for (i, miss) in misses.iter().enumerate() {
-            let (r, lane) = (miss.rub as usize, miss.lane as usize);
-            let at = if pack.at_rest[i] {
-                [0.0, 0.0, self.slope_at_rest.at(r, lane)]
-            } else {
-                [pack.sign[i] * v[i], pack.sign[i] * mu[i], slope[i]]
-            };
-            self.tangents.velocity.set(r, lane, at[0]);
-            self.tangents.mu.set(r, lane, at[1]);
-            self.tangents.slope.set(r, lane, at[2]);
+            for (row, values) in [AT, MU, SLOPE].into_iter().zip(&found) {
+                self.tangents.set(miss.rub as usize, row, miss.lane as usize, values[i]);
+            }
         }
     }
 }
 
-/// On the branch that the right side points to: the inverse of the arctangent (to a tenth), or the velocity.
-fn first(c: f64, high: f64, width: f64, static_: f64) -> f64 {
-    let ratio = c / static_;
-    let v = if ratio < 0.95 {
-        let square = ratio * ratio;
-        width * ratio * (FRAC_PI_2 - (FRAC_PI_2 - 2.0 * FRAC_2_PI) * square) / (1.0 - square)
-    } else {
-        high
-    };
-    if v > 0.0 && v < high { v } else { 0.5 * high }
-}
-
 impl Pack {
+    /// Velocity, μ and slope where each search ends.
     #[inline(always)]
     fn search<S: Simd>(&self, simd: S) -> [[f64; WIDTH]; 3] {
         let row = |values: [f64; WIDTH]| V::of(simd, values);
-        let law = Law {
-            excess: row(self.excess),
-            dynamic: row(self.dynamic),
-            slip: row(self.slip),
-            steep: row(self.steep),
-            alpha: row(self.alpha),
-        };
-        let (z, c, width, zero) = (row(self.z), row(self.c), row(self.width), V::splat(simd, 0.0));
-        let near = MEETING * row(self.static_);
-        let (mut low, mut high, mut v) = (zero, row(self.high), row(self.v));
+        let [excess, dynamic, slip, steep, alpha] = self.law.map(row);
+        let law = Law { excess, dynamic, slip, steep, alpha };
+        let (zero, one) = (V::splat(simd, 0.0), V::splat(simd, 1.0));
+        let [at_a, at_b] = self.diagonals.map(row);
+        let free = 1.0 / at_a + 1.0 / at_b;
+        let z = 1.0 / (row(self.tau) * 0.5 * row(self.normals) * free);
+        let signed = row(self.target) + z * row(self.velocity);
+        let (c, width, static_) = (signed.abs(), row(self.width), row(self.static_));
+        let mut high = c / z;
+        let meets = c.above(zero).and(high.at_most(V::splat(simd, f64::MAX)));
+        let (z, c) = (meets.pick(z, one), meets.pick(c, zero));
+        high = meets.pick(high, one);
+        let mut v = meets.pick(first(c, high, width, static_), zero);
+        let near = MEETING * static_;
+        let mut low = zero;
         let (mut mu, mut slope) = friction(law, v);
-        let mut searching = zero.at_most(zero);
+        let mut searching = meets;
         for _ in 0..MOST {
             let f = mu + z * v - c;
             searching = searching.and(f.abs().at_most(near).not());
@@ -152,6 +134,20 @@ impl Pack {
             mu = searching.pick(new_mu, mu);
             slope = searching.pick(new_slope, slope);
         }
-        [v.numbers(), mu.numbers(), slope.numbers()]
+        let sign = one.with_sign_of(signed);
+        let slope = meets.pick(slope, row(self.slope_at_rest));
+        [(sign * v).numbers(), meets.pick(sign * mu, zero).numbers(), slope.numbers()]
     }
+}
+
+/// On the branch that the right side points to: the inverse of the arctangent (to a tenth), or the velocity.
+#[inline(always)]
+fn first<S: Simd>(c: V<S>, high: V<S>, width: V<S>, static_: V<S>) -> V<S> {
+    let like = |value| V::splat(c.simd(), value);
+    let ratio = c / static_;
+    let square = ratio * ratio;
+    let on_rise = width * ratio * (FRAC_PI_2 - (FRAC_PI_2 - 2.0 * FRAC_2_PI) * square) / (1.0 - square);
+    let (limit, zero) = (like(0.95), like(0.0));
+    let v = ratio.below(limit).pick(on_rise, high);
+    v.above(zero).and(v.below(high)).pick(v, 0.5 * high)
 }

@@ -20,9 +20,7 @@ use crate::lanes::meet::Meet;
 pub use crate::lanes::rows::WIDTH;
 pub use crate::lanes::topology::Kind;
 use crate::lanes::topology::Topology;
-use crate::lanes::work::{
-    ACCEPTED, Advance, CONVERGED, GIVEN_UP, GOING, Iterate, PENDING, Turn, Work,
-};
+use crate::lanes::work::{ACCEPTED, Advance, CONVERGED, GIVEN_UP, GOING, Iterate, PENDING, Turn, Work};
 use crate::outcome::Outcome;
 use crate::simulate::Simulation;
 

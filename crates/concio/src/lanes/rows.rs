@@ -35,11 +35,6 @@ impl Rows {
         Rows { data, from, len }
     }
 
-    /// Number of rows.
-    pub fn len(&self) -> usize {
-        self.len
-    }
-
     #[inline(always)]
     pub fn at(&self, row: usize, lane: usize) -> f64 {
         self.data[self.from + row * WIDTH + lane]
@@ -74,6 +69,155 @@ impl Rows {
     }
 }
 
+/// Rows that belong together, side by side in memory: K of them for every joint or unknown. What is read in turn is
+/// read without an index and its check, what is read out of turn with one check for all K.
+#[derive(Debug)]
+pub struct Groups<const K: usize>(Rows);
+
+impl<const K: usize> Groups<K> {
+    /// `len` groups of zeros.
+    pub fn new(len: usize) -> Self {
+        Groups(Rows::new(len * K))
+    }
+    /// All rows, group after group.
+    pub fn rows(&self) -> &Rows {
+        &self.0
+    }
+    /// Number of groups.
+    pub fn len(&self) -> usize {
+        self.0.len / K
+    }
+    #[inline(always)]
+    pub fn at(&self, group: usize, row: usize, lane: usize) -> f64 {
+        self.0.at(group * K + row, lane)
+    }
+    #[inline(always)]
+    pub fn set(&mut self, group: usize, row: usize, lane: usize, value: f64) {
+        self.0.set(group * K + row, lane, value);
+    }
+    #[inline(always)]
+    pub fn read<S: Simd>(&self, simd: S) -> ReadGroups<'_, S, K> {
+        ReadGroups { simd, groups: self.0.read(simd).rows.as_chunks().0 }
+    }
+    #[inline(always)]
+    pub fn write<S: Simd>(&mut self, simd: S) -> WriteGroups<'_, S, K> {
+        WriteGroups { simd, groups: self.0.write(simd).rows.as_chunks_mut().0 }
+    }
+}
+
+/// Groups to read.
+#[derive(Clone, Copy)]
+pub struct ReadGroups<'a, S: Simd, const K: usize> {
+    simd: S,
+    groups: &'a [[S::f64s; K]],
+}
+
+impl<'a, S: Simd, const K: usize> ReadGroups<'a, S, K> {
+    #[inline(always)]
+    pub fn at(&self, i: u32) -> [V<S>; K] {
+        let simd = self.simd;
+        self.groups[i as usize].map(
+            #[inline(always)]
+            |x| V(simd, x),
+        )
+    }
+    /// Row `row` of group `i`.
+    #[inline(always)]
+    pub fn of(&self, i: u32, row: usize) -> V<S> {
+        V(self.simd, self.groups[i as usize][row])
+    }
+    #[inline(always)]
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = Group<'a, S, K>> + ExactSizeIterator + use<'a, S, K> {
+        let simd = self.simd;
+        self.groups.iter().map(
+            #[inline(always)]
+            move |rows| Group { simd, rows },
+        )
+    }
+}
+
+/// A group to read.
+#[derive(Clone, Copy)]
+pub struct Group<'a, S: Simd, const K: usize> {
+    simd: S,
+    rows: &'a [S::f64s; K],
+}
+
+impl<S: Simd, const K: usize> Group<'_, S, K> {
+    #[inline(always)]
+    pub fn row(&self, row: usize) -> V<S> {
+        V(self.simd, self.rows[row])
+    }
+}
+
+/// Groups to read and write.
+pub struct WriteGroups<'a, S: Simd, const K: usize> {
+    simd: S,
+    groups: &'a mut [[S::f64s; K]],
+}
+
+impl<'a, S: Simd, const K: usize> WriteGroups<'a, S, K> {
+    #[inline(always)]
+    pub fn group(&mut self, i: u32) -> GroupMut<'_, S, K> {
+        GroupMut { simd: self.simd, rows: &mut self.groups[i as usize] }
+    }
+    #[inline(always)]
+    pub fn of(&self, i: u32, row: usize) -> V<S> {
+        V(self.simd, self.groups[i as usize][row])
+    }
+    #[inline(always)]
+    pub fn iter_mut(&mut self) -> impl DoubleEndedIterator<Item = GroupMut<'_, S, K>> + ExactSizeIterator {
+        let simd = self.simd;
+        self.groups.iter_mut().map(
+            #[inline(always)]
+            move |rows| GroupMut { simd, rows },
+        )
+    }
+}
+
+/// A group to read and write.
+pub struct GroupMut<'a, S: Simd, const K: usize> {
+    simd: S,
+    rows: &'a mut [S::f64s; K],
+}
+
+impl<S: Simd> GroupMut<'_, S, 2> {
+    #[inline(always)]
+    pub fn both(&self) -> [V<S>; 2] {
+        [self.row(0), self.row(1)]
+    }
+}
+
+impl<S: Simd, const K: usize> GroupMut<'_, S, K> {
+    #[inline(always)]
+    pub fn row(&self, row: usize) -> V<S> {
+        V(self.simd, self.rows[row])
+    }
+    #[inline(always)]
+    pub fn set(&mut self, row: usize, value: V<S>) {
+        self.rows[row] = value.1;
+    }
+    #[inline(always)]
+    pub fn add(&mut self, row: usize, value: V<S>) {
+        self.set(row, self.row(row) + value);
+    }
+    #[inline(always)]
+    pub fn subtract(&mut self, row: usize, value: V<S>) {
+        self.set(row, self.row(row) - value);
+    }
+    /// Sets the lanes in `mask` alone.
+    #[inline(always)]
+    pub fn set_where(&mut self, mask: Mask<S>, row: usize, value: V<S>) {
+        self.set(row, mask.pick(value, self.row(row)));
+    }
+    /// Raises the lanes in `mask` to `value` where they are below.
+    #[inline(always)]
+    pub fn raise_where(&mut self, mask: Mask<S>, row: usize, value: V<S>) {
+        let old = self.row(row);
+        self.set(row, mask.pick(old.max(value), old));
+    }
+}
+
 /// Rows to read.
 #[derive(Clone, Copy)]
 pub struct Read<'a, S: Simd> {
@@ -81,10 +225,18 @@ pub struct Read<'a, S: Simd> {
     rows: &'a [S::f64s],
 }
 
-impl<S: Simd> Read<'_, S> {
+impl<'a, S: Simd> Read<'a, S> {
     #[inline(always)]
     pub fn at(&self, i: u32) -> V<S> {
         V(self.simd, self.rows[i as usize])
+    }
+    #[inline(always)]
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = V<S>> + ExactSizeIterator + use<'a, S> {
+        let simd = self.simd;
+        self.rows.iter().map(
+            #[inline(always)]
+            move |&x| V(simd, x),
+        )
     }
 }
 
@@ -94,7 +246,15 @@ pub struct Write<'a, S: Simd> {
     rows: &'a mut [S::f64s],
 }
 
-impl<S: Simd> Write<'_, S> {
+impl<'a, S: Simd> Write<'a, S> {
+    #[inline(always)]
+    pub fn into_iter(self) -> impl ExactSizeIterator<Item = GroupMut<'a, S, 1>> {
+        let simd = self.simd;
+        self.rows.as_chunks_mut::<1>().0.iter_mut().map(
+            #[inline(always)]
+            move |rows| GroupMut { simd, rows },
+        )
+    }
     #[inline(always)]
     pub fn at(&self, i: u32) -> V<S> {
         V(self.simd, self.rows[i as usize])
@@ -111,16 +271,13 @@ impl<S: Simd> Write<'_, S> {
     pub fn subtract(&mut self, i: u32, value: V<S>) {
         self.set(i, self.at(i) - value);
     }
-    /// Sets the lanes in `mask` alone.
     #[inline(always)]
-    pub fn set_where(&mut self, mask: Mask<S>, i: u32, value: V<S>) {
-        self.set(i, mask.pick(value, self.at(i)));
-    }
-    /// Raises the lanes in `mask` to `value` where they are below.
-    #[inline(always)]
-    pub fn raise_where(&mut self, mask: Mask<S>, i: u32, value: V<S>) {
-        let old = self.at(i);
-        self.set(i, mask.pick(old.max(value), old));
+    pub fn iter_mut(&mut self) -> impl ExactSizeIterator<Item = GroupMut<'_, S, 1>> {
+        let simd = self.simd;
+        self.rows.as_chunks_mut::<1>().0.iter_mut().map(
+            #[inline(always)]
+            move |rows| GroupMut { simd, rows },
+        )
     }
 }
 
@@ -140,6 +297,10 @@ impl<S: Simd> V<S> {
     #[inline(always)]
     pub fn numbers(self) -> [f64; WIDTH] {
         pulp::bytemuck::cast(self.1)
+    }
+    #[inline(always)]
+    pub fn simd(self) -> S {
+        self.0
     }
     #[inline(always)]
     fn like(self, value: f64) -> Self {
@@ -312,7 +473,6 @@ pub fn friction<S: Simd>(law: Law<S>, v: V<S>) -> (V<S>, V<S>) {
     let level = decay + law.dynamic;
     let angle = FRAC_2_PI * atan_of_positive(z);
     let value = angle * level + law.alpha * speed * speed;
-    let slope =
-        FRAC_2_PI * law.steep / (1.0 + z * z) * level - angle * decay / law.slip + 2.0 * law.alpha * speed;
+    let slope = FRAC_2_PI * law.steep / (1.0 + z * z) * level - angle * decay / law.slip + 2.0 * law.alpha * speed;
     (value.with_sign_of(v), slope)
 }

@@ -67,6 +67,36 @@ pub struct OneSidedAt {
     pub joint: u32,
 }
 
+/// What each unknown gathers from joints. A joint has [`SHARES`] rows: what it adds to the diagonal of both sides, to
+/// the right side of b and, the same with the other sign, to that of a.
+#[derive(Debug, Clone)]
+pub struct Incidence {
+    /// How many joints each unknown has.
+    pub counts: Vec<u32>,
+    /// Row of the diagonal's share and of the right side's, joints ascending.
+    pub rows: Vec<[u32; 2]>,
+}
+
+/// Rows of the shares of a joint.
+pub const SHARES: usize = 3;
+pub const TO_DIAGONAL: usize = 0;
+pub const TO_B: usize = 1;
+pub const TO_A: usize = 2;
+
+impl Incidence {
+    fn new(unknowns: usize, sides: impl Iterator<Item = [u32; 2]>) -> Self {
+        let mut of_unknown: Vec<Vec<[u32; 2]>> = vec![Vec::new(); unknowns];
+        for (e, [a, b]) in sides.enumerate() {
+            let row = |row: usize| (e * SHARES + row) as u32;
+            of_unknown[a as usize].push([row(TO_DIAGONAL), row(TO_A)]);
+            if let Some(of_b) = of_unknown.get_mut(b as usize) {
+                of_b.push([row(TO_DIAGONAL), row(TO_B)]);
+            }
+        }
+        Incidence { counts: of_unknown.iter().map(|list| list.len() as u32).collect(), rows: of_unknown.concat() }
+    }
+}
+
 /// Lists over one wall.
 #[derive(Debug)]
 pub struct Topology {
@@ -81,14 +111,18 @@ pub struct Topology {
     /// Places in `rubs` of those at the beam and at the driven or tied top.
     pub rubs_of_beam: Vec<u32>,
     pub rubs_of_top: Vec<u32>,
+    /// What every unknown, by place, gathers from the joints and from those that rub.
+    pub of_joints: Incidence,
+    pub of_rubs: Incidence,
     pub fill: u32,
     /// Per row of L: how many entries, and all entries as [column, where it stands].
     pub row_counts: Vec<u32>,
     pub row_entries: Vec<[u32; 2]>,
-    /// Per column of L: how many entries; per entry its row, and how many products of two entries are taken from it
+    /// Rows of all entries of L by columns.
+    pub entry_row: Vec<u32>,
+    /// Per column of L: how many entries; per entry, how many products of two entries are taken from it
     /// before it is divided by the pivot.
     pub column_counts: Vec<u32>,
-    pub entry_row: Vec<u32>,
     pub product_counts: Vec<u32>,
     /// Those products as [entry of L, entry of L D].
     pub products: Vec<[u32; 2]>,
@@ -145,11 +179,13 @@ impl Topology {
             unknowns: n as u32,
             blocks: model.wall.blocks.len() as u32,
             place,
-            joints,
             rubs,
             one_sided,
             rubs_of_beam,
             rubs_of_top,
+            of_joints: Incidence::new(n, joints.iter().map(|j| j.sides)),
+            of_rubs: Incidence::new(n, model.rubs.iter().map(|r| joints[r.joint as usize].sides)),
+            joints,
             fill: rows.len() as u32,
             row_counts,
             row_entries,

@@ -8,8 +8,8 @@
 use pulp::{Simd, WithSimd};
 
 use crate::integrate::tableau::{STAGES, Tableau};
-use crate::lanes::rows::{Law, Mask, Read, Rows, V, WIDTH, Write, friction};
-use crate::lanes::topology::{NONE, Topology};
+use crate::lanes::rows::{Groups, Law, Mask, Read, Rows, V, WIDTH, friction};
+use crate::lanes::topology::{Incidence, NONE, SHARES, TO_A, TO_B, TO_DIAGONAL, Topology};
 
 /// As in the stage of a single run.
 pub const MOST_ITERATIONS: u32 = 12;
@@ -49,19 +49,36 @@ pub const PENDING: usize = 17;
 pub const WEIGHTS: usize = 19;
 const LANE_ROWS: usize = WEIGHTS + STAGES;
 
-/// Friction where it is linearised.
-#[derive(Debug)]
-pub struct TangentRows {
-    pub velocity: Rows,
-    pub mu: Rows,
-    pub slope: Rows,
-}
-
-impl TangentRows {
-    fn new(rubs: usize) -> Self {
-        TangentRows { velocity: Rows::new(rubs), mu: Rows::new(rubs), slope: Rows::new(rubs) }
-    }
-}
+/// Rows of [`Work::joints`]: damping, and the stiffness as it acts, 0 where the joint is open.
+pub const DAMPING: usize = 0;
+pub const ENGAGED: usize = 1;
+/// Rows of [`Work::rubs`]: N in the equation of a, μ_s − μ_d, μ_d, δ_v, β/δ_v, α.
+pub const NORMAL: usize = 0;
+pub const EXCESS: usize = 1;
+pub const DYNAMIC: usize = 2;
+pub const SLIP: usize = 3;
+pub const STEEP: usize = 4;
+pub const ALPHA: usize = 5;
+/// Rows of [`Work::searches`]: μ_s, δ_v/β, the slope at rest, the sum of N on both sides.
+pub const STATIC: usize = 0;
+pub const WIDTH_AT_REST: usize = 1;
+pub const SLOPE_AT_REST: usize = 2;
+pub const NORMALS: usize = 3;
+/// Rows of [`Work::one_sided`]: stiffness, and the stiffness that acts in the accepted state.
+pub const STIFFNESS: usize = 0;
+pub const SAVED: usize = 1;
+/// Rows of [`Work::state`] and [`Work::stages`]; the prediction has the first two.
+pub const Z: usize = 0;
+pub const VELOCITY: usize = 1;
+pub const ACCELERATION: usize = 2;
+/// Rows of [`Work::tangents`], [`Work::saved`] and the laws: velocity, μ, dμ/dv; the last have V_p too.
+pub const AT: usize = 0;
+pub const MU: usize = 1;
+pub const SLOPE: usize = 2;
+const BEFORE: usize = 3;
+/// Rows of the factors: L D and L.
+const LOWER: usize = 0;
+const SCALED: usize = 1;
 
 /// A joint in a lane whose tangent has to be moved along the law.
 #[derive(Debug, Clone, Copy)]
@@ -80,48 +97,31 @@ pub struct Work {
     pub lane: Rows,
     // What the model says.
     pub mass: Rows,
-    pub damping: Rows,
+    pub joints: Groups<2>,
     pub stiffness: Rows,
-    pub normal: Rows,
-    /// N in the equation of a plus N in that of b.
-    pub normals: Rows,
-    pub static_: Rows,
-    pub excess: Rows,
-    pub dynamic: Rows,
-    pub slip: Rows,
-    pub steep: Rows,
-    pub alpha: Rows,
-    /// δ_v/β, and the slope at rest.
-    pub width: Rows,
-    pub slope_at_rest: Rows,
-    // The state after the last accepted step.
-    pub z: Rows,
-    pub v: Rows,
-    pub a: Rows,
-    pub saved: TangentRows,
-    pub saved_engaged: Rows,
-    /// Stiffness of each joint as it acts: 0 where it is open.
-    pub engaged: Rows,
-    pub tangents: TangentRows,
-    // Stages of the step, from 1.
-    pub stage_z: Vec<Rows>,
-    pub stage_v: Vec<Rows>,
-    pub stage_a: Vec<Rows>,
+    pub rubs: Groups<6>,
+    pub searches: Groups<4>,
+    pub one_sided: Groups<2>,
+    /// The state after the last accepted step, and the tangents there.
+    pub state: Groups<3>,
+    pub saved: Groups<3>,
+    pub tangents: Groups<3>,
+    /// Stages of the step, from 1, and the friction there.
+    pub stages: Vec<Groups<3>>,
     pub stage_mu: Vec<Rows>,
     // The iteration.
-    pub before_z: Rows,
-    pub before_v: Rows,
+    pub prediction: Groups<2>,
     pub elastic_diagonal: Rows,
+    /// What joints and those that rub add to diagonal and right side.
+    joint_shares: Groups<SHARES>,
+    rub_shares: Groups<SHARES>,
+    diagonal: Rows,
     pivot: Rows,
-    lower: Rows,
-    scaled: Rows,
+    factors: Groups<2>,
     change: Rows,
     rhs: Rows,
     error_z: Rows,
-    before: Rows,
-    pub velocity: Rows,
-    mu: Rows,
-    slope: Rows,
+    pub laws: Groups<4>,
     target: Rows,
     missed: Rows,
     missed_rubs: Vec<u32>,
@@ -132,51 +132,34 @@ impl Work {
     /// Zeros for `topology`.
     pub fn new(topology: Topology, tableau: Tableau) -> Self {
         let (n, e, r) = (topology.unknowns as usize, topology.joints.len(), topology.rubs.len());
-        let (fill, stages) = (topology.fill as usize, tableau.stages);
-        let (of_unknowns, of_rubs) = (|| Rows::new(n + 2), || Rows::new(r));
-        let per_stage = |len: usize| (0..stages).map(|_| Rows::new(len)).collect::<Vec<_>>();
+        let unknowns = || Rows::new(n + 2);
         Work {
             tableau,
             lane: Rows::new(LANE_ROWS),
-            mass: of_unknowns(),
-            damping: Rows::new(e),
+            mass: unknowns(),
+            joints: Groups::new(e),
             stiffness: Rows::new(e),
-            normal: of_rubs(),
-            normals: of_rubs(),
-            static_: of_rubs(),
-            excess: of_rubs(),
-            dynamic: of_rubs(),
-            slip: of_rubs(),
-            steep: of_rubs(),
-            alpha: of_rubs(),
-            width: of_rubs(),
-            slope_at_rest: of_rubs(),
-            z: of_unknowns(),
-            v: of_unknowns(),
-            a: of_unknowns(),
-            saved: TangentRows::new(r),
-            saved_engaged: Rows::new(topology.one_sided.len()),
-            engaged: Rows::new(e),
-            tangents: TangentRows::new(r),
-            stage_z: per_stage(n + 2),
-            stage_v: per_stage(n + 2),
-            stage_a: per_stage(n + 2),
-            stage_mu: per_stage(r),
-            before_z: of_unknowns(),
-            before_v: of_unknowns(),
-            elastic_diagonal: of_unknowns(),
-            pivot: of_unknowns(),
-            lower: Rows::new(fill),
-            scaled: Rows::new(fill),
-            change: of_unknowns(),
-            rhs: of_unknowns(),
-            error_z: of_unknowns(),
-            before: of_rubs(),
-            velocity: of_rubs(),
-            mu: of_rubs(),
-            slope: of_rubs(),
-            target: of_rubs(),
-            missed: of_rubs(),
+            rubs: Groups::new(r),
+            searches: Groups::new(r),
+            one_sided: Groups::new(topology.one_sided.len()),
+            state: Groups::new(n + 2),
+            saved: Groups::new(r),
+            tangents: Groups::new(r),
+            stages: (0..tableau.stages).map(|_| Groups::new(n + 2)).collect(),
+            stage_mu: (0..tableau.stages).map(|_| Rows::new(r)).collect(),
+            prediction: Groups::new(n + 2),
+            elastic_diagonal: unknowns(),
+            joint_shares: Groups::new(e),
+            rub_shares: Groups::new(r),
+            diagonal: unknowns(),
+            pivot: unknowns(),
+            factors: Groups::new(topology.fill as usize),
+            change: unknowns(),
+            rhs: unknowns(),
+            error_z: unknowns(),
+            laws: Groups::new(r),
+            target: Rows::new(r),
+            missed: Rows::new(r),
             missed_rubs: Vec::with_capacity(r),
             misses: Vec::with_capacity(r * WIDTH),
             topology,
@@ -196,85 +179,87 @@ impl WithSimd for Iterate<'_> {
         work.predict(simd);
         work.assemble_elastic(simd);
         work.assemble_friction(simd);
+        work.gather(simd);
         work.factorise(simd);
-        solve(simd, &work.topology, &work.scaled, &work.pivot, &mut work.change);
+        solve(simd, &work.topology, &work.factors, &work.pivot, &mut work.change);
         work.flip(simd);
         work.mismatch(simd);
-        solve(simd, &work.topology, &work.scaled, &work.pivot, &mut work.rhs);
+        solve(simd, &work.topology, &work.factors, &work.pivot, &mut work.rhs);
         work.measure(simd);
     }
 }
 
 impl Work {
-    /// z_p and V_p.
+    /// z_p and V_p of the unknowns.
     #[inline(always)]
     fn predict<S: Simd>(&mut self, simd: S) {
-        let (z, v, a) = (self.z.read(simd), self.v.read(simd), self.a.read(simd));
-        let (mut to_z, mut to_v) = (self.before_z.write(simd), self.before_v.write(simd));
+        let n = self.topology.unknowns as usize;
         let lane = self.lane.read(simd);
+        let state = self.state.read(simd);
+        let mut prediction = self.prediction.write(simd);
         let weight = lane.at(WEIGHTS as u32);
-        for k in 0..self.topology.unknowns {
-            to_z.set(k, z.at(k) + weight * v.at(k));
-            to_v.set(k, v.at(k) + weight * a.at(k));
+        for (mut p, s) in prediction.iter_mut().zip(state.iter()).take(n) {
+            p.set(Z, s.row(Z) + weight * s.row(VELOCITY));
+            p.set(VELOCITY, s.row(VELOCITY) + weight * s.row(ACCELERATION));
         }
         for j in 1..self.tableau.stages - 1 {
-            let (v, a) = (self.stage_v[j].read(simd), self.stage_a[j].read(simd));
+            let stage = self.stages[j].read(simd);
             let weight = lane.at((WEIGHTS + j) as u32);
-            for k in 0..self.topology.unknowns {
-                to_z.add(k, weight * v.at(k));
-                to_v.add(k, weight * a.at(k));
+            for (mut p, s) in prediction.iter_mut().zip(stage.iter()).take(n) {
+                p.add(Z, weight * s.row(VELOCITY));
+                p.add(VELOCITY, weight * s.row(ACCELERATION));
             }
         }
     }
 
-    /// M + τ Σ B (c + τ k) Bᵀ, and −τ (M a_0 + Σ B (c w_p + k (δ_p + τ w_p))) into `change`.
+    /// What the joints add to M + τ Σ B (c + τ k) Bᵀ and −τ (M a_0 + Σ B (c w_p + k (δ_p + τ w_p))).
     #[inline(always)]
     fn assemble_elastic<S: Simd>(&mut self, simd: S) {
-        let (tau, ground) = (self.lane.read(simd).at(TAU as u32), self.lane.read(simd).at(GROUND as u32));
-        let (mass, zero) = (self.mass.read(simd), V::splat(simd, 0.0));
-        let (mut diagonal, mut lower) = (self.elastic_diagonal.write(simd), self.lower.write(simd));
-        let mut load = self.change.write(simd);
-        let against = tau.negated();
-        for k in 0..self.topology.unknowns {
-            diagonal.set(k, mass.at(k));
-            load.set(k, against * mass.at(k) * ground);
+        let tau = self.lane.read(simd).at(TAU as u32);
+        let zero = V::splat(simd, 0.0);
+        let mut factors = self.factors.write(simd);
+        for mut entry in factors.iter_mut() {
+            entry.set(LOWER, zero);
         }
-        for slot in 0..self.topology.fill {
-            lower.set(slot, zero);
-        }
-        let (damping, engaged) = (self.damping.read(simd), self.engaged.read(simd));
-        let (z, v) = (self.before_z.read(simd), self.before_v.read(simd));
-        for (e, joint) in (0u32..).zip(&self.topology.joints) {
-            let [a, b] = joint.sides;
-            let (damping, engaged) = (damping.at(e), engaged.at(e));
+        let (joints, motion) = (self.joints.read(simd), self.prediction.read(simd));
+        let mut shares = self.joint_shares.write(simd);
+        let of_joint = joints.iter().zip(shares.iter_mut());
+        for ((joint, mut share), at) in of_joint.zip(&self.topology.joints) {
+            let [a, b] = at.sides;
+            let (damping, engaged) = (joint.row(DAMPING), joint.row(ENGAGED));
             let s = tau * (damping + tau * engaged);
-            diagonal.add(a, s);
-            if joint.slot != NONE {
-                diagonal.add(b, s);
-                lower.subtract(joint.slot, s);
+            let ([za, va], [zb, vb]) = (motion.at(a), motion.at(b));
+            let w = va - vb;
+            let f = tau * (damping * w + engaged * (za - zb + tau * w));
+            share.set(TO_DIAGONAL, s);
+            share.set(TO_B, f);
+            share.set(TO_A, f.negated());
+            if at.slot != NONE {
+                factors.group(at.slot).subtract(LOWER, s);
             }
-            let w = v.at(a) - v.at(b);
-            let f = tau * (damping * w + engaged * (z.at(a) - z.at(b) + tau * w));
-            load.subtract(a, f);
-            load.add(b, f);
         }
     }
 
-    /// The diagonal alone, for lanes in which a joint has just opened or closed.
+    /// The elastic diagonal alone, for lanes in which a joint has just opened or closed.
     #[inline(always)]
     fn assemble_diagonal<S: Simd>(&mut self, simd: S) {
         let tau = self.lane.read(simd).at(TAU as u32);
-        let (mass, damping, engaged) = (self.mass.read(simd), self.damping.read(simd), self.engaged.read(simd));
-        let mut diagonal = self.elastic_diagonal.write(simd);
-        for k in 0..self.topology.unknowns {
-            diagonal.set(k, mass.at(k));
+        let mut shares = self.joint_shares.write(simd);
+        for (joint, mut share) in self.joints.read(simd).iter().zip(shares.iter_mut()) {
+            share.set(TO_DIAGONAL, tau * (joint.row(DAMPING) + tau * joint.row(ENGAGED)));
         }
-        for (e, joint) in (0u32..).zip(&self.topology.joints) {
-            let s = tau * (damping.at(e) + tau * engaged.at(e));
-            diagonal.add(joint.sides[0], s);
-            if joint.slot != NONE {
-                diagonal.add(joint.sides[1], s);
+        let shares = self.joint_shares.rows().read(simd);
+        let mut lists = &self.topology.of_joints.rows[..];
+        let diagonals = self.elastic_diagonal.write(simd).into_iter();
+        let of_unknown = diagonals.zip(self.mass.read(simd).iter()).zip(&self.topology.of_joints.counts);
+        for ((mut diagonal, mass), &count) in of_unknown {
+            let (list, rest) = lists.split_at(count as usize);
+            lists = rest;
+            let mut d = mass;
+            for &[to_diagonal, _] in list {
+                d = d + shares.at(to_diagonal);
             }
+            diagonal.set(0, d);
         }
     }
 
@@ -282,65 +267,92 @@ impl Work {
     #[inline(always)]
     fn assemble_friction<S: Simd>(&mut self, simd: S) {
         let tau = self.lane.read(simd).at(TAU as u32);
-        let (elastic, mut diagonal) = (self.elastic_diagonal.read(simd), self.pivot.write(simd));
-        for k in 0..self.topology.unknowns {
-            diagonal.set(k, elastic.at(k));
-        }
-        let (mut lower, mut change, mut before) =
-            (self.lower.write(simd), self.change.write(simd), self.before.write(simd));
-        let (v, normal, t) = (self.before_v.read(simd), self.normal.read(simd), &self.tangents);
-        let (velocity, mu, slope) = (t.velocity.read(simd), t.mu.read(simd), t.slope.read(simd));
-        for (r, rub) in (0u32..).zip(&self.topology.rubs) {
-            let [a, b] = rub.sides;
-            let (normal, slope) = (normal.at(r), slope.at(r));
+        let (mut factors, mut laws) = (self.factors.write(simd), self.laws.write(simd));
+        let (motion, rubs, tangents) = (self.prediction.read(simd), self.rubs.read(simd), self.tangents.read(simd));
+        let mut shares = self.rub_shares.write(simd);
+        let of_rub = rubs.iter().zip(tangents.iter()).zip(laws.iter_mut()).zip(shares.iter_mut());
+        for ((((rub, tangent), mut law), mut share), at) in of_rub.zip(&self.topology.rubs) {
+            let [a, b] = at.sides;
+            let (normal, slope) = (rub.row(NORMAL), tangent.row(SLOPE));
             let s = tau * slope * normal;
-            diagonal.add(a, s);
-            if rub.slot != NONE {
-                diagonal.add(b, s);
-                lower.subtract(rub.slot, s);
+            let w = motion.of(a, VELOCITY) - motion.of(b, VELOCITY);
+            law.set(BEFORE, w);
+            let f = normal * (tau * (tangent.row(MU) + slope * (w - tangent.row(AT))));
+            share.set(TO_DIAGONAL, s);
+            share.set(TO_B, f);
+            share.set(TO_A, f.negated());
+            if at.slot != NONE {
+                factors.group(at.slot).subtract(LOWER, s);
             }
-            let w = v.at(a) - v.at(b);
-            before.set(r, w);
-            let f = tau * (mu.at(r) + slope * (w - velocity.at(r)));
-            change.subtract(a, normal * f);
-            change.add(b, normal * f);
         }
-        let (n, zero) = (self.topology.unknowns, V::splat(simd, 0.0));
-        change.set(n, zero);
-        change.set(n + 1, zero);
     }
 
-    /// L D Lᵀ of `pivot` and `lower`; `pivot` becomes D⁻¹, `scaled` L.
+    /// Diagonal and right side of every unknown: mass, elastic joints, friction.
+    #[inline(always)]
+    fn gather<S: Simd>(&mut self, simd: S) {
+        let (tau, ground) = (self.lane.read(simd).at(TAU as u32), self.lane.read(simd).at(GROUND as u32));
+        let against = tau.negated();
+        let (joints, rubs) = (self.joint_shares.rows().read(simd), self.rub_shares.rows().read(simd));
+        let (of_joints, of_rubs) = (&self.topology.of_joints, &self.topology.of_rubs);
+        let (mut joint_lists, mut rub_lists) = (&of_joints.rows[..], &of_rubs.rows[..]);
+        let to = self
+            .elastic_diagonal
+            .write(simd)
+            .into_iter()
+            .zip(self.diagonal.write(simd).into_iter())
+            .zip(self.change.write(simd).into_iter());
+        let of_unknown = to.zip(self.mass.read(simd).iter()).zip(of_joints.counts.iter().zip(&of_rubs.counts));
+        for ((((mut elastic, mut diagonal), mut change), mass), (&joint_count, &rub_count)) in of_unknown {
+            let (list, rest) = joint_lists.split_at(joint_count as usize);
+            joint_lists = rest;
+            let (mut d, mut load) = (mass, against * mass * ground);
+            for &[to_diagonal, to_load] in list {
+                (d, load) = (d + joints.at(to_diagonal), load + joints.at(to_load));
+            }
+            elastic.set(0, d);
+            let (list, rest) = rub_lists.split_at(rub_count as usize);
+            rub_lists = rest;
+            for &[to_diagonal, to_load] in list {
+                (d, load) = (d + rubs.at(to_diagonal), load + rubs.at(to_load));
+            }
+            diagonal.set(0, d);
+            change.set(0, load);
+        }
+    }
+
+    /// L D Lᵀ of what was assembled; the pivots become D⁻¹.
     #[inline(always)]
     fn factorise<S: Simd>(&mut self, simd: S) {
-        let (mut pivot, mut lower, mut scaled) =
-            (self.pivot.write(simd), self.lower.write(simd), self.scaled.write(simd));
+        let (diagonal, mut pivot, mut factors) =
+            (self.diagonal.read(simd), self.pivot.write(simd), self.factors.write(simd));
         let zero = V::splat(simd, 0.0);
         let mut bad = zero.above(zero);
         let t = &self.topology;
         let (mut rows, mut counts, mut products) = (&t.row_entries[..], &t.product_counts[..], &t.products[..]);
         let mut at = 0u32;
-        for (k, (&in_row, &in_column)) in (0u32..).zip(t.row_counts.iter().zip(&t.column_counts)) {
+        let columns = t.row_counts.iter().zip(&t.column_counts);
+        for (((&in_row, &in_column), mut d), mut pivot) in columns.zip(diagonal.iter()).zip(pivot.iter_mut()) {
             let (of_row, rest) = rows.split_at(in_row as usize);
             rows = rest;
-            let mut d = pivot.at(k);
             for &[_, p] in of_row {
-                d = d - scaled.at(p) * lower.at(p);
+                let [lower, scaled] = factors.group(p).both();
+                d = d - scaled * lower;
             }
             bad = bad.or(d.above(zero).not());
             let inverse = 1.0 / d;
-            pivot.set(k, inverse);
+            pivot.set(0, inverse);
             let (of_column, rest) = counts.split_at(in_column as usize);
             counts = rest;
             for &count in of_column {
                 let (of_entry, rest) = products.split_at(count as usize);
                 products = rest;
-                let mut value = lower.at(at);
+                let mut value = factors.of(at, LOWER);
                 for &[p, q] in of_entry {
-                    value = value - scaled.at(p) * lower.at(q);
+                    value = value - factors.of(p, SCALED) * factors.of(q, LOWER);
                 }
-                lower.set(at, value);
-                scaled.set(at, value * inverse);
+                let mut entry = factors.group(at);
+                entry.set(LOWER, value);
+                entry.set(SCALED, value * inverse);
                 at += 1;
             }
         }
@@ -352,20 +364,21 @@ impl Work {
     fn flip<S: Simd>(&mut self, simd: S) {
         let zero = V::splat(simd, 0.0);
         let (tau, accuracy) = (self.lane.read(simd).at(TAU as u32), self.lane.read(simd).at(ACCURACY as u32));
-        let (z, v, change) = (self.before_z.read(simd), self.before_v.read(simd), self.change.read(simd));
-        let (mass, stiffness, mut engaged) =
-            (self.mass.read(simd), self.stiffness.read(simd), self.engaged.write(simd));
+        let (motion, change, mass) = (self.prediction.read(simd), self.change.read(simd), self.mass.read(simd));
+        let mut joints = self.joints.write(simd);
         let mut flipped = zero.above(zero);
-        for joint in &self.topology.one_sided {
-            let [a, b] = joint.sides;
-            let gap = z.at(a) - z.at(b) + tau * (v.at(a) - v.at(b));
+        for (joint, at) in self.one_sided.read(simd).iter().zip(&self.topology.one_sided) {
+            let [a, b] = at.sides;
+            let ([za, va], [zb, vb]) = (motion.at(a), motion.at(b));
+            let gap = za - zb + tau * (va - vb);
             let d = gap + tau * (change.at(a) - change.at(b));
-            let stiffness = stiffness.at(joint.joint);
+            let stiffness = joint.row(STIFFNESS);
             let felt = (tau * stiffness * d.abs()).above(STILL * accuracy * mass.at(a));
-            let (closes, closed) = (d.above(zero), engaged.at(joint.joint).above(zero));
+            let mut joint = joints.group(at.joint);
+            let (closes, closed) = (d.above(zero), joint.row(ENGAGED).above(zero));
             let flips = felt.and(closes.differs(closed));
             flipped = flipped.or(flips);
-            engaged.set_where(flips, joint.joint, closes.pick(stiffness, zero));
+            joint.set_where(flips, ENGAGED, closes.pick(stiffness, zero));
         }
         self.lane.write(simd).set(FLIPPED as u32, flipped.as_row());
     }
@@ -373,50 +386,39 @@ impl Work {
     /// The laws at the new velocities, and τ Σ B N (μ − tangent) into `rhs`.
     #[inline(always)]
     fn mismatch<S: Simd>(&mut self, simd: S) {
-        let (n, zero) = (self.topology.unknowns, V::splat(simd, 0.0));
         let tau = self.lane.read(simd).at(TAU as u32);
-        let mut rhs = self.rhs.write(simd);
-        for k in 0..n {
-            rhs.set(k, zero);
-        }
-        let (before, change, normal) = (self.before.read(simd), self.change.read(simd), self.normal.read(simd));
-        let (excess, dynamic, slip) = (self.excess.read(simd), self.dynamic.read(simd), self.slip.read(simd));
-        let (steep, alpha) = (self.steep.read(simd), self.alpha.read(simd));
-        let (at, drawn, inclination) =
-            (self.tangents.velocity.read(simd), self.tangents.mu.read(simd), self.tangents.slope.read(simd));
-        let (mut velocity, mut mus, mut slopes) =
-            (self.velocity.write(simd), self.mu.write(simd), self.slope.write(simd));
-        for (r, rub) in (0u32..).zip(&self.topology.rubs) {
-            let [a, b] = rub.sides;
-            let w = before.at(r) + change.at(a) - change.at(b);
+        let (change, rubs, tangents) = (self.change.read(simd), self.rubs.read(simd), self.tangents.read(simd));
+        let (mut laws, mut shares) = (self.laws.write(simd), self.rub_shares.write(simd));
+        let of_rub = rubs.iter().zip(tangents.iter()).zip(laws.iter_mut()).zip(shares.iter_mut());
+        for ((((rub, tangent), mut at_w), mut share), at) in of_rub.zip(&self.topology.rubs) {
+            let [a, b] = at.sides;
+            let w = at_w.row(BEFORE) + change.at(a) - change.at(b);
             let law = Law {
-                excess: excess.at(r),
-                dynamic: dynamic.at(r),
-                slip: slip.at(r),
-                steep: steep.at(r),
-                alpha: alpha.at(r),
+                excess: rub.row(EXCESS),
+                dynamic: rub.row(DYNAMIC),
+                slip: rub.row(SLIP),
+                steep: rub.row(STEEP),
+                alpha: rub.row(ALPHA),
             };
             let (mu, slope) = friction(law, w);
-            velocity.set(r, w);
-            mus.set(r, mu);
-            slopes.set(r, slope);
-            let missed = tau * (mu - (drawn.at(r) + inclination.at(r) * (w - at.at(r))));
-            let f = normal.at(r) * missed;
-            rhs.add(a, f);
-            rhs.subtract(b, f);
+            at_w.set(AT, w);
+            at_w.set(MU, mu);
+            at_w.set(SLOPE, slope);
+            let missed = tau * (mu - (tangent.row(MU) + tangent.row(SLOPE) * (w - tangent.row(AT))));
+            let f = rub.row(NORMAL) * missed;
+            share.set(TO_B, f.negated());
+            share.set(TO_A, f);
         }
-        rhs.set(n, zero);
-        rhs.set(n + 1, zero);
+        let zero = V::splat(simd, 0.0);
+        gather_right_side(simd, &self.topology.of_rubs, &self.rub_shares, &mut self.rhs, |_| zero);
     }
 
     /// Size of the correction.
     #[inline(always)]
     fn measure<S: Simd>(&mut self, simd: S) {
         let (mut most, mut sum) = (V::splat(simd, 0.0), V::splat(simd, 0.0));
-        let rhs = self.rhs.read(simd);
-        for k in 0..self.topology.unknowns {
-            let d = rhs.at(k).abs();
-            (most, sum) = (most.max(d), sum + d);
+        for d in self.rhs.read(simd).iter().take(self.topology.unknowns as usize) {
+            (most, sum) = (most.max(d.abs()), sum + d.abs());
         }
         let mut lane = self.lane.write(simd);
         lane.set(CORRECTION as u32, most);
@@ -424,26 +426,49 @@ impl Work {
     }
 }
 
+/// Adds to `first` of each unknown what it has of the right side's shares.
+#[inline(always)]
+fn gather_right_side<S: Simd>(
+    simd: S,
+    incidence: &Incidence,
+    shares: &Groups<SHARES>,
+    to: &mut Rows,
+    first: impl Fn(V<S>) -> V<S>,
+) {
+    let shares = shares.rows().read(simd);
+    let mut lists = &incidence.rows[..];
+    for (mut to, &count) in to.write(simd).into_iter().zip(&incidence.counts) {
+        let (list, rest) = lists.split_at(count as usize);
+        lists = rest;
+        let mut sum = first(to.row(0));
+        for &[_, to_load] in list {
+            sum = sum + shares.at(to_load);
+        }
+        to.set(0, sum);
+    }
+}
+
 /// Solves with the factors in place.
 #[inline(always)]
-fn solve<S: Simd>(simd: S, t: &Topology, scaled: &Rows, pivot: &Rows, b: &mut Rows) {
-    let (scaled, pivot, mut b) = (scaled.read(simd), pivot.read(simd), b.write(simd));
+fn solve<S: Simd>(simd: S, t: &Topology, factors: &Groups<2>, pivot: &Rows, b: &mut Rows) {
+    let (factors, mut b) = (factors.read(simd), b.write(simd));
     let mut entries = &t.row_entries[..];
     for (k, &count) in (0u32..).zip(&t.row_counts) {
         let (row, rest) = entries.split_at(count as usize);
         entries = rest;
         let mut x = b.at(k);
         for &[c, p] in row {
-            x = x - scaled.at(p) * b.at(c);
+            x = x - factors.of(p, SCALED) * b.at(c);
         }
         b.set(k, x);
     }
-    let mut at = t.fill;
-    for (k, &count) in (0..t.unknowns).zip(&t.column_counts).rev() {
-        let mut x = b.at(k) * pivot.at(k);
-        for _ in 0..count {
-            at -= 1;
-            x = x - scaled.at(at) * b.at(t.entry_row[at as usize]);
+    let mut backward = t.entry_row.iter().zip(factors.iter()).rev();
+    for ((k, &count), inverse) in
+        (0..t.unknowns).zip(&t.column_counts).zip(pivot.read(simd).iter().take(t.column_counts.len())).rev()
+    {
+        let mut x = b.at(k) * inverse;
+        for (&r, entry) in backward.by_ref().take(count as usize) {
+            x = x - entry.row(SCALED) * b.at(r);
         }
         b.set(k, x);
     }
@@ -470,6 +495,9 @@ impl WithSimd for Advance<'_> {
             work.end_stage(simd, stage);
         }
         work.move_tangents(simd);
+        for stage in (1..work.tableau.stages).filter(|&i| self.ended[i]) {
+            work.keep_friction(simd, stage);
+        }
         if self.going_flipped && !work.missed_rubs.is_empty() {
             work.assemble_diagonal(simd);
         }
@@ -484,27 +512,26 @@ impl Work {
     /// V, in `change` still relative to V_p.
     #[inline(always)]
     fn correct<S: Simd>(&mut self, simd: S) {
-        let (rhs, mut change) = (self.rhs.read(simd), self.change.write(simd));
-        for k in 0..self.topology.unknowns {
-            change.subtract(k, rhs.at(k));
+        let n = self.topology.unknowns as usize;
+        for (mut x, d) in self.change.write(simd).into_iter().zip(self.rhs.read(simd).iter()).take(n) {
+            x.subtract(0, d);
         }
     }
 
-    /// Keeps velocity, displacement and acceleration of the lanes that end `stage`.
+    /// Keeps displacement, velocity and acceleration of the lanes that end `stage`.
     #[inline(always)]
     fn end_stage<S: Simd>(&mut self, simd: S, stage: usize) {
         let lane = self.lane.read(simd);
         let tau = lane.at(TAU as u32);
         let ends = ends(simd, &lane, stage);
-        let (z, v, change) = (self.before_z.read(simd), self.before_v.read(simd), self.change.read(simd));
-        let mut to_z = self.stage_z[stage].write(simd);
-        let (mut to_v, mut to_a) = (self.stage_v[stage].write(simd), self.stage_a[stage].write(simd));
-        for k in 0..self.topology.unknowns + 2 {
-            let before = v.at(k);
-            let after = before + change.at(k);
-            to_v.set_where(ends, k, after);
-            to_a.set_where(ends, k, (after - before) / tau);
-            to_z.set_where(ends, k, z.at(k) + tau * after);
+        let (motion, change) = (self.prediction.read(simd), self.change.read(simd));
+        let mut stages = self.stages[stage].write(simd);
+        for ((mut to, from), change) in stages.iter_mut().zip(motion.iter()).zip(change.iter()) {
+            let before = from.row(VELOCITY);
+            let after = before + change;
+            to.set_where(ends, VELOCITY, after);
+            to.set_where(ends, ACCELERATION, (after - before) / tau);
+            to.set_where(ends, Z, from.row(Z) + tau * after);
         }
     }
 
@@ -515,35 +542,34 @@ impl Work {
         let lane = self.lane.read(simd);
         let converged = Mask::of(lane.at(CONVERGED as u32));
         let going = Mask::of(lane.at(GOING as u32));
-        let (before, change, velocity) = (self.before.read(simd), self.change.read(simd), self.velocity.read(simd));
-        let (mu, slope, static_) = (self.mu.read(simd), self.slope.read(simd), self.static_.read(simd));
-        let t = &mut self.tangents;
-        let (mut t_velocity, mut t_mu, mut t_slope) =
-            (t.velocity.write(simd), t.mu.write(simd), t.slope.write(simd));
+        let (change, laws, searches) = (self.change.read(simd), self.laws.read(simd), self.searches.read(simd));
         let (mut target, mut missed) = (self.target.write(simd), self.missed.write(simd));
-        for (r, rub) in (0u32..).zip(&self.topology.rubs) {
-            let [a, b] = rub.sides;
-            let (w, mu, slope) = (velocity.at(r), mu.at(r), slope.at(r));
-            let aim = t_mu.at(r) + t_slope.at(r) * (w - t_velocity.at(r));
-            let misses = (mu - aim).abs().above(FAR * static_.at(r)).and(going);
+        let mut tangents = self.tangents.write(simd);
+        let of_rub = tangents.iter_mut().zip(laws.iter()).zip(searches.iter());
+        for (r, (((mut tangent, law), search), at)) in (0u32..).zip(of_rub.zip(&self.topology.rubs)) {
+            let [a, b] = at.sides;
+            let (w, mu, slope) = (law.row(AT), law.row(MU), law.row(SLOPE));
+            let aim = tangent.row(MU) + tangent.row(SLOPE) * (w - tangent.row(AT));
+            let misses = (mu - aim).abs().above(FAR * search.row(STATIC)).and(going);
             if misses.any() {
                 self.missed_rubs.push(r);
                 target.set(r, aim);
                 missed.set(r, misses.as_row());
             }
-            let solution = before.at(r) + change.at(a) - change.at(b);
-            t_velocity.set(r, converged.pick(solution, w));
-            t_mu.set(r, converged.pick(mu + slope * (solution - w), mu));
-            t_slope.set(r, slope);
+            let solution = law.row(BEFORE) + change.at(a) - change.at(b);
+            tangent.set(AT, converged.pick(solution, w));
+            tangent.set(MU, converged.pick(mu + slope * (solution - w), mu));
+            tangent.set(SLOPE, slope);
         }
-        for stage in 1..self.tableau.stages {
-            let ends = ends(simd, &lane, stage);
-            if ends.any() {
-                let mut kept = self.stage_mu[stage].write(simd);
-                for r in 0..self.topology.rubs.len() as u32 {
-                    kept.set_where(ends, r, t_mu.at(r));
-                }
-            }
+    }
+
+    /// Keeps the friction of the lanes that end `stage`.
+    #[inline(always)]
+    fn keep_friction<S: Simd>(&mut self, simd: S, stage: usize) {
+        let ends = ends(simd, &self.lane.read(simd), stage);
+        let tangents = self.tangents.read(simd);
+        for (mut kept, tangent) in self.stage_mu[stage].write(simd).iter_mut().zip(tangents.iter()) {
+            kept.set_where(ends, 0, tangent.row(MU));
         }
     }
 
@@ -564,47 +590,38 @@ impl Work {
     fn estimate_error<S: Simd>(&mut self, simd: S) {
         let (n, last) = (self.topology.unknowns, self.tableau.stages - 1);
         let (tau, step) = (self.lane.read(simd).at(TAU as u32), self.lane.read(simd).at(STEP as u32));
-        {
-            let (mut error_v, mut error_z) = (self.rhs.write(simd), self.error_z.write(simd));
-            for i in 0..=last {
-                let weight = step * self.tableau.error[i];
-                let (v, a) = if i == 0 {
-                    (self.v.read(simd), self.a.read(simd))
-                } else {
-                    (self.stage_v[i].read(simd), self.stage_a[i].read(simd))
-                };
-                for k in 0..n {
-                    let old = |rows: &Write<S>| if i == 0 { V::splat(simd, 0.0) } else { rows.at(k) };
-                    let (of_v, of_z) = (old(&error_v), old(&error_z));
-                    error_v.set(k, of_v + weight * a.at(k));
-                    error_z.set(k, of_z + weight * v.at(k));
-                }
-            }
-            let mass = self.mass.read(simd);
-            for k in 0..n {
-                error_v.set(k, error_v.at(k) * mass.at(k));
-            }
-            let engaged = self.engaged.read(simd);
-            for (e, joint) in (0u32..).zip(&self.topology.joints) {
-                let [a, b] = joint.sides;
-                let mut stretch = error_z.at(a);
-                if b < n {
-                    stretch = stretch - error_z.at(b);
-                }
-                let f = tau * engaged.at(e) * stretch;
-                error_v.subtract(a, f);
-                if b < n {
-                    error_v.add(b, f);
-                }
+        let zero = V::splat(simd, 0.0);
+        let (mut error_v, mut error_z) = (self.rhs.write(simd), self.error_z.write(simd));
+        for i in 0..=last {
+            let weight = step * self.tableau.error[i];
+            let stage = if i == 0 { self.state.read(simd) } else { self.stages[i].read(simd) };
+            for ((mut ev, mut ez), s) in error_v.iter_mut().zip(error_z.iter_mut()).zip(stage.iter()) {
+                let (old_v, old_z) = if i == 0 { (zero, zero) } else { (ev.row(0), ez.row(0)) };
+                ev.set(0, old_v + weight * s.row(ACCELERATION));
+                ez.set(0, old_z + weight * s.row(VELOCITY));
             }
         }
-        solve(simd, &self.topology, &self.scaled, &self.pivot, &mut self.rhs);
+        // Base and top have no error.
+        for k in [n, n + 1] {
+            error_z.set(k, zero);
+        }
+        let mut shares = self.joint_shares.write(simd);
+        let of_joint = self.joints.read(simd).iter().zip(shares.iter_mut());
+        for ((joint, mut share), at) in of_joint.zip(&self.topology.joints) {
+            let [a, b] = at.sides;
+            let f = tau * joint.row(ENGAGED) * (error_z.at(a) - error_z.at(b));
+            share.set(TO_B, f);
+            share.set(TO_A, f.negated());
+        }
+        for (mut ev, mass) in error_v.iter_mut().zip(self.mass.read(simd).iter()) {
+            ev.set(0, ev.row(0) * mass);
+        }
+        gather_right_side(simd, &self.topology.of_joints, &self.joint_shares, &mut self.rhs, |ev| ev);
+        solve(simd, &self.topology, &self.factors, &self.pivot, &mut self.rhs);
         let (error_v, error_z) = (self.rhs.read(simd), self.error_z.read(simd));
-        let zero = V::splat(simd, 0.0);
         let (mut most_v, mut most_z, mut sum) = (zero, zero, zero);
-        for k in 0..n {
-            let ev = error_v.at(k);
-            let ez = error_z.at(k) + tau * ev;
+        for (ev, ez) in error_v.iter().zip(error_z.iter()).take(n as usize) {
+            let ez = ez + tau * ev;
             (most_v, most_z, sum) = (most_v.max(ev.abs()), most_z.max(ez.abs()), sum + (ev + ez));
         }
         let mut lane = self.lane.write(simd);
@@ -636,44 +653,34 @@ impl WithSimd for Turn<'_> {
         let accepted = Mask::of(w.lane.read(simd).at(ACCEPTED as u32));
         let given_up = Mask::of(w.lane.read(simd).at(GIVEN_UP as u32));
         if accepted.any() {
-            let (mut z, mut v, mut a) = (w.z.write(simd), w.v.write(simd), w.a.write(simd));
-            let (new_z, new_v, new_a) =
-                (w.stage_z[last].read(simd), w.stage_v[last].read(simd), w.stage_a[last].read(simd));
             let (mut most_z, mut most_v) = (V::splat(simd, 0.0), V::splat(simd, 0.0));
-            for k in 0..w.topology.unknowns {
-                z.set_where(accepted, k, new_z.at(k));
-                v.set_where(accepted, k, new_v.at(k));
-                a.set_where(accepted, k, new_a.at(k));
-                (most_z, most_v) = (most_z.max(new_z.at(k).abs()), most_v.max(new_v.at(k).abs()));
-            }
-            for k in w.topology.unknowns..w.topology.unknowns + 2 {
-                z.set_where(accepted, k, new_z.at(k));
-                v.set_where(accepted, k, new_v.at(k));
+            let mut state = w.state.write(simd);
+            let arrived = w.stages[last].read(simd);
+            for (k, (mut to, from)) in (0u32..).zip(state.iter_mut().zip(arrived.iter())) {
+                to.set_where(accepted, Z, from.row(Z));
+                to.set_where(accepted, VELOCITY, from.row(VELOCITY));
+                to.set_where(accepted, ACCELERATION, from.row(ACCELERATION));
+                if k < w.topology.unknowns {
+                    (most_z, most_v) = (most_z.max(from.row(Z).abs()), most_v.max(from.row(VELOCITY).abs()));
+                }
             }
             let mut lane = w.lane.write(simd);
             lane.set(SCALE_Z as u32, most_z);
             lane.set(SCALE_V as u32, most_v);
         }
-        exchange(simd, accepted, given_up, &mut w.saved.velocity, &mut w.tangents.velocity);
-        exchange(simd, accepted, given_up, &mut w.saved.mu, &mut w.tangents.mu);
-        exchange(simd, accepted, given_up, &mut w.saved.slope, &mut w.tangents.slope);
-        let (mut saved, mut engaged) = (w.saved_engaged.write(simd), w.engaged.write(simd));
-        for (i, joint) in (0u32..).zip(&w.topology.one_sided) {
-            let (old, new) = (saved.at(i), engaged.at(joint.joint));
-            saved.set(i, accepted.pick(new, old));
-            engaged.set(joint.joint, given_up.pick(old, new));
+        for (mut saved, mut now) in w.saved.write(simd).iter_mut().zip(w.tangents.write(simd).iter_mut()) {
+            for row in [AT, MU, SLOPE] {
+                let (old, new) = (saved.row(row), now.row(row));
+                saved.set(row, accepted.pick(new, old));
+                now.set(row, given_up.pick(old, new));
+            }
         }
-    }
-}
-
-/// Keeps what is new in the lanes that go on, and takes back what was kept in those that go back.
-#[inline(always)]
-fn exchange<S: Simd>(simd: S, on: Mask<S>, back: Mask<S>, saved: &mut Rows, now: &mut Rows) {
-    let rows = saved.len() as u32;
-    let (mut saved, mut now) = (saved.write(simd), now.write(simd));
-    for r in 0..rows {
-        let (old, new) = (saved.at(r), now.at(r));
-        saved.set(r, on.pick(new, old));
-        now.set(r, back.pick(old, new));
+        let mut joints = w.joints.write(simd);
+        for (mut one_sided, at) in w.one_sided.write(simd).iter_mut().zip(&w.topology.one_sided) {
+            let mut joint = joints.group(at.joint);
+            let (old, new) = (one_sided.row(SAVED), joint.row(ENGAGED));
+            one_sided.set(SAVED, accepted.pick(new, old));
+            joint.set(ENGAGED, given_up.pick(old, new));
+        }
     }
 }
