@@ -10,11 +10,12 @@ use crate::{concio, equations, gallery, shown, symbols};
 
 /// Figures of docs/figures.md: example, options, name of the picture. Not compared by [`check`]: where joints stick and
 /// slip a run ends elsewhere with another mathematical library.
-const FIGURES: [(&str, &str, &str); 6] = [
+const FIGURES: [(&str, &str, &str); 7] = [
     ("02-driven-top", "--figure deformed", "deformed"),
     ("02-driven-top", "--figure phase --blocks p1c6b4,p1c2b1", "phase"),
     ("02-driven-top", "--figure joint-histories --joints p1c6b4|p1c6b5,p1c5b3|p1c5b4", "joint-histories"),
     ("02-driven-top", "--figure peak-acceleration", "peak-acceleration"),
+    ("12-bonded-joints", "--figure cracks", "cracks"),
     ("04-two-panels", "--figure top-force", "top-force"),
     ("01-first-wall", "--figure energies", "energies"),
 ];

@@ -32,7 +32,7 @@ const fn row(
 }
 
 #[rustfmt::skip]
-const SYMBOLS: [Symbol; 47] = [
+const SYMBOLS: [Symbol; 58] = [
     row("L", "length of the brick", "m", "panel.brick.length", "case.rs length", "section 1"),
     row("H", "height of the brick", "m", "panel.brick.height", "case.rs height", "section 1"),
     row("B", "thickness of the brick, out of plane", "m", "panel.brick.thickness", "case.rs thickness", "section 1"),
@@ -65,6 +65,16 @@ const SYMBOLS: [Symbol; 47] = [
     row("δ_v", "slip velocity: beyond it a joint slips", "m/s", "joint.friction.slip_velocity", "law.rs slip_velocity", "(6)"),
     row("β", "steepness of friction at rest", "1", "joint.friction.beta", "law.rs beta", "(6)"),
     row("α", "growth of friction with the square of the velocity", "s²/m²", "joint.friction.alpha", "law.rs alpha", "(6)"),
+    row("f_t", "tensile strength of head joints and connections", "Pa", "joint.bond.tensile_strength", "case.rs tensile_strength", "(B2)"),
+    row("c", "cohesion of bed and support joints", "Pa", "joint.bond.cohesion", "case.rs cohesion", "(B2)"),
+    row("φ", "friction angle of the bond", "rad", "joint.bond.friction_angle", "case.rs friction_angle", "(B2)"),
+    row("G_f^I, G_f^II", "fracture energies of opening and of shear", "N/m", "joint.bond.mode_1_energy joint.bond.mode_2_energy", "case.rs mode_2_energy", "(B4)"),
+    row("η", "fraction of the stiffness that a cracked bed or support joint keeps", "1", "joint.bond.residual_stiffness", "case.rs residual_stiffness", "(B1)"),
+    row("A", "area of a joint, overlap times thickness", "m²", "", "bond.rs area", "(B2)"),
+    row("F_0", "strength of a bonded joint", "N", "", "bond.rs strength", "(B2)"),
+    row("D", "damage: cracked part of a bonded joint", "1", "", "bond.rs damage", "(B1) (B3)"),
+    row("κ", "largest relative displacement or gap of a bonded joint so far", "m", "", "state.rs reach", "(B3)"),
+    row("δ_0, δ_c", "relative displacement at the strength; length over which the strength falls", "m", "", "bond.rs decay", "(B3) (B4)"),
     row("q", "vertical load at the top, per length of brick", "N/m", "load.top", "case.rs top", "section 3"),
     row("P0_i", "load above block i, as the report has it", "N", "", "graph.rs overburden", "section 3"),
     row("M_b", "mass of the top beam", "kg", "load.beam.mass", "case.rs Mass", "section 2"),
@@ -73,6 +83,7 @@ const SYMBOLS: [Symbol; 47] = [
     row("E_0", "energy at t = 0 that no work brought", "J", "", "record.rs initial", "(7)"),
     row("D_damping", "dissipated by viscous damping", "J", "", "record.rs damping", "(7)"),
     row("D_friction", "dissipated by friction", "J", "", "record.rs friction", "(7)"),
+    row("D_bond", "dissipated by the breaking of bonds", "J", "", "record.rs bond", "(7)"),
     row("D_nonreciprocal", "taken out by friction whose action differs from its reaction", "J", "", "record.rs nonreciprocal", "(7)"),
     row("W_base", "work of the base motion on the relative motion", "J", "", "record.rs input_base", "(7)"),
     row("W_top", "work of the driven top beam", "J", "", "record.rs input_top", "(7)"),

@@ -275,13 +275,14 @@ pub enum Figures {
 
 impl ValueEnum for Figures {
     fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [Figures; 11] = [
+        const ALL: [Figures; 12] = [
             Figures::One(Figure::Deformed),
             Figures::One(Figure::Phase),
             Figures::One(Figure::JointPhase),
             Figures::One(Figure::JointHistories),
             Figures::One(Figure::PeakAcceleration),
             Figures::One(Figure::Acceleration),
+            Figures::One(Figure::Cracks),
             Figures::One(Figure::Hysteresis),
             Figures::One(Figure::TopForce),
             Figures::One(Figure::Energies),
@@ -314,6 +315,8 @@ pub enum Figure {
     PeakAcceleration,
     /// Joints coloured by their relative acceleration at an instant over the largest in the whole history.
     Acceleration,
+    /// Joints coloured by the cracked part of their bonds.
+    Cracks,
     /// Friction force over slip of joints.
     Hysteresis,
     /// Force of the top beam over its displacement.

@@ -17,6 +17,16 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
         ("peak slip velocity", si(totals.peak_slip_velocity, "m/s")),
         ("head joints", format!("opened {}, pressed in {}", si(opening, "m"), si(0.0 - totals.minimum_gap, "m"))),
     ];
+    let bonds = &outcome.bonds;
+    if !bonds.is_empty() {
+        let cracked = bonds.iter().filter(|b| b.damage > 0.0).count();
+        let broken = bonds.iter().filter(|b| b.damage == 1.0).count();
+        rows.push(("bonds", format!("{cracked} of {} cracked, {broken} broken", bonds.len())));
+        if let Some(first) = outcome.first_crack() {
+            let name = joints.get(first.joint).map_or("", |j| j.name.as_str());
+            rows.push(("  first crack", format!("t = {}, joint {name}", crate::format::seconds(first.cracked))));
+        }
+    }
     if totals.top_force_peak > 0.0 {
         let rms = si(number("/top_force_rms"), "N");
         rows.push(("force of the top beam", format!("{} peak, {rms} rms", si(totals.top_force_peak, "N"))));

@@ -3,8 +3,8 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::case::{
-    Case, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointKind, Joints, NormalForce, Selector, Spring,
-    SpringLaw,
+    Case, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointKind, Joints, NormalForce, Selector,
+    Spring, SpringLaw,
 };
 use crate::error::{InputError, Result};
 use crate::graph;
@@ -28,6 +28,32 @@ pub(crate) struct JointLaw {
     parameters: Stribeck,
     /// Whether this joint is one of those that rub, by `friction.on` or by a change of its own.
     may_rub: bool,
+    /// Its bond, if it is one of those that have one; `on` has no meaning here.
+    pub bond: Option<BondValues>,
+}
+
+/// Bond of one joint, per area, in SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct BondValues {
+    /// f_t, c [Pa] and tan φ.
+    pub tensile_strength: f64,
+    pub cohesion: f64,
+    pub tan_angle: f64,
+    /// G_f^I, G_f^II [N/m].
+    pub energy: [f64; 2],
+    pub residual: f64,
+}
+
+impl BondValues {
+    fn of(bond: &JointBond) -> Self {
+        BondValues {
+            tensile_strength: bond.tensile_strength.si(),
+            cohesion: bond.cohesion.si(),
+            tan_angle: bond.friction_angle.si().tan(),
+            energy: [bond.mode_1_energy.si(), bond.mode_2_energy.si()],
+            residual: bond.residual_stiffness,
+        }
+    }
 }
 
 impl JointLaw {
@@ -67,6 +93,7 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
                 law.spring.law = c.law.unwrap_or(law.spring.law);
                 law.spring.stiffness = c.stiffness.unwrap_or(law.spring.stiffness);
                 law.spring.rigidity = c.rigidity.unwrap_or(law.spring.rigidity);
+                law.spring.restitution = c.restitution.or(law.spring.restitution);
                 law.spring.stiffness_factor = c.stiffness_factor.unwrap_or(law.spring.stiffness_factor);
                 law.damping_ratio = c.damping_ratio.unwrap_or(law.damping_ratio);
             }
@@ -80,6 +107,15 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
                 p.beta = c.beta.unwrap_or(p.beta);
                 p.alpha = c.alpha.unwrap_or(p.alpha);
             }
+            if let Some(c) = &change.bond {
+                let b = law.bond.get_or_insert(BondValues::of(&JointBond::default()));
+                b.tensile_strength = c.tensile_strength.map_or(b.tensile_strength, |v| v.si());
+                b.cohesion = c.cohesion.map_or(b.cohesion, |v| v.si());
+                b.tan_angle = c.friction_angle.map_or(b.tan_angle, |v| v.si().tan());
+                b.energy[0] = c.mode_1_energy.map_or(b.energy[0], |v| v.si());
+                b.energy[1] = c.mode_2_energy.map_or(b.energy[1], |v| v.si());
+                b.residual = c.residual_stiffness.unwrap_or(b.residual);
+            }
             check_spring(joints[e].kind, law.spring.law)
                 .map_err(|e| e.key(format!("joint.change[{number}].spring.law")))?;
         }
@@ -89,11 +125,16 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
 
 /// Bed and support joints slide both ways: a law for one direction has no meaning there.
 fn check_spring(kind: JointKind, law: SpringLaw) -> std::result::Result<(), InputError> {
-    if law == SpringLaw::NoTension && !kind.is_upright() {
-        let what = "law `no-tension` is for head joints and connections; this joint slides in both directions";
-        return Err(InputError::new(what).allowed("elastic, none"));
+    let name = match law {
+        SpringLaw::NoTension => "no-tension",
+        SpringLaw::Rigid => "rigid",
+        SpringLaw::Elastic | SpringLaw::None => return Ok(()),
+    };
+    if kind.is_upright() {
+        return Ok(());
     }
-    Ok(())
+    let what = format!("law `{name}` is for head joints and connections; this joint slides in both directions");
+    Err(InputError::new(what).allowed("elastic, none"))
 }
 
 fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {
@@ -119,6 +160,7 @@ fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {
         parameters,
         may_rub: friction_choice(f).0 == FrictionOn::All
             || matches!(kind, JointKind::Bed | JointKind::Base | JointKind::Top),
+        bond: settings.bond.as_ref().filter(|b| b.on.contains(&kind)).map(BondValues::of),
     }
 }
 

@@ -22,7 +22,9 @@ pub use validate::validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::quantity::{Acceleration, ForcePerLength, Frequency, Length, Mass, SpecificWeight, Time, Velocity};
+use crate::quantity::{
+    Acceleration, Angle, EnergyPerArea, ForcePerLength, Frequency, Length, Mass, SpecificWeight, Stress, Time, Velocity,
+};
 
 /// A wall, its joints, its loads and its motion: all that one run needs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -271,6 +273,9 @@ pub struct Joints {
     /// Friction, equations (5) and (6).
     #[serde(default)]
     pub friction: Friction,
+    /// Mortar that holds until it cracks, equations (B1) to (B4); default none: dry joints.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bond: Option<JointBond>,
     /// Joints with laws of their own, applied in the order of the file: later ones win.
     #[serde(default, rename = "change", skip_serializing_if = "Vec::is_empty")]
     pub changes: Vec<JointChange>,
@@ -299,6 +304,11 @@ pub struct Spring {
     #[serde(default = "one")]
     #[schemars(range(min = 0.0))]
     pub stiffness_factor: f64,
+    /// e of equation (R4), 0 … 1: what a rigid joint gives back of the closing velocity of an impact. For law `rigid`
+    /// alone; default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restitution: Option<f64>,
     /// ζ of this kind of joint, 0 … 2; default the common one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 2.0))]
@@ -320,7 +330,8 @@ pub enum SpringLaw {
     Elastic,
     /// Compression only, κ times the stiffness, equation (3).
     NoTension,
-    /// Unilateral and rigid, set-valued (not in this version: refused with a message).
+    /// Compression only and rigid: sides part freely and never overlap, equations (R1) to (R4). For head joints and
+    /// connections; `stiffness` gives it its damping (4) alone.
     Rigid,
     /// No elastic force and no damping.
     None,
@@ -411,6 +422,55 @@ pub enum FrictionOn {
     All,
 }
 
+/// Bond of the joints: intact joints are elastic and do not rub until they crack.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointBond {
+    /// f_t [Pa], from 0: tensile strength of head joints and connections. 0: they are not bonded. Default 0.
+    #[serde(default)]
+    pub tensile_strength: Stress,
+    /// c [Pa], from 0: cohesion of bed and support joints. 0 with `friction_angle` 0: they are not bonded. Default 0.
+    #[serde(default)]
+    pub cohesion: Stress,
+    /// φ [rad], 0 … 80 deg: the vertical load on a bed or support joint adds N tan φ to its strength. Default 0.
+    #[serde(default)]
+    pub friction_angle: Angle,
+    /// G_f^I [N/m], from 0: energy per area of opening a head joint, no less than what it stores at its strength. 0:
+    /// brittle. Default 0.
+    #[serde(default)]
+    pub mode_1_energy: EnergyPerArea,
+    /// G_f^II [N/m], from 0: energy per area of shearing a bed or support joint, no less than what it stores at its
+    /// strength. 0: brittle. Default 0.
+    #[serde(default)]
+    pub mode_2_energy: EnergyPerArea,
+    /// Fraction of the elastic stiffness that a cracked bed or support joint keeps beside its friction, 0 … 1; below 1
+    /// with `mode_2_energy`. 1 is the unbonded elastic joint of equation (2), whose spring never lets go. Default 0.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub residual_stiffness: f64,
+    /// Kinds of joint that are bonded; default all.
+    #[serde(default = "all_kinds")]
+    pub on: Vec<JointKind>,
+}
+
+fn all_kinds() -> Vec<JointKind> {
+    vec![JointKind::Bed, JointKind::Head, JointKind::Base, JointKind::Top, JointKind::Connection]
+}
+
+impl Default for JointBond {
+    fn default() -> Self {
+        JointBond {
+            tensile_strength: Stress::from_si(0.0),
+            cohesion: Stress::from_si(0.0),
+            friction_angle: Angle::from_si(0.0),
+            mode_1_energy: EnergyPerArea::from_si(0.0),
+            mode_2_energy: EnergyPerArea::from_si(0.0),
+            residual_stiffness: 0.0,
+            on: all_kinds(),
+        }
+    }
+}
+
 /// Normal force in equation (5).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -430,7 +490,7 @@ pub enum FrictionPreset {
     Report,
 }
 
-/// Other laws for some joints; `spring`, `friction` or both are given.
+/// Other laws for some joints; at least one of `spring`, `friction` and `bond` is given.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointChange {
@@ -442,6 +502,9 @@ pub struct JointChange {
     /// The friction they get instead; keys not given stay as they are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionChange>,
+    /// The bond they get instead; keys not given stay as they are. Joints without a bond get one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bond: Option<BondChange>,
 }
 
 /// Conditions that choose joints.
@@ -498,6 +561,10 @@ pub struct SpringChange {
     /// κ, above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<f64>,
+    /// As [`Spring::restitution`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restitution: Option<f64>,
     /// Factor on the elastic force alone, from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_factor: Option<f64>,
@@ -528,6 +595,30 @@ pub struct FrictionChange {
     /// α [s²/m²], from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub alpha: Option<f64>,
+}
+
+/// What a [`JointChange`] changes of the bond; strengths of 0 take it away.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct BondChange {
+    /// f_t [Pa], from 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tensile_strength: Option<Stress>,
+    /// c [Pa], from 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cohesion: Option<Stress>,
+    /// φ [rad], 0 … 80 deg.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_angle: Option<Angle>,
+    /// G_f^I [N/m], from 0; 0: brittle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mode_1_energy: Option<EnergyPerArea>,
+    /// G_f^II [N/m], from 0; 0: brittle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mode_2_energy: Option<EnergyPerArea>,
+    /// Fraction of the stiffness that stays, 0 … 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_stiffness: Option<f64>,
 }
 
 /// Loads at the top of the wall.
@@ -764,7 +855,7 @@ fn default_corners() -> [Time; 3] {
 pub struct Solver {
     /// The scheme.
     pub scheme: Scheme,
-    /// Relative tolerance of the local error against the largest motion so far, 1e-12 … 0.1. Default 1e-3.
+    /// Relative tolerance of the local error against the largest motion so far, 1e-12 … 0.1. Default 1e-2.
     #[schemars(range(min = 1e-12, max = 0.1))]
     pub tolerance: f64,
     /// Displacement [m] below which errors do not count, above 0. Default 1e-14.
@@ -776,7 +867,7 @@ pub struct Solver {
 
 impl Default for Solver {
     fn default() -> Self {
-        Solver { scheme: Scheme::TrBdf2, tolerance: 1e-3, floor: Length::from_si(1e-14), max_step: None }
+        Solver { scheme: Scheme::TrBdf2, tolerance: 1e-2, floor: Length::from_si(1e-14), max_step: None }
     }
 }
 

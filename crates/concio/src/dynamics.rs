@@ -4,23 +4,48 @@ use std::collections::HashMap;
 
 use crate::error::{InputError, Result};
 use crate::excitation::Drive;
+use crate::integrate::dense::extreme;
+use crate::integrate::events::TOUCHING;
 use crate::law::spring_force;
-use crate::model::Model;
+use crate::model::{Elastic, Model};
 use crate::record::{Channel, Energies};
-use crate::state::{Power, State};
+use crate::state::{BondState, Power, State, Tangents, View};
 
-/// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N].
-fn joint_forces(model: &Model, state: &State, rub: Option<usize>, joint: usize) -> (f64, f64, f64) {
-    let [a, b] = model.sides[joint].map(|s| s as usize);
-    let (d, w) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
-    let law = &model.elastic[joint];
-    let friction = rub.map_or(0.0, |r| model.rubs[r].normal[0] * state.tangents.mu[r]);
-    (spring_force(law.unilateral, law.stiffness, d), law.damping * w, friction)
+/// Displacements and velocities with what the laws are there.
+#[derive(Debug, Clone, Copy)]
+pub struct Moving<'a> {
+    pub z: &'a [f64],
+    pub v: &'a [f64],
+    pub laws: &'a Tangents,
+    /// The bonds at the start of the step.
+    pub bonds: &'a [BondState],
 }
 
-/// Rates of the energy account, and of each joint's dissipation into `joint` [W], at velocities `v`.
-/// `mu` are the laws there; `z` displacements, for the force on the top.
-pub fn power(model: &Model, z: &[f64], v: &[f64], mu: &[f64], ground: f64, joint: &mut [f64]) -> Power {
+/// What bonds change of the elastic forces on side a [N]: `change(joint, force)` for every one.
+fn bonds_beyond(model: &Model, bonds: &[BondState], z: &[f64], mut change: impl FnMut(usize, f64)) {
+    for (bond, state) in model.bonds.iter().zip(bonds) {
+        let e = bond.joint as usize;
+        let [a, b] = model.sides[e].map(|s| s as usize);
+        let d = z[a] - z[b];
+        change(e, bond.beyond(&model.elastic[e], bond.law.damage_at(state.damage, d), d));
+    }
+}
+
+/// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N]. What a rigid joint
+/// bears counts as elastic; what a bond changes is left out.
+fn joint_forces(model: &Model, at: View, index: [Option<usize>; 2], joint: usize) -> (f64, f64, f64) {
+    let [rub, contact] = index;
+    let [a, b] = model.sides[joint].map(|s| s as usize);
+    let (d, w) = (at.z[a] - at.z[b], at.v[a] - at.v[b]);
+    let law = &model.elastic[joint];
+    let friction = rub.map_or(0.0, |r| model.rubs[r].normal[0] * at.mu[r]);
+    let borne = contact.map_or(0.0, |c| at.reaction[c]);
+    (spring_force(law.unilateral, law.stiffness, d) + borne, law.damping * w, friction)
+}
+
+/// Rates of the energy account, and of each joint's dissipation into `joint` [W].
+pub fn power(model: &Model, at: Moving<'_>, ground: f64, joint: &mut [f64]) -> Power {
+    let Moving { z, v, laws, bonds } = at;
     let mut p = Power::default();
     for (m, v) in model.mass.iter().zip(v) {
         p.base -= m * v;
@@ -37,7 +62,7 @@ pub fn power(model: &Model, z: &[f64], v: &[f64], mu: &[f64], ground: f64, joint
             pull += law.damping * w + spring_force(law.unilateral, law.stiffness, z[a] - z[b]);
         }
     }
-    for (rub, &mu) in model.rubs.iter().zip(mu) {
+    for (rub, &mu) in model.rubs.iter().zip(&laws.mu) {
         let [a, b] = model.sides[rub.joint as usize];
         let (a, b) = (a as usize, b as usize);
         let lost = 0.5 * (rub.normal[0] + rub.normal[1]) * mu * (v[a] - v[b]);
@@ -48,6 +73,17 @@ pub fn power(model: &Model, z: &[f64], v: &[f64], mu: &[f64], ground: f64, joint
         }
         if b == top {
             pull += rub.normal[0] * mu;
+        }
+    }
+    bonds_beyond(model, bonds, z, |e, force| {
+        if model.sides[e][1] as usize == top {
+            pull += force;
+        }
+    });
+    // Closed, a rigid joint does no work but that of the support that it presses.
+    for (contact, borne) in model.contacts.iter().zip(&laws.reaction) {
+        if model.sides[contact.joint as usize][1] as usize == top {
+            pull += borne;
         }
     }
     p.top = -pull * v[top];
@@ -76,6 +112,23 @@ pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
         }
         state.tangents.velocity[r] = w;
     }
+    // Of a bonded joint the cracked part rubs, if there is any.
+    for (bond, damage) in model.bonds.iter().zip(state.bonds.iter().map(|b| b.damage)) {
+        let Some(r) = bond.rub.map(|r| r as usize).filter(|_| damage < 1.0) else { continue };
+        let law = model.rubs[r].law.times(damage);
+        state.tangents.stuck[r] &= damage > 0.0;
+        if !state.tangents.stuck[r] {
+            (state.tangents.mu[r], state.tangents.slope[r]) = law.at(state.tangents.velocity[r]);
+        }
+    }
+    for (c, contact) in model.contacts.iter().enumerate() {
+        let [a, b] = model.sides[contact.joint as usize].map(|s| s as usize);
+        let touches = state.z[a] - state.z[b] >= -TOUCHING;
+        state.tangents.contact[c] = touches && state.v[a] == state.v[b];
+        if !state.tangents.contact[c] {
+            state.tangents.reaction[c] = 0.0;
+        }
+    }
     accelerate(model, drive, state);
 }
 
@@ -91,52 +144,71 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
         state.a[a] -= f;
         state.a[b] += f;
     }
+    let a = &mut state.a;
+    bonds_beyond(model, &state.bonds, &state.z, |e, force| {
+        let [i, k] = model.sides[e].map(|s| s as usize);
+        a[i] -= force;
+        a[k] += force;
+    });
     for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         state.a[a] -= rub.normal[0] * mu;
         state.a[b] += rub.normal[1] * mu;
+    }
+    for (contact, borne) in model.contacts.iter().zip(&state.tangents.reaction) {
+        let [a, b] = model.sides[contact.joint as usize].map(|s| s as usize);
+        state.a[a] -= borne;
+        state.a[b] += borne;
     }
     for (a, m) in state.a.iter_mut().zip(&model.mass) {
         *a = *a / m - ground;
     }
     state.a[n] = 0.0;
     state.a[n + 1] = drive.top(state.t).a;
-    state.power = power(model, &state.z, &state.v, &state.tangents.mu, ground, &mut state.joint_power);
+    let at = Moving { z: &state.z, v: &state.v, laws: &state.tangents, bonds: &state.bonds };
+    state.power = power(model, at, ground, &mut state.joint_power);
 }
 
-/// Brings kinetic and elastic energy, envelopes and totals up to date after an accepted step of `h`.
-pub fn observe(model: &Model, state: &mut State, h: f64) {
+/// Brings envelopes and totals up to date after an accepted step of `h` that began with the
+/// displacements and velocities `start`.
+pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
     let n = model.unknowns();
+    let [z_0, v_0] = start;
     let env = &mut state.envelopes;
-    let mut kinetic = 0.0;
+    let mut largest = 0.0f64;
     for i in 0..n {
         let (z, v) = (state.z[i].abs(), state.v[i].abs());
-        kinetic += 0.5 * model.mass[i] * v * v;
-        env.block_displacement[i] = env.block_displacement[i].max(z);
+        let farthest = z.max(extreme([z_0[i], state.z[i]], [v_0[i], state.v[i]], h).abs());
+        if i < model.wall.blocks.len() {
+            largest = largest.max(farthest);
+        }
+        env.block_displacement[i] = env.block_displacement[i].max(farthest);
         env.block_velocity[i] = env.block_velocity[i].max(v);
         env.block_acceleration[i] = env.block_acceleration[i].max(state.a[i].abs());
         state.scale[0] = state.scale[0].max(z);
         state.scale[1] = state.scale[1].max(v);
     }
     let totals = &mut state.totals;
-    totals.peak_relative_displacement =
-        totals.peak_relative_displacement.max(peak(&state.z[..model.wall.blocks.len()]));
+    totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
     let top = model.floating_beam().unwrap_or(model.top());
-    let (mut elastic, mut pull) = (0.0, 0.0);
+    let mut pull = 0.0;
     for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
         let (a, b) = (a as usize, b as usize);
         let (d, w, dw) = (state.z[a] - state.z[b], state.v[a] - state.v[b], state.a[a] - state.a[b]);
         let f = spring_force(law.unilateral, law.stiffness, d);
-        elastic += 0.5 * f * d;
-        env.joint_displacement[e] = env.joint_displacement[e].max(d.abs());
+        // Where the relative motion turned inside the step, or its start, which is known already.
+        let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], w], h);
+        let (least, most) = (d.min(turn), d.max(turn));
+        env.joint_displacement[e] = env.joint_displacement[e].max(most.max(-least));
         env.joint_velocity[e] = env.joint_velocity[e].max(w.abs());
         env.joint_acceleration[e] = env.joint_acceleration[e].max(dw.abs());
-        env.joint_force[e] = env.joint_force[e].max(f.abs());
+        let force = |d: f64| spring_force(law.unilateral, law.stiffness, d);
+        env.joint_force[e] = env.joint_force[e].max(force(most).max(-force(least)));
         if model.joints[e].kind.is_upright() {
             // d = x_left − x_right: the gap is −d.
-            env.joint_opening[e] = env.joint_opening[e].max(-d);
-            env.joint_closing[e] = env.joint_closing[e].max(d);
-            totals.minimum_gap = totals.minimum_gap.min(-d);
+            env.joint_opening[e] = env.joint_opening[e].max(-least);
+            env.joint_closing[e] = env.joint_closing[e].max(most);
+            totals.minimum_gap = totals.minimum_gap.min(-most);
         } else {
             totals.peak_slip_velocity = totals.peak_slip_velocity.max(w.abs());
         }
@@ -154,13 +226,69 @@ pub fn observe(model: &Model, state: &mut State, h: f64) {
             pull += rub.normal[0] * mu;
         }
     }
+    for (bond, held) in model.bonds.iter().zip(&mut state.bonds) {
+        let e = bond.joint as usize;
+        let [a, b] = model.sides[e].map(|s| s as usize);
+        let d = state.z[a] - state.z[b];
+        let beyond = bond.beyond(&model.elastic[e], held.damage, d);
+        held.peak = held.peak.max(bond.force(&model.elastic[e], held.damage, d).abs());
+        env.joint_force[e] = held.peak;
+        if b == top {
+            pull += beyond;
+        }
+    }
+    for (contact, borne) in model.contacts.iter().zip(&state.tangents.reaction) {
+        let e = contact.joint as usize;
+        env.joint_force[e] = env.joint_force[e].max(*borne);
+        if model.sides[e][1] as usize == top {
+            pull += borne;
+        }
+    }
     totals.top_force_peak = totals.top_force_peak.max(pull.abs());
     totals.top_force_square += h * pull * pull;
-    state.energies.kinetic = kinetic;
-    state.energies.elastic = elastic;
     totals.peak_input = totals.peak_input.max(state.energies.input().abs());
     totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
 }
+
+/// Kinetic and elastic energy at displacements `z` and velocities `v`; `bonds` as before the step that leads there.
+pub fn stored_energy(model: &Model, bonds: &[BondState], z: &[f64], v: &[f64], energies: &mut Energies) {
+    energies.kinetic = model.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum();
+    let moved = |e: usize| z[model.sides[e][0] as usize] - z[model.sides[e][1] as usize];
+    let of_joint = |(e, law): (usize, &Elastic)| 0.5 * spring_force(law.unilateral, law.stiffness, moved(e)) * moved(e);
+    let mut elastic: f64 = model.elastic.iter().enumerate().map(of_joint).sum();
+    bonds_beyond(model, bonds, z, |e, force| elastic += 0.5 * force * moved(e));
+    energies.elastic = elastic;
+}
+
+/// Makes an impact part of the account: `before`, `after` are w⁻ and w⁺ [m/s] of the rigid joints and `impulse` what they
+/// bore [N s]. What a joint loses is p (w⁻ + w⁺)/2, which is ½ m_eff (1 − e²) w⁻² where one alone closes. Impacts that
+/// exceed all earlier ones of their joint by a tenth are told to `tell` by joint and impulse.
+pub fn book_impact(
+    model: &Model,
+    state: &mut State,
+    [before, after, impulse]: [&[f64]; 3],
+    mut tell: impl FnMut(u32, f64),
+) {
+    let env = &mut state.envelopes;
+    for (c, contact) in model.contacts.iter().enumerate().filter(|(c, _)| impulse[*c] > 0.0) {
+        let (e, p) = (contact.joint as usize, impulse[c]);
+        let lost = 0.5 * p * (before[c] + after[c]);
+        state.energies.impact += lost;
+        env.joint_dissipation[e] += lost;
+        if model.sides[e][1] as usize == model.top() {
+            state.energies.input_top -= p * state.v[model.top()];
+        }
+        if p > NOTABLE * env.joint_impulse[e] {
+            tell(contact.joint, p);
+        }
+        env.joint_impulse[e] = env.joint_impulse[e].max(p);
+        env.joint_impacts[e] += 1.0;
+        state.counters.impacts += 1;
+    }
+}
+
+/// Impulse from which an impact is listed, over the largest before it in its joint.
+const NOTABLE: f64 = 1.1;
 
 /// The base's velocity jumps by `jump`: blocks keep their absolute velocity. What this does to the kinetic energy of
 /// the relative motion is work of the base.
@@ -184,7 +312,8 @@ fn peak(values: &[f64]) -> f64 {
 #[derive(Debug, Clone, Copy)]
 enum Watched {
     Block(usize),
-    Joint(usize, Option<usize>),
+    /// With its index among the joints that rub and among the rigid ones, and that among the bonds.
+    Joint(usize, [Option<usize>; 2], Option<usize>),
 }
 
 /// The channels of a run: what they are and how to read them off a state.
@@ -206,13 +335,14 @@ const ALWAYS: [(&str, &str, &str); 10] = [
     ("beam/acceleration", "m/s2", "acceleration of the top beam relative to the base"),
     ("peak/displacement", "m", "largest absolute displacement of a block relative to the base at the moment"),
 ];
-const ENERGIES: [(&str, &str); 9] = [
+const ENERGIES: [(&str, &str); 10] = [
     ("input", "work done on the wall by base and top motion"),
     ("kinetic", "kinetic energy of the motion relative to the base"),
     ("elastic", "elastic energy of the joints"),
     ("damping", "dissipated by viscous damping"),
     ("friction", "dissipated by friction"),
     ("bond", "dissipated by the breaking of bonds"),
+    ("impact", "lost in the impacts of rigid joints"),
     ("nonreciprocal", "taken out by friction whose action differs from its reaction"),
     ("residual", "kinetic + elastic + dissipated - input"),
     ("top", "part of input that a driven top beam brings"),
@@ -225,10 +355,17 @@ const BLOCK: [(&str, &str, &str); 3] = [
 const JOINT: [(&str, &str, &str); 5] = [
     ("slip", "m", "relative displacement (gap of a head joint: positive is open)"),
     ("velocity", "m/s", "relative velocity (positive opens a head joint)"),
-    ("elastic", "N", "elastic force on the lower or left block, against its relative motion"),
+    (
+        "elastic",
+        "N",
+        "elastic force, or that of rigid contact, on the lower or left block, against its relative motion",
+    ),
     ("damping", "N", "viscous force, same sign"),
     ("friction", "N", "friction force, same sign"),
 ];
+
+/// Beside them, of joints with a bond.
+const DAMAGE: (&str, &str, &str) = ("damage", "1", "cracked part of the bond, 0 to 1");
 
 impl Channels {
     /// The channels for the block and joint names asked for (`all` for every one).
@@ -240,10 +377,9 @@ impl Channels {
         let joint_names = model.joint_names();
         let mut watched: Vec<Watched> =
             chosen("output.blocks", "block", blocks, &block_names)?.into_iter().map(Watched::Block).collect();
-        let rub = model.rub_of_joint();
-        watched.extend(
-            chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(|e| Watched::Joint(e, rub[e])),
-        );
+        let (rub, contact, bond) = (model.rub_of_joint(), model.contact_of_joint(), model.bond_of_joint());
+        let joint = |e: usize| Watched::Joint(e, [rub[e], contact[e]], bond[e]);
+        watched.extend(chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(joint));
         let channel =
             |name: String, unit: &str, text: &str| Channel { name, unit: unit.into(), description: text.into() };
         let mut list: Vec<Channel> = ALWAYS.iter().map(|(n, u, d)| channel((*n).into(), u, d)).collect();
@@ -253,8 +389,14 @@ impl Channels {
                 Watched::Block(i) => {
                     list.extend(BLOCK.iter().map(|(n, u, d)| channel(format!("block/{}/{n}", block_names[i]), u, d)));
                 }
-                Watched::Joint(e, _) => {
-                    list.extend(JOINT.iter().map(|(n, u, d)| channel(format!("joint/{}/{n}", joint_names[e]), u, d)));
+                Watched::Joint(e, _, bond) => {
+                    let of_bond = bond.map(|_| &DAMAGE);
+                    list.extend(
+                        JOINT
+                            .iter()
+                            .chain(of_bond)
+                            .map(|(n, u, d)| channel(format!("joint/{}/{n}", joint_names[e]), u, d)),
+                    );
                 }
             }
         }
@@ -265,7 +407,7 @@ impl Channels {
     }
 
     /// Appends one row of values.
-    pub fn sample(&self, model: &Model, drive: &Drive, state: &State, row: &mut Vec<f64>) {
+    pub fn sample(&self, model: &Model, drive: &Drive, at: View, row: &mut Vec<f64>) {
         let (mut shear, mut pull) = (0.0, 0.0);
         let beam = model.floating_beam().unwrap_or(model.top());
         let mut add = |b: usize, f: f64| {
@@ -277,33 +419,40 @@ impl Channels {
         };
         for (e, side) in model.sides.iter().enumerate() {
             if side[1] as usize >= beam.min(model.base()) {
-                let (elastic, viscous, _) = joint_forces(model, state, None, e);
+                let (elastic, viscous, _) = joint_forces(model, at, [None, None], e);
                 add(side[1] as usize, elastic + viscous);
             }
         }
-        for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
+        bonds_beyond(model, at.bonds, at.z, |e, force| add(model.sides[e][1] as usize, force));
+        for (rub, mu) in model.rubs.iter().zip(at.mu) {
             add(model.sides[rub.joint as usize][1] as usize, rub.normal[0] * mu);
+        }
+        for (contact, borne) in model.contacts.iter().zip(at.reaction) {
+            add(model.sides[contact.joint as usize][1] as usize, *borne);
         }
         let mean = |values: &[f64]| {
             self.top_course.iter().map(|&i| values[i]).sum::<f64>() / self.top_course.len().max(1) as f64
         };
-        let base = drive.base(state.t);
-        let energies = &state.energies;
-        row.extend([base.a, base.u, shear, mean(&state.z), mean(&state.v), pull]);
-        row.extend([state.z[beam], state.v[beam], state.a[beam]]);
-        row.push(peak(&state.z[..model.wall.blocks.len()]));
-        let Energies { input_top, kinetic, elastic, damping, friction, bond, nonreciprocal, .. } = *energies;
-        row.extend([energies.input(), kinetic, elastic, damping, friction, bond, nonreciprocal]);
+        let base = drive.base(at.t);
+        let energies = at.energies;
+        row.extend([base.a, base.u, shear, mean(at.z), mean(at.v), pull]);
+        row.extend([at.z[beam], at.v[beam], at.a[beam]]);
+        row.push(peak(&at.z[..model.wall.blocks.len()]));
+        let Energies { input_top, kinetic, elastic, damping, friction, bond, impact, nonreciprocal, .. } = *energies;
+        row.extend([energies.input(), kinetic, elastic, damping, friction, bond, impact, nonreciprocal]);
         row.extend([energies.residual(), input_top]);
         for w in &self.watched {
             match *w {
-                Watched::Block(i) => row.extend([state.z[i], state.v[i], state.a[i]]),
-                Watched::Joint(e, rub) => {
+                Watched::Block(i) => row.extend([at.z[i], at.v[i], at.a[i]]),
+                Watched::Joint(e, index, bond) => {
                     let [a, b] = model.sides[e].map(|s| s as usize);
                     let sign = if model.joints[e].kind.is_upright() { -1.0 } else { 1.0 };
-                    let (elastic, viscous, friction) = joint_forces(model, state, rub, e);
-                    let (d, v) = (state.z[a] - state.z[b], state.v[a] - state.v[b]);
+                    let (elastic, viscous, friction) = joint_forces(model, at, index, e);
+                    let (d, v) = (at.z[a] - at.z[b], at.v[a] - at.v[b]);
+                    let bond = bond.map(|b| (&model.bonds[b], at.bonds[b].damage));
+                    let elastic = bond.map_or(elastic, |(bond, damage)| bond.force(&model.elastic[e], damage, d));
                     row.extend([sign * d, sign * v, elastic, viscous, friction]);
+                    row.extend(bond.map(|(_, damage)| damage));
                 }
             }
         }

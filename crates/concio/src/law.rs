@@ -1,5 +1,7 @@
 //! Joint laws as functions of relative displacement and velocity (theory, section 3).
 //!
+//! Bonds are in [`crate::bond`].
+//!
 //! (2) F^el = w K_H δ, (3) F^el = κ K_V δ for a closed head joint and 0 for an open one, (4) F^v = w C δ̇,
 //! (5) F^fr = N μ(δ̇), with (6a) and (6b) for the laws that stick truly, or
 //! (6) μ(v) = (2/π) arctan(β v/δ_v) [(μ_s − μ_d) e^{−|v|/δ_v} + μ_d] + α |v| v.
@@ -58,6 +60,12 @@ impl Stribeck {
             (0.0, 0.0)
         };
         (decay + self.dynamic + self.alpha * speed * speed, 2.0 * self.alpha * speed - falling)
+    }
+
+    /// The law of a part of the joint, `share` of it from 0 to 1: (6) is linear in its coefficients.
+    pub fn times(&self, share: f64) -> Stribeck {
+        let (static_, dynamic, alpha) = (share * self.static_, share * self.dynamic, share * self.alpha);
+        Stribeck { static_, dynamic, alpha, ..*self }
     }
 
     /// μ(v) alone.

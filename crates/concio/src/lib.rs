@@ -3,7 +3,9 @@
 //! Main path: [`case`] → [`pattern`] → [`graph`] → [`model`] → [`simulate`] → [`outcome`].
 
 mod assign;
+pub mod bond;
 pub mod case;
+pub mod constrained;
 mod dynamics;
 mod elementary;
 pub mod error;

@@ -2,6 +2,7 @@
 //! a top beam with mass (theory, sections 2 and 3).
 
 use crate::assign::{JointLaw, friction_choice, resolve};
+use crate::bond::{self, Bonded};
 use crate::case::{Beam, Case, SpringLaw};
 use crate::error::Result;
 use crate::excitation::Excitation;
@@ -26,6 +27,10 @@ pub struct Model {
     pub elastic: Vec<Elastic>,
     /// Frictional part of the joints that rub.
     pub rubs: Vec<Rub>,
+    /// The joints whose mortar holds until it cracks; `elastic` has their springs as they are before.
+    pub bonds: Vec<Bonded>,
+    /// The rigid unilateral joints, in the order of the joints.
+    pub contacts: Vec<Contact>,
     /// Motion of base and top, and the end of the run.
     pub excitation: Excitation,
     /// True when every joint's normal force is the same on both sides: the stage matrices are symmetric then.
@@ -59,6 +64,15 @@ pub struct Rub {
     pub law: Stribeck,
 }
 
+/// A joint that lets its sides part and never lets them overlap: (R1), (R2).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Index of the joint.
+    pub joint: u32,
+    /// Newton's coefficient of restitution e, 0 … 1.
+    pub restitution: f64,
+}
+
 impl Model {
     /// Number of unknowns.
     pub fn unknowns(&self) -> usize {
@@ -76,7 +90,7 @@ impl Model {
     /// Compiles a wall, its laws and its motion.
     ///
     /// # Errors
-    /// Blocks that rest on nothing, selectors that name no joint, laws of a later version.
+    /// Blocks that rest on nothing, selectors that name no joint, laws of a later version, bonds that would snap back.
     pub fn compile(case: &Case, wall: Wall, excitation: Excitation) -> Result<Model> {
         let beam = case.load.beam;
         let has_beam = !matches!(beam, Beam::Free);
@@ -101,23 +115,67 @@ impl Model {
             [joint.a as u32, b as u32]
         };
         let sides: Vec<[u32; 2]> = joints.iter().map(side).collect();
-        let elastic: Vec<Elastic> =
+        let mut elastic: Vec<Elastic> =
             joints.iter().zip(&laws).map(|(joint, law)| compile_elastic(&wall, joint, law)).collect();
         let rub = |(e, (law, &normal)): (usize, (&JointLaw, &[f64; 2]))| {
             let loaded = normal[0] > 0.0 || normal[1] > 0.0;
             law.rubs().filter(|_| loaded).map(|law| Rub { joint: e as u32, normal, law })
         };
         let rubs: Vec<Rub> = laws.iter().zip(&normal).enumerate().filter_map(rub).collect();
+        let bonds = bond::compile(&wall, &joints, &laws, &normal, &rubs, &mut elastic)?;
         let reciprocal = rubs.iter().all(|r| sides[r.joint as usize][1] as usize >= n || r.normal[0] == r.normal[1]);
         let stiffest = stiffest(&mass, &sides, &elastic, excitation.duration);
         let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
         let warnings = warnings(case, &wall, rubs.len(), idle, reciprocal);
-        Ok(Model { wall, joints, beam, mass, sides, elastic, rubs, excitation, reciprocal, stiffest, warnings })
+        let rigid = |(e, law): (usize, &JointLaw)| {
+            let spring = &law.spring;
+            (spring.law == SpringLaw::Rigid)
+                .then_some(Contact { joint: e as u32, restitution: spring.restitution.unwrap_or(0.0) })
+        };
+        let contacts = laws.iter().enumerate().filter_map(rigid).collect();
+        Ok(Model {
+            wall,
+            joints,
+            beam,
+            mass,
+            sides,
+            elastic,
+            rubs,
+            bonds,
+            contacts,
+            excitation,
+            reciprocal,
+            stiffest,
+            warnings,
+        })
+    }
+
+    /// Whether a joint has a law that is no function of the motion: friction that sticks truly, or rigid contact.
+    pub fn set_valued(&self) -> bool {
+        !self.contacts.is_empty() || self.sticks()
+    }
+
+    /// Index in [`Model::contacts`] of every rigid joint.
+    pub fn contact_of_joint(&self) -> Vec<Option<usize>> {
+        let mut index = vec![None; self.joints.len()];
+        for (c, contact) in self.contacts.iter().enumerate() {
+            index[contact.joint as usize] = Some(c);
+        }
+        index
     }
 
     /// Whether a joint has a set-valued friction law.
     pub fn sticks(&self) -> bool {
         self.rubs.iter().any(|r| r.law.sticks())
+    }
+
+    /// Index in [`Model::bonds`] of every bonded joint.
+    pub fn bond_of_joint(&self) -> Vec<Option<usize>> {
+        let mut index = vec![None; self.joints.len()];
+        for (b, bond) in self.bonds.iter().enumerate() {
+            index[bond.joint as usize] = Some(b);
+        }
+        index
     }
 
     /// Index in [`Model::rubs`] of every joint that rubs.
@@ -161,9 +219,9 @@ fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
     let (stiffness, damping, unilateral) = match spring.law {
         SpringLaw::None => (0.0, 0.0, false),
         SpringLaw::Elastic => (spring.stiffness.si(), law.damping_ratio, false),
-        SpringLaw::NoTension | SpringLaw::Rigid => {
-            (spring.stiffness.si() * spring.rigidity, law.damping_ratio, upright)
-        }
+        SpringLaw::NoTension => (spring.stiffness.si() * spring.rigidity, law.damping_ratio, upright),
+        // What it bears follows from the motion of its sides, not from a stiffness.
+        SpringLaw::Rigid => (0.0, law.damping_ratio, false),
     };
     let reference = wall.panels[wall.blocks[joint.a].panel].reference_mass;
     Elastic {

@@ -1,8 +1,8 @@
 //! A stored run at one of its frames: displacement, velocity and acceleration of every block, and the relative motion
 //! and the forces of every joint by equations (2) to (6) of the theory. Signs are those of the sampled channels.
 
-use crate::case::SpringLaw;
-use crate::law::{Stribeck, spring_force};
+use crate::law::Stribeck;
+use crate::outcome::BondRow;
 use crate::store::{FrictionRow, StoredRun};
 use crate::wall::End;
 
@@ -30,7 +30,7 @@ pub struct JointMotion {
     pub elastic: f64,
     /// Viscous force, same sign [N].
     pub damping: f64,
-    /// Friction force, same sign [N]: by (6), or as the frame holds it where a law is set-valued.
+    /// Friction force, same sign [N]: by (6), or as the frame holds it where a law is set-valued or a joint bonded.
     pub friction: f64,
 }
 
@@ -77,15 +77,29 @@ impl<'r> Moment<'r> {
         let (d, w) = (a.displacement - b.displacement, a.velocity - b.velocity);
         let upright = row.joint.kind.is_upright();
         let sign = if upright { -1.0 } else { 1.0 };
-        let unilateral = upright && matches!(row.law, SpringLaw::NoTension | SpringLaw::Rigid);
         JointMotion {
             slip: sign * d,
             velocity: sign * w,
             acceleration: sign * (a.acceleration - b.acceleration),
-            elastic: spring_force(unilateral, row.stiffness, d),
+            elastic: row.elastic_force(d, self.bond(joint)),
             damping: row.damping * w,
             friction: friction(self.run, self.frame, joint, w),
         }
+    }
+}
+
+impl Moment<'_> {
+    /// Cracked part of a joint, 0 … 1; none for a joint without bond.
+    pub fn damage(&self, joint: usize) -> Option<f64> {
+        self.bond(joint).map(|(_, damage)| damage)
+    }
+
+    fn bond(&self, joint: usize) -> Option<(&BondRow, f64)> {
+        let bonds = &self.run.outcome.bonds;
+        // In the order of the joints.
+        let b = bonds.binary_search_by_key(&joint, |bond| bond.joint).ok()?;
+        let damage = *self.run.outcome.recording.frame_damage.get(self.frame * bonds.len() + b)?;
+        Some((&bonds[b], damage))
     }
 }
 

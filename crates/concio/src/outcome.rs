@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::bond::Bond;
 use crate::record::{Counters, Energies, Envelopes, Layout, Recording, StopReason};
 
 /// The whole result of one run. Equal inputs give equal bits; times of the clock are therefore kept elsewhere.
@@ -13,6 +14,8 @@ pub struct Outcome {
     pub recording: Recording,
     /// Peaks per block and joint.
     pub envelopes: Envelopes,
+    /// The joints with a bond and what became of it, in the order of the joints.
+    pub bonds: Vec<BondRow>,
     /// Energy account at the end.
     pub energies: Energies,
     /// Peaks over the run.
@@ -23,6 +26,47 @@ pub struct Outcome {
     pub stop_reason: StopReason,
     /// Time reached [s].
     pub time_reached: f64,
+}
+
+impl Outcome {
+    /// The bond that cracked first, of several at once the one of the first joint; none when none cracked.
+    pub fn first_crack(&self) -> Option<&BondRow> {
+        let cracked = self.bonds.iter().filter(|b| b.cracked.is_finite());
+        cracked.min_by(|a, b| a.cracked.total_cmp(&b.cracked))
+    }
+}
+
+/// A bonded joint and what became of it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BondRow {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Force at which it cracks [N].
+    pub strength: f64,
+    /// Stiffness of the intact joint [N/m]; of a head joint or connection in tension.
+    pub stiffness: f64,
+    /// Fraction of it that a cracked joint keeps, 0 … 1.
+    pub residual_stiffness: f64,
+    /// Energy that it takes to break [J].
+    pub energy: f64,
+    /// Length over which the strength falls, δ_c of (B3) [m]; 0 when it is brittle.
+    pub decay: f64,
+    /// Cracked part at the end, 0 … 1.
+    pub damage: f64,
+    /// Energy that breaking has taken [J].
+    pub spent: f64,
+    /// When it first cracked [s]; infinite when it did not.
+    pub cracked: f64,
+    /// When nothing was left of it [s]; infinite when something is.
+    pub broken: f64,
+}
+
+impl BondRow {
+    /// The law, for a joint that is bonded against opening alone or not.
+    pub fn law(&self, opens: bool) -> Bond {
+        let BondRow { strength, stiffness, residual_stiffness, decay, .. } = *self;
+        Bond { strength, stiffness, residual: residual_stiffness, decay, opens }
+    }
 }
 
 /// Numbers that sum a run up; taken at every accepted step.
@@ -38,6 +82,9 @@ pub struct Totals {
     pub top_force_square: f64,
     /// Most negative gap of a head joint or connection [m], from 0 down.
     pub minimum_gap: f64,
+    /// Largest relative velocity that rigid contact was left with where it should be 0, over all steps and impacts
+    /// [m/s]: the residual of the contact problem.
+    pub contact_residual: f64,
     /// Largest |work done on the wall| so far [J].
     pub peak_input: f64,
     /// Largest |residual of the energy account| so far [J].

@@ -220,6 +220,27 @@ dimension!(
     "kN/m3" = 1e3,
     "kN/m³" = 1e3
 );
+dimension!(
+    Stress,
+    StressTag,
+    "stress",
+    "Pa" = 1.0,
+    "kPa" = 1e3,
+    "MPa" = 1e6,
+    "N/mm2" = 1e6,
+    "N/mm²" = 1e6,
+    "kN/m2" = 1e3,
+    "kN/m²" = 1e3
+);
+dimension!(EnergyPerArea, EnergyPerAreaTag, "energy per area", "N/m" = 1.0, "J/m2" = 1.0, "J/m²" = 1.0, "N/mm" = 1e3);
+dimension!(
+    Angle,
+    AngleTag,
+    "angle",
+    "rad" = 1.0,
+    "deg" = std::f64::consts::PI / 180.0,
+    "°" = std::f64::consts::PI / 180.0
+);
 
 #[cfg(test)]
 mod tests {
@@ -237,6 +258,10 @@ mod tests {
         assert_eq!(ForcePerLength::parse("2 kN/m").map(Quantity::si), Ok(2e3));
         assert_eq!(SpecificWeight::parse("18 kN/m3").map(Quantity::si), Ok(18e3));
         assert_eq!(Mass::parse("3 t").map(Quantity::si), Ok(3e3));
+        assert_eq!(Stress::parse("0.2 MPa").map(Quantity::si), Ok(0.2e6));
+        assert_eq!(Stress::parse("0.2 N/mm²").map(Quantity::si), Ok(0.2e6));
+        assert_eq!(EnergyPerArea::parse("0.05 N/mm").map(Quantity::si), Ok(50.0));
+        assert_eq!(Angle::parse("45 °").map(Quantity::si), Ok(std::f64::consts::FRAC_PI_4));
     }
 
     #[test]

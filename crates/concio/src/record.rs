@@ -26,9 +26,12 @@ pub struct Layout {
     /// Number of unknowns in a frame (blocks, then the beam's if it has mass).
     pub unknowns: usize,
     /// Number of joints whose friction a frame holds: all of them where a law is set-valued, since what holds a joint
-    /// at rest follows from no velocity; otherwise none.
+    /// at rest follows from no velocity, or a joint is bonded; otherwise none.
     #[serde(default)]
     pub held: usize,
+    /// Number of bonded joints, whose damage a frame holds.
+    #[serde(default)]
+    pub bonded: usize,
     /// The histories.
     pub channels: Vec<Channel>,
 }
@@ -48,8 +51,57 @@ pub struct Recording {
     pub frame_velocity: Vec<f64>,
     /// `frame_time.len()` rows: acceleration of every unknown relative to the base [m/s²].
     pub frame_acceleration: Vec<f64>,
-    /// `frame_time.len()` rows: friction force on side a of every joint [N]; rows of none unless a law is set-valued.
+    /// `frame_time.len()` rows: friction force on side a of every joint [N]; rows of none unless a law is set-valued or a
+    /// joint is bonded.
     pub frame_friction: Vec<f64>,
+    /// `frame_time.len()` rows: cracked part of every bonded joint, 0 … 1.
+    pub frame_damage: Vec<f64>,
+    /// What happened at one instant, in the order of time.
+    pub events: Vec<Event>,
+}
+
+/// Something that happened at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// When [s].
+    pub time: f64,
+    /// Index of the joint.
+    pub joint: u32,
+    /// What.
+    pub kind: EventKind,
+    /// How much; unit and meaning follow from the kind.
+    pub value: f64,
+}
+
+/// What happened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EventKind {
+    /// An impact in a rigid joint, with its impulse [N s]. Listed are those that exceed all earlier ones of their joint
+    /// by a tenth: few, and the largest among them. How many there were is in the envelopes.
+    Impact,
+    /// The first crack of a bond, with the stretch at which it came, the relative displacement or the gap [m].
+    Crack,
+    /// The end of a bond, with its stretch [m]; of a brittle one at the instant of its crack.
+    Break,
+}
+
+impl EventKind {
+    /// All kinds; the place in the list is the number that a journal keeps.
+    const ALL: [EventKind; 3] = [EventKind::Impact, EventKind::Crack, EventKind::Break];
+}
+
+impl Event {
+    /// Time, joint, kind, value as a journal keeps them.
+    pub(crate) fn row(&self) -> [f64; 4] {
+        let kind = EventKind::ALL.iter().position(|k| *k == self.kind).unwrap_or(usize::MAX);
+        [self.time, f64::from(self.joint), kind as f64, self.value]
+    }
+
+    /// The reverse of [`Event::row`]; none for a kind that there is not.
+    pub(crate) fn of_row([time, joint, kind, value]: [f64; 4]) -> Option<Self> {
+        Some(Event { time, joint: joint as u32, kind: *EventKind::ALL.get(kind as usize)?, value })
+    }
 }
 
 impl Recording {
@@ -62,10 +114,12 @@ impl Recording {
         self.frame_velocity.extend_from_slice(&other.frame_velocity);
         self.frame_acceleration.extend_from_slice(&other.frame_acceleration);
         self.frame_friction.extend_from_slice(&other.frame_friction);
+        self.frame_damage.extend_from_slice(&other.frame_damage);
+        self.events.extend_from_slice(&other.events);
     }
 
     /// The arrays in the order in which a journal keeps them, with the length of a row of each.
-    pub(crate) fn arrays(&self, layout: &Layout) -> [(&Vec<f64>, usize); 7] {
+    pub(crate) fn arrays(&self, layout: &Layout) -> [(&Vec<f64>, usize); 8] {
         let n = layout.unknowns;
         [
             (&self.time, 1),
@@ -75,11 +129,12 @@ impl Recording {
             (&self.frame_velocity, n),
             (&self.frame_acceleration, n),
             (&self.frame_friction, layout.held),
+            (&self.frame_damage, layout.bonded),
         ]
     }
 
     /// The same arrays, to be filled: samples first, then frames.
-    pub(crate) fn arrays_mut(&mut self) -> [&mut Vec<f64>; 7] {
+    pub(crate) fn arrays_mut(&mut self) -> [&mut Vec<f64>; 8] {
         [
             &mut self.time,
             &mut self.values,
@@ -88,16 +143,18 @@ impl Recording {
             &mut self.frame_velocity,
             &mut self.frame_acceleration,
             &mut self.frame_friction,
+            &mut self.frame_damage,
         ]
     }
 
     /// Empties it and keeps its room.
     pub(crate) fn clear(&mut self) {
         self.arrays_mut().into_iter().for_each(Vec::clear);
+        self.events.clear();
     }
 
-    /// Empty, with room for so many samples and frames.
-    pub(crate) fn with_room(layout: &Layout, samples: usize, frames: usize) -> Self {
+    /// Empty, with room for so many samples, frames and events.
+    pub(crate) fn with_room(layout: &Layout, samples: usize, frames: usize, events: usize) -> Self {
         let room = |rows: usize, width: usize| Vec::with_capacity(rows.saturating_mul(width));
         Recording {
             time: room(samples, 1),
@@ -107,6 +164,8 @@ impl Recording {
             frame_velocity: room(frames, layout.unknowns),
             frame_acceleration: room(frames, layout.unknowns),
             frame_friction: room(frames, layout.held),
+            frame_damage: room(frames, layout.bonded),
+            events: Vec::with_capacity(events),
         }
     }
 }
@@ -134,8 +193,12 @@ pub struct Envelopes {
     pub joint_closing: Vec<f64>,
     /// Per joint: |elastic force| [N].
     pub joint_force: Vec<f64>,
-    /// Per joint: dissipated energy, damping and friction [J].
+    /// Per joint: dissipated energy, damping, friction and impacts [J].
     pub joint_dissipation: Vec<f64>,
+    /// Per joint: largest impulse of an impact [N s].
+    pub joint_impulse: Vec<f64>,
+    /// Per joint: number of impacts.
+    pub joint_impacts: Vec<f64>,
 }
 
 /// The energy account (7) at one instant [J]; all work is done in coordinates relative to the base.
@@ -157,6 +220,8 @@ pub struct Energies {
     pub friction: f64,
     /// Dissipated by the breaking of bonds.
     pub bond: f64,
+    /// Lost in the impacts of rigid joints.
+    pub impact: f64,
     /// Taken out by friction forces whose action differs from their reaction (`overburden`).
     pub nonreciprocal: f64,
 }
@@ -168,7 +233,7 @@ impl Energies {
     }
     /// E_kin + E_el − E_0 + E_diss − W_in: 0 but for the errors of the integration.
     pub fn residual(&self) -> f64 {
-        self.kinetic + self.elastic + self.damping + self.friction + self.bond + self.nonreciprocal
+        self.kinetic + self.elastic + self.damping + self.friction + self.bond + self.impact + self.nonreciprocal
             - self.initial
             - self.input()
     }
@@ -187,6 +252,12 @@ pub struct Counters {
     pub iterations: u64,
     /// Matrix factorisations.
     pub factorisations: u64,
+    /// Instants at which a step was ended because something happened there.
+    pub events: u64,
+    /// Attempts at steps that were cut for them.
+    pub located: u64,
+    /// Impacts of rigid joints.
+    pub impacts: u64,
 }
 
 /// Why a run ended.

@@ -1,12 +1,13 @@
 //! Reference problems with known answers: small systems of masses and joints without a wall. Used by tests,
 //! benches and documents.
 
+use crate::bond::{Bond, Bonded};
 use crate::case::{Beam, JointKind, Signal, Sine, Solver};
 use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::ground::signal::{GroundMotion, compile};
 use crate::law::Stribeck;
-use crate::model::{Elastic, Model, Rub, stiffest};
+use crate::model::{Contact, Elastic, Model, Rub, stiffest};
 use crate::quantity::{Length, Time};
 use crate::record::StopReason;
 use crate::simulate::{Sampling, Simulation};
@@ -23,21 +24,36 @@ pub struct Link {
     pub elastic: Elastic,
     /// Friction: law and normal force [N].
     pub friction: Option<(Stribeck, f64)>,
+    /// Bond; its stiffness is that of `elastic`, whose compression stays to one that opens.
+    pub bond: Option<Bond>,
+    /// Restitution of a rigid unilateral joint.
+    pub rigid: Option<f64>,
 }
 
 impl Link {
     /// A spring k [N/m] and dashpot c [N s/m].
     pub fn spring(a: usize, b: End, stiffness: f64, damping: f64) -> Self {
-        Link { a, b, elastic: Elastic { stiffness, damping, unilateral: false }, friction: None }
+        let elastic = Elastic { stiffness, damping, unilateral: false };
+        Link { a, b, elastic, friction: None, rigid: None, bond: None }
     }
     /// A spring that acts for x_a > x_b alone.
     pub fn unilateral(a: usize, b: End, stiffness: f64) -> Self {
-        Link { a, b, elastic: Elastic { stiffness, damping: 0.0, unilateral: true }, friction: None }
+        let elastic = Elastic { stiffness, damping: 0.0, unilateral: true };
+        Link { elastic, ..Link::spring(a, b, stiffness, 0.0) }
+    }
+    /// A rigid contact that never lets x_a exceed x_b, with restitution e.
+    pub fn rigid(a: usize, b: End, restitution: f64) -> Self {
+        Link { rigid: Some(restitution), ..Link::spring(a, b, 0.0, 0.0) }
+    }
+    /// A joint that is bonded and rubs, once cracked, under a normal force [N].
+    pub fn bonded(a: usize, b: End, bond: Bond, friction: Option<(Stribeck, f64)>) -> Self {
+        let elastic = Elastic { stiffness: bond.stiffness, damping: 0.0, unilateral: bond.opens };
+        Link { elastic, friction, bond: Some(bond), ..Link::spring(a, b, bond.stiffness, 0.0) }
     }
     /// Friction under a normal force [N].
     pub fn friction(a: usize, b: End, law: Stribeck, normal: f64) -> Self {
         let elastic = Elastic { stiffness: 0.0, damping: 0.0, unilateral: false };
-        Link { a, b, elastic, friction: Some((law, normal)) }
+        Link { a, b, elastic, friction: Some((law, normal)), rigid: None, bond: None }
     }
 }
 
@@ -88,7 +104,7 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         connection: 0.0,
     };
     let kind = |link: &Link| match link.b {
-        _ if link.elastic.unilateral => JointKind::Head,
+        _ if link.elastic.unilateral || link.rigid.is_some() => JointKind::Head,
         End::Base => JointKind::Base,
         End::Top => JointKind::Top,
         End::Block(_) => JointKind::Bed,
@@ -98,6 +114,13 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
     let rub = |(e, link): (usize, &Link)| {
         link.friction.map(|(law, normal)| Rub { joint: e as u32, normal: [normal; 2], law })
     };
+    let rubs: Vec<Rub> = links.iter().enumerate().filter_map(rub).collect();
+    let bonded = |(e, link): (usize, &Link)| {
+        let rub = rubs.iter().position(|r| r.joint as usize == e).map(|r| r as u32);
+        link.bond.map(|law| Bonded { joint: e as u32, rub, law })
+    };
+    let bonds = links.iter().enumerate().filter_map(bonded).collect();
+    let rigid = |(e, link): (usize, &Link)| link.rigid.map(|restitution| Contact { joint: e as u32, restitution });
     let sides: Vec<[u32; 2]> = links.iter().map(|l| [l.a as u32, side(l.b) as u32]).collect();
     let elastic: Vec<Elastic> = links.iter().map(|l| l.elastic).collect();
     let stiffest = stiffest(masses, &sides, &elastic, excitation.duration);
@@ -108,7 +131,9 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         mass: masses.to_vec(),
         sides,
         elastic,
-        rubs: links.iter().enumerate().filter_map(rub).collect(),
+        bonds,
+        rubs,
+        contacts: links.iter().enumerate().filter_map(rigid).collect(),
         excitation,
         reciprocal: true,
         stiffest,

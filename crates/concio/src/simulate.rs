@@ -4,21 +4,39 @@
 //! does no I/O and allocates nothing. The caller empties the buffer, shows progress, saves the state.
 
 use crate::case::Solver;
-use crate::dynamics::{Channels, accelerate, kick, observe, settle};
+use crate::dynamics::{Channels, accelerate, book_impact, kick, observe, settle, stored_energy};
 use crate::error::Result;
 use crate::excitation::Drive;
+use crate::integrate::cracks;
+use crate::integrate::events;
+use crate::integrate::impact::{COLLISIONS, Impacts};
 use crate::integrate::stage::Failure;
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::record::{Layout, Recording, StopReason};
+use crate::record::{Event, EventKind, Layout, Recording, StopReason};
 use crate::run::Status;
-use crate::state::State;
+use crate::state::{Instant, State, View};
 
 /// Shortest step as a fraction of the shortest time scale 1/ω; below it the tolerance cannot be held.
 const SHORTEST: f64 = 1e-9;
-/// Samples that the record buffer holds.
-const BUFFER: usize = 256;
+/// What one step may add to the residual of the energy account, over the tolerance and the largest work so far. Chosen
+/// so that the examples close within 10⁻⁴ at the default tolerance (decision 0003).
+const ENERGY: f64 = 5e-5;
+/// Most by which a step is longer than the one before: longer leaps fail more often than they save.
+const MOST_GROWTH: f64 = 2.0;
+/// Tolerance below which the energy is held no tighter: rounding, and the velocities that joints coming to rest lose.
+const FINEST: f64 = 1e-4;
+/// Steps shorter than this over the shortest time scale are not shortened further for the energy's sake: friction that
+/// jumps loses what it loses.
+const UNFELT: f64 = 1e-4;
+/// Samples in a step at most; the record buffer holds twice as many.
+const WINDOW: usize = 128;
+/// Events that it holds, beside as many as may happen at one instant.
+const EVENTS: usize = 1024;
+/// Closing velocity below which an impact is taken as plastic, over the tolerance of velocities: bounces that the
+/// tolerance does not see come to an end.
+const PLASTIC: f64 = 0.1;
 
 /// A run under way.
 #[derive(Debug, Clone)]
@@ -28,8 +46,10 @@ pub struct Simulation<'m> {
     channels: Channels,
     layout: Layout,
     pub(crate) state: State,
-    work: Step,
+    pub(crate) work: Step,
     recording: Recording,
+    /// An instant inside a step, of which a sample is taken.
+    instant: Instant,
     /// The smooth piece of the motion in which the state lies; follows from the time.
     pub(crate) drive: Drive,
     longest_step: f64,
@@ -38,12 +58,14 @@ pub struct Simulation<'m> {
 /// A step under way: where it aims, and its present try.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Plan {
-    /// Where the step ends at the latest [s]: a break of the motion or a sample.
+    /// Where the step ends at the latest [s]: a break of the motion or a frame.
     target: f64,
     /// Whether that is a break of the motion.
     at_break: bool,
     /// Step that the error control asks for [s].
     proposed: f64,
+    /// Step at whose end something happens [s].
+    event: Option<f64>,
     /// Step of the present try [s], and whether it ends at `target`.
     pub h: f64,
     lands: bool,
@@ -106,7 +128,8 @@ impl<'m> Simulation<'m> {
             samples: (duration / sampling.interval * (1.0 + 1e-12) + 1e-9).floor() as usize + 1,
             frame_every: sampling.frame_every,
             unknowns: model.unknowns(),
-            held: if model.sticks() { model.joints.len() } else { 0 },
+            held: if model.sticks() || !model.bonds.is_empty() { model.joints.len() } else { 0 },
+            bonded: model.bonds.len(),
             channels: list,
         };
         let mut state = State::at_rest(model);
@@ -119,11 +142,22 @@ impl<'m> Simulation<'m> {
             state.step = duration;
         }
         begin_account(model, &mut state);
-        let frames = if layout.frame_every > 0 { BUFFER.div_ceil(layout.frame_every) } else { 0 };
-        let recording = Recording::with_room(&layout, BUFFER, frames);
+        let frames = if layout.frame_every > 0 { (2 * WINDOW).div_ceil(layout.frame_every) } else { 0 };
+        let recording = Recording::with_room(&layout, 2 * WINDOW, frames, EVENTS + events::at_once(model));
         let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
-        let mut run =
-            Simulation { model, solver: *solver, channels, layout, state, work, recording, drive, longest_step };
+        let instant = Instant::new(model);
+        let mut run = Simulation {
+            model,
+            solver: *solver,
+            channels,
+            layout,
+            state,
+            work,
+            recording,
+            instant,
+            drive,
+            longest_step,
+        };
         run.sample();
         Ok(run)
     }
@@ -142,15 +176,29 @@ impl<'m> Simulation<'m> {
         let n = self.model.unknowns();
         self.state.z[..n].copy_from_slice(z);
         self.state.v[..n].copy_from_slice(v);
+        self.clear_recording();
         self.settle();
+        if !self.model.bonds.is_empty() {
+            // What is strained beyond its strength from the start is cracked from the start.
+            let (z, v) = (self.state.z.clone(), self.state.v.clone());
+            let heard = &mut self.recording.events;
+            cracks::grow(self.model, &mut self.state, &z, &v, 0.0, |event| heard.push(event));
+            self.settle();
+        }
         begin_account(self.model, &mut self.state);
         self.state.samples = 0;
-        self.clear_recording();
         self.sample();
     }
 
-    /// Makes what follows from displacements and velocities consistent with the motion at this instant.
+    /// Lets the impacts happen that are due at this instant, and makes what follows from displacements and velocities
+    /// consistent with the motion.
     fn settle(&mut self) {
+        if Impacts::due(self.model, &self.state) {
+            let slow = PLASTIC * self.tolerance(0.0).v;
+            let heard = &mut self.recording.events;
+            collide(self.model, &mut self.work, &mut self.state, slow, |event| heard.push(event));
+            self.state.counters.events += 1;
+        }
         settle_all(self.model, &self.drive, &mut self.work, &mut self.state);
     }
 
@@ -171,16 +219,24 @@ impl<'m> Simulation<'m> {
         if self.state.t >= end { Progress::Ended(StopReason::Completed) } else { Progress::Running }
     }
 
-    /// One accepted step, to the next break of the motion or sample at the farthest.
+    /// One accepted step, to the next break of the motion or frame at the farthest.
     fn step(&mut self) -> std::result::Result<(), StopReason> {
         let mut plan = self.plan();
         loop {
             self.size(&mut plan);
-            let tolerance = self.tolerance();
+            let tolerance = self.tolerance(plan.h);
             let attempt = self.work.attempt(self.model, &self.state, &self.drive, plan.h, tolerance);
+            if attempt.is_ok_and(|error| error <= 1.0) {
+                let first = events::first(self.model, &self.state, &self.work.z, self.work.v(), plan.h);
+                if first.is_some() {
+                    self.state.counters.located += 1;
+                    plan.event = first;
+                    continue;
+                }
+            }
             match self.judge(attempt, &mut plan) {
                 Verdict::Accept => {
-                    self.accept(plan);
+                    self.accept(plan.end(self.state.t), plan.h, plan.meets_break());
                     return Ok(());
                 }
                 Verdict::Repeat => {}
@@ -192,23 +248,26 @@ impl<'m> Simulation<'m> {
     /// Where the next step aims.
     pub(crate) fn plan(&self) -> Plan {
         let break_at = self.drive.end;
+        let frame_at = self.sample_time(self.landing());
         // A sample that falls on a break but for rounding is taken there.
-        let at_break = self.next_sample() >= break_at - self.slack();
-        let target = if at_break { break_at } else { self.next_sample() };
-        Plan { target, at_break, proposed: self.state.step, h: 0.0, lands: false }
+        let at_break = frame_at >= break_at - self.slack();
+        let target = if at_break { break_at } else { frame_at };
+        let proposed = self.state.step;
+        let event = events::near(self.model, &self.state, proposed.min(target - self.state.t));
+        Plan { target, at_break, proposed, event, h: 0.0, lands: false }
     }
 
     /// Length of the next try.
     pub(crate) fn size(&self, plan: &mut Plan) {
         let remaining = plan.target - self.state.t;
         let mut h = plan.proposed.min(self.longest_step);
-        plan.lands = h >= remaining * (1.0 - 1e-9);
-        if plan.lands {
+        let lands = h >= remaining * (1.0 - 1e-9);
+        if lands {
             h = remaining;
         } else if h > 0.5 * remaining {
             h = 0.5 * remaining;
         }
-        plan.h = h;
+        (plan.h, plan.lands) = plan.event.map_or((h, lands), |at| (at, false));
     }
 
     /// What becomes of a try with this error over the tolerance, and how long the next one is.
@@ -217,10 +276,12 @@ impl<'m> Simulation<'m> {
         let (h, order) = (plan.h, self.work.error_order());
         let factor = match attempt {
             Ok(error) if error <= 1.0 => {
-                let grow = growth(error, order).min(5.0);
-                let free = h * grow;
+                // What has just been too long is not tried again at once.
+                let most = if plan.proposed < self.state.step { 1.0 } else { MOST_GROWTH };
+                let free = h * growth(error, order).min(most);
                 // A step cut short by a landing says little about the one that the error allows.
-                self.state.step = if plan.lands && plan.proposed > h { free.max(plan.proposed) } else { free };
+                let cut = (plan.lands || plan.event.is_some()) && plan.proposed > h;
+                self.state.step = if cut { free.max(plan.proposed) } else { free };
                 return Verdict::Accept;
             }
             Ok(error) if error.is_finite() => {
@@ -242,16 +303,24 @@ impl<'m> Simulation<'m> {
         if h <= shortest {
             return Verdict::Stop(StopReason::StepTooShort);
         }
+        plan.event = None;
         plan.proposed = h * factor;
         Verdict::Repeat
     }
 
-    /// When the next sample is due [s]; +∞ after the last.
-    fn next_sample(&self) -> f64 {
-        if self.state.samples >= self.layout.samples as u64 {
+    /// The next sample at which a step has to end: a frame, whose accelerations then obey (1), or for the buffer's sake.
+    fn landing(&self) -> u64 {
+        let every = |count: usize| self.state.samples.next_multiple_of(count.max(1) as u64);
+        let frame = if self.layout.frame_every > 0 { every(self.layout.frame_every) } else { u64::MAX };
+        every(WINDOW).min(frame)
+    }
+
+    /// When sample `k` is due [s]; +∞ after the last.
+    fn sample_time(&self, k: u64) -> f64 {
+        if k >= self.layout.samples as u64 {
             return f64::INFINITY;
         }
-        (self.state.samples as f64 * self.layout.interval).min(self.model.excitation.duration)
+        (k as f64 * self.layout.interval).min(self.model.excitation.duration)
     }
 
     /// Instants closer than this are one [s].
@@ -259,23 +328,39 @@ impl<'m> Simulation<'m> {
         1e-9 * self.layout.interval
     }
 
-    pub(crate) fn tolerance(&self) -> Tolerance {
+    /// Of a step of `h` [s].
+    pub(crate) fn tolerance(&self, h: f64) -> Tolerance {
         let [z, v] = self.state.scale;
+        let work = self.state.totals.peak_input + self.state.energies.initial;
+        let felt = h * self.model.stiffest.sqrt() > UNFELT;
         let floor = self.solver.floor.si();
         Tolerance {
             z: self.solver.tolerance * z + floor,
             v: self.solver.tolerance * v + floor * self.model.stiffest.sqrt(),
+            energy: if felt { self.solver.tolerance.max(FINEST) * ENERGY * work } else { f64::INFINITY },
         }
     }
 
-    fn accept(&mut self, plan: Plan) {
-        let t = plan.end(self.state.t);
-        self.work.accept(self.model, &mut self.state, t, plan.h);
+    fn accept(&mut self, t: f64, h: f64, at_break: bool) {
+        self.work.begin(self.model, &self.state);
+        let heard = &mut self.recording.events;
+        let from = heard.len();
+        let broke =
+            cracks::grow(self.model, &mut self.state, &self.work.z, self.work.v(), h, |event| heard.push(event));
+        heard[from..].sort_unstable_by(|a, b| {
+            a.time.total_cmp(&b.time).then((a.joint, a.kind as u8).cmp(&(b.joint, b.kind as u8)))
+        });
+        self.work.accept(self.model, &mut self.state, t, h);
+        if broke {
+            self.settle();
+        }
         self.state.counters.steps += 1;
         self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
         self.state.counters.factorisations += std::mem::take(&mut self.work.stage.factorisations);
-        observe(self.model, &mut self.state, plan.h);
-        if plan.meets_break()
+        observe(self.model, &mut self.state, h, self.work.start());
+        self.samples_before(t, h);
+        self.happen();
+        if at_break
             && t < self.model.excitation.duration
             && let Some(jump) = self.turn_piece(t)
         {
@@ -286,9 +371,38 @@ impl<'m> Simulation<'m> {
         }
     }
 
-    /// Whether the time reached is that of the next sample.
+    /// Whether the state's instant is that of the next sample.
     pub(crate) fn sample_is_due(&self) -> bool {
-        self.state.t >= self.next_sample() - self.slack()
+        self.sample_time(self.state.samples) <= self.state.t + self.slack()
+    }
+
+    /// Whether a sample lies inside the step that ended at `t`.
+    pub(crate) fn samples_inside(&self, t: f64) -> bool {
+        self.sample_time(self.state.samples) < t - self.slack()
+    }
+
+    /// Takes the samples that lie inside the step of `h` that ended at `t`.
+    pub(crate) fn samples_before(&mut self, t: f64, h: f64) {
+        loop {
+            let due = self.sample_time(self.state.samples);
+            if due >= t - self.slack() {
+                return;
+            }
+            self.work.inside(self.model, &self.drive, &self.state, h, due, &mut self.instant);
+            let Simulation { model, drive, channels, layout, state, recording, instant, .. } = self;
+            keep(model, drive, channels, layout, instant.view(), state.samples, recording);
+            state.samples += 1;
+        }
+    }
+
+    /// What a step that ended at an event leads to.
+    fn happen(&mut self) {
+        let residual = std::mem::take(&mut self.work.stage.contact_residual);
+        self.state.totals.contact_residual = self.state.totals.contact_residual.max(residual);
+        if Impacts::due(self.model, &self.state) {
+            self.settle();
+            observe(self.model, &mut self.state, 0.0, self.work.start());
+        }
     }
 
     /// Goes on into the piece of the motion that starts at `t`. Records only have kinks there; where acceleration or
@@ -311,31 +425,16 @@ impl<'m> Simulation<'m> {
         self.settle();
     }
 
-    /// Keeps the state as a sample.
+    /// Takes the sample that is due at the state's own instant.
     pub(crate) fn sample(&mut self) {
-        let (state, recording) = (&mut self.state, &mut self.recording);
-        recording.time.push(state.samples as f64 * self.layout.interval);
-        self.channels.sample(self.model, &self.drive, state, &mut recording.values);
-        if self.layout.frame_every > 0 && state.samples.is_multiple_of(self.layout.frame_every as u64) {
-            let n = self.layout.unknowns;
-            recording.frame_time.push(state.samples as f64 * self.layout.interval);
-            recording.frame_displacement.extend_from_slice(&state.z[..n]);
-            recording.frame_velocity.extend_from_slice(&state.v[..n]);
-            recording.frame_acceleration.extend_from_slice(&state.a[..n]);
-            if self.layout.held > 0 {
-                let from = recording.frame_friction.len();
-                recording.frame_friction.resize(from + self.layout.held, 0.0);
-                for (rub, mu) in self.model.rubs.iter().zip(&state.tangents.mu) {
-                    recording.frame_friction[from + rub.joint as usize] = rub.normal[0] * mu;
-                }
-            }
-        }
+        let Simulation { model, drive, channels, layout, state, recording, .. } = self;
+        keep(model, drive, channels, layout, state.view(), state.samples, recording);
         state.samples += 1;
     }
 
     /// Whether [`Simulation::advance`] waits for the buffer to be emptied.
     pub fn buffer_is_full(&self) -> bool {
-        self.recording.time.len() >= BUFFER
+        self.recording.time.len() >= WINDOW || self.recording.events.len() >= EVENTS
     }
     /// How far the run is.
     pub fn status(&self) -> Status {
@@ -395,7 +494,9 @@ impl<'m> Simulation<'m> {
 
     /// The result, with the recording that the caller collected.
     pub fn outcome(self, recording: Recording, stop_reason: StopReason) -> Outcome {
+        let bonds = self.model.bonds.iter().zip(&self.state.bonds).map(|(bond, state)| bond.row(state)).collect();
         Outcome {
+            bonds,
             layout: self.layout,
             recording,
             time_reached: self.state.t,
@@ -408,10 +509,58 @@ impl<'m> Simulation<'m> {
     }
 }
 
-/// [`settle`], and which of the joints at rest let go under the forces of this instant.
+/// Appends sample `k`, and the frame if one is due.
+fn keep(
+    model: &Model,
+    drive: &Drive,
+    channels: &Channels,
+    layout: &Layout,
+    at: View,
+    k: u64,
+    recording: &mut Recording,
+) {
+    let t = k as f64 * layout.interval;
+    recording.time.push(t);
+    channels.sample(model, drive, at, &mut recording.values);
+    if layout.frame_every == 0 || !k.is_multiple_of(layout.frame_every as u64) {
+        return;
+    }
+    let n = layout.unknowns;
+    recording.frame_time.push(t);
+    recording.frame_displacement.extend_from_slice(&at.z[..n]);
+    recording.frame_velocity.extend_from_slice(&at.v[..n]);
+    recording.frame_acceleration.extend_from_slice(&at.a[..n]);
+    recording.frame_damage.extend(at.bonds.iter().map(|bond| bond.damage));
+    if layout.held > 0 {
+        let from = recording.frame_friction.len();
+        recording.frame_friction.resize(from + layout.held, 0.0);
+        for (rub, mu) in model.rubs.iter().zip(at.mu) {
+            recording.frame_friction[from + rub.joint as usize] = rub.normal[0] * mu;
+        }
+    }
+}
+
+/// The impacts that are due, booked and told.
+fn collide(model: &Model, work: &mut Step, state: &mut State, slow: f64, mut tell: impl FnMut(Event)) {
+    let time = state.t;
+    for collision in 0.. {
+        let residual = work.impacts.solve(model, state, slow, collision);
+        state.totals.contact_residual = state.totals.contact_residual.max(residual);
+        let Impacts { before, after, impulse, .. } = &work.impacts;
+        book_impact(model, state, [before, after, impulse], |joint, value| {
+            tell(Event { time, joint, kind: EventKind::Impact, value });
+        });
+        if !Impacts::due(model, state) || collision > 2 * COLLISIONS {
+            return;
+        }
+    }
+}
+
+/// [`settle`], which of the joints at rest let go under the forces of this instant, and the energy stored.
 fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) {
     settle(model, drive, state);
-    if model.sticks() {
+    stored_energy(model, &state.bonds, &state.z, &state.v, &mut state.energies);
+    if model.set_valued() {
         work.let_go(model, drive, state);
         accelerate(model, drive, state);
         work.stage.join(model, &state.tangents, &mut state.a);
@@ -420,12 +569,14 @@ fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) 
 
 /// Starts envelopes and energy account from the state as it is: what energy it has is no residual.
 fn begin_account(model: &Model, state: &mut State) {
-    observe(model, state, 0.0);
-    state.energies.initial = state.energies.kinetic + state.energies.elastic - state.energies.input();
+    let (z, v) = (state.z.clone(), state.v.clone());
+    observe(model, state, 0.0, [&z, &v]);
+    state.energies.initial = 0.0;
+    state.energies.initial = state.energies.residual();
     state.totals.peak_residual = 0.0;
 }
 
 /// Step factor 0.9 (1/error)^(1/order).
 fn growth(error: f64, order: f64) -> f64 {
-    if error <= 0.0 { 5.0 } else { 0.9 * error.powf(-1.0 / order) }
+    if error <= 0.0 { MOST_GROWTH } else { 0.9 * error.powf(-1.0 / order) }
 }

@@ -27,6 +27,8 @@ pub struct State {
     pub joint_power: Vec<f64>,
     /// Tangents of the joints' laws, from which the next step starts.
     pub tangents: Tangents,
+    /// What has become of the bonds, in the order of the model's.
+    pub bonds: Vec<BondState>,
     /// Samples kept so far.
     pub samples: u64,
     /// Energy account.
@@ -37,6 +39,93 @@ pub struct State {
     pub totals: Totals,
     /// Work of the solver.
     pub counters: Counters,
+}
+
+/// Motion, friction and energies at one instant: those of a [`State`], or of an instant inside a step.
+#[derive(Debug, Clone, Copy)]
+pub struct View<'a> {
+    /// Time [s].
+    pub t: f64,
+    /// Displacement, velocity and acceleration relative to the base: unknowns, then base and top.
+    pub z: &'a [f64],
+    /// [m/s]
+    pub v: &'a [f64],
+    /// [m/s²]
+    pub a: &'a [f64],
+    /// Friction coefficient of every joint that rubs.
+    pub mu: &'a [f64],
+    /// What every rigid joint bears [N].
+    pub reaction: &'a [f64],
+    /// The bonds.
+    pub bonds: &'a [BondState],
+    /// The energy account.
+    pub energies: &'a Energies,
+}
+
+/// What a [`View`] shows, where it is not a state's.
+#[derive(Debug, Clone)]
+pub struct Instant {
+    /// Time [s].
+    pub t: f64,
+    /// Displacement [m].
+    pub z: Vec<f64>,
+    /// Velocity [m/s].
+    pub v: Vec<f64>,
+    /// Acceleration [m/s²].
+    pub a: Vec<f64>,
+    /// Friction coefficients.
+    pub mu: Vec<f64>,
+    /// What every rigid joint bears [N].
+    pub reaction: Vec<f64>,
+    /// The bonds.
+    pub bonds: Vec<BondState>,
+    /// The energy account.
+    pub energies: Energies,
+}
+
+impl Instant {
+    /// Room for an instant of `model`.
+    pub fn new(model: &Model) -> Self {
+        let zeros = || vec![0.0; model.unknowns() + 2];
+        Instant {
+            t: 0.0,
+            z: zeros(),
+            v: zeros(),
+            a: zeros(),
+            mu: vec![0.0; model.rubs.len()],
+            reaction: vec![0.0; model.contacts.len()],
+            bonds: vec![BondState::INTACT; model.bonds.len()],
+            energies: Energies::default(),
+        }
+    }
+    /// What it holds.
+    pub fn view(&self) -> View<'_> {
+        let Instant { t, z, v, a, mu, reaction, bonds, energies } = self;
+        View { t: *t, z, v, a, mu, reaction, bonds, energies }
+    }
+}
+
+/// What a run has done to a bond.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BondState {
+    /// κ: largest |δ|, or widest gap, that counted for the damage so far [m]; 0 while the bond is intact.
+    pub reach: f64,
+    /// D, 0 … 1.
+    pub damage: f64,
+    /// Energy that breaking took [J].
+    pub spent: f64,
+    /// Largest |elastic force| of the joint so far [N].
+    pub peak: f64,
+    /// When it first cracked [s]; infinite while it is intact.
+    pub cracked: f64,
+    /// When nothing was left of it [s]; infinite until then.
+    pub broken: f64,
+}
+
+impl BondState {
+    /// Of an intact bond.
+    pub const INTACT: BondState =
+        BondState { reach: 0.0, damage: 0.0, spent: 0.0, peak: 0.0, cracked: f64::INFINITY, broken: f64::INFINITY };
 }
 
 /// Rates of the works in [`Energies`] [W].
@@ -78,18 +167,30 @@ pub struct Tangents {
     pub closed: Vec<bool>,
     /// Whether a joint with a set-valued law sticks, per rubbing joint; `mu` is then the friction that holds it.
     pub stuck: Vec<bool>,
+    /// Whether the sides of a rigid joint touch and move as one, per rigid joint.
+    pub contact: Vec<bool>,
+    /// What they press each other with [N], from 0; 0 while they do not.
+    pub reaction: Vec<f64>,
 }
 
 impl Tangents {
     /// Of all joints at rest, unilateral joints open (δ = 0).
     pub fn at_rest(model: &Model) -> Self {
-        Tangents {
+        let mut tangents = Tangents {
             velocity: vec![0.0; model.rubs.len()],
             mu: vec![0.0; model.rubs.len()],
             slope: model.rubs.iter().map(|r| if r.law.sticks() { 0.0 } else { r.law.slope_at_rest() }).collect(),
             closed: model.elastic.iter().map(|law| !law.unilateral).collect(),
             stuck: model.rubs.iter().map(|r| r.law.sticks()).collect(),
+            contact: vec![true; model.contacts.len()],
+            reaction: vec![0.0; model.contacts.len()],
+        };
+        // An intact bond does not rub.
+        for r in model.bonds.iter().filter_map(|b| b.rub) {
+            tangents.slope[r as usize] = 0.0;
+            tangents.stuck[r as usize] = false;
         }
+        tangents
     }
     /// Copies without allocating.
     pub fn copy_from(&mut self, other: &Tangents) {
@@ -98,10 +199,18 @@ impl Tangents {
         self.slope.copy_from_slice(&other.slope);
         self.closed.copy_from_slice(&other.closed);
         self.stuck.copy_from_slice(&other.stuck);
+        self.contact.copy_from_slice(&other.contact);
+        self.reaction.copy_from_slice(&other.reaction);
     }
 }
 
 impl State {
+    /// The motion, friction and energies at its instant.
+    pub fn view(&self) -> View<'_> {
+        let State { t, z, v, a, bonds, energies, .. } = self;
+        View { t: *t, z, v, a, mu: &self.tangents.mu, reaction: &self.tangents.reaction, bonds, energies }
+    }
+
     /// Whether all arrays have the lengths that `model` needs.
     pub fn fits(&self, model: &Model) -> bool {
         let (n, e, r) = (model.unknowns(), model.joints.len(), model.rubs.len());
@@ -117,6 +226,8 @@ impl State {
                 &env.joint_closing,
                 &env.joint_force,
                 &env.joint_dissipation,
+                &env.joint_impulse,
+                &env.joint_impacts,
                 &self.joint_power,
             ]
             .iter()
@@ -124,6 +235,9 @@ impl State {
             && [&self.tangents.velocity, &self.tangents.mu, &self.tangents.slope].iter().all(|x| x.len() == r)
             && self.tangents.closed.len() == e
             && self.tangents.stuck.len() == r
+            && self.bonds.len() == model.bonds.len()
+            && self.tangents.contact.len() == model.contacts.len()
+            && self.tangents.reaction.len() == model.contacts.len()
     }
 
     /// At rest at t = 0.
@@ -140,6 +254,7 @@ impl State {
             scale: [0.0; 2],
             joint_power: zeros(e),
             tangents: Tangents::at_rest(model),
+            bonds: vec![BondState::INTACT; model.bonds.len()],
             samples: 0,
             energies: Energies::default(),
             envelopes: Envelopes {
@@ -154,6 +269,8 @@ impl State {
                 joint_closing: zeros(e),
                 joint_force: zeros(e),
                 joint_dissipation: zeros(e),
+                joint_impulse: zeros(e),
+                joint_impacts: zeros(e),
             },
             totals: Totals::default(),
             counters: Counters::default(),

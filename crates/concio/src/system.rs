@@ -9,11 +9,15 @@ use crate::model::Model;
 ///
 /// # Errors
 /// A driven top on a moving base: the format has one motion for the top and it is relative to the base. Set-valued
-/// friction, which the format cannot express.
+/// friction and bonds, which the format cannot express.
 pub fn system(model: &Model) -> Result<Value> {
     if model.sticks() {
         let error = InputError::new("set-valued friction has no place in the system for other solvers");
         return Err(error.key("joint.friction.law").allowed("`stribeck`, `none`").into());
+    }
+    if !model.bonds.is_empty() {
+        let error = InputError::new("bonds have no place in the system for other solvers");
+        return Err(error.key("joint.bond").allowed("joints without bond").into());
     }
     let (base, top) = (model.base(), model.top());
     let rub: Vec<_> = model.rub_of_joint().into_iter().map(|r| r.map(|r| &model.rubs[r])).collect();

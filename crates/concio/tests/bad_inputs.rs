@@ -95,6 +95,14 @@ fn table() -> Vec<Bad> {
         "zero rigidity", edit("rigidity = 1000", "rigidity = 0"), "head = { law", "joint.head.rigidity", "0 is out of range", "above 0";
         "friction without numbers", edit("static = 0.6, ", ""), "friction", "joint.friction.static", "law `stribeck` needs it", "from 0";
         "spring without stiffness", edit(", stiffness = \"5.4e7 N/m\"", ""), "bed = { law", "joint.bed.stiffness", "law `elastic` needs it", "from 0 N/m";
+        "bond without strength", edit("[load]", "[joint.bond]\nmode_2_energy = \"50 N/m\"\n[load]"), "[joint.bond]", "joint.bond", "the bond has no strength", "`tensile_strength`, `cohesion` or `friction_angle` above 0";
+        "negative cohesion", edit("[load]", "[joint.bond]\ncohesion = \"-0.1 MPa\"\n[load]"), "cohesion", "joint.bond.cohesion", "-100000 Pa is out of range", "from 0 Pa";
+        "friction angle in degrees without unit", edit("[load]", "[joint.bond]\ncohesion = 1e5\nfriction_angle = 30\n[load]"), "friction_angle", "joint.bond.friction_angle", "is out of range", "0 … 80 deg (a number without unit is in rad)";
+        "energy with the unit of a stress", edit("[load]", "[joint.bond]\ncohesion = 1e5\nmode_2_energy = \"50 Pa\"\n[load]"), "mode_2_energy", "joint.bond.mode_2_energy", "not a unit of energy per area", "N/m, J/m2";
+        "stiffness left whole and more", edit("[load]", "[joint.bond]\ncohesion = 1e5\nresidual_stiffness = 1.5\n[load]"), "residual_stiffness", "joint.bond.residual_stiffness", "1.5 is out of range", "0 … 1";
+        "bond on nothing", edit("[load]", "[joint.bond]\ncohesion = 1e5\non = []\n[load]"), "on = []", "joint.bond.on", "no kind of joint is named", "`bed`, `head`";
+        "bond with a key too many", edit("[load]", "[joint.bond]\ncohesion = 1e5\nshear = 3\n[load]"), "shear", "joint.bond.shear", "unknown key", "cohesion";
+        "change of a bond out of range", change("at = { kind = [\"bed\"] }\nbond = { mode_2_energy = -1 }"), "bond =", "joint.change[0].bond.mode_2_energy", "-1 N/m is out of range", "from 0 N/m";
         "planar model", edit("\"shear\"", "\"planar\""), "model", "model", "not in this version", "`shear`";
         "rigid joints", edit("law = \"no-tension\"", "law = \"rigid\""), "head = { law", "joint.head.law", "not in this version", "`no-tension`";
         "driven beam at rest", edit("top = { sine = { amplitude = \"5 mm\", frequency = \"2 Hz\" } }", ""), "[motion]", "motion.top", "the beam is `driven` but has no motion", "sine";

@@ -69,6 +69,7 @@ pub fn draw(figure: Figure, data: &Data, options: &Options) -> Result<Drawing, I
         Figure::Deformed => wall::deformed(data, options),
         Figure::PeakAcceleration => wall::peak_acceleration(data, options),
         Figure::Acceleration => wall::acceleration(data, options),
+        Figure::Cracks => wall::cracks(data, options),
         Figure::Phase => phase::blocks(data, options),
         Figure::JointPhase => phase::joints(data, options),
         Figure::JointHistories => joints::histories(data, options),

@@ -5,7 +5,7 @@ use concio::case::JointKind;
 use concio::moment::Moment;
 
 use super::Options;
-use super::data::Data;
+use super::data::{Data, Instant};
 use crate::draw::chart::LETTERS;
 use crate::draw::font;
 use crate::draw::output::Drawing;
@@ -206,7 +206,7 @@ fn bars(canvas: &mut Canvas, view: &View, width: f64, displacements: Option<(f64
 pub fn peak_acceleration(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let peaks = &data.run.outcome.envelopes.joint_acceleration;
     let largest = largest(peaks)?;
-    Ok(map(data, options, peaks, largest, &["peak over the whole history".into()]))
+    Ok(accelerations(data, options, peaks, largest, "peak over the whole history".into()))
 }
 
 /// Joints coloured by their relative acceleration at an instant, over the largest in the whole history.
@@ -215,7 +215,43 @@ pub fn acceleration(data: &Data, options: &Options) -> Result<Drawing, InputErro
     let moment = data.moment(options.at, largest_acceleration)?;
     let values: Vec<f64> = (0..data.run.joints.len()).map(|e| moment.joint(e).acceleration.abs()).collect();
     let time = format!("t = {}", crate::format::seconds(rounded(moment.time())));
-    Ok(map(data, options, &values, largest, &[time]))
+    Ok(accelerations(data, options, &values, largest, time))
+}
+
+/// Joints coloured by the cracked part of their bonds, at the end of the run or at an instant.
+pub fn cracks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
+    let bonds = &data.run.outcome.bonds;
+    if bonds.is_empty() {
+        return Err(InputError::new("no joint of this run is bonded").help("see `bond` in docs/wall-file.md"));
+    }
+    let mut values = vec![0.0; data.run.joints.len()];
+    let mut time = data.run.outcome.time_reached;
+    if options.at == Instant::Peak {
+        bonds.iter().for_each(|bond| values[bond.joint] = bond.damage);
+    } else {
+        let moment = data.moment(options.at, |_, _| 0.0)?;
+        (0..values.len()).for_each(|e| values[e] = moment.damage(e).unwrap_or(0.0));
+        time = moment.time();
+    }
+    let cracked = bonds.iter().filter(|bond| values[bond.joint] > 0.0).count();
+    let broken = bonds.iter().filter(|bond| values[bond.joint] == 1.0).count();
+    let texts = [
+        format!("t = {}", crate::format::seconds(rounded(time))),
+        format!("{cracked} of {} bonds cracked, {broken} of them broken", bonds.len()),
+    ];
+    let (drawn, bottom) = map(data, options, &values, &texts, "cracked part of the bond [1], 1 = broken");
+    let title = "Joints coloured by the cracked part of their bonds".into();
+    Ok(Drawing { body: drawn, size: [options.points(), bottom], title, note: String::new() })
+}
+
+fn accelerations(data: &Data, options: &Options, values: &[f64], largest: f64, text: String) -> Drawing {
+    let values: Vec<f64> = values.iter().map(|v| v / largest).collect();
+    // Large ones in m/s², as accelerations are read.
+    let peak = if largest < 0.1 { short(three(largest), "m/s²") } else { format!("{} m/s²", plain(three(largest))) };
+    let label = format!("relative acceleration [1], 1 = {peak}");
+    let (body, bottom) = map(data, options, &values, &[text], &label);
+    let title = "Joints coloured by relative acceleration over the largest in the whole history".into();
+    Drawing { body, size: [options.points(), bottom], title, note: hits(data) }
 }
 
 fn largest(peaks: &[f64]) -> Result<f64, InputError> {
@@ -227,7 +263,8 @@ fn largest(peaks: &[f64]) -> Result<f64, InputError> {
     }
 }
 
-fn map(data: &Data, options: &Options, values: &[f64], largest: f64, texts: &[String]) -> Drawing {
+/// The wall with its joints coloured by values from 0 to 1, which `label` names; and where it ends [pt].
+fn map(data: &Data, options: &Options, values: &[f64], texts: &[String], label: &str) -> (String, f64) {
     let mut canvas = Canvas::default();
     let head = headings(&mut canvas, options.points(), texts);
     let view = View::new(data, options.points(), [0.0; 2], head);
@@ -244,17 +281,14 @@ fn map(data: &Data, options: &Options, values: &[f64], largest: f64, texts: &[St
             let [x0, y0, x1, y1] = data.run.joints[e].joint.line;
             let [ax, ay, ..] = view.rectangle([x0; 2], [y0; 2]);
             let [bx, by, ..] = view.rectangle([x1; 2], [y1; 2]);
-            let (fill, width) =
-                if cased { ("#6e6e6e".into(), width + 0.5) } else { (shade(values[e] / largest), width) };
+            let (fill, width) = if cased { ("#6e6e6e".into(), width + 0.5) } else { (shade(values[e]), width) };
             let attributes = format!(r#"fill="none" stroke="{fill}" stroke-width="{}""#, px(width));
-            let title =
-                (!cased).then(|| format!("{}: {}", data.run.joints[e].name, significant(values[e] / largest, 3)));
+            let title = (!cased).then(|| format!("{}: {}", data.run.joints[e].name, significant(values[e], 3)));
             canvas.path(&line([ax, ay, bx, by]), &attributes, title.as_deref());
         }
     }
-    let bottom = colour_bar(&mut canvas, &view, options.points(), largest);
-    let title = "Joints coloured by relative acceleration over the largest in the whole history".into();
-    Drawing { body: canvas.into_body(), size: [options.points(), bottom], title, note: hits(data) }
+    let bottom = colour_bar(&mut canvas, &view, options.points(), label);
+    (canvas.into_body(), bottom)
 }
 
 /// What accelerations depend on where joints close with a hit; empty without such joints.
@@ -270,7 +304,7 @@ fn hits(data: &Data) -> String {
 }
 
 /// The colours from 0 to 1 with what they stand for; where it ends [pt].
-fn colour_bar(canvas: &mut Canvas, view: &View, width: f64, largest: f64) -> f64 {
+fn colour_bar(canvas: &mut Canvas, view: &View, width: f64, label: &str) -> f64 {
     let [small, size] = LETTERS.map(f64::from);
     let (y, x, long, high) = (view.below + 3.0, 0.5 * (width - 0.6 * width), 0.6 * width, 6.0);
     let steps = 100;
@@ -295,9 +329,6 @@ fn colour_bar(canvas: &mut Canvas, view: &View, width: f64, largest: f64) -> f64
     }
     canvas.path(&frame, r##"fill="none" stroke="#000" stroke-width="0.5""##, None);
     let below = y + high + 6.0 + small + 0.5 * size;
-    // Large ones in m/s², as accelerations are read.
-    let peak = if largest < 0.1 { short(three(largest), "m/s²") } else { format!("{} m/s²", plain(three(largest))) };
-    let text = format!("relative acceleration [1], 1 = {peak}");
-    canvas.text([0.5 * width, below], size, Anchor::Middle, false, "#000", &text);
+    canvas.text([0.5 * width, below], size, Anchor::Middle, false, "#000", label);
     below + 0.5 * size + 4.0
 }

@@ -99,7 +99,30 @@ fn frames(pack: &mut Pack, content: &Content) -> Kept {
         let rows = kept.iter().flat_map(|&k| &recording.frame_friction[k * layout.held..][..layout.held]);
         pack.curves("frame/joint/friction", &rows.map(|f| *f as f32).collect::<Vec<_>>());
     }
+    if !content.outcome.bonds.is_empty() {
+        let beam = content.history("beam/displacement");
+        let of_beam = |sample: usize| beam.as_ref().and_then(|b| b.get(sample)).copied().unwrap_or(0.0);
+        let rows = kept.iter().zip(&samples).flat_map(|(&k, &sample)| elastic_forces(content, k, of_beam(sample)));
+        pack.curves("frame/joint/elastic", &rows.map(|f| f as f32).collect::<Vec<_>>());
+    }
     Kept { every, samples }
+}
+
+/// Elastic forces of all joints at a frame, where bonds make them more than a function of the displacements [N].
+fn elastic_forces(content: &Content, frame: usize, beam: f64) -> Vec<f64> {
+    let (recording, layout) = (&content.outcome.recording, &content.outcome.layout);
+    let z = &recording.frame_displacement[frame * layout.unknowns..][..layout.unknowns];
+    let mut bonds = content.outcome.bonds.iter().zip(&recording.frame_damage[frame * layout.bonded..]).peekable();
+    let force = |(e, row): (usize, &JointRow)| {
+        let other = match row.joint.b {
+            End::Block(b) => z[b],
+            End::Base => 0.0,
+            End::Top => beam,
+        };
+        let bond = bonds.next_if(|(bond, _)| bond.joint == e);
+        row.elastic_force(z[row.joint.a] - other, bond.map(|(bond, damage)| (bond, *damage)))
+    };
+    content.joints.iter().enumerate().map(force).collect()
 }
 
 /// Histories: their values at the frames, and curves that look like all samples.

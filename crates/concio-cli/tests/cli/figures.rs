@@ -161,3 +161,25 @@ fn frames_are_told_from_samples() {
     let [_, notes] = told(&desk.concio("plot r --figure phase --blocks p1c1b1").assert().success());
     assert!(notes.contains("drawn from frames") && notes.contains("blocks = [\"p1c1b1\"]"), "{notes}");
 }
+
+/// Cracks are drawn of bonded walls alone, at the end or at an instant, and told on the terminal.
+#[test]
+fn cracks_are_drawn_and_told() {
+    let bonded = WALL.replace("[load]", "[joint.bond]\ncohesion = \"20 kPa\"\ntensile_strength = \"5 kPa\"\n[load]");
+    assert_ne!(bonded, WALL);
+    let desk = drawn_from(&bonded);
+    let [told_by_run, _] = told(&desk.concio("run wall.toml --out s").assert().success());
+    assert!(told_by_run.contains("bonds") && told_by_run.contains("first crack"), "{told_by_run}");
+    desk.concio("plot r --figure cracks").assert().success();
+    let svg = desk.get("r/figures/cracks.svg");
+    assert!(
+        svg.contains("cracked part of the bond") && svg.contains("bonds cracked") && svg.contains(": 1</title>"),
+        "{svg}"
+    );
+    desk.concio("plot r --figure cracks --at 0").assert().success();
+    let svg = desk.get("r/figures/cracks.svg");
+    assert!(svg.contains("0 of ") && !svg.contains(": 1</title>"));
+    let dry = drawn_from(WALL);
+    let [_, said] = told(&dry.concio("plot r --figure cracks").assert().failure());
+    assert!(said.contains("no joint of this run is bonded"), "{said}");
+}

@@ -46,6 +46,12 @@ const STIFFNESS: Expected = Expected {
     unit: "N/m",
     slips: &[(1e6, "MN/m", 1e6), (1e3, "kN/m", 1e3), (1e-3, "N/m", 1.0)],
 };
+/// From mud to the strongest concrete; bricks themselves split at some MPa.
+const STRENGTH: Expected =
+    Expected { limits: [10.0, 2e7], usual: [1e4, 1e7], unit: "Pa", slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3)] };
+/// Fracture energies: mortar has 1 to 20 N/m when opened, 10 to 1000 N/m when sheared.
+const FRACTURE: Expected =
+    Expected { limits: [1e-4, 1e5], usual: [0.1, 2e3], unit: "N/m", slips: &[(1e3, "N/mm", 1e3), (1e-3, "N/m", 1.0)] };
 /// δ_v: faster than 0.1 m/s is beyond what joints reach in most earthquakes, so that they would never slip.
 const SLIP_VELOCITY: Expected =
     Expected { limits: [1e-7, 0.1], usual: [1e-5, 0.02], unit: "m/s", slips: &[(1e-3, "mm/s", 1e-3)] };
@@ -188,6 +194,12 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
     }
     doubts.look_at_friction("joint.friction.static", joint.friction.static_);
     doubts.look("joint.friction.slip_velocity", joint.friction.slip_velocity.si(), &SLIP_VELOCITY);
+    if let Some(bond) = &joint.bond {
+        doubts.look("joint.bond.tensile_strength", bond.tensile_strength.si(), &STRENGTH);
+        doubts.look("joint.bond.cohesion", bond.cohesion.si(), &STRENGTH);
+        doubts.look("joint.bond.mode_1_energy", bond.mode_1_energy.si(), &FRACTURE);
+        doubts.look("joint.bond.mode_2_energy", bond.mode_2_energy.si(), &FRACTURE);
+    }
     for (index, change) in joint.changes.iter().enumerate() {
         let at = format!("joint.change[{index}]");
         if let Some(SpringChange { stiffness: Some(stiffness), .. }) = change.spring {

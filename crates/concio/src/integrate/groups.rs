@@ -1,4 +1,4 @@
-//! Blocks that hang together by sticking joints.
+//! Blocks that hang together by sticking joints, or press each other in rigid ones.
 
 use crate::model::Model;
 
@@ -27,15 +27,22 @@ impl Groups {
         i
     }
 
-    /// The groups that the joints with `stuck` (one value per rubbing joint) make.
-    pub fn find(&mut self, model: &Model, stuck: &[bool]) {
+    /// The groups that the joints with `stuck` (one value per rubbing joint) and `contact` (one per rigid joint) make.
+    pub fn find(&mut self, model: &Model, stuck: &[bool], contact: &[bool]) {
         for (i, above) in self.above.iter_mut().enumerate() {
             *above = i as u32;
         }
         for (rub, _) in model.rubs.iter().zip(stuck).filter(|(_, stuck)| **stuck) {
-            let [a, b] = model.sides[rub.joint as usize].map(|s| self.head(s));
-            self.above[a.min(b) as usize] = a.max(b);
+            self.join(model.sides[rub.joint as usize]);
         }
+        for (rigid, _) in model.contacts.iter().zip(contact).filter(|(_, contact)| **contact) {
+            self.join(model.sides[rigid.joint as usize]);
+        }
+    }
+
+    fn join(&mut self, sides: [u32; 2]) {
+        let [a, b] = sides.map(|s| self.head(s));
+        self.above[a.min(b) as usize] = a.max(b);
     }
 
     /// Gives every group the mean of its members by mass, or the value of the support that heads it. Momentum is kept.
@@ -54,6 +61,26 @@ impl Groups {
                 values[i] = values[head];
             } else if self.mass[head] > mass[i] {
                 values[i] = self.sum[head] / self.mass[head];
+            }
+        }
+    }
+
+    /// Finds the groups and gives each one velocity. A rigid joint among `touching` whose sides approach each other
+    /// after that, by what the mean has moved them, is closed too: none is left that does.
+    pub fn rest(&mut self, model: &Model, stuck: &[bool], contact: &mut [bool], touching: &[bool], v: &mut [f64]) {
+        for _ in 0..=contact.len() {
+            self.find(model, stuck, contact);
+            self.average(&model.mass, v);
+            let mut closed = false;
+            for (c, rigid) in model.contacts.iter().enumerate() {
+                let [a, b] = model.sides[rigid.joint as usize].map(|s| s as usize);
+                if touching[c] && !contact[c] && v[a] > v[b] {
+                    contact[c] = true;
+                    closed = true;
+                }
+            }
+            if !closed {
+                return;
             }
         }
     }

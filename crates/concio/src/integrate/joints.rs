@@ -4,6 +4,7 @@
 use std::f64::consts::FRAC_2_PI;
 
 use crate::elementary::{atan_of_positive, exp_of_negative};
+use crate::law::Stribeck;
 use crate::model::Model;
 
 /// Where a joint's coupling stands in the matrix, if it has one: joints with a support do not.
@@ -52,6 +53,30 @@ impl Joints {
     }
 }
 
+/// The rigid joints.
+#[derive(Debug, Clone)]
+pub struct Contacts {
+    /// Both sides by place, and in the order of the model.
+    pub sides: Vec<[u32; 2]>,
+    pub of_model: Vec<[u32; 2]>,
+    pub slot: Vec<Slot>,
+}
+
+impl Contacts {
+    pub fn new(model: &Model, joints: &Joints) -> Self {
+        let indices = || model.contacts.iter().map(|c| c.joint as usize);
+        Contacts {
+            sides: indices().map(|e| joints.sides[e]).collect(),
+            of_model: indices().map(|e| joints.of_model[e]).collect(),
+            slot: indices().map(|e| joints.slot[e]).collect(),
+        }
+    }
+
+    pub fn len(&self) -> usize {
+        self.sides.len()
+    }
+}
+
 /// The joints that rub.
 #[derive(Debug, Clone)]
 pub struct Rubs {
@@ -69,6 +94,8 @@ pub struct Rubs {
     alpha: Vec<f64>,
     /// The joints among these, by index here, whose law is set-valued.
     pub sticking: Vec<u32>,
+    /// Cracked part of each, 0 … 1; empty where no joint is bonded.
+    cracked: Vec<f64>,
 }
 
 /// Steepness by which a set-valued law in slip goes through the same operations as (6): any speed is far up the branch.
@@ -88,6 +115,7 @@ impl Rubs {
             slip_velocity: rubs().map(|r| if at_once(r) { 1.0 } else { r.law.slip_velocity }).collect(),
             steep: rubs().map(|r| if r.law.sticks() { VERTICAL } else { r.law.beta / r.law.slip_velocity }).collect(),
             alpha: rubs().map(|r| r.law.alpha).collect(),
+            cracked: if model.bonds.is_empty() { Vec::new() } else { vec![1.0; model.rubs.len()] },
             sticking: (0..model.rubs.len() as u32).filter(|&r| model.rubs[r as usize].law.sticks()).collect(),
         }
     }
@@ -96,10 +124,42 @@ impl Rubs {
         self.joint.len()
     }
 
+    /// Makes a part of joint `r` rub, from 0 to 1: the rest is bonded.
+    pub fn crack(&mut self, model: &Model, r: usize, part: f64) {
+        if self.cracked[r] != part {
+            let law = model.rubs[r].law.times(part);
+            self.cracked[r] = part;
+            self.excess[r] = if law.sticks() && law.slip_velocity == 0.0 { 0.0 } else { law.static_ - law.dynamic };
+            self.dynamic[r] = law.dynamic;
+            self.alpha[r] = law.alpha;
+        }
+    }
+
+    /// The law of the cracked part of joint `r`; `room` is where it is put if that is not the whole.
+    #[inline(always)]
+    pub fn law<'a>(&self, model: &'a Model, r: usize, room: &'a mut Stribeck) -> &'a Stribeck {
+        let law = &model.rubs[r].law;
+        if self.cracked.is_empty() {
+            return law;
+        }
+        *room = law.times(self.cracked[r]);
+        room
+    }
+
+    /// μ_s of the cracked part of joint `r`.
+    #[inline(always)]
+    pub fn most(&self, model: &Model, r: usize) -> f64 {
+        let most = model.rubs[r].law.static_;
+        if self.cracked.is_empty() { most } else { self.cracked[r] * most }
+    }
+
+    /// |μ| and its slope [s/m] of a set-valued law as slip begins.
+    pub fn breaking_away(&self, r: usize) -> (f64, f64) {
+        (self.excess[r] + self.dynamic[r], -self.excess[r] / self.slip_velocity[r])
+    }
+
     /// (6) and its slope at the velocities `w` of all joints: the operations of [`Stribeck::at`], joint by joint, and
     /// so its bits. One plain loop, which becomes vector instructions.
-    ///
-    /// [`Stribeck::at`]: crate::law::Stribeck::at
     #[inline(always)]
     pub fn laws(&self, w: &[f64], mu: &mut [f64], slope: &mut [f64]) {
         let n = w.len();
@@ -124,7 +184,6 @@ mod tests {
     use super::*;
     use crate::excitation::Excitation;
     use crate::ground::signal::GroundMotion;
-    use crate::law::Stribeck;
     use crate::samples::{Link, lumped};
     use crate::wall::End;
 

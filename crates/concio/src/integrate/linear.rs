@@ -1,17 +1,18 @@
 //! Sparse factorisation with a pattern settled once: A = L D U with unit triangles, U = Lᵀ when A is symmetric.
 //!
-//! The order is approximate minimum degree (faer); the unsymmetric case has a symmetric pattern because every entry is
-//! a joint. Unknowns are numbered by their place in that order throughout, so that nothing is permuted while solving.
-//! Small systems are eliminated column by column along a list of all updates made beforehand; large ones, for which
-//! that list would be long, row by row after T. A. Davis, *Direct Methods for Sparse Linear Systems*, SIAM 2006,
-//! sections 4.7–4.8. No pivoting: the stage matrix is symmetric positive definite for any step that makes sense, and
+//! The order is that of `order`; the unsymmetric case has a symmetric pattern because every entry is a joint. Unknowns
+//! are numbered by their place in that order throughout, so that nothing is permuted while solving. Small systems are
+//! eliminated column by column along a list of all updates made beforehand; larger symmetric ones as `fronts` says; large
+//! unsymmetric ones row by row after T. A. Davis, *Direct Methods for Sparse Linear Systems*, SIAM 2006, sections
+//! 4.7–4.8. No pivoting: the stage matrix is symmetric positive definite for any step that makes sense, and
 //! a pivot that is not positive is reported instead of divided by. Nothing is allocated after [`Matrix::new`].
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
+use crate::integrate::fronts::Fronts;
+use crate::integrate::order::{elimination_order, postordered};
 
-/// Updates up to which the list of them is kept (12 bytes each).
+/// Unknowns up to which a list of updates is faster than fronts.
+pub const MOST_LISTED: usize = 256;
+/// Updates up to which the list of them is kept without symmetry (12 bytes each).
 const LONGEST_LIST: usize = 200_000;
 
 /// A matrix with the pattern of a joint graph, and its factors.
@@ -35,13 +36,15 @@ pub struct Matrix {
     /// Entries and updates of every column.
     counts: Vec<[u32; 2]>,
     /// For every column and every two rows in it, the later one outside: where their update goes, and the two entries.
-    /// Empty when it would be too long.
+    /// Empty when it would be too long (without symmetry only).
     updates: Vec<[u32; 3]>,
     /// Rows of L: columns, ascending, and where they stand in `lower`.
     reach_start: Vec<u32>,
     reach: Vec<Reach>,
     x: Vec<f64>,
     y: Vec<f64>,
+    /// What large symmetric systems have instead of `start` to `y`, `lower` excepted; that holds the entries of A alone.
+    fronts: Option<Fronts>,
     symmetric: bool,
 }
 
@@ -56,17 +59,60 @@ struct Reach {
 pub struct NotPositive;
 
 impl Matrix {
-    /// A matrix of order `n` with a diagonal and the pairs (i, j), i ≠ j, on both sides of it. Returns too where each
-    /// pair stands in `lower` and `upper`.
-    pub fn new(n: usize, pairs: &[(usize, usize)]) -> (Self, Vec<u32>) {
-        let place = elimination_order(n, pairs);
-        let placed = |&(i, j): &(usize, usize)| {
-            let (p, q) = (place[i], place[j]);
-            (p.max(q), p.min(q))
-        };
+    /// A matrix of order `n` with a diagonal and the pairs (i, j), i ≠ j, on both sides of it; `at` is where the first
+    /// unknowns lie. Returns too where each pair stands in `lower` and `upper`; a `symmetric` matrix has no `upper`.
+    pub fn new(n: usize, pairs: &[(usize, usize)], at: &[[f64; 2]], symmetric: bool) -> (Self, Vec<u32>) {
+        let place = elimination_order(n, pairs, at);
+        if symmetric && n > MOST_LISTED {
+            Self::by_fronts(n, place, pairs)
+        } else {
+            Self::by_entries(n, place, pairs, symmetric)
+        }
+    }
+
+    fn by_fronts(n: usize, mut place: Vec<u32>, pairs: &[(usize, usize)]) -> (Self, Vec<u32>) {
+        let mut entries = below_diagonal(&place, pairs);
+        postordered(&mut place, &mut entries);
+        let all = below_diagonal(&place, pairs);
+        let mut entries = all.clone();
+        entries.sort_unstable_by_key(|&(r, c)| (c, r));
+        entries.dedup();
+        let slot = |&(r, c): &(u32, u32)| entries.partition_point(|&(s, d)| (d, s) < (c, r)) as u32;
+        let slots = all.iter().map(slot).collect();
+        let lower = vec![0.0; entries.len()];
+        let fronts = Fronts::new(n, &entries);
+        let mut matrix = Self::empty(n, place, true);
+        (matrix.lower, matrix.fronts) = (lower, Some(fronts));
+        (matrix, slots)
+    }
+
+    fn empty(n: usize, place: Vec<u32>, symmetric: bool) -> Self {
+        Matrix {
+            n,
+            place,
+            diagonal: vec![0.0; n],
+            start: Vec::new(),
+            row: Vec::new(),
+            column: Vec::new(),
+            lower: Vec::new(),
+            upper: Vec::new(),
+            scaled: Vec::new(),
+            turned: Vec::new(),
+            counts: Vec::new(),
+            updates: Vec::new(),
+            reach_start: Vec::new(),
+            reach: Vec::new(),
+            x: Vec::new(),
+            y: Vec::new(),
+            fronts: None,
+            symmetric,
+        }
+    }
+
+    fn by_entries(n: usize, place: Vec<u32>, pairs: &[(usize, usize)], symmetric: bool) -> (Self, Vec<u32>) {
+        let entries = below_diagonal(&place, pairs);
         let mut rows: Vec<Vec<u32>> = vec![Vec::new(); n];
-        for pair in pairs {
-            let (r, c) = placed(pair);
+        for &(r, c) in &entries {
             rows[r as usize].push(c);
         }
         let (start, row, reach_start, reach) = symbolic(&rows);
@@ -74,11 +120,11 @@ impl Matrix {
             let (s, e) = (start[c as usize] as usize, start[c as usize + 1] as usize);
             (s + row[s..e].partition_point(|&x| x < r)) as u32
         };
-        let slots = pairs.iter().map(placed).map(|(r, c)| at(r, c)).collect();
+        let slots = entries.iter().map(|&(r, c)| at(r, c)).collect();
         let columns = || (0..n).map(|k| &row[start[k] as usize..start[k + 1] as usize]);
         let count: usize = columns().map(|c| c.len() * c.len().saturating_sub(1) / 2).sum();
         let mut updates = Vec::new();
-        if count <= LONGEST_LIST {
+        if symmetric || count <= LONGEST_LIST {
             for k in 0..n {
                 let first = start[k];
                 let column = &row[first as usize..start[k + 1] as usize];
@@ -90,24 +136,23 @@ impl Matrix {
         let counts = columns().map(|c| [c.len(), c.len() * c.len().saturating_sub(1) / 2].map(|x| x as u32)).collect();
         let column = (0..n as u32).flat_map(|k| std::iter::repeat_n(k, columns_of(&start, k))).collect();
         let fill = row.len();
+        let above = if symmetric { 0 } else { fill };
+        let rows = if updates.is_empty() { n } else { 0 };
         let matrix = Matrix {
-            n,
-            place,
-            diagonal: vec![0.0; n],
             start,
             row,
             column,
             scaled: vec![0.0; fill],
-            turned: vec![0.0; fill],
+            turned: vec![0.0; above],
             counts,
             lower: vec![0.0; fill],
-            upper: vec![0.0; fill],
+            upper: vec![0.0; above],
             updates,
             reach_start,
             reach,
-            x: vec![0.0; n],
-            y: vec![0.0; n],
-            symmetric: true,
+            x: vec![0.0; rows],
+            y: vec![0.0; rows],
+            ..Self::empty(n, place, symmetric)
         };
         (matrix, slots)
     }
@@ -122,18 +167,21 @@ impl Matrix {
         (&self.start, &self.row)
     }
 
-    /// Factorises what `diagonal`, `lower` and `upper` hold, in place. With `symmetric`, `upper` is not read.
+    /// Factorises what `diagonal`, `lower` and, without symmetry, `upper` hold; they may be destroyed.
     ///
     /// # Errors
     /// [`NotPositive`] when a pivot is not above zero; the factors are then of no use.
     #[inline(always)]
-    pub fn factorise(&mut self, symmetric: bool) -> Result<(), NotPositive> {
-        self.symmetric = symmetric;
-        match (symmetric, self.updates.is_empty() && self.row.len() >= self.n) {
-            (true, false) => self.columns_symmetric(),
-            (true, true) => self.rows_symmetric(),
-            (false, false) => self.columns_unsymmetric(),
-            (false, true) => self.rows_unsymmetric(),
+    pub fn factorise(&mut self) -> Result<(), NotPositive> {
+        if let Some(fronts) = &mut self.fronts {
+            return fronts.factorise(&self.diagonal, &self.lower);
+        }
+        if self.symmetric {
+            self.columns_symmetric()
+        } else if self.updates.is_empty() && self.row.len() >= self.n {
+            self.rows_unsymmetric()
+        } else {
+            self.columns_unsymmetric()
         }
     }
 
@@ -196,33 +244,6 @@ impl Matrix {
         Ok(())
     }
 
-    fn rows_symmetric(&mut self) -> Result<(), NotPositive> {
-        for i in 0..self.n {
-            let reach = self.reach_start[i] as usize..self.reach_start[i + 1] as usize;
-            for Reach { column, at } in &self.reach[reach.clone()] {
-                self.x[*column as usize] = self.lower[*at as usize];
-            }
-            let mut d = self.diagonal[i];
-            for t in reach {
-                let Reach { column, at } = self.reach[t];
-                let (k, at) = (column as usize, at as usize);
-                let xk = self.x[k];
-                let start = self.start[k] as usize;
-                for (l, &r) in self.scaled[start..at].iter().zip(&self.row[start..at]) {
-                    self.x[r as usize] -= l * xk;
-                }
-                let l = xk * self.diagonal[k];
-                d -= l * xk;
-                self.scaled[at] = l;
-            }
-            if !(d > 0.0) {
-                return Err(NotPositive);
-            }
-            self.diagonal[i] = 1.0 / d;
-        }
-        Ok(())
-    }
-
     fn rows_unsymmetric(&mut self) -> Result<(), NotPositive> {
         for i in 0..self.n {
             let reach = self.reach_start[i] as usize..self.reach_start[i + 1] as usize;
@@ -255,8 +276,11 @@ impl Matrix {
 
     /// Solves A x = b in place with the last factors; b by place.
     #[inline(always)]
-    pub fn solve(&self, b: &mut [f64]) {
+    pub fn solve(&mut self, b: &mut [f64]) {
         let b = &mut b[..self.n];
+        if let Some(fronts) = &mut self.fronts {
+            return fronts.solve(b);
+        }
         for ((&r, &c), l) in self.row.iter().zip(&self.column).zip(&self.scaled) {
             b[r as usize] -= l * b[c as usize];
         }
@@ -270,36 +294,14 @@ impl Matrix {
     }
 }
 
+/// Row and column of every pair's entry below the diagonal.
+fn below_diagonal(place: &[u32], pairs: &[(usize, usize)]) -> Vec<(u32, u32)> {
+    pairs.iter().map(|&(i, j)| (place[i].max(place[j]), place[i].min(place[j]))).collect()
+}
+
 /// Entries of column `k`.
 fn columns_of(start: &[u32], k: u32) -> usize {
     (start[k as usize + 1] - start[k as usize]) as usize
-}
-
-/// Approximate minimum degree order of the graph: the place of each unknown.
-fn elimination_order(n: usize, pairs: &[(usize, usize)]) -> Vec<u32> {
-    let mut columns: Vec<Vec<usize>> = vec![Vec::new(); n];
-    for &(i, j) in pairs {
-        columns[i].push(j);
-        columns[j].push(i);
-    }
-    let mut start = vec![0usize];
-    let mut rows = Vec::new();
-    for column in &mut columns {
-        column.sort_unstable();
-        column.dedup();
-        rows.extend_from_slice(column);
-        start.push(rows.len());
-    }
-    let mut perm = vec![0usize; n];
-    let mut inverse = vec![0usize; n];
-    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &start, None, &rows);
-    let mut memory = MemBuffer::new(amd::order_scratch::<usize>(n, rows.len()));
-    let stack = MemStack::new(&mut memory);
-    if amd::order(&mut perm, &mut inverse, pattern, amd::Control::default(), stack).is_err() {
-        // Only an overflow of the index type can fail; the natural order is right too, just slower.
-        inverse = (0..n).collect();
-    }
-    inverse.iter().map(|&i| i as u32).collect()
 }
 
 /// Columns of L and rows of L from the rows of the lower triangle of A (elimination tree reach).
@@ -374,10 +376,15 @@ mod tests {
             }
         }
         for (symmetric, listed) in [(true, true), (false, true), (true, false), (false, false)] {
-            let (mut m, slots) = Matrix::new(n, &pairs);
-            assert!(!m.updates.is_empty());
-            if !listed {
+            let place = elimination_order(n, &pairs, &[]);
+            let (mut m, slots) = match (symmetric, listed) {
+                (true, false) => Matrix::by_fronts(n, place, &pairs),
+                _ => Matrix::by_entries(n, place, &pairs, symmetric),
+            };
+            assert!(m.fronts.is_some() || !m.updates.is_empty());
+            if !symmetric && !listed {
                 m.updates.clear();
+                (m.x, m.y) = (vec![0.0; n], vec![0.0; n]);
             }
             let place = m.places().to_vec();
             let mut dense = vec![vec![0.0; n]; n];
@@ -393,12 +400,14 @@ mod tests {
                 dense[j][i] -= t;
                 let (low, up) = if place[i] > place[j] { (s, t) } else { (t, s) };
                 m.lower[slot as usize] -= low;
-                m.upper[slot as usize] -= up;
+                if !symmetric {
+                    m.upper[slot as usize] -= up;
+                }
             }
             for i in 0..n {
                 m.diagonal[place[i] as usize] = dense[i][i];
             }
-            m.factorise(symmetric).expect("diagonally dominant");
+            m.factorise().expect("diagonally dominant");
             let b: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
             let mut x = vec![0.0; n];
             for i in 0..n {
@@ -417,13 +426,12 @@ mod tests {
         for (listed, coupling, expected) in
             [(true, 2.0, Err(NotPositive)), (false, 2.0, Err(NotPositive)), (true, -0.5, Ok(())), (false, -0.5, Ok(()))]
         {
-            let (mut m, slots) = Matrix::new(3, &[(0, 1), (1, 2), (0, 2)]);
-            if !listed {
-                m.updates.clear();
-            }
+            let (pairs, place) = ([(0, 1), (1, 2), (0, 2)], vec![0, 1, 2]);
+            let (mut m, slots) =
+                if listed { Matrix::by_entries(3, place, &pairs, true) } else { Matrix::by_fronts(3, place, &pairs) };
             m.diagonal.fill(1.0);
             m.lower[slots[0] as usize] = coupling;
-            assert_eq!(m.factorise(true), expected);
+            assert_eq!(m.factorise(), expected);
         }
     }
 }

@@ -1,8 +1,15 @@
 //! One step of a scheme, its error estimate, and the linear algebra behind it.
 
+pub(crate) mod bonds;
+pub(crate) mod cracks;
+pub(crate) mod dense;
+pub(crate) mod events;
+mod fronts;
 pub(crate) mod groups;
+pub(crate) mod impact;
 pub(crate) mod joints;
 pub(crate) mod linear;
+mod order;
 pub(crate) mod stage;
 pub(crate) mod step;
 pub(crate) mod tableau;

@@ -12,6 +12,10 @@
 //!   section 6).
 //! * Unilateral joints keep an active set; a joint whose state changes makes another iteration.
 //!
+//! A rigid joint that touches is closed, w = 0 under a force λ ≥ 0, or open, w ≤ 0 under none (R2). It is held like a
+//! sticking joint, by a slope from the force found last; one that would have to pull is opened, one whose sides approach
+//! each other is closed.
+//!
 //! The iteration ends when the correction that the remaining force mismatch would cause, through the last factors,
 //! is below the tolerance; that correction is still applied.
 
@@ -19,25 +23,37 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::integrate::bonds::Bonds;
+use crate::integrate::events::TOUCHING;
 use crate::integrate::groups::Groups;
-use crate::integrate::joints::{Joints, Rubs};
+use crate::integrate::joints::{Contacts, Joints, Rubs};
 use crate::integrate::linear::Matrix;
 use crate::law::Stribeck;
 use crate::model::Model;
-use crate::state::Tangents;
+use crate::state::{BondState, Tangents};
+use crate::wall::Block;
 
 /// Iterations after which a stage is given up and the step shortened. Of the stages that converge, 99 in 100 take
 /// fewer than eight.
-const MOST_ITERATIONS: usize = 12;
+pub const MOST_ITERATIONS: usize = 8;
+/// The same where joints stick truly or are rigid: those that hang together let go one after the other, however short
+/// the step.
+const MOST_WITH_HELD: usize = 60;
+/// Iterations after which rigid joints open or close one at a time, by least index.
+const AT_ONCE: usize = 8;
 /// Mismatch of tangent and law, as a fraction of μ_s, beyond which the next tangent is moved along the law.
-const FAR: f64 = 0.02;
+pub const FAR: f64 = 0.02;
 /// How near to the law, as a fraction of μ_s, that place has to be found.
-const MEETING: f64 = 0.01;
+pub const MEETING: f64 = 0.01;
+/// Points of the law that are tried for it at most.
+pub const MOST_SEARCHED: usize = 20;
 /// Stiffness that holds a sticking joint while its friction is sought, over the impedance that it sees: each iteration
 /// leaves about the inverse of it of the velocity.
 const HOLD: f64 = 1e6;
 /// Velocity that a sticking joint may be left with before it is set to rest, as a fraction of the accuracy.
-const STILL: f64 = 1e-3;
+pub const STILL: f64 = 1e-3;
+/// Speed that is none [m/s]: below it a set-valued law in slip has no slope of its own.
+const AT_REST: f64 = 1e-150;
 /// Friction by which a sticking joint may exceed μ_s, as a fraction of it: what holds it is known to about this.
 const EXCESS: f64 = 1e-7;
 
@@ -49,6 +65,8 @@ pub struct Stage {
     pub matrix: Matrix,
     joints: Joints,
     rubs: Rubs,
+    bonds: Bonds,
+    contacts: Contacts,
     mass: Vec<f64>,
     /// z_p and V_p, with base and top at the end.
     pub z: Vec<f64>,
@@ -74,6 +92,16 @@ pub struct Stage {
     slope: Vec<f64>,
     /// Slope that holds the joints with set-valued laws, [`HOLD`] times the largest impedance.
     hold: f64,
+    /// Whether a rigid joint may close: it touched when the step began.
+    pub eligible: Vec<bool>,
+    /// The same for this stage: it still touches, or is closed.
+    touching: Vec<bool>,
+    /// Slope that holds closed rigid joints [N s/m]; w_p and w of all rigid joints.
+    clamp: f64,
+    parting: Vec<f64>,
+    closing: Vec<f64>,
+    /// Largest |w| that a closed rigid joint was left with before it was set to rest [m/s].
+    pub contact_residual: f64,
     groups: Groups,
     /// Whether the factors hold for `tau` and `closed`, no joint rubbing.
     factors_hold: bool,
@@ -117,9 +145,10 @@ impl Stage {
         let coupled = |s: &&[u32; 2]| (s[1] as usize) < n;
         let pairs: Vec<(usize, usize)> =
             model.sides.iter().filter(coupled).map(|s| (s[0] as usize, s[1] as usize)).collect();
-        let (matrix, slots) = Matrix::new(n, &pairs);
+        let (matrix, slots) = Matrix::new(n, &pairs, &centres(model), model.reciprocal);
         let joints = Joints::new(model, matrix.places(), &slots);
         let rubs = Rubs::new(model, &joints);
+        let contacts = Contacts::new(model, &joints);
         let mut mass = vec![0.0; n];
         for (m, &place) in model.mass.iter().zip(matrix.places()) {
             mass[place as usize] = *m;
@@ -143,6 +172,12 @@ impl Stage {
             mu: zeros(rubs.len()),
             slope: zeros(rubs.len()),
             hold: 0.0,
+            eligible: vec![false; contacts.len()],
+            touching: vec![false; contacts.len()],
+            clamp: 0.0,
+            parting: zeros(contacts.len()),
+            closing: zeros(contacts.len()),
+            contact_residual: 0.0,
             groups: Groups::new(n),
             factors_hold: false,
             iterations: 0,
@@ -150,13 +185,22 @@ impl Stage {
             matrix,
             joints,
             rubs,
+            bonds: Bonds::new(model),
+            contacts,
             mass,
         }
     }
 
-    /// Forgets the factors: what a step does must not depend on what was tried before it.
-    pub fn forget_factors(&mut self) {
+    /// Starts a step: forgets the factors, because what it does must not depend on what was tried before it, and takes
+    /// over the damage of the bonds.
+    pub fn begin(&mut self, model: &Model, bonds: &[BondState]) {
         self.tau = 0.0;
+        self.bonds.hold(model, bonds, &mut self.joints, &mut self.rubs);
+    }
+
+    /// Visits the tangent stiffness of every bond [N/m] with the joint's index; closed head joints are left out.
+    pub fn bond_tangents(&self, closed: &[bool], add: impl FnMut(usize, f64)) {
+        self.bonds.tangents(closed, add);
     }
 
     /// Solves (T1) for τ = `tau` [s] and base acceleration `ground` [m/s²]; `accuracy` [m/s] is the error of V that
@@ -189,15 +233,17 @@ impl Stage {
             self.tau = tau;
             self.assemble_elastic(tangents);
         }
-        self.start(tangents);
+        self.start(model, tangents);
         self.load_elastic(ground);
-        for _ in 0..MOST_ITERATIONS {
+        let held = self.contacts.len() > 0 || !self.rubs.sticking.is_empty();
+        let most = if held { MOST_WITH_HELD } else { MOST_ITERATIONS };
+        for iteration in 0..most {
             self.iterations += 1;
             self.assemble(model, tangents)?;
             self.right_side(tangents);
             self.matrix.solve(&mut self.change[..n]);
             let flipped = self.flip(tangents, accuracy);
-            self.mismatch(tangents);
+            self.mismatch(model, tangents);
             self.matrix.solve(&mut self.rhs[..n]);
             // A sum, because a maximum would pass over what is not a number.
             let (mut correction, mut sum) = (0.0f64, 0.0);
@@ -208,7 +254,7 @@ impl Stage {
             if !sum.is_finite() {
                 return Err(Failure::NotFinite);
             }
-            let settled = self.settled(model, tangents, accuracy);
+            let settled = self.settled(model, tangents, accuracy) && self.contacts_settled(tangents, accuracy);
             if !flipped && settled && correction <= accuracy {
                 self.finish(model, tangents);
                 return Ok(());
@@ -218,6 +264,7 @@ impl Stage {
                 self.load_elastic(ground);
             }
             self.move_tangents(model, tangents);
+            self.move_contacts(tangents, accuracy, iteration >= AT_ONCE);
         }
         Err(Failure::TooLong)
     }
@@ -251,11 +298,20 @@ impl Stage {
                 self.lower[slot] -= s;
             }
         }
+        let (tau, diagonal, lower) = (self.tau, &mut self.diagonal[..], &mut self.lower[..]);
+        self.bonds.open(&self.closed, |e, stiffness| {
+            let ([a, b], s) = (j.sides[e], tau * tau * stiffness);
+            diagonal[a as usize] += s;
+            if let Some(slot) = j.slot[e].at() {
+                diagonal[b as usize] += s;
+                lower[slot] -= s;
+            }
+        });
     }
 
     /// Relative displacements and velocities of the prediction.
     #[inline(always)]
-    fn start(&mut self, tangents: &mut Tangents) {
+    fn start(&mut self, model: &Model, tangents: &mut Tangents) {
         // One slope for all: joints side by side then bear equal parts of what each can bear.
         self.hold = HOLD * self.rubs.sticking.iter().fold(0.0f64, |m, &r| m.max(self.impedance(r as usize)));
         for &r in &self.rubs.sticking {
@@ -266,6 +322,9 @@ impl Stage {
             }
         }
         let (z, v, tau) = (&self.z, &self.v, self.tau);
+        if self.bonds.start(model, &self.joints, &mut self.rubs, [z, v], tau) {
+            self.factors_hold = false;
+        }
         for (gap, &e) in self.gap.iter_mut().zip(&self.joints.one_sided) {
             let [a, b] = self.joints.of_model[e as usize].map(|s| s as usize);
             *gap = z[a] - z[b] + tau * (v[a] - v[b]);
@@ -274,6 +333,7 @@ impl Stage {
             let [a, b] = self.joints.of_model[e as usize].map(|s| s as usize);
             *before = v[a] - v[b];
         }
+        self.start_contacts(tangents);
     }
 
     /// −τ (M a_0 + Σ B (c w_p + k (δ_p + τ w_p))).
@@ -293,16 +353,32 @@ impl Stage {
             self.load[a as usize] -= f;
             self.load[b as usize] += f;
         }
+        let load = &mut self.load[..];
+        self.bonds.open(&self.closed, |e, stiffness| {
+            let ([a, b], [i, k]) = (j.sides[e], j.of_model[e].map(|s| s as usize));
+            let f = tau * stiffness * (z[i] - z[k] + tau * (v[i] - v[k]));
+            load[a as usize] -= f;
+            load[b as usize] += f;
+        });
     }
 
     /// J = M + τ Σ B (c + τ k + N μ') Bᵀ, factorised.
     #[inline(always)]
     fn assemble(&mut self, model: &Model, tangents: &Tangents) -> Result<(), Failure> {
-        if self.factors_hold && self.rubs.len() == 0 {
+        if self.factors_hold && self.rubs.len() == 0 && self.contacts.len() == 0 {
             return Ok(());
         }
         self.matrix.diagonal.copy_from_slice(&self.diagonal);
         self.matrix.lower.copy_from_slice(&self.lower);
+        let (j, matrix, square) = (&self.joints, &mut self.matrix, self.tau * self.tau);
+        self.bonds.slopes(|e, slope| {
+            let ([a, b], s) = (j.sides[e], square * slope);
+            matrix.diagonal[a as usize] += s;
+            if let Some(slot) = j.slot[e].at() {
+                matrix.diagonal[b as usize] += s;
+                matrix.lower[slot] -= s;
+            }
+        });
         let rubs = &self.rubs;
         if model.reciprocal {
             let (diagonal, lower) = (&mut self.matrix.diagonal[..], &mut self.matrix.lower[..]);
@@ -316,7 +392,8 @@ impl Stage {
                 }
             }
         } else {
-            self.matrix.upper.copy_from_slice(&self.lower);
+            let matrix = &mut self.matrix;
+            matrix.upper.copy_from_slice(&matrix.lower);
             for (r, &[a, b]) in rubs.sides.iter().enumerate() {
                 let s = rubs.normal[r].map(|normal| self.tau * tangents.slope[r] * normal);
                 self.matrix.diagonal[a as usize] += s[0];
@@ -328,9 +405,10 @@ impl Stage {
                 }
             }
         }
+        self.assemble_contacts(model, tangents);
         self.factorisations += 1;
         self.factors_hold = false;
-        self.matrix.factorise(model.reciprocal).map_err(|_| Failure::TooLong)?;
+        self.matrix.factorise().map_err(|_| Failure::TooLong)?;
         self.factors_hold = true;
         Ok(())
     }
@@ -346,6 +424,13 @@ impl Stage {
             change[a as usize] -= normal[0] * f;
             change[b as usize] += normal[1] * f;
         }
+        let j = &self.joints;
+        self.bonds.forces(|e, force| {
+            let [a, b] = j.sides[e];
+            change[a as usize] -= tau * force;
+            change[b as usize] += tau * force;
+        });
+        self.push_contacts(tangents);
         let n = self.mass.len();
         self.change[n..].fill(0.0);
     }
@@ -370,18 +455,27 @@ impl Stage {
 
     /// The laws at the new velocities, and τ Σ B N (μ − tangent) into `rhs`.
     #[inline(always)]
-    fn mismatch(&mut self, tangents: &Tangents) {
+    fn mismatch(&mut self, model: &Model, tangents: &Tangents) {
+        self.bonds.look(model, &self.joints, &mut self.rubs, &self.change, self.tau);
         let (rubs, change, tau) = (&self.rubs, &self.change[..], self.tau);
         for ((&[a, b], before), w) in rubs.sides.iter().zip(&self.before).zip(&mut self.velocity) {
             *w = before + change[a as usize] - change[b as usize];
         }
         rubs.laws(&self.velocity, &mut self.mu, &mut self.slope);
+        self.bonds.rub_more(&self.mu, &mut self.slope, tau);
+        for ((w, before), &[a, b]) in self.closing.iter_mut().zip(&self.parting).zip(&self.contacts.sides) {
+            *w = before + change[a as usize] - change[b as usize];
+        }
         for &r in &rubs.sticking {
             let r = r as usize;
             if tangents.stuck[r] {
                 // What holds it is not a function of velocity: the tangent is the law.
                 self.mu[r] = tangents.mu[r] + tangents.slope[r] * self.velocity[r];
                 self.slope[r] = tangents.slope[r];
+            } else if self.velocity[r].abs() < AT_REST {
+                // Meant to slip, at rest because others hold both sides: the steep foot of the law is none of its own.
+                let (level, slope) = rubs.breaking_away(r);
+                (self.mu[r], self.slope[r]) = (level.copysign(tangents.velocity[r]), slope);
             }
         }
         self.rhs.fill(0.0);
@@ -392,6 +486,12 @@ impl Stage {
             rhs[a as usize] += normal[0] * missed;
             rhs[b as usize] -= normal[1] * missed;
         }
+        let j = &self.joints;
+        self.bonds.mismatch(|e, force| {
+            let [a, b] = j.sides[e];
+            rhs[a as usize] += tau * force;
+            rhs[b as usize] -= tau * force;
+        });
         let n = self.mass.len();
         self.rhs[n..].fill(0.0);
     }
@@ -412,11 +512,12 @@ impl Stage {
     fn settled(&self, model: &Model, tangents: &Tangents, accuracy: f64) -> bool {
         self.rubs.sticking.iter().all(|&r| {
             let r = r as usize;
-            let w = self.velocity[r];
+            let (w, most) = (self.velocity[r], self.rubs.most(model, r));
             if tangents.stuck[r] {
-                self.mu[r].abs() <= model.rubs[r].law.static_ * (1.0 + EXCESS) && w.abs() <= STILL * accuracy
+                self.mu[r].abs() <= most * (1.0 + EXCESS) && w.abs() <= STILL * accuracy
             } else {
-                w * tangents.velocity[r].signum() >= -STILL * accuracy
+                // A joint whose bond is whole does not rub whichever way it moves.
+                most == 0.0 || w * tangents.velocity[r].signum() >= -STILL * accuracy
             }
         })
     }
@@ -433,7 +534,7 @@ impl Stage {
         }
         let impedance = self.impedance(r);
         let c = if tangents.stuck[r] { target } else { target + impedance * w };
-        tangents.stuck[r] = c.abs() <= law.static_ * (1.0 + EXCESS);
+        tangents.stuck[r] = law.static_ > 0.0 && c.abs() <= law.static_ * (1.0 + EXCESS);
         if tangents.stuck[r] {
             (tangents.velocity[r], tangents.mu[r], tangents.slope[r]) = (0.0, c, self.hold);
             return;
@@ -462,15 +563,16 @@ impl Stage {
             tangents.slope[r] = self.slope[r];
             tangents.velocity[r] = w;
         }
-        if !self.rubs.sticking.is_empty() {
+        self.finish_contacts(tangents);
+        if !self.rubs.sticking.is_empty() || self.contacts.len() > 0 {
             self.rest(model, tangents);
         }
     }
 
     /// Sticking joints come to rest altogether: blocks that hang together have one velocity.
     fn rest(&mut self, model: &Model, tangents: &mut Tangents) {
-        self.groups.find(model, &tangents.stuck);
-        self.groups.average(&model.mass, &mut self.solution);
+        let Tangents { stuck, contact, .. } = tangents;
+        self.groups.rest(model, stuck, contact, &self.touching, &mut self.solution);
         for &r in &self.rubs.sticking {
             if tangents.stuck[r as usize] {
                 tangents.velocity[r as usize] = 0.0;
@@ -478,22 +580,113 @@ impl Stage {
         }
     }
 
+    /// Which rigid joints touch, the slope that holds them, and their velocities in the prediction.
+    fn start_contacts(&mut self, tangents: &Tangents) {
+        self.clamp = 0.0;
+        for (c, &[a, b]) in self.contacts.sides.iter().enumerate() {
+            let free = self.diagonal[a as usize].recip() + self.diagonal.get(b as usize).map_or(0.0, |d| d.recip());
+            self.clamp = self.clamp.max(HOLD / (self.tau * free));
+            let [i, k] = self.contacts.of_model[c].map(|s| s as usize);
+            self.parting[c] = self.v[i] - self.v[k];
+            let touches = tangents.contact[c] || self.z[i] - self.z[k] >= -TOUCHING;
+            self.touching[c] = self.eligible[c] && touches;
+        }
+    }
+
+    /// The slopes of closed rigid joints, added to the matrix.
+    #[inline(always)]
+    fn assemble_contacts(&mut self, model: &Model, tangents: &Tangents) {
+        let s = self.tau * self.clamp;
+        for (c, &[a, b]) in self.contacts.sides.iter().enumerate().filter(|(c, _)| tangents.contact[*c]) {
+            self.matrix.diagonal[a as usize] += s;
+            if let Some(slot) = self.contacts.slot[c].at() {
+                self.matrix.diagonal[b as usize] += s;
+                self.matrix.lower[slot] -= s;
+                if !model.reciprocal {
+                    self.matrix.upper[slot] -= s;
+                }
+            }
+        }
+    }
+
+    /// Force λ + σ w_p of closed rigid joints, on the right side.
+    #[inline(always)]
+    fn push_contacts(&mut self, tangents: &Tangents) {
+        for (c, &[a, b]) in self.contacts.sides.iter().enumerate().filter(|(c, _)| tangents.contact[*c]) {
+            let f = self.tau * (tangents.reaction[c] + self.clamp * self.parting[c]);
+            self.change[a as usize] -= f;
+            self.change[b as usize] += f;
+        }
+    }
+
+    /// What rigid joint `c` has to do, if it is not as it is: open when it would pull so that it is felt, close when
+    /// its sides approach each other.
+    #[inline(always)]
+    fn turns(&self, c: usize, tangents: &Tangents, accuracy: f64) -> bool {
+        if tangents.contact[c] {
+            let force = tangents.reaction[c] + self.clamp * self.closing[c];
+            self.tau * force < -STILL * accuracy * self.mass[self.contacts.sides[c][0] as usize]
+        } else {
+            self.touching[c] && self.closing[c] > 0.0
+        }
+    }
+
+    #[inline(always)]
+    fn contacts_settled(&self, tangents: &Tangents, accuracy: f64) -> bool {
+        (0..self.contacts.len()).all(|c| {
+            !self.turns(c, tangents, accuracy) && (!tangents.contact[c] || self.closing[c].abs() <= STILL * accuracy)
+        })
+    }
+
+    /// Keeps the forces found, opens and closes rigid joints: all that have to, or the first of them alone.
+    #[inline(always)]
+    fn move_contacts(&mut self, tangents: &mut Tangents, accuracy: f64, one: bool) {
+        let mut moved = false;
+        for c in 0..self.contacts.len() {
+            if self.turns(c, tangents, accuracy) && !(one && moved) {
+                moved = true;
+                tangents.contact[c] = !tangents.contact[c];
+                tangents.reaction[c] = 0.0;
+            } else if tangents.contact[c] {
+                tangents.reaction[c] += self.clamp * self.closing[c];
+            }
+        }
+    }
+
+    /// Forces of the closed rigid joints at the solution.
+    #[inline(always)]
+    fn finish_contacts(&mut self, tangents: &mut Tangents) {
+        for (c, &[a, b]) in self.contacts.sides.iter().enumerate() {
+            if tangents.contact[c] {
+                let w = self.parting[c] + self.change[a as usize] - self.change[b as usize];
+                tangents.reaction[c] = (tangents.reaction[c] + self.clamp * w).max(0.0);
+                self.contact_residual = self.contact_residual.max(w.abs());
+            } else {
+                tangents.reaction[c] = 0.0;
+            }
+        }
+    }
+
     /// Gives blocks that stick together one acceleration [m/s²], that of the support if they stick to one.
     pub fn join(&mut self, model: &Model, tangents: &Tangents, acceleration: &mut [f64]) {
-        if !self.rubs.sticking.is_empty() {
-            self.groups.find(model, &tangents.stuck);
+        if !self.rubs.sticking.is_empty() || self.contacts.len() > 0 {
+            self.groups.find(model, &tangents.stuck, &tangents.contact);
             self.groups.average(&model.mass, acceleration);
         }
     }
 
     #[inline(always)]
     fn move_tangents(&mut self, model: &Model, tangents: &mut Tangents) {
+        if self.bonds.move_tangents() {
+            self.factors_hold = false;
+        }
+        let mut room = NO_FRICTION;
         for r in 0..self.rubs.len() {
             let w = self.velocity[r];
             let old = tangents.slope[r];
             let target = tangents.mu[r] + old * (w - tangents.velocity[r]);
             let (mut at, mut mu, mut slope) = (w, self.mu[r], self.slope[r]);
-            let law = &model.rubs[r].law;
+            let law = self.rubs.law(model, r, &mut room);
             if law.sticks() {
                 self.place(law, r, tangents);
                 continue;
@@ -508,6 +701,15 @@ impl Stage {
         }
     }
 }
+
+/// Where the blocks lie, for the order of the elimination.
+pub fn centres(model: &Model) -> Vec<[f64; 2]> {
+    let centre = |b: &Block| [0.5 * (b.x[0] + b.x[1]), 0.5 * (b.y[0] + b.y[1])];
+    model.wall.blocks.iter().map(centre).collect()
+}
+
+/// Where a law is put together.
+const NO_FRICTION: Stribeck = Stribeck { static_: 0.0, dynamic: 0.0, slip_velocity: 1.0, beta: 1.0, alpha: 0.0 };
 
 /// Velocity at which μ(v) + z v = c, and the law there with its slope: safeguarded Newton inside the bracket [0, c/z].
 /// Two digits are enough, it is only where the next tangent is drawn.
@@ -530,7 +732,7 @@ fn meet(law: &Stribeck, z: f64, c: f64) -> (f64, f64, f64) {
         v = 0.5 * high;
     }
     let mut found = law.at(v);
-    for _ in 0..20 {
+    for _ in 0..MOST_SEARCHED {
         let (mu, slope) = found;
         let f = mu + z * v - c;
         if f.abs() <= MEETING * law.static_ {

@@ -2,40 +2,61 @@
 //!
 //!   (P1)  (I − τ f_y) e = h Σ_i (b_i − b̂_i) k_i
 //!
-//! (Hosea & Shampine 1996): without the filter the stiff parts, which the scheme damps, would govern the step.
+//! (Hosea & Shampine 1996): without the filter the stiff parts, which the scheme damps, would govern the step. What
+//! the step adds to the residual of the energy account is held too,
+//!
+//!   (P2)  |Δ(E_kin + E_el + E_diss − W_in)| ≤ 5·10⁻⁵ · tolerance · max |W_in|
 
 use crate::case::Scheme;
-use crate::dynamics::power;
+use crate::dynamics::{Moving, power, stored_energy};
 use crate::excitation::Drive;
+use crate::integrate::cracks;
+use crate::integrate::dense::{hermite, weights};
+use crate::integrate::events::TOUCHING;
+use crate::integrate::impact::Impacts;
 use crate::integrate::stage::{Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
 use crate::model::Model;
-use crate::state::{Power, State, Tangents};
+use crate::record::Energies;
+use crate::state::{BondState, Instant, Power, State, Tangents};
 
 /// Scratch of a step; nothing here outlives it but the tangents, which belong to the state.
 #[derive(Debug, Clone)]
 pub struct Step {
+    scheme: Scheme,
     tableau: Tableau,
     pub stage: Stage,
+    pub impacts: Impacts,
     tangents: Tangents,
-    stage_v: Vec<Vec<f64>>,
-    stage_a: Vec<Vec<f64>>,
-    stage_power: [Power; STAGES],
+    pub stage_v: Vec<Vec<f64>>,
+    pub stage_a: Vec<Vec<f64>>,
+    pub stage_power: [Power; STAGES],
     stage_joint_power: Vec<Vec<f64>>,
     error_v: Vec<f64>,
     error_z: Vec<f64>,
     top_acceleration: f64,
+    /// Displacement, energy account and friction at the start of the accepted step.
+    pub start_z: Vec<f64>,
+    pub start_energies: Energies,
+    /// The energy account at the end of the step.
+    account: Energies,
+    start_laws: Tangents,
+    start_bonds: Vec<BondState>,
     /// Displacement of the end of the step, with base and top.
     pub z: Vec<f64>,
 }
 
-/// Absolute tolerances of displacement [m] and velocity [m/s].
+/// Absolute tolerances of displacement [m], velocity [m/s] and the step's part in the energy residual [J].
 #[derive(Debug, Clone, Copy)]
 pub struct Tolerance {
     pub z: f64,
     pub v: f64,
+    pub energy: f64,
 }
 
+/// A step that brings more than this times the work so far is the start of the motion: there is nothing yet to measure
+/// its energy by.
+pub const BEGINNING: f64 = 2.0;
 /// Allowed error of the stage iteration as a fraction of the tolerance of the step.
 pub const STAGE_ACCURACY: f64 = 0.02;
 /// Step in which nothing moves, over the shortest time scale of the model.
@@ -46,8 +67,10 @@ impl Step {
         let n = model.unknowns();
         let rows = |len: usize| vec![vec![0.0; len]; STAGES];
         Step {
+            scheme,
             tableau: tableau(scheme),
             stage: Stage::new(model),
+            impacts: Impacts::new(model),
             tangents: Tangents::at_rest(model),
             stage_v: rows(n + 2),
             stage_a: rows(n),
@@ -56,6 +79,11 @@ impl Step {
             error_v: vec![0.0; n],
             error_z: vec![0.0; n],
             top_acceleration: 0.0,
+            start_z: vec![0.0; n + 2],
+            start_energies: Energies::default(),
+            account: Energies::default(),
+            start_laws: Tangents::at_rest(model),
+            start_bonds: vec![BondState::INTACT; model.bonds.len()],
             z: vec![0.0; n + 2],
         }
     }
@@ -82,7 +110,8 @@ impl Step {
         self.stage_power[0] = state.power;
         self.stage_joint_power[0].copy_from_slice(&state.joint_power);
         self.tangents.copy_from(&state.tangents);
-        self.stage.forget_factors();
+        self.stage.begin(model, &state.bonds);
+        self.find_touching(model, state);
         for i in 1..self.tableau.stages {
             let t = state.t + self.tableau.c[i] * h;
             self.predict(state, i, h, n);
@@ -100,9 +129,27 @@ impl Step {
             for k in 0..n + 2 {
                 self.z[k] = self.stage.z[k] + tau * v[k];
             }
-            self.stage_power[i] = power(model, &self.z, v, &self.tangents.mu, ground, &mut self.stage_joint_power[i]);
+            let at = Moving { z: &self.z, v, laws: &self.tangents, bonds: &state.bonds };
+            self.stage_power[i] = power(model, at, ground, &mut self.stage_joint_power[i]);
         }
-        Ok(self.error(model, h, tau, tolerance))
+        let error = self.error(model, h, tau, tolerance);
+        let unbalanced = self.account(model, state, h);
+        let known = state.totals.peak_input + state.energies.initial;
+        let judged = self.account.input().abs() <= BEGINNING * known && tolerance.energy > 0.0;
+        Ok(if judged { error.max(unbalanced.abs() / tolerance.energy) } else { error })
+    }
+
+    /// Which rigid joints touch as the step begins: these alone may close in it otherwise than by an impact.
+    fn find_touching(&mut self, model: &Model, state: &State) {
+        for (touches, contact) in self.stage.eligible.iter_mut().zip(&model.contacts) {
+            let [a, b] = model.sides[contact.joint as usize].map(|s| s as usize);
+            *touches = state.z[a] - state.z[b] >= -TOUCHING;
+        }
+    }
+
+    /// Velocity at the end of the step that was attempted, with base and top.
+    pub fn v(&self) -> &[f64] {
+        &self.stage_v[self.tableau.stages - 1]
     }
 
     /// Finds which joints with set-valued laws that are at rest let go, and how much friction holds the others, by an
@@ -111,11 +158,12 @@ impl Step {
         let n = model.unknowns();
         let tau = INSTANT / model.stiffest.sqrt();
         let largest = state.a[..n].iter().fold(0.0f64, |m, a| m.max(a.abs()));
+        self.find_touching(model, state);
         let (top, stage) = (drive.top(state.t), &mut self.stage);
         stage.z.copy_from_slice(&state.z);
         stage.v.copy_from_slice(&state.v);
         stage.solution[n + 1] = top.v + tau * top.a;
-        stage.forget_factors();
+        stage.begin(model, &state.bonds);
         self.tangents.copy_from(&state.tangents);
         let found = stage.solve(model, &mut self.tangents, tau, drive.base_acceleration(state.t), 1e-6 * tau * largest);
         // Not work of a step: a restored run, which is not settled anew, must count the same.
@@ -125,6 +173,8 @@ impl Step {
             state.tangents.stuck.copy_from_slice(&self.tangents.stuck);
             state.tangents.velocity.copy_from_slice(&self.tangents.velocity);
             state.tangents.slope.copy_from_slice(&self.tangents.slope);
+            state.tangents.contact.copy_from_slice(&self.tangents.contact);
+            state.tangents.reaction.copy_from_slice(&self.tangents.reaction);
         }
     }
 
@@ -170,6 +220,18 @@ impl Step {
                 }
             }
         }
+        let (error_v, error_z, closed) = (&mut self.error_v, &self.error_z, &self.tangents.closed);
+        self.stage.bond_tangents(closed, |e, stiffness| {
+            let [a, b] = model.sides[e].map(|s| s as usize);
+            let beyond = stiffness - if closed[e] { model.elastic[e].stiffness } else { 0.0 };
+            if beyond != 0.0 {
+                let f = tau * beyond * (error_z[a] - if b < n { error_z[b] } else { 0.0 });
+                error_v[a] -= f;
+                if b < n {
+                    error_v[b] += f;
+                }
+            }
+        });
         self.stage.solve_linear(&mut self.error_v);
         let (mut worst, mut sum) = (0.0f64, 0.0);
         for (ev, ez) in self.error_v.iter().zip(&self.error_z) {
@@ -179,6 +241,28 @@ impl Step {
         }
         // A maximum passes over what is not a number, a sum does not.
         if sum.is_finite() { worst } else { f64::INFINITY }
+    }
+
+    /// The energy account at the end of the step that was attempted; returns what the step adds to its residual [J].
+    fn account(&mut self, model: &Model, state: &State, h: f64) -> f64 {
+        let last = self.tableau.stages - 1;
+        self.account = state.energies;
+        for i in 0..=last {
+            self.stage_power[i].accrue(h * self.tableau.b[i], &mut self.account);
+        }
+        self.account.bond += cracks::spending(model, &state.bonds, &self.z);
+        stored_energy(model, &state.bonds, &self.z, &self.stage_v[last], &mut self.account);
+        self.account.residual() - state.energies.residual()
+    }
+
+    /// Keeps what [`Step::inside`] needs of `state`, before anything of the accepted step happens to it.
+    pub fn begin(&mut self, model: &Model, state: &State) {
+        self.start_z.copy_from_slice(&state.z);
+        self.start_energies = state.energies;
+        if model.set_valued() {
+            self.start_laws.copy_from(&state.tangents);
+        }
+        self.start_bonds.copy_from_slice(&state.bonds);
     }
 
     /// Moves `state` to the end of the step that was attempted.
@@ -192,8 +276,9 @@ impl Step {
         state.a[n + 1] = self.top_acceleration;
         self.stage.join(model, &self.tangents, &mut state.a);
         state.power = self.stage_power[last];
+        // What cracking took is booked where bonds crack.
+        state.energies = Energies { bond: state.energies.bond, ..self.account };
         for i in 0..=last {
-            self.stage_power[i].accrue(h * self.tableau.b[i], &mut state.energies);
             let weight = h * self.tableau.b[i];
             if weight != 0.0 {
                 for (sum, p) in state.envelopes.joint_dissipation.iter_mut().zip(&self.stage_joint_power[i]) {
@@ -203,5 +288,75 @@ impl Step {
         }
         state.joint_power.copy_from_slice(&self.stage_joint_power[last]);
         state.tangents.copy_from(&self.tangents);
+    }
+
+    /// Displacements and velocities at the start of the accepted step.
+    pub fn start(&self) -> [&[f64]; 2] {
+        [&self.start_z, &self.stage_v[0]]
+    }
+
+    /// Motion, friction and energies at `t`, inside the accepted step of `h` that `end` is the end of.
+    pub fn inside(&self, model: &Model, drive: &Drive, end: &State, h: f64, t: f64, at: &mut Instant) {
+        let (n, last) = (model.unknowns(), self.tableau.stages - 1);
+        let x = 1.0 - (end.t - t) / h;
+        let w = weights(self.scheme, &self.tableau.c, last, x, h);
+        at.t = t;
+        for k in 0..n {
+            at.z[k] = self.start_z[k] + w.of_end * (end.z[k] - self.start_z[k]);
+        }
+        at.v.fill(0.0);
+        at.a.fill(0.0);
+        for i in 0..=last {
+            let (v, a) = (&self.stage_v[i], &self.stage_a[i]);
+            for k in 0..n {
+                at.z[k] += w.of_z[i] * v[k];
+                at.v[k] += w.of_v[i] * v[k] + w.of_a[i] * a[k];
+                at.a[k] += w.rate_v[i] * v[k] + w.rate_a[i] * a[k];
+            }
+        }
+        let top = drive.top(t);
+        (at.z[n + 1], at.v[n + 1], at.a[n + 1]) = (top.u, top.v, top.a);
+        self.laws_inside(model, end, x, at);
+        self.account_inside(end, h, x, at);
+        at.energies.bond += cracks::spending(model, &self.start_bonds, &at.z);
+        stored_energy(model, &self.start_bonds, &at.z, &at.v, &mut at.energies);
+    }
+
+    fn laws_inside(&self, model: &Model, end: &State, x: f64, at: &mut Instant) {
+        let mix = |from: f64, to: f64| from + x * (to - from);
+        for (r, rub) in model.rubs.iter().enumerate() {
+            let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
+            let w = at.v[a] - at.v[b];
+            at.mu[r] = if rub.law.sticks() && w == 0.0 {
+                mix(self.start_laws.mu[r], end.tangents.mu[r])
+            } else {
+                rub.law.value(w)
+            };
+        }
+        for (c, borne) in at.reaction.iter_mut().enumerate() {
+            *borne = mix(self.start_laws.reaction[c], end.tangents.reaction[c]);
+        }
+        at.bonds.copy_from_slice(&self.start_bonds);
+        for (bond, held) in model.bonds.iter().zip(&mut at.bonds) {
+            let [a, b] = model.sides[bond.joint as usize].map(|s| s as usize);
+            held.damage = bond.law.damage_at(held.damage, at.z[a] - at.z[b]);
+        }
+    }
+
+    /// The works so far: cubic in time, with the rates at both ends.
+    fn account_inside(&self, end: &State, h: f64, x: f64, at: &mut Instant) {
+        let [to_end, from, to] = hermite(x);
+        let (e_0, e_1, p_0, p_1) = (&self.start_energies, &end.energies, &self.stage_power[0], &end.power);
+        let cubic = |e: fn(&Energies) -> f64, p: fn(&Power) -> f64| {
+            e(e_0) + to_end * (e(e_1) - e(e_0)) + h * (from * p(p_0) + to * p(p_1))
+        };
+        at.energies = Energies {
+            input_base: cubic(|e| e.input_base, |p| p.base),
+            input_top: cubic(|e| e.input_top, |p| p.top),
+            damping: cubic(|e| e.damping, |p| p.damping),
+            friction: cubic(|e| e.friction, |p| p.friction),
+            nonreciprocal: cubic(|e| e.nonreciprocal, |p| p.nonreciprocal),
+            ..*e_0
+        };
     }
 }

@@ -1,7 +1,7 @@
-//! Energies and envelopes of accepted steps, in the lanes that wait for it.
+//! Energies and envelopes of the lanes.
 //!
-//! Nothing that a step does depends on them, so they are made up for several lanes at once, just before the stages of
-//! a step that waits are overwritten. Operations and their order are those of [`crate::dynamics::power`] and
+//! Nothing that a step does depends on the envelopes and on what each joint dissipates, so they are made up for several
+//! lanes at once, just before the stages of a step that waits are overwritten. Operations and their order are those of [`crate::dynamics::power`] and
 //! [`crate::dynamics::observe`].
 
 use pulp::{Simd, WithSimd};
@@ -34,9 +34,9 @@ const SLIPPED: usize = 6;
 const DISSIPATION: usize = 7;
 pub const POWER: usize = 8;
 
-/// What the account of a step comes to, lane by lane; the powers by stage.
+/// What the energy of a step comes to, lane by lane; the powers by stage.
 #[derive(Debug, Clone, Default)]
-pub struct Totals {
+pub struct Powers {
     /// −Σ m v, to be multiplied with the base's acceleration.
     pub momentum: [[f64; WIDTH]; STAGES],
     pub damping: [[f64; WIDTH]; STAGES],
@@ -44,6 +44,11 @@ pub struct Totals {
     pub top: [[f64; WIDTH]; STAGES],
     pub kinetic: [f64; WIDTH],
     pub elastic: [f64; WIDTH],
+}
+
+/// Peaks of a step, lane by lane.
+#[derive(Debug, Clone, Default)]
+pub struct Peaks {
     pub displacement: [f64; WIDTH],
     pub slip_velocity: [f64; WIDTH],
     pub closing: [f64; WIDTH],
@@ -101,11 +106,85 @@ impl Account {
     }
 }
 
+/// Powers at the stages of the lanes that end a step, and the energy stored at its end.
+pub struct Balance<'a> {
+    pub work: &'a Work,
+    pub powers: &'a mut Powers,
+}
+
+impl WithSimd for Balance<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        for stage in 1..self.work.tableau.stages {
+            self.at_stage(simd, stage);
+        }
+        self.stored(simd);
+    }
+}
+
+impl Balance<'_> {
+    #[inline(always)]
+    fn at_stage<S: Simd>(&mut self, simd: S, i: usize) {
+        let (w, t) = (self.work, &self.work.topology);
+        let zero = V::splat(simd, 0.0);
+        let (mass, searches, rubs) = (w.mass.read(simd), w.searches.read(simd), w.rubs.read(simd));
+        let (joints, stiffness) = (w.joints.read(simd), w.stiffness.read(simd));
+        let (stage, mu) = (w.stages[i].read(simd), w.stage_mu[i].read(simd));
+        let mut momentum = zero;
+        for &p in &t.place[..t.unknowns as usize] {
+            momentum = momentum - mass.at(p) * stage.of(p, VELOCITY);
+        }
+        let (mut damped, mut rubbed, mut pull) = (zero, zero, zero);
+        for ((joint, stiffness), at) in joints.iter().zip(stiffness.iter()).zip(&t.joints) {
+            let [a, b] = at.sides;
+            let difference = stage.of(a, VELOCITY) - stage.of(b, VELOCITY);
+            damped = damped + joint.row(DAMPING) * difference * difference;
+            if at.to_top {
+                let force = spring(simd, at.one_sided, stiffness, stage.of(a, Z) - stage.of(b, Z));
+                pull = pull + (joint.row(DAMPING) * difference + force);
+            }
+        }
+        for ((search, mu), at) in searches.iter().zip(mu.iter()).zip(&t.rubs) {
+            let [a, b] = at.sides;
+            let difference = stage.of(a, VELOCITY) - stage.of(b, VELOCITY);
+            rubbed = rubbed + 0.5 * search.row(NORMALS) * mu * difference;
+        }
+        for &r in &t.rubs_of_top {
+            pull = pull + rubs.of(r, NORMAL) * mu.at(r);
+        }
+        self.powers.momentum[i] = momentum.numbers();
+        self.powers.damping[i] = damped.numbers();
+        self.powers.friction[i] = rubbed.numbers();
+        self.powers.top[i] = (pull.negated() * stage.of(t.unknowns + 1, VELOCITY)).numbers();
+    }
+
+    #[inline(always)]
+    fn stored<S: Simd>(&mut self, simd: S) {
+        let (w, t) = (self.work, &self.work.topology);
+        let zero = V::splat(simd, 0.0);
+        let (mass, stiffness) = (w.mass.read(simd), w.stiffness.read(simd));
+        let end = w.stages[w.tableau.stages - 1].read(simd);
+        let (mut kinetic, mut elastic) = (zero, zero);
+        for &p in &t.place[..t.unknowns as usize] {
+            let v = end.of(p, VELOCITY);
+            kinetic = kinetic + 0.5 * mass.at(p) * v * v;
+        }
+        for (stiffness, at) in stiffness.iter().zip(&t.joints) {
+            let d = end.of(at.sides[0], Z) - end.of(at.sides[1], Z);
+            elastic = elastic + 0.5 * spring(simd, at.one_sided, stiffness, d) * d;
+        }
+        self.powers.kinetic = kinetic.numbers();
+        self.powers.elastic = elastic.numbers();
+    }
+}
+
 /// The account of the lanes with [`PENDING`].
 pub struct Settle<'a> {
     pub work: &'a Work,
     pub account: &'a mut Account,
-    pub totals: &'a mut Totals,
+    pub peaks: &'a mut Peaks,
 }
 
 impl WithSimd for Settle<'_> {
@@ -120,115 +199,94 @@ impl WithSimd for Settle<'_> {
 }
 
 impl Settle<'_> {
-    /// Powers at the stages, and each joint's dissipation over the step.
+    /// Each joint's dissipation over the step.
     #[inline(always)]
     fn dissipate<S: Simd>(&mut self, simd: S) {
         let (w, t) = (self.work, &self.work.topology);
-        let zero = V::splat(simd, 0.0);
-        let (last, n) = (w.tableau.stages - 1, t.unknowns);
+        let last = w.tableau.stages - 1;
         let waits = Mask::of(w.lane.read(simd).at(PENDING as u32));
         let step = V::of(simd, self.account.step);
-        let (mass, searches, rubs) = (w.mass.read(simd), w.searches.read(simd), w.rubs.read(simd));
-        let (joints, stiffness) = (w.joints.read(simd), w.stiffness.read(simd));
+        let (searches, joints) = (w.searches.read(simd), w.joints.read(simd));
         let mut account = self.account.joints.write(simd);
         for i in 1..=last {
             let (stage, mu) = (w.stages[i].read(simd), w.stage_mu[i].read(simd));
             let weight = step * w.tableau.b[i];
-            let mut momentum = zero;
-            for &p in &t.place[..n as usize] {
-                momentum = momentum - mass.at(p) * stage.of(p, VELOCITY);
-            }
-            let (mut damped, mut rubbed, mut pull) = (zero, zero, zero);
-            let of_joint = account.iter_mut().zip(joints.iter()).zip(stiffness.iter());
-            for (((mut sums, joint), stiffness), at) in of_joint.zip(&t.joints) {
+            for ((mut sums, joint), at) in account.iter_mut().zip(joints.iter()).zip(&t.joints) {
                 if i == 1 {
                     let lost = sums.row(DISSIPATION) + (step * w.tableau.b[0]) * sums.row(POWER);
                     sums.set_where(waits, DISSIPATION, lost);
                 }
-                let ([za, va, _], [zb, vb, _]) = (stage.at(at.sides[0]), stage.at(at.sides[1]));
-                let difference = va - vb;
+                let difference = stage.of(at.sides[0], VELOCITY) - stage.of(at.sides[1], VELOCITY);
                 let mut lost = joint.row(DAMPING) * difference * difference;
-                damped = damped + lost;
-                if at.to_top {
-                    let force = spring(simd, at.one_sided, stiffness, za - zb);
-                    pull = pull + (joint.row(DAMPING) * difference + force);
-                }
                 if at.rub != NONE {
-                    let by_friction = 0.5 * searches.of(at.rub, NORMALS) * mu.at(at.rub) * difference;
-                    rubbed = rubbed + by_friction;
-                    lost = lost + by_friction;
+                    lost = lost + 0.5 * searches.of(at.rub, NORMALS) * mu.at(at.rub) * difference;
                 }
                 sums.set_where(waits, DISSIPATION, sums.row(DISSIPATION) + weight * lost);
                 if i == last {
                     sums.set_where(waits, POWER, lost);
                 }
             }
-            for &r in &t.rubs_of_top {
-                pull = pull + rubs.of(r, NORMAL) * mu.at(r);
-            }
-            self.totals.momentum[i] = momentum.numbers();
-            self.totals.damping[i] = damped.numbers();
-            self.totals.friction[i] = rubbed.numbers();
-            self.totals.top[i] = (pull.negated() * stage.of(n + 1, VELOCITY)).numbers();
         }
     }
 
-    /// Peaks of the unknowns and the kinetic energy.
+    /// Peaks of the unknowns.
     #[inline(always)]
     fn observe_unknowns<S: Simd>(&mut self, simd: S) {
         let (w, t) = (self.work, &self.work.topology);
         let waits = Mask::of(w.lane.read(simd).at(PENDING as u32));
-        let (state, mass) = (w.state.read(simd), w.mass.read(simd));
+        let half = 0.5 * V::of(simd, self.account.step);
+        let (state, start) = (w.state.read(simd), w.start.read(simd));
         let mut peaks = self.account.unknowns.write(simd);
-        let (mut kinetic, mut most) = (V::splat(simd, 0.0), V::splat(simd, 0.0));
+        let mut most = V::splat(simd, 0.0);
         for (k, &p) in (0..t.unknowns).zip(&t.place) {
-            let [z, v, a] = state.at(p).map(
-                #[inline(always)]
-                |x| x.abs(),
-            );
-            kinetic = kinetic + 0.5 * mass.at(p) * v * v;
+            let ([z, v, a], [z_0, v_0, _]) = (state.at(p), start.at(p));
+            let farthest = z.abs().max(extreme(z_0, [v_0, v], half).abs());
             let mut peaks = peaks.group(p);
-            peaks.raise_where(waits, Z, z);
-            peaks.raise_where(waits, VELOCITY, v);
-            peaks.raise_where(waits, ACCELERATION, a);
+            peaks.raise_where(waits, Z, farthest);
+            peaks.raise_where(waits, VELOCITY, v.abs());
+            peaks.raise_where(waits, ACCELERATION, a.abs());
             if k < t.blocks {
-                most = most.max(z);
+                most = most.max(farthest);
             }
         }
-        self.totals.kinetic = kinetic.numbers();
-        self.totals.displacement = most.numbers();
+        self.peaks.displacement = most.numbers();
     }
 
-    /// Peaks of the joints, the elastic energy and the force on the beam.
+    /// Peaks of the joints and the force on the beam.
     #[inline(always)]
     fn observe_joints<S: Simd>(&mut self, simd: S) {
         let (w, t) = (self.work, &self.work.topology);
         let zero = V::splat(simd, 0.0);
         let waits = Mask::of(w.lane.read(simd).at(PENDING as u32));
         let step = V::of(simd, self.account.step);
-        let (state, joints, stiffness) = (w.state.read(simd), w.joints.read(simd), w.stiffness.read(simd));
+        let half = 0.5 * step;
+        let (state, start) = (w.state.read(simd), w.start.read(simd));
+        let (joints, stiffness) = (w.joints.read(simd), w.stiffness.read(simd));
         let (mu, rubs) = (w.stage_mu[w.tableau.stages - 1].read(simd), w.rubs.read(simd));
         let mut account = self.account.joints.write(simd);
-        let (mut elastic, mut pull, mut fastest, mut deepest) = (zero, zero, zero, zero);
+        let (mut pull, mut fastest, mut deepest) = (zero, zero, zero);
         let of_joint = account.iter_mut().zip(joints.iter()).zip(stiffness.iter());
         for (((mut peaks, joint), stiffness), at) in of_joint.zip(&t.joints) {
-            let ([za, va, aa], [zb, vb, ab]) = (state.at(at.sides[0]), state.at(at.sides[1]));
+            let [i, k] = at.sides;
+            let ([za, va, aa], [zb, vb, ab]) = (state.at(i), state.at(k));
+            let ([z0a, v0a, _], [z0b, v0b, _]) = (start.at(i), start.at(k));
             let (d, dv) = (za - zb, va - vb);
-            let force = spring(simd, at.one_sided, stiffness, d);
-            elastic = elastic + 0.5 * force * d;
-            peaks.raise_where(waits, DISPLACEMENT, d.abs());
+            let turn = extreme(z0a - z0b, [v0a - v0b, dv], half);
+            let (least, most) = (d.min(turn), d.max(turn));
+            let force = |d| spring(simd, at.one_sided, stiffness, d);
+            peaks.raise_where(waits, DISPLACEMENT, most.max(least.negated()));
             peaks.raise_where(waits, SPEED, dv.abs());
             peaks.raise_where(waits, RATE, (aa - ab).abs());
-            peaks.raise_where(waits, FORCE, force.abs());
+            peaks.raise_where(waits, FORCE, force(most).max(force(least).negated()));
             if at.upright {
-                peaks.raise_where(waits, OPENING, d.negated());
-                peaks.raise_where(waits, CLOSING, d);
-                deepest = deepest.max(d);
+                peaks.raise_where(waits, OPENING, least.negated());
+                peaks.raise_where(waits, CLOSING, most);
+                deepest = deepest.max(most);
             } else {
                 fastest = fastest.max(dv.abs());
             }
             if at.to_beam {
-                pull = pull + (force + joint.row(DAMPING) * dv);
+                pull = pull + (force(d) + joint.row(DAMPING) * dv);
             }
             if at.rub != NONE {
                 let slips = dv.abs().above(rubs.of(at.rub, SLIP)).and(waits);
@@ -238,11 +296,19 @@ impl Settle<'_> {
         for &r in &t.rubs_of_beam {
             pull = pull + rubs.of(r, NORMAL) * mu.at(r);
         }
-        self.totals.elastic = elastic.numbers();
-        self.totals.slip_velocity = fastest.numbers();
-        self.totals.closing = deepest.numbers();
-        self.totals.pull = pull.numbers();
+        self.peaks.slip_velocity = fastest.numbers();
+        self.peaks.closing = deepest.numbers();
+        self.peaks.pull = pull.numbers();
     }
+}
+
+/// [`crate::integrate::dense::extreme`] in every lane; `half` the step.
+#[inline(always)]
+fn extreme<S: Simd>(z: V<S>, v: [V<S>; 2], half: V<S>) -> V<S> {
+    let zero = V::splat(half.simd(), 0.0);
+    let turns = (v[0] * v[1]).below(zero);
+    let at = turns.pick(v[0] / (v[0] - v[1]), zero);
+    z + half * at * v[0]
 }
 
 /// Elastic force of a joint at relative displacement `d`.

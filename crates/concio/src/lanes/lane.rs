@@ -1,17 +1,17 @@
 //! One run in its lane: what [`crate::simulate::Simulation`] decides between the steps, with the same operations.
 
 use crate::ground::signal::Kinematics;
-use crate::integrate::stage::Failure;
-use crate::integrate::step::{STAGE_ACCURACY, Tolerance};
+use crate::integrate::stage::{Failure, MOST_ITERATIONS};
+use crate::integrate::step::{BEGINNING, STAGE_ACCURACY, Tolerance};
 use crate::integrate::tableau::STAGES;
-use crate::lanes::account::{Account, POWER, Totals};
+use crate::lanes::account::{Account, POWER, Peaks, Powers};
 use crate::lanes::work::{
     ACCELERATION, ACCURACY, ALPHA, AT, BAD_PIVOT, CORRECTION, DAMPING, DYNAMIC, ENGAGED, ERROR_SUM, ERROR_V, ERROR_Z,
-    EXCESS, FLIPPED, GROUND, MOST_ITERATIONS, MU, NORMAL, NORMALS, SAVED, SCALE_V, SCALE_Z, SLIP, SLOPE, SLOPE_AT_REST,
-    STAGE, STATIC, STEEP, STEP, STIFFNESS, SUM, TAU, VELOCITY, WEIGHTS, WIDTH_AT_REST, Work, Z,
+    EXCESS, FLIPPED, GROUND, MU, NORMAL, NORMALS, SAVED, SCALE_V, SCALE_Z, SLIP, SLOPE, SLOPE_AT_REST, STAGE, STATIC,
+    STEEP, STEP, STIFFNESS, SUM, TAU, VELOCITY, WEIGHTS, WIDTH_AT_REST, Work, Z,
 };
 use crate::outcome::Outcome;
-use crate::record::{Recording, StopReason};
+use crate::record::{Energies, Recording, StopReason};
 use crate::simulate::{Plan, Simulation, Verdict};
 use crate::state::Power;
 
@@ -38,7 +38,7 @@ pub struct Lane<'m> {
     tolerance: Tolerance,
     /// Stage of the step under way, from 1, and its iterations so far.
     pub stage: usize,
-    iterations: u32,
+    iterations: usize,
     /// Work since the last accepted step.
     all_iterations: u64,
     factorisations: u64,
@@ -48,10 +48,13 @@ pub struct Lane<'m> {
     /// Why the run has stopped.
     pub stopped: Option<StopReason>,
     top: Kinematics,
-    /// Base acceleration at the stages of the step under way, and of the step that waits for its account.
+    /// Base acceleration at the stages of the step under way.
     ground: [f64; STAGES],
-    settled_ground: [f64; STAGES],
-    settled_step: f64,
+    /// Energy account and powers at its end.
+    energies: Energies,
+    power: Power,
+    /// Step that waits for its account [s].
+    waiting: f64,
     /// Whether an accepted step waits for its account.
     pub pending: bool,
 }
@@ -63,7 +66,7 @@ impl<'m> Lane<'m> {
             run,
             rows: Recording::default(),
             plan: Plan::default(),
-            tolerance: Tolerance { z: 0.0, v: 0.0 },
+            tolerance: Tolerance { z: 0.0, v: 0.0, energy: 0.0 },
             stage: 0,
             iterations: 0,
             all_iterations: 0,
@@ -73,8 +76,9 @@ impl<'m> Lane<'m> {
             stopped: None,
             top: Kinematics::default(),
             ground: [0.0; STAGES],
-            settled_ground: [0.0; STAGES],
-            settled_step: 0.0,
+            energies: Energies::default(),
+            power: Power::default(),
+            waiting: 0.0,
             pending: false,
         }
     }
@@ -185,7 +189,7 @@ impl<'m> Lane<'m> {
     /// Starts the next try of the step.
     pub fn begin_attempt(&mut self, w: &mut Work, i: usize) {
         self.run.size(&mut self.plan);
-        self.tolerance = self.run.tolerance();
+        self.tolerance = self.run.tolerance(self.plan.h);
         self.factors_hold = false;
         if std::mem::take(&mut self.not_finite) {
             self.forget_stages(w, i);
@@ -243,10 +247,15 @@ impl<'m> Lane<'m> {
     }
 
     /// Whether the step whose last stage has ended is accepted; how long the next try is follows.
-    pub fn verdict(&mut self, w: &Work, i: usize) -> bool {
+    pub fn verdict(&mut self, w: &Work, powers: &Powers, i: usize) -> bool {
         let error = (w.lane.at(ERROR_V, i) / self.tolerance.v).max(w.lane.at(ERROR_Z, i) / self.tolerance.z);
         let error = if w.lane.at(ERROR_SUM, i).is_finite() { error } else { f64::INFINITY };
         self.not_finite = !error.is_finite();
+        let unbalanced = self.balance(w, powers, i);
+        let state = &self.run.state;
+        let known = state.totals.peak_input + state.energies.initial;
+        let judged = self.energies.input().abs() <= BEGINNING * known && self.tolerance.energy > 0.0;
+        let error = if judged { error.max(unbalanced.abs() / self.tolerance.energy) } else { error };
         match self.run.judge(Ok(error), &mut self.plan) {
             Verdict::Accept => true,
             Verdict::Repeat => false,
@@ -257,27 +266,69 @@ impl<'m> Lane<'m> {
         }
     }
 
-    /// The run at the end of its step, whose account waits.
+    /// The energy account at the end of the step; returns what the step adds to its residual [J].
+    fn balance(&mut self, w: &Work, powers: &Powers, i: usize) -> f64 {
+        let (h, state) = (self.plan.h, &self.run.state);
+        (self.energies, self.power) = (state.energies, state.power);
+        self.power.accrue(h * w.tableau.b[0], &mut self.energies);
+        for stage in 1..w.tableau.stages {
+            self.power = Power {
+                base: powers.momentum[stage][i] * self.ground[stage],
+                top: powers.top[stage][i],
+                damping: powers.damping[stage][i],
+                friction: powers.friction[stage][i],
+                nonreciprocal: 0.0,
+            };
+            self.power.accrue(h * w.tableau.b[stage], &mut self.energies);
+        }
+        (self.energies.kinetic, self.energies.elastic) = (powers.kinetic[i], powers.elastic[i]);
+        self.energies.residual() - state.energies.residual()
+    }
+
+    /// The run at the end of its step, whose envelopes wait.
     pub fn accept(&mut self, w: &mut Work, account: &mut Account, i: usize) {
         w.state.set(w.topology.unknowns as usize + 1, ACCELERATION, i, self.top.a);
-        let state = &mut self.run.state;
+        let Simulation { state, work, .. } = &mut self.run;
+        (work.start_energies, work.stage_power[0]) = (state.energies, state.power);
+        (state.energies, state.power) = (self.energies, self.power);
         state.t = self.plan.end(state.t);
         state.scale[0] = state.scale[0].max(w.lane.at(SCALE_Z, i));
         state.scale[1] = state.scale[1].max(w.lane.at(SCALE_V, i));
         state.counters.steps += 1;
         state.counters.iterations += std::mem::take(&mut self.all_iterations);
         state.counters.factorisations += std::mem::take(&mut self.factorisations);
-        (self.settled_step, self.settled_ground, self.pending) = (self.plan.h, self.ground, true);
+        state.totals.peak_input = state.totals.peak_input.max(state.energies.input().abs());
+        state.totals.peak_residual = state.totals.peak_residual.max(state.energies.residual().abs());
+        (self.waiting, self.pending) = (self.plan.h, true);
         account.step[i] = self.plan.h;
     }
 
-    /// Where the run has arrived: the jump of the base's velocity if the rates start anew, whether a sample is due,
-    /// whether the run ends.
-    pub fn arrives(&mut self) -> (Option<f64>, bool, bool) {
+    /// Keeps the samples inside the accepted step.
+    pub fn sample_inside(&mut self, w: &Work, i: usize) {
+        let t = self.run.state.t;
+        if !self.run.samples_inside(t) {
+            return;
+        }
+        self.unload_state(w, i);
+        let step = &mut self.run.work;
+        for (k, &p) in w.topology.place.iter().take(w.topology.unknowns as usize).enumerate() {
+            let p = p as usize;
+            step.start_z[k] = w.start.at(p, Z, i);
+            (step.stage_v[0][k], step.stage_a[0][k]) = (w.start.at(p, VELOCITY, i), w.start.at(p, ACCELERATION, i));
+            for (j, stage) in w.stages.iter().enumerate().skip(1) {
+                (step.stage_v[j][k], step.stage_a[j][k]) = (stage.at(p, VELOCITY, i), stage.at(p, ACCELERATION, i));
+            }
+        }
+        self.run.samples_before(t, self.plan.h);
+        self.empty_buffer();
+    }
+
+    /// Where the run has arrived: the jump of the base's velocity if the rates start anew, and whether the run ends.
+    pub fn arrives(&mut self) -> (Option<f64>, bool) {
         let t = self.run.state.t;
         let ends = t >= self.run.model.excitation.duration;
         let restarts = if self.plan.meets_break() && !ends { self.run.turn_piece(t) } else { None };
-        (restarts, self.run.sample_is_due(), ends)
+        (restarts, ends)
     }
 
     /// Takes up a jump of the motion.
@@ -288,43 +339,31 @@ impl<'m> Lane<'m> {
         self.load_state(w, account, i);
     }
 
-    /// Keeps a sample.
+    /// Keeps the sample that is due at the end of the step, if there is one.
     pub fn sample(&mut self, w: &Work, i: usize) {
-        self.unload_state(w, i);
-        self.run.sample();
+        if self.run.sample_is_due() {
+            self.unload_state(w, i);
+            self.run.sample();
+            self.empty_buffer();
+        }
+    }
+
+    fn empty_buffer(&mut self) {
         if self.run.buffer_is_full() {
             self.rows.append(self.run.recording());
             self.run.clear_recording();
         }
     }
 
-    /// The account of the step that waited.
-    pub fn enter_account(&mut self, w: &Work, totals: &Totals, i: usize) {
+    /// The peaks of the step that waited.
+    pub fn enter_account(&mut self, peaks: &Peaks, i: usize) {
         self.pending = false;
-        let (h, state) = (self.settled_step, &mut self.run.state);
-        let mut power = state.power;
-        power.accrue(h * w.tableau.b[0], &mut state.energies);
-        for stage in 1..w.tableau.stages {
-            power = Power {
-                base: totals.momentum[stage][i] * self.settled_ground[stage],
-                top: totals.top[stage][i],
-                damping: totals.damping[stage][i],
-                friction: totals.friction[stage][i],
-                nonreciprocal: 0.0,
-            };
-            power.accrue(h * w.tableau.b[stage], &mut state.energies);
-        }
-        state.power = power;
-        state.energies.kinetic = totals.kinetic[i];
-        state.energies.elastic = totals.elastic[i];
-        let (sum, energies, pull) = (&mut state.totals, &state.energies, totals.pull[i]);
-        sum.peak_relative_displacement = sum.peak_relative_displacement.max(totals.displacement[i]);
-        sum.peak_slip_velocity = sum.peak_slip_velocity.max(totals.slip_velocity[i]);
-        sum.minimum_gap = sum.minimum_gap.min(-totals.closing[i]);
+        let (sum, pull) = (&mut self.run.state.totals, peaks.pull[i]);
+        sum.peak_relative_displacement = sum.peak_relative_displacement.max(peaks.displacement[i]);
+        sum.peak_slip_velocity = sum.peak_slip_velocity.max(peaks.slip_velocity[i]);
+        sum.minimum_gap = sum.minimum_gap.min(-peaks.closing[i]);
         sum.top_force_peak = sum.top_force_peak.max(pull.abs());
-        sum.top_force_square += h * pull * pull;
-        sum.peak_input = sum.peak_input.max(energies.input().abs());
-        sum.peak_residual = sum.peak_residual.max(energies.residual().abs());
+        sum.top_force_square += self.waiting * pull * pull;
     }
 
     /// Number and result of the run, which ends with `reason`, or because it is complete.

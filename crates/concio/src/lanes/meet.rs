@@ -5,14 +5,11 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use pulp::{Simd, WithSimd};
 
+use crate::integrate::stage::{MEETING, MOST_SEARCHED};
 use crate::lanes::rows::{Law, V, WIDTH, friction};
 use crate::lanes::work::{
     ALPHA, AT, DYNAMIC, EXCESS, MU, Miss, NORMALS, SLIP, SLOPE, SLOPE_AT_REST, STATIC, STEEP, TAU, WIDTH_AT_REST, Work,
 };
-
-/// As in the stage of a single run.
-const MEETING: f64 = 0.01;
-const MOST: usize = 20;
 
 /// Moves the tangents of all [`Work::misses`].
 pub struct Meet<'a>(pub &'a mut Work);
@@ -117,7 +114,7 @@ impl Pack {
         let mut low = zero;
         let (mut mu, mut slope) = friction(law, v);
         let mut searching = meets;
-        for _ in 0..MOST {
+        for _ in 0..MOST_SEARCHED {
             let f = mu + z * v - c;
             searching = searching.and(f.abs().at_most(near).not());
             if !searching.any() {

@@ -14,7 +14,7 @@ mod work;
 use pulp::Simd;
 
 use crate::integrate::tableau::{STAGES, tableau};
-use crate::lanes::account::{Account, Settle, Totals};
+use crate::lanes::account::{Account, Balance, Peaks, Powers, Settle};
 use crate::lanes::lane::{Lane, Next};
 use crate::lanes::meet::Meet;
 pub use crate::lanes::rows::WIDTH;
@@ -28,7 +28,8 @@ use crate::simulate::Simulation;
 pub struct Gang<'m> {
     work: Work,
     account: Account,
-    totals: Totals,
+    powers: Powers,
+    peaks: Peaks,
     lanes: [Option<Lane<'m>>; WIDTH],
     /// Lanes that are used.
     width: usize,
@@ -59,7 +60,8 @@ impl<'m> Gang<'m> {
         Gang {
             work: Work::new(topology, tableau(run.solver.scheme)),
             account: Account::new(n, e),
-            totals: Totals::default(),
+            powers: Powers::default(),
+            peaks: Peaks::default(),
             lanes: [const { None }; WIDTH],
             width: width.min(WIDTH),
             turns: 0,
@@ -135,6 +137,9 @@ impl<'m> Gang<'m> {
         self.work.lane.set_row(CONVERGED, marks.converged);
         self.work.lane.set_row(GOING, marks.going);
         simd.vectorize(Advance { work: &mut self.work, ended, going_flipped });
+        if ended[self.work.tableau.stages - 1] {
+            simd.vectorize(Balance { work: &self.work, powers: &mut self.powers });
+        }
         if !self.work.misses.is_empty() {
             simd.vectorize(Meet(&mut self.work));
         }
@@ -152,7 +157,7 @@ impl<'m> Gang<'m> {
             let converged = marks.converged[i] > 0.0;
             if converged && lane.stage + 1 < self.work.tableau.stages {
                 lane.begin_stage(&mut self.work, i, lane.stage + 1);
-            } else if converged && lane.verdict(&self.work, i) {
+            } else if converged && lane.verdict(&self.work, &self.powers, i) {
                 accepted[i] = 1.0;
             } else {
                 given_up[i] = 1.0;
@@ -177,17 +182,16 @@ impl<'m> Gang<'m> {
     fn after_step<S: Simd>(&mut self, simd: S, i: usize, desk: &mut dyn Desk<'m>) {
         let Some(lane) = &mut self.lanes[i] else { return };
         lane.accept(&mut self.work, &mut self.account, i);
-        let (restarts, samples, ends) = lane.arrives();
-        if restarts.is_some() || samples || ends {
+        lane.sample_inside(&self.work, i);
+        let (restarts, ends) = lane.arrives();
+        if restarts.is_some() || ends {
             self.settle(simd);
         }
         let Some(lane) = &mut self.lanes[i] else { return };
         if let Some(jump) = restarts {
             lane.restart(&mut self.work, &mut self.account, i, jump);
         }
-        if samples {
-            lane.sample(&self.work, i);
-        }
+        lane.sample(&self.work, i);
         if ends {
             self.finish(i, None, desk);
         } else {
@@ -217,13 +221,13 @@ impl<'m> Gang<'m> {
             return;
         }
         self.work.lane.set_row(PENDING, waits);
-        let (work, account, totals) = (&self.work, &mut self.account, &mut self.totals);
-        simd.vectorize(Settle { work, account, totals });
+        let (work, account, peaks) = (&self.work, &mut self.account, &mut self.peaks);
+        simd.vectorize(Settle { work, account, peaks });
         for (i, lane) in self.lanes.iter_mut().enumerate() {
             if let Some(lane) = lane
                 && lane.pending
             {
-                lane.enter_account(&self.work, &self.totals, i);
+                lane.enter_account(&self.peaks, i);
             }
         }
     }

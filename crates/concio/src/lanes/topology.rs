@@ -1,7 +1,8 @@
 //! What runs must have in common to advance side by side, and the lists that follow from it.
 
 use crate::case::Scheme;
-use crate::integrate::linear::Matrix;
+use crate::integrate::linear::{MOST_LISTED, Matrix};
+use crate::integrate::stage::centres;
 use crate::model::Model;
 
 /// Stands for no entry in the matrix, and for no friction on a joint.
@@ -20,9 +21,11 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// None for models that lanes do not take: set-valued friction, action that differs from reaction.
+    /// None for models that lanes do not take: set-valued laws, bonds, action that differs from reaction, and walls so
+    /// large that a single run factorises in another way and vectors are full without lanes.
     pub fn of(model: &Model, scheme: Scheme) -> Option<Self> {
-        if model.sticks() || !model.reciprocal {
+        let plain = !model.set_valued() && model.bonds.is_empty() && model.reciprocal;
+        if !plain || model.unknowns() > MOST_LISTED {
             return None;
         }
         Some(Kind {
@@ -135,7 +138,7 @@ impl Topology {
         let coupled = |s: &&[u32; 2]| (s[1] as usize) < n;
         let pairs: Vec<(usize, usize)> =
             model.sides.iter().filter(coupled).map(|s| (s[0] as usize, s[1] as usize)).collect();
-        let (matrix, slots) = Matrix::new(n, &pairs);
+        let (matrix, slots) = Matrix::new(n, &pairs, &centres(model), true);
         let mut place = matrix.places().to_vec();
         place.extend([n as u32, n as u32 + 1]);
         let mut slots = slots.into_iter();

@@ -7,14 +7,10 @@
 
 use pulp::{Simd, WithSimd};
 
+use crate::integrate::stage::{FAR, STILL};
 use crate::integrate::tableau::{STAGES, Tableau};
 use crate::lanes::rows::{Groups, Law, Mask, Read, Rows, V, WIDTH, friction};
 use crate::lanes::topology::{Incidence, NONE, SHARES, TO_A, TO_B, TO_DIAGONAL, Topology};
-
-/// As in the stage of a single run.
-pub const MOST_ITERATIONS: u32 = 12;
-const FAR: f64 = 0.02;
-const STILL: f64 = 1e-3;
 
 /// Rows of [`Work::lane`]: one number per lane.
 pub const TAU: usize = 0;
@@ -105,6 +101,8 @@ pub struct Work {
     /// The state after the last accepted step, and the tangents there.
     pub state: Groups<3>,
     pub saved: Groups<3>,
+    /// The state at the start of the last accepted step.
+    pub start: Groups<3>,
     pub tangents: Groups<3>,
     /// Stages of the step, from 1, and the friction there.
     pub stages: Vec<Groups<3>>,
@@ -144,6 +142,7 @@ impl Work {
             one_sided: Groups::new(topology.one_sided.len()),
             state: Groups::new(n + 2),
             saved: Groups::new(r),
+            start: Groups::new(n + 2),
             tangents: Groups::new(r),
             stages: (0..tableau.stages).map(|_| Groups::new(n + 2)).collect(),
             stage_mu: (0..tableau.stages).map(|_| Rows::new(r)).collect(),
@@ -654,12 +653,14 @@ impl WithSimd for Turn<'_> {
         let given_up = Mask::of(w.lane.read(simd).at(GIVEN_UP as u32));
         if accepted.any() {
             let (mut most_z, mut most_v) = (V::splat(simd, 0.0), V::splat(simd, 0.0));
-            let mut state = w.state.write(simd);
+            let (mut state, mut start) = (w.state.write(simd), w.start.write(simd));
             let arrived = w.stages[last].read(simd);
-            for (k, (mut to, from)) in (0u32..).zip(state.iter_mut().zip(arrived.iter())) {
-                to.set_where(accepted, Z, from.row(Z));
-                to.set_where(accepted, VELOCITY, from.row(VELOCITY));
-                to.set_where(accepted, ACCELERATION, from.row(ACCELERATION));
+            let unknowns = state.iter_mut().zip(start.iter_mut()).zip(arrived.iter());
+            for (k, ((mut to, mut start), from)) in (0u32..).zip(unknowns) {
+                for row in [Z, VELOCITY, ACCELERATION] {
+                    start.set_where(accepted, row, to.row(row));
+                    to.set_where(accepted, row, from.row(row));
+                }
                 if k < w.topology.unknowns {
                     (most_z, most_v) = (most_z.max(from.row(Z).abs()), most_v.max(from.row(VELOCITY).abs()));
                 }

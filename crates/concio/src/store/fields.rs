@@ -1,7 +1,7 @@
 //! Tables of the quantities a result holds: name on disk, unit, meaning, and where they are kept. Writer, reader and
 //! exports go through the same tables, so that none of them can forget a quantity that the others know.
 
-use crate::outcome::Totals;
+use crate::outcome::{BondRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes};
 use crate::store::{FrictionRow, JointRow};
 use crate::wall::{Block, PanelInfo};
@@ -42,7 +42,7 @@ pub(super) const BLOCK_ENVELOPES: [Field<Envelopes, Vec<f64>>; 3] = [
 ];
 
 /// Envelopes with one value per joint.
-pub(super) const JOINT_ENVELOPES: [Field<Envelopes, Vec<f64>>; 8] = [
+pub(super) const JOINT_ENVELOPES: [Field<Envelopes, Vec<f64>>; 10] = [
     field!("displacement", "m", joint_displacement, "Largest relative displacement of the sides, sign dropped."),
     field!("velocity", "m/s", joint_velocity, "Largest relative velocity of the sides, sign dropped."),
     field!("acceleration", "m/s2", joint_acceleration, "Largest relative acceleration of the sides, sign dropped."),
@@ -54,12 +54,14 @@ pub(super) const JOINT_ENVELOPES: [Field<Envelopes, Vec<f64>>; 8] = [
     ),
     field!("opening", "m", joint_opening, "Widest gap of a head joint or connection."),
     field!("closing", "m", joint_closing, "Deepest closure of a head joint or connection."),
-    field!("force", "N", joint_force, "Largest elastic force, sign dropped."),
-    field!("dissipation", "J", joint_dissipation, "Energy dissipated by damping and friction."),
+    field!("force", "N", joint_force, "Largest elastic force, or force of rigid contact, sign dropped."),
+    field!("dissipation", "J", joint_dissipation, "Energy dissipated by damping, friction and impacts."),
+    field!("impulse", "N s", joint_impulse, "Largest impulse of an impact of a rigid joint."),
+    field!("impacts", "1", joint_impacts, "Number of impacts of a rigid joint."),
 ];
 
 /// The energy account.
-pub(super) const ENERGIES: [Field<Energies, f64>; 9] = [
+pub(super) const ENERGIES: [Field<Energies, f64>; 10] = [
     field!("input_base", "J", input_base, "Work of the base motion on the motion relative to the base."),
     field!("input_top", "J", input_top, "Work of the driven top beam."),
     field!("initial", "J", initial, "Kinetic and elastic energy at t = 0 that no work of the run brought."),
@@ -68,11 +70,12 @@ pub(super) const ENERGIES: [Field<Energies, f64>; 9] = [
     field!("damping", "J", damping, "Energy dissipated by viscous damping."),
     field!("friction", "J", friction, "Energy dissipated by friction."),
     field!("bond", "J", bond, "Energy dissipated by breaking bonds."),
+    field!("impact", "J", impact, "Energy lost in the impacts of rigid joints."),
     field!("nonreciprocal", "J", nonreciprocal, "Energy taken out by friction whose action differs from its reaction."),
 ];
 
 /// Numbers that sum a run up.
-pub(super) const TOTALS: [Field<Totals, f64>; 7] = [
+pub(super) const TOTALS: [Field<Totals, f64>; 8] = [
     field!(
         "peak_relative_displacement",
         "m",
@@ -83,17 +86,26 @@ pub(super) const TOTALS: [Field<Totals, f64>; 7] = [
     field!("top_force_peak", "N", top_force_peak, "Largest force of the top beam on the wall, sign dropped."),
     field!("top_force_square", "N2 s", top_force_square, "Time integral of the square of that force."),
     field!("minimum_gap", "m", minimum_gap, "Most negative gap of a head joint or connection, from 0 down."),
+    field!(
+        "contact_residual",
+        "m/s",
+        contact_residual,
+        "Largest relative velocity left where rigid contact forbids it."
+    ),
     field!("peak_input", "J", peak_input, "Largest work done on the wall, sign dropped."),
     field!("peak_residual", "J", peak_residual, "Largest residual of the energy account, sign dropped."),
 ];
 
 /// Work of the solver.
-pub(super) const COUNTERS: [Field<Counters, u64>; 5] = [
+pub(super) const COUNTERS: [Field<Counters, u64>; 8] = [
     field!("steps", "1", steps, "Accepted steps."),
     field!("rejected", "1", rejected, "Steps rejected by the error control."),
     field!("failed", "1", failed, "Steps repeated because the iteration did not converge."),
     field!("iterations", "1", iterations, "Iterations on the laws of the joints."),
     field!("factorisations", "1", factorisations, "Matrix factorisations."),
+    field!("events", "1", events, "Instants at which something happened that ended a step."),
+    field!("located", "1", located, "Attempts at steps that were cut for them."),
+    field!("impacts", "1", impacts, "Impacts of rigid joints."),
 ];
 
 /// Real quantities of a block.
@@ -117,7 +129,7 @@ pub(super) const PANELS: [Field<PanelInfo, f64>; 6] = [
 ];
 
 /// Real quantities of a joint.
-pub(super) const JOINTS: [Field<JointRow, f64>; 10] = [
+pub(super) const JOINTS: [Field<JointRow, f64>; 11] = [
     field!("weight", "1", joint.weight, "Overlap weight; 1 for head joints."),
     field!("overlap", "m", joint.overlap, "Contact length."),
     field!("x0", "m", joint.line[0], "Contact line, start."),
@@ -128,6 +140,7 @@ pub(super) const JOINTS: [Field<JointRow, f64>; 10] = [
     field!("damping", "N s/m", damping, "Damping, overlap weight included."),
     field!("normal_force_a", "N", normal_force[0], "Normal force in the equation of a."),
     field!("normal_force_b", "N", normal_force[1], "Normal force in the equation of b."),
+    field!("restitution", "1", restitution, "Restitution of a rigid joint; 0 for the others."),
 ];
 
 /// Real quantities of friction.
@@ -137,6 +150,19 @@ pub(super) const FRICTION: [Field<FrictionRow, f64>; 5] = [
     field!("friction_slip_velocity", "m/s", slip_velocity, "Slip velocity; 0 without friction."),
     field!("friction_beta", "1", beta, "Slope of the first branch; 0 without friction."),
     field!("friction_alpha", "s2/m2", alpha, "Slope of the slip branch; 0 without friction."),
+];
+
+/// Real quantities of a bond.
+pub(super) const BONDS: [Field<BondRow, f64>; 9] = [
+    field!("strength", "N", strength, "Force at which the joint cracks."),
+    field!("stiffness", "N/m", stiffness, "Stiffness of the intact joint; of a head joint in tension."),
+    field!("residual_stiffness", "1", residual_stiffness, "Fraction of the stiffness that a cracked joint keeps."),
+    field!("energy", "J", energy, "Energy that it takes to break the bond."),
+    field!("decay", "m", decay, "Length over which the strength falls; 0 when the bond is brittle."),
+    field!("damage", "1", damage, "Cracked part at the end, 0 to 1."),
+    field!("spent", "J", spent, "Energy that breaking has taken."),
+    field!("cracked", "s", cracked, "Time of the first crack; infinite when there was none."),
+    field!("broken", "s", broken, "Time at which nothing was left of the bond; infinite when something is."),
 ];
 
 /// Where each channel is kept under `/history`: its name, unless HDF5 could not hold it under that name beside the

@@ -213,6 +213,11 @@ impl Source {
         self.array(name, &[Some(length)])
     }
 
+    /// Whether there is such a dataset.
+    pub fn has(&self, name: &str) -> bool {
+        self.file.dataset(name).is_ok()
+    }
+
     /// One number.
     pub fn number<T: H5Type>(&self, name: &str) -> Result<T> {
         self.array(name, &[])?.first().copied().ok_or_else(|| self.wrong(name, "is empty".into()))

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::error::{Error, Result};
 use crate::outcome::Outcome;
-use crate::record::{Layout, Recording};
+use crate::record::{Event, Layout, Recording};
 use crate::store::fields::{self, Field};
 use crate::store::h5::{Sink, label};
 use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, atomic, vtkhdf};
@@ -46,6 +46,8 @@ pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointR
         write_layout(&mut sink, &outcome.layout)?;
         write_history(&mut sink, &outcome.layout, &outcome.recording)?;
         write_frames(&mut sink, &outcome.layout, &outcome.recording)?;
+        write_bonds(&mut sink, outcome)?;
+        write_events(&mut sink, &outcome.recording.events)?;
         write_sums(&mut sink, outcome)?;
         vtkhdf::write_group(&mut sink, wall, outcome)?;
         sink.close()
@@ -79,6 +81,11 @@ pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outco
     expect("frames of velocity", recording.frame_velocity.len(), frame)?;
     expect("frames of acceleration", recording.frame_acceleration.len(), frame)?;
     expect("frames of friction", recording.frame_friction.len(), recording.frame_time.len() * layout.held)?;
+    expect("frames of damage", recording.frame_damage.len(), recording.frame_time.len() * layout.bonded)?;
+    expect("list of bonds", outcome.bonds.len(), layout.bonded)?;
+    if let Some(bond) = outcome.bonds.iter().find(|b| b.joint >= joints.len()) {
+        return refuse(format!("not written: a bond of joint {} of {}", bond.joint, joints.len()));
+    }
     for field in &fields::BLOCK_ENVELOPES {
         expect(field.name, (field.get)(&outcome.envelopes).len(), unknowns)?;
     }
@@ -164,7 +171,8 @@ fn write_layout(sink: &mut Sink, layout: &Layout) -> Result<()> {
     sink.number("layout/samples", layout.samples as u64, label("1", "Samples of the whole run, the first included."))?;
     sink.number("layout/frame_every", layout.frame_every as u64, label("1", "Samples from frame to frame; 0: none."))?;
     sink.number("layout/unknowns", layout.unknowns as u64, label("1", "Unknowns: blocks, then the beam's."))?;
-    let held = label("1", "Joints whose friction the frames hold: all where a law is set-valued, else 0.");
+    let held =
+        label("1", "Joints whose friction the frames hold: all where a law is set-valued or a joint bonded, else 0.");
     sink.number("layout/held", layout.held as u64, held)?;
     let names: Vec<&str> = layout.channels.iter().map(|c| c.name.as_str()).collect();
     sink.texts("layout/channels", &names, "Names of the channels, in order.")?;
@@ -197,6 +205,31 @@ fn write_frames(sink: &mut Sink, layout: &Layout, recording: &Recording) -> Resu
         sink.array("frames/friction", &[recording.frame_time.len(), layout.held], &recording.frame_friction, friction)?;
     }
     Ok(())
+}
+
+/// Nothing where no joint is bonded.
+fn write_bonds(sink: &mut Sink, outcome: &Outcome) -> Result<()> {
+    let bonds = &outcome.bonds;
+    if bonds.is_empty() {
+        return Ok(());
+    }
+    let joints: Vec<i64> = bonds.iter().map(|b| b.joint as i64).collect();
+    sink.list("bonds/joint", &joints, label("1", "Index of the joint."))?;
+    write_columns(sink, "bonds", &fields::BONDS, bonds)?;
+    let shape = [outcome.recording.frame_time.len(), outcome.layout.bonded];
+    let damage = label("1", "Cracked part of every bonded joint, 0 to 1, in the order of /bonds.");
+    sink.array("frames/damage", &shape, &outcome.recording.frame_damage, damage)
+}
+
+fn write_events(sink: &mut Sink, events: &[Event]) -> Result<()> {
+    let numbers = |of: fn(&Event) -> f64| events.iter().map(of).collect::<Vec<_>>();
+    let joints: Vec<i64> = events.iter().map(|e| i64::from(e.joint)).collect();
+    let kinds: Vec<String> = events.iter().map(|e| keyword(&e.kind)).collect();
+    sink.list("events/time", &numbers(|e| e.time), label("s", "When it happened."))?;
+    sink.list("events/joint", &joints, label("1", "Index of the joint."))?;
+    sink.texts("events/kind", &kinds, "What happened.")?;
+    let value = label("SI", "Impulse of an impact [N s]; stretch of a bond that cracks or is broken [m].");
+    sink.list("events/value", &numbers(|e| e.value), value)
 }
 
 fn write_sums(sink: &mut Sink, outcome: &Outcome) -> Result<()> {

@@ -11,15 +11,18 @@ mod read;
 mod summary;
 pub mod vtkhdf;
 
+use crate::bond::Bonded;
 use crate::case::{FrictionLaw, SpringLaw};
-use crate::outcome::Outcome;
+use crate::law::spring_force;
+use crate::model::Elastic;
+use crate::outcome::{BondRow, Outcome};
 use crate::wall::{Joint, Wall};
 
 pub use journal::{Journal, JournalHeader};
 pub use summary::{RunFacts, residual_relative, summary, top_force_rms, write_summary};
 
 /// Version of the layout of result files; raised when a reader of the former version would misread a file.
-pub const SCHEMA_VERSION: u32 = 2;
+pub const SCHEMA_VERSION: u32 = 3;
 
 /// Where a result comes from. Nothing in it depends on clock, machine or folder: equal inputs give equal files.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -51,6 +54,24 @@ pub struct JointRow {
     pub normal_force: [f64; 2],
     /// Friction; none for a joint that does not rub.
     pub friction: Option<FrictionRow>,
+    /// Restitution of a rigid joint; 0 for the others.
+    pub restitution: f64,
+}
+
+impl JointRow {
+    /// Elastic force on the lower or left block, against its relative motion [N], at x_a − x_b = `d` [m]; `bond` is the
+    /// joint's bond, if it has one, and its cracked part.
+    pub fn elastic_force(&self, d: f64, bond: Option<(&BondRow, f64)>) -> f64 {
+        let upright = self.joint.kind.is_upright();
+        let unilateral = upright && matches!(self.law, SpringLaw::NoTension | SpringLaw::Rigid);
+        match bond {
+            None => spring_force(unilateral, self.stiffness, d),
+            Some((bond, damage)) => {
+                let elastic = Elastic { stiffness: self.stiffness, damping: self.damping, unilateral };
+                Bonded { joint: 0, rub: None, law: bond.law(upright) }.force(&elastic, damage, d)
+            }
+        }
+    }
 }
 
 /// Friction of one joint (theory, equation 6).

@@ -8,8 +8,8 @@ use serde::de::value::{Error as KeywordError, StrDeserializer};
 
 use crate::case::JointKind;
 use crate::error::Result;
-use crate::outcome::{Outcome, Totals};
-use crate::record::{Channel, Counters, Energies, Envelopes, Layout, Recording};
+use crate::outcome::{BondRow, Outcome, Totals};
+use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording};
 use crate::store::fields::{self, Field};
 use crate::store::h5::Source;
 use crate::store::hdf5::{BASE, FORMAT, NO_FRICTION, TOP};
@@ -27,15 +27,17 @@ pub fn read(path: &Path) -> Result<StoredRun> {
     let panels = read_panels(&source)?;
     let wall = Wall { blocks: read_blocks(&source, panels.len())?, panels };
     let joints = read_joints(&source, wall.blocks.len())?;
-    let layout = read_layout(&source)?;
+    let bonds = read_bonds(&source, joints.len())?;
+    let layout = read_layout(&source, bonds.len())?;
     if layout.unknowns < wall.blocks.len() {
         let what = format!("is {} for {} blocks", layout.unknowns, wall.blocks.len());
         return Err(source.wrong("layout/unknowns", what));
     }
-    let recording = read_recording(&source, &layout)?;
+    let recording = read_recording(&source, &layout, joints.len())?;
     let envelopes = read_envelopes(&source, layout.unknowns, joints.len())?;
     let outcome = Outcome {
         recording,
+        bonds,
         envelopes,
         energies: read_numbers(&source, "energy", &fields::ENERGIES, Energies::default())?,
         totals: read_numbers(&source, "totals", &fields::TOTALS, Totals::default())?,
@@ -128,7 +130,16 @@ fn read_joints(source: &Source, blocks: usize) -> Result<Vec<JointRow>> {
         };
         let joint = Joint { kind: kinds[k], a, b, weight: 0.0, overlap: 0.0, line: [0.0; 4] };
         let (law, friction) = (laws[k], friction[k]);
-        joints.push(JointRow { joint, name, law, stiffness: 0.0, damping: 0.0, normal_force: [0.0; 2], friction });
+        joints.push(JointRow {
+            joint,
+            name,
+            law,
+            stiffness: 0.0,
+            damping: 0.0,
+            normal_force: [0.0; 2],
+            friction,
+            restitution: 0.0,
+        });
     }
     read_columns(source, "wall/joints", &fields::JOINTS, &mut joints)?;
     Ok(joints)
@@ -142,7 +153,25 @@ fn read_friction(source: &Source, joints: usize) -> Result<Vec<Option<FrictionRo
     Ok(rows.into_iter().zip(rubs).map(|(row, rubs)| (rubs != 0).then_some(row)).collect())
 }
 
-fn read_layout(source: &Source) -> Result<Layout> {
+/// None in a file without them.
+fn read_bonds(source: &Source, joints: usize) -> Result<Vec<BondRow>> {
+    if !source.has("bonds/joint") {
+        return Ok(Vec::new());
+    }
+    let indices: Vec<i64> = source.array("bonds/joint", &[None])?;
+    let mut bonds = Vec::with_capacity(indices.len());
+    for value in indices {
+        let joint = index(source, "bonds/joint", value)?;
+        if joint >= joints {
+            return Err(source.wrong("bonds/joint", format!("names joint {joint} of {joints}")));
+        }
+        bonds.push(BondRow { joint, ..BondRow::default() });
+    }
+    read_columns(source, "bonds", &fields::BONDS, &mut bonds)?;
+    Ok(bonds)
+}
+
+fn read_layout(source: &Source, bonded: usize) -> Result<Layout> {
     let names = source.texts("layout/channels")?;
     let unlabelled = |name| Channel { name, unit: String::new(), description: String::new() };
     let mut channels: Vec<Channel> = names.into_iter().map(unlabelled).collect();
@@ -157,11 +186,12 @@ fn read_layout(source: &Source) -> Result<Layout> {
         frame_every: count(source, "layout/frame_every")?,
         unknowns: count(source, "layout/unknowns")?,
         held: count(source, "layout/held")?,
+        bonded,
         channels,
     })
 }
 
-fn read_recording(source: &Source, layout: &Layout) -> Result<Recording> {
+fn read_recording(source: &Source, layout: &Layout, joints: usize) -> Result<Recording> {
     let time: Vec<f64> = source.array("history/time", &[None])?;
     let width = layout.channels.len();
     let mut values = vec![0.0; time.len() * width];
@@ -180,7 +210,38 @@ fn read_recording(source: &Source, layout: &Layout) -> Result<Recording> {
         0 => Vec::new(),
         held => source.array("frames/friction", &[Some(frame_time.len()), Some(held)])?,
     };
-    Ok(Recording { time, values, frame_time, frame_displacement, frame_velocity, frame_acceleration, frame_friction })
+    let frame_damage = match layout.bonded {
+        0 => Vec::new(),
+        bonded => source.array("frames/damage", &[Some(frame_time.len()), Some(bonded)])?,
+    };
+    let events = read_events(source, joints)?;
+    Ok(Recording {
+        time,
+        values,
+        frame_time,
+        frame_displacement,
+        frame_velocity,
+        frame_acceleration,
+        frame_friction,
+        frame_damage,
+        events,
+    })
+}
+
+fn read_events(source: &Source, joints: usize) -> Result<Vec<Event>> {
+    let time: Vec<f64> = source.array("events/time", &[None])?;
+    let joint: Vec<i64> = source.list("events/joint", time.len())?;
+    let kinds: Vec<EventKind> = read_keywords(source, "events/kind", time.len())?;
+    let value: Vec<f64> = source.list("events/value", time.len())?;
+    let mut events = Vec::with_capacity(time.len());
+    for (k, &kind) in kinds.iter().enumerate() {
+        let index = index(source, "events/joint", joint[k])?;
+        if index >= joints {
+            return Err(source.wrong("events/joint", format!("names joint {index} of {joints}")));
+        }
+        events.push(Event { time: time[k], joint: index as u32, kind, value: value[k] });
+    }
+    Ok(events)
 }
 
 fn read_envelopes(source: &Source, unknowns: usize, joints: usize) -> Result<Envelopes> {

@@ -50,6 +50,8 @@ pub fn summary(
         "top_force_peak": totals.top_force_peak,
         "top_force_rms": top_force_rms(outcome),
         "minimum_gap": totals.minimum_gap,
+        "contact_residual": totals.contact_residual,
+        "bonds": bonds(outcome, joints),
         "energy": energy(&outcome.energies, residual_relative(outcome)),
         "counters": outcome.counters,
         "inputs_hash": provenance.inputs_hash,
@@ -82,6 +84,22 @@ pub fn top_force_rms(outcome: &Outcome) -> f64 {
     if outcome.time_reached > 0.0 { (outcome.totals.top_force_square / outcome.time_reached).sqrt() } else { 0.0 }
 }
 
+/// How many bonds cracked and broke, and which was the first; null where no joint is bonded.
+fn bonds(outcome: &Outcome, joints: &[JointRow]) -> Value {
+    let bonds = &outcome.bonds;
+    if bonds.is_empty() {
+        return Value::Null;
+    }
+    let first = outcome.first_crack();
+    json!({
+        "joints": bonds.len(),
+        "cracked": bonds.iter().filter(|b| b.damage > 0.0).count(),
+        "broken": bonds.iter().filter(|b| b.damage == 1.0).count(),
+        "first_crack": first.map(|b| b.cracked),
+        "first_joint": first.and_then(|b| joints.get(b.joint)).map(|j| &j.name),
+    })
+}
+
 fn energy(energies: &Energies, residual_relative: f64) -> Value {
     json!({
         "initial": energies.initial,
@@ -91,6 +109,7 @@ fn energy(energies: &Energies, residual_relative: f64) -> Value {
         "damping": energies.damping,
         "friction": energies.friction,
         "bond": energies.bond,
+        "impact": energies.impact,
         "nonreciprocal": energies.nonreciprocal,
         "residual_relative": residual_relative,
     })

@@ -45,6 +45,10 @@ PANEL_COLUMNS = {
     "head_mortar": "m",
     "connection": "m",
 }
+BOND_COLUMNS = {
+    "strength": "N", "stiffness": "N/m", "residual_stiffness": "1", "energy": "J", "decay": "m", "damage": "1",
+    "spent": "J", "cracked": "s", "broken": "s",
+}
 JOINT_COLUMNS = {
     "weight": "1",
     "overlap": "m",
@@ -182,7 +186,19 @@ def check_frames(result, unknowns):
     held = int(result.array("layout/held", (), "u8", "1"))
     if held:
         result.array("frames/friction", (frames, held), "f8", "N")
+    if "bonds" in result.file:
+        check_bonds(result, frames)
     return time, displacement, velocity
+
+
+def check_bonds(result, frames):
+    n = result.file["bonds/joint"].shape[0]
+    joints = result.array("bonds/joint", (n,), "i8", "1")
+    require((np.diff(joints) > 0).all(), "bonds are not in the order of the joints")
+    columns = {key: result.array(f"bonds/{key}", (n,), "f8", unit) for key, unit in BOND_COLUMNS.items()}
+    damage = result.array("frames/damage", (frames, n), "f8", "1")
+    require(((damage >= 0) & (damage <= 1)).all(), "damage is not between 0 and 1")
+    require((columns["cracked"] <= columns["broken"]).all(), "a bond was broken before it cracked")
 
 
 def check_sums(result, unknowns, joints):

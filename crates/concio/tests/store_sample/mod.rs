@@ -2,8 +2,8 @@
 //! shows; they obey no mechanics.
 
 use concio::case::{FrictionLaw, JointKind, SpringLaw};
-use concio::outcome::{Outcome, Totals};
-use concio::record::{Channel, Counters, Energies, Envelopes, Layout, Recording, StopReason};
+use concio::outcome::{BondRow, Outcome, Totals};
+use concio::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use concio::store::{FrictionRow, JointRow, Provenance};
 use concio::wall::{Block, End, Joint, PanelInfo, Wall};
 
@@ -113,6 +113,7 @@ fn joint(k: usize, kind: JointKind, a: usize, b: End, wall: &Wall) -> JointRow {
         damping: 1e3 + f,
         normal_force: [100.0 + f, 101.0 + f],
         friction: rubs.then_some(friction),
+        restitution: 0.01 * f,
     }
 }
 
@@ -124,6 +125,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         frame_every: size.frame_every,
         unknowns,
         held: 3,
+        bonded: 2,
         channels: channels(size.channels, wall),
     };
     let recording = rows(&layout, 0..size.samples);
@@ -141,8 +143,23 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         joint_closing: per_joint(9.0),
         joint_force: per_joint(10.0),
         joint_dissipation: per_joint(11.0),
+        joint_impulse: per_joint(12.0),
+        joint_impacts: per_joint(13.0),
+    };
+    let bond = |k: usize| BondRow {
+        joint: k,
+        strength: 4.5e3 + k as f64,
+        stiffness: 5.4e7,
+        residual_stiffness: 0.25,
+        energy: 0.75,
+        decay: 1e-5 * k as f64,
+        damage: 0.5 + 0.5 * k as f64,
+        spent: 0.125,
+        cracked: 1e-3,
+        broken: if k == 0 { f64::INFINITY } else { 2e-3 },
     };
     Outcome {
+        bonds: (0..layout.bonded).map(bond).collect(),
         time_reached: layout.interval * (size.samples - 1) as f64,
         layout,
         recording,
@@ -156,6 +173,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             damping: 0.5,
             friction: 3.0,
             bond: 0.0625,
+            impact: 0.0078125,
             nonreciprocal: 0.03125,
         },
         totals: Totals {
@@ -164,10 +182,20 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             top_force_peak: 2.3e5,
             top_force_square: 4.0e8,
             minimum_gap: -1.0e-9,
+            contact_residual: 3.0e-16,
             peak_input: 8.0,
             peak_residual: 2.0e-6,
         },
-        counters: Counters { steps: 10, rejected: 20, failed: 30, iterations: 40, factorisations: 50 },
+        counters: Counters {
+            steps: 10,
+            rejected: 20,
+            failed: 30,
+            iterations: 40,
+            factorisations: 50,
+            events: 60,
+            located: 70,
+            impacts: 80,
+        },
         stop_reason: StopReason::Completed,
     }
 }
@@ -192,12 +220,16 @@ pub fn rows(layout: &Layout, range: std::ops::Range<usize>) -> Recording {
     for k in range {
         let t = layout.interval * k as f64;
         rows.time.push(t);
+        if k % 97 == 5 {
+            rows.events.push(Event { time: t, joint: (k % 3) as u32, kind: EventKind::Impact, value: 0.5 * t });
+        }
         rows.values.extend((0..layout.channels.len()).map(|c| (c as f64 + 1.0) * (t * 40.0 + c as f64).sin()));
         if layout.frame_every > 0 && k % layout.frame_every == 0 {
             rows.frame_time.push(t);
             rows.frame_displacement.extend((0..layout.unknowns).map(|u| 1e-3 * (t * 30.0 + u as f64 * 0.01).sin()));
             rows.frame_velocity.extend((0..layout.unknowns).map(|u| 3e-2 * (t * 30.0 + u as f64 * 0.01).cos()));
             rows.frame_friction.extend((0..layout.held).map(|e| 50.0 * (t * 20.0 + e as f64 * 0.1).sin()));
+            rows.frame_damage.extend((0..layout.bonded).map(|b| (0.5 + t * 20.0 + b as f64 * 0.1).min(1.0)));
             rows.frame_acceleration.extend((0..layout.unknowns).map(|u| -0.9 * (t * 30.0 + u as f64 * 0.01).sin()));
         }
     }

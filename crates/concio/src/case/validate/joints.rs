@@ -1,7 +1,10 @@
 //! Joint laws and the changes to some joints.
 
 use super::{Bound, Findings};
-use crate::case::{Bond, Case, Friction, FrictionChange, FrictionLaw, JointChange, Panel, Selector, Spring, SpringLaw};
+use crate::case::{
+    Bond, BondChange, Case, Friction, FrictionChange, FrictionLaw, JointBond, JointChange, Panel, Selector, Spring,
+    SpringLaw,
+};
 use crate::{InputError, case::de::suggestion};
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
@@ -20,6 +23,9 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
         }
     }
     friction(f, &j.friction);
+    if let Some(b) = &j.bond {
+        bond(f, b);
+    }
     let names: Vec<String> = (0..case.panels.len()).map(|p| crate::pattern::panel_name(case, p)).collect();
     // What an earlier change gave the same joints is not known here: after one that sets coefficients only a pair
     // given together is compared.
@@ -31,29 +37,31 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
             friction_change(f, i, r, &j.friction, settled);
             settled &= r.static_.is_none() && r.dynamic.is_none();
         }
+        if let Some(b) = &change.bond {
+            bond_values(f, &format!("joint.change[{i}].bond"), b);
+        }
     }
 }
 
 const DAMPING: Bound = Bound::Between(0.0, 2.0);
 
 fn spring(f: &mut Findings, kind: &str, s: &Spring) {
-    law(f, format!("joint.{kind}.law"), Some(s.law));
     f.quantity(format_args!("joint.{kind}.stiffness"), s.stiffness, Bound::From0);
     f.number(format_args!("joint.{kind}.rigidity"), s.rigidity, Bound::Above0);
     f.number(format_args!("joint.{kind}.stiffness_factor"), s.stiffness_factor, Bound::From0);
+    restitution(f, format!("joint.{kind}.restitution"), s.restitution, Some(s.law));
     if let Some(ratio) = s.damping_ratio {
         f.number(format_args!("joint.{kind}.damping_ratio"), ratio, DAMPING);
     }
 }
 
-fn law(f: &mut Findings, key: String, law: Option<SpringLaw>) {
-    if law == Some(SpringLaw::Rigid) {
-        f.add(
-            InputError::new("law `rigid` (unilateral, set-valued) is not in this version yet")
-                .key(key)
-                .allowed("`elastic`, `no-tension`, `none`")
-                .help("`no-tension` with a large `rigidity` comes near it"),
-        );
+/// Restitution of a joint whose law is `law`, if it is known here.
+fn restitution(f: &mut Findings, key: String, restitution: Option<f64>, law: Option<SpringLaw>) {
+    let Some(e) = restitution else { return };
+    if law.is_some_and(|law| law != SpringLaw::Rigid) {
+        f.push(key, "is for law `rigid` alone", "law = \"rigid\", or no `restitution`");
+    } else {
+        f.number(key, e, Bound::Between(0.0, 1.0));
     }
 }
 
@@ -66,6 +74,49 @@ fn friction(f: &mut Findings, r: &Friction) {
     below_static(f, "joint.friction.dynamic", r.dynamic, r.static_);
 }
 
+/// Steepest friction angle of a bond [rad]: 80°, whose tangent is 5.7.
+const STEEPEST: f64 = 80.0 * std::f64::consts::PI / 180.0;
+
+fn bond(f: &mut Findings, b: &JointBond) {
+    let values = BondChange {
+        tensile_strength: Some(b.tensile_strength),
+        cohesion: Some(b.cohesion),
+        friction_angle: Some(b.friction_angle),
+        mode_1_energy: Some(b.mode_1_energy),
+        mode_2_energy: Some(b.mode_2_energy),
+        residual_stiffness: Some(b.residual_stiffness),
+    };
+    bond_values(f, "joint.bond", &values);
+    if b.on.is_empty() {
+        f.push("joint.bond.on", "no kind of joint is named", "some of `bed`, `head`, `base`, `top`, `connection`");
+    }
+    let strengths = [b.tensile_strength.si(), b.cohesion.si(), b.friction_angle.si()];
+    if strengths.iter().all(|s| *s == 0.0) {
+        let allowed = "`tensile_strength`, `cohesion` or `friction_angle` above 0; no `bond` for dry joints";
+        f.push("joint.bond", "the bond has no strength", allowed);
+    }
+}
+
+fn bond_values(f: &mut Findings, key: &str, b: &BondChange) {
+    for (name, value) in [("tensile_strength", b.tensile_strength), ("cohesion", b.cohesion)] {
+        if let Some(v) = value {
+            f.quantity(format_args!("{key}.{name}"), v, Bound::From0);
+        }
+    }
+    if let Some(v) = b.friction_angle.filter(|v| !(0.0..=STEEPEST).contains(&v.si())) {
+        let what = format!("{} deg is out of range", crate::quantity::shown(v.si().to_degrees()));
+        f.push(format_args!("{key}.friction_angle"), what, "0 … 80 deg (a number without unit is in rad)");
+    }
+    for (name, value) in [("mode_1_energy", b.mode_1_energy), ("mode_2_energy", b.mode_2_energy)] {
+        if let Some(v) = value {
+            f.quantity(format_args!("{key}.{name}"), v, Bound::From0);
+        }
+    }
+    if let Some(v) = b.residual_stiffness {
+        f.number(format_args!("{key}.residual_stiffness"), v, Bound::Between(0.0, 1.0));
+    }
+}
+
 fn below_static(f: &mut Findings, key: impl std::fmt::Display, dynamic: f64, static_: f64) {
     if dynamic > static_ {
         let what = format!("{dynamic} is above the static coefficient");
@@ -74,11 +125,12 @@ fn below_static(f: &mut Findings, key: impl std::fmt::Display, dynamic: f64, sta
 }
 
 fn change(f: &mut Findings, i: usize, change: &JointChange) {
-    if change.spring.is_none() && change.friction.is_none() {
-        f.push(format_args!("joint.change[{i}]"), "nothing is changed", "`spring`, `friction` or both");
+    if change.spring.is_none() && change.friction.is_none() && change.bond.is_none() {
+        f.push(format_args!("joint.change[{i}]"), "nothing is changed", "`spring`, `friction` or `bond`");
     }
     if let Some(s) = &change.spring {
-        law(f, format!("joint.change[{i}].spring.law"), s.law);
+        // Without a law the joint keeps its own, which is not known here: a restitution of no rigid joint has no effect.
+        restitution(f, format!("joint.change[{i}].spring.restitution"), s.restitution, s.law);
         if let Some(v) = s.stiffness {
             f.quantity(format_args!("joint.change[{i}].spring.stiffness"), v, Bound::From0);
         }

@@ -13,8 +13,8 @@ use crate::store::hdf5::{NO_FRICTION, check_lengths, keyword};
 use crate::store::{FrictionRow, StoredRun, atomic};
 use crate::wall::{Block, End};
 
-/// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv` into `folder`,
-/// which is made if need be. Numbers read back to the same bits.
+/// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv`, and `bonds.csv` where
+/// joints are bonded, into `folder`, which is made if need be. Numbers read back to the same bits.
 ///
 /// # Errors
 /// [`Error::Io`] when the disk fails, [`Error::Store`] when the run contradicts itself.
@@ -27,6 +27,9 @@ pub fn csv(run: &StoredRun, folder: &Path) -> Result<()> {
     table(&folder.join("block_envelopes.csv"), |t| {
         envelopes(t, "block", &fields::BLOCK_ENVELOPES, &unknown_names(run), &run.outcome.envelopes)
     })?;
+    if !run.outcome.bonds.is_empty() {
+        table(&folder.join("bonds.csv"), |t| bonds(t, run))?;
+    }
     table(&folder.join("joint_envelopes.csv"), |t| {
         let names: Vec<&str> = run.joints.iter().map(|j| j.name.as_str()).collect();
         envelopes(t, "joint", &fields::JOINT_ENVELOPES, &names, &run.outcome.envelopes)
@@ -135,6 +138,18 @@ fn joints(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
         let friction: FrictionRow = row.friction.unwrap_or(NO_FRICTION);
         table.cell(keyword(&friction.law))?;
         numbers(table, &fields::FRICTION, &friction)?;
+        table.end_row()?;
+    }
+    Ok(())
+}
+
+fn bonds(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
+    table.head("joint", "1")?;
+    heads(table, &fields::BONDS)?;
+    table.end_row()?;
+    for bond in &run.outcome.bonds {
+        table.cell(run.joints.get(bond.joint).map_or("", |j| &j.name))?;
+        numbers(table, &fields::BONDS, bond)?;
         table.end_row()?;
     }
     Ok(())

@@ -140,7 +140,17 @@ fn fill_recording(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
         let shape = [recording.frame_time.len(), layout.held];
         archive.array("frames/friction", &shape, recording.frame_friction.iter().copied())?;
     }
-    Ok(())
+    if layout.bonded > 0 {
+        let shape = [recording.frame_time.len(), layout.bonded];
+        archive.array("frames/damage", &shape, recording.frame_damage.iter().copied())?;
+        archive.integers("bonds/joint", run.outcome.bonds.iter().map(|b| b.joint as i64))?;
+        columns(archive, "bonds", &fields::BONDS, &run.outcome.bonds)?;
+    }
+    let events = &recording.events;
+    archive.list("events/time", &events.iter().map(|e| e.time).collect::<Vec<_>>())?;
+    archive.integers("events/joint", events.iter().map(|e| i64::from(e.joint)))?;
+    archive.texts("events/kind", &events.iter().map(|e| keyword(&e.kind)).collect::<Vec<_>>())?;
+    archive.list("events/value", &events.iter().map(|e| e.value).collect::<Vec<_>>())
 }
 
 fn fill_sums(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {

@@ -1,37 +1,49 @@
-//! Rows of a recording as bytes: counts of samples and frames, then the arrays, little-endian.
+//! Rows of a recording as bytes: counts of samples, frames and events, then the arrays, then four numbers for every
+//! event, little-endian.
 
-use crate::record::{Layout, Recording};
+use crate::record::{Event, Layout, Recording};
 
 /// The bytes of `rows`; an error when their lengths do not fit the layout.
 pub(super) fn encode(rows: &Recording, layout: &Layout) -> Result<Vec<u8>, String> {
     let (samples, frames) = (rows.time.len(), rows.frame_time.len());
     let arrays = rows.arrays(layout);
-    let counts = [samples, samples, frames, frames, frames, frames, frames];
+    let counts = [samples, samples, frames, frames, frames, frames, frames, frames];
     for ((array, width), rows) in arrays.iter().zip(counts) {
         if array.len() != rows * width {
             let found = array.len();
             return Err(format!("not written: {found} values in {rows} rows of {width}"));
         }
     }
-    let mut bytes = Vec::with_capacity(16 + 8 * arrays.iter().map(|(a, _)| a.len()).sum::<usize>());
+    let mut bytes =
+        Vec::with_capacity(24 + 8 * arrays.iter().map(|(a, _)| a.len()).sum::<usize>() + 32 * rows.events.len());
     bytes.extend_from_slice(&(samples as u64).to_le_bytes());
     bytes.extend_from_slice(&(frames as u64).to_le_bytes());
+    bytes.extend_from_slice(&(rows.events.len() as u64).to_le_bytes());
     for (array, _) in arrays {
         bytes.extend(array.iter().flat_map(|value| value.to_le_bytes()));
     }
+    bytes.extend(rows.events.iter().flat_map(Event::row).flat_map(f64::to_le_bytes));
     Ok(bytes)
 }
 
 /// Appends the rows in `bytes` to `to`; `None`, with `to` in part filled, when they do not fit the layout.
 pub(super) fn decode(bytes: &[u8], layout: &Layout, to: &mut Recording) -> Option<()> {
     let (samples, bytes) = bytes.split_first_chunk::<8>()?;
-    let (frames, mut bytes) = bytes.split_first_chunk::<8>()?;
+    let (frames, bytes) = bytes.split_first_chunk::<8>()?;
+    let (events, mut bytes) = bytes.split_first_chunk::<8>()?;
     let samples = usize::try_from(u64::from_le_bytes(*samples)).ok()?;
     let frames = usize::try_from(u64::from_le_bytes(*frames)).ok()?;
+    let events = usize::try_from(u64::from_le_bytes(*events)).ok()?;
     let widths = to.arrays(layout).map(|(_, width)| width);
-    let counts = [samples, samples, frames, frames, frames, frames, frames];
+    let counts = [samples, samples, frames, frames, frames, frames, frames, frames];
     for ((array, width), rows) in to.arrays_mut().into_iter().zip(widths).zip(counts) {
         bytes = take(bytes, rows.checked_mul(width)?, array)?;
+    }
+    let mut rows = Vec::new();
+    bytes = take(bytes, events.checked_mul(4)?, &mut rows)?;
+    let (rows, _) = rows.as_chunks::<4>();
+    for row in rows {
+        to.events.push(Event::of_row(*row)?);
     }
     bytes.is_empty().then_some(())
 }
@@ -53,6 +65,7 @@ pub(super) fn with_capacity(layout: &Layout, bytes: u64) -> Recording {
     Recording::with_room(
         layout,
         limit(layout.samples, layout.channels.len()),
-        limit(frames, 3 * layout.unknowns + layout.held),
+        limit(frames, 3 * layout.unknowns + layout.held + layout.bonded),
+        0,
     )
 }

@@ -1,0 +1,321 @@
+//! Bonded joints: elastic while intact, cracked joints of their law afterwards (theory, section 3).
+//!
+//!   (B1)  F = k [1 − (1 − η) D] δ + D N μ(δ̇),   D = 0 intact … 1 cracked
+//!   (B2)  F_0 = c A + N tan φ of bed and support joints, f_t A of head joints and connections, which are bonded
+//!         against opening alone and keep F^el of their law in compression
+//!   (B3)  D = 1 − (δ_0/κ) e^{−(κ − δ_0)/δ_c},   κ = max |δ| so far,   δ_0 = F_0/k;   brittle: D = 1 from δ_0 on
+//!   (B4)  G_f A = (1 − η) F_0 [½ δ_0 + (1 − ε) δ_c],   the work done on a joint that is opened for good
+//!
+//! A part D of the joint is cracked and rubs, the rest is elastic (Alfano & Sacco 2006); strengths and exponential
+//! softening are those of the interface of Lourenço & Rots (1997), with secant unloading instead of plastic slip.
+
+use crate::assign::JointLaw;
+use crate::case::SpringLaw;
+use crate::elementary::exp_of_negative;
+use crate::error::{InputError, Result};
+use crate::graph;
+use crate::law::spring_force;
+use crate::model::{Elastic, Rub};
+use crate::outcome::BondRow;
+use crate::quantity::shown;
+use crate::state::BondState;
+use crate::wall::{End, Joint, Wall};
+
+/// ε: a softening bond that bears no more than this fraction of its strength is broken.
+const BROKEN: f64 = 1e-3;
+
+/// Law of a bond.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bond {
+    /// F_0 [N], above 0.
+    pub strength: f64,
+    /// k of the intact joint [N/m], above 0.
+    pub stiffness: f64,
+    /// η, 0 … 1: fraction of it that a cracked joint keeps.
+    pub residual: f64,
+    /// δ_c [m], above 0; 0 for a brittle bond.
+    pub decay: f64,
+    /// Bonded against opening alone: head joints and connections.
+    pub opens: bool,
+}
+
+impl Bond {
+    /// A bond that takes `energy` = G_f A [J] to break; 0 for a brittle one. None when the energy is below
+    /// [`Bond::least_energy`].
+    pub fn new(strength: f64, stiffness: f64, residual: f64, energy: f64, opens: bool) -> Option<Self> {
+        let brittle = Bond { strength, stiffness, residual, decay: 0.0, opens };
+        if energy == 0.0 {
+            return Some(brittle);
+        }
+        let beyond = energy - brittle.least_energy();
+        let decay = beyond / ((1.0 - residual) * strength * (1.0 - BROKEN));
+        (decay > 0.0 && decay.is_finite()).then_some(Bond { decay, ..brittle })
+    }
+
+    /// What the part of the joint that breaks stores at its strength [J]: with less, it would snap back.
+    pub fn least_energy(&self) -> f64 {
+        0.5 * (1.0 - self.residual) * self.strength * self.limit()
+    }
+
+    /// G_f A by (B4) [J], of a brittle bond what it stores at its strength.
+    pub fn energy(&self) -> f64 {
+        self.least_energy() + (1.0 - self.residual) * self.strength * (1.0 - BROKEN) * self.decay
+    }
+
+    /// δ_0 [m].
+    pub fn limit(&self) -> f64 {
+        self.strength / self.stiffness
+    }
+
+    /// Whether it breaks at once.
+    pub fn is_brittle(&self) -> bool {
+        self.decay == 0.0
+    }
+
+    /// How far a relative displacement `d` = x_a − x_b [m] strains the bond: |δ|, or the gap.
+    #[inline]
+    pub fn stretch(&self, d: f64) -> f64 {
+        if self.opens { (-d).max(0.0) } else { d.abs() }
+    }
+
+    /// D by (B3) and its slope [1/m] of a softening bond at the stretch `reach` [m]; the curve goes on where the bond counts as broken.
+    #[inline]
+    pub fn damage(&self, reach: f64) -> (f64, f64) {
+        let limit = self.limit();
+        if reach <= limit {
+            return (0.0, 0.0);
+        }
+        let intact = limit / reach * exp_of_negative((reach - limit) / self.decay);
+        (1.0 - intact, intact * (1.0 / reach + 1.0 / self.decay))
+    }
+
+    /// D where the joint is displaced by `d` [m] inside a step that began with the damage `held`; a brittle bond keeps it.
+    #[inline]
+    pub fn damage_at(&self, held: f64, d: f64) -> f64 {
+        if self.is_brittle() { held } else { held.max(self.damage(self.stretch(d)).0) }
+    }
+
+    /// Whether a softening bond that was stretched by `reach` [m] bears next to nothing any more.
+    pub fn is_broken(&self, reach: f64) -> bool {
+        reach > self.limit() && exp_of_negative((reach - self.limit()) / self.decay) <= BROKEN
+    }
+
+    /// Stiffness that the damage leaves [N/m].
+    #[inline]
+    pub fn secant(&self, damage: f64) -> f64 {
+        self.stiffness * (1.0 - (1.0 - self.residual) * damage)
+    }
+
+    /// Work on the part that breaks, of a bond stretched from rest to `reach` [J].
+    fn work(&self, reach: f64) -> f64 {
+        let (limit, part) = (self.limit(), 1.0 - self.residual);
+        if reach <= limit || self.is_brittle() {
+            return 0.5 * part * self.stiffness * reach * reach;
+        }
+        let softened = 1.0 - exp_of_negative((reach - limit) / self.decay);
+        part * self.strength * (0.5 * limit + self.decay * softened)
+    }
+
+    /// What it took to bring a bond to `damage` by a stretch of `reach` [m] [J]: the work less what unloading gives back.
+    pub(crate) fn spent(&self, reach: f64, damage: f64) -> f64 {
+        self.work(reach) - self.stored(reach, damage)
+    }
+
+    /// Elastic energy of the part that breaks [J].
+    fn stored(&self, stretch: f64, damage: f64) -> f64 {
+        0.5 * (1.0 - damage) * (1.0 - self.residual) * self.stiffness * stretch * stretch
+    }
+}
+
+/// A joint with a bond.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bonded {
+    /// Index of the joint.
+    pub joint: u32,
+    /// Its index among the joints that rub, if it does.
+    pub rub: Option<u32>,
+    /// The law.
+    pub law: Bond,
+}
+
+impl Bonded {
+    /// Elastic force on side a [N] at the relative displacement `d` [m]; `elastic` is the joint's own, intact.
+    #[inline]
+    pub fn force(&self, elastic: &Elastic, damage: f64, d: f64) -> f64 {
+        if self.law.opens && d > 0.0 { elastic.stiffness * d } else { self.law.secant(damage) * d }
+    }
+
+    /// The bond in a result.
+    pub(crate) fn row(&self, state: &BondState) -> BondRow {
+        BondRow {
+            joint: self.joint as usize,
+            strength: self.law.strength,
+            stiffness: self.law.stiffness,
+            residual_stiffness: self.law.residual,
+            energy: self.law.energy(),
+            decay: self.law.decay,
+            damage: state.damage,
+            spent: state.spent,
+            cracked: state.cracked,
+            broken: state.broken,
+        }
+    }
+
+    /// What [`Bonded::force`] has beyond the force of the intact spring in `elastic`: exactly 0 for an intact bed joint.
+    #[inline]
+    pub fn beyond(&self, elastic: &Elastic, damage: f64, d: f64) -> f64 {
+        self.force(elastic, damage, d) - spring_force(elastic.unilateral, elastic.stiffness, d)
+    }
+}
+
+/// The bonds of a wall. Head joints that are bonded open when they have cracked: their springs in `elastic` are
+/// made one-sided, the bond has the tension.
+pub(crate) fn compile(
+    wall: &Wall,
+    joints: &[Joint],
+    laws: &[JointLaw],
+    normal: &[[f64; 2]],
+    rubs: &[Rub],
+    elastic: &mut [Elastic],
+) -> Result<Vec<Bonded>> {
+    let mut bonds = Vec::new();
+    let mut worst: [Option<Snap>; 2] = [None; 2];
+    let mut rub = 0;
+    for (e, (joint, law)) in joints.iter().zip(laws).enumerate() {
+        while rub < rubs.len() && (rubs[rub].joint as usize) < e {
+            rub += 1;
+        }
+        let Some(b) = law.bond else { continue };
+        let opens = joint.kind.is_upright();
+        let area = joint.overlap * thickness(wall, joint);
+        let pressed = 0.5 * (normal[e][0] + normal[e][1]) * b.tan_angle;
+        let strength = if opens { b.tensile_strength * area } else { b.cohesion * area + pressed };
+        if strength <= 0.0 {
+            continue;
+        }
+        let stiffness = joint.weight * law.spring.stiffness.si() * law.spring.stiffness_factor;
+        if matches!(law.spring.law, SpringLaw::None | SpringLaw::Rigid) || stiffness == 0.0 {
+            return Err(without_stiffness(&graph::name(wall, joint)).into());
+        }
+        let (residual, energy) = if opens { (0.0, b.energy[0]) } else { (b.residual, b.energy[1]) };
+        let Some(bond) = Bond::new(strength, stiffness, residual, energy * area, opens) else {
+            let brittle = Bond { strength, stiffness, residual, decay: 0.0, opens };
+            let snap = Snap { joint: e, least: brittle.least_energy() / area, given: energy, whole: residual == 1.0 };
+            let slot = &mut worst[usize::from(!opens)];
+            if slot.is_none_or(|w| snap.least > w.least) {
+                *slot = Some(snap);
+            }
+            continue;
+        };
+        elastic[e].unilateral |= opens;
+        let rub = (rub < rubs.len() && rubs[rub].joint as usize == e).then_some(rub as u32);
+        bonds.push(Bonded { joint: e as u32, rub, law: bond });
+    }
+    for (key, snap) in ["mode_1_energy", "mode_2_energy"].into_iter().zip(worst) {
+        if let Some(snap) = snap {
+            return Err(snap.refused(key, &graph::name(wall, &joints[snap.joint])).into());
+        }
+    }
+    Ok(bonds)
+}
+
+/// A joint whose fracture energy is too small.
+#[derive(Debug, Clone, Copy)]
+struct Snap {
+    joint: usize,
+    least: f64,
+    given: f64,
+    whole: bool,
+}
+
+impl Snap {
+    fn refused(&self, key: &str, name: &str) -> InputError {
+        let at = format!("joint.bond.{key}");
+        if self.whole {
+            let what = format!("joint {name} keeps its whole stiffness when it cracks: there is nothing to soften");
+            return InputError::new(what).key(at).allowed("0, or residual_stiffness below 1");
+        }
+        // Rounded up, so that the number in the message is one that is allowed.
+        let digits = 10f64.powi(2 - self.least.log10().floor() as i32);
+        let least = (self.least * digits).floor() + 1.0;
+        let given = shown(self.given);
+        InputError::new(format!("{given} N/m is less than joint {name} stores at its strength: it would snap back"))
+            .key(at)
+            .allowed(format!("from {} N/m, or 0 for a brittle bond", shown(least / digits)))
+            .help("the energy that a joint stores at its strength is F²/(2 k) over its area")
+    }
+}
+
+fn without_stiffness(name: &str) -> InputError {
+    InputError::new(format!("joint {name} has no stiffness: a bond is elastic until it cracks"))
+        .key("joint.bond")
+        .allowed("law `elastic` or `no-tension` with a stiffness above 0, or leave the joint out with `on`")
+}
+
+/// Thickness of the contact [m], that of the thinner block.
+fn thickness(wall: &Wall, joint: &Joint) -> f64 {
+    let of = |i: usize| wall.blocks[i].thickness;
+    match joint.b {
+        End::Block(b) => of(joint.a).min(of(b)),
+        End::Base | End::Top => of(joint.a),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STRENGTH: f64 = 2e3;
+    const STIFFNESS: f64 = 5e7;
+
+    fn soft(residual: f64) -> Bond {
+        let least = 0.5 * (1.0 - residual) * STRENGTH * STRENGTH / STIFFNESS;
+        Bond::new(STRENGTH, STIFFNESS, residual, 5.0 * least, false).unwrap()
+    }
+
+    #[test]
+    fn the_slope_of_damage_is_its_derivative() {
+        let bond = soft(0.0);
+        for factor in [1.001, 1.1, 2.0, 5.0, 20.0] {
+            let (d, h) = (factor * bond.limit(), 1e-6 * bond.limit());
+            let difference = (bond.damage(d + h).0 - bond.damage(d - h).0) / (2.0 * h);
+            assert!((difference / bond.damage(d).1 - 1.0).abs() < 1e-6, "at {factor} δ_0");
+        }
+        assert_eq!(bond.damage(bond.limit()), (0.0, 0.0));
+    }
+
+    /// The area under force over displacement, summed up, is G_f A; what is spent grows to it and takes the elastic part along.
+    #[test]
+    fn the_area_under_the_curve_is_the_energy() {
+        for residual in [0.0, 0.25] {
+            let bond = soft(residual);
+            let end = bond.limit() + bond.decay * (1.0 / BROKEN).ln();
+            assert!(!bond.is_broken(end * (1.0 - 1e-9)) && bond.is_broken(end * (1.0 + 1e-9)));
+            let force = |d: f64| bond.secant(bond.damage(d).0) * d - residual * STIFFNESS * d;
+            let n = 200_000;
+            let step = end / f64::from(n);
+            let area: f64 = (0..n).map(|k| step * force((f64::from(k) + 0.5) * step)).sum();
+            assert!((area / bond.energy() - 1.0).abs() < 1e-8, "{area} J of {}", bond.energy());
+            assert!((bond.spent(end, 1.0) / bond.energy() - 1.0).abs() < 1e-12);
+            assert_eq!(bond.spent(bond.limit(), 0.0), 0.0);
+        }
+    }
+
+    #[test]
+    fn limits_of_the_law() {
+        let least = 0.5 * STRENGTH * STRENGTH / STIFFNESS;
+        assert!(Bond::new(STRENGTH, STIFFNESS, 0.0, 0.999 * least, false).is_none());
+        assert!(Bond::new(STRENGTH, STIFFNESS, 1.0, least, false).is_none(), "nothing to soften");
+        let brittle = Bond::new(STRENGTH, STIFFNESS, 0.0, 0.0, true).unwrap();
+        assert!(brittle.is_brittle() && (brittle.energy() / least - 1.0).abs() < 1e-14);
+        assert!((brittle.spent(brittle.limit(), 1.0) / least - 1.0).abs() < 1e-14);
+        // Intact, to the bit; closed, the law of the head joint.
+        assert_eq!((brittle.secant(0.0), brittle.secant(1.0)), (STIFFNESS, 0.0));
+        let head = Bonded { joint: 0, rub: None, law: brittle };
+        let elastic = Elastic { stiffness: 1e3 * STIFFNESS, damping: 0.0, unilateral: true };
+        for damage in [0.0, 0.5, 1.0] {
+            assert_eq!(head.force(&elastic, damage, 1e-6), 1e-3 * STIFFNESS);
+            assert_eq!(head.force(&elastic, damage, -1e-6), -1e-6 * STIFFNESS * (1.0 - damage));
+        }
+    }
+}
