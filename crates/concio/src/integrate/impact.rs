@@ -58,7 +58,8 @@ impl Impacts {
         let n = model.unknowns();
         let sides = || model.contacts.iter().map(|c| model.sides[c.joint as usize].map(|s| s as usize));
         let pairs: Vec<(usize, usize)> = sides().filter(|s| s[1] < n).map(|[a, b]| (a, b)).collect();
-        let (matrix, among) = if model.contacts.is_empty() { Matrix::new(0, &[]) } else { Matrix::new(n, &pairs) };
+        let n = if model.contacts.is_empty() { 0 } else { n };
+        let (matrix, among) = Matrix::new(n, if n > 0 { &pairs } else { &[] }, &[], true);
         let mut among = among.into_iter();
         let slots = sides().map(|s| if s[1] < n { among.next().unwrap_or(u32::MAX) } else { u32::MAX }).collect();
         let inverse = |i: usize| model.mass.get(i).map_or(0.0, |m| m.recip());
@@ -195,7 +196,7 @@ impl Impacts {
                 self.matrix.lower[self.slots[c] as usize] -= self.hold;
             }
         }
-        let factorised = self.matrix.factorise(true);
+        let factorised = self.matrix.factorise();
         debug_assert!(factorised.is_ok());
     }
 
