@@ -22,6 +22,7 @@ pub use crate::lanes::topology::Kind;
 use crate::lanes::topology::Topology;
 use crate::lanes::work::{ACCEPTED, Advance, CONVERGED, GIVEN_UP, GOING, Iterate, PENDING, Turn, Work};
 use crate::outcome::Outcome;
+use crate::record::StopReason;
 use crate::simulate::Simulation;
 
 /// Up to eight runs of one kind.
@@ -33,9 +34,8 @@ pub struct Gang<'m> {
     lanes: [Option<Lane<'m>>; WIDTH],
     /// Lanes that are used.
     width: usize,
-    /// Turns so far, and lanes that were taken in them.
+    /// Turns so far.
     turns: u64,
-    taken: u64,
 }
 
 /// Where a gang gets its runs and leaves what became of them.
@@ -65,13 +65,7 @@ impl<'m> Gang<'m> {
             lanes: [const { None }; WIDTH],
             width: width.min(WIDTH),
             turns: 0,
-            taken: 0,
         }
-    }
-
-    /// Share of the lanes that were taken.
-    pub fn occupancy(&self) -> f64 {
-        self.taken as f64 / (self.turns * WIDTH as u64).max(1) as f64
     }
 
     /// Works from `first` on until the desk has no more runs and all lanes are empty, with the widest instructions of
@@ -91,8 +85,10 @@ impl<'m> Gang<'m> {
     }
 
     fn drive<S: Simd>(mut self, simd: S, desk: &mut dyn Desk<'m>) {
-        for lane in 1..self.width {
-            self.take_next(lane, desk);
+        for lane in 0..self.width {
+            if self.lanes[lane].is_none() {
+                self.take_next(lane, desk);
+            }
         }
         while self.lanes.iter().any(Option::is_some) {
             if self.turns.is_multiple_of(BETWEEN_LOOKS) {
@@ -104,14 +100,10 @@ impl<'m> Gang<'m> {
             }
             self.turn(simd, desk);
         }
-        if std::env::var("CONCIO_LANES").is_ok() {
-            eprintln!("turns {} occupancy {:.3}", self.turns, self.occupancy());
-        }
     }
 
     fn turn<S: Simd>(&mut self, simd: S, desk: &mut dyn Desk<'m>) {
         self.turns += 1;
-        self.taken += self.lanes.iter().flatten().count() as u64;
         simd.vectorize(Iterate(&mut self.work));
         let mut ended = [false; STAGES];
         let mut marks = Marks::default();
@@ -232,7 +224,7 @@ impl<'m> Gang<'m> {
         }
     }
 
-    fn finish(&mut self, i: usize, reason: Option<crate::record::StopReason>, desk: &mut dyn Desk<'m>) {
+    fn finish(&mut self, i: usize, reason: Option<StopReason>, desk: &mut dyn Desk<'m>) {
         if let Some(lane) = self.lanes[i].take() {
             let (number, outcome) = lane.outcome(&self.work, &self.account, i, reason);
             desk.ended(number, outcome);
@@ -244,7 +236,7 @@ impl<'m> Gang<'m> {
         self.settle(simd);
         for i in 0..WIDTH {
             if let Some(lane) = self.lanes[i].take() {
-                let reason = Some(crate::record::StopReason::Interrupted);
+                let reason = Some(StopReason::Interrupted);
                 let (number, outcome) = lane.outcome(&self.work, &self.account, i, reason);
                 desk.ended(number, outcome);
             }
@@ -270,4 +262,81 @@ impl<'m> Gang<'m> {
 struct Marks {
     converged: [f64; WIDTH],
     going: [f64; WIDTH],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Scheme;
+    use crate::excitation::Excitation;
+    use crate::law::Stribeck;
+    use crate::model::Model;
+    use crate::samples::{Link, lumped, shaking, solver};
+    use crate::simulate::Sampling;
+    use crate::wall::End;
+
+    struct Pile<'m> {
+        runs: Vec<Simulation<'m>>,
+        outcomes: Vec<(usize, Outcome)>,
+    }
+
+    impl<'m> Desk<'m> for Pile<'m> {
+        fn next(&mut self) -> Option<(usize, Simulation<'m>)> {
+            self.runs.pop().map(|run| (self.runs.len(), run))
+        }
+        fn ended(&mut self, number: usize, outcome: Outcome) {
+            self.outcomes.push((number, outcome));
+        }
+        fn goes_on(&mut self, _: f64) -> bool {
+            true
+        }
+    }
+
+    /// Four masses that rub, touch and hang together, shaken harder from model to model.
+    fn models() -> Vec<Model> {
+        let law = Stribeck { static_: 0.5, dynamic: 0.3, slip_velocity: 1e-3, beta: 100.0, alpha: 0.1 };
+        let model = |k: usize| {
+            let links = [
+                Link::spring(0, End::Base, 4e4, 30.0),
+                Link::friction(0, End::Base, law, 60.0),
+                Link::unilateral(0, End::Block(1), 1e6),
+                Link::friction(1, End::Block(2), law, 25.0),
+                Link::spring(1, End::Base, 2e4, 10.0),
+                Link::unilateral(3, End::Block(2), 2e6),
+                Link::spring(3, End::Base, 3e4, 20.0),
+            ];
+            let base = shaking(4.0 + k as f64, 7.0).unwrap();
+            lumped(&[10.0, 7.0, 5.0, 8.0], &links, Excitation::of_base(base, 0.2))
+        };
+        (0..11).map(model).collect()
+    }
+
+    fn by<S: Simd>(simd: S, models: &[Model]) -> Vec<(usize, Outcome)> {
+        let sampling = Sampling { interval: 1e-3, frame_every: 10, blocks: Vec::new(), joints: Vec::new() };
+        let solver = solver(Scheme::TrBdf2, 1e-4);
+        let runs: Vec<_> = models.iter().map(|m| Simulation::new(m, &solver, &sampling).unwrap()).collect();
+        let gang = Gang::new(&runs[0], WIDTH);
+        let mut pile = Pile { runs, outcomes: Vec::new() };
+        gang.drive(simd, &mut pile);
+        pile.outcomes.sort_by_key(|(number, _)| *number);
+        pile.outcomes
+    }
+
+    /// Wide, halved and single instructions give the same bits.
+    #[test]
+    fn all_instructions_give_the_same_bits() {
+        let models = models();
+        let plain = by(pulp::Scalar512b, &models);
+        assert!(plain.len() == 11 && plain.iter().all(|(_, out)| out.stop_reason == StopReason::Completed));
+        assert!(plain.iter().all(|(_, out)| out.totals.peak_slip_velocity > 1e-3 && out.totals.minimum_gap < -1e-6));
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(simd) = pulp::x86::V3::try_new() {
+                assert!(by(pulp::x86::V3_512b(simd), &models) == plain);
+            }
+            if let Some(simd) = pulp::x86::V4::try_new() {
+                assert!(by(simd, &models) == plain);
+            }
+        }
+    }
 }

@@ -264,14 +264,6 @@ impl<'a, S: Simd> Write<'a, S> {
         self.rows[i as usize] = value.1;
     }
     #[inline(always)]
-    pub fn add(&mut self, i: u32, value: V<S>) {
-        self.set(i, self.at(i) + value);
-    }
-    #[inline(always)]
-    pub fn subtract(&mut self, i: u32, value: V<S>) {
-        self.set(i, self.at(i) - value);
-    }
-    #[inline(always)]
     pub fn iter_mut(&mut self) -> impl ExactSizeIterator<Item = GroupMut<'_, S, 1>> {
         let simd = self.simd;
         self.rows.as_chunks_mut::<1>().0.iter_mut().map(
