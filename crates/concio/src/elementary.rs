@@ -4,41 +4,57 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LOG2_E};
 
 /// Adding it to a number of at most 2⁵¹ leaves the nearest integer in the low bits.
-const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 · 2⁵²
+pub(crate) const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 · 2⁵²
 /// ln 2 in two parts; the first has 21 trailing zeros, so that its product with a small integer is exact.
-const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
-const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
-/// Below it the exponential is taken as e^(−LARGEST) ≈ 3·10⁻³⁰⁸: nothing that is added to a friction coefficient.
-const LARGEST: f64 = 707.0;
+pub(crate) const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
+pub(crate) const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
+/// Below it the exponential is taken as e^(−EXP_LARGEST) ≈ 3·10⁻³⁰⁸: nothing that is added to a friction coefficient.
+pub(crate) const EXP_LARGEST: f64 = 707.0;
+/// Coefficients of Taylor's series of e^r, the highest power first.
+pub(crate) const EXP_TAYLOR: [f64; 14] = [
+    1.0 / 6_227_020_800.0,
+    1.0 / 479_001_600.0,
+    1.0 / 39_916_800.0,
+    1.0 / 3_628_800.0,
+    1.0 / 362_880.0,
+    1.0 / 40_320.0,
+    1.0 / 5_040.0,
+    1.0 / 720.0,
+    1.0 / 120.0,
+    1.0 / 24.0,
+    1.0 / 6.0,
+    0.5,
+    1.0,
+    1.0,
+];
+/// P and Q of the arctangent, the highest power first; that of Q is 1.
+pub(crate) const ATAN_NUMERATOR: [f64; 5] = [
+    -0.875_060_860_003_190_4,
+    -16.157_537_187_333_652,
+    -75.008_557_923_147_05,
+    -122.886_668_449_013_61,
+    -64.850_219_049_420_25,
+];
+pub(crate) const ATAN_DENOMINATOR: [f64; 5] = [
+    24.858_464_901_423_062,
+    165.027_009_831_698_85,
+    432.881_060_491_290_27,
+    485.390_399_635_913_7,
+    194.550_657_148_261_4,
+];
 
 /// e^(−x) for x ≥ 0; relative error below 4·10⁻¹⁶.
 ///
 /// −x = k ln 2 + r with |r| ≤ ½ ln 2; Taylor's series of e^r to r¹³ leaves less than (½ ln 2)¹⁴/14! = 4.2·10⁻¹⁸.
 #[inline(always)]
 pub fn exp_of_negative(x: f64) -> f64 {
-    const TAYLOR: [f64; 14] = [
-        1.0 / 6_227_020_800.0,
-        1.0 / 479_001_600.0,
-        1.0 / 39_916_800.0,
-        1.0 / 3_628_800.0,
-        1.0 / 362_880.0,
-        1.0 / 40_320.0,
-        1.0 / 5_040.0,
-        1.0 / 720.0,
-        1.0 / 120.0,
-        1.0 / 24.0,
-        1.0 / 6.0,
-        0.5,
-        1.0,
-        1.0,
-    ];
     // Not f64::min: what is not a number stays so.
-    let x = if x > LARGEST { LARGEST } else { x };
+    let x = if x > EXP_LARGEST { EXP_LARGEST } else { x };
     let shifted = ROUND - x * LOG2_E;
     let k = shifted - ROUND;
     let r = (-x - k * LN_2_HIGH) - k * LN_2_LOW;
-    let mut sum = TAYLOR[0];
-    for c in &TAYLOR[1..] {
+    let mut sum = EXP_TAYLOR[0];
+    for c in &EXP_TAYLOR[1..] {
         sum = sum * r + c;
     }
     // The low bits of `shifted` are k; moved to the place of the exponent they are 2^k.
@@ -52,20 +68,7 @@ pub fn exp_of_negative(x: f64) -> f64 {
 /// rational approximation t + t³ P(t²)/Q(t²) of S. L. Moshier, *Methods and Programs for Mathematical Functions* (1989).
 #[inline(always)]
 pub fn atan_of_positive(z: f64) -> f64 {
-    const P: [f64; 5] = [
-        -0.875_060_860_003_190_4,
-        -16.157_537_187_333_652,
-        -75.008_557_923_147_05,
-        -122.886_668_449_013_61,
-        -64.850_219_049_420_25,
-    ];
-    const Q: [f64; 5] = [
-        24.858_464_901_423_062,
-        165.027_009_831_698_85,
-        432.881_060_491_290_27,
-        485.390_399_635_913_7,
-        194.550_657_148_261_4,
-    ];
+    let (p, q) = (ATAN_NUMERATOR, ATAN_DENOMINATOR);
     let (far, middle) = (z > 2.414_213_562_373_095, z > 0.66);
     let top = if far {
         -1.0
@@ -90,8 +93,8 @@ pub fn atan_of_positive(z: f64) -> f64 {
     };
     let t = top / bottom;
     let s = t * t;
-    let p = (((P[0] * s + P[1]) * s + P[2]) * s + P[3]) * s + P[4];
-    let q = ((((s + Q[0]) * s + Q[1]) * s + Q[2]) * s + Q[3]) * s + Q[4];
+    let p = (((p[0] * s + p[1]) * s + p[2]) * s + p[3]) * s + p[4];
+    let q = ((((s + q[0]) * s + q[1]) * s + q[2]) * s + q[3]) * s + q[4];
     turned + (t + t * s * (p / q))
 }
 

@@ -41,18 +41,56 @@ const PLASTIC: f64 = 0.1;
 /// A run under way.
 #[derive(Debug, Clone)]
 pub struct Simulation<'m> {
-    model: &'m Model,
-    solver: Solver,
+    pub(crate) model: &'m Model,
+    pub(crate) solver: Solver,
     channels: Channels,
     layout: Layout,
-    state: State,
-    work: Step,
+    pub(crate) state: State,
+    pub(crate) work: Step,
     recording: Recording,
     /// An instant inside a step, of which a sample is taken.
     instant: Instant,
     /// The smooth piece of the motion in which the state lies; follows from the time.
-    drive: Drive,
+    pub(crate) drive: Drive,
     longest_step: f64,
+}
+
+/// A step under way: where it aims, and its present try.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Plan {
+    /// Where the step ends at the latest [s]: a break of the motion or a frame.
+    target: f64,
+    /// Whether that is a break of the motion.
+    at_break: bool,
+    /// Step that the error control asks for [s].
+    proposed: f64,
+    /// Step at whose end something happens [s].
+    event: Option<f64>,
+    /// Step of the present try [s], and whether it ends at `target`.
+    pub h: f64,
+    lands: bool,
+}
+
+impl Plan {
+    /// Where the present try ends [s], from `t`.
+    pub fn end(&self, t: f64) -> f64 {
+        if self.lands { self.target } else { t + self.h }
+    }
+    /// Whether it ends at a break of the motion.
+    pub fn meets_break(&self) -> bool {
+        self.at_break && self.lands
+    }
+}
+
+/// What becomes of a try.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    /// It is the step.
+    Accept,
+    /// A shorter one follows.
+    Repeat,
+    /// The run ends.
+    Stop(StopReason),
 }
 
 /// What [`Simulation::advance`] came to.
@@ -184,67 +222,91 @@ impl<'m> Simulation<'m> {
 
     /// One accepted step, to the next break of the motion or frame at the farthest.
     fn step(&mut self) -> std::result::Result<(), StopReason> {
+        let mut plan = self.plan();
+        loop {
+            self.size(&mut plan);
+            let tolerance = self.tolerance(plan.h);
+            let attempt = self.work.attempt(self.model, &self.state, &self.drive, plan.h, tolerance);
+            if attempt.is_ok_and(|error| error <= 1.0) {
+                let first = events::first(self.model, &self.state, &self.work.z, self.work.v(), plan.h);
+                if first.is_some() {
+                    self.state.counters.located += 1;
+                    plan.event = first;
+                    continue;
+                }
+            }
+            match self.judge(attempt, &mut plan) {
+                Verdict::Accept => {
+                    self.accept(plan.end(self.state.t), plan.h, plan.meets_break());
+                    return Ok(());
+                }
+                Verdict::Repeat => {}
+                Verdict::Stop(reason) => return Err(reason),
+            }
+        }
+    }
+
+    /// Where the next step aims.
+    pub(crate) fn plan(&self) -> Plan {
         let break_at = self.drive.end;
         let frame_at = self.sample_time(self.landing());
         // A sample that falls on a break but for rounding is taken there.
         let at_break = frame_at >= break_at - self.slack();
         let target = if at_break { break_at } else { frame_at };
-        let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
-        let mut proposed = self.state.step;
-        // Where a step ends because something happens there.
-        let mut event = events::near(self.model, &self.state, proposed.min(target - self.state.t));
-        loop {
-            let remaining = target - self.state.t;
-            let mut h = proposed.min(self.longest_step);
-            let lands = h >= remaining * (1.0 - 1e-9);
-            if lands {
-                h = remaining;
-            } else if h > 0.5 * remaining {
-                h = 0.5 * remaining;
-            }
-            let (h, lands) = event.map_or((h, lands), |at| (at, false));
-            let tolerance = self.tolerance(h);
-            let attempt = self.work.attempt(self.model, &self.state, &self.drive, h, tolerance);
-            let factor = match attempt {
-                Ok(error) if error <= 1.0 => {
-                    let first = events::first(self.model, &self.state, &self.work.z, self.work.v(), h);
-                    if first.is_some() {
-                        self.state.counters.located += 1;
-                        event = first;
-                        continue;
-                    }
-                    // What has just been too long is not tried again at once.
-                    let most = if proposed < self.state.step { 1.0 } else { MOST_GROWTH };
-                    let grow = growth(error, self.work.error_order()).min(most);
-                    let free = h * grow;
-                    // A step cut short by a landing says little about the one that the error allows.
-                    let cut = (lands || event.is_some()) && proposed > h;
-                    self.state.step = if cut { free.max(proposed) } else { free };
-                    self.accept(if lands { target } else { self.state.t + h }, h, at_break && lands);
-                    return Ok(());
-                }
-                Ok(error) if error.is_finite() => {
-                    self.state.counters.rejected += 1;
-                    growth(error, self.work.error_order()).clamp(0.1, 0.8)
-                }
-                Err(Failure::TooLong) => {
-                    self.state.counters.failed += 1;
-                    0.4
-                }
-                Ok(_) | Err(Failure::NotFinite) => {
-                    self.state.counters.failed += 1;
-                    if h <= shortest {
-                        return Err(StopReason::NotFinite);
-                    }
-                    0.25
-                }
-            };
-            if h <= shortest {
-                return Err(StopReason::StepTooShort);
-            }
-            event = None;
-            proposed = h * factor;
+        let proposed = self.state.step;
+        let event = events::near(self.model, &self.state, proposed.min(target - self.state.t));
+        Plan { target, at_break, proposed, event, h: 0.0, lands: false }
+    }
+
+    /// Length of the next try.
+    pub(crate) fn size(&self, plan: &mut Plan) {
+        let remaining = plan.target - self.state.t;
+        let mut h = plan.proposed.min(self.longest_step);
+        let lands = h >= remaining * (1.0 - 1e-9);
+        if lands {
+            h = remaining;
+        } else if h > 0.5 * remaining {
+            h = 0.5 * remaining;
         }
+        (plan.h, plan.lands) = plan.event.map_or((h, lands), |at| (at, false));
+    }
+
+    /// What becomes of a try with this error over the tolerance, and how long the next one is.
+    pub(crate) fn judge(&mut self, attempt: std::result::Result<f64, Failure>, plan: &mut Plan) -> Verdict {
+        let shortest = SHORTEST / self.model.stiffest.sqrt().max(1.0);
+        let (h, order) = (plan.h, self.work.error_order());
+        let factor = match attempt {
+            Ok(error) if error <= 1.0 => {
+                // What has just been too long is not tried again at once.
+                let most = if plan.proposed < self.state.step { 1.0 } else { MOST_GROWTH };
+                let free = h * growth(error, order).min(most);
+                // A step cut short by a landing says little about the one that the error allows.
+                let cut = (plan.lands || plan.event.is_some()) && plan.proposed > h;
+                self.state.step = if cut { free.max(plan.proposed) } else { free };
+                return Verdict::Accept;
+            }
+            Ok(error) if error.is_finite() => {
+                self.state.counters.rejected += 1;
+                growth(error, order).clamp(0.1, 0.8)
+            }
+            Err(Failure::TooLong) => {
+                self.state.counters.failed += 1;
+                0.4
+            }
+            Ok(_) | Err(Failure::NotFinite) => {
+                self.state.counters.failed += 1;
+                if h <= shortest {
+                    return Verdict::Stop(StopReason::NotFinite);
+                }
+                0.25
+            }
+        };
+        if h <= shortest {
+            return Verdict::Stop(StopReason::StepTooShort);
+        }
+        plan.event = None;
+        plan.proposed = h * factor;
+        Verdict::Repeat
     }
 
     /// The next sample at which a step has to end: a frame, whose accelerations then obey (1), or for the buffer's sake.
@@ -268,7 +330,7 @@ impl<'m> Simulation<'m> {
     }
 
     /// Of a step of `h` [s].
-    fn tolerance(&self, h: f64) -> Tolerance {
+    pub(crate) fn tolerance(&self, h: f64) -> Tolerance {
         let [z, v] = self.state.scale;
         let work = self.state.totals.peak_input + self.state.energies.initial;
         let felt = h * self.model.stiffest.sqrt() > UNFELT;
@@ -299,16 +361,29 @@ impl<'m> Simulation<'m> {
         observe(self.model, &mut self.state, h, self.work.start());
         self.samples_before(t, h);
         self.happen(h);
-        if at_break && t < self.model.excitation.duration {
-            self.enter_piece(t);
+        if at_break
+            && t < self.model.excitation.duration
+            && let Some(jump) = self.turn_piece(t)
+        {
+            self.restart(jump);
         }
-        if self.sample_time(self.state.samples) <= t + self.slack() {
+        if self.sample_is_due() {
             self.sample();
         }
     }
 
+    /// Whether the state's instant is that of the next sample.
+    pub(crate) fn sample_is_due(&self) -> bool {
+        self.sample_time(self.state.samples) <= self.state.t + self.slack()
+    }
+
+    /// Whether a sample lies inside the step that ended at `t`.
+    pub(crate) fn samples_inside(&self, t: f64) -> bool {
+        self.sample_time(self.state.samples) < t - self.slack()
+    }
+
     /// Takes the samples that lie inside the step of `h` that ended at `t`.
-    fn samples_before(&mut self, t: f64, h: f64) {
+    pub(crate) fn samples_before(&mut self, t: f64, h: f64) {
         loop {
             let due = self.sample_time(self.state.samples);
             if due >= t - self.slack() {
@@ -333,23 +408,27 @@ impl<'m> Simulation<'m> {
     }
 
     /// Goes on into the piece of the motion that starts at `t`. Records only have kinks there; where acceleration or
-    /// velocity jumps, the rates at the start of the next step are those after the jump.
-    fn enter_piece(&mut self, t: f64) {
+    /// velocity jumps, the jump of the base's velocity [m/s], with which to call [`Simulation::restart`].
+    pub(crate) fn turn_piece(&mut self, t: f64) -> Option<f64> {
         let before = self.drive;
         self.drive = self.model.excitation.drive(t);
         let jump = self.model.excitation.base_velocity_jump(t);
+        let (old, new) = (before.base_acceleration(t), self.drive.base_acceleration(t));
+        let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
+        let smooth = jump == 0.0 && close(old, new) && close(before.top(t).v, self.drive.top(t).v);
+        (!smooth).then_some(jump)
+    }
+
+    /// The rates at the start of the next step are those after a jump of the motion.
+    pub(crate) fn restart(&mut self, jump: f64) {
         if jump != 0.0 {
             kick(self.model, &mut self.state, jump);
         }
-        let (old, new) = (before.base_acceleration(t), self.drive.base_acceleration(t));
-        let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
-        if jump != 0.0 || !close(old, new) || !close(before.top(t).v, self.drive.top(t).v) {
-            self.settle();
-        }
+        self.settle();
     }
 
     /// Takes the sample that is due at the state's own instant.
-    fn sample(&mut self) {
+    pub(crate) fn sample(&mut self) {
         let Simulation { model, drive, channels, layout, state, recording, .. } = self;
         keep(model, drive, channels, layout, state.view(), state.samples, recording);
         state.samples += 1;

@@ -11,7 +11,7 @@ use crate::integrate::fronts::Fronts;
 use crate::integrate::order::{elimination_order, postordered};
 
 /// Unknowns up to which a list of updates is faster than fronts.
-const MOST_LISTED: usize = 256;
+pub const MOST_LISTED: usize = 256;
 /// Updates up to which the list of them is kept without symmetry (12 bytes each).
 const LONGEST_LIST: usize = 200_000;
 
@@ -160,6 +160,11 @@ impl Matrix {
     /// Place of each unknown in the elimination order: the number it has in `diagonal` and in [`Matrix::solve`].
     pub fn places(&self) -> &[u32] {
         &self.place
+    }
+
+    /// The pattern of L by columns: where each starts, and the row of every entry.
+    pub fn pattern(&self) -> (&[u32], &[u32]) {
+        (&self.start, &self.row)
     }
 
     /// Factorises what `diagonal`, `lower` and, without symmetry, `upper` hold; they may be destroyed.

@@ -35,21 +35,23 @@ use crate::wall::Block;
 
 /// Iterations after which a stage is given up and the step shortened. Of the stages that converge, 99 in 100 take
 /// fewer than eight.
-const MOST_ITERATIONS: usize = 8;
+pub const MOST_ITERATIONS: usize = 8;
 /// The same where joints stick truly or are rigid: those that hang together let go one after the other, however short
 /// the step.
 const MOST_WITH_HELD: usize = 60;
 /// Iterations after which rigid joints open or close one at a time, by least index.
 const AT_ONCE: usize = 8;
 /// Mismatch of tangent and law, as a fraction of μ_s, beyond which the next tangent is moved along the law.
-const FAR: f64 = 0.02;
+pub const FAR: f64 = 0.02;
 /// How near to the law, as a fraction of μ_s, that place has to be found.
-const MEETING: f64 = 0.01;
+pub const MEETING: f64 = 0.01;
+/// Points of the law that are tried for it at most.
+pub const MOST_SEARCHED: usize = 20;
 /// Stiffness that holds a sticking joint while its friction is sought, over the impedance that it sees: each iteration
 /// leaves about the inverse of it of the velocity.
 const HOLD: f64 = 1e6;
 /// Velocity that a sticking joint may be left with before it is set to rest, as a fraction of the accuracy.
-const STILL: f64 = 1e-3;
+pub const STILL: f64 = 1e-3;
 /// Speed that is none [m/s]: below it a set-valued law in slip has no slope of its own.
 const AT_REST: f64 = 1e-150;
 /// Friction by which a sticking joint may exceed μ_s, as a fraction of it: what holds it is known to about this.
@@ -143,9 +145,7 @@ impl Stage {
         let coupled = |s: &&[u32; 2]| (s[1] as usize) < n;
         let pairs: Vec<(usize, usize)> =
             model.sides.iter().filter(coupled).map(|s| (s[0] as usize, s[1] as usize)).collect();
-        let centre = |b: &Block| [0.5 * (b.x[0] + b.x[1]), 0.5 * (b.y[0] + b.y[1])];
-        let centres: Vec<[f64; 2]> = model.wall.blocks.iter().map(centre).collect();
-        let (matrix, slots) = Matrix::new(n, &pairs, &centres, model.reciprocal);
+        let (matrix, slots) = Matrix::new(n, &pairs, &centres(model), model.reciprocal);
         let joints = Joints::new(model, matrix.places(), &slots);
         let rubs = Rubs::new(model, &joints);
         let contacts = Contacts::new(model, &joints);
@@ -702,6 +702,12 @@ impl Stage {
     }
 }
 
+/// Where the blocks lie, for the order of the elimination.
+pub fn centres(model: &Model) -> Vec<[f64; 2]> {
+    let centre = |b: &Block| [0.5 * (b.x[0] + b.x[1]), 0.5 * (b.y[0] + b.y[1])];
+    model.wall.blocks.iter().map(centre).collect()
+}
+
 /// Where a law is put together.
 const NO_FRICTION: Stribeck = Stribeck { static_: 0.0, dynamic: 0.0, slip_velocity: 1.0, beta: 1.0, alpha: 0.0 };
 
@@ -726,7 +732,7 @@ fn meet(law: &Stribeck, z: f64, c: f64) -> (f64, f64, f64) {
         v = 0.5 * high;
     }
     let mut found = law.at(v);
-    for _ in 0..20 {
+    for _ in 0..MOST_SEARCHED {
         let (mu, slope) = found;
         let f = mu + z * v - c;
         if f.abs() <= MEETING * law.static_ {

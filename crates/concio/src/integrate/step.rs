@@ -28,16 +28,16 @@ pub struct Step {
     pub stage: Stage,
     pub impacts: Impacts,
     tangents: Tangents,
-    stage_v: Vec<Vec<f64>>,
-    stage_a: Vec<Vec<f64>>,
-    stage_power: [Power; STAGES],
+    pub stage_v: Vec<Vec<f64>>,
+    pub stage_a: Vec<Vec<f64>>,
+    pub stage_power: [Power; STAGES],
     stage_joint_power: Vec<Vec<f64>>,
     error_v: Vec<f64>,
     error_z: Vec<f64>,
     top_acceleration: f64,
     /// Displacement, energy account and friction at the start of the accepted step.
-    start_z: Vec<f64>,
-    start_energies: Energies,
+    pub start_z: Vec<f64>,
+    pub start_energies: Energies,
     /// The energy account at the end of the step.
     account: Energies,
     start_laws: Tangents,
@@ -56,9 +56,9 @@ pub struct Tolerance {
 
 /// A step that brings more than this times the work so far is the start of the motion: there is nothing yet to measure
 /// its energy by.
-const BEGINNING: f64 = 2.0;
+pub const BEGINNING: f64 = 2.0;
 /// Allowed error of the stage iteration as a fraction of the tolerance of the step.
-const STAGE_ACCURACY: f64 = 0.02;
+pub const STAGE_ACCURACY: f64 = 0.02;
 /// Way of a joint in a step from one impact to the next below which it has not bounced [m].
 const LOW: f64 = 10.0 * TOUCHING;
 /// Step in which nothing moves, over the shortest time scale of the model.

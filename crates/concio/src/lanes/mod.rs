@@ -1,0 +1,342 @@
+//! Runs side by side in the lanes of vector instructions.
+//!
+//! Every lane is at its own time, step, stage and iteration; each turn of [`Gang::drive`] makes one iteration in all
+//! of them at once. What depends on a lane alone (size of the step, what comes next) is decided by [`lane`] with plain
+//! numbers. No number of a lane depends on what runs beside it.
+
+mod account;
+mod lane;
+mod meet;
+mod rows;
+mod topology;
+mod work;
+
+use pulp::Simd;
+
+use crate::integrate::tableau::{STAGES, tableau};
+use crate::lanes::account::{Account, Balance, Peaks, Powers, Settle};
+use crate::lanes::lane::{Lane, Next};
+use crate::lanes::meet::Meet;
+pub use crate::lanes::rows::WIDTH;
+pub use crate::lanes::topology::Kind;
+use crate::lanes::topology::Topology;
+use crate::lanes::work::{ACCEPTED, Advance, CONVERGED, GIVEN_UP, GOING, Iterate, PENDING, Turn, Work};
+use crate::outcome::Outcome;
+use crate::record::StopReason;
+use crate::simulate::Simulation;
+
+/// Up to eight runs of one kind.
+pub struct Gang<'m> {
+    work: Work,
+    account: Account,
+    powers: Powers,
+    peaks: Peaks,
+    lanes: [Option<Lane<'m>>; WIDTH],
+    /// Lanes that are used.
+    width: usize,
+    /// Turns so far.
+    turns: u64,
+}
+
+/// Where a gang gets its runs and leaves what became of them.
+pub trait Desk<'m> {
+    /// The next run and its number; none when there are no more.
+    fn next(&mut self) -> Option<(usize, Simulation<'m>)>;
+    /// A run has ended.
+    fn ended(&mut self, number: usize, outcome: Outcome);
+    /// Called from time to time with the sum of the shares that the runs under way have reached; false to stop them
+    /// where they are.
+    fn goes_on(&mut self, under_way: f64) -> bool;
+}
+
+/// Turns from one [`Desk::goes_on`] to the next.
+const BETWEEN_LOOKS: u64 = 4096;
+
+impl<'m> Gang<'m> {
+    /// `width` lanes for runs of the kind of `run`.
+    pub fn new(run: &Simulation<'m>, width: usize) -> Self {
+        let topology = Topology::new(run.model);
+        let (n, e) = (topology.unknowns as usize, topology.joints.len());
+        Gang {
+            work: Work::new(topology, tableau(run.solver.scheme)),
+            account: Account::new(n, e),
+            powers: Powers::default(),
+            peaks: Peaks::default(),
+            lanes: [const { None }; WIDTH],
+            width: width.min(WIDTH),
+            turns: 0,
+        }
+    }
+
+    /// Works from `first` on until the desk has no more runs and all lanes are empty, with the widest instructions of
+    /// the machine. They are chosen here and not by pulp's `Arch`, because rows have eight lanes on all.
+    pub fn start(mut self, first: (usize, Simulation<'m>), desk: &mut dyn Desk<'m>) {
+        self.take(0, first);
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(simd) = pulp::x86::V4::try_new() {
+                return self.drive(simd, desk);
+            }
+            if let Some(simd) = pulp::x86::V3::try_new() {
+                return self.drive(pulp::x86::V3_512b(simd), desk);
+            }
+        }
+        self.drive(pulp::Scalar512b, desk);
+    }
+
+    fn drive<S: Simd>(mut self, simd: S, desk: &mut dyn Desk<'m>) {
+        for lane in 0..self.width {
+            if self.lanes[lane].is_none() {
+                self.take_next(lane, desk);
+            }
+        }
+        while self.lanes.iter().any(Option::is_some) {
+            if self.turns.is_multiple_of(BETWEEN_LOOKS) {
+                let under_way = self.lanes.iter().flatten().map(Lane::share).sum();
+                if !desk.goes_on(under_way) {
+                    self.stop_all(simd, desk);
+                    break;
+                }
+            }
+            self.turn(simd, desk);
+        }
+    }
+
+    fn turn<S: Simd>(&mut self, simd: S, desk: &mut dyn Desk<'m>) {
+        self.turns += 1;
+        simd.vectorize(Iterate(&mut self.work));
+        let mut ended = [false; STAGES];
+        let mut marks = Marks::default();
+        let (mut going_flipped, mut overwrites) = (false, false);
+        for (i, lane) in self.lanes.iter_mut().enumerate() {
+            let Some(lane) = lane else { continue };
+            match lane.judge(&self.work, i) {
+                Next::Iterate { flipped } => {
+                    marks.going[i] = 1.0;
+                    going_flipped |= flipped;
+                }
+                Next::Stage => {
+                    marks.converged[i] = 1.0;
+                    ended[lane.stage] = true;
+                    overwrites |= lane.stage == 1 && lane.pending;
+                }
+                Next::Shorter => {}
+            }
+        }
+        if overwrites {
+            self.settle(simd);
+        }
+        self.work.lane.set_row(CONVERGED, marks.converged);
+        self.work.lane.set_row(GOING, marks.going);
+        simd.vectorize(Advance { work: &mut self.work, ended, going_flipped });
+        if ended[self.work.tableau.stages - 1] {
+            simd.vectorize(Balance { work: &self.work, powers: &mut self.powers });
+        }
+        if !self.work.misses.is_empty() {
+            simd.vectorize(Meet(&mut self.work));
+        }
+        self.decide(simd, &marks, desk);
+    }
+
+    /// What comes next in the lanes that have ended a stage or given up a step.
+    fn decide<S: Simd>(&mut self, simd: S, marks: &Marks, desk: &mut dyn Desk<'m>) {
+        let (mut accepted, mut given_up) = ([0.0; WIDTH], [0.0; WIDTH]);
+        for (i, lane) in self.lanes.iter_mut().enumerate() {
+            let Some(lane) = lane else { continue };
+            if marks.going[i] > 0.0 {
+                continue;
+            }
+            let converged = marks.converged[i] > 0.0;
+            if converged && lane.stage + 1 < self.work.tableau.stages {
+                lane.begin_stage(&mut self.work, i, lane.stage + 1);
+            } else if converged && lane.verdict(&self.work, &self.powers, i) {
+                accepted[i] = 1.0;
+            } else {
+                given_up[i] = 1.0;
+            }
+        }
+        if accepted == [0.0; WIDTH] && given_up == [0.0; WIDTH] {
+            return;
+        }
+        self.work.lane.set_row(ACCEPTED, accepted);
+        self.work.lane.set_row(GIVEN_UP, given_up);
+        simd.vectorize(Turn(&mut self.work));
+        for i in 0..WIDTH {
+            if accepted[i] > 0.0 {
+                self.after_step(simd, i, desk);
+            } else if given_up[i] > 0.0 {
+                self.after_failure(simd, i, desk);
+            }
+        }
+    }
+
+    /// A step was accepted: samples, breaks of the motion, the end.
+    fn after_step<S: Simd>(&mut self, simd: S, i: usize, desk: &mut dyn Desk<'m>) {
+        let Some(lane) = &mut self.lanes[i] else { return };
+        lane.accept(&mut self.work, &mut self.account, i);
+        lane.sample_inside(&self.work, i);
+        let (restarts, ends) = lane.arrives();
+        if restarts.is_some() || ends {
+            self.settle(simd);
+        }
+        let Some(lane) = &mut self.lanes[i] else { return };
+        if let Some(jump) = restarts {
+            lane.restart(&mut self.work, &mut self.account, i, jump);
+        }
+        lane.sample(&self.work, i);
+        if ends {
+            self.finish(i, None, desk);
+        } else {
+            lane.begin_step(&mut self.work, i);
+        }
+    }
+
+    /// A step was given up: a shorter one, or the end of the run.
+    fn after_failure<S: Simd>(&mut self, simd: S, i: usize, desk: &mut dyn Desk<'m>) {
+        let Some(lane) = &mut self.lanes[i] else { return };
+        match lane.stopped {
+            Some(reason) => {
+                self.settle(simd);
+                self.finish(i, Some(reason), desk);
+            }
+            None => lane.begin_attempt(&mut self.work, i),
+        }
+    }
+
+    /// Makes up the accounts that wait.
+    fn settle<S: Simd>(&mut self, simd: S) {
+        let mut waits = [0.0; WIDTH];
+        for (wait, lane) in waits.iter_mut().zip(&self.lanes) {
+            *wait = lane.as_ref().map_or(0.0, |lane| if lane.pending { 1.0 } else { 0.0 });
+        }
+        if waits == [0.0; WIDTH] {
+            return;
+        }
+        self.work.lane.set_row(PENDING, waits);
+        let (work, account, peaks) = (&self.work, &mut self.account, &mut self.peaks);
+        simd.vectorize(Settle { work, account, peaks });
+        for (i, lane) in self.lanes.iter_mut().enumerate() {
+            if let Some(lane) = lane
+                && lane.pending
+            {
+                lane.enter_account(&self.peaks, i);
+            }
+        }
+    }
+
+    fn finish(&mut self, i: usize, reason: Option<StopReason>, desk: &mut dyn Desk<'m>) {
+        if let Some(lane) = self.lanes[i].take() {
+            let (number, outcome) = lane.outcome(&self.work, &self.account, i, reason);
+            desk.ended(number, outcome);
+        }
+        self.take_next(i, desk);
+    }
+
+    fn stop_all<S: Simd>(&mut self, simd: S, desk: &mut dyn Desk<'m>) {
+        self.settle(simd);
+        for i in 0..WIDTH {
+            if let Some(lane) = self.lanes[i].take() {
+                let reason = Some(StopReason::Interrupted);
+                let (number, outcome) = lane.outcome(&self.work, &self.account, i, reason);
+                desk.ended(number, outcome);
+            }
+        }
+    }
+
+    fn take_next(&mut self, i: usize, desk: &mut dyn Desk<'m>) {
+        if let Some(run) = desk.next() {
+            self.take(i, run);
+        }
+    }
+
+    fn take(&mut self, i: usize, (number, run): (usize, Simulation<'m>)) {
+        let mut lane = Lane::new(number, run);
+        lane.load(&mut self.work, &mut self.account, i);
+        lane.begin_step(&mut self.work, i);
+        self.lanes[i] = Some(lane);
+    }
+}
+
+/// One for the lanes of which it holds.
+#[derive(Default)]
+struct Marks {
+    converged: [f64; WIDTH],
+    going: [f64; WIDTH],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Scheme;
+    use crate::excitation::Excitation;
+    use crate::law::Stribeck;
+    use crate::model::Model;
+    use crate::samples::{Link, lumped, shaking, solver};
+    use crate::simulate::Sampling;
+    use crate::wall::End;
+
+    struct Pile<'m> {
+        runs: Vec<Simulation<'m>>,
+        outcomes: Vec<(usize, Outcome)>,
+    }
+
+    impl<'m> Desk<'m> for Pile<'m> {
+        fn next(&mut self) -> Option<(usize, Simulation<'m>)> {
+            self.runs.pop().map(|run| (self.runs.len(), run))
+        }
+        fn ended(&mut self, number: usize, outcome: Outcome) {
+            self.outcomes.push((number, outcome));
+        }
+        fn goes_on(&mut self, _: f64) -> bool {
+            true
+        }
+    }
+
+    /// Four masses that rub, touch and hang together, shaken harder from model to model.
+    fn models() -> Vec<Model> {
+        let law = Stribeck { static_: 0.5, dynamic: 0.3, slip_velocity: 1e-3, beta: 100.0, alpha: 0.1 };
+        let model = |k: usize| {
+            let links = [
+                Link::spring(0, End::Base, 4e4, 30.0),
+                Link::friction(0, End::Base, law, 60.0),
+                Link::unilateral(0, End::Block(1), 1e6),
+                Link::friction(1, End::Block(2), law, 25.0),
+                Link::spring(1, End::Base, 2e4, 10.0),
+                Link::unilateral(3, End::Block(2), 2e6),
+                Link::spring(3, End::Base, 3e4, 20.0),
+            ];
+            let base = shaking(4.0 + k as f64, 7.0).unwrap();
+            lumped(&[10.0, 7.0, 5.0, 8.0], &links, Excitation::of_base(base, 0.2))
+        };
+        (0..11).map(model).collect()
+    }
+
+    fn by<S: Simd>(simd: S, models: &[Model]) -> Vec<(usize, Outcome)> {
+        let sampling = Sampling { interval: 1e-3, frame_every: 10, blocks: Vec::new(), joints: Vec::new() };
+        let solver = solver(Scheme::TrBdf2, 1e-4);
+        let runs: Vec<_> = models.iter().map(|m| Simulation::new(m, &solver, &sampling).unwrap()).collect();
+        let gang = Gang::new(&runs[0], WIDTH);
+        let mut pile = Pile { runs, outcomes: Vec::new() };
+        gang.drive(simd, &mut pile);
+        pile.outcomes.sort_by_key(|(number, _)| *number);
+        pile.outcomes
+    }
+
+    /// Wide, halved and single instructions give the same bits.
+    #[test]
+    fn all_instructions_give_the_same_bits() {
+        let models = models();
+        let plain = by(pulp::Scalar512b, &models);
+        assert!(plain.len() == 11 && plain.iter().all(|(_, out)| out.stop_reason == StopReason::Completed));
+        assert!(plain.iter().all(|(_, out)| out.totals.peak_slip_velocity > 1e-3 && out.totals.minimum_gap < -1e-6));
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(simd) = pulp::x86::V3::try_new() {
+                assert!(by(pulp::x86::V3_512b(simd), &models) == plain);
+            }
+            if let Some(simd) = pulp::x86::V4::try_new() {
+                assert!(by(simd, &models) == plain);
+            }
+        }
+    }
+}
