@@ -8,9 +8,9 @@ use crate::impulses::meet;
 use crate::motion::{Counts, Motion, Step};
 
 /// Sweeps over all joints after which a step is taken as it is.
-const MOST: usize = 2000;
-/// Largest change of a velocity in a sweep at which the sweeps end [m/s].
-const ACCURACY: f64 = 1e-9;
+const MOST: usize = 500;
+/// Largest change of a velocity in a sweep at which the sweeps end [m/s], with (6) and with the set-valued law.
+const ACCURACY: [f64; 2] = [1e-9, 1e-6];
 /// Changes of the set of closed one-sided joints in a step.
 const MOST_SETS: usize = 30;
 
@@ -126,7 +126,7 @@ impl MoreauJean {
                 w.iter_mut().zip(&self.response[j]).for_each(|(w, r)| *w -= r * step);
                 largest = largest.max((own * step).abs());
             }
-            if largest <= ACCURACY {
+            if largest <= ACCURACY[usize::from(self.sharp)] {
                 return;
             }
             counts.unconverged += u64::from(k + 1 == MOST);
@@ -230,7 +230,7 @@ impl Step for Explicit {
                 kick(&mut motion.v, e, step);
                 largest = largest.max((own * step).abs());
             }
-            if largest <= ACCURACY {
+            if largest <= ACCURACY[usize::from(self.sharp)] {
                 break;
             }
             counts.unconverged += u64::from(k + 1 == MOST);

@@ -22,8 +22,32 @@ enum Scheme {
     /// One stage with τ = θ h, the end by extrapolation; with `energy` the one-sided springs' force is the difference of
     /// their energy over that of their displacement.
     OneStage { theta: f64, energy: bool },
+    /// Springs and dashpots at θ = 1/2, friction at the velocity of the end: Moreau–Jean's θ scheme.
+    FrictionAtEnd,
     /// Stiffly accurate with an explicit first stage: γ and the rows of a below the diagonal.
     RungeKutta { gamma: f64, rows: Vec<Vec<f64>> },
+}
+
+/// Where a stage takes its forces, V being the unknown velocity.
+#[derive(Clone, Copy)]
+struct Lever {
+    /// Time of the stage [s], of V_p and of V.
+    t: f64,
+    start: f64,
+    end: f64,
+    /// τ of the forces [s].
+    tau: f64,
+    /// Springs act at δ_p + `spring` w [s].
+    spring: f64,
+    /// Dashpots act at `dashpot` w + (1 − `dashpot`) w_p.
+    dashpot: f64,
+}
+
+impl Lever {
+    /// That of (T1).
+    fn plain(t: f64, tau: f64) -> Self {
+        Lever { t, start: t, end: t, tau, spring: tau, dashpot: 1.0 }
+    }
 }
 
 /// A scheme and its scratch.
@@ -49,6 +73,7 @@ impl Implicit {
         let scheme = match name {
             "backward-euler" => one(1.0, false),
             "energy" => one(0.5, true),
+            "theta" => Scheme::FrictionAtEnd,
             "tr-bdf2" => tr_bdf2(),
             "esdirk4" => esdirk4(),
             _ => one(0.5, false),
@@ -65,33 +90,37 @@ impl Implicit {
         }
     }
 
-    /// Solves a stage at time `t`; `old` are displacements at the start of the step if the energy is to be kept.
+    /// Solves a stage; `old` are displacements at the start of the step if the energy is to be kept.
     fn stage(
         &mut self,
         system: &System,
         [z, v]: [&[f64]; 2],
         old: Option<&[f64]>,
-        [t, tau]: [f64; 2],
+        lever: Lever,
         counts: &mut Counts,
     ) -> Result<Vec<f64>, String> {
-        let (n, top, ground) = (system.mass.len(), system.top(t), system.ground(t));
+        let (n, tau, ground) = (system.mass.len(), lever.tau, system.ground(lever.t));
+        let top = (system.top(lever.t).0, system.top(lever.end).1);
+        let start = system.top(lever.start).1;
         // V_p with the top where a joint finds it, so that relative() serves for any velocity.
         let base: Vec<f64> = z.iter().chain(v).copied().collect();
         let mut solution = v.to_vec();
         for (spring, joint) in self.springs.iter_mut().zip(&system.joints) {
-            let (d, w) = system.relative(joint, &base, (top.0 - tau * top.1, top.1));
-            *spring = elastic(joint, d, w, tau, old.map(|z| relative_of(z, joint)));
+            let (d, w) = system.relative(joint, &base, (top.0 - lever.spring * top.1, top.1));
+            *spring = elastic(joint, d, w, lever.spring, old.map(|z| relative_of(z, joint)));
         }
         for k in 0..MOST {
             counts.iterations += 1;
-            self.assemble(system, tau, counts);
+            self.assemble(system, lever, counts);
             let mut rhs: Vec<f64> = (0..n).map(|i| system.mass[i] * (v[i] - tau * ground)).collect();
             for (e, joint) in system.joints.iter().enumerate() {
                 let [at, mu, slope] = self.tangents[e];
                 let [force, stiffness, w] = self.springs[e];
                 let normal = joint.normal_force[0];
-                let constant = force - stiffness * w + normal * (mu - slope * at);
-                let rate = joint.damping + stiffness + normal * slope;
+                let (_, w_p) = system.relative(joint, &base, (0.0, start));
+                let behind = (1.0 - lever.dashpot) * joint.damping * w_p;
+                let constant = force - stiffness * w + normal * (mu - slope * at) + behind;
+                let rate = lever.dashpot * joint.damping + stiffness + normal * slope;
                 rhs[joint.a] -= tau * constant;
                 match joint.b {
                     Side::Block(b) => rhs[b] += tau * constant,
@@ -107,7 +136,7 @@ impl Implicit {
                 return Err("the velocities are not finite".into());
             }
             solution = rhs;
-            let kept = self.relinearise(system, [&base, &solution], old, top, tau);
+            let kept = self.relinearise(system, [&base, &solution], old, top, lever);
             if kept && change <= ACCURACY[0] * largest + ACCURACY[1] {
                 break;
             }
@@ -120,11 +149,12 @@ impl Implicit {
     }
 
     /// J = M + τ Σ B (c + τ k + N μ′) Bᵀ; where it is not positive, falling branches are taken as flat.
-    fn assemble(&mut self, system: &System, tau: f64, counts: &mut Counts) {
+    fn assemble(&mut self, system: &System, lever: Lever, counts: &mut Counts) {
+        let tau = lever.tau;
         for flat in [false, true] {
             self.matrix.set_diagonal(&system.mass);
             for (spring, joint) in self.springs.iter().zip(&system.joints) {
-                self.matrix.couple(joint.a, block(joint.b), tau * (joint.damping + spring[1]));
+                self.matrix.couple(joint.a, block(joint.b), tau * (lever.dashpot * joint.damping + spring[1]));
             }
             for i in 0..system.mass.len() {
                 self.stiff[i] = self.matrix.diagonal(i);
@@ -149,14 +179,14 @@ impl Implicit {
         [base, solution]: [&[f64]; 2],
         old: Option<&[f64]>,
         top: (f64, f64),
-        tau: f64,
+        lever: Lever,
     ) -> bool {
         let n = system.mass.len();
         let now: Vec<f64> = base[..n].iter().chain(solution).copied().collect();
         let mut kept = true;
         for (e, joint) in system.joints.iter().enumerate() {
-            let (d, w) = system.relative(joint, &now, (top.0 - tau * top.1, top.1));
-            let spring = elastic(joint, d, w, tau, old.map(|z| relative_of(z, joint)));
+            let (d, w) = system.relative(joint, &now, (top.0 - lever.spring * top.1, top.1));
+            let spring = elastic(joint, d, w, lever.spring, old.map(|z| relative_of(z, joint)));
             let before = self.springs[e];
             kept &= (before[1] == 0.0) == (spring[1] == 0.0);
             self.springs[e] = spring;
@@ -168,7 +198,7 @@ impl Implicit {
             if (found - drawn).abs() > FAR * law.fixed {
                 kept = false;
                 let free = 1.0 / self.stiff[joint.a] + block(joint.b).map_or(0.0, |b| 1.0 / self.stiff[b]);
-                let s = tau * joint.normal_force[0] * free;
+                let s = lever.tau * joint.normal_force[0] * free;
                 let (at, _) = meet(&law, false, s, w + s * drawn);
                 let (mu, slope) = law.at(at);
                 self.tangents[e] = [at, mu, slope];
@@ -218,10 +248,21 @@ impl Step for Implicit {
             &Scheme::OneStage { theta, energy } => {
                 let (z, v) = (motion.z.clone(), motion.v.clone());
                 let old = energy.then_some(z.as_slice());
-                let stage = self.stage(system, [&z, &v], old, [motion.t + theta * h, theta * h], counts)?;
+                let stage = self.stage(system, [&z, &v], old, Lever::plain(motion.t + theta * h, theta * h), counts)?;
                 for i in 0..n {
                     motion.z[i] += h * stage[i];
                     motion.v[i] += (stage[i] - v[i]) / theta;
+                }
+                motion.friction.copy_from_slice(&self.friction);
+            }
+            Scheme::FrictionAtEnd => {
+                let v = motion.v.clone();
+                let z: Vec<f64> = motion.z.iter().zip(&v).map(|(z, v)| z + 0.25 * h * v).collect();
+                let (t, start, end) = (motion.t + 0.5 * h, motion.t, motion.t + h);
+                let lever = Lever { t, start, end, tau: h, spring: 0.25 * h, dashpot: 0.5 };
+                motion.v = self.stage(system, [&z, &v], None, lever, counts)?;
+                for i in 0..n {
+                    motion.z[i] += 0.5 * h * (v[i] + motion.v[i]);
                 }
                 motion.friction.copy_from_slice(&self.friction);
             }
@@ -243,7 +284,8 @@ impl Step for Implicit {
                         }
                     }
                     let c = row.iter().sum::<f64>() + gamma;
-                    let stage = self.stage(system, [&z, &v], None, [motion.t + c * h, gamma * h], counts)?;
+                    let stage =
+                        self.stage(system, [&z, &v], None, Lever::plain(motion.t + c * h, gamma * h), counts)?;
                     let dv = stage.iter().zip(&v).map(|(a, b)| (a - b) / (gamma * h)).collect();
                     rates.push((stage, dv, self.friction.clone()));
                 }

@@ -35,11 +35,12 @@ METHOD is one of
   backward-euler    order 1
   midpoint          implicit midpoint rule, order 2
   energy            the same with the one-sided springs' force from their energy: conserves it to the last bit of the iteration
+  theta             Moreau-Jean's, theta = 1/2, with friction by equation (6), by Newton's method
   tr-bdf2           order 2, L-stable, Concio's default
   esdirk4           ESDIRK4(3)6L[2]SA, order 4, L-stable
   moreau-jean       theta = 1/2, friction set-valued, by projected Gauss-Seidel
   moreau-jean-1     theta = 1
-  moreau-jean-law   theta = 1/2, friction by equation (6), by Gauss-Seidel
+  moreau-jean-law   theta = 1/2, friction by equation (6), by Gauss-Seidel: `theta` solved another way
   explicit          central differences, friction set-valued and implicit
   explicit-law      central differences, friction by equation (6), implicit";
 
@@ -73,7 +74,9 @@ fn solve(arguments: &[String]) -> Result<String, Box<dyn Error>> {
     }
     let (step, interval): (f64, f64) = (step.parse()?, interval.parse()?);
     let mut scheme: Box<dyn Step> = match method.as_str() {
-        "backward-euler" | "midpoint" | "energy" | "tr-bdf2" | "esdirk4" => Box::new(Implicit::new(&system, method)),
+        "backward-euler" | "midpoint" | "energy" | "theta" | "tr-bdf2" | "esdirk4" => {
+            Box::new(Implicit::new(&system, method))
+        }
         "moreau-jean" => Box::new(MoreauJean::new(&system, 0.5, true)),
         "moreau-jean-1" => Box::new(MoreauJean::new(&system, 1.0, true)),
         "moreau-jean-law" => Box::new(MoreauJean::new(&system, 0.5, false)),
