@@ -26,6 +26,10 @@ use crate::law::Stribeck;
 use crate::model::Model;
 use crate::state::Tangents;
 
+mod parts;
+
+pub use parts::{Part, Parts};
+
 /// Iterations after which a stage is given up and the step shortened. Of the stages that converge, 99 in 100 take
 /// fewer than eight.
 const MOST_ITERATIONS: usize = 12;
