@@ -263,7 +263,7 @@ int main(int argc, char **argv) try {
 
     std::vector<double> history;
     const auto samples = std::lround(std::floor(duration / interval * (1 + 1e-12) + 1e-9));
-    double t = 0, before = 0, force, velocity, peak = 0, slip = 0, work = 0, largest = 0, square = 0;
+    double t = 0, before = 0, force, velocity, peak = 0, slip = 0, work = 0, largest = 0, square = 0, slipped = 0;
     double last_force, last_velocity;
     top_force(s, N_VGetArrayPointer(y), 0, last_force, last_velocity);
     const auto begin = std::chrono::steady_clock::now();
@@ -287,6 +287,8 @@ int main(int argc, char **argv) try {
             for (const Joint &j : s.joints) {
                 s.relative(j, then, u, v, d, w);
                 if (!j.one_sided) slip = std::max(slip, std::fabs(w));
+                // At the samples: summed over the steps it would cost time that the others do not spend.
+                if (j.rubs && std::fabs(w) > j.law.slip_velocity) slipped += interval * std::fabs(w);
             }
             for (size_t i = 0; i < s.mass.size(); i++) history.push_back(then[2 * i]);
         }
@@ -303,6 +305,7 @@ int main(int argc, char **argv) try {
         {"solve_seconds", seconds},
         {"peak_relative_displacement", peak},
         {"peak_slip_velocity", slip},
+        {"slip", slipped},
         {"top_work", work},
         {"top_force_peak", largest},
         {"top_force_rms", std::sqrt(square / duration)},

@@ -18,6 +18,7 @@ mod peers;
 mod performance;
 mod python;
 mod report_ui;
+mod schemes;
 mod shown;
 mod symbols;
 
@@ -34,7 +35,8 @@ cargo xtask links      check the links of the documents
 cargo xtask report-ui  build the program of the interactive report into the tree (needs Node.js)
 cargo xtask report-ui-check   its bundle is current, its tests pass, a browser shows the numbers of the result
 cargo xtask peers      compare with CVODE
-cargo xtask performance   measure Concio and other solvers, draw docs/performance.md (--quick, --case, --peers, --page)";
+cargo xtask performance   measure Concio and other solvers, draw docs/performance.md (--quick, --case, --peers, --page)
+cargo xtask schemes    compare schemes at fixed steps, for docs/decisions/0007-schemes.md";
 
 fn main() -> ExitCode {
     let root = root();
@@ -51,6 +53,7 @@ fn main() -> ExitCode {
         "report-ui" => report_ui::build(&root),
         "report-ui-check" => build(&root).and_then(|()| report_ui::check(&root)),
         "peers" => build(&root).and_then(|()| peers::compare(&root)),
+        "schemes" => build(&root).and_then(|()| schemes::compare(&root)),
         "performance" => build(&root).and_then(|()| performance::run(&root, &rest)),
         _ => Err(USAGE.into()),
     };

@@ -28,6 +28,17 @@ pub struct Performance {
     pub machine: Machine,
     /// By name of the case.
     pub cases: BTreeMap<String, Measured>,
+    /// What benchmarks of Concio alone printed, by name.
+    #[serde(default)]
+    pub printed: BTreeMap<String, Printed>,
+}
+
+/// What a benchmark printed.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Printed {
+    /// Day of the measurement.
+    pub date: String,
+    pub text: String,
 }
 
 /// One case.

@@ -7,7 +7,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::command::Outcome;
+use crate::command::{Outcome, cargo, read};
 
 mod cases;
 mod diagrams;
@@ -26,9 +26,12 @@ const USAGE: &str = "\
 cargo xtask performance [--quick] [--case NAME,…] [--peers NAME,…] [--page]
 
   --quick    short motions, one run each, into target/performance/quick: whether all works
-  --case     only these cases; the others stay as they were measured last
+  --case     only these cases (slipping, …; bench-batch, bench-large); the others stay as they were measured last
   --peers    only these programs (beside CVODE at rtol 1e-4, which the others are compared with)
   --page     measure nothing, draw the page from docs/performance.json anew";
+
+/// Benchmarks in crates/concio/benches whose output the page shows, with their headings.
+const PRINTED: [(&str, &str); 2] = [("batch", "Many runs of one wall"), ("large", "Cost per block")];
 
 /// What was asked for.
 struct Options {
@@ -45,7 +48,12 @@ pub fn run(root: &Path, arguments: &[String]) -> Outcome {
     let mut all = measure::load(&data)?;
     if !options.page {
         let folder = root.join("target/performance");
-        let cases = chosen(cases::all(options.quick), &options.cases)?;
+        let (printed, named) = options.cases.iter().cloned().partition::<Vec<_>, _>(|n| bench_of(n).is_some());
+        let cases = if named.is_empty() && !printed.is_empty() {
+            Vec::new()
+        } else {
+            chosen(cases::all(options.quick), &named)?
+        };
         let programs = programs::ready(root, &folder, &options.programs)?;
         all.machine = machine::describe(root, &programs);
         for case in &cases {
@@ -59,6 +67,13 @@ pub fn run(root: &Path, arguments: &[String]) -> Outcome {
             // Kept case by case: a long measurement that is cut off loses one.
             measure::save(&all, &data)?;
         }
+        let wanted = |name: &str| printed.iter().any(|p| bench_of(p) == Some(name));
+        for (name, _) in PRINTED {
+            if wanted(name) || options.cases.is_empty() && !options.quick {
+                all.printed.extend(bench(root, name)?);
+                measure::save(&all, &data)?;
+            }
+        }
     }
     diagrams::draw(root, &all, &pictures)?;
     if options.quick {
@@ -66,6 +81,25 @@ pub fn run(root: &Path, arguments: &[String]) -> Outcome {
         return Ok(());
     }
     page::write(root)
+}
+
+/// The benchmark that a name on the command line means: `bench-large`.
+fn bench_of(name: &str) -> Option<&str> {
+    let bench = name.strip_prefix("bench-")?;
+    PRINTED.iter().any(|p| p.0 == bench).then_some(bench)
+}
+
+/// Runs a benchmark; what it printed.
+fn bench(root: &Path, name: &str) -> Result<Option<(String, measure::Printed)>, String> {
+    if !root.join("crates/concio/benches").join(format!("{name}.rs")).is_file() {
+        println!("skipped: benchmark {name} (it is not there)");
+        return Ok(None);
+    }
+    println!("\n== benchmark {name}");
+    let text = read(cargo(root).args(["bench", "--quiet", "--locked", "--package", "concio", "--bench", name]))?;
+    print!("{text}");
+    let text = text.trim_end().to_string();
+    Ok(Some((name.into(), measure::Printed { date: machine::today(), text })))
 }
 
 /// The file of the measurements and the folder of the diagrams.

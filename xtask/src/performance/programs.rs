@@ -101,11 +101,9 @@ pub fn ready(root: &Path, folder: &Path, names: &[String]) -> Result<Vec<Program
     if wanted("concio") {
         all.push(own(root)?);
     }
-    let others: [(&str, &dyn Fn() -> Result<Program, String>); 2] =
-        [("diffsol", &|| diffsol(root)), ("scipy", &|| scipy(root))];
-    for (name, make) in others {
+    for (name, make) in [("diffsol", diffsol as fn(&Path) -> Result<Program, String>), ("scipy", scipy)] {
         if wanted(name) {
-            match make() {
+            match make(root) {
                 Ok(program) => all.push(program),
                 Err(why) => println!("skipped: {name} ({})", why.lines().last().unwrap_or("")),
             }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::PRINTED;
 use super::cases::{self, BASELINE, Case, Judge};
 use super::measure::{Measured, Performance, Timed, baseline};
 use super::programs::Method;
@@ -21,6 +22,12 @@ pub fn all(all: &Performance) -> String {
     text += &summary(measured());
     for (case, measured) in measured() {
         let _ = write!(text, "\n## {}\n\n{}", heading(case.name), section(case, measured));
+    }
+    for (name, title) in PRINTED {
+        if let Some(printed) = all.printed.get(name) {
+            let source = format!("`crates/concio/benches/{name}.rs`, {}", printed.date);
+            let _ = write!(text, "\n## {title}\n\n{source}:\n\n```text\n{}\n```\n", printed.text);
+        }
     }
     text
 }
