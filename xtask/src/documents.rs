@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::command::{Outcome, read};
-use crate::{concio, equations, gallery, shown, symbols};
+use crate::{concio, equations, gallery, performance, shown, symbols};
 
 /// Figures of docs/figures.md: example, options, name of the picture. Not compared by [`check`]: where joints stick and
 /// slip a run ends elsewhere with another mathematical library.
@@ -58,6 +58,7 @@ fn all(root: &Path) -> Result<Vec<(String, String)>, String> {
         (PAGE.into(), page_of_cases(root)?),
     ];
     all.append(&mut gallery::make(root)?);
+    all.append(&mut performance::with_tables(root)?);
     Ok(all)
 }
 

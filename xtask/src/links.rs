@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::command::Outcome;
 
 /// Folders whose names at the start of a word in backticks make it a path of the tree.
-const TREE: [&str; 6] = ["crates/", "docs/", "examples/", "xtask/", "report-ui/", ".ci/"];
+const TREE: [&str; 7] = ["crates/", "docs/", "examples/", "peers/", "xtask/", "report-ui/", ".ci/"];
 
 /// Checks every Markdown file of the project.
 pub fn check(root: &Path) -> Outcome {

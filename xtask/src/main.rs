@@ -12,10 +12,13 @@ mod documents;
 mod equations;
 mod examples;
 mod gallery;
+mod histories;
 mod links;
 mod peers;
+mod performance;
 mod python;
 mod report_ui;
+mod schemes;
 mod shown;
 mod symbols;
 
@@ -31,11 +34,14 @@ cargo xtask equations  check the numbers of equations
 cargo xtask links      check the links of the documents
 cargo xtask report-ui  build the program of the interactive report into the tree (needs Node.js)
 cargo xtask report-ui-check   its bundle is current, its tests pass, a browser shows the numbers of the result
-cargo xtask peers      compare with CVODE";
+cargo xtask peers      compare with CVODE
+cargo xtask performance   measure Concio and other solvers, draw docs/performance.md (--quick, --case, --peers, --page)
+cargo xtask schemes    compare schemes at fixed steps, for docs/decisions/0007-schemes.md";
 
 fn main() -> ExitCode {
     let root = root();
     let task = std::env::args().nth(1).unwrap_or_default();
+    let rest: Vec<String> = std::env::args().skip(2).collect();
     let outcome = match task.as_str() {
         "ci" => ci(&root),
         "cases" => build(&root).and_then(|()| cases::make(&root)).and_then(|()| documents::make(&root)),
@@ -47,6 +53,8 @@ fn main() -> ExitCode {
         "report-ui" => report_ui::build(&root),
         "report-ui-check" => build(&root).and_then(|()| report_ui::check(&root)),
         "peers" => build(&root).and_then(|()| peers::compare(&root)),
+        "schemes" => build(&root).and_then(|()| schemes::compare(&root)),
+        "performance" => build(&root).and_then(|()| performance::run(&root, &rest)),
         _ => Err(USAGE.into()),
     };
     match outcome {

@@ -45,6 +45,12 @@ pub enum Command {
     /// Print this reference as Markdown.
     #[command(hide = true)]
     Reference,
+    /// Print a diagram of measured points as SVG (docs/performance.md).
+    #[command(hide = true)]
+    Chart {
+        /// Title, labels of the axes and series of points, as JSON.
+        file: PathBuf,
+    },
 }
 
 /// Simulate a wall and write its results and report.

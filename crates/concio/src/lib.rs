@@ -31,6 +31,8 @@ pub mod system;
 pub mod wall;
 
 pub use error::{Error, InputError, Result};
+#[doc(hidden)]
+pub use integrate::stage::{Part, Parts};
 
 /// Acceleration of gravity [m/s²] (theory).
 pub const G: f64 = 9.81;

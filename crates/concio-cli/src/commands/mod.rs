@@ -6,6 +6,7 @@ use crate::args::Command;
 use crate::failure::Failure;
 
 mod cases;
+mod chart;
 mod check;
 mod compare;
 mod completions;
@@ -34,6 +35,7 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Plot(args) => plot::plot(&args),
         Command::Completions(args) => completions::completions(args.shell),
         Command::Reference => reference::reference(),
+        Command::Chart { file } => chart::chart(&file),
     }
     .map(|()| ExitCode::SUCCESS)
 }

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use kuva::backend::svg::SvgBackend;
+use kuva::plot::scatter::{MarkerShape, ScatterPlot};
 use kuva::plot::{LinePlot, LineStyle};
 use kuva::render::layout::{AxisLine, Layout, TickAlign, TickFormat, TickPos};
 use kuva::render::plots::Plot;
@@ -20,6 +21,8 @@ use super::thin;
 pub const LETTERS: [u32; 2] = [7, 8];
 /// Width of curves and of axes [pt].
 const STROKES: [f64; 2] = [0.75, 0.5];
+/// Half the size of the mark at a measured point [pt].
+const MARK: f64 = 1.8;
 /// Columns of a point of width in which a curve keeps its lowest and highest value.
 const COLUMNS_PER_POINT: f64 = 4.0;
 /// What a path may move when it is thinned, over the size of its plot.
@@ -86,6 +89,8 @@ pub struct Panel<'a> {
     pub rising: bool,
     /// Whether the plot below shows the numbers of the level axis for both.
     pub bare: bool,
+    /// Whether every point of a curve is drawn and marked: measurements rather than histories.
+    pub marked: bool,
 }
 
 /// Plots in rows and columns.
@@ -225,7 +230,10 @@ fn name(axis: &Axis, scale: &Scale) -> String {
 
 /// Frame, ticks, numbers and curves, with [`ROOM`] around them.
 fn library(panel: &Panel, axes: &Axes, [width, height]: [f64; 2]) -> String {
-    let plots: Vec<Plot> = panel.lines.iter().filter_map(|l| curve(panel, l, axes, width)).collect();
+    let mut plots: Vec<Plot> = panel.lines.iter().filter_map(|l| curve(panel, l, axes, width)).collect();
+    if panel.marked {
+        plots.extend(panel.lines.iter().map(|l| marks(l, axes)));
+    }
     let [x, y] = [axes.x.range, axes.y.range];
     let mut layout = Layout::auto_from_plots(&plots)
         .with_width(width + 2.0 * ROOM)
@@ -275,7 +283,9 @@ fn format(scale: &Scale, shown: bool) -> TickFormat {
 }
 
 fn curve(panel: &Panel, line: &Line, axes: &Axes, width: f64) -> Option<Plot> {
-    let points = if panel.rising {
+    let points = if panel.marked {
+        line.x.iter().copied().zip(line.y.iter().copied()).collect()
+    } else if panel.rising {
         // First what a column of the paper cannot show, then what a straight line shows as well.
         let (x, y): (Vec<f64>, Vec<f64>) =
             thin::columns(&line.x, &line.y, (COLUMNS_PER_POINT * width) as usize).into_iter().unzip();
@@ -293,6 +303,16 @@ fn curve(panel: &Panel, line: &Line, axes: &Axes, width: f64) -> Option<Plot> {
         plot = plot.with_line_style(LineStyle::Custom(dashes.into()));
     }
     Some(Plot::Line(plot))
+}
+
+/// The points of a curve; shapes differ where colours may not be seen.
+fn marks(line: &Line, axes: &Axes) -> Plot {
+    const SHAPES: [MarkerShape; 4] =
+        [MarkerShape::Circle, MarkerShape::Square, MarkerShape::Triangle, MarkerShape::Diamond];
+    let points = line.x.iter().zip(line.y.iter()).map(|(x, y)| (x / axes.x.factor, y / axes.y.factor));
+    let (colour, _) = STYLES[line.style % STYLES.len()];
+    let plot = ScatterPlot::new().with_data(points.collect::<Vec<_>>()).with_color(colour).with_size(MARK);
+    Plot::Scatter(plot.with_marker(SHAPES[line.style % SHAPES.len()]))
 }
 
 /// The legend above the plots, in as many rows as it needs; where it ends [pt].
@@ -337,6 +357,7 @@ mod tests {
                 lines: vec![Line { x: x.into(), y: y.into(), style: 0 }],
                 rising,
                 bare: false,
+                marked: false,
             }],
             columns: 1,
             width: 241.0,

@@ -54,10 +54,13 @@ impl Scale {
         if self.logarithmic { logarithmic_label(value, self.range) } else { linear_label(value, self.step) }
     }
 
-    /// The labels of all ticks of a linear axis, to know their room; of a logarithmic one those of its ends.
+    /// The labels of all ticks, to know their room.
     pub fn labels(&self) -> Vec<String> {
         if self.logarithmic {
-            return self.range.iter().map(|v| self.label(*v)).collect();
+            let powers = self.range.map(|v| v.log10().floor().clamp(-99.0, 99.0) as i32);
+            let ticks = (powers[0]..=powers[1]).flat_map(|p| [1.0, 2.0, 5.0].map(|lead| lead * 10f64.powi(p)));
+            let inside = |v: &f64| (self.range[0] * (1.0 - 1e-9)..=self.range[1] * (1.0 + 1e-9)).contains(v);
+            return ticks.filter(inside).map(|v| self.label(v)).collect();
         }
         let [first, last] = [(self.range[0] / self.step).ceil(), (self.range[1] / self.step).floor()];
         (0..=(last - first).clamp(0.0, 100.0) as i64).map(|k| self.label((first + k as f64) * self.step)).collect()
@@ -129,6 +132,7 @@ mod tests {
         let of = |v| logarithmic_label(v, [0.02, 10.0]);
         assert_eq!([0.02, 0.05, 0.1, 0.5, 1.0, 10.0].map(of), ["0.02", "0.05", "0.1", "0.5", "1", "10"]);
         assert_eq!(of(0.3), "");
+        assert_eq!(Scale::logarithmic([0.3, 30.0]).labels(), ["0.5", "1", "2", "5", "10", "20"]);
         assert_eq!([0.001, 0.002].map(|v| logarithmic_label(v, [0.001, 100.0])), ["0.001", ""]);
     }
 }

@@ -36,6 +36,7 @@ pub fn energies(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         lines: lines.collect(),
         rising: true,
         bare: false,
+        marked: false,
     };
     Ok(chart::draw(&Sheet {
         title: "Energies by mechanism over time".into(),

@@ -48,6 +48,7 @@ pub fn histories(data: &Data, options: &Options) -> Result<Drawing, InputError> 
         lines: vec![Line { x: motion.time.clone().into(), y: motion.displacement.clone().into(), style: 0 }],
         rising: true,
         bare: k + 1 < chosen.len(),
+        marked: false,
     };
     let drawing = chart::draw(&Sheet {
         title: "Histories of the relative displacement of neighbouring blocks (positive opens a head joint)".into(),
@@ -98,6 +99,7 @@ pub fn hysteresis(data: &Data, options: &Options) -> Result<Drawing, InputError>
         lines: vec![Line { x: slip.into(), y: force.into(), style: 0 }],
         rising: false,
         bare: false,
+        marked: false,
     };
     let drawing = chart::draw(&Sheet {
         title: "Friction force over the slip of joints".into(),

@@ -50,6 +50,7 @@ pub fn motion(data: &Data, options: &Options) -> Result<Drawing, InputError> {
                 .collect(),
             rising: true,
             bare: columns == 1 && k < 2,
+            marked: false,
         })
         .collect();
     panels.push(spectrum(data, &found));
@@ -86,6 +87,7 @@ fn spectrum<'a>(data: &Data, found: &[Moved]) -> Panel<'a> {
         lines,
         rising: true,
         bare: false,
+        marked: false,
     }
 }
 

@@ -77,6 +77,7 @@ fn draw(
         lines: vec![Line { x: motion.displacement.clone().into(), y: motion.velocity.clone().into(), style: 0 }],
         rising: false,
         bare: false,
+        marked: false,
     };
     let drawing = chart::draw(&Sheet {
         title: title.into(),

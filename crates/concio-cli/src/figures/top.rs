@@ -28,6 +28,7 @@ pub fn force(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         lines: vec![Line { x: u.values.into(), y: f.values.into(), style: 0 }],
         rising: false,
         bare: false,
+        marked: false,
     };
     Ok(chart::draw(&Sheet {
         title: "Horizontal force of the top beam on the wall over the displacement of the top relative to the base"

@@ -33,6 +33,10 @@ use crate::model::Model;
 use crate::state::{BondState, Tangents};
 use crate::wall::Block;
 
+mod parts;
+
+pub use parts::{Part, Parts};
+
 /// Iterations after which a stage is given up and the step shortened. Of the stages that converge, 99 in 100 take
 /// fewer than eight.
 pub const MOST_ITERATIONS: usize = 8;
