@@ -11,7 +11,7 @@ mod rows;
 mod topology;
 mod work;
 
-use pulp::Simd;
+use pulp::{Simd, WithSimd};
 
 use crate::integrate::tableau::{STAGES, tableau};
 use crate::lanes::account::{Account, Balance, Peaks, Powers, Settle};
@@ -104,7 +104,7 @@ impl<'m> Gang<'m> {
 
     fn turn<S: Simd>(&mut self, simd: S, desk: &mut dyn Desk<'m>) {
         self.turns += 1;
-        simd.vectorize(Iterate(&mut self.work));
+        vectorize(simd, Iterate(&mut self.work));
         let mut ended = [false; STAGES];
         let mut marks = Marks::default();
         let (mut going_flipped, mut overwrites) = (false, false);
@@ -128,12 +128,12 @@ impl<'m> Gang<'m> {
         }
         self.work.lane.set_row(CONVERGED, marks.converged);
         self.work.lane.set_row(GOING, marks.going);
-        simd.vectorize(Advance { work: &mut self.work, ended, going_flipped });
+        vectorize(simd, Advance { work: &mut self.work, ended, going_flipped });
         if ended[self.work.tableau.stages - 1] {
-            simd.vectorize(Balance { work: &self.work, powers: &mut self.powers });
+            vectorize(simd, Balance { work: &self.work, powers: &mut self.powers });
         }
         if !self.work.misses.is_empty() {
-            simd.vectorize(Meet(&mut self.work));
+            vectorize(simd, Meet(&mut self.work));
         }
         self.decide(simd, &marks, desk);
     }
@@ -160,7 +160,7 @@ impl<'m> Gang<'m> {
         }
         self.work.lane.set_row(ACCEPTED, accepted);
         self.work.lane.set_row(GIVEN_UP, given_up);
-        simd.vectorize(Turn(&mut self.work));
+        vectorize(simd, Turn(&mut self.work));
         for i in 0..WIDTH {
             if accepted[i] > 0.0 {
                 self.after_step(simd, i, desk);
@@ -214,7 +214,7 @@ impl<'m> Gang<'m> {
         }
         self.work.lane.set_row(PENDING, waits);
         let (work, account, peaks) = (&self.work, &mut self.account, &mut self.peaks);
-        simd.vectorize(Settle { work, account, peaks });
+        vectorize(simd, Settle { work, account, peaks });
         for (i, lane) in self.lanes.iter_mut().enumerate() {
             if let Some(lane) = lane
                 && lane.pending
@@ -255,6 +255,26 @@ impl<'m> Gang<'m> {
         lane.begin_step(&mut self.work, i);
         self.lanes[i] = Some(lane);
     }
+}
+
+/// An operation with rows of `simd`, whatever type the instructions are switched on by: two AVX2 vectors in a row are
+/// switched on by pulp as one.
+struct Wide<S, Op> {
+    simd: S,
+    op: Op,
+}
+
+impl<S: Simd, Op: WithSimd> WithSimd for Wide<S, Op> {
+    type Output = Op::Output;
+
+    #[inline(always)]
+    fn with_simd<T: Simd>(self, _: T) -> Self::Output {
+        self.op.with_simd(self.simd)
+    }
+}
+
+fn vectorize<S: Simd, Op: WithSimd>(simd: S, op: Op) -> Op::Output {
+    simd.vectorize(Wide { simd, op })
 }
 
 /// One for the lanes of which it holds.
