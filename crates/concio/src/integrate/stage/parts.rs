@@ -36,7 +36,7 @@ impl<'m> Parts<'m> {
     pub fn of(model: &'m Model, state: &State) -> Self {
         let (mut stage, mut tangents) = (Stage::new(model), state.tangents.clone());
         stage.tau = SHARE * state.step;
-        stage.start(&mut tangents);
+        stage.start(model, &mut tangents);
         stage.velocity.copy_from_slice(&tangents.velocity);
         stage.assemble_elastic(&tangents);
         Parts { model, stage, tangents }
