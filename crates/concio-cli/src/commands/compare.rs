@@ -174,6 +174,7 @@ fn drawn(pair: &Pair, runs: &[Variant]) -> Drawing {
             y: Axis { quantity, unit, ..Axis::default() },
             rising: true,
             bare: k < last,
+            marked: false,
         }
     });
     chart::draw(&Sheet {
@@ -188,25 +189,24 @@ fn drawn(pair: &Pair, runs: &[Variant]) -> Drawing {
 
 fn converging(convergence: &[(f64, f64)]) -> Drawing {
     let (x, y): (Vec<f64>, Vec<f64>) = convergence.iter().copied().filter(|(_, d)| *d > 0.0).unzip();
-    // A line for every stretch: curves are thinned by what is seen of them on even scales.
-    let stretch = |k: usize| Line { x: x[k..k + 2].to_vec().into(), y: y[k..k + 2].to_vec().into(), style: 0 };
-    let lines = (0..x.len().saturating_sub(1)).map(stretch).collect();
     let axis = |quantity: &str, values: &[f64]| Axis {
         quantity: quantity.into(),
         logarithmic: true,
         range: Some(decades(values)),
         ..Axis::default()
     };
+    let (across, up) = (axis("rigidity κ", &x), axis("difference", &y));
     chart::draw(&Sheet {
         title: "Difference of no-tension from rigid head joints over the rigidity".into(),
         legend: Vec::new(),
         panels: vec![Panel {
             heading: String::new(),
-            x: axis("rigidity κ", &x),
-            y: axis("difference", &y),
-            lines,
+            x: across,
+            y: up,
+            lines: vec![Line { x: x.into(), y: y.into(), style: 0 }],
             rising: false,
             bare: false,
+            marked: true,
         }],
         columns: 1,
         width: 0.7 * SIZE[0],
