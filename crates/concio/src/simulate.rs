@@ -7,7 +7,7 @@ use crate::case::Solver;
 use crate::dynamics::{Channels, accelerate, kick, observe, settle};
 use crate::error::Result;
 use crate::excitation::Drive;
-use crate::integrate::stage::Failure;
+use crate::integrate::stage::{Factors, Failure};
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
 use crate::outcome::Outcome;
@@ -292,12 +292,12 @@ impl<'m> Simulation<'m> {
     /// not part of it: empty it first.
     pub fn save(&self) -> Vec<u8> {
         // Plain vectors of numbers into memory: nothing that could fail.
-        postcard::to_stdvec(&self.state).unwrap_or_default()
+        postcard::to_stdvec(&(&self.state, self.work.stage.factors())).unwrap_or_default()
     }
     /// Goes back to a saved state; false when the bytes are not one of this model's.
     pub fn restore(&mut self, bytes: &[u8]) -> bool {
-        let Ok(state) = postcard::from_bytes::<State>(bytes) else { return false };
-        if !state.fits(self.model) {
+        let Ok((state, factors)) = postcard::from_bytes::<(State, Factors)>(bytes) else { return false };
+        if !state.fits(self.model) || !self.work.restore(self.model, &factors) {
             return false;
         }
         self.drive = self.model.excitation.drive(state.t);

@@ -22,8 +22,6 @@ impl Slot {
 pub struct Joints {
     /// Both sides by place; base and top keep their numbers n and n + 1.
     pub sides: Vec<[u32; 2]>,
-    /// Both sides in the order of the model.
-    pub of_model: Vec<[u32; 2]>,
     pub slot: Vec<Slot>,
     pub stiffness: Vec<f64>,
     pub damping: Vec<f64>,
@@ -43,7 +41,6 @@ impl Joints {
         };
         Joints {
             sides: model.sides.iter().map(|s| s.map(place)).collect(),
-            of_model: model.sides.clone(),
             slot: model.sides.iter().map(slot).collect(),
             stiffness: model.elastic.iter().map(|law| law.stiffness).collect(),
             damping: model.elastic.iter().map(|law| law.damping).collect(),

@@ -422,11 +422,8 @@ mod tests {
             [(true, 2.0, Err(NotPositive)), (false, 2.0, Err(NotPositive)), (true, -0.5, Ok(())), (false, -0.5, Ok(()))]
         {
             let (pairs, place) = ([(0, 1), (1, 2), (0, 2)], vec![0, 1, 2]);
-            let (mut m, slots) = if listed {
-                Matrix::by_entries(3, place, &pairs, true)
-            } else {
-                Matrix::by_fronts(3, place, &pairs)
-            };
+            let (mut m, slots) =
+                if listed { Matrix::by_entries(3, place, &pairs, true) } else { Matrix::by_fronts(3, place, &pairs) };
             m.diagonal.fill(1.0);
             m.lower[slots[0] as usize] = coupling;
             assert_eq!(m.factorise(), expected);

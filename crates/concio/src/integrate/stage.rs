@@ -12,12 +12,15 @@
 //!   section 6).
 //! * Unilateral joints keep an active set; a joint whose state changes makes another iteration.
 //!
-//! The iteration ends when the correction that the remaining force mismatch would cause, through the last factors,
-//! is below the tolerance; that correction is still applied.
+//! The iteration ends when the correction that the remaining force mismatch would cause, through the last factors, is
+//! below the tolerance; that correction is still applied. What corrections through given factors leave is bounded: let every slope μ' > 0 in the factors be wrong by no more than the fraction θ. The matrix
+//! contains Σ N μ' B Bᵀ, so in its energy norm each correction leaves no more than θ of the error. Hence factors serve
+//! again, in further corrections and in later stages and steps, as long as θ is small.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use pulp::{Arch, Simd, WithSimd};
+use serde::{Deserialize, Serialize};
 
 use crate::integrate::groups::Groups;
 use crate::integrate::joints::{Joints, Rubs};
@@ -37,6 +40,16 @@ const MEETING: f64 = 0.01;
 /// Stiffness that holds a sticking joint while its friction is sought, over the impedance that it sees: each iteration
 /// leaves about the inverse of it of the velocity.
 const HOLD: f64 = 1e6;
+/// θ up to which factors are used again.
+const NEAR: f64 = 0.1;
+/// θ from which further corrections are not worth it.
+const MUCH: f64 = 0.5;
+/// What corrections through old factors may leave, as a fraction of the accuracy: about what fresh ones leave.
+const LEFT: f64 = 0.01;
+/// Corrections through the same factors before the tangents are drawn anew.
+const MOST_CORRECTIONS: usize = 4;
+/// Relative difference of τ that is rounding.
+const SAME: f64 = 1e-9;
 /// Velocity that a sticking joint may be left with before it is set to rest, as a fraction of the accuracy.
 const STILL: f64 = 1e-3;
 /// Friction by which a sticking joint may exceed μ_s, as a fraction of it: what holds it is known to about this.
@@ -56,11 +69,16 @@ pub struct Stage {
     pub v: Vec<f64>,
     /// V.
     pub solution: Vec<f64>,
-    /// Diagonal and lower triangle of M + τ Σ B (c + τ k) Bᵀ for `tau` and the active set `closed`.
+    /// Diagonal and lower triangle of M + τ Σ B (c + τ k) Bᵀ.
     diagonal: Vec<f64>,
     lower: Vec<f64>,
     tau: f64,
+    /// τ and active set of `diagonal` and `lower`; τ is 0 before the first.
+    assembled: f64,
     closed: Vec<bool>,
+    /// Slopes in the factors, and whether there are factors for them, `assembled` and `closed`.
+    factored: Vec<f64>,
+    factors_hold: bool,
     /// Right side without friction, with and for V_p.
     load: Vec<f64>,
     /// V − V_p, and the correction, with base and top at the end.
@@ -76,8 +94,6 @@ pub struct Stage {
     /// Slope that holds the joints with set-valued laws, [`HOLD`] times the largest impedance.
     hold: f64,
     groups: Groups,
-    /// Whether the factors hold for `tau` and `closed`, no joint rubbing.
-    factors_hold: bool,
     /// Counts.
     pub iterations: u64,
     pub factorisations: u64,
@@ -90,6 +106,15 @@ pub enum Failure {
     TooLong,
     /// A value that is not finite.
     NotFinite,
+}
+
+/// What factors were made of, so that a restored run has the same.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Factors {
+    tau: f64,
+    closed: Vec<bool>,
+    held: bool,
+    slopes: Vec<f64>,
 }
 
 /// [`Stage::iterate`] as an operation that is compiled for several sets of instructions.
@@ -108,6 +133,21 @@ impl WithSimd for Iteration<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Self::Output {
         self.stage.iterate(self.model, self.tangents, self.tau, self.ground, self.accuracy)
+    }
+}
+
+/// [`Matrix::solve`] likewise.
+struct Linear<'a> {
+    matrix: &'a mut Matrix,
+    b: &'a mut [f64],
+}
+
+impl WithSimd for Linear<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.matrix.solve(self.b);
     }
 }
 
@@ -136,6 +176,9 @@ impl Stage {
             diagonal: zeros(n),
             lower: zeros(fill),
             tau: 0.0,
+            assembled: 0.0,
+            factored: zeros(rubs.len()),
+            factors_hold: false,
             closed: vec![false; model.joints.len()],
             load: zeros(n + 2),
             change: zeros(n + 2),
@@ -146,8 +189,7 @@ impl Stage {
             mu: zeros(rubs.len()),
             slope: zeros(rubs.len()),
             hold: 0.0,
-            groups: Groups::new(n),
-            factors_hold: false,
+            groups: Groups::new(if rubs.sticking.is_empty() { 0 } else { n }),
             iterations: 0,
             factorisations: 0,
             matrix,
@@ -157,9 +199,32 @@ impl Stage {
         }
     }
 
-    /// Forgets the factors: what a step does must not depend on what was tried before it.
-    pub fn forget_factors(&mut self) {
-        self.tau = 0.0;
+    /// What the factors at hand were made of.
+    pub fn factors(&self) -> Factors {
+        let slopes = if self.factors_hold { self.factored.clone() } else { Vec::new() };
+        Factors { tau: self.assembled, closed: self.closed.clone(), held: self.factors_hold, slopes }
+    }
+
+    /// Makes the factors that [`Stage::factors`] told of, to the same bits; false when they are not of this model.
+    pub fn restore(&mut self, model: &Model, tangents: &mut Tangents, factors: &Factors) -> bool {
+        let rubs = if factors.held { self.rubs.len() } else { 0 };
+        if factors.closed.len() != self.closed.len() || factors.slopes.len() != rubs {
+            return false;
+        }
+        self.assembled = 0.0;
+        self.factors_hold = false;
+        if factors.tau > 0.0 {
+            tangents.closed.copy_from_slice(&factors.closed);
+            self.tau = factors.tau;
+            self.assemble_elastic(tangents);
+            if factors.held {
+                tangents.slope.copy_from_slice(&factors.slopes);
+                let made = self.assemble(model, tangents).is_ok();
+                self.factorisations = 0;
+                return made;
+            }
+        }
+        true
     }
 
     /// Solves (T1) for τ = `tau` [s] and base acceleration `ground` [m/s²]; `accuracy` [m/s] is the error of V that
@@ -188,41 +253,71 @@ impl Stage {
     ) -> Result<(), Failure> {
         let n = self.mass.len();
         self.v[n + 1] = self.solution[n + 1];
-        if self.tau != tau || self.closed != tangents.closed {
-            self.tau = tau;
+        self.tau = tau;
+        if !((self.assembled - tau).abs() <= SAME * tau) || self.closed != tangents.closed {
             self.assemble_elastic(tangents);
         }
-        self.start(tangents);
-        self.load_elastic(ground);
+        self.start(model, tangents);
+        self.load_elastic(model, ground);
         for _ in 0..MOST_ITERATIONS {
             self.iterations += 1;
             self.assemble(model, tangents)?;
             self.right_side(tangents);
             self.matrix.solve(&mut self.change[..n]);
-            let flipped = self.flip(tangents, accuracy);
-            self.mismatch(tangents);
-            self.matrix.solve(&mut self.rhs[..n]);
-            // A sum, because a maximum would pass over what is not a number.
-            let (mut correction, mut sum) = (0.0f64, 0.0);
-            for d in &self.rhs[..n] {
-                correction = correction.max(d.abs());
-                sum += d.abs();
-            }
-            if !sum.is_finite() {
-                return Err(Failure::NotFinite);
-            }
-            let settled = self.settled(model, tangents, accuracy);
-            if !flipped && settled && correction <= accuracy {
+            if self.flip(tangents, accuracy) {
+                self.mismatch(tangents);
+                self.assemble_elastic(tangents);
+                self.load_elastic(model, ground);
+            } else if self.corrected(model, tangents, accuracy)? {
                 self.finish(model, tangents);
                 return Ok(());
-            }
-            if flipped {
+            } else if self.closed != tangents.closed {
                 self.assemble_elastic(tangents);
-                self.load_elastic(ground);
+                self.load_elastic(model, ground);
             }
             self.move_tangents(model, tangents);
         }
         Err(Failure::TooLong)
+    }
+
+    /// Corrects the change of velocity through the factors at hand, again where that pays; whether one last correction,
+    /// left in `rhs`, makes it accurate.
+    #[inline(always)]
+    fn corrected(&mut self, model: &Model, tangents: &mut Tangents, accuracy: f64) -> Result<bool, Failure> {
+        let mut correction = self.correction(tangents)?;
+        if !self.settled(model, tangents, accuracy) {
+            return Ok(false);
+        }
+        for _ in 1..MOST_CORRECTIONS {
+            let left = farthest(&self.slope, &tangents.slope);
+            if left >= MUCH || (correction <= accuracy && left * correction <= LEFT * accuracy) {
+                break;
+            }
+            for (change, d) in self.change.iter_mut().zip(&self.rhs) {
+                *change -= d;
+            }
+            if self.flip(tangents, accuracy) {
+                self.mismatch(tangents);
+                return Ok(false);
+            }
+            correction = self.correction(tangents)?;
+        }
+        Ok(correction <= accuracy)
+    }
+
+    /// The correction that the mismatch causes into `rhs`, and its largest velocity.
+    #[inline(always)]
+    fn correction(&mut self, tangents: &Tangents) -> Result<f64, Failure> {
+        let n = self.mass.len();
+        self.mismatch(tangents);
+        self.matrix.solve(&mut self.rhs[..n]);
+        // A sum, because a maximum would pass over what is not a number.
+        let (mut correction, mut sum) = (0.0f64, 0.0);
+        for d in &self.rhs[..n] {
+            correction = correction.max(d.abs());
+            sum += d.abs();
+        }
+        if sum.is_finite() { Ok(correction) } else { Err(Failure::NotFinite) }
     }
 
     /// Solves with the last factors; `b` in the order of the model.
@@ -231,7 +326,7 @@ impl Stage {
         for (value, &place) in b.iter().zip(self.matrix.places()) {
             self.rhs[place as usize] = *value;
         }
-        self.matrix.solve(&mut self.rhs[..n]);
+        self.arch.dispatch(Linear { matrix: &mut self.matrix, b: &mut self.rhs[..n] });
         for (value, &place) in b.iter_mut().zip(self.matrix.places()) {
             *value = self.rhs[place as usize];
         }
@@ -241,6 +336,7 @@ impl Stage {
     #[inline(always)]
     fn assemble_elastic(&mut self, tangents: &Tangents) {
         self.factors_hold = false;
+        self.assembled = self.tau;
         self.closed.copy_from_slice(&tangents.closed);
         self.diagonal.copy_from_slice(&self.mass);
         self.lower.fill(0.0);
@@ -258,7 +354,7 @@ impl Stage {
 
     /// Relative displacements and velocities of the prediction.
     #[inline(always)]
-    fn start(&mut self, tangents: &mut Tangents) {
+    fn start(&mut self, model: &Model, tangents: &mut Tangents) {
         // One slope for all: joints side by side then bear equal parts of what each can bear.
         self.hold = HOLD * self.rubs.sticking.iter().fold(0.0f64, |m, &r| m.max(self.impedance(r as usize)));
         for &r in &self.rubs.sticking {
@@ -270,25 +366,25 @@ impl Stage {
         }
         let (z, v, tau) = (&self.z, &self.v, self.tau);
         for (gap, &e) in self.gap.iter_mut().zip(&self.joints.one_sided) {
-            let [a, b] = self.joints.of_model[e as usize].map(|s| s as usize);
+            let [a, b] = model.sides[e as usize].map(|s| s as usize);
             *gap = z[a] - z[b] + tau * (v[a] - v[b]);
         }
         for (before, &e) in self.before.iter_mut().zip(&self.rubs.joint) {
-            let [a, b] = self.joints.of_model[e as usize].map(|s| s as usize);
+            let [a, b] = model.sides[e as usize].map(|s| s as usize);
             *before = v[a] - v[b];
         }
     }
 
     /// −τ (M a_0 + Σ B (c w_p + k (δ_p + τ w_p))).
     #[inline(always)]
-    fn load_elastic(&mut self, ground: f64) {
+    fn load_elastic(&mut self, model: &Model, ground: f64) {
         let n = self.mass.len();
         let (z, v, tau) = (&self.z, &self.v, self.tau);
         for (load, m) in self.load[..n].iter_mut().zip(&self.mass) {
             *load = -tau * m * ground;
         }
         let j = &self.joints;
-        for (e, (&[a, b], of_model)) in j.sides.iter().zip(&j.of_model).enumerate() {
+        for (e, (&[a, b], of_model)) in j.sides.iter().zip(&model.sides).enumerate() {
             let [i, k] = of_model.map(|s| s as usize);
             let w = v[i] - v[k];
             let elastic = if self.closed[e] { j.stiffness[e] * (z[i] - z[k] + tau * w) } else { 0.0 };
@@ -298,12 +394,14 @@ impl Stage {
         }
     }
 
-    /// J = M + τ Σ B (c + τ k + N μ') Bᵀ, factorised.
+    /// J = M + τ Σ B (c + τ k + N μ') Bᵀ, factorised. Where the last factors are near, the tangents take their slopes.
     #[inline(always)]
-    fn assemble(&mut self, model: &Model, tangents: &Tangents) -> Result<(), Failure> {
-        if self.factors_hold && self.rubs.len() == 0 {
+    fn assemble(&mut self, model: &Model, tangents: &mut Tangents) -> Result<(), Failure> {
+        if self.factors_hold && farthest(&tangents.slope, &self.factored) <= NEAR {
+            tangents.slope.copy_from_slice(&self.factored);
             return Ok(());
         }
+        self.factored.copy_from_slice(&tangents.slope);
         self.matrix.diagonal.copy_from_slice(&self.diagonal);
         self.matrix.lower.copy_from_slice(&self.lower);
         let rubs = &self.rubs;
@@ -510,6 +608,18 @@ impl Stage {
             tangents.slope[r] = slope;
         }
     }
+}
+
+/// Largest difference of slopes as a fraction of the old ones; infinite where one that is not positive changes.
+#[inline(always)]
+fn farthest(new: &[f64], old: &[f64]) -> f64 {
+    let mut most = 0.0f64;
+    for (new, old) in new.iter().zip(old) {
+        let change = (new - old).abs();
+        let part = if *old > 0.0 { change / old } else { f64::INFINITY };
+        most = most.max(if change == 0.0 { 0.0 } else { part });
+    }
+    most
 }
 
 /// Velocity at which μ(v) + z v = c, and the law there with its slope: safeguarded Newton inside the bracket [0, c/z].

@@ -7,7 +7,7 @@
 use crate::case::Scheme;
 use crate::dynamics::power;
 use crate::excitation::Drive;
-use crate::integrate::stage::{Failure, Stage};
+use crate::integrate::stage::{Factors, Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
 use crate::model::Model;
 use crate::state::{Power, State, Tangents};
@@ -21,6 +21,7 @@ pub struct Step {
     stage_v: Vec<Vec<f64>>,
     stage_a: Vec<Vec<f64>>,
     stage_power: [Power; STAGES],
+    /// Of the stages after the first: that is the state's.
     stage_joint_power: Vec<Vec<f64>>,
     error_v: Vec<f64>,
     error_z: Vec<f64>,
@@ -44,15 +45,16 @@ const INSTANT: f64 = 1e-6;
 impl Step {
     pub fn new(model: &Model, scheme: Scheme) -> Self {
         let n = model.unknowns();
-        let rows = |len: usize| vec![vec![0.0; len]; STAGES];
+        let tableau = tableau(scheme);
+        let rows = |len: usize| vec![vec![0.0; len]; tableau.stages];
         Step {
-            tableau: tableau(scheme),
+            tableau,
             stage: Stage::new(model),
             tangents: Tangents::at_rest(model),
             stage_v: rows(n + 2),
             stage_a: rows(n),
             stage_power: Default::default(),
-            stage_joint_power: rows(model.joints.len()),
+            stage_joint_power: vec![vec![0.0; model.joints.len()]; tableau.stages - 1],
             error_v: vec![0.0; n],
             error_z: vec![0.0; n],
             top_acceleration: 0.0,
@@ -63,6 +65,11 @@ impl Step {
     /// Power with which the error estimate grows with the step.
     pub fn error_order(&self) -> f64 {
         self.tableau.error_order
+    }
+
+    /// Makes the factors that a saved run had; false when they are not of this model.
+    pub fn restore(&mut self, model: &Model, factors: &Factors) -> bool {
+        self.stage.restore(model, &mut self.tangents, factors)
     }
 
     /// Tries a step of `h` from `state`, inside the smooth piece `drive` of the motion. Returns the
@@ -80,9 +87,7 @@ impl Step {
         self.stage_v[0].copy_from_slice(&state.v);
         self.stage_a[0].copy_from_slice(&state.a[..n]);
         self.stage_power[0] = state.power;
-        self.stage_joint_power[0].copy_from_slice(&state.joint_power);
         self.tangents.copy_from(&state.tangents);
-        self.stage.forget_factors();
         for i in 1..self.tableau.stages {
             let t = state.t + self.tableau.c[i] * h;
             self.predict(state, i, h, n);
@@ -100,7 +105,8 @@ impl Step {
             for k in 0..n + 2 {
                 self.z[k] = self.stage.z[k] + tau * v[k];
             }
-            self.stage_power[i] = power(model, &self.z, v, &self.tangents.mu, ground, &mut self.stage_joint_power[i]);
+            self.stage_power[i] =
+                power(model, &self.z, v, &self.tangents.mu, ground, &mut self.stage_joint_power[i - 1]);
         }
         Ok(self.error(model, h, tau, tolerance))
     }
@@ -115,7 +121,6 @@ impl Step {
         stage.z.copy_from_slice(&state.z);
         stage.v.copy_from_slice(&state.v);
         stage.solution[n + 1] = top.v + tau * top.a;
-        stage.forget_factors();
         self.tangents.copy_from(&state.tangents);
         let found = stage.solve(model, &mut self.tangents, tau, drive.base_acceleration(state.t), 1e-6 * tau * largest);
         // Not work of a step: a restored run, which is not settled anew, must count the same.
@@ -196,12 +201,13 @@ impl Step {
             self.stage_power[i].accrue(h * self.tableau.b[i], &mut state.energies);
             let weight = h * self.tableau.b[i];
             if weight != 0.0 {
-                for (sum, p) in state.envelopes.joint_dissipation.iter_mut().zip(&self.stage_joint_power[i]) {
+                let power = if i == 0 { &state.joint_power } else { &self.stage_joint_power[i - 1] };
+                for (sum, p) in state.envelopes.joint_dissipation.iter_mut().zip(power) {
                     *sum += weight * p;
                 }
             }
         }
-        state.joint_power.copy_from_slice(&self.stage_joint_power[last]);
+        state.joint_power.copy_from_slice(&self.stage_joint_power[last - 1]);
         state.tangents.copy_from(&self.tangents);
     }
 }
