@@ -13,9 +13,7 @@
 //! * Unilateral joints keep an active set; a joint whose state changes makes another iteration.
 //!
 //! The iteration ends when the correction that the remaining force mismatch would cause, through the last factors, is
-//! below the tolerance; that correction is still applied. What corrections through given factors leave is bounded: let every slope μ' > 0 in the factors be wrong by no more than the fraction θ. The matrix
-//! contains Σ N μ' B Bᵀ, so in its energy norm each correction leaves no more than θ of the error. Hence factors serve
-//! again, in further corrections and in later stages and steps, as long as θ is small.
+//! below the tolerance; that correction is still applied. Factors serve again while τ, active set and slopes stand.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
@@ -40,14 +38,6 @@ const MEETING: f64 = 0.01;
 /// Stiffness that holds a sticking joint while its friction is sought, over the impedance that it sees: each iteration
 /// leaves about the inverse of it of the velocity.
 const HOLD: f64 = 1e6;
-/// θ up to which factors are used again.
-const NEAR: f64 = 0.1;
-/// θ from which further corrections are not worth it.
-const MUCH: f64 = 0.5;
-/// What corrections through old factors may leave, as a fraction of the accuracy: about what fresh ones leave.
-const LEFT: f64 = 0.01;
-/// Corrections through the same factors before the tangents are drawn anew.
-const MOST_CORRECTIONS: usize = 4;
 /// Relative difference of τ that is rounding.
 const SAME: f64 = 1e-9;
 /// Velocity that a sticking joint may be left with before it is set to rest, as a fraction of the accuracy.
@@ -268,41 +258,16 @@ impl Stage {
                 self.mismatch(tangents);
                 self.assemble_elastic(tangents);
                 self.load_elastic(model, ground);
-            } else if self.corrected(model, tangents, accuracy)? {
-                self.finish(model, tangents);
-                return Ok(());
-            } else if self.closed != tangents.closed {
-                self.assemble_elastic(tangents);
-                self.load_elastic(model, ground);
+            } else {
+                let correction = self.correction(tangents)?;
+                if correction <= accuracy && self.settled(model, tangents, accuracy) {
+                    self.finish(model, tangents);
+                    return Ok(());
+                }
             }
             self.move_tangents(model, tangents);
         }
         Err(Failure::TooLong)
-    }
-
-    /// Corrects the change of velocity through the factors at hand, again where that pays; whether one last correction,
-    /// left in `rhs`, makes it accurate.
-    #[inline(always)]
-    fn corrected(&mut self, model: &Model, tangents: &mut Tangents, accuracy: f64) -> Result<bool, Failure> {
-        let mut correction = self.correction(tangents)?;
-        if !self.settled(model, tangents, accuracy) {
-            return Ok(false);
-        }
-        for _ in 1..MOST_CORRECTIONS {
-            let left = farthest(&self.slope, &tangents.slope);
-            if left >= MUCH || (correction <= accuracy && left * correction <= LEFT * accuracy) {
-                break;
-            }
-            for (change, d) in self.change.iter_mut().zip(&self.rhs) {
-                *change -= d;
-            }
-            if self.flip(tangents, accuracy) {
-                self.mismatch(tangents);
-                return Ok(false);
-            }
-            correction = self.correction(tangents)?;
-        }
-        Ok(correction <= accuracy)
     }
 
     /// The correction that the mismatch causes into `rhs`, and its largest velocity.
@@ -394,11 +359,10 @@ impl Stage {
         }
     }
 
-    /// J = M + τ Σ B (c + τ k + N μ') Bᵀ, factorised. Where the last factors are near, the tangents take their slopes.
+    /// J = M + τ Σ B (c + τ k + N μ') Bᵀ, factorised.
     #[inline(always)]
-    fn assemble(&mut self, model: &Model, tangents: &mut Tangents) -> Result<(), Failure> {
-        if self.factors_hold && farthest(&tangents.slope, &self.factored) <= NEAR {
-            tangents.slope.copy_from_slice(&self.factored);
+    fn assemble(&mut self, model: &Model, tangents: &Tangents) -> Result<(), Failure> {
+        if self.factors_hold && tangents.slope == self.factored {
             return Ok(());
         }
         self.factored.copy_from_slice(&tangents.slope);
@@ -608,18 +572,6 @@ impl Stage {
             tangents.slope[r] = slope;
         }
     }
-}
-
-/// Largest difference of slopes as a fraction of the old ones; infinite where one that is not positive changes.
-#[inline(always)]
-fn farthest(new: &[f64], old: &[f64]) -> f64 {
-    let mut most = 0.0f64;
-    for (new, old) in new.iter().zip(old) {
-        let change = (new - old).abs();
-        let part = if *old > 0.0 { change / old } else { f64::INFINITY };
-        most = most.max(if change == 0.0 { 0.0 } else { part });
-    }
-    most
 }
 
 /// Velocity at which μ(v) + z v = c, and the law there with its slope: safeguarded Newton inside the bracket [0, c/z].
