@@ -33,6 +33,8 @@ pub fn joints(wall: &Wall, beam: bool) -> Vec<Joint> {
             }
         }
     }
+    // They stay as long as the model does.
+    joints.shrink_to_fit();
     joints
 }
 

@@ -121,7 +121,8 @@ impl Model {
             let loaded = normal[0] > 0.0 || normal[1] > 0.0;
             law.rubs().filter(|_| loaded).map(|law| Rub { joint: e as u32, normal, law })
         };
-        let rubs: Vec<Rub> = laws.iter().zip(&normal).enumerate().filter_map(rub).collect();
+        let mut rubs: Vec<Rub> = laws.iter().zip(&normal).enumerate().filter_map(rub).collect();
+        rubs.shrink_to_fit();
         let bonds = bond::compile(&wall, &joints, &laws, &normal, &rubs, &mut elastic)?;
         let reciprocal = rubs.iter().all(|r| sides[r.joint as usize][1] as usize >= n || r.normal[0] == r.normal[1]);
         let stiffest = stiffest(&mass, &sides, &elastic, excitation.duration);

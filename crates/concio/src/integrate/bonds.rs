@@ -97,7 +97,7 @@ impl Bonds {
     pub fn start(&mut self, model: &Model, joints: &Joints, rubs: &mut Rubs, [z, v]: [&[f64]; 2], tau: f64) -> bool {
         let mut changed = false;
         for bond in &mut self.list {
-            let [a, b] = joints.of_model[bond.joint].map(|s| s as usize);
+            let [a, b] = model.sides[bond.joint].map(|s| s as usize);
             bond.start = z[a] - z[b] + tau * (v[a] - v[b]);
             let slope = bond.tangent.slope;
             bond.tangent = bond.beyond(bond.start);

@@ -23,8 +23,6 @@ impl Slot {
 pub struct Joints {
     /// Both sides by place; base and top keep their numbers n and n + 1.
     pub sides: Vec<[u32; 2]>,
-    /// Both sides in the order of the model.
-    pub of_model: Vec<[u32; 2]>,
     pub slot: Vec<Slot>,
     pub stiffness: Vec<f64>,
     pub damping: Vec<f64>,
@@ -44,7 +42,6 @@ impl Joints {
         };
         Joints {
             sides: model.sides.iter().map(|s| s.map(place)).collect(),
-            of_model: model.sides.clone(),
             slot: model.sides.iter().map(slot).collect(),
             stiffness: model.elastic.iter().map(|law| law.stiffness).collect(),
             damping: model.elastic.iter().map(|law| law.damping).collect(),
@@ -67,7 +64,7 @@ impl Contacts {
         let indices = || model.contacts.iter().map(|c| c.joint as usize);
         Contacts {
             sides: indices().map(|e| joints.sides[e]).collect(),
-            of_model: indices().map(|e| joints.of_model[e]).collect(),
+            of_model: indices().map(|e| model.sides[e]).collect(),
             slot: indices().map(|e| joints.slot[e]).collect(),
         }
     }

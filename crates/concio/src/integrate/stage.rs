@@ -16,8 +16,8 @@
 //! sticking joint, by a slope from the force found last; one that would have to pull is opened, one whose sides approach
 //! each other is closed.
 //!
-//! The iteration ends when the correction that the remaining force mismatch would cause, through the last factors,
-//! is below the tolerance; that correction is still applied.
+//! The iteration ends when the correction that the remaining force mismatch would cause, through the last factors, is
+//! below the tolerance; that correction is still applied.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
@@ -82,6 +82,8 @@ pub struct Stage {
     lower: Vec<f64>,
     tau: f64,
     closed: Vec<bool>,
+    /// Whether the factors hold for `tau` and `closed`, no joint rubbing.
+    factors_hold: bool,
     /// Right side without friction, with and for V_p.
     load: Vec<f64>,
     /// V − V_p, and the correction, with base and top at the end.
@@ -107,8 +109,6 @@ pub struct Stage {
     /// Largest |w| that a closed rigid joint was left with before it was set to rest [m/s].
     pub contact_residual: f64,
     groups: Groups,
-    /// Whether the factors hold for `tau` and `closed`, no joint rubbing.
-    factors_hold: bool,
     /// Counts.
     pub iterations: u64,
     pub factorisations: u64,
@@ -139,6 +139,21 @@ impl WithSimd for Iteration<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Self::Output {
         self.stage.iterate(self.model, self.tangents, self.tau, self.ground, self.accuracy)
+    }
+}
+
+/// [`Matrix::solve`] likewise.
+struct Linear<'a> {
+    matrix: &'a mut Matrix,
+    b: &'a mut [f64],
+}
+
+impl WithSimd for Linear<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.matrix.solve(self.b);
     }
 }
 
@@ -182,7 +197,7 @@ impl Stage {
             parting: zeros(contacts.len()),
             closing: zeros(contacts.len()),
             contact_residual: 0.0,
-            groups: Groups::new(n),
+            groups: Groups::new(if contacts.len() > 0 || !rubs.sticking.is_empty() { n } else { 0 }),
             factors_hold: false,
             iterations: 0,
             factorisations: 0,
@@ -238,7 +253,7 @@ impl Stage {
             self.assemble_elastic(tangents);
         }
         self.start(model, tangents);
-        self.load_elastic(ground);
+        self.load_elastic(model, ground);
         let held = self.contacts.len() > 0 || !self.rubs.sticking.is_empty();
         let most = if held { MOST_WITH_HELD } else { MOST_ITERATIONS };
         for iteration in 0..most {
@@ -246,31 +261,37 @@ impl Stage {
             self.assemble(model, tangents)?;
             self.right_side(tangents);
             self.matrix.solve(&mut self.change[..n]);
-            let flipped = self.flip(tangents, accuracy);
-            self.mismatch(model, tangents);
-            self.matrix.solve(&mut self.rhs[..n]);
-            // A sum, because a maximum would pass over what is not a number.
-            let (mut correction, mut sum) = (0.0f64, 0.0);
-            for d in &self.rhs[..n] {
-                correction = correction.max(d.abs());
-                sum += d.abs();
-            }
-            if !sum.is_finite() {
-                return Err(Failure::NotFinite);
-            }
-            let settled = self.settled(model, tangents, accuracy) && self.contacts_settled(tangents, accuracy);
-            if !flipped && settled && correction <= accuracy {
-                self.finish(model, tangents);
-                return Ok(());
-            }
-            if flipped {
+            if self.flip(tangents, accuracy) {
+                self.mismatch(model, tangents);
                 self.assemble_elastic(tangents);
-                self.load_elastic(ground);
+                self.load_elastic(model, ground);
+            } else {
+                let correction = self.correction(model, tangents)?;
+                let settled = self.settled(model, tangents, accuracy) && self.contacts_settled(tangents, accuracy);
+                if settled && correction <= accuracy {
+                    self.finish(model, tangents);
+                    return Ok(());
+                }
             }
             self.move_tangents(model, tangents);
             self.move_contacts(tangents, accuracy, iteration >= AT_ONCE);
         }
         Err(Failure::TooLong)
+    }
+
+    /// The correction that the mismatch causes into `rhs`, and its largest velocity.
+    #[inline(always)]
+    fn correction(&mut self, model: &Model, tangents: &Tangents) -> Result<f64, Failure> {
+        let n = self.mass.len();
+        self.mismatch(model, tangents);
+        self.matrix.solve(&mut self.rhs[..n]);
+        // A sum, because a maximum would pass over what is not a number.
+        let (mut correction, mut sum) = (0.0f64, 0.0);
+        for d in &self.rhs[..n] {
+            correction = correction.max(d.abs());
+            sum += d.abs();
+        }
+        if sum.is_finite() { Ok(correction) } else { Err(Failure::NotFinite) }
     }
 
     /// Solves with the last factors; `b` in the order of the model.
@@ -279,7 +300,7 @@ impl Stage {
         for (value, &place) in b.iter().zip(self.matrix.places()) {
             self.rhs[place as usize] = *value;
         }
-        self.matrix.solve(&mut self.rhs[..n]);
+        self.arch.dispatch(Linear { matrix: &mut self.matrix, b: &mut self.rhs[..n] });
         for (value, &place) in b.iter_mut().zip(self.matrix.places()) {
             *value = self.rhs[place as usize];
         }
@@ -330,11 +351,11 @@ impl Stage {
             self.factors_hold = false;
         }
         for (gap, &e) in self.gap.iter_mut().zip(&self.joints.one_sided) {
-            let [a, b] = self.joints.of_model[e as usize].map(|s| s as usize);
+            let [a, b] = model.sides[e as usize].map(|s| s as usize);
             *gap = z[a] - z[b] + tau * (v[a] - v[b]);
         }
         for (before, &e) in self.before.iter_mut().zip(&self.rubs.joint) {
-            let [a, b] = self.joints.of_model[e as usize].map(|s| s as usize);
+            let [a, b] = model.sides[e as usize].map(|s| s as usize);
             *before = v[a] - v[b];
         }
         self.start_contacts(tangents);
@@ -342,14 +363,14 @@ impl Stage {
 
     /// −τ (M a_0 + Σ B (c w_p + k (δ_p + τ w_p))).
     #[inline(always)]
-    fn load_elastic(&mut self, ground: f64) {
+    fn load_elastic(&mut self, model: &Model, ground: f64) {
         let n = self.mass.len();
         let (z, v, tau) = (&self.z, &self.v, self.tau);
         for (load, m) in self.load[..n].iter_mut().zip(&self.mass) {
             *load = -tau * m * ground;
         }
         let j = &self.joints;
-        for (e, (&[a, b], of_model)) in j.sides.iter().zip(&j.of_model).enumerate() {
+        for (e, (&[a, b], of_model)) in j.sides.iter().zip(&model.sides).enumerate() {
             let [i, k] = of_model.map(|s| s as usize);
             let w = v[i] - v[k];
             let elastic = if self.closed[e] { j.stiffness[e] * (z[i] - z[k] + tau * w) } else { 0.0 };
@@ -359,7 +380,7 @@ impl Stage {
         }
         let load = &mut self.load[..];
         self.bonds.open(&self.closed, |e, stiffness| {
-            let ([a, b], [i, k]) = (j.sides[e], j.of_model[e].map(|s| s as usize));
+            let ([a, b], [i, k]) = (j.sides[e], model.sides[e].map(|s| s as usize));
             let f = tau * stiffness * (z[i] - z[k] + tau * (v[i] - v[k]));
             load[a as usize] -= f;
             load[b as usize] += f;

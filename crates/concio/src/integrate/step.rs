@@ -31,6 +31,7 @@ pub struct Step {
     pub stage_v: Vec<Vec<f64>>,
     pub stage_a: Vec<Vec<f64>>,
     pub stage_power: [Power; STAGES],
+    /// Of the stages after the first: that is the state's.
     stage_joint_power: Vec<Vec<f64>>,
     error_v: Vec<f64>,
     error_z: Vec<f64>,
@@ -67,17 +68,18 @@ const INSTANT: f64 = 1e-6;
 impl Step {
     pub fn new(model: &Model, scheme: Scheme) -> Self {
         let n = model.unknowns();
-        let rows = |len: usize| vec![vec![0.0; len]; STAGES];
+        let tableau = tableau(scheme);
+        let rows = |len: usize| vec![vec![0.0; len]; tableau.stages];
         Step {
             scheme,
-            tableau: tableau(scheme),
+            tableau,
             stage: Stage::new(model),
             impacts: Impacts::new(model),
             tangents: Tangents::at_rest(model),
             stage_v: rows(n + 2),
             stage_a: rows(n),
             stage_power: Default::default(),
-            stage_joint_power: rows(model.joints.len()),
+            stage_joint_power: vec![vec![0.0; model.joints.len()]; tableau.stages - 1],
             error_v: vec![0.0; n],
             error_z: vec![0.0; n],
             top_acceleration: 0.0,
@@ -110,7 +112,6 @@ impl Step {
         self.stage_v[0].copy_from_slice(&state.v);
         self.stage_a[0].copy_from_slice(&state.a[..n]);
         self.stage_power[0] = state.power;
-        self.stage_joint_power[0].copy_from_slice(&state.joint_power);
         self.tangents.copy_from(&state.tangents);
         self.stage.begin(model, &state.bonds);
         self.find_touching(model, state);
@@ -132,7 +133,7 @@ impl Step {
                 self.z[k] = self.stage.z[k] + tau * v[k];
             }
             let at = Moving { z: &self.z, v, laws: &self.tangents, bonds: &state.bonds };
-            self.stage_power[i] = power(model, at, ground, &mut self.stage_joint_power[i]);
+            self.stage_power[i] = power(model, at, ground, &mut self.stage_joint_power[i - 1]);
         }
         let error = self.error(model, h, tau, tolerance);
         let unbalanced = self.account(model, state, h);
@@ -293,12 +294,13 @@ impl Step {
         for i in 0..=last {
             let weight = h * self.tableau.b[i];
             if weight != 0.0 {
-                for (sum, p) in state.envelopes.joint_dissipation.iter_mut().zip(&self.stage_joint_power[i]) {
+                let power = if i == 0 { &state.joint_power } else { &self.stage_joint_power[i - 1] };
+                for (sum, p) in state.envelopes.joint_dissipation.iter_mut().zip(power) {
                     *sum += weight * p;
                 }
             }
         }
-        state.joint_power.copy_from_slice(&self.stage_joint_power[last]);
+        state.joint_power.copy_from_slice(&self.stage_joint_power[last - 1]);
         state.tangents.copy_from(&self.tangents);
     }
 
