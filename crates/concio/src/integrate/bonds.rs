@@ -94,7 +94,7 @@ impl Bonds {
 
     /// Draws tangents at the prediction; true when the matrix changes with them.
     #[inline]
-    pub fn start(&mut self, model: &Model, joints: &Joints, rubs: &mut Rubs, [z, v]: [&[f64]; 2], tau: f64) -> bool {
+    pub fn start(&mut self, model: &Model, rubs: &mut Rubs, [z, v]: [&[f64]; 2], tau: f64) -> bool {
         let mut changed = false;
         for bond in &mut self.list {
             let [a, b] = model.sides[bond.joint].map(|s| s as usize);

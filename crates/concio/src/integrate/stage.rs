@@ -347,7 +347,7 @@ impl Stage {
             }
         }
         let (z, v, tau) = (&self.z, &self.v, self.tau);
-        if self.bonds.start(model, &self.joints, &mut self.rubs, [z, v], tau) {
+        if self.bonds.start(model, &mut self.rubs, [z, v], tau) {
             self.factors_hold = false;
         }
         for (gap, &e) in self.gap.iter_mut().zip(&self.joints.one_sided) {
