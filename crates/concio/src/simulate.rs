@@ -384,16 +384,19 @@ impl<'m> Simulation<'m> {
 
     /// Takes the samples that lie inside the step of `h` that ended at `t`.
     pub(crate) fn samples_before(&mut self, t: f64, h: f64) {
-        loop {
+        let inside = |run: &Self| run.sample_time(run.state.samples) < t - run.slack();
+        if !inside(self) {
+            return;
+        }
+        self.work.lend(&mut self.instant);
+        while inside(self) {
             let due = self.sample_time(self.state.samples);
-            if due >= t - self.slack() {
-                return;
-            }
             self.work.inside(self.model, &self.drive, &self.state, h, due, &mut self.instant);
             let Simulation { model, drive, channels, layout, state, recording, instant, .. } = self;
             keep(model, drive, channels, layout, instant.view(), state.samples, recording);
             state.samples += 1;
         }
+        self.work.lend(&mut self.instant);
     }
 
     /// What a step of `h` that ended at an event leads to.
@@ -497,13 +500,17 @@ impl<'m> Simulation<'m> {
     /// The result, with the recording that the caller collected.
     pub fn outcome(self, recording: Recording, stop_reason: StopReason) -> Outcome {
         let bonds = self.model.bonds.iter().zip(&self.state.bonds).map(|(bond, state)| bond.row(state)).collect();
+        let mut envelopes = self.state.envelopes;
+        // Runs without rigid joints count no impacts, results do.
+        envelopes.joint_impulse.resize(self.model.joints.len(), 0.0);
+        envelopes.joint_impacts.resize(self.model.joints.len(), 0.0);
         Outcome {
             bonds,
             layout: self.layout,
             recording,
             time_reached: self.state.t,
             energies: self.state.energies,
-            envelopes: self.state.envelopes,
+            envelopes,
             totals: self.state.totals,
             counters: self.state.counters,
             stop_reason,

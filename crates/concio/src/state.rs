@@ -62,7 +62,7 @@ pub struct View<'a> {
     pub energies: &'a Energies,
 }
 
-/// What a [`View`] shows, where it is not a state's.
+/// What a [`View`] shows, where it is not a state's. The step lends it room for the motion.
 #[derive(Debug, Clone)]
 pub struct Instant {
     /// Time [s].
@@ -86,12 +86,11 @@ pub struct Instant {
 impl Instant {
     /// Room for an instant of `model`.
     pub fn new(model: &Model) -> Self {
-        let zeros = || vec![0.0; model.unknowns() + 2];
         Instant {
             t: 0.0,
-            z: zeros(),
-            v: zeros(),
-            a: zeros(),
+            z: Vec::new(),
+            v: Vec::new(),
+            a: Vec::new(),
             mu: vec![0.0; model.rubs.len()],
             reaction: vec![0.0; model.contacts.len()],
             bonds: vec![BondState::INTACT; model.bonds.len()],
@@ -226,12 +225,11 @@ impl State {
                 &env.joint_closing,
                 &env.joint_force,
                 &env.joint_dissipation,
-                &env.joint_impulse,
-                &env.joint_impacts,
                 &self.joint_power,
             ]
             .iter()
             .all(|x| x.len() == e)
+            && [&env.joint_impulse, &env.joint_impacts].iter().all(|x| x.len() == impacts_of(model))
             && [&self.tangents.velocity, &self.tangents.mu, &self.tangents.slope].iter().all(|x| x.len() == r)
             && self.tangents.closed.len() == e
             && self.tangents.stuck.len() == r
@@ -269,11 +267,16 @@ impl State {
                 joint_closing: zeros(e),
                 joint_force: zeros(e),
                 joint_dissipation: zeros(e),
-                joint_impulse: zeros(e),
-                joint_impacts: zeros(e),
+                joint_impulse: zeros(impacts_of(model)),
+                joint_impacts: zeros(impacts_of(model)),
             },
             totals: Totals::default(),
             counters: Counters::default(),
         }
     }
+}
+
+/// Joints whose impacts are counted: none where none is rigid.
+fn impacts_of(model: &Model) -> usize {
+    if model.contacts.is_empty() { 0 } else { model.joints.len() }
 }

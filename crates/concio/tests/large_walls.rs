@@ -66,7 +66,7 @@ fn factors_used_again_keep_the_accuracy() {
 #[test]
 fn a_large_run_is_restored_to_the_same_bits() {
     let p = ready(&wall());
-    let whole = run(&p, 1e-3);
+    let whole = run(&p, p.case.solver.tolerance);
     let new = || Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
     let mut rows = concio::record::Recording::default();
     let mut run = new();

@@ -25,7 +25,6 @@ pub struct Joints {
     pub sides: Vec<[u32; 2]>,
     pub slot: Vec<Slot>,
     pub stiffness: Vec<f64>,
-    pub damping: Vec<f64>,
     /// Joints whose stiffness acts in compression only.
     pub one_sided: Vec<u32>,
 }
@@ -44,7 +43,6 @@ impl Joints {
             sides: model.sides.iter().map(|s| s.map(place)).collect(),
             slot: model.sides.iter().map(slot).collect(),
             stiffness: model.elastic.iter().map(|law| law.stiffness).collect(),
-            damping: model.elastic.iter().map(|law| law.damping).collect(),
             one_sided: (0..model.joints.len() as u32).filter(|&e| model.elastic[e as usize].unilateral).collect(),
         }
     }

@@ -250,7 +250,7 @@ impl Stage {
         self.v[n + 1] = self.solution[n + 1];
         if self.tau != tau || self.closed != tangents.closed {
             self.tau = tau;
-            self.assemble_elastic(tangents);
+            self.assemble_elastic(model, tangents);
         }
         self.start(model, tangents);
         self.load_elastic(model, ground);
@@ -263,7 +263,7 @@ impl Stage {
             self.matrix.solve(&mut self.change[..n]);
             if self.flip(tangents, accuracy) {
                 self.mismatch(model, tangents);
-                self.assemble_elastic(tangents);
+                self.assemble_elastic(model, tangents);
                 self.load_elastic(model, ground);
             } else {
                 let correction = self.correction(model, tangents)?;
@@ -294,6 +294,11 @@ impl Stage {
         if sum.is_finite() { Ok(correction) } else { Err(Failure::NotFinite) }
     }
 
+    /// Three arrays of the unknowns, base and top, that hold nothing between two stages.
+    pub fn idle(&mut self) -> [&mut Vec<f64>; 3] {
+        [&mut self.load, &mut self.change, &mut self.rhs]
+    }
+
     /// Solves with the last factors; `b` in the order of the model.
     pub fn solve_linear(&mut self, b: &mut [f64]) {
         let n = self.mass.len();
@@ -308,7 +313,7 @@ impl Stage {
 
     /// Diagonal and lower triangle without friction.
     #[inline(always)]
-    fn assemble_elastic(&mut self, tangents: &Tangents) {
+    fn assemble_elastic(&mut self, model: &Model, tangents: &Tangents) {
         self.factors_hold = false;
         self.closed.copy_from_slice(&tangents.closed);
         self.diagonal.copy_from_slice(&self.mass);
@@ -316,7 +321,7 @@ impl Stage {
         let j = &self.joints;
         for (e, &[a, b]) in j.sides.iter().enumerate() {
             let stiffness = if self.closed[e] { j.stiffness[e] } else { 0.0 };
-            let s = self.tau * (j.damping[e] + self.tau * stiffness);
+            let s = self.tau * (model.elastic[e].damping + self.tau * stiffness);
             self.diagonal[a as usize] += s;
             if let Some(slot) = j.slot[e].at() {
                 self.diagonal[b as usize] += s;
@@ -374,7 +379,7 @@ impl Stage {
             let [i, k] = of_model.map(|s| s as usize);
             let w = v[i] - v[k];
             let elastic = if self.closed[e] { j.stiffness[e] * (z[i] - z[k] + tau * w) } else { 0.0 };
-            let f = tau * (j.damping[e] * w + elastic);
+            let f = tau * (model.elastic[e].damping * w + elastic);
             self.load[a as usize] -= f;
             self.load[b as usize] += f;
         }

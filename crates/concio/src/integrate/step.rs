@@ -41,7 +41,9 @@ pub struct Step {
     pub start_energies: Energies,
     /// The energy account at the end of the step.
     account: Energies,
-    start_laws: Tangents,
+    /// Friction and what rigid joints bear at the start, where laws are set-valued.
+    start_mu: Vec<f64>,
+    start_reaction: Vec<f64>,
     start_bonds: Vec<BondState>,
     /// Displacement of the end of the step, with base and top.
     pub z: Vec<f64>,
@@ -86,7 +88,8 @@ impl Step {
             start_z: vec![0.0; n + 2],
             start_energies: Energies::default(),
             account: Energies::default(),
-            start_laws: Tangents::at_rest(model),
+            start_mu: vec![0.0; if model.set_valued() { model.rubs.len() } else { 0 }],
+            start_reaction: vec![0.0; model.contacts.len()],
             start_bonds: vec![BondState::INTACT; model.bonds.len()],
             z: vec![0.0; n + 2],
         }
@@ -273,7 +276,8 @@ impl Step {
         self.start_z.copy_from_slice(&state.z);
         self.start_energies = state.energies;
         if model.set_valued() {
-            self.start_laws.copy_from(&state.tangents);
+            self.start_mu.copy_from_slice(&state.tangents.mu);
+            self.start_reaction.copy_from_slice(&state.tangents.reaction);
         }
         self.start_bonds.copy_from_slice(&state.bonds);
     }
@@ -309,6 +313,14 @@ impl Step {
         [&self.start_z, &self.stage_v[0]]
     }
 
+    /// Lends `at` room for a motion, or takes it back: scratch of the stage, idle between steps.
+    pub fn lend(&mut self, at: &mut Instant) {
+        let [z, v, a] = self.stage.idle();
+        std::mem::swap(z, &mut at.z);
+        std::mem::swap(v, &mut at.v);
+        std::mem::swap(a, &mut at.a);
+    }
+
     /// Motion, friction and energies at `t`, inside the accepted step of `h` that `end` is the end of.
     pub fn inside(&self, model: &Model, drive: &Drive, end: &State, h: f64, t: f64, at: &mut Instant) {
         let (n, last) = (model.unknowns(), self.tableau.stages - 1);
@@ -341,14 +353,11 @@ impl Step {
         for (r, rub) in model.rubs.iter().enumerate() {
             let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
             let w = at.v[a] - at.v[b];
-            at.mu[r] = if rub.law.sticks() && w == 0.0 {
-                mix(self.start_laws.mu[r], end.tangents.mu[r])
-            } else {
-                rub.law.value(w)
-            };
+            at.mu[r] =
+                if rub.law.sticks() && w == 0.0 { mix(self.start_mu[r], end.tangents.mu[r]) } else { rub.law.value(w) };
         }
         for (c, borne) in at.reaction.iter_mut().enumerate() {
-            *borne = mix(self.start_laws.reaction[c], end.tangents.reaction[c]);
+            *borne = mix(self.start_reaction[c], end.tangents.reaction[c]);
         }
         at.bonds.copy_from_slice(&self.start_bonds);
         for (bond, held) in model.bonds.iter().zip(&mut at.bonds) {

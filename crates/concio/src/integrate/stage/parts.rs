@@ -38,7 +38,7 @@ impl<'m> Parts<'m> {
         stage.tau = SHARE * state.step;
         stage.start(model, &mut tangents);
         stage.velocity.copy_from_slice(&tangents.velocity);
-        stage.assemble_elastic(&tangents);
+        stage.assemble_elastic(model, &tangents);
         Parts { model, stage, tangents }
     }
 
@@ -61,7 +61,7 @@ impl WithSimd for One<'_, '_> {
         let Parts { model, stage, tangents } = self.parts;
         match self.part {
             Part::Laws => stage.rubs.laws(&stage.velocity, &mut stage.mu, &mut stage.slope),
-            Part::Elastic => stage.assemble_elastic(tangents),
+            Part::Elastic => stage.assemble_elastic(model, tangents),
             Part::Factors => {
                 stage.factors_hold = false;
                 return stage.assemble(model, tangents).is_ok();
