@@ -330,6 +330,8 @@ impl Step {
         for k in 0..n {
             at.z[k] = self.start_z[k] + w.of_end * (end.z[k] - self.start_z[k]);
         }
+        // The base; the room that was lent holds anything.
+        at.z[n] = 0.0;
         at.v.fill(0.0);
         at.a.fill(0.0);
         for i in 0..=last {
