@@ -235,7 +235,7 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
         let d = state.z[a] - state.z[b];
         let beyond = bond.beyond(&model.elastic[e], held.damage, d);
         let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], state.v[a] - state.v[b]], h);
-        let force = |d: f64| bond.force(&model.elastic[e], held.damage, d).abs();
+        let force = |d: f64| bond.force(&model.elastic[e], bond.law.damage_at(held.damage, d), d).abs();
         held.peak = held.peak.max(force(d)).max(force(turn));
         env.joint_force[e] = held.peak;
         if b == top {

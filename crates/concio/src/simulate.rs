@@ -352,14 +352,17 @@ impl<'m> Simulation<'m> {
             a.time.total_cmp(&b.time).then((a.joint, a.kind as u8).cmp(&(b.joint, b.kind as u8)))
         });
         self.work.accept(self.model, &mut self.state, t, h);
-        if broke {
-            self.settle();
-        }
         self.state.counters.steps += 1;
         self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
         self.state.counters.factorisations += std::mem::take(&mut self.work.stage.factorisations);
-        observe(self.model, &mut self.state, h, self.work.start());
+        let residual = std::mem::take(&mut self.work.stage.contact_residual);
+        self.state.totals.contact_residual = self.state.totals.contact_residual.max(residual);
+        // Before anything of what happens at the end of the step.
         self.samples_before(t, h);
+        if broke {
+            self.settle();
+        }
+        observe(self.model, &mut self.state, h, self.work.start());
         self.happen(h);
         if at_break
             && t < self.model.excitation.duration
@@ -401,8 +404,6 @@ impl<'m> Simulation<'m> {
 
     /// What a step of `h` that ended at an event leads to.
     fn happen(&mut self, h: f64) {
-        let residual = std::mem::take(&mut self.work.stage.contact_residual);
-        self.state.totals.contact_residual = self.state.totals.contact_residual.max(residual);
         if Impacts::due(self.model, &self.state) {
             self.work.linger(self.model, &self.state, h);
             self.settle();

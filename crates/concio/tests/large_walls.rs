@@ -1,4 +1,4 @@
-//! Walls of hundreds of blocks: factors made for large systems and used again change nothing that matters.
+//! Walls of hundreds of blocks, whose matrices are factorised front by front.
 
 use std::path::Path;
 
@@ -62,7 +62,7 @@ fn factors_used_again_keep_the_accuracy() {
     assert!(error < 0.02 * peak, "{error:e} of {peak:e}");
 }
 
-/// A state saved after any step, factors in use, continues with the same bits.
+/// A state saved after any step continues with the same bits.
 #[test]
 fn a_large_run_is_restored_to_the_same_bits() {
     let p = ready(&wall());

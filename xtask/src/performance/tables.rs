@@ -11,7 +11,7 @@ use super::programs::Method;
 const ASKED: [(&str, f64, Option<f64>); 3] =
     [("slipping", 15.0, Some(50.0)), ("shaken", 10.0, Some(30.0)), ("large", 10.0, None)];
 /// Tolerance of a wall file that gives none.
-const DEFAULT: f64 = 1e-3;
+const DEFAULT: f64 = 1e-2;
 
 /// Machine, summary, and a section per case.
 pub fn all(all: &Performance) -> String {

@@ -44,6 +44,7 @@ pub fn grow(model: &Model, state: &mut State, z: &[f64], v: &[f64], h: f64, mut 
         held.damage = if held.broken.is_finite() { 1.0 } else { law.damage(reach).0 };
         let spent = law.spent(reach, held.damage);
         state.energies.bond += spent - held.spent;
+        state.envelopes.joint_dissipation[bond.joint as usize] += spent - held.spent;
         held.spent = spent;
         state.bonds[b] = held;
     }

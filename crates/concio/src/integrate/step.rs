@@ -16,7 +16,7 @@ use crate::integrate::events::TOUCHING;
 use crate::integrate::impact::Impacts;
 use crate::integrate::stage::{Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
-use crate::model::Model;
+use crate::model::{Model, Rub};
 use crate::record::Energies;
 use crate::state::{BondState, Instant, Power, State, Tangents};
 
@@ -43,6 +43,7 @@ pub struct Step {
     account: Energies,
     /// Friction and what rigid joints bear at the start, where laws are set-valued.
     start_mu: Vec<f64>,
+    start_stuck: Vec<bool>,
     start_reaction: Vec<f64>,
     start_bonds: Vec<BondState>,
     /// Displacement of the end of the step, with base and top.
@@ -89,6 +90,7 @@ impl Step {
             start_energies: Energies::default(),
             account: Energies::default(),
             start_mu: vec![0.0; if model.set_valued() { model.rubs.len() } else { 0 }],
+            start_stuck: vec![false; if model.set_valued() { model.rubs.len() } else { 0 }],
             start_reaction: vec![0.0; model.contacts.len()],
             start_bonds: vec![BondState::INTACT; model.bonds.len()],
             z: vec![0.0; n + 2],
@@ -116,6 +118,7 @@ impl Step {
         self.stage_a[0].copy_from_slice(&state.a[..n]);
         self.stage_power[0] = state.power;
         self.tangents.copy_from(&state.tangents);
+        self.stage.contact_residual = 0.0;
         self.stage.begin(model, &state.bonds);
         self.find_touching(model, state);
         for i in 1..self.tableau.stages {
@@ -277,6 +280,7 @@ impl Step {
         self.start_energies = state.energies;
         if model.set_valued() {
             self.start_mu.copy_from_slice(&state.tangents.mu);
+            self.start_stuck.copy_from_slice(&state.tangents.stuck);
             self.start_reaction.copy_from_slice(&state.tangents.reaction);
         }
         self.start_bonds.copy_from_slice(&state.bonds);
@@ -354,9 +358,11 @@ impl Step {
         let mix = |from: f64, to: f64| from + x * (to - from);
         for (r, rub) in model.rubs.iter().enumerate() {
             let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
-            let w = at.v[a] - at.v[b];
-            at.mu[r] =
-                if rub.law.sticks() && w == 0.0 { mix(self.start_mu[r], end.tangents.mu[r]) } else { rub.law.value(w) };
+            at.mu[r] = if self.held(rub, r, end) {
+                mix(self.start_mu[r], end.tangents.mu[r])
+            } else {
+                rub.law.value(at.v[a] - at.v[b])
+            };
         }
         for (c, borne) in at.reaction.iter_mut().enumerate() {
             *borne = mix(self.start_reaction[c], end.tangents.reaction[c]);
@@ -365,11 +371,16 @@ impl Step {
         for (bond, held) in model.bonds.iter().zip(&mut at.bonds) {
             let [a, b] = model.sides[bond.joint as usize].map(|s| s as usize);
             held.damage = bond.law.damage_at(held.damage, at.z[a] - at.z[b]);
-            if let Some(r) = bond.rub {
+            if let Some(r) = bond.rub.map(|r| r as usize).filter(|&r| !self.held(&model.rubs[r], r, end)) {
                 // Only the cracked part rubs.
-                at.mu[r as usize] = model.rubs[r as usize].law.times(held.damage).value(at.v[a] - at.v[b]);
+                at.mu[r] = model.rubs[r].law.times(held.damage).value(at.v[a] - at.v[b]);
             }
         }
+    }
+
+    /// Whether a joint stuck all through the accepted step.
+    fn held(&self, rub: &Rub, r: usize, end: &State) -> bool {
+        rub.law.sticks() && self.start_stuck[r] && end.tangents.stuck[r]
     }
 
     /// The works so far: cubic in time, with the rates at both ends.
