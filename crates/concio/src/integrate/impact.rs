@@ -104,7 +104,8 @@ impl Impacts {
         if self.lost() < 0.0 {
             let touching = |c: &usize| self.touching[*c];
             let least = (0..self.touching.len()).filter(touching).map(|c| model.contacts[c].restitution);
-            let slowed = (0..self.touching.len()).any(|c| self.touching[c] && self.before[c] > 0.0 && self.target[c] == 0.0);
+            let slowed =
+                (0..self.touching.len()).any(|c| self.touching[c] && self.before[c] > 0.0 && self.target[c] == 0.0);
             let least = if slowed { 0.0 } else { least.fold(at_most, f64::min) };
             state.v.copy_from_slice(&self.initial);
             self.start(model, state, slow, least);
