@@ -109,7 +109,7 @@ fn plastic_impact_sticks_and_lets_go() {
 }
 
 /// Impulses come from velocities, multiplied by a large number: they have four digits less.
-const IMPULSE: f64 = 1e-10;
+const IMPULSE: f64 = 1e-9;
 
 /// Velocities [m/s] after the impact of touching masses in a row, impulses [N s] of the joints, energy lost [J].
 fn chain(masses: &[f64], e: f64, v: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {

@@ -311,7 +311,8 @@ def check_csv(folder, time, heads, values, names, envelopes):
         with open(folder / f"{what}_envelopes.csv", newline="", encoding="utf-8") as stream:
             rows = list(csv.reader(stream))
         columns = {"block": BLOCK_ENVELOPES, "joint": JOINT_ENVELOPES}[what]
-        require(rows[0] == [what, *(f"{k} [{u}]" for k, u in columns.items())], f"csv: header of {what} envelopes")
+        header = [what, *(k if u == "1" else f"{k} [{u}]" for k, u in columns.items())]
+        require(rows[0] == header, f"csv: header of {what} envelopes")
         require([r[0] for r in rows[1:]][: len(names[what])] == names[what], f"csv: names of {what} envelopes")
         for k, key in enumerate(columns):
             equal(np.array([float(r[k + 1]) for r in rows[1:]]), envelopes[what][key], f"csv: {what} {key}")
