@@ -426,13 +426,13 @@ pub enum FrictionOn {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointBond {
-    /// f_t [Pa], from 0: tensile strength of head joints and connections. 0: they are not bonded. Default 0.
+    /// f_t in Pa, from 0: tensile strength of head joints and connections. 0: they are not bonded. Default 0.
     #[serde(default)]
     pub tensile_strength: Stress,
-    /// c [Pa], from 0: cohesion of bed and support joints. 0 with `friction_angle` 0: they are not bonded. Default 0.
+    /// c in Pa, from 0: cohesion of bed and support joints. 0 with `friction_angle` 0: they are not bonded. Default 0.
     #[serde(default)]
     pub cohesion: Stress,
-    /// φ [rad], 0 … 80 deg: the vertical load on a bed or support joint adds N tan φ to its strength. Default 0.
+    /// φ in rad, 0 … 80 deg: the vertical load on a bed or support joint adds N tan φ to its strength. Default 0.
     #[serde(default)]
     pub friction_angle: Angle,
     /// G_f^I [N/m], from 0: energy per area of opening a head joint, no less than what it stores at its strength. 0:
@@ -601,13 +601,13 @@ pub struct FrictionChange {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct BondChange {
-    /// f_t [Pa], from 0.
+    /// f_t in Pa, from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tensile_strength: Option<Stress>,
-    /// c [Pa], from 0.
+    /// c in Pa, from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cohesion: Option<Stress>,
-    /// φ [rad], 0 … 80 deg.
+    /// φ in rad, 0 … 80 deg.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_angle: Option<Angle>,
     /// G_f^I [N/m], from 0; 0: brittle.
