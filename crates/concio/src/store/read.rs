@@ -229,6 +229,9 @@ fn read_recording(source: &Source, layout: &Layout, joints: usize) -> Result<Rec
 }
 
 fn read_events(source: &Source, joints: usize) -> Result<Vec<Event>> {
+    if !source.has("events/time") {
+        return Ok(Vec::new());
+    }
     let time: Vec<f64> = source.array("events/time", &[None])?;
     let joint: Vec<i64> = source.list("events/joint", time.len())?;
     let kinds: Vec<EventKind> = read_keywords(source, "events/kind", time.len())?;
