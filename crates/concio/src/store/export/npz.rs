@@ -147,6 +147,9 @@ fn fill_recording(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
         columns(archive, "bonds", &fields::BONDS, &run.outcome.bonds)?;
     }
     let events = &recording.events;
+    if events.is_empty() {
+        return Ok(());
+    }
     archive.list("events/time", &events.iter().map(|e| e.time).collect::<Vec<_>>())?;
     archive.integers("events/joint", events.iter().map(|e| i64::from(e.joint)))?;
     archive.texts("events/kind", &events.iter().map(|e| keyword(&e.kind)).collect::<Vec<_>>())?;
