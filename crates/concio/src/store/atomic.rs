@@ -9,7 +9,10 @@ use crate::error::{Error, Result};
 
 /// Calls `write` with a temporary name and gives the file its name `path` once everything has reached the disk.
 /// A file of that name is replaced; it stays as it was when something fails.
-pub(super) fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
+///
+/// # Errors
+/// The file cannot be written, or what `write` returns.
+pub fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
     let temporary = temporary_name(path)?;
     // Made here so that a folder that is missing or closed is the system's error, not one of a file format.
     File::create(&temporary).map_err(|e| Error::io(path, e))?;
@@ -22,7 +25,10 @@ pub(super) fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<()>) -> R
 }
 
 /// [`replace`] for content that is in memory already.
-pub(super) fn replace_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
+///
+/// # Errors
+/// The file cannot be written.
+pub fn replace_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     replace(path, |temporary| fs::write(temporary, bytes).map_err(|e| Error::io(path, e)))
 }
 
