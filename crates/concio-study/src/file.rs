@@ -8,7 +8,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use crate::ida::Ida;
 use crate::motions::MotionInput;
+use crate::sensitivity::Sensitivity;
 
 /// A study: a wall, what varies, which combinations are run, what is kept, what is asked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -34,6 +36,12 @@ pub struct Study {
     /// What is kept of every run.
     #[serde(default)]
     pub keep: Keep,
+    /// Which factors move what was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sensitivity: Option<Sensitivity>,
+    /// Every motion at rising intensity, and the fragility.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ida: Option<Ida>,
 }
 
 /// How values are combined.

@@ -2,7 +2,7 @@
 //!
 //! Main path: [`file`] (what the study file says) → [`factors`] (what varies) → [`design`] (which combinations) →
 //! [`plan`] (the runs, each with its wall and its id) → [`runner`] (does those that the store does not have) →
-//! [`store`] → [`table`].
+//! [`store`] → [`table`]. Analyses over the runs: [`sensitivity`], [`ida`]; [`groups`] is the dimensionless form.
 //!
 //! A run is known by its id, the hash of everything its result depends on. The store keeps what was measured of each
 //! run under its id, so nothing is ever run twice: a study that is taken up again, a shard, a search that asks for a
@@ -11,10 +11,14 @@
 pub mod design;
 pub mod factors;
 pub mod file;
+pub mod groups;
+pub mod ida;
+pub mod intensity;
 pub mod measures;
 pub mod motions;
 pub mod plan;
 pub mod runner;
+pub mod sensitivity;
 pub mod store;
 pub mod table;
 

@@ -12,7 +12,7 @@ use serde_json::Value;
 use crate::design::{At, points};
 use crate::factors::{Changes, Factor, Over, factors};
 use crate::file::StudyFile;
-use crate::motions;
+use crate::{groups, motions};
 
 /// A study with its runs.
 #[derive(Debug)]
@@ -48,6 +48,8 @@ impl Plan {
         let points = points(&file, &factors)?;
         let plan = Plan { file, factors, points, records: Records::default() };
         plan.try_levels()?;
+        crate::sensitivity::measures(&plan)?;
+        crate::ida::settings(&plan.file)?;
         Ok(plan)
     }
 
@@ -65,7 +67,7 @@ impl Plan {
                 Over::Scales(_) => continue,
             };
             for (key, changes) in levels {
-                self.file.wall.changed(&changes).map_err(|e| self.file.of_wall(&key, e))?;
+                self.laid(&changes).map_err(|e| self.file.of_wall(&key, e))?;
             }
         }
         Ok(())
@@ -98,6 +100,14 @@ impl Plan {
     /// # Errors
     /// [`Error::Input`] where the values of this run make no wall.
     pub fn case(&self, number: usize) -> Result<Case> {
+        self.scaled_case(number, 1.0)
+    }
+
+    /// The same with the base moving `factor` times as strongly as it would.
+    ///
+    /// # Errors
+    /// As [`Plan::case`].
+    pub fn scaled_case(&self, number: usize, factor: f64) -> Result<Case> {
         let mut changes: Changes = Vec::new();
         let mut scale = 1.0;
         for (at, factor) in self.points[number].iter().zip(&self.factors) {
@@ -108,7 +118,7 @@ impl Plan {
                 _ => {}
             }
         }
-        self.changed(&changes, scale).map_err(|e| {
+        self.changed(&changes, scale * factor).map_err(|e| {
             let labels: Vec<String> =
                 self.factors.iter().zip(self.labels(number)).map(|(f, l)| format!("{} = {l}", f.name)).collect();
             let key = self.factors.first().map_or("wall", |f| f.key.as_str());
@@ -119,12 +129,23 @@ impl Plan {
         })
     }
 
+    /// The study's wall with some changes; groups among them are solved for when all else is as it will be.
+    fn laid(&self, changes: &Changes) -> Result<CaseFile> {
+        let (of_groups, plain): (Changes, Changes) =
+            changes.iter().cloned().partition(|(path, _)| path.starts_with(groups::PREFIX));
+        let file = self.file.wall.changed(&plain)?;
+        if of_groups.is_empty() {
+            return Ok(file);
+        }
+        groups::realise(&self.file.wall, plain, &of_groups)
+    }
+
     /// The study's wall with some changes, its base moving `scale` times as strongly.
     ///
     /// # Errors
     /// [`Error::Input`] where that is no wall, located in the wall file.
     pub fn changed(&self, changes: &Changes, scale: f64) -> Result<Case> {
-        let mut file = self.file.wall.changed(changes)?;
+        let mut file = self.laid(changes)?;
         let folder = file.folder().to_path_buf();
         let motion = &mut file.case.motion;
         // Motions of the study file are rooted already; the wall's own start from its folder.

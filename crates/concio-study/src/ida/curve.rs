@@ -1,0 +1,226 @@
+//! What a motion does at rising intensity, and what all of them do together.
+
+use super::Settings;
+use super::fragility::{Fragility, fit};
+use super::hunt::Way;
+use super::likelihood::Evidence;
+use crate::measures::{End, Row};
+
+/// A run of a curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// Intensity in SI.
+    pub intensity: f64,
+    /// Factor on the motion.
+    pub scale: f64,
+    /// Damage in SI; of a run that stopped early, up to there.
+    pub damage: Option<f64>,
+    /// Whether it counts as collapse.
+    pub collapsed: bool,
+    /// Id of the run.
+    pub id: String,
+}
+
+impl Point {
+    /// Of a run.
+    ///
+    /// # Errors
+    /// Why the run has no number.
+    pub fn of(intensity: f64, scale: f64, row: &Row, settings: &Settings) -> Result<Self, String> {
+        let damage = row.number(&settings.damage);
+        let at = || format!("at {intensity} {}", settings.intensity.unit());
+        let collapsed = match (row.end, damage) {
+            (End::Failed, _) => return Err(format!("{}: {}", at(), row.cause.as_deref().unwrap_or("failed"))),
+            (End::Stopped, _) => true,
+            (End::Completed, None) => return Err(format!("{}: the run has no {}", at(), settings.damage)),
+            (End::Completed, Some(damage)) => damage >= settings.collapse,
+        };
+        Ok(Point { intensity, scale, damage, collapsed, id: row.id.clone() })
+    }
+
+    /// Whether damage of that value is reached.
+    fn reaches(&self, value: f64) -> bool {
+        self.collapsed || self.damage.is_some_and(|d| d >= value)
+    }
+}
+
+/// One motion at rising intensity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Its name.
+    pub name: String,
+    /// Number of the run of the design that it scales, from 0.
+    pub number: usize,
+    /// Intensity at scale 1.
+    pub unit: f64,
+    /// Its runs, rising.
+    pub points: Vec<Point>,
+    /// Why it cannot be used, if so.
+    pub failed: Option<String>,
+}
+
+impl Curve {
+    /// The intensity at which damage first reaches `value`, and the two runs that it lies between.
+    ///
+    /// Between the two the logarithm of the intensity is linear in that of the damage (in the damage, where the lower run
+    /// has none); where the upper run stopped early it is the middle of both.
+    pub fn capacity(&self, value: f64) -> Evidence {
+        let Some(upper) = self.points.iter().position(|p| p.reaches(value)) else {
+            return Evidence::Above(self.points.last().map_or(0.0, |p| p.intensity));
+        };
+        let high = &self.points[upper];
+        let Some(low) = upper.checked_sub(1).map(|i| &self.points[i]) else { return Evidence::Below(high.intensity) };
+        let (d0, d1) = (low.damage.unwrap_or(0.0), high.damage.unwrap_or(0.0));
+        let share = if d1 < value {
+            0.5
+        } else if d0 > 0.0 {
+            (value / d0).ln() / (d1 / d0).ln()
+        } else {
+            value / d1
+        };
+        let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 };
+        Evidence::At(low.intensity * (high.intensity / low.intensity).powf(share))
+    }
+
+    /// Damage at an intensity between its runs, straight between the logarithms; infinite from collapse on, none beyond
+    /// its runs.
+    pub fn damage(&self, intensity: f64) -> Option<f64> {
+        let collapse = self.points.iter().position(|p| p.collapsed).unwrap_or(self.points.len());
+        let standing = &self.points[..collapse];
+        let upper = standing.partition_point(|p| p.intensity < intensity * (1.0 - 1e-12));
+        let Some(high) = standing.get(upper) else {
+            // Beyond the last run that stands: collapsed, or not known.
+            return (collapse < self.points.len()).then_some(f64::INFINITY);
+        };
+        let d1 = high.damage?;
+        let Some(low) = upper.checked_sub(1).map(|i| &standing[i]) else {
+            return ((high.intensity / intensity - 1.0).abs() < 1e-9).then_some(d1);
+        };
+        let d0 = low.damage?;
+        let share = (intensity / low.intensity).ln() / (high.intensity / low.intensity).ln();
+        if d0 > 0.0 && d1 > 0.0 { Some(d0 * (d1 / d0).powf(share)) } else { Some(d0 + share * (d1 - d0)) }
+    }
+}
+
+/// Shares of the curves that the fractiles stand for.
+pub const SHARES: [f64; 3] = [0.16, 0.5, 0.84];
+/// Intensities at which fractiles and fragilities are told.
+const GRID: usize = 60;
+
+/// Fractiles of the damage at rising intensities: intensity, then one value per entry of [`SHARES`], infinite where so many
+/// collapsed. From the highest first run of a curve to the lowest last run of one that stands.
+pub fn fractiles(curves: &[&Curve]) -> Vec<(f64, [f64; 3])> {
+    let most = |f: &dyn Fn(&Curve) -> Option<f64>, start: f64, pick: fn(f64, f64) -> f64| {
+        curves.iter().filter_map(|c| f(c)).fold(start, pick)
+    };
+    let low = most(&|c| c.points.first().map(|p| p.intensity), 0.0, f64::max);
+    let stands = |c: &Curve| c.points.last().filter(|_| c.points.iter().all(|p| !p.collapsed)).map(|p| p.intensity);
+    let ends = most(&stands, f64::INFINITY, f64::min);
+    let high = ends.min(most(&|c| c.points.last().map(|p| p.intensity), 0.0, f64::max));
+    if curves.is_empty() || !(low > 0.0 && low < high) {
+        return Vec::new();
+    }
+    let at = |k: usize| low * (high / low).powf(k as f64 / (GRID - 1) as f64);
+    let of = |intensity: f64| {
+        let mut damages: Vec<f64> = curves.iter().filter_map(|c| c.damage(intensity)).collect();
+        damages.sort_by(f64::total_cmp);
+        (intensity, SHARES.map(|share| quantile(&damages, share)))
+    };
+    (0..GRID).map(|k| of(at(k))).filter(|(_, q)| q.iter().all(|v| !v.is_nan())).collect()
+}
+
+/// The value below which lies that share of sorted values, linear between them; infinite where it touches an infinite one.
+pub fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
+    let place = share * last as f64;
+    let (low, rest) = (place.floor() as usize, place.fract());
+    if rest == 0.0 || low == last { sorted[low] } else { sorted[low] + rest * (sorted[low + 1] - sorted[low]) }
+}
+
+/// The fragility of a limit state.
+#[derive(Debug)]
+pub struct Found {
+    /// Name of the limit state.
+    pub limit: String,
+    /// Damage at which it is reached.
+    pub value: f64,
+    /// `capacities` of records, or `stripes`.
+    pub method: &'static str,
+    /// What was fitted to: one entry per usable curve, or per intensity.
+    pub evidence: Vec<Evidence>,
+    /// The fit, or why there is none.
+    pub fit: Result<Fragility, &'static str>,
+}
+
+/// The fragilities: of capacities for every limit, and where all motions were run at the same intensities of stripes too.
+pub fn fragilities(settings: &Settings, curves: &[&Curve]) -> Vec<Found> {
+    let mut found = Vec::new();
+    for (limit, value) in &settings.limits {
+        let mut add = |method, evidence: Vec<Evidence>| {
+            let fit = fit(&evidence, settings.confidence);
+            found.push(Found { limit: limit.clone(), value: *value, method, evidence, fit });
+        };
+        add("capacities", curves.iter().map(|c| c.capacity(*value)).collect());
+        if let Way::List(list) = &settings.way {
+            let stripe = |(k, intensity): (usize, &f64)| Evidence::Stripe {
+                intensity: *intensity,
+                reached: curves.iter().filter(|c| c.points.get(k).is_some_and(|p| p.reaches(*value))).count(),
+                of: curves.len(),
+            };
+            add("stripes", list.iter().enumerate().map(stripe).collect());
+        }
+    }
+    found
+}
+
+/// Intensities from a little below to a little above what a fit speaks of.
+pub fn grid(fit: &Fragility) -> Vec<f64> {
+    let reach = (3.0 * fit.dispersion).clamp(0.05, 3.0);
+    (0..GRID).map(|k| fit.median * (reach * (2.0 * k as f64 / (GRID - 1) as f64 - 1.0)).exp()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(points: &[(f64, f64, bool)]) -> Curve {
+        let point = |&(intensity, damage, collapsed): &(f64, f64, bool)| Point {
+            intensity,
+            scale: intensity,
+            damage: Some(damage),
+            collapsed,
+            id: String::new(),
+        };
+        let points = points.iter().map(point).collect();
+        Curve { name: "a".into(), number: 0, unit: 1.0, points, failed: None }
+    }
+
+    /// Damage as a power of the intensity is a straight line between logarithms: capacities come out exactly.
+    #[test]
+    fn powers_are_interpolated_exactly() {
+        let power = |y: f64| 0.3 * y.powf(1.7);
+        let c = curve(&[0.1, 0.4, 0.9, 2.0].map(|y| (y, power(y), false)));
+        for y in [0.15, 0.4, 1.3] {
+            let Evidence::At(found) = c.capacity(power(y)) else { panic!("a capacity at {y}") };
+            assert!((found / y - 1.0).abs() < 1e-12);
+            assert!((c.damage(y).unwrap_or(0.0) / power(y) - 1.0).abs() < 1e-12);
+        }
+        assert_eq!(c.capacity(power(2.5)), Evidence::Above(2.0));
+        assert_eq!(c.capacity(power(0.05)), Evidence::Below(0.1));
+        assert_eq!((c.damage(2.5), c.damage(0.05)), (None, None));
+        let fallen = curve(&[(0.1, 1.0, false), (0.4, 2.0, true)]);
+        assert_eq!(fallen.damage(0.3), Some(f64::INFINITY));
+        assert_eq!(fallen.capacity(9.0), Evidence::At(0.2));
+    }
+
+    #[test]
+    fn fractiles_of_three_curves() {
+        let curves = [1.0, 2.0, 4.0].map(|k| curve(&[(0.1, 0.1 * k, false), (1.0, k, false)]));
+        let found = fractiles(&curves.iter().collect::<Vec<_>>());
+        assert_eq!(found.len(), GRID);
+        for (y, [low, mid, high]) in found {
+            assert!((mid / (2.0 * y) - 1.0).abs() < 1e-9 && (low / (1.32 * y) - 1.0).abs() < 1e-9);
+            assert!((high / (3.36 * y) - 1.0).abs() < 1e-9, "{high}");
+        }
+    }
+}

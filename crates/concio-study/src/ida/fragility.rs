@@ -1,0 +1,170 @@
+//! Lognormal fragility fitted by maximum likelihood, with confidence from the profile of the likelihood.
+//!
+//! - Capacities of records, those that did not reach the limit included: K. A. Porter, R. Kennedy, R. Bachman,
+//!   Earthquake Spectra 23 (2007) 471; equation (F2) of [`super::likelihood`].
+//! - Fixed stripes, binomial: J. W. Baker, Earthquake Spectra 31 (2015) 579.
+//! - Intervals are where twice the likelihood's fall from its maximum stays below c: 3.84 for 95 %, the quantile of χ²;
+//!   where n capacities were found, n ln(1 + t²/(n − 1)) with Student's t, which is exact for the median of capacities
+//!   that were all found.
+
+use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
+
+use super::likelihood::{Evidence, Likelihood, Place, phi};
+
+/// A fitted fragility.
+#[derive(Debug, Clone)]
+pub struct Fragility {
+    /// θ, the intensity at which half of the records reach the limit.
+    pub median: f64,
+    /// β, standard deviation of the logarithm of capacities.
+    pub dispersion: f64,
+    /// Interval of the median; 0 or infinite where it has no end.
+    pub median_interval: [f64; 2],
+    /// Interval of the dispersion; likewise.
+    pub dispersion_interval: [f64; 2],
+    likelihood: Likelihood,
+    place: Place,
+    largest: f64,
+    fall: f64,
+}
+
+/// How far from the best value an interval is looked for: that many of the first steps, doubled each.
+const DOUBLINGS: usize = 30;
+
+/// Fits (F1); `confidence` is that of the intervals, between 0 and 1.
+///
+/// # Errors
+/// Why the evidence determines no lognormal.
+pub fn fit(evidence: &[Evidence], confidence: f64) -> Result<Fragility, &'static str> {
+    if evidence.len() < 2 {
+        return Err("fewer than two records or stripes");
+    }
+    let likelihood = Likelihood::new(evidence);
+    let place = likelihood.largest()?;
+    let [a, b] = place;
+    let mut fit = Fragility {
+        median: (likelihood.centre - a / b).exp(),
+        dispersion: 1.0 / b,
+        median_interval: [0.0, f64::INFINITY],
+        dispersion_interval: [0.0, f64::INFINITY],
+        largest: likelihood.at(place),
+        fall: 0.5 * threshold(likelihood.exact(), confidence),
+        likelihood,
+        place,
+    };
+    fit.median_interval = fit.interval_of_median();
+    fit.dispersion_interval = fit.interval_of_dispersion();
+    Ok(fit)
+}
+
+fn threshold(exact: f64, confidence: f64) -> f64 {
+    let chi = ChiSquared::new(1.0).map_or(f64::NAN, |d| d.inverse_cdf(confidence));
+    if exact < 3.0 {
+        return chi;
+    }
+    let t = StudentsT::new(0.0, 1.0, exact - 1.0).map_or(f64::NAN, |d| d.inverse_cdf(0.5 + 0.5 * confidence));
+    exact * (t * t / (exact - 1.0)).ln_1p()
+}
+
+impl Fragility {
+    /// P(limit reached) at an intensity above 0.
+    pub fn probability(&self, intensity: f64) -> f64 {
+        phi((intensity / self.median).ln() / self.dispersion)
+    }
+
+    /// Confidence interval of [`Fragility::probability`].
+    pub fn band(&self, intensity: f64) -> [f64; 2] {
+        let x = intensity.ln() - self.likelihood.centre;
+        let [a, b] = self.place;
+        let z = a + b * x;
+        // a + b x = z fixed: a line with direction (−x, 1).
+        let profile = |z: f64| self.likelihood.on_line([z - b * x, b], [-x, 1.0]);
+        let ends = [-1.0, 1.0].map(|sign| self.end(z, 0.1 * sign, &profile));
+        [ends[0].map_or(0.0, phi), ends[1].map_or(1.0, phi)]
+    }
+
+    fn interval_of_median(&self) -> [f64; 2] {
+        let [a, b] = self.place;
+        let x = -a / b;
+        let profile = |x: f64| self.likelihood.on_line([-b * x, b], [-x, 1.0]);
+        let ends = [-1.0, 1.0].map(|sign| self.end(x, 0.1 * sign * self.dispersion, &profile));
+        let of = |x: Option<f64>, none: f64| x.map_or(none, |x| (x + self.likelihood.centre).exp());
+        [of(ends[0], 0.0), of(ends[1], f64::INFINITY)]
+    }
+
+    fn interval_of_dispersion(&self) -> [f64; 2] {
+        let [a, b] = self.place;
+        let profile = |s: f64| {
+            let other = (-s).exp();
+            // Along a alone; the start keeps the median.
+            self.likelihood.on_line([a / b * other, other], [1.0, 0.0])
+        };
+        let ends = [-1.0, 1.0].map(|sign| self.end(-b.ln(), 0.1 * sign, &profile));
+        [ends[0].map_or(0.0, f64::exp), ends[1].map_or(f64::INFINITY, f64::exp)]
+    }
+
+    /// Where the profile has fallen by as much as the confidence allows; none when it does not within reach.
+    fn end(&self, best: f64, first: f64, profile: &dyn Fn(f64) -> f64) -> Option<f64> {
+        let inside = |v: f64| profile(v) >= self.largest - self.fall;
+        let (mut step, mut low) = (first, best);
+        let mut high = None;
+        for _ in 0..DOUBLINGS {
+            if inside(best + step) {
+                (low, step) = (best + step, 2.0 * step);
+            } else {
+                high = Some(best + step);
+                break;
+            }
+        }
+        let mut high = high?;
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if inside(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some(0.5 * (low + high))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With all capacities found the likelihood's maximum has a closed form, and the interval of the median is Student's.
+    #[test]
+    fn capacities_that_were_all_found() -> Result<(), &'static str> {
+        let y = [0.21f64, 0.35, 0.4, 0.28, 0.55, 0.31, 0.62, 0.24];
+        let evidence: Vec<Evidence> = y.iter().map(|y| Evidence::At(*y)).collect();
+        let found = fit(&evidence, 0.95)?;
+        let n = y.len() as f64;
+        let mean = y.iter().map(|y| y.ln()).sum::<f64>() / n;
+        let squares = y.iter().map(|y| (y.ln() - mean).powi(2)).sum::<f64>();
+        assert!((found.median / mean.exp() - 1.0).abs() < 1e-9);
+        assert!((found.dispersion / (squares / n).sqrt() - 1.0).abs() < 1e-9);
+        // t(0.975, 7) = 2.364624.
+        let half = 2.364_624 * (squares / (n - 1.0) / n).sqrt();
+        for (k, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let exact = (mean + sign * half).exp();
+            assert!((found.median_interval[k] / exact - 1.0).abs() < 1e-5, "{} {exact}", found.median_interval[k]);
+        }
+        // At the median the band is the image of the median's interval to first order, and holds one half.
+        let [low, high] = found.band(found.median);
+        assert!(low < 0.5 && high > 0.5 && (found.probability(found.median) - 0.5).abs() < 1e-12);
+        Ok(())
+    }
+
+    #[test]
+    fn evidence_that_determines_nothing() {
+        let at = |y: f64| Evidence::At(y);
+        assert!(fit(&[at(0.3)], 0.95).is_err());
+        assert!(fit(&[at(0.3), at(0.3), at(0.3)], 0.95).is_err());
+        let stripe = |intensity, reached| Evidence::Stripe { intensity, reached, of: 10 };
+        assert!(fit(&[stripe(0.1, 0), stripe(0.2, 0), stripe(0.4, 10)], 0.95).is_err());
+        assert!(fit(&[stripe(0.1, 5), stripe(0.2, 3), stripe(0.4, 1)], 0.95).is_err());
+        assert!(fit(&[Evidence::Above(0.5), Evidence::Above(0.7)], 0.95).is_err());
+        assert!(fit(&[stripe(0.1, 1), stripe(0.2, 4), stripe(0.4, 9)], 0.95).is_ok());
+    }
+}

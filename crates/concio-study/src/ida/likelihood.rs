@@ -1,0 +1,236 @@
+//! The likelihood of a lognormal fragility, its largest value and its profiles.
+//!
+//! (F1)  P(limit reached at intensity y) = Φ(z),   z = ln(y/θ)/β = a + b x,   x = ln y,  b = 1/β,  a = −ln θ/β
+//!
+//! (F2)  l(a, b) = Σ ln[b φ(z)] + Σ ln Φ(−z) + Σ [k ln Φ(z) + (n − k) ln Φ(−z)]
+//!
+//! over capacities that were found, records that did not reach the limit (their largest intensity), and stripes where k of
+//! n records reached it. l is concave in (a, b) (Pratt, J. Am. Stat. Assoc. 76 (1981) 103): Newton's method with steps
+//! that are halved until l rises finds the maximum from anywhere, and along any straight line too. Fixing θ, β or the
+//! probability at an intensity leaves a straight line each, so profiles are one-dimensional maxima.
+
+use statrs::function::erf::erfc;
+
+/// What one record, or one stripe, says of the fragility.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Evidence {
+    /// The limit is reached at this intensity, above 0.
+    At(f64),
+    /// It is not reached up to this intensity.
+    Above(f64),
+    /// It is reached at this intensity already, the lowest that was run.
+    Below(f64),
+    /// It is reached by `reached` of `of` records at this intensity.
+    Stripe {
+        /// The intensity, above 0.
+        intensity: f64,
+        /// Records that reach the limit.
+        reached: usize,
+        /// Records in all.
+        of: usize,
+    },
+}
+
+/// ln √(2π).
+const LN_ROOT_TAU: f64 = 0.918_938_533_204_672_8;
+/// From here down ln Φ is taken from its asymptotic series: its error there is below 1e-8.
+const FAR: f64 = -20.0;
+const MOST_STEPS: usize = 200;
+
+/// ln Φ(z) and its first two derivatives.
+fn ln_phi(z: f64) -> [f64; 3] {
+    let value = if z > FAR {
+        (0.5 * erfc(-z * std::f64::consts::FRAC_1_SQRT_2)).ln()
+    } else {
+        let s = 1.0 / (z * z);
+        -0.5 * z * z - (-z).ln() - LN_ROOT_TAU + (-s + 3.0 * s * s - 15.0 * s * s * s).ln_1p()
+    };
+    let mills = (-0.5 * z * z - LN_ROOT_TAU - value).exp();
+    [value, mills, -mills * (z + mills)]
+}
+
+/// Φ(z).
+pub fn phi(z: f64) -> f64 {
+    0.5 * erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
+}
+
+/// One term of (F2): ln y less the centre, how often the limit was found there, reached, not reached.
+#[derive(Debug, Clone, Copy)]
+struct Term {
+    x: f64,
+    at: f64,
+    reached: f64,
+    not: f64,
+}
+
+/// The likelihood (F2) of some evidence.
+#[derive(Debug, Clone)]
+pub struct Likelihood {
+    terms: Vec<Term>,
+    /// Mean of ln y, taken off every x.
+    pub centre: f64,
+    /// Spread of ln y: the scale of β where the search begins.
+    spread: f64,
+    exact: f64,
+}
+
+/// A point (a, b).
+pub type Place = [f64; 2];
+
+impl Likelihood {
+    /// Of evidence at intensities above 0.
+    pub fn new(evidence: &[Evidence]) -> Self {
+        let term = |e: &Evidence| {
+            let (y, [at, reached, not]) = match *e {
+                Evidence::At(y) => (y, [1.0, 0.0, 0.0]),
+                Evidence::Above(y) => (y, [0.0, 0.0, 1.0]),
+                Evidence::Below(y) => (y, [0.0, 1.0, 0.0]),
+                Evidence::Stripe { intensity, reached, of } => {
+                    (intensity, [0.0, reached as f64, of.saturating_sub(reached) as f64])
+                }
+            };
+            Term { x: y.ln(), at, reached, not }
+        };
+        let mut terms: Vec<Term> = evidence.iter().map(term).collect();
+        let n = terms.len().max(1) as f64;
+        let centre = terms.iter().map(|t| t.x).sum::<f64>() / n;
+        terms.iter_mut().for_each(|t| t.x -= centre);
+        let spread = (terms.iter().map(|t| t.x * t.x).sum::<f64>() / n).sqrt();
+        let exact = terms.iter().map(|t| t.at).sum();
+        Likelihood { terms, centre, spread, exact }
+    }
+
+    /// l, its derivatives by z weighted with 1, x, and the second ones with 1, x, x².
+    fn sums(&self, [a, b]: Place) -> (f64, [f64; 2], [f64; 3]) {
+        let (mut l, mut g, mut h) = (self.exact * b.ln(), [0.0; 2], [0.0; 3]);
+        for t in &self.terms {
+            let z = a + b * t.x;
+            let (mut d1, mut d2) = (-t.at * z, -t.at);
+            l -= t.at * (0.5 * z * z + LN_ROOT_TAU);
+            if t.reached > 0.0 {
+                let [v, s, c] = ln_phi(z);
+                (l, d1, d2) = (l + t.reached * v, d1 + t.reached * s, d2 + t.reached * c);
+            }
+            if t.not > 0.0 {
+                let [v, s, c] = ln_phi(-z);
+                (l, d1, d2) = (l + t.not * v, d1 - t.not * s, d2 + t.not * c);
+            }
+            g = [g[0] + d1, g[1] + d1 * t.x];
+            h = [h[0] + d2, h[1] + d2 * t.x, h[2] + d2 * t.x * t.x];
+        }
+        g[1] += self.exact / b;
+        h[2] -= self.exact / (b * b);
+        (l, g, h)
+    }
+
+    /// l at a place.
+    pub fn at(&self, place: Place) -> f64 {
+        self.sums(place).0
+    }
+
+    /// The place of the largest likelihood.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn largest(&self) -> Result<Place, &'static str> {
+        if !(self.spread > 0.0) {
+            return Err("all intensities are the same");
+        }
+        let mut place = [0.0, 1.0 / self.spread];
+        for _ in 0..MOST_STEPS {
+            let (l, g, h) = self.sums(place);
+            let det = h[0] * h[2] - h[1] * h[1];
+            if !(det > 0.0) {
+                break;
+            }
+            let step = [-(h[2] * g[0] - h[1] * g[1]) / det, -(h[0] * g[1] - h[1] * g[0]) / det];
+            let gain = g[0] * step[0] + g[1] * step[1];
+            if gain < 1e-18 * (1.0 + l.abs()) && step[1].abs() < 1e-9 * place[1] {
+                return Ok(place);
+            }
+            place = self.rise(place, step, l);
+            if place[1] * self.spread > 1e4 {
+                return Err(
+                    "what reaches the limit and what does not do not overlap: the dispersion is not determined",
+                );
+            }
+            if place[1] * self.spread < 1e-4 {
+                break;
+            }
+        }
+        Err("the limit is not reached more often at higher intensities: there is no lognormal to fit")
+    }
+
+    /// The step, halved until the likelihood does not fall and b stays above 0.
+    fn rise(&self, place: Place, mut step: [f64; 2], from: f64) -> Place {
+        for _ in 0..60 {
+            let next = [place[0] + step[0], place[1] + step[1]];
+            if next[1] > 0.1 * place[1] && self.at(next) >= from - 1e-13 * from.abs() {
+                return next;
+            }
+            step = step.map(|s| 0.5 * s);
+        }
+        place
+    }
+
+    /// The largest l on the line through `place` with direction `d`.
+    pub fn on_line(&self, mut place: Place, d: [f64; 2]) -> f64 {
+        for _ in 0..MOST_STEPS {
+            let (l, g, h) = self.sums(place);
+            let slope = g[0] * d[0] + g[1] * d[1];
+            let curve = h[0] * d[0] * d[0] + 2.0 * h[1] * d[0] * d[1] + h[2] * d[1] * d[1];
+            if !(curve < 0.0) {
+                return l;
+            }
+            let t = -slope / curve;
+            if (slope * t).abs() < 1e-13 * (1.0 + l.abs()) {
+                return l;
+            }
+            place = self.rise(place, [t * d[0], t * d[1]], l);
+        }
+        self.at(place)
+    }
+
+    /// Number of capacities that were found.
+    pub fn exact(&self) -> f64 {
+        self.exact
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Φ(−1) = 0.15865525393145707, ln Φ(−30) = −454.3212439955 (Abramowitz & Stegun 26.2.12 carried further).
+    #[test]
+    fn the_logarithm_of_phi_holds_far_out() {
+        assert!((ln_phi(-1.0)[0] - 0.158_655_253_931_457_07f64.ln()).abs() < 1e-12);
+        assert!((ln_phi(-30.0)[0] + 454.321_243_995_5).abs() < 1e-7);
+        let (above, below) = (ln_phi(FAR + 1e-9), ln_phi(FAR - 1e-9));
+        for k in 0..3 {
+            assert!((above[k] / below[k] - 1.0).abs() < 1e-7, "{above:?} {below:?}");
+        }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_value() {
+        let evidence = [
+            Evidence::At(0.2),
+            Evidence::At(0.5),
+            Evidence::Above(0.7),
+            Evidence::Below(0.1),
+            Evidence::Stripe { intensity: 0.4, reached: 2, of: 5 },
+        ];
+        let l = Likelihood::new(&evidence);
+        let (p, e) = ([0.3, 1.7], 1e-5);
+        let (_, g, h) = l.sums(p);
+        for k in 0..2 {
+            let mut q = [p, p];
+            (q[0][k], q[1][k]) = (p[k] - e, p[k] + e);
+            let slope = (l.at(q[1]) - l.at(q[0])) / (2.0 * e);
+            assert!((slope - g[k]).abs() < 1e-7, "{slope} {}", g[k]);
+            let curve = (l.sums(q[1]).1[k] - l.sums(q[0]).1[k]) / (2.0 * e);
+            assert!((curve - h[2 * k]).abs() < 1e-6, "{curve} {}", h[2 * k]);
+        }
+    }
+}

@@ -1,0 +1,331 @@
+//! Incremental dynamic analysis: every motion at rising intensity, what the wall suffers, and the fragility that follows.
+//!
+//! Equations and ways: D. Vamvatsikos, C. A. Cornell, Earthquake Engng Struct. Dyn. 31 (2002) 491 and Earthquake Spectra 20
+//! (2004) 523 (hunt and fill, fractiles); J. W. Baker, Earthquake Spectra 31 (2015) 579 (stripes).
+//!
+//! A curve is a run of the study's design, scaled: with motions alone, one per motion; with a design that draws, one per
+//! draw of parameters and motion.
+
+pub mod curve;
+pub mod fragility;
+pub mod hunt;
+pub mod likelihood;
+pub mod tables;
+
+use concio::Result;
+use concio::case::Case;
+use concio::quantity::{Acceleration, Length, Time, Velocity};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::Plan;
+use crate::file::StudyFile;
+use crate::intensity::Intensity;
+use crate::measures::{MEASURES, Row};
+use curve::{Curve, Point};
+use hunt::Way;
+
+/// Measures that do not grow with the shaking.
+const NO_DAMAGE: [&str; 4] = ["time_reached", "first_crack", "energy_residual", "steps"];
+/// Intensities of a list, and runs of a curve.
+const MOST_PER_CURVE: usize = 1000;
+
+/// `[ida]`: every motion of the study at rising intensity. Give `intensities` or `hunt`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ida {
+    /// What intensity is measured by; default `pga`.
+    #[serde(default)]
+    pub intensity: Intensity,
+    /// T of `sa` [s], above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period: Option<Time>,
+    /// Measure of a run (docs/studies.md) that says how much the wall suffers: `peak_drift`, `largest_slip`,
+    /// `joints_cracked`, …
+    pub damage: String,
+    /// Limit states, at least one.
+    pub limits: Vec<Limit>,
+    /// Damage from which on the wall counts as collapsed, above 0, as in `limits`. A run that the solver could not finish
+    /// counts as collapse in any case.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub collapse: Option<Value>,
+    /// Intensities at which every motion is run, rising, each above 0: a number in SI or a text with its unit.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub intensities: Vec<Value>,
+    /// Intensities that are found motion by motion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hunt: Option<Hunt>,
+    /// Confidence of intervals and bands, between 0 and 1; default 0.95.
+    #[serde(default = "confidence")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub confidence: f64,
+}
+
+fn confidence() -> f64 {
+    0.95
+}
+
+/// A limit state.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Limit {
+    /// Its name in tables and figures, unique.
+    pub name: String,
+    /// Damage at which it is reached, above 0: a number in SI, or a text with its unit.
+    pub value: Value,
+}
+
+/// Hunt and fill: growing steps up to collapse, then the gap below the collapse is closed, then the widest gaps are filled.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Hunt {
+    /// First intensity, above 0.
+    pub first: Value,
+    /// First step, above 0.
+    pub step: Value,
+    /// What each step is longer than the one before, from 0; default half of `step`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub growth: Option<Value>,
+    /// Intensity that is not exceeded, above `first`.
+    pub most: Value,
+    /// Runs per motion, from 4; default 12.
+    #[serde(default = "runs")]
+    pub runs: usize,
+    /// Gap below the collapse, over the intensity below it, that is small enough; above 0, default 0.1.
+    #[serde(default = "resolution")]
+    pub resolution: f64,
+}
+
+fn runs() -> usize {
+    12
+}
+fn resolution() -> f64 {
+    0.1
+}
+
+/// `[ida]` in SI, checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Intensity measure.
+    pub intensity: Intensity,
+    /// Its period [s]; 0 where it has none.
+    pub period: f64,
+    /// Measure of damage.
+    pub damage: String,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// Names and values of the limit states, rising.
+    pub limits: Vec<(String, f64)>,
+    /// Damage of collapse; infinite when none is given.
+    pub collapse: f64,
+    /// How intensities are chosen.
+    pub way: Way,
+    /// Confidence of intervals.
+    pub confidence: f64,
+}
+
+/// Reads `[ida]`; none when the study has none.
+///
+/// # Errors
+/// What is missing, empty or out of range, with its line.
+pub fn settings(file: &StudyFile) -> Result<Option<Settings>> {
+    let study = &file.study;
+    let Some(ida) = &study.ida else { return Ok(None) };
+    if study.motions.is_empty() {
+        return Err(file.wrong("ida", "the study has no motions", "at least one [[motion]]"));
+    }
+    if !study.scales.is_empty() {
+        let what = "`scales` and `[ida]` contradict each other: an incremental analysis scales the motions itself";
+        return Err(file.wrong("scales", what, "no `scales`, or no `[ida]`"));
+    }
+    if study.sensitivity.is_some() {
+        let what = "`[sensitivity]` and `[ida]` contradict each other: one looks at the runs of the design as they are";
+        return Err(file.wrong("sensitivity", what, "one of both"));
+    }
+    let measure = MEASURES.iter().find(|m| m.name == ida.damage && !NO_DAMAGE.contains(&m.name));
+    let Some(measure) = measure else {
+        let names: Vec<&str> = MEASURES.iter().map(|m| m.name).filter(|n| !NO_DAMAGE.contains(n)).collect();
+        let what = format!("`{}` is no measure of damage", ida.damage);
+        return Err(file.wrong("ida.damage", what, &names.join(", ")));
+    };
+    let period = match (ida.intensity, ida.period) {
+        (Intensity::Sa, Some(period)) if period.si() > 0.0 => period.si(),
+        (Intensity::Sa, Some(_)) => return Err(file.wrong("ida.period", "is out of range", "above 0 s")),
+        (Intensity::Sa, None) => {
+            return Err(file.wrong("ida.period", "the key is missing: `sa` needs it", "above 0 s"));
+        }
+        (_, Some(_)) => return Err(file.wrong("ida.period", "only `sa` has a period", "no `period`")),
+        (_, None) => 0.0,
+    };
+    if !(ida.confidence > 0.0 && ida.confidence < 1.0) {
+        let what = format!("{} is out of range", ida.confidence);
+        return Err(file.wrong("ida.confidence", what, "between 0 and 1"));
+    }
+    let collapse = ida.collapse.as_ref().map(|v| above(file, "ida.collapse", v, measure.unit)).transpose()?;
+    Ok(Some(Settings {
+        intensity: ida.intensity,
+        period,
+        damage: ida.damage.clone(),
+        unit: measure.unit,
+        limits: limits(file, ida, measure.unit, collapse)?,
+        collapse: collapse.unwrap_or(f64::INFINITY),
+        way: way(file, ida)?,
+        confidence: ida.confidence,
+    }))
+}
+
+fn limits(file: &StudyFile, ida: &Ida, unit: &str, collapse: Option<f64>) -> Result<Vec<(String, f64)>> {
+    if ida.limits.is_empty() {
+        return Err(file.wrong("ida.limits", "there are no limit states", "at least one `{ name = …, value = … }`"));
+    }
+    let mut limits: Vec<(String, f64)> = Vec::new();
+    for (i, limit) in ida.limits.iter().enumerate() {
+        let key = format!("ida.limits[{i}].value");
+        let value = above(file, &key, &limit.value, unit)?;
+        if collapse.is_some_and(|c| value > c) {
+            return Err(file.wrong(&key, "lies beyond `collapse`", "up to `collapse`"));
+        }
+        if limits.iter().any(|(name, _)| *name == limit.name) {
+            let key = format!("ida.limits[{i}].name");
+            return Err(file.wrong(&key, "two limit states have this name", "names that differ"));
+        }
+        limits.push((limit.name.clone(), value));
+    }
+    limits.sort_by(|a, b| a.1.total_cmp(&b.1));
+    Ok(limits)
+}
+
+fn way(file: &StudyFile, ida: &Ida) -> Result<Way> {
+    let unit = ida.intensity.unit();
+    let one = "exactly one of `intensities` (at least one) and `hunt`";
+    match (&ida.hunt, ida.intensities.is_empty()) {
+        (Some(_), false) => Err(file.wrong("ida.hunt", "`intensities` and `hunt` contradict each other", one)),
+        (None, true) => Err(file.wrong("ida", "nothing says at which intensities the motions are run", one)),
+        (None, false) => {
+            let mut list = Vec::new();
+            for (i, value) in ida.intensities.iter().enumerate() {
+                let key = format!("ida.intensities[{i}]");
+                let value = above(file, &key, value, unit)?;
+                if list.last().is_some_and(|last| value <= *last) {
+                    return Err(file.wrong(&key, "does not lie above the one before it", "rising intensities"));
+                }
+                list.push(value);
+            }
+            if list.len() > MOST_PER_CURVE {
+                return Err(file.wrong("ida.intensities", "are too many", "up to 1,000"));
+            }
+            Ok(Way::List(list))
+        }
+        (Some(hunt), true) => {
+            let at = |key: &str, value: &Value| above(file, &format!("ida.hunt.{key}"), value, unit);
+            let (first, step, most) = (at("first", &hunt.first)?, at("step", &hunt.step)?, at("most", &hunt.most)?);
+            let growth = match &hunt.growth {
+                None => 0.5 * step,
+                Some(value) => number(value, unit).filter(|v| *v >= 0.0).ok_or_else(|| {
+                    file.wrong("ida.hunt.growth", format!("{value} is out of range"), &allowed("from 0", unit))
+                })?,
+            };
+            if most <= first {
+                return Err(file.wrong("ida.hunt.most", "does not lie above `first`", "above `first`"));
+            }
+            if !(4..=MOST_PER_CURVE).contains(&hunt.runs) {
+                return Err(file.wrong("ida.hunt.runs", format!("{} is out of range", hunt.runs), "4 … 1000"));
+            }
+            if !(hunt.resolution > 0.0 && hunt.resolution.is_finite()) {
+                let what = format!("{} is out of range", hunt.resolution);
+                return Err(file.wrong("ida.hunt.resolution", what, "above 0"));
+            }
+            Ok(Way::Hunt { first, step, growth, most, runs: hunt.runs, resolution: hunt.resolution })
+        }
+    }
+}
+
+fn allowed(range: &str, unit: &str) -> String {
+    if unit.is_empty() { range.into() } else { format!("{range}: a number in {unit}, or a text with its unit") }
+}
+
+fn above(file: &StudyFile, key: &str, value: &Value, unit: &str) -> Result<f64> {
+    let found = number(value, unit).filter(|v| *v > 0.0 && v.is_finite());
+    found.ok_or_else(|| file.wrong(key, format!("{value} is out of range"), &allowed("above 0", unit)))
+}
+
+/// A value in SI: a number, or a text with a unit of the same kind.
+fn number(value: &Value, unit: &str) -> Option<f64> {
+    let Value::String(text) = value else { return value.as_f64() };
+    match unit {
+        "m" => Length::parse(text).ok().map(|v| v.si()),
+        "m/s" => Velocity::parse(text).ok().map(|v| v.si()),
+        "m/s²" => Acceleration::parse(text).ok().map(|v| v.si()),
+        "s" => Time::parse(text).ok().map(|v| v.si()),
+        _ => None,
+    }
+}
+
+/// An incremental analysis under way.
+#[derive(Debug)]
+pub struct Analysis<'a> {
+    /// What was asked.
+    pub settings: Settings,
+    /// One curve per run of the design.
+    pub curves: Vec<Curve>,
+    plan: &'a Plan,
+}
+
+impl<'a> Analysis<'a> {
+    /// Nothing is run yet. None when the study has no `[ida]`.
+    ///
+    /// # Errors
+    /// As [`settings`]; a motion that does not shake.
+    pub fn new(plan: &'a Plan) -> Result<Option<Self>> {
+        let Some(settings) = settings(&plan.file)? else { return Ok(None) };
+        let curve = |number: usize| -> Result<Curve> {
+            let unit = settings.intensity.of(&plan.case(number)?, settings.period)?;
+            Ok(Curve { name: name(plan, number), number, unit, points: Vec::new(), failed: None })
+        };
+        let curves = (0..plan.points.len()).map(curve).collect::<Result<Vec<_>>>()?;
+        Ok(Some(Analysis { settings, curves, plan }))
+    }
+
+    /// The case of a curve at an intensity.
+    ///
+    /// # Errors
+    /// Values that make no wall.
+    pub fn case(&self, curve: usize, intensity: f64) -> Result<Case> {
+        let curve = &self.curves[curve];
+        self.plan.scaled_case(curve.number, intensity / curve.unit)
+    }
+
+    /// What is asked next of the curves in `share`: numbers of curves and intensities. Empty when they are done.
+    pub fn questions(&self, share: &dyn Fn(usize) -> bool) -> Vec<(usize, f64)> {
+        let of = |(number, curve): (usize, &Curve)| {
+            let asked = if share(number) && curve.failed.is_none() {
+                self.settings.way.next(&curve.points)
+            } else {
+                Vec::new()
+            };
+            asked.into_iter().map(move |intensity| (number, intensity))
+        };
+        self.curves.iter().enumerate().flat_map(of).collect()
+    }
+
+    /// Takes what became of a question.
+    pub fn answer(&mut self, (number, intensity): (usize, f64), row: &Row) {
+        let curve = &mut self.curves[number];
+        let scale = intensity / curve.unit;
+        match Point::of(intensity, scale, row, &self.settings) {
+            Ok(point) => {
+                let place = curve.points.partition_point(|p| p.intensity < intensity);
+                curve.points.insert(place, point);
+            }
+            Err(cause) => curve.failed = Some(cause),
+        }
+    }
+}
+
+/// What the run of a design is called: its motion, or all its values.
+fn name(plan: &Plan, number: usize) -> String {
+    let label = |v: Value| v.as_str().map_or_else(|| v.to_string(), str::to_string);
+    let labels: Vec<String> = plan.labels(number).into_iter().map(label).collect();
+    labels.join(", ")
+}

@@ -1,0 +1,173 @@
+//! Incremental dynamic analysis of walls that slide: Newmark's block at every intensity, and the ways to get there.
+
+use std::path::Path;
+
+use concio::run::Control;
+use concio_study::file::Keep;
+use concio_study::ida::Analysis;
+use concio_study::ida::curve::{fractiles, fragilities};
+use concio_study::ida::likelihood::Evidence;
+use concio_study::{Plan, Runner};
+
+/// A panel that cannot deform to speak of, on a joint without spring and with Coulomb's friction of 0.2.
+const BLOCK: &str = r#"
+model = "shear"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = { length = "250 mm", height = "55 mm", thickness = "120 mm", specific_weight = "18 kN/m3" }
+mortar = { bed = "10 mm", head = "10 mm" }
+[joint]
+bed = { law = "none" }
+head = { law = "none" }
+friction = { law = "coulomb", static = 0.2, dynamic = 0.2 }
+[motion]
+duration = "3 s"
+base = "none"
+[solver]
+tolerance = 1e-5
+"#;
+
+const T: f64 = 0.2;
+const FRICTION: f64 = 0.2 * 9.81;
+
+/// Slip under a rectangle of acceleration a: V²/2 (1/(μg) − 1/a), V = a T.
+fn rectangle(a: f64) -> f64 {
+    if a <= FRICTION { 0.0 } else { 0.5 * (a * T).powi(2) * (1.0 / FRICTION - 1.0 / a) }
+}
+
+/// Slip under half a sine of peak a that ends before the block has come to rest: the relative velocity is
+/// aT/π (cos πt₁/T − cos πt/T) − μg (t − t₁) from sin πt₁/T = μg/a on, and falls with μg after T.
+fn half_sine(a: f64) -> f64 {
+    use std::f64::consts::PI;
+    let t1 = T / PI * (FRICTION / a).asin();
+    let (v, cos, sin) = (a * T / PI, (PI * t1 / T).cos(), (PI * t1 / T).sin());
+    let rest = T - t1;
+    let speed = v * (cos + 1.0) - FRICTION * rest;
+    v * (cos * rest + T / PI * sin) - 0.5 * FRICTION * rest * rest + 0.5 * speed * speed / FRICTION
+}
+
+fn plan(folder: &Path, study: &str) -> concio::Result<Plan> {
+    std::fs::write(folder.join("wall.toml"), BLOCK).expect("a file");
+    std::fs::write(folder.join("study.toml"), format!("wall = \"wall.toml\"\n{study}")).expect("a file");
+    Plan::read(&folder.join("study.toml"))
+}
+
+const PULSES: &str = r#"
+[[motion]]
+name = "rectangle"
+base = { pulse = { shape = "rectangular", acceleration = "0.5 g", duration = "0.2 s", start = "0.1 s" } }
+[[motion]]
+name = "half sine"
+base = { pulse = { shape = "half-sine", acceleration = "0.5 g", duration = "0.2 s", start = "0.1 s" } }
+"#;
+
+/// Runs an analysis to its end; how many runs it took.
+fn run(analysis: &mut Analysis, out: &Path) -> concio::Result<usize> {
+    let go = |_: &concio_study::runner::Progress| Control::Continue;
+    let mut runner = Runner::open(out, &Keep::default(), 1, &go)?;
+    let mut asked = 0;
+    loop {
+        let questions = analysis.questions(&|_| true);
+        if questions.is_empty() {
+            return Ok(asked);
+        }
+        asked += questions.len();
+        let cases = questions.iter().map(|(curve, y)| analysis.case(*curve, *y)).collect::<concio::Result<Vec<_>>>()?;
+        let rows = runner.rows(&cases)?.expect("nobody stops it");
+        for (question, row) in questions.into_iter().zip(&rows) {
+            analysis.answer(question, row);
+        }
+    }
+}
+
+#[test]
+fn the_reference_slips() {
+    // The project's reference collection: 0.14715 m and 0.04495112308557409 m at 0.5 g.
+    assert!((rectangle(4.905) - 0.14715).abs() < 1e-12);
+    assert!((half_sine(4.905) - 0.04495112308557409).abs() < 1e-12);
+}
+
+#[test]
+fn a_sliding_wall_slips_as_newmark_says_at_every_intensity() -> concio::Result<()> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let study = format!(
+        "{PULSES}[ida]\ndamage = \"largest_slip\"\nlimits = [{{ name = \"5 cm\", value = \"50 mm\" }}]\n\
+         intensities = [\"0.1 g\", \"0.25 g\", \"0.4 g\", \"0.5 g\", \"0.7 g\", \"1 g\"]\n"
+    );
+    let plan = plan(folder.path(), &study)?;
+    let mut analysis = Analysis::new(&plan)?.expect("the study has [ida]");
+    assert_eq!(run(&mut analysis, &folder.path().join("out"))?, 12);
+    for curve in &analysis.curves {
+        assert!(curve.failed.is_none() && curve.points.len() == 6, "{curve:?}");
+        for p in &curve.points {
+            let exact = if p.intensity < FRICTION {
+                0.0
+            } else if curve.name == "rectangle" {
+                rectangle(p.intensity)
+            } else {
+                half_sine(p.intensity)
+            };
+            let slip = p.damage.unwrap_or(f64::NAN);
+            assert!((slip - exact).abs() <= 1e-3 * exact + 1e-9, "{} at {}: {slip} {exact}", curve.name, p.intensity);
+        }
+    }
+    // Capacities: where the closed form gives 5 cm, to what straight lines between the runs allow.
+    for (curve, slip) in analysis.curves.iter().zip([rectangle as fn(f64) -> f64, half_sine]) {
+        let Evidence::At(found) = curve.capacity(0.05) else { panic!("{} reaches 5 cm", curve.name) };
+        assert!((slip(found) / 0.05 - 1.0).abs() < 0.06, "{} {found}: {}", curve.name, slip(found));
+    }
+    let curves: Vec<_> = analysis.curves.iter().collect();
+    let middle = fractiles(&curves);
+    assert!(middle.iter().all(|(y, q)| q[0] <= q[1] && q[1] <= q[2] && *y >= 0.98));
+    let found = fragilities(&analysis.settings, &curves);
+    assert_eq!(found.iter().map(|f| f.method).collect::<Vec<_>>(), ["capacities", "stripes"]);
+    assert!(found[0].fit.is_ok());
+    Ok(())
+}
+
+/// Hunt and fill asks the same questions again when it is taken up: the store answers them all.
+#[test]
+fn hunting_is_taken_up_where_it_was() -> concio::Result<()> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let study = format!(
+        "{PULSES}[ida]\ndamage = \"largest_slip\"\ncollapse = \"300 mm\"\n\
+         limits = [{{ name = \"1 cm\", value = \"10 mm\" }}, {{ name = \"10 cm\", value = 0.1 }}]\n\
+         hunt = {{ first = \"0.1 g\", step = \"0.2 g\", most = \"3 g\", runs = 10 }}\n"
+    );
+    let plan = plan(folder.path(), &study)?;
+    let out = folder.path().join("out");
+    let mut first = Analysis::new(&plan)?.expect("the study has [ida]");
+    assert_eq!(run(&mut first, &out)?, 20);
+    let bytes = || std::fs::metadata(out.join("runs/part-0001.jsonl")).expect("a part").len();
+    let before = bytes();
+    let mut again = Analysis::new(&plan)?.expect("the study has [ida]");
+    run(&mut again, &out)?;
+    assert_eq!(first.curves, again.curves);
+    assert_eq!(before, bytes());
+    for (curve, slip) in first.curves.iter().zip([rectangle as fn(f64) -> f64, half_sine]) {
+        let collapse = curve.points.iter().position(|p| p.collapsed).expect("a collapse");
+        let [low, high] = [curve.points[collapse - 1].intensity, curve.points[collapse].intensity];
+        assert!(slip(low) < 0.3 && slip(high) >= 0.3 && high / low < 1.1 + 1e-9, "{low} {high}");
+    }
+    Ok(())
+}
+
+/// A draw of parameters with each motion is a curve of its own; the fragility then holds their scatter too.
+#[test]
+fn curves_are_the_runs_of_the_design() -> concio::Result<()> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let study = format!(
+        "{PULSES}[design]\nkind = \"latin-hypercube\"\nruns = 6\n[[vary]]\npath = \"joint.friction.dynamic\"\n\
+         from = 0.1\nto = 0.2\n[ida]\ndamage = \"largest_slip\"\nlimits = [{{ name = \"a\", value = \"20 mm\" }}]\n\
+         intensities = [\"0.2 g\", \"0.6 g\", \"1.2 g\"]\n"
+    );
+    let plan = plan(folder.path(), &study)?;
+    let mut analysis = Analysis::new(&plan)?.expect("the study has [ida]");
+    assert_eq!(analysis.curves.len(), 6);
+    run(&mut analysis, &folder.path().join("out"))?;
+    assert!(analysis.curves.iter().all(|c| c.points.len() == 3 && c.name.contains(", ")));
+    assert_eq!(analysis.curves.iter().filter(|c| c.name.ends_with("rectangle")).count(), 3);
+    Ok(())
+}

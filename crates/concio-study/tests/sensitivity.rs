@@ -1,0 +1,140 @@
+//! Sensitivity indices against functions whose indices are known.
+
+use concio::dice::Dice;
+use concio_study::sensitivity::{Bootstrap, Indices, morris, ranks, sobol};
+use std::f64::consts::PI;
+
+const BOOTSTRAP: Bootstrap = Bootstrap { resamples: 300, confidence: 0.95, seed: 3 };
+
+/// Points of a design, as a study makes them, without a wall.
+fn points(kind: &str, runs: usize, k: usize) -> Vec<Vec<f64>> {
+    let vary: String = (0..k)
+        .map(|i| {
+            format!("[[vary]]\nname = \"x{i}\"\npath = \"joint.friction.beta\"\nfrom = {}\nto = {}\n", 10 + i, 900)
+        })
+        .collect();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let wall = WALL;
+    std::fs::write(folder.path().join("wall.toml"), wall).expect("a file");
+    let text = format!("wall = \"wall.toml\"\n[design]\nkind = \"{kind}\"\nruns = {runs}\nseed = 5\n{vary}");
+    std::fs::write(folder.path().join("study.toml"), text).expect("a file");
+    let plan = concio_study::Plan::read(&folder.path().join("study.toml")).expect("a study");
+    let share = |at: &concio_study::design::At| match at {
+        concio_study::design::At::Share(share) => *share,
+        concio_study::design::At::Level(level) => *level as f64,
+    };
+    plan.points.iter().map(|row| row.iter().map(share).collect()).collect()
+}
+
+const WALL: &str = include_str!("../../../examples/01-first-wall.toml");
+
+/// sin x1 + 7 sin² x2 + 0.1 x3⁴ sin x1 over −π … π. V1 = ½ (1 + 0.1 π⁴/5)², V2 = 49/8, V13 = 0.01 π⁸ (1/18 − 1/50)
+/// (T. Ishigami, T. Homma, 1990).
+fn ishigami(x: &[f64]) -> f64 {
+    let x: Vec<f64> = x.iter().map(|s| PI * (2.0 * s - 1.0)).collect();
+    x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin()
+}
+
+#[test]
+fn shares_of_the_variance_of_ishigami() -> Result<(), String> {
+    let (v1, v2) = (0.5 * (1.0 + 0.1 * PI.powi(4) / 5.0).powi(2), 49.0 / 8.0);
+    let v13 = 0.01 * PI.powi(8) * (1.0 / 18.0 - 1.0 / 50.0);
+    let v = v1 + v2 + v13;
+    let first = [v1 / v, v2 / v, 0.0];
+    let total = [(v1 + v13) / v, v2 / v, v13 / v];
+    let values: Vec<Option<f64>> = points("sobol", 2048, 3).iter().map(|x| Some(ishigami(x))).collect();
+    let found = sobol::shares(&values, 3, &BOOTSTRAP)?;
+    for (k, s) in found.iter().enumerate() {
+        assert!((s.first.value - first[k]).abs() < 0.02, "S{k} {} {}", s.first.value, first[k]);
+        assert!((s.total.value - total[k]).abs() < 0.02, "T{k} {} {}", s.total.value, total[k]);
+        for (index, exact) in [(s.first, first[k]), (s.total, total[k])] {
+            assert!(index.interval[0] <= index.value && index.value <= index.interval[1]);
+            // The interval is that of independent draws, wider than the error of the sequence.
+            assert!(index.interval[0] - 0.01 < exact && exact < index.interval[1] + 0.01, "{index:?} {exact}");
+        }
+    }
+    Ok(())
+}
+
+/// y = Σ a_i x_i: each factor's share is a_i²/Σa², alone and in all; rank coefficients of a linear function are those of
+/// the values where all factors are uniform.
+#[test]
+fn an_additive_function_has_no_interactions() -> Result<(), String> {
+    let a = [1.0, 2.0, 4.0];
+    let y = |x: &Vec<f64>| x.iter().zip(a).map(|(x, a)| a * x).sum::<f64>() + 100.0;
+    let values: Vec<Option<f64>> = points("sobol", 512, 3).iter().map(|x| Some(y(x))).collect();
+    for (k, s) in sobol::shares(&values, 3, &BOOTSTRAP)?.iter().enumerate() {
+        let exact = a[k] * a[k] / 21.0;
+        assert!((s.first.value - exact).abs() < 0.01 && (s.total.value - exact).abs() < 0.01, "{k} {s:?}");
+    }
+    let x = points("latin-hypercube", 400, 3);
+    let values: Vec<Option<f64>> = x.iter().map(|x| Some(y(x))).collect();
+    let (found, explained) = ranks::coefficients(&x, &values, &[true; 3], &BOOTSTRAP)?;
+    assert!(explained > 0.97, "{explained}");
+    for (k, c) in found.iter().enumerate() {
+        let (c, exact) = (c.expect("an ordered factor"), a[k] / 21f64.sqrt());
+        assert!((c.value - exact).abs() < 0.05, "{k} {c:?} {exact}");
+        assert!(c.interval[0] < c.value && c.value < c.interval[1]);
+    }
+    // Any rising function of the same has the same ranks.
+    let cubes: Vec<Option<f64>> = values.iter().map(|v| v.map(|v| v.powi(3).exp())).collect();
+    let logs: Vec<Option<f64>> = values.iter().map(|v| v.map(f64::ln)).collect();
+    assert_eq!(ranks::coefficients(&x, &logs, &[true; 3], &BOOTSTRAP)?.0, found);
+    assert!(ranks::coefficients(&x, &cubes, &[true; 3], &BOOTSTRAP).is_err(), "all infinite: nothing varies");
+    Ok(())
+}
+
+#[test]
+fn elementary_effects_of_a_linear_function_are_its_coefficients() -> Result<(), String> {
+    let a = [3.0, -2.0, 0.5, 0.0];
+    let x = points("morris", 12, 4);
+    let values: Vec<Option<f64>> =
+        x.iter().map(|x| Some(x.iter().zip(a).map(|(x, a)| a * x).sum::<f64>() - 7.0)).collect();
+    for (k, e) in morris::effects(&x, &values, 4, &BOOTSTRAP)?.iter().enumerate() {
+        assert!((e.absolute.value - a[k].abs()).abs() < 1e-12, "{e:?}");
+        assert!((e.mean.value - a[k]).abs() < 1e-12 && e.deviation.value < 1e-12);
+        assert!((e.absolute.interval[1] - e.absolute.interval[0]).abs() < 1e-12);
+    }
+    Ok(())
+}
+
+/// x1 x2 over 0 … 1: effects of each are the other's value, which scatters: σ tells the interaction.
+#[test]
+fn interactions_show_in_sigma_and_lost_runs_are_left_out() -> Result<(), String> {
+    let x = points("morris", 40, 3);
+    let mut values: Vec<Option<f64>> = x.iter().map(|x| Some(x[0] * x[1])).collect();
+    let found = morris::effects(&x, &values, 3, &BOOTSTRAP)?;
+    assert!(found[0].deviation.value > 0.25 && found[2].absolute.value == 0.0);
+    assert!((found[0].absolute.value - 0.5).abs() < 0.15, "{:?}", found[0]);
+    values[1] = None;
+    let fewer = morris::effects(&x, &values, 3, &BOOTSTRAP)?;
+    let rest: Vec<Option<f64>> = values[4..].to_vec();
+    assert_eq!(fewer, morris::effects(&x[4..], &rest, 3, &BOOTSTRAP)?);
+    assert!(morris::effects(&x[..4], &values[..4], 3, &BOOTSTRAP).is_err());
+    Ok(())
+}
+
+/// Intervals of 95 % hold the mean of 40 draws about as often as they say.
+#[test]
+fn bootstrap_intervals_cover() {
+    let mut dice = Dice::new(11);
+    let trials = 300;
+    let mut held = 0;
+    for trial in 0..trials {
+        let draws: Vec<f64> = (0..40).map(|_| 1.0 + dice.normal()).collect();
+        let bootstrap = Bootstrap { resamples: 400, confidence: 0.95, seed: trial };
+        let mean = |parts: &[usize]| vec![parts.iter().map(|&i| draws[i]).sum::<f64>() / parts.len() as f64];
+        let found = bootstrap.indices(draws.len(), &mean)[0];
+        held += u32::from(found.interval[0] < 1.0 && 1.0 < found.interval[1]);
+    }
+    let share = f64::from(held) / trials as f64;
+    assert!((0.90..0.99).contains(&share), "{share}");
+}
+
+#[test]
+fn the_kind_of_index_follows_the_design() {
+    assert_eq!(
+        concio_study::sensitivity::tables::names(&Indices::Ranks { coefficients: Vec::new(), explained: 1.0 }),
+        ["rank_coefficient"]
+    );
+}
