@@ -37,6 +37,7 @@ pub enum Command {
     Schema(Schema),
     Record(Record),
     System(System),
+    Scale(Scale),
     Export(Export),
     Plot(Plot),
     Compare(Compare),
@@ -377,6 +378,14 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+fn length(text: &str) -> Result<Length, String> {
+    with_unit(text, " mm")?;
+    match Length::parse(text)? {
+        v if v.si() > 0.0 && v.si().is_finite() => Ok(v),
+        _ => Err("allowed: above 0".into()),
+    }
+}
+
 fn shard(text: &str) -> Result<[usize; 2], String> {
     let wrong = || "allowed: I/N with I from 1 to N, such as 3/16".to_string();
     let (i, n) = text.split_once('/').ok_or_else(wrong)?;
@@ -484,6 +493,30 @@ pub struct Constrained {
     /// Format of the figures.
     #[arg(long, value_enum, default_value = "svg")]
     pub format: Format,
+}
+
+/// Print the dimensionless groups of a wall.
+///
+/// Reference mass M is that of the first panel's brick, reference stiffness K that of bed joints, Ω = √(K/M). Λ is the
+/// length of the first panel's brick unless another is given: it scales displacements and changes nothing in how walls
+/// compare. Beside each group stands its range over Table 1 and section 4.2 of the research report, and the key of the wall
+/// file that a study changes when it varies the group (`path = "group.load"`).
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio scale wall.toml
+  concio scale wall.toml --length 10mm     displacements over a centimetre
+  concio scale wall.toml --json")]
+pub struct Scale {
+    /// Wall file, TOML or JSON.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// Λ, above 0, with its unit.
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub length: Option<Length>,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Do many runs, and answer what they answer together.

@@ -102,7 +102,8 @@ pub fn samples(case: &Case) -> Result<(f64, Vec<f64>)> {
     };
     let duration = duration.or_else(|| motion.end().filter(|end| *end > 0.0)).ok_or_else(missing)?;
     let fine = motion.longest_useful_step().min(duration) / SAMPLES_PER_STEP;
-    let number = (duration / fine).ceil().clamp(1.0, MOST_SAMPLES);
+    // Less a little: a whole number of periods is one, whatever rounding makes of it.
+    let number = (duration / fine - 1e-6).ceil().clamp(1.0, MOST_SAMPLES);
     let dt = duration / number;
     Ok((dt, (0..=number as usize).map(|k| motion.acceleration(k as f64 * dt)).collect()))
 }

@@ -37,15 +37,27 @@ fn rectangle(a: f64) -> f64 {
     if a <= FRICTION { 0.0 } else { 0.5 * (a * T).powi(2) * (1.0 / FRICTION - 1.0 / a) }
 }
 
-/// Slip under half a sine of peak a that ends before the block has come to rest: the relative velocity is
-/// aT/π (cos πt₁/T − cos πt/T) − μg (t − t₁) from sin πt₁/T = μg/a on, and falls with μg after T.
+/// Slip under half a sine of peak a: from sin πt₁/T = μg/a on the relative velocity is
+/// w = aT/π (cos πt₁/T − cos πt/T) − μg (t − t₁) up to T, and falls with μg after; the block stops where w = 0.
 fn half_sine(a: f64) -> f64 {
     use std::f64::consts::PI;
+    if a <= FRICTION {
+        return 0.0;
+    }
     let t1 = T / PI * (FRICTION / a).asin();
     let (v, cos, sin) = (a * T / PI, (PI * t1 / T).cos(), (PI * t1 / T).sin());
-    let rest = T - t1;
-    let speed = v * (cos + 1.0) - FRICTION * rest;
-    v * (cos * rest + T / PI * sin) - 0.5 * FRICTION * rest * rest + 0.5 * speed * speed / FRICTION
+    let speed = |t: f64| v * (cos - (PI * t / T).cos()) - FRICTION * (t - t1);
+    let path = |t: f64| v * (cos * (t - t1) - T / PI * ((PI * t / T).sin() - sin)) - 0.5 * FRICTION * (t - t1).powi(2);
+    if speed(T) > 0.0 {
+        return path(T) + 0.5 * speed(T).powi(2) / FRICTION;
+    }
+    // Fastest where the pulse falls below the friction again, at T − t₁.
+    let (mut low, mut high) = (T - t1, T);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if speed(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    path(low)
 }
 
 fn plan(folder: &Path, study: &str) -> concio::Result<Plan> {
@@ -93,7 +105,7 @@ fn the_reference_slips() {
 fn a_sliding_wall_slips_as_newmark_says_at_every_intensity() -> concio::Result<()> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let study = format!(
-        "{PULSES}[ida]\ndamage = \"largest_slip\"\nlimits = [{{ name = \"5 cm\", value = \"50 mm\" }}]\n\
+        "{PULSES}[ida]\ndamage = \"peak_joint_displacement\"\nlimits = [{{ name = \"5 cm\", value = \"50 mm\" }}]\n\
          intensities = [\"0.1 g\", \"0.25 g\", \"0.4 g\", \"0.5 g\", \"0.7 g\", \"1 g\"]\n"
     );
     let plan = plan(folder.path(), &study)?;
@@ -102,13 +114,7 @@ fn a_sliding_wall_slips_as_newmark_says_at_every_intensity() -> concio::Result<(
     for curve in &analysis.curves {
         assert!(curve.failed.is_none() && curve.points.len() == 6, "{curve:?}");
         for p in &curve.points {
-            let exact = if p.intensity < FRICTION {
-                0.0
-            } else if curve.name == "rectangle" {
-                rectangle(p.intensity)
-            } else {
-                half_sine(p.intensity)
-            };
+            let exact = if curve.name == "rectangle" { rectangle(p.intensity) } else { half_sine(p.intensity) };
             let slip = p.damage.unwrap_or(f64::NAN);
             assert!((slip - exact).abs() <= 1e-3 * exact + 1e-9, "{} at {}: {slip} {exact}", curve.name, p.intensity);
         }
@@ -116,7 +122,7 @@ fn a_sliding_wall_slips_as_newmark_says_at_every_intensity() -> concio::Result<(
     // Capacities: where the closed form gives 5 cm, to what straight lines between the runs allow.
     for (curve, slip) in analysis.curves.iter().zip([rectangle as fn(f64) -> f64, half_sine]) {
         let Evidence::At(found) = curve.capacity(0.05) else { panic!("{} reaches 5 cm", curve.name) };
-        assert!((slip(found) / 0.05 - 1.0).abs() < 0.06, "{} {found}: {}", curve.name, slip(found));
+        assert!((slip(found) / 0.05 - 1.0).abs() < 0.12, "{} {found}: {}", curve.name, slip(found));
     }
     let curves: Vec<_> = analysis.curves.iter().collect();
     let middle = fractiles(&curves);
@@ -132,7 +138,7 @@ fn a_sliding_wall_slips_as_newmark_says_at_every_intensity() -> concio::Result<(
 fn hunting_is_taken_up_where_it_was() -> concio::Result<()> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let study = format!(
-        "{PULSES}[ida]\ndamage = \"largest_slip\"\ncollapse = \"300 mm\"\n\
+        "{PULSES}[ida]\ndamage = \"peak_joint_displacement\"\ncollapse = \"300 mm\"\n\
          limits = [{{ name = \"1 cm\", value = \"10 mm\" }}, {{ name = \"10 cm\", value = 0.1 }}]\n\
          hunt = {{ first = \"0.1 g\", step = \"0.2 g\", most = \"3 g\", runs = 10 }}\n"
     );
@@ -160,7 +166,7 @@ fn curves_are_the_runs_of_the_design() -> concio::Result<()> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let study = format!(
         "{PULSES}[design]\nkind = \"latin-hypercube\"\nruns = 6\n[[vary]]\npath = \"joint.friction.dynamic\"\n\
-         from = 0.1\nto = 0.2\n[ida]\ndamage = \"largest_slip\"\nlimits = [{{ name = \"a\", value = \"20 mm\" }}]\n\
+         from = 0.1\nto = 0.2\n[ida]\ndamage = \"peak_joint_displacement\"\nlimits = [{{ name = \"a\", value = \"20 mm\" }}]\n\
          intensities = [\"0.2 g\", \"0.6 g\", \"1.2 g\"]\n"
     );
     let plan = plan(folder.path(), &study)?;

@@ -16,6 +16,7 @@ mod plot;
 mod record;
 mod reference;
 pub mod run;
+mod scale;
 mod schema;
 mod study;
 mod system;
@@ -33,6 +34,7 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Schema(_) => schema::schema(),
         Command::Record(args) => record::record(&args),
         Command::System(args) => system::system(&args),
+        Command::Scale(args) => scale::scale(&args),
         Command::Export(args) => export::export(&args),
         Command::Plot(args) => plot::plot(&args),
         Command::Completions(args) => completions::completions(args.shell),

@@ -63,13 +63,17 @@ fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
     let cases = cases(&plan)?;
     let store = Store::open(&folder(&args.place))?;
     let known = cases.iter().filter(|(id, _)| store.get(id).is_some()).count();
+    let ida = study::ida::described(&plan)?;
     let mut rows = vec![("wall", plan.file.wall.path().map_or(String::new(), |p| p.display().to_string()))];
     for factor in &plan.factors {
         let levels = factor.levels().map_or("a distribution".into(), |n| format!("{n} values"));
         rows.push(("varies", format!("{}: {levels}", factor.name)));
     }
-    rows.push(("runs", cases.len().to_string()));
-    rows.push(("done", known.to_string()));
+    if ida.is_empty() {
+        rows.push(("runs", cases.len().to_string()));
+        rows.push(("done", known.to_string()));
+    }
+    rows.extend(ida);
     let mut text = pairs(&rows);
     if args.runs {
         let heading = ["run".to_string()].into_iter().chain(plan.factors.iter().map(|f| f.name.clone())).collect();
@@ -87,8 +91,11 @@ fn run(args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     let cases = cases(&plan)?;
     let out = folder(&args.place);
     refuse_a_file(&out)?;
-    stop::listen()?;
     let [share, of] = args.shard.unwrap_or([1, 1]);
+    if plan.file.study.ida.is_some() {
+        return study::ida::run(&plan, &out, args.threads.map_or(0, usize::from), [share, of]);
+    }
+    stop::listen()?;
     let mine: Vec<Case> = cases.iter().skip(share - 1).step_by(of).map(|(_, case)| case.clone()).collect();
     let bar = Runs::new();
     let watch = |progress: &Progress| {
@@ -143,6 +150,9 @@ fn tell(plan: &Plan, found: &[Option<&Row>]) -> std::result::Result<(), Failure>
 
 fn status(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     let plan = Plan::read(&place.file)?;
+    if plan.file.study.ida.is_some() {
+        return study::ida::status(&plan, &folder(place));
+    }
     let cases = cases(&plan)?;
     let store = Store::open(&folder(place))?;
     let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
@@ -158,6 +168,9 @@ fn export(place: &StudyPlace) -> std::result::Result<(), Failure> {
     if store.is_empty() {
         let error = InputError::new("there is nothing to export: the folder has no runs").in_file(&out);
         return Err(error.help("`concio study run` begins a study").into());
+    }
+    if plan.file.study.ida.is_some() {
+        return study::ida::export(&plan, &out);
     }
     let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
     files::print(&format!("open {}\n", write(&plan, &cases, &found, &out)?.display()))
@@ -178,6 +191,12 @@ fn write(
         table::write_csv(&joints, &out.join("joints.csv"))?;
         table::write_parquet(&joints, &out.join("joints.parquet"))?;
     }
+    let mut sections = vec![study::sections::runs(plan, &runs)];
+    if let Some((section, table)) = study::sensitivity::section(plan, found)? {
+        table::write_csv(&table, &out.join("sensitivity.csv"))?;
+        table::write_parquet(&table, &out.join("sensitivity.parquet"))?;
+        sections.insert(0, section);
+    }
     let file = &plan.file;
     let name = |path: Option<&Path>| path.map_or(String::new(), |p| p.display().to_string());
     let title = if file.study.title.is_empty() { "Study" } else { &file.study.title };
@@ -187,7 +206,7 @@ fn write(
         ("runs", found.len().to_string()),
         ("without a result", found.iter().filter(|r| r.is_none_or(|r| r.end == End::Failed)).count().to_string()),
     ];
-    study::write(out, title, &facts, &[study::sections::runs(plan, &runs)])
+    study::write(out, title, &facts, &sections)
 }
 
 /// Names of the joints of a case that was run: it can be laid.

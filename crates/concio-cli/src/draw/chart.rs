@@ -89,7 +89,7 @@ pub struct Panel<'a> {
     pub rising: bool,
     /// Whether the plot below shows the numbers of the level axis for both.
     pub bare: bool,
-    /// Whether every point of a curve is drawn and marked: measurements rather than histories.
+    /// Whether every point of a curve is drawn and marked: measurements rather than histories. A curve of one point always is.
     pub marked: bool,
 }
 
@@ -231,9 +231,8 @@ fn name(axis: &Axis, scale: &Scale) -> String {
 /// Frame, ticks, numbers and curves, with [`ROOM`] around them.
 fn library(panel: &Panel, axes: &Axes, [width, height]: [f64; 2]) -> String {
     let mut plots: Vec<Plot> = panel.lines.iter().filter_map(|l| curve(panel, l, axes, width)).collect();
-    if panel.marked {
-        plots.extend(panel.lines.iter().map(|l| marks(l, axes)));
-    }
+    // A line of one point has nothing but its mark.
+    plots.extend(panel.lines.iter().filter(|l| panel.marked || l.x.len() == 1).map(|l| marks(l, axes)));
     let [x, y] = [axes.x.range, axes.y.range];
     let mut layout = Layout::auto_from_plots(&plots)
         .with_width(width + 2.0 * ROOM)
@@ -283,6 +282,9 @@ fn format(scale: &Scale, shown: bool) -> TickFormat {
 }
 
 fn curve(panel: &Panel, line: &Line, axes: &Axes, width: f64) -> Option<Plot> {
+    if line.x.len() < 2 {
+        return None;
+    }
     let points = if panel.marked {
         line.x.iter().copied().zip(line.y.iter().copied()).collect()
     } else if panel.rising {

@@ -9,7 +9,7 @@ use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 /// Width of the figures [pt], and height of a plot.
 const SIZE: [f64; 2] = [510.0, 120.0];
 /// Measures that are drawn over the factors.
-const DRAWN: [(&str, &str, &str); 4] = [
+pub const DRAWN: [(&str, &str, &str); 4] = [
     ("peak_joint_displacement", "relative displacement", "m"),
     ("peak_joint_acceleration", "relative acceleration", "m/s²"),
     ("peak_drift", "drift", ""),
@@ -20,7 +20,7 @@ const MOST_FACTORS: usize = 8;
 
 /// The table of all runs, and each of some measures over each factor that is a number.
 pub fn runs(plan: &Plan, table: &Table) -> Section {
-    let mut figures = Vec::new();
+    let mut figures = super::choices::figures(plan, table);
     for (index, factor) in plan.factors.iter().enumerate().take(MOST_FACTORS) {
         let Some(x) = table.column(&factor.name) else { continue };
         let mut panels = Vec::new();

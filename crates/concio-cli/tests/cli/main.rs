@@ -1,5 +1,6 @@
 //! The program as a user meets it.
 
+mod analyses;
 mod commands;
 mod compare;
 mod figures;

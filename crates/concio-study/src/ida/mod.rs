@@ -41,7 +41,7 @@ pub struct Ida {
     /// T of `sa` [s], above 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub period: Option<Time>,
-    /// Measure of a run (docs/studies.md) that says how much the wall suffers: `peak_drift`, `largest_slip`,
+    /// Measure of a run (docs/studies) that says how much the wall suffers: `peak_drift`, `largest_slip`,
     /// `joints_cracked`, …
     pub damage: String,
     /// Limit states, at least one.

@@ -24,7 +24,7 @@ use crate::measures::{End, MEASURES, Measure, Row};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sensitivity {
-    /// Measures of a run (docs/studies.md), at least one: `peak_joint_displacement`, `friction_energy`, …
+    /// Measures of a run (docs/studies), at least one: `peak_joint_displacement`, `friction_energy`, …
     pub of: Vec<String>,
     /// Confidence of the intervals, between 0 and 1; default 0.95.
     #[serde(default = "confidence")]

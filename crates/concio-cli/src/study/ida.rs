@@ -1,0 +1,356 @@
+//! `concio study` of a study with `[ida]`: the runs that its curves ask for, its tables and its section.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use concio::run::Control;
+use concio::{InputError, Result};
+use concio_study::Plan;
+use concio_study::ida::curve::{Curve, Found, SHARES, fractiles, fragilities, grid};
+use concio_study::ida::likelihood::Evidence;
+use concio_study::ida::{Analysis, Settings, tables};
+use concio_study::runner::{Progress, Runner};
+use concio_study::store::Store;
+use concio_study::table::{self, Table};
+
+use super::page::{Figure, Section, shown};
+use super::sections::label;
+use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
+use crate::failure::{Failure, STOPPED};
+use crate::files;
+use crate::format::pairs;
+use crate::progress::Runs;
+use crate::stop;
+
+/// Width of a figure and height of a plot [pt].
+const SIZE: [f64; 2] = [420.0, 210.0];
+/// Places in the styles of the chart: a single motion, median, the other fractiles or the band.
+const ONE: usize = 5;
+const MIDDLE: usize = 0;
+const OUTER: usize = 1;
+
+/// Does the runs of one share of the curves; writes tables and report when all curves are done.
+pub fn run(plan: &Plan, out: &Path, threads: usize, [share, of]: [usize; 2]) -> std::result::Result<ExitCode, Failure> {
+    let Some(mut analysis) = Analysis::new(plan)? else { return Ok(ExitCode::SUCCESS) };
+    stop::listen()?;
+    let bar = Runs::new();
+    let watch = |progress: &Progress| {
+        bar.show(progress);
+        if stop::asked() { Control::Stop } else { Control::Continue }
+    };
+    let mut runner = Runner::open(out, &plan.file.study.keep, threads, &watch)?;
+    loop {
+        let questions = analysis.questions(&|curve| curve % of == share - 1);
+        if questions.is_empty() {
+            break;
+        }
+        let cases = questions.iter().map(|(curve, y)| analysis.case(*curve, *y)).collect::<Result<Vec<_>>>()?;
+        let rows = runner.rows(&cases);
+        let Some(rows) = rows? else {
+            bar.clear();
+            files::note("stopped early; the same command goes on from here");
+            return Ok(ExitCode::from(STOPPED));
+        };
+        for (question, row) in questions.into_iter().zip(&rows) {
+            analysis.answer(question, row);
+        }
+    }
+    bar.clear();
+    // Other shards may have ended meanwhile.
+    let analysis = known(plan, &Store::open(out)?)?;
+    tell(&analysis)?;
+    let missing = missing(&analysis);
+    if missing > 0 {
+        files::note(&format!("{missing} of {} curves are left to other shards", analysis.curves.len()));
+        return Ok(ExitCode::SUCCESS);
+    }
+    files::print(&format!("open {}\n", write(plan, &analysis, out)?.display()))?;
+    let whole = analysis.curves.iter().all(|c| c.failed.is_none());
+    Ok(if whole { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
+}
+
+/// Tells how far the curves are.
+pub fn status(plan: &Plan, out: &Path) -> std::result::Result<ExitCode, Failure> {
+    let analysis = known(plan, &Store::open(out)?)?;
+    tell(&analysis)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Writes tables and report of the runs that the folder has.
+pub fn export(plan: &Plan, out: &Path) -> std::result::Result<(), Failure> {
+    let analysis = known(plan, &Store::open(out)?)?;
+    files::print(&format!("open {}\n", write(plan, &analysis, out)?.display()))
+}
+
+/// What a study with `[ida]` does, for `concio study check`.
+pub fn described(plan: &Plan) -> std::result::Result<Vec<(&'static str, String)>, Failure> {
+    let Some(analysis) = Analysis::new(plan)? else { return Ok(Vec::new()) };
+    let s = &analysis.settings;
+    let asked = analysis.questions(&|_| true).len();
+    Ok(vec![
+        ("curves", analysis.curves.len().to_string()),
+        (
+            "intensity",
+            format!(
+                "{} [{}]",
+                s.intensity.name(),
+                if s.intensity.unit().is_empty() { "1" } else { s.intensity.unit() }
+            ),
+        ),
+        ("damage", s.damage.clone()),
+        ("limit states", s.limits.iter().map(|(n, v)| format!("{n} ({v} {})", s.unit)).collect::<Vec<_>>().join(", ")),
+        ("first runs", asked.to_string()),
+    ])
+}
+
+/// The analysis as far as the store answers it.
+fn known<'a>(plan: &'a Plan, store: &Store) -> std::result::Result<Analysis<'a>, Failure> {
+    let missing = || InputError::new("the study has no [ida]").key("ida");
+    let mut analysis = Analysis::new(plan)?.ok_or_else(missing)?;
+    let mut open = vec![true; analysis.curves.len()];
+    loop {
+        let questions = analysis.questions(&|curve| open[curve]);
+        if questions.is_empty() {
+            return Ok(analysis);
+        }
+        let mut found = Vec::new();
+        for (curve, y) in &questions {
+            match store.get(&plan.id(&analysis.case(*curve, *y)?)?) {
+                Some(row) => found.push(((*curve, *y), row)),
+                None => open[*curve] = false,
+            }
+        }
+        // A list is answered whole or not at all: its numbers stand for places in it.
+        for (question, row) in found.into_iter().filter(|((curve, _), _)| open[*curve]) {
+            analysis.answer(question, row);
+        }
+    }
+}
+
+/// Curves that ask for more.
+fn missing(analysis: &Analysis) -> usize {
+    let mut curves: Vec<usize> = analysis.questions(&|_| true).into_iter().map(|(curve, _)| curve).collect();
+    curves.dedup();
+    curves.len()
+}
+
+fn tell(analysis: &Analysis) -> std::result::Result<(), Failure> {
+    let runs = analysis.curves.iter().map(|c| c.points.len()).sum::<usize>();
+    let collapsed = analysis.curves.iter().filter(|c| c.points.iter().any(|p| p.collapsed)).count();
+    let mut rows = vec![
+        ("curves", analysis.curves.len().to_string()),
+        ("done", (analysis.curves.len() - missing(analysis)).to_string()),
+        ("runs", runs.to_string()),
+        ("collapse", format!("{collapsed} curves")),
+    ];
+    let failed = analysis.curves.iter().filter(|c| c.failed.is_some()).count();
+    if failed > 0 {
+        rows.push(("failed", failed.to_string()));
+    }
+    for curve in &analysis.curves {
+        if let Some(cause) = &curve.failed {
+            files::note(&format!("{}: {cause}", curve.name));
+        }
+    }
+    files::print(&pairs(&rows))?;
+    if missing(analysis) > 0 {
+        return Ok(());
+    }
+    let found = fragilities(&analysis.settings, &usable(analysis));
+    files::print(&found.iter().map(|f| line(&analysis.settings, f)).collect::<String>())
+}
+
+/// A fit in a line.
+fn line(settings: &Settings, found: &Found) -> String {
+    let unit = settings.intensity.unit();
+    match &found.fit {
+        Ok(f) => format!(
+            "  {} ({}): median {} {unit} ({} … {}), dispersion {} ({} … {})\n",
+            found.limit,
+            found.method,
+            shown(f.median),
+            shown(f.median_interval[0]),
+            shown(f.median_interval[1]),
+            shown(f.dispersion),
+            shown(f.dispersion_interval[0]),
+            shown(f.dispersion_interval[1]),
+        ),
+        Err(cause) => format!("  {} ({}): {cause}\n", found.limit, found.method),
+    }
+}
+
+fn usable<'a>(analysis: &'a Analysis) -> Vec<&'a Curve> {
+    analysis.curves.iter().filter(|c| c.failed.is_none() && !c.points.is_empty()).collect()
+}
+
+fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<PathBuf, Failure> {
+    let (s, curves) = (&analysis.settings, usable(analysis));
+    let (middle, found) = (fractiles(&curves), fragilities(s, &curves));
+    let all: [(&str, &str, Table); 5] = [
+        ("ida", "All runs of all curves", tables::runs(s, &analysis.curves)),
+        ("capacities", "Intensity at which each curve reaches each limit", tables::capacities(s, &analysis.curves)),
+        ("fractiles", "Fractiles of the damage", tables::fractiles(s, &middle)),
+        ("fragility", "Fitted lognormals", tables::fits(s, &found)),
+        ("fragility_curves", "Fragilities with their bands", tables::fragilities(s, &found)),
+    ];
+    for (name, _, table) in &all {
+        table::write_csv(table, &out.join(format!("{name}.csv")))?;
+        table::write_parquet(table, &out.join(format!("{name}.parquet")))?;
+    }
+    let [runs, capacities, middle_table, fits, _] = all.map(|(_, caption, table)| (caption.to_string(), table));
+    let incremental = Section {
+        title: "Incremental dynamic analysis".into(),
+        text: vec![
+            "Every motion at rising intensity. Between two runs curves are straight in the logarithms of intensity and \
+             damage. Fractiles are those of the damage over the curves at one intensity; where so many curves have collapsed \
+             they end."
+                .into(),
+        ],
+        figures: vec![curves_figure(s, &curves, &middle)],
+        tables: vec![capacities, middle_table, runs],
+    };
+    let mut text: Vec<String> = found.iter().map(|f| line(s, f).trim().to_string()).collect();
+    let percent = 100.0 * s.confidence;
+    text.insert(
+        0,
+        format!(
+            "Lognormal fragilities by maximum likelihood, of the capacities of the records (those that did not reach the limit \
+             included) and, where all motions were run at the same intensities, of the counts at each. Intervals and bands \
+             hold with {percent} % confidence and are those of the profile of the likelihood; they speak of these records as \
+             a sample, not of the model."
+        ),
+    );
+    let fragility =
+        Section { title: "Fragility".into(), text, figures: fragility_figure(s, &found), tables: vec![fits] };
+    let name = |path: Option<&Path>| path.map_or(String::new(), |p| p.display().to_string());
+    let title = if plan.file.study.title.is_empty() { "Incremental dynamic analysis" } else { &plan.file.study.title };
+    let facts = [
+        ("study file", name(plan.file.document.path())),
+        ("wall file", name(plan.file.wall.path())),
+        ("curves", analysis.curves.len().to_string()),
+        ("runs", analysis.curves.iter().map(|c| c.points.len()).sum::<usize>().to_string()),
+        ("failed curves", analysis.curves.iter().filter(|c| c.failed.is_some()).count().to_string()),
+    ];
+    super::write(out, title, &facts, &[fragility, incremental])
+}
+
+fn intensity(s: &Settings) -> Axis {
+    let unit = s.intensity.unit();
+    let quantity = match s.intensity {
+        concio_study::intensity::Intensity::Sa => format!("Sa({} s)", s.period),
+        other => other.name().into(),
+    };
+    Axis { quantity, unit, ..Axis::default() }
+}
+
+fn curves_figure(s: &Settings, curves: &[&Curve], middle: &[(f64, [f64; 3])]) -> Figure {
+    let mut lines: Vec<Line> = Vec::new();
+    for curve in curves {
+        let standing = curve.points.iter().filter(|p| !p.collapsed);
+        let (x, y): (Vec<f64>, Vec<f64>) =
+            std::iter::once((0.0, 0.0)).chain(standing.filter_map(|p| Some((p.damage?, p.intensity)))).unzip();
+        lines.push(Line { x: x.into(), y: y.into(), style: ONE });
+    }
+    for k in 0..SHARES.len() {
+        let (x, y): (Vec<f64>, Vec<f64>) =
+            middle.iter().filter(|(_, q)| q[k].is_finite()).map(|(y, q)| (q[k], *y)).unzip();
+        lines.push(Line { x: x.into(), y: y.into(), style: if k == 1 { MIDDLE } else { OUTER } });
+    }
+    let panel = Panel {
+        heading: String::new(),
+        x: Axis { quantity: s.damage.replace('_', " "), unit: s.unit, ..Axis::default() },
+        y: intensity(s),
+        lines,
+        rising: false,
+        bare: false,
+        marked: false,
+    };
+    let legend = legend([(MIDDLE, "50 %"), (OUTER, "16 and 84 %"), (ONE, "one motion")]);
+    let title = "Incremental dynamic analysis".to_string();
+    let sheet = Sheet { title, legend, panels: vec![panel], columns: 1, width: SIZE[0], height: Some(SIZE[1]) };
+    let caption = format!(
+        "{} of each motion at rising {}, and its fractiles; a curve ends where the wall collapses.",
+        s.damage,
+        label(s.intensity.name(), s.intensity.unit())
+    );
+    Figure { name: "ida".into(), caption, drawing: chart::draw(&sheet) }
+}
+
+/// Names at their places in the styles.
+fn legend<const N: usize>(names: [(usize, &str); N]) -> Vec<String> {
+    let mut all = vec![String::new(); names.iter().map(|n| n.0).max().map_or(0, |n| n + 1)];
+    names.into_iter().for_each(|(style, name)| all[style] = name.into());
+    all
+}
+
+fn fragility_figure(s: &Settings, found: &[Found]) -> Vec<Figure> {
+    let panel = |f: &Found| {
+        let fit = f.fit.as_ref().ok()?;
+        let y = grid(fit);
+        let (mut middle, mut low, mut high) = (Vec::new(), Vec::new(), Vec::new());
+        for &y in &y {
+            let band = fit.band(y);
+            (middle.push(fit.probability(y)), low.push(band[0]), high.push(band[1]));
+        }
+        let curve = |p: Vec<f64>, style| Line { x: y.clone().into(), y: p.into(), style };
+        let mut lines = vec![curve(low, OUTER), curve(high, OUTER), curve(middle, MIDDLE)];
+        let mark = |(x, p): (f64, f64)| Line { x: vec![x].into(), y: vec![p].into(), style: ONE };
+        lines.extend(points(&f.evidence).into_iter().map(mark));
+        let probability = Axis { quantity: "probability".into(), range: Some([0.0, 1.0]), ..Axis::default() };
+        let heading = format!("{}, from {}", f.limit, f.method);
+        Some(Panel { heading, x: intensity(s), y: probability, lines, rising: true, bare: false, marked: false })
+    };
+    let panels: Vec<Panel> = found.iter().filter_map(panel).collect();
+    if panels.is_empty() {
+        return Vec::new();
+    }
+    let columns = panels.len().min(2);
+    let legend = legend([(MIDDLE, "fit"), (OUTER, "band of confidence"), (ONE, "records")]);
+    let height = Some(SIZE[1] * if columns == 1 { 1.0 } else { 0.7 });
+    let sheet = Sheet { title: "Fragility".into(), legend, panels, columns, width: SIZE[0], height };
+    let caption =
+        "Probability of reaching each limit; points: share of the records that reach it at that intensity.".into();
+    vec![Figure { name: "fragility".into(), caption, drawing: chart::draw(&sheet) }]
+}
+
+/// Share of the records that reach the limit: at each stripe, or at each capacity, where records that did not reach the limit
+/// count as long as they are known to stand (Kaplan and Meier).
+fn points(evidence: &[Evidence]) -> Vec<(f64, f64)> {
+    let stripe = |e: &Evidence| match e {
+        Evidence::Stripe { intensity, reached, of } => Some((*intensity, *reached as f64 / (*of).max(1) as f64)),
+        _ => None,
+    };
+    let stripes: Vec<(f64, f64)> = evidence.iter().filter_map(stripe).collect();
+    if !stripes.is_empty() {
+        return stripes;
+    }
+    let place = |e: &Evidence| match e {
+        Evidence::At(y) | Evidence::Below(y) => Some((*y, true)),
+        Evidence::Above(y) => Some((*y, false)),
+        Evidence::Stripe { .. } => None,
+    };
+    let mut all: Vec<(f64, bool)> = evidence.iter().filter_map(place).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+    let (mut standing, mut found) = (1.0, Vec::new());
+    for (k, (y, reached)) in all.iter().enumerate() {
+        if *reached {
+            standing *= 1.0 - 1.0 / (all.len() - k) as f64;
+            found.push((*y, 1.0 - standing));
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Four records, the second lost from sight at 0.3: 1/4, then 1 − ¾ · ½, then all.
+    #[test]
+    fn shares_of_records_that_are_known_to_stand() {
+        let evidence = [Evidence::At(0.5), Evidence::At(0.2), Evidence::Above(0.3), Evidence::At(0.9)];
+        assert_eq!(points(&evidence), [(0.2, 0.25), (0.5, 0.625), (0.9, 1.0)]);
+        let stripe = [Evidence::Stripe { intensity: 0.4, reached: 1, of: 4 }];
+        assert_eq!(points(&stripe), [(0.4, 0.25)]);
+    }
+}

@@ -1,0 +1,84 @@
+//! The section on what moves what was measured.
+
+use concio::Result;
+use concio_study::Plan;
+use concio_study::measures::Row;
+use concio_study::sensitivity::{Found, Index, Indices, sensitivity, tables};
+use concio_study::table::Table;
+
+use super::bars::{self, Group};
+use super::page::{Figure, Section};
+
+/// Width of the figure [pt].
+const WIDTH: f64 = 420.0;
+
+/// Section and table; none when the study does not ask.
+///
+/// # Errors
+/// As [`sensitivity`].
+pub fn section(plan: &Plan, rows: &[Option<&Row>]) -> Result<Option<(Section, Table)>> {
+    let found = sensitivity(plan, rows)?;
+    if found.is_empty() {
+        return Ok(None);
+    }
+    let table = tables::table(plan, &found);
+    let text = text(&found);
+    let figures = figure(plan, &found).into_iter().collect();
+    let caption = "Indices with the interval of the bootstrap".to_string();
+    let tables = vec![(caption, table.clone())];
+    Ok(Some((Section { title: "Sensitivity".into(), text, figures, tables }, table)))
+}
+
+fn text(found: &[Found]) -> Vec<String> {
+    let kind = found.iter().find_map(|f| f.indices.as_ref().ok());
+    let mut text = vec![match kind {
+        Some(Indices::Morris(_)) => "Elementary effects (Morris): μ* is the mean size of a factor's effect over its whole \
+             range, in the unit of the measure; σ near or above μ* tells that the effect depends on the other factors or is \
+             not straight."
+            .to_string(),
+        Some(Indices::Sobol(_)) => "Shares of the variance (Sobol): what each factor explains alone (first order), and with \
+             all its interactions (total). First-order shares that add up to much less than 1 tell of interactions."
+            .into(),
+        _ => "Standardised rank regression coefficients: how far the rank of the measure follows that of the factor, from −1 \
+             to 1."
+            .into(),
+    }];
+    for f in found {
+        match &f.indices {
+            Err(cause) => text.push(format!("{}: no indices, {cause}.", f.measure.name)),
+            Ok(Indices::Ranks { explained, .. }) => {
+                let percent = 100.0 * explained;
+                text.push(format!(
+                    "{}: the regression explains {percent:.0} % of the ranks' variance.",
+                    f.measure.name
+                ));
+            }
+            Ok(_) => {}
+        }
+        if f.left_out > 0 {
+            text.push(format!("{}: {} runs could not be used.", f.measure.name, f.left_out));
+        }
+    }
+    text
+}
+
+fn figure(plan: &Plan, found: &[Found]) -> Option<Figure> {
+    let kind = found.iter().find_map(|f| f.indices.as_ref().ok())?;
+    let legend: &[&str] = match kind {
+        Indices::Morris(_) => &["μ*", "σ"],
+        Indices::Sobol(_) => &["total", "first order"],
+        Indices::Ranks { .. } => &["rank regression coefficient"],
+    };
+    let bar = |index: &Option<Index>| index.map(|i| (i.value, i.interval));
+    let group = |f: &Found| {
+        let indices = f.indices.as_ref().ok()?;
+        let unit = if matches!(indices, Indices::Morris(_)) { f.measure.unit } else { "" };
+        let rows = tables::rows(indices).iter().map(|r| r.iter().take(legend.len()).map(bar).collect()).collect();
+        Some(Group { heading: f.measure.text.to_string(), unit, rows })
+    };
+    let groups: Vec<Group> = found.iter().filter_map(group).collect();
+    let factors: Vec<String> = plan.factors.iter().map(|f| f.name.clone()).collect();
+    let caption = format!("Bars: {}; lines: their intervals.", legend.join(" (dark), "));
+    let drawing = bars::draw("Sensitivity of what was measured to the factors", legend, &factors, &groups, WIDTH);
+    Some(Figure { name: "sensitivity".into(), caption, drawing })
+}
