@@ -290,7 +290,9 @@ fn fragility_figure(s: &Settings, found: &[Found]) -> Vec<Figure> {
         let (mut middle, mut low, mut high) = (Vec::new(), Vec::new(), Vec::new());
         for &y in &y {
             let band = fit.band(y);
-            (middle.push(fit.probability(y)), low.push(band[0]), high.push(band[1]));
+            middle.push(fit.probability(y));
+            low.push(band[0]);
+            high.push(band[1]);
         }
         let curve = |p: Vec<f64>, style| Line { x: y.clone().into(), y: p.into(), style };
         let mut lines = vec![curve(low, OUTER), curve(high, OUTER), curve(middle, MIDDLE)];
