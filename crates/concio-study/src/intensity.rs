@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use concio::case::{Case, Signal};
-use concio::ground::process::{integrate, load};
+use concio::ground::process::load;
 use concio::ground::signal::compile;
 use concio::ground::{measures, response_spectrum, synthetic};
 use concio::{Error, InputError, Result};
@@ -67,7 +67,7 @@ impl Intensity {
         let most = |values: &[f64]| measures::peak(dt, values).value.abs();
         let value = match self {
             Intensity::Pga | Intensity::Scale => most(&acceleration),
-            Intensity::Pgv => most(&integrate(dt, &acceleration, 0.0, 0.0).0),
+            Intensity::Pgv => most(&velocities(case, dt, acceleration.len())?),
             Intensity::Sa => response_spectrum(dt, &acceleration, DAMPING, &[period]).psa[0],
         };
         if value > 0.0 && value.is_finite() {
@@ -76,6 +76,12 @@ impl Intensity {
         let error = InputError::new(format!("the motion has a {} of {value}", self.name())).key("motion.base");
         Err(error.allowed("a motion that shakes").into())
     }
+}
+
+/// Velocities of the base [m/s] at `number` instants `dt` apart, exact at each.
+fn velocities(case: &Case, dt: f64, number: usize) -> Result<Vec<f64>> {
+    let motion = compile(&case.motion.base, Path::new(""))?;
+    Ok((0..number).map(|k| motion.at(k as f64 * dt).v).collect())
 }
 
 /// Sample interval [s] and accelerations [m/s²] of the base, up to the end of the run.

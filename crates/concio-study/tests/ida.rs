@@ -133,6 +133,29 @@ fn a_sliding_wall_slips_as_newmark_says_at_every_intensity() -> concio::Result<(
     Ok(())
 }
 
+/// PGV of a rectangle is aT, of half a sine 2aT/π; a stiff oscillator has Sa = PGA, and an undamped one under a lasting step
+/// twice that: with 5 % damping 1 + e^(−πζ/√(1 − ζ²)), as long as the rectangle lasts half its period.
+#[test]
+fn intensities_of_pulses() -> concio::Result<()> {
+    use concio_study::intensity::Intensity;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let plan = plan(folder.path(), PULSES)?;
+    let of = |run: usize, intensity: Intensity, period: f64| intensity.of(&plan.case(run)?, period);
+    let a = 0.5 * 9.81;
+    let near = |found: f64, exact: f64, allowed: f64| {
+        assert!((found / exact - 1.0).abs() < allowed, "{found} {exact}");
+    };
+    near(of(0, Intensity::Pga, 0.0)?, a, 1e-12);
+    near(of(1, Intensity::Pga, 0.0)?, a, 1e-5);
+    near(of(0, Intensity::Pgv, 0.0)?, a * T, 1e-9);
+    near(of(1, Intensity::Pgv, 0.0)?, 2.0 * a * T / std::f64::consts::PI, 1e-9);
+    near(of(1, Intensity::Sa, 1e-3)?, a, 1e-2);
+    let overshoot = (-std::f64::consts::PI * 0.05 / (1.0f64 - 0.0025).sqrt()).exp();
+    near(of(0, Intensity::Sa, 0.1)?, a * (1.0 + overshoot), 1e-2);
+    assert_eq!(of(0, Intensity::Scale, 0.0)?, 1.0);
+    Ok(())
+}
+
 /// Hunt and fill asks the same questions again when it is taken up: the store answers them all.
 #[test]
 fn hunting_is_taken_up_where_it_was() -> concio::Result<()> {
