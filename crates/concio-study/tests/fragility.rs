@@ -87,3 +87,13 @@ fn many_records_give_back_the_lognormal() -> Result<(), &'static str> {
     assert!((found.probability(found.median) - 0.5).abs() < 1e-12 && found.probability(1e-9) < 1e-12);
     Ok(())
 }
+
+#[test]
+fn limits_that_none_or_all_reach_say_so() {
+    let why = |evidence: &[Evidence]| fit(evidence, 0.95).err().unwrap_or("was fitted");
+    assert_eq!(why(&[Evidence::Above(0.4), Evidence::Above(0.6)]), "no record reaches the limit");
+    assert!(why(&[Evidence::Below(0.4), Evidence::Below(0.6)]).contains("lowest intensity"));
+    let stripe = |intensity, reached| Evidence::Stripe { intensity, reached, of: 4 };
+    assert_eq!(why(&[stripe(0.1, 0), stripe(0.2, 0)]), "no record reaches the limit");
+    assert!(why(&[stripe(0.1, 4), stripe(0.2, 4)]).contains("lowest intensity"));
+}

@@ -5,7 +5,7 @@ use concio_study::factors::Over;
 use concio_study::ida::curve::quantile;
 use concio_study::table::{Cells, Table};
 
-use super::bars::{self, Group};
+use super::interval_bars::{self, Group};
 use super::page::Figure;
 use super::sections::DRAWN;
 
@@ -48,7 +48,7 @@ pub fn figures(plan: &Plan, table: &Table) -> Vec<Figure> {
         figures.push(Figure {
             name: format!("choice-{}", index + 1),
             caption: format!("By {}: bars are medians, lines reach from the least to the largest run.", factor.name),
-            drawing: bars::draw(&title, &["median"], &names, &groups, WIDTH),
+            drawing: interval_bars::draw(&title, &["median"], &names, &groups, WIDTH),
         });
     }
     figures

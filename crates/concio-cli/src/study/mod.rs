@@ -1,8 +1,8 @@
 //! What `concio study` writes beside tables: figures and one page, made of sections that every analysis brings.
 
-pub mod bars;
 pub mod choices;
 pub mod ida;
+pub mod interval_bars;
 pub mod page;
 pub mod sections;
 pub mod sensitivity;

@@ -6,7 +6,7 @@ use concio_study::measures::Row;
 use concio_study::sensitivity::{Found, Index, Indices, sensitivity, tables};
 use concio_study::table::Table;
 
-use super::bars::{self, Group};
+use super::interval_bars::{self, Group};
 use super::page::{Figure, Section};
 
 /// Width of the figure [pt].
@@ -79,6 +79,7 @@ fn figure(plan: &Plan, found: &[Found]) -> Option<Figure> {
     let groups: Vec<Group> = found.iter().filter_map(group).collect();
     let factors: Vec<String> = plan.factors.iter().map(|f| f.name.clone()).collect();
     let caption = format!("Bars: {}; lines: their intervals.", legend.join(" (dark), "));
-    let drawing = bars::draw("Sensitivity of what was measured to the factors", legend, &factors, &groups, WIDTH);
+    let drawing =
+        interval_bars::draw("Sensitivity of what was measured to the factors", legend, &factors, &groups, WIDTH);
     Some(Figure { name: "sensitivity".into(), caption, drawing })
 }

@@ -39,6 +39,18 @@ pub fn fit(evidence: &[Evidence], confidence: f64) -> Result<Fragility, &'static
     if evidence.len() < 2 {
         return Err("fewer than two records or stripes");
     }
+    let reached = |e: &Evidence| !matches!(e, Evidence::Above(_) | Evidence::Stripe { reached: 0, .. });
+    if !evidence.iter().any(reached) {
+        return Err("no record reaches the limit");
+    }
+    let at_once = |e: &Evidence| match e {
+        Evidence::Below(_) => true,
+        Evidence::Stripe { reached, of, .. } => reached == of,
+        _ => false,
+    };
+    if evidence.iter().all(at_once) {
+        return Err("every record reaches the limit at its lowest intensity");
+    }
     let likelihood = Likelihood::new(evidence);
     let place = likelihood.largest()?;
     let [a, b] = place;
