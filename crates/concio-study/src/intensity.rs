@@ -18,6 +18,8 @@ pub const DAMPING: f64 = 0.05;
 /// met to 5e-6.
 const SAMPLES_PER_STEP: f64 = 50.0;
 const MOST_SAMPLES: f64 = 2e6;
+/// Samples from the start to the end of a motion in closed form, at least.
+const LEAST_SAMPLES: f64 = 2000.0;
 
 /// Intensity measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -107,7 +109,9 @@ pub fn samples(case: &Case) -> Result<(f64, Vec<f64>)> {
             .into()
     };
     let duration = duration.or_else(|| motion.end().filter(|end| *end > 0.0)).ok_or_else(missing)?;
-    let fine = motion.longest_useful_step().min(duration) / SAMPLES_PER_STEP;
+    // A rectangle has no useful step: its length counts then.
+    let whole = motion.end().filter(|end| *end > 0.0).unwrap_or(duration).min(duration) / LEAST_SAMPLES;
+    let fine = (motion.longest_useful_step() / SAMPLES_PER_STEP).min(whole);
     // Less a little: a whole number of periods is one, whatever rounding makes of it.
     let number = (duration / fine - 1e-6).ceil().clamp(1.0, MOST_SAMPLES);
     let dt = duration / number;
