@@ -17,6 +17,12 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
         ("peak slip velocity", si(totals.peak_slip_velocity, "m/s")),
         ("head joints", format!("opened {}, pressed in {}", si(opening, "m"), si(0.0 - totals.minimum_gap, "m"))),
     ];
+    let devices = joints.iter().filter(|j| j.device.is_some()).count();
+    if devices > 0 {
+        let taken = joints.iter().zip(&outcome.envelopes.joint_dissipation).filter(|(j, _)| j.device.is_some());
+        let taken = si(taken.map(|(_, energy)| energy).sum(), "J");
+        rows.push(("devices", format!("{devices} of {} joints, dissipated {taken}", joints.len())));
+    }
     let bonds = &outcome.bonds;
     if !bonds.is_empty() {
         let cracked = bonds.iter().filter(|b| b.damage > 0.0).count();
@@ -42,6 +48,9 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
     rows.push((if creeps { "  friction (creep)" } else { "  friction" }, si(energies.friction, "J")));
     if energies.bond != 0.0 {
         rows.push(("  broken bonds", si(energies.bond, "J")));
+    }
+    if energies.device != 0.0 {
+        rows.push(("  devices", si(energies.device, "J")));
     }
     if energies.impact != 0.0 {
         rows.push(("  impacts", si(energies.impact, "J")));

@@ -5,11 +5,12 @@ use std::collections::HashMap;
 use crate::error::{InputError, Result};
 use crate::excitation::Drive;
 use crate::integrate::dense::extreme;
+use crate::integrate::devices;
 use crate::integrate::events::TOUCHING;
 use crate::law::spring_force;
 use crate::model::{Elastic, Model};
 use crate::record::{Channel, Energies};
-use crate::state::{BondState, Power, State, Tangents, View};
+use crate::state::{BondState, DeviceState, Power, State, Tangents, View};
 
 /// Displacements and velocities with what the laws are there.
 #[derive(Debug, Clone, Copy)]
@@ -19,6 +20,8 @@ pub struct Moving<'a> {
     pub laws: &'a Tangents,
     /// The bonds at the start of the step.
     pub bonds: &'a [BondState],
+    /// The devices, at this instant.
+    pub devices: &'a [DeviceState],
 }
 
 /// What bonds change of the elastic forces on side a [N]: `change(joint, force)` for every one.
@@ -32,20 +35,23 @@ fn bonds_beyond(model: &Model, bonds: &[BondState], z: &[f64], mut change: impl 
 }
 
 /// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N]. What a rigid joint
-/// bears counts as elastic; what a bond changes is left out.
-fn joint_forces(model: &Model, at: View, index: [Option<usize>; 2], joint: usize) -> (f64, f64, f64) {
-    let [rub, contact] = index;
+/// bears counts as elastic, the law of its own of a device as friction; what a bond changes is left out.
+fn joint_forces(model: &Model, at: View, index: [Option<usize>; 3], joint: usize) -> (f64, f64, f64) {
+    let [rub, contact, device] = index;
     let [a, b] = model.sides[joint].map(|s| s as usize);
     let (d, w) = (at.z[a] - at.z[b], at.v[a] - at.v[b]);
     let law = &model.elastic[joint];
-    let friction = rub.map_or(0.0, |r| model.rubs[r].normal[0] * at.mu[r]);
+    let friction = match device {
+        Some(k) => model.nonlinear[k].law.force(d, w, at.devices[k].internal),
+        None => rub.map_or(0.0, |r| model.rubs[r].normal[0] * at.mu[r]),
+    };
     let borne = contact.map_or(0.0, |c| at.reaction[c]);
     (spring_force(law.unilateral, law.stiffness, d) + borne, law.damping * w, friction)
 }
 
 /// Rates of the energy account, and of each joint's dissipation into `joint` [W].
 pub fn power(model: &Model, at: Moving<'_>, ground: f64, joint: &mut [f64]) -> Power {
-    let Moving { z, v, laws, bonds } = at;
+    let Moving { z, v, laws, bonds, devices } = at;
     let mut p = Power::default();
     for (m, v) in model.mass.iter().zip(v) {
         p.base -= m * v;
@@ -80,6 +86,17 @@ pub fn power(model: &Model, at: Moving<'_>, ground: f64, joint: &mut [f64]) -> P
             pull += force;
         }
     });
+    for (device, held) in model.nonlinear.iter().zip(devices) {
+        let e = device.joint as usize;
+        let [a, b] = model.sides[e].map(|s| s as usize);
+        let w = v[a] - v[b];
+        let lost = device.law.lost(w, held.internal);
+        *if device.law.is_viscous() { &mut p.damping } else { &mut p.device } += lost;
+        joint[e] += lost;
+        if b == top {
+            pull += device.law.force(z[a] - z[b], w, held.internal);
+        }
+    }
     // Closed, a rigid joint does no work but that of the support that it presses.
     for (contact, borne) in model.contacts.iter().zip(&laws.reaction) {
         if model.sides[contact.joint as usize][1] as usize == top {
@@ -129,6 +146,7 @@ pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
             state.tangents.reaction[c] = 0.0;
         }
     }
+    devices::settle(model, state);
     accelerate(model, drive, state);
 }
 
@@ -150,6 +168,11 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
         a[i] -= force;
         a[k] += force;
     });
+    devices::forces(model, &state.devices, [&state.z, &state.v], |e, force| {
+        let [i, k] = model.sides[e].map(|s| s as usize);
+        a[i] -= force;
+        a[k] += force;
+    });
     for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         state.a[a] -= rub.normal[0] * mu;
@@ -165,7 +188,8 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
     }
     state.a[n] = 0.0;
     state.a[n + 1] = drive.top(state.t).a;
-    let at = Moving { z: &state.z, v: &state.v, laws: &state.tangents, bonds: &state.bonds };
+    let (bonds, devices) = (&state.bonds, &state.devices);
+    let at = Moving { z: &state.z, v: &state.v, laws: &state.tangents, bonds, devices };
     state.power = power(model, at, ground, &mut state.joint_power);
 }
 
@@ -242,6 +266,15 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
             pull += beyond;
         }
     }
+    devices::forces(model, &state.devices, [&state.z, &state.v], |e, force| {
+        let [a, b] = model.sides[e].map(|s| s as usize);
+        // Spring and law of its own: what the device holds its sides together with.
+        let whole = model.elastic[e].stiffness * (state.z[a] - state.z[b]) + force;
+        env.joint_force[e] = env.joint_force[e].max(whole.abs());
+        if b == top {
+            pull += force;
+        }
+    });
     for (contact, borne) in model.contacts.iter().zip(&state.tangents.reaction) {
         let e = contact.joint as usize;
         env.joint_force[e] = env.joint_force[e].max(*borne);
@@ -255,14 +288,21 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
     totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
 }
 
-/// Kinetic and elastic energy at displacements `z` and velocities `v`; `bonds` as before the step that leads there.
-pub fn stored_energy(model: &Model, bonds: &[BondState], z: &[f64], v: &[f64], energies: &mut Energies) {
+/// Kinetic and elastic energy at displacements `z` and velocities `v`; `bonds` as before the step that leads there,
+/// `devices` as they are there.
+pub fn stored_energy(
+    model: &Model,
+    bonds: &[BondState],
+    devices: &[DeviceState],
+    [z, v]: [&[f64]; 2],
+    energies: &mut Energies,
+) {
     energies.kinetic = model.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum();
     let moved = |e: usize| z[model.sides[e][0] as usize] - z[model.sides[e][1] as usize];
     let of_joint = |(e, law): (usize, &Elastic)| 0.5 * spring_force(law.unilateral, law.stiffness, moved(e)) * moved(e);
     let mut elastic: f64 = model.elastic.iter().enumerate().map(of_joint).sum();
     bonds_beyond(model, bonds, z, |e, force| elastic += 0.5 * force * moved(e));
-    energies.elastic = elastic;
+    energies.elastic = elastic + devices::stored(model, devices, z);
 }
 
 /// Makes an impact part of the account: `before`, `after` are w⁻ and w⁺ [m/s] of the rigid joints and `impulse` what they
@@ -317,8 +357,9 @@ fn peak(values: &[f64]) -> f64 {
 #[derive(Debug, Clone, Copy)]
 enum Watched {
     Block(usize),
-    /// With its index among the joints that rub and among the rigid ones, and that among the bonds.
-    Joint(usize, [Option<usize>; 2], Option<usize>),
+    /// With its index among the joints that rub, the rigid ones and the devices with laws of their own, and that among
+    /// the bonds.
+    Joint(usize, [Option<usize>; 3], Option<usize>),
 }
 
 /// The channels of a run: what they are and how to read them off a state.
@@ -340,13 +381,14 @@ const ALWAYS: [(&str, &str, &str); 10] = [
     ("beam/acceleration", "m/s2", "acceleration of the top beam relative to the base"),
     ("peak/displacement", "m", "largest absolute displacement of a block relative to the base at the moment"),
 ];
-const ENERGIES: [(&str, &str); 10] = [
+const ENERGIES: [(&str, &str); 11] = [
     ("input", "work done on the wall by base and top motion"),
     ("kinetic", "kinetic energy of the motion relative to the base"),
     ("elastic", "elastic energy of the joints"),
     ("damping", "dissipated by viscous damping"),
     ("friction", "dissipated by friction"),
     ("bond", "dissipated by the breaking of bonds"),
+    ("device", "dissipated by the hysteresis of devices"),
     ("impact", "lost in the impacts of rigid joints"),
     ("nonreciprocal", "taken out by friction whose action differs from its reaction"),
     ("residual", "kinetic + elastic + dissipated - input"),
@@ -366,7 +408,7 @@ const JOINT: [(&str, &str, &str); 5] = [
         "elastic force, or that of rigid contact, on the lower or left block, against its relative motion",
     ),
     ("damping", "N", "viscous force, same sign"),
-    ("friction", "N", "friction force, same sign"),
+    ("friction", "N", "friction force, or that of a device with a law of its own, same sign"),
 ];
 
 /// Beside them, of joints with a bond.
@@ -383,7 +425,8 @@ impl Channels {
         let mut watched: Vec<Watched> =
             chosen("output.blocks", "block", blocks, &block_names)?.into_iter().map(Watched::Block).collect();
         let (rub, contact, bond) = (model.rub_of_joint(), model.contact_of_joint(), model.bond_of_joint());
-        let joint = |e: usize| Watched::Joint(e, [rub[e], contact[e]], bond[e]);
+        let device = model.nonlinear_of_joint();
+        let joint = |e: usize| Watched::Joint(e, [rub[e], contact[e], device[e]], bond[e]);
         watched.extend(chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(joint));
         let channel =
             |name: String, unit: &str, text: &str| Channel { name, unit: unit.into(), description: text.into() };
@@ -424,11 +467,12 @@ impl Channels {
         };
         for (e, side) in model.sides.iter().enumerate() {
             if side[1] as usize >= beam.min(model.base()) {
-                let (elastic, viscous, _) = joint_forces(model, at, [None, None], e);
+                let (elastic, viscous, _) = joint_forces(model, at, [None; 3], e);
                 add(side[1] as usize, elastic + viscous);
             }
         }
         bonds_beyond(model, at.bonds, at.z, |e, force| add(model.sides[e][1] as usize, force));
+        devices::forces(model, at.devices, [at.z, at.v], |e, force| add(model.sides[e][1] as usize, force));
         for (rub, mu) in model.rubs.iter().zip(at.mu) {
             add(model.sides[rub.joint as usize][1] as usize, rub.normal[0] * mu);
         }
@@ -443,8 +487,9 @@ impl Channels {
         row.extend([base.a, base.u, shear, mean(at.z), mean(at.v), pull]);
         row.extend([at.z[beam], at.v[beam], at.a[beam]]);
         row.push(peak(&at.z[..model.wall.blocks.len()]));
-        let Energies { input_top, kinetic, elastic, damping, friction, bond, impact, nonreciprocal, .. } = *energies;
-        row.extend([energies.input(), kinetic, elastic, damping, friction, bond, impact, nonreciprocal]);
+        let Energies { input_top, kinetic, elastic, damping, friction, bond, device, impact, nonreciprocal, .. } =
+            *energies;
+        row.extend([energies.input(), kinetic, elastic, damping, friction, bond, device, impact, nonreciprocal]);
         row.extend([energies.residual(), input_top]);
         for w in &self.watched {
             match *w {

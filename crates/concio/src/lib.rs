@@ -6,6 +6,7 @@ mod assign;
 pub mod bond;
 pub mod case;
 pub mod constrained;
+pub mod device;
 mod dynamics;
 mod elementary;
 pub mod error;

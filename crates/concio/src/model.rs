@@ -3,7 +3,8 @@
 
 use crate::assign::{JointLaw, friction_choice, resolve};
 use crate::bond::{self, Bonded};
-use crate::case::{Beam, Case, SpringLaw};
+use crate::case::{Beam, Case, DeviceLaw, SpringLaw};
+use crate::device::{self, Device, Nonlinear};
 use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::graph;
@@ -29,6 +30,10 @@ pub struct Model {
     pub rubs: Vec<Rub>,
     /// The joints whose mortar holds until it cracks; `elastic` has their springs as they are before.
     pub bonds: Vec<Bonded>,
+    /// The joints with a device in the place of mortar, in the order of the joints.
+    pub devices: Vec<Device>,
+    /// What some of them do beyond the springs and dashpots in `elastic` and the friction in `rubs`.
+    pub nonlinear: Vec<Nonlinear>,
     /// The rigid unilateral joints, in the order of the joints.
     pub contacts: Vec<Contact>,
     /// Motion of base and top, and the end of the run.
@@ -117,7 +122,11 @@ impl Model {
         let sides: Vec<[u32; 2]> = joints.iter().map(side).collect();
         let mut elastic: Vec<Elastic> =
             joints.iter().zip(&laws).map(|(joint, law)| compile_elastic(&wall, joint, law)).collect();
+        let (devices, nonlinear) = device::compile(case, &laws, &mut elastic);
         let rub = |(e, (law, &normal)): (usize, (&JointLaw, &[f64; 2]))| {
+            if let Some(device) = law.device(case) {
+                return device::rub(e, device);
+            }
             let loaded = normal[0] > 0.0 || normal[1] > 0.0;
             law.rubs().filter(|_| loaded).map(|law| Rub { joint: e as u32, normal, law })
         };
@@ -125,7 +134,7 @@ impl Model {
         rubs.shrink_to_fit();
         let bonds = bond::compile(&wall, &joints, &laws, &normal, &rubs, &mut elastic)?;
         let reciprocal = rubs.iter().all(|r| sides[r.joint as usize][1] as usize >= n || r.normal[0] == r.normal[1]);
-        let stiffest = stiffest(&mass, &sides, &elastic, excitation.duration);
+        let stiffest = stiffest(&mass, &sides, &device::at_rest(&elastic, &nonlinear), excitation.duration);
         let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
         let warnings = warnings(case, &wall, rubs.len(), idle, reciprocal);
         let rigid = |(e, law): (usize, &JointLaw)| {
@@ -143,6 +152,8 @@ impl Model {
             elastic,
             rubs,
             bonds,
+            devices,
+            nonlinear,
             contacts,
             excitation,
             reciprocal,
@@ -175,6 +186,24 @@ impl Model {
         let mut index = vec![None; self.joints.len()];
         for (b, bond) in self.bonds.iter().enumerate() {
             index[bond.joint as usize] = Some(b);
+        }
+        index
+    }
+
+    /// Law of the device of every joint that has one.
+    pub fn device_of_joint(&self) -> Vec<Option<DeviceLaw>> {
+        let mut law = vec![None; self.joints.len()];
+        for device in &self.devices {
+            law[device.joint as usize] = Some(device.law);
+        }
+        law
+    }
+
+    /// Index in [`Model::nonlinear`] of every joint with such a device.
+    pub fn nonlinear_of_joint(&self) -> Vec<Option<usize>> {
+        let mut index = vec![None; self.joints.len()];
+        for (k, device) in self.nonlinear.iter().enumerate() {
+            index[device.joint as usize] = Some(k);
         }
         index
     }

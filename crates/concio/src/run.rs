@@ -297,7 +297,7 @@ fn creep(joints: &[JointRow], outcome: &Outcome) -> Option<String> {
 /// The joints of a model with their compiled numbers, as results keep them.
 pub fn joint_rows(model: &Model) -> Vec<JointRow> {
     use crate::case::{FrictionLaw, SpringLaw};
-    let contact = model.contact_of_joint();
+    let (contact, device) = (model.contact_of_joint(), model.device_of_joint());
     let row = |(e, rub): (usize, Option<usize>)| {
         let rub = rub.map(|r| &model.rubs[r]);
         let (joint, law) = (&model.joints[e], &model.elastic[e]);
@@ -313,6 +313,7 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
             stiffness: law.stiffness,
             damping: law.damping,
             restitution: contact[e].map_or(0.0, |c| model.contacts[c].restitution),
+            device: device[e],
             normal_force: rub.map_or([0.0; 2], |r| r.normal),
             friction: rub.map(|r| store::FrictionRow {
                 law: match r.law.sticks() {

@@ -2,8 +2,9 @@
 //! benches and documents.
 
 use crate::bond::{Bond, Bonded};
-use crate::case::{Beam, JointKind, Signal, Sine, Solver};
+use crate::case::{Beam, DeviceLaw, JointKind, Signal, Sine, Solver};
 use crate::error::Result;
+use crate::device::{self, Device, Law, Nonlinear};
 use crate::excitation::Excitation;
 use crate::ground::signal::{GroundMotion, compile};
 use crate::law::Stribeck;
@@ -28,13 +29,15 @@ pub struct Link {
     pub bond: Option<Bond>,
     /// Restitution of a rigid unilateral joint.
     pub rigid: Option<f64>,
+    /// What a device does beyond `elastic` and `friction`.
+    pub device: Option<Law>,
 }
 
 impl Link {
     /// A spring k [N/m] and dashpot c [N s/m].
     pub fn spring(a: usize, b: End, stiffness: f64, damping: f64) -> Self {
         let elastic = Elastic { stiffness, damping, unilateral: false };
-        Link { a, b, elastic, friction: None, rigid: None, bond: None }
+        Link { a, b, elastic, friction: None, rigid: None, bond: None, device: None }
     }
     /// A spring that acts for x_a > x_b alone.
     pub fn unilateral(a: usize, b: End, stiffness: f64) -> Self {
@@ -53,7 +56,11 @@ impl Link {
     /// Friction under a normal force [N].
     pub fn friction(a: usize, b: End, law: Stribeck, normal: f64) -> Self {
         let elastic = Elastic { stiffness: 0.0, damping: 0.0, unilateral: false };
-        Link { a, b, elastic, friction: Some((law, normal)), rigid: None, bond: None }
+        Link { elastic, friction: Some((law, normal)), ..Link::spring(a, b, 0.0, 0.0) }
+    }
+    /// A device beside a spring k [N/m] and a dashpot c [N s/m].
+    pub fn device(a: usize, b: End, law: Law, stiffness: f64, damping: f64) -> Self {
+        Link { device: Some(law), ..Link::spring(a, b, stiffness, damping) }
     }
 }
 
@@ -123,7 +130,19 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
     let rigid = |(e, link): (usize, &Link)| link.rigid.map(|restitution| Contact { joint: e as u32, restitution });
     let sides: Vec<[u32; 2]> = links.iter().map(|l| [l.a as u32, side(l.b) as u32]).collect();
     let elastic: Vec<Elastic> = links.iter().map(|l| l.elastic).collect();
-    let stiffest = stiffest(masses, &sides, &elastic, excitation.duration);
+    let named = |(e, link): (usize, &Link)| {
+        let joint = e as u32;
+        let law = match link.device? {
+            Law::Power(_) => DeviceLaw::Viscous,
+            Law::BoucWen(_) => DeviceLaw::BoucWen,
+            Law::ReCentring(_) => DeviceLaw::ReCentring,
+        };
+        Some(Device { joint, law })
+    };
+    let nonlinear = |(e, link): (usize, &Link)| link.device.map(|law| Nonlinear { joint: e as u32, law });
+    let devices = links.iter().enumerate().filter_map(named).collect();
+    let nonlinear: Vec<Nonlinear> = links.iter().enumerate().filter_map(nonlinear).collect();
+    let stiffest = stiffest(masses, &sides, &device::at_rest(&elastic, &nonlinear), excitation.duration);
     Model {
         wall: Wall { panels: vec![panel], blocks: (0..n).map(block).collect() },
         joints: links.iter().map(joint).collect(),
@@ -132,6 +151,8 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         sides,
         elastic,
         bonds,
+        devices,
+        nonlinear,
         rubs,
         contacts: links.iter().enumerate().filter_map(rigid).collect(),
         excitation,

@@ -29,6 +29,8 @@ pub struct State {
     pub tangents: Tangents,
     /// What has become of the bonds, in the order of the model's.
     pub bonds: Vec<BondState>,
+    /// What has become of the devices with laws of their own, in the order of the model's.
+    pub devices: Vec<DeviceState>,
     /// Samples kept so far.
     pub samples: u64,
     /// Energy account.
@@ -58,6 +60,8 @@ pub struct View<'a> {
     pub reaction: &'a [f64],
     /// The bonds.
     pub bonds: &'a [BondState],
+    /// The devices.
+    pub devices: &'a [DeviceState],
     /// The energy account.
     pub energies: &'a Energies,
 }
@@ -79,6 +83,8 @@ pub struct Instant {
     pub reaction: Vec<f64>,
     /// The bonds.
     pub bonds: Vec<BondState>,
+    /// The devices.
+    pub devices: Vec<DeviceState>,
     /// The energy account.
     pub energies: Energies,
 }
@@ -94,13 +100,14 @@ impl Instant {
             mu: vec![0.0; model.rubs.len()],
             reaction: vec![0.0; model.contacts.len()],
             bonds: vec![BondState::INTACT; model.bonds.len()],
+            devices: vec![DeviceState::default(); model.nonlinear.len()],
             energies: Energies::default(),
         }
     }
     /// What it holds.
     pub fn view(&self) -> View<'_> {
-        let Instant { t, z, v, a, mu, reaction, bonds, energies } = self;
-        View { t: *t, z, v, a, mu, reaction, bonds, energies }
+        let Instant { t, z, v, a, mu, reaction, bonds, devices, energies } = self;
+        View { t: *t, z, v, a, mu, reaction, bonds, devices, energies }
     }
 }
 
@@ -127,6 +134,15 @@ impl BondState {
         BondState { reach: 0.0, damage: 0.0, spent: 0.0, peak: 0.0, cracked: f64::INFINITY, broken: f64::INFINITY };
 }
 
+/// What a run has done to a device with a law of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct DeviceState {
+    /// ζ of (I5) [1], or s of (I7) [m]; 0 for a law without history.
+    pub internal: f64,
+    /// ζ̇ [1/s].
+    pub rate: f64,
+}
+
 /// Rates of the works in [`Energies`] [W].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Power {
@@ -138,6 +154,8 @@ pub struct Power {
     pub damping: f64,
     /// Lost to friction.
     pub friction: f64,
+    /// Lost to the hysteresis of devices.
+    pub device: f64,
     /// Lost to the difference of action and reaction.
     pub nonreciprocal: f64,
 }
@@ -149,6 +167,7 @@ impl Power {
         energies.input_top += dt * self.top;
         energies.damping += dt * self.damping;
         energies.friction += dt * self.friction;
+        energies.device += dt * self.device;
         energies.nonreciprocal += dt * self.nonreciprocal;
     }
 }
@@ -206,8 +225,8 @@ impl Tangents {
 impl State {
     /// The motion, friction and energies at its instant.
     pub fn view(&self) -> View<'_> {
-        let State { t, z, v, a, bonds, energies, .. } = self;
-        View { t: *t, z, v, a, mu: &self.tangents.mu, reaction: &self.tangents.reaction, bonds, energies }
+        let State { t, z, v, a, bonds, devices, energies, .. } = self;
+        View { t: *t, z, v, a, mu: &self.tangents.mu, reaction: &self.tangents.reaction, bonds, devices, energies }
     }
 
     /// Whether all arrays have the lengths that `model` needs.
@@ -234,6 +253,7 @@ impl State {
             && self.tangents.closed.len() == e
             && self.tangents.stuck.len() == r
             && self.bonds.len() == model.bonds.len()
+            && self.devices.len() == model.nonlinear.len()
             && self.tangents.contact.len() == model.contacts.len()
             && self.tangents.reaction.len() == model.contacts.len()
     }
@@ -253,6 +273,7 @@ impl State {
             joint_power: zeros(e),
             tangents: Tangents::at_rest(model),
             bonds: vec![BondState::INTACT; model.bonds.len()],
+            devices: vec![DeviceState::default(); model.nonlinear.len()],
             samples: 0,
             energies: Energies::default(),
             envelopes: Envelopes {

@@ -85,16 +85,28 @@ fn joint_rows(model: &Model) -> Vec<Vec<String>> {
         rows.push(vec![kind_name(kind).into(), members.len().to_string(), stiffness, friction, normal]);
     }
     rows.push(vec!["all".into(), model.joints.len().to_string()]);
+    if !model.devices.is_empty() {
+        rows.push(vec!["  with devices".into(), model.devices.len().to_string()]);
+    }
     rows
 }
 
 fn joint_list(model: &Model) -> Vec<Vec<String>> {
     let mut rows = vec![["joint", "kind", "course", "weight", "normal force"].map(String::from).to_vec()];
+    // A column of its own only where there is something to tell.
+    let devices = model.device_of_joint();
+    if !model.devices.is_empty() {
+        rows[0].push("device".into());
+    }
     let rubs = model.rub_of_joint();
-    for ((joint, name), rub) in model.joints.iter().zip(model.joint_names()).zip(rubs) {
+    for (((joint, name), rub), device) in model.joints.iter().zip(model.joint_names()).zip(rubs).zip(devices) {
         let normal = rub.map_or("–".into(), |r| range(model.rubs[r].normal.into_iter(), |v| si(v, "N")));
         let course = (model.wall.blocks[joint.a].course + 1).to_string();
-        rows.push(vec![name, kind_name(joint.kind).into(), course, significant(joint.weight, 4), normal]);
+        let mut row = vec![name, kind_name(joint.kind).into(), course, significant(joint.weight, 4), normal];
+        if !model.devices.is_empty() {
+            row.push(device.map_or("–", |law| law.name()).into());
+        }
+        rows.push(row);
     }
     rows
 }

@@ -114,8 +114,8 @@ fn of_owner(content: &Content, owner: &str) -> Vec<String> {
 /// The energy account over time, and its residual.
 pub fn energies(content: &Content) -> Vec<String> {
     let t = &content.outcome.recording.time;
-    let parts: [&'static str; 8] =
-        ["input", "friction", "damping", "elastic", "kinetic", "bond", "impact", "nonreciprocal"];
+    let parts: [&'static str; 9] =
+        ["input", "friction", "damping", "elastic", "kinetic", "bond", "device", "impact", "nonreciprocal"];
     let of = |name: &&'static str| content.history(&format!("energy/{name}")).map(|y| (*name, y));
     let found: Vec<(&'static str, Vec<f64>)> =
         parts.iter().filter_map(of).filter(|(_, y)| y.iter().any(|v| *v != 0.0)).collect();
@@ -148,6 +148,7 @@ fn title(channel: &str) -> &str {
         "friction" => "dissipated by friction",
         "damping" => "dissipated by damping",
         "bond" => "broken bonds",
+        "device" => "hysteresis of devices",
         "impact" => "lost in impacts",
         "nonreciprocal" => "unbalanced friction",
         other => other,

@@ -3,6 +3,7 @@
 pub(crate) mod bonds;
 pub(crate) mod cracks;
 pub(crate) mod dense;
+pub(crate) mod devices;
 pub(crate) mod events;
 mod fronts;
 pub(crate) mod groups;

@@ -24,13 +24,14 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::integrate::bonds::Bonds;
+use crate::integrate::devices::Devices;
 use crate::integrate::events::TOUCHING;
 use crate::integrate::groups::Groups;
 use crate::integrate::joints::{Contacts, Joints, Rubs};
 use crate::integrate::linear::Matrix;
 use crate::law::Stribeck;
 use crate::model::Model;
-use crate::state::{BondState, Tangents};
+use crate::state::{BondState, DeviceState, Tangents};
 use crate::wall::Block;
 
 mod parts;
@@ -70,6 +71,7 @@ pub struct Stage {
     joints: Joints,
     rubs: Rubs,
     bonds: Bonds,
+    pub devices: Devices,
     contacts: Contacts,
     mass: Vec<f64>,
     /// z_p and V_p, with base and top at the end.
@@ -205,15 +207,17 @@ impl Stage {
             joints,
             rubs,
             bonds: Bonds::new(model),
+            devices: Devices::new(model),
             contacts,
             mass,
         }
     }
 
     /// Starts a step: forgets the factors, because what it does must not depend on what was tried before it, and takes
-    /// over the damage of the bonds.
-    pub fn begin(&mut self, model: &Model, bonds: &[BondState]) {
+    /// over the damage of the bonds and the state of the devices.
+    pub fn begin(&mut self, model: &Model, bonds: &[BondState], devices: &[DeviceState]) {
         self.tau = 0.0;
+        self.devices.hold(devices);
         self.bonds.hold(model, bonds, &mut self.joints, &mut self.rubs);
     }
 
@@ -355,6 +359,9 @@ impl Stage {
         if self.bonds.start(model, &mut self.rubs, [z, v], tau) {
             self.factors_hold = false;
         }
+        if self.devices.start(model, [z, v], tau) {
+            self.factors_hold = false;
+        }
         for (gap, &e) in self.gap.iter_mut().zip(&self.joints.one_sided) {
             let [a, b] = model.sides[e as usize].map(|s| s as usize);
             *gap = z[a] - z[b] + tau * (v[a] - v[b]);
@@ -400,9 +407,17 @@ impl Stage {
         }
         self.matrix.diagonal.copy_from_slice(&self.diagonal);
         self.matrix.lower.copy_from_slice(&self.lower);
-        let (j, matrix, square) = (&self.joints, &mut self.matrix, self.tau * self.tau);
+        let (j, matrix, tau, square) = (&self.joints, &mut self.matrix, self.tau, self.tau * self.tau);
         self.bonds.slopes(|e, slope| {
             let ([a, b], s) = (j.sides[e], square * slope);
+            matrix.diagonal[a as usize] += s;
+            if let Some(slot) = j.slot[e].at() {
+                matrix.diagonal[b as usize] += s;
+                matrix.lower[slot] -= s;
+            }
+        });
+        self.devices.slopes(|e, slope| {
+            let ([a, b], s) = (j.sides[e], tau * slope);
             matrix.diagonal[a as usize] += s;
             if let Some(slot) = j.slot[e].at() {
                 matrix.diagonal[b as usize] += s;
@@ -460,6 +475,11 @@ impl Stage {
             change[a as usize] -= tau * force;
             change[b as usize] += tau * force;
         });
+        self.devices.forces(|e, force| {
+            let [a, b] = j.sides[e];
+            change[a as usize] -= tau * force;
+            change[b as usize] += tau * force;
+        });
         self.push_contacts(tangents);
         let n = self.mass.len();
         self.change[n..].fill(0.0);
@@ -487,6 +507,7 @@ impl Stage {
     #[inline(always)]
     fn mismatch(&mut self, model: &Model, tangents: &Tangents) {
         self.bonds.look(model, &self.joints, &mut self.rubs, &self.change, self.tau);
+        self.devices.look(&self.joints, &self.change);
         let (rubs, change, tau) = (&self.rubs, &self.change[..], self.tau);
         for ((&[a, b], before), w) in rubs.sides.iter().zip(&self.before).zip(&mut self.velocity) {
             *w = before + change[a as usize] - change[b as usize];
@@ -518,6 +539,11 @@ impl Stage {
         }
         let j = &self.joints;
         self.bonds.mismatch(|e, force| {
+            let [a, b] = j.sides[e];
+            rhs[a as usize] += tau * force;
+            rhs[b as usize] -= tau * force;
+        });
+        self.devices.mismatch(|e, force| {
             let [a, b] = j.sides[e];
             rhs[a as usize] += tau * force;
             rhs[b as usize] -= tau * force;
@@ -593,6 +619,7 @@ impl Stage {
             tangents.slope[r] = self.slope[r];
             tangents.velocity[r] = w;
         }
+        self.devices.finish(&self.joints, &self.change);
         self.finish_contacts(tangents);
         if !self.rubs.sticking.is_empty() || self.contacts.len() > 0 {
             self.rest(model, tangents);
@@ -708,6 +735,9 @@ impl Stage {
     #[inline(always)]
     fn move_tangents(&mut self, model: &Model, tangents: &mut Tangents) {
         if self.bonds.move_tangents() {
+            self.factors_hold = false;
+        }
+        if self.devices.move_tangents(&self.joints, &self.diagonal, self.tau) {
             self.factors_hold = false;
         }
         let mut room = NO_FRICTION;

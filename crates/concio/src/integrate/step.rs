@@ -12,13 +12,14 @@ use crate::dynamics::{Moving, power, stored_energy};
 use crate::excitation::Drive;
 use crate::integrate::cracks;
 use crate::integrate::dense::{hermite, weights};
+use crate::integrate::devices;
 use crate::integrate::events::TOUCHING;
 use crate::integrate::impact::Impacts;
 use crate::integrate::stage::{Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
 use crate::model::{Model, Rub};
 use crate::record::Energies;
-use crate::state::{BondState, Instant, Power, State, Tangents};
+use crate::state::{BondState, DeviceState, Instant, Power, State, Tangents};
 
 /// Scratch of a step; nothing here outlives it but the tangents, which belong to the state.
 #[derive(Debug, Clone)]
@@ -46,6 +47,7 @@ pub struct Step {
     start_stuck: Vec<bool>,
     start_reaction: Vec<f64>,
     start_bonds: Vec<BondState>,
+    start_devices: Vec<DeviceState>,
     /// Displacement of the end of the step, with base and top.
     pub z: Vec<f64>,
 }
@@ -93,6 +95,7 @@ impl Step {
             start_stuck: vec![false; if model.set_valued() { model.rubs.len() } else { 0 }],
             start_reaction: vec![0.0; model.contacts.len()],
             start_bonds: vec![BondState::INTACT; model.bonds.len()],
+            start_devices: vec![DeviceState::default(); model.nonlinear.len()],
             z: vec![0.0; n + 2],
         }
     }
@@ -119,11 +122,12 @@ impl Step {
         self.stage_power[0] = state.power;
         self.tangents.copy_from(&state.tangents);
         self.stage.contact_residual = 0.0;
-        self.stage.begin(model, &state.bonds);
+        self.stage.begin(model, &state.bonds, &state.devices);
         self.find_touching(model, state);
         for i in 1..self.tableau.stages {
             let t = state.t + self.tableau.c[i] * h;
             self.predict(state, i, h, n);
+            self.stage.devices.predict(i, h, &self.tableau.a[i]);
             let top = drive.top(t);
             let ground = drive.base_acceleration(t);
             self.stage.z[n + 1] = top.u - tau * top.v;
@@ -138,7 +142,8 @@ impl Step {
             for k in 0..n + 2 {
                 self.z[k] = self.stage.z[k] + tau * v[k];
             }
-            let at = Moving { z: &self.z, v, laws: &self.tangents, bonds: &state.bonds };
+            let devices = self.stage.devices.now();
+            let at = Moving { z: &self.z, v, laws: &self.tangents, bonds: &state.bonds, devices };
             self.stage_power[i] = power(model, at, ground, &mut self.stage_joint_power[i - 1]);
         }
         let error = self.error(model, h, tau, tolerance);
@@ -182,7 +187,7 @@ impl Step {
         stage.z.copy_from_slice(&state.z);
         stage.v.copy_from_slice(&state.v);
         stage.solution[n + 1] = top.v + tau * top.a;
-        stage.begin(model, &state.bonds);
+        stage.begin(model, &state.bonds, &state.devices);
         self.tangents.copy_from(&state.tangents);
         let found = stage.solve(model, &mut self.tangents, tau, drive.base_acceleration(state.t), 1e-6 * tau * largest);
         // Not work of a step: a restored run, which is not settled anew, must count the same.
@@ -251,6 +256,13 @@ impl Step {
                 }
             }
         });
+        self.stage.devices.errors(model, h, &self.tableau.error, error_z, |e, force| {
+            let [a, b] = model.sides[e].map(|s| s as usize);
+            error_v[a] -= tau * force;
+            if b < n {
+                error_v[b] += tau * force;
+            }
+        });
         self.stage.solve_linear(&mut self.error_v);
         let (mut worst, mut sum) = (0.0f64, 0.0);
         for (ev, ez) in self.error_v.iter().zip(&self.error_z) {
@@ -270,7 +282,9 @@ impl Step {
             self.stage_power[i].accrue(h * self.tableau.b[i], &mut self.account);
         }
         self.account.bond += cracks::spending(model, &state.bonds, &self.z);
-        stored_energy(model, &state.bonds, &self.z, &self.stage_v[last], &mut self.account);
+        let (after, z, v) = (self.stage.devices.now(), &self.z, &self.stage_v[last]);
+        devices::book(model, &state.devices, after, &mut self.account);
+        stored_energy(model, &state.bonds, after, [z, v], &mut self.account);
         self.account.residual() - state.energies.residual()
     }
 
@@ -284,6 +298,7 @@ impl Step {
             self.start_reaction.copy_from_slice(&state.tangents.reaction);
         }
         self.start_bonds.copy_from_slice(&state.bonds);
+        self.start_devices.copy_from_slice(&state.devices);
     }
 
     /// Moves `state` to the end of the step that was attempted.
@@ -309,6 +324,10 @@ impl Step {
             }
         }
         state.joint_power.copy_from_slice(&self.stage_joint_power[last - 1]);
+        let now = self.stage.devices.now();
+        let lost = &mut state.envelopes.joint_dissipation;
+        devices::spending(model, &state.devices, now, |e, spent| lost[e] += spent);
+        state.devices.copy_from_slice(now);
         state.tangents.copy_from(&self.tangents);
     }
 
@@ -351,7 +370,9 @@ impl Step {
         self.laws_inside(model, end, x, at);
         self.account_inside(end, h, x, at);
         at.energies.bond += cracks::spending(model, &self.start_bonds, &at.z);
-        stored_energy(model, &self.start_bonds, &at.z, &at.v, &mut at.energies);
+        self.stage.devices.inside(model, &end.devices, [w.of_end, x], &w.of_z, &at.z, &mut at.devices);
+        devices::book(model, &self.start_devices, &at.devices, &mut at.energies);
+        stored_energy(model, &self.start_bonds, &at.devices, [&at.z, &at.v], &mut at.energies);
     }
 
     fn laws_inside(&self, model: &Model, end: &State, x: f64, at: &mut Instant) {
@@ -395,6 +416,7 @@ impl Step {
             input_top: cubic(|e| e.input_top, |p| p.top),
             damping: cubic(|e| e.damping, |p| p.damping),
             friction: cubic(|e| e.friction, |p| p.friction),
+            device: cubic(|e| e.device, |p| p.device),
             nonreciprocal: cubic(|e| e.nonreciprocal, |p| p.nonreciprocal),
             ..*e_0
         };

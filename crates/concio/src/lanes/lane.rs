@@ -277,6 +277,7 @@ impl<'m> Lane<'m> {
                 top: powers.top[stage][i],
                 damping: powers.damping[stage][i],
                 friction: powers.friction[stage][i],
+                device: 0.0,
                 nonreciprocal: 0.0,
             };
             self.power.accrue(h * w.tableau.b[stage], &mut self.energies);

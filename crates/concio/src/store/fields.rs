@@ -61,7 +61,7 @@ pub(super) const JOINT_ENVELOPES: [Field<Envelopes, Vec<f64>>; 10] = [
 ];
 
 /// The energy account.
-pub(super) const ENERGIES: [Field<Energies, f64>; 10] = [
+pub(super) const ENERGIES: [Field<Energies, f64>; 11] = [
     field!("input_base", "J", input_base, "Work of the base motion on the motion relative to the base."),
     field!("input_top", "J", input_top, "Work of the driven top beam."),
     field!("initial", "J", initial, "Kinetic and elastic energy at t = 0 that no work of the run brought."),
@@ -70,6 +70,7 @@ pub(super) const ENERGIES: [Field<Energies, f64>; 10] = [
     field!("damping", "J", damping, "Energy dissipated by viscous damping."),
     field!("friction", "J", friction, "Energy dissipated by friction."),
     field!("bond", "J", bond, "Energy dissipated by breaking bonds."),
+    field!("device", "J", device, "Energy dissipated by the hysteresis of devices."),
     field!("impact", "J", impact, "Energy lost in the impacts of rigid joints."),
     field!("nonreciprocal", "J", nonreciprocal, "Energy taken out by friction whose action differs from its reaction."),
 ];

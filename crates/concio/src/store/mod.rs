@@ -12,7 +12,7 @@ mod summary;
 pub mod vtkhdf;
 
 use crate::bond::Bonded;
-use crate::case::{FrictionLaw, SpringLaw};
+use crate::case::{DeviceLaw, FrictionLaw, SpringLaw};
 use crate::law::spring_force;
 use crate::model::Elastic;
 use crate::outcome::{BondRow, Outcome};
@@ -22,7 +22,7 @@ pub use journal::{Journal, JournalHeader};
 pub use summary::{RunFacts, residual_relative, summary, top_force_rms, write_summary};
 
 /// Version of the layout of result files; raised when a reader of the former version would misread a file.
-pub const SCHEMA_VERSION: u32 = 3;
+pub const SCHEMA_VERSION: u32 = 4;
 
 /// Where a result comes from. Nothing in it depends on clock, machine or folder: equal inputs give equal files.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -56,6 +56,8 @@ pub struct JointRow {
     pub friction: Option<FrictionRow>,
     /// Restitution of a rigid joint; 0 for the others.
     pub restitution: f64,
+    /// Law of the device in the place of mortar, if it has one.
+    pub device: Option<DeviceLaw>,
 }
 
 impl JointRow {

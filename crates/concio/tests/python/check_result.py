@@ -26,7 +26,7 @@ JOINT_ENVELOPES = BLOCK_ENVELOPES | {
     "impulse": "N s",
     "impacts": "1",
 }
-ENERGIES = ["input_base", "input_top", "initial", "kinetic", "elastic", "damping", "friction", "bond", "impact", "nonreciprocal"]
+ENERGIES = ["input_base", "input_top", "initial", "kinetic", "elastic", "damping", "friction", "bond", "device", "impact", "nonreciprocal"]
 TOTALS = {
     "peak_relative_displacement": "m",
     "peak_slip_velocity": "m/s",
@@ -157,6 +157,8 @@ def check_joints(result, blocks):
         require(kind in {"bed", "head", "connection"} if other >= 0 else kind == {-1: "base", -2: "top"}[other], kind)
     laws = result.texts("wall/joints/law", n)
     require(set(laws) <= {"elastic", "no-tension", "rigid", "none"}, f"laws {set(laws)}")
+    devices = result.texts("wall/joints/device", n)
+    require(set(devices) <= {"viscous", "elastic", "friction-damper", "bouc-wen", "re-centring", "none"}, f"devices {set(devices)}")
     rubs = result.array("wall/joints/friction", (n,), "u1", "1")
     friction_laws = result.texts("wall/joints/friction_law", n)
     require(set(friction_laws) <= {"stribeck", "stribeck-stick", "coulomb", "none"}, f"friction laws {set(friction_laws)}")

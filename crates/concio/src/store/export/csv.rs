@@ -9,7 +9,7 @@ use csv::Writer;
 use crate::error::{Error, Result};
 use crate::record::Envelopes;
 use crate::store::fields::{self, Field};
-use crate::store::hdf5::{NO_FRICTION, check_lengths, keyword};
+use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword};
 use crate::store::{FrictionRow, StoredRun, atomic};
 use crate::wall::{Block, End};
 
@@ -116,7 +116,7 @@ fn blocks(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
 }
 
 fn joints(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
-    for name in ["name", "kind", "a", "b", "law"] {
+    for name in ["name", "kind", "a", "b", "law", "device"] {
         table.head(name, "1")?;
     }
     heads(table, &fields::JOINTS)?;
@@ -134,6 +134,7 @@ fn joints(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
             End::Top => "top",
         })?;
         table.cell(keyword(&row.law))?;
+        table.cell(device_name(row.device))?;
         numbers(table, &fields::JOINTS, row)?;
         let friction: FrictionRow = row.friction.unwrap_or(NO_FRICTION);
         table.cell(keyword(&friction.law))?;
