@@ -3,8 +3,8 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::case::{
-    Case, Device, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointKind, Joints, NormalForce, Selector,
-    Spring, SpringLaw,
+    Case, Device, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointKind, Joints, NormalForce,
+    Selector, Spring, SpringLaw,
 };
 use crate::error::{InputError, Result};
 use crate::graph;

@@ -305,8 +305,8 @@ impl BoucWen {
     fn step(&self, w: f64, from: &From) -> (f64, f64) {
         let (start, tau) = (from.internal, from.tau);
         let slope = |zeta: f64| {
-            let drive = tau / self.displacement
-                * (self.amplitude - self.power(zeta, self.sharpness) * self.shape(w, zeta));
+            let drive =
+                tau / self.displacement * (self.amplitude - self.power(zeta, self.sharpness) * self.shape(w, zeta));
             drive / (1.0 - tau * self.slope_of_rate(w, zeta))
         };
         if w == 0.0 || tau == 0.0 {
@@ -483,6 +483,43 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    /// Devices that are springs, dashpots and friction share lanes, those with laws of their own do not.
+    #[test]
+    fn lanes_take_devices_that_are_only_numbers() {
+        use crate::case::{Scheme, Syntax, from_str};
+        let kind = |device: &str| {
+            let text = format!(
+                r#"model = "shear"
+                set = "report"
+                [[panel]]
+                bond = "running"
+                courses = 3
+                bricks = 2
+                [[joint.change]]
+                at = {{ joints = ["p1c1b1|p1c2b1"] }}
+                device = {device}
+                [motion]
+                duration = 1"#
+            );
+            let file = from_str(&text, Syntax::Toml, None).unwrap();
+            file.validate().unwrap();
+            let model = crate::run::prepare(file.case.clone(), std::path::Path::new("")).unwrap().model;
+            assert_eq!(model.devices.len(), 1);
+            crate::lanes::Kind::of(&model, Scheme::TrBdf2)
+        };
+        let dashpot = kind(r#"{ law = "viscous", damping = 10 }"#);
+        assert!(dashpot.is_some() && dashpot == kind(r#"{ law = "elastic", stiffness = 1e6, damping = 3 }"#));
+        assert!(kind(r#"{ law = "friction-damper", slip_force = 5 }"#).is_some());
+        for own in [
+            r#"{ law = "viscous", damping = 10, exponent = 0.5 }"#,
+            r#"{ law = "friction-damper", slip_force = 5, sticks = true }"#,
+            r#"{ law = "bouc-wen", yield_force = 5, yield_displacement = 1e-3 }"#,
+            r#"{ law = "re-centring", stiffness = 1e6, activation_force = 5, flag = 1 }"#,
+        ] {
+            assert!(kind(own).is_none(), "{own}");
         }
     }
 

@@ -235,7 +235,13 @@ impl Energies {
     }
     /// E_kin + E_el − E_0 + E_diss − W_in: 0 but for the errors of the integration.
     pub fn residual(&self) -> f64 {
-        self.kinetic + self.elastic + self.damping + self.friction + self.bond + self.impact + self.nonreciprocal
+        self.kinetic
+            + self.elastic
+            + self.damping
+            + self.friction
+            + self.bond
+            + self.impact
+            + self.nonreciprocal
             + self.device
             - self.initial
             - self.input()

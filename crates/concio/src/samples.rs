@@ -3,8 +3,8 @@
 
 use crate::bond::{Bond, Bonded};
 use crate::case::{Beam, DeviceLaw, JointKind, Signal, Sine, Solver};
-use crate::error::Result;
 use crate::device::{self, Device, Law, Nonlinear};
+use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::ground::signal::{GroundMotion, compile};
 use crate::law::Stribeck;

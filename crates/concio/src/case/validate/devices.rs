@@ -124,7 +124,7 @@ fn gamma(f: &mut Findings, key: &str, d: &Device) {
     };
     if beta > 0.0 && !(gamma > -beta && gamma <= beta) {
         let from = if d.gamma.is_some() { "" } else { " (its default)" };
-        let allowed = format!("above {} and up to {}: of β either sign", shown(-beta), shown(beta));
+        let allowed = format!("above −β and up to β: above {}, up to {}", shown(-beta), shown(beta));
         f.push(format_args!("{key}.gamma"), format!("{}{from} is out of range", shown(gamma)), allowed);
     }
 }
