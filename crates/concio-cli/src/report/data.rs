@@ -43,7 +43,7 @@ pub fn payload(content: &Content) -> (String, String) {
         "block_names": content.wall.blocks.iter().map(|b| &b.name).collect::<Vec<_>>(),
         "joint_names": names(&|j| json!(j.name)),
         "joint_kinds": names(&|j| json!(j.joint.kind)),
-        "joint_laws": names(&|j| json!(j.law)),
+        "joint_laws": names(&|j| j.device.map_or(json!(j.law), |device| json!(format!("{} device", device.name())))),
         "frictions": frictions,
         "beam": { "kind": beam_kind(content.case.load.beam), "label": beam_label(&content.case) },
         "frames": { "recorded": content.outcome.recording.frame_time.len(), "every": frames.every },
