@@ -322,7 +322,7 @@ pub enum Figure {
     PeakAcceleration,
     /// Joints coloured by their relative acceleration at an instant over the largest in the whole history.
     Acceleration,
-    /// Joints coloured by the cracked part of their bonds.
+    /// Joints coloured by the damage of their bonds.
     Cracks,
     /// Friction force over slip of joints.
     Hysteresis,

@@ -113,10 +113,11 @@ pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
         state.tangents.velocity[r] = w;
     }
     // Of a bonded joint the cracked part rubs, if there is any.
-    for (bond, damage) in model.bonds.iter().zip(state.bonds.iter().map(|b| b.damage)) {
-        let Some(r) = bond.rub.map(|r| r as usize).filter(|_| damage < 1.0) else { continue };
-        let law = model.rubs[r].law.times(damage);
-        state.tangents.stuck[r] &= damage > 0.0;
+    for (bond, held) in model.bonds.iter().zip(&state.bonds) {
+        let rubs = bond.law.rubbing(held);
+        let Some(r) = bond.rub.map(|r| r as usize).filter(|_| rubs < 1.0) else { continue };
+        let law = model.rubs[r].law.times(rubs);
+        state.tangents.stuck[r] &= rubs > 0.0;
         if !state.tangents.stuck[r] {
             (state.tangents.mu[r], state.tangents.slope[r]) = law.at(state.tangents.velocity[r]);
         }
@@ -370,7 +371,7 @@ const JOINT: [(&str, &str, &str); 5] = [
 ];
 
 /// Beside them, of joints with a bond.
-const DAMAGE: (&str, &str, &str) = ("damage", "1", "cracked part of the bond, 0 to 1");
+const DAMAGE: (&str, &str, &str) = ("damage", "1", "damage of the bond: part of its stiffness that is lost, 0 to 1");
 
 impl Channels {
     /// The channels for the block and joint names asked for (`all` for every one).

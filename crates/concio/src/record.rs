@@ -54,7 +54,7 @@ pub struct Recording {
     /// `frame_time.len()` rows: friction force on side a of every joint [N]; rows of none unless a law is set-valued or a
     /// joint is bonded.
     pub frame_friction: Vec<f64>,
-    /// `frame_time.len()` rows: cracked part of every bonded joint, 0 … 1.
+    /// `frame_time.len()` rows: damage of every bonded joint, 0 … 1.
     pub frame_damage: Vec<f64>,
     /// What happened at one instant, in the order of time.
     pub events: Vec<Event>,

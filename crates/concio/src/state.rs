@@ -109,7 +109,7 @@ impl Instant {
 pub struct BondState {
     /// δ_m: largest |δ|, or widest gap, that counted for the damage so far [m]; 0 while the bond is intact.
     pub reach: f64,
-    /// D, 0 … 1.
+    /// D, 0 … 1: what is lost of the stiffness. The part that rubs is [`crate::bond::Bond::rubbing`].
     pub damage: f64,
     /// Energy that breaking took [J].
     pub spent: f64,

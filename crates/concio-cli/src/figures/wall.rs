@@ -218,7 +218,7 @@ pub fn acceleration(data: &Data, options: &Options) -> Result<Drawing, InputErro
     Ok(accelerations(data, options, &values, largest, time))
 }
 
-/// Joints coloured by the cracked part of their bonds, at the end of the run or at an instant.
+/// Joints coloured by the damage of their bonds, at the end of the run or at an instant.
 pub fn cracks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let bonds = &data.run.outcome.bonds;
     if bonds.is_empty() {
@@ -239,8 +239,8 @@ pub fn cracks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         format!("t = {}", crate::format::seconds(rounded(time))),
         format!("{cracked} of {} bonds cracked, {broken} of them broken", bonds.len()),
     ];
-    let (drawn, bottom) = map(data, options, &values, &texts, "cracked part of the bond [1], 1 = broken");
-    let title = "Joints coloured by the cracked part of their bonds".into();
+    let (drawn, bottom) = map(data, options, &values, &texts, "damage of the bond [1], 1 = broken");
+    let title = "Joints coloured by the damage of their bonds".into();
     Ok(Drawing { body: drawn, size: [options.points(), bottom], title, note: String::new() })
 }
 

@@ -28,7 +28,7 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     ];
     let mut cracked = vec![0.0; content.joints.len()];
     content.outcome.bonds.iter().for_each(|bond| cracked[bond.joint] = bond.damage);
-    let cracks = ("cracks", Paint::Joints(field("cracked part of the bonds at the end", "1", &cracked)));
+    let cracks = ("cracks", Paint::Joints(field("damage of the bonds at the end", "1", &cracked)));
     let cracks = (!content.outcome.bonds.is_empty()).then_some(cracks);
     views.into_iter().chain(cracks).map(|(name, paint)| (name, wall::draw(&subject, paint))).collect()
 }
