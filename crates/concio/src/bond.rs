@@ -14,13 +14,14 @@
 //! secant unloading instead of plastic slip. The part that rubs is χ and not D: D, which leads the loss of strength by
 //! the way δ_m/δ_0, would let friction add to a strength that is still there.
 
-use crate::assign::JointLaw;
-use crate::case::SpringLaw;
+pub use crate::assign::BondValues;
+use crate::assign::{JointLaw, resolve};
+use crate::case::{Case, SpringLaw};
 use crate::elementary::exp_of_negative;
 use crate::error::{InputError, Result};
 use crate::graph;
 use crate::law::spring_force;
-use crate::model::{Elastic, Rub};
+use crate::model::{Elastic, Model, Rub};
 use crate::outcome::BondRow;
 use crate::quantity::shown;
 use crate::state::BondState;
@@ -190,6 +191,14 @@ impl Bonded {
     pub fn beyond(&self, elastic: &Elastic, damage: f64, d: f64) -> f64 {
         self.force(elastic, damage, d) - spring_force(elastic.unilateral, elastic.stiffness, d)
     }
+}
+
+/// What `case`, whose model is `model`, says of the bond of every joint; none for joints that `on` leaves out.
+///
+/// # Errors
+/// None that compiling the model did not have.
+pub fn given(case: &Case, model: &Model) -> Result<Vec<Option<BondValues>>> {
+    Ok(resolve(case, &model.wall, &model.joints)?.iter().map(|law| law.bond).collect())
 }
 
 /// The bonds of a wall. Head joints that are bonded open when they have cracked: their springs in `elastic` are

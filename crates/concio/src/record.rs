@@ -89,6 +89,14 @@ pub enum EventKind {
 impl EventKind {
     /// All kinds; the place in the list is the number that a journal keeps.
     const ALL: [EventKind; 3] = [EventKind::Impact, EventKind::Crack, EventKind::Break];
+
+    /// Unit of [`Event::value`].
+    pub fn unit(self) -> &'static str {
+        match self {
+            EventKind::Impact => "N s",
+            EventKind::Crack | EventKind::Break => "m",
+        }
+    }
 }
 
 impl Event {

@@ -23,6 +23,8 @@ pub struct State {
     pub step: f64,
     /// Largest |z| and |v| so far: the scale of the tolerances.
     pub scale: [f64; 2],
+    /// Force of the top beam on the wall after the last step, its sign turned [N].
+    pub pull: f64,
     /// Rate of each joint's dissipation at `t` [W].
     pub joint_power: Vec<f64>,
     /// Tangents of the joints' laws, from which the next step starts.
@@ -250,6 +252,7 @@ impl State {
             power: Power::default(),
             step: 0.0,
             scale: [0.0; 2],
+            pull: 0.0,
             joint_power: zeros(e),
             tangents: Tangents::at_rest(model),
             bonds: vec![BondState::INTACT; model.bonds.len()],
