@@ -13,8 +13,16 @@ use concio::outcome::Outcome;
 use concio::record::{EventKind, StopReason};
 use concio::run::{Prepared, prepare, run_in_memory};
 use concio::samples::{Link, lumped, solver};
-use concio::simulate::{Progress, Sampling, Simulation};
+use concio::simulate::{Sampling, Simulation};
 use concio::wall::End;
+
+use ready::ready;
+use restarted::restarted;
+
+#[path = "common/ready.rs"]
+mod ready;
+#[path = "common/restarted.rs"]
+mod restarted;
 
 const M: f64 = 10.0;
 const K: f64 = 1e7;
@@ -292,9 +300,7 @@ base = { pulse = { shape = "ricker", acceleration = "1 g", duration = "0.1 s" } 
 "#;
 
 fn prepared(bond: &str) -> Prepared {
-    let file = from_str(&PANEL.replace("BOND", bond), Syntax::Toml, None).unwrap();
-    file.validate().unwrap();
-    prepare(file.case.clone(), Path::new("")).unwrap()
+    ready(&PANEL.replace("BOND", bond))
 }
 
 fn refused(bond: &str) -> concio::InputError {
@@ -432,11 +438,8 @@ fn a_cracking_wall_keeps_its_energy_and_its_bits() {
                 }
                 prepare(case, Path::new("")).unwrap()
             };
-            let new = || Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
-            let mut run = new();
-            let (rows, reason) = run.run_to_end();
-            assert_eq!(reason, StopReason::Completed);
-            let whole = run.outcome(rows, reason);
+            let whole = run_in_memory(&p).unwrap();
+            assert_eq!(whole.stop_reason, StopReason::Completed);
             let broken = whole.bonds.iter().filter(|b| b.damage == 1.0).count();
             let cracked = whole.bonds.iter().filter(|b| b.damage > 0.0).count();
             println!(
@@ -453,21 +456,8 @@ fn a_cracking_wall_keeps_its_energy_and_its_bits() {
             let events = &whole.recording.events;
             assert_eq!(events.iter().filter(|e| e.kind == EventKind::Crack).count(), cracked);
             assert!(events.windows(2).all(|pair| pair[0].time <= pair[1].time), "{events:?}");
-            let mut run = new();
-            let (mut rows, mut stride) = (concio::record::Recording::default(), 1);
-            let reason = loop {
-                let progress = run.advance(stride);
-                rows.append(run.recording());
-                run.clear_recording();
-                if let Progress::Ended(reason) = progress {
-                    break reason;
-                }
-                let bytes = run.save();
-                run = new();
-                assert!(run.restore(&bytes));
-                stride = stride * 3 % 1009;
-            };
-            assert!(run.outcome(rows, reason) == whole, "other bits after restarts");
+            let again = restarted(&p, 1, |stride| stride * 3 % 1009);
+            assert!(again == whole, "other bits after restarts");
         }
     }
 }

@@ -4,7 +4,6 @@
 //! D. M. Boore & S. Akkar, Earthquake Engng Struct. Dyn. 32 (2003) 2069; D. M. Boore, Bull. Seism. Soc. Am. 95 (2005) 745;
 //! R. Paolucci et al., Record processing in ITACA, in Earthquake Data in Engineering Seismology (Springer 2011) 99.
 
-use std::f64::consts::PI;
 use std::path::Path;
 
 use sci_rs::signal::filter::design::{DigitalFilter, FilterBandType, FilterOutputType, butter_dyn};
@@ -23,8 +22,9 @@ const ANTI_ALIAS: (usize, f64) = (8, 0.8);
 const PAD: f64 = 1.5;
 /// Most of them at either end.
 const MOST_PAD: f64 = 1e6;
-/// Part of a high-passed record over which its displacement rises from rest, and comes back to it (Paolucci et al. 2011).
-const TAPER: f64 = 0.05;
+/// Time over which a high-passed record is brought from rest and back to it, over the period of the corner. Half of it
+/// would change the acceleration twice as much, twice of it would displace the base twice as far.
+const RISE: f64 = 0.5;
 /// Slack for times that are whole numbers of intervals but for rounding.
 const SLACK: f64 = 1e-9;
 
@@ -148,10 +148,11 @@ pub fn subtract_polynomial(values: &mut [f64], degree: usize) -> Result<()> {
 /// amplitude at the corner. The motion starts and ends at rest where it started.
 ///
 /// A record that was cut, or triggered late, begins with a velocity that its samples do not tell, and a filtered one
-/// moves before it starts, because the filter looks ahead (Boore & Akkar 2003; Boore 2005): integrated from rest, both drift. As strong-motion
-/// archives do (Paolucci et al. 2011), the mean is taken off, the filter runs over zeros at both ends, the displacement
-/// integrated over them is tapered by half a cosine at both ends of the record, and the acceleration is the one that
-/// belongs to it.
+/// moves before it starts, because the filter looks ahead (Boore & Akkar 2003; Boore 2005): integrated from rest, both
+/// drift. The mean is taken off and the filter runs over zeros at both ends, which hold what it does beyond the record. Archives
+/// keep them, or taper the displacement (Paolucci et al. 2011). Here they would lengthen the run by tens of seconds, and a taper of a
+/// record that was cut adds accelerations above its own. What the motion has at either end is therefore taken off it as a
+/// line that fades within half a period of the corner, and the acceleration is the one that belongs to what is left.
 fn high_pass(record: &mut Record, corner: f64, order: usize) -> Result<()> {
     let nyquist = 0.5 / record.dt;
     if !(corner > 0.0 && corner < nyquist) {
@@ -168,16 +169,22 @@ fn high_pass(record: &mut Record, corner: f64, order: usize) -> Result<()> {
     let mut padded = vec![0.0; pad + n + pad];
     padded[pad..pad + n].iter_mut().zip(&record.acceleration).for_each(|(to, a)| *to = a - mean);
     let filtered = butterworth(&padded, dt, corner, order, FilterBandType::Highpass)?;
-    let (_, mut displacement) = integrate(dt, &filtered, 0.0, 0.0);
-    let displacement = &mut displacement[pad..pad + n];
-    let taper = ((TAPER * n as f64).ceil() as usize).clamp(1, n / 2);
-    for k in 0..taper {
-        let part = 0.5 - 0.5 * (PI * k as f64 / taper as f64).cos();
-        displacement[k] *= part;
-        displacement[n - 1 - k] *= part;
-    }
-    record.acceleration = spline::second_derivatives(dt, displacement, Ends::AtRest);
+    let (velocity, displacement) = integrate(dt, &filtered, 0.0, 0.0);
+    let (v, u) = (&velocity[pad..pad + n], &displacement[pad..pad + n]);
+    let length = (n - 1) as f64 * dt;
+    let rise = (RISE / corner).min(length);
+    let at_rest = |k: usize| {
+        let (t, left) = (k as f64 * dt, length - k as f64 * dt);
+        u[k] - fading(t / rise) * (u[0] + v[0] * t) - fading(left / rise) * (u[n - 1] - v[n - 1] * left)
+    };
+    let moved: Vec<f64> = (0..n).map(at_rest).collect();
+    record.acceleration = spline::second_derivatives(dt, &moved, Ends::AtRest);
     Ok(())
+}
+
+/// From 1 at 0 to 0 from 1 on, without slope and curvature at both.
+fn fading(x: f64) -> f64 {
+    if x < 1.0 { 1.0 - x * x * x * (10.0 - x * (15.0 - 6.0 * x)) } else { 0.0 }
 }
 
 /// Samples below this number are less than the mirror image by which the filter continues a record at both ends.

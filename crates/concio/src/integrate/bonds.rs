@@ -11,7 +11,7 @@ use crate::state::BondState;
 
 /// What a bond has beyond the secant of its joint at some relative displacement.
 #[derive(Debug, Clone, Copy, Default)]
-struct Beyond {
+struct Softening {
     /// Relative displacement x_a − x_b [m].
     at: f64,
     /// Force on side a [N].
@@ -36,15 +36,15 @@ struct Soft {
     /// δ_p + τ w_p.
     start: f64,
     /// Where the tangent is drawn, and the law at the last iterate.
-    tangent: Beyond,
-    found: Beyond,
+    tangent: Softening,
+    found: Softening,
 }
 
 impl Soft {
     #[inline]
-    fn beyond(&self, d: f64) -> Beyond {
+    fn softening(&self, d: f64) -> Softening {
         let (law, reach) = (&self.law, self.law.stretch(d));
-        let held = Beyond { at: d, rubs: self.held_rubs, ..Beyond::default() };
+        let held = Softening { at: d, rubs: self.held_rubs, ..Softening::default() };
         if law.is_brittle() || reach <= self.limit {
             return held;
         }
@@ -54,7 +54,7 @@ impl Soft {
         }
         let softer = law.secant(damage) - law.secant(self.held);
         let falling = law.stiffness * (1.0 - law.residual) * growth * reach;
-        Beyond { at: d, force: softer * d, slope: softer - falling, rubs, growth: spread * d.signum() }
+        Softening { at: d, force: softer * d, slope: softer - falling, rubs, growth: spread * d.signum() }
     }
 }
 
@@ -74,8 +74,8 @@ impl Bonds {
             held: 0.0,
             held_rubs: 0.0,
             start: 0.0,
-            tangent: Beyond::default(),
-            found: Beyond::default(),
+            tangent: Softening::default(),
+            found: Softening::default(),
         };
         Bonds { list: model.bonds.iter().map(soft).collect() }
     }
@@ -84,7 +84,7 @@ impl Bonds {
     pub fn hold(&mut self, model: &Model, states: &[BondState], joints: &mut Joints, rubs: &mut Rubs) {
         for (bond, state) in self.list.iter_mut().zip(states) {
             (bond.held, bond.held_rubs) = (state.damage, bond.law.rubbing(state));
-            bond.tangent = Beyond::default();
+            bond.tangent = Softening::default();
             if !bond.law.opens {
                 joints.stiffness[bond.joint] = bond.law.secant(bond.held);
             }
@@ -102,7 +102,7 @@ impl Bonds {
             let [a, b] = model.sides[bond.joint].map(|s| s as usize);
             bond.start = z[a] - z[b] + tau * (v[a] - v[b]);
             let slope = bond.tangent.slope;
-            bond.tangent = bond.beyond(bond.start);
+            bond.tangent = bond.softening(bond.start);
             bond.found = bond.tangent;
             changed |= bond.tangent.slope != slope;
             if let Some(r) = bond.rub {
@@ -145,7 +145,7 @@ impl Bonds {
         for bond in &mut self.list {
             let [a, b] = joints.sides[bond.joint].map(|s| s as usize);
             let before = bond.found.rubs;
-            bond.found = bond.beyond(bond.start + tau * (change[a] - change[b]));
+            bond.found = bond.softening(bond.start + tau * (change[a] - change[b]));
             if let Some(r) = bond.rub.filter(|_| bond.found.rubs != before) {
                 rubs.crack(model, r, bond.found.rubs);
             }
