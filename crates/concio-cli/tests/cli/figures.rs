@@ -190,7 +190,7 @@ fn cracks_are_drawn_and_told() {
     let svg = desk.get("r/figures/cracks.svg");
     let described = svg.lines().find(|l| l.contains("<desc>")).expect("a description");
     assert!(described.contains("of 12 bonds") && described.contains("not bonded"), "{described}");
-    assert!(svg.contains("base|p1c1b1: not bonded") && desk.get("r/report.html").contains("not bonded"), "{svg}");
+    assert!(desk.get("r/report.html").contains("base|p1c1b1: not bonded"));
     let dry = drawn_from(WALL);
     let [_, said] = told(&dry.concio("plot r --figure cracks").assert().failure());
     assert!(said.contains("no joint of this run is bonded"), "{said}");
