@@ -35,9 +35,9 @@ pub(crate) struct JointLaw {
 /// Bond of one joint as the wall file gives it, changes included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BondValues {
-    /// f_t [Pa].
+    /// f_t in Pa.
     pub tensile_strength: f64,
-    /// c [Pa].
+    /// c in Pa.
     pub cohesion: f64,
     /// tan φ.
     pub tan_angle: f64,
