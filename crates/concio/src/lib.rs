@@ -6,6 +6,7 @@ mod assign;
 pub mod bond;
 pub mod case;
 pub mod constrained;
+pub mod dice;
 mod dynamics;
 mod elementary;
 pub mod error;
