@@ -6,8 +6,10 @@
 
 use std::path::{Path, PathBuf};
 
+mod change;
 pub(crate) mod de;
 mod devices;
+mod document;
 mod forms;
 mod node;
 pub mod plausible;
@@ -17,6 +19,7 @@ mod templates;
 pub mod validate;
 
 pub use devices::{Device, DeviceLaw};
+pub use document::Document;
 pub use read::{CaseFile, LARGEST_FILE, Syntax, canonical_json, from_str, read};
 pub use templates::{describe, example, schema, starter};
 pub use validate::validate;

@@ -7,6 +7,7 @@ pub mod bond;
 pub mod case;
 pub mod constrained;
 pub mod device;
+pub mod dice;
 mod dynamics;
 mod elementary;
 pub mod error;
