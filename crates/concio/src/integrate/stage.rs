@@ -25,9 +25,10 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::integrate::bonds::Bonds;
 use crate::integrate::events::TOUCHING;
+use crate::integrate::flips::Flips;
 use crate::integrate::groups::Groups;
 use crate::integrate::joints::{Contacts, Joints, Rubs};
-use crate::integrate::linear::Matrix;
+use crate::integrate::linear::{MOST_LISTED, Matrix};
 use crate::law::Stribeck;
 use crate::model::Model;
 use crate::state::{BondState, Tangents};
@@ -109,6 +110,8 @@ pub struct Stage {
     /// Largest |w| that a closed rigid joint was left with before it was set to rest [m/s].
     pub contact_residual: f64,
     groups: Groups,
+    /// Joints whose state is no longer that of the factors.
+    flips: Flips,
     /// Counts.
     pub iterations: u64,
     pub factorisations: u64,
@@ -142,9 +145,10 @@ impl WithSimd for Iteration<'_> {
     }
 }
 
-/// [`Matrix::solve`] likewise.
+/// [`Matrix::solve`] likewise, with what has changed since.
 struct Linear<'a> {
     matrix: &'a mut Matrix,
+    flips: &'a Flips,
     b: &'a mut [f64],
 }
 
@@ -153,7 +157,9 @@ impl WithSimd for Linear<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.matrix.solve(self.b);
+        let n = self.b.len() - 2;
+        self.matrix.solve(&mut self.b[..n]);
+        self.flips.correct(self.b);
     }
 }
 
@@ -198,6 +204,8 @@ impl Stage {
             closing: zeros(contacts.len()),
             contact_residual: 0.0,
             groups: Groups::new(if contacts.len() > 0 || !rubs.sticking.is_empty() { n } else { 0 }),
+            // Small matrices are factorised as fast as followed.
+            flips: Flips::new(if n > MOST_LISTED && model.bonds.is_empty() { n } else { 0 }),
             factors_hold: false,
             iterations: 0,
             factorisations: 0,
@@ -261,10 +269,8 @@ impl Stage {
             self.assemble(model, tangents)?;
             self.right_side(tangents);
             self.matrix.solve(&mut self.change[..n]);
-            if self.flip(tangents, accuracy) {
+            if self.flip_and_follow(tangents, accuracy) {
                 self.mismatch(model, tangents);
-                self.assemble_elastic(model, tangents);
-                self.load_elastic(model, ground);
             } else {
                 let correction = self.correction(model, tangents)?;
                 let settled = self.settled(model, tangents, accuracy) && self.contacts_settled(tangents, accuracy);
@@ -272,6 +278,10 @@ impl Stage {
                     self.finish(model, tangents);
                     return Ok(());
                 }
+            }
+            if self.closed != tangents.closed {
+                self.assemble_elastic(model, tangents);
+                self.load_elastic(model, ground);
             }
             self.move_tangents(model, tangents);
             self.move_contacts(tangents, accuracy, iteration >= AT_ONCE);
@@ -285,6 +295,7 @@ impl Stage {
         let n = self.mass.len();
         self.mismatch(model, tangents);
         self.matrix.solve(&mut self.rhs[..n]);
+        self.flips.correct(&mut self.rhs);
         // A sum, because a maximum would pass over what is not a number.
         let (mut correction, mut sum) = (0.0f64, 0.0);
         for d in &self.rhs[..n] {
@@ -305,7 +316,8 @@ impl Stage {
         for (value, &place) in b.iter().zip(self.matrix.places()) {
             self.rhs[place as usize] = *value;
         }
-        self.arch.dispatch(Linear { matrix: &mut self.matrix, b: &mut self.rhs[..n] });
+        self.rhs[n..].fill(0.0);
+        self.arch.dispatch(Linear { matrix: &mut self.matrix, flips: &self.flips, b: &mut self.rhs });
         for (value, &place) in b.iter_mut().zip(self.matrix.places()) {
             *value = self.rhs[place as usize];
         }
@@ -395,6 +407,7 @@ impl Stage {
     /// J = M + τ Σ B (c + τ k + N μ') Bᵀ, factorised.
     #[inline(always)]
     fn assemble(&mut self, model: &Model, tangents: &Tangents) -> Result<(), Failure> {
+        self.flips.clear();
         if self.factors_hold && self.rubs.len() == 0 && self.contacts.len() == 0 {
             return Ok(());
         }
@@ -463,6 +476,48 @@ impl Stage {
         self.push_contacts(tangents);
         let n = self.mass.len();
         self.change[n..].fill(0.0);
+    }
+
+    /// Brings the active set up to date, and `change` as long as few joints change; true when it has to be sought anew.
+    #[inline(always)]
+    fn flip_and_follow(&mut self, tangents: &mut Tangents, accuracy: f64) -> bool {
+        for _ in 0..MOST_ITERATIONS {
+            if !self.flip(tangents, accuracy) {
+                return false;
+            }
+            if !self.follow(tangents) {
+                return true;
+            }
+            self.iterations += 1;
+        }
+        true
+    }
+
+    /// Brings `change` up to date with the active set, tangents as they are, through the factors that there are; false
+    /// when too many joints have changed since.
+    #[inline(always)]
+    fn follow(&mut self, tangents: &Tangents) -> bool {
+        if !self.flips.in_use() {
+            return false;
+        }
+        let Stage { flips, matrix, joints, gap, closed, change, tau, .. } = self;
+        flips.begin(change);
+        let turned = |e: usize, gap: f64| {
+            let force = *tau * joints.stiffness[e];
+            match (tangents.closed[e], closed[e]) {
+                (true, false) => [*tau * force, -force * gap],
+                (false, true) => [-*tau * force, force * gap],
+                _ => [0.0; 2],
+            }
+        };
+        flips.revise(|i| turned(joints.one_sided[i] as usize, gap[i]));
+        for (i, &e) in joints.one_sided.iter().enumerate() {
+            let e = e as usize;
+            if tangents.closed[e] != closed[e] && !flips.add(i, joints.sides[e], turned(e, gap[i]), matrix) {
+                return false;
+            }
+        }
+        flips.solution(change)
     }
 
     /// Brings the active set up to date; true when it changed. A joint whose force is too small to be felt stays as it
