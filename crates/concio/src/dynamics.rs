@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use crate::error::{InputError, Result};
 use crate::excitation::Drive;
-use crate::integrate::dense::extreme;
 use crate::integrate::events::TOUCHING;
 use crate::law::spring_force;
 use crate::model::{Elastic, Model};
@@ -167,92 +166,6 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
     state.a[n + 1] = drive.top(state.t).a;
     let at = Moving { z: &state.z, v: &state.v, laws: &state.tangents, bonds: &state.bonds };
     state.power = power(model, at, ground, &mut state.joint_power);
-}
-
-/// Brings envelopes and totals up to date after an accepted step of `h` that began with the
-/// displacements and velocities `start`.
-pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
-    let n = model.unknowns();
-    let [z_0, v_0] = start;
-    let env = &mut state.envelopes;
-    let mut largest = 0.0f64;
-    for i in 0..n {
-        let (z, v) = (state.z[i].abs(), state.v[i].abs());
-        let farthest = z.max(extreme([z_0[i], state.z[i]], [v_0[i], state.v[i]], h).abs());
-        if i < model.wall.blocks.len() {
-            largest = largest.max(farthest);
-        }
-        env.block_displacement[i] = env.block_displacement[i].max(farthest);
-        env.block_velocity[i] = env.block_velocity[i].max(v);
-        env.block_acceleration[i] = env.block_acceleration[i].max(state.a[i].abs());
-        state.scale[0] = state.scale[0].max(z);
-        state.scale[1] = state.scale[1].max(v);
-    }
-    let totals = &mut state.totals;
-    totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
-    let top = model.floating_beam().unwrap_or(model.top());
-    let mut contacts = model.contacts.iter().peekable();
-    let mut pull = 0.0;
-    for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
-        let (a, b) = (a as usize, b as usize);
-        let (d, w, dw) = (state.z[a] - state.z[b], state.v[a] - state.v[b], state.a[a] - state.a[b]);
-        let f = spring_force(law.unilateral, law.stiffness, d);
-        // Where the relative motion turned inside the step, or its start, which is known already.
-        let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], w], h);
-        // A rigid joint never closes inside a step, whatever the parabola says.
-        let rigid = contacts.next_if(|c| c.joint as usize == e).is_some();
-        let (least, most) = (d.min(turn), if rigid { d } else { d.max(turn) });
-        env.joint_displacement[e] = env.joint_displacement[e].max(most.max(-least));
-        env.joint_velocity[e] = env.joint_velocity[e].max(w.abs());
-        env.joint_acceleration[e] = env.joint_acceleration[e].max(dw.abs());
-        let force = |d: f64| spring_force(law.unilateral, law.stiffness, d);
-        env.joint_force[e] = env.joint_force[e].max(force(most).max(-force(least)));
-        if model.joints[e].kind.is_upright() {
-            // d = x_left − x_right: the gap is −d.
-            env.joint_opening[e] = env.joint_opening[e].max(-least);
-            env.joint_closing[e] = env.joint_closing[e].max(most);
-            totals.minimum_gap = totals.minimum_gap.min(-most);
-        } else {
-            totals.peak_slip_velocity = totals.peak_slip_velocity.max(w.abs());
-        }
-        if b == top {
-            pull += f + law.damping * w;
-        }
-    }
-    for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
-        let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
-        let w = (state.v[a] - state.v[b]).abs();
-        if w > if rub.law.sticks() { 0.0 } else { rub.law.slip_velocity } {
-            env.joint_slip[rub.joint as usize] += h * w;
-        }
-        if b == top {
-            pull += rub.normal[0] * mu;
-        }
-    }
-    for (bond, held) in model.bonds.iter().zip(&mut state.bonds) {
-        let e = bond.joint as usize;
-        let [a, b] = model.sides[e].map(|s| s as usize);
-        let d = state.z[a] - state.z[b];
-        let beyond = bond.beyond(&model.elastic[e], held.damage, d);
-        let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], state.v[a] - state.v[b]], h);
-        let force = |d: f64| bond.force(&model.elastic[e], bond.law.damage_at(held.damage, d), d).abs();
-        held.peak = held.peak.max(force(d)).max(force(turn));
-        env.joint_force[e] = held.peak;
-        if b == top {
-            pull += beyond;
-        }
-    }
-    for (contact, borne) in model.contacts.iter().zip(&state.tangents.reaction) {
-        let e = contact.joint as usize;
-        env.joint_force[e] = env.joint_force[e].max(*borne);
-        if model.sides[e][1] as usize == top {
-            pull += borne;
-        }
-    }
-    totals.top_force_peak = totals.top_force_peak.max(pull.abs());
-    totals.top_force_square += h * pull * pull;
-    totals.peak_input = totals.peak_input.max(state.energies.input().abs());
-    totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
 }
 
 /// Kinetic and elastic energy at displacements `z` and velocities `v`; `bonds` as before the step that leads there.

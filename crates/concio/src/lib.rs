@@ -18,6 +18,7 @@ pub mod law;
 pub mod many;
 pub mod model;
 pub mod moment;
+mod observe;
 pub mod outcome;
 pub mod pattern;
 pub mod quantity;
@@ -29,6 +30,7 @@ pub mod state;
 pub mod store;
 pub mod system;
 pub mod wall;
+mod wide;
 
 pub use error::{Error, InputError, Result};
 #[doc(hidden)]

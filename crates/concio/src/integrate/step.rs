@@ -7,6 +7,8 @@
 //!
 //!   (P2)  |Δ(E_kin + E_el + E_diss − W_in)| ≤ 5·10⁻⁵ · tolerance · max |W_in|
 
+use pulp::Arch;
+
 use crate::case::Scheme;
 use crate::dynamics::{Moving, power, stored_energy};
 use crate::excitation::Drive;
@@ -19,10 +21,12 @@ use crate::integrate::tableau::{STAGES, Tableau, tableau};
 use crate::model::{Model, Rub};
 use crate::record::Energies;
 use crate::state::{BondState, Instant, Power, State, Tangents};
+use crate::wide::wide;
 
 /// Scratch of a step; nothing here outlives it but the tangents, which belong to the state.
 #[derive(Debug, Clone)]
 pub struct Step {
+    arch: Arch,
     scheme: Scheme,
     tableau: Tableau,
     pub stage: Stage,
@@ -68,12 +72,21 @@ const LOW: f64 = 10.0 * TOUCHING;
 /// Step in which nothing moves, over the shortest time scale of the model.
 const INSTANT: f64 = 1e-6;
 
+/// `sum` += `weight` · `values`.
+#[inline(always)]
+fn add(sum: &mut [f64], weight: f64, values: &[f64]) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += weight * value;
+    }
+}
+
 impl Step {
     pub fn new(model: &Model, scheme: Scheme) -> Self {
         let n = model.unknowns();
         let tableau = tableau(scheme);
         let rows = |len: usize| vec![vec![0.0; len]; tableau.stages];
         Step {
+            arch: Arch::new(),
             scheme,
             tableau,
             stage: Stage::new(model),
@@ -130,18 +143,16 @@ impl Step {
             self.stage.solution[n + 1] = top.v;
             self.top_acceleration = top.a;
             self.stage.solve(model, &mut self.tangents, tau, ground, STAGE_ACCURACY * tolerance.v)?;
-            let (v, a) = (&mut self.stage_v[i], &mut self.stage_a[i]);
-            v.copy_from_slice(&self.stage.solution);
-            for k in 0..n {
-                a[k] = (v[k] - self.stage.v[k]) / tau;
-            }
-            for k in 0..n + 2 {
-                self.z[k] = self.stage.z[k] + tau * v[k];
-            }
-            let at = Moving { z: &self.z, v, laws: &self.tangents, bonds: &state.bonds };
+            self.stage_v[i].copy_from_slice(&self.stage.solution);
+            self.follow(i, tau);
+            let at = Moving { z: &self.z, v: &self.stage_v[i], laws: &self.tangents, bonds: &state.bonds };
             self.stage_power[i] = power(model, at, ground, &mut self.stage_joint_power[i - 1]);
         }
-        let error = self.error(model, h, tau, tolerance);
+        let error = wide(
+            self.arch,
+            #[inline(always)]
+            || self.error(model, h, tau, tolerance),
+        );
         let unbalanced = self.account(model, state, h);
         let known = state.totals.peak_input + state.energies.initial;
         let judged = self.account.input().abs() <= BEGINNING * known && tolerance.energy > 0.0;
@@ -198,32 +209,51 @@ impl Step {
     }
 
     fn predict(&mut self, state: &State, i: usize, h: f64, n: usize) {
-        self.stage.z[..n].copy_from_slice(&state.z[..n]);
-        self.stage.v[..n].copy_from_slice(&state.v[..n]);
+        let (z, v) = (&mut self.stage.z[..n], &mut self.stage.v[..n]);
+        z.copy_from_slice(&state.z[..n]);
+        v.copy_from_slice(&state.v[..n]);
         for j in 0..i {
             let weight = h * self.tableau.a[i][j];
             if weight != 0.0 {
-                let (v, a) = (&self.stage_v[j], &self.stage_a[j]);
-                for k in 0..n {
-                    self.stage.z[k] += weight * v[k];
-                    self.stage.v[k] += weight * a[k];
-                }
+                wide(
+                    self.arch,
+                    #[inline(always)]
+                    || {
+                        add(z, weight, &self.stage_v[j]);
+                        add(v, weight, &self.stage_a[j]);
+                    },
+                );
             }
         }
     }
 
+    /// Acceleration and displacement at stage `i` from its velocity.
+    fn follow(&mut self, i: usize, tau: f64) {
+        let (v, a, z, before) = (&self.stage_v[i], &mut self.stage_a[i], &mut self.z, &self.stage);
+        wide(
+            self.arch,
+            #[inline(always)]
+            || {
+                for ((a, v), v_p) in a.iter_mut().zip(v).zip(&before.v) {
+                    *a = (v - v_p) / tau;
+                }
+                for ((z, z_p), v) in z.iter_mut().zip(&before.z).zip(v) {
+                    *z = z_p + tau * v;
+                }
+            },
+        );
+    }
+
     /// (P1) with f_y from the last stage: (M + τC + τ²K) e_v = M r_v − τ K r_z, e_z = r_z + τ e_v.
+    #[inline(always)]
     fn error(&mut self, model: &Model, h: f64, tau: f64, tolerance: Tolerance) -> f64 {
         let n = model.unknowns();
         self.error_v.fill(0.0);
         self.error_z.fill(0.0);
         for i in 0..self.tableau.stages {
             let weight = h * self.tableau.error[i];
-            let (v, a) = (&self.stage_v[i], &self.stage_a[i]);
-            for k in 0..n {
-                self.error_v[k] += weight * a[k];
-                self.error_z[k] += weight * v[k];
-            }
+            add(&mut self.error_v, weight, &self.stage_a[i]);
+            add(&mut self.error_z, weight, &self.stage_v[i]);
         }
         for (e, m) in self.error_v.iter_mut().zip(&model.mass) {
             *e *= m;
