@@ -84,16 +84,24 @@ impl Flips {
         }
     }
 
-    /// Another joint, if there is room for it and it is none of them; false where there is no room.
     #[inline(always)]
-    pub fn add(&mut self, joint: usize, sides: [u32; 2], [weight, push]: [f64; 2], matrix: &mut Matrix) -> bool {
-        if self.joints.iter().any(|f| f.joint as usize == joint) {
-            return true;
+    fn hold(&self, joint: usize) -> bool {
+        self.joints.iter().any(|f| f.joint as usize == joint)
+    }
+
+    /// Whether there is room for all of `joints` that are not there yet: asked before solutions are made for any.
+    #[inline(always)]
+    pub fn have_room(&self, joints: impl Iterator<Item = usize>) -> bool {
+        self.joints.len() + joints.filter(|&joint| !self.hold(joint)).take(MOST + 1).count() <= MOST
+    }
+
+    /// Another joint, if it is none of them; there has to be room.
+    #[inline(always)]
+    pub fn add(&mut self, joint: usize, sides: [u32; 2], [weight, push]: [f64; 2], matrix: &mut Matrix) {
+        if self.hold(joint) {
+            return;
         }
         let at = self.joints.len();
-        if at == MOST {
-            return false;
-        }
         let column = &mut self.columns[at * self.n..][..self.n];
         column.fill(0.0);
         column[sides[0] as usize] = 1.0;
@@ -102,7 +110,6 @@ impl Flips {
         column[self.n - 2..].fill(0.0);
         matrix.solve(&mut column[..self.n - 2]);
         self.joints.push(Flipped { joint: joint as u32, sides, weight, push });
-        true
     }
 
     /// x' into `x`; false where the matrix may have ceased to be positive.
@@ -225,9 +232,10 @@ mod tests {
         let change = |e: usize| 7e5 - 2.0 * base(e);
         let mut x = first.clone();
         for turned in [&[2usize][..], &[2, 40], &[40], &[40, 9, 10, 11, 70], &[2, 40, 9, 10, 11, 70]] {
+            assert!(flips.have_room(turned.iter().copied()));
             flips.revise(|e| if turned.contains(&e) { [change(e), 0.3 * e as f64] } else { [0.0; 2] });
             for &e in turned {
-                assert!(flips.add(e, sides(e), [change(e), 0.3 * e as f64], &mut matrix));
+                flips.add(e, sides(e), [change(e), 0.3 * e as f64], &mut matrix);
             }
             assert!(flips.solution(&mut x));
             let (mut anew, _) = row(turned);
@@ -243,7 +251,8 @@ mod tests {
                 assert!((x - exact).abs() < 1e-9 * scale, "{turned:?}, unknown {i}: {x} against {exact}");
             }
         }
-        assert!(!flips.add(0, sides(0), [1.0; 2], &mut matrix), "no room for a seventh");
+        assert!(flips.have_room([70, 9].into_iter()));
+        assert!(!flips.have_room([70, 0].into_iter()), "no room for a seventh");
         // A spring that is more than taken away leaves nothing that could be solved.
         flips.revise(|e| [if e == 2 { -3e5 } else { 0.0 }, 0.0]);
         assert!(!flips.solution(&mut x));

@@ -12,9 +12,7 @@
 //!   section 6).
 //! * Unilateral joints keep an active set; a joint whose state changes makes another iteration.
 //!
-//! A rigid joint that touches is closed, w = 0 under a force λ ≥ 0, or open, w ≤ 0 under none (R2). It is held like a
-//! sticking joint, by a slope from the force found last; one that would have to pull is opened, one whose sides approach
-//! each other is closed.
+//! Rigid joints that touch: `stage/contacts.rs`.
 //!
 //! The iteration ends when the correction that the remaining force mismatch would cause, through the last factors, is
 //! below the tolerance; that correction is still applied.
@@ -24,7 +22,6 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::integrate::bonds::Bonds;
-use crate::integrate::events::TOUCHING;
 use crate::integrate::flips::Flips;
 use crate::integrate::groups::Groups;
 use crate::integrate::joints::{Contacts, Joints, Rubs};
@@ -34,6 +31,7 @@ use crate::model::Model;
 use crate::state::{BondState, Tangents};
 use crate::wall::Block;
 
+mod contacts;
 mod parts;
 
 pub use parts::{Part, Parts};
@@ -501,6 +499,10 @@ impl Stage {
             return false;
         }
         let Stage { flips, matrix, joints, gap, closed, change, tau, .. } = self;
+        let differ = |&(_, &e): &(usize, &u32)| tangents.closed[e as usize] != closed[e as usize];
+        if !flips.have_room(joints.one_sided.iter().enumerate().filter(differ).map(|(i, _)| i)) {
+            return false;
+        }
         flips.begin(change);
         let turned = |e: usize, gap: f64| {
             let force = *tau * joints.stiffness[e];
@@ -511,11 +513,8 @@ impl Stage {
             }
         };
         flips.revise(|i| turned(joints.one_sided[i] as usize, gap[i]));
-        for (i, &e) in joints.one_sided.iter().enumerate() {
-            let e = e as usize;
-            if tangents.closed[e] != closed[e] && !flips.add(i, joints.sides[e], turned(e, gap[i]), matrix) {
-                return false;
-            }
+        for (i, &e) in joints.one_sided.iter().enumerate().filter(differ) {
+            flips.add(i, joints.sides[e as usize], turned(e as usize, gap[i]), matrix);
         }
         flips.solution(change)
     }
@@ -651,112 +650,6 @@ impl Stage {
         self.finish_contacts(tangents);
         if !self.rubs.sticking.is_empty() || self.contacts.len() > 0 {
             self.rest(model, tangents);
-        }
-    }
-
-    /// Sticking joints come to rest altogether: blocks that hang together have one velocity.
-    fn rest(&mut self, model: &Model, tangents: &mut Tangents) {
-        let Tangents { stuck, contact, .. } = tangents;
-        self.groups.rest(model, stuck, contact, &self.touching, &mut self.solution);
-        for &r in &self.rubs.sticking {
-            if tangents.stuck[r as usize] {
-                tangents.velocity[r as usize] = 0.0;
-            }
-        }
-    }
-
-    /// Which rigid joints touch, the slope that holds them, and their velocities in the prediction.
-    fn start_contacts(&mut self, tangents: &Tangents) {
-        self.clamp = 0.0;
-        for (c, &[a, b]) in self.contacts.sides.iter().enumerate() {
-            let free = self.diagonal[a as usize].recip() + self.diagonal.get(b as usize).map_or(0.0, |d| d.recip());
-            self.clamp = self.clamp.max(HOLD / (self.tau * free));
-            let [i, k] = self.contacts.of_model[c].map(|s| s as usize);
-            self.parting[c] = self.v[i] - self.v[k];
-            let touches = tangents.contact[c] || self.z[i] - self.z[k] >= -TOUCHING;
-            self.touching[c] = self.eligible[c] && touches;
-        }
-    }
-
-    /// The slopes of closed rigid joints, added to the matrix.
-    #[inline(always)]
-    fn assemble_contacts(&mut self, model: &Model, tangents: &Tangents) {
-        let s = self.tau * self.clamp;
-        for (c, &[a, b]) in self.contacts.sides.iter().enumerate().filter(|(c, _)| tangents.contact[*c]) {
-            self.matrix.diagonal[a as usize] += s;
-            if let Some(slot) = self.contacts.slot[c].at() {
-                self.matrix.diagonal[b as usize] += s;
-                self.matrix.lower[slot] -= s;
-                if !model.reciprocal {
-                    self.matrix.upper[slot] -= s;
-                }
-            }
-        }
-    }
-
-    /// Force λ + σ w_p of closed rigid joints, on the right side.
-    #[inline(always)]
-    fn push_contacts(&mut self, tangents: &Tangents) {
-        for (c, &[a, b]) in self.contacts.sides.iter().enumerate().filter(|(c, _)| tangents.contact[*c]) {
-            let f = self.tau * (tangents.reaction[c] + self.clamp * self.parting[c]);
-            self.change[a as usize] -= f;
-            self.change[b as usize] += f;
-        }
-    }
-
-    /// What rigid joint `c` has to do, if it is not as it is: open when it would pull so that it is felt, close when
-    /// its sides approach each other.
-    #[inline(always)]
-    fn turns(&self, c: usize, tangents: &Tangents, accuracy: f64) -> bool {
-        if tangents.contact[c] {
-            let force = tangents.reaction[c] + self.clamp * self.closing[c];
-            self.tau * force < -STILL * accuracy * self.mass[self.contacts.sides[c][0] as usize]
-        } else {
-            self.touching[c] && self.closing[c] > 0.0
-        }
-    }
-
-    #[inline(always)]
-    fn contacts_settled(&self, tangents: &Tangents, accuracy: f64) -> bool {
-        (0..self.contacts.len()).all(|c| {
-            !self.turns(c, tangents, accuracy) && (!tangents.contact[c] || self.closing[c].abs() <= STILL * accuracy)
-        })
-    }
-
-    /// Keeps the forces found, opens and closes rigid joints: all that have to, or the first of them alone.
-    #[inline(always)]
-    fn move_contacts(&mut self, tangents: &mut Tangents, accuracy: f64, one: bool) {
-        let mut moved = false;
-        for c in 0..self.contacts.len() {
-            if self.turns(c, tangents, accuracy) && !(one && moved) {
-                moved = true;
-                tangents.contact[c] = !tangents.contact[c];
-                tangents.reaction[c] = 0.0;
-            } else if tangents.contact[c] {
-                tangents.reaction[c] += self.clamp * self.closing[c];
-            }
-        }
-    }
-
-    /// Forces of the closed rigid joints at the solution.
-    #[inline(always)]
-    fn finish_contacts(&mut self, tangents: &mut Tangents) {
-        for (c, &[a, b]) in self.contacts.sides.iter().enumerate() {
-            if tangents.contact[c] {
-                let w = self.parting[c] + self.change[a as usize] - self.change[b as usize];
-                tangents.reaction[c] = (tangents.reaction[c] + self.clamp * w).max(0.0);
-                self.contact_residual = self.contact_residual.max(w.abs());
-            } else {
-                tangents.reaction[c] = 0.0;
-            }
-        }
-    }
-
-    /// Gives blocks that stick together one acceleration [m/s²], that of the support if they stick to one.
-    pub fn join(&mut self, model: &Model, tangents: &Tangents, acceleration: &mut [f64]) {
-        if !self.rubs.sticking.is_empty() || self.contacts.len() > 0 {
-            self.groups.find(model, &tangents.stuck, &tangents.contact);
-            self.groups.average(&model.mass, acceleration);
         }
     }
 
