@@ -16,8 +16,12 @@ use crate::integrate::linear::NotPositive;
 
 /// Groups are joined as long as they have at most so many columns and less than this part of zeros.
 const JOINED: [(usize, f64); 3] = [(4, 1.0), (16, 0.4), (48, 0.05)];
+/// The same where memory counts more, beyond so many unknowns.
+const JOINED_LARGE: [(usize, f64); 3] = [(4, 1.0), (16, 0.2), (48, 0.05)];
+const LARGE: usize = 20_000;
 /// Columns of a group with all groups below it up to which they are one.
 const COLLAPSED: usize = 16;
+const COLLAPSED_LARGE: usize = 8;
 
 /// One group of columns.
 #[derive(Debug, Clone, Copy)]
@@ -229,7 +233,7 @@ fn groups(n: usize, entries: &[(u32, u32)]) -> supernodal::SymbolicSupernodalCho
     ]));
     let stack = MemStack::new(&mut memory);
     let tree = simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
-    let joined = SymbolicSupernodalParams { relax: Some(&JOINED) };
+    let joined = SymbolicSupernodalParams { relax: Some(if n > LARGE { &JOINED_LARGE } else { &JOINED }) };
     // It can fail for want of memory alone, as every other allocation here, or where an index exceeds 64 bits.
     supernodal::factorize_supernodal_symbolic_cholesky(pattern, tree, &counts, stack, joined)
         .expect("memory for the pattern of the factors")
@@ -239,6 +243,7 @@ fn groups(n: usize, entries: &[(u32, u32)]) -> supernodal::SymbolicSupernodalCho
 /// one are taken into it as long as they have few columns in all: a front costs more than a few columns of zeros.
 fn collapsed(groups: &supernodal::SymbolicSupernodalCholesky<usize>) -> Vec<(usize, usize)> {
     let (begin, end) = (groups.supernode_begin(), groups.supernode_end());
+    let most = if end.last().is_some_and(|&n| n > LARGE) { COLLAPSED_LARGE } else { COLLAPSED };
     let group_of: Vec<usize> = (0..begin.len()).flat_map(|s| std::iter::repeat_n(s, end[s] - begin[s])).collect();
     // Where the columns of a group and all below it begin: columns are in postorder.
     let mut first = begin.to_vec();
@@ -248,7 +253,7 @@ fn collapsed(groups: &supernodal::SymbolicSupernodalCholesky<usize>) -> Vec<(usi
             let above = group_of[above];
             first[above] = first[above].min(first[s]);
         }
-        let collapses = end[s] - first[s] <= COLLAPSED;
+        let collapses = end[s] - first[s] <= most;
         let from = if collapses { first[s] } else { begin[s] };
         while kept.last().is_some_and(|&(first, _)| first >= from) {
             kept.pop();

@@ -57,6 +57,9 @@ const HOLD: f64 = 1e6;
 pub const STILL: f64 = 1e-3;
 /// Speed that is none [m/s]: below it a set-valued law in slip has no slope of its own.
 const AT_REST: f64 = 1e-150;
+/// Unknowns for which few flips are followed through the factors: smaller matrices are factorised as fast, in larger
+/// walls too many joints change at a time.
+const FOLLOWED: std::ops::RangeInclusive<usize> = MOST_LISTED + 1..=20_000;
 /// Friction by which a sticking joint may exceed μ_s, as a fraction of it: what holds it is known to about this.
 const EXCESS: f64 = 1e-7;
 
@@ -202,8 +205,7 @@ impl Stage {
             closing: zeros(contacts.len()),
             contact_residual: 0.0,
             groups: Groups::new(if contacts.len() > 0 || !rubs.sticking.is_empty() { n } else { 0 }),
-            // Small matrices are factorised as fast as followed.
-            flips: Flips::new(if n > MOST_LISTED && model.bonds.is_empty() { n } else { 0 }),
+            flips: Flips::new(if FOLLOWED.contains(&n) && model.bonds.is_empty() { n } else { 0 }),
             factors_hold: false,
             iterations: 0,
             factorisations: 0,

@@ -37,8 +37,6 @@ pub struct Step {
     pub stage_power: [Power; STAGES],
     /// Of the stages after the first: that is the state's.
     stage_joint_power: Vec<Vec<f64>>,
-    error_v: Vec<f64>,
-    error_z: Vec<f64>,
     top_acceleration: f64,
     /// Displacement, energy account and friction at the start of the accepted step.
     pub start_z: Vec<f64>,
@@ -96,8 +94,6 @@ impl Step {
             stage_a: rows(n),
             stage_power: Default::default(),
             stage_joint_power: vec![vec![0.0; model.joints.len()]; tableau.stages - 1],
-            error_v: vec![0.0; n],
-            error_z: vec![0.0; n],
             top_acceleration: 0.0,
             start_z: vec![0.0; n + 2],
             start_energies: Energies::default(),
@@ -248,28 +244,31 @@ impl Step {
     #[inline(always)]
     fn error(&mut self, model: &Model, h: f64, tau: f64, tolerance: Tolerance) -> f64 {
         let n = model.unknowns();
-        self.error_v.fill(0.0);
-        self.error_z.fill(0.0);
+        // Room of the stage, given back below.
+        let [load, change, _] = self.stage.idle();
+        let (mut error_v, mut error_z) = (std::mem::take(load), std::mem::take(change));
+        error_v.fill(0.0);
+        error_z.fill(0.0);
         for i in 0..self.tableau.stages {
             let weight = h * self.tableau.error[i];
-            add(&mut self.error_v, weight, &self.stage_a[i]);
-            add(&mut self.error_z, weight, &self.stage_v[i]);
+            add(&mut error_v, weight, &self.stage_a[i]);
+            add(&mut error_z, weight, &self.stage_v[i]);
         }
-        for (e, m) in self.error_v.iter_mut().zip(&model.mass) {
+        for (e, m) in error_v.iter_mut().zip(&model.mass) {
             *e *= m;
         }
         for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
             if self.tangents.closed[e] {
                 let (a, b) = (a as usize, b as usize);
-                let other = if b < n { self.error_z[b] } else { 0.0 };
-                let f = tau * law.stiffness * (self.error_z[a] - other);
-                self.error_v[a] -= f;
+                let other = if b < n { error_z[b] } else { 0.0 };
+                let f = tau * law.stiffness * (error_z[a] - other);
+                error_v[a] -= f;
                 if b < n {
-                    self.error_v[b] += f;
+                    error_v[b] += f;
                 }
             }
         }
-        let (error_v, error_z, closed) = (&mut self.error_v, &self.error_z, &self.tangents.closed);
+        let closed = &self.tangents.closed;
         self.stage.bond_tangents(closed, |e, stiffness| {
             let [a, b] = model.sides[e].map(|s| s as usize);
             let beyond = stiffness - if closed[e] { model.elastic[e].stiffness } else { 0.0 };
@@ -281,13 +280,15 @@ impl Step {
                 }
             }
         });
-        self.stage.solve_linear(&mut self.error_v);
+        self.stage.solve_linear(&mut error_v);
         let (mut worst, mut sum) = (0.0f64, 0.0);
-        for (ev, ez) in self.error_v.iter().zip(&self.error_z) {
+        for (ev, ez) in error_v[..n].iter().zip(&error_z) {
             let ez = ez + tau * ev;
             worst = worst.max(ev.abs() / tolerance.v).max(ez.abs() / tolerance.z);
             sum += ev + ez;
         }
+        let [load, change, _] = self.stage.idle();
+        (*load, *change) = (error_v, error_z);
         // A maximum passes over what is not a number, a sum does not.
         if sum.is_finite() { worst } else { f64::INFINITY }
     }
