@@ -32,7 +32,7 @@ const fn row(
 }
 
 #[rustfmt::skip]
-const SYMBOLS: [Symbol; 62] = [
+const SYMBOLS: [Symbol; 63] = [
     row("L", "length of the brick", "m", "panel.brick.length", "case.rs length", "section 1"),
     row("H", "height of the brick", "m", "panel.brick.height", "case.rs height", "section 1"),
     row("B", "thickness of the brick, out of plane", "m", "panel.brick.thickness", "case.rs thickness", "section 1"),
@@ -72,7 +72,8 @@ const SYMBOLS: [Symbol; 62] = [
     row("η", "fraction of the stiffness that a cracked bed or support joint keeps", "1", "joint.bond.residual_stiffness", "case.rs residual_stiffness", "(B1)"),
     row("A", "area of a joint, overlap times thickness", "m²", "", "bond.rs area", "(B2)"),
     row("F_0", "strength of a bonded joint", "N", "", "bond.rs strength", "(B2)"),
-    row("D", "damage: cracked part of a bonded joint", "1", "", "bond.rs damage", "(B1) (B3)"),
+    row("D", "damage: part of the stiffness that a bonded joint has lost", "1", "", "bond.rs damage", "(B1) (B3)"),
+    row("χ", "part of a bonded joint that rubs: share by which its strength has gone down", "1", "", "bond.rs rubbing", "(B1) (B3) (B5)"),
     row("δ_m", "largest relative displacement or gap of a bonded joint so far", "m", "", "state.rs reach", "(B3)"),
     row("δ_0, δ_c", "relative displacement at the strength; length over which the strength falls", "m", "", "bond.rs decay", "(B3) (B4)"),
     row("λ", "what the sides of a rigid joint press each other with", "N", "", "state.rs reaction", "(R2)"),

@@ -41,6 +41,7 @@ pub enum Command {
     Plot(Plot),
     Compare(Compare),
     Cases(Cases),
+    Study(Study),
     Completions(Completions),
     /// Print this reference as Markdown.
     #[command(hide = true)]
@@ -322,7 +323,7 @@ pub enum Figure {
     PeakAcceleration,
     /// Joints coloured by their relative acceleration at an instant over the largest in the whole history.
     Acceleration,
-    /// Joints coloured by the cracked part of their bonds.
+    /// Joints coloured by the damage of their bonds.
     Cracks,
     /// Friction force over slip of joints.
     Hysteresis,
@@ -373,6 +374,15 @@ fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(v) if v > 0.0 && v.is_finite() => Ok(v),
         _ => Err("allowed: a number above 0".into()),
+    }
+}
+
+fn shard(text: &str) -> Result<[usize; 2], String> {
+    let wrong = || "allowed: I/N with I from 1 to N, such as 3/16".to_string();
+    let (i, n) = text.split_once('/').ok_or_else(wrong)?;
+    match (i.parse(), n.parse()) {
+        (Ok(i), Ok(n)) if 1 <= i && i <= n => Ok([i, n]),
+        _ => Err(wrong()),
     }
 }
 
@@ -440,7 +450,8 @@ pub enum Comparison {
 ///
 /// Runs the wall three times: with head joints that only damp, so that blocks may overlap; with no-tension springs of the
 /// rigidity that the file gives; with rigid unilateral contact. All else is as in the file. Joints count as head joints
-/// where their law is no-tension or rigid. This is what the research report's Figures 17 and 18 show.
+/// where their law is no-tension or rigid; bonded ones are refused, because only a spring can carry a bond. This is what the
+/// research report's Figures 17 and 18 show.
 ///
 /// Prints the deepest interpenetration of each, and draws displacements, velocities and gaps of pairs of neighbouring
 /// blocks. Writes compare.json and the figures pair-1, pair-2, … into the folder.
@@ -475,6 +486,93 @@ pub struct Constrained {
     #[arg(long, value_enum, default_value = "svg")]
     pub format: Format,
 }
+
+/// Do many runs, and answer what they answer together.
+///
+/// A study file names a wall file and says what varies, in which combinations, what is kept and what is asked. Every run
+/// is known by a hash of all that its result depends on; what the folder of the study knows already is not run again. So a
+/// study that was stopped or killed goes on with the same command, and one that grows runs what is new.
+#[derive(Debug, Args)]
+pub struct Study {
+    /// What is done.
+    #[command(subcommand)]
+    pub what: StudyCommand,
+}
+
+/// What `study` does.
+#[derive(Debug, Subcommand)]
+pub enum StudyCommand {
+    Check(StudyCheck),
+    Run(StudyRun),
+    /// Go on with a study that was begun; as `run`, but a folder without runs is an error.
+    Resume(StudyRun),
+    /// Tell how many runs a study has and what became of them.
+    Status(StudyPlace),
+    /// Write tables and report of the runs that the folder has.
+    Report(StudyPlace),
+    /// The same as `report`.
+    Export(StudyPlace),
+    Schema(StudySchema),
+}
+
+/// Validate a study file and say what it describes.
+///
+/// Every run is looked at: values that the wall file refuses are told with the line of the study file. Prints what
+/// varies, how many runs there are and how many of them the folder has. Nothing is simulated.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio study check friction.toml
+  concio study check friction.toml --runs      every run with its values")]
+pub struct StudyCheck {
+    /// Where the study is.
+    #[command(flatten)]
+    pub place: StudyPlace,
+    /// List every run.
+    #[arg(long)]
+    pub runs: bool,
+}
+
+/// Do the runs of a study that its folder does not have yet.
+///
+/// Runs go side by side on all cores. Each is written to disk as it ends: whatever stops the program, what was computed
+/// is kept. With --shard several processes, on one machine or many with a common folder, do one study together. When all
+/// runs are there, the tables are written: runs.csv and runs.parquet, and joints.csv and joints.parquet where values per
+/// joint are kept.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio study run friction.toml
+  concio study run friction.toml --threads 8 --out /scratch/friction
+  concio study run friction.toml --shard 3/16
+  parallel concio study run friction.toml --threads 1 --shard {}/16 ::: $(seq 16)
+  srun concio study run friction.toml --shard $SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT")]
+pub struct StudyRun {
+    /// Where the study is.
+    #[command(flatten)]
+    pub place: StudyPlace,
+    /// Threads; default one per core.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Do the I-th of N shares of the runs, I from 1 to N.
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    pub shard: Option<[usize; 2]>,
+}
+
+/// Where a study is.
+#[derive(Debug, Args)]
+pub struct StudyPlace {
+    /// Study file, TOML or JSON.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// Folder of the study; default concio-study/NAME, NAME being that of the study file without its ending.
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
+}
+
+/// Print the JSON Schema of the study file.
+#[derive(Debug, Args)]
+pub struct StudySchema {}
 
 /// Print the completions of a shell.
 #[derive(Debug, Args)]

@@ -18,6 +18,7 @@ mod motion;
 mod progress;
 mod report;
 mod stop;
+mod study;
 
 fn main() -> ExitCode {
     let cli = args::Cli::try_parse().unwrap_or_else(|error| suggesting(error).exit());

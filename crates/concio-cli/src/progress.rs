@@ -1,9 +1,11 @@
 //! Progress of runs that last: a bar on a terminal, a line now and then in a log.
 
 use std::io::{self, IsTerminal};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use concio::run::Status;
+use concio_study::runner;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::files;
@@ -93,6 +95,58 @@ fn line(status: &Status, first: f64, elapsed: Duration) -> String {
         String::new()
     };
     format!("t = {:.3} of {}, {} steps{left}", status.time, seconds(status.duration), status.steps)
+}
+
+/// Progress of many runs.
+pub struct Runs {
+    bar: ProgressBar,
+    /// Whether standard error is a terminal; in a log a line is printed now and then, the last one then.
+    terminal: bool,
+    last: Mutex<Instant>,
+}
+
+impl Runs {
+    /// Nothing is shown yet.
+    pub fn new() -> Self {
+        let terminal = io::stderr().is_terminal();
+        let bar = if terminal { ProgressBar::new(LENGTH as u64) } else { ProgressBar::hidden() };
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}") {
+            bar.set_style(style);
+        }
+        Runs { bar, terminal, last: Mutex::new(Instant::now()) }
+    }
+
+    /// Shows how far the runs are; from any thread.
+    pub fn show(&self, progress: &runner::Progress) {
+        let text = line_of_runs(progress);
+        if self.terminal {
+            self.bar.set_position((progress.share * LENGTH) as u64);
+            self.bar.set_message(text);
+            return;
+        }
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if last.elapsed() >= BETWEEN_LINES {
+            *last = Instant::now();
+            files::note(&format!("{:.0} %  {text}", 100.0 * progress.share));
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn line_of_runs(progress: &runner::Progress) -> String {
+    let mut text = format!("{} of {} runs", progress.done, progress.of);
+    if progress.failed > 0 {
+        text.push_str(&format!(", {} failed", progress.failed));
+    }
+    if progress.share > 1e-3 && progress.share < 1.0 {
+        let left = progress.elapsed.as_secs_f64() * (1.0 - progress.share) / progress.share;
+        text.push_str(&format!(", {} left", clock(left)));
+    }
+    text
 }
 
 #[cfg(test)]

@@ -32,15 +32,18 @@ pub(crate) struct JointLaw {
     pub bond: Option<BondValues>,
 }
 
-/// Bond of one joint, per area, in SI.
+/// Bond of one joint as the wall file gives it, changes included.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct BondValues {
-    /// f_t, c [Pa] and tan φ.
+pub struct BondValues {
+    /// f_t in Pa.
     pub tensile_strength: f64,
+    /// c in Pa.
     pub cohesion: f64,
+    /// tan φ.
     pub tan_angle: f64,
-    /// G_f^I, G_f^II [N/m].
+    /// G_f^I of opening and G_f^II of shear [N/m]; 0 where it is brittle.
     pub energy: [f64; 2],
+    /// η.
     pub residual: f64,
 }
 

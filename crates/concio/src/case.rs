@@ -6,7 +6,9 @@
 
 use std::path::{Path, PathBuf};
 
+mod change;
 pub(crate) mod de;
+mod document;
 mod forms;
 mod node;
 pub mod plausible;
@@ -15,6 +17,7 @@ mod sets;
 mod templates;
 pub mod validate;
 
+pub use document::Document;
 pub use read::{CaseFile, LARGEST_FILE, Syntax, canonical_json, from_str, read};
 pub use templates::{describe, example, schema, starter};
 pub use validate::validate;

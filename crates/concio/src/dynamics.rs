@@ -4,9 +4,10 @@ use std::collections::HashMap;
 
 use crate::error::{InputError, Result};
 use crate::excitation::Drive;
+use crate::integrate::dense::extreme;
 use crate::integrate::events::TOUCHING;
 use crate::law::spring_force;
-use crate::model::{Elastic, Model};
+use crate::model::{Elastic, Model, Support};
 use crate::record::{Channel, Energies};
 use crate::state::{BondState, Power, State, Tangents, View};
 
@@ -30,6 +31,46 @@ fn bonds_beyond(model: &Model, bonds: &[BondState], z: &[f64], mut change: impl 
     }
 }
 
+/// Motion and laws, from which forces follow.
+#[derive(Debug, Clone, Copy)]
+struct Acting<'a> {
+    z: &'a [f64],
+    v: &'a [f64],
+    mu: &'a [f64],
+    reaction: &'a [f64],
+    bonds: &'a [BondState],
+}
+
+impl<'a> Acting<'a> {
+    fn of(at: View<'a>) -> Self {
+        Acting { z: at.z, v: at.v, mu: at.mu, reaction: at.reaction, bonds: at.bonds }
+    }
+}
+
+/// Horizontal force of the joints of a support on the blocks that lie at it, against the blocks' motion relative to it [N].
+fn borne_by(model: &Model, support: &Support, at: Acting<'_>) -> f64 {
+    let sides = |e: u32| model.sides[e as usize].map(|s| s as usize);
+    let mut borne = 0.0;
+    for &e in &support.joints {
+        let ([a, b], law) = (sides(e), &model.elastic[e as usize]);
+        let d = at.z[a] - at.z[b];
+        borne += law.damping * (at.v[a] - at.v[b]) + spring_force(law.unilateral, law.stiffness, d);
+    }
+    for &r in &support.rubs {
+        borne += model.rubs[r as usize].normal[0] * at.mu[r as usize];
+    }
+    for &k in &support.bonds {
+        let (bond, held) = (&model.bonds[k as usize], &at.bonds[k as usize]);
+        let [a, b] = sides(bond.joint);
+        let d = at.z[a] - at.z[b];
+        borne += bond.beyond(&model.elastic[bond.joint as usize], bond.law.damage_at(held.damage, d), d);
+    }
+    for &c in &support.contacts {
+        borne += at.reaction[c as usize];
+    }
+    borne
+}
+
 /// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N]. What a rigid joint
 /// bears counts as elastic; what a bond changes is left out.
 fn joint_forces(model: &Model, at: View, index: [Option<usize>; 2], joint: usize) -> (f64, f64, f64) {
@@ -50,16 +91,10 @@ pub fn power(model: &Model, at: Moving<'_>, ground: f64, joint: &mut [f64]) -> P
         p.base -= m * v;
     }
     p.base *= ground;
-    let top = model.top();
-    let mut pull = 0.0;
     for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
-        let (a, b) = (a as usize, b as usize);
-        let w = v[a] - v[b];
+        let w = v[a as usize] - v[b as usize];
         joint[e] = law.damping * w * w;
         p.damping += joint[e];
-        if b == top {
-            pull += law.damping * w + spring_force(law.unilateral, law.stiffness, z[a] - z[b]);
-        }
     }
     for (rub, &mu) in model.rubs.iter().zip(&laws.mu) {
         let [a, b] = model.sides[rub.joint as usize];
@@ -70,22 +105,11 @@ pub fn power(model: &Model, at: Moving<'_>, ground: f64, joint: &mut [f64]) -> P
         if !model.reciprocal && b < model.unknowns() {
             p.nonreciprocal += 0.5 * (rub.normal[0] - rub.normal[1]) * mu * (v[a] + v[b]);
         }
-        if b == top {
-            pull += rub.normal[0] * mu;
-        }
     }
-    bonds_beyond(model, bonds, z, |e, force| {
-        if model.sides[e][1] as usize == top {
-            pull += force;
-        }
-    });
-    // Closed, a rigid joint does no work but that of the support that it presses.
-    for (contact, borne) in model.contacts.iter().zip(&laws.reaction) {
-        if model.sides[contact.joint as usize][1] as usize == top {
-            pull += borne;
-        }
-    }
-    p.top = -pull * v[top];
+    // A beam with mass does no work from outside, and the top is at rest beside it. Closed, a rigid joint does no work
+    // but that of the support that it presses.
+    let at = Acting { z, v, mu: &laws.mu, reaction: &laws.reaction, bonds };
+    p.top = -borne_by(model, &model.on_beam, at) * v[model.top()];
     p
 }
 
@@ -112,10 +136,11 @@ pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
         state.tangents.velocity[r] = w;
     }
     // Of a bonded joint the cracked part rubs, if there is any.
-    for (bond, damage) in model.bonds.iter().zip(state.bonds.iter().map(|b| b.damage)) {
-        let Some(r) = bond.rub.map(|r| r as usize).filter(|_| damage < 1.0) else { continue };
-        let law = model.rubs[r].law.times(damage);
-        state.tangents.stuck[r] &= damage > 0.0;
+    for (bond, held) in model.bonds.iter().zip(&state.bonds) {
+        let rubs = bond.law.rubbing(held);
+        let Some(r) = bond.rub.map(|r| r as usize).filter(|_| rubs < 1.0) else { continue };
+        let law = model.rubs[r].law.times(rubs);
+        state.tangents.stuck[r] &= rubs > 0.0;
         if !state.tangents.stuck[r] {
             (state.tangents.mu[r], state.tangents.slope[r]) = law.at(state.tangents.velocity[r]);
         }
@@ -166,6 +191,78 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
     state.a[n + 1] = drive.top(state.t).a;
     let at = Moving { z: &state.z, v: &state.v, laws: &state.tangents, bonds: &state.bonds };
     state.power = power(model, at, ground, &mut state.joint_power);
+}
+
+/// Brings envelopes and totals up to date after an accepted step of `h` that began with the
+/// displacements and velocities `start`.
+pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
+    let n = model.unknowns();
+    let [z_0, v_0] = start;
+    let pull = borne_by(model, &model.on_beam, Acting::of(state.view()));
+    let env = &mut state.envelopes;
+    let mut largest = 0.0f64;
+    for i in 0..n {
+        let (z, v) = (state.z[i].abs(), state.v[i].abs());
+        let farthest = z.max(extreme([z_0[i], state.z[i]], [v_0[i], state.v[i]], h).abs());
+        if i < model.wall.blocks.len() {
+            largest = largest.max(farthest);
+        }
+        env.block_displacement[i] = env.block_displacement[i].max(farthest);
+        env.block_velocity[i] = env.block_velocity[i].max(v);
+        env.block_acceleration[i] = env.block_acceleration[i].max(state.a[i].abs());
+        state.scale[0] = state.scale[0].max(z);
+        state.scale[1] = state.scale[1].max(v);
+    }
+    let totals = &mut state.totals;
+    totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
+    let mut contacts = model.contacts.iter().peekable();
+    for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
+        let (a, b) = (a as usize, b as usize);
+        let (d, w, dw) = (state.z[a] - state.z[b], state.v[a] - state.v[b], state.a[a] - state.a[b]);
+        // Where the relative motion turned inside the step, or its start, which is known already.
+        let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], w], h);
+        // A rigid joint never closes inside a step, whatever the parabola says.
+        let rigid = contacts.next_if(|c| c.joint as usize == e).is_some();
+        let (least, most) = (d.min(turn), if rigid { d } else { d.max(turn) });
+        env.joint_displacement[e] = env.joint_displacement[e].max(most.max(-least));
+        env.joint_velocity[e] = env.joint_velocity[e].max(w.abs());
+        env.joint_acceleration[e] = env.joint_acceleration[e].max(dw.abs());
+        let force = |d: f64| spring_force(law.unilateral, law.stiffness, d);
+        env.joint_force[e] = env.joint_force[e].max(force(most).max(-force(least)));
+        if model.joints[e].kind.is_upright() {
+            // d = x_left − x_right: the gap is −d.
+            env.joint_opening[e] = env.joint_opening[e].max(-least);
+            env.joint_closing[e] = env.joint_closing[e].max(most);
+            totals.minimum_gap = totals.minimum_gap.min(-most);
+        } else {
+            totals.peak_slip_velocity = totals.peak_slip_velocity.max(w.abs());
+        }
+    }
+    for rub in &model.rubs {
+        let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
+        let w = (state.v[a] - state.v[b]).abs();
+        if w > if rub.law.sticks() { 0.0 } else { rub.law.slip_velocity } {
+            env.joint_slip[rub.joint as usize] += h * w;
+        }
+    }
+    for (bond, held) in model.bonds.iter().zip(&mut state.bonds) {
+        let e = bond.joint as usize;
+        let [a, b] = model.sides[e].map(|s| s as usize);
+        let d = state.z[a] - state.z[b];
+        let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], state.v[a] - state.v[b]], h);
+        let force = |d: f64| bond.force(&model.elastic[e], bond.law.damage_at(held.damage, d), d).abs();
+        held.peak = held.peak.max(force(d)).max(force(turn));
+        env.joint_force[e] = held.peak;
+    }
+    for (contact, borne) in model.contacts.iter().zip(&state.tangents.reaction) {
+        let e = contact.joint as usize;
+        env.joint_force[e] = env.joint_force[e].max(*borne);
+    }
+    totals.top_force_peak = totals.top_force_peak.max(pull.abs());
+    totals.top_force_square += 0.5 * h * (state.pull * state.pull + pull * pull);
+    state.pull = pull;
+    totals.peak_input = totals.peak_input.max(state.energies.input().abs());
+    totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
 }
 
 /// Kinetic and elastic energy at displacements `z` and velocities `v`; `bonds` as before the step that leads there.
@@ -283,7 +380,7 @@ const JOINT: [(&str, &str, &str); 5] = [
 ];
 
 /// Beside them, of joints with a bond.
-const DAMAGE: (&str, &str, &str) = ("damage", "1", "cracked part of the bond, 0 to 1");
+const DAMAGE: (&str, &str, &str) = ("damage", "1", "damage of the bond: part of its stiffness that is lost, 0 to 1");
 
 impl Channels {
     /// The channels for the block and joint names asked for (`all` for every one).
@@ -326,28 +423,9 @@ impl Channels {
 
     /// Appends one row of values.
     pub fn sample(&self, model: &Model, drive: &Drive, at: View, row: &mut Vec<f64>) {
-        let (mut shear, mut pull) = (0.0, 0.0);
         let beam = model.floating_beam().unwrap_or(model.top());
-        let mut add = |b: usize, f: f64| {
-            if b == model.base() {
-                shear -= f;
-            } else if b == beam {
-                pull -= f;
-            }
-        };
-        for (e, side) in model.sides.iter().enumerate() {
-            if side[1] as usize >= beam.min(model.base()) {
-                let (elastic, viscous, _) = joint_forces(model, at, [None, None], e);
-                add(side[1] as usize, elastic + viscous);
-            }
-        }
-        bonds_beyond(model, at.bonds, at.z, |e, force| add(model.sides[e][1] as usize, force));
-        for (rub, mu) in model.rubs.iter().zip(at.mu) {
-            add(model.sides[rub.joint as usize][1] as usize, rub.normal[0] * mu);
-        }
-        for (contact, borne) in model.contacts.iter().zip(at.reaction) {
-            add(model.sides[contact.joint as usize][1] as usize, *borne);
-        }
+        let [shear, pull] =
+            [&model.on_base, &model.on_beam].map(|support| 0.0 - borne_by(model, support, Acting::of(at)));
         let mean = |values: &[f64]| {
             self.top_course.iter().map(|&i| values[i]).sum::<f64>() / self.top_course.len().max(1) as f64
         };

@@ -31,6 +31,10 @@ pub struct Model {
     pub bonds: Vec<Bonded>,
     /// The rigid unilateral joints, in the order of the joints.
     pub contacts: Vec<Contact>,
+    /// What is joined to the base, and to the top beam, be it driven, tied or one with mass.
+    pub on_base: Support,
+    /// See above.
+    pub on_beam: Support,
     /// Motion of base and top, and the end of the run.
     pub excitation: Excitation,
     /// True when every joint's normal force is the same on both sides: the stage matrices are symmetric then.
@@ -71,6 +75,35 @@ pub struct Contact {
     pub joint: u32,
     /// Newton's coefficient of restitution e, 0 … 1.
     pub restitution: f64,
+}
+
+/// What is joined to a support, by index in the lists of the [`Model`].
+#[derive(Debug, Clone, Default)]
+pub struct Support {
+    /// Joints.
+    pub joints: Vec<u32>,
+    /// Among those that rub.
+    pub rubs: Vec<u32>,
+    /// Among the bonds.
+    pub bonds: Vec<u32>,
+    /// Among the rigid joints.
+    pub contacts: Vec<u32>,
+}
+
+impl Support {
+    /// Of the support with number `side` in `sides`.
+    pub(crate) fn of(side: usize, sides: &[[u32; 2]], rubs: &[Rub], bonds: &[Bonded], contacts: &[Contact]) -> Self {
+        fn those(joints: impl Iterator<Item = u32>, on: impl Fn(u32) -> bool) -> Vec<u32> {
+            joints.enumerate().filter(|(_, e)| on(*e)).map(|(k, _)| k as u32).collect()
+        }
+        let on = |e: u32| sides[e as usize][1] as usize == side;
+        Support {
+            joints: those(0..sides.len() as u32, on),
+            rubs: those(rubs.iter().map(|r| r.joint), on),
+            bonds: those(bonds.iter().map(|b| b.joint), on),
+            contacts: those(contacts.iter().map(|c| c.joint), on),
+        }
+    }
 }
 
 impl Model {
@@ -133,7 +166,9 @@ impl Model {
             (spring.law == SpringLaw::Rigid)
                 .then_some(Contact { joint: e as u32, restitution: spring.restitution.unwrap_or(0.0) })
         };
-        let contacts = laws.iter().enumerate().filter_map(rigid).collect();
+        let contacts: Vec<Contact> = laws.iter().enumerate().filter_map(rigid).collect();
+        let support = |side| Support::of(side, &sides, &rubs, &bonds, &contacts);
+        let (on_base, on_beam) = (support(n), support(floating.unwrap_or(n + 1)));
         Ok(Model {
             wall,
             joints,
@@ -144,6 +179,8 @@ impl Model {
             rubs,
             bonds,
             contacts,
+            on_base,
+            on_beam,
             excitation,
             reciprocal,
             stiffest,

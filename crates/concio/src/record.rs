@@ -54,7 +54,7 @@ pub struct Recording {
     /// `frame_time.len()` rows: friction force on side a of every joint [N]; rows of none unless a law is set-valued or a
     /// joint is bonded.
     pub frame_friction: Vec<f64>,
-    /// `frame_time.len()` rows: cracked part of every bonded joint, 0 … 1.
+    /// `frame_time.len()` rows: damage of every bonded joint, 0 … 1.
     pub frame_damage: Vec<f64>,
     /// What happened at one instant, in the order of time.
     pub events: Vec<Event>,
@@ -89,6 +89,14 @@ pub enum EventKind {
 impl EventKind {
     /// All kinds; the place in the list is the number that a journal keeps.
     const ALL: [EventKind; 3] = [EventKind::Impact, EventKind::Crack, EventKind::Break];
+
+    /// Unit of [`Event::value`].
+    pub fn unit(self) -> &'static str {
+        match self {
+            EventKind::Impact => "N s",
+            EventKind::Crack | EventKind::Break => "m",
+        }
+    }
 }
 
 impl Event {

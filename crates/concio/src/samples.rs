@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::ground::signal::{GroundMotion, compile};
 use crate::law::Stribeck;
-use crate::model::{Contact, Elastic, Model, Rub, stiffest};
+use crate::model::{Contact, Elastic, Model, Rub, Support, stiffest};
 use crate::quantity::{Length, Time};
 use crate::record::StopReason;
 use crate::simulate::{Sampling, Simulation};
@@ -119,11 +119,14 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         let rub = rubs.iter().position(|r| r.joint as usize == e).map(|r| r as u32);
         link.bond.map(|law| Bonded { joint: e as u32, rub, law })
     };
-    let bonds = links.iter().enumerate().filter_map(bonded).collect();
+    let bonds: Vec<Bonded> = links.iter().enumerate().filter_map(bonded).collect();
     let rigid = |(e, link): (usize, &Link)| link.rigid.map(|restitution| Contact { joint: e as u32, restitution });
     let sides: Vec<[u32; 2]> = links.iter().map(|l| [l.a as u32, side(l.b) as u32]).collect();
     let elastic: Vec<Elastic> = links.iter().map(|l| l.elastic).collect();
     let stiffest = stiffest(masses, &sides, &elastic, excitation.duration);
+    let contacts: Vec<Contact> = links.iter().enumerate().filter_map(rigid).collect();
+    let support = |side| Support::of(side, &sides, &rubs, &bonds, &contacts);
+    let (on_base, on_beam) = (support(n), support(n + 1));
     Model {
         wall: Wall { panels: vec![panel], blocks: (0..n).map(block).collect() },
         joints: links.iter().map(joint).collect(),
@@ -133,7 +136,9 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         elastic,
         bonds,
         rubs,
-        contacts: links.iter().enumerate().filter_map(rigid).collect(),
+        contacts,
+        on_base,
+        on_beam,
         excitation,
         reciprocal: true,
         stiffest,

@@ -4,7 +4,7 @@
 //! does no I/O and allocates nothing. The caller empties the buffer, shows progress, saves the state.
 
 use crate::case::Solver;
-use crate::dynamics::{Channels, accelerate, book_impact, kick, settle, stored_energy};
+use crate::dynamics::{Channels, accelerate, book_impact, kick, observe, settle, stored_energy};
 use crate::error::Result;
 use crate::excitation::Drive;
 use crate::integrate::cracks;
@@ -13,7 +13,6 @@ use crate::integrate::impact::{COLLISIONS, Impacts};
 use crate::integrate::stage::Failure;
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
-use crate::observe::observe;
 use crate::outcome::Outcome;
 use crate::record::{Event, EventKind, Layout, Recording, StopReason};
 use crate::run::Status;

@@ -23,6 +23,8 @@ pub struct State {
     pub step: f64,
     /// Largest |z| and |v| so far: the scale of the tolerances.
     pub scale: [f64; 2],
+    /// Force of the top beam on the wall after the last step, its sign turned [N].
+    pub pull: f64,
     /// Rate of each joint's dissipation at `t` [W].
     pub joint_power: Vec<f64>,
     /// Tangents of the joints' laws, from which the next step starts.
@@ -109,7 +111,7 @@ impl Instant {
 pub struct BondState {
     /// δ_m: largest |δ|, or widest gap, that counted for the damage so far [m]; 0 while the bond is intact.
     pub reach: f64,
-    /// D, 0 … 1.
+    /// D, 0 … 1: what is lost of the stiffness. The part that rubs is [`crate::bond::Bond::rubbing`].
     pub damage: f64,
     /// Energy that breaking took [J].
     pub spent: f64,
@@ -250,6 +252,7 @@ impl State {
             power: Power::default(),
             step: 0.0,
             scale: [0.0; 2],
+            pull: 0.0,
             joint_power: zeros(e),
             tangents: Tangents::at_rest(model),
             bonds: vec![BondState::INTACT; model.bonds.len()],

@@ -17,6 +17,7 @@ mod record;
 mod reference;
 pub mod run;
 mod schema;
+mod study;
 mod system;
 mod wall_file;
 
@@ -25,6 +26,7 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
     match command {
         Command::Run(args) => return run::run(&args),
         Command::Cases(args) => return cases::cases(&args),
+        Command::Study(args) => return study::run_command(&args.what),
         Command::Check(args) => check::check(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::New(args) => new::new(&args),

@@ -1,10 +1,10 @@
 //! From a wall file to a [`Case`]: text → tree → parameter set → structs.
 
-use std::io::Read;
 use std::path::Path;
 
-use super::node::{Fault, Node, Source, Value, parse_json, parse_toml};
-use super::{Case, ParameterSet, de, plausible, sets, validate};
+use super::document::{self, Document};
+use super::node::{Fault, Node, Value};
+use super::{Case, ParameterSet, change, de, plausible, sets, validate};
 use crate::wall::Wall;
 use crate::{Error, InputError, Result};
 
@@ -37,22 +37,35 @@ impl Syntax {
 pub struct CaseFile {
     /// What the file says, with parameter set and defaults filled in.
     pub case: Case,
-    source: Source,
-    tree: Node,
+    document: Document,
 }
 
 impl CaseFile {
     /// The file it came from.
     pub fn path(&self) -> Option<&Path> {
-        self.source.path()
+        self.document.path()
     }
     /// Its text.
     pub fn text(&self) -> &str {
-        &self.source.text
+        self.document.text()
     }
     /// The folder that record paths are relative to: the file's own, or the working directory.
     pub fn folder(&self) -> &Path {
         self.path().and_then(Path::parent).unwrap_or(Path::new(""))
+    }
+    /// The same wall with other values: each change is a key path (`joint.friction.static`, `panel[0].courses`; `[*]` for
+    /// every element of a list) and what stands there instead, as a wall file would say it. Keys that the file leaves out
+    /// are added; the parameter set fills in what is still missing.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a path that leads nowhere, a key or value that the wall file does not know. The result is not
+    /// validated yet.
+    pub fn changed(&self, changes: &[(String, serde_json::Value)]) -> Result<CaseFile> {
+        let mut document = self.document.clone();
+        for (path, value) in changes {
+            change::set(&mut document.tree, path, value).map_err(|fault| self.document.source.place_fault(fault))?;
+        }
+        resolve(document)
     }
     /// Adds file, line and column to an error about a key of this case; a key that the file leaves out stands
     /// where its nearest table does. Errors that name a line already, and others than input errors, stay as they are.
@@ -63,14 +76,7 @@ impl CaseFile {
         }
     }
     fn place(&self, error: InputError) -> InputError {
-        match &error.key {
-            _ if error.line.is_some() || error.file.is_some() => error,
-            Some(key) => {
-                let byte = self.tree.find(key);
-                self.source.locate(error, byte)
-            }
-            None => self.source.named(error),
-        }
+        self.document.locate(error)
     }
     /// Everything [`validate::findings`] has against the case, with file, line and column.
     pub fn findings(&self) -> Vec<InputError> {
@@ -84,7 +90,7 @@ impl CaseFile {
     /// m/s²: `pga = 0.3`. Beside the doubts that [`crate::run::prepare`] has of the values alone, which do not know
     /// whether there was a unit.
     pub fn unit_doubts(&self) -> Vec<String> {
-        plausible::bare_accelerations(&self.tree)
+        plausible::bare_accelerations(&self.document.tree)
     }
     /// The blocks of the wall ([`crate::pattern::lay`]), with file and line in errors.
     pub fn wall(&self) -> Result<Wall> {
@@ -98,23 +104,7 @@ impl CaseFile {
 /// [`Error::Input`] when the file cannot be read, is no UTF-8, no TOML or JSON, or its keys and values are not
 /// those of the wall file.
 pub fn read(path: &Path) -> Result<CaseFile> {
-    let refuse =
-        |what: String| InputError::new(what).in_file(path).allowed("a wall file in TOML or JSON, UTF-8, up to 256 MiB");
-    if path.is_dir() {
-        return Err(refuse("is a folder, not a wall file".into()).into());
-    }
-    let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(|e| refuse(format!("cannot be read: {e}")))?;
-    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|e| refuse(format!("cannot be read: {e}")))?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(refuse("is too large for a wall file".into()).into());
-    }
-    let text = String::from_utf8(bytes).map_err(|e| {
-        let good = &e.as_bytes()[..e.utf8_error().valid_up_to()];
-        let line = 1 + good.iter().filter(|b| **b == b'\n').count();
-        refuse("is not UTF-8 text".into()).at_line(line)
-    })?;
-    from_str(&text, Syntax::of(path, &text), Some(path))
+    resolve(Document::open(path, "a wall file").map_err(starter)?)
 }
 
 /// Reads a wall file from its text; `file` is named in errors and is what record paths are relative to.
@@ -122,21 +112,19 @@ pub fn read(path: &Path) -> Result<CaseFile> {
 /// # Errors
 /// As [`read`].
 pub fn from_str(text: &str, syntax: Syntax, file: Option<&Path>) -> Result<CaseFile> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
-    let source = Source { path: file.map(Path::to_path_buf), text };
-    if source.text.trim().is_empty() {
-        let error = InputError::new("the file is empty").help("`concio new` writes a starter file");
-        return Err(source.locate(error, 0).into());
+    resolve(Document::parse(text, syntax, file).map_err(starter)?)
+}
+
+/// Where to begin, said of an empty file.
+fn starter(error: Error) -> Error {
+    match error {
+        Error::Input(e) if e.what == document::EMPTY => e.help("`concio new` writes a starter file").into(),
+        other => other,
     }
-    let tree = match syntax {
-        Syntax::Toml => parse_toml(&source).map_err(|e| hinted(e, &source.text))?,
-        Syntax::Json => parse_json(&source)?,
-    };
-    resolve(source, tree)
 }
 
 /// Adds to an error of the TOML parser what it is often owed to.
-fn hinted(error: Error, text: &str) -> Error {
+pub(super) fn hinted(error: Error, text: &str) -> Error {
     let Error::Input(mut error) = error else { return error };
     if let (None, Some(number)) = (&error.help, error.line) {
         let line = text.lines().nth(number - 1).unwrap_or("");
@@ -178,8 +166,9 @@ fn unclosed(text: &str, end: usize) -> Option<usize> {
     open.pop()
 }
 
-fn resolve(source: Source, mut tree: Node) -> Result<CaseFile> {
-    let placed = |fault: Fault| source.place_fault(fault);
+fn resolve(document: Document) -> Result<CaseFile> {
+    let placed = |fault: Fault| document.source.place_fault(fault);
+    let mut tree = document.tree.clone();
     if let Some(node) = tree.get("set") {
         let set: ParameterSet = de::from_node(node).map_err(|mut fault| {
             fault.error.key = Some(fault.error.key.map_or("set".to_string(), |k| format!("set.{k}")));
@@ -193,7 +182,7 @@ fn resolve(source: Source, mut tree: Node) -> Result<CaseFile> {
     preset(&mut tree).map_err(placed)?;
     require(&tree).map_err(placed)?;
     let case = de::from_node(&tree).map_err(|fault| placed(described(fault, &tree)))?;
-    Ok(CaseFile { case, source, tree })
+    Ok(CaseFile { case, document })
 }
 
 /// Adds to a missing key what belongs there, and to a number of courses under the key of their list the other key.

@@ -387,25 +387,28 @@ impl Step {
 
     fn laws_inside(&self, model: &Model, end: &State, x: f64, at: &mut Instant) {
         let mix = |from: f64, to: f64| from + x * (to - from);
+        // First the part of each joint that rubs: of a bonded one what has cracked.
+        at.mu.fill(1.0);
+        at.bonds.copy_from_slice(&self.start_bonds);
+        for (bond, held) in model.bonds.iter().zip(&mut at.bonds) {
+            let [a, b] = model.sides[bond.joint as usize].map(|s| s as usize);
+            let d = at.z[a] - at.z[b];
+            held.damage = bond.law.damage_at(held.damage, d);
+            held.reach = held.reach.max(bond.law.stretch(d));
+            if let Some(r) = bond.rub {
+                at.mu[r as usize] = bond.law.rubbing(held);
+            }
+        }
         for (r, rub) in model.rubs.iter().enumerate() {
             let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
             at.mu[r] = if self.held(rub, r, end) {
                 mix(self.start_mu[r], end.tangents.mu[r])
             } else {
-                rub.law.value(at.v[a] - at.v[b])
+                rub.law.times(at.mu[r]).value(at.v[a] - at.v[b])
             };
         }
         for (c, borne) in at.reaction.iter_mut().enumerate() {
             *borne = mix(self.start_reaction[c], end.tangents.reaction[c]);
-        }
-        at.bonds.copy_from_slice(&self.start_bonds);
-        for (bond, held) in model.bonds.iter().zip(&mut at.bonds) {
-            let [a, b] = model.sides[bond.joint as usize].map(|s| s as usize);
-            held.damage = bond.law.damage_at(held.damage, at.z[a] - at.z[b]);
-            if let Some(r) = bond.rub.map(|r| r as usize).filter(|&r| !self.held(&model.rubs[r], r, end)) {
-                // Only the cracked part rubs.
-                at.mu[r] = model.rubs[r].law.times(held.damage).value(at.v[a] - at.v[b]);
-            }
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Nothing that a step does depends on the envelopes and on what each joint dissipates, so they are made up for several
 //! lanes at once, just before the stages of a step that waits are overwritten. Operations and their order are those of [`crate::dynamics::power`] and
-//! [`crate::observe::observe`].
+//! [`crate::dynamics::observe`].
 
 use pulp::{Simd, WithSimd};
 

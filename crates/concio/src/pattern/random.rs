@@ -8,47 +8,27 @@
 //!
 //! A course over which none can be laid is drawn again, and with repeated failures more of the courses below it.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-
 use super::{Courses, SLACK, stacked};
 use crate::case::{Panel, RandomTexture};
+use crate::dice::Dice;
 use crate::{InputError, Result};
 
-/// The generator: the same numbers for a seed on every machine and in every version.
-struct Dice(ChaCha8Rng);
-
-impl Dice {
-    fn new(seed: u64) -> Dice {
-        // The seed is laid out by hand: how a library spreads a number over the key may change.
-        let mut key = [0; 32];
-        key[..8].copy_from_slice(&seed.to_le_bytes());
-        Dice(ChaCha8Rng::from_seed(key))
+/// Uniform over some intervals together; over their points if they have no length. None of no interval.
+fn among(dice: &mut Dice, intervals: &[[f64; 2]]) -> Option<f64> {
+    let total: f64 = intervals.iter().map(|[a, b]| b - a).sum();
+    let last = intervals.last()?;
+    if total <= 0.0 {
+        let index = (dice.unit() * intervals.len() as f64) as usize;
+        return intervals.get(index).map(|i| i[0]);
     }
-    /// Uniform in 0 … 1, without 1; 53 bits.
-    fn unit(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn between(&mut self, [low, high]: [f64; 2]) -> f64 {
-        (low + self.unit() * (high - low)).clamp(low, high)
-    }
-    /// Uniform over some intervals together; over their points if they have no length. None of no interval.
-    fn among(&mut self, intervals: &[[f64; 2]]) -> Option<f64> {
-        let total: f64 = intervals.iter().map(|[a, b]| b - a).sum();
-        let last = intervals.last()?;
-        if total <= 0.0 {
-            let index = (self.unit() * intervals.len() as f64) as usize;
-            return intervals.get(index).map(|i| i[0]);
+    let mut left = dice.unit() * total;
+    for [a, b] in intervals {
+        if left <= b - a {
+            return Some(a + left);
         }
-        let mut left = self.unit() * total;
-        for [a, b] in intervals {
-            if left <= b - a {
-                return Some(a + left);
-            }
-            left -= b - a;
-        }
-        Some(last[1])
+        left -= b - a;
     }
+    Some(last[1])
 }
 
 /// The texture of a panel.
@@ -136,7 +116,7 @@ impl Rule {
                 row.push(self.width - x);
                 return Some(row);
             }
-            let next = dice.among(&open)?;
+            let next = among(dice, &open)?;
             row.push(next - self.mortar - x);
             x = next;
         }

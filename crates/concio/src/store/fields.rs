@@ -159,7 +159,7 @@ pub(super) const BONDS: [Field<BondRow, f64>; 9] = [
     field!("residual_stiffness", "1", residual_stiffness, "Fraction of the stiffness that a cracked joint keeps."),
     field!("energy", "J", energy, "Energy that it takes to break the bond."),
     field!("decay", "m", decay, "Length over which the strength falls; 0 when the bond is brittle."),
-    field!("damage", "1", damage, "Cracked part at the end, 0 to 1."),
+    field!("damage", "1", damage, "Damage at the end: part of the stiffness that is lost, 0 to 1."),
     field!("spent", "J", spent, "Energy that breaking has taken."),
     field!("cracked", "s", cracked, "Time of the first crack; infinite when there was none."),
     field!("broken", "s", broken, "Time at which nothing was left of the bond; infinite when something is."),

@@ -220,7 +220,7 @@ fn write_bonds(sink: &mut Sink, outcome: &Outcome) -> Result<()> {
     sink.list("bonds/joint", &joints, label("1", "Index of the joint."))?;
     write_columns(sink, "bonds", &fields::BONDS, bonds)?;
     let shape = [outcome.recording.frame_time.len(), outcome.layout.bonded];
-    let damage = label("1", "Cracked part of every bonded joint, 0 to 1, in the order of /bonds.");
+    let damage = label("1", "Damage of every bonded joint, 0 to 1, in the order of /bonds.");
     sink.array("frames/damage", &shape, &outcome.recording.frame_damage, damage)
 }
 

@@ -60,7 +60,7 @@ pub struct JointRow {
 
 impl JointRow {
     /// Elastic force on the lower or left block, against its relative motion [N], at x_a − x_b = `d` [m]; `bond` is the
-    /// joint's bond, if it has one, and its cracked part.
+    /// joint's bond, if it has one, and its damage.
     pub fn elastic_force(&self, d: f64, bond: Option<(&BondRow, f64)>) -> f64 {
         let upright = self.joint.kind.is_upright();
         let unilateral = upright && matches!(self.law, SpringLaw::NoTension | SpringLaw::Rigid);

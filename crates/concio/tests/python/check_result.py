@@ -304,6 +304,20 @@ def check_npz(path, file):
         require(not missing, f"npz: {sorted(missing)} missing")
 
 
+def check_csv_events(folder, file, joints):
+    if "events" not in file:
+        require(not (folder / "events.csv").exists(), "csv: events of a run without any")
+        return
+    with open(folder / "events.csv", newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    equal(np.array([float(row["time [s]"]) for row in rows]), file["events/time"][()], "csv: events, time")
+    equal(np.array([float(row["value"]) for row in rows]), file["events/value"][()], "csv: events, value")
+    require([row["kind"] for row in rows] == list(file["events/kind"].asstr()), "csv: events, kind")
+    require([row["joint"] for row in rows] == [joints[k] for k in file["events/joint"]], "csv: events, joint")
+    units = {"impact": "N s", "crack": "m", "break": "m"}
+    require(all(row["unit"] == units[row["kind"]] for row in rows), "csv: events, unit")
+
+
 def check_csv(folder, time, heads, values, names, envelopes):
     with open(folder / "histories.csv", newline="", encoding="utf-8") as stream:
         rows = list(csv.reader(stream))
@@ -355,6 +369,7 @@ def main():
         names = {"block": block_names, "joint": joint_names}
         envelopes = {"block": block_envelopes, "joint": joint_envelopes}
         check_csv(arguments.csv, time, heads, values, names, envelopes)
+        check_csv_events(arguments.csv, result.file, joint_names)
     print(
         f"{arguments.result}: {len(block_names)} blocks, {len(joint_names)} joints, {len(time)} samples of "
         f"{len(values)} channels, {len(frames[0])} frames: h5py and VTK agree"

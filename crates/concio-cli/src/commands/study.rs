@@ -1,0 +1,200 @@
+//! `concio study`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use concio::case::Case;
+use concio::run::Control;
+use concio::{InputError, Result};
+use concio_study::measures::{End, Row};
+use concio_study::runner::{Progress, Runner};
+use concio_study::store::Store;
+use concio_study::{Plan, file, table};
+use rayon::prelude::*;
+
+use super::run::refuse_a_file;
+use crate::args::{StudyCheck, StudyCommand, StudyPlace, StudyRun};
+use crate::failure::{Failure, STOPPED};
+use crate::format::{columns, pairs};
+use crate::progress::Runs;
+use crate::{files, stop, study};
+
+/// Runs that a listing of failures names at most.
+const MOST_NAMED: usize = 5;
+
+/// Dispatches.
+pub fn run_command(command: &StudyCommand) -> std::result::Result<ExitCode, Failure> {
+    match command {
+        StudyCommand::Check(args) => check(args).map(|()| ExitCode::SUCCESS),
+        StudyCommand::Run(args) => run(args),
+        StudyCommand::Resume(args) => {
+            let folder = folder(&args.place);
+            if Store::open(&folder)?.is_empty() {
+                let error = InputError::new("there is nothing to go on with: the folder has no runs").in_file(&folder);
+                return Err(error.help("`concio study run` begins a study").into());
+            }
+            run(args)
+        }
+        StudyCommand::Status(place) => status(place),
+        StudyCommand::Report(place) | StudyCommand::Export(place) => export(place).map(|()| ExitCode::SUCCESS),
+        StudyCommand::Schema(_) => {
+            let text = serde_json::to_string_pretty(&file::schema());
+            files::print(&(text.map_err(|e| Failure::Other(e.to_string(), None))? + "\n")).map(|()| ExitCode::SUCCESS)
+        }
+    }
+}
+
+/// `concio-study/NAME` in the working directory.
+fn folder(place: &StudyPlace) -> PathBuf {
+    let name = place.file.file_stem().unwrap_or(place.file.as_os_str());
+    place.out.clone().unwrap_or_else(|| Path::new("concio-study").join(name))
+}
+
+/// All runs of a plan, complete and valid, with their ids.
+fn cases(plan: &Plan) -> Result<Vec<(String, Case)>> {
+    let numbers = 0..plan.points.len();
+    let one = |number: usize| plan.case(number).and_then(|case| Ok((plan.id(&case)?, case)));
+    // The first that is wrong is told, whatever thread comes to it first.
+    numbers.into_par_iter().map(one).collect::<Vec<_>>().into_iter().collect()
+}
+
+fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
+    let plan = Plan::read(&args.place.file)?;
+    let cases = cases(&plan)?;
+    let store = Store::open(&folder(&args.place))?;
+    let known = cases.iter().filter(|(id, _)| store.get(id).is_some()).count();
+    let mut rows = vec![("wall", plan.file.wall.path().map_or(String::new(), |p| p.display().to_string()))];
+    for factor in &plan.factors {
+        let levels = factor.levels().map_or("a distribution".into(), |n| format!("{n} values"));
+        rows.push(("varies", format!("{}: {levels}", factor.name)));
+    }
+    rows.push(("runs", cases.len().to_string()));
+    rows.push(("done", known.to_string()));
+    let mut text = pairs(&rows);
+    if args.runs {
+        let heading = ["run".to_string()].into_iter().chain(plan.factors.iter().map(|f| f.name.clone())).collect();
+        let label = |v: serde_json::Value| v.as_str().map_or_else(|| v.to_string(), str::to_string);
+        let line = |i: usize| [(i + 1).to_string()].into_iter().chain(plan.labels(i).into_iter().map(label)).collect();
+        let lines: Vec<Vec<String>> = [heading].into_iter().chain((0..cases.len()).map(line)).collect();
+        text.push('\n');
+        text.push_str(&columns(&lines));
+    }
+    files::print(&text)
+}
+
+fn run(args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
+    let plan = Plan::read(&args.place.file)?;
+    let cases = cases(&plan)?;
+    let out = folder(&args.place);
+    refuse_a_file(&out)?;
+    stop::listen()?;
+    let [share, of] = args.shard.unwrap_or([1, 1]);
+    let mine: Vec<Case> = cases.iter().skip(share - 1).step_by(of).map(|(_, case)| case.clone()).collect();
+    let bar = Runs::new();
+    let watch = |progress: &Progress| {
+        bar.show(progress);
+        if stop::asked() { Control::Stop } else { Control::Continue }
+    };
+    let threads = args.threads.map_or(0, usize::from);
+    let mut runner = Runner::open(&out, &plan.file.study.keep, threads, &watch)?;
+    let rows = runner.rows(&mine);
+    bar.clear();
+    let rows = rows?;
+    if rows.is_none() {
+        files::note("stopped early; the same command goes on from here");
+        return Ok(ExitCode::from(STOPPED));
+    }
+    // Other shards may have ended meanwhile.
+    let store = Store::open(&out)?;
+    let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
+    let missing = found.iter().filter(|r| r.is_none()).count();
+    tell(&plan, &found)?;
+    if missing > 0 {
+        files::note(&format!("{missing} of {} runs are left to other shards", cases.len()));
+        return Ok(ExitCode::SUCCESS);
+    }
+    files::print(&format!("open {}\n", write(&plan, &cases, &found, &out)?.display()))?;
+    let complete = found.iter().flatten().all(|r| r.end == End::Completed);
+    Ok(if complete { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
+}
+
+/// How many runs there are and what became of them.
+fn tell(plan: &Plan, found: &[Option<&Row>]) -> std::result::Result<(), Failure> {
+    let count = |end: End| found.iter().flatten().filter(|r| r.end == end).count();
+    let mut rows = vec![("runs", found.len().to_string()), ("completed", count(End::Completed).to_string())];
+    for (name, end) in [("stopped early", End::Stopped), ("failed", End::Failed)] {
+        if count(end) > 0 {
+            rows.push((name, count(end).to_string()));
+        }
+    }
+    let left = found.iter().filter(|r| r.is_none()).count();
+    if left > 0 {
+        rows.push(("not run", left.to_string()));
+    }
+    let bad = found.iter().enumerate().filter_map(|(i, r)| r.as_ref().map(|r| (i, r)));
+    for (number, row) in bad.filter(|(_, r)| r.end != End::Completed).take(MOST_NAMED) {
+        let labels: Vec<String> =
+            plan.factors.iter().zip(plan.labels(number)).map(|(f, l)| format!("{} = {l}", f.name)).collect();
+        let cause = row.cause.as_deref().unwrap_or("no cause is known");
+        files::note(&format!("run {} ({}): {cause}", number + 1, labels.join(", ")));
+    }
+    files::print(&pairs(&rows))
+}
+
+fn status(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
+    let plan = Plan::read(&place.file)?;
+    let cases = cases(&plan)?;
+    let store = Store::open(&folder(place))?;
+    let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
+    tell(&plan, &found)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn export(place: &StudyPlace) -> std::result::Result<(), Failure> {
+    let plan = Plan::read(&place.file)?;
+    let cases = cases(&plan)?;
+    let out = folder(place);
+    let store = Store::open(&out)?;
+    if store.is_empty() {
+        let error = InputError::new("there is nothing to export: the folder has no runs").in_file(&out);
+        return Err(error.help("`concio study run` begins a study").into());
+    }
+    let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
+    files::print(&format!("open {}\n", write(&plan, &cases, &found, &out)?.display()))
+}
+
+/// Writes tables and report; the path of the report.
+fn write(
+    plan: &Plan,
+    cases: &[(String, Case)],
+    found: &[Option<&Row>],
+    out: &Path,
+) -> std::result::Result<PathBuf, Failure> {
+    let runs = table::of_plan(plan, found);
+    table::write_csv(&runs, &out.join("runs.csv"))?;
+    table::write_parquet(&runs, &out.join("runs.parquet"))?;
+    if !plan.file.study.keep.joints.is_empty() {
+        let joints = table::of_joints(found, &|number| joint_names(&cases[number].1));
+        table::write_csv(&joints, &out.join("joints.csv"))?;
+        table::write_parquet(&joints, &out.join("joints.parquet"))?;
+    }
+    let file = &plan.file;
+    let name = |path: Option<&Path>| path.map_or(String::new(), |p| p.display().to_string());
+    let title = if file.study.title.is_empty() { "Study" } else { &file.study.title };
+    let facts = [
+        ("study file", name(file.document.path())),
+        ("wall file", name(file.wall.path())),
+        ("runs", found.len().to_string()),
+        ("without a result", found.iter().filter(|r| r.is_none_or(|r| r.end == End::Failed)).count().to_string()),
+    ];
+    study::write(out, title, &facts, &[study::sections::runs(plan, &runs)])
+}
+
+/// Names of the joints of a case that was run: it can be laid.
+fn joint_names(case: &Case) -> Vec<String> {
+    let prepared = concio::run::prepare(case.clone(), Path::new(""));
+    let names = |p: concio::run::Prepared| {
+        p.model.joints.iter().map(|j| concio::graph::name(&p.model.wall, j)).collect::<Vec<_>>()
+    };
+    prepared.map(names).unwrap_or_default()
+}

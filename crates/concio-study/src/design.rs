@@ -1,0 +1,223 @@
+//! Which combinations of the factors' values are run.
+//!
+//! - Latin hypercube: M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239–245.
+//! - Morris: M. D. Morris, Technometrics 33 (1991) 161–174: from a random base point on a grid of p levels one factor
+//!   after the other, in random order, moves by Δ = p/(2(p − 1)).
+//! - Sobol: A. Saltelli et al., Comput. Phys. Commun. 181 (2010) 259–270: base points A and B, and for each factor A
+//!   with this factor's column of B; A and B are the two halves of one scrambled Sobol sequence.
+
+use concio::Result;
+use concio::dice::Dice;
+
+use crate::factors::{Factor, Over};
+use crate::file::{DesignKind, StudyFile};
+
+/// Runs that a study may have.
+pub const MOST_RUNS: usize = 1_000_000;
+/// Factors that the Sobol sequence at hand has dimensions for, two each.
+const MOST_SOBOL: usize = 128;
+
+/// Where a factor stands in a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum At {
+    /// At one of its levels.
+    Level(usize),
+    /// At this share of its distribution, 0 … 1.
+    Share(f64),
+}
+
+/// The points of the design: one row per run, one entry per factor.
+///
+/// # Errors
+/// Factors and design that do not go together, with the line.
+pub fn points(file: &StudyFile, factors: &[Factor]) -> Result<Vec<Vec<At>>> {
+    let design = &file.study.design;
+    let wrong = |what: String, allowed: &str| Err(file.wrong("design", what, allowed));
+    if factors.is_empty() {
+        return Ok(vec![Vec::new()]);
+    }
+    let runs = match (design.kind, design.runs) {
+        (DesignKind::Grid | DesignKind::List, None) => 0,
+        (DesignKind::Grid | DesignKind::List, Some(_)) => {
+            return Err(file.wrong("design.runs", "a grid or list has as many runs as its values give", "no `runs`"));
+        }
+        (_, Some(runs)) if runs >= 1 => runs,
+        (_, Some(runs)) => return Err(file.wrong("design.runs", format!("{runs} is out of range"), "from 1")),
+        (_, None) => return Err(file.wrong("design.runs", "the key is missing: this design needs it", "from 1")),
+    };
+    if matches!(design.kind, DesignKind::Grid | DesignKind::List)
+        && let Some(factor) = factors.iter().find(|f| f.levels().is_none())
+    {
+        let what = format!("`{}` has no values for a grid or list", factor.name);
+        return Err(file.wrong(
+            &factor.key,
+            what,
+            "`values`, `choices`, `from` with `to` and `count`; or another design",
+        ));
+    }
+    let k = factors.len();
+    let total = match design.kind {
+        DesignKind::Grid => factors.iter().filter_map(Factor::levels).fold(1usize, usize::saturating_mul),
+        DesignKind::List => factors[0].levels().unwrap_or(0),
+        DesignKind::LatinHypercube | DesignKind::Random => runs,
+        DesignKind::Morris => runs.saturating_mul(k + 1),
+        DesignKind::Sobol => runs.saturating_mul(k + 2),
+    };
+    if total > MOST_RUNS {
+        return wrong(format!("{total} runs are too many for one study"), "up to 1,000,000");
+    }
+    let shares = match design.kind {
+        DesignKind::Grid => return Ok(grid(factors)),
+        DesignKind::List => return list(file, factors),
+        DesignKind::LatinHypercube => latin_hypercube(runs, k, design.seed),
+        DesignKind::Random => {
+            let mut dice = Dice::new(design.seed);
+            (0..runs).map(|_| (0..k).map(|_| dice.unit()).collect()).collect()
+        }
+        DesignKind::Morris => {
+            if design.levels < 4 || design.levels % 2 == 1 {
+                let what = format!("{} is out of range", design.levels);
+                return Err(file.wrong("design.levels", what, "an even number from 4"));
+            }
+            morris(runs, k, design.levels, design.seed)
+        }
+        DesignKind::Sobol if k > MOST_SOBOL => return wrong(format!("{k} factors are too many for it"), "up to 128"),
+        DesignKind::Sobol => sobol(runs, k, design.seed),
+    };
+    Ok(shares.into_iter().map(|row| row.iter().zip(factors).map(|(s, f)| place(*s, f)).collect()).collect())
+}
+
+fn place(share: f64, factor: &Factor) -> At {
+    match (&factor.over, factor.levels()) {
+        (Over::Values(_), _) | (_, None) => At::Share(share),
+        (_, Some(levels)) => At::Level(((share * levels as f64) as usize).min(levels - 1)),
+    }
+}
+
+fn grid(factors: &[Factor]) -> Vec<Vec<At>> {
+    let mut rows = vec![Vec::new()];
+    for factor in factors {
+        let levels = factor.levels().unwrap_or(0);
+        let with = |row: &Vec<At>, level: usize| row.iter().copied().chain([At::Level(level)]).collect();
+        rows = rows.iter().flat_map(|row| (0..levels).map(move |level| with(row, level))).collect();
+    }
+    rows
+}
+
+fn list(file: &StudyFile, factors: &[Factor]) -> Result<Vec<Vec<At>>> {
+    let levels = factors[0].levels().unwrap_or(0);
+    if let Some(other) = factors.iter().find(|f| f.levels() != Some(levels)) {
+        let found = other.levels().unwrap_or(0);
+        let what = format!("`{}` has {found} values, `{}` {levels}", other.name, factors[0].name);
+        return Err(file.wrong(&other.key, what, "equally many values for each factor of a list"));
+    }
+    Ok((0..levels).map(|level| vec![At::Level(level); factors.len()]).collect())
+}
+
+/// `n` rows of `k` shares: each column has one in every n-th part of 0 … 1.
+fn latin_hypercube(n: usize, k: usize, seed: u64) -> Vec<Vec<f64>> {
+    let mut dice = Dice::new(seed);
+    let mut rows = vec![vec![0.0; k]; n];
+    for column in 0..k {
+        let mut layers: Vec<usize> = (0..n).collect();
+        dice.shuffle(&mut layers);
+        for (row, layer) in rows.iter_mut().zip(layers) {
+            row[column] = (layer as f64 + dice.unit()) / n as f64;
+        }
+    }
+    rows
+}
+
+/// Trajectories of k + 1 points each.
+fn morris(trajectories: usize, k: usize, levels: usize, seed: u64) -> Vec<Vec<f64>> {
+    let mut dice = Dice::new(seed);
+    let spacing = 1.0 / (levels - 1) as f64;
+    let jump = levels / 2;
+    let mut rows = Vec::new();
+    for _ in 0..trajectories {
+        let mut point: Vec<usize> = (0..k).map(|_| dice.below(levels)).collect();
+        let mut order: Vec<usize> = (0..k).collect();
+        dice.shuffle(&mut order);
+        let share = |point: &[usize]| point.iter().map(|&l| l as f64 * spacing).collect::<Vec<f64>>();
+        rows.push(share(&point));
+        for factor in order {
+            // Half of the levels away, up from the lower half and down from the upper.
+            let level = &mut point[factor];
+            *level = if *level < jump { *level + jump } else { *level - jump };
+            rows.push(share(&point));
+        }
+    }
+    rows
+}
+
+/// A (n rows), B (n), then per factor A with its column of B (n each).
+fn sobol(n: usize, k: usize, seed: u64) -> Vec<Vec<f64>> {
+    let scramble = (seed ^ (seed >> 32)) as u32;
+    let row = |i: usize, from: usize| -> Vec<f64> {
+        (0..k).map(|d| f64::from(sobol_burley::sample(i as u32, (from + d) as u32, scramble))).collect()
+    };
+    let a: Vec<Vec<f64>> = (0..n).map(|i| row(i, 0)).collect();
+    let b: Vec<Vec<f64>> = (0..n).map(|i| row(i, k)).collect();
+    let mut rows: Vec<Vec<f64>> = a.iter().chain(&b).cloned().collect();
+    for factor in 0..k {
+        rows.extend(a.iter().zip(&b).map(|(a, b)| {
+            let mut mixed = a.clone();
+            mixed[factor] = b[factor];
+            mixed
+        }));
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_layer_of_a_latin_hypercube_is_used_once() {
+        let rows = latin_hypercube(50, 3, 7);
+        for column in 0..3 {
+            let mut layers: Vec<usize> = rows.iter().map(|r| (r[column] * 50.0) as usize).collect();
+            layers.sort_unstable();
+            assert_eq!(layers, (0..50).collect::<Vec<_>>());
+        }
+        assert_ne!(rows, latin_hypercube(50, 3, 8));
+    }
+
+    #[test]
+    fn one_factor_moves_at_a_time_on_a_trajectory() {
+        let (k, levels) = (4, 6);
+        for trajectory in morris(20, k, levels, 3).chunks(k + 1) {
+            let mut moved = vec![0; k];
+            for pair in trajectory.windows(2) {
+                let differ: Vec<usize> = (0..k).filter(|&f| pair[0][f] != pair[1][f]).collect();
+                assert_eq!(differ.len(), 1);
+                moved[differ[0]] += 1;
+                let step = (pair[1][differ[0]] - pair[0][differ[0]]).abs();
+                assert!((step - 0.6).abs() < 1e-12, "{step}");
+            }
+            assert_eq!(moved, vec![1; k]);
+            assert!(trajectory.iter().flatten().all(|s| (0.0..=1.0).contains(s)));
+        }
+    }
+
+    #[test]
+    fn sobol_rows_mix_two_samples_column_by_column() {
+        let (n, k) = (64, 3);
+        let rows = sobol(n, k, 5);
+        assert_eq!(rows.len(), n * (k + 2));
+        for i in 0..n {
+            for f in 0..k {
+                let mixed = &rows[(2 + f) * n + i];
+                for d in 0..k {
+                    assert_eq!(mixed[d], if d == f { rows[n + i][d] } else { rows[i][d] });
+                }
+            }
+        }
+        // Evenly spread: the mean of 64 points lies far nearer to 1/2 than that of independent draws (0.036).
+        for d in 0..k {
+            let mean = rows[..n].iter().map(|r| r[d]).sum::<f64>() / n as f64;
+            assert!((mean - 0.5).abs() < 5e-3, "{mean}");
+        }
+    }
+}

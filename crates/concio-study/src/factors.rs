@@ -1,0 +1,446 @@
+//! From the study file to factors: what varies, over which values, with errors that name the line.
+
+use concio::Result;
+use serde_json::{Number, Value};
+use statrs::distribution::{ContinuousCDF, LogNormal, Normal};
+
+use crate::file::{Distribution, DistributionLaw, Follower, Spacing, StudyFile, Vary};
+use crate::motions;
+
+/// What varies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factor {
+    /// Heading of its column.
+    pub name: String,
+    /// Key of the study file that it stands at, for errors.
+    pub key: String,
+    /// Unit that all its values have; empty for none, or where they differ.
+    pub unit: String,
+    /// Over what.
+    pub over: Over,
+}
+
+/// Over what a factor varies.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Over {
+    /// Some levels.
+    Levels(Vec<Level>),
+    /// All values of a distribution.
+    Values(Continuous),
+    /// Factors on the motion of the base.
+    Scales(Vec<f64>),
+}
+
+/// A level of a factor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// What stands in its column: the value as the wall file says it, or the name of a choice.
+    pub label: Value,
+    /// Changes of the wall file.
+    pub changes: Changes,
+}
+
+/// Changes of a wall file: key paths and values.
+pub type Changes = Vec<(String, Value)>;
+
+/// A quantity with a distribution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Continuous {
+    path: String,
+    unit: String,
+    law: Law,
+    also: Vec<Follower>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Law {
+    Uniform([f64; 2]),
+    LogUniform([f64; 2]),
+    /// Of the value or, `log`, its logarithm; cut off at the two shares.
+    Normal {
+        mean: f64,
+        deviation: f64,
+        log: bool,
+        shares: [f64; 2],
+    },
+    Triangular {
+        low: f64,
+        mode: f64,
+        high: f64,
+    },
+}
+
+/// Values that the shares 0 and 1 of an unbounded distribution stand for lie at this share from its ends.
+const TAIL: f64 = 1e-6;
+
+impl Continuous {
+    /// The value below which lies this share of the distribution, 0 … 1, in the unit of the file.
+    pub fn quantile(&self, share: f64) -> f64 {
+        match &self.law {
+            Law::Uniform([low, high]) => low + share * (high - low),
+            Law::LogUniform([low, high]) => low * (high / low).powf(share),
+            Law::Normal { mean, deviation, log, shares: [from, to] } => {
+                let share = (from + share * (to - from)).clamp(TAIL, 1.0 - TAIL);
+                // Deviations were checked to be above 0.
+                if *log {
+                    LogNormal::new(*mean, *deviation).map_or(f64::NAN, |d| d.inverse_cdf(share))
+                } else {
+                    Normal::new(*mean, *deviation).map_or(f64::NAN, |d| d.inverse_cdf(share))
+                }
+            }
+            Law::Triangular { low, mode, high } => {
+                let width = high - low;
+                let at_mode = (mode - low) / width;
+                if share < at_mode {
+                    low + (share * width * (mode - low)).sqrt()
+                } else {
+                    high - ((1.0 - share) * width * (high - mode)).sqrt()
+                }
+            }
+        }
+    }
+
+    /// The level at this share.
+    pub fn level(&self, share: f64) -> Level {
+        let value = self.quantile(share);
+        let label = written(value, &self.unit);
+        let mut changes = vec![(self.path.clone(), label.clone())];
+        changes.extend(self.also.iter().map(|f| (f.path.clone(), written(value * f.times, &self.unit))));
+        Level { label, changes }
+    }
+}
+
+impl Factor {
+    /// Number of levels; none for a distribution.
+    pub fn levels(&self) -> Option<usize> {
+        match &self.over {
+            Over::Levels(levels) => Some(levels.len()),
+            Over::Scales(scales) => Some(scales.len()),
+            Over::Values(_) => None,
+        }
+    }
+}
+
+/// The factors of a study: those of `vary`, then the motions, then the scales.
+///
+/// # Errors
+/// What contradicts itself, is empty or out of range, with its line.
+pub fn factors(file: &StudyFile) -> Result<Vec<Factor>> {
+    let study = &file.study;
+    let mut factors = Vec::new();
+    for (index, vary) in study.factors.iter().enumerate() {
+        factors.push(Reader { file, vary, key: format!("vary[{index}]") }.factor()?);
+    }
+    if !study.motions.is_empty() {
+        factors.push(motion_factor(file)?);
+    }
+    if !study.scales.is_empty() {
+        if let Some(i) = study.scales.iter().position(|s| !(*s > 0.0 && s.is_finite())) {
+            return Err(file.wrong(&format!("scales[{i}]"), format!("{} is out of range", study.scales[i]), "above 0"));
+        }
+        let over = Over::Scales(study.scales.clone());
+        factors.push(Factor { name: "scale".into(), key: "scales".into(), unit: String::new(), over });
+    }
+    for (index, factor) in factors.iter().enumerate() {
+        if let Some(other) = factors[..index].iter().find(|f| f.name == factor.name) {
+            let what = format!("`{}` is the name of two factors, here and at {}", factor.name, other.key);
+            return Err(file.wrong(&factor.key, what, "a `name` of its own for each"));
+        }
+    }
+    Ok(factors)
+}
+
+fn motion_factor(file: &StudyFile) -> Result<Factor> {
+    let folder = file.document.folder();
+    let mut levels: Vec<Level> = Vec::new();
+    for (index, motion) in file.study.motions.iter().enumerate() {
+        let key = format!("motion[{index}]");
+        let label = Value::String(motion.name.clone());
+        if levels.iter().any(|l| l.label == label) {
+            return Err(file.wrong(&format!("{key}.name"), "two motions have this name", "names that differ"));
+        }
+        if let concio::case::Signal::Record(record) = &motion.base {
+            let path = folder.join(&record.record);
+            if !path.is_file() {
+                let what = format!("there is no file {}", path.display());
+                return Err(file.wrong(&format!("{key}.base.record"), what, "a record, relative to the study file"));
+            }
+        }
+        let base = motions::rooted(&motion.base, &folder);
+        let json = |v: serde_json::Result<Value>| v.map_err(|e| file.wrong(&key, e.to_string(), ""));
+        let mut changes = vec![("motion.base".to_string(), json(serde_json::to_value(&base))?)];
+        if let Some(duration) = motion.duration {
+            changes.push(("motion.duration".into(), json(serde_json::to_value(duration))?));
+        }
+        levels.push(Level { label, changes });
+    }
+    Ok(Factor { name: "motion".into(), key: "motion".into(), over: Over::Levels(levels), unit: String::new() })
+}
+
+/// Reads one entry of `vary`.
+struct Reader<'a> {
+    file: &'a StudyFile,
+    vary: &'a Vary,
+    key: String,
+}
+
+impl Reader<'_> {
+    fn factor(&self) -> Result<Factor> {
+        let v = self.vary;
+        let ways = [
+            (!v.values.is_empty(), "values"),
+            (v.from.is_some() || v.to.is_some(), "from"),
+            (v.distribution.is_some(), "distribution"),
+            (!v.choices.is_empty(), "choices"),
+        ];
+        let given: Vec<&str> = ways.iter().filter(|w| w.0).map(|w| w.1).collect();
+        let one = "exactly one of `values` (at least one), `from` with `to`, `distribution`, `choices` (at least one)";
+        match given[..] {
+            [] => return Err(self.wrong("", "nothing says over what it varies: it is empty", one)),
+            [_] => {}
+            _ => {
+                return Err(self.wrong(
+                    given[1],
+                    format!("`{}` and `{}` contradict each other", given[0], given[1]),
+                    one,
+                ));
+            }
+        }
+        let over = match given[0] {
+            "choices" => self.choices()?,
+            "values" => Over::Levels(v.values.iter().map(|value| self.level(value)).collect::<Result<_>>()?),
+            "from" => self.range()?,
+            _ => Over::Values(self.distribution()?),
+        };
+        let name = match (&v.name, &v.path) {
+            (Some(name), _) => name.clone(),
+            (None, Some(path)) => path.clone(),
+            (None, None) => return Err(self.wrong("", "choices have no path to be named after", "a `name`")),
+        };
+        let unit = match &over {
+            Over::Values(values) => values.unit.clone(),
+            Over::Levels(levels) => {
+                let mut units = levels.iter().map(|l| amount(&l.label).map(|(_, unit)| unit));
+                let first = units.next().flatten().filter(|_| v.choices.is_empty());
+                first.filter(|first| units.all(|u| u.as_ref() == Some(first))).unwrap_or_default()
+            }
+            Over::Scales(_) => String::new(),
+        };
+        Ok(Factor { name, key: self.key.clone(), unit, over })
+    }
+
+    fn wrong(&self, key: &str, what: impl Into<String>, allowed: &str) -> concio::Error {
+        let key = if key.is_empty() { self.key.clone() } else { format!("{}.{key}", self.key) };
+        self.file.wrong(&key, what, allowed)
+    }
+
+    fn path(&self) -> Result<String> {
+        self.vary.path.clone().ok_or_else(|| self.wrong("path", "the key is missing", "a key path of the wall file"))
+    }
+
+    fn choices(&self) -> Result<Over> {
+        let v = self.vary;
+        for (given, key) in [(v.path.is_some(), "path"), (!v.also.is_empty(), "also"), (v.count.is_some(), "count")] {
+            if given {
+                return Err(self.wrong(
+                    key,
+                    format!("`{key}` has no meaning beside `choices`"),
+                    "`set` in each choice",
+                ));
+            }
+        }
+        let level = |choice: &crate::file::Choice| Level {
+            label: Value::String(choice.name.clone()),
+            changes: choice.set.iter().map(|(k, v)| (k.clone(), v.clone())).collect(),
+        };
+        for (i, choice) in v.choices.iter().enumerate() {
+            if v.choices[..i].iter().any(|c| c.name == choice.name) {
+                return Err(self.wrong(
+                    &format!("choices[{i}].name"),
+                    "two choices have this name",
+                    "names that differ",
+                ));
+            }
+        }
+        Ok(Over::Levels(v.choices.iter().map(level).collect()))
+    }
+
+    fn level(&self, value: &Value) -> Result<Level> {
+        let mut changes = vec![(self.path()?, value.clone())];
+        if !self.vary.also.is_empty() {
+            let (amount, unit) =
+                amount(value).ok_or_else(|| self.wrong("also", "follows a number, and a value is none", "numbers"))?;
+            changes.extend(self.vary.also.iter().map(|f| (f.path.clone(), written(amount * f.times, &unit))));
+        }
+        Ok(Level { label: value.clone(), changes })
+    }
+
+    /// The number given at a key, and its unit, which has to be `unit` if that is known.
+    fn amount(&self, key: &str, value: Option<&Value>, unit: &mut Option<String>) -> Result<f64> {
+        let value = value.ok_or_else(|| self.wrong(key, "the key is missing", "a number, or a text with a unit"))?;
+        let (number, found) = amount(value)
+            .ok_or_else(|| self.wrong(key, format!("{value} is no number"), "a number, or a text with a unit"))?;
+        match unit {
+            Some(unit) if *unit != found => {
+                let name = |u: &str| if u.is_empty() { "none".to_string() } else { format!("`{u}`") };
+                Err(self.wrong(
+                    key,
+                    format!("its unit is {}, that of the others {}", name(&found), name(unit)),
+                    "one unit",
+                ))
+            }
+            _ => {
+                *unit = Some(found);
+                Ok(number)
+            }
+        }
+    }
+
+    fn range(&self) -> Result<Over> {
+        let v = self.vary;
+        let mut unit = None;
+        let low = self.amount("from", v.from.as_ref(), &mut unit)?;
+        let high = self.amount("to", v.to.as_ref(), &mut unit)?;
+        if !(low < high) {
+            return Err(self.wrong("to", format!("{high} does not lie above `from`, {low}"), "above `from`"));
+        }
+        let law = match v.spacing {
+            Spacing::Linear => Law::Uniform([low, high]),
+            Spacing::Log if low > 0.0 => Law::LogUniform([low, high]),
+            Spacing::Log => return Err(self.wrong("from", format!("{low} has no logarithm"), "above 0")),
+        };
+        let continuous = self.continuous(unit, law)?;
+        match v.count {
+            None => Ok(Over::Values(continuous)),
+            Some(count) if count >= 2 => {
+                let share = |i: usize| i as f64 / (count - 1) as f64;
+                Ok(Over::Levels((0..count).map(|i| continuous.level(share(i))).collect()))
+            }
+            Some(count) => Err(self.wrong("count", format!("{count} is out of range"), "from 2")),
+        }
+    }
+
+    fn continuous(&self, unit: Option<String>, law: Law) -> Result<Continuous> {
+        let also = self.vary.also.clone();
+        Ok(Continuous { path: self.path()?, unit: unit.unwrap_or_default(), law, also })
+    }
+
+    fn distribution(&self) -> Result<Continuous> {
+        let Some(given) = &self.vary.distribution else {
+            return Err(self.wrong("distribution", "the key is missing", "a distribution"));
+        };
+        if self.vary.count.is_some() {
+            return Err(self.wrong(
+                "count",
+                "`count` belongs to a range, not to a distribution",
+                "`from` and `to`, or no `count`",
+            ));
+        }
+        let mut unit = None;
+        let law = self.law(given, &mut unit)?;
+        self.continuous(unit, law)
+    }
+
+    fn law(&self, given: &Distribution, unit: &mut Option<String>) -> Result<Law> {
+        use DistributionLaw::{LogUniform, Lognormal, Normal as Bell, Triangular, Uniform};
+        let used: &[&str] = match given.law {
+            Uniform | LogUniform => &["low", "high"],
+            Bell => &["mean", "deviation", "low", "high"],
+            Lognormal => &["median", "dispersion", "low", "high"],
+            Triangular => &["low", "mode", "high"],
+        };
+        let keys = [
+            ("mean", given.mean.is_some()),
+            ("deviation", given.deviation.is_some()),
+            ("median", given.median.is_some()),
+            ("dispersion", given.dispersion.is_some()),
+            ("mode", given.mode.is_some()),
+        ];
+        if let Some((key, _)) = keys.iter().find(|(key, is)| *is && !used.contains(key)) {
+            let allowed = used.iter().map(|k| format!("`{k}`")).collect::<Vec<_>>().join(", ");
+            return Err(self.wrong(&format!("distribution.{key}"), "has no meaning for this law", &allowed));
+        }
+        let mut at =
+            |key: &str, value: &Option<Value>| self.amount(&format!("distribution.{key}"), value.as_ref(), unit);
+        let law = match given.law {
+            Uniform => Law::Uniform([at("low", &given.low)?, at("high", &given.high)?]),
+            LogUniform => Law::LogUniform([at("low", &given.low)?, at("high", &given.high)?]),
+            Triangular => {
+                let (low, mode, high) = (at("low", &given.low)?, at("mode", &given.mode)?, at("high", &given.high)?);
+                Law::Triangular { low, mode, high }
+            }
+            Bell | Lognormal => {
+                let log = given.law == Lognormal;
+                let (mean, deviation) = if log {
+                    let median = at("median", &given.median)?;
+                    let dispersion = given
+                        .dispersion
+                        .ok_or_else(|| self.wrong("distribution.dispersion", "the key is missing", "above 0"))?;
+                    (median.ln(), dispersion)
+                } else {
+                    (at("mean", &given.mean)?, at("deviation", &given.deviation)?)
+                };
+                if !(deviation > 0.0 && deviation.is_finite() && mean.is_finite()) {
+                    let (center, spread) = if log { ("median", "dispersion") } else { ("mean", "deviation") };
+                    let what = format!("`{center}` and `{spread}` make no distribution");
+                    return Err(self.wrong("distribution", what, &format!("`{spread}` above 0, a median above 0")));
+                }
+                let mut end = |key: &str, value: &Option<Value>, none: f64| -> Result<f64> {
+                    if value.is_none() { Ok(none) } else { at(key, value) }
+                };
+                let ends = [end("low", &given.low, f64::NEG_INFINITY)?, end("high", &given.high, f64::INFINITY)?];
+                self.cut(mean, deviation, log, ends)?
+            }
+        };
+        let falls = match &law {
+            Law::Uniform([low, high]) => !(low < high),
+            Law::LogUniform([low, high]) => !(*low > 0.0 && low < high),
+            Law::Triangular { low, mode, high } => !(low <= mode && mode <= high && low < high),
+            Law::Normal { shares: [from, to], .. } => !(to > from),
+        };
+        if falls {
+            return Err(self.wrong(
+                "distribution",
+                "its ends do not follow each other",
+                "`low` below `high`, `mode` between, logarithms of what is above 0",
+            ));
+        }
+        Ok(law)
+    }
+
+    fn cut(&self, mean: f64, deviation: f64, log: bool, ends: [f64; 2]) -> Result<Law> {
+        let normal = Normal::new(mean, deviation).map_err(|e| self.wrong("distribution", e.to_string(), ""))?;
+        let share = |end: f64| match log {
+            true if end <= 0.0 => 0.0,
+            true => normal.cdf(end.ln()),
+            false => normal.cdf(end),
+        };
+        Ok(Law::Normal { mean, deviation, log, shares: ends.map(share) })
+    }
+}
+
+/// A number and its unit, of a number or a text such as "10 mm".
+pub fn amount(value: &Value) -> Option<(f64, String)> {
+    match value {
+        Value::Number(n) => n.as_f64().map(|v| (v, String::new())),
+        Value::String(text) => {
+            let text = text.trim();
+            // The longest start that is a number: "1e3 m" and "2 e/s" differ in where the unit begins.
+            let cuts = text.char_indices().map(|(i, _)| i).chain([text.len()]).skip(1);
+            let end = cuts.filter(|&i| text[..i].trim().parse::<f64>().is_ok()).last()?;
+            let number: f64 = text[..end].trim().parse().ok()?;
+            number.is_finite().then(|| (number, text[end..].trim().to_string()))
+        }
+        _ => None,
+    }
+}
+
+/// A value as a wall file says it.
+fn written(value: f64, unit: &str) -> Value {
+    if unit.is_empty() { number(value) } else { Value::String(format!("{value:?} {unit}")) }
+}
+
+/// A number as JSON; null when it is none.
+pub fn number(value: f64) -> Value {
+    Number::from_f64(value).map_or(Value::Null, Value::Number)
+}

@@ -1,0 +1,301 @@
+//! The study file: TOML (or JSON) with the keys of [`Study`]. Values stand in it as a wall file would say them.
+
+use std::path::{Path, PathBuf};
+
+use concio::case::{self, CaseFile, Document};
+use concio::{Error, InputError, Result};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use crate::motions::MotionInput;
+
+/// A study: a wall, what varies, which combinations are run, what is kept, what is asked.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Study {
+    /// Free text shown in reports.
+    #[serde(default)]
+    pub title: String,
+    /// The wall file that everything starts from, relative to the study file.
+    pub wall: PathBuf,
+    /// How the values of the factors are combined; default every value with every other.
+    #[serde(default)]
+    pub design: Design,
+    /// What varies.
+    #[serde(default, rename = "vary", skip_serializing_if = "Vec::is_empty")]
+    pub factors: Vec<Vary>,
+    /// Motions that take the place of the wall file's, one factor more.
+    #[serde(default, rename = "motion", skip_serializing_if = "Vec::is_empty")]
+    pub motions: Vec<MotionInput>,
+    /// Factors on the acceleration (or displacement) of the base's motion, each above 0: one factor more.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub scales: Vec<f64>,
+    /// What is kept of every run.
+    #[serde(default)]
+    pub keep: Keep,
+}
+
+/// How values are combined.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Design {
+    /// The way.
+    pub kind: DesignKind,
+    /// `latin-hypercube`, `random`: number of runs; `morris`: of trajectories; `sobol`: of base points. From 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runs: Option<usize>,
+    /// Seed of everything that is drawn; default 1.
+    pub seed: u64,
+    /// `morris`: levels of each factor, even, from 4; default 4.
+    pub levels: usize,
+}
+
+impl Default for Design {
+    fn default() -> Self {
+        Design { kind: DesignKind::Grid, runs: None, seed: 1, levels: 4 }
+    }
+}
+
+/// Ways to combine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DesignKind {
+    /// Every value of each factor with every value of the others.
+    #[default]
+    Grid,
+    /// First values together, second values together, …: all factors have equally many.
+    List,
+    /// Each factor's range in as many layers as there are runs, each layer used once (McKay et al. 1979).
+    LatinHypercube,
+    /// Independent draws.
+    Random,
+    /// Trajectories on which one factor changes at a time (Morris 1991).
+    Morris,
+    /// Two samples and those in which one factor is taken from the other (Saltelli et al. 2010).
+    Sobol,
+}
+
+/// One thing that varies. Exactly one of `values`, `from` with `to`, `distribution`, `choices` says over what.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Vary {
+    /// Heading of its column; default the path.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Key path in the wall file: `joint.friction.static`, `panel[0].courses`, `panel[*].brick.height`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
+    /// Values that stand there one after the other, at least one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub values: Vec<Value>,
+    /// Lower end of a range: a number, or a text with a unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from: Option<Value>,
+    /// Upper end, in the same unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to: Option<Value>,
+    /// How many values of the range a grid or list takes, ends included; from 2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub count: Option<usize>,
+    /// How they lie in the range; default `linear`.
+    pub spacing: Spacing,
+    /// A distribution instead of a range, for designs that draw.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distribution: Option<Distribution>,
+    /// Named alternatives, each with any number of changes: textures, laws, whole walls.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub choices: Vec<Choice>,
+    /// Other keys that follow the value of `path` in proportion.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub also: Vec<Follower>,
+}
+
+/// How values lie in a range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Spacing {
+    /// At equal distances.
+    #[default]
+    Linear,
+    /// At equal ratios; the range is above 0.
+    Log,
+}
+
+/// A distribution; which parameters it needs depends on the law, and all have the unit of the key.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Distribution {
+    /// The law.
+    pub law: DistributionLaw,
+    /// `normal`: mean.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean: Option<Value>,
+    /// `normal`: standard deviation, above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub deviation: Option<Value>,
+    /// `lognormal`: median, above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub median: Option<Value>,
+    /// `lognormal`: standard deviation of the logarithm, above 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dispersion: Option<f64>,
+    /// `triangular`: the likeliest value, from `low` to `high`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mode: Option<Value>,
+    /// Least value; `uniform`, `log-uniform` and `triangular` need it, the others are cut off there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub low: Option<Value>,
+    /// Largest value, likewise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub high: Option<Value>,
+}
+
+/// Laws of distribution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DistributionLaw {
+    /// All values from `low` to `high` alike.
+    Uniform,
+    /// Their logarithms alike.
+    LogUniform,
+    /// Bell curve of `mean` and `deviation`.
+    Normal,
+    /// Bell curve of the logarithm, of `median` and `dispersion`.
+    Lognormal,
+    /// From `low` up to `mode` and down to `high`.
+    Triangular,
+}
+
+/// A named alternative.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Choice {
+    /// Its name in tables and figures.
+    pub name: String,
+    /// Key paths of the wall file and what stands there; empty for the wall as it is.
+    #[serde(default)]
+    pub set: Map<String, Value>,
+}
+
+/// A key that follows another in proportion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Follower {
+    /// Key path in the wall file.
+    pub path: String,
+    /// Its value over that of the factor.
+    pub times: f64,
+}
+
+/// What is kept of every run. Its numbers (docs/studies) always are.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Keep {
+    /// Values per joint.
+    pub joints: Vec<PerJoint>,
+    /// Also the whole result of every run, `results/ID.h5`: large.
+    pub results: bool,
+}
+
+/// What can be kept per joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PerJoint {
+    /// Peak |relative displacement| [m].
+    Displacement,
+    /// Peak |relative velocity| [m/s].
+    Velocity,
+    /// Peak |relative acceleration| [m/s²].
+    Acceleration,
+    /// Slip [m].
+    Slip,
+    /// Widest gap of a head joint [m].
+    Opening,
+    /// Peak |elastic force| [N].
+    Force,
+    /// Dissipated energy [J].
+    Dissipation,
+    /// Time of the first crack [s]; empty where there was none.
+    Cracked,
+    /// Cracked part at the end, 0 … 1.
+    Damage,
+}
+
+impl PerJoint {
+    /// SI unit; empty for pure numbers.
+    pub fn unit(self) -> &'static str {
+        match self {
+            PerJoint::Displacement | PerJoint::Slip | PerJoint::Opening => "m",
+            PerJoint::Velocity => "m/s",
+            PerJoint::Acceleration => "m/s²",
+            PerJoint::Force => "N",
+            PerJoint::Dissipation => "J",
+            PerJoint::Cracked => "s",
+            PerJoint::Damage => "",
+        }
+    }
+}
+
+/// A study file that was read, its wall file too.
+#[derive(Debug, Clone)]
+pub struct StudyFile {
+    /// What it says.
+    pub study: Study,
+    /// Where its values stand.
+    pub document: Document,
+    /// The wall.
+    pub wall: CaseFile,
+}
+
+impl StudyFile {
+    /// Reads a study file and the wall file that it names.
+    ///
+    /// # Errors
+    /// [`Error::Input`] when either cannot be read, or says what it must not.
+    pub fn read(path: &Path) -> Result<Self> {
+        Self::of(Document::open(path, "a study file")?)
+    }
+
+    /// The same of a document that was read already.
+    ///
+    /// # Errors
+    /// As [`StudyFile::read`].
+    pub fn of(document: Document) -> Result<Self> {
+        let study: Study = document.to()?;
+        let path = document.folder().join(&study.wall);
+        if !path.is_file() {
+            let error = InputError::new(format!("there is no file {}", path.display())).key("wall");
+            return Err(document.locate(error.allowed("a wall file, relative to the study file")).into());
+        }
+        let wall = case::read(&path)?;
+        wall.validate()?;
+        Ok(StudyFile { study, document, wall })
+    }
+
+    /// An error about a key of the study file, with its place.
+    pub fn wrong(&self, key: &str, what: impl Into<String>, allowed: &str) -> Error {
+        let error = InputError::new(what).key(key);
+        self.document.locate(if allowed.is_empty() { error } else { error.allowed(allowed) }).into()
+    }
+
+    /// What a wall file has against a value that the study file gives at `key`.
+    pub fn of_wall(&self, key: &str, error: Error) -> Error {
+        let Error::Input(e) = error else { return error };
+        if e.file.as_deref().is_some_and(|f| Some(f) != self.wall.path()) {
+            // About another file, a record: that is where it has to be mended.
+            let help = self.document.locate(InputError::new("").key(key));
+            let line = help.line.map_or(String::new(), |l| format!(", line {l}"));
+            return e.help(format!("named in the study file{line}, {key}")).into();
+        }
+        let what = e.key.as_ref().map_or(e.what.clone(), |k| format!("{k}: {}", e.what));
+        let mut moved = InputError::new(what).key(key);
+        (moved.allowed, moved.help) = (e.allowed.clone(), e.help.clone());
+        self.document.locate(moved).into()
+    }
+}
+
+/// The JSON Schema of the study file.
+pub fn schema() -> Value {
+    schemars::schema_for!(Study).to_value()
+}

@@ -1,0 +1,24 @@
+//! Studies: many runs of one wall, and what they answer together.
+//!
+//! Main path: [`file`] (what the study file says) → [`factors`] (what varies) → [`design`] (which combinations) →
+//! [`plan`] (the runs, each with its wall and its id) → [`runner`] (does those that the store does not have) →
+//! [`store`] → [`table`].
+//!
+//! A run is known by its id, the hash of everything its result depends on. The store keeps what was measured of each
+//! run under its id, so nothing is ever run twice: a study that is taken up again, a shard, a search that asks for a
+//! wall it has seen before all read the store first.
+
+pub mod design;
+pub mod factors;
+pub mod file;
+mod files;
+pub mod measures;
+pub mod motions;
+pub mod plan;
+pub mod runner;
+pub mod store;
+pub mod table;
+
+pub use file::StudyFile;
+pub use plan::Plan;
+pub use runner::Runner;

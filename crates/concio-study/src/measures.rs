@@ -1,0 +1,239 @@
+//! What a study keeps of a run: some numbers, two texts and, if asked for, values per joint.
+
+use std::collections::BTreeMap;
+
+use concio::law::Stribeck;
+use concio::outcome::{BondRow, Outcome};
+use concio::record::StopReason;
+use concio::run::{Prepared, joint_rows};
+use concio::store::{residual_relative, top_force_rms};
+use serde::{Deserialize, Serialize};
+
+use crate::file::PerJoint;
+
+/// Raised when a measure means something else than before: runs measured earlier are then done again.
+pub const VERSION: u32 = 1;
+
+/// A number of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Measure {
+    /// Its name in tables.
+    pub name: &'static str,
+    /// SI unit; empty for pure numbers.
+    pub unit: &'static str,
+    /// What it is.
+    pub text: &'static str,
+}
+
+const fn measure(name: &'static str, unit: &'static str, text: &'static str) -> Measure {
+    Measure { name, unit, text }
+}
+
+/// The numbers of a run, in the order of [`Row::numbers`].
+pub const MEASURES: [Measure; 30] = [
+    measure("time_reached", "s", "time at which the run ended"),
+    measure("peak_displacement", "m", "largest |displacement| of a block relative to the base"),
+    measure("peak_drift", "", "largest |displacement| of a block of a top course, over the height of its top"),
+    measure("peak_joint_displacement", "m", "largest |relative displacement| of neighbouring blocks"),
+    measure("peak_joint_velocity", "m/s", "largest |relative velocity| of neighbouring blocks"),
+    measure("peak_joint_acceleration", "m/s²", "largest |relative acceleration| of neighbouring blocks"),
+    measure("peak_slip_velocity", "m/s", "largest |relative velocity| of a bed or support joint"),
+    measure("largest_slip", "m", "largest slip path of a joint"),
+    measure("total_slip", "m", "slip paths of all joints together"),
+    measure("largest_opening", "m", "widest gap of a head joint or connection"),
+    measure("deepest_closing", "m", "deepest closure of a head joint or connection"),
+    measure("peak_elastic_force", "N", "largest |elastic force| in a joint"),
+    measure("peak_friction_force", "N", "largest |friction force| in a joint"),
+    measure("peak_viscous_force", "N", "largest |viscous force| in a joint"),
+    measure("peak_inertia_force", "N", "largest |mass times relative acceleration| of a block"),
+    measure("top_force_peak", "N", "largest |force| of the top beam"),
+    measure("top_force_rms", "N", "root mean square of the force of the top beam"),
+    measure("top_work", "J", "work of a driven top beam"),
+    measure("base_work", "J", "work of the base motion"),
+    measure("kinetic_energy", "J", "kinetic energy at the end"),
+    measure("elastic_energy", "J", "elastic energy at the end"),
+    measure("damping_energy", "J", "dissipated by viscous damping"),
+    measure("friction_energy", "J", "dissipated by friction"),
+    measure("bond_energy", "J", "dissipated by the breaking of bonds"),
+    measure("impact_energy", "J", "lost in impacts"),
+    measure("energy_residual", "", "largest residual of the energy account over the largest energy in play"),
+    measure("joints_cracked", "", "number of bonds that cracked"),
+    measure("joints_broken", "", "number of bonds of which nothing was left"),
+    measure("first_crack", "s", "time of the first crack"),
+    measure("steps", "", "steps of the solver"),
+];
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum End {
+    /// It reached its end.
+    Completed,
+    /// The solver stopped early; the numbers hold up to there.
+    Stopped,
+    /// It has no numbers.
+    Failed,
+}
+
+/// What is kept of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// What the run is known by.
+    pub id: String,
+    /// How it ended.
+    pub end: End,
+    /// Why it stopped or failed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cause: Option<String>,
+    /// One value per entry of [`MEASURES`]; none where there is none. Empty when the run failed.
+    pub numbers: Vec<Option<f64>>,
+    /// Joint of the largest relative displacement.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub peak_joint: Option<String>,
+    /// Joint that cracked first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_joint: Option<String>,
+    /// Values per joint, in the order of the joints; none where there is none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub joints: BTreeMap<PerJoint, Vec<Option<f64>>>,
+}
+
+impl Row {
+    /// A run without numbers.
+    pub fn failed(id: &str, cause: impl Into<String>) -> Self {
+        Row {
+            id: id.into(),
+            end: End::Failed,
+            cause: Some(cause.into()),
+            numbers: Vec::new(),
+            peak_joint: None,
+            first_joint: None,
+            joints: BTreeMap::new(),
+        }
+    }
+
+    /// A number by name; none when the run has none, or there is no such measure.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        let place = MEASURES.iter().position(|m| m.name == name)?;
+        self.numbers.get(place).copied().flatten()
+    }
+
+    /// Whether it holds all of `keep` per joint.
+    pub fn has(&self, keep: &[PerJoint]) -> bool {
+        self.end == End::Failed || keep.iter().all(|k| self.joints.contains_key(k))
+    }
+}
+
+/// Reads off a run what is kept of it.
+pub fn row(id: &str, prepared: &Prepared, outcome: &Outcome, keep: &[PerJoint]) -> Row {
+    let (end, cause) = match outcome.stop_reason {
+        StopReason::Completed => (End::Completed, None),
+        other => (End::Stopped, Some(format!("{other:?} at t = {} s", outcome.time_reached))),
+    };
+    let model = &prepared.model;
+    let name = |e: usize| concio::graph::name(&model.wall, &model.joints[e]);
+    let most = largest(&outcome.envelopes.joint_displacement);
+    let numbers = numbers(prepared, outcome);
+    Row {
+        id: id.into(),
+        end,
+        cause,
+        numbers: numbers.into_iter().map(|v| v.is_finite().then_some(v)).collect(),
+        peak_joint: most.map(name),
+        first_joint: outcome.first_crack().map(|b| name(b.joint)),
+        joints: keep.iter().map(|k| (*k, per_joint(*k, model.joints.len(), outcome))).collect(),
+    }
+}
+
+/// Place of the largest value above 0, the first of several.
+fn largest(values: &[f64]) -> Option<usize> {
+    let above = values.iter().enumerate().filter(|(_, v)| **v > 0.0);
+    above.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(i, _)| i)
+}
+
+fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
+    let (model, envelopes, totals, energies) =
+        (&prepared.model, &outcome.envelopes, &outcome.totals, &outcome.energies);
+    let most = |values: &[f64]| values.iter().fold(0.0f64, |m, v| m.max(*v));
+    let blocks = &model.wall.blocks;
+    let highest = |panel: usize| blocks.iter().filter(|b| b.panel == panel).map(|b| b.course).max();
+    let tops: Vec<Option<usize>> = (0..model.wall.panels.len()).map(highest).collect();
+    let moved = blocks.iter().zip(&envelopes.block_displacement).filter(|(b, _)| tops[b.panel] == Some(b.course));
+    let drift = moved.fold(0.0f64, |m, (b, u)| m.max(u / b.y[1]));
+    let joints = joint_rows(model);
+    let rub = model.rub_of_joint();
+    let friction = rub.iter().zip(&envelopes.joint_velocity).filter_map(|(rub, v)| {
+        let rub = &model.rubs[(*rub)?];
+        // Up to slip a joint with a set-valued law bears what it has to: its largest is μ_s.
+        let mu = if rub.law.sticks() { rub.law.static_ } else { most_up_to(&rub.law, *v) };
+        Some(mu * rub.normal[0].max(rub.normal[1]))
+    });
+    let viscous = joints.iter().zip(&envelopes.joint_velocity).map(|(j, v)| j.damping * v);
+    let inertia = model.mass.iter().zip(&envelopes.block_acceleration).map(|(m, a)| m * a);
+    let max = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, f64::max);
+    let cracked = |test: &dyn Fn(&BondRow) -> bool| outcome.bonds.iter().filter(|b| test(b)).count() as f64;
+    [
+        outcome.time_reached,
+        totals.peak_relative_displacement,
+        drift,
+        most(&envelopes.joint_displacement),
+        most(&envelopes.joint_velocity),
+        most(&envelopes.joint_acceleration),
+        totals.peak_slip_velocity,
+        most(&envelopes.joint_slip),
+        envelopes.joint_slip.iter().sum(),
+        most(&envelopes.joint_opening),
+        most(&envelopes.joint_closing),
+        most(&envelopes.joint_force),
+        max(&mut { friction }),
+        max(&mut { viscous }),
+        max(&mut { inertia }),
+        totals.top_force_peak,
+        top_force_rms(outcome),
+        energies.input_top,
+        energies.input_base,
+        energies.kinetic,
+        energies.elastic,
+        energies.damping,
+        energies.friction,
+        energies.bond,
+        energies.impact,
+        residual_relative(outcome),
+        cracked(&|b| b.damage > 0.0),
+        cracked(&|b| b.damage == 1.0),
+        outcome.first_crack().map_or(f64::INFINITY, |b| b.cracked),
+        outcome.counters.steps as f64,
+    ]
+}
+
+/// Largest |μ| at speeds up to `speed` [m/s]: the law rises, falls and rises again.
+fn most_up_to(law: &Stribeck, speed: f64) -> f64 {
+    const SPEEDS: i32 = 200;
+    // From the foot of the law, in equal ratios.
+    let foot = (1e-3 * law.slip_velocity / law.beta).min(speed);
+    let ratio = (speed / foot).powf(1.0 / f64::from(SPEEDS));
+    (0..=SPEEDS).map(|k| law.value(foot * ratio.powi(k))).filter(|mu| mu.is_finite()).fold(0.0, f64::max)
+}
+
+fn per_joint(kind: PerJoint, joints: usize, outcome: &Outcome) -> Vec<Option<f64>> {
+    let e = &outcome.envelopes;
+    let of_bonds = |value: &dyn Fn(&BondRow) -> f64| {
+        let mut all = vec![None; joints];
+        for bond in &outcome.bonds {
+            all[bond.joint] = Some(value(bond)).filter(|v| v.is_finite());
+        }
+        all
+    };
+    let plain = |values: &[f64]| values.iter().map(|v| Some(*v)).collect();
+    match kind {
+        PerJoint::Displacement => plain(&e.joint_displacement),
+        PerJoint::Velocity => plain(&e.joint_velocity),
+        PerJoint::Acceleration => plain(&e.joint_acceleration),
+        PerJoint::Slip => plain(&e.joint_slip),
+        PerJoint::Opening => plain(&e.joint_opening),
+        PerJoint::Force => plain(&e.joint_force),
+        PerJoint::Dissipation => plain(&e.joint_dissipation),
+        PerJoint::Cracked => of_bonds(&|b| b.cracked),
+        PerJoint::Damage => of_bonds(&|b| b.damage),
+    }
+}

@@ -1,0 +1,198 @@
+//! The runs of a study: each with the values of its factors and the wall that they make.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use concio::case::{Case, CaseFile, Signal, canonical_json};
+use concio::quantity::Time;
+use concio::{Error, InputError, Result};
+use serde_json::Value;
+
+use crate::design::{At, points};
+use crate::factors::{Changes, Factor, Over, factors};
+use crate::file::StudyFile;
+use crate::motions;
+
+/// A study with its runs.
+#[derive(Debug)]
+pub struct Plan {
+    /// The file.
+    pub file: StudyFile,
+    /// What varies.
+    pub factors: Vec<Factor>,
+    /// Per run, where each factor stands.
+    pub points: Vec<Vec<At>>,
+    records: Records,
+}
+
+/// Hashes of record files, each read once.
+#[derive(Debug, Default)]
+pub struct Records(Mutex<HashMap<PathBuf, String>>);
+
+impl Plan {
+    /// Reads a study file and settles its runs.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with file and line.
+    pub fn read(path: &Path) -> Result<Self> {
+        Self::of(StudyFile::read(path)?)
+    }
+
+    /// The same of a file that was read already.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with file and line.
+    pub fn of(file: StudyFile) -> Result<Self> {
+        let factors = factors(&file)?;
+        let points = points(&file, &factors)?;
+        let plan = Plan { file, factors, points, records: Records::default() };
+        plan.try_levels()?;
+        Ok(plan)
+    }
+
+    /// Each level alone, so that a message names the value at fault; their combinations are looked at by [`Plan::case`].
+    fn try_levels(&self) -> Result<()> {
+        for factor in &self.factors {
+            let levels: Vec<(String, Changes)> = match &factor.over {
+                Over::Levels(levels) => {
+                    let key = |i: usize| self.level_key(factor, i);
+                    levels.iter().enumerate().map(|(i, l)| (key(i), l.changes.clone())).collect()
+                }
+                Over::Values(values) => {
+                    [0.0, 1.0].map(|share| (format!("{}.path", factor.key), values.level(share).changes)).to_vec()
+                }
+                Over::Scales(_) => continue,
+            };
+            for (key, changes) in levels {
+                self.file.wall.changed(&changes).map_err(|e| self.file.of_wall(&key, e))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn level_key(&self, factor: &Factor, level: usize) -> String {
+        let vary = self.file.study.factors.iter().enumerate();
+        let of = vary.map(|(i, v)| (format!("vary[{i}]"), v)).find(|(key, _)| *key == factor.key);
+        match of {
+            Some((key, v)) if !v.values.is_empty() => format!("{key}.values[{level}]"),
+            Some((key, v)) if !v.choices.is_empty() => format!("{key}.choices[{level}].set"),
+            Some((key, _)) => format!("{key}.path"),
+            None => format!("{}[{level}]", factor.key),
+        }
+    }
+
+    /// Value of every factor in run `number`, as tables show them.
+    pub fn labels(&self, number: usize) -> Vec<Value> {
+        let label = |(at, factor): (&At, &Factor)| match (&factor.over, at) {
+            (Over::Levels(levels), At::Level(level)) => levels[*level].label.clone(),
+            (Over::Scales(scales), At::Level(level)) => crate::factors::number(scales[*level]),
+            (Over::Values(values), At::Share(share)) => values.level(*share).label,
+            _ => Value::Null,
+        };
+        self.points[number].iter().zip(&self.factors).map(label).collect()
+    }
+
+    /// The wall of run `number`, complete and valid, its output set to what the study keeps.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where the values of this run make no wall.
+    pub fn case(&self, number: usize) -> Result<Case> {
+        let mut changes: Changes = Vec::new();
+        let mut scale = 1.0;
+        for (at, factor) in self.points[number].iter().zip(&self.factors) {
+            match (&factor.over, at) {
+                (Over::Levels(levels), At::Level(level)) => changes.extend(levels[*level].changes.iter().cloned()),
+                (Over::Values(values), At::Share(share)) => changes.extend(values.level(*share).changes),
+                (Over::Scales(scales), At::Level(level)) => scale = scales[*level],
+                _ => {}
+            }
+        }
+        self.changed(&changes, scale).map_err(|e| {
+            let labels: Vec<String> =
+                self.factors.iter().zip(self.labels(number)).map(|(f, l)| format!("{} = {l}", f.name)).collect();
+            let key = self.factors.first().map_or("wall", |f| f.key.as_str());
+            match self.file.of_wall(key, e) {
+                Error::Input(e) => e.help(format!("in run {} with {}", number + 1, labels.join(", "))).into(),
+                other => other,
+            }
+        })
+    }
+
+    /// The study's wall with some changes, its base moving `scale` times as strongly.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where that is no wall, located in the wall file.
+    pub fn changed(&self, changes: &Changes, scale: f64) -> Result<Case> {
+        let mut file = self.file.wall.changed(changes)?;
+        let folder = file.folder().to_path_buf();
+        let motion = &mut file.case.motion;
+        // Motions of the study file are rooted already; the wall's own start from its folder.
+        if !changes.iter().any(|(path, _)| path == "motion.base") {
+            motion.base = motions::rooted(&motion.base, &folder);
+        }
+        motion.top = motions::rooted(&motion.top, &folder);
+        if scale != 1.0 {
+            motion.base = motions::scaled(&motion.base, scale);
+        }
+        if !self.file.study.keep.results {
+            quiet(&mut file);
+        }
+        file.validate()?;
+        Ok(file.case)
+    }
+
+    /// What the result of a case is known by.
+    ///
+    /// # Errors
+    /// A record that cannot be read.
+    pub fn id(&self, case: &Case) -> Result<String> {
+        self.records.id(case)
+    }
+}
+
+/// Keeps no histories and no frames: a study reads peaks, energies and cracks.
+fn quiet(file: &mut CaseFile) {
+    let output = &mut file.case.output;
+    output.frames = Some(Time::from_si(0.0));
+    output.blocks.clear();
+    output.joints.clear();
+    output.interval = None;
+}
+
+impl Records {
+    /// BLAKE3 of the resolved case with the content of its records in place of their paths, and of the versions of
+    /// program, result files and measures; 32 hexadecimal digits.
+    ///
+    /// # Errors
+    /// A record that cannot be read.
+    pub fn id(&self, case: &Case) -> Result<String> {
+        let mut case = case.clone();
+        for signal in [&mut case.motion.base, &mut case.motion.top] {
+            if let Signal::Record(input) = signal {
+                input.record = PathBuf::from(self.hash(&input.record)?);
+            }
+        }
+        let mut hasher = blake3::Hasher::new();
+        let versions = format!("{} {}", concio::store::SCHEMA_VERSION, crate::measures::VERSION);
+        for part in [env!("CARGO_PKG_VERSION"), &versions, &canonical_json(&case)] {
+            hasher.update(&(part.len() as u64).to_le_bytes());
+            hasher.update(part.as_bytes());
+        }
+        Ok(hasher.finalize().to_hex()[..32].to_string())
+    }
+
+    fn hash(&self, path: &Path) -> Result<String> {
+        let known = |map: &HashMap<PathBuf, String>| map.get(path).cloned();
+        let mut map = self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if let Some(hash) = known(&map) {
+            return Ok(hash);
+        }
+        let bytes = std::fs::read(path).map_err(|e| {
+            InputError::new(format!("cannot be read: {e}")).in_file(path).allowed("an accelerogram that can be read")
+        })?;
+        let hash = blake3::hash(&bytes).to_hex().to_string();
+        map.insert(path.to_path_buf(), hash.clone());
+        Ok(hash)
+    }
+}

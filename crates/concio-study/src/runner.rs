@@ -1,0 +1,333 @@
+//! Does runs that the store does not have: side by side, in lanes where walls are alike, on several threads.
+//!
+//! A run that cannot be prepared or panics becomes a row that says why, and the others go on.
+
+use std::any::Any;
+use std::collections::HashSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use concio::case::Case;
+use concio::many::{Job, Standing, simulate_each};
+use concio::outcome::Outcome;
+use concio::record::StopReason;
+use concio::run::{Control, Prepared, joint_rows, prepare};
+use concio::store::hdf5;
+use concio::{Error, Result};
+use rayon::prelude::*;
+
+use crate::file::{Keep, PerJoint};
+use crate::files;
+use crate::measures::{End, Row, row};
+use crate::plan::Records;
+use crate::store::Store;
+
+/// Runs that are prepared together at most, and blocks in all of them: what is in memory at a time.
+const MOST_AT_ONCE: usize = 4096;
+const MOST_BLOCKS: usize = 400_000;
+/// Threads wait for each other where one set of runs ends and the next begins: sets are as large as memory allows.
+const ABOUT_SAMPLES: usize = 20_000_000;
+
+/// How far the runs are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Runs that are over, those that the store had included.
+    pub done: usize,
+    /// Of these, those that the store had.
+    pub known: usize,
+    /// Runs in all.
+    pub of: usize,
+    /// Runs that failed or stopped early.
+    pub failed: usize,
+    /// Share of the work of this call that is done, 0 … 1.
+    pub share: f64,
+    /// Time by the clock since the call.
+    pub elapsed: Duration,
+}
+
+/// Solves a set of jobs: [`simulate_each`], or a stand-in in tests.
+pub type Solve = fn(&[Job], usize, &(dyn Fn(Standing) -> Control + Sync), &(dyn Fn(usize, Result<Outcome>) + Sync));
+
+/// Does runs and keeps what was measured of them.
+pub struct Runner<'a> {
+    store: Store,
+    /// Threads; 0 for one per core.
+    pub threads: usize,
+    /// What is kept per joint.
+    pub joints: Vec<PerJoint>,
+    /// Whether whole results are kept.
+    pub results: bool,
+    records: Records,
+    watch: &'a (dyn Fn(&Progress) -> Control + Sync),
+    solve: Solve,
+    /// Time by the clock spent inside the solver.
+    pub solving: Duration,
+}
+
+impl<'a> Runner<'a> {
+    /// With the store of `folder`; `watch` is called a few times a second and can stop the runs.
+    ///
+    /// # Errors
+    /// [`Error::Io`] when the store cannot be read.
+    pub fn open(
+        folder: &Path,
+        keep: &Keep,
+        threads: usize,
+        watch: &'a (dyn Fn(&Progress) -> Control + Sync),
+    ) -> Result<Self> {
+        Ok(Runner {
+            store: Store::open(folder)?,
+            threads,
+            joints: keep.joints.clone(),
+            results: keep.results,
+            records: Records::default(),
+            watch,
+            solve: simulate_each,
+            solving: Duration::ZERO,
+        })
+    }
+
+    /// With another solver.
+    pub fn solved_by(mut self, solve: Solve) -> Self {
+        self.solve = solve;
+        self
+    }
+
+    /// What is known.
+    pub fn store(&self) -> &Store {
+        &self.store
+    }
+
+    /// Id of a case.
+    ///
+    /// # Errors
+    /// A record that cannot be read.
+    pub fn id(&self, case: &Case) -> Result<String> {
+        self.records.id(case)
+    }
+
+    /// The row of a case, if the store has it with all that is kept.
+    pub fn known(&self, id: &str) -> Option<&Row> {
+        let row = self.store.get(id)?;
+        let file = !self.results || row.end == End::Failed || self.result_path(id).is_file();
+        (row.has(&self.joints) && file).then_some(row)
+    }
+
+    fn result_path(&self, id: &str) -> std::path::PathBuf {
+        self.store.folder().join("results").join(format!("{id}.h5"))
+    }
+
+    /// The rows of `cases`, in their order: from the store, or run now. None when the watch stopped the runs; what was
+    /// done until then is in the store.
+    ///
+    /// # Errors
+    /// The store cannot be written, a record cannot be read. Cases that fail have rows that say so.
+    pub fn rows(&mut self, cases: &[Case]) -> Result<Option<Vec<Row>>> {
+        let ids = cases.iter().map(|c| self.id(c)).collect::<Result<Vec<_>>>()?;
+        let mut seen = HashSet::new();
+        let todo: Vec<usize> =
+            (0..cases.len()).filter(|&i| self.known(&ids[i]).is_none() && seen.insert(&ids[i])).collect();
+        let tally = Tally::new(cases.len(), cases.len() - todo.len(), ids.iter().filter_map(|id| self.store.get(id)));
+        let mut rest = &todo[..];
+        while !rest.is_empty() {
+            let (set, after) = rest.split_at(self.set_size(cases, rest));
+            rest = after;
+            let set: Vec<(&str, &Case)> = set.iter().map(|&i| (ids[i].as_str(), &cases[i])).collect();
+            if self.run_set(&set, &tally)? == Control::Stop {
+                self.store.sync()?;
+                return Ok(None);
+            }
+        }
+        self.store.sync()?;
+        (self.watch)(&tally.progress(0.0));
+        let row = |id: &String| self.store.get(id).cloned();
+        Ok(Some(ids.iter().filter_map(row).collect()))
+    }
+
+    /// How many of `todo` are prepared together.
+    fn set_size(&self, cases: &[Case], todo: &[usize]) -> usize {
+        let mut weight = 0;
+        let fits = |&&i: &&usize| {
+            // About: blocks from the courses where the pattern says them, samples of a record in memory.
+            let case = &cases[i];
+            let blocks: usize =
+                case.panels.iter().map(|p| p.courses.unwrap_or(10) * (p.bricks.unwrap_or(10) + 1)).sum();
+            let record =
+                matches!(case.motion.base, concio::case::Signal::Record(_) | concio::case::Signal::Synthetic(_));
+            weight += blocks + if record { MOST_BLOCKS / (ABOUT_SAMPLES / 20_000) } else { 0 };
+            weight <= MOST_BLOCKS
+        };
+        todo.iter().take(MOST_AT_ONCE).take_while(fits).count().max(1)
+    }
+
+    fn run_set(&mut self, set: &[(&str, &Case)], tally: &Tally) -> Result<Control> {
+        let prepared: Vec<std::result::Result<Prepared, String>> =
+            set.par_iter().map(|(_, case)| ready(case)).collect();
+        let mut jobs: Vec<(&str, &Prepared)> = Vec::new();
+        for ((id, _), prepared) in set.iter().zip(&prepared) {
+            match prepared {
+                Ok(prepared) => jobs.push((id, prepared)),
+                Err(cause) => {
+                    tally.ended(false);
+                    self.store.append(Row::failed(id, cause.clone()))?;
+                }
+            }
+        }
+        let begun = Instant::now();
+        let ended = self.solve_set(&jobs, tally);
+        self.solving += begun.elapsed();
+        ended
+    }
+
+    /// All jobs together; where one panics, those not done one by one.
+    fn solve_set(&mut self, jobs: &[(&str, &Prepared)], tally: &Tally) -> Result<Control> {
+        let desk = Desk {
+            store: Mutex::new(&mut self.store),
+            joints: &self.joints,
+            results: self.results,
+            error: Mutex::new(None),
+            done: Mutex::new(HashSet::new()),
+            stopped: AtomicUsize::new(0),
+        };
+        let watch = |standing: Standing| {
+            desk.watch(self.watch, tally, standing.share * jobs.len() as f64 - standing.ended as f64)
+        };
+        let run = |some: &[(&str, &Prepared)], threads: usize| {
+            let list: Vec<Job> = some.iter().map(|(_, p)| Job::from(*p)).collect();
+            let keep = |number: usize, outcome: Result<Outcome>| desk.keep(some[number], outcome, tally);
+            catch_unwind(AssertUnwindSafe(|| (self.solve)(&list, threads, &watch, &keep)))
+        };
+        if run(jobs, self.threads).is_err() {
+            for job in jobs {
+                if desk.stopped() || locked(&desk.done).contains(job.0) {
+                    continue;
+                }
+                if let Err(panic) = run(&[*job], 1) {
+                    desk.put(Row::failed(job.0, format!("panicked: {}", message(&*panic))), tally);
+                }
+            }
+        }
+        match desk.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            Some(error) => Err(error),
+            None if desk.stopped.load(Ordering::Relaxed) > 0 => Ok(Control::Stop),
+            None => Ok(Control::Continue),
+        }
+    }
+}
+
+/// Takes what the threads bring.
+struct Desk<'s> {
+    store: Mutex<&'s mut Store>,
+    joints: &'s [PerJoint],
+    results: bool,
+    error: Mutex<Option<Error>>,
+    done: Mutex<HashSet<String>>,
+    stopped: AtomicUsize,
+}
+
+impl Desk<'_> {
+    fn stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed) > 0 || locked(&self.error).is_some()
+    }
+
+    fn watch(&self, user: &(dyn Fn(&Progress) -> Control + Sync), tally: &Tally, under_way: f64) -> Control {
+        if self.stopped() {
+            return Control::Stop;
+        }
+        let answer = user(&tally.progress(under_way));
+        if answer == Control::Stop {
+            self.stopped.store(1, Ordering::Relaxed);
+        }
+        answer
+    }
+
+    fn keep(&self, (id, prepared): (&str, &Prepared), outcome: Result<Outcome>, tally: &Tally) {
+        let row = match outcome {
+            // Stopped on the way: to be done again.
+            Ok(outcome) if outcome.stop_reason == StopReason::Interrupted => return,
+            Ok(outcome) => {
+                if self.results
+                    && let Err(error) = self.write_result(id, prepared, &outcome)
+                {
+                    locked(&self.error).get_or_insert(error);
+                    return;
+                }
+                row(id, prepared, &outcome, self.joints)
+            }
+            Err(error) => Row::failed(id, error.to_string()),
+        };
+        self.put(row, tally);
+    }
+
+    fn put(&self, row: Row, tally: &Tally) {
+        locked(&self.done).insert(row.id.clone());
+        tally.ended(row.end == End::Completed);
+        if let Err(error) = locked(&self.store).append(row) {
+            locked(&self.error).get_or_insert(error);
+        }
+    }
+
+    fn write_result(&self, id: &str, prepared: &Prepared, outcome: &Outcome) -> Result<()> {
+        let folder = locked(&self.store).folder().join("results");
+        std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
+        let path = folder.join(format!("{id}.h5"));
+        let (model, provenance) = (&prepared.model, prepared.provenance());
+        files::replace(&path, |own| hdf5::write(own, &provenance, &model.wall, &joint_rows(model), outcome))
+    }
+}
+
+/// Counts runs.
+struct Tally {
+    of: usize,
+    known: usize,
+    ended: AtomicUsize,
+    failed: AtomicUsize,
+    begun: Instant,
+}
+
+impl Tally {
+    fn new<'r>(of: usize, known: usize, rows: impl Iterator<Item = &'r Row>) -> Self {
+        let failed = rows.filter(|r| r.end != End::Completed).count();
+        Tally { of, known, ended: AtomicUsize::new(0), failed: AtomicUsize::new(failed), begun: Instant::now() }
+    }
+
+    fn ended(&self, well: bool) {
+        self.ended.fetch_add(1, Ordering::Relaxed);
+        if !well {
+            self.failed.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    fn progress(&self, under_way: f64) -> Progress {
+        let ended = self.ended.load(Ordering::Relaxed);
+        let todo = (self.of - self.known).max(1) as f64;
+        Progress {
+            done: self.known + ended,
+            known: self.known,
+            of: self.of,
+            failed: self.failed.load(Ordering::Relaxed),
+            share: ((ended as f64 + under_way.max(0.0)) / todo).min(1.0),
+            elapsed: self.begun.elapsed(),
+        }
+    }
+}
+
+/// Makes a case ready; a panic on the way is a cause like any other.
+fn ready(case: &Case) -> std::result::Result<Prepared, String> {
+    catch_unwind(AssertUnwindSafe(|| prepare(case.clone(), Path::new(""))))
+        .unwrap_or_else(|panic| Err(concio::InputError::new(format!("panicked: {}", message(&*panic))).into()))
+        .map_err(|e| e.to_string())
+}
+
+fn message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_string());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "without a message".into())
+}
+
+/// What a panicking thread held is only ever replaced whole.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
