@@ -31,6 +31,7 @@ pub mod state;
 pub mod store;
 pub mod system;
 pub mod wall;
+mod wide;
 
 pub use error::{Error, InputError, Result};
 #[doc(hidden)]

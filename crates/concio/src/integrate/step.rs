@@ -7,6 +7,8 @@
 //!
 //!   (P2)  |Δ(E_kin + E_el + E_diss − W_in)| ≤ 5·10⁻⁵ · tolerance · max |W_in|
 
+use pulp::Arch;
+
 use crate::case::Scheme;
 use crate::dynamics::{Moving, power, stored_energy};
 use crate::excitation::Drive;
@@ -20,10 +22,12 @@ use crate::integrate::tableau::{STAGES, Tableau, tableau};
 use crate::model::{Model, Rub};
 use crate::record::Energies;
 use crate::state::{BondState, DeviceState, Instant, Power, State, Tangents};
+use crate::wide::wide;
 
 /// Scratch of a step; nothing here outlives it but the tangents, which belong to the state.
 #[derive(Debug, Clone)]
 pub struct Step {
+    arch: Arch,
     scheme: Scheme,
     tableau: Tableau,
     pub stage: Stage,
@@ -34,8 +38,6 @@ pub struct Step {
     pub stage_power: [Power; STAGES],
     /// Of the stages after the first: that is the state's.
     stage_joint_power: Vec<Vec<f64>>,
-    error_v: Vec<f64>,
-    error_z: Vec<f64>,
     top_acceleration: f64,
     /// Displacement, energy account and friction at the start of the accepted step.
     pub start_z: Vec<f64>,
@@ -70,12 +72,21 @@ const LOW: f64 = 10.0 * TOUCHING;
 /// Step in which nothing moves, over the shortest time scale of the model.
 const INSTANT: f64 = 1e-6;
 
+/// `sum` += `weight` · `values`.
+#[inline(always)]
+fn add(sum: &mut [f64], weight: f64, values: &[f64]) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += weight * value;
+    }
+}
+
 impl Step {
     pub fn new(model: &Model, scheme: Scheme) -> Self {
         let n = model.unknowns();
         let tableau = tableau(scheme);
         let rows = |len: usize| vec![vec![0.0; len]; tableau.stages];
         Step {
+            arch: Arch::new(),
             scheme,
             tableau,
             stage: Stage::new(model),
@@ -85,8 +96,6 @@ impl Step {
             stage_a: rows(n),
             stage_power: Default::default(),
             stage_joint_power: vec![vec![0.0; model.joints.len()]; tableau.stages - 1],
-            error_v: vec![0.0; n],
-            error_z: vec![0.0; n],
             top_acceleration: 0.0,
             start_z: vec![0.0; n + 2],
             start_energies: Energies::default(),
@@ -134,19 +143,17 @@ impl Step {
             self.stage.solution[n + 1] = top.v;
             self.top_acceleration = top.a;
             self.stage.solve(model, &mut self.tangents, tau, ground, STAGE_ACCURACY * tolerance.v)?;
-            let (v, a) = (&mut self.stage_v[i], &mut self.stage_a[i]);
-            v.copy_from_slice(&self.stage.solution);
-            for k in 0..n {
-                a[k] = (v[k] - self.stage.v[k]) / tau;
-            }
-            for k in 0..n + 2 {
-                self.z[k] = self.stage.z[k] + tau * v[k];
-            }
+            self.stage_v[i].copy_from_slice(&self.stage.solution);
+            self.follow(i, tau);
             let devices = self.stage.devices.now();
-            let at = Moving { z: &self.z, v, laws: &self.tangents, bonds: &state.bonds, devices };
+            let at = Moving { z: &self.z, v: &self.stage_v[i], laws: &self.tangents, bonds: &state.bonds, devices };
             self.stage_power[i] = power(model, at, ground, &mut self.stage_joint_power[i - 1]);
         }
-        let error = self.error(model, h, tau, tolerance);
+        let error = wide(
+            self.arch,
+            #[inline(always)]
+            || self.error(model, h, tau, tolerance),
+        );
         let unbalanced = self.account(model, state, h);
         let known = state.totals.peak_input + state.energies.initial;
         let judged = self.account.input().abs() <= BEGINNING * known && tolerance.energy > 0.0;
@@ -203,48 +210,70 @@ impl Step {
     }
 
     fn predict(&mut self, state: &State, i: usize, h: f64, n: usize) {
-        self.stage.z[..n].copy_from_slice(&state.z[..n]);
-        self.stage.v[..n].copy_from_slice(&state.v[..n]);
+        let (z, v) = (&mut self.stage.z[..n], &mut self.stage.v[..n]);
+        z.copy_from_slice(&state.z[..n]);
+        v.copy_from_slice(&state.v[..n]);
         for j in 0..i {
             let weight = h * self.tableau.a[i][j];
             if weight != 0.0 {
-                let (v, a) = (&self.stage_v[j], &self.stage_a[j]);
-                for k in 0..n {
-                    self.stage.z[k] += weight * v[k];
-                    self.stage.v[k] += weight * a[k];
-                }
+                wide(
+                    self.arch,
+                    #[inline(always)]
+                    || {
+                        add(z, weight, &self.stage_v[j]);
+                        add(v, weight, &self.stage_a[j]);
+                    },
+                );
             }
         }
     }
 
+    /// Acceleration and displacement at stage `i` from its velocity.
+    fn follow(&mut self, i: usize, tau: f64) {
+        let (v, a, z, before) = (&self.stage_v[i], &mut self.stage_a[i], &mut self.z, &self.stage);
+        wide(
+            self.arch,
+            #[inline(always)]
+            || {
+                for ((a, v), v_p) in a.iter_mut().zip(v).zip(&before.v) {
+                    *a = (v - v_p) / tau;
+                }
+                for ((z, z_p), v) in z.iter_mut().zip(&before.z).zip(v) {
+                    *z = z_p + tau * v;
+                }
+            },
+        );
+    }
+
     /// (P1) with f_y from the last stage: (M + τC + τ²K) e_v = M r_v − τ K r_z, e_z = r_z + τ e_v.
+    #[inline(always)]
     fn error(&mut self, model: &Model, h: f64, tau: f64, tolerance: Tolerance) -> f64 {
         let n = model.unknowns();
-        self.error_v.fill(0.0);
-        self.error_z.fill(0.0);
+        // Room of the stage, given back below.
+        let [load, change, _] = self.stage.idle();
+        let (mut error_v, mut error_z) = (std::mem::take(load), std::mem::take(change));
+        error_v.fill(0.0);
+        error_z.fill(0.0);
         for i in 0..self.tableau.stages {
             let weight = h * self.tableau.error[i];
-            let (v, a) = (&self.stage_v[i], &self.stage_a[i]);
-            for k in 0..n {
-                self.error_v[k] += weight * a[k];
-                self.error_z[k] += weight * v[k];
-            }
+            add(&mut error_v, weight, &self.stage_a[i]);
+            add(&mut error_z, weight, &self.stage_v[i]);
         }
-        for (e, m) in self.error_v.iter_mut().zip(&model.mass) {
+        for (e, m) in error_v.iter_mut().zip(&model.mass) {
             *e *= m;
         }
         for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
             if self.tangents.closed[e] {
                 let (a, b) = (a as usize, b as usize);
-                let other = if b < n { self.error_z[b] } else { 0.0 };
-                let f = tau * law.stiffness * (self.error_z[a] - other);
-                self.error_v[a] -= f;
+                let other = if b < n { error_z[b] } else { 0.0 };
+                let f = tau * law.stiffness * (error_z[a] - other);
+                error_v[a] -= f;
                 if b < n {
-                    self.error_v[b] += f;
+                    error_v[b] += f;
                 }
             }
         }
-        let (error_v, error_z, closed) = (&mut self.error_v, &self.error_z, &self.tangents.closed);
+        let closed = &self.tangents.closed;
         self.stage.bond_tangents(closed, |e, stiffness| {
             let [a, b] = model.sides[e].map(|s| s as usize);
             let beyond = stiffness - if closed[e] { model.elastic[e].stiffness } else { 0.0 };
@@ -256,20 +285,22 @@ impl Step {
                 }
             }
         });
-        self.stage.devices.errors(model, h, &self.tableau.error, error_z, |e, force| {
+        self.stage.devices.errors(model, h, &self.tableau.error, &error_z[..n], |e, force| {
             let [a, b] = model.sides[e].map(|s| s as usize);
             error_v[a] -= tau * force;
             if b < n {
                 error_v[b] += tau * force;
             }
         });
-        self.stage.solve_linear(&mut self.error_v);
+        self.stage.solve_linear(&mut error_v);
         let (mut worst, mut sum) = (0.0f64, 0.0);
-        for (ev, ez) in self.error_v.iter().zip(&self.error_z) {
+        for (ev, ez) in error_v[..n].iter().zip(&error_z) {
             let ez = ez + tau * ev;
             worst = worst.max(ev.abs() / tolerance.v).max(ez.abs() / tolerance.z);
             sum += ev + ez;
         }
+        let [load, change, _] = self.stage.idle();
+        (*load, *change) = (error_v, error_z);
         // A maximum passes over what is not a number, a sum does not.
         if sum.is_finite() { worst } else { f64::INFINITY }
     }
