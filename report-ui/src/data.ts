@@ -13,6 +13,15 @@ export interface FrictionLaw {
     alpha: number;
 }
 
+/** What held a bonded joint [N] and what became of it: damage, 0 to 1, and energy [J] at the end, instants [s] or null. */
+export interface Bond {
+    strength: number;
+    damage: number;
+    spent: number;
+    cracked: number | null;
+    broken: number | null;
+}
+
 /** A history that the run kept at every sample. */
 export interface Channel {
     name: string;
@@ -37,6 +46,8 @@ export interface Contents {
     joint_kinds: string[];
     joint_laws: string[];
     frictions: FrictionLaw[];
+    /** By the index of the joint. */
+    bonds: Record<string, Bond>;
     beam: { kind: "free" | "driven" | "tied" | "mass"; label: string };
     frames: { recorded: number; every: number };
     curve: { samples: number; points: number; interval: number; left_out: number };

@@ -152,7 +152,9 @@ export function peak(report: Report, q: Quantity): number {
             return largest(speed.map((v, joint) => v * report.joint.damping[joint]));
         }
         if (q.key === "friction") {
-            return largest(speed.map((v, joint) => frictionBound(report, joint, v)));
+            // Of devices with laws of their own, which count here, the frames alone say how much they bear.
+            const bound = largest(speed.map((v, joint) => frictionBound(report, joint, v)));
+            return Math.max(bound, largest(keptForce(report, q) ?? []));
         }
     }
     const values = envelope(report, q.key === "elastic" ? { ...q, key: "force" } : q);

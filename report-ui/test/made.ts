@@ -36,7 +36,7 @@ export function made(more: Record<string, Numbers> = {}): Report {
     const contents: Contents = {
         layout: LAYOUT, name: "made", title: "", block_names: ["p1c1b1", "p1c1b2"],
         joint_names: ["base|p1c1b1", "p1c1b1|p1c1b2", "p1c1b2|top"], joint_kinds: ["base", "head", "top"],
-        joint_laws: ["elastic", "no-tension", "elastic"], frictions: [LAW], beam: { kind: "mass", label: "beam" },
+        joint_laws: ["elastic", "no-tension", "elastic"], frictions: [LAW], bonds: {}, beam: { kind: "mass", label: "beam" },
         frames: { recorded: 3, every: 1 }, curve: { samples: 3, points: 3, interval: 0.1, left_out: 0 }, channels: [], spectrum: null,
         arrays: {},
     };

@@ -20,6 +20,7 @@ mod python;
 mod report_ui;
 mod schemes;
 mod shown;
+mod studies;
 mod symbols;
 
 use command::{Outcome, cargo, run};
@@ -28,6 +29,7 @@ const USAGE: &str = "\
 cargo xtask ci         everything that CI does
 cargo xtask docs       make the generated documents (reference, schema, symbols, gallery, pictures)
 cargo xtask cases      run the cases of the report anew; docs/report-cases.md and its pictures follow from them
+cargo xtask studies    make the worked examples of docs/studies/ anew: runs, output, figures (or those named)
 cargo xtask examples   run every wall file in examples/
 cargo xtask shown      try the wall files and commands that documents show
 cargo xtask equations  check the numbers of equations
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
         "ci" => ci(&root),
         "cases" => build(&root).and_then(|()| cases::make(&root)).and_then(|()| documents::make(&root)),
         "docs" => build(&root).and_then(|()| documents::make(&root)),
+        "studies" => build(&root).and_then(|()| studies::make(&root, &rest)),
         "examples" => build(&root).and_then(|()| examples::run_all(&root)),
         "shown" => build(&root).and_then(|()| shown::check(&root)),
         "equations" => equations::check(&root),

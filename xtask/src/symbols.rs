@@ -32,7 +32,7 @@ const fn row(
 }
 
 #[rustfmt::skip]
-const SYMBOLS: [Symbol; 62] = [
+const SYMBOLS: [Symbol; 75] = [
     row("L", "length of the brick", "m", "panel.brick.length", "case.rs length", "section 1"),
     row("H", "height of the brick", "m", "panel.brick.height", "case.rs height", "section 1"),
     row("B", "thickness of the brick, out of plane", "m", "panel.brick.thickness", "case.rs thickness", "section 1"),
@@ -72,9 +72,21 @@ const SYMBOLS: [Symbol; 62] = [
     row("η", "fraction of the stiffness that a cracked bed or support joint keeps", "1", "joint.bond.residual_stiffness", "case.rs residual_stiffness", "(B1)"),
     row("A", "area of a joint, overlap times thickness", "m²", "", "bond.rs area", "(B2)"),
     row("F_0", "strength of a bonded joint", "N", "", "bond.rs strength", "(B2)"),
-    row("D", "damage: cracked part of a bonded joint", "1", "", "bond.rs damage", "(B1) (B3)"),
+    row("D", "damage: part of the stiffness that a bonded joint has lost", "1", "", "bond.rs damage", "(B1) (B3)"),
+    row("χ", "part of a bonded joint that rubs: share by which its strength has gone down", "1", "", "bond.rs rubbing", "(B1) (B3) (B5)"),
     row("δ_m", "largest relative displacement or gap of a bonded joint so far", "m", "", "state.rs reach", "(B3)"),
     row("δ_0, δ_c", "relative displacement at the strength; length over which the strength falls", "m", "", "bond.rs decay", "(B3) (B4)"),
+    row("c", "constant of a device's dashpot", "N s/m", "joint.change.device.damping", "case/devices.rs damping", "(I1) (I2)"),
+    row("α, v_0", "power of a dashpot; velocity at which its force is c v_0", "1, m/s", "joint.change.device.exponent joint.change.device.reference_velocity", "device.rs exponent", "(I1)"),
+    row("k, k_1", "stiffness of a spring; of a re-centring device at rest", "N/m", "joint.change.device.stiffness", "case/devices.rs stiffness", "(I2) (I6)"),
+    row("F_s", "force at which a friction damper slips", "N", "joint.change.device.slip_force", "case/devices.rs slip_force", "(I3)"),
+    row("F_y, d_y", "yield force and displacement of a hysteretic device", "N, m", "joint.change.device.yield_force joint.change.device.yield_displacement", "case/devices.rs yield_force", "(I4)"),
+    row("a", "part of the stiffness that stays beyond yielding", "1", "joint.change.device.hardening", "case/devices.rs hardening", "(I4)"),
+    row("A, β, γ, n", "shape of the hysteresis", "1", "joint.change.device.amplitude joint.change.device.beta joint.change.device.gamma joint.change.device.sharpness", "device.rs BoucWen", "(I5)"),
+    row("ζ", "hysteretic variable", "1", "", "state.rs internal", "(I5)"),
+    row("F_a, k_2", "activation force and stiffness beyond it of a re-centring device", "N, N/m", "joint.change.device.activation_force joint.change.device.post_stiffness", "case/devices.rs activation_force", "(I6)"),
+    row("β_f", "height of the flag over F_a", "1", "joint.change.device.flag", "device.rs flag", "(I7)"),
+    row("s", "slip inside a re-centring device", "m", "", "state.rs internal", "(I7)"),
     row("λ", "what the sides of a rigid joint press each other with", "N", "", "state.rs reaction", "(R2)"),
     row("p_j", "impulse of an impact in a rigid joint", "N s", "", "integrate/impact.rs impulse", "(R3) (R4)"),
     row("e_j", "restitution of a rigid joint", "1", "joint.head.restitution joint.connection.restitution", "case.rs restitution", "(R4)"),
@@ -87,6 +99,7 @@ const SYMBOLS: [Symbol; 62] = [
     row("D_damping", "dissipated by viscous damping", "J", "", "record.rs damping", "(7)"),
     row("D_friction", "dissipated by friction", "J", "", "record.rs friction", "(7)"),
     row("D_bond", "dissipated by the breaking of bonds", "J", "", "record.rs bond", "(7)"),
+    row("D_device", "dissipated by the hysteresis of devices", "J", "", "record.rs device", "(7)"),
     row("D_impact", "lost in the impacts of rigid joints", "J", "", "record.rs impact", "(7)"),
     row("D_nonreciprocal", "taken out by friction whose action differs from its reaction", "J", "", "record.rs nonreciprocal", "(7)"),
     row("W_base", "work of the base motion on the relative motion", "J", "", "record.rs input_base", "(7)"),

@@ -324,7 +324,7 @@ pub enum Figure {
     PeakAcceleration,
     /// Joints coloured by their relative acceleration at an instant over the largest in the whole history.
     Acceleration,
-    /// Joints coloured by the cracked part of their bonds.
+    /// Joints coloured by the damage of their bonds.
     Cracks,
     /// Friction force over slip of joints.
     Hysteresis,
@@ -459,7 +459,8 @@ pub enum Comparison {
 ///
 /// Runs the wall three times: with head joints that only damp, so that blocks may overlap; with no-tension springs of the
 /// rigidity that the file gives; with rigid unilateral contact. All else is as in the file. Joints count as head joints
-/// where their law is no-tension or rigid. This is what the research report's Figures 17 and 18 show.
+/// where their law is no-tension or rigid; bonded ones are refused, because only a spring can carry a bond. This is what the
+/// research report's Figures 17 and 18 show.
 ///
 /// Prints the deepest interpenetration of each, and draws displacements, velocities and gaps of pairs of neighbouring
 /// blocks. Writes compare.json and the figures pair-1, pair-2, … into the folder.

@@ -1,22 +1,38 @@
 //! The numbers of a run that the terminal and the report both show.
 
-use concio::outcome::Outcome;
+use concio::outcome::{BondRow, Outcome};
 use concio::record::StopReason;
 use concio::store::JointRow;
 use serde_json::Value;
 
-use crate::format::{clock, si};
+use crate::format::{clock, si, significant};
+
+/// What is less than this fraction of the largest value of its kind is rounding, and is told as 0.
+const ROUNDING: f64 = 1e-9;
+/// Displacement that is none [m]: the floor below which the solver sees no errors, unless the file gives another.
+const NOWHERE: f64 = 1e-14;
 
 /// Names and values, the important ones first.
 pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'static str, String)> {
     let (totals, energies) = (&outcome.totals, &outcome.energies);
     let number = |pointer: &str| summary.pointer(pointer).and_then(Value::as_f64).unwrap_or(f64::NAN);
-    let opening = outcome.envelopes.joint_opening.iter().copied().fold(0.0, f64::max);
+    let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let moved = totals.peak_relative_displacement;
+    let moved = if moved < NOWHERE { 0.0 } else { moved };
+    let length = |value: f64| si(beside(value, moved), "m");
+    let velocity = beside(totals.peak_slip_velocity, largest(&outcome.envelopes.block_velocity));
+    let opening = largest(&outcome.envelopes.joint_opening);
     let mut rows = vec![
-        ("peak displacement", format!("{} relative to the base", si(totals.peak_relative_displacement, "m"))),
-        ("peak slip velocity", si(totals.peak_slip_velocity, "m/s")),
-        ("head joints", format!("opened {}, pressed in {}", si(opening, "m"), si(0.0 - totals.minimum_gap, "m"))),
+        ("peak displacement", format!("{} relative to the base", si(moved, "m"))),
+        ("peak slip velocity", si(velocity, "m/s")),
+        ("head joints", format!("opened {}, pressed in {}", length(opening), length(0.0 - totals.minimum_gap))),
     ];
+    let devices = joints.iter().filter(|j| j.device.is_some()).count();
+    if devices > 0 {
+        let taken = joints.iter().zip(&outcome.envelopes.joint_dissipation).filter(|(j, _)| j.device.is_some());
+        let taken = si(taken.map(|(_, energy)| energy).sum(), "J");
+        rows.push(("devices", format!("{devices} of {} joints, dissipated {taken}", joints.len())));
+    }
     let bonds = &outcome.bonds;
     if !bonds.is_empty() {
         let cracked = bonds.iter().filter(|b| b.damage > 0.0).count();
@@ -24,7 +40,7 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
         rows.push(("bonds", format!("{cracked} of {} cracked, {broken} broken", bonds.len())));
         if let Some(first) = outcome.first_crack() {
             let name = joints.get(first.joint).map_or("", |j| j.name.as_str());
-            rows.push(("  first crack", format!("t = {}, joint {name}", crate::format::seconds(first.cracked))));
+            rows.push(("  first crack", first_crack(bonds, first.cracked, name)));
         }
     }
     if totals.top_force_peak > 0.0 {
@@ -34,26 +50,43 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
     if energies.initial != 0.0 {
         rows.push(("energy at the start", si(energies.initial, "J")));
     }
-    rows.push(("work done on the wall", si(energies.input(), "J")));
-    rows.push(("  kinetic", si(energies.kinetic, "J")));
-    rows.push(("  elastic", si(energies.elastic, "J")));
-    rows.push(("  damping", si(energies.damping, "J")));
+    let work = totals.peak_input.max(energies.initial.abs());
+    let energy = |value: f64| si(beside(value, work), "J");
+    rows.push(("work done on the wall", energy(energies.input())));
+    rows.push(("  kinetic", energy(energies.kinetic)));
+    rows.push(("  elastic", energy(energies.elastic)));
+    rows.push(("  damping", energy(energies.damping)));
     let creeps = concio::run::only_creeps(joints, outcome);
-    rows.push((if creeps { "  friction (creep)" } else { "  friction" }, si(energies.friction, "J")));
+    rows.push((if creeps { "  friction (creep)" } else { "  friction" }, energy(energies.friction)));
     if energies.bond != 0.0 {
-        rows.push(("  broken bonds", si(energies.bond, "J")));
+        rows.push(("  broken bonds", energy(energies.bond)));
+    }
+    if energies.device != 0.0 {
+        rows.push(("  devices", si(energies.device, "J")));
     }
     if energies.impact != 0.0 {
-        rows.push(("  impacts", si(energies.impact, "J")));
+        rows.push(("  impacts", energy(energies.impact)));
     }
     if energies.nonreciprocal != 0.0 {
-        rows.push(("  unbalanced friction", si(energies.nonreciprocal, "J")));
+        rows.push(("  unbalanced friction", energy(energies.nonreciprocal)));
     }
     rows.push(("energy residual", format!("{:.1e} of the largest work", residual(summary))));
     let counters = &outcome.counters;
     rows.push(("steps", format!("{}, {} rejected, {} repeated", counters.steps, counters.rejected, counters.failed)));
     rows.push(("solver time", clock(number("/solve_seconds"))));
     rows
+}
+
+/// `value`, or 0 where it is rounding beside `large`, the largest of its kind.
+fn beside(value: f64, large: f64) -> f64 {
+    if value.abs() <= ROUNDING * large.abs() && value.is_finite() { 0.0 } else { value }
+}
+
+/// When and where a bond cracked first, and how many with it: joints that are equal crack together but for rounding.
+fn first_crack(bonds: &[BondRow], time: f64, name: &str) -> String {
+    let together = bonds.iter().filter(|b| b.cracked <= time * (1.0 + ROUNDING)).count();
+    let others = if together > 1 { format!(" and {} more", together - 1) } else { String::new() };
+    format!("t = {} s, joint {name}{others}", significant(time, 4))
 }
 
 /// Residual of the energy account over the largest work.
@@ -75,5 +108,25 @@ pub fn why(reason: StopReason) -> &'static str {
             "the step became too short for the tolerance; raise solver.tolerance or check the stiffnesses and masses"
         }
         StopReason::NotFinite => "a value became infinite; check the stiffnesses, the masses and the motion",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn joints_that_crack_together_are_counted() {
+        let cracked = |cracked: f64| BondRow { cracked, ..BondRow::default() };
+        let bonds = [0.282_321_4, 0.282_321_400_000_01, 0.282_322, f64::INFINITY].map(cracked);
+        assert_eq!(first_crack(&bonds, 0.282_321_4, "a|b"), "t = 0.2823 s, joint a|b and 1 more");
+        assert_eq!(first_crack(&bonds[2..], 0.282_322, "c|d"), "t = 0.2823 s, joint c|d");
+    }
+
+    #[test]
+    fn rounding_is_told_as_nothing() {
+        assert_eq!([beside(1e-17, 1e-6), beside(-3e-16, 1e-6), beside(0.0, 0.0)], [0.0; 3]);
+        assert_eq!([beside(2e-15, 1e-6), beside(1e-20, 1e-20)], [2e-15, 1e-20]);
+        assert!(beside(f64::NAN, 1.0).is_nan() && beside(f64::INFINITY, f64::INFINITY).is_infinite());
     }
 }

@@ -11,6 +11,7 @@
 pub mod design;
 pub mod factors;
 pub mod file;
+mod files;
 pub mod groups;
 pub mod ida;
 pub mod intensity;

@@ -62,7 +62,7 @@ impl Plan {
                     levels.iter().enumerate().map(|(i, l)| (key(i), l.changes.clone())).collect()
                 }
                 Over::Values(values) => {
-                    [0.0, 1.0].map(|share| (factor.key.clone(), values.level(share).changes)).to_vec()
+                    [0.0, 1.0].map(|share| (format!("{}.path", factor.key), values.level(share).changes)).to_vec()
                 }
                 Over::Scales(_) => continue,
             };
@@ -79,7 +79,7 @@ impl Plan {
         match of {
             Some((key, v)) if !v.values.is_empty() => format!("{key}.values[{level}]"),
             Some((key, v)) if !v.choices.is_empty() => format!("{key}.choices[{level}].set"),
-            Some((key, _)) => key,
+            Some((key, _)) => format!("{key}.path"),
             None => format!("{}[{level}]", factor.key),
         }
     }

@@ -20,6 +20,7 @@ use concio::{Error, Result};
 use rayon::prelude::*;
 
 use crate::file::{Keep, PerJoint};
+use crate::files;
 use crate::measures::{End, Row, row};
 use crate::plan::Records;
 use crate::store::Store;
@@ -274,7 +275,7 @@ impl Desk<'_> {
         std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
         let path = folder.join(format!("{id}.h5"));
         let (model, provenance) = (&prepared.model, prepared.provenance());
-        hdf5::write(&path, &provenance, &model.wall, &joint_rows(model), outcome)
+        files::replace(&path, |own| hdf5::write(own, &provenance, &model.wall, &joint_rows(model), outcome))
     }
 }
 

@@ -4,7 +4,6 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use concio::store::atomic;
 use concio::{Error, Result};
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
@@ -15,6 +14,7 @@ use parquet::schema::types::Type;
 use serde_json::Value;
 
 use crate::factors::amount;
+use crate::files;
 use crate::measures::{End, MEASURES, Row};
 use crate::plan::Plan;
 
@@ -161,7 +161,7 @@ pub fn write_csv(table: &Table, path: &Path) -> Result<()> {
         writer.write_record(table.columns.iter().map(cell)).map_err(wrong)?;
     }
     let bytes = writer.into_inner().map_err(|e| Error::Store { path: path.to_path_buf(), what: e.to_string() })?;
-    atomic::replace_bytes(path, &bytes)
+    files::replace_bytes(path, &bytes)
 }
 
 /// Writes Parquet: doubles and texts, both optional; units stand in the key-value metadata under `unit:NAME`. Whole or
@@ -170,7 +170,7 @@ pub fn write_csv(table: &Table, path: &Path) -> Result<()> {
 /// # Errors
 /// [`Error::Io`].
 pub fn write_parquet(table: &Table, path: &Path) -> Result<()> {
-    atomic::replace(path, |temporary| {
+    files::replace(path, |temporary| {
         let file = fs::File::create(temporary).map_err(|e| Error::io(path, e))?;
         parquet(table, file).map_err(|e| Error::Store { path: path.to_path_buf(), what: e.to_string() })
     })

@@ -3,8 +3,8 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::case::{
-    Case, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointKind, Joints, NormalForce, Selector,
-    Spring, SpringLaw,
+    Case, Device, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointKind, Joints, NormalForce,
+    Selector, Spring, SpringLaw,
 };
 use crate::error::{InputError, Result};
 use crate::graph;
@@ -30,17 +30,22 @@ pub(crate) struct JointLaw {
     may_rub: bool,
     /// Its bond, if it is one of those that have one; `on` has no meaning here.
     pub bond: Option<BondValues>,
+    /// Number of the change that gives it a device in the place of all these.
+    device: Option<u32>,
 }
 
-/// Bond of one joint, per area, in SI.
+/// Bond of one joint as the wall file gives it, changes included.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct BondValues {
-    /// f_t, c [Pa] and tan φ.
+pub struct BondValues {
+    /// f_t in Pa.
     pub tensile_strength: f64,
+    /// c in Pa.
     pub cohesion: f64,
+    /// tan φ.
     pub tan_angle: f64,
-    /// G_f^I, G_f^II [N/m].
+    /// G_f^I of opening and G_f^II of shear [N/m]; 0 where it is brittle.
     pub energy: [f64; 2],
+    /// η.
     pub residual: f64,
 }
 
@@ -57,11 +62,16 @@ impl BondValues {
 }
 
 impl JointLaw {
+    /// The joint's device, if it has one.
+    pub fn device<'c>(&self, case: &'c Case) -> Option<&'c Device> {
+        case.joint.changes.get(self.device? as usize)?.device.as_ref()
+    }
+
     /// The friction law, if the joint has one and is among those that rub.
     pub fn rubs(&self) -> Option<Stribeck> {
         let law = self.parameters;
         match self.friction {
-            _ if !self.may_rub => None,
+            _ if !self.may_rub || self.device.is_some() => None,
             FrictionLaw::None => None,
             FrictionLaw::Stribeck => Some(law),
             FrictionLaw::StribeckStick => Some(Stribeck { beta: f64::INFINITY, ..law }),
@@ -116,9 +126,15 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
                 b.energy[1] = c.mode_2_energy.map_or(b.energy[1], |v| v.si());
                 b.residual = c.residual_stiffness.unwrap_or(b.residual);
             }
+            if change.device.is_some() {
+                law.device = Some(number as u32);
+            }
             check_spring(joints[e].kind, law.spring.law)
                 .map_err(|e| e.key(format!("joint.change[{number}].spring.law")))?;
         }
+    }
+    for law in laws.iter_mut().filter(|law| law.device.is_some()) {
+        (law.bond, law.spring.law) = (None, SpringLaw::None);
     }
     Ok(laws)
 }
@@ -161,6 +177,7 @@ fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {
         may_rub: friction_choice(f).0 == FrictionOn::All
             || matches!(kind, JointKind::Bed | JointKind::Base | JointKind::Top),
         bond: settings.bond.as_ref().filter(|b| b.on.contains(&kind)).map(BondValues::of),
+        device: None,
     }
 }
 

@@ -1,21 +1,27 @@
 //! Bonded joints: elastic while intact, cracked joints of their law afterwards (theory, section 3).
 //!
-//!   (B1)  F = k [1 − (1 − η) D] δ + D N μ(δ̇),   D = 0 intact … 1 cracked
+//!   (B1)  F = k [1 − (1 − η) D] δ + χ N μ(δ̇),   D, χ = 0 intact … 1 broken
 //!   (B2)  F_0 = c A + N tan φ of bed and support joints, f_t A of head joints and connections, which are bonded
 //!         against opening alone and keep F^el of their law in compression
-//!   (B3)  D = 1 − (δ_0/δ_m) e^{−(δ_m − δ_0)/δ_c},   δ_m = max |δ| so far,   δ_0 = F_0/k;   brittle: D = 1 from δ_0 on
+//!   (B3)  D = 1 − (δ_0/δ_m) (1 − χ),   χ = 1 − e^{−(δ_m − δ_0)/δ_c},   δ_m = max |δ| so far,   δ_0 = F_0/k;
+//!         brittle: D = χ = 1 from δ_0 on
 //!   (B4)  G_f A = (1 − η) F_0 [½ δ_0 + (1 − ε) δ_c],   the work done on a joint that is opened for good
 //!
-//! A part D of the joint is cracked and rubs, the rest is elastic (Alfano & Sacco 2006); strengths and exponential
-//! softening are those of the interface of Lourenço & Rots (1997), with secant unloading instead of plastic slip.
+//!   (B5)  |F| ≤ (1 − χ) (c A + N tan φ) + χ N μ_s   of bed and support joints, η = 0, (4) left out
+//!
+//! A part of the joint is cracked and rubs, the rest is elastic (Alfano & Sacco 2006); strengths, exponential softening and
+//! how friction takes the place of what is lost of the strength are those of the interface of Lourenço & Rots (1997), with
+//! secant unloading instead of plastic slip. The part that rubs is χ and not D: D, which leads the loss of strength by
+//! the way δ_m/δ_0, would let friction add to a strength that is still there.
 
-use crate::assign::JointLaw;
-use crate::case::SpringLaw;
+pub use crate::assign::BondValues;
+use crate::assign::{JointLaw, resolve};
+use crate::case::{Case, SpringLaw};
 use crate::elementary::exp_of_negative;
 use crate::error::{InputError, Result};
 use crate::graph;
 use crate::law::spring_force;
-use crate::model::{Elastic, Rub};
+use crate::model::{Elastic, Model, Rub};
 use crate::outcome::BondRow;
 use crate::quantity::shown;
 use crate::state::BondState;
@@ -78,26 +84,46 @@ impl Bond {
         if self.opens { (-d).max(0.0) } else { d.abs() }
     }
 
-    /// D by (B3) and its slope [1/m] of a softening bond at the stretch `reach` [m]; the curve goes on where the bond counts as broken.
+    /// D and χ by (B3) of a softening bond at the stretch `reach` [m], each with its slope [1/m]; the curves go on where the
+    /// bond counts as broken.
     #[inline]
-    pub fn damage(&self, reach: f64) -> (f64, f64) {
+    pub fn worn(&self, reach: f64) -> [(f64, f64); 2] {
         let limit = self.limit();
         if reach <= limit {
-            return (0.0, 0.0);
+            return [(0.0, 0.0); 2];
         }
-        let intact = limit / reach * exp_of_negative((reach - limit) / self.decay);
-        (1.0 - intact, intact * (1.0 / reach + 1.0 / self.decay))
+        let left = self.left(reach);
+        let intact = limit / reach * left;
+        [(1.0 - intact, intact * (1.0 / reach + 1.0 / self.decay)), (1.0 - left, left / self.decay)]
+    }
+
+    /// D alone.
+    #[inline]
+    pub fn damage(&self, reach: f64) -> f64 {
+        self.worn(reach)[0].0
+    }
+
+    /// 1 − χ of a softening bond beyond δ_0.
+    #[inline]
+    fn left(&self, reach: f64) -> f64 {
+        exp_of_negative((reach - self.limit()) / self.decay)
+    }
+
+    /// χ of a bond in the state `held`.
+    #[inline]
+    pub fn rubbing(&self, held: &BondState) -> f64 {
+        if self.is_brittle() || held.damage == 1.0 { held.damage } else { self.worn(held.reach)[1].0 }
     }
 
     /// D where the joint is displaced by `d` [m] inside a step that began with the damage `held`; a brittle bond keeps it.
     #[inline]
     pub fn damage_at(&self, held: f64, d: f64) -> f64 {
-        if self.is_brittle() { held } else { held.max(self.damage(self.stretch(d)).0) }
+        if self.is_brittle() { held } else { held.max(self.damage(self.stretch(d))) }
     }
 
     /// Whether a softening bond that was stretched by `reach` [m] bears next to nothing any more.
     pub fn is_broken(&self, reach: f64) -> bool {
-        reach > self.limit() && exp_of_negative((reach - self.limit()) / self.decay) <= BROKEN
+        reach > self.limit() && self.left(reach) <= BROKEN
     }
 
     /// Stiffness that the damage leaves [N/m].
@@ -112,8 +138,7 @@ impl Bond {
         if reach <= limit || self.is_brittle() {
             return 0.5 * part * self.stiffness * reach * reach;
         }
-        let softened = 1.0 - exp_of_negative((reach - limit) / self.decay);
-        part * self.strength * (0.5 * limit + self.decay * softened)
+        part * self.strength * (0.5 * limit + self.decay * (1.0 - self.left(reach)))
     }
 
     /// What it took to bring a bond to `damage` by a stretch of `reach` [m] [J]: the work less what unloading gives back.
@@ -166,6 +191,14 @@ impl Bonded {
     pub fn beyond(&self, elastic: &Elastic, damage: f64, d: f64) -> f64 {
         self.force(elastic, damage, d) - spring_force(elastic.unilateral, elastic.stiffness, d)
     }
+}
+
+/// What `case`, whose model is `model`, says of the bond of every joint; none for joints that `on` leaves out.
+///
+/// # Errors
+/// None that compiling the model did not have.
+pub fn given(case: &Case, model: &Model) -> Result<Vec<Option<BondValues>>> {
+    Ok(resolve(case, &model.wall, &model.joints)?.iter().map(|law| law.bond).collect())
 }
 
 /// The bonds of a wall. Head joints that are bonded open when they have cracked: their springs in `elastic` are
@@ -274,14 +307,36 @@ mod tests {
     }
 
     #[test]
-    fn the_slope_of_damage_is_its_derivative() {
+    fn the_slopes_of_wear_are_its_derivatives() {
         let bond = soft(0.0);
         for factor in [1.001, 1.1, 2.0, 5.0, 20.0] {
             let (d, h) = (factor * bond.limit(), 1e-4 * bond.limit());
-            let difference = (bond.damage(d + h).0 - bond.damage(d - h).0) / (2.0 * h);
-            assert!((difference / bond.damage(d).1 - 1.0).abs() < 1e-6, "at {factor} δ_0");
+            for which in [0, 1] {
+                let difference = (bond.worn(d + h)[which].0 - bond.worn(d - h)[which].0) / (2.0 * h);
+                assert!((difference / bond.worn(d)[which].1 - 1.0).abs() < 1e-6, "{which} at {factor} δ_0");
+            }
         }
-        assert_eq!(bond.damage(bond.limit()), (0.0, 0.0));
+        assert_eq!(bond.worn(bond.limit()), [(0.0, 0.0); 2]);
+    }
+
+    /// What the spring bears at a stretch that is the largest so far is the share of the strength that does not rub, for
+    /// whatever energy: friction takes the place of what is lost and no more.
+    #[test]
+    fn what_rubs_is_what_the_strength_has_lost() {
+        for times in [1.001, 1.5, 10.0, 1e3] {
+            let bond =
+                Bond::new(STRENGTH, STIFFNESS, 0.0, times * 0.5 * STRENGTH * STRENGTH / STIFFNESS, false).unwrap();
+            for way in [1e-6, 0.01, 0.5, 1.0, 3.0, 6.0] {
+                let reach = bond.limit() + way * bond.decay;
+                let [(damage, _), (rubs, _)] = bond.worn(reach);
+                let borne = bond.secant(damage) * reach / STRENGTH;
+                assert!((borne + rubs - 1.0).abs() < 1e-12, "{borne} beside {rubs}");
+                let held = BondState { reach, damage, ..BondState::INTACT };
+                assert_eq!(bond.rubbing(&held), rubs);
+            }
+            assert_eq!(bond.rubbing(&BondState::INTACT), 0.0);
+            assert_eq!(bond.rubbing(&BondState { damage: 1.0, reach: bond.limit(), ..BondState::INTACT }), 1.0);
+        }
     }
 
     /// The area under force over displacement, summed up, is G_f A; what is spent grows to it and takes the elastic part along.
@@ -291,7 +346,7 @@ mod tests {
             let bond = soft(residual);
             let end = bond.limit() + bond.decay * (1.0 / BROKEN).ln();
             assert!(!bond.is_broken(end * (1.0 - 1e-9)) && bond.is_broken(end * (1.0 + 1e-9)));
-            let force = |d: f64| bond.secant(bond.damage(d).0) * d - residual * STIFFNESS * d;
+            let force = |d: f64| bond.secant(bond.damage(d)) * d - residual * STIFFNESS * d;
             let n = 200_000;
             let step = end / f64::from(n);
             let area: f64 = (0..n).map(|k| step * force((f64::from(k) + 0.5) * step)).sum();

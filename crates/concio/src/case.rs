@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 mod change;
 pub(crate) mod de;
+mod devices;
 mod document;
 mod forms;
 mod node;
@@ -17,6 +18,7 @@ mod sets;
 mod templates;
 pub mod validate;
 
+pub use devices::{Device, DeviceLaw};
 pub use document::Document;
 pub use read::{CaseFile, LARGEST_FILE, Syntax, canonical_json, from_str, read};
 pub use templates::{describe, example, schema, starter};
@@ -493,7 +495,7 @@ pub enum FrictionPreset {
     Report,
 }
 
-/// Other laws for some joints; at least one of `spring`, `friction` and `bond` is given.
+/// Other laws for some joints: at least one of `spring`, `friction` and `bond`, or `device`, is given.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointChange {
@@ -508,6 +510,10 @@ pub struct JointChange {
     /// The bond they get instead; keys not given stay as they are. Joints without a bond get one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bond: Option<BondChange>,
+    /// The device that they get in the place of their mortar, spring, friction and bond, whatever other changes say of
+    /// these; of two devices of a joint the later one stays.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub device: Option<Device>,
 }
 
 /// Conditions that choose joints.

@@ -24,8 +24,13 @@ pub enum Heads {
 /// `heads` says. All else stays, damping included.
 ///
 /// # Errors
-/// No joint of the wall has one of these laws.
+/// No joint of the wall has one of these laws, or head joints are bonded.
 pub fn with_heads(prepared: &Prepared, heads: Heads) -> Result<Prepared> {
+    if prepared.model.bonds.iter().any(|bond| bond.law.opens) {
+        let what = "head joints of this wall are bonded: free and rigid ones have no bond to compare with";
+        let error = InputError::new(what).key("joint.bond.tensile_strength").allowed("0");
+        return Err(error.help("leave out `head` and `connection` in `on` of [joint.bond]").into());
+    }
     let mut case = prepared.case.clone();
     for_unilateral(&mut case, |law, rigidity, restitution| match heads {
         Heads::Free => *law = SpringLaw::NoTension,

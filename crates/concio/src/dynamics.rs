@@ -5,11 +5,12 @@ use std::collections::HashMap;
 use crate::error::{InputError, Result};
 use crate::excitation::Drive;
 use crate::integrate::dense::extreme;
+use crate::integrate::devices;
 use crate::integrate::events::TOUCHING;
 use crate::law::spring_force;
-use crate::model::{Elastic, Model};
+use crate::model::{Elastic, Model, Support};
 use crate::record::{Channel, Energies};
-use crate::state::{BondState, Power, State, Tangents, View};
+use crate::state::{BondState, DeviceState, Power, State, Tangents, View};
 
 /// Displacements and velocities with what the laws are there.
 #[derive(Debug, Clone, Copy)]
@@ -19,6 +20,8 @@ pub struct Moving<'a> {
     pub laws: &'a Tangents,
     /// The bonds at the start of the step.
     pub bonds: &'a [BondState],
+    /// The devices, at this instant.
+    pub devices: &'a [DeviceState],
 }
 
 /// What bonds change of the elastic forces on side a [N]: `change(joint, force)` for every one.
@@ -31,36 +34,79 @@ fn bonds_beyond(model: &Model, bonds: &[BondState], z: &[f64], mut change: impl 
     }
 }
 
+/// Motion and laws, from which forces follow.
+#[derive(Debug, Clone, Copy)]
+struct Acting<'a> {
+    z: &'a [f64],
+    v: &'a [f64],
+    mu: &'a [f64],
+    reaction: &'a [f64],
+    bonds: &'a [BondState],
+    devices: &'a [DeviceState],
+}
+
+impl<'a> Acting<'a> {
+    fn of(at: View<'a>) -> Self {
+        Acting { z: at.z, v: at.v, mu: at.mu, reaction: at.reaction, bonds: at.bonds, devices: at.devices }
+    }
+}
+
+/// Horizontal force of the joints of a support on the blocks that lie at it, against the blocks' motion relative to it [N].
+fn borne_by(model: &Model, support: &Support, at: Acting<'_>) -> f64 {
+    let sides = |e: u32| model.sides[e as usize].map(|s| s as usize);
+    let mut borne = 0.0;
+    for &e in &support.joints {
+        let ([a, b], law) = (sides(e), &model.elastic[e as usize]);
+        let d = at.z[a] - at.z[b];
+        borne += law.damping * (at.v[a] - at.v[b]) + spring_force(law.unilateral, law.stiffness, d);
+    }
+    for &r in &support.rubs {
+        borne += model.rubs[r as usize].normal[0] * at.mu[r as usize];
+    }
+    for &k in &support.bonds {
+        let (bond, held) = (&model.bonds[k as usize], &at.bonds[k as usize]);
+        let [a, b] = sides(bond.joint);
+        let d = at.z[a] - at.z[b];
+        borne += bond.beyond(&model.elastic[bond.joint as usize], bond.law.damage_at(held.damage, d), d);
+    }
+    for &k in &support.devices {
+        let (device, held) = (&model.nonlinear[k as usize], &at.devices[k as usize]);
+        let [a, b] = sides(device.joint);
+        borne += device.law.force(at.z[a] - at.z[b], at.v[a] - at.v[b], held.internal);
+    }
+    for &c in &support.contacts {
+        borne += at.reaction[c as usize];
+    }
+    borne
+}
+
 /// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N]. What a rigid joint
-/// bears counts as elastic; what a bond changes is left out.
-fn joint_forces(model: &Model, at: View, index: [Option<usize>; 2], joint: usize) -> (f64, f64, f64) {
-    let [rub, contact] = index;
+/// bears counts as elastic, the law of its own of a device as friction; what a bond changes is left out.
+fn joint_forces(model: &Model, at: View, index: [Option<usize>; 3], joint: usize) -> (f64, f64, f64) {
+    let [rub, contact, device] = index;
     let [a, b] = model.sides[joint].map(|s| s as usize);
     let (d, w) = (at.z[a] - at.z[b], at.v[a] - at.v[b]);
     let law = &model.elastic[joint];
-    let friction = rub.map_or(0.0, |r| model.rubs[r].normal[0] * at.mu[r]);
+    let friction = match device {
+        Some(k) => model.nonlinear[k].law.force(d, w, at.devices[k].internal),
+        None => rub.map_or(0.0, |r| model.rubs[r].normal[0] * at.mu[r]),
+    };
     let borne = contact.map_or(0.0, |c| at.reaction[c]);
     (spring_force(law.unilateral, law.stiffness, d) + borne, law.damping * w, friction)
 }
 
 /// Rates of the energy account, and of each joint's dissipation into `joint` [W].
 pub fn power(model: &Model, at: Moving<'_>, ground: f64, joint: &mut [f64]) -> Power {
-    let Moving { z, v, laws, bonds } = at;
+    let Moving { z, v, laws, bonds, devices } = at;
     let mut p = Power::default();
     for (m, v) in model.mass.iter().zip(v) {
         p.base -= m * v;
     }
     p.base *= ground;
-    let top = model.top();
-    let mut pull = 0.0;
     for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
-        let (a, b) = (a as usize, b as usize);
-        let w = v[a] - v[b];
+        let w = v[a as usize] - v[b as usize];
         joint[e] = law.damping * w * w;
         p.damping += joint[e];
-        if b == top {
-            pull += law.damping * w + spring_force(law.unilateral, law.stiffness, z[a] - z[b]);
-        }
     }
     for (rub, &mu) in model.rubs.iter().zip(&laws.mu) {
         let [a, b] = model.sides[rub.joint as usize];
@@ -71,22 +117,18 @@ pub fn power(model: &Model, at: Moving<'_>, ground: f64, joint: &mut [f64]) -> P
         if !model.reciprocal && b < model.unknowns() {
             p.nonreciprocal += 0.5 * (rub.normal[0] - rub.normal[1]) * mu * (v[a] + v[b]);
         }
-        if b == top {
-            pull += rub.normal[0] * mu;
-        }
     }
-    bonds_beyond(model, bonds, z, |e, force| {
-        if model.sides[e][1] as usize == top {
-            pull += force;
-        }
-    });
-    // Closed, a rigid joint does no work but that of the support that it presses.
-    for (contact, borne) in model.contacts.iter().zip(&laws.reaction) {
-        if model.sides[contact.joint as usize][1] as usize == top {
-            pull += borne;
-        }
+    for (device, held) in model.nonlinear.iter().zip(devices) {
+        let e = device.joint as usize;
+        let [a, b] = model.sides[e].map(|s| s as usize);
+        let lost = device.law.lost(v[a] - v[b], held.internal);
+        *if device.law.is_viscous() { &mut p.damping } else { &mut p.device } += lost;
+        joint[e] += lost;
     }
-    p.top = -pull * v[top];
+    // A beam with mass does no work from outside, and the top is at rest beside it. Closed, a rigid joint does no work
+    // but that of the support that it presses.
+    let at = Acting { z, v, mu: &laws.mu, reaction: &laws.reaction, bonds, devices };
+    p.top = -borne_by(model, &model.on_beam, at) * v[model.top()];
     p
 }
 
@@ -113,10 +155,11 @@ pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
         state.tangents.velocity[r] = w;
     }
     // Of a bonded joint the cracked part rubs, if there is any.
-    for (bond, damage) in model.bonds.iter().zip(state.bonds.iter().map(|b| b.damage)) {
-        let Some(r) = bond.rub.map(|r| r as usize).filter(|_| damage < 1.0) else { continue };
-        let law = model.rubs[r].law.times(damage);
-        state.tangents.stuck[r] &= damage > 0.0;
+    for (bond, held) in model.bonds.iter().zip(&state.bonds) {
+        let rubs = bond.law.rubbing(held);
+        let Some(r) = bond.rub.map(|r| r as usize).filter(|_| rubs < 1.0) else { continue };
+        let law = model.rubs[r].law.times(rubs);
+        state.tangents.stuck[r] &= rubs > 0.0;
         if !state.tangents.stuck[r] {
             (state.tangents.mu[r], state.tangents.slope[r]) = law.at(state.tangents.velocity[r]);
         }
@@ -129,6 +172,7 @@ pub fn settle(model: &Model, drive: &Drive, state: &mut State) {
             state.tangents.reaction[c] = 0.0;
         }
     }
+    devices::settle(model, state);
     accelerate(model, drive, state);
 }
 
@@ -150,6 +194,11 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
         a[i] -= force;
         a[k] += force;
     });
+    devices::forces(model, &state.devices, [&state.z, &state.v], |e, force| {
+        let [i, k] = model.sides[e].map(|s| s as usize);
+        a[i] -= force;
+        a[k] += force;
+    });
     for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         state.a[a] -= rub.normal[0] * mu;
@@ -165,7 +214,8 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
     }
     state.a[n] = 0.0;
     state.a[n + 1] = drive.top(state.t).a;
-    let at = Moving { z: &state.z, v: &state.v, laws: &state.tangents, bonds: &state.bonds };
+    let (bonds, devices) = (&state.bonds, &state.devices);
+    let at = Moving { z: &state.z, v: &state.v, laws: &state.tangents, bonds, devices };
     state.power = power(model, at, ground, &mut state.joint_power);
 }
 
@@ -174,6 +224,7 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
 pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
     let n = model.unknowns();
     let [z_0, v_0] = start;
+    let pull = borne_by(model, &model.on_beam, Acting::of(state.view()));
     let env = &mut state.envelopes;
     let mut largest = 0.0f64;
     for i in 0..n {
@@ -190,13 +241,10 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
     }
     let totals = &mut state.totals;
     totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
-    let top = model.floating_beam().unwrap_or(model.top());
     let mut contacts = model.contacts.iter().peekable();
-    let mut pull = 0.0;
     for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
         let (a, b) = (a as usize, b as usize);
         let (d, w, dw) = (state.z[a] - state.z[b], state.v[a] - state.v[b], state.a[a] - state.a[b]);
-        let f = spring_force(law.unilateral, law.stiffness, d);
         // Where the relative motion turned inside the step, or its start, which is known already.
         let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], w], h);
         // A rigid joint never closes inside a step, whatever the parabola says.
@@ -215,54 +263,55 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
         } else {
             totals.peak_slip_velocity = totals.peak_slip_velocity.max(w.abs());
         }
-        if b == top {
-            pull += f + law.damping * w;
-        }
     }
-    for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
+    for rub in &model.rubs {
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         let w = (state.v[a] - state.v[b]).abs();
         if w > if rub.law.sticks() { 0.0 } else { rub.law.slip_velocity } {
             env.joint_slip[rub.joint as usize] += h * w;
-        }
-        if b == top {
-            pull += rub.normal[0] * mu;
         }
     }
     for (bond, held) in model.bonds.iter().zip(&mut state.bonds) {
         let e = bond.joint as usize;
         let [a, b] = model.sides[e].map(|s| s as usize);
         let d = state.z[a] - state.z[b];
-        let beyond = bond.beyond(&model.elastic[e], held.damage, d);
         let turn = extreme([z_0[a] - z_0[b], d], [v_0[a] - v_0[b], state.v[a] - state.v[b]], h);
         let force = |d: f64| bond.force(&model.elastic[e], bond.law.damage_at(held.damage, d), d).abs();
         held.peak = held.peak.max(force(d)).max(force(turn));
         env.joint_force[e] = held.peak;
-        if b == top {
-            pull += beyond;
-        }
     }
+    devices::forces(model, &state.devices, [&state.z, &state.v], |e, force| {
+        let [a, b] = model.sides[e].map(|s| s as usize);
+        // Spring and law of its own: what the device holds its sides together with.
+        let whole = model.elastic[e].stiffness * (state.z[a] - state.z[b]) + force;
+        env.joint_force[e] = env.joint_force[e].max(whole.abs());
+    });
     for (contact, borne) in model.contacts.iter().zip(&state.tangents.reaction) {
         let e = contact.joint as usize;
         env.joint_force[e] = env.joint_force[e].max(*borne);
-        if model.sides[e][1] as usize == top {
-            pull += borne;
-        }
     }
     totals.top_force_peak = totals.top_force_peak.max(pull.abs());
-    totals.top_force_square += h * pull * pull;
+    totals.top_force_square += 0.5 * h * (state.pull * state.pull + pull * pull);
+    state.pull = pull;
     totals.peak_input = totals.peak_input.max(state.energies.input().abs());
     totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
 }
 
-/// Kinetic and elastic energy at displacements `z` and velocities `v`; `bonds` as before the step that leads there.
-pub fn stored_energy(model: &Model, bonds: &[BondState], z: &[f64], v: &[f64], energies: &mut Energies) {
+/// Kinetic and elastic energy at displacements `z` and velocities `v`; `bonds` as before the step that leads there,
+/// `devices` as they are there.
+pub fn stored_energy(
+    model: &Model,
+    bonds: &[BondState],
+    devices: &[DeviceState],
+    [z, v]: [&[f64]; 2],
+    energies: &mut Energies,
+) {
     energies.kinetic = model.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum();
     let moved = |e: usize| z[model.sides[e][0] as usize] - z[model.sides[e][1] as usize];
     let of_joint = |(e, law): (usize, &Elastic)| 0.5 * spring_force(law.unilateral, law.stiffness, moved(e)) * moved(e);
     let mut elastic: f64 = model.elastic.iter().enumerate().map(of_joint).sum();
     bonds_beyond(model, bonds, z, |e, force| elastic += 0.5 * force * moved(e));
-    energies.elastic = elastic;
+    energies.elastic = elastic + devices::stored(model, devices, z);
 }
 
 /// Makes an impact part of the account: `before`, `after` are w⁻ and w⁺ [m/s] of the rigid joints and `impulse` what they
@@ -317,8 +366,9 @@ fn peak(values: &[f64]) -> f64 {
 #[derive(Debug, Clone, Copy)]
 enum Watched {
     Block(usize),
-    /// With its index among the joints that rub and among the rigid ones, and that among the bonds.
-    Joint(usize, [Option<usize>; 2], Option<usize>),
+    /// With its index among the joints that rub, the rigid ones and the devices with laws of their own, and that among
+    /// the bonds.
+    Joint(usize, [Option<usize>; 3], Option<usize>),
 }
 
 /// The channels of a run: what they are and how to read them off a state.
@@ -340,13 +390,14 @@ const ALWAYS: [(&str, &str, &str); 10] = [
     ("beam/acceleration", "m/s2", "acceleration of the top beam relative to the base"),
     ("peak/displacement", "m", "largest absolute displacement of a block relative to the base at the moment"),
 ];
-const ENERGIES: [(&str, &str); 10] = [
+const ENERGIES: [(&str, &str); 11] = [
     ("input", "work done on the wall by base and top motion"),
     ("kinetic", "kinetic energy of the motion relative to the base"),
     ("elastic", "elastic energy of the joints"),
     ("damping", "dissipated by viscous damping"),
     ("friction", "dissipated by friction"),
     ("bond", "dissipated by the breaking of bonds"),
+    ("device", "dissipated by the hysteresis of devices"),
     ("impact", "lost in the impacts of rigid joints"),
     ("nonreciprocal", "taken out by friction whose action differs from its reaction"),
     ("residual", "kinetic + elastic + dissipated - input"),
@@ -366,11 +417,11 @@ const JOINT: [(&str, &str, &str); 5] = [
         "elastic force, or that of rigid contact, on the lower or left block, against its relative motion",
     ),
     ("damping", "N", "viscous force, same sign"),
-    ("friction", "N", "friction force, same sign"),
+    ("friction", "N", "friction force, or that of a device with a law of its own, same sign"),
 ];
 
 /// Beside them, of joints with a bond.
-const DAMAGE: (&str, &str, &str) = ("damage", "1", "cracked part of the bond, 0 to 1");
+const DAMAGE: (&str, &str, &str) = ("damage", "1", "damage of the bond: part of its stiffness that is lost, 0 to 1");
 
 impl Channels {
     /// The channels for the block and joint names asked for (`all` for every one).
@@ -383,7 +434,8 @@ impl Channels {
         let mut watched: Vec<Watched> =
             chosen("output.blocks", "block", blocks, &block_names)?.into_iter().map(Watched::Block).collect();
         let (rub, contact, bond) = (model.rub_of_joint(), model.contact_of_joint(), model.bond_of_joint());
-        let joint = |e: usize| Watched::Joint(e, [rub[e], contact[e]], bond[e]);
+        let device = model.nonlinear_of_joint();
+        let joint = |e: usize| Watched::Joint(e, [rub[e], contact[e], device[e]], bond[e]);
         watched.extend(chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(joint));
         let channel =
             |name: String, unit: &str, text: &str| Channel { name, unit: unit.into(), description: text.into() };
@@ -413,28 +465,9 @@ impl Channels {
 
     /// Appends one row of values.
     pub fn sample(&self, model: &Model, drive: &Drive, at: View, row: &mut Vec<f64>) {
-        let (mut shear, mut pull) = (0.0, 0.0);
         let beam = model.floating_beam().unwrap_or(model.top());
-        let mut add = |b: usize, f: f64| {
-            if b == model.base() {
-                shear -= f;
-            } else if b == beam {
-                pull -= f;
-            }
-        };
-        for (e, side) in model.sides.iter().enumerate() {
-            if side[1] as usize >= beam.min(model.base()) {
-                let (elastic, viscous, _) = joint_forces(model, at, [None, None], e);
-                add(side[1] as usize, elastic + viscous);
-            }
-        }
-        bonds_beyond(model, at.bonds, at.z, |e, force| add(model.sides[e][1] as usize, force));
-        for (rub, mu) in model.rubs.iter().zip(at.mu) {
-            add(model.sides[rub.joint as usize][1] as usize, rub.normal[0] * mu);
-        }
-        for (contact, borne) in model.contacts.iter().zip(at.reaction) {
-            add(model.sides[contact.joint as usize][1] as usize, *borne);
-        }
+        let [shear, pull] =
+            [&model.on_base, &model.on_beam].map(|support| 0.0 - borne_by(model, support, Acting::of(at)));
         let mean = |values: &[f64]| {
             self.top_course.iter().map(|&i| values[i]).sum::<f64>() / self.top_course.len().max(1) as f64
         };
@@ -443,8 +476,9 @@ impl Channels {
         row.extend([base.a, base.u, shear, mean(at.z), mean(at.v), pull]);
         row.extend([at.z[beam], at.v[beam], at.a[beam]]);
         row.push(peak(&at.z[..model.wall.blocks.len()]));
-        let Energies { input_top, kinetic, elastic, damping, friction, bond, impact, nonreciprocal, .. } = *energies;
-        row.extend([energies.input(), kinetic, elastic, damping, friction, bond, impact, nonreciprocal]);
+        let Energies { input_top, kinetic, elastic, damping, friction, bond, device, impact, nonreciprocal, .. } =
+            *energies;
+        row.extend([energies.input(), kinetic, elastic, damping, friction, bond, device, impact, nonreciprocal]);
         row.extend([energies.residual(), input_top]);
         for w in &self.watched {
             match *w {

@@ -6,6 +6,7 @@ mod assign;
 pub mod bond;
 pub mod case;
 pub mod constrained;
+pub mod device;
 pub mod dice;
 mod dynamics;
 mod elementary;
@@ -30,6 +31,7 @@ pub mod state;
 pub mod store;
 pub mod system;
 pub mod wall;
+mod wide;
 
 pub use error::{Error, InputError, Result};
 #[doc(hidden)]

@@ -4,8 +4,9 @@
 //! A run of a batch has the bits that the same run has alone, whatever runs beside it and on however many threads.
 //! Runs share lanes when their walls have the same joints between the same blocks, the same joints rub, the same
 //! joints are one-sided and the scheme is the same; masses, stiffnesses, normal forces, laws, motions, durations,
-//! tolerances and samplings may differ. What lanes do not take runs alone in the same call: set-valued friction, and
-//! normal forces that differ in action and reaction (`overburden`).
+//! tolerances and samplings may differ. What lanes do not take runs alone in the same call: set-valued friction,
+//! bonds, devices with laws of their own (`bouc-wen`, `re-centring`, a dashpot with a power of the velocity), and normal
+//! forces that differ in action and reaction (`overburden`).
 
 use std::collections::HashMap;
 use std::sync::Mutex;

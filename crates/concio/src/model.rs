@@ -3,7 +3,8 @@
 
 use crate::assign::{JointLaw, friction_choice, resolve};
 use crate::bond::{self, Bonded};
-use crate::case::{Beam, Case, SpringLaw};
+use crate::case::{Beam, Case, DeviceLaw, SpringLaw};
+use crate::device::{self, Device, Nonlinear};
 use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::graph;
@@ -29,8 +30,16 @@ pub struct Model {
     pub rubs: Vec<Rub>,
     /// The joints whose mortar holds until it cracks; `elastic` has their springs as they are before.
     pub bonds: Vec<Bonded>,
+    /// The joints with a device in the place of mortar, in the order of the joints.
+    pub devices: Vec<Device>,
+    /// What some of them do beyond the springs and dashpots in `elastic` and the friction in `rubs`.
+    pub nonlinear: Vec<Nonlinear>,
     /// The rigid unilateral joints, in the order of the joints.
     pub contacts: Vec<Contact>,
+    /// What is joined to the base, and to the top beam, be it driven, tied or one with mass.
+    pub on_base: Support,
+    /// See above.
+    pub on_beam: Support,
     /// Motion of base and top, and the end of the run.
     pub excitation: Excitation,
     /// True when every joint's normal force is the same on both sides: the stage matrices are symmetric then.
@@ -71,6 +80,45 @@ pub struct Contact {
     pub joint: u32,
     /// Newton's coefficient of restitution e, 0 … 1.
     pub restitution: f64,
+}
+
+/// What is joined to a support, by index in the lists of the [`Model`].
+#[derive(Debug, Clone, Default)]
+pub struct Support {
+    /// Joints.
+    pub joints: Vec<u32>,
+    /// Among those that rub.
+    pub rubs: Vec<u32>,
+    /// Among the bonds.
+    pub bonds: Vec<u32>,
+    /// Among the rigid joints.
+    pub contacts: Vec<u32>,
+    /// Among the devices with laws of their own.
+    pub devices: Vec<u32>,
+}
+
+impl Support {
+    /// Of the support with number `side` in `sides`.
+    pub(crate) fn of(
+        side: usize,
+        sides: &[[u32; 2]],
+        rubs: &[Rub],
+        bonds: &[Bonded],
+        contacts: &[Contact],
+        nonlinear: &[Nonlinear],
+    ) -> Self {
+        fn those(joints: impl Iterator<Item = u32>, on: impl Fn(u32) -> bool) -> Vec<u32> {
+            joints.enumerate().filter(|(_, e)| on(*e)).map(|(k, _)| k as u32).collect()
+        }
+        let on = |e: u32| sides[e as usize][1] as usize == side;
+        Support {
+            joints: those(0..sides.len() as u32, on),
+            rubs: those(rubs.iter().map(|r| r.joint), on),
+            bonds: those(bonds.iter().map(|b| b.joint), on),
+            contacts: those(contacts.iter().map(|c| c.joint), on),
+            devices: those(nonlinear.iter().map(|d| d.joint), on),
+        }
+    }
 }
 
 impl Model {
@@ -117,7 +165,11 @@ impl Model {
         let sides: Vec<[u32; 2]> = joints.iter().map(side).collect();
         let mut elastic: Vec<Elastic> =
             joints.iter().zip(&laws).map(|(joint, law)| compile_elastic(&wall, joint, law)).collect();
+        let (devices, nonlinear) = device::compile(case, &laws, &mut elastic);
         let rub = |(e, (law, &normal)): (usize, (&JointLaw, &[f64; 2]))| {
+            if let Some(device) = law.device(case) {
+                return device::rub(e, device);
+            }
             let loaded = normal[0] > 0.0 || normal[1] > 0.0;
             law.rubs().filter(|_| loaded).map(|law| Rub { joint: e as u32, normal, law })
         };
@@ -125,7 +177,7 @@ impl Model {
         rubs.shrink_to_fit();
         let bonds = bond::compile(&wall, &joints, &laws, &normal, &rubs, &mut elastic)?;
         let reciprocal = rubs.iter().all(|r| sides[r.joint as usize][1] as usize >= n || r.normal[0] == r.normal[1]);
-        let stiffest = stiffest(&mass, &sides, &elastic, excitation.duration);
+        let stiffest = stiffest(&mass, &sides, &device::at_rest(&elastic, &nonlinear), excitation.duration);
         let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
         let warnings = warnings(case, &wall, rubs.len(), idle, reciprocal);
         let rigid = |(e, law): (usize, &JointLaw)| {
@@ -133,7 +185,9 @@ impl Model {
             (spring.law == SpringLaw::Rigid)
                 .then_some(Contact { joint: e as u32, restitution: spring.restitution.unwrap_or(0.0) })
         };
-        let contacts = laws.iter().enumerate().filter_map(rigid).collect();
+        let contacts: Vec<Contact> = laws.iter().enumerate().filter_map(rigid).collect();
+        let support = |side| Support::of(side, &sides, &rubs, &bonds, &contacts, &nonlinear);
+        let (on_base, on_beam) = (support(n), support(floating.unwrap_or(n + 1)));
         Ok(Model {
             wall,
             joints,
@@ -143,7 +197,11 @@ impl Model {
             elastic,
             rubs,
             bonds,
+            devices,
+            nonlinear,
             contacts,
+            on_base,
+            on_beam,
             excitation,
             reciprocal,
             stiffest,
@@ -175,6 +233,24 @@ impl Model {
         let mut index = vec![None; self.joints.len()];
         for (b, bond) in self.bonds.iter().enumerate() {
             index[bond.joint as usize] = Some(b);
+        }
+        index
+    }
+
+    /// Law of the device of every joint that has one.
+    pub fn device_of_joint(&self) -> Vec<Option<DeviceLaw>> {
+        let mut law = vec![None; self.joints.len()];
+        for device in &self.devices {
+            law[device.joint as usize] = Some(device.law);
+        }
+        law
+    }
+
+    /// Index in [`Model::nonlinear`] of every joint with such a device.
+    pub fn nonlinear_of_joint(&self) -> Vec<Option<usize>> {
+        let mut index = vec![None; self.joints.len()];
+        for (k, device) in self.nonlinear.iter().enumerate() {
+            index[device.joint as usize] = Some(k);
         }
         index
     }

@@ -90,7 +90,7 @@ impl<'r> Moment<'r> {
 }
 
 impl Moment<'_> {
-    /// Cracked part of a joint, 0 … 1; none for a joint without bond.
+    /// Damage of a joint, 0 … 1; none for a joint without bond.
     pub fn damage(&self, joint: usize) -> Option<f64> {
         self.bond(joint).map(|(_, damage)| damage)
     }

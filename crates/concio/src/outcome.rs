@@ -51,7 +51,7 @@ pub struct BondRow {
     pub energy: f64,
     /// Length over which the strength falls, δ_c of (B3) [m]; 0 when it is brittle.
     pub decay: f64,
-    /// Cracked part at the end, 0 … 1.
+    /// Damage at the end, the part of the stiffness that is lost, 0 … 1.
     pub damage: f64,
     /// Energy that breaking has taken [J].
     pub spent: f64,

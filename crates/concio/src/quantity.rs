@@ -152,7 +152,7 @@ impl<D: Dimension> JsonSchema for Quantity<D> {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
             "description": format!("A {}: a number in {}, or a text with one of the units {}.", D::NAME, D::UNITS[0].0, Self::units()),
-            "anyOf": [{ "type": "number" }, { "type": "string", "pattern": "^\\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\\s*\\S+\\s*$" }],
+            "anyOf": [{ "type": "number" }, { "type": "string", "pattern": "^\\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\\s*\\S+( \\S+)?\\s*$" }],
         })
     }
 }
@@ -199,6 +199,19 @@ dimension!(
     "gal" = 1e-2,
     "Gal" = 1e-2,
     "g" = crate::G
+);
+dimension!(Force, ForceTag, "force", "N" = 1.0, "kN" = 1e3, "MN" = 1e6);
+dimension!(
+    DampingConstant,
+    DampingConstantTag,
+    "damping constant",
+    "N s/m" = 1.0,
+    "Ns/m" = 1.0,
+    "kN s/m" = 1e3,
+    "kNs/m" = 1e3,
+    "MN s/m" = 1e6,
+    "N s/mm" = 1e3,
+    "kN s/mm" = 1e6
 );
 dimension!(
     ForcePerLength,
@@ -261,6 +274,8 @@ mod tests {
         assert_eq!(Stress::parse("0.2 MPa").map(Quantity::si), Ok(0.2e6));
         assert_eq!(Stress::parse("0.2 N/mm²").map(Quantity::si), Ok(0.2e6));
         assert_eq!(EnergyPerArea::parse("0.05 N/mm").map(Quantity::si), Ok(50.0));
+        assert_eq!(Force::parse("2.5 kN").map(Quantity::si), Ok(2500.0));
+        assert_eq!(DampingConstant::parse("3 kN s/m").map(Quantity::si), Ok(3e3));
         assert_eq!(Angle::parse("45 °").map(Quantity::si), Ok(std::f64::consts::FRAC_PI_4));
     }
 

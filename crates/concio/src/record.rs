@@ -26,7 +26,7 @@ pub struct Layout {
     /// Number of unknowns in a frame (blocks, then the beam's if it has mass).
     pub unknowns: usize,
     /// Number of joints whose friction a frame holds: all of them where a law is set-valued, since what holds a joint
-    /// at rest follows from no velocity, or a joint is bonded; otherwise none.
+    /// at rest follows from no velocity, a joint is bonded, or a device has a law of its own; otherwise none.
     #[serde(default)]
     pub held: usize,
     /// Number of bonded joints, whose damage a frame holds.
@@ -51,10 +51,10 @@ pub struct Recording {
     pub frame_velocity: Vec<f64>,
     /// `frame_time.len()` rows: acceleration of every unknown relative to the base [m/s²].
     pub frame_acceleration: Vec<f64>,
-    /// `frame_time.len()` rows: friction force on side a of every joint [N]; rows of none unless a law is set-valued or a
-    /// joint is bonded.
+    /// `frame_time.len()` rows: friction force on side a of every joint [N]; rows of none unless a law is set-valued, a
+    /// joint is bonded, or a device has a law of its own, whose force counts here.
     pub frame_friction: Vec<f64>,
-    /// `frame_time.len()` rows: cracked part of every bonded joint, 0 … 1.
+    /// `frame_time.len()` rows: damage of every bonded joint, 0 … 1.
     pub frame_damage: Vec<f64>,
     /// What happened at one instant, in the order of time.
     pub events: Vec<Event>,
@@ -89,6 +89,14 @@ pub enum EventKind {
 impl EventKind {
     /// All kinds; the place in the list is the number that a journal keeps.
     const ALL: [EventKind; 3] = [EventKind::Impact, EventKind::Crack, EventKind::Break];
+
+    /// Unit of [`Event::value`].
+    pub fn unit(self) -> &'static str {
+        match self {
+            EventKind::Impact => "N s",
+            EventKind::Crack | EventKind::Break => "m",
+        }
+    }
 }
 
 impl Event {
@@ -220,6 +228,8 @@ pub struct Energies {
     pub friction: f64,
     /// Dissipated by the breaking of bonds.
     pub bond: f64,
+    /// Dissipated by the hysteresis of devices.
+    pub device: f64,
     /// Lost in the impacts of rigid joints.
     pub impact: f64,
     /// Taken out by friction forces whose action differs from their reaction (`overburden`).
@@ -233,7 +243,14 @@ impl Energies {
     }
     /// E_kin + E_el − E_0 + E_diss − W_in: 0 but for the errors of the integration.
     pub fn residual(&self) -> f64 {
-        self.kinetic + self.elastic + self.damping + self.friction + self.bond + self.impact + self.nonreciprocal
+        self.kinetic
+            + self.elastic
+            + self.damping
+            + self.friction
+            + self.bond
+            + self.impact
+            + self.nonreciprocal
+            + self.device
             - self.initial
             - self.input()
     }

@@ -16,6 +16,10 @@ use crate::record::StopReason;
 use crate::simulate::{Progress, Sampling, Simulation};
 use crate::store::{self, JointRow, Journal, JournalHeader, Provenance, RunFacts};
 
+mod warnings;
+
+pub use warnings::only_creeps;
+
 /// A case made ready to run.
 #[derive(Debug, Clone)]
 pub struct Prepared {
@@ -71,13 +75,6 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(40);
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(1);
 /// Samples that a run may keep.
 const MOST_SAMPLES: f64 = 1e7;
-/// Relative displacement of a joint, as a fraction of its overlap, from which its geometry should not be taken as
-/// unchanged any more.
-const LARGE_SLIP: f64 = 0.1;
-
-/// Friction work of joints that never slip, over the largest energy in play, that could be taken for damage.
-const NOTICEABLE_CREEP: f64 = 0.05;
-
 /// Lays the wall, compiles motion and model; numbers that are hardly meant and records that the run cuts or outlasts join
 /// the model's warnings. `folder` is where relative record paths start. The case must be valid
 /// ([`crate::case::CaseFile::validate`]).
@@ -251,8 +248,7 @@ fn write(
 ) -> Result<Value> {
     let (model, provenance, joints) = (&prepared.model, prepared.provenance(), joint_rows(&prepared.model));
     let mut warnings = model.warnings.clone();
-    warnings.extend(large_slips(model, outcome));
-    warnings.extend(creep(&joints, outcome));
+    warnings.extend(warnings::of(model, &joints, outcome));
     let facts = RunFacts { duration: model.excitation.duration, solve_seconds, resumed_from, warnings };
     let summary = store::summary(&provenance, &model.wall, &joints, outcome, &facts);
     store::hdf5::write(&out.join(RESULT), &provenance, &model.wall, &joints, outcome)?;
@@ -260,44 +256,10 @@ fn write(
     Ok(summary)
 }
 
-/// The model keeps its joints as they were laid: says where that ceases to be a fair picture.
-fn large_slips(model: &Model, outcome: &Outcome) -> Option<String> {
-    let ratio = |e: usize| outcome.envelopes.joint_displacement[e] / model.joints[e].overlap;
-    let bed = |e: &usize| matches!(model.joints[*e].kind, crate::case::JointKind::Bed);
-    let worst = (0..model.joints.len()).filter(bed).max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
-    (ratio(worst) > LARGE_SLIP).then(|| {
-        format!(
-            "joint {} slid by {:.0} % of its overlap: overlaps and loads are kept as laid, so do not trust the result \
-             beyond this",
-            crate::graph::name(&model.wall, &model.joints[worst]),
-            100.0 * ratio(worst)
-        )
-    })
-}
-
-/// Whether friction did work although no joint with friction ever passed its slip velocity: creep of the regularised law.
-pub fn only_creeps(joints: &[JointRow], outcome: &Outcome) -> bool {
-    let mut laws =
-        joints.iter().zip(&outcome.envelopes.joint_velocity).filter_map(|(j, v)| j.friction.map(|f| (f, *v)));
-    outcome.energies.friction > 0.0 && laws.all(|(law, velocity)| velocity <= law.creeps_below())
-}
-
-/// Says that friction work is no sign of damage, where there is enough of it to be taken for one.
-fn creep(joints: &[JointRow], outcome: &Outcome) -> Option<String> {
-    let most = outcome.totals.peak_input.max(outcome.energies.initial.abs());
-    let friction = outcome.energies.friction;
-    (friction > NOTICEABLE_CREEP * most && only_creeps(joints, outcome)).then(|| {
-        format!(
-            "no joint slipped: the friction work, {:.0} % of the largest work, is creep of the regularised law",
-            100.0 * friction / most
-        )
-    })
-}
-
 /// The joints of a model with their compiled numbers, as results keep them.
 pub fn joint_rows(model: &Model) -> Vec<JointRow> {
     use crate::case::{FrictionLaw, SpringLaw};
-    let contact = model.contact_of_joint();
+    let (contact, device) = (model.contact_of_joint(), model.device_of_joint());
     let row = |(e, rub): (usize, Option<usize>)| {
         let rub = rub.map(|r| &model.rubs[r]);
         let (joint, law) = (&model.joints[e], &model.elastic[e]);
@@ -313,6 +275,7 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
             stiffness: law.stiffness,
             damping: law.damping,
             restitution: contact[e].map_or(0.0, |c| model.contacts[c].restitution),
+            device: device[e],
             normal_force: rub.map_or([0.0; 2], |r| r.normal),
             friction: rub.map(|r| store::FrictionRow {
                 law: match r.law.sticks() {

@@ -2,12 +2,13 @@
 //! benches and documents.
 
 use crate::bond::{Bond, Bonded};
-use crate::case::{Beam, JointKind, Signal, Sine, Solver};
+use crate::case::{Beam, DeviceLaw, JointKind, Signal, Sine, Solver};
+use crate::device::{self, Device, Law, Nonlinear};
 use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::ground::signal::{GroundMotion, compile};
 use crate::law::Stribeck;
-use crate::model::{Contact, Elastic, Model, Rub, stiffest};
+use crate::model::{Contact, Elastic, Model, Rub, Support, stiffest};
 use crate::quantity::{Length, Time};
 use crate::record::StopReason;
 use crate::simulate::{Sampling, Simulation};
@@ -28,13 +29,15 @@ pub struct Link {
     pub bond: Option<Bond>,
     /// Restitution of a rigid unilateral joint.
     pub rigid: Option<f64>,
+    /// What a device does beyond `elastic` and `friction`.
+    pub device: Option<Law>,
 }
 
 impl Link {
     /// A spring k [N/m] and dashpot c [N s/m].
     pub fn spring(a: usize, b: End, stiffness: f64, damping: f64) -> Self {
         let elastic = Elastic { stiffness, damping, unilateral: false };
-        Link { a, b, elastic, friction: None, rigid: None, bond: None }
+        Link { a, b, elastic, friction: None, rigid: None, bond: None, device: None }
     }
     /// A spring that acts for x_a > x_b alone.
     pub fn unilateral(a: usize, b: End, stiffness: f64) -> Self {
@@ -53,7 +56,11 @@ impl Link {
     /// Friction under a normal force [N].
     pub fn friction(a: usize, b: End, law: Stribeck, normal: f64) -> Self {
         let elastic = Elastic { stiffness: 0.0, damping: 0.0, unilateral: false };
-        Link { a, b, elastic, friction: Some((law, normal)), rigid: None, bond: None }
+        Link { elastic, friction: Some((law, normal)), ..Link::spring(a, b, 0.0, 0.0) }
+    }
+    /// A device beside a spring k [N/m] and a dashpot c [N s/m].
+    pub fn device(a: usize, b: End, law: Law, stiffness: f64, damping: f64) -> Self {
+        Link { device: Some(law), ..Link::spring(a, b, stiffness, damping) }
     }
 }
 
@@ -119,11 +126,26 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         let rub = rubs.iter().position(|r| r.joint as usize == e).map(|r| r as u32);
         link.bond.map(|law| Bonded { joint: e as u32, rub, law })
     };
-    let bonds = links.iter().enumerate().filter_map(bonded).collect();
+    let bonds: Vec<Bonded> = links.iter().enumerate().filter_map(bonded).collect();
     let rigid = |(e, link): (usize, &Link)| link.rigid.map(|restitution| Contact { joint: e as u32, restitution });
     let sides: Vec<[u32; 2]> = links.iter().map(|l| [l.a as u32, side(l.b) as u32]).collect();
     let elastic: Vec<Elastic> = links.iter().map(|l| l.elastic).collect();
-    let stiffest = stiffest(masses, &sides, &elastic, excitation.duration);
+    let named = |(e, link): (usize, &Link)| {
+        let joint = e as u32;
+        let law = match link.device? {
+            Law::Power(_) => DeviceLaw::Viscous,
+            Law::BoucWen(_) => DeviceLaw::BoucWen,
+            Law::ReCentring(_) => DeviceLaw::ReCentring,
+        };
+        Some(Device { joint, law })
+    };
+    let nonlinear = |(e, link): (usize, &Link)| link.device.map(|law| Nonlinear { joint: e as u32, law });
+    let devices = links.iter().enumerate().filter_map(named).collect();
+    let nonlinear: Vec<Nonlinear> = links.iter().enumerate().filter_map(nonlinear).collect();
+    let stiffest = stiffest(masses, &sides, &device::at_rest(&elastic, &nonlinear), excitation.duration);
+    let contacts: Vec<Contact> = links.iter().enumerate().filter_map(rigid).collect();
+    let support = |side| Support::of(side, &sides, &rubs, &bonds, &contacts, &nonlinear);
+    let (on_base, on_beam) = (support(n), support(n + 1));
     Model {
         wall: Wall { panels: vec![panel], blocks: (0..n).map(block).collect() },
         joints: links.iter().map(joint).collect(),
@@ -132,8 +154,12 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         sides,
         elastic,
         bonds,
+        devices,
+        nonlinear,
         rubs,
-        contacts: links.iter().enumerate().filter_map(rigid).collect(),
+        contacts,
+        on_base,
+        on_beam,
         excitation,
         reciprocal: true,
         stiffest,

@@ -8,6 +8,7 @@ use crate::dynamics::{Channels, accelerate, book_impact, kick, observe, settle, 
 use crate::error::Result;
 use crate::excitation::Drive;
 use crate::integrate::cracks;
+use crate::integrate::devices;
 use crate::integrate::events;
 use crate::integrate::impact::{COLLISIONS, Impacts};
 use crate::integrate::stage::Failure;
@@ -128,7 +129,11 @@ impl<'m> Simulation<'m> {
             samples: (duration / sampling.interval * (1.0 + 1e-12) + 1e-9).floor() as usize + 1,
             frame_every: sampling.frame_every,
             unknowns: model.unknowns(),
-            held: if model.sticks() || !model.bonds.is_empty() { model.joints.len() } else { 0 },
+            held: if model.sticks() || !model.bonds.is_empty() || !model.nonlinear.is_empty() {
+                model.joints.len()
+            } else {
+                0
+            },
             bonded: model.bonds.len(),
             channels: list,
         };
@@ -547,6 +552,7 @@ fn keep(
         for (rub, mu) in model.rubs.iter().zip(at.mu) {
             recording.frame_friction[from + rub.joint as usize] = rub.normal[0] * mu;
         }
+        devices::forces(model, at.devices, [at.z, at.v], |e, force| recording.frame_friction[from + e] = force);
     }
 }
 
@@ -569,7 +575,7 @@ fn collide(model: &Model, work: &mut Step, state: &mut State, slow: f64, mut tel
 /// [`settle`], which of the joints at rest let go under the forces of this instant, and the energy stored.
 fn settle_all(model: &Model, drive: &Drive, work: &mut Step, state: &mut State) {
     settle(model, drive, state);
-    stored_energy(model, &state.bonds, &state.z, &state.v, &mut state.energies);
+    stored_energy(model, &state.bonds, &state.devices, [&state.z, &state.v], &mut state.energies);
     if model.set_valued() {
         work.let_go(model, drive, state);
         accelerate(model, drive, state);

@@ -23,12 +23,16 @@ pub struct State {
     pub step: f64,
     /// Largest |z| and |v| so far: the scale of the tolerances.
     pub scale: [f64; 2],
+    /// Force of the top beam on the wall after the last step, its sign turned [N].
+    pub pull: f64,
     /// Rate of each joint's dissipation at `t` [W].
     pub joint_power: Vec<f64>,
     /// Tangents of the joints' laws, from which the next step starts.
     pub tangents: Tangents,
     /// What has become of the bonds, in the order of the model's.
     pub bonds: Vec<BondState>,
+    /// What has become of the devices with laws of their own, in the order of the model's.
+    pub devices: Vec<DeviceState>,
     /// Samples kept so far.
     pub samples: u64,
     /// Energy account.
@@ -58,6 +62,8 @@ pub struct View<'a> {
     pub reaction: &'a [f64],
     /// The bonds.
     pub bonds: &'a [BondState],
+    /// The devices.
+    pub devices: &'a [DeviceState],
     /// The energy account.
     pub energies: &'a Energies,
 }
@@ -79,6 +85,8 @@ pub struct Instant {
     pub reaction: Vec<f64>,
     /// The bonds.
     pub bonds: Vec<BondState>,
+    /// The devices.
+    pub devices: Vec<DeviceState>,
     /// The energy account.
     pub energies: Energies,
 }
@@ -94,13 +102,14 @@ impl Instant {
             mu: vec![0.0; model.rubs.len()],
             reaction: vec![0.0; model.contacts.len()],
             bonds: vec![BondState::INTACT; model.bonds.len()],
+            devices: vec![DeviceState::default(); model.nonlinear.len()],
             energies: Energies::default(),
         }
     }
     /// What it holds.
     pub fn view(&self) -> View<'_> {
-        let Instant { t, z, v, a, mu, reaction, bonds, energies } = self;
-        View { t: *t, z, v, a, mu, reaction, bonds, energies }
+        let Instant { t, z, v, a, mu, reaction, bonds, devices, energies } = self;
+        View { t: *t, z, v, a, mu, reaction, bonds, devices, energies }
     }
 }
 
@@ -109,7 +118,7 @@ impl Instant {
 pub struct BondState {
     /// δ_m: largest |δ|, or widest gap, that counted for the damage so far [m]; 0 while the bond is intact.
     pub reach: f64,
-    /// D, 0 … 1.
+    /// D, 0 … 1: what is lost of the stiffness. The part that rubs is [`crate::bond::Bond::rubbing`].
     pub damage: f64,
     /// Energy that breaking took [J].
     pub spent: f64,
@@ -127,6 +136,15 @@ impl BondState {
         BondState { reach: 0.0, damage: 0.0, spent: 0.0, peak: 0.0, cracked: f64::INFINITY, broken: f64::INFINITY };
 }
 
+/// What a run has done to a device with a law of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct DeviceState {
+    /// ζ of (I5) [1], or s of (I7) [m]; 0 for a law without history.
+    pub internal: f64,
+    /// ζ̇ [1/s].
+    pub rate: f64,
+}
+
 /// Rates of the works in [`Energies`] [W].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Power {
@@ -138,6 +156,8 @@ pub struct Power {
     pub damping: f64,
     /// Lost to friction.
     pub friction: f64,
+    /// Lost to the hysteresis of devices.
+    pub device: f64,
     /// Lost to the difference of action and reaction.
     pub nonreciprocal: f64,
 }
@@ -149,6 +169,7 @@ impl Power {
         energies.input_top += dt * self.top;
         energies.damping += dt * self.damping;
         energies.friction += dt * self.friction;
+        energies.device += dt * self.device;
         energies.nonreciprocal += dt * self.nonreciprocal;
     }
 }
@@ -206,8 +227,8 @@ impl Tangents {
 impl State {
     /// The motion, friction and energies at its instant.
     pub fn view(&self) -> View<'_> {
-        let State { t, z, v, a, bonds, energies, .. } = self;
-        View { t: *t, z, v, a, mu: &self.tangents.mu, reaction: &self.tangents.reaction, bonds, energies }
+        let State { t, z, v, a, bonds, devices, energies, .. } = self;
+        View { t: *t, z, v, a, mu: &self.tangents.mu, reaction: &self.tangents.reaction, bonds, devices, energies }
     }
 
     /// Whether all arrays have the lengths that `model` needs.
@@ -234,6 +255,7 @@ impl State {
             && self.tangents.closed.len() == e
             && self.tangents.stuck.len() == r
             && self.bonds.len() == model.bonds.len()
+            && self.devices.len() == model.nonlinear.len()
             && self.tangents.contact.len() == model.contacts.len()
             && self.tangents.reaction.len() == model.contacts.len()
     }
@@ -250,9 +272,11 @@ impl State {
             power: Power::default(),
             step: 0.0,
             scale: [0.0; 2],
+            pull: 0.0,
             joint_power: zeros(e),
             tangents: Tangents::at_rest(model),
             bonds: vec![BondState::INTACT; model.bonds.len()],
+            devices: vec![DeviceState::default(); model.nonlinear.len()],
             samples: 0,
             energies: Energies::default(),
             envelopes: Envelopes {

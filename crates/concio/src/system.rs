@@ -9,7 +9,7 @@ use crate::model::Model;
 ///
 /// # Errors
 /// A driven top on a moving base: the format has one motion for the top and it is relative to the base. Set-valued
-/// friction and bonds, which the format cannot express.
+/// friction, bonds and devices with laws of their own, which the format cannot express.
 pub fn system(model: &Model) -> Result<Value> {
     if model.sticks() {
         let error = InputError::new("set-valued friction has no place in the system for other solvers");
@@ -18,6 +18,12 @@ pub fn system(model: &Model) -> Result<Value> {
     if !model.bonds.is_empty() {
         let error = InputError::new("bonds have no place in the system for other solvers");
         return Err(error.key("joint.bond").allowed("joints without bond").into());
+    }
+    if let Some(device) = model.nonlinear.first() {
+        let name = crate::graph::name(&model.wall, &model.joints[device.joint as usize]);
+        let error = InputError::new(format!("the device of joint {name} has no place in the system for other solvers"));
+        let allowed = "linear `viscous`, `elastic` and `friction-damper` devices";
+        return Err(error.key("joint.change").allowed(allowed).into());
     }
     let (base, top) = (model.base(), model.top());
     let rub: Vec<_> = model.rub_of_joint().into_iter().map(|r| r.map(|r| &model.rubs[r])).collect();

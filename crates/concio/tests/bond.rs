@@ -13,8 +13,16 @@ use concio::outcome::Outcome;
 use concio::record::{EventKind, StopReason};
 use concio::run::{Prepared, prepare, run_in_memory};
 use concio::samples::{Link, lumped, solver};
-use concio::simulate::{Progress, Sampling, Simulation};
+use concio::simulate::{Sampling, Simulation};
 use concio::wall::End;
+
+use ready::ready;
+use restarted::restarted;
+
+#[path = "common/ready.rs"]
+mod ready;
+#[path = "common/restarted.rs"]
+mod restarted;
 
 const M: f64 = 10.0;
 const K: f64 = 1e7;
@@ -188,6 +196,42 @@ fn a_peak_inside_of_a_step_is_not_missed() {
     assert_eq!((cracked(0.999), cracked(1.001)), (0.0, 1.0));
 }
 
+/// (B5), with the law of Lourenço & Rots (1997): from brittle bonds to those that take 1000 N/m the strength of Mohr and
+/// Coulomb is reached and not exceeded while friction takes the place of what is lost.
+#[test]
+fn a_sheared_joint_never_bears_more_than_its_strength() {
+    // A bed joint of a whole brick, 0.25 × 0.12 m, between the report's K_H.
+    let (area, stiffness, normal) = (0.03, 1.08e8, 5e3);
+    let coulomb = |mu| Stribeck { static_: mu, dynamic: mu, slip_velocity: 0.0, beta: f64::INFINITY, alpha: 0.0 };
+    let falling = Stribeck { static_: 0.6, dynamic: 0.42, slip_velocity: 1e-3, beta: 100.0, alpha: 0.0 };
+    for (cohesion, tan, law) in [(0.1e6, 0.6, coulomb(0.6)), (0.0, 0.6, coulomb(0.6)), (0.1e6, 0.75, falling)] {
+        let strength = cohesion * area + normal * tan;
+        let least = 0.5 * strength * strength / stiffness;
+        for energy in [0.0, 1.05 * least, 30.0 * area, 100.0 * area, 1000.0 * area] {
+            let bond = Bond::new(strength, stiffness, 0.0, energy, false).unwrap();
+            // Past e^-7 < 1e-3 of the strength.
+            let way = 1.2 * bond.limit() + 8.0 * bond.decay;
+            let drive = 10.0 * stiffness;
+            let links = [
+                Link::bonded(0, End::Base, bond, Some((law, normal))),
+                Link::spring(0, End::Top, drive, 2.0 * (drive * M).sqrt()),
+            ];
+            let model = lumped(&[M], &links, Excitation::of_top(ramp(way, 0.0, 0.2), 0.2));
+            let outcome = run(&model, &fine(1e-4), 4000);
+            let [elastic, friction] = ["elastic", "friction"].map(|f| channel(&outcome, &format!("joint/base|m1/{f}")));
+            let borne: Vec<f64> = elastic.iter().zip(&friction).map(|(e, f)| e + f).collect();
+            let most = peak(&borne).max(outcome.envelopes.joint_force[0]) / strength;
+            println!("c {cohesion} tan φ {tan} G {}: {most}, {:?}", energy / area, outcome.counters);
+            assert!(most < 1.0 + 1e-3, "{most} of the strength at {} N/m", energy / area);
+            assert!(most > 1.0 - 1e-3, "{most} of the strength at {} N/m", energy / area);
+            assert_eq!(outcome.bonds[0].damage, 1.0);
+            let spent = if energy == 0.0 { least } else { energy };
+            assert!((outcome.energies.bond / spent - 1.0).abs() < 1e-3, "{} of {spent} J", outcome.energies.bond);
+            assert!(residual(&outcome) < 1e-4, "energy residual {}", residual(&outcome));
+        }
+    }
+}
+
 /// The cracked part of a sheared joint rubs, the rest is elastic: (B1) with Coulomb's friction.
 #[test]
 fn friction_grows_with_the_cracked_part() {
@@ -201,11 +245,12 @@ fn friction_grows_with_the_cracked_part() {
         let forces = ["elastic", "friction"].map(|f| channel(&outcome, &format!("joint/base|m1/{f}")));
         let damage = channel(&outcome, "joint/base|m1/damage");
         for (k, d) in slip.iter().enumerate() {
-            let intact = if *d > limit { limit / d * (-(d - limit) / bond.decay).exp() } else { 1.0 };
-            let intact = if damage[k] == 1.0 { 0.0 } else { intact };
+            let left = if *d > limit { (-(d - limit) / bond.decay).exp() } else { 1.0 };
+            let left = if damage[k] == 1.0 { 0.0 } else { left };
+            let intact = left * (limit / d).min(1.0);
             assert!((damage[k] - (1.0 - intact)).abs() < 1e-6, "{} at {d}", damage[k]);
             assert!((forces[0][k] - intact * K * d).abs() < 1e-6 * F0);
-            let rubs = (1.0 - intact) * mu * normal;
+            let rubs = (1.0 - left) * mu * normal;
             assert!((forces[1][k] - rubs).abs() < allowed * mu * normal, "{} instead of {rubs}", forces[1][k]);
         }
         assert_eq!(outcome.bonds[0].damage, 1.0);
@@ -255,9 +300,7 @@ base = { pulse = { shape = "ricker", acceleration = "1 g", duration = "0.1 s" } 
 "#;
 
 fn prepared(bond: &str) -> Prepared {
-    let file = from_str(&PANEL.replace("BOND", bond), Syntax::Toml, None).unwrap();
-    file.validate().unwrap();
-    prepare(file.case.clone(), Path::new("")).unwrap()
+    ready(&PANEL.replace("BOND", bond))
 }
 
 fn refused(bond: &str) -> concio::InputError {
@@ -395,11 +438,8 @@ fn a_cracking_wall_keeps_its_energy_and_its_bits() {
                 }
                 prepare(case, Path::new("")).unwrap()
             };
-            let new = || Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
-            let mut run = new();
-            let (rows, reason) = run.run_to_end();
-            assert_eq!(reason, StopReason::Completed);
-            let whole = run.outcome(rows, reason);
+            let whole = run_in_memory(&p).unwrap();
+            assert_eq!(whole.stop_reason, StopReason::Completed);
             let broken = whole.bonds.iter().filter(|b| b.damage == 1.0).count();
             let cracked = whole.bonds.iter().filter(|b| b.damage > 0.0).count();
             println!(
@@ -416,21 +456,8 @@ fn a_cracking_wall_keeps_its_energy_and_its_bits() {
             let events = &whole.recording.events;
             assert_eq!(events.iter().filter(|e| e.kind == EventKind::Crack).count(), cracked);
             assert!(events.windows(2).all(|pair| pair[0].time <= pair[1].time), "{events:?}");
-            let mut run = new();
-            let (mut rows, mut stride) = (concio::record::Recording::default(), 1);
-            let reason = loop {
-                let progress = run.advance(stride);
-                rows.append(run.recording());
-                run.clear_recording();
-                if let Progress::Ended(reason) = progress {
-                    break reason;
-                }
-                let bytes = run.save();
-                run = new();
-                assert!(run.restore(&bytes));
-                stride = stride * 3 % 1009;
-            };
-            assert!(run.outcome(rows, reason) == whole, "other bits after restarts");
+            let again = restarted(&p, 1, |stride| stride * 3 % 1009);
+            assert!(again == whole, "other bits after restarts");
         }
     }
 }

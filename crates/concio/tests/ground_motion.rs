@@ -233,6 +233,38 @@ fn high_pass_by_its_response() {
     assert!(largest(&filtered.acceleration) < 1e-9);
 }
 
+/// A part of a record, cut where the base moves fastest: high-passed, it starts and ends at rest where it was, and all that
+/// this adds to its acceleration is slow.
+#[test]
+fn a_cut_record_does_not_drift_when_it_is_high_passed() {
+    // 0.5 Hz and 2 Hz under sin² over 40 s: at rest at both ends, and nothing below 0.3 Hz.
+    let whole = record(0.005, 8001, |t| {
+        let envelope = (PI * t / 40.0).sin().powi(2);
+        envelope * (1.0 * (PI * t).sin() + 2.0 * (4.0 * PI * t + 0.7).sin())
+    });
+    let (v, u) = integrate(whole.dt, &whole.acceleration, 0.0, 0.0);
+    // The base is still moving where it is cut, and drifts by decimetres when nothing is done.
+    let from = (3200..3600).max_by(|&a, &b| v[a].abs().total_cmp(&v[b].abs())).unwrap();
+    let cut = Some([seconds(from as f64 * 0.005), seconds(from as f64 * 0.005 + 12.0)]);
+    let drifting = measure(&prepare(whole.clone(), &RecordInput { trim: cut, ..input() }).unwrap());
+    assert!(v[from].abs() > 0.3 && drifting.final_displacement.abs() > 2.0, "{drifting:?}");
+    for order in [2, 4, 8] {
+        let baseline = Baseline::HighPass { corner: Frequency::from_si(0.1), order };
+        let done = prepare(whole.clone(), &RecordInput { trim: cut, baseline, ..input() }).unwrap();
+        let m = measure(&done);
+        assert!(m.final_displacement.abs() < 1e-9 && m.final_velocity.abs() < 1e-9, "{m:?}");
+        let (_, moved) = integrate(done.dt, &done.acceleration, 0.0, 0.0);
+        let added: Vec<f64> = (0..=2400).map(|k| done.acceleration[k] - whole.acceleration[from + k]).collect();
+        let (pga, faster) = (largest(&whole.acceleration), added.windows(2).map(|a| a[1] - a[0]).collect::<Vec<_>>());
+        println!("order {order}: {} m of {}, {} m/s2 of {pga}", largest(&moved), largest(&u), largest(&added));
+        assert!(largest(&moved) < 0.15 * drifting.final_displacement.abs(), "order {order}: {} m", largest(&moved));
+        assert!(largest(&added[5..2396]) < 0.12 * pga, "order {order}: {} m/s2", largest(&added));
+        // In 5 ms no more than a slow wave changes: 2 Hz of this amplitude would change by 0.06 of it.
+        assert!(largest(&faster[5..2390]) < 0.02 * largest(&added), "order {order}: {} m/s2", largest(&faster));
+        assert!((m.pga.value.abs() / pga - 1.0).abs() < 0.08, "order {order}: {}", m.pga.value);
+    }
+}
+
 #[test]
 fn displacement_histories_are_trimmed_refined_and_scaled_as_splines() {
     let options = TextOptions { quantity: HistoryQuantity::Displacement, ..TextOptions::default() };

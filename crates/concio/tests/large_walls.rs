@@ -1,11 +1,16 @@
 //! Walls of hundreds of blocks, whose matrices are factorised front by front.
 
-use std::path::Path;
-
-use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
-use concio::run::{Prepared, prepare};
-use concio::simulate::{Progress, Simulation};
+use concio::run::Prepared;
+use concio::simulate::Simulation;
+
+use ready::ready;
+use restarted::restarted;
+
+#[path = "common/ready.rs"]
+mod ready;
+#[path = "common/restarted.rs"]
+mod restarted;
 
 fn wall() -> String {
     format!(
@@ -22,12 +27,6 @@ friction = {{ law = "stribeck", static = 0.6, dynamic = 0.42 }}
 top = "2 kN/m"
 {SHAKEN}"#
     )
-}
-
-fn ready(text: &str) -> Prepared {
-    let file = from_str(text, Syntax::Toml, None).unwrap();
-    file.validate().unwrap();
-    prepare(file.case.clone(), Path::new("")).unwrap()
 }
 
 const SHAKEN: &str = r#"
@@ -67,19 +66,5 @@ fn factors_used_again_keep_the_accuracy() {
 fn a_large_run_is_restored_to_the_same_bits() {
     let p = ready(&wall());
     let whole = run(&p, p.case.solver.tolerance);
-    let new = || Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
-    let mut rows = concio::record::Recording::default();
-    let mut run = new();
-    let reason = loop {
-        let progress = run.advance(3);
-        rows.append(run.recording());
-        run.clear_recording();
-        if let Progress::Ended(reason) = progress {
-            break reason;
-        }
-        let bytes = run.save();
-        run = new();
-        assert!(run.restore(&bytes));
-    };
-    assert_eq!(run.outcome(rows, reason), whole);
+    assert_eq!(restarted(&p, 3, |_| 3), whole);
 }

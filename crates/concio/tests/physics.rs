@@ -2,14 +2,22 @@
 
 use std::path::Path;
 
-use concio::case::{Case, Syntax, from_str};
+use concio::case::{Syntax, from_str};
 use concio::model::Model;
 use concio::moment::Moment;
 use concio::outcome::Outcome;
 use concio::record::StopReason;
-use concio::run::{Prepared, joint_rows, prepare, run_in_memory};
-use concio::simulate::{Progress, Simulation};
+use concio::run::{joint_rows, prepare, run_in_memory};
+use concio::simulate::Simulation;
 use concio::store::{StoredRun, residual_relative};
+
+use ready::{edited, ready};
+use restarted::restarted;
+
+#[path = "common/ready.rs"]
+mod ready;
+#[path = "common/restarted.rs"]
+mod restarted;
 
 const PANEL: &str = r#"
 model = "shear"
@@ -39,12 +47,6 @@ duration = "2 s"
 base = { synthetic = { seed = 3, pga = "0.8 g", duration = "4 s" } }
 "#;
 
-fn ready(text: &str) -> Prepared {
-    let file = from_str(text, Syntax::Toml, None).unwrap();
-    file.validate().unwrap();
-    prepare(file.case.clone(), Path::new("")).unwrap()
-}
-
 /// The panel with a set-valued law.
 fn sticking(motion: &str, law: &str) -> String {
     format!("{PANEL}{motion}").replace("law = \"stribeck\"", &format!("law = \"{law}\""))
@@ -54,12 +56,6 @@ fn outcome(text: &str) -> Outcome {
     let out = run_in_memory(&ready(text)).unwrap();
     assert_eq!(out.stop_reason, StopReason::Completed);
     out
-}
-
-fn edited(text: &str, edit: impl FnOnce(&mut Case)) -> Prepared {
-    let mut case = from_str(text, Syntax::Toml, None).unwrap().case;
-    edit(&mut case);
-    prepare(case, Path::new("")).unwrap()
 }
 
 fn channel(out: &Outcome, name: &str) -> Vec<f64> {
@@ -242,23 +238,7 @@ fn a_restored_state_continues_with_the_same_bits() {
     for text in [format!("{PANEL}{SLIPPING}"), format!("{PANEL}{SHAKEN}")] {
         let p = ready(&text);
         let whole = run_in_memory(&p).unwrap();
-        let new = || Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
-        let mut rows = concio::record::Recording::default();
-        let mut run = new();
-        let mut stride = 1;
-        let reason = loop {
-            let progress = run.advance(stride);
-            rows.append(run.recording());
-            run.clear_recording();
-            if let Progress::Ended(reason) = progress {
-                break reason;
-            }
-            let bytes = run.save();
-            run = new();
-            assert!(run.restore(&bytes));
-            stride = stride * 3 % 1009;
-        };
-        assert_eq!(run.outcome(rows, reason), whole);
+        assert_eq!(restarted(&p, 1, |stride| stride * 3 % 1009), whole);
     }
 }
 
@@ -378,20 +358,7 @@ fn a_restored_frictionless_run_is_the_same() {
         c.solver.max_step = Some((1.0 / 16384.0).into());
     });
     let whole = run_in_memory(&p).unwrap();
-    let new = || Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
-    let (mut run, mut rows) = (new(), concio::record::Recording::default());
-    let reason = loop {
-        let progress = run.advance(37);
-        rows.append(run.recording());
-        run.clear_recording();
-        if let Progress::Ended(reason) = progress {
-            break reason;
-        }
-        let bytes = run.save();
-        run = new();
-        assert!(run.restore(&bytes));
-    };
-    assert_eq!(run.outcome(rows, reason), whole);
+    assert_eq!(restarted(&p, 37, |_| 37), whole);
 }
 
 /// What is not a number ends the run with that reason instead of passing every comparison.

@@ -1,16 +1,21 @@
 //! Rigid unilateral contact with Newton's law of impact, against closed forms and hand calculation.
 
-use concio::case::{Pulse, PulseShape, Scheme, Signal, Solver, Syntax, from_str};
+use concio::case::{Pulse, PulseShape, Scheme, Signal, Solver};
 use concio::constrained::{self, Heads};
 use concio::excitation::Excitation;
 use concio::ground::signal::{GroundMotion, compile};
 use concio::model::Model;
 use concio::record::StopReason;
-use concio::run::{Prepared, prepare};
+use concio::run::Prepared;
 use concio::samples::{Link, lumped, solver};
 use concio::simulate::{Progress, Sampling, Simulation};
 use concio::wall::End;
 use proptest::prelude::*;
+
+use ready::ready;
+
+#[path = "common/ready.rs"]
+mod ready;
 
 const M: f64 = 100.0;
 
@@ -213,9 +218,7 @@ head = {{ {head} }}
 friction = {{ law = "{friction}", static = 0.6, dynamic = 0.42 }}
 {rest}"#
     );
-    let file = from_str(&text, Syntax::Toml, None).unwrap();
-    file.validate().unwrap();
-    prepare(file.case.clone(), std::path::Path::new("")).unwrap()
+    ready(&text)
 }
 
 const SLIPPING: &str = r#"
@@ -322,9 +325,7 @@ interval = "0.01 ms"
 /// As κ grows, no-tension springs come to what rigid contact with e = 1 does.
 #[test]
 fn no_tension_converges_to_rigid_contact() {
-    let file = from_str(ROW, Syntax::Toml, None).unwrap();
-    file.validate().unwrap();
-    let prepared = prepare(file.case.clone(), std::path::Path::new("")).unwrap();
+    let prepared = ready(ROW);
     let blocks: Vec<String> = (1..=3).map(|b| format!("p1c1b{b}")).collect();
     let run = |heads| constrained::respond(&prepared, heads, &blocks, &[]).unwrap();
     let rigid = run(Heads::Rigid(1.0));

@@ -581,6 +581,18 @@ fn csv_holds_every_number_with_its_unit() {
     assert_eq!(joints[0][..5], ["p1c1b1|base", "base", "p1c1b1", "base", "elastic"]);
     let stiffness = head.iter().position(|h| h == "stiffness [N/m]").unwrap();
     assert_eq!(joints[3][stiffness].parse::<f64>().unwrap(), run.joints[3].stiffness);
+    let (head, events) = table("events.csv");
+    assert_eq!(head, ["time [s]", "joint", "kind", "value", "unit"]);
+    assert_eq!(events.len(), recording.events.len());
+    for (row, event) in events.iter().zip(&recording.events) {
+        let numbers = [&row[0], &row[3]].map(|cell| cell.parse::<f64>().unwrap());
+        assert_eq!(numbers, [event.time, event.value]);
+        assert_eq!([&row[1], &row[2], &row[4]], [&run.joints[event.joint as usize].name, "impact", "N s"]);
+    }
+    let mut quiet = run.clone();
+    quiet.outcome.recording.events.clear();
+    export::csv(&quiet, &folder.path().join("quiet")).unwrap();
+    assert!(!folder.path().join("quiet/events.csv").exists(), "a table of nothing");
     let (head, blocks) = table("blocks.csv");
     let mass = head.iter().position(|h| h == "mass [kg]").unwrap();
     assert_eq!(blocks[5][mass].parse::<f64>().unwrap(), run.wall.blocks[5].mass());

@@ -29,7 +29,7 @@ const ENERGY: Figure[] = [
         height: 260,
         curves: [
             ["energy/input", "work done"], ["energy/friction", "friction"], ["energy/damping", "damping"], ["energy/elastic", "elastic"],
-            ["energy/kinetic", "kinetic"], ["energy/bond", "broken bonds"], ["energy/impact", "impacts"], ["energy/nonreciprocal", "unbalanced friction"],
+            ["energy/kinetic", "kinetic"], ["energy/bond", "broken bonds"], ["energy/device", "hysteresis of devices"], ["energy/impact", "impacts"], ["energy/nonreciprocal", "unbalanced friction"],
         ],
     },
     { title: "Residual of the energy account", label: "energy", height: 260, curves: [["energy/residual", "residual"]] },

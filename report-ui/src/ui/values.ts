@@ -1,7 +1,8 @@
 /** The numbers of a block or joint: at the moment and at their peaks. */
 
+import type { Bond } from "../data";
 import { h, setText } from "../dom";
-import { si, unitText } from "../format";
+import { si, significant, unitText } from "../format";
 import { quantitiesOf } from "../quantities";
 import type { Quantity } from "../quantities";
 import type { Item, Store } from "../store";
@@ -75,5 +76,20 @@ export function facts(store: Store, { owner, index }: Item): string {
     if (law !== undefined) {
         parts.push(`N = ${si(normal[index], "N", 3)}, μs = ${law.static}, μd = ${law.dynamic}`);
     }
+    const bond = report.contents.bonds[String(index)];
+    if (bond !== undefined) {
+        parts.push(bondText(bond));
+    }
     return parts.join("; ");
+}
+
+/** What held a joint and what became of it. */
+export function bondText(bond: Bond): string {
+    const held = `bond of ${si(bond.strength, "N", 3)}`;
+    if (bond.cracked === null) {
+        return `${held}, intact`;
+    }
+    const cracked = `cracked at ${significant(bond.cracked, 4)} s`;
+    const left = bond.broken === null ? `damage ${significant(bond.damage, 3)} at the end` : `broken at ${significant(bond.broken, 4)} s`;
+    return `${held}, ${cracked}, ${left}, ${si(bond.spent, "J", 3)} taken`;
 }

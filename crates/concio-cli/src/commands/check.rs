@@ -1,13 +1,14 @@
 //! `concio check`.
 
-use concio::case::JointKind;
+use concio::bond;
+use concio::case::{Case, JointKind};
 use concio::model::Model;
 
 use super::wall_file;
 use crate::args::Check;
 use crate::draw::wall::{self, Paint, Subject, kind_name, mass};
 use crate::failure::Failure;
-use crate::format::{columns, pairs, seconds, si, significant};
+use crate::format::{columns, pairs, plain, seconds, si, significant};
 use crate::{files, report};
 
 const KINDS: [JointKind; 5] = [JointKind::Base, JointKind::Bed, JointKind::Head, JointKind::Connection, JointKind::Top];
@@ -37,11 +38,13 @@ pub fn check(args: &Check) -> Result<(), Failure> {
         ("mass", mass(model.mass.iter().sum())),
         ("duration", format!("{}, {samples} samples kept", seconds(duration))),
     ]);
+    let bonds = bond_rows(&prepared.case, model)?;
+    let bonds = if bonds.is_empty() { String::new() } else { format!("{}\n", columns(&bonds)) };
     let list = if args.joints { format!("\n{}", columns(&joint_list(model))) } else { String::new() };
     let title = &prepared.case.title;
     let title = if title.is_empty() { String::new() } else { format!("{title}\n\n") };
     let text = format!(
-        "{title}{}\n{}\n{general}\n{}{list}\n{} is a valid wall file.\n",
+        "{title}{}\n{}\n{bonds}{general}\n{}{list}\n{} is a valid wall file.\n",
         columns(&panel_rows(model)),
         columns(&joint_rows(model)),
         pairs(&motion),
@@ -79,22 +82,78 @@ fn joint_rows(model: &Model) -> Vec<Vec<String>> {
         let rubs: Vec<_> = model.rubs.iter().filter(|r| model.joints[r.joint as usize].kind == kind).collect();
         let friction = range(rubs.iter().map(|r| r.law.static_), |v| significant(v, 3));
         let normal = range(rubs.iter().flat_map(|r| r.normal), |v| si(v, "N"));
-        let stiffness = range(members.iter().map(|&e| model.elastic[e].stiffness), |v| si(v, "N/m"));
-        let unilateral = members.iter().any(|&e| model.elastic[e].unilateral);
-        let stiffness = if unilateral { format!("{stiffness} (κ K_V)") } else { stiffness };
-        rows.push(vec![kind_name(kind).into(), members.len().to_string(), stiffness, friction, normal]);
+        rows.push(vec![
+            kind_name(kind).into(),
+            members.len().to_string(),
+            stiffness(model, &members),
+            friction,
+            normal,
+        ]);
     }
     rows.push(vec!["all".into(), model.joints.len().to_string()]);
+    if !model.devices.is_empty() {
+        rows.push(vec!["  with devices".into(), model.devices.len().to_string()]);
+    }
     rows
+}
+
+/// Stiffnesses of the joints that have one, restitution of the rigid ones.
+fn stiffness(model: &Model, members: &[usize]) -> String {
+    let contacts = model.contact_of_joint();
+    let (rigid, springs): (Vec<usize>, Vec<usize>) = members.iter().partition(|&e| contacts[*e].is_some());
+    let restitution = range(rigid.iter().filter_map(|&e| contacts[e]).map(|c| model.contacts[c].restitution), plain);
+    let rigid = (!rigid.is_empty()).then(|| format!("rigid, e = {restitution}"));
+    let stiffness = range(springs.iter().map(|&e| model.elastic[e].stiffness), |v| si(v, "N/m"));
+    // Bonds make springs one-sided whose law is not.
+    let bonded = model.bond_of_joint();
+    let by_bond = |e: usize| bonded[e].is_some_and(|b| model.bonds[b].law.stiffness == model.elastic[e].stiffness);
+    let unilateral = springs.iter().any(|&e| model.elastic[e].unilateral && !by_bond(e));
+    let unit = if unilateral { " (κ K_V)" } else { "" };
+    let springs = (!springs.is_empty()).then(|| format!("{stiffness}{unit}"));
+    springs.into_iter().chain(rigid).collect::<Vec<_>>().join(" or ")
+}
+
+/// What holds the bonded joints, kind by kind; nothing where there are none.
+fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
+    if model.bonds.is_empty() {
+        return Ok(Vec::new());
+    }
+    let given = bond::given(case, model)?;
+    let head = ["bonds", "number", "f_t or c", "tan φ", "G_f", "strength"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    for kind in KINDS {
+        let bonds = || model.bonds.iter().filter(|b| model.joints[b.joint as usize].kind == kind);
+        let values = || bonds().filter_map(|b| given[b.joint as usize]);
+        let upright = kind.is_upright();
+        let holds = range(values().map(|b| if upright { b.tensile_strength } else { b.cohesion }), |v| si(v, "Pa"));
+        let angle = if upright { "–".into() } else { range(values().map(|b| b.tan_angle), |v| significant(v, 3)) };
+        let tough = |v: f64| if v == 0.0 { "brittle".into() } else { si(v, "N/m") };
+        let energy = range(values().map(|b| b.energy[usize::from(!upright)]), tough);
+        let strength = range(bonds().map(|b| b.law.strength), |v| si(v, "N"));
+        if bonds().next().is_some() {
+            rows.push(vec![kind_name(kind).into(), bonds().count().to_string(), holds, angle, energy, strength]);
+        }
+    }
+    rows.push(vec!["all".into(), model.bonds.len().to_string()]);
+    Ok(rows)
 }
 
 fn joint_list(model: &Model) -> Vec<Vec<String>> {
     let mut rows = vec![["joint", "kind", "course", "weight", "normal force"].map(String::from).to_vec()];
+    // A column of its own only where there is something to tell.
+    let devices = model.device_of_joint();
+    if !model.devices.is_empty() {
+        rows[0].push("device".into());
+    }
     let rubs = model.rub_of_joint();
-    for ((joint, name), rub) in model.joints.iter().zip(model.joint_names()).zip(rubs) {
+    for (((joint, name), rub), device) in model.joints.iter().zip(model.joint_names()).zip(rubs).zip(devices) {
         let normal = rub.map_or("–".into(), |r| range(model.rubs[r].normal.into_iter(), |v| si(v, "N")));
         let course = (model.wall.blocks[joint.a].course + 1).to_string();
-        rows.push(vec![name, kind_name(joint.kind).into(), course, significant(joint.weight, 4), normal]);
+        let mut row = vec![name, kind_name(joint.kind).into(), course, significant(joint.weight, 4), normal];
+        if !model.devices.is_empty() {
+            row.push(device.map_or("–", |law| law.name()).into());
+        }
+        rows.push(row);
     }
     rows
 }

@@ -9,6 +9,8 @@ use crate::format::si;
 
 /// Colour of bricks.
 pub const BRICK: &str = "#f4d9c0";
+/// Colour of joints that have no value.
+const NONE: &str = "#b4b4b4";
 /// Colour of bricks beside coloured joints.
 pub const LIGHT: &str = "#fbf6f1";
 /// Largest size of the wall itself [px].
@@ -31,8 +33,10 @@ pub struct Field<'a> {
     pub title: &'a str,
     /// SI unit.
     pub unit: &'a str,
-    /// The values, from 0.
+    /// The values, from 0; of joints not a number where there is none.
     pub values: &'a [f64],
+    /// What a joint without value is.
+    pub none: &'a str,
 }
 
 /// What the colours stand for.
@@ -194,7 +198,7 @@ fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
     };
     let outline = |i: usize| view.rectangle(wall.blocks[i].x, wall.blocks[i].y);
     if !is_detailed(subject) {
-        for (fill, members) in shades((0..wall.blocks.len()).map(fraction)) {
+        for (fill, members) in shades((0..wall.blocks.len()).map(fraction), BRICK) {
             let d: String = members.iter().map(|&i| rectangle(outline(i))).collect();
             canvas.path(&d, &attributes(&fill), None);
         }
@@ -240,24 +244,28 @@ fn joints(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
     };
     // Large values lie on top and are thicker.
     let largest = largest(field.values);
-    let fraction = |e: usize| field.values.get(e).map_or(0.0, |v| if largest > 0.0 { v / largest } else { 0.0 });
+    let value = |e: usize| field.values.get(e).copied().unwrap_or(0.0);
+    let fraction = |e: usize| {
+        let of_largest = if largest > 0.0 { value(e) / largest } else { 0.0 };
+        (!value(e).is_nan()).then_some(of_largest)
+    };
     let attributes = |fill: &str, f: f64| {
         format!(r#"fill="none" stroke="{fill}" stroke-width="{}""#, px(thin * (1.0 + 2.5 * f.clamp(0.0, 1.0))))
     };
     if detailed {
         let mut order: Vec<usize> = (0..subject.joints.len()).collect();
-        order.sort_by(|&a, &b| fraction(a).total_cmp(&fraction(b)));
+        let height = |e: usize| fraction(e).unwrap_or(-1.0);
+        order.sort_by(|&a, &b| height(a).total_cmp(&height(b)));
         for e in order {
-            let title =
-                format!("{}: {}", subject.names[e], si(field.values.get(e).copied().unwrap_or(0.0), field.unit));
-            canvas.path(&data(e), &attributes(&shade(fraction(e)), fraction(e)), Some(&title));
+            let text = if value(e).is_nan() { field.none.into() } else { si(value(e), field.unit) };
+            let fill = fraction(e).map_or_else(|| NONE.into(), shade);
+            canvas.path(&data(e), &attributes(&fill, height(e)), Some(&format!("{}: {text}", subject.names[e])));
         }
     } else {
-        for (number, (fill, members)) in
-            shades((0..subject.joints.len()).map(|e| Some(fraction(e)))).into_iter().enumerate()
-        {
+        for (number, (fill, members)) in shades((0..subject.joints.len()).map(fraction), NONE).into_iter().enumerate() {
+            let thick = if fill == NONE { 0.0 } else { number as f64 / SHADES as f64 };
             let d: String = members.iter().map(|&e| data(e)).collect();
-            canvas.path(&d, &attributes(&fill, number as f64 / SHADES as f64), None);
+            canvas.path(&d, &attributes(&fill, thick), None);
         }
     }
 }
@@ -377,6 +385,15 @@ fn value_legend(canvas: &mut Canvas, view: &View, field: &Field) {
     canvas.text([x - 4.0, y + 5.5], 11.0, Anchor::End, false, "#111", "0");
     let text = format!("{}: {}", si(largest, field.unit), field.title);
     canvas.text([x + width + 6.0, y + 5.5], 11.0, Anchor::Start, false, "#111", &text);
+    if field.values.iter().any(|v| v.is_nan()) && !field.none.is_empty() {
+        let x = x + width + 26.0 + 11.0 * LETTER * text.chars().count() as f64;
+        canvas.path(
+            &line([x, y + 5.5, x + 20.0, y + 5.5]),
+            &format!(r#"fill="none" stroke="{NONE}" stroke-width="2""#),
+            None,
+        );
+        canvas.text([x + 25.0, y + 5.5], 11.0, Anchor::Start, false, "#111", field.none);
+    }
 }
 
 fn largest(values: &[f64]) -> f64 {
@@ -389,15 +406,14 @@ pub fn shade(fraction: f64) -> String {
     format!("#{:x}", colorous::YELLOW_ORANGE_RED.eval_continuous(0.06 + 0.94 * f))
 }
 
-/// Members of each shade, from the brightest; elements without a value share the colour of plain bricks.
-fn shades(fractions: impl Iterator<Item = Option<f64>>) -> Vec<(String, Vec<usize>)> {
+/// Members of each shade, from the brightest; elements without a value share the colour `none`.
+fn shades(fractions: impl Iterator<Item = Option<f64>>, none: &str) -> Vec<(String, Vec<usize>)> {
     let mut classes = vec![Vec::new(); SHADES + 1];
     for (i, fraction) in fractions.enumerate() {
         let class = fraction.map_or(SHADES, |f| ((f * SHADES as f64) as usize).min(SHADES - 1));
         classes[class].push(i);
     }
-    let colour =
-        |class: usize| if class == SHADES { BRICK.into() } else { shade((class as f64 + 0.5) / SHADES as f64) };
+    let colour = |class: usize| if class == SHADES { none.into() } else { shade((class as f64 + 0.5) / SHADES as f64) };
     classes.into_iter().enumerate().filter(|(_, m)| !m.is_empty()).map(|(c, m)| (colour(c), m)).collect()
 }
 

@@ -8,13 +8,14 @@ use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::draw::output::Drawing;
 
 /// Channels and what they are called.
-const MECHANISMS: [(&str, &str); 8] = [
+const MECHANISMS: [(&str, &str); 9] = [
     ("input", "work done"),
     ("friction", "friction"),
     ("damping", "damping"),
     ("elastic", "elastic"),
     ("kinetic", "kinetic"),
     ("bond", "broken bonds"),
+    ("device", "hysteresis of devices"),
     ("impact", "impacts"),
     ("nonreciprocal", "unbalanced friction"),
 ];

@@ -218,34 +218,34 @@ pub fn acceleration(data: &Data, options: &Options) -> Result<Drawing, InputErro
     Ok(accelerations(data, options, &values, largest, time))
 }
 
-/// Joints coloured by the cracked part of their bonds, at the end of the run or at an instant.
+/// Joints coloured by the damage of their bonds, at the end of the run or at an instant.
 pub fn cracks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let bonds = &data.run.outcome.bonds;
     if bonds.is_empty() {
         return Err(InputError::new("no joint of this run is bonded").help("see `bond` in docs/wall-file.md"));
     }
-    let mut values = vec![0.0; data.run.joints.len()];
+    let mut values = vec![None; data.run.joints.len()];
     let mut time = data.run.outcome.time_reached;
     if options.at == Instant::Peak {
-        bonds.iter().for_each(|bond| values[bond.joint] = bond.damage);
+        bonds.iter().for_each(|bond| values[bond.joint] = Some(bond.damage));
     } else {
         let moment = data.moment(options.at, |_, _| 0.0)?;
-        (0..values.len()).for_each(|e| values[e] = moment.damage(e).unwrap_or(0.0));
+        (0..values.len()).for_each(|e| values[e] = moment.damage(e));
         time = moment.time();
     }
-    let cracked = bonds.iter().filter(|bond| values[bond.joint] > 0.0).count();
-    let broken = bonds.iter().filter(|bond| values[bond.joint] == 1.0).count();
+    let cracked = values.iter().filter(|value| value.is_some_and(|v| v > 0.0)).count();
+    let broken = values.iter().filter(|value| **value == Some(1.0)).count();
     let texts = [
         format!("t = {}", crate::format::seconds(rounded(time))),
         format!("{cracked} of {} bonds cracked, {broken} of them broken", bonds.len()),
     ];
-    let (drawn, bottom) = map(data, options, &values, &texts, "cracked part of the bond [1], 1 = broken");
-    let title = "Joints coloured by the cracked part of their bonds".into();
+    let (drawn, bottom) = map(data, options, &values, &texts, "damage of the bond [1], 0 = intact, 1 = broken");
+    let title = "Joints coloured by the damage of their bonds".into();
     Ok(Drawing { body: drawn, size: [options.points(), bottom], title, note: String::new() })
 }
 
 fn accelerations(data: &Data, options: &Options, values: &[f64], largest: f64, text: String) -> Drawing {
-    let values: Vec<f64> = values.iter().map(|v| v / largest).collect();
+    let values: Vec<Option<f64>> = values.iter().map(|v| Some(v / largest)).collect();
     // Large ones in m/s², as accelerations are read.
     let peak = if largest < 0.1 { short(three(largest), "m/s²") } else { format!("{} m/s²", plain(three(largest))) };
     let label = format!("relative acceleration [1], 1 = {peak}");
@@ -263,8 +263,9 @@ fn largest(peaks: &[f64]) -> Result<f64, InputError> {
     }
 }
 
-/// The wall with its joints coloured by values from 0 to 1, which `label` names; and where it ends [pt].
-fn map(data: &Data, options: &Options, values: &[f64], texts: &[String], label: &str) -> (String, f64) {
+/// The wall with its joints coloured by values from 0 to 1, which `label` names, those without one, which are not bonded,
+/// dashed in grey; and where it ends [pt].
+fn map(data: &Data, options: &Options, values: &[Option<f64>], texts: &[String], label: &str) -> (String, f64) {
     let mut canvas = Canvas::default();
     let head = headings(&mut canvas, options.points(), texts);
     let view = View::new(data, options.points(), [0.0; 2], head);
@@ -275,20 +276,49 @@ fn map(data: &Data, options: &Options, values: &[f64], texts: &[String], label: 
     let width = (0.012 * view.scale).clamp(1.0, 3.0);
     // Large values lie on top.
     let mut order: Vec<usize> = (0..data.run.joints.len()).collect();
-    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    order.sort_by(|&a, &b| values[a].unwrap_or(-1.0).total_cmp(&values[b].unwrap_or(-1.0)));
     for cased in [true, false] {
         for &e in &order {
             let [x0, y0, x1, y1] = data.run.joints[e].joint.line;
             let [ax, ay, ..] = view.rectangle([x0; 2], [y0; 2]);
             let [bx, by, ..] = view.rectangle([x1; 2], [y1; 2]);
-            let (fill, width) = if cased { ("#6e6e6e".into(), width + 0.5) } else { (shade(values[e]), width) };
+            let name = &data.run.joints[e].name;
+            let Some(value) = values[e] else {
+                if !cased {
+                    canvas.path(&line([ax, ay, bx, by]), &unbonded(width), Some(&format!("{name}: not bonded")));
+                }
+                continue;
+            };
+            let (fill, width) = if cased { ("#6e6e6e".into(), width + 0.5) } else { (shade(value), width) };
             let attributes = format!(r#"fill="none" stroke="{fill}" stroke-width="{}""#, px(width));
-            let title = (!cased).then(|| format!("{}: {}", data.run.joints[e].name, significant(values[e], 3)));
+            let title = (!cased).then(|| format!("{name}: {}", significant(value, 3)));
             canvas.path(&line([ax, ay, bx, by]), &attributes, title.as_deref());
         }
     }
-    let bottom = colour_bar(&mut canvas, &view, options.points(), label);
+    let mut bottom = colour_bar(&mut canvas, &view, options.points(), label);
+    if values.iter().any(Option::is_none) {
+        bottom = unbonded_key(&mut canvas, options.points(), bottom, width);
+    }
     (canvas.into_body(), bottom)
+}
+
+/// How a joint without bond is drawn where those with one are `width` wide.
+fn unbonded(width: f64) -> String {
+    format!(
+        r##"fill="none" stroke="#8c8c8c" stroke-width="{0}" stroke-dasharray="{1} {1}""##,
+        px(0.5 * width),
+        px(width)
+    )
+}
+
+/// What the dashes stand for, in the middle of a line from `y`; where it ends [pt].
+fn unbonded_key(canvas: &mut Canvas, width: f64, y: f64, stroke: f64) -> f64 {
+    let (size, text, sample) = (f64::from(LETTERS[1]), "not bonded", 16.0);
+    let x = 0.5 * (width - sample - 4.0 - font::width(text, size));
+    let middle = y + 0.5 * size;
+    canvas.path(&line([x, middle, x + sample, middle]), &unbonded(stroke), None);
+    canvas.text([x + sample + 4.0, middle], size, Anchor::Start, false, "#000", text);
+    y + size + 4.0
 }
 
 /// What accelerations depend on where joints close with a hit; empty without such joints.

@@ -2,6 +2,7 @@
 
 use concio::case::Beam;
 use concio::ground::response_spectrum;
+use concio::outcome::BondRow;
 use concio::store::{FrictionRow, JointRow};
 use concio::wall::{Block, End};
 use serde_json::{Value, json};
@@ -43,8 +44,9 @@ pub fn payload(content: &Content) -> (String, String) {
         "block_names": content.wall.blocks.iter().map(|b| &b.name).collect::<Vec<_>>(),
         "joint_names": names(&|j| json!(j.name)),
         "joint_kinds": names(&|j| json!(j.joint.kind)),
-        "joint_laws": names(&|j| json!(j.law)),
+        "joint_laws": names(&|j| j.device.map_or(json!(j.law), |device| json!(format!("{} device", device.name())))),
         "frictions": frictions,
+        "bonds": bonds(content),
         "beam": { "kind": beam_kind(content.case.load.beam), "label": beam_label(&content.case) },
         "frames": { "recorded": content.outcome.recording.frame_time.len(), "every": frames.every },
         "curve": curve,
@@ -54,6 +56,21 @@ pub fn payload(content: &Content) -> (String, String) {
     });
     // No text in it can end the script element that it stands in.
     (contents.to_string().replace('<', "\\u003c"), numbers)
+}
+
+/// What held the bonded joints and what became of it, by the index of the joint.
+fn bonds(content: &Content) -> Value {
+    let of = |bond: &BondRow| {
+        let row = json!({
+            "strength": bond.strength,
+            "damage": bond.damage,
+            "spent": bond.spent,
+            "cracked": bond.cracked,
+            "broken": bond.broken,
+        });
+        (bond.joint.to_string(), row)
+    };
+    Value::Object(content.outcome.bonds.iter().map(of).collect())
 }
 
 fn beam_kind(beam: Beam) -> &'static str {

@@ -18,7 +18,7 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     // A massive beam is one more unknown behind the blocks; the colours are those of the blocks.
     let of_blocks = &envelopes.block_displacement;
     let of_blocks = of_blocks.get(..content.wall.blocks.len()).unwrap_or(of_blocks);
-    let field = |title, unit, values| Field { title, unit, values };
+    let field = |title, unit, values| Field { title, unit, values, none: "no value" };
     let views = [
         ("displacement", Paint::Blocks(field("peak displacement relative to the base", "m", of_blocks))),
         ("slip", Paint::Joints(field("way slipped", "m", &envelopes.joint_slip))),
@@ -26,9 +26,10 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
         ("acceleration", Paint::Joints(field("peak relative acceleration", "m/s²", &envelopes.joint_acceleration))),
         ("dissipation", Paint::Joints(field("energy dissipated", "J", &envelopes.joint_dissipation))),
     ];
-    let mut cracked = vec![0.0; content.joints.len()];
+    let mut cracked = vec![f64::NAN; content.joints.len()];
     content.outcome.bonds.iter().for_each(|bond| cracked[bond.joint] = bond.damage);
-    let cracks = ("cracks", Paint::Joints(field("cracked part of the bonds at the end", "1", &cracked)));
+    let field = Field { none: "not bonded", ..field("damage of the bonds at the end", "1", &cracked) };
+    let cracks = ("cracks", Paint::Joints(field));
     let cracks = (!content.outcome.bonds.is_empty()).then_some(cracks);
     views.into_iter().chain(cracks).map(|(name, paint)| (name, wall::draw(&subject, paint))).collect()
 }
@@ -114,8 +115,8 @@ fn of_owner(content: &Content, owner: &str) -> Vec<String> {
 /// The energy account over time, and its residual.
 pub fn energies(content: &Content) -> Vec<String> {
     let t = &content.outcome.recording.time;
-    let parts: [&'static str; 8] =
-        ["input", "friction", "damping", "elastic", "kinetic", "bond", "impact", "nonreciprocal"];
+    let parts: [&'static str; 9] =
+        ["input", "friction", "damping", "elastic", "kinetic", "bond", "device", "impact", "nonreciprocal"];
     let of = |name: &&'static str| content.history(&format!("energy/{name}")).map(|y| (*name, y));
     let found: Vec<(&'static str, Vec<f64>)> =
         parts.iter().filter_map(of).filter(|(_, y)| y.iter().any(|v| *v != 0.0)).collect();
@@ -148,6 +149,7 @@ fn title(channel: &str) -> &str {
         "friction" => "dissipated by friction",
         "damping" => "dissipated by damping",
         "bond" => "broken bonds",
+        "device" => "hysteresis of devices",
         "impact" => "lost in impacts",
         "nonreciprocal" => "unbalanced friction",
         other => other,

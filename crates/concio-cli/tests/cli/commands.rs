@@ -130,6 +130,37 @@ fn an_interrupted_run_goes_on_to_the_same_bits() {
     );
 }
 
+/// What holds bonded joints, kind by kind, and that rigid joints are rigid.
+#[test]
+fn check_says_what_bonds_and_rigid_joints_are() {
+    let desk = Desk::new();
+    let bond = "[joint.bond]\ncohesion = \"0.1 MPa\"\nfriction_angle = \"30 deg\"\nmode_2_energy = \"50 N/m\"\n[load]";
+    let head = "head = { law = \"rigid\", restitution = 0.5 }";
+    let was = "head = { law = \"no-tension\", stiffness = \"5.4e7 N/m\", rigidity = 1000 }";
+    desk.put("rigid.toml", WALL.replace(was, head).replace("[load]", bond));
+    let done = desk.concio("check rigid.toml").assert().success();
+    let out = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    let words = |first: &str, which: usize| {
+        let line =
+            out.lines().filter(|l| l.trim_start().starts_with(first)).nth(which).unwrap_or_else(|| panic!("{out}"));
+        line.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    assert!(words("head", 0).starts_with("head 6 rigid, e = 0.5"), "{out}");
+    assert_eq!(words("bonds", 0), "bonds number f_t or c tan φ G_f strength");
+    // c A + N tan φ of the bed joints: 0.1 MPa · 0.12 m · 0.12 m and some 1.2 kN · 0.577 of friction.
+    assert!(words("bed", 1).starts_with("bed 12 100.0 kPa 0.577 50.00 N/m 2.1"), "{out}");
+    desk.put(
+        "brittle.toml",
+        WALL.replace("[load]", "[joint.bond]\ntensile_strength = \"5 kPa\"\non = [\"head\"]\n[load]"),
+    );
+    let done = desk.concio("check brittle.toml").assert().success();
+    let out = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    let line = out.lines().filter(|l| l.contains("head")).nth(1).unwrap_or_else(|| panic!("{out}"));
+    let words: Vec<&str> = line.split_whitespace().collect();
+    // f_t A = 5 kPa · 0.055 m · 0.12 m.
+    assert_eq!(words, ["head", "6", "5.000", "kPa", "–", "brittle", "33.00", "N"], "{out}");
+}
+
 #[test]
 fn check_says_what_the_wall_is() {
     let desk = Desk::new();

@@ -57,8 +57,10 @@ fn constrained_chooses_pairs_and_a_folder() {
 fn constrained_refuses_what_it_cannot_compare() {
     let desk = Desk::new();
     desk.put("elastic.toml", WALL.replace("\"no-tension\"", "\"elastic\""));
+    desk.put("bonded.toml", WALL.replace("[load]", "[joint.bond]\ntensile_strength = \"5 kPa\"\n[load]"));
     for (command, parts) in [
         ("compare constrained elastic.toml", &["joint.head.law", "no-tension", "rigid"][..]),
+        ("compare constrained bonded.toml", &["joint.bond.tensile_strength", "head joints of this wall are bonded"]),
         (
             "compare constrained wall.toml --pairs base|p1c1b1",
             &["no head joint", "`base|p1c1b1`", "for example p1c1b1|p1c1b2"],
@@ -73,6 +75,6 @@ fn constrained_refuses_what_it_cannot_compare() {
         for part in parts {
             assert!(message.contains(part), "{command}: {part}\n{message}");
         }
-        assert_eq!(desk.list(), ["elastic.toml", "wall.toml"], "{command}: something was written");
+        assert_eq!(desk.list(), ["bonded.toml", "elastic.toml", "wall.toml"], "{command}: something was written");
     }
 }

@@ -169,19 +169,28 @@ fn cracks_are_drawn_and_told() {
     assert_ne!(bonded, WALL);
     let desk = drawn_from(&bonded);
     let [told_by_run, _] = told(&desk.concio("run wall.toml --out s").assert().success());
-    assert!(told_by_run.contains("bonds") && told_by_run.contains("first crack"), "{told_by_run}");
+    let line = |name: &str| told_by_run.lines().find(|l| l.trim_start().starts_with(name)).unwrap_or_default();
+    assert!(line("bonds").contains("of 23 cracked"), "{told_by_run}");
+    // Four digits of the time.
+    let crack: Vec<&str> = line("first crack").split_whitespace().collect();
+    assert!(crack[4].trim_start_matches(['0', '.']).len() == 4 && crack[5..7] == ["s,", "joint"], "{crack:?}");
     desk.concio("plot r --figure cracks").assert().success();
     let svg = desk.get("r/figures/cracks.svg");
     let described = svg.lines().find(|l| l.contains("<desc>")).expect("a description");
-    assert!(
-        described.contains("cracked part of the bond [1]") && described.contains("of 23 bonds cracked"),
-        "{described}"
-    );
+    assert!(described.contains("damage of the bond [1]") && described.contains("of 23 bonds cracked"), "{described}");
     assert!(!described.contains(" 0 of 23 bonds"), "{described}");
     desk.concio("plot r --figure cracks --at 0s").assert().success();
     let svg = desk.get("r/figures/cracks.svg");
     let described = svg.lines().find(|l| l.contains("<desc>")).expect("a description");
     assert!(described.contains(" 0 of 23 bonds cracked, 0 of them broken"), "{described}");
+    assert!(!described.contains("not bonded"), "{described}");
+    let beds = bonded.replace("[load]", "on = [\"bed\"]\n[load]");
+    let desk = drawn_from(&beds);
+    desk.concio("plot r --figure cracks").assert().success();
+    let svg = desk.get("r/figures/cracks.svg");
+    let described = svg.lines().find(|l| l.contains("<desc>")).expect("a description");
+    assert!(described.contains("of 12 bonds") && described.contains("not bonded"), "{described}");
+    assert!(desk.get("r/report.html").contains("base|p1c1b1: not bonded"));
     let dry = drawn_from(WALL);
     let [_, said] = told(&dry.concio("plot r --figure cracks").assert().failure());
     assert!(said.contains("no joint of this run is bonded"), "{said}");

@@ -7,6 +7,7 @@ use super::{Beam, Case, ModelKind, ParameterSet, Signal};
 use crate::quantity::{Dimension, Quantity, shown};
 use crate::{InputError, Result};
 
+mod devices;
 mod joints;
 mod motion;
 mod walls;

@@ -1,5 +1,8 @@
 //! What is done to a record before it shakes a wall: trim, baseline, resample, scale, in this order; and the
 //! integration of a piecewise-linear acceleration.
+//!
+//! D. M. Boore & S. Akkar, Earthquake Engng Struct. Dyn. 32 (2003) 2069; D. M. Boore, Bull. Seism. Soc. Am. 95 (2005) 745;
+//! R. Paolucci et al., Record processing in ITACA, in Earthquake Data in Engineering Seismology (Springer 2011) 99.
 
 use std::path::Path;
 
@@ -8,13 +11,20 @@ use sci_rs::signal::filter::sosfiltfilt_dyn;
 
 use crate::case::{Baseline, RecordInput};
 use crate::ground::record::{Record, TextOptions, interval_error, read};
-use crate::ground::spline;
+use crate::ground::spline::{self, Ends};
 use crate::{InputError, Result};
 
 /// Most samples that resampling makes.
 const MOST_SAMPLES: f64 = 1e8;
 /// Order of the low-pass before coarsening, and its corner over the new Nyquist frequency.
 const ANTI_ALIAS: (usize, f64) = (8, 0.8);
+/// Zeros before and behind a record while it is high-passed, over order/corner; Boore (2005) asks for half of it.
+const PAD: f64 = 1.5;
+/// Most of them at either end.
+const MOST_PAD: f64 = 1e6;
+/// Time over which a high-passed record is brought from rest and back to it, over the period of the corner. Half of it
+/// would change the acceleration twice as much, twice of it would displace the base twice as far.
+const RISE: f64 = 0.5;
 /// Slack for times that are whole numbers of intervals but for rounding.
 const SLACK: f64 = 1e-9;
 
@@ -135,7 +145,14 @@ pub fn subtract_polynomial(values: &mut [f64], degree: usize) -> Result<()> {
 }
 
 /// Butterworth high-pass of the acceleration, forward and backward: no phase shift, twice the order, half the
-/// amplitude at the corner.
+/// amplitude at the corner. The motion starts and ends at rest where it started.
+///
+/// A record that was cut, or triggered late, begins with a velocity that its samples do not tell, and a filtered one
+/// moves before it starts, because the filter looks ahead (Boore & Akkar 2003; Boore 2005): integrated from rest, both
+/// drift. The mean is taken off and the filter runs over zeros at both ends, which hold what it does beyond the record. Archives
+/// keep them, or taper the displacement (Paolucci et al. 2011). Here they would lengthen the run by tens of seconds, and a taper of a
+/// record that was cut adds accelerations above its own. What the motion has at either end is therefore taken off it as a
+/// line that fades within half a period of the corner, and the acceleration is the one that belongs to what is left.
 fn high_pass(record: &mut Record, corner: f64, order: usize) -> Result<()> {
     let nyquist = 0.5 / record.dt;
     if !(corner > 0.0 && corner < nyquist) {
@@ -145,26 +162,50 @@ fn high_pass(record: &mut Record, corner: f64, order: usize) -> Result<()> {
     if !(1..=8).contains(&order) {
         return Err(InputError::new(format!("order {order}")).key("baseline.order").allowed("1 … 8").into());
     }
-    record.acceleration = butterworth(record, corner, order, FilterBandType::Highpass)?;
+    enough(record.npts(), order)?;
+    let (n, dt) = (record.npts(), record.dt);
+    let mean = record.acceleration.iter().sum::<f64>() / n as f64;
+    let pad = (PAD * order as f64 / (corner * dt)).ceil().min(MOST_PAD) as usize;
+    let mut padded = vec![0.0; pad + n + pad];
+    padded[pad..pad + n].iter_mut().zip(&record.acceleration).for_each(|(to, a)| *to = a - mean);
+    let filtered = butterworth(&padded, dt, corner, order, FilterBandType::Highpass)?;
+    let (velocity, displacement) = integrate(dt, &filtered, 0.0, 0.0);
+    let (v, u) = (&velocity[pad..pad + n], &displacement[pad..pad + n]);
+    let length = (n - 1) as f64 * dt;
+    let rise = (RISE / corner).min(length);
+    let at_rest = |k: usize| {
+        let (t, left) = (k as f64 * dt, length - k as f64 * dt);
+        u[k] - fading(t / rise) * (u[0] + v[0] * t) - fading(left / rise) * (u[n - 1] - v[n - 1] * left)
+    };
+    let moved: Vec<f64> = (0..n).map(at_rest).collect();
+    record.acceleration = spline::second_derivatives(dt, &moved, Ends::AtRest);
     Ok(())
 }
 
-fn butterworth(record: &Record, corner: f64, order: usize, band: FilterBandType) -> Result<Vec<f64>> {
-    // The filter continues the record at both ends by its mirror image of this length.
-    let sections = order.div_ceil(2);
-    let least = 3 * (2 * sections + 1) + 1;
-    if record.npts() < least {
-        let error = InputError::new(format!("{} samples are too few for a filter of order {order}", record.npts()));
+/// From 1 at 0 to 0 from 1 on, without slope and curvature at both.
+fn fading(x: f64) -> f64 {
+    if x < 1.0 { 1.0 - x * x * x * (10.0 - x * (15.0 - 6.0 * x)) } else { 0.0 }
+}
+
+/// Samples below this number are less than the mirror image by which the filter continues a record at both ends.
+fn enough(npts: usize, order: usize) -> Result<()> {
+    let least = 3 * (2 * order.div_ceil(2) + 1) + 1;
+    if npts < least {
+        let error = InputError::new(format!("{npts} samples are too few for a filter of order {order}"));
         return Err(error.allowed(format!("{least} samples or more")).into());
     }
-    let rate = 1.0 / record.dt;
+    Ok(())
+}
+
+fn butterworth(values: &[f64], dt: f64, corner: f64, order: usize, band: FilterBandType) -> Result<Vec<f64>> {
+    enough(values.len(), order)?;
     let kind = Some(FilterOutputType::Sos);
-    let filtered = match butter_dyn(order, vec![corner], Some(band), Some(false), kind, Some(rate)) {
-        DigitalFilter::Sos(filter) => sosfiltfilt_dyn(record.acceleration.iter(), &filter.sos),
+    let filtered = match butter_dyn(order, vec![corner], Some(band), Some(false), kind, Some(1.0 / dt)) {
+        DigitalFilter::Sos(filter) => sosfiltfilt_dyn(values.iter(), &filter.sos),
         // The output type asked for is the one above.
         DigitalFilter::Ba(_) | DigitalFilter::Zpk(_) => Vec::new(),
     };
-    if filtered.len() != record.npts() || filtered.iter().any(|value| !value.is_finite()) {
+    if filtered.len() != values.len() || filtered.iter().any(|value| !value.is_finite()) {
         let error = InputError::new(format!("the filter of order {order} with corner {corner} Hz is not stable"));
         return Err(error.key("baseline").help("raise the corner or lower the order").into());
     }
@@ -191,7 +232,8 @@ pub fn resample(record: &mut Record, dt: f64) -> Result<()> {
     }
     if record.displacement.is_none() && dt > record.dt * (1.0 + SLACK) {
         let corner = ANTI_ALIAS.1 * 0.5 / dt;
-        record.acceleration = butterworth(record, corner, ANTI_ALIAS.0, FilterBandType::Lowpass)?;
+        record.acceleration =
+            butterworth(&record.acceleration, record.dt, corner, ANTI_ALIAS.0, FilterBandType::Lowpass)?;
     }
     let times = (0..=last as usize).map(|k| k as f64 * dt);
     match &record.displacement {
@@ -252,7 +294,7 @@ pub fn scale_to_pga(record: &mut Record, pga: f64) -> Result<()> {
 /// The spline belongs to its displacements: made again after they changed.
 fn refit(record: &mut Record) {
     if let Some(u) = &record.displacement {
-        record.acceleration = spline::second_derivatives(record.dt, u);
+        record.acceleration = spline::second_derivatives(record.dt, u, Ends::Natural);
     }
 }
 

@@ -250,7 +250,9 @@ pub(super) fn finish(source: &Source, raw: Raw) -> Result<Record> {
     check_size(source, raw.data_line, &values, raw.quantity)?;
     let (acceleration, displacement) = match raw.quantity {
         HistoryQuantity::Acceleration => (values, None),
-        HistoryQuantity::Displacement => (spline::second_derivatives(raw.dt, &values), Some(values)),
+        HistoryQuantity::Displacement => {
+            (spline::second_derivatives(raw.dt, &values, spline::Ends::Natural), Some(values))
+        }
     };
     Ok(Record {
         format: raw.format,

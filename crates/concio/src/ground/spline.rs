@@ -1,22 +1,34 @@
-//! Natural cubic spline through equidistant samples. Its second derivative is linear between samples, so a
-//! displacement history becomes the same kind of motion as an accelerogram.
+//! Cubic splines through equidistant samples. Their second derivative is linear between samples, so a displacement history
+//! becomes the same kind of motion as an accelerogram.
 
-/// Second derivatives at the samples: M_{k−1} + 4 M_k + M_{k+1} = 6 (u_{k−1} − 2 u_k + u_{k+1})/dt², zero at both
-/// ends. The matrix is diagonally dominant, so elimination needs no pivots.
-pub(super) fn second_derivatives(dt: f64, u: &[f64]) -> Vec<f64> {
+/// How a spline ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ends {
+    /// Without curvature: a natural spline.
+    Natural,
+    /// Without slope: what it describes starts and ends at rest.
+    AtRest,
+}
+
+/// Second derivatives at the samples: M_{k−1} + 4 M_k + M_{k+1} = 6 (u_{k−1} − 2 u_k + u_{k+1})/dt², at the ends M = 0, or
+/// 2 M_0 + M_1 = 6 (u_1 − u_0)/dt² and its mirror image. The matrix is diagonally dominant, so elimination needs no pivots.
+pub(super) fn second_derivatives(dt: f64, u: &[f64], ends: Ends) -> Vec<f64> {
     let n = u.len();
-    let mut m = vec![0.0; n];
-    if n < 3 {
-        return m;
+    let (mut m, mut upper) = (vec![0.0; n], vec![0.0; n]);
+    let at_rest = ends == Ends::AtRest && n > 1;
+    let right = |difference: f64| 6.0 * difference / (dt * dt);
+    if at_rest {
+        (upper[0], m[0]) = (0.5, 0.5 * right(u[1] - u[0]));
     }
-    let mut upper = vec![0.0; n];
-    for k in 1..n - 1 {
-        let right = 6.0 * (u[k - 1] - 2.0 * u[k] + u[k + 1]) / (dt * dt);
+    for k in 1..n.saturating_sub(1) {
         let pivot = 4.0 - upper[k - 1];
         upper[k] = 1.0 / pivot;
-        m[k] = (right - m[k - 1]) / pivot;
+        m[k] = (right(u[k - 1] - 2.0 * u[k] + u[k + 1]) - m[k - 1]) / pivot;
     }
-    for k in (1..n - 1).rev() {
+    if at_rest {
+        m[n - 1] = (right(u[n - 2] - u[n - 1]) - m[n - 2]) / (2.0 - upper[n - 2]);
+    }
+    for k in (0..n.saturating_sub(1)).rev() {
         m[k] -= upper[k] * m[k + 1];
     }
     m
@@ -56,7 +68,7 @@ mod tests {
         };
         let exact: Vec<_> = (0..=2 * half).map(|k| closed(k as f64 * dt)).collect();
         let u: Vec<f64> = exact.iter().map(|e| e.0).collect();
-        let m = second_derivatives(dt, &u);
+        let m = second_derivatives(dt, &u, Ends::Natural);
         let v = first_derivatives(dt, &u, &m);
         for (k, (_, slope, curvature)) in exact.iter().enumerate() {
             assert!((m[k] - curvature).abs() < 1e-12 && (v[k] - slope).abs() < 1e-12, "sample {k}");
@@ -65,8 +77,22 @@ mod tests {
 
     #[test]
     fn two_samples_make_a_line() {
-        let m = second_derivatives(0.5, &[1.0, 2.0]);
+        let m = second_derivatives(0.5, &[1.0, 2.0], Ends::Natural);
         assert_eq!(m, [0.0, 0.0]);
         assert_eq!(first_derivatives(0.5, &[1.0, 2.0], &m), [2.0, 2.0]);
+    }
+
+    #[test]
+    fn a_spline_at_rest_at_its_ends_reproduces_a_cubic() {
+        // u = x² (3 − 2 x): u' = 0 at 0 and 1, u'' = 6 − 12 x.
+        let (dt, n) = (0.125, 9);
+        let u: Vec<f64> = (0..n).map(|k| f64::from(k) * dt).map(|x| x * x * (3.0 - 2.0 * x)).collect();
+        let m = second_derivatives(dt, &u, Ends::AtRest);
+        for (k, m) in m.iter().enumerate() {
+            assert!((m - (6.0 - 12.0 * k as f64 * dt)).abs() < 1e-11, "sample {k}: {m}");
+        }
+        let v = first_derivatives(dt, &u, &m);
+        assert!(v[0].abs() < 1e-12 && v[n as usize - 1].abs() < 1e-12);
+        assert_eq!(second_derivatives(dt, &[1.0], Ends::AtRest), [0.0]);
     }
 }

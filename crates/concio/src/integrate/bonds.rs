@@ -11,15 +11,15 @@ use crate::state::BondState;
 
 /// What a bond has beyond the secant of its joint at some relative displacement.
 #[derive(Debug, Clone, Copy, Default)]
-struct Beyond {
+struct Softening {
     /// Relative displacement x_a − x_b [m].
     at: f64,
     /// Force on side a [N].
     force: f64,
     /// Its slope [N/m].
     slope: f64,
-    /// D and its slope against x_a − x_b [1/m].
-    damage: f64,
+    /// χ and its slope against x_a − x_b [1/m].
+    rubs: f64,
     growth: f64,
 }
 
@@ -30,30 +30,31 @@ struct Soft {
     limit: f64,
     joint: usize,
     rub: Option<usize>,
-    /// D before the step.
+    /// D and χ before the step.
     held: f64,
+    held_rubs: f64,
     /// δ_p + τ w_p.
     start: f64,
     /// Where the tangent is drawn, and the law at the last iterate.
-    tangent: Beyond,
-    found: Beyond,
+    tangent: Softening,
+    found: Softening,
 }
 
 impl Soft {
     #[inline]
-    fn beyond(&self, d: f64) -> Beyond {
+    fn softening(&self, d: f64) -> Softening {
         let (law, reach) = (&self.law, self.law.stretch(d));
-        let held = Beyond { at: d, damage: self.held, ..Beyond::default() };
+        let held = Softening { at: d, rubs: self.held_rubs, ..Softening::default() };
         if law.is_brittle() || reach <= self.limit {
             return held;
         }
-        let (damage, growth) = law.damage(reach);
+        let [(damage, growth), (rubs, spread)] = law.worn(reach);
         if damage <= self.held {
             return held;
         }
         let softer = law.secant(damage) - law.secant(self.held);
         let falling = law.stiffness * (1.0 - law.residual) * growth * reach;
-        Beyond { at: d, force: softer * d, slope: softer - falling, damage, growth: growth * d.signum() }
+        Softening { at: d, force: softer * d, slope: softer - falling, rubs, growth: spread * d.signum() }
     }
 }
 
@@ -71,9 +72,10 @@ impl Bonds {
             joint: b.joint as usize,
             rub: b.rub.map(|r| r as usize),
             held: 0.0,
+            held_rubs: 0.0,
             start: 0.0,
-            tangent: Beyond::default(),
-            found: Beyond::default(),
+            tangent: Softening::default(),
+            found: Softening::default(),
         };
         Bonds { list: model.bonds.iter().map(soft).collect() }
     }
@@ -81,13 +83,13 @@ impl Bonds {
     /// Takes over the damage before a step.
     pub fn hold(&mut self, model: &Model, states: &[BondState], joints: &mut Joints, rubs: &mut Rubs) {
         for (bond, state) in self.list.iter_mut().zip(states) {
-            bond.held = state.damage;
-            bond.tangent = Beyond::default();
+            (bond.held, bond.held_rubs) = (state.damage, bond.law.rubbing(state));
+            bond.tangent = Softening::default();
             if !bond.law.opens {
                 joints.stiffness[bond.joint] = bond.law.secant(bond.held);
             }
             if let Some(r) = bond.rub {
-                rubs.crack(model, r, bond.held);
+                rubs.crack(model, r, bond.held_rubs);
             }
         }
     }
@@ -100,11 +102,11 @@ impl Bonds {
             let [a, b] = model.sides[bond.joint].map(|s| s as usize);
             bond.start = z[a] - z[b] + tau * (v[a] - v[b]);
             let slope = bond.tangent.slope;
-            bond.tangent = bond.beyond(bond.start);
+            bond.tangent = bond.softening(bond.start);
             bond.found = bond.tangent;
             changed |= bond.tangent.slope != slope;
             if let Some(r) = bond.rub {
-                rubs.crack(model, r, bond.tangent.damage);
+                rubs.crack(model, r, bond.tangent.rubs);
             }
         }
         changed
@@ -137,25 +139,25 @@ impl Bonds {
         }
     }
 
-    /// The laws after a change of the velocities, and how much of the rubbing joints is cracked then.
+    /// The laws after a change of the velocities, and how much of each joint rubs then.
     #[inline]
     pub fn look(&mut self, model: &Model, joints: &Joints, rubs: &mut Rubs, change: &[f64], tau: f64) {
         for bond in &mut self.list {
             let [a, b] = joints.sides[bond.joint].map(|s| s as usize);
-            let before = bond.found.damage;
-            bond.found = bond.beyond(bond.start + tau * (change[a] - change[b]));
-            if let Some(r) = bond.rub.filter(|_| bond.found.damage != before) {
-                rubs.crack(model, r, bond.found.damage);
+            let before = bond.found.rubs;
+            bond.found = bond.softening(bond.start + tau * (change[a] - change[b]));
+            if let Some(r) = bond.rub.filter(|_| bond.found.rubs != before) {
+                rubs.crack(model, r, bond.found.rubs);
             }
         }
     }
 
-    /// Adds to the slopes of friction that more of the joint rubs as it is stretched: `mu` are those of the cracked parts.
+    /// Adds to the slopes of friction that more of the joint rubs as it is stretched: `mu` are those of the parts that rub.
     #[inline]
     pub fn rub_more(&self, mu: &[f64], slope: &mut [f64], tau: f64) {
-        for bond in self.list.iter().filter(|b| b.found.growth != 0.0) {
+        for bond in self.list.iter().filter(|b| b.found.growth != 0.0 && b.found.rubs > 0.0) {
             if let Some(r) = bond.rub {
-                slope[r] += tau * bond.found.growth * mu[r] / bond.found.damage;
+                slope[r] += tau * bond.found.growth * mu[r] / bond.found.rubs;
             }
         }
     }

@@ -41,7 +41,7 @@ pub fn grow(model: &Model, state: &mut State, z: &[f64], v: &[f64], h: f64, mut 
         let before = law.damage_at(held.damage, d);
         held.peak = held.peak.max(bond.force(&model.elastic[bond.joint as usize], before, d).abs());
         held.reach = reach;
-        held.damage = if held.broken.is_finite() { 1.0 } else { law.damage(reach).0 };
+        held.damage = if held.broken.is_finite() { 1.0 } else { law.damage(reach) };
         let spent = law.spent(reach, held.damage);
         state.energies.bond += spent - held.spent;
         state.envelopes.joint_dissipation[bond.joint as usize] += spent - held.spent;
@@ -58,7 +58,7 @@ pub fn spending(model: &Model, held: &[BondState], z: &[f64]) -> f64 {
         let [a, b] = model.sides[bond.joint as usize].map(|s| s as usize);
         let reach = bond.law.stretch(z[a] - z[b]);
         let grows = reach > held.reach && reach >= bond.law.limit();
-        if grows { bond.law.spent(reach, bond.law.damage(reach).0) - held.spent } else { 0.0 }
+        if grows { bond.law.spent(reach, bond.law.damage(reach)) - held.spent } else { 0.0 }
     };
     model.bonds.iter().zip(held).filter(softens).map(spent).sum()
 }

@@ -1,8 +1,8 @@
-//! A = L Lᵀ for large symmetric systems, front by front (multifrontal; J. W. H. Liu, SIAM Review 34 (1992) 82).
+//! A = C D⁻¹ Cᵀ for large symmetric systems, front by front (multifrontal; J. W. H. Liu, SIAM Review 34 (1992) 82).
 //!
-//! Columns of L with almost the same rows make a *group*; a group is eliminated as one dense matrix, its *front*,
+//! Columns of C with almost the same rows make a *group*; a group is eliminated as one dense matrix, its *front*,
 //! which starts from the entries of A in its columns and from what the groups below it in the elimination tree left
-//! over. So nearly all work is plain loops over contiguous columns. What a front leaves over waits on a stack whose
+//! over. So nearly all work is loops over whole vectors (`dense_columns`). What a front leaves over waits on a stack whose
 //! layout, like all indices, is settled by [`Fronts::new`]; nothing is allocated afterwards. The order of all
 //! operations is fixed, and so are the bits.
 
@@ -11,10 +11,17 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SymbolicSupernodalParams;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 
+use crate::integrate::dense_columns::{Dense, Left, aligned, backward, forward, padded, scratch};
 use crate::integrate::linear::NotPositive;
 
 /// Groups are joined as long as they have at most so many columns and less than this part of zeros.
 const JOINED: [(usize, f64); 3] = [(4, 1.0), (16, 0.4), (48, 0.05)];
+/// The same where memory counts more, beyond so many unknowns.
+const JOINED_LARGE: [(usize, f64); 3] = [(4, 1.0), (16, 0.2), (48, 0.05)];
+const LARGE: usize = 20_000;
+/// Columns of a group with all groups below it up to which they are one.
+const COLLAPSED: usize = 16;
+const COLLAPSED_LARGE: usize = 8;
 
 /// One group of columns.
 #[derive(Debug, Clone, Copy)]
@@ -42,11 +49,24 @@ impl Front {
         &rows[self.below..self.below + self.height as usize]
     }
 
-    /// Where its columns are in `factor`, and how long each of them is.
+    /// Its rows, and how long its columns are.
     #[inline(always)]
-    fn panel(&self) -> (std::ops::Range<usize>, usize) {
-        let full = (self.width + self.height) as usize;
-        (self.panel..self.panel + full * self.width as usize, full)
+    fn rows(&self) -> (usize, usize) {
+        let rows = (self.width + self.height) as usize;
+        (rows, padded(rows))
+    }
+
+    /// Where its columns are in `factor`.
+    #[inline(always)]
+    fn panel(&self) -> std::ops::Range<usize> {
+        self.panel..self.panel + self.rows().1 * self.width as usize
+    }
+
+    /// What it leaves over: how long its columns are, and the row of the panel that they begin with.
+    #[inline(always)]
+    fn rest(&self) -> (usize, usize) {
+        let above = aligned(self.width as usize);
+        (self.rows().1 - above, above)
     }
 }
 
@@ -60,10 +80,13 @@ pub struct Fronts {
     into: Vec<u32>,
     /// Place of every entry of A in the panel of its front.
     entry: Vec<u32>,
-    /// L by groups, full columns; inverse values on the diagonal.
+    /// C by groups, whole columns, and D⁻¹.
     factor: Vec<f64>,
+    inverse: Vec<f64>,
     stack: Vec<f64>,
+    /// A column of a front, and its multipliers.
     column: Vec<f64>,
+    multipliers: Vec<f64>,
 }
 
 impl Fronts {
@@ -71,14 +94,14 @@ impl Fronts {
     /// column, rows and columns numbered in postorder.
     pub fn new(n: usize, entries: &[(u32, u32)]) -> Self {
         let groups = groups(n, entries);
-        let mut fronts = Vec::with_capacity(groups.n_supernodes());
+        let kept = collapsed(&groups);
+        let mut fronts = Vec::with_capacity(kept.len());
         let mut rows = Vec::with_capacity(groups.row_idx().len());
         let mut group_of = vec![0u32; n];
         let (mut panel, mut seen) = (0, 0);
-        for s in 0..groups.n_supernodes() {
-            let group = groups.supernode(s);
-            let (first, end, below) = (group.start(), groups.supernode_end()[s], group.pattern());
-            group_of[first..end].fill(s as u32);
+        for (first, s) in kept {
+            let (end, below) = (groups.supernode_end()[s], groups.supernode(s).pattern());
+            group_of[first..end].fill(fronts.len() as u32);
             let inside = entries[seen..].partition_point(|&(_, c)| (c as usize) < end);
             fronts.push(Front {
                 first: first as u32,
@@ -93,7 +116,7 @@ impl Fronts {
             });
             seen += inside;
             rows.extend(below.iter().map(|&r| r as u32));
-            panel += (end - first) * (end - first + below.len());
+            panel += (end - first) * padded(end - first + below.len());
         }
         rows.shrink_to_fit();
         let children = hang(&mut fronts, &rows, &group_of);
@@ -105,14 +128,17 @@ impl Fronts {
                 true => row - f.first,
                 false => f.width + f.below(&rows).partition_point(|&r| r < row) as u32,
             };
-            (column - f.first) * (f.width + f.height) + place
+            (column - f.first) * f.rows().1 as u32 + place
         };
+        let longest = fronts.iter().map(|f| f.rows().1).max().unwrap_or(0);
         Fronts {
             into: places_above(&fronts, &rows, &group_of),
             entry: entries.iter().map(place).collect(),
             factor: vec![0.0; panel],
             stack: vec![0.0; stack],
-            column: vec![0.0; fronts.iter().map(|f| f.height as usize).max().unwrap_or(0)],
+            inverse: vec![0.0; n],
+            column: vec![0.0; longest],
+            multipliers: vec![0.0; scratch(longest)],
             fronts,
             children,
             rows,
@@ -126,66 +152,59 @@ impl Fronts {
     #[inline(always)]
     pub fn factorise(&mut self, diagonal: &[f64], lower: &[f64]) -> Result<(), NotPositive> {
         for f in &self.fronts {
-            let (width, height) = (f.width as usize, f.height as usize);
-            let (panel, full) = f.panel();
-            let panel = &mut self.factor[panel];
+            let (width, (rows, lead), (long, _)) = (f.width as usize, f.rows(), f.rest());
+            let panel = &mut self.factor[f.panel()];
             panel.fill(0.0);
             for (k, value) in diagonal[f.first as usize..][..width].iter().enumerate() {
-                panel[k * (full + 1)] = *value;
+                panel[k * (lead + 1)] = *value;
             }
             let [from, to] = f.entries.map(|e| e as usize);
             for (&at, value) in self.entry[from..to].iter().zip(&lower[from..to]) {
                 panel[at as usize] = *value;
             }
             let (waiting, free) = self.stack.split_at_mut(f.made);
-            let rest = &mut free[..height * height];
+            let rest = &mut free[..f.height as usize * long];
             rest.fill(0.0);
+            let inverse = &mut self.inverse[f.first as usize..][..width];
+            let mut front = Dense { panel, rest, inverse, multipliers: &mut self.multipliers, width, rows, lead };
             for &c in &self.children[f.children[0] as usize..f.children[1] as usize] {
                 let child = &self.fronts[c as usize];
-                take_over(&waiting[child.left..], child.below(&self.into), panel, width, rest, height);
+                let (long, above) = child.rest();
+                let (columns, skip) = (&waiting[child.left..], child.width as usize - above);
+                front.take_over(Left { columns, long, skip, into: child.below(&self.into) });
             }
-            eliminate(panel, width, full)?;
-            subtract_products(panel, width, rest, height);
-            self.stack.copy_within(f.made..f.made + height * height, f.left);
+            front.eliminate()?;
+            self.stack.copy_within(f.made..f.made + f.height as usize * long, f.left);
         }
         Ok(())
     }
 
-    /// Solves L Lᵀ x = b in place.
+    /// Solves A x = b in place.
     #[inline(always)]
     pub fn solve(&mut self, x: &mut [f64]) {
         for f in &self.fronts {
-            let width = f.width as usize;
-            let (panel, full) = f.panel();
-            let panel = &self.factor[panel];
+            let (width, (rows, lead)) = (f.width as usize, f.rows());
             let own = &mut x[f.first as usize..][..width];
-            for (k, column) in panel.chunks_exact(full).enumerate() {
-                let value = own[k] * column[k];
-                own[k] = value;
-                for (x, l) in own[k + 1..].iter_mut().zip(&column[k + 1..width]) {
-                    *x -= l * value;
-                }
+            if own.iter().all(|b| *b == 0.0) {
+                continue;
             }
-            let sum = &mut self.column[..f.height as usize];
-            sum.fill(0.0);
-            subtract_all(panel, full, own, sum);
-            for (&r, s) in f.below(&self.rows).iter().zip(&*sum) {
+            let column = &mut self.column[..lead];
+            column[..width].copy_from_slice(own);
+            column[width..].fill(0.0);
+            forward(&self.factor[f.panel()], lead, &self.inverse[f.first as usize..][..width], column, own);
+            for (&r, s) in f.below(&self.rows).iter().zip(&column[width..rows]) {
                 x[r as usize] += s;
             }
         }
         for f in self.fronts.iter().rev() {
-            let width = f.width as usize;
-            let (panel, full) = f.panel();
-            let panel = &self.factor[panel];
-            let column = &mut self.column[..f.height as usize];
-            for (&r, value) in f.below(&self.rows).iter().zip(column.iter_mut()) {
+            let (width, (rows, lead)) = (f.width as usize, f.rows());
+            let column = &mut self.column[..lead];
+            column[rows..].fill(0.0);
+            for (&r, value) in f.below(&self.rows).iter().zip(&mut column[width..rows]) {
                 *value = x[r as usize];
             }
             let own = &mut x[f.first as usize..][..width];
-            for (k, l) in panel.chunks_exact(full).enumerate().rev() {
-                let within: f64 = l[k + 1..width].iter().zip(&own[k + 1..]).map(|(l, x)| l * x).sum();
-                own[k] = (own[k] - within - dot(&l[width..], column)) * l[k];
-            }
+            backward(&self.factor[f.panel()], lead, &self.inverse[f.first as usize..][..width], column, own);
         }
     }
 }
@@ -214,10 +233,34 @@ fn groups(n: usize, entries: &[(u32, u32)]) -> supernodal::SymbolicSupernodalCho
     ]));
     let stack = MemStack::new(&mut memory);
     let tree = simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
-    let joined = SymbolicSupernodalParams { relax: Some(&JOINED) };
+    let joined = SymbolicSupernodalParams { relax: Some(if n > LARGE { &JOINED_LARGE } else { &JOINED }) };
     // It can fail for want of memory alone, as every other allocation here, or where an index exceeds 64 bits.
     supernodal::factorize_supernodal_symbolic_cholesky(pattern, tree, &counts, stack, joined)
         .expect("memory for the pattern of the factors")
+}
+
+/// The groups as they are eliminated: first column of each, and its place among `groups`. Those that hang together below
+/// one are taken into it as long as they have few columns in all: a front costs more than a few columns of zeros.
+fn collapsed(groups: &supernodal::SymbolicSupernodalCholesky<usize>) -> Vec<(usize, usize)> {
+    let (begin, end) = (groups.supernode_begin(), groups.supernode_end());
+    let most = if end.last().is_some_and(|&n| n > LARGE) { COLLAPSED_LARGE } else { COLLAPSED };
+    let group_of: Vec<usize> = (0..begin.len()).flat_map(|s| std::iter::repeat_n(s, end[s] - begin[s])).collect();
+    // Where the columns of a group and all below it begin: columns are in postorder.
+    let mut first = begin.to_vec();
+    let mut kept: Vec<(usize, usize)> = Vec::new();
+    for s in 0..begin.len() {
+        if let Some(&above) = groups.supernode(s).pattern().first() {
+            let above = group_of[above];
+            first[above] = first[above].min(first[s]);
+        }
+        let collapses = end[s] - first[s] <= most;
+        let from = if collapses { first[s] } else { begin[s] };
+        while kept.last().is_some_and(|&(first, _)| first >= from) {
+            kept.pop();
+        }
+        kept.push((from, s));
+    }
+    kept
 }
 
 /// The groups right below each group: those whose first row below is one of its columns.
@@ -249,7 +292,7 @@ fn stack_up(fronts: &mut [Front], children: &[u32]) -> usize {
     for s in 0..fronts.len() {
         let [from, to] = fronts[s].children.map(|c| c as usize);
         let base = children[from..to].first().map_or(top, |&c| fronts[c as usize].left);
-        let size = (fronts[s].height as usize).pow(2);
+        let size = fronts[s].height as usize * fronts[s].rest().0;
         (fronts[s].made, fronts[s].left) = (top, base);
         most = most.max(top + size);
         top = base + size;
@@ -277,160 +320,6 @@ fn places_above(fronts: &[Front], rows: &[u32], group_of: &[u32]) -> Vec<u32> {
         }
     }
     into
-}
-
-/// Adds what a child left over (lower triangle, one full column after the other) to its parent's front.
-#[inline(always)]
-fn take_over(child: &[f64], into: &[u32], panel: &mut [f64], width: usize, rest: &mut [f64], height: usize) {
-    let (size, full) = (into.len(), width + height);
-    let in_panel = into.partition_point(|&p| (p as usize) < width);
-    for j in 0..in_panel {
-        let column = &mut panel[into[j] as usize * full..][..full];
-        for (&p, value) in into[j..].iter().zip(&child[j * size + j..(j + 1) * size]) {
-            column[p as usize] += value;
-        }
-    }
-    for j in in_panel..size {
-        let column = &mut rest[(into[j] as usize - width) * height..][..height];
-        for (&p, value) in into[j..].iter().zip(&child[j * size + j..(j + 1) * size]) {
-            column[p as usize - width] += value;
-        }
-    }
-}
-
-/// Eliminates the first `width` columns, `full` long, four at a time.
-#[inline(always)]
-fn eliminate(panel: &mut [f64], width: usize, full: usize) -> Result<(), NotPositive> {
-    let mut from = 0;
-    while from < width {
-        let to = (from + 4).min(width);
-        for k in from..to {
-            let (done, later) = panel.split_at_mut((k + 1) * full);
-            let column = &mut done[k * full..];
-            let pivot = column[k];
-            if !(pivot > 0.0) {
-                return Err(NotPositive);
-            }
-            let inverse = 1.0 / pivot.sqrt();
-            column[k] = inverse;
-            for value in &mut column[k + 1..] {
-                *value *= inverse;
-            }
-            for j in k + 1..to {
-                let factor = column[j];
-                let target = &mut later[(j - k - 1) * full..][j..full];
-                for (value, l) in target.iter_mut().zip(&column[j..]) {
-                    *value -= factor * l;
-                }
-            }
-        }
-        let (done, later) = panel.split_at_mut(to * full);
-        let done = &done[from * full..];
-        for j in to..width {
-            let target = &mut later[(j - to) * full..][j..full];
-            subtract(done, full, to - from, j, j, target);
-        }
-        from = to;
-    }
-    Ok(())
-}
-
-/// `rest` −= L Lᵀ, lower triangle, L being the rows of the panel below its first `width`.
-#[inline(always)]
-fn subtract_products(panel: &[f64], width: usize, rest: &mut [f64], height: usize) {
-    let full = width + height;
-    let mut from = 0;
-    while from < width {
-        let count = (width - from).min(4);
-        let columns = &panel[from * full..];
-        let mut j = 0;
-        while j + 1 < height && count == 4 {
-            let (a, b) = rest[j * height..].split_at_mut(height);
-            a[j] -= (0..4).map(|k| columns[k * full + width + j].powi(2)).sum::<f64>();
-            pair(columns, full, width + j, &mut a[j + 1..], &mut b[j + 1..height]);
-            j += 2;
-        }
-        for j in j..height {
-            subtract(columns, full, count, width + j, width + j, &mut rest[j * height + j..][..height - j]);
-        }
-        from += count;
-    }
-}
-
-/// Two columns of the lower triangle at once, from row `row` + 1 on: they belong to rows `row` and `row` + 1.
-#[inline(always)]
-fn pair(columns: &[f64], full: usize, row: usize, first: &mut [f64], second: &mut [f64]) {
-    let n = first.len();
-    let second = &mut second[..n];
-    let l: [&[f64]; 4] = std::array::from_fn(|k| &columns[k * full + row + 1..][..n]);
-    let a: [f64; 4] = std::array::from_fn(|k| columns[k * full + row]);
-    let b: [f64; 4] = std::array::from_fn(|k| columns[k * full + row + 1]);
-    for i in 0..n {
-        let x = [l[0][i], l[1][i], l[2][i], l[3][i]];
-        first[i] -= (a[0] * x[0] + a[1] * x[1]) + (a[2] * x[2] + a[3] * x[3]);
-        second[i] -= (b[0] * x[0] + b[1] * x[1]) + (b[2] * x[2] + b[3] * x[3]);
-    }
-}
-
-/// `target` −= Σ_k L[row.., k] L[at, k] over the first `count` (at most 4) columns.
-#[inline(always)]
-fn subtract(columns: &[f64], full: usize, count: usize, at: usize, row: usize, target: &mut [f64]) {
-    let n = target.len();
-    let l = |k: usize| &columns[k * full + row..][..n];
-    let a = |k: usize| columns[k * full + at];
-    match count {
-        4 => four(target, [l(0), l(1), l(2), l(3)], [a(0), a(1), a(2), a(3)]),
-        _ => {
-            for k in 0..count {
-                let (l, a) = (l(k), a(k));
-                for i in 0..n {
-                    target[i] -= a * l[i];
-                }
-            }
-        }
-    }
-}
-
-#[inline(always)]
-fn four(target: &mut [f64], l: [&[f64]; 4], a: [f64; 4]) {
-    let n = target.len();
-    let l = l.map(|l| &l[..n]);
-    for i in 0..n {
-        target[i] -= (a[0] * l[0][i] + a[1] * l[1][i]) + (a[2] * l[2][i] + a[3] * l[3][i]);
-    }
-}
-
-/// `target` −= Σ_k L[below, k] x[k] over all columns of a panel.
-#[inline(always)]
-fn subtract_all(panel: &[f64], full: usize, x: &[f64], target: &mut [f64]) {
-    let (n, width) = (target.len(), x.len());
-    let l = |k: usize| &panel[k * full + width..][..n];
-    let mut from = 0;
-    while from + 4 <= width {
-        let a = [x[from], x[from + 1], x[from + 2], x[from + 3]];
-        four(target, [l(from), l(from + 1), l(from + 2), l(from + 3)], a);
-        from += 4;
-    }
-    for k in from..width {
-        let (l, a) = (l(k), x[k]);
-        for i in 0..n {
-            target[i] -= a * l[i];
-        }
-    }
-}
-
-/// Sum of products in a fixed order that vector instructions can follow.
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 8];
-    let (a, b) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a.zip(b) {
-        for k in 0..8 {
-            sums[k] += a[k] * b[k];
-        }
-    }
-    ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7])) + rest
 }
 
 #[cfg(test)]

@@ -89,7 +89,7 @@ pub struct Rubs {
     alpha: Vec<f64>,
     /// The joints among these, by index here, whose law is set-valued.
     pub sticking: Vec<u32>,
-    /// Cracked part of each, 0 … 1; empty where no joint is bonded.
+    /// Part of each that rubs, 0 … 1; empty where no joint is bonded.
     cracked: Vec<f64>,
 }
 
@@ -130,7 +130,7 @@ impl Rubs {
         }
     }
 
-    /// The law of the cracked part of joint `r`; `room` is where it is put if that is not the whole.
+    /// The law of the part of joint `r` that rubs; `room` is where it is put if that is not the whole.
     #[inline(always)]
     pub fn law<'a>(&self, model: &'a Model, r: usize, room: &'a mut Stribeck) -> &'a Stribeck {
         let law = &model.rubs[r].law;
@@ -141,7 +141,7 @@ impl Rubs {
         room
     }
 
-    /// μ_s of the cracked part of joint `r`.
+    /// μ_s of the part of joint `r` that rubs.
     #[inline(always)]
     pub fn most(&self, model: &Model, r: usize) -> f64 {
         let most = model.rubs[r].law.static_;

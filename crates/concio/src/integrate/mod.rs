@@ -3,7 +3,10 @@
 pub(crate) mod bonds;
 pub(crate) mod cracks;
 pub(crate) mod dense;
+mod dense_columns;
+pub(crate) mod devices;
 pub(crate) mod events;
+pub(crate) mod flips;
 mod fronts;
 pub(crate) mod groups;
 pub(crate) mod impact;

@@ -12,9 +12,7 @@
 //!   section 6).
 //! * Unilateral joints keep an active set; a joint whose state changes makes another iteration.
 //!
-//! A rigid joint that touches is closed, w = 0 under a force λ ≥ 0, or open, w ≤ 0 under none (R2). It is held like a
-//! sticking joint, by a slope from the force found last; one that would have to pull is opened, one whose sides approach
-//! each other is closed.
+//! Rigid joints that touch: `stage/contacts.rs`.
 //!
 //! The iteration ends when the correction that the remaining force mismatch would cause, through the last factors, is
 //! below the tolerance; that correction is still applied.
@@ -24,15 +22,17 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::integrate::bonds::Bonds;
-use crate::integrate::events::TOUCHING;
+use crate::integrate::devices::Devices;
+use crate::integrate::flips::Flips;
 use crate::integrate::groups::Groups;
 use crate::integrate::joints::{Contacts, Joints, Rubs};
-use crate::integrate::linear::Matrix;
+use crate::integrate::linear::{MOST_LISTED, Matrix};
 use crate::law::Stribeck;
 use crate::model::Model;
-use crate::state::{BondState, Tangents};
+use crate::state::{BondState, DeviceState, Tangents};
 use crate::wall::Block;
 
+mod contacts;
 mod parts;
 
 pub use parts::{Part, Parts};
@@ -58,6 +58,9 @@ const HOLD: f64 = 1e6;
 pub const STILL: f64 = 1e-3;
 /// Speed that is none [m/s]: below it a set-valued law in slip has no slope of its own.
 const AT_REST: f64 = 1e-150;
+/// Unknowns for which few flips are followed through the factors: smaller matrices are factorised as fast, in larger
+/// walls too many joints change at a time.
+const FOLLOWED: std::ops::RangeInclusive<usize> = MOST_LISTED + 1..=20_000;
 /// Friction by which a sticking joint may exceed μ_s, as a fraction of it: what holds it is known to about this.
 const EXCESS: f64 = 1e-7;
 
@@ -70,6 +73,7 @@ pub struct Stage {
     joints: Joints,
     rubs: Rubs,
     bonds: Bonds,
+    pub devices: Devices,
     contacts: Contacts,
     mass: Vec<f64>,
     /// z_p and V_p, with base and top at the end.
@@ -109,6 +113,8 @@ pub struct Stage {
     /// Largest |w| that a closed rigid joint was left with before it was set to rest [m/s].
     pub contact_residual: f64,
     groups: Groups,
+    /// Joints whose state is no longer that of the factors.
+    flips: Flips,
     /// Counts.
     pub iterations: u64,
     pub factorisations: u64,
@@ -142,9 +148,10 @@ impl WithSimd for Iteration<'_> {
     }
 }
 
-/// [`Matrix::solve`] likewise.
+/// [`Matrix::solve`] likewise, with what has changed since.
 struct Linear<'a> {
     matrix: &'a mut Matrix,
+    flips: &'a Flips,
     b: &'a mut [f64],
 }
 
@@ -153,7 +160,9 @@ impl WithSimd for Linear<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.matrix.solve(self.b);
+        let n = self.b.len() - 2;
+        self.matrix.solve(&mut self.b[..n]);
+        self.flips.correct(self.b);
     }
 }
 
@@ -198,6 +207,7 @@ impl Stage {
             closing: zeros(contacts.len()),
             contact_residual: 0.0,
             groups: Groups::new(if contacts.len() > 0 || !rubs.sticking.is_empty() { n } else { 0 }),
+            flips: Flips::new(if FOLLOWED.contains(&n) && model.bonds.is_empty() { n } else { 0 }),
             factors_hold: false,
             iterations: 0,
             factorisations: 0,
@@ -205,15 +215,17 @@ impl Stage {
             joints,
             rubs,
             bonds: Bonds::new(model),
+            devices: Devices::new(model),
             contacts,
             mass,
         }
     }
 
     /// Starts a step: forgets the factors, because what it does must not depend on what was tried before it, and takes
-    /// over the damage of the bonds.
-    pub fn begin(&mut self, model: &Model, bonds: &[BondState]) {
+    /// over the damage of the bonds and the state of the devices.
+    pub fn begin(&mut self, model: &Model, bonds: &[BondState], devices: &[DeviceState]) {
         self.tau = 0.0;
+        self.devices.hold(devices);
         self.bonds.hold(model, bonds, &mut self.joints, &mut self.rubs);
     }
 
@@ -261,10 +273,8 @@ impl Stage {
             self.assemble(model, tangents)?;
             self.right_side(tangents);
             self.matrix.solve(&mut self.change[..n]);
-            if self.flip(tangents, accuracy) {
+            if self.flip_and_follow(tangents, accuracy) {
                 self.mismatch(model, tangents);
-                self.assemble_elastic(model, tangents);
-                self.load_elastic(model, ground);
             } else {
                 let correction = self.correction(model, tangents)?;
                 let settled = self.settled(model, tangents, accuracy) && self.contacts_settled(tangents, accuracy);
@@ -272,6 +282,10 @@ impl Stage {
                     self.finish(model, tangents);
                     return Ok(());
                 }
+            }
+            if self.closed != tangents.closed {
+                self.assemble_elastic(model, tangents);
+                self.load_elastic(model, ground);
             }
             self.move_tangents(model, tangents);
             self.move_contacts(tangents, accuracy, iteration >= AT_ONCE);
@@ -285,6 +299,7 @@ impl Stage {
         let n = self.mass.len();
         self.mismatch(model, tangents);
         self.matrix.solve(&mut self.rhs[..n]);
+        self.flips.correct(&mut self.rhs);
         // A sum, because a maximum would pass over what is not a number.
         let (mut correction, mut sum) = (0.0f64, 0.0);
         for d in &self.rhs[..n] {
@@ -305,7 +320,8 @@ impl Stage {
         for (value, &place) in b.iter().zip(self.matrix.places()) {
             self.rhs[place as usize] = *value;
         }
-        self.arch.dispatch(Linear { matrix: &mut self.matrix, b: &mut self.rhs[..n] });
+        self.rhs[n..].fill(0.0);
+        self.arch.dispatch(Linear { matrix: &mut self.matrix, flips: &self.flips, b: &mut self.rhs });
         for (value, &place) in b.iter_mut().zip(self.matrix.places()) {
             *value = self.rhs[place as usize];
         }
@@ -355,6 +371,9 @@ impl Stage {
         if self.bonds.start(model, &mut self.rubs, [z, v], tau) {
             self.factors_hold = false;
         }
+        if self.devices.start(model, [z, v], tau) {
+            self.factors_hold = false;
+        }
         for (gap, &e) in self.gap.iter_mut().zip(&self.joints.one_sided) {
             let [a, b] = model.sides[e as usize].map(|s| s as usize);
             *gap = z[a] - z[b] + tau * (v[a] - v[b]);
@@ -395,14 +414,23 @@ impl Stage {
     /// J = M + τ Σ B (c + τ k + N μ') Bᵀ, factorised.
     #[inline(always)]
     fn assemble(&mut self, model: &Model, tangents: &Tangents) -> Result<(), Failure> {
+        self.flips.clear();
         if self.factors_hold && self.rubs.len() == 0 && self.contacts.len() == 0 {
             return Ok(());
         }
         self.matrix.diagonal.copy_from_slice(&self.diagonal);
         self.matrix.lower.copy_from_slice(&self.lower);
-        let (j, matrix, square) = (&self.joints, &mut self.matrix, self.tau * self.tau);
+        let (j, matrix, tau, square) = (&self.joints, &mut self.matrix, self.tau, self.tau * self.tau);
         self.bonds.slopes(|e, slope| {
             let ([a, b], s) = (j.sides[e], square * slope);
+            matrix.diagonal[a as usize] += s;
+            if let Some(slot) = j.slot[e].at() {
+                matrix.diagonal[b as usize] += s;
+                matrix.lower[slot] -= s;
+            }
+        });
+        self.devices.slopes(|e, slope| {
+            let ([a, b], s) = (j.sides[e], tau * slope);
             matrix.diagonal[a as usize] += s;
             if let Some(slot) = j.slot[e].at() {
                 matrix.diagonal[b as usize] += s;
@@ -460,9 +488,57 @@ impl Stage {
             change[a as usize] -= tau * force;
             change[b as usize] += tau * force;
         });
+        self.devices.forces(|e, force| {
+            let [a, b] = j.sides[e];
+            change[a as usize] -= tau * force;
+            change[b as usize] += tau * force;
+        });
         self.push_contacts(tangents);
         let n = self.mass.len();
         self.change[n..].fill(0.0);
+    }
+
+    /// Brings the active set up to date, and `change` as long as few joints change; true when it has to be sought anew.
+    #[inline(always)]
+    fn flip_and_follow(&mut self, tangents: &mut Tangents, accuracy: f64) -> bool {
+        for _ in 0..MOST_ITERATIONS {
+            if !self.flip(tangents, accuracy) {
+                return false;
+            }
+            if !self.follow(tangents) {
+                return true;
+            }
+            self.iterations += 1;
+        }
+        true
+    }
+
+    /// Brings `change` up to date with the active set, tangents as they are, through the factors that there are; false
+    /// when too many joints have changed since.
+    #[inline(always)]
+    fn follow(&mut self, tangents: &Tangents) -> bool {
+        if !self.flips.in_use() {
+            return false;
+        }
+        let Stage { flips, matrix, joints, gap, closed, change, tau, .. } = self;
+        let differ = |&(_, &e): &(usize, &u32)| tangents.closed[e as usize] != closed[e as usize];
+        if !flips.have_room(joints.one_sided.iter().enumerate().filter(differ).map(|(i, _)| i)) {
+            return false;
+        }
+        flips.begin(change);
+        let turned = |e: usize, gap: f64| {
+            let force = *tau * joints.stiffness[e];
+            match (tangents.closed[e], closed[e]) {
+                (true, false) => [*tau * force, -force * gap],
+                (false, true) => [-*tau * force, force * gap],
+                _ => [0.0; 2],
+            }
+        };
+        flips.revise(|i| turned(joints.one_sided[i] as usize, gap[i]));
+        for (i, &e) in joints.one_sided.iter().enumerate().filter(differ) {
+            flips.add(i, joints.sides[e as usize], turned(e as usize, gap[i]), matrix);
+        }
+        flips.solution(change)
     }
 
     /// Brings the active set up to date; true when it changed. A joint whose force is too small to be felt stays as it
@@ -487,6 +563,7 @@ impl Stage {
     #[inline(always)]
     fn mismatch(&mut self, model: &Model, tangents: &Tangents) {
         self.bonds.look(model, &self.joints, &mut self.rubs, &self.change, self.tau);
+        self.devices.look(&self.joints, &self.change);
         let (rubs, change, tau) = (&self.rubs, &self.change[..], self.tau);
         for ((&[a, b], before), w) in rubs.sides.iter().zip(&self.before).zip(&mut self.velocity) {
             *w = before + change[a as usize] - change[b as usize];
@@ -518,6 +595,11 @@ impl Stage {
         }
         let j = &self.joints;
         self.bonds.mismatch(|e, force| {
+            let [a, b] = j.sides[e];
+            rhs[a as usize] += tau * force;
+            rhs[b as usize] -= tau * force;
+        });
+        self.devices.mismatch(|e, force| {
             let [a, b] = j.sides[e];
             rhs[a as usize] += tau * force;
             rhs[b as usize] -= tau * force;
@@ -593,121 +675,19 @@ impl Stage {
             tangents.slope[r] = self.slope[r];
             tangents.velocity[r] = w;
         }
+        self.devices.finish(&self.joints, &self.change);
         self.finish_contacts(tangents);
         if !self.rubs.sticking.is_empty() || self.contacts.len() > 0 {
             self.rest(model, tangents);
         }
     }
 
-    /// Sticking joints come to rest altogether: blocks that hang together have one velocity.
-    fn rest(&mut self, model: &Model, tangents: &mut Tangents) {
-        let Tangents { stuck, contact, .. } = tangents;
-        self.groups.rest(model, stuck, contact, &self.touching, &mut self.solution);
-        for &r in &self.rubs.sticking {
-            if tangents.stuck[r as usize] {
-                tangents.velocity[r as usize] = 0.0;
-            }
-        }
-    }
-
-    /// Which rigid joints touch, the slope that holds them, and their velocities in the prediction.
-    fn start_contacts(&mut self, tangents: &Tangents) {
-        self.clamp = 0.0;
-        for (c, &[a, b]) in self.contacts.sides.iter().enumerate() {
-            let free = self.diagonal[a as usize].recip() + self.diagonal.get(b as usize).map_or(0.0, |d| d.recip());
-            self.clamp = self.clamp.max(HOLD / (self.tau * free));
-            let [i, k] = self.contacts.of_model[c].map(|s| s as usize);
-            self.parting[c] = self.v[i] - self.v[k];
-            let touches = tangents.contact[c] || self.z[i] - self.z[k] >= -TOUCHING;
-            self.touching[c] = self.eligible[c] && touches;
-        }
-    }
-
-    /// The slopes of closed rigid joints, added to the matrix.
-    #[inline(always)]
-    fn assemble_contacts(&mut self, model: &Model, tangents: &Tangents) {
-        let s = self.tau * self.clamp;
-        for (c, &[a, b]) in self.contacts.sides.iter().enumerate().filter(|(c, _)| tangents.contact[*c]) {
-            self.matrix.diagonal[a as usize] += s;
-            if let Some(slot) = self.contacts.slot[c].at() {
-                self.matrix.diagonal[b as usize] += s;
-                self.matrix.lower[slot] -= s;
-                if !model.reciprocal {
-                    self.matrix.upper[slot] -= s;
-                }
-            }
-        }
-    }
-
-    /// Force λ + σ w_p of closed rigid joints, on the right side.
-    #[inline(always)]
-    fn push_contacts(&mut self, tangents: &Tangents) {
-        for (c, &[a, b]) in self.contacts.sides.iter().enumerate().filter(|(c, _)| tangents.contact[*c]) {
-            let f = self.tau * (tangents.reaction[c] + self.clamp * self.parting[c]);
-            self.change[a as usize] -= f;
-            self.change[b as usize] += f;
-        }
-    }
-
-    /// What rigid joint `c` has to do, if it is not as it is: open when it would pull so that it is felt, close when
-    /// its sides approach each other.
-    #[inline(always)]
-    fn turns(&self, c: usize, tangents: &Tangents, accuracy: f64) -> bool {
-        if tangents.contact[c] {
-            let force = tangents.reaction[c] + self.clamp * self.closing[c];
-            self.tau * force < -STILL * accuracy * self.mass[self.contacts.sides[c][0] as usize]
-        } else {
-            self.touching[c] && self.closing[c] > 0.0
-        }
-    }
-
-    #[inline(always)]
-    fn contacts_settled(&self, tangents: &Tangents, accuracy: f64) -> bool {
-        (0..self.contacts.len()).all(|c| {
-            !self.turns(c, tangents, accuracy) && (!tangents.contact[c] || self.closing[c].abs() <= STILL * accuracy)
-        })
-    }
-
-    /// Keeps the forces found, opens and closes rigid joints: all that have to, or the first of them alone.
-    #[inline(always)]
-    fn move_contacts(&mut self, tangents: &mut Tangents, accuracy: f64, one: bool) {
-        let mut moved = false;
-        for c in 0..self.contacts.len() {
-            if self.turns(c, tangents, accuracy) && !(one && moved) {
-                moved = true;
-                tangents.contact[c] = !tangents.contact[c];
-                tangents.reaction[c] = 0.0;
-            } else if tangents.contact[c] {
-                tangents.reaction[c] += self.clamp * self.closing[c];
-            }
-        }
-    }
-
-    /// Forces of the closed rigid joints at the solution.
-    #[inline(always)]
-    fn finish_contacts(&mut self, tangents: &mut Tangents) {
-        for (c, &[a, b]) in self.contacts.sides.iter().enumerate() {
-            if tangents.contact[c] {
-                let w = self.parting[c] + self.change[a as usize] - self.change[b as usize];
-                tangents.reaction[c] = (tangents.reaction[c] + self.clamp * w).max(0.0);
-                self.contact_residual = self.contact_residual.max(w.abs());
-            } else {
-                tangents.reaction[c] = 0.0;
-            }
-        }
-    }
-
-    /// Gives blocks that stick together one acceleration [m/s²], that of the support if they stick to one.
-    pub fn join(&mut self, model: &Model, tangents: &Tangents, acceleration: &mut [f64]) {
-        if !self.rubs.sticking.is_empty() || self.contacts.len() > 0 {
-            self.groups.find(model, &tangents.stuck, &tangents.contact);
-            self.groups.average(&model.mass, acceleration);
-        }
-    }
-
     #[inline(always)]
     fn move_tangents(&mut self, model: &Model, tangents: &mut Tangents) {
         if self.bonds.move_tangents() {
+            self.factors_hold = false;
+        }
+        if self.devices.move_tangents(&self.joints, &self.diagonal, self.tau) {
             self.factors_hold = false;
         }
         let mut room = NO_FRICTION;

@@ -7,22 +7,27 @@
 //!
 //!   (P2)  |Δ(E_kin + E_el + E_diss − W_in)| ≤ 5·10⁻⁵ · tolerance · max |W_in|
 
+use pulp::Arch;
+
 use crate::case::Scheme;
 use crate::dynamics::{Moving, power, stored_energy};
 use crate::excitation::Drive;
 use crate::integrate::cracks;
 use crate::integrate::dense::{hermite, weights};
+use crate::integrate::devices;
 use crate::integrate::events::TOUCHING;
 use crate::integrate::impact::Impacts;
 use crate::integrate::stage::{Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
 use crate::model::{Model, Rub};
 use crate::record::Energies;
-use crate::state::{BondState, Instant, Power, State, Tangents};
+use crate::state::{BondState, DeviceState, Instant, Power, State, Tangents};
+use crate::wide::wide;
 
 /// Scratch of a step; nothing here outlives it but the tangents, which belong to the state.
 #[derive(Debug, Clone)]
 pub struct Step {
+    arch: Arch,
     scheme: Scheme,
     tableau: Tableau,
     pub stage: Stage,
@@ -33,8 +38,6 @@ pub struct Step {
     pub stage_power: [Power; STAGES],
     /// Of the stages after the first: that is the state's.
     stage_joint_power: Vec<Vec<f64>>,
-    error_v: Vec<f64>,
-    error_z: Vec<f64>,
     top_acceleration: f64,
     /// Displacement, energy account and friction at the start of the accepted step.
     pub start_z: Vec<f64>,
@@ -46,6 +49,7 @@ pub struct Step {
     start_stuck: Vec<bool>,
     start_reaction: Vec<f64>,
     start_bonds: Vec<BondState>,
+    start_devices: Vec<DeviceState>,
     /// Displacement of the end of the step, with base and top.
     pub z: Vec<f64>,
 }
@@ -68,12 +72,21 @@ const LOW: f64 = 10.0 * TOUCHING;
 /// Step in which nothing moves, over the shortest time scale of the model.
 const INSTANT: f64 = 1e-6;
 
+/// `sum` += `weight` · `values`.
+#[inline(always)]
+fn add(sum: &mut [f64], weight: f64, values: &[f64]) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += weight * value;
+    }
+}
+
 impl Step {
     pub fn new(model: &Model, scheme: Scheme) -> Self {
         let n = model.unknowns();
         let tableau = tableau(scheme);
         let rows = |len: usize| vec![vec![0.0; len]; tableau.stages];
         Step {
+            arch: Arch::new(),
             scheme,
             tableau,
             stage: Stage::new(model),
@@ -83,8 +96,6 @@ impl Step {
             stage_a: rows(n),
             stage_power: Default::default(),
             stage_joint_power: vec![vec![0.0; model.joints.len()]; tableau.stages - 1],
-            error_v: vec![0.0; n],
-            error_z: vec![0.0; n],
             top_acceleration: 0.0,
             start_z: vec![0.0; n + 2],
             start_energies: Energies::default(),
@@ -93,6 +104,7 @@ impl Step {
             start_stuck: vec![false; if model.set_valued() { model.rubs.len() } else { 0 }],
             start_reaction: vec![0.0; model.contacts.len()],
             start_bonds: vec![BondState::INTACT; model.bonds.len()],
+            start_devices: vec![DeviceState::default(); model.nonlinear.len()],
             z: vec![0.0; n + 2],
         }
     }
@@ -119,29 +131,29 @@ impl Step {
         self.stage_power[0] = state.power;
         self.tangents.copy_from(&state.tangents);
         self.stage.contact_residual = 0.0;
-        self.stage.begin(model, &state.bonds);
+        self.stage.begin(model, &state.bonds, &state.devices);
         self.find_touching(model, state);
         for i in 1..self.tableau.stages {
             let t = state.t + self.tableau.c[i] * h;
             self.predict(state, i, h, n);
+            self.stage.devices.predict(i, h, &self.tableau.a[i]);
             let top = drive.top(t);
             let ground = drive.base_acceleration(t);
             self.stage.z[n + 1] = top.u - tau * top.v;
             self.stage.solution[n + 1] = top.v;
             self.top_acceleration = top.a;
             self.stage.solve(model, &mut self.tangents, tau, ground, STAGE_ACCURACY * tolerance.v)?;
-            let (v, a) = (&mut self.stage_v[i], &mut self.stage_a[i]);
-            v.copy_from_slice(&self.stage.solution);
-            for k in 0..n {
-                a[k] = (v[k] - self.stage.v[k]) / tau;
-            }
-            for k in 0..n + 2 {
-                self.z[k] = self.stage.z[k] + tau * v[k];
-            }
-            let at = Moving { z: &self.z, v, laws: &self.tangents, bonds: &state.bonds };
+            self.stage_v[i].copy_from_slice(&self.stage.solution);
+            self.follow(i, tau);
+            let devices = self.stage.devices.now();
+            let at = Moving { z: &self.z, v: &self.stage_v[i], laws: &self.tangents, bonds: &state.bonds, devices };
             self.stage_power[i] = power(model, at, ground, &mut self.stage_joint_power[i - 1]);
         }
-        let error = self.error(model, h, tau, tolerance);
+        let error = wide(
+            self.arch,
+            #[inline(always)]
+            || self.error(model, h, tau, tolerance),
+        );
         let unbalanced = self.account(model, state, h);
         let known = state.totals.peak_input + state.energies.initial;
         let judged = self.account.input().abs() <= BEGINNING * known && tolerance.energy > 0.0;
@@ -182,7 +194,7 @@ impl Step {
         stage.z.copy_from_slice(&state.z);
         stage.v.copy_from_slice(&state.v);
         stage.solution[n + 1] = top.v + tau * top.a;
-        stage.begin(model, &state.bonds);
+        stage.begin(model, &state.bonds, &state.devices);
         self.tangents.copy_from(&state.tangents);
         let found = stage.solve(model, &mut self.tangents, tau, drive.base_acceleration(state.t), 1e-6 * tau * largest);
         // Not work of a step: a restored run, which is not settled anew, must count the same.
@@ -198,48 +210,70 @@ impl Step {
     }
 
     fn predict(&mut self, state: &State, i: usize, h: f64, n: usize) {
-        self.stage.z[..n].copy_from_slice(&state.z[..n]);
-        self.stage.v[..n].copy_from_slice(&state.v[..n]);
+        let (z, v) = (&mut self.stage.z[..n], &mut self.stage.v[..n]);
+        z.copy_from_slice(&state.z[..n]);
+        v.copy_from_slice(&state.v[..n]);
         for j in 0..i {
             let weight = h * self.tableau.a[i][j];
             if weight != 0.0 {
-                let (v, a) = (&self.stage_v[j], &self.stage_a[j]);
-                for k in 0..n {
-                    self.stage.z[k] += weight * v[k];
-                    self.stage.v[k] += weight * a[k];
-                }
+                wide(
+                    self.arch,
+                    #[inline(always)]
+                    || {
+                        add(z, weight, &self.stage_v[j]);
+                        add(v, weight, &self.stage_a[j]);
+                    },
+                );
             }
         }
     }
 
+    /// Acceleration and displacement at stage `i` from its velocity.
+    fn follow(&mut self, i: usize, tau: f64) {
+        let (v, a, z, before) = (&self.stage_v[i], &mut self.stage_a[i], &mut self.z, &self.stage);
+        wide(
+            self.arch,
+            #[inline(always)]
+            || {
+                for ((a, v), v_p) in a.iter_mut().zip(v).zip(&before.v) {
+                    *a = (v - v_p) / tau;
+                }
+                for ((z, z_p), v) in z.iter_mut().zip(&before.z).zip(v) {
+                    *z = z_p + tau * v;
+                }
+            },
+        );
+    }
+
     /// (P1) with f_y from the last stage: (M + τC + τ²K) e_v = M r_v − τ K r_z, e_z = r_z + τ e_v.
+    #[inline(always)]
     fn error(&mut self, model: &Model, h: f64, tau: f64, tolerance: Tolerance) -> f64 {
         let n = model.unknowns();
-        self.error_v.fill(0.0);
-        self.error_z.fill(0.0);
+        // Room of the stage, given back below.
+        let [load, change, _] = self.stage.idle();
+        let (mut error_v, mut error_z) = (std::mem::take(load), std::mem::take(change));
+        error_v.fill(0.0);
+        error_z.fill(0.0);
         for i in 0..self.tableau.stages {
             let weight = h * self.tableau.error[i];
-            let (v, a) = (&self.stage_v[i], &self.stage_a[i]);
-            for k in 0..n {
-                self.error_v[k] += weight * a[k];
-                self.error_z[k] += weight * v[k];
-            }
+            add(&mut error_v, weight, &self.stage_a[i]);
+            add(&mut error_z, weight, &self.stage_v[i]);
         }
-        for (e, m) in self.error_v.iter_mut().zip(&model.mass) {
+        for (e, m) in error_v.iter_mut().zip(&model.mass) {
             *e *= m;
         }
         for (e, (law, &[a, b])) in model.elastic.iter().zip(&model.sides).enumerate() {
             if self.tangents.closed[e] {
                 let (a, b) = (a as usize, b as usize);
-                let other = if b < n { self.error_z[b] } else { 0.0 };
-                let f = tau * law.stiffness * (self.error_z[a] - other);
-                self.error_v[a] -= f;
+                let other = if b < n { error_z[b] } else { 0.0 };
+                let f = tau * law.stiffness * (error_z[a] - other);
+                error_v[a] -= f;
                 if b < n {
-                    self.error_v[b] += f;
+                    error_v[b] += f;
                 }
             }
         }
-        let (error_v, error_z, closed) = (&mut self.error_v, &self.error_z, &self.tangents.closed);
+        let closed = &self.tangents.closed;
         self.stage.bond_tangents(closed, |e, stiffness| {
             let [a, b] = model.sides[e].map(|s| s as usize);
             let beyond = stiffness - if closed[e] { model.elastic[e].stiffness } else { 0.0 };
@@ -251,13 +285,22 @@ impl Step {
                 }
             }
         });
-        self.stage.solve_linear(&mut self.error_v);
+        self.stage.devices.errors(model, h, &self.tableau.error, &error_z[..n], |e, force| {
+            let [a, b] = model.sides[e].map(|s| s as usize);
+            error_v[a] -= tau * force;
+            if b < n {
+                error_v[b] += tau * force;
+            }
+        });
+        self.stage.solve_linear(&mut error_v);
         let (mut worst, mut sum) = (0.0f64, 0.0);
-        for (ev, ez) in self.error_v.iter().zip(&self.error_z) {
+        for (ev, ez) in error_v[..n].iter().zip(&error_z) {
             let ez = ez + tau * ev;
             worst = worst.max(ev.abs() / tolerance.v).max(ez.abs() / tolerance.z);
             sum += ev + ez;
         }
+        let [load, change, _] = self.stage.idle();
+        (*load, *change) = (error_v, error_z);
         // A maximum passes over what is not a number, a sum does not.
         if sum.is_finite() { worst } else { f64::INFINITY }
     }
@@ -270,7 +313,9 @@ impl Step {
             self.stage_power[i].accrue(h * self.tableau.b[i], &mut self.account);
         }
         self.account.bond += cracks::spending(model, &state.bonds, &self.z);
-        stored_energy(model, &state.bonds, &self.z, &self.stage_v[last], &mut self.account);
+        let (after, z, v) = (self.stage.devices.now(), &self.z, &self.stage_v[last]);
+        devices::book(model, &state.devices, after, &mut self.account);
+        stored_energy(model, &state.bonds, after, [z, v], &mut self.account);
         self.account.residual() - state.energies.residual()
     }
 
@@ -284,6 +329,7 @@ impl Step {
             self.start_reaction.copy_from_slice(&state.tangents.reaction);
         }
         self.start_bonds.copy_from_slice(&state.bonds);
+        self.start_devices.copy_from_slice(&state.devices);
     }
 
     /// Moves `state` to the end of the step that was attempted.
@@ -309,6 +355,10 @@ impl Step {
             }
         }
         state.joint_power.copy_from_slice(&self.stage_joint_power[last - 1]);
+        let now = self.stage.devices.now();
+        let lost = &mut state.envelopes.joint_dissipation;
+        devices::spending(model, &state.devices, now, |e, spent| lost[e] += spent);
+        state.devices.copy_from_slice(now);
         state.tangents.copy_from(&self.tangents);
     }
 
@@ -351,30 +401,35 @@ impl Step {
         self.laws_inside(model, end, x, at);
         self.account_inside(end, h, x, at);
         at.energies.bond += cracks::spending(model, &self.start_bonds, &at.z);
-        stored_energy(model, &self.start_bonds, &at.z, &at.v, &mut at.energies);
+        self.stage.devices.inside(model, &end.devices, [w.of_end, x], &w.of_z, &at.z, &mut at.devices);
+        devices::book(model, &self.start_devices, &at.devices, &mut at.energies);
+        stored_energy(model, &self.start_bonds, &at.devices, [&at.z, &at.v], &mut at.energies);
     }
 
     fn laws_inside(&self, model: &Model, end: &State, x: f64, at: &mut Instant) {
         let mix = |from: f64, to: f64| from + x * (to - from);
+        // First the part of each joint that rubs: of a bonded one what has cracked.
+        at.mu.fill(1.0);
+        at.bonds.copy_from_slice(&self.start_bonds);
+        for (bond, held) in model.bonds.iter().zip(&mut at.bonds) {
+            let [a, b] = model.sides[bond.joint as usize].map(|s| s as usize);
+            let d = at.z[a] - at.z[b];
+            held.damage = bond.law.damage_at(held.damage, d);
+            held.reach = held.reach.max(bond.law.stretch(d));
+            if let Some(r) = bond.rub {
+                at.mu[r as usize] = bond.law.rubbing(held);
+            }
+        }
         for (r, rub) in model.rubs.iter().enumerate() {
             let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
             at.mu[r] = if self.held(rub, r, end) {
                 mix(self.start_mu[r], end.tangents.mu[r])
             } else {
-                rub.law.value(at.v[a] - at.v[b])
+                rub.law.times(at.mu[r]).value(at.v[a] - at.v[b])
             };
         }
         for (c, borne) in at.reaction.iter_mut().enumerate() {
             *borne = mix(self.start_reaction[c], end.tangents.reaction[c]);
-        }
-        at.bonds.copy_from_slice(&self.start_bonds);
-        for (bond, held) in model.bonds.iter().zip(&mut at.bonds) {
-            let [a, b] = model.sides[bond.joint as usize].map(|s| s as usize);
-            held.damage = bond.law.damage_at(held.damage, at.z[a] - at.z[b]);
-            if let Some(r) = bond.rub.map(|r| r as usize).filter(|&r| !self.held(&model.rubs[r], r, end)) {
-                // Only the cracked part rubs.
-                at.mu[r] = model.rubs[r].law.times(held.damage).value(at.v[a] - at.v[b]);
-            }
         }
     }
 
@@ -395,6 +450,7 @@ impl Step {
             input_top: cubic(|e| e.input_top, |p| p.top),
             damping: cubic(|e| e.damping, |p| p.damping),
             friction: cubic(|e| e.friction, |p| p.friction),
+            device: cubic(|e| e.device, |p| p.device),
             nonreciprocal: cubic(|e| e.nonreciprocal, |p| p.nonreciprocal),
             ..*e_0
         };

@@ -277,6 +277,7 @@ impl<'m> Lane<'m> {
                 top: powers.top[stage][i],
                 damping: powers.damping[stage][i],
                 friction: powers.friction[stage][i],
+                device: 0.0,
                 nonreciprocal: 0.0,
             };
             self.power.accrue(h * w.tableau.b[stage], &mut self.energies);
@@ -358,12 +359,14 @@ impl<'m> Lane<'m> {
     /// The peaks of the step that waited.
     pub fn enter_account(&mut self, peaks: &Peaks, i: usize) {
         self.pending = false;
-        let (sum, pull) = (&mut self.run.state.totals, peaks.pull[i]);
+        let pull = peaks.pull[i];
+        let before = std::mem::replace(&mut self.run.state.pull, pull);
+        let sum = &mut self.run.state.totals;
         sum.peak_relative_displacement = sum.peak_relative_displacement.max(peaks.displacement[i]);
         sum.peak_slip_velocity = sum.peak_slip_velocity.max(peaks.slip_velocity[i]);
         sum.minimum_gap = sum.minimum_gap.min(-peaks.closing[i]);
         sum.top_force_peak = sum.top_force_peak.max(pull.abs());
-        sum.top_force_square += self.waiting * pull * pull;
+        sum.top_force_square += 0.5 * self.waiting * (before * before + pull * pull);
     }
 
     /// Number and result of the run, which ends with `reason`, or because it is complete.

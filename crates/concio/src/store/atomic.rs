@@ -9,10 +9,7 @@ use crate::error::{Error, Result};
 
 /// Calls `write` with a temporary name and gives the file its name `path` once everything has reached the disk.
 /// A file of that name is replaced; it stays as it was when something fails.
-///
-/// # Errors
-/// The file cannot be written, or what `write` returns.
-pub fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
+pub(super) fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
     let temporary = temporary_name(path)?;
     // Made here so that a folder that is missing or closed is the system's error, not one of a file format.
     File::create(&temporary).map_err(|e| Error::io(path, e))?;
@@ -25,10 +22,7 @@ pub fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<()>) -> Result<(
 }
 
 /// [`replace`] for content that is in memory already.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn replace_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
+pub(super) fn replace_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     replace(path, |temporary| fs::write(temporary, bytes).map_err(|e| Error::io(path, e)))
 }
 

@@ -61,7 +61,7 @@ pub(super) const JOINT_ENVELOPES: [Field<Envelopes, Vec<f64>>; 10] = [
 ];
 
 /// The energy account.
-pub(super) const ENERGIES: [Field<Energies, f64>; 10] = [
+pub(super) const ENERGIES: [Field<Energies, f64>; 11] = [
     field!("input_base", "J", input_base, "Work of the base motion on the motion relative to the base."),
     field!("input_top", "J", input_top, "Work of the driven top beam."),
     field!("initial", "J", initial, "Kinetic and elastic energy at t = 0 that no work of the run brought."),
@@ -70,6 +70,7 @@ pub(super) const ENERGIES: [Field<Energies, f64>; 10] = [
     field!("damping", "J", damping, "Energy dissipated by viscous damping."),
     field!("friction", "J", friction, "Energy dissipated by friction."),
     field!("bond", "J", bond, "Energy dissipated by breaking bonds."),
+    field!("device", "J", device, "Energy dissipated by the hysteresis of devices."),
     field!("impact", "J", impact, "Energy lost in the impacts of rigid joints."),
     field!("nonreciprocal", "J", nonreciprocal, "Energy taken out by friction whose action differs from its reaction."),
 ];
@@ -159,7 +160,7 @@ pub(super) const BONDS: [Field<BondRow, f64>; 9] = [
     field!("residual_stiffness", "1", residual_stiffness, "Fraction of the stiffness that a cracked joint keeps."),
     field!("energy", "J", energy, "Energy that it takes to break the bond."),
     field!("decay", "m", decay, "Length over which the strength falls; 0 when the bond is brittle."),
-    field!("damage", "1", damage, "Cracked part at the end, 0 to 1."),
+    field!("damage", "1", damage, "Damage at the end: part of the stiffness that is lost, 0 to 1."),
     field!("spent", "J", spent, "Energy that breaking has taken."),
     field!("cracked", "s", cracked, "Time of the first crack; infinite when there was none."),
     field!("broken", "s", broken, "Time at which nothing was left of the bond; infinite when something is."),

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use crate::case::DeviceLaw;
 use crate::error::{Error, Result};
 use crate::outcome::Outcome;
 use crate::record::{Event, Layout, Recording};
@@ -134,6 +135,8 @@ fn write_joints(sink: &mut Sink, joints: &[JointRow]) -> Result<()> {
     sink.texts("wall/joints/kind", &kinds, "bed, head, base, top or connection.")?;
     let laws: Vec<String> = joints.iter().map(|j| keyword(&j.law)).collect();
     sink.texts("wall/joints/law", &laws, "Elastic law.")?;
+    let devices: Vec<&str> = joints.iter().map(|j| device_name(j.device)).collect();
+    sink.texts("wall/joints/device", &devices, "Law of the device in the place of mortar, or none.")?;
     let a: Vec<i64> = joints.iter().map(|j| j.joint.a as i64).collect();
     sink.list("wall/joints/a", &a, label("1", "Index of the block on one side: left, or lower."))?;
     let b: Vec<i64> = joints.iter().map(|j| other_side(j.joint.b)).collect();
@@ -146,6 +149,14 @@ fn write_joints(sink: &mut Sink, joints: &[JointRow]) -> Result<()> {
     let laws: Vec<String> = friction.iter().map(|f| keyword(&f.law)).collect();
     sink.texts("wall/joints/friction_law", &laws, "Friction law.")?;
     write_columns(sink, "wall/joints", &fields::FRICTION, &friction)
+}
+
+/// What a result calls the device of a joint without one.
+pub(super) const NO_DEVICE: &str = "none";
+
+/// What a result calls the device of a joint.
+pub(super) fn device_name(law: Option<DeviceLaw>) -> &'static str {
+    law.map_or(NO_DEVICE, DeviceLaw::name)
 }
 
 /// The index on disk of a joint's other side.
@@ -220,7 +231,7 @@ fn write_bonds(sink: &mut Sink, outcome: &Outcome) -> Result<()> {
     sink.list("bonds/joint", &joints, label("1", "Index of the joint."))?;
     write_columns(sink, "bonds", &fields::BONDS, bonds)?;
     let shape = [outcome.recording.frame_time.len(), outcome.layout.bonded];
-    let damage = label("1", "Cracked part of every bonded joint, 0 to 1, in the order of /bonds.");
+    let damage = label("1", "Damage of every bonded joint, 0 to 1, in the order of /bonds.");
     sink.array("frames/damage", &shape, &outcome.recording.frame_damage, damage)
 }
 

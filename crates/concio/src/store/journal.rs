@@ -56,6 +56,8 @@ pub struct Journal {
     file: File,
     layout: Layout,
     position: Position,
+    /// The block that was written last: its room serves the next one.
+    written: Vec<u8>,
     _lock: lock::Lock,
 }
 
@@ -95,8 +97,13 @@ impl Journal {
         file.write_all(&JOURNAL_MAGIC).map_err(|e| Error::io(&path, e))?;
         let position = Position { length: JOURNAL_MAGIC.len() as u64, digest: [0; DIGEST] };
         let layout = header.layout.clone();
-        let mut journal = Journal { folder: folder.to_path_buf(), file, layout, position, _lock: lock };
-        journal.append_block(HEADER, &header_bytes(folder, header)?)?;
+        let written = Vec::new();
+        let mut journal = Journal { folder: folder.to_path_buf(), file, layout, position, written, _lock: lock };
+        let header = header_bytes(folder, header)?;
+        journal.append_block(HEADER, |_, payload| {
+            payload.extend_from_slice(&header);
+            Ok(())
+        })?;
         atomic::sync_folder_of(&path)?;
         Ok(journal)
     }
@@ -115,7 +122,8 @@ impl Journal {
         let Some((position, state)) = read_checkpoint(&checkpoint_path(folder))? else { return Ok(None) };
         let file = open_options().truncate(false).open(&path).map_err(|e| Error::io(&path, e))?;
         let layout = header.layout.clone();
-        let mut journal = Journal { folder: folder.to_path_buf(), file, layout, position, _lock: lock };
+        let written = Vec::new();
+        let mut journal = Journal { folder: folder.to_path_buf(), file, layout, position, written, _lock: lock };
         if !journal.leads_to_position(&header_bytes(folder, header)?)? {
             return Ok(None);
         }
@@ -129,9 +137,10 @@ impl Journal {
     /// [`Error::Store`] when the rows do not fit the layout, [`Error::Io`] when the disk fails or is full; the journal
     /// is then as it was before.
     pub fn append(&mut self, rows: &Recording) -> Result<()> {
-        let payload =
-            rows::encode(rows, &self.layout).map_err(|what| Error::Store { path: journal_path(&self.folder), what })?;
-        self.append_block(ROWS, &payload)
+        self.append_block(ROWS, |journal, payload| {
+            let failed = |what| Error::Store { path: journal_path(&journal.folder), what };
+            rows::encode(rows, &journal.layout, payload).map_err(failed)
+        })
     }
 
     /// Keeps the state of the solver: a later [`Journal::resume`] goes on from here. The former state is replaced in
@@ -141,12 +150,15 @@ impl Journal {
     /// [`Error::Io`] when the disk fails or is full; the former checkpoint then stays.
     pub fn checkpoint(&mut self, state: &[u8]) -> Result<()> {
         self.file.sync_all().map_err(|e| Error::io(journal_path(&self.folder), e))?;
-        let mut payload = Vec::with_capacity(POSITION + state.len());
-        payload.extend_from_slice(&self.position.length.to_le_bytes());
-        payload.extend_from_slice(&self.position.digest);
-        payload.extend_from_slice(state);
+        let (position, mut made) = (self.position, Vec::with_capacity(LEAD + POSITION + state.len() + DIGEST));
+        block(STATE, &[0; DIGEST], &mut made, |payload| {
+            payload.extend_from_slice(&position.length.to_le_bytes());
+            payload.extend_from_slice(&position.digest);
+            payload.extend_from_slice(state);
+            Ok(())
+        })?;
         let mut bytes = CHECKPOINT_MAGIC.to_vec();
-        bytes.extend_from_slice(&block(STATE, &payload, &[0; DIGEST]).0);
+        bytes.extend_from_slice(&made);
         atomic::replace_bytes(&checkpoint_path(&self.folder), &bytes)
     }
 
@@ -180,11 +192,19 @@ impl Journal {
         lock.remove()
     }
 
-    fn append_block(&mut self, kind: u8, payload: &[u8]) -> Result<()> {
-        let (bytes, digest) = block(kind, payload, &self.position.digest);
+    /// Appends a block whose payload `fill` adds to what it is given.
+    fn append_block(&mut self, kind: u8, fill: impl FnOnce(&Self, &mut Vec<u8>) -> Result<()>) -> Result<()> {
+        let mut bytes = std::mem::take(&mut self.written);
+        let made = block(kind, &self.position.digest, &mut bytes, |payload| fill(self, payload));
+        let written = made.and_then(|digest| self.write(&bytes, digest));
+        self.written = bytes;
+        written
+    }
+
+    fn write(&mut self, bytes: &[u8], digest: [u8; DIGEST]) -> Result<()> {
         // A failed attempt may have left half a block: every block goes to where the last whole one ends.
         let at = self.position.length;
-        let written = self.file.seek(SeekFrom::Start(at)).and_then(|_| self.file.write_all(&bytes));
+        let written = self.file.seek(SeekFrom::Start(at)).and_then(|_| self.file.write_all(bytes));
         written.map_err(|e| {
             let _ = self.file.set_len(at);
             Error::io(journal_path(&self.folder), e)
@@ -273,12 +293,22 @@ fn parse_lead(lead: &[u8; LEAD], left: u64) -> Option<(u8, usize)> {
     (length <= left.checked_sub((LEAD + DIGEST) as u64)?).then_some((kind, usize::try_from(length).ok()?))
 }
 
-/// A block and its digest.
-fn block(kind: u8, payload: &[u8], before: &[u8; DIGEST]) -> (Vec<u8>, [u8; DIGEST]) {
+/// Makes a block of the payload that `fill` adds to what it is given; returns its digest.
+fn block(
+    kind: u8,
+    before: &[u8; DIGEST],
+    bytes: &mut Vec<u8>,
+    fill: impl FnOnce(&mut Vec<u8>) -> Result<()>,
+) -> Result<[u8; DIGEST]> {
     let mut lead = [kind; LEAD];
-    lead[1..].copy_from_slice(&(payload.len() as u64).to_le_bytes());
-    let digest = chained(before, &lead, payload);
-    ([&lead[..], payload, &digest].concat(), digest)
+    bytes.clear();
+    bytes.extend_from_slice(&lead);
+    fill(bytes)?;
+    lead[1..].copy_from_slice(&((bytes.len() - LEAD) as u64).to_le_bytes());
+    bytes[..LEAD].copy_from_slice(&lead);
+    let digest = chained(before, &lead, &bytes[LEAD..]);
+    bytes.extend_from_slice(&digest);
+    Ok(digest)
 }
 
 fn chained(before: &[u8; DIGEST], lead: &[u8; LEAD], payload: &[u8]) -> [u8; DIGEST] {

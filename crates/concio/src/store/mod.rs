@@ -1,7 +1,7 @@
 //! What a run leaves on disk: one HDF5 file when it is over ([`hdf5`], with a [`vtkhdf`] group in it), a [`journal`]
 //! while it goes on, a [`summary()`] in JSON, and copies in other formats ([`export`]). docs/results.md describes them all.
 
-pub mod atomic;
+mod atomic;
 pub mod export;
 mod fields;
 mod h5;
@@ -12,7 +12,7 @@ mod summary;
 pub mod vtkhdf;
 
 use crate::bond::Bonded;
-use crate::case::{FrictionLaw, SpringLaw};
+use crate::case::{DeviceLaw, FrictionLaw, SpringLaw};
 use crate::law::spring_force;
 use crate::model::Elastic;
 use crate::outcome::{BondRow, Outcome};
@@ -22,7 +22,7 @@ pub use journal::{Journal, JournalHeader};
 pub use summary::{RunFacts, residual_relative, summary, top_force_rms, write_summary};
 
 /// Version of the layout of result files; raised when a reader of the former version would misread a file.
-pub const SCHEMA_VERSION: u32 = 3;
+pub const SCHEMA_VERSION: u32 = 4;
 
 /// Where a result comes from. Nothing in it depends on clock, machine or folder: equal inputs give equal files.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -56,11 +56,13 @@ pub struct JointRow {
     pub friction: Option<FrictionRow>,
     /// Restitution of a rigid joint; 0 for the others.
     pub restitution: f64,
+    /// Law of the device in the place of mortar, if it has one.
+    pub device: Option<DeviceLaw>,
 }
 
 impl JointRow {
     /// Elastic force on the lower or left block, against its relative motion [N], at x_a − x_b = `d` [m]; `bond` is the
-    /// joint's bond, if it has one, and its cracked part.
+    /// joint's bond, if it has one, and its damage.
     pub fn elastic_force(&self, d: f64, bond: Option<(&BondRow, f64)>) -> f64 {
         let upright = self.joint.kind.is_upright();
         let unilateral = upright && matches!(self.law, SpringLaw::NoTension | SpringLaw::Rigid);

@@ -6,13 +6,13 @@ use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::{Error as KeywordError, StrDeserializer};
 
-use crate::case::JointKind;
+use crate::case::{DeviceLaw, JointKind};
 use crate::error::Result;
 use crate::outcome::{BondRow, Outcome, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording};
 use crate::store::fields::{self, Field};
 use crate::store::h5::Source;
-use crate::store::hdf5::{BASE, FORMAT, NO_FRICTION, TOP};
+use crate::store::hdf5::{BASE, FORMAT, NO_DEVICE, NO_FRICTION, TOP};
 use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, StoredRun};
 use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 
@@ -117,6 +117,7 @@ fn read_joints(source: &Source, blocks: usize) -> Result<Vec<JointRow>> {
     let names = source.texts("wall/joints/name")?;
     let kinds: Vec<JointKind> = read_keywords(source, "wall/joints/kind", names.len())?;
     let laws = read_keywords(source, "wall/joints/law", names.len())?;
+    let devices = read_devices(source, names.len())?;
     let a: Vec<i64> = source.list("wall/joints/a", names.len())?;
     let b: Vec<i64> = source.list("wall/joints/b", names.len())?;
     let friction = read_friction(source, names.len())?;
@@ -139,10 +140,25 @@ fn read_joints(source: &Source, blocks: usize) -> Result<Vec<JointRow>> {
             normal_force: [0.0; 2],
             friction,
             restitution: 0.0,
+            device: devices[k],
         });
     }
     read_columns(source, "wall/joints", &fields::JOINTS, &mut joints)?;
     Ok(joints)
+}
+
+fn read_devices(source: &Source, joints: usize) -> Result<Vec<Option<DeviceLaw>>> {
+    let names = source.texts("wall/joints/device")?;
+    if names.len() != joints {
+        return Err(source.wrong("wall/joints/device", format!("has {} texts for {joints} joints", names.len())));
+    }
+    let law = |name: &String| match name.as_str() {
+        NO_DEVICE => Ok(None),
+        other => DeviceLaw::named(other)
+            .map(Some)
+            .ok_or_else(|| source.wrong("wall/joints/device", format!("holds `{other}`, which is no law of a device"))),
+    };
+    names.iter().map(law).collect()
 }
 
 fn read_friction(source: &Source, joints: usize) -> Result<Vec<Option<FrictionRow>>> {

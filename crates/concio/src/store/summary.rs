@@ -109,6 +109,7 @@ fn energy(energies: &Energies, residual_relative: f64) -> Value {
         "damping": energies.damping,
         "friction": energies.friction,
         "bond": energies.bond,
+        "device": energies.device,
         "impact": energies.impact,
         "nonreciprocal": energies.nonreciprocal,
         "residual_relative": residual_relative,

@@ -26,7 +26,7 @@ JOINT_ENVELOPES = BLOCK_ENVELOPES | {
     "impulse": "N s",
     "impacts": "1",
 }
-ENERGIES = ["input_base", "input_top", "initial", "kinetic", "elastic", "damping", "friction", "bond", "impact", "nonreciprocal"]
+ENERGIES = ["input_base", "input_top", "initial", "kinetic", "elastic", "damping", "friction", "bond", "device", "impact", "nonreciprocal"]
 TOTALS = {
     "peak_relative_displacement": "m",
     "peak_slip_velocity": "m/s",
@@ -119,11 +119,11 @@ class Result:
 def check_head(result):
     attributes = result.file.attrs
     require(attributes["format"] == "concio-result", "attribute format")
-    require(attributes["schema_version"] == 3, "attribute schema_version")
+    require(attributes["schema_version"] == 4, "attribute schema_version")
     require(attributes["stop_reason"] in STOP_REASONS, f"stop_reason {attributes['stop_reason']!r}")
     for name in ["version", "model", "inputs_hash"]:
         require(isinstance(attributes[name], str) and attributes[name], f"attribute {name}")
-    require(result.array("schema_version", (), "u4", "1") == 3, "schema_version")
+    require(result.array("schema_version", (), "u4", "1") == 4, "schema_version")
     (case,) = result.texts("case", 1)
     require(isinstance(json.loads(case), dict), "case is no JSON object")
 
@@ -157,6 +157,8 @@ def check_joints(result, blocks):
         require(kind in {"bed", "head", "connection"} if other >= 0 else kind == {-1: "base", -2: "top"}[other], kind)
     laws = result.texts("wall/joints/law", n)
     require(set(laws) <= {"elastic", "no-tension", "rigid", "none"}, f"laws {set(laws)}")
+    devices = result.texts("wall/joints/device", n)
+    require(set(devices) <= {"viscous", "elastic", "friction-damper", "bouc-wen", "re-centring", "none"}, f"devices {set(devices)}")
     rubs = result.array("wall/joints/friction", (n,), "u1", "1")
     friction_laws = result.texts("wall/joints/friction_law", n)
     require(set(friction_laws) <= {"stribeck", "stribeck-stick", "coulomb", "none"}, f"friction laws {set(friction_laws)}")
@@ -304,6 +306,20 @@ def check_npz(path, file):
         require(not missing, f"npz: {sorted(missing)} missing")
 
 
+def check_csv_events(folder, file, joints):
+    if "events" not in file:
+        require(not (folder / "events.csv").exists(), "csv: events of a run without any")
+        return
+    with open(folder / "events.csv", newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    equal(np.array([float(row["time [s]"]) for row in rows]), file["events/time"][()], "csv: events, time")
+    equal(np.array([float(row["value"]) for row in rows]), file["events/value"][()], "csv: events, value")
+    require([row["kind"] for row in rows] == list(file["events/kind"].asstr()), "csv: events, kind")
+    require([row["joint"] for row in rows] == [joints[k] for k in file["events/joint"]], "csv: events, joint")
+    units = {"impact": "N s", "crack": "m", "break": "m"}
+    require(all(row["unit"] == units[row["kind"]] for row in rows), "csv: events, unit")
+
+
 def check_csv(folder, time, heads, values, names, envelopes):
     with open(folder / "histories.csv", newline="", encoding="utf-8") as stream:
         rows = list(csv.reader(stream))
@@ -355,6 +371,7 @@ def main():
         names = {"block": block_names, "joint": joint_names}
         envelopes = {"block": block_envelopes, "joint": joint_envelopes}
         check_csv(arguments.csv, time, heads, values, names, envelopes)
+        check_csv_events(arguments.csv, result.file, joint_names)
     print(
         f"{arguments.result}: {len(block_names)} blocks, {len(joint_names)} joints, {len(time)} samples of "
         f"{len(values)} channels, {len(frames[0])} frames: h5py and VTK agree"

@@ -1,7 +1,7 @@
 //! A made-up run for tests of the store: the values follow from their indices, so that a swapped row, column or array
 //! shows; they obey no mechanics.
 
-use concio::case::{FrictionLaw, JointKind, SpringLaw};
+use concio::case::{DeviceLaw, FrictionLaw, JointKind, SpringLaw};
 use concio::outcome::{BondRow, Outcome, Totals};
 use concio::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use concio::store::{FrictionRow, JointRow, Provenance};
@@ -114,6 +114,7 @@ fn joint(k: usize, kind: JointKind, a: usize, b: End, wall: &Wall) -> JointRow {
         normal_force: [100.0 + f, 101.0 + f],
         friction: rubs.then_some(friction),
         restitution: 0.01 * f,
+        device: DeviceLaw::ALL.get(k).copied(),
     }
 }
 
@@ -174,6 +175,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             damping: 0.5,
             friction: 3.0,
             bond: 0.0625,
+            device: 0.001953125,
             impact: 0.0078125,
             nonreciprocal: 0.03125,
         },

@@ -1,6 +1,6 @@
 //! Joint laws and the changes to some joints.
 
-use super::{Bound, Findings};
+use super::{Bound, Findings, devices};
 use crate::case::{
     Bond, BondChange, Case, Friction, FrictionChange, FrictionLaw, JointBond, JointChange, Panel, Selector, Spring,
     SpringLaw,
@@ -39,6 +39,9 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
         }
         if let Some(b) = &change.bond {
             bond_values(f, &format!("joint.change[{i}].bond"), b);
+        }
+        if let Some(d) = &change.device {
+            devices::check(f, &format!("joint.change[{i}].device"), d);
         }
     }
 }
@@ -125,8 +128,13 @@ fn below_static(f: &mut Findings, key: impl std::fmt::Display, dynamic: f64, sta
 }
 
 fn change(f: &mut Findings, i: usize, change: &JointChange) {
-    if change.spring.is_none() && change.friction.is_none() && change.bond.is_none() {
-        f.push(format_args!("joint.change[{i}]"), "nothing is changed", "`spring`, `friction` or `bond`");
+    let of_mortar = change.spring.is_some() || change.friction.is_some() || change.bond.is_some();
+    if !of_mortar && change.device.is_none() {
+        f.push(format_args!("joint.change[{i}]"), "nothing is changed", "`spring`, `friction` or `bond`, or `device`");
+    }
+    if of_mortar && change.device.is_some() {
+        let what = "a device takes the place of spring, friction and bond";
+        f.push(format_args!("joint.change[{i}].device"), what, "`device` alone, or a change without it");
     }
     if let Some(s) = &change.spring {
         // Without a law the joint keeps its own, which is not known here: a restitution of no rigid joint has no effect.

@@ -9,12 +9,13 @@ use csv::Writer;
 use crate::error::{Error, Result};
 use crate::record::Envelopes;
 use crate::store::fields::{self, Field};
-use crate::store::hdf5::{NO_FRICTION, check_lengths, keyword};
+use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword};
 use crate::store::{FrictionRow, StoredRun, atomic};
 use crate::wall::{Block, End};
 
-/// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv`, and `bonds.csv` where
-/// joints are bonded, into `folder`, which is made if need be. Numbers read back to the same bits.
+/// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv`, `bonds.csv` where
+/// joints are bonded and `events.csv` where something happened, into `folder`, which is made if need be. Numbers read back to
+/// the same bits.
 ///
 /// # Errors
 /// [`Error::Io`] when the disk fails, [`Error::Store`] when the run contradicts itself.
@@ -29,6 +30,9 @@ pub fn csv(run: &StoredRun, folder: &Path) -> Result<()> {
     })?;
     if !run.outcome.bonds.is_empty() {
         table(&folder.join("bonds.csv"), |t| bonds(t, run))?;
+    }
+    if !run.outcome.recording.events.is_empty() {
+        table(&folder.join("events.csv"), |t| events(t, run))?;
     }
     table(&folder.join("joint_envelopes.csv"), |t| {
         let names: Vec<&str> = run.joints.iter().map(|j| j.name.as_str()).collect();
@@ -116,7 +120,7 @@ fn blocks(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
 }
 
 fn joints(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
-    for name in ["name", "kind", "a", "b", "law"] {
+    for name in ["name", "kind", "a", "b", "law", "device"] {
         table.head(name, "1")?;
     }
     heads(table, &fields::JOINTS)?;
@@ -134,6 +138,7 @@ fn joints(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
             End::Top => "top",
         })?;
         table.cell(keyword(&row.law))?;
+        table.cell(device_name(row.device))?;
         numbers(table, &fields::JOINTS, row)?;
         let friction: FrictionRow = row.friction.unwrap_or(NO_FRICTION);
         table.cell(keyword(&friction.law))?;
@@ -150,6 +155,23 @@ fn bonds(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     for bond in &run.outcome.bonds {
         table.cell(run.joints.get(bond.joint).map_or("", |j| &j.name))?;
         numbers(table, &fields::BONDS, bond)?;
+        table.end_row()?;
+    }
+    Ok(())
+}
+
+/// The unit of a value follows from the kind of the event, so that it has a column of its own.
+fn events(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
+    for (name, unit) in [("time", "s"), ("joint", "1"), ("kind", "1"), ("value", "1"), ("unit", "1")] {
+        table.head(name, unit)?;
+    }
+    table.end_row()?;
+    for event in &run.outcome.recording.events {
+        table.number(event.time)?;
+        table.cell(run.joints.get(event.joint as usize).map_or("", |j| &j.name))?;
+        table.cell(keyword(&event.kind))?;
+        table.number(event.value)?;
+        table.cell(event.kind.unit())?;
         table.end_row()?;
     }
     Ok(())

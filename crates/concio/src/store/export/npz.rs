@@ -10,7 +10,7 @@ use zip::{CompressionMethod, ZipWriter};
 
 use crate::error::{Error, Result};
 use crate::store::fields::{self, Field};
-use crate::store::hdf5::{NO_FRICTION, check_lengths, keyword, other_side};
+use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword, other_side};
 use crate::store::{FrictionRow, StoredRun, atomic};
 use crate::wall::Block;
 
@@ -114,6 +114,7 @@ fn fill_joints(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
     archive.texts("wall/joints/name", &joints.iter().map(|j| &j.name).collect::<Vec<_>>())?;
     archive.texts("wall/joints/kind", &joints.iter().map(|j| keyword(&j.joint.kind)).collect::<Vec<_>>())?;
     archive.texts("wall/joints/law", &joints.iter().map(|j| keyword(&j.law)).collect::<Vec<_>>())?;
+    archive.texts("wall/joints/device", &joints.iter().map(|j| device_name(j.device)).collect::<Vec<_>>())?;
     archive.integers("wall/joints/a", joints.iter().map(|j| j.joint.a as i64))?;
     archive.integers("wall/joints/b", joints.iter().map(|j| other_side(j.joint.b)))?;
     columns(archive, "wall/joints", &fields::JOINTS, joints)?;

@@ -3,8 +3,8 @@
 
 use crate::record::{Event, Layout, Recording};
 
-/// The bytes of `rows`; an error when their lengths do not fit the layout.
-pub(super) fn encode(rows: &Recording, layout: &Layout) -> Result<Vec<u8>, String> {
+/// Adds the bytes of `rows`; an error when their lengths do not fit the layout.
+pub(super) fn encode(rows: &Recording, layout: &Layout, bytes: &mut Vec<u8>) -> Result<(), String> {
     let (samples, frames) = (rows.time.len(), rows.frame_time.len());
     let arrays = rows.arrays(layout);
     let counts = [samples, samples, frames, frames, frames, frames, frames, frames];
@@ -14,16 +14,19 @@ pub(super) fn encode(rows: &Recording, layout: &Layout) -> Result<Vec<u8>, Strin
             return Err(format!("not written: {found} values in {rows} rows of {width}"));
         }
     }
-    let mut bytes =
-        Vec::with_capacity(24 + 8 * arrays.iter().map(|(a, _)| a.len()).sum::<usize>() + 32 * rows.events.len());
+    bytes.reserve(24 + 8 * arrays.iter().map(|(a, _)| a.len()).sum::<usize>() + 32 * rows.events.len());
     bytes.extend_from_slice(&(samples as u64).to_le_bytes());
     bytes.extend_from_slice(&(frames as u64).to_le_bytes());
     bytes.extend_from_slice(&(rows.events.len() as u64).to_le_bytes());
     for (array, _) in arrays {
-        bytes.extend(array.iter().flat_map(|value| value.to_le_bytes()));
+        let from = bytes.len();
+        bytes.resize(from + 8 * array.len(), 0);
+        for (into, value) in bytes[from..].as_chunks_mut::<8>().0.iter_mut().zip(array) {
+            *into = value.to_le_bytes();
+        }
     }
     bytes.extend(rows.events.iter().flat_map(Event::row).flat_map(f64::to_le_bytes));
-    Ok(bytes)
+    Ok(())
 }
 
 /// Appends the rows in `bytes` to `to`; `None`, with `to` in part filled, when they do not fit the layout.

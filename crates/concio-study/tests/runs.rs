@@ -1,0 +1,330 @@
+//! Runs of a study: the same bits whoever does them, nothing lost, nothing stopped by one that fails.
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use concio::case::{Case, Document, Syntax};
+use concio::many::{Job, Standing, simulate_each};
+use concio::outcome::Outcome;
+use concio::run::Control;
+use concio_study::file::{Keep, PerJoint};
+use concio_study::measures::{End, Row};
+use concio_study::runner::{Progress, Runner};
+use concio_study::{Plan, StudyFile};
+
+const WALL: &str = r#"
+model = "shear"
+set = "report"
+[[panel]]
+bond = "running"
+courses = 3
+bricks = 2
+[load]
+top = "10 kN/m"
+beam = "driven"
+[motion]
+duration = "20 ms"
+top = { sine = { amplitude = "5 mm", frequency = "20 Hz" } }
+"#;
+
+type Anyhow = Result<(), Box<dyn std::error::Error>>;
+
+fn plan(folder: &Path, text: &str) -> concio::Result<Plan> {
+    fs::write(folder.join("wall.toml"), WALL).map_err(|e| concio::Error::io(folder, e))?;
+    let path = folder.join("study.toml");
+    Plan::of(StudyFile::of(Document::parse(text, Syntax::Toml, Some(&path))?)?)
+}
+
+fn cases(plan: &Plan) -> concio::Result<Vec<Case>> {
+    (0..plan.points.len()).map(|i| plan.case(i)).collect()
+}
+
+fn go_on(_: &Progress) -> Control {
+    Control::Continue
+}
+
+fn keep() -> Keep {
+    Keep { joints: vec![PerJoint::Displacement, PerJoint::Dissipation], results: false }
+}
+
+const TWENTY: &str = r#"
+wall = "wall.toml"
+[design]
+kind = "latin-hypercube"
+runs = 20
+seed = 3
+[[vary]]
+path = "joint.friction.static"
+from = 0.4
+to = 0.8
+also = [{ path = "joint.friction.dynamic", times = 0.7 }]
+[[vary]]
+path = "load.top"
+distribution = { law = "lognormal", median = "10 kN/m", dispersion = 0.3 }
+"#;
+
+#[test]
+fn threads_shards_and_order_do_not_change_a_bit() -> Anyhow {
+    let folder = tempfile::tempdir()?;
+    let plan = plan(folder.path(), TWENTY)?;
+    let cases = cases(&plan)?;
+    let run = |name: &str, threads: usize, order: &[usize]| -> concio::Result<Vec<Row>> {
+        let mut runner = Runner::open(&folder.path().join(name), &keep(), threads, &go_on)?;
+        for &i in order {
+            runner.rows(&cases[i..=i])?;
+        }
+        Ok(runner.rows(&cases)?.unwrap_or_default())
+    };
+    let alone = run("one", 1, &[])?;
+    assert_eq!(alone.len(), 20);
+    assert!(alone.iter().all(|r| r.end == End::Completed && r.number("top_work").is_some_and(|w| w > 0.0)));
+    let ids: HashSet<&String> = alone.iter().map(|r| &r.id).collect();
+    assert_eq!(ids.len(), 20);
+    for (name, threads, order) in [("two", 2, &[][..]), ("five", 5, &[7, 3, 19][..])] {
+        let other = run(name, threads, order)?;
+        // As text, in which every digit stands.
+        assert_eq!(serde_json::to_string(&other)?, serde_json::to_string(&alone)?, "{name}");
+    }
+    // Shards in one folder.
+    for share in [2, 0, 1] {
+        let mut runner = Runner::open(&folder.path().join("shards"), &keep(), 1, &go_on)?;
+        let mine: Vec<Case> = cases.iter().skip(share).step_by(3).cloned().collect();
+        runner.rows(&mine)?;
+    }
+    let together = run("shards", 1, &[])?;
+    assert_eq!(serde_json::to_string(&together)?, serde_json::to_string(&alone)?);
+    assert_eq!(fs::read_dir(folder.path().join("shards/runs"))?.count(), 3, "the last call had nothing to run");
+    Ok(())
+}
+
+#[test]
+fn what_is_known_is_not_run_again_unless_more_is_kept() -> Anyhow {
+    static RUNS: AtomicUsize = AtomicUsize::new(0);
+    fn counted(
+        jobs: &[Job],
+        threads: usize,
+        watch: &(dyn Fn(Standing) -> Control + Sync),
+        keep: &(dyn Fn(usize, concio::Result<Outcome>) + Sync),
+    ) {
+        RUNS.fetch_add(jobs.len(), Ordering::Relaxed);
+        simulate_each(jobs, threads, watch, keep);
+    }
+    let folder = tempfile::tempdir()?;
+    let plan = plan(folder.path(), TWENTY)?;
+    let cases = cases(&plan)?;
+    let out = folder.path().join("out");
+    // The same wall twice in one call is one run.
+    let doubled: Vec<Case> = cases.iter().chain(&cases).cloned().collect();
+    let rows = Runner::open(&out, &Keep::default(), 2, &go_on)?.solved_by(counted).rows(&doubled)?;
+    assert_eq!(rows.map(|r| r.len()), Some(40));
+    assert_eq!(RUNS.load(Ordering::Relaxed), 20);
+    Runner::open(&out, &Keep::default(), 2, &go_on)?.solved_by(counted).rows(&cases)?;
+    assert_eq!(RUNS.load(Ordering::Relaxed), 20);
+    let rows = Runner::open(&out, &keep(), 2, &go_on)?.solved_by(counted).rows(&cases)?.unwrap_or_default();
+    assert_eq!(RUNS.load(Ordering::Relaxed), 40);
+    assert!(rows.iter().all(|r| r.joints.len() == 2));
+    let results = Keep { joints: Vec::new(), results: true };
+    Runner::open(&out, &results, 2, &go_on)?.solved_by(counted).rows(&cases[..2])?;
+    assert_eq!(RUNS.load(Ordering::Relaxed), 42);
+    assert_eq!(fs::read_dir(out.join("results"))?.count(), 2);
+    Ok(())
+}
+
+#[test]
+fn a_run_that_panics_is_recorded_and_the_others_go_on() -> Anyhow {
+    /// Panics, in the middle of others, over the run with the largest top load.
+    fn panicking(
+        jobs: &[Job],
+        threads: usize,
+        watch: &(dyn Fn(Standing) -> Control + Sync),
+        keep: &(dyn Fn(usize, concio::Result<Outcome>) + Sync),
+    ) {
+        let bad = |job: &Job| job.model.rubs.iter().any(|r| r.normal[0] > 7e3);
+        if let Some(place) = jobs.iter().position(bad) {
+            simulate_each(&jobs[..place], threads, watch, keep);
+            panic!("one too heavy");
+        }
+        simulate_each(jobs, threads, watch, keep);
+    }
+    let folder = tempfile::tempdir()?;
+    let text = TWENTY.replace("runs = 20", "runs = 6");
+    let text = text.split("[[vary]]").take(2).collect::<Vec<_>>().join("[[vary]]")
+        + "[[vary]]\npath = \"load.top\"\nvalues = [\"10 kN/m\", \"60 kN/m\"]\n";
+    let plan = plan(folder.path(), &text)?;
+    let cases = cases(&plan)?;
+    let out = folder.path().join("out");
+    let rows = Runner::open(&out, &keep(), 1, &go_on)?.solved_by(panicking).rows(&cases)?.unwrap_or_default();
+    let failed: Vec<&Row> = rows.iter().filter(|r| r.end == End::Failed).collect();
+    assert_eq!((rows.len(), failed.len()), (6, 3));
+    assert!(failed.iter().all(|r| r.cause.as_deref() == Some("panicked: one too heavy")));
+    assert!(rows.iter().filter(|r| r.end == End::Completed).all(|r| r.number("steps").is_some()));
+    Ok(())
+}
+
+#[test]
+fn a_stopped_study_goes_on_where_it_was() -> Anyhow {
+    let folder = tempfile::tempdir()?;
+    let mut cases = cases(&plan(folder.path(), TWENTY)?)?;
+    // Long enough for several looks.
+    for case in &mut cases {
+        case.motion.duration = Some(concio::quantity::Time::from_si(0.4));
+    }
+    let out = folder.path().join("out");
+    let stop = |progress: &Progress| if progress.share > 0.3 { Control::Stop } else { Control::Continue };
+    let mut calls = 0;
+    loop {
+        let before = concio_study::store::Store::open(&out)?.len();
+        let ended = if calls == 0 {
+            Runner::open(&out, &keep(), 1, &stop)?.rows(&cases)?
+        } else {
+            Runner::open(&out, &keep(), 1, &go_on)?.rows(&cases)?
+        };
+        calls += 1;
+        match ended {
+            // What was done before the stop is there.
+            None => assert!(concio_study::store::Store::open(&out)?.len() >= before),
+            Some(rows) => {
+                let whole = Runner::open(&folder.path().join("whole"), &keep(), 1, &go_on)?.rows(&cases)?;
+                assert_eq!(Some(rows), whole);
+                break;
+            }
+        }
+    }
+    assert_eq!(calls, 2, "the first call was not stopped");
+    Ok(())
+}
+
+#[test]
+fn an_id_knows_the_content_of_records_and_not_their_place() -> Anyhow {
+    let folder = tempfile::tempdir()?;
+    let record = |scale: f64| (0..200).map(|i| format!("{}\n", scale * (0.1 * f64::from(i)).sin())).collect::<String>();
+    for (name, scale) in [("a.txt", 1.0), ("b.txt", 1.0), ("c.txt", 2.0)] {
+        fs::write(folder.path().join(name), record(scale))?;
+    }
+    let study = |name: &str| {
+        format!(
+            "wall = \"wall.toml\"\n[[motion]]\nname = \"x\"\nbase = {{ record = \"{name}\", units = \"m/s2\", dt = 0.005 }}\n"
+        )
+    };
+    let id = |name: &str| -> concio::Result<String> {
+        let plan = plan(folder.path(), &study(name))?;
+        plan.id(&plan.case(0)?)
+    };
+    assert_eq!(id("a.txt")?, id("b.txt")?);
+    assert_ne!(id("a.txt")?, id("c.txt")?);
+    Ok(())
+}
+
+#[test]
+fn every_factor_reaches_the_wall() -> Anyhow {
+    let folder = tempfile::tempdir()?;
+    let text = r#"
+wall = "wall.toml"
+scales = [1.0, 2.0]
+[[vary]]
+name = "texture"
+choices = [
+  { name = "as it is" },
+  { name = "stack", set = { "panel[0].bond" = "stack", "panel[0].courses" = 4 } },
+]
+[[vary]]
+path = "panel[*].brick.length"
+from = "200 mm"
+to = "300 mm"
+count = 3
+[[motion]]
+name = "sine"
+base = { sine = { acceleration = "0.2 g", frequency = "3 Hz" } }
+duration = "30 ms"
+"#;
+    let plan = plan(folder.path(), text)?;
+    assert_eq!(plan.points.len(), 2 * 3 * 2);
+    let mut seen = HashSet::new();
+    for number in 0..plan.points.len() {
+        let case = plan.case(number)?;
+        let labels = plan.labels(number);
+        let stack = labels[0] == "stack";
+        assert_eq!(case.panels[0].courses, Some(if stack { 4 } else { 3 }));
+        let length = case.panels[0].brick.length.si();
+        assert!(
+            labels[1].as_str().is_some_and(|l| l.starts_with(&format!("{:?}", 1e3 * length))),
+            "{labels:?} {length}"
+        );
+        let concio::case::Signal::Sine(sine) = &case.motion.base else { panic!("another motion") };
+        let acceleration = sine.acceleration.map_or(0.0, |a| a.si());
+        let scale = labels[3].as_f64().unwrap_or(0.0);
+        assert!((acceleration - 0.2 * 9.80665 * scale).abs() < 0.01 * acceleration, "{acceleration} at {scale}");
+        assert_eq!(case.motion.duration.map(|d| d.si()), Some(0.03));
+        seen.insert(plan.id(&case)?);
+    }
+    assert_eq!(seen.len(), plan.points.len());
+    Ok(())
+}
+
+/// What is wrong, where, and what is allowed.
+#[test]
+fn wrong_study_files() {
+    let cases: &[(&str, &str, usize)] = &[
+        ("wall = \"none.toml\"", "there is no file", 1),
+        ("wall = \"wall.toml\"\ncolour = 1", "unknown key", 2),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"joint.frction.static\"\nvalues = [1]", "unknown key", 4),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"panel[7].bricks\"\nvalues = [1]", "1 elements", 4),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = []", "it is empty", 2),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = [1]\nfrom = 1\nto = 2", "contradict", 5),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = [\"10 kg\"]", "not a unit", 4),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nfrom = 1\nto = 2", "no values for a grid", 2),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nfrom = 2\nto = 1\ncount = 3", "does not lie above", 5),
+        (
+            "wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nfrom = \"1 N/m\"\nto = \"2 kN/m\"\ncount = 2",
+            "its unit",
+            5,
+        ),
+        (
+            "wall = \"wall.toml\"\n[design]\nkind = \"random\"\n[[vary]]\npath = \"load.top\"\nfrom = 1\nto = 2",
+            "this design needs it",
+            2,
+        ),
+        (
+            "wall = \"wall.toml\"\n[design]\nkind = \"morris\"\nruns = 2\nlevels = 5\n[[vary]]\npath = \"load.top\"\nfrom = 1\nto = 2",
+            "out of range",
+            5,
+        ),
+        (
+            "wall = \"wall.toml\"\n[design]\nkind = \"list\"\n[[vary]]\npath = \"load.top\"\nvalues = [1, 2]\n[[vary]]\npath = \"panel[0].courses\"\nvalues = [3]",
+            "equally many",
+            7,
+        ),
+        ("wall = \"wall.toml\"\n[[motion]]\nname = \"x\"\nbase = { record = \"gone.at2\" }", "there is no file", 4),
+        ("wall = \"wall.toml\"\nscales = [1, 0]", "out of range", 2),
+        (
+            "wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\ndistribution = { law = \"normal\", mean = 1, deviation = 0 }\n[design]\nkind = \"random\"\nruns = 3",
+            "make no distribution",
+            4,
+        ),
+        (
+            "wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\ndistribution = { law = \"uniform\", low = 1, high = 2, mean = 1 }",
+            "no meaning for this law",
+            4,
+        ),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"joint.friction.static\"\nvalues = [0.1]", "dynamic", 2),
+    ];
+    for (text, says, line) in cases {
+        let folder = tempfile::tempdir().expect("a folder");
+        let all = || -> concio::Result<()> {
+            let plan = plan(folder.path(), text)?;
+            (0..plan.points.len()).try_for_each(|i| plan.case(i).map(drop))
+        };
+        match all() {
+            Ok(()) => panic!("taken: {text}"),
+            Err(concio::Error::Input(e)) => {
+                let said = e.to_string();
+                assert!(said.contains(says), "{text}\n  says: {said}");
+                assert!(e.file.as_ref().is_some_and(|f| f.ends_with("study.toml")), "{text}: {said}");
+                assert_eq!(e.line, Some(*line), "{text}: {said}");
+            }
+            Err(other) => panic!("{text}: {other}"),
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! What a user should know of a run that has ended before believing it.
+
+use crate::case::JointKind;
+use crate::graph;
+use crate::model::Model;
+use crate::outcome::Outcome;
+use crate::store::{JointRow, residual_relative};
+
+/// Relative displacement of a joint, as a fraction of its overlap, from which its geometry should not be taken as
+/// unchanged any more.
+const LARGE_SLIP: f64 = 0.1;
+/// Friction work of joints that never slip, over the largest energy in play, that could be taken for damage.
+const NOTICEABLE_CREEP: f64 = 0.05;
+/// Residual of the energy account over the largest work beyond which a result should not be used.
+const LARGE_RESIDUAL: f64 = 1e-3;
+
+/// One sentence each, the gravest first.
+pub(super) fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<String> {
+    [unbalanced(outcome), large_slips(model, outcome), creep(joints, outcome)].into_iter().flatten().collect()
+}
+
+/// A residual that is not a number is the stop reason's to tell.
+fn unbalanced(outcome: &Outcome) -> Option<String> {
+    let residual = residual_relative(outcome);
+    (residual > LARGE_RESIDUAL).then(|| {
+        format!(
+            "the energy account is off by {:.2} % of the largest work, more than 0.1 %: do not use the result, lower \
+             solver.tolerance",
+            100.0 * residual
+        )
+    })
+}
+
+/// The model keeps its joints as they were laid: says where that ceases to be a fair picture.
+fn large_slips(model: &Model, outcome: &Outcome) -> Option<String> {
+    let ratio = |e: usize| outcome.envelopes.joint_displacement[e] / model.joints[e].overlap;
+    let bed = |e: &usize| matches!(model.joints[*e].kind, JointKind::Bed);
+    let worst = (0..model.joints.len()).filter(bed).max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
+    (ratio(worst) > LARGE_SLIP).then(|| {
+        format!(
+            "joint {} slid by {:.0} % of its overlap: overlaps and loads are kept as laid, so do not trust the result \
+             beyond this",
+            graph::name(&model.wall, &model.joints[worst]),
+            100.0 * ratio(worst)
+        )
+    })
+}
+
+/// Whether friction did work although no joint with friction ever passed its slip velocity: creep of the regularised law.
+pub fn only_creeps(joints: &[JointRow], outcome: &Outcome) -> bool {
+    let mut laws =
+        joints.iter().zip(&outcome.envelopes.joint_velocity).filter_map(|(j, v)| j.friction.map(|f| (f, *v)));
+    outcome.energies.friction > 0.0 && laws.all(|(law, velocity)| velocity <= law.creeps_below())
+}
+
+/// Says that friction work is no sign of damage, where there is enough of it to be taken for one.
+fn creep(joints: &[JointRow], outcome: &Outcome) -> Option<String> {
+    let most = outcome.totals.peak_input.max(outcome.energies.initial.abs());
+    let friction = outcome.energies.friction;
+    (friction > NOTICEABLE_CREEP * most && only_creeps(joints, outcome)).then(|| {
+        format!(
+            "no joint slipped: the friction work, {:.0} % of the largest work, is creep of the regularised law",
+            100.0 * friction / most
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Scheme, Solver};
+    use crate::excitation::Excitation;
+    use crate::ground::signal::GroundMotion;
+    use crate::samples::{Link, lumped, solver};
+    use crate::simulate::{Sampling, Simulation};
+    use crate::wall::End;
+
+    /// A mass that swings on a spring, solved with far too loose a tolerance and with a fair one.
+    #[test]
+    fn an_account_that_does_not_close_is_warned_of() {
+        let model =
+            lumped(&[10.0], &[Link::spring(0, End::Base, 1e5, 0.0)], Excitation::of_base(GroundMotion::AtRest, 2.0));
+        let warned = |solver: Solver| {
+            let sampling = Sampling { interval: 2.0, frame_every: 0, blocks: Vec::new(), joints: Vec::new() };
+            let mut run = Simulation::new(&model, &solver, &sampling).unwrap();
+            run.start_from(&[0.0], &[1.0]);
+            let (rows, reason) = run.run_to_end();
+            let outcome = run.outcome(rows, reason);
+            let rows = crate::run::joint_rows(&model);
+            (residual_relative(&outcome), of(&model, &rows, &outcome))
+        };
+        let (residual, told) = warned(solver(Scheme::TrBdf2, 0.5));
+        assert!(residual > LARGE_RESIDUAL && told.len() == 1, "{residual}: {told:?}");
+        assert!(told[0].contains(&format!("{:.2} % of the largest work", 100.0 * residual)), "{told:?}");
+        let (residual, told) = warned(solver(Scheme::TrBdf2, 1e-5));
+        assert!(residual < LARGE_RESIDUAL && told.is_empty(), "{residual}: {told:?}");
+    }
+}

@@ -1,0 +1,20 @@
+//! Wall files as texts.
+
+use std::path::Path;
+
+use concio::case::{Case, Syntax, from_str};
+use concio::run::{Prepared, prepare};
+
+/// A wall file made ready to run.
+pub fn ready(text: &str) -> Prepared {
+    edited(text, |_| {})
+}
+
+/// The same with changes that the text does not make.
+pub fn edited(text: &str, edit: impl FnOnce(&mut Case)) -> Prepared {
+    let file = from_str(text, Syntax::Toml, None).unwrap();
+    file.validate().unwrap();
+    let mut case = file.case.clone();
+    edit(&mut case);
+    prepare(case, Path::new("")).unwrap()
+}
