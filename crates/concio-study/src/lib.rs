@@ -8,15 +8,20 @@
 //! run under its id, so nothing is ever run twice: a study that is taken up again, a shard, a search that asks for a
 //! wall it has seen before all read the store first.
 
+pub mod crack_lines;
 pub mod design;
 pub mod factors;
 pub mod file;
+pub mod first_crack;
+pub mod limits;
 pub mod measures;
 pub mod motions;
 pub mod plan;
 pub mod runner;
+pub mod shaking;
 pub mod store;
 pub mod table;
+pub mod until;
 
 pub use file::StudyFile;
 pub use plan::Plan;
