@@ -19,7 +19,7 @@ use crate::limits::{Criterion, Limits, Rule};
 use crate::measures::{End, Row};
 use crate::motions;
 use crate::runner::Runner;
-use crate::shaking::{Shaking, first_period};
+use crate::shaking::{Mode, Shaking, first_mode};
 
 /// Acceleration of the first run [m/s²], 0.01 g: walls stand that.
 const START: f64 = 0.01 * concio::G;
@@ -52,7 +52,7 @@ pub struct FirstCrackInput {
     pub interval: f64,
     /// How many lower scales are tried besides, 0 … 100; default 3.
     pub checks: usize,
-    /// Periods of the spectral accelerations that are told beside that of the wall's own first period [s], above 0;
+    /// Periods of the spectral accelerations that are told beside those at the wall's own first period [s], above 0;
     /// default 0.1, 0.2 and 0.5 s.
     pub periods: Vec<Time>,
 }
@@ -155,10 +155,8 @@ pub struct Answer {
     pub name: String,
     /// The motion at factor 1.
     pub shaking: Shaking,
-    /// First elastic period of the wall [s].
-    pub period: Option<f64>,
-    /// Sa at that period [m/s²], at factor 1.
-    pub at_period: Option<f64>,
+    /// First mode of the intact wall.
+    pub mode: Option<Mode>,
     /// All runs, by rising factor.
     pub trials: Vec<Trial>,
     /// Place in `trials` of the run below the crack, and of that with it.
@@ -282,8 +280,7 @@ struct Seek<'a> {
     limits: Option<Limits>,
     joints: Vec<(String, &'static str)>,
     shaking: Shaking,
-    period: Option<f64>,
-    at_period: Option<f64>,
+    mode: Option<Mode>,
     /// By rising factor.
     trials: Vec<Trial>,
     rounds: usize,
@@ -294,10 +291,8 @@ impl<'a> Seek<'a> {
     fn new(question: &'a Question, subject: &'a Subject) -> Result<Self> {
         let prepared = prepare(subject.case.clone(), Path::new(""))?;
         let model = &prepared.model;
-        let period = first_period(model);
-        let periods: Vec<f64> = question.periods.iter().copied().chain(period).collect();
-        let mut shaking = Shaking::of(&model.excitation, &periods);
-        let at_period = period.and_then(|_| shaking.sa.pop());
+        let mode = first_mode(model);
+        let shaking = Shaking::of(&model.excitation, &question.periods, mode);
         let joint = |j| (concio::graph::name(&model.wall, j), kind_name(j.kind));
         Ok(Seek {
             question,
@@ -307,8 +302,7 @@ impl<'a> Seek<'a> {
             joints: model.joints.iter().map(joint).collect(),
             cause: (shaking.pga == 0.0).then(|| "the base does not accelerate during the run".into()),
             shaking,
-            period,
-            at_period,
+            mode,
             trials: Vec::new(),
             rounds: 0,
         })
@@ -422,8 +416,7 @@ impl<'a> Seek<'a> {
         Answer {
             name: self.name.to_string(),
             shaking: self.shaking,
-            period: self.period,
-            at_period: self.at_period,
+            mode: self.mode,
             trials: self.trials,
             ends,
             checked,
@@ -444,5 +437,99 @@ fn kind_name(kind: JointKind) -> &'static str {
         JointKind::Base => "base",
         JointKind::Top => "top",
         JointKind::Connection => "connection",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measures::MEASURES;
+
+    const LIMIT: f64 = 1e-4;
+
+    fn subject() -> Result<Subject> {
+        Ok(Subject { name: "example".into(), case: concio::case::example()?.case })
+    }
+
+    /// What a run would leave whose largest demand over limit is `utilisation`.
+    fn row(utilisation: f64) -> Row {
+        let mut row = Row::failed("", "");
+        (row.end, row.cause) = (End::Completed, None);
+        row.numbers = vec![Some(1.0); MEASURES.len()];
+        row.joints.insert(PerJoint::Displacement, vec![Some(utilisation * LIMIT)]);
+        row
+    }
+
+    /// The answer for a wall whose demand over limit at a factor is `response`, and how many sets of runs it took.
+    fn sought(response: impl Fn(f64) -> f64, interval: f64) -> Result<(Answer, usize)> {
+        let rule = Rule::new(Criterion::Slip, Some(LIMIT));
+        let question = Question { rule, interval, checks: 3, periods: Vec::new() };
+        let subject = subject()?;
+        let mut seek = Seek::new(&question, &subject)?;
+        loop {
+            let scales = seek.proposals();
+            if scales.is_empty() {
+                let rounds = seek.rounds;
+                return Ok((seek.answer(), rounds));
+            }
+            for scale in scales {
+                seek.learn(scale, &row(response(scale)));
+            }
+        }
+    }
+
+    fn crack(answer: &Answer, interval: f64) -> f64 {
+        let (below, crack) = (answer.below().expect("a run below"), answer.crack().expect("a crack"));
+        assert!(crack.scale <= below.scale * (1.0 + interval), "{below:?} {crack:?}");
+        crack.scale
+    }
+
+    #[test]
+    fn any_growth_is_enclosed_and_a_power_law_at_once() -> Result<()> {
+        for (power, most) in [(1.0, 5), (2.0, 6), (0.5, 7), (5.0, 9)] {
+            let (answer, rounds) = sought(|s| (s / 3.0f64).powf(power), 1e-3)?;
+            assert!((crack(&answer, 1e-3) / 3.0 - 1.0).abs() < 1.1e-3, "power {power}");
+            assert!(rounds <= most, "power {power}: {rounds} sets of runs");
+            assert!(answer.checked.len() >= 3 && answer.uncracked_above().is_empty());
+        }
+        // A demand that leaps: nothing announces it.
+        let (answer, rounds) = sought(|s| if s < 0.7 { 1e-3 * s } else { 50.0 }, 1e-3)?;
+        assert!((crack(&answer, 1e-3) / 0.7 - 1.0).abs() < 1.1e-3 && rounds < 20, "{rounds} sets of runs");
+        Ok(())
+    }
+
+    /// An island of cracks below the crossing, wide enough for one of the lower factors to meet it.
+    #[test]
+    fn cracks_at_lower_factors_are_found_and_followed_down() -> Result<()> {
+        let island = |s: f64| if (0.9..1.2).contains(&s) { 1.5 } else { s / 2.0 };
+        let (answer, _) = sought(island, 0.01)?;
+        assert!((crack(&answer, 0.01) / 0.9 - 1.0).abs() < 0.011, "{:?}", answer.crack());
+        assert!(!answer.uncracked_above().is_empty());
+        Ok(())
+    }
+
+    #[test]
+    fn a_wall_that_nothing_cracks_has_no_end_above() -> Result<()> {
+        let (answer, _) = sought(|_| 0.0, 0.01)?;
+        assert!(answer.crack().is_none() && answer.cause.is_none());
+        let below = answer.below().expect("runs").scale * answer.shaking.pga;
+        assert!((below / MOST - 1.0).abs() < 1e-6, "{below}");
+        // And one that cracks whatever the factor ends with a cause.
+        let (answer, rounds) = sought(|_| 2.0, 0.01)?;
+        assert!(answer.below().is_none() && answer.cause.is_some() && rounds > ROUNDS);
+        Ok(())
+    }
+
+    #[test]
+    fn a_run_that_fails_ends_its_search_with_its_cause() -> Result<()> {
+        let rule = Rule::new(Criterion::Slip, None);
+        let question = Question { rule, interval: 0.01, checks: 0, periods: Vec::new() };
+        let subject = subject()?;
+        let mut seek = Seek::new(&question, &subject)?;
+        let scale = seek.proposals()[0];
+        seek.learn(scale, &Row::failed("", "the step became too short"));
+        assert!(seek.proposals().is_empty());
+        assert!(seek.answer().cause.is_some_and(|c| c.contains("too short")));
+        Ok(())
     }
 }

@@ -113,8 +113,8 @@ fn write(request: &Request, answers: &[Answer]) -> Result<PathBuf, Failure> {
         text: words(question, answers),
         figures: figure(answers).into_iter().map(|drawing| Figure {
             name: "first-crack".into(),
-            caption: "First crack by motion: factor on the motion, its peak acceleration, and the spectral acceleration at the \
-                      wall's first period. The dark end of a bar is the interval between two runs.".into(),
+            caption: "First crack by motion: factor on the motion, its peak acceleration, and the spectral acceleration of the \
+                      wall's first mode. The dark end of a bar is the interval between two runs.".into(),
             drawing,
         }).collect(),
         tables: vec![("First cracks".into(), summary), ("All runs".into(), runs)],
@@ -144,8 +144,10 @@ fn summary(question: &Question, answers: &[Answer]) -> Table {
     table.numbers("pga_below", "m/s²", number(&|a| Some(a.below()?.scale * a.shaking.pga)));
     table.numbers("pga", "m/s²", at_crack(|a| Some(a.shaking.pga)));
     table.numbers("pgv", "m/s", at_crack(|a| Some(a.shaking.pgv)));
-    table.numbers("period", "s", number(&|a| a.period));
-    table.numbers("sa_period", "m/s²", at_crack(|a| a.at_period));
+    table.numbers("period", "s", number(&|a| Some(a.mode?.period)));
+    table.numbers("damping", "", number(&|a| Some(a.mode?.damping)));
+    table.numbers("sa_period", "m/s²", at_crack(|a| a.shaking.at_first));
+    table.numbers("sa_period_damped", "m/s²", at_crack(|a| a.shaking.at_first_damped));
     for (k, period) in question.periods.iter().enumerate() {
         let at = number(&|a| Some(a.crack()?.scale * a.shaking.sa.get(k)?));
         table.numbers(format!("sa_{period}s"), "m/s²", at);
@@ -185,8 +187,10 @@ fn json(request: &Request, answers: &[Answer]) -> Value {
             "pga": between(a.shaking.pga),
             "pgv": between(a.shaking.pgv),
             "sa": a.shaking.sa.iter().map(|s| times(*s)).collect::<Vec<_>>(),
-            "period": a.period,
-            "sa_period": a.at_period.and_then(times),
+            "period": a.mode.map(|m| m.period),
+            "damping": a.mode.map(|m| m.damping),
+            "sa_period": a.shaking.at_first.and_then(times),
+            "sa_period_damped": a.shaking.at_first_damped.and_then(times),
             "joint": a.crack().map(|t| &t.joint),
             "kind": a.crack().map(|t| t.kind),
             "time": a.crack().and_then(|t| t.time),
@@ -203,7 +207,7 @@ fn json(request: &Request, answers: &[Answer]) -> Value {
         "checks": question.checks,
         "periods": question.periods,
         "damping": concio_study::shaking::DAMPING,
-        "units": "SI; scale, PGA, PGV: [run without a crack, run with the first crack]; Sa at the latter",
+        "units": "SI; scale, PGA, PGV: [run without a crack, run with the first crack]; Sa at the latter, of 5 % damping, damped: of the first mode's",
         "version": env!("CARGO_PKG_VERSION"),
         "motions": answers.iter().map(one).collect::<Vec<_>>(),
     })
@@ -211,7 +215,8 @@ fn json(request: &Request, answers: &[Answer]) -> Value {
 
 /// The table on the terminal.
 fn lines(question: &Question, answers: &[Answer]) -> String {
-    let heading = ["motion", "scale", "PGA", "PGV", "Sa(T1)", "joint", "at", "runs"].map(str::to_string).to_vec();
+    let heading =
+        ["motion", "scale", "PGA", "PGV", "Sa(T1)", "Sa(T1, ζ1)", "joint", "at", "runs"].map(str::to_string).to_vec();
     let g = |a: f64| format!("{} g", significant(a / concio::G, 3));
     let line = |a: &Answer| {
         let name = a.name.clone();
@@ -222,7 +227,8 @@ fn lines(question: &Question, answers: &[Answer]) -> String {
                 format!("{} … {}", digits(below.scale, question), digits(crack.scale, question)),
                 g(crack.scale * a.shaking.pga),
                 si(crack.scale * a.shaking.pgv, "m/s"),
-                a.at_period.map_or("–".into(), |sa| g(crack.scale * sa)),
+                a.shaking.at_first.map_or("–".into(), |sa| g(crack.scale * sa)),
+                a.shaking.at_first_damped.map_or("–".into(), |sa| g(crack.scale * sa)),
                 format!("{} ({})", crack.joint, crack.kind),
                 crack.time.map_or("–".into(), |t| format!("{t:.3} s")),
                 a.trials.len().to_string(),
@@ -231,8 +237,10 @@ fn lines(question: &Question, answers: &[Answer]) -> String {
         }
     };
     let mut text = columns(&[heading].into_iter().chain(answers.iter().map(line)).collect::<Vec<_>>());
-    if let Some(period) = answers.iter().find_map(|a| a.period) {
-        text.push_str(&format!("  T1 = {}: first elastic period of the wall\n", si(period, "s")));
+    if let Some(mode) = answers.iter().find_map(|a| a.mode) {
+        let damping = significant(100.0 * mode.damping, 2);
+        let period = si(mode.period, "s");
+        text.push_str(&format!("  T1 = {period}, ζ1 = {damping} %: first mode of the wall; Sa(T1) is that of 5 %\n"));
     }
     text
 }
@@ -277,13 +285,21 @@ fn words(question: &Question, answers: &[Answer]) -> Vec<String> {
                 significant(median(&peaks) / concio::G, 3),
                 significant(dispersion(&peaks), 2)
             ));
-            let spectral: Option<Vec<f64>> = done.iter().map(|(a, t)| Some(t.scale * a.at_period?)).collect();
-            if let Some(sa) = spectral {
+            let spectral: Option<Vec<[f64; 2]>> = done
+                .iter()
+                .map(|(a, t)| Some([a.shaking.at_first?, a.shaking.at_first_damped?].map(|s| s * t.scale)))
+                .collect();
+            if let (Some(sa), Some(mode)) = (spectral, done[0].0.mode) {
+                let [of_five, own] = [0, 1].map(|k| sa.iter().map(|s| s[k]).collect::<Vec<f64>>());
                 said.push_str(&format!(
-                    "; in terms of Sa at the wall's first period of {} the median is {} g and β {}",
-                    si(done[0].0.period.unwrap_or(0.0), "s"),
-                    significant(median(&sa) / concio::G, 3),
-                    significant(dispersion(&sa), 2)
+                    "; in terms of Sa at the wall's first period of {} the median is {} g and β {} with 5 % of damping, {} g and {} \
+                     with the {} % of the wall's first mode",
+                    si(mode.period, "s"),
+                    significant(median(&of_five) / concio::G, 3),
+                    significant(dispersion(&of_five), 2),
+                    significant(median(&own) / concio::G, 3),
+                    significant(dispersion(&own), 2),
+                    significant(100.0 * mode.damping, 2)
                 ));
             }
         }
@@ -345,8 +361,9 @@ fn figure(answers: &[Answer]) -> Option<Drawing> {
         Bars { quantity: quantity.into(), unit, bars: done.iter().map(bar).collect() }
     };
     let mut all = vec![column("scale", "", &|_| Some(1.0)), column("PGA", "g", &|a| Some(a.shaking.pga / concio::G))];
-    if let Some(period) = done.iter().find_map(|(a, ..)| a.period) {
-        all.push(column(&format!("Sa({})", si(period, "s")), "g", &|a| Some(a.at_period? / concio::G)));
+    if let Some(mode) = done.iter().find_map(|(a, ..)| a.mode) {
+        let name = format!("Sa({}, {} %)", si(mode.period, "s"), significant(100.0 * mode.damping, 2));
+        all.push(column(&name, "g", &|a| Some(a.shaking.at_first_damped? / concio::G)));
     }
     let names: Vec<&str> = done.iter().map(|(a, ..)| a.name.as_str()).collect();
     Some(bars("Scale, PGA and spectral acceleration at which a first joint cracks, by motion", &names, &all))

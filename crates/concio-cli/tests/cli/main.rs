@@ -3,5 +3,6 @@
 mod commands;
 mod compare;
 mod figures;
+mod first_crack;
 mod messages;
 mod support;
