@@ -202,6 +202,10 @@ pub fn of_study(plan: &crate::Plan) -> Result<(Question, Vec<Subject>)> {
         let what = "the scale is what `first-crack` looks for";
         return Err(file.wrong("scales", what, "no `scales` beside `[first-crack]`"));
     }
+    if file.study.cracks.is_some() {
+        let what = "crack lines are counted over the study's own runs, which `first-crack` takes the place of";
+        return Err(file.wrong("cracks", what, "one of `[cracks]` and `[first-crack]`"));
+    }
     let subject = |number: usize| {
         let text = |v: serde_json::Value| v.as_str().map_or_else(|| v.to_string(), str::to_string);
         let labels = plan.labels(number).into_iter().zip(&plan.factors);

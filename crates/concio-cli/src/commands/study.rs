@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use concio::case::Case;
+use concio::case::{Beam, Case};
 use concio::run::Control;
 use concio::{InputError, Result};
 use concio_study::measures::{End, Row};
@@ -240,11 +240,11 @@ fn write(
     study::write(out, title, &facts, &sections)
 }
 
-/// Names of the joints of a case that was run: it can be laid.
+/// Names of the joints of a case that was run: it can be laid. Its motion is not made for that, which takes longer.
 fn joint_names(case: &Case) -> Vec<String> {
-    let prepared = concio::run::prepare(case.clone(), Path::new(""));
-    let names = |p: concio::run::Prepared| {
-        p.model.joints.iter().map(|j| concio::graph::name(&p.model.wall, j)).collect::<Vec<_>>()
+    let names = |wall: concio::wall::Wall| {
+        let joints = concio::graph::joints(&wall, case.load.beam != Beam::Free);
+        joints.iter().map(|j| concio::graph::name(&wall, j)).collect()
     };
-    prepared.map(names).unwrap_or_default()
+    concio::pattern::lay(case).map(names).unwrap_or_default()
 }
