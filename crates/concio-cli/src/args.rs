@@ -42,6 +42,7 @@ pub enum Command {
     Plot(Plot),
     Compare(Compare),
     Cases(Cases),
+    FirstCrack(FirstCrack),
     Study(Study),
     Completions(Completions),
     /// Print this reference as Markdown.
@@ -386,6 +387,15 @@ fn length(text: &str) -> Result<Length, String> {
     }
 }
 
+/// A length above 0 [m].
+fn limit(text: &str) -> Result<f64, String> {
+    with_unit(text, "mm")?;
+    match Length::parse(text)?.si() {
+        v if v > 0.0 && v.is_finite() => Ok(v),
+        _ => Err("allowed: above 0mm".into()),
+    }
+}
+
 fn shard(text: &str) -> Result<[usize; 2], String> {
     let wrong = || "allowed: I/N with I from 1 to N, such as 3/16".to_string();
     let (i, n) = text.split_once('/').ok_or_else(wrong)?;
@@ -518,6 +528,66 @@ pub struct Scale {
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Find the motion's scale at which a first joint cracks.
+///
+/// The wall is run under every record at growing scales until two runs enclose the crack: one without it, and one with it at
+/// most --interval above. Besides, some lower scales are tried. Told are the scale, PGA, PGV and spectral accelerations there,
+/// which joint cracks and when. A record takes the place of the wall's motion and is used whole.
+///
+/// What counts as a crack: bond, a joint reaches the strength of [joint.bond]; opening, a head joint opens by --limit; slip, the
+/// sides of a bed joint are displaced against each other by --limit. Both limits are 0.1 mm by default, the width from which cracks
+/// are seen. A study file with [first-crack] asks the same of synthetic, trimmed or reversed motions and of walls that vary.
+///
+/// Writes first-crack.csv, first-crack-runs.csv, first-crack.json, a report and its figure. Runs that the folder knows
+/// already are not done again.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio first-crack wall.toml                                       under the wall's own motion
+  concio first-crack wall.toml --records a.at2,b.v2,c.smc
+  concio first-crack wall.toml --records a.at2 --criterion opening --limit 0.3mm
+  concio first-crack wall.toml --records a.at2 --interval 0.001 --out cracks")]
+pub struct FirstCrack {
+    /// Wall file, TOML or JSON.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// Accelerograms, with commas between them; without them the wall's own motion.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_hint = ValueHint::FilePath)]
+    pub records: Vec<PathBuf>,
+    /// What counts as a crack.
+    #[arg(long, value_enum, default_value = "bond")]
+    pub criterion: CrackCriterion,
+    /// Limit of opening or slip, such as 0.3mm; default 0.1mm.
+    #[arg(long, value_name = "LENGTH", value_parser = limit)]
+    pub limit: Option<f64>,
+    /// Largest relative distance of the two scales around the crack, 1e-5 to 1.
+    #[arg(long, value_name = "PART", default_value_t = 0.01, value_parser = positive)]
+    pub interval: f64,
+    /// Lower scales that are tried besides, 0 to 100.
+    #[arg(long, value_name = "N", default_value_t = 3)]
+    pub checks: usize,
+    /// Periods of the spectral accelerations, with commas between them; default 0.1s,0.2s,0.5s.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = time)]
+    pub periods: Vec<f64>,
+    /// Threads; default one per core.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Folder of the results; default concio-first-crack/NAME, NAME being that of the wall file without its ending.
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
+}
+
+/// What counts as a crack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum CrackCriterion {
+    /// A joint reaches its strength
+    Bond,
+    /// A head joint or connection opens
+    Opening,
+    /// A bed or support joint is displaced along itself
+    Slip,
 }
 
 /// Do many runs, and answer what they answer together.

@@ -8,6 +8,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use crate::crack_lines::CracksInput;
+use crate::first_crack::FirstCrackInput;
 use crate::ida::Ida;
 use crate::motions::MotionInput;
 use crate::sensitivity::Sensitivity;
@@ -42,6 +44,12 @@ pub struct Study {
     /// Every motion at rising intensity, and the fragility.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ida: Option<Ida>,
+    /// Asks for the least scale of each motion at which a first joint cracks, instead of the study's own runs.
+    #[serde(default, rename = "first-crack", skip_serializing_if = "Option::is_none")]
+    pub first_crack: Option<FirstCrackInput>,
+    /// Asks how often and in which order joints crack over the runs, and which lines they form.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cracks: Option<CracksInput>,
 }
 
 /// How values are combined.
@@ -270,7 +278,12 @@ impl StudyFile {
     /// # Errors
     /// As [`StudyFile::read`].
     pub fn of(document: Document) -> Result<Self> {
-        let study: Study = document.to()?;
+        let mut study: Study = document.to()?;
+        if let Some(kind) = study.cracks.as_ref().map(CracksInput::keeps)
+            && !study.keep.joints.contains(&kind)
+        {
+            study.keep.joints.push(kind);
+        }
         let path = document.folder().join(&study.wall);
         if !path.is_file() {
             let error = InputError::new(format!("there is no file {}", path.display())).key("wall");

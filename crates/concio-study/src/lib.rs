@@ -8,20 +8,25 @@
 //! run under its id, so nothing is ever run twice: a study that is taken up again, a shard, a search that asks for a
 //! wall it has seen before all read the store first.
 
+pub mod crack_lines;
 pub mod design;
 pub mod factors;
 pub mod file;
 mod files;
+pub mod first_crack;
 pub mod groups;
 pub mod ida;
 pub mod intensity;
+pub mod limits;
 pub mod measures;
 pub mod motions;
 pub mod plan;
 pub mod runner;
 pub mod sensitivity;
+pub mod shaking;
 pub mod store;
 pub mod table;
+pub mod until;
 
 pub use file::StudyFile;
 pub use plan::Plan;

@@ -21,9 +21,11 @@ use rayon::prelude::*;
 
 use crate::file::{Keep, PerJoint};
 use crate::files;
+use crate::limits::Rule;
 use crate::measures::{End, Row, row};
 use crate::plan::Records;
 use crate::store::Store;
+use crate::until::simulate_until;
 
 /// Runs that are prepared together at most, and blocks in all of them: what is in memory at a time.
 const MOST_AT_ONCE: usize = 4096;
@@ -63,6 +65,7 @@ pub struct Runner<'a> {
     records: Records,
     watch: &'a (dyn Fn(&Progress) -> Control + Sync),
     solve: Solve,
+    until: Option<Rule>,
     /// Time by the clock spent inside the solver.
     pub solving: Duration,
 }
@@ -86,6 +89,7 @@ impl<'a> Runner<'a> {
             records: Records::default(),
             watch,
             solve: simulate_each,
+            until: None,
             solving: Duration::ZERO,
         })
     }
@@ -96,17 +100,27 @@ impl<'a> Runner<'a> {
         self
     }
 
+    /// Ends every run with its first crack. Such runs are known by other ids than whole ones, and keep no whole results.
+    pub fn until(mut self, rule: Rule) -> Self {
+        self.until = Some(rule);
+        self.results = false;
+        self
+    }
+
     /// What is known.
     pub fn store(&self) -> &Store {
         &self.store
     }
 
-    /// Id of a case.
+    /// Id of a case, and of where its run ends.
     ///
     /// # Errors
     /// A record that cannot be read.
     pub fn id(&self, case: &Case) -> Result<String> {
-        self.records.id(case)
+        let whole = self.records.id(case)?;
+        let Some(rule) = &self.until else { return Ok(whole) };
+        let hash = blake3::hash(format!("{whole} until {}", rule.key()).as_bytes());
+        Ok(hash.to_hex()[..32].to_string())
     }
 
     /// The row of a case, if the store has it with all that is kept.
@@ -198,7 +212,10 @@ impl<'a> Runner<'a> {
         let run = |some: &[(&str, &Prepared)], threads: usize| {
             let list: Vec<Job> = some.iter().map(|(_, p)| Job::from(*p)).collect();
             let keep = |number: usize, outcome: Result<Outcome>| desk.keep(some[number], outcome, tally);
-            catch_unwind(AssertUnwindSafe(|| (self.solve)(&list, threads, &watch, &keep)))
+            catch_unwind(AssertUnwindSafe(|| match &self.until {
+                Some(rule) => simulate_until(&list, rule, threads, &watch, &keep),
+                None => (self.solve)(&list, threads, &watch, &keep),
+            }))
         };
         if run(jobs, self.threads).is_err() {
             for job in jobs {

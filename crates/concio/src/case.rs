@@ -690,7 +690,7 @@ pub enum Signal {
 }
 
 /// An accelerogram or displacement history from a file, and what is done to it, in this order:
-/// trim, baseline, resample, scale.
+/// trim, reverse, baseline, resample, scale.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RecordInput {
@@ -710,6 +710,9 @@ pub struct RecordInput {
     /// Keep this interval of the record [s]: `[from, to]`, from 0, in this order; it starts at t = 0 then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub trim: Option<[Time; 2]>,
+    /// Play it backwards: the last sample first; default false.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub reverse: bool,
     /// New sample interval [s], above 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub resample: Option<Time>,

@@ -266,9 +266,10 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
     }
     for rub in &model.rubs {
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
-        let w = (state.v[a] - state.v[b]).abs();
-        if w > if rub.law.sticks() { 0.0 } else { rub.law.slip_velocity } {
-            env.joint_slip[rub.joint as usize] += h * w;
+        let fastest = (state.v[a] - state.v[b]).abs().max((v_0[a] - v_0[b]).abs());
+        // At an impact velocities jump and nothing moves.
+        if h > 0.0 && fastest > if rub.law.sticks() { 0.0 } else { rub.law.slip_velocity } {
+            env.joint_slip[rub.joint as usize] += ((state.z[a] - state.z[b]) - (z_0[a] - z_0[b])).abs();
         }
     }
     for (bond, held) in model.bonds.iter().zip(&mut state.bonds) {

@@ -193,7 +193,7 @@ pub struct Envelopes {
     pub joint_velocity: Vec<f64>,
     /// Per joint: |relative acceleration| [m/s²].
     pub joint_acceleration: Vec<f64>,
-    /// Per joint: slip [m], ∫|v| dt over the time in which |v| > δ_v (0 for joints without friction).
+    /// Per joint: slip path [m], summed over the steps in which |v| exceeds δ_v at an end (0 for joints without friction).
     pub joint_slip: Vec<f64>,
     /// Per joint: widest gap of a head joint or connection [m], from 0 (0 for the others).
     pub joint_opening: Vec<f64>,

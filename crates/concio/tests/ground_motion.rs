@@ -31,6 +31,7 @@ fn input() -> RecordInput {
         scale: None,
         pga: None,
         trim: None,
+        reverse: false,
         resample: None,
         baseline: Baseline::None,
         quantity: HistoryQuantity::Acceleration,
@@ -187,6 +188,36 @@ fn steps_run_in_their_order() {
     let doubled = prepare(raw.clone(), &RecordInput { scale: Some(-2.0), ..input() }).unwrap();
     assert!(doubled.acceleration.iter().zip(&raw.acceleration).all(|(b, a)| *b == -2.0 * a));
     assert_eq!(prepare(raw.clone(), &input()).unwrap(), raw);
+}
+
+/// a(T − t): twice is the record again, peaks and Arias intensity are those of the record, the kept interval is chosen
+/// before; a displacement history runs back along its own path.
+#[test]
+fn reversed_records_run_backwards() {
+    let raw = record(0.01, 1001, |t| (1.0 + t) * (2.0 * PI * 1.5 * t).sin());
+    let backwards = RecordInput { reverse: true, ..input() };
+    let done = prepare(raw.clone(), &backwards).unwrap();
+    assert!(done.acceleration.iter().zip(raw.acceleration.iter().rev()).all(|(b, a)| b == a));
+    assert_eq!(prepare(done.clone(), &backwards).unwrap(), raw);
+    let (m, n) = (measure(&raw), measure(&done));
+    assert_eq!(m.pga.value, n.pga.value);
+    assert_close(n.arias, m.arias, 1e-12);
+    let kept = RecordInput { trim: Some([seconds(2.0), seconds(8.0)]), ..backwards.clone() };
+    let kept = prepare(raw.clone(), &kept).unwrap();
+    assert_eq!((kept.npts(), kept.acceleration[0]), (601, raw.acceleration[800]));
+    let rows: String = (0..=100).map(|k| format!("{:.2},{:.9}\n", 0.01 * k as f64, (0.05 * k as f64).sin())).collect();
+    let options = TextOptions { quantity: HistoryQuantity::Displacement, ..TextOptions::default() };
+    let path = parse(format!("t [s], u [mm]\n{rows}").as_bytes(), Path::new("file"), &options).unwrap().swap_remove(0);
+    let back = prepare(path.clone(), &backwards).unwrap();
+    let (there, home) = (from_record(&path), from_record(&back));
+    let whole = path.displacement.as_ref().unwrap()[100];
+    for t in [0.0, 0.123, 0.5, 0.77] {
+        // Displacements count from where a motion starts.
+        assert!(
+            (home.at(1.0 - t).u + whole - there.at(t).u - path.displacement.as_ref().unwrap()[0]).abs() < 1e-12,
+            "{t}"
+        );
+    }
 }
 
 #[test]

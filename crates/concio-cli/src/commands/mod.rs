@@ -11,6 +11,7 @@ mod check;
 mod compare;
 mod completions;
 mod export;
+mod first_crack;
 mod new;
 mod plot;
 mod record;
@@ -27,6 +28,7 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
     match command {
         Command::Run(args) => return run::run(&args),
         Command::Cases(args) => return cases::cases(&args),
+        Command::FirstCrack(args) => return first_crack::first_crack(&args),
         Command::Study(args) => return study::run_command(&args.what),
         Command::Check(args) => check::check(&args),
         Command::Compare(args) => compare::compare(&args),

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use concio::case::Case;
+use concio::case::{Beam, Case};
 use concio::run::Control;
 use concio::{InputError, Result};
 use concio_study::measures::{End, Row};
 use concio_study::runner::{Progress, Runner};
 use concio_study::store::Store;
-use concio_study::{Plan, file, table};
+use concio_study::{Plan, file, first_crack, table};
 use rayon::prelude::*;
 
 use super::run::refuse_a_file;
@@ -17,6 +17,7 @@ use crate::args::{StudyCheck, StudyCommand, StudyPlace, StudyRun};
 use crate::failure::{Failure, STOPPED};
 use crate::format::{columns, pairs};
 use crate::progress::Runs;
+use crate::study::first_crack::{Do, Request};
 use crate::{files, stop, study};
 
 /// Runs that a listing of failures names at most.
@@ -36,7 +37,7 @@ pub fn run_command(command: &StudyCommand) -> std::result::Result<ExitCode, Fail
             run(args)
         }
         StudyCommand::Status(place) => status(place),
-        StudyCommand::Report(place) | StudyCommand::Export(place) => export(place).map(|()| ExitCode::SUCCESS),
+        StudyCommand::Report(place) | StudyCommand::Export(place) => export(place),
         StudyCommand::Schema(_) => {
             let text = serde_json::to_string_pretty(&file::schema());
             files::print(&(text.map_err(|e| Failure::Other(e.to_string(), None))? + "\n")).map(|()| ExitCode::SUCCESS)
@@ -50,8 +51,11 @@ fn folder(place: &StudyPlace) -> PathBuf {
     place.out.clone().unwrap_or_else(|| Path::new("concio-study").join(name))
 }
 
-/// All runs of a plan, complete and valid, with their ids.
+/// All runs of a plan, complete and valid, with their ids; what is asked of them has a meaning.
 fn cases(plan: &Plan) -> Result<Vec<(String, Case)>> {
+    if let Some(cracks) = &plan.file.study.cracks {
+        cracks.check(plan)?;
+    }
     let numbers = 0..plan.points.len();
     let one = |number: usize| plan.case(number).and_then(|case| Ok((plan.id(&case)?, case)));
     // The first that is wrong is told, whatever thread comes to it first.
@@ -61,6 +65,11 @@ fn cases(plan: &Plan) -> Result<Vec<(String, Case)>> {
 fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
     let plan = Plan::read(&args.place.file)?;
     let cases = cases(&plan)?;
+    if plan.file.study.first_crack.is_some() {
+        let (question, subjects) = first_crack::of_study(&plan)?;
+        let asks = format!("first cracking ({}) under {} motions", question.rule.criterion.name(), subjects.len());
+        return files::print(&pairs(&[("asks", asks)]));
+    }
     let store = Store::open(&folder(&args.place))?;
     let known = cases.iter().filter(|(id, _)| store.get(id).is_some()).count();
     let ida = study::ida::described(&plan)?;
@@ -88,6 +97,9 @@ fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
 
 fn run(args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     let plan = Plan::read(&args.place.file)?;
+    if plan.file.study.first_crack.is_some() {
+        return first_cracks(&plan, &args.place, args.threads, Do::Share(args.shard.unwrap_or([1, 1])));
+    }
     let cases = cases(&plan)?;
     let out = folder(&args.place);
     refuse_a_file(&out)?;
@@ -125,6 +137,32 @@ fn run(args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     Ok(if complete { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
 }
 
+/// A study that asks for first cracks instead of runs of its own.
+fn first_cracks(
+    plan: &Plan,
+    place: &StudyPlace,
+    threads: Option<u16>,
+    what: Do,
+) -> std::result::Result<ExitCode, Failure> {
+    let (question, subjects) = first_crack::of_study(plan)?;
+    let out = folder(place);
+    refuse_a_file(&out)?;
+    if matches!(what, Do::Share(_)) {
+        stop::listen()?;
+    }
+    let file = &plan.file;
+    let title = if file.study.title.is_empty() { "First cracking" } else { &file.study.title };
+    let name = |path: Option<&Path>| path.map_or(String::new(), |p| p.display().to_string());
+    let facts = vec![
+        ("study file", name(file.document.path())),
+        ("wall file", name(file.wall.path())),
+        ("motions", subjects.len().to_string()),
+    ];
+    let threads = threads.map_or(0, usize::from);
+    let (question, subjects) = (&question, &subjects[..]);
+    study::first_crack::answer(&Request { title, facts, question, subjects, out: &out, threads }, what)
+}
+
 /// How many runs there are and what became of them.
 fn tell(plan: &Plan, found: &[Option<&Row>]) -> std::result::Result<(), Failure> {
     let count = |end: End| found.iter().flatten().filter(|r| r.end == end).count();
@@ -153,6 +191,9 @@ fn status(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     if plan.file.study.ida.is_some() {
         return study::ida::status(&plan, &folder(place));
     }
+    if plan.file.study.first_crack.is_some() {
+        return first_cracks(&plan, place, None, Do::Tell);
+    }
     let cases = cases(&plan)?;
     let store = Store::open(&folder(place))?;
     let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
@@ -160,7 +201,7 @@ fn status(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn export(place: &StudyPlace) -> std::result::Result<(), Failure> {
+fn export(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     let plan = Plan::read(&place.file)?;
     let cases = cases(&plan)?;
     let out = folder(place);
@@ -170,10 +211,14 @@ fn export(place: &StudyPlace) -> std::result::Result<(), Failure> {
         return Err(error.help("`concio study run` begins a study").into());
     }
     if plan.file.study.ida.is_some() {
-        return study::ida::export(&plan, &out);
+        return study::ida::export(&plan, &out).map(|()| ExitCode::SUCCESS);
+    }
+    if plan.file.study.first_crack.is_some() {
+        return first_cracks(&plan, place, None, Do::Report);
     }
     let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
-    files::print(&format!("open {}\n", write(&plan, &cases, &found, &out)?.display()))
+    files::print(&format!("open {}\n", write(&plan, &cases, &found, &out)?.display()))?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Writes tables and report; the path of the report.
@@ -191,11 +236,11 @@ fn write(
         table::write_csv(&joints, &out.join("joints.csv"))?;
         table::write_parquet(&joints, &out.join("joints.parquet"))?;
     }
-    let mut sections = vec![study::sections::runs(plan, &runs)];
+    let mut sections = Vec::new();
     if let Some((section, table)) = study::sensitivity::section(plan, found)? {
         table::write_csv(&table, &out.join("sensitivity.csv"))?;
         table::write_parquet(&table, &out.join("sensitivity.parquet"))?;
-        sections.insert(0, section);
+        sections.push(section);
     }
     let file = &plan.file;
     let name = |path: Option<&Path>| path.map_or(String::new(), |p| p.display().to_string());
@@ -206,14 +251,18 @@ fn write(
         ("runs", found.len().to_string()),
         ("without a result", found.iter().filter(|r| r.is_none_or(|r| r.end == End::Failed)).count().to_string()),
     ];
+    if let Some((_, case)) = cases.first() {
+        sections.extend(study::cracks::section(plan, case, found, out)?);
+    }
+    sections.push(study::sections::runs(plan, &runs));
     study::write(out, title, &facts, &sections)
 }
 
-/// Names of the joints of a case that was run: it can be laid.
+/// Names of the joints of a case that was run: it can be laid. Its motion is not made for that, which takes longer.
 fn joint_names(case: &Case) -> Vec<String> {
-    let prepared = concio::run::prepare(case.clone(), Path::new(""));
-    let names = |p: concio::run::Prepared| {
-        p.model.joints.iter().map(|j| concio::graph::name(&p.model.wall, j)).collect::<Vec<_>>()
+    let names = |wall: concio::wall::Wall| {
+        let joints = concio::graph::joints(&wall, case.load.beam != Beam::Free);
+        joints.iter().map(|j| concio::graph::name(&wall, j)).collect()
     };
-    prepared.map(names).unwrap_or_default()
+    concio::pattern::lay(case).map(names).unwrap_or_default()
 }

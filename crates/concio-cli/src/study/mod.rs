@@ -1,6 +1,10 @@
 //! What `concio study` writes beside tables: figures and one page, made of sections that every analysis brings.
 
+pub mod bars;
 pub mod choices;
+pub mod crack_map;
+pub mod cracks;
+pub mod first_crack;
 pub mod ida;
 pub mod interval_bars;
 pub mod page;

@@ -4,5 +4,6 @@ mod analyses;
 mod commands;
 mod compare;
 mod figures;
+mod first_crack;
 mod messages;
 mod support;

@@ -224,6 +224,8 @@ struct SignalTable {
     pga: Option<Acceleration>,
     /// With `record`: keep this interval, `[from, to]` [s]; it starts at t = 0 then.
     trim: Option<[Time; 2]>,
+    /// With `record`: play it backwards, the last sample first; default false.
+    reverse: Option<bool>,
     /// With `record`: new sample interval [s], above 0.
     resample: Option<Time>,
     /// With `record`: baseline correction; default none.
@@ -259,6 +261,7 @@ impl SignalTable {
             ("scale", self.scale.is_some()),
             ("pga", self.pga.is_some()),
             ("trim", self.trim.is_some()),
+            ("reverse", self.reverse.is_some()),
             ("resample", self.resample.is_some()),
             ("baseline", self.baseline.is_some()),
             ("quantity", self.quantity.is_some()),
@@ -296,6 +299,7 @@ impl Form for Signal {
                     scale: table.scale,
                     pga: table.pga,
                     trim: table.trim,
+                    reverse: table.reverse.unwrap_or_default(),
                     resample: table.resample,
                     baseline: table.baseline.unwrap_or_default(),
                     quantity: table.quantity.unwrap_or_default(),

@@ -1,4 +1,4 @@
-//! What is done to a record before it shakes a wall: trim, baseline, resample, scale, in this order; and the
+//! What is done to a record before it shakes a wall: trim, reverse, baseline, resample, scale, in this order; and the
 //! integration of a piecewise-linear acceleration.
 //!
 //! D. M. Boore & S. Akkar, Earthquake Engng Struct. Dyn. 32 (2003) 2069; D. M. Boore, Bull. Seism. Soc. Am. 95 (2005) 745;
@@ -46,7 +46,7 @@ pub fn load(input: &RecordInput, base: &Path) -> Result<Record> {
     })
 }
 
-/// Trims, corrects the baseline, resamples and scales as `input` says, in this order.
+/// Trims, reverses, corrects the baseline, resamples and scales as `input` says, in this order.
 ///
 /// # Errors
 /// [`crate::Error::Input`] when a number of `input` does not suit the record; it carries the allowed range.
@@ -54,6 +54,9 @@ pub fn prepare(record: Record, input: &RecordInput) -> Result<Record> {
     let mut record = record;
     if let Some([from, to]) = input.trim {
         trim(&mut record, from.si(), to.si())?;
+    }
+    if input.reverse {
+        reverse(&mut record);
     }
     correct_baseline(&mut record, input.baseline)?;
     if let Some(dt) = input.resample {
@@ -96,6 +99,16 @@ pub fn trim(record: &mut Record, from: f64, to: f64) -> Result<()> {
     }
     refit(record);
     Ok(())
+}
+
+/// Puts the last sample first. The acceleration is a(T − t) then, of a displacement history too, whose spline does not
+/// know the direction; velocities change their sign with it.
+pub fn reverse(record: &mut Record) {
+    record.acceleration.reverse();
+    if let Some(u) = &mut record.displacement {
+        u.reverse();
+    }
+    refit(record);
 }
 
 /// Corrects the acceleration.

@@ -289,8 +289,8 @@ impl Settle<'_> {
                 pull = pull + (force(d) + joint.row(DAMPING) * dv);
             }
             if at.rub != NONE {
-                let slips = dv.abs().above(rubs.of(at.rub, SLIP)).and(waits);
-                peaks.set_where(slips, SLIPPED, peaks.row(SLIPPED) + step * dv.abs());
+                let slips = dv.abs().max((v0a - v0b).abs()).above(rubs.of(at.rub, SLIP)).and(waits);
+                peaks.set_where(slips, SLIPPED, peaks.row(SLIPPED) + (d - (z0a - z0b)).abs());
             }
         }
         for &r in &t.rubs_of_beam {

@@ -1,0 +1,133 @@
+//! `concio first-crack`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use concio::InputError;
+use concio::case::{self, CaseFile, RecordInput, Signal};
+use concio::quantity::{Length, Time};
+use concio_study::first_crack::{FirstCrackInput, Question, Subject, objection};
+use concio_study::limits::Criterion;
+
+use super::run::refuse_a_file;
+use crate::args::{CrackCriterion, FirstCrack};
+use crate::failure::Failure;
+use crate::stop;
+use crate::study::first_crack::{Do, Request, answer};
+
+/// Finds the first crack under each motion.
+pub fn first_crack(args: &FirstCrack) -> Result<ExitCode, Failure> {
+    let wall = case::read(&args.file)?;
+    wall.validate()?;
+    let question = question(args).map_err(|e| as_option(e, &args.file))?;
+    let subjects = subjects(args, &wall)?;
+    for subject in &subjects {
+        if let Some(error) = objection(&question, subject).map_err(|e| wall.locate(e))? {
+            return Err(as_option(error, &args.file).into());
+        }
+    }
+    let name = args.file.file_stem().unwrap_or(args.file.as_os_str());
+    let out = args.out.clone().unwrap_or_else(|| Path::new("concio-first-crack").join(name));
+    refuse_a_file(&out)?;
+    stop::listen()?;
+    let title = if wall.case.title.is_empty() {
+        "First cracking".into()
+    } else {
+        format!("{}: first cracking", wall.case.title)
+    };
+    let facts = vec![("wall file", args.file.display().to_string()), ("motions", subjects.len().to_string())];
+    let threads = args.threads.map_or(0, usize::from);
+    let request = Request { title: &title, facts, question: &question, subjects: &subjects, out: &out, threads };
+    answer(&request, Do::Share([1, 1]))
+}
+
+fn question(args: &FirstCrack) -> Result<Question, InputError> {
+    let criterion = match args.criterion {
+        CrackCriterion::Bond => Criterion::Bond,
+        CrackCriterion::Opening => Criterion::Opening,
+        CrackCriterion::Slip => Criterion::Slip,
+    };
+    let mut input = FirstCrackInput { criterion, limit: args.limit.map(Length::from_si), ..FirstCrackInput::default() };
+    (input.interval, input.checks) = (args.interval, args.checks);
+    if !args.periods.is_empty() {
+        input.periods = args.periods.iter().copied().map(Time::from_si).collect();
+    }
+    input.question()
+}
+
+/// The wall under each record, whole; without records under its own motion.
+fn subjects(args: &FirstCrack, wall: &CaseFile) -> Result<Vec<Subject>, Failure> {
+    let mut wall = wall.clone();
+    let folder = wall.folder().to_path_buf();
+    let own = &mut wall.case.motion;
+    for signal in [&mut own.base, &mut own.top] {
+        *signal = concio_study::motions::rooted(signal, &folder);
+    }
+    let mut case = wall.case;
+    let output = &mut case.output;
+    (output.frames, output.interval) = (Some(Time::from_si(0.0)), None);
+    output.blocks.clear();
+    output.joints.clear();
+    if args.records.is_empty() {
+        let name = match &case.motion.base {
+            Signal::Record(record) => label(&record.record),
+            _ => "the wall's own motion".into(),
+        };
+        return Ok(vec![Subject { name, case }]);
+    }
+    let mut subjects: Vec<Subject> = Vec::new();
+    for path in &args.records {
+        if !path.is_file() {
+            let error = InputError::new(format!("there is no file {}", path.display())).key("--records");
+            return Err(error.allowed("accelerograms, with commas between them").into());
+        }
+        // Named by its file unless two files bear the name.
+        let short = label(path);
+        let twice = args.records.iter().filter(|p| label(p) == short).count() > 1;
+        let name = if twice { path.display().to_string() } else { short };
+        if subjects.iter().any(|s| s.name == name) {
+            let error = InputError::new(format!("{} is named twice", path.display())).key("--records");
+            return Err(error.allowed("records that differ").into());
+        }
+        let mut case = case.clone();
+        case.motion.base = Signal::Record(whole(path));
+        case.motion.duration = None;
+        subjects.push(Subject { name, case });
+    }
+    Ok(subjects)
+}
+
+fn label(path: &Path) -> String {
+    path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn whole(path: &Path) -> RecordInput {
+    RecordInput {
+        record: PathBuf::from(path),
+        channel: None,
+        scale: None,
+        pga: None,
+        trim: None,
+        reverse: false,
+        resample: None,
+        baseline: case::Baseline::None,
+        quantity: case::HistoryQuantity::Acceleration,
+        units: None,
+        dt: None,
+    }
+}
+
+/// Keys of a study file are options here; the file is the wall's.
+fn as_option(mut error: InputError, file: &Path) -> InputError {
+    error.key = match error.key.as_deref() {
+        Some("motion") => Some("motion.base".into()),
+        Some(key) => Some(key.replace("first-crack.", "--")),
+        None => None,
+    };
+    match error.key.as_deref() {
+        Some("motion.base") => error.help = Some("name accelerograms with --records".into()),
+        Some("--criterion") => {}
+        _ => return error,
+    }
+    error.in_file(file)
+}
