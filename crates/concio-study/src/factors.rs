@@ -436,7 +436,7 @@ pub fn amount(value: &Value) -> Option<(f64, String)> {
 }
 
 /// A value as a wall file says it.
-fn written(value: f64, unit: &str) -> Value {
+pub(crate) fn written(value: f64, unit: &str) -> Value {
     if unit.is_empty() { number(value) } else { Value::String(format!("{value:?} {unit}")) }
 }
 

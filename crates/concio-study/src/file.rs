@@ -11,7 +11,9 @@ use serde_json::{Map, Value};
 use crate::crack_lines::CracksInput;
 use crate::first_crack::FirstCrackInput;
 use crate::ida::Ida;
+use crate::interfaces::Interfaces;
 use crate::motions::MotionInput;
+use crate::ranking::Ranking;
 use crate::sensitivity::Sensitivity;
 
 /// A study: a wall, what varies, which combinations are run, what is kept, what is asked.
@@ -50,6 +52,12 @@ pub struct Study {
     /// Asks how often and in which order joints crack over the runs, and which lines they form.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cracks: Option<CracksInput>,
+    /// Asks which joints are critical.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ranking: Option<Ranking>,
+    /// Asks which joints to replace by which devices.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interfaces: Option<Interfaces>,
 }
 
 /// How values are combined.
@@ -264,6 +272,23 @@ pub struct StudyFile {
     pub wall: CaseFile,
 }
 
+impl Study {
+    /// What its questions need per joint besides what it says itself.
+    fn keep_what_is_asked(&mut self) {
+        let default = self.interfaces.as_ref().map(|_| Ranking::default());
+        for by in self.ranking.as_ref().or(default.as_ref()).map_or(&[][..], |r| &r.by) {
+            if !self.keep.joints.contains(by) {
+                self.keep.joints.push(*by);
+            }
+        }
+        if let Some(kind) = self.cracks.as_ref().map(CracksInput::keeps)
+            && !self.keep.joints.contains(&kind)
+        {
+            self.keep.joints.push(kind);
+        }
+    }
+}
+
 impl StudyFile {
     /// Reads a study file and the wall file that it names.
     ///
@@ -279,11 +304,7 @@ impl StudyFile {
     /// As [`StudyFile::read`].
     pub fn of(document: Document) -> Result<Self> {
         let mut study: Study = document.to()?;
-        if let Some(kind) = study.cracks.as_ref().map(CracksInput::keeps)
-            && !study.keep.joints.contains(&kind)
-        {
-            study.keep.joints.push(kind);
-        }
+        study.keep_what_is_asked();
         let path = document.folder().join(&study.wall);
         if !path.is_file() {
             let error = InputError::new(format!("there is no file {}", path.display())).key("wall");

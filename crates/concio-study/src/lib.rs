@@ -8,6 +8,9 @@
 //! run under its id, so nothing is ever run twice: a study that is taken up again, a shard, a search that asks for a
 //! wall it has seen before all read the store first.
 
+pub mod answer;
+pub mod bench;
+pub mod cma;
 pub mod crack_lines;
 pub mod design;
 pub mod factors;
@@ -17,11 +20,16 @@ pub mod first_crack;
 pub mod groups;
 pub mod ida;
 pub mod intensity;
+pub mod interfaces;
 pub mod limits;
 pub mod measures;
 pub mod motions;
+pub mod pareto;
+pub mod placement;
 pub mod plan;
+pub mod ranking;
 pub mod runner;
+pub mod search;
 pub mod sensitivity;
 pub mod shaking;
 pub mod store;

@@ -18,6 +18,10 @@ pub struct MotionInput {
     /// Length of the run [s], above 0; default that of the wall file if it gives one, or of the record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration: Option<concio::quantity::Time>,
+    /// With `interfaces`: kept out of the search, to see afterwards whether what it found helps in motions that it did
+    /// not know. Default false.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub held_out: bool,
 }
 
 /// The motion `factor` times as strong.

@@ -12,7 +12,7 @@ use serde_json::Value;
 use crate::design::{At, points};
 use crate::factors::{Changes, Factor, Over, factors};
 use crate::file::StudyFile;
-use crate::{groups, motions};
+use crate::{groups, interfaces, motions};
 
 /// A study with its runs.
 #[derive(Debug)]
@@ -50,7 +50,26 @@ impl Plan {
         plan.try_levels()?;
         crate::sensitivity::measures(&plan)?;
         crate::ida::settings(&plan.file)?;
+        plan.questions()?;
         Ok(plan)
+    }
+
+    /// Refuses questions that this plan cannot answer.
+    fn questions(&self) -> Result<()> {
+        let study = &self.file.study;
+        if let Some(ranking) = &study.ranking {
+            ranking.check(&self.file)?;
+        }
+        if study.interfaces.is_some() {
+            return interfaces::question(self).map(|_| ());
+        }
+        match study.motions.iter().position(|m| m.held_out) {
+            Some(i) => {
+                let what = "is said of a motion where nothing is searched for";
+                Err(self.file.wrong(&format!("motion[{i}].held_out"), what, "beside a table `interfaces` only"))
+            }
+            None => Ok(()),
+        }
     }
 
     /// Each level alone, so that a message names the value at fault; their combinations are looked at by [`Plan::case`].
@@ -108,6 +127,20 @@ impl Plan {
     /// # Errors
     /// As [`Plan::case`].
     pub fn scaled_case(&self, number: usize, factor: f64) -> Result<Case> {
+        let (changes, scale) = self.setting(number);
+        self.changed(&changes, scale * factor).map_err(|e| {
+            let labels: Vec<String> =
+                self.factors.iter().zip(self.labels(number)).map(|(f, l)| format!("{} = {l}", f.name)).collect();
+            let key = self.factors.first().map_or("wall", |f| f.key.as_str());
+            match self.file.of_wall(key, e) {
+                Error::Input(e) => e.help(format!("in run {} with {}", number + 1, labels.join(", "))).into(),
+                other => other,
+            }
+        })
+    }
+
+    /// What run `number` changes of the wall file, and how much stronger its base moves.
+    pub fn setting(&self, number: usize) -> (Changes, f64) {
         let mut changes: Changes = Vec::new();
         let mut scale = 1.0;
         for (at, factor) in self.points[number].iter().zip(&self.factors) {
@@ -118,15 +151,16 @@ impl Plan {
                 _ => {}
             }
         }
-        self.changed(&changes, scale * factor).map_err(|e| {
-            let labels: Vec<String> =
-                self.factors.iter().zip(self.labels(number)).map(|(f, l)| format!("{} = {l}", f.name)).collect();
-            let key = self.factors.first().map_or("wall", |f| f.key.as_str());
-            match self.file.of_wall(key, e) {
-                Error::Input(e) => e.help(format!("in run {} with {}", number + 1, labels.join(", "))).into(),
-                other => other,
-            }
-        })
+        (changes, scale)
+    }
+
+    /// The motion of run `number`, by its place in the study file; none where that gives no motions.
+    pub fn motion(&self, number: usize) -> Option<usize> {
+        let motion = self.factors.iter().position(|f| f.key == "motion")?;
+        match self.points[number].get(motion) {
+            Some(At::Level(level)) => Some(*level),
+            _ => None,
+        }
     }
 
     /// The study's wall with some changes; groups among them are solved for when all else is as it will be.

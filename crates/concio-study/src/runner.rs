@@ -62,6 +62,8 @@ pub struct Runner<'a> {
     pub joints: Vec<PerJoint>,
     /// Whether whole results are kept.
     pub results: bool,
+    /// Whether rows that the store does not have are left undone, as if the watch had stopped them.
+    pub reading: bool,
     records: Records,
     watch: &'a (dyn Fn(&Progress) -> Control + Sync),
     solve: Solve,
@@ -86,6 +88,7 @@ impl<'a> Runner<'a> {
             threads,
             joints: keep.joints.clone(),
             results: keep.results,
+            reading: false,
             records: Records::default(),
             watch,
             solve: simulate_each,
@@ -134,8 +137,8 @@ impl<'a> Runner<'a> {
         self.store.folder().join("results").join(format!("{id}.h5"))
     }
 
-    /// The rows of `cases`, in their order: from the store, or run now. None when the watch stopped the runs; what was
-    /// done until then is in the store.
+    /// The rows of `cases`, in their order: from the store, or run now. None when the watch stopped the runs (what was
+    /// done until then is in the store), or [`Runner::reading`] and some are not known.
     ///
     /// # Errors
     /// The store cannot be written, a record cannot be read. Cases that fail have rows that say so.
@@ -144,6 +147,9 @@ impl<'a> Runner<'a> {
         let mut seen = HashSet::new();
         let todo: Vec<usize> =
             (0..cases.len()).filter(|&i| self.known(&ids[i]).is_none() && seen.insert(&ids[i])).collect();
+        if self.reading && !todo.is_empty() {
+            return Ok(None);
+        }
         let tally = Tally::new(cases.len(), cases.len() - todo.len(), ids.iter().filter_map(|id| self.store.get(id)));
         let mut rest = &todo[..];
         while !rest.is_empty() {

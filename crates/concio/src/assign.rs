@@ -185,7 +185,7 @@ fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {
 ///
 /// # Errors
 /// A name that no joint or panel bears, or conditions that hold for no joint.
-fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Result<Vec<usize>, InputError> {
+pub fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Result<Vec<usize>, InputError> {
     let mut listed = None;
     if !at.joints.is_empty() {
         let names: HashMap<String, usize> = joints.iter().enumerate().map(|(e, j)| (graph::name(wall, j), e)).collect();

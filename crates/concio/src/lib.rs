@@ -2,7 +2,7 @@
 //!
 //! Main path: [`case`] → [`pattern`] → [`graph`] → [`model`] → [`simulate`] → [`outcome`].
 
-mod assign;
+pub mod assign;
 pub mod bond;
 pub mod case;
 pub mod constrained;

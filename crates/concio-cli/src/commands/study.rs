@@ -6,10 +6,11 @@ use std::process::ExitCode;
 use concio::case::{Beam, Case};
 use concio::run::Control;
 use concio::{InputError, Result};
+use concio_study::file::Keep;
 use concio_study::measures::{End, Row};
 use concio_study::runner::{Progress, Runner};
 use concio_study::store::Store;
-use concio_study::{Plan, file, first_crack, table};
+use concio_study::{Plan, answer, file, first_crack, interfaces, table};
 use rayon::prelude::*;
 
 use super::run::refuse_a_file;
@@ -22,6 +23,9 @@ use crate::{files, stop, study};
 
 /// Runs that a listing of failures names at most.
 const MOST_NAMED: usize = 5;
+
+/// A question and its answer.
+type Answered = (interfaces::Question, answer::Answer);
 
 /// Dispatches.
 pub fn run_command(command: &StudyCommand) -> std::result::Result<ExitCode, Failure> {
@@ -132,7 +136,14 @@ fn run(args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
         files::note(&format!("{missing} of {} runs are left to other shards", cases.len()));
         return Ok(ExitCode::SUCCESS);
     }
-    files::print(&format!("open {}\n", write(&plan, &cases, &found, &out)?.display()))?;
+    let rows: Vec<&Row> = found.iter().flatten().copied().collect();
+    let answered = ask(&plan, &rows, &out, threads, &watch, false)?;
+    bar.clear();
+    if plan.file.study.interfaces.is_some() && answered.is_none() {
+        files::note("stopped early; the same command goes on from here");
+        return Ok(ExitCode::from(STOPPED));
+    }
+    files::print(&format!("open {}\n", write(&plan, &cases, &found, answered, &out)?.display()))?;
     let complete = found.iter().flatten().all(|r| r.end == End::Completed);
     Ok(if complete { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
 }
@@ -217,8 +228,39 @@ fn export(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
         return first_cracks(&plan, place, None, Do::Report);
     }
     let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
-    files::print(&format!("open {}\n", write(&plan, &cases, &found, &out)?.display()))?;
+    let rows: Vec<&Row> = found.iter().flatten().copied().collect();
+    let answered = match rows.len() == cases.len() {
+        true => ask(&plan, &rows, &out, 0, &|_| Control::Stop, true)?,
+        false => None,
+    };
+    if plan.file.study.interfaces.is_some() && answered.is_none() {
+        files::note("the search for interfaces has not ended: `concio study run` goes on with it");
+    }
+    files::print(&format!("open {}\n", write(&plan, &cases, &found, answered, &out)?.display()))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// What the study asks of interfaces, answered; none where it asks nothing, was stopped, or, `reading`, the store has
+/// not all of it.
+fn ask(
+    plan: &Plan,
+    rows: &[&Row],
+    out: &Path,
+    threads: usize,
+    watch: &(dyn Fn(&Progress) -> Control + Sync),
+    reading: bool,
+) -> Result<Option<Answered>> {
+    if plan.file.study.interfaces.is_none() {
+        return Ok(None);
+    }
+    let question = interfaces::question(plan)?;
+    // Thousands of walls: nothing is kept of them per joint.
+    let mut runner = Runner::open(out, &Keep::default(), threads, watch)?;
+    runner.reading = reading;
+    match answer::answer(plan, &question, rows, &mut runner)? {
+        Some(answer) => Ok(Some((question, answer))),
+        None => Ok(None),
+    }
 }
 
 /// Writes tables and report; the path of the report.
@@ -226,6 +268,7 @@ fn write(
     plan: &Plan,
     cases: &[(String, Case)],
     found: &[Option<&Row>],
+    answered: Option<Answered>,
     out: &Path,
 ) -> std::result::Result<PathBuf, Failure> {
     let runs = table::of_plan(plan, found);
@@ -251,7 +294,11 @@ fn write(
         ("runs", found.len().to_string()),
         ("without a result", found.iter().filter(|r| r.is_none_or(|r| r.end == End::Failed)).count().to_string()),
     ];
+    if let Some((question, answer)) = &answered {
+        sections.push(study::interfaces::section(question, answer, out)?);
+    }
     if let Some((_, case)) = cases.first() {
+        sections.extend(study::ranking::section(plan, case, found, out)?);
         sections.extend(study::cracks::section(plan, case, found, out)?);
     }
     sections.push(study::sections::runs(plan, &runs));

@@ -1,0 +1,384 @@
+//! The answer to a study's question about interfaces: what the search found, beside the wall as it is, placements by rank
+//! and random ones, each under the motions of the search and under those that it did not know.
+//!
+//! Stick-slip is chaotic: a motion that differs in the seventh digit gives other peaks. Everything compared is therefore
+//! run in several such copies of the motions, and means stand beside their scatter.
+
+use concio::Result;
+use concio::dice::Dice;
+
+use crate::bench::{Bench, Copies};
+use crate::file::PerJoint;
+use crate::interfaces::Question;
+use crate::measures::Row;
+use crate::pareto;
+use crate::placement::Set;
+use crate::plan::Plan;
+use crate::ranking::{Ranks, ranks};
+use crate::runner::Runner;
+use crate::search::{Design, Found, Member, Quest, search};
+
+/// Part of the search's runs that tuning the greedy placements takes.
+const GREEDY: usize = 4;
+
+/// A mean over copies of the motions and its scatter, in SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spread {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation; 0 of a single copy.
+    pub deviation: f64,
+}
+
+impl Spread {
+    fn of(values: &[f64]) -> Self {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
+        Spread { mean, deviation: if n > 1.0 { (square / (n - 1.0)).sqrt() } else { 0.0 } }
+    }
+}
+
+/// One of what is compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// What it is.
+    pub name: String,
+    /// The design; none for the wall as it is.
+    pub design: Option<Design>,
+    /// Per objective, under the motions of the search.
+    pub training: Vec<Spread>,
+    /// Per objective, under the held-out ones; empty where there are none.
+    pub held_out: Vec<Spread>,
+    /// Per scene and objective, the mean over the copies.
+    pub scenes: Vec<Vec<f64>>,
+}
+
+/// The answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// Rankings of the joints of the wall as it is, under the motions of the search.
+    pub ranks: Vec<Ranks>,
+    /// The wall as it is.
+    pub unreinforced: Line,
+    /// The devices in the joints of highest rank, parameters tuned: one line per ranking, or with two objectives the ends
+    /// of its front and its knee.
+    pub greedy: Vec<Line>,
+    /// What the search found: one line, or with two objectives the front, in the order of the first.
+    pub search: Vec<Line>,
+    /// The line of the search that stands for it: of a front the knee.
+    pub chosen: usize,
+    /// Random placements with random devices and parameters.
+    pub random: Vec<Line>,
+    /// Random placements of as many joints as the chosen design has, with its device and parameters.
+    pub placed: Vec<Line>,
+    /// After every generation of the search, runs so far and the best value of each objective.
+    pub trace: Vec<(usize, Vec<f64>)>,
+    /// The same of the tuning of the greedy placements, all rankings one after the other.
+    pub greedy_trace: Vec<(usize, Vec<f64>)>,
+    /// Runs that were asked for: by the tuning of the greedy placements, the search, and everything.
+    pub runs: [usize; 3],
+}
+
+/// Asks the question. `rows` are those of the plan. None where the user stopped; asked again, it goes on.
+///
+/// # Errors
+/// The store, or a design that makes no wall.
+pub fn answer(plan: &Plan, question: &Question, rows: &[&Row], runner: &mut Runner) -> Result<Option<Answer>> {
+    let mut question = question.clone();
+    let ranks = ranked(plan, &question, rows);
+    question.places.weights = weights(&question, &ranks);
+    let mut bench = Bench::new(plan, &question, runner);
+    let training = question.of(false);
+    let each = training.len() * question.runs_each();
+    let evaluations = question.input.runs / each;
+    let parameters: Vec<usize> = question.devices.iter().map(|d| d.parameters.len()).collect();
+    let input = &question.input;
+    let quest = Quest {
+        places: &question.places,
+        parameters: &parameters,
+        starts: &[],
+        known: &[],
+        fixed: false,
+        evaluations,
+        population: input.population,
+        seed: input.seed,
+    };
+
+    let mut tuned: Vec<(PerJoint, Found)> = Vec::new();
+    for (number, rank) in ranks.iter().enumerate() {
+        let starts = [top(&question, rank, question.places.most)];
+        let share = evaluations / GREEDY / ranks.len();
+        let quest = Quest {
+            starts: &starts,
+            fixed: true,
+            evaluations: share,
+            seed: input.seed.wrapping_add(1 + number as u64),
+            ..quest.clone()
+        };
+        let Some(found) = sought(&quest, &mut bench, &training)? else { return Ok(None) };
+        tuned.push((rank.by, found));
+    }
+    let greedy_runs = bench.runs;
+    let known: Vec<Design> = tuned.iter().flat_map(|(_, found)| &found.front).map(|m| m.design.clone()).collect();
+    let starts = starts(&question, &ranks);
+    let quest = Quest { starts: &starts, known: &known, ..quest };
+    let Some(found) = sought(&quest, &mut bench, &training)? else { return Ok(None) };
+    let search_runs = bench.runs - greedy_runs;
+
+    let mut judge = Judge { question: &question, bench: &mut bench };
+    let Some(unreinforced) = judge.line("unreinforced", None, true)? else { return Ok(None) };
+    let mut greedy = Vec::new();
+    for (by, found) in &tuned {
+        for member in spread_out(&found.front) {
+            let name = format!("greedy by {}", crate::ranking::name(*by));
+            let Some(line) = judge.line(&name, Some(&member.design), true)? else { return Ok(None) };
+            greedy.push(line);
+        }
+    }
+    let Some(search) = judge.best(&found)? else { return Ok(None) };
+    let costs: Vec<Vec<f64>> = search.iter().map(|l| judge.costs(l)).collect();
+    let chosen = pareto::knee(&costs).unwrap_or(0);
+    let Some(design) = search.get(chosen).and_then(|l| l.design.clone()) else { return Ok(None) };
+    let Some(random) = judge.random(None)? else { return Ok(None) };
+    let Some(placed) = judge.random(Some(&design))? else { return Ok(None) };
+    let by_runs = |(n, best): &(usize, Vec<f64>)| {
+        let back = best.iter().zip(&question.objectives).map(|(v, o)| o.cost(*v)).collect();
+        (n * each, back)
+    };
+    let mut before = 0;
+    let mut greedy_trace = Vec::new();
+    for (_, found) in &tuned {
+        greedy_trace.extend(found.trace.iter().map(by_runs).map(|(n, best)| (before + n, best)));
+        before = greedy_trace.last().map_or(before, |(n, _)| *n);
+    }
+    let trace = found.trace.iter().map(by_runs).collect();
+    let runs = [greedy_runs, search_runs, bench.runs];
+    Ok(Some(Answer { ranks, unreinforced, greedy, search, chosen, random, placed, trace, greedy_trace, runs }))
+}
+
+/// Of a front the best of every objective and the knee.
+fn spread_out(front: &[Member]) -> Vec<&Member> {
+    let values: Vec<Vec<f64>> = front.iter().map(|m| m.values.clone()).collect();
+    let objectives = values.first().map_or(0, Vec::len);
+    let best = |k: usize| (0..front.len()).min_by(|&a, &b| values[a][k].total_cmp(&values[b][k]));
+    let mut places: Vec<usize> = (0..objectives).filter_map(best).chain(pareto::knee(&values)).collect();
+    places.sort_unstable();
+    places.dedup();
+    places.into_iter().map(|k| &front[k]).collect()
+}
+
+/// Ranks all joints by the runs of the plan that the search may see.
+fn ranked(plan: &Plan, question: &Question, rows: &[&Row]) -> Vec<Ranks> {
+    let seen: Vec<&Row> = question.of(false).into_iter().filter_map(|s| rows.get(s).copied()).collect();
+    let by = plan.file.study.ranking.clone().unwrap_or_default().by;
+    by.into_iter().filter_map(|by| ranks(&seen, by)).collect()
+}
+
+/// The most critical of the eligible joints.
+fn top(question: &Question, ranks: &Ranks, most: usize) -> Set {
+    let place = |e: &usize| question.eligible.iter().position(|f| f == e);
+    let mut set: Set = ranks.order.iter().filter_map(place).take(most).collect();
+    set.sort_unstable();
+    set
+}
+
+/// Per eligible joint the sum of its ratios.
+fn weights(question: &Question, ranks: &[Ranks]) -> Vec<f64> {
+    question.eligible.iter().map(|&e| ranks.iter().map(|r| r.ratio[e]).sum()).collect()
+}
+
+/// Sets to start from: the most critical joints by every ranking; then, for every course, its beds, and the most critical
+/// bed of each course: layers and ladders are what engineers would try.
+fn starts(question: &Question, ranks: &[Ranks]) -> Vec<Set> {
+    let most = question.places.most;
+    let mut starts: Vec<Set> = ranks.iter().map(|r| top(question, r, most)).collect();
+    let mut layers: Vec<(i64, Set)> = Vec::new();
+    for (i, &e) in question.eligible.iter().enumerate() {
+        let joint = &question.joints[e];
+        if joint.kind.is_upright() {
+            continue;
+        }
+        // Levels in micrometres: beds of one course lie on one line.
+        let level = (joint.line[1] * 1e6).round() as i64;
+        match layers.iter_mut().find(|(l, _)| *l == level) {
+            Some((_, set)) => set.push(i),
+            None => layers.push((level, vec![i])),
+        }
+    }
+    layers.sort_unstable();
+    let weight = |i: &usize| question.places.weights[*i];
+    for (_, set) in &mut layers {
+        set.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+    }
+    let mut ladder: Set = layers.iter().filter_map(|(_, set)| set.first().copied()).collect();
+    ladder.truncate(most);
+    let layers = layers.into_iter().map(|(_, set)| set.into_iter().take(most).collect());
+    for mut set in [ladder].into_iter().chain(layers) {
+        set.sort_unstable();
+        if !set.is_empty() && !starts.contains(&set) {
+            starts.push(set);
+        }
+    }
+    starts
+}
+
+fn sought(quest: &Quest, bench: &mut Bench, training: &[usize]) -> Result<Option<Found>> {
+    let objectives = bench.question().objectives.clone();
+    let mut evaluate = |designs: &[Design]| -> Result<Option<Vec<Vec<f64>>>> {
+        let some: Vec<Option<&Design>> = designs.iter().map(Some).collect();
+        let Some(values) = bench.objectives(&some, training, &[1.0])? else { return Ok(None) };
+        let cost = |v: &Vec<Vec<f64>>| v[0].iter().zip(&objectives).map(|(v, o)| o.cost(*v)).collect();
+        Ok(Some(values.iter().map(cost).collect()))
+    };
+    search(quest, &mut evaluate)
+}
+
+/// Runs what is compared.
+struct Judge<'j, 'b, 'r> {
+    question: &'j Question,
+    bench: &'j mut Bench<'b, 'r>,
+}
+
+impl Judge<'_, '_, '_> {
+    /// Factors on the motions of the copies: the first is the motion itself.
+    fn factors(&self, copies: usize) -> Vec<f64> {
+        (0..copies).map(|k| 1.0 + k as f64 * self.question.input.perturbation).collect()
+    }
+
+    fn line(&mut self, name: &str, design: Option<&Design>, copied: bool) -> Result<Option<Line>> {
+        let lines = self.lines(&[(name.to_string(), design)], copied)?;
+        Ok(lines.map(|mut lines| lines.remove(0)))
+    }
+
+    fn lines(&mut self, what: &[(String, Option<&Design>)], copied: bool) -> Result<Option<Vec<Line>>> {
+        let factors = self.factors(if copied { self.question.input.copies } else { 1 });
+        let designs: Vec<Option<&Design>> = what.iter().map(|w| w.1).collect();
+        let scenes: Vec<usize> = (0..self.question.scenes.len()).collect();
+        let Some(values) = self.bench.by_scene(&designs, &scenes, &factors)? else { return Ok(None) };
+        let mut lines = Vec::new();
+        for ((name, design), values) in what.iter().zip(&values) {
+            lines.push(Line {
+                name: name.clone(),
+                design: design.cloned(),
+                training: self.spreads(values, false),
+                held_out: self.spreads(values, true),
+                scenes: self.by_scene(values),
+            });
+        }
+        Ok(Some(lines))
+    }
+
+    /// Objectives over the copies; `values` by copy, scene, objective.
+    fn spreads(&self, values: &Copies, held_out: bool) -> Vec<Spread> {
+        let scenes = self.question.of(held_out);
+        if scenes.is_empty() {
+            return Vec::new();
+        }
+        let one = |(k, objective): (usize, &crate::interfaces::Objective)| {
+            let of = |copy: &Vec<Vec<f64>>| objective.over(&scenes.iter().map(|&s| copy[s][k]).collect::<Vec<_>>());
+            Spread::of(&values.iter().map(of).collect::<Vec<_>>())
+        };
+        self.question.objectives.iter().enumerate().map(one).collect()
+    }
+
+    fn by_scene(&self, values: &Copies) -> Vec<Vec<f64>> {
+        let mean = |s: usize, k: usize| values.iter().map(|copy| copy[s][k]).sum::<f64>() / values.len() as f64;
+        let objectives = 0..self.question.objectives.len();
+        (0..self.question.scenes.len()).map(|s| objectives.clone().map(|k| mean(s, k)).collect()).collect()
+    }
+
+    /// Mean objectives under the motions of the search, small where good.
+    fn costs(&self, line: &Line) -> Vec<f64> {
+        line.training.iter().zip(&self.question.objectives).map(|(v, o)| o.cost(v.mean)).collect()
+    }
+
+    /// The best designs again in copies: a design that was lucky in one trajectory loses its luck.
+    fn best(&mut self, found: &Found) -> Result<Option<Vec<Line>>> {
+        // A front comes first, from its ends inwards.
+        let designs: Vec<&Design> = found.best.iter().take(self.question.input.finalists).map(|m| &m.design).collect();
+        let what: Vec<(String, Option<&Design>)> = designs.iter().map(|d| ("search".to_string(), Some(*d))).collect();
+        let Some(lines) = self.lines(&what, true)? else { return Ok(None) };
+        let costs: Vec<Vec<f64>> = lines.iter().map(|l| self.costs(l)).collect();
+        let mut front: Vec<Line> = pareto::front(&costs).into_iter().map(|k| lines[k].clone()).collect();
+        front.sort_by(|a, b| self.costs(a)[0].total_cmp(&self.costs(b)[0]));
+        Ok(Some(front))
+    }
+
+    /// Random placements: of `design` with as many joints, or of everything.
+    fn random(&mut self, design: Option<&Design>) -> Result<Option<Vec<Line>>> {
+        let question = self.question;
+        let mut dice = Dice::new(question.input.seed ^ (0xd1ce + u64::from(design.is_some())));
+        let draw = |dice: &mut Dice| match design {
+            Some(d) => Design { joints: question.places.random(d.joints.len(), dice), ..d.clone() },
+            None => {
+                let device = dice.below(question.devices.len());
+                let joints = question.places.random(question.places.most, dice);
+                let shares = question.devices[device].parameters.iter().map(|_| dice.unit()).collect();
+                Design { device, joints, shares }
+            }
+        };
+        let designs: Vec<Design> = (0..question.input.draws).map(|_| draw(&mut dice)).collect();
+        let name = |i: usize| format!("random {}", i + 1);
+        let what: Vec<(String, Option<&Design>)> =
+            designs.iter().enumerate().map(|(i, d)| (name(i), Some(d))).collect();
+        self.lines(&what, false)
+    }
+}
+
+/// How the search did for one objective under one kind of motions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Verdict {
+    /// The wall as it is.
+    pub unreinforced: Spread,
+    /// The search's best design for this objective, as the motions of the search show it.
+    pub search: Spread,
+    /// The best greedy placement under these motions.
+    pub greedy: Spread,
+    /// The best random placement under these motions, of both kinds, and the median one of everything drawn.
+    pub random: [f64; 2],
+    /// Whether the search is better than every greedy and every random placement under these motions.
+    pub beats: bool,
+    /// By how many scatters (of search and rival together) it is better than the best of them; negative where it is not.
+    pub lead: f64,
+}
+
+impl Answer {
+    /// How the search did for an objective under the motions of the search or the held-out ones; none where there are none.
+    pub fn verdict(&self, question: &Question, objective: usize, held_out: bool) -> Option<Verdict> {
+        let goal = question.objectives[objective];
+        let of = |line: &Line| {
+            let spreads = if held_out { &line.held_out } else { &line.training };
+            spreads.get(objective).copied()
+        };
+        let cost = |line: &Line| of(line).map_or(f64::INFINITY, |s| goal.cost(s.mean));
+        let training = |line: &Line| line.training.get(objective).map_or(f64::INFINITY, |s| goal.cost(s.mean));
+        let best = self.search.iter().min_by(|a, b| training(a).total_cmp(&training(b)))?;
+        let greedy = self.greedy.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)))?;
+        let costs: Vec<f64> = self.random.iter().map(cost).collect();
+        let least = self.random.iter().chain(&self.placed).map(cost).fold(f64::INFINITY, f64::min);
+        let (search, greedy) = (of(best)?, of(greedy)?);
+        let rivals = [(goal.cost(greedy.mean), greedy.deviation), (least, search.deviation)];
+        let rival = if rivals[0].0 <= rivals[1].0 { rivals[0] } else { rivals[1] };
+        let gain = rival.0 - goal.cost(search.mean);
+        let scatter = search.deviation.hypot(rival.1);
+        Some(Verdict {
+            unreinforced: of(&self.unreinforced)?,
+            search,
+            greedy,
+            random: [goal.cost(least), goal.cost(quantile(&costs, 0.5)?)],
+            beats: gain > 0.0,
+            lead: if scatter > 0.0 { gain / scatter } else { gain.signum() * f64::INFINITY },
+        })
+    }
+}
+
+/// The value below which lies a share of some numbers, linear between them; none of none.
+pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let at = share * (sorted.len() as f64 - 1.0);
+    let low = *sorted.get(at.max(0.0) as usize)?;
+    let high = sorted.get(at as usize + 1).copied().unwrap_or(low);
+    Some(low + at.fract() * (high - low))
+}

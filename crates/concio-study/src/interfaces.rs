@@ -1,0 +1,673 @@
+//! Smart interfaces: what a study file says of the joints that devices may replace, and what is to become of the wall.
+
+use std::path::Path;
+
+use concio::assign::select;
+use concio::case::{Beam, Selector};
+use concio::wall::{End, Joint, Wall};
+use concio::{Error, Result, graph, pattern};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use crate::factors::{Changes, amount, written};
+use crate::file::{Spacing, StudyFile};
+use crate::measures::Row;
+use crate::placement::Places;
+use crate::plan::Plan;
+use crate::search::Design;
+
+/// Asks which joints to replace by which devices.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Interfaces {
+    /// Joints that may be replaced, chosen as by `joint.change` of a wall file; default all.
+    #[serde(default)]
+    pub at: Selector,
+    /// Most joints that are replaced, from 1. Either this or `share`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
+    pub count: Option<usize>,
+    /// The same as a part of all joints of the wall, above 0 and up to 1, rounded down.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub share: Option<f64>,
+    /// What is to become small or large: one objective, or two.
+    #[serde(default, rename = "objective")]
+    pub objectives: Vec<ObjectiveInput>,
+    /// Alternatives to put in the place of mortar, at least one; all joints of a design have the same.
+    #[serde(default, rename = "device")]
+    pub devices: Vec<DeviceInput>,
+    /// Runs that the search may ask for; the greedy placement is tuned with a quarter of it on top. At least one
+    /// generation: `population` designs of every device under every motion of the search.
+    pub runs: usize,
+    /// Designs of a generation of each device, 4 … 1000. Default 16.
+    #[serde(default = "population")]
+    #[schemars(range(min = 4, max = 1000))]
+    pub population: usize,
+    /// Random placements to compare with, 1 … 10,000. Default 30.
+    #[serde(default = "draws")]
+    #[schemars(range(min = 1, max = 10_000))]
+    pub draws: usize,
+    /// Runs of each motion that differ by `perturbation` alone, for the scatter of what is compared, 2 … 1000. Default 8.
+    #[serde(default = "copies")]
+    #[schemars(range(min = 2, max = 1000))]
+    pub copies: usize,
+    /// Relative change of the motion from one of them to the next, above 0 and up to 0.01. Default 1e-6.
+    #[serde(default = "perturbation")]
+    pub perturbation: f64,
+    /// Best designs of the search that are run in `copies`, 1 … 100: the best mean of them is its answer; of two objectives
+    /// they are the front, from its ends inwards. Default 4.
+    #[serde(default = "finalists")]
+    #[schemars(range(min = 1, max = 100))]
+    pub finalists: usize,
+    /// `first_cracking`: scales of the motions between which the first crack is looked for, rising, above 0. Default
+    /// 0.02 to 20.
+    #[serde(default = "scales")]
+    pub crack_scales: [f64; 2],
+    /// `first_cracking`: width of the interval that it is found in, over its middle, above 0 and below 1. Default 0.02.
+    #[serde(default = "within")]
+    pub crack_within: f64,
+    /// Seed of everything that is drawn. Default 1.
+    #[serde(default = "seed")]
+    pub seed: u64,
+}
+
+fn population() -> usize {
+    16
+}
+fn draws() -> usize {
+    30
+}
+fn copies() -> usize {
+    8
+}
+fn perturbation() -> f64 {
+    1e-6
+}
+fn finalists() -> usize {
+    4
+}
+fn scales() -> [f64; 2] {
+    [0.02, 20.0]
+}
+fn within() -> f64 {
+    0.02
+}
+fn seed() -> u64 {
+    1
+}
+
+/// An objective.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ObjectiveInput {
+    /// What is measured.
+    pub measure: Target,
+    /// How the motions are taken together. Default `mean`.
+    #[serde(default)]
+    pub over: Over,
+    /// Whether it is to be small or large; default what serves a wall: dissipated energy and the scale of the first crack
+    /// large, the others small.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub goal: Option<Goal>,
+}
+
+/// What an objective measures of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Target {
+    /// Largest |relative acceleration| of neighbouring blocks [m/s²].
+    PeakJointAcceleration,
+    /// Largest |relative displacement| of neighbouring blocks [m].
+    PeakJointDisplacement,
+    /// Largest |relative velocity| of neighbouring blocks [m/s].
+    PeakJointVelocity,
+    /// Largest |displacement| of a block of a top course over the height of its top.
+    PeakDrift,
+    /// Largest |force| of the top beam [N].
+    TopForcePeak,
+    /// Energy dissipated by friction and damping, devices included [J].
+    DissipatedEnergy,
+    /// Scale of the motion at which the first bond cracks.
+    FirstCracking,
+}
+
+impl Target {
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Target::PeakJointAcceleration => "peak_joint_acceleration",
+            Target::PeakJointDisplacement => "peak_joint_displacement",
+            Target::PeakJointVelocity => "peak_joint_velocity",
+            Target::PeakDrift => "peak_drift",
+            Target::TopForcePeak => "top_force_peak",
+            Target::DissipatedEnergy => "dissipated_energy",
+            Target::FirstCracking => "first_cracking",
+        }
+    }
+
+    /// What it is called in texts and at axes.
+    pub fn title(self) -> &'static str {
+        match self {
+            Target::PeakJointAcceleration => "peak relative acceleration",
+            Target::PeakJointDisplacement => "peak relative displacement",
+            Target::PeakJointVelocity => "peak relative velocity",
+            Target::PeakDrift => "peak drift",
+            Target::TopForcePeak => "peak force of the beam",
+            Target::DissipatedEnergy => "dissipated energy",
+            Target::FirstCracking => "scale of the first crack",
+        }
+    }
+
+    /// SI unit; empty for pure numbers.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Target::PeakJointAcceleration => "m/s²",
+            Target::PeakJointDisplacement => "m",
+            Target::PeakJointVelocity => "m/s",
+            Target::TopForcePeak => "N",
+            Target::DissipatedEnergy => "J",
+            Target::PeakDrift | Target::FirstCracking => "",
+        }
+    }
+
+    /// Its value in a run; none where the run has none, and of `first_cracking`, which takes several runs.
+    pub fn of(self, row: &Row) -> Option<f64> {
+        match self {
+            Target::FirstCracking => None,
+            Target::DissipatedEnergy => {
+                // Engines that keep the work of devices apart have a measure of it.
+                let of_devices = row.number("device_energy").unwrap_or(0.0);
+                Some(row.number("friction_energy")? + row.number("damping_energy")? + of_devices)
+            }
+            other => row.number(other.name()),
+        }
+    }
+}
+
+/// How the motions are taken together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Over {
+    /// Their mean.
+    #[default]
+    Mean,
+    /// The worst of them.
+    Worst,
+}
+
+/// Whether a measure is to be small or large.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Goal {
+    /// Small.
+    Minimise,
+    /// Large.
+    Maximise,
+}
+
+/// An alternative in the place of mortar.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DeviceInput {
+    /// Its name in tables and figures, unique.
+    pub name: String,
+    /// What the joints get: the keys of a `joint.change` of a wall file without its `at`.
+    #[serde(default)]
+    pub change: Map<String, Value>,
+    /// Its free parameters; none for a device as it is.
+    #[serde(default, rename = "parameter", skip_serializing_if = "Vec::is_empty")]
+    pub parameters: Vec<ParameterInput>,
+}
+
+/// A free parameter.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ParameterInput {
+    /// Key path within `change`: `friction.static`.
+    pub path: String,
+    /// Lower bound: a number, or a text with a unit.
+    pub from: Value,
+    /// Upper bound, in the same unit.
+    pub to: Value,
+    /// How the search sees the range. Default `linear`.
+    #[serde(default)]
+    pub spacing: Spacing,
+    /// Other keys of `change` that follow it in proportion: `dynamic` friction that is no less than `static`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub also: Vec<crate::file::Follower>,
+}
+
+/// An objective with its direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Objective {
+    /// What is measured.
+    pub target: Target,
+    /// How motions are taken together.
+    pub over: Over,
+    /// Whether it is to be large.
+    pub large: bool,
+}
+
+impl Objective {
+    /// The value over some motions, infinitely bad where one is missing.
+    pub fn over(&self, values: &[f64]) -> f64 {
+        if values.is_empty() || values.iter().any(|v| v.is_nan()) {
+            return if self.large { f64::NEG_INFINITY } else { f64::INFINITY };
+        }
+        match (self.over, self.large) {
+            (Over::Mean, _) => values.iter().sum::<f64>() / values.len() as f64,
+            (Over::Worst, true) => values.iter().copied().fold(f64::INFINITY, f64::min),
+            (Over::Worst, false) => values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+
+    /// The value with the sign that makes it small where it is good.
+    pub fn cost(&self, value: f64) -> f64 {
+        if self.large { -value } else { value }
+    }
+
+    /// `mean peak drift`.
+    pub fn title(&self) -> String {
+        let over = match self.over {
+            Over::Mean => "mean",
+            Over::Worst => "worst",
+        };
+        format!("{over} {}", self.target.title())
+    }
+}
+
+/// A device ready to be put in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Device {
+    /// Its name.
+    pub name: String,
+    change: Map<String, Value>,
+    /// Its free parameters.
+    pub parameters: Vec<Parameter>,
+}
+
+/// A free parameter with its bounds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Key path.
+    pub path: String,
+    /// Unit of the values; empty for none.
+    pub unit: String,
+    ends: [f64; 2],
+    log: bool,
+    also: Vec<(String, f64)>,
+}
+
+impl Parameter {
+    /// The value at a share of the range, 0 … 1, to four digits: designs are to be written down.
+    pub fn value(&self, share: f64) -> f64 {
+        let [low, high] = self.ends;
+        let exact = if self.log { low * (high / low).powf(share) } else { low + share * (high - low) };
+        format!("{exact:.3e}").parse::<f64>().unwrap_or(exact).clamp(low, high)
+    }
+}
+
+impl Device {
+    /// The change of a wall file that gives this device, its parameters at `shares`, to the joints `names`.
+    pub fn change(&self, shares: &[f64], names: &[&str]) -> Value {
+        let mut change = Value::Object(self.change.clone());
+        for (parameter, share) in self.parameters.iter().zip(shares) {
+            let value = parameter.value(*share);
+            put(&mut change, &parameter.path, written(value, &parameter.unit));
+            for (path, times) in &parameter.also {
+                put(&mut change, path, written(value * times, &parameter.unit));
+            }
+        }
+        put(&mut change, "at.joints", names.iter().map(|n| Value::String((*n).to_string())).collect());
+        change
+    }
+
+    /// Its parameters in words: `damping = 12000 N s/m`.
+    pub fn label(&self, shares: &[f64]) -> String {
+        let one = |(p, share): (&Parameter, &f64)| {
+            let key = p.path.rsplit('.').next().unwrap_or(&p.path);
+            let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
+            format!("{key} = {}{unit}", p.value(*share))
+        };
+        self.parameters.iter().zip(shares).map(one).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// Puts a value where a path of keys leads; tables on the way are made.
+fn put(tree: &mut Value, path: &str, value: Value) {
+    match (tree, path.split_once('.')) {
+        (Value::Object(map), None) => drop(map.insert(path.to_string(), value)),
+        (Value::Object(map), Some((key, rest))) => {
+            let inner = map.entry(key).or_insert_with(|| Value::Object(Map::new()));
+            if !inner.is_object() {
+                *inner = Value::Object(Map::new());
+            }
+            put(inner, rest, value);
+        }
+        _ => {}
+    }
+}
+
+/// One run of the plan as a test of designs.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Its name: the values of the factors.
+    pub name: String,
+    /// Whether the search does not see it.
+    pub held_out: bool,
+    /// What it changes of the wall file.
+    pub changes: Changes,
+    /// How much stronger the base moves.
+    pub scale: f64,
+    /// The joint changes that the wall has without devices.
+    pub laws: Vec<Value>,
+}
+
+/// What a study asks of interfaces, all of it checked.
+#[derive(Debug, Clone)]
+pub struct Question {
+    /// The study's words.
+    pub input: Interfaces,
+    /// Objectives.
+    pub objectives: Vec<Objective>,
+    /// Devices.
+    pub devices: Vec<Device>,
+    /// The wall and all its joints, their names in the same order.
+    pub wall: Wall,
+    /// Its joints.
+    pub joints: Vec<Joint>,
+    /// Their names.
+    pub names: Vec<String>,
+    /// Places of the eligible joints among all.
+    pub eligible: Vec<usize>,
+    /// Where devices may go; weights are all 1 until ranks are known.
+    pub places: Places,
+    /// The runs of the plan.
+    pub scenes: Vec<Scene>,
+}
+
+impl Question {
+    /// Names of the joints of a design.
+    pub fn names(&self, design: &Design) -> Vec<&str> {
+        design.joints.iter().map(|&e| self.names[self.eligible[e]].as_str()).collect()
+    }
+
+    /// The scenes of the search, or the held-out ones.
+    pub fn of(&self, held_out: bool) -> Vec<usize> {
+        (0..self.scenes.len()).filter(|&s| self.scenes[s].held_out == held_out).collect()
+    }
+
+    /// Runs that the value of a design under one scene takes.
+    pub fn runs_each(&self) -> usize {
+        let cracking = self.objectives.iter().any(|o| o.target == Target::FirstCracking);
+        let plain = self.objectives.iter().any(|o| o.target != Target::FirstCracking);
+        usize::from(plain) + if cracking { 2 + self.rounds() } else { 0 }
+    }
+
+    /// Halvings of the interval of the first crack.
+    pub fn rounds(&self) -> usize {
+        let [low, high] = self.input.crack_scales;
+        ((high / low).ln() / self.input.crack_within.ln_1p()).log2().ceil().max(0.0) as usize
+    }
+}
+
+/// What the plan's study asks of interfaces. Not to be called where it asks nothing.
+///
+/// # Errors
+/// [`Error::Input`] with the line: what contradicts itself, is out of range, or does not fit the wall.
+pub fn question(plan: &Plan) -> Result<Question> {
+    let file = &plan.file;
+    let Some(input) = file.study.interfaces.clone() else {
+        return Err(file.wrong("interfaces", "the study does not ask for it", "a table `interfaces`"));
+    };
+    ranges(file, &input)?;
+    let objectives = objectives(plan, &input)?;
+    let devices = devices(file, &input)?;
+    let scenes = scenes(plan)?;
+    let (wall, joints, names) = wall_of(plan)?;
+    let eligible = select(&input.at, &wall, &joints).map_err(|e| place(file, "interfaces.at", e.into()))?;
+    let most = most(file, &input, joints.len(), eligible.len())?;
+    let places = Places { most, neighbours: neighbours(&joints, &eligible), weights: vec![1.0; eligible.len()] };
+    let question = Question { input, objectives, devices, wall, joints, names, eligible, places, scenes };
+    budget(file, &question)?;
+    try_devices(plan, &question)?;
+    Ok(question)
+}
+
+fn place(file: &StudyFile, key: &str, error: Error) -> Error {
+    match error {
+        Error::Input(e) => file.document.locate(concio::InputError { key: Some(key.into()), ..*e }).into(),
+        other => other,
+    }
+}
+
+fn ranges(file: &StudyFile, input: &Interfaces) -> Result<()> {
+    let wrong = |key: &str, value: &dyn std::fmt::Display, allowed: &str| {
+        Err(file.wrong(&format!("interfaces.{key}"), format!("{value} is out of range"), allowed))
+    };
+    for (key, value, [low, high]) in [
+        ("population", input.population, [4, 1000]),
+        ("draws", input.draws, [1, 10_000]),
+        ("copies", input.copies, [2, 1000]),
+        ("finalists", input.finalists, [1, 100]),
+    ] {
+        if !(low..=high).contains(&value) {
+            return wrong(key, &value, &format!("{low} to {high}"));
+        }
+    }
+    if !(input.perturbation > 0.0 && input.perturbation <= 0.01) {
+        return wrong("perturbation", &input.perturbation, "above 0 and up to 0.01");
+    }
+    let [low, high] = input.crack_scales;
+    if !(low > 0.0 && low < high && high.is_finite()) {
+        let what = format!("[{low}, {high}] is no range of scales");
+        return Err(file.wrong("interfaces.crack_scales", what, "two numbers above 0, rising"));
+    }
+    if !(input.crack_within > 0.0 && input.crack_within < 1.0) {
+        return wrong("crack_within", &input.crack_within, "above 0 and below 1");
+    }
+    Ok(())
+}
+
+fn most(file: &StudyFile, input: &Interfaces, joints: usize, eligible: usize) -> Result<usize> {
+    let (key, most, what) = match (input.count, input.share) {
+        (Some(count), None) => ("interfaces.count", count, count.to_string()),
+        (None, Some(share)) if share > 0.0 && share <= 1.0 => {
+            let count = (share * joints as f64) as usize;
+            ("interfaces.share", count, format!("{share} of {joints} joints, which is {count},"))
+        }
+        (None, Some(share)) => {
+            return Err(file.wrong("interfaces.share", format!("{share} is out of range"), "above 0 and up to 1"));
+        }
+        (None, None) => {
+            let what = "nothing says how many joints may be replaced";
+            return Err(file.wrong("interfaces", what, "`count`, from 1, or `share`, above 0 and up to 1"));
+        }
+        (Some(_), Some(_)) => {
+            let what = "`count` and `share` contradict each other";
+            return Err(file.wrong("interfaces.share", what, "one of them"));
+        }
+    };
+    if (1..=eligible).contains(&most) {
+        return Ok(most);
+    }
+    Err(file.wrong(key, format!("{what} is out of range"), &format!("1 to {eligible}, the number of eligible joints")))
+}
+
+fn objectives(plan: &Plan, input: &Interfaces) -> Result<Vec<Objective>> {
+    let file = &plan.file;
+    if !(1..=2).contains(&input.objectives.len()) {
+        let what = format!("{} objectives", input.objectives.len());
+        return Err(file.wrong("interfaces.objective", what, "one `[[interfaces.objective]]`, or two"));
+    }
+    let of = |o: &ObjectiveInput| Objective {
+        target: o.measure,
+        over: o.over,
+        large: match o.goal {
+            Some(goal) => goal == Goal::Maximise,
+            None => matches!(o.measure, Target::DissipatedEnergy | Target::FirstCracking),
+        },
+    };
+    let all: Vec<Objective> = input.objectives.iter().map(of).collect();
+    if let [a, b] = all[..]
+        && a.target == b.target
+    {
+        let name = a.target.name();
+        let what = match (a.large == b.large, a.over == b.over) {
+            (false, _) => {
+                format!("`{name}` cannot be minimised and maximised at once: the objectives contradict each other")
+            }
+            (true, true) => format!("`{name}` is the objective twice"),
+            (true, false) => return Ok(all),
+        };
+        return Err(file.wrong("interfaces.objective[1].measure", what, "an objective of its own, or one objective"));
+    }
+    let joint = &file.wall.case.joint;
+    if joint.bond.is_none()
+        && joint.changes.iter().all(|c| c.bond.is_none())
+        && let Some(i) = all.iter().position(|o| o.target == Target::FirstCracking)
+    {
+        let what = "no joint of this wall is bonded: nothing can crack";
+        let allowed = "a wall file with `joint.bond`, or another measure";
+        return Err(file.wrong(&format!("interfaces.objective[{i}].measure"), what, allowed));
+    }
+    Ok(all)
+}
+
+fn devices(file: &StudyFile, input: &Interfaces) -> Result<Vec<Device>> {
+    if input.devices.is_empty() {
+        return Err(file.wrong("interfaces.device", "there is none", "one or more `[[interfaces.device]]`"));
+    }
+    let mut devices: Vec<Device> = Vec::new();
+    for (i, given) in input.devices.iter().enumerate() {
+        let key = format!("interfaces.device[{i}]");
+        if devices.iter().any(|d| d.name == given.name) {
+            return Err(file.wrong(&format!("{key}.name"), "two devices have this name", "names that differ"));
+        }
+        if given.change.contains_key("at") {
+            let what = "`at` is what the search chooses";
+            return Err(file.wrong(&format!("{key}.change.at"), what, "the eligible joints in `interfaces.at`"));
+        }
+        let parameter = |(k, p): (usize, &ParameterInput)| parameter(file, &format!("{key}.parameter[{k}]"), p);
+        let parameters = given.parameters.iter().enumerate().map(parameter).collect::<Result<Vec<_>>>()?;
+        if let Some(k) = (1..parameters.len()).find(|&k| parameters[..k].iter().any(|p| p.path == parameters[k].path)) {
+            return Err(file.wrong(&format!("{key}.parameter[{k}].path"), "is varied twice", "paths that differ"));
+        }
+        devices.push(Device { name: given.name.clone(), change: given.change.clone(), parameters });
+    }
+    Ok(devices)
+}
+
+fn parameter(file: &StudyFile, key: &str, given: &ParameterInput) -> Result<Parameter> {
+    let end = |name: &str, value: &Value| {
+        let no_number =
+            || file.wrong(&format!("{key}.{name}"), format!("{value} is no number"), "a number, or a text with a unit");
+        amount(value).ok_or_else(no_number)
+    };
+    let (low, unit) = end("from", &given.from)?;
+    let (high, other) = end("to", &given.to)?;
+    if unit != other {
+        return Err(file.wrong(&format!("{key}.to"), "its unit is not that of `from`", "one unit"));
+    }
+    if !(low < high) {
+        let what = format!("the bounds are reversed or equal: {high} does not lie above `from`, {low}");
+        return Err(file.wrong(&format!("{key}.to"), what, "above `from`"));
+    }
+    let log = given.spacing == Spacing::Log;
+    if log && low <= 0.0 {
+        return Err(file.wrong(&format!("{key}.from"), format!("{low} has no logarithm"), "above 0"));
+    }
+    let also = given.also.iter().map(|f| (f.path.clone(), f.times)).collect();
+    Ok(Parameter { path: given.path.clone(), unit, ends: [low, high], log, also })
+}
+
+/// Every run of the plan.
+fn scenes(plan: &Plan) -> Result<Vec<Scene>> {
+    let motions = &plan.file.study.motions;
+    if !motions.is_empty() && motions.iter().all(|m| m.held_out) {
+        let what = "every motion is held out: the search has none to search with";
+        return Err(plan.file.wrong("motion[0].held_out", what, "at least one motion without `held_out = true`"));
+    }
+    let scene = |number: usize| {
+        let (changes, scale) = plan.setting(number);
+        let case = plan.case(number)?;
+        let laws = case.joint.changes.iter().map(serde_json::to_value).collect::<serde_json::Result<_>>();
+        let laws = laws.map_err(|e| plan.file.wrong("interfaces", e.to_string(), ""))?;
+        let text = |v: Value| v.as_str().map_or_else(|| v.to_string(), str::to_string);
+        let labels: Vec<String> = plan.labels(number).into_iter().map(text).collect();
+        let name = if labels.is_empty() { "motion of the wall file".to_string() } else { labels.join(", ") };
+        let held_out = plan.motion(number).is_some_and(|m| motions[m].held_out);
+        Ok(Scene { name, held_out, changes, scale, laws })
+    };
+    (0..plan.points.len()).map(scene).collect()
+}
+
+/// The wall, which has to be the same in all runs.
+fn wall_of(plan: &Plan) -> Result<(Wall, Vec<Joint>, Vec<String>)> {
+    let mut first: Option<(Wall, Vec<Joint>, Vec<String>)> = None;
+    for number in 0..plan.points.len() {
+        let case = plan.case(number)?;
+        let wall = pattern::lay(&case)?;
+        let joints = graph::joints(&wall, case.load.beam != Beam::Free);
+        let names: Vec<String> = joints.iter().map(|j| graph::name(&wall, j)).collect();
+        match &first {
+            Some((_, _, known)) if *known != names => {
+                let what = "the runs have different joints: a placement means nothing in all of them";
+                let key = plan.file.study.factors.first().map_or("interfaces", |_| "vary[0]");
+                return Err(plan.file.wrong(key, what, "factors that leave blocks and beam as they are"));
+            }
+            Some(_) => {}
+            None => first = Some((wall, joints, names)),
+        }
+    }
+    first.ok_or_else(|| plan.file.wrong("interfaces", "the study has no run", "at least one"))
+}
+
+/// Per eligible joint, the others that share a block with it.
+fn neighbours(joints: &[Joint], eligible: &[usize]) -> Vec<Vec<usize>> {
+    let blocks = |e: usize| {
+        let joint = &joints[e];
+        let b = if let End::Block(b) = joint.b { Some(b) } else { None };
+        [Some(joint.a), b]
+    };
+    let touch = |e: usize, f: usize| blocks(e).iter().flatten().any(|b| blocks(f).contains(&Some(*b)));
+    let near = |i: usize| (0..eligible.len()).filter(|&k| k != i && touch(eligible[i], eligible[k])).collect();
+    (0..eligible.len()).map(near).collect()
+}
+
+fn budget(file: &StudyFile, question: &Question) -> Result<()> {
+    let each = question.runs_each() * question.of(false).len();
+    let least = each * question.input.population * question.devices.len();
+    if question.input.runs < least {
+        let what = format!("{} runs are less than one generation", question.input.runs);
+        let allowed = format!(
+            "from {least}: {} designs of {} devices, {each} runs each",
+            question.input.population,
+            question.devices.len()
+        );
+        return Err(file.wrong("interfaces.runs", what, &allowed));
+    }
+    Ok(())
+}
+
+/// Every device at its bounds in all eligible joints.
+fn try_devices(plan: &Plan, question: &Question) -> Result<()> {
+    let names: Vec<&str> = question.eligible.iter().map(|&e| question.names[e].as_str()).collect();
+    for (i, device) in question.devices.iter().enumerate() {
+        for share in [0.0, 1.0] {
+            let shares = vec![share; device.parameters.len()];
+            let mut changes = question.scenes[0].changes.clone();
+            changes.push(("joint.change".into(), with(&question.scenes[0], device.change(&shares, &names))));
+            let key = format!("interfaces.device[{i}].change");
+            let case = plan.changed(&changes, 1.0).map_err(|e| plan.file.of_wall(&key, e))?;
+            concio::run::prepare(case, Path::new("")).map_err(|e| plan.file.of_wall(&key, e))?;
+        }
+    }
+    Ok(())
+}
+
+/// The joint changes of a scene and one more.
+pub fn with(scene: &Scene, change: Value) -> Value {
+    Value::Array(scene.laws.iter().cloned().chain([change]).collect())
+}
