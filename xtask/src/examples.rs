@@ -24,7 +24,23 @@ pub fn run_all(root: &Path) -> Outcome {
     for file in files {
         one(root, &file)?;
     }
-    Ok(())
+    studies(root)
+}
+
+/// Checks the study files of examples/studies/ and the walls that they start from; `cargo xtask studies` runs them.
+fn studies(root: &Path) -> Outcome {
+    let folder = root.join("examples").join("studies");
+    let entries = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let mut files: Vec<PathBuf> = entries.filter_map(|e| e.ok().map(|e| e.path())).filter(|p| is_wall(p)).collect();
+    files.sort();
+    for file in &files {
+        let text = fs::read_to_string(file).map_err(|e| format!("{}: {e}", file.display()))?;
+        let words: &[&str] =
+            if text.lines().any(|l| l.starts_with("wall = ")) { &["study", "check"] } else { &["check"] };
+        read(Command::new(concio(root)).args(words).arg(file).current_dir(root))?;
+    }
+    println!("{} files of examples/studies hold", files.len());
+    if files.is_empty() { Err("there are no studies".into()) } else { Ok(()) }
 }
 
 /// The wall files of examples/, in order.
