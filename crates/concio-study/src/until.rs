@@ -1,7 +1,7 @@
 //! Runs that end with their first crack: single runs on several threads, each looked at after every step.
 //!
-//! What a wall does once it has cracked is not asked, and costs most: friction that lets go and sticks again takes small
-//! steps. Lanes ([`concio::many`]) cannot drop one of their runs; docs/studies/first-cracking.md has both measured.
+//! What a wall does once it has cracked is not asked, and has no bound: friction that lets go and sticks again takes small
+//! steps. Lanes ([`concio::many`]) cannot drop one of their runs, and are no faster here: docs/studies/first-cracking.md.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
