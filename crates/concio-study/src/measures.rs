@@ -30,7 +30,7 @@ const fn measure(name: &'static str, unit: &'static str, text: &'static str) -> 
 }
 
 /// The numbers of a run, in the order of [`Row::numbers`].
-pub const MEASURES: [Measure; 30] = [
+pub const MEASURES: [Measure; 31] = [
     measure("time_reached", "s", "time at which the run ended"),
     measure("peak_displacement", "m", "largest |displacement| of a block relative to the base"),
     measure("peak_drift", "", "largest |displacement| of a block of a top course, over the height of its top"),
@@ -61,6 +61,7 @@ pub const MEASURES: [Measure; 30] = [
     measure("joints_broken", "", "number of bonds of which nothing was left"),
     measure("first_crack", "s", "time of the first crack"),
     measure("steps", "", "steps of the solver"),
+    measure("device_energy", "J", "dissipated by the hysteresis of devices"),
 ];
 
 /// How a run ended.
@@ -203,6 +204,7 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
         cracked(&|b| b.damage == 1.0),
         outcome.first_crack().map_or(f64::INFINITY, |b| b.cracked),
         outcome.counters.steps as f64,
+        energies.device,
     ]
 }
 
