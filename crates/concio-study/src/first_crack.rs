@@ -193,7 +193,7 @@ pub fn keep() -> Keep {
 /// The walls of a study under its motions, and what is asked.
 ///
 /// # Errors
-/// [`Error::Input`] with the line: numbers out of range, no motion, `scales` beside the question.
+/// [`concio::Error::Input`] with the line: numbers out of range, no motion, `scales` beside the question.
 pub fn of_study(plan: &crate::Plan) -> Result<(Question, Vec<Subject>)> {
     let file = &plan.file;
     let input = file.study.first_crack.clone().unwrap_or_default();

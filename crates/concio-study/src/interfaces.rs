@@ -415,7 +415,7 @@ impl Question {
 /// What the plan's study asks of interfaces. Not to be called where it asks nothing.
 ///
 /// # Errors
-/// [`Error::Input`] with the line: what contradicts itself, is out of range, or does not fit the wall.
+/// [`concio::Error::Input`] with the line: what contradicts itself, is out of range, or does not fit the wall.
 pub fn question(plan: &Plan) -> Result<Question> {
     let file = &plan.file;
     let Some(input) = file.study.interfaces.clone() else {

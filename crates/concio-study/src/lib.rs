@@ -1,6 +1,6 @@
 //! Studies: many runs of one wall, and what they answer together.
 //!
-//! Main path: [`file`] (what the study file says) → [`factors`] (what varies) → [`design`] (which combinations) →
+//! Main path: [`mod@file`] (what the study file says) → [`factors`] (what varies) → [`design`] (which combinations) →
 //! [`plan`] (the runs, each with its wall and its id) → [`runner`] (does those that the store does not have) →
 //! [`store`] → [`table`]. Analyses over the runs: [`sensitivity`], [`ida`]; [`groups`] is the dimensionless form.
 //!

@@ -139,7 +139,7 @@ impl BondState {
 /// What a run has done to a device with a law of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct DeviceState {
-    /// ζ of (I5) [1], or s of (I7) [m]; 0 for a law without history.
+    /// ζ of (I5), a pure number, or s of (I7) [m]; 0 for a law without history.
     pub internal: f64,
     /// ζ̇ [1/s].
     pub rate: f64,
