@@ -4,6 +4,7 @@
 //! becomes the output of that command (with its results in target/studies/x), and pictures named `img/x-FIGURE.svg` become
 //! the figures that it drew.
 
+use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -26,10 +27,12 @@ pub fn make(root: &Path, only: &[String]) -> Outcome {
     if pages.is_empty() {
         return Err(format!("there is no such document in {}", folder.display()));
     }
-    pages.iter().try_for_each(|page| renew(root, page))
+    // Pages may share a study.
+    let mut outputs = HashMap::new();
+    pages.iter().try_for_each(|page| renew(root, page, &mut outputs))
 }
 
-fn renew(root: &Path, page: &Path) -> Outcome {
+fn renew(root: &Path, page: &Path, outputs: &mut HashMap<String, String>) -> Outcome {
     let wrong = |e: std::io::Error| format!("{}: {e}", page.display());
     let old = fs::read_to_string(page).map_err(wrong)?;
     let mut new = String::new();
@@ -38,7 +41,11 @@ fn renew(root: &Path, page: &Path) -> Outcome {
         let (before, from_mark) = rest.split_at(start);
         let line = from_mark.lines().next().unwrap_or_default();
         let (command, name) = parts(line).ok_or_else(|| format!("{}: not understood: {line}", page.display()))?;
-        let output = output(root, &command, &name)?;
+        let output = match outputs.get(&command) {
+            Some(output) => output.clone(),
+            None => output(root, &command, &name)?,
+        };
+        outputs.insert(command.clone(), output.clone());
         pictures(root, page, &old, &name)?;
         new.push_str(before);
         new.push_str(line);

@@ -368,7 +368,7 @@ impl Answer {
             greedy,
             random: [goal.cost(least), goal.cost(quantile(&costs, 0.5)?)],
             beats: gain > 0.0,
-            lead: if scatter > 0.0 { gain / scatter } else { gain.signum() * f64::INFINITY },
+            lead: if gain == 0.0 { 0.0 } else { gain / scatter },
         })
     }
 }
@@ -377,8 +377,5 @@ impl Answer {
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
-    let at = share * (sorted.len() as f64 - 1.0);
-    let low = *sorted.get(at.max(0.0) as usize)?;
-    let high = sorted.get(at as usize + 1).copied().unwrap_or(low);
-    Some(low + at.fract() * (high - low))
+    (!sorted.is_empty()).then(|| crate::ida::curve::quantile(&sorted, share))
 }

@@ -17,6 +17,9 @@ pub const MOST_RUNS: usize = 1_000_000;
 /// Factors that the Sobol sequence at hand has dimensions for, two each.
 const MOST_SOBOL: usize = 128;
 
+/// Points of the Sobol sequence at hand.
+const MOST_SOBOL_POINTS: usize = 1 << 16;
+
 /// Where a factor stands in a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum At {
@@ -82,6 +85,10 @@ pub fn points(file: &StudyFile, factors: &[Factor]) -> Result<Vec<Vec<At>>> {
             morris(runs, k, design.levels, design.seed)
         }
         DesignKind::Sobol if k > MOST_SOBOL => return wrong(format!("{k} factors are too many for it"), "up to 128"),
+        DesignKind::Sobol if runs > MOST_SOBOL_POINTS => {
+            let what = format!("{runs} base points are too many for the sequence");
+            return Err(file.wrong("design.runs", what, "up to 65,536"));
+        }
         DesignKind::Sobol => sobol(runs, k, design.seed),
     };
     Ok(shares.into_iter().map(|row| row.iter().zip(factors).map(|(s, f)| place(*s, f)).collect()).collect())

@@ -80,7 +80,9 @@ impl Continuous {
             Law::Uniform([low, high]) => low + share * (high - low),
             Law::LogUniform([low, high]) => low * (high / low).powf(share),
             Law::Normal { mean, deviation, log, shares: [from, to] } => {
-                let share = (from + share * (to - from)).clamp(TAIL, 1.0 - TAIL);
+                // Ends that are given hold; where none are, the share stops short of infinity.
+                let ends = [if *from > 0.0 { *from } else { TAIL }, if *to < 1.0 { *to } else { 1.0 - TAIL }];
+                let share = (from + share * (to - from)).max(ends[0]).min(ends[1]);
                 // Deviations were checked to be above 0.
                 if *log {
                     LogNormal::new(*mean, *deviation).map_or(f64::NAN, |d| d.inverse_cdf(share))
@@ -111,6 +113,19 @@ impl Continuous {
 }
 
 impl Factor {
+    /// Key paths that it changes.
+    fn paths(&self) -> Vec<&str> {
+        match &self.over {
+            Over::Levels(levels) => {
+                levels.iter().flat_map(|l| l.changes.iter().map(|(path, _)| path.as_str())).collect()
+            }
+            Over::Values(values) => {
+                [values.path.as_str()].into_iter().chain(values.also.iter().map(|f| f.path.as_str())).collect()
+            }
+            Over::Scales(_) => Vec::new(),
+        }
+    }
+
     /// Number of levels; none for a distribution.
     pub fn levels(&self) -> Option<usize> {
         match &self.over {
@@ -147,7 +162,21 @@ pub fn factors(file: &StudyFile) -> Result<Vec<Factor>> {
             return Err(file.wrong(&factor.key, what, "a `name` of its own for each"));
         }
     }
+    contradictions(file, &factors)?;
     Ok(factors)
+}
+
+/// Two factors that change one key: the later would silently win.
+fn contradictions(file: &StudyFile, factors: &[Factor]) -> Result<()> {
+    for (index, factor) in factors.iter().enumerate() {
+        for path in factor.paths() {
+            if let Some(other) = factors[..index].iter().find(|f| f.paths().contains(&path)) {
+                let what = format!("`{}` and `{}` both change {path}", other.name, factor.name);
+                return Err(file.wrong(&factor.key, what, "each key changed by one factor"));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn motion_factor(file: &StudyFile) -> Result<Factor> {

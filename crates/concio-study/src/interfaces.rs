@@ -474,7 +474,8 @@ fn most(file: &StudyFile, input: &Interfaces, joints: usize, eligible: usize) ->
     let (key, most, what) = match (input.count, input.share) {
         (Some(count), None) => ("interfaces.count", count, count.to_string()),
         (None, Some(share)) if share > 0.0 && share <= 1.0 => {
-            let count = (share * joints as f64) as usize;
+            // 0.29 of 100 is 29, whatever its binary digits say.
+            let count = (share * joints as f64 + 1e-9) as usize;
             ("interfaces.share", count, format!("{share} of {joints} joints, which is {count},"))
         }
         (None, Some(share)) => {

@@ -182,8 +182,8 @@ impl Plan {
         let mut file = self.laid(changes)?;
         let folder = file.folder().to_path_buf();
         let motion = &mut file.case.motion;
-        // Motions of the study file are rooted already; the wall's own start from its folder.
-        if !changes.iter().any(|(path, _)| path == "motion.base") {
+        // Motions of the study file are rooted already; all others start from the wall's folder.
+        if !changes.iter().rev().find(|(path, _)| path == "motion.base").is_some_and(|change| self.is_motion(change)) {
             motion.base = motions::rooted(&motion.base, &folder);
         }
         motion.top = motions::rooted(&motion.top, &folder);
@@ -195,6 +195,14 @@ impl Plan {
         }
         file.validate()?;
         Ok(file.case)
+    }
+
+    /// Whether a change is one of the study file's `[[motion]]`.
+    fn is_motion(&self, change: &(String, Value)) -> bool {
+        let motions = self.factors.iter().filter(|f| f.key == "motion");
+        motions
+            .into_iter()
+            .any(|f| matches!(&f.over, Over::Levels(levels) if levels.iter().any(|l| l.changes.contains(change))))
     }
 
     /// What the result of a case is known by.

@@ -78,11 +78,15 @@ impl Store {
         self.rows.is_empty()
     }
 
-    /// The first row of a run stays, unless a later one holds more per joint.
+    /// The first row of a run stays; a later one adds what it holds more per joint, for the numbers of one id are equal.
     fn keep(&mut self, row: Row) {
-        match self.rows.get(&row.id) {
-            Some(known) if known.joints.len() >= row.joints.len() => {}
-            _ => drop(self.rows.insert(row.id.clone(), row)),
+        match self.rows.get_mut(&row.id) {
+            Some(known) => {
+                for (kind, values) in row.joints {
+                    known.joints.entry(kind).or_insert(values);
+                }
+            }
+            None => drop(self.rows.insert(row.id.clone(), row)),
         }
     }
 
@@ -200,6 +204,22 @@ mod tests {
             let back = found.get(&format!("r{i}")).and_then(|r| r.numbers[0]);
             assert_eq!(back.map(f64::to_bits), Some(v.to_bits()));
         }
+        Ok(())
+    }
+
+    #[test]
+    fn what_two_rows_of_a_run_hold_per_joint_is_known_together() -> Result<()> {
+        use crate::file::PerJoint::{Cracked, Displacement};
+        let folder = tempfile::tempdir().map_err(|e| Error::io("", e))?;
+        let mut store = Store::open(folder.path())?;
+        for kind in [Cracked, Displacement] {
+            let mut row = row("r", 1.0);
+            row.joints.insert(kind, vec![Some(2.0)]);
+            store.append(row)?;
+            assert!(store.get("r").is_some_and(|r| r.has(&[kind])));
+        }
+        let again = Store::open(folder.path())?;
+        assert!(again.get("r").is_some_and(|r| r.has(&[Cracked, Displacement])));
         Ok(())
     }
 

@@ -82,3 +82,22 @@ fn fractiles_of_three_curves() {
         assert!((high / (3.36 * y) - 1.0).abs() < 1e-9, "{high}");
     }
 }
+
+/// Eleven of twelve curves collapse one after the other: each fractile becomes infinite in its turn, and no line is lost.
+#[test]
+fn fractiles_of_curves_that_collapse() {
+    let mut curves: Vec<Curve> =
+        (1..12).map(|k| curve(&[(0.1, 0.1, false), (0.1 + 0.05 * f64::from(k), 1.0, true)])).collect();
+    curves.push(curve(&[(0.1, 0.1, false), (1.0, 1.0, false)]));
+    let found = fractiles(&curves.iter().collect::<Vec<_>>());
+    assert_eq!(found.len(), 60);
+    // Of the fractile at place p = share × 11 among twelve, infinite values are met once more than 11 − ⌈p⌉ curves have gone.
+    for (y, found) in found {
+        let gone = curves.iter().filter(|c| c.damage(y) == Some(f64::INFINITY)).count();
+        for (share, value) in [0.16, 0.5, 0.84].into_iter().zip(found) {
+            let place: f64 = share * 11.0;
+            assert_eq!(value.is_infinite(), gone > 11 - place.ceil() as usize, "{share} at {y}: {value}, {gone} gone");
+            assert!(!value.is_nan());
+        }
+    }
+}

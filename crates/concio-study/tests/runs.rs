@@ -292,6 +292,16 @@ fn wrong_study_files() {
             5,
         ),
         (
+            "wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = [1]\n[[vary]]\nname = \"again\"\npath = \"load.top\"\nvalues = [2]",
+            "both change load.top",
+            5,
+        ),
+        (
+            "wall = \"wall.toml\"\n[design]\nkind = \"sobol\"\nruns = 65537\n[[vary]]\npath = \"load.top\"\nfrom = 1\nto = 2",
+            "too many for the sequence",
+            4,
+        ),
+        (
             "wall = \"wall.toml\"\n[design]\nkind = \"list\"\n[[vary]]\npath = \"load.top\"\nvalues = [1, 2]\n[[vary]]\npath = \"panel[0].courses\"\nvalues = [3]",
             "equally many",
             7,

@@ -6,12 +6,20 @@ use std::f64::consts::PI;
 
 const BOOTSTRAP: Bootstrap = Bootstrap { resamples: 300, confidence: 0.95, seed: 3 };
 
+/// Keys that take any number: nothing is run.
+const PATHS: [&str; 6] = [
+    "joint.friction.beta",
+    "joint.friction.alpha",
+    "load.top",
+    "panel[0].brick.length",
+    "panel[0].brick.height",
+    "panel[0].brick.thickness",
+];
+
 /// Points of a design, as a study makes them, without a wall.
 fn points(kind: &str, runs: usize, k: usize) -> Vec<Vec<f64>> {
     let vary: String = (0..k)
-        .map(|i| {
-            format!("[[vary]]\nname = \"x{i}\"\npath = \"joint.friction.beta\"\nfrom = {}\nto = {}\n", 10 + i, 900)
-        })
+        .map(|i| format!("[[vary]]\nname = \"x{i}\"\npath = \"{}\"\nfrom = {}\nto = {}\n", PATHS[i], 10 + i, 900))
         .collect();
     let folder = tempfile::tempdir().expect("a temporary folder");
     let wall = WALL;

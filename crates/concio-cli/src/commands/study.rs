@@ -229,6 +229,11 @@ fn export(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     }
     let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
     let rows: Vec<&Row> = found.iter().flatten().copied().collect();
+    if rows.is_empty() {
+        // Tables of other runs would be overwritten by empty ones.
+        let error = InputError::new(format!("none of its {} runs is one of this study", store.len())).in_file(&out);
+        return Err(error.help("study or wall file were changed since; `concio study run` does the runs anew").into());
+    }
     let answered = match rows.len() == cases.len() {
         true => ask(&plan, &rows, &out, 0, &|_| Control::Stop, true)?,
         false => None,

@@ -81,13 +81,14 @@ pub fn answer(request: &Request, what: Do) -> Result<ExitCode, Failure> {
 fn found(request: &Request, subjects: &[Subject], known_only: bool) -> Result<Option<Vec<Answer>>, Failure> {
     let bar = Runs::new();
     let watch = |progress: &Progress| {
-        if known_only || stop::asked() {
+        if stop::asked() {
             return Control::Stop;
         }
         bar.show(progress);
         Control::Continue
     };
-    let runner = Runner::open(request.out, &keep(), request.threads, &watch)?;
+    let mut runner = Runner::open(request.out, &keep(), request.threads, &watch)?;
+    runner.reading = known_only;
     let answers = search(request.question, subjects, &mut runner.until(request.question.rule));
     bar.clear();
     Ok(answers?)

@@ -134,7 +134,11 @@ pub fn quantile(sorted: &[f64], share: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
     let place = share * last as f64;
     let (low, rest) = (place.floor() as usize, place.fract());
-    if rest == 0.0 || low == last { sorted[low] } else { sorted[low] + rest * (sorted[low + 1] - sorted[low]) }
+    if rest == 0.0 || low == last {
+        return sorted[low];
+    }
+    // Between two infinite values a difference would be no number.
+    if sorted[low + 1].is_infinite() { sorted[low + 1] } else { sorted[low] + rest * (sorted[low + 1] - sorted[low]) }
 }
 
 /// The fragility of a limit state.
