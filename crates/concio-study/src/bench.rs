@@ -147,7 +147,7 @@ impl<'b, 'r> Bench<'b, 'r> {
                 match cracks {
                     Some(cracks) if cracks == wanted => *found = found.or(Some(scale)),
                     Some(_) => {}
-                    None => *found = Some(f64::NAN),
+                    None => *found = found.or(Some(f64::NAN)),
                 }
             }
         }
@@ -170,10 +170,13 @@ impl<'b, 'r> Bench<'b, 'r> {
         Ok(Some(found.into_iter().zip(ends).map(of).collect()))
     }
 
-    /// Whether a bond cracks at these scales; none where a run failed.
+    /// Whether a bond cracks at these scales; none where a run failed before one did. What came after a crack does not matter.
     fn cracked(&mut self, trials: &[Trial], scales: &[f64]) -> Result<Option<Vec<Option<bool>>>> {
         let Some(rows) = self.rows_scaled(trials, scales)? else { return Ok(None) };
-        let cracked = |row: &Row| measured(row, |row| row.number("joints_cracked")).map(|n| n > 0.0);
+        let cracked = |row: &Row| match row.number("joints_cracked") {
+            Some(n) if n > 0.0 => Some(true),
+            _ => measured(row, |row| row.number("joints_cracked")).map(|_| false),
+        };
         Ok(Some(rows.iter().map(cracked).collect()))
     }
 }

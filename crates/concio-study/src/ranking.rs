@@ -10,6 +10,7 @@ use concio::Result;
 
 use crate::file::{PerJoint, StudyFile};
 use crate::measures::Row;
+use crate::sensitivity::ranks::ranks as midranks;
 use crate::table::Table;
 
 /// Asks for the critical joints.
@@ -105,22 +106,10 @@ pub fn ranks(rows: &[&Row], by: PerJoint) -> Option<Ranks> {
 /// Spearman's rank correlation, equal values with the mean of their ranks; none where one side is all equal.
 pub fn spearman(a: &[f64], b: &[f64]) -> Option<f64> {
     let (a, b) = (midranks(a), midranks(b));
-    let mean = (a.len() as f64 - 1.0) / 2.0;
+    let mean = (a.len() as f64 + 1.0) / 2.0;
     let product = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| (x - mean) * (y - mean)).sum::<f64>();
     let [of_a, of_b] = [product(&a, &a), product(&b, &b)];
     (of_a > 0.0 && of_b > 0.0).then(|| product(&a, &b) / (of_a * of_b).sqrt())
-}
-
-fn midranks(values: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
-    let mut ranks = vec![0.0; values.len()];
-    for group in order.chunk_by(|&a, &b| values[a] == values[b]) {
-        let first = order.iter().position(|e| *e == group[0]).unwrap_or(0) as f64;
-        let rank = first + (group.len() as f64 - 1.0) / 2.0;
-        group.iter().for_each(|&e| ranks[e] = rank);
-    }
-    ranks
 }
 
 /// One line per joint, in the order of the first ranking.

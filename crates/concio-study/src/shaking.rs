@@ -4,8 +4,8 @@ use concio::excitation::Excitation;
 use concio::ground::response_spectrum;
 use concio::model::Model;
 
-/// Damping ratio of spectral accelerations.
-pub const DAMPING: f64 = 0.05;
+use crate::intensity::DAMPING;
+
 /// Samples that a motion in closed form is read off at, at most.
 const MOST_SAMPLES: f64 = 1e6;
 /// Relative change of ω² at which the iteration for the first period ends, and its rounds.

@@ -206,7 +206,7 @@ fn json(request: &Request, answers: &[Answer]) -> Value {
         "interval": question.interval,
         "checks": question.checks,
         "periods": question.periods,
-        "damping": concio_study::shaking::DAMPING,
+        "damping": concio_study::intensity::DAMPING,
         "units": "SI; scale, PGA, PGV: [run without a crack, run with the first crack]; Sa at the latter, of 5 % damping, damped: of the first mode's",
         "version": env!("CARGO_PKG_VERSION"),
         "motions": answers.iter().map(one).collect::<Vec<_>>(),
