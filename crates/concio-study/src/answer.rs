@@ -241,9 +241,10 @@ struct Judge<'j, 'b, 'r> {
 }
 
 impl Judge<'_, '_, '_> {
-    /// Factors on the motions of the copies: the first is the motion itself.
+    /// Factors on the motions of the copies. None is the motion itself: a design was chosen by how lucky it was in that one
+    /// trajectory.
     fn factors(&self, copies: usize) -> Vec<f64> {
-        (0..copies).map(|k| 1.0 + k as f64 * self.question.input.perturbation).collect()
+        (1..=copies).map(|k| 1.0 + k as f64 * self.question.input.perturbation).collect()
     }
 
     fn line(&mut self, name: &str, design: Option<&Design>, copied: bool) -> Result<Option<Line>> {

@@ -5,6 +5,7 @@ use concio::case::Case;
 use rayon::prelude::*;
 
 use crate::interfaces::{Question, Target, with};
+use crate::limits::{Criterion, Rule};
 use crate::measures::{End, Row};
 use crate::plan::Plan;
 use crate::runner::Runner;
@@ -52,7 +53,8 @@ impl<'b, 'r> Bench<'b, 'r> {
         let targets: Vec<Target> = self.question.objectives.iter().map(|o| o.target).collect();
         let mut values = vec![vec![f64::NAN; targets.len()]; trials.len()];
         if targets.iter().any(|t| *t != Target::FirstCracking) {
-            let Some(rows) = self.rows(trials)? else { return Ok(None) };
+            let cases = self.cases(trials, &vec![1.0; trials.len()])?;
+            let Some(rows) = self.runner.rows(&cases)? else { return Ok(None) };
             for (values, row) in values.iter_mut().zip(&rows) {
                 for (value, target) in values.iter_mut().zip(&targets) {
                     *value = measured(row, |row| target.of(row)).unwrap_or(f64::NAN);
@@ -119,20 +121,10 @@ impl<'b, 'r> Bench<'b, 'r> {
         self.plan.changed(&changes, scene.scale * trial.factor * scale)
     }
 
-    fn rows_scaled(&mut self, trials: &[Trial], scales: &[f64]) -> Result<Option<Vec<Row>>> {
-        let both = (trials, scales);
-        let cases: Vec<Case> = both
-            .into_par_iter()
-            .map(|(t, s)| self.case(t, *s))
-            .collect::<Vec<_>>()
-            .into_iter()
-            .collect::<Result<_>>()?;
-        self.runs += cases.len();
-        self.runner.rows(&cases)
-    }
-
-    fn rows(&mut self, trials: &[Trial]) -> Result<Option<Vec<Row>>> {
-        self.rows_scaled(trials, &vec![1.0; trials.len()])
+    /// The walls of some trials at these scales; they count as runs.
+    fn cases(&mut self, trials: &[Trial], scales: &[f64]) -> Result<Vec<Case>> {
+        self.runs += trials.len();
+        (trials, scales).into_par_iter().map(|(t, s)| self.case(t, *s)).collect::<Vec<_>>().into_iter().collect()
     }
 
     /// The scale of the motion at which a first bond cracks, by halving the logarithm of the interval, all trials at
@@ -170,13 +162,12 @@ impl<'b, 'r> Bench<'b, 'r> {
         Ok(Some(found.into_iter().zip(ends).map(of).collect()))
     }
 
-    /// Whether a bond cracks at these scales; none where a run failed before one did. What came after a crack does not matter.
+    /// Whether a bond cracks at these scales; none where a run failed before one did. Runs end with their first crack.
     fn cracked(&mut self, trials: &[Trial], scales: &[f64]) -> Result<Option<Vec<Option<bool>>>> {
-        let Some(rows) = self.rows_scaled(trials, scales)? else { return Ok(None) };
-        let cracked = |row: &Row| match row.number("joints_cracked") {
-            Some(n) if n > 0.0 => Some(true),
-            _ => measured(row, |row| row.number("joints_cracked")).map(|_| false),
-        };
+        let cases = self.cases(trials, scales)?;
+        let rule = Rule::new(Criterion::Bond, None);
+        let Some(rows) = self.runner.rows_until(&cases, &rule)? else { return Ok(None) };
+        let cracked = |row: &Row| (row.end == End::Completed).then(|| row.number("first_crack").is_some());
         Ok(Some(rows.iter().map(cracked).collect()))
     }
 }

@@ -11,10 +11,12 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use concio::case::Case;
+use concio::ground::{GroundMotion, Library};
 use concio::many::{Job, Standing, simulate_each};
+use concio::model::Model;
 use concio::outcome::Outcome;
 use concio::record::StopReason;
-use concio::run::{Control, Prepared, joint_rows, prepare};
+use concio::run::{Control, Prepared, joint_rows, prepare_with};
 use concio::store::hdf5;
 use concio::{Error, Result};
 use rayon::prelude::*;
@@ -27,14 +29,14 @@ use crate::plan::Records;
 use crate::store::Store;
 use crate::until::simulate_until;
 
-/// Runs that are prepared together at most, and blocks in all of them: what is in memory at a time.
+/// Threads wait for each other where one set of runs ends and the next begins, so sets are large; but no larger than this
+/// in runs and in memory, about [bytes], and no longer in the making: what is being made is lost when a study is killed.
 const MOST_AT_ONCE: usize = 4096;
-const MOST_BLOCKS: usize = 400_000;
-/// Threads wait for each other where one set of runs ends and the next begins: sets are as large as memory allows.
-const ABOUT_SAMPLES: usize = 20_000_000;
-
-/// Runs under synthetic records that are prepared together.
-const SYNTHETIC_AT_ONCE: usize = 48;
+const MOST_MEMORY: usize = 1 << 30;
+const MOST_MAKING: Duration = Duration::from_secs(5);
+/// Memory of a run per block, and per sample of its motion [bytes].
+const PER_BLOCK: usize = 2500;
+const PER_SAMPLE: usize = 24;
 
 /// How far the runs are.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,6 +70,7 @@ pub struct Runner<'a> {
     /// Whether rows that the store does not have are left undone, as if the watch had stopped them.
     pub reading: bool,
     records: Records,
+    library: Library,
     watch: &'a (dyn Fn(&Progress) -> Control + Sync),
     solve: Solve,
     until: Option<Rule>,
@@ -93,6 +96,7 @@ impl<'a> Runner<'a> {
             results: keep.results,
             reading: false,
             records: Records::default(),
+            library: Library::default(),
             watch,
             solve: simulate_each,
             until: None,
@@ -136,6 +140,17 @@ impl<'a> Runner<'a> {
         (row.has(&self.joints) && file).then_some(row)
     }
 
+    /// [`Runner::rows`] of runs that end with their first crack ([`Runner::until`]), whatever this runner does else.
+    ///
+    /// # Errors
+    /// As [`Runner::rows`].
+    pub fn rows_until(&mut self, cases: &[Case], rule: &Rule) -> Result<Option<Vec<Row>>> {
+        let own = (self.until.replace(rule.clone()), std::mem::take(&mut self.results));
+        let rows = self.rows(cases);
+        (self.until, self.results) = own;
+        rows
+    }
+
     fn result_path(&self, id: &str) -> std::path::PathBuf {
         self.store.folder().join("results").join(format!("{id}.h5"))
     }
@@ -156,10 +171,11 @@ impl<'a> Runner<'a> {
         let tally = Tally::new(cases.len(), cases.len() - todo.len(), ids.iter().filter_map(|id| self.store.get(id)));
         let mut rest = &todo[..];
         while !rest.is_empty() {
-            let (set, after) = rest.split_at(self.set_size(cases, rest));
+            let set = self.made(cases, rest);
+            let (these, after) = rest.split_at(set.len());
             rest = after;
-            let set: Vec<(&str, &Case)> = set.iter().map(|&i| (ids[i].as_str(), &cases[i])).collect();
-            if self.run_set(&set, &tally)? == Control::Stop {
+            let set = these.iter().map(|&i| ids[i].as_str()).zip(set).collect();
+            if self.run_set(set, &tally)? == Control::Stop {
                 self.store.sync()?;
                 return Ok(None);
             }
@@ -170,30 +186,26 @@ impl<'a> Runner<'a> {
         Ok(Some(ids.iter().filter_map(row).collect()))
     }
 
-    /// How many of `todo` are prepared together.
-    fn set_size(&self, cases: &[Case], todo: &[usize]) -> usize {
-        let mut weight = 0;
-        let fits = |&&i: &&usize| {
-            // About: blocks from the courses where the pattern says them, samples of a record in memory.
-            let case = &cases[i];
-            let blocks: usize =
-                case.panels.iter().map(|p| p.courses.unwrap_or(10) * (p.bricks.unwrap_or(10) + 1)).sum();
-            let record =
-                matches!(case.motion.base, concio::case::Signal::Record(_) | concio::case::Signal::Synthetic(_));
-            // Synthetic records take long to make: a set of few, so that what is killed has lost little.
-            let synthetic = matches!(case.motion.base, concio::case::Signal::Synthetic(_));
-            weight += if synthetic { MOST_BLOCKS / SYNTHETIC_AT_ONCE } else { 0 };
-            weight += blocks + if record { MOST_BLOCKS / (ABOUT_SAMPLES / 20_000) } else { 0 };
-            weight <= MOST_BLOCKS
-        };
-        todo.iter().take(MOST_AT_ONCE).take_while(fits).count().max(1)
+    /// The first of `todo` made ready, as many as are to run together.
+    fn made(&self, cases: &[Case], todo: &[usize]) -> Vec<std::result::Result<Prepared, String>> {
+        let begun = Instant::now();
+        let mut set = Vec::new();
+        let (mut memory, mut next) = (0, rayon::current_num_threads());
+        while set.len() < todo.len().min(MOST_AT_ONCE) && memory < MOST_MEMORY && begun.elapsed() < MOST_MAKING {
+            let some = &todo[set.len()..todo.len().min(set.len() + next)];
+            let made: Vec<_> = some.par_iter().map(|&i| ready(&cases[i], &self.library)).collect();
+            let weight = |p: &Prepared| PER_BLOCK * p.model.wall.blocks.len() + PER_SAMPLE * samples(&p.model);
+            memory += made.iter().flatten().map(weight).sum::<usize>();
+            set.extend(made);
+            // As many again, while those there took little of what there is.
+            next = if 4 * memory < MOST_MEMORY { 2 * next } else { rayon::current_num_threads() };
+        }
+        set
     }
 
-    fn run_set(&mut self, set: &[(&str, &Case)], tally: &Tally) -> Result<Control> {
-        let prepared: Vec<std::result::Result<Prepared, String>> =
-            set.par_iter().map(|(_, case)| ready(case)).collect();
+    fn run_set(&mut self, set: Vec<(&str, std::result::Result<Prepared, String>)>, tally: &Tally) -> Result<Control> {
         let mut jobs: Vec<(&str, &Prepared)> = Vec::new();
-        for ((id, _), prepared) in set.iter().zip(&prepared) {
+        for (id, prepared) in &set {
             match prepared {
                 Ok(prepared) => jobs.push((id, prepared)),
                 Err(cause) => {
@@ -344,9 +356,14 @@ impl Tally {
     }
 }
 
+/// Samples of the motions that a model holds.
+fn samples(model: &Model) -> usize {
+    [&model.excitation.base, &model.excitation.top].into_iter().map(GroundMotion::samples).sum()
+}
+
 /// Makes a case ready; a panic on the way is a cause like any other.
-fn ready(case: &Case) -> std::result::Result<Prepared, String> {
-    catch_unwind(AssertUnwindSafe(|| prepare(case.clone(), Path::new(""))))
+fn ready(case: &Case, library: &Library) -> std::result::Result<Prepared, String> {
+    catch_unwind(AssertUnwindSafe(|| prepare_with(case.clone(), Path::new(""), library)))
         .unwrap_or_else(|panic| Err(concio::InputError::new(format!("panicked: {}", message(&*panic))).into()))
         .map_err(|e| e.to_string())
 }

@@ -178,7 +178,9 @@ impl Strand {
     fn ask(&mut self, quest: &Quest) -> Vec<Design> {
         self.asked = match &mut self.cma {
             Some(cma) => cma.ask(),
-            None => vec![Vec::new(); if quest.fixed { 1 } else { quest.population.max(4) }],
+            // The one design that there is was asked for in the first generation.
+            None if quest.fixed => vec![Vec::new(); usize::from(self.first)],
+            None => vec![Vec::new(); quest.population.max(4)],
         };
         let mut designs: Vec<Design> = Vec::new();
         for k in 0..self.asked.len() {

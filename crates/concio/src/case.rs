@@ -846,7 +846,7 @@ pub struct Synthetic {
     pub pga: Acceleration,
     /// Duration [s], above 2.
     pub duration: Time,
-    /// Sample interval [s], above 0; default 0.005. Up to 10,000,000 samples.
+    /// Sample interval [s], above 0 and up to 0.02; default 0.005. Below 200,000 samples.
     #[serde(default = "default_synthetic_dt")]
     pub dt: Time,
     /// Corner periods T_B, T_C, T_D of the target [s], above 0 and rising; default EN 1998-1 type 1, ground B: 0.15, 0.5, 2.

@@ -8,7 +8,8 @@ use serde_json::Value;
 use crate::case::{Beam, Case, Output, Signal, canonical_json, plausible};
 use crate::error::{Error, InputError, Result};
 use crate::excitation::Excitation;
-use crate::ground::{coverage, signal};
+use crate::ground::signal::compile_with;
+use crate::ground::{Library, coverage};
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::pattern;
@@ -82,11 +83,19 @@ const MOST_SAMPLES: f64 = 1e7;
 /// # Errors
 /// Records that cannot be read, walls that do not stand, names that nothing bears.
 pub fn prepare(case: Case, folder: &Path) -> Result<Prepared> {
+    prepare_with(case, folder, &Library::default())
+}
+
+/// [`prepare`] for one of many runs: accelerograms are taken from `library`.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn prepare_with(case: Case, folder: &Path, library: &Library) -> Result<Prepared> {
     let wall = pattern::lay(&case)?;
-    let excitation = excitation(&case, folder)?;
+    let excitation = excitation(&case, folder, library)?;
     let sampling = sampling(&case.output, &excitation)?;
     let inputs_hash = inputs_hash(&case, folder)?;
-    let of_records = coverage::warnings(&case, folder, excitation.duration)?;
+    let of_records = coverage::warnings(&case, folder, excitation.duration, library)?;
     let mut model = Model::compile(&case, wall, excitation)?;
     model.warnings.splice(0..0, plausible::doubts(&case));
     model.warnings.extend(of_records);
@@ -94,9 +103,10 @@ pub fn prepare(case: Case, folder: &Path) -> Result<Prepared> {
     Ok(Prepared { case, model, sampling, inputs_hash })
 }
 
-fn excitation(case: &Case, folder: &Path) -> Result<Excitation> {
-    let base = signal::compile(&case.motion.base, folder).map_err(|e| at_key(e, "motion.base"))?;
-    let top = signal::compile(&case.motion.top, folder).map_err(|e| at_key(e, "motion.top"))?;
+fn excitation(case: &Case, folder: &Path, library: &Library) -> Result<Excitation> {
+    let compiled = |signal, key| compile_with(signal, folder, library).map_err(|e| at_key(e, key));
+    let base = compiled(&case.motion.base, "motion.base")?;
+    let top = compiled(&case.motion.top, "motion.top")?;
     let driven = case.load.beam == Beam::Driven;
     let ends = [base.end(), top.end().filter(|_| driven)].into_iter().flatten();
     let end = ends.reduce(f64::max).filter(|&end| end > 0.0);

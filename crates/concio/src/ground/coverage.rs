@@ -4,8 +4,8 @@ use std::path::Path;
 
 use crate::case::{Beam, Case, RecordInput, Signal};
 use crate::error::Result;
-use crate::ground::record::{self, Record, TextOptions};
-use crate::ground::{measure, process, synthetic};
+use crate::ground::record::Record;
+use crate::ground::{Library, measure};
 
 /// Difference of run and record that does not count, over the length of the record.
 const SLACK: f64 = 1e-6;
@@ -40,24 +40,24 @@ pub fn coverage(record: &Record, duration: f64) -> Coverage {
 }
 
 /// What a user should know of the records of a case before believing a run of `duration` [s], one sentence each.
-/// `folder` is where relative record paths start.
+/// `folder` is where relative record paths start; records are taken from `library`.
 ///
 /// # Errors
 /// Records that cannot be read.
-pub fn warnings(case: &Case, folder: &Path, duration: f64) -> Result<Vec<String>> {
+pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) -> Result<Vec<String>> {
     let driven = case.load.beam == Beam::Driven;
     let motions = [("base", &case.motion.base, true), ("top", &case.motion.top, driven)];
     let mut found = Vec::new();
     for (name, signal, _) in motions.into_iter().filter(|m| m.2) {
         match signal {
             Signal::Record(input) => {
-                found.extend(unchosen(name, input, folder)?);
-                let record = process::load(input, folder)?;
+                found.extend(unchosen(name, input, folder, library)?);
+                let record = library.record(input, folder)?;
                 found.extend(uncovered(name, "record", &record, duration));
                 found.extend(drifting(name, &record));
             }
             Signal::Synthetic(input) => {
-                found.extend(uncovered(name, "accelerogram", &synthetic::generate(input)?, duration));
+                found.extend(uncovered(name, "accelerogram", &library.synthetic(input)?, duration));
             }
             _ => {}
         }
@@ -65,11 +65,11 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64) -> Result<Vec<String>
     Ok(found)
 }
 
-fn unchosen(name: &str, input: &RecordInput, folder: &Path) -> Result<Option<String>> {
+fn unchosen(name: &str, input: &RecordInput, folder: &Path, library: &Library) -> Result<Option<String>> {
     if input.channel.is_some() {
         return Ok(None);
     }
-    let channels = record::read(&folder.join(&input.record), &TextOptions::from(input))?.len();
+    let channels = library.channels(input, folder)?;
     let warning = || {
         format!(
             "motion.{name}: the record has {channels} channels and none is chosen: the first is taken (`channel = 1`)"

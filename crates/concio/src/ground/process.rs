@@ -10,7 +10,8 @@ use sci_rs::signal::filter::design::{DigitalFilter, FilterBandType, FilterOutput
 use sci_rs::signal::filter::sosfiltfilt_dyn;
 
 use crate::case::{Baseline, RecordInput};
-use crate::ground::record::{Record, TextOptions, interval_error, read};
+use crate::ground::Library;
+use crate::ground::record::{Record, interval_error};
 use crate::ground::spline::{self, Ends};
 use crate::{InputError, Result};
 
@@ -33,17 +34,7 @@ const SLACK: f64 = 1e-9;
 /// # Errors
 /// [`crate::Error::Input`] as [`read`] and [`prepare`], and when the file has no such channel.
 pub fn load(input: &RecordInput, base: &Path) -> Result<Record> {
-    let path = base.join(&input.record);
-    let mut records = read(&path, &TextOptions::from(input))?;
-    let channel = input.channel.unwrap_or(1);
-    if !(1..=records.len()).contains(&channel) {
-        let error = InputError::new(format!("channel {channel} of {}", path.display())).key("channel");
-        return Err(error.allowed(format!("1 … {}", records.len())).into());
-    }
-    prepare(records.swap_remove(channel - 1), input).map_err(|error| match error {
-        crate::Error::Input(input) => input.in_file(&path).into(),
-        other => other,
-    })
+    Library::default().record(input, base)
 }
 
 /// Trims, reverses, corrects the baseline, resamples and scales as `input` says, in this order.
@@ -52,26 +43,37 @@ pub fn load(input: &RecordInput, base: &Path) -> Result<Record> {
 /// [`crate::Error::Input`] when a number of `input` does not suit the record; it carries the allowed range.
 pub fn prepare(record: Record, input: &RecordInput) -> Result<Record> {
     let mut record = record;
+    correct(&mut record, input)?;
+    size(&mut record, input)?;
+    Ok(record)
+}
+
+/// [`prepare`] but for the scale.
+pub(super) fn correct(record: &mut Record, input: &RecordInput) -> Result<()> {
     if let Some([from, to]) = input.trim {
-        trim(&mut record, from.si(), to.si())?;
+        trim(record, from.si(), to.si())?;
     }
     if input.reverse {
-        reverse(&mut record);
+        reverse(record);
     }
-    correct_baseline(&mut record, input.baseline)?;
+    correct_baseline(record, input.baseline)?;
     if let Some(dt) = input.resample {
-        resample(&mut record, dt.si())?;
+        resample(record, dt.si())?;
     }
+    Ok(())
+}
+
+/// The scale of [`prepare`].
+pub(super) fn size(record: &mut Record, input: &RecordInput) -> Result<()> {
     match (input.scale, input.pga) {
         (Some(_), Some(_)) => {
             let error = InputError::new("both `scale` and `pga` are given").key("pga");
             return Err(error.allowed("one of them").into());
         }
-        (Some(factor), None) => scale(&mut record, factor)?,
-        (None, Some(pga)) => scale_to_pga(&mut record, pga.si())?,
-        (None, None) => {}
+        (Some(factor), None) => scale(record, factor),
+        (None, Some(pga)) => scale_to_pga(record, pga.si()),
+        (None, None) => Ok(()),
     }
-    Ok(record)
 }
 
 /// A number without the digits that rounding leaves behind.

@@ -20,11 +20,12 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use crate::case;
+use crate::ground::library::Library;
 use crate::ground::pieces::{Form, Pieces};
 pub use crate::ground::pieces::{Kinematics, Segment};
-use crate::ground::process::{integrate, load};
+use crate::ground::process::integrate;
 use crate::ground::record::Record;
-use crate::ground::{spline, synthetic};
+use crate::ground::spline;
 use crate::{InputError, Result};
 
 /// Longest step of a sine, as a fraction of its period.
@@ -113,6 +114,11 @@ impl GroundMotion {
         }
     }
 
+    /// Number of samples of a record; 0 for motions in closed form.
+    pub fn samples(&self) -> usize {
+        if let GroundMotion::Samples(samples) = self { samples.motion.len() } else { 0 }
+    }
+
     /// When the acceleration ends for good [s]; none for a sine that goes on.
     pub fn end(&self) -> Option<f64> {
         match self {
@@ -165,14 +171,22 @@ impl Samples {
 /// # Errors
 /// [`crate::Error::Input`] when a record cannot be read, or a number is out of its range.
 pub fn compile(signal: &case::Signal, base: &Path) -> Result<GroundMotion> {
+    compile_with(signal, base, &Library::default())
+}
+
+/// [`compile`], records taken from `library`.
+///
+/// # Errors
+/// As [`compile`].
+pub fn compile_with(signal: &case::Signal, base: &Path, library: &Library) -> Result<GroundMotion> {
     Ok(match signal {
         case::Signal::None => GroundMotion::AtRest,
-        case::Signal::Record(input) => from_record(&load(input, base)?),
+        case::Signal::Record(input) => from_record(&library.record(input, base)?),
         case::Signal::Sine(sine) => GroundMotion::Pieces(compile_sine(sine)?),
         case::Signal::Ramp(ramp) => GroundMotion::Pieces(compile_ramp(ramp)?),
         case::Signal::Pulse(pulse) => GroundMotion::Pieces(compile_pulse(pulse)?),
         case::Signal::Sweep(sweep) => compile_sweep(sweep)?,
-        case::Signal::Synthetic(synthetic) => from_record(&synthetic::generate(synthetic)?),
+        case::Signal::Synthetic(synthetic) => from_record(&library.synthetic(synthetic)?),
     })
 }
 

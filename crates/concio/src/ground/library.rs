@@ -1,0 +1,176 @@
+//! Accelerograms that several runs share: each is read or made once, whatever its scale.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use crate::case::{RecordInput, Synthetic};
+use crate::ground::record::{Record, TextOptions, read};
+use crate::ground::{process, synthetic};
+use crate::quantity::Acceleration;
+use crate::{InputError, Result};
+
+/// Samples that are kept at most, 8 bytes each; what comes later is made anew for every run.
+const MOST_SAMPLES: usize = 50_000_000;
+
+/// What has been read and made, by what it was asked for. Threads may share it: while one makes a record, those that want
+/// the same one wait for it.
+#[derive(Debug, Default)]
+pub struct Library {
+    shelves: Mutex<Shelves>,
+}
+
+#[derive(Debug, Default)]
+struct Shelves {
+    places: HashMap<Key, Arc<Mutex<Option<Arc<Shelved>>>>>,
+    samples: usize,
+}
+
+/// What makes a record what it is, but for its scale, in words that keep every digit.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+enum Key {
+    Record(PathBuf, String),
+    Synthetic(String),
+}
+
+#[derive(Debug)]
+struct Shelved {
+    /// Before it is scaled.
+    record: Record,
+    /// In its file.
+    channels: usize,
+}
+
+impl Library {
+    /// The channel that `input` names, prepared ([`process::prepare`]); its path is relative to `folder`.
+    ///
+    /// # Errors
+    /// [`crate::Error::Input`] when the file cannot be read, has no such channel, or a number of `input` does not suit it.
+    pub fn record(&self, input: &RecordInput, folder: &Path) -> Result<Record> {
+        let mut record = self.of_file(input, folder)?.record.clone();
+        process::size(&mut record, input).map_err(|e| in_file(e, &folder.join(&input.record)))?;
+        Ok(record)
+    }
+
+    /// Number of channels in the file that `input` names.
+    ///
+    /// # Errors
+    /// As [`Library::record`].
+    pub fn channels(&self, input: &RecordInput, folder: &Path) -> Result<usize> {
+        Ok(self.of_file(input, folder)?.channels)
+    }
+
+    /// The accelerogram of `input` ([`synthetic::generate`]).
+    ///
+    /// # Errors
+    /// [`crate::Error::Input`] when a number is out of its range.
+    pub fn synthetic(&self, input: &Synthetic) -> Result<Record> {
+        synthetic::check(input)?;
+        // A shape fits every PGA: spectrum and motion are proportional to it.
+        let shape = Synthetic { pga: Acceleration::from_si(1.0), ..*input };
+        let key = Key::Synthetic(format!("{shape:?}"));
+        let shelved = self.shelved(key, || Ok(Shelved { record: synthetic::generate(&shape)?, channels: 1 }))?;
+        let mut record = shelved.record.clone();
+        record.acceleration.iter_mut().for_each(|a| *a *= input.pga.si());
+        Ok(record)
+    }
+
+    fn of_file(&self, input: &RecordInput, folder: &Path) -> Result<Arc<Shelved>> {
+        let path = folder.join(&input.record);
+        let plain = RecordInput { scale: None, pga: None, ..input.clone() };
+        let key = Key::Record(path.clone(), format!("{plain:?}"));
+        self.shelved(key, || {
+            let mut records = read(&path, &TextOptions::from(input))?;
+            let (channel, channels) = (input.channel.unwrap_or(1), records.len());
+            if !(1..=channels).contains(&channel) {
+                let error = InputError::new(format!("channel {channel} of {}", path.display())).key("channel");
+                return Err(error.allowed(format!("1 … {channels}")).into());
+            }
+            let mut record = records.swap_remove(channel - 1);
+            process::correct(&mut record, input).map_err(|e| in_file(e, &path))?;
+            Ok(Shelved { record, channels })
+        })
+    }
+
+    /// What stands under `key`, made first where nothing does. What could not be made is tried again.
+    fn shelved(&self, key: Key, make: impl FnOnce() -> Result<Shelved>) -> Result<Arc<Shelved>> {
+        let place = Arc::clone(locked(&self.shelves).places.entry(key).or_default());
+        let mut place = locked(&place);
+        if let Some(known) = &*place {
+            return Ok(Arc::clone(known));
+        }
+        let made = Arc::new(make()?);
+        let mut shelves = locked(&self.shelves);
+        if shelves.samples + made.record.npts() <= MOST_SAMPLES {
+            shelves.samples += made.record.npts();
+            *place = Some(Arc::clone(&made));
+        }
+        Ok(made)
+    }
+}
+
+/// A thread that panicked left nothing half done: places are filled whole or not at all.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn in_file(error: crate::Error, path: &Path) -> crate::Error {
+    match error {
+        crate::Error::Input(input) => input.in_file(path).into(),
+        other => other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quantity::Time;
+
+    fn input(pga: f64, seed: u64) -> Synthetic {
+        Synthetic {
+            seed,
+            pga: Acceleration::from_si(pga),
+            duration: Time::from_si(5.0),
+            dt: Time::from_si(0.01),
+            corners: [0.15, 0.5, 2.0].map(Time::from_si),
+        }
+    }
+
+    fn made(library: &Library) -> usize {
+        locked(&library.shelves).places.len()
+    }
+
+    #[test]
+    fn an_accelerogram_is_made_once_for_all_scales_and_is_that_of_a_single_run() -> Result<()> {
+        let library = Library::default();
+        for pga in [0.3, 2.0, 3.0] {
+            let shared = library.synthetic(&input(pga, 4))?;
+            assert_eq!(shared, synthetic::generate(&input(pga, 4))?);
+            assert!((shared.acceleration.iter().fold(0.0, |m: f64, a| m.max(a.abs())) / pga - 1.0).abs() < 1e-15);
+        }
+        assert_eq!(made(&library), 1);
+        assert_ne!(library.synthetic(&input(2.0, 5))?.acceleration, library.synthetic(&input(2.0, 4))?.acceleration);
+        assert_eq!(made(&library), 2);
+        assert!(library.synthetic(&input(-2.0, 4)).is_err_and(|e| e.to_string().contains("synthetic.pga")));
+        Ok(())
+    }
+
+    #[test]
+    fn a_file_is_read_once_for_all_scales() -> Result<()> {
+        let folder = tempfile::tempdir().map_err(|e| crate::Error::io(Path::new("temporary"), e))?;
+        let path = folder.path().join("motion.csv");
+        let write = |text: &str| std::fs::write(&path, text).map_err(|e| crate::Error::io(&path, e));
+        write("t [s],a [m/s2]\n0,0\n0.01,1\n0.02,-2\n0.03,0.5\n")?;
+        let text = |extra: &str| format!("{{\"record\": \"motion.csv\"{extra}}}");
+        let read = |extra: &str| serde_json::from_str::<RecordInput>(&text(extra)).expect("this is an input");
+        let library = Library::default();
+        let plain = library.record(&read(""), folder.path())?;
+        write("nothing")?;
+        let scaled = library.record(&read(", \"scale\": -3"), folder.path())?;
+        assert_eq!(scaled.acceleration, plain.acceleration.iter().map(|a| -3.0 * a).collect::<Vec<_>>());
+        assert_eq!(library.channels(&read(""), folder.path())?, 1);
+        // What differs by more than a scale is another record, and this file has none.
+        assert!(library.record(&read(", \"reverse\": true"), folder.path()).is_err());
+        Ok(())
+    }
+}
