@@ -42,12 +42,7 @@ pub const MEASURES: [Measure; 31] = [
     measure("largest_opening", "m", "widest gap of a head joint or connection"),
     measure("deepest_closing", "m", "deepest closure of a head joint or connection"),
     measure("peak_elastic_force", "N", "largest |elastic force| in a joint"),
-    measure(
-        "peak_friction_force",
-        "N",
-        "largest |friction force| in a joint: what it holds while it sticks; of a bonded joint that of its cracked part, \
-         none while it is intact",
-    ),
+    measure("peak_friction_force", "N", "largest |friction force| that a joint bears"),
     measure("peak_viscous_force", "N", "largest |viscous force| in a joint"),
     measure("peak_inertia_force", "N", "largest |mass times relative acceleration| of a block"),
     measure("top_force_peak", "N", "largest |force| of the top beam"),

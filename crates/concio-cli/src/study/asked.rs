@@ -19,7 +19,7 @@ pub const MODEL: &str = "Limits of the model: every block moves horizontally in 
     Blocks do not rock, turn, lift off or fall, units neither split nor crush, nothing moves out of plane. The normal force \
     of a joint, which friction and cohesion work with, is that of weight and load at rest; it does not change while the \
     wall moves, and neither do overlaps. The model therefore knows no collapse: large slip, opening or drift says how far \
-    joints moved, not that the wall would stand it.";
+    joints moved, not that a real wall would stand it.";
 
 /// Values that a list shows.
 const MOST_VALUES: usize = 12;

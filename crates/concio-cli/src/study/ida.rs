@@ -7,6 +7,7 @@ use concio::run::Control;
 use concio::{InputError, Result};
 use concio_study::Plan;
 use concio_study::ida::curve::{Curve, Found, SHARES, fractiles, fragilities, grid};
+use concio_study::ida::hunt::Way;
 use concio_study::ida::likelihood::Evidence;
 use concio_study::ida::{Analysis, Settings, tables};
 use concio_study::runner::{Progress, Runner};
@@ -19,7 +20,7 @@ use super::sections::label;
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::failure::{Failure, STOPPED};
 use crate::files;
-use crate::format::{counted, pairs};
+use crate::format::{counted, pairs, plain};
 use crate::progress::Runs;
 use crate::stop;
 
@@ -231,7 +232,8 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
         ..Section::default()
     };
     let case = plan.case(0)?;
-    let first = asked::section(plan, "curve", Some(&case), trouble(analysis))?;
+    let mut first = asked::section(plan, "curve", Some(&case), trouble(analysis))?;
+    first.text.insert(1, ways(s));
     let name = |path: Option<&Path>| path.map_or(String::new(), |p| p.display().to_string());
     let title = if plan.file.study.title.is_empty() { "Incremental dynamic analysis" } else { &plan.file.study.title };
     let facts = [
@@ -242,6 +244,34 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
         ("failed curves", analysis.curves.iter().filter(|c| c.failed.is_some()).count().to_string()),
     ];
     super::write(out, title, &facts, &[first, fragility, incremental])
+}
+
+/// Which intensities each curve was asked for, and what counts as what.
+fn ways(s: &Settings) -> String {
+    let unit = s.intensity.unit();
+    let of = |v: f64| format!("{} {unit}", shown(v)).trim_end().to_string();
+    let damage = |v: f64| format!("{} {}", shown(v), s.unit).trim_end().to_string();
+    let way = match &s.way {
+        Way::List(list) => format!("at {}", list.iter().map(|v| of(*v)).collect::<Vec<_>>().join(", ")),
+        Way::Hunt { first, step, growth, most, runs, resolution } => format!(
+            "from {} in steps of {} that grow by {}, up to {}, {} each, the gap below a collapse closed to {} of it",
+            of(*first),
+            of(*step),
+            of(*growth),
+            of(*most),
+            counted(*runs, "run"),
+            plain(*resolution)
+        ),
+    };
+    let limits: Vec<String> = s.limits.iter().map(|(name, v)| format!("{name} ({})", damage(*v))).collect();
+    let collapse = match s.collapse.is_finite() {
+        true => {
+            format!("{} counts as collapse, and so does a run that the solver could not finish", damage(s.collapse))
+        }
+        false => "a run that the solver could not finish counts as collapse".into(),
+    };
+    let quantity = intensity(s).quantity;
+    format!("Intensities: {quantity} {way}. Damage: {}; limits {}; {collapse}.", s.damage, limits.join(", "))
 }
 
 /// What became of the curves.
