@@ -94,7 +94,7 @@ pub fn short(signal: &Signal) -> String {
                 text += &format!(", channel {channel}");
             }
             text += &match (input.pga, input.scale) {
-                (Some(pga), _) => format!(", scaled to a PGA of {} g", significant(pga.si() / concio::G, 4)),
+                (Some(pga), _) => format!(", scaled to a PGA of {} g", plain(pga.si() / concio::G)),
                 (None, scale) => format!(", scale {}", plain(scale.unwrap_or(1.0))),
             };
             if let Some([from, to]) = input.trim {
@@ -105,7 +105,7 @@ pub fn short(signal: &Signal) -> String {
         Signal::Synthetic(input) => format!(
             "synthetic accelerogram, seed {}, PGA {} g, {}",
             input.seed,
-            significant(input.pga.si() / concio::G, 4),
+            plain(input.pga.si() / concio::G),
             seconds(input.duration.si())
         ),
         closed => closed_form(closed),

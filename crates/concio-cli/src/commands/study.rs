@@ -55,7 +55,7 @@ pub fn run_command(command: &StudyCommand) -> std::result::Result<ExitCode, Fail
 fn point(plan: &Plan) -> &'static str {
     let study = &plan.file.study;
     match (study.first_crack.is_some(), study.ida.is_some()) {
-        (true, _) => "search",
+        (true, _) => "case",
         (_, true) => "curve",
         _ => "run",
     }
@@ -102,10 +102,14 @@ fn warn(plan: &Plan, cases: &[(String, Case)]) -> Result<()> {
     for place in 0..motions.len().max(1) {
         let run = (0..plan.points.len()).find(|&n| plan.motion(n).is_none_or(|m| m == place));
         let Some((_, case)) = run.and_then(|n| cases.get(n)) else { continue };
-        let mut base = wall.case.clone();
-        (base.motion, base.output) = (case.motion.clone(), case.output.clone());
+        let (mut base, mut start) = (wall.case.clone(), wall.folder());
+        base.output = case.output.clone();
+        if !motions.is_empty() {
+            // That of the run starts from the working directory.
+            (base.motion, start) = (case.motion.clone(), Path::new(""));
+        }
         // A wall file may leave to the factors what a run cannot do without.
-        let prepared = prepare(base, Path::new("")).or_else(|_| prepare(case.clone(), Path::new("")));
+        let prepared = prepare(base, start).or_else(|_| prepare(case.clone(), Path::new("")));
         let key = if motions.is_empty() { "wall".to_string() } else { format!("motion[{place}]") };
         let warnings = prepared.map_err(|e| plan.file.of_wall(&key, e))?.model.warnings;
         by_motion.push((motions.get(place).map_or(String::new(), |m| format!("motion {}: ", m.name)), warnings));

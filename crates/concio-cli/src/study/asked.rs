@@ -58,7 +58,7 @@ pub fn questions(plan: &Plan) -> Vec<String> {
     asked
 }
 
-/// How the runs are chosen; `one` is what the design's points are: runs, curves, searches.
+/// How the runs are chosen; `one` is what the design's points are: runs, curves, cases.
 pub fn design(plan: &Plan, one: &str) -> String {
     let Design { kind, runs, seed, levels } = plan.file.study.design;
     let points = counted(plan.points.len(), one);
@@ -81,8 +81,8 @@ pub fn design(plan: &Plan, one: &str) -> String {
 pub fn factors(study: &Study) -> Vec<[String; 3]> {
     let mut factors: Vec<[String; 3]> = study.factors.iter().map(factor).collect();
     if !study.motions.is_empty() {
-        let names = study.motions.iter().map(|m| m.name.clone());
-        factors.push(["motion".into(), "motion.base".into(), listed(names)]);
+        let over = format!("{}, listed below", counted(study.motions.len(), "motion"));
+        factors.push(["motion".into(), "motion.base".into(), over]);
     }
     if !study.scales.is_empty() {
         let over = listed(study.scales.iter().map(|s| plain(*s)));
@@ -97,7 +97,7 @@ fn factor(vary: &Vary) -> [String; 3] {
     for Choice { set, .. } in &vary.choices {
         keys.extend(set.keys().filter(|k| !keys.contains(k)).cloned().collect::<Vec<_>>());
     }
-    keys.extend(vary.also.iter().map(|Follower { path, times }| format!("{path} ({} times)", plain(*times))));
+    keys.extend(vary.also.iter().map(|Follower { path, times }| format!("{path} × {}", plain(*times))));
     let over = match (&vary.distribution, &vary.from, &vary.to) {
         (Some(distribution), ..) => distributed(distribution),
         (None, Some(from), Some(to)) => {
@@ -124,14 +124,18 @@ fn distributed(d: &Distribution) -> String {
         DistributionLaw::Triangular => "triangular",
     };
     let dispersion = d.dispersion.map(Value::from);
+    let [low, high] = match d.law {
+        DistributionLaw::Normal | DistributionLaw::Lognormal => ["cut off below", "cut off above"],
+        _ => ["from", "to"],
+    };
     let parameters = [
         ("mean", &d.mean),
         ("deviation", &d.deviation),
         ("median", &d.median),
         ("dispersion", &dispersion),
         ("mode", &d.mode),
-        ("from", &d.low),
-        ("to", &d.high),
+        (low, &d.low),
+        (high, &d.high),
     ];
     let given = parameters.into_iter().filter_map(|(name, value)| Some(format!("{name} {}", text(value.as_ref()?))));
     [name.to_string()].into_iter().chain(given).collect::<Vec<_>>().join(", ")
@@ -170,7 +174,7 @@ pub fn objective(objective: &ObjectiveInput) -> String {
 pub fn bounds(device: &DeviceInput) -> Vec<[String; 2]> {
     let one = |p: &concio_study::interfaces::ParameterInput| {
         let log = if p.spacing == Spacing::Log { ", at equal ratios" } else { "" };
-        let also: String = p.also.iter().map(|f| format!("; {} {} times as much", f.path, plain(f.times))).collect();
+        let also: String = p.also.iter().map(|f| format!("; {} × {}", f.path, plain(f.times))).collect();
         [p.path.clone(), format!("{} to {}{log}{also}", text(&p.from), text(&p.to))]
     };
     if device.parameters.is_empty() {
@@ -352,7 +356,7 @@ mod tests {
                 "also": [{ "path": "joint.friction.dynamic", "times": 0.7 }] }"#,
         );
         assert_eq!(name, "μ");
-        assert_eq!(keys, "joint.friction.static, joint.friction.dynamic (0.7 times)");
+        assert_eq!(keys, "joint.friction.static, joint.friction.dynamic × 0.7");
         assert_eq!(over, "0.4 to 0.8, uniform");
         let over = |text: &str| vary(text)[2].clone();
         assert_eq!(
@@ -364,7 +368,7 @@ mod tests {
                 r#"{ "path": "a", "distribution": { "law": "lognormal", "median": "10 kN/m", "dispersion": 0.3,
                     "high": "20 kN/m" } }"#
             ),
-            "lognormal, median 10 kN/m, dispersion 0.3, to 20 kN/m"
+            "lognormal, median 10 kN/m, dispersion 0.3, cut off above 20 kN/m"
         );
         assert_eq!(over(r#"{ "path": "a", "values": [1, "2 m", true] }"#), "1, 2 m, true");
         assert_eq!(over(r#"{ "name": "n", "choices": [{ "name": "x", "set": { "a": 1 } }] }"#), "x");

@@ -59,7 +59,7 @@ fn a_study_says_what_was_run_and_what_it_answers() {
         "asks       sensitivity of peak_drift\n",
         "asks       critical joints by relative displacement\n",
         "design     Latin hypercube: 6 runs, seed 4\n",
-        "varies     friction (joint.friction.static): lognormal, median 0.6, dispersion 0.1, from 0.5\n",
+        "varies     friction (joint.friction.static): lognormal, median 0.6, dispersion 0.1, cut off below 0.5\n",
         "motion     strong: one-sine pulse, acceleration 8.829 m/s² = 0.9000 g, 0.04 s from 0 s\n",
     ];
     let [text, warned] = said(&desk, "study check study.toml --out out");
@@ -85,7 +85,7 @@ fn a_study_says_what_was_run_and_what_it_answers() {
         &[
             "Design: Latin hypercube: 6 runs, seed 4.",
             "All 6 runs were completed.",
-            "lognormal, median 0.6, dispersion 0.1, from 0.5",
+            "lognormal, median 0.6, dispersion 0.1, cut off below 0.5",
             "0.9000 g",
             "Blocks do not rock",
             "Wall of the first run: 10 blocks",
@@ -120,7 +120,13 @@ fn first_cracking_says_what_was_run_and_that_springs_count() {
     holds(&noted, &["note: criterion slip", "elastically counts"]);
     holds(
         &desk.get("out/report.html"),
-        &["<h2>What was run</h2>", "Design: grid", "0.9000 g", "Blocks do not rock", "elastically counts"],
+        &[
+            "<h2>What was run</h2>",
+            "Design: grid, every value with every other: 2 cases",
+            "0.9000 g",
+            "Blocks do not rock",
+            "elastically counts",
+        ],
     );
     let [_, noted] =
         said(&desk, "first-crack wall.toml --criterion slip --limit 1um --checks 0 --interval 0.5 --out one");
