@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use concio::law::Stribeck;
 use concio::outcome::{BondRow, Outcome};
 use concio::record::StopReason;
 use concio::run::{Prepared, joint_rows};
@@ -12,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::file::PerJoint;
 
 /// Raised when a measure means something else than before: runs measured earlier are then done again.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// A number of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,7 +42,7 @@ pub const MEASURES: [Measure; 31] = [
     measure("largest_opening", "m", "widest gap of a head joint or connection"),
     measure("deepest_closing", "m", "deepest closure of a head joint or connection"),
     measure("peak_elastic_force", "N", "largest |elastic force| in a joint"),
-    measure("peak_friction_force", "N", "largest |friction force| in a joint"),
+    measure("peak_friction_force", "N", "largest |friction force| that a joint bears"),
     measure("peak_viscous_force", "N", "largest |viscous force| in a joint"),
     measure("peak_inertia_force", "N", "largest |mass times relative acceleration| of a block"),
     measure("top_force_peak", "N", "largest |force| of the top beam"),
@@ -162,13 +161,6 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
     let moved = blocks.iter().zip(&envelopes.block_displacement).filter(|(b, _)| tops[b.panel] == Some(b.course));
     let drift = moved.fold(0.0f64, |m, (b, u)| m.max(u / b.y[1]));
     let joints = joint_rows(model);
-    let rub = model.rub_of_joint();
-    let friction = rub.iter().zip(&envelopes.joint_velocity).filter_map(|(rub, v)| {
-        let rub = &model.rubs[(*rub)?];
-        // Up to slip a joint with a set-valued law bears what it has to: its largest is μ_s.
-        let mu = if rub.law.sticks() { rub.law.static_ } else { most_up_to(&rub.law, *v) };
-        Some(mu * rub.normal[0].max(rub.normal[1]))
-    });
     let viscous = joints.iter().zip(&envelopes.joint_velocity).map(|(j, v)| j.damping * v);
     let inertia = model.mass.iter().zip(&envelopes.block_acceleration).map(|(m, a)| m * a);
     let max = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, f64::max);
@@ -186,7 +178,7 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
         most(&envelopes.joint_opening),
         most(&envelopes.joint_closing),
         most(&envelopes.joint_force),
-        max(&mut { friction }),
+        totals.peak_friction_force,
         max(&mut { viscous }),
         max(&mut { inertia }),
         totals.top_force_peak,
@@ -206,15 +198,6 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
         outcome.counters.steps as f64,
         energies.device,
     ]
-}
-
-/// Largest |μ| at speeds up to `speed` [m/s]: the law rises, falls and rises again.
-fn most_up_to(law: &Stribeck, speed: f64) -> f64 {
-    const SPEEDS: i32 = 200;
-    // From the foot of the law, in equal ratios.
-    let foot = (1e-3 * law.slip_velocity / law.beta).min(speed);
-    let ratio = (speed / foot).powf(1.0 / f64::from(SPEEDS));
-    (0..=SPEEDS).map(|k| law.value(foot * ratio.powi(k))).filter(|mu| mu.is_finite()).fold(0.0, f64::max)
 }
 
 fn per_joint(kind: PerJoint, joints: usize, outcome: &Outcome) -> Vec<Option<f64>> {

@@ -131,8 +131,13 @@ impl Plan {
         self.changed(&changes, scale * factor).map_err(|e| {
             let labels: Vec<String> =
                 self.factors.iter().zip(self.labels(number)).map(|(f, l)| format!("{} = {l}", f.name)).collect();
-            let key = self.factors.first().map_or("wall", |f| f.key.as_str());
-            match self.file.of_wall(key, e) {
+            let mut key = self.factors.first().map_or("wall".to_string(), |f| f.key.clone());
+            if let (Some(motion), Error::Input(e)) = (self.motion(number), &e)
+                && e.key.as_deref().is_some_and(|k| k.starts_with("motion."))
+            {
+                key = format!("motion[{motion}]");
+            }
+            match self.file.of_wall(&key, e) {
                 Error::Input(e) => e.help(format!("in run {} with {}", number + 1, labels.join(", "))).into(),
                 other => other,
             }

@@ -6,4 +6,5 @@ mod compare;
 mod figures;
 mod first_crack;
 mod messages;
+mod studies;
 mod support;
