@@ -5,5 +5,8 @@ mod commands;
 mod compare;
 mod figures;
 mod first_crack;
+mod kill;
 mod messages;
+mod smart;
+mod studies;
 mod support;
