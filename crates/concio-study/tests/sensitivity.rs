@@ -89,7 +89,7 @@ fn ranks_are_those_of_values_and_names_have_none() {
     let Ok(Indices::Ranks { coefficients, explained }) = &found.indices else { panic!("{:?}", found.indices) };
     assert!(coefficients[0].is_some_and(|c| (c.value - 1.0).abs() < 1e-9), "{coefficients:?}");
     assert!(coefficients[1].is_none() && (explained - 1.0).abs() < 1e-9, "{coefficients:?} {explained}");
-    let table = tables::table(&study, &[found.clone()]);
+    let table = tables::table(&study, std::slice::from_ref(&found));
     let note = table.columns.iter().find(|c| c.name == "note").map(|c| &c.cells);
     let Some(Cells::Texts(notes)) = note else { panic!("{note:?}") };
     assert!(notes[0].is_none() && notes[2].is_none(), "{notes:?}");

@@ -8,5 +8,5 @@ mod first_crack;
 mod kill;
 mod messages;
 mod smart;
-mod studies;
+mod study_runs;
 mod support;
