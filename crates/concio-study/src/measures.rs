@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::file::PerJoint;
 
-/// Raised when a measure means something else than before: runs measured earlier are then done again.
-pub const VERSION: u32 = 2;
+/// Raised when a measure means something else than before: it stands in every row, and runs measured earlier are done again.
+pub const VERSION: u32 = 3;
 
 /// A number of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,7 +29,7 @@ const fn measure(name: &'static str, unit: &'static str, text: &'static str) -> 
 }
 
 /// The numbers of a run, in the order of [`Row::numbers`].
-pub const MEASURES: [Measure; 31] = [
+pub const MEASURES: [Measure; 32] = [
     measure("time_reached", "s", "time at which the run ended"),
     measure("peak_displacement", "m", "largest |displacement| of a block relative to the base"),
     measure("peak_drift", "", "largest |displacement| of a block of a top course, over the height of its top"),
@@ -61,6 +61,11 @@ pub const MEASURES: [Measure; 31] = [
     measure("first_crack", "s", "time of the first crack"),
     measure("steps", "", "steps of the solver"),
     measure("device_energy", "J", "dissipated by the hysteresis of devices"),
+    measure(
+        "dissipated_energy",
+        "J",
+        "dissipated in all: by friction, damping, devices and breaking bonds, and in impacts",
+    ),
 ];
 
 /// How a run ended.
@@ -80,6 +85,9 @@ pub enum End {
 pub struct Row {
     /// What the run is known by.
     pub id: String,
+    /// [`VERSION`] of the measures; 0 of rows older than that number.
+    #[serde(default)]
+    pub version: u32,
     /// How it ended.
     pub end: End,
     /// Why it stopped or failed.
@@ -103,6 +111,7 @@ impl Row {
     pub fn failed(id: &str, cause: impl Into<String>) -> Self {
         Row {
             id: id.into(),
+            version: VERSION,
             end: End::Failed,
             cause: Some(cause.into()),
             numbers: Vec::new(),
@@ -136,6 +145,7 @@ pub fn row(id: &str, prepared: &Prepared, outcome: &Outcome, keep: &[PerJoint]) 
     let numbers = numbers(prepared, outcome);
     Row {
         id: id.into(),
+        version: VERSION,
         end,
         cause,
         numbers: numbers.into_iter().map(|v| v.is_finite().then_some(v)).collect(),
@@ -197,6 +207,7 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
         outcome.first_crack().map_or(f64::INFINITY, |b| b.cracked),
         outcome.counters.steps as f64,
         energies.device,
+        energies.friction + energies.damping + energies.device + energies.bond + energies.impact,
     ]
 }
 

@@ -343,9 +343,7 @@ fn write(
     table::write_csv(&runs, &out.join("runs.csv"))?;
     table::write_parquet(&runs, &out.join("runs.parquet"))?;
     if !plan.file.study.keep.joints.is_empty() {
-        let joints = table::of_joints(found, &|number| joint_names(&cases[number].1));
-        table::write_csv(&joints, &out.join("joints.csv"))?;
-        table::write_parquet(&joints, &out.join("joints.parquet"))?;
+        table::write_joints(found, &|number| joint_names(&cases[number].1), out)?;
     }
     let mut sections =
         vec![asked::section(plan, "run", cases.first().map(|(_, case)| case), Trouble::of(plan, found))?];
