@@ -1,0 +1,6 @@
+//! Planar walls: every block has a horizontal, a vertical and an angular unknown, so that it slides, opens and rocks.
+//!
+//! Main path: the engine lays the wall and finds its joints; [`assembly`] makes bodies and contact points of them;
+//! [`limit`] asks for the load under which they become a mechanism.
+
+pub mod assembly;
