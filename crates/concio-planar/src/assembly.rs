@@ -104,5 +104,12 @@ fn points(number: usize, joint: &Joint) -> [ContactPoint; 2] {
         JointKind::Bed | JointKind::Top => [0.0, 1.0],
         JointKind::Base => [0.0, -1.0],
     };
-    [[x0, y0], [x1, y1]].map(|at| ContactPoint { joint: number, a: joint.a, b, at, normal, length: 0.5 * joint.overlap })
+    [[x0, y0], [x1, y1]].map(|at| ContactPoint {
+        joint: number,
+        a: joint.a,
+        b,
+        at,
+        normal,
+        length: 0.5 * joint.overlap,
+    })
 }
