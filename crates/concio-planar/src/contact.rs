@@ -23,7 +23,7 @@
 use crate::blocks::{Blocks, Slot, Triple};
 
 /// ρ over the mass that a contact moves: large for few repetitions, small enough for 16 digits.
-const STIFFENING: f64 = 1e5;
+const STIFFENING: f64 = 1e4;
 /// Newton iterations after which a step is given up.
 const MOST: usize = 200;
 /// Points on a line at which the slope is looked at, at most.
@@ -117,6 +117,8 @@ pub struct Effort {
     pub iterations: usize,
     /// Matrices factorised.
     pub factorisations: usize,
+    /// Times that impulses were taken anew.
+    pub rounds: usize,
     /// Largest violation of (P2) and (P3) [m/s].
     pub residual: f64,
     /// Whether it came below what was asked for.
@@ -183,6 +185,7 @@ impl Solver {
         while effort.iterations < MOST {
             if size <= tolerance {
                 effort.residual = self.accept(contacts);
+                effort.rounds += 1;
                 size = self.unbalanced(mass, free, contacts, v);
                 if effort.residual <= tolerance && size <= tolerance {
                     effort.converged = true;

@@ -47,7 +47,7 @@ impl Setting {
     /// Steps of `step` [s] with friction μ, plastic impacts.
     pub fn new(step: f64, friction: f64) -> Self {
         let method = Method::default();
-        Setting { step, friction, restitution: 0.0, gravity: concio::G, tolerance: 1e-10, method }
+        Setting { step, friction, restitution: 0.0, gravity: concio::G, tolerance: 1e-8, method }
     }
 }
 
@@ -71,6 +71,8 @@ pub struct Counters {
     pub iterations: usize,
     /// Matrices factorised.
     pub factorisations: usize,
+    /// Times that impulses were taken anew.
+    pub rounds: usize,
     /// Steps whose contact was not solved to the tolerance.
     pub unsolved: usize,
     /// Largest violation left [m/s].
@@ -249,6 +251,7 @@ impl Motion {
         self.counters.steps += 1;
         self.counters.iterations += effort.iterations;
         self.counters.factorisations += effort.factorisations;
+        self.counters.rounds += effort.rounds;
         self.counters.unsolved += usize::from(!effort.converged);
         self.counters.residual = self.counters.residual.max(effort.residual);
     }
