@@ -4,3 +4,4 @@
 //! [`limit`] asks for the load under which they become a mechanism.
 
 pub mod assembly;
+pub mod limit;
