@@ -50,7 +50,7 @@ impl DryWall {
     pub fn running(bricks: usize, courses: usize, brick: [f64; 2], mu: f64, full: bool) -> Self {
         let whole = vec![1.0; bricks];
         let halves = [vec![0.5], vec![1.0; bricks - 1], vec![0.5]].concat();
-        let row = |k: usize| if (k % 2 == 0) == full { whole.clone() } else { halves.clone() };
+        let row = |k: usize| if k.is_multiple_of(2) == full { whole.clone() } else { halves.clone() };
         DryWall::pattern(&(0..courses).map(row).collect::<Vec<_>>(), brick, mu)
     }
 
