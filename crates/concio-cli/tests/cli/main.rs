@@ -5,5 +5,6 @@ mod commands;
 mod compare;
 mod figures;
 mod first_crack;
+mod limit;
 mod messages;
 mod support;
