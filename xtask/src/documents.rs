@@ -55,7 +55,8 @@ fn all(root: &Path) -> Result<Vec<(String, String)>, String> {
         ("docs/symbols.md".into(), symbols::page(root, &schema)?),
         ("docs/wall.schema.json".into(), schema),
         ("docs/img/first-wall.svg".into(), drawing(root)?),
-        (PAGE.into(), page_of_cases(root)?),
+        (CASES.into(), with_tables(root, CASES, &["cases", "--tables", "docs/report-cases.json"])?),
+        (STUDIES.into(), with_tables(root, STUDIES, &["reference", "--measures"])?),
     ];
     all.append(&mut gallery::make(root)?);
     all.append(&mut performance::with_tables(root)?);
@@ -89,16 +90,18 @@ fn drawing(root: &Path) -> Result<String, String> {
     fs::read_to_string(&out).map_err(|e| format!("{}: {e}", out.display()))
 }
 
-/// The page on the cases of the report; its tables stand between these lines.
-const PAGE: &str = "docs/report-cases.md";
+/// Pages with tables that the program prints: the cases of the report, of docs/report-cases.json, which a test of the command
+/// line holds against new runs; the measures of a study's runs.
+const CASES: &str = "docs/report-cases.md";
+const STUDIES: &str = "docs/studies.md";
+/// The tables stand between these lines.
 const TABLES: [&str; 2] = ["<!-- tables: made by cargo xtask docs -->\n", "<!-- end of tables -->\n"];
 
-/// With the tables of docs/report-cases.json, which a test of the command line holds against new runs.
-fn page_of_cases(root: &Path) -> Result<String, String> {
-    let tables = ["cases", "--tables", "docs/report-cases.json"];
-    let tables = read(Command::new(concio(root)).args(tables).current_dir(root))?;
-    let text = fs::read_to_string(root.join(PAGE)).map_err(|e| format!("{PAGE}: {e}"))?;
+/// A page with what a command prints today as its tables.
+fn with_tables(root: &Path, page: &str, command: &[&str]) -> Result<String, String> {
+    let tables = read(Command::new(concio(root)).args(command).current_dir(root))?;
+    let text = fs::read_to_string(root.join(page)).map_err(|e| format!("{page}: {e}"))?;
     let parts = text.split_once(TABLES[0]).and_then(|(head, rest)| Some((head, rest.split_once(TABLES[1])?.1)));
-    let (head, tail) = parts.ok_or_else(|| format!("{PAGE}: the lines around its tables are missing"))?;
+    let (head, tail) = parts.ok_or_else(|| format!("{page}: the lines around its tables are missing"))?;
     Ok([head, TABLES[0], &tables, TABLES[1], tail].concat())
 }

@@ -48,7 +48,11 @@ pub enum Command {
     Completions(Completions),
     /// Print this reference as Markdown.
     #[command(hide = true)]
-    Reference,
+    Reference {
+        /// Print the table of the measures of a run instead.
+        #[arg(long)]
+        measures: bool,
+    },
     /// Print a diagram of measured points as SVG (docs/performance.md).
     #[command(hide = true)]
     Chart {
@@ -587,7 +591,7 @@ pub enum CrackCriterion {
     Bond,
     /// A head joint or connection opens
     Opening,
-    /// A bed or support joint is displaced along itself
+    /// A bed or support joint is displaced along itself; elastic deformation counts
     Slip,
 }
 

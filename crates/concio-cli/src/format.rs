@@ -23,6 +23,11 @@ pub fn short(value: f64, unit: &str) -> String {
     format!("{number} {unit}")
 }
 
+/// A number of things: `1 run`, `2 runs`. `one` takes an s.
+pub fn counted(number: usize, one: &str) -> String {
+    format!("{number} {one}{}", if number == 1 { "" } else { "s" })
+}
+
 /// Decimal notation with that many significant digits.
 pub fn significant(value: f64, digits: i32) -> String {
     if value == 0.0 || !value.is_finite() {

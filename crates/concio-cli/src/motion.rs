@@ -9,7 +9,7 @@ use concio::ground::{measure, process, synthetic};
 use concio::run::Prepared;
 
 use crate::failure::Failure;
-use crate::format::{seconds, significant};
+use crate::format::{plain, seconds, significant};
 
 /// Lines that say what moves the wall: names and values.
 type Rows = Vec<(&'static str, String)>;
@@ -83,6 +83,33 @@ fn used(found: &mut Rows, record: &Record, duration: f64) {
         Coverage::Silence(rest) => format!("used whole, then {} without acceleration", seconds(rest)),
     };
     found.push(("", text));
+}
+
+/// Any motion in a line, as the file says it: nothing is read.
+pub fn short(signal: &Signal) -> String {
+    match signal {
+        Signal::Record(input) => {
+            let mut text = format!("record {}", input.record.display());
+            if let Some(channel) = input.channel {
+                text += &format!(", channel {channel}");
+            }
+            text += &match (input.pga, input.scale) {
+                (Some(pga), _) => format!(", scaled to a PGA of {} g", plain(pga.si() / concio::G)),
+                (None, scale) => format!(", scale {}", plain(scale.unwrap_or(1.0))),
+            };
+            if let Some([from, to]) = input.trim {
+                text += &format!(", from {} to {}", seconds(from.si()), seconds(to.si()));
+            }
+            text + if input.reverse { ", played backwards" } else { "" }
+        }
+        Signal::Synthetic(input) => format!(
+            "synthetic accelerogram, seed {}, PGA {} g, {}",
+            input.seed,
+            plain(input.pga.si() / concio::G),
+            seconds(input.duration.si())
+        ),
+        closed => closed_form(closed),
+    }
 }
 
 /// A motion that is no record, with its numbers.

@@ -1,7 +1,8 @@
-//! What a study costs beside its solver, and what a second core brings: `cargo bench --bench overhead [-- RUNS]`.
+//! What a study costs beside its solver, and what a second core brings: `cargo bench --bench overhead [-- RUNS TURNS]`.
 //!
 //! The same slipping panels go through `simulate_many` alone, prepared beforehand, and through a runner with a store on
-//! disk, in turn; ratios of their times by the clock are printed, of medians of three.
+//! disk, in turn; ratios of their times by the clock are printed, of medians over the turns: 1,000 runs and three turns unless
+//! said.
 
 use std::path::Path;
 use std::time::Instant;
@@ -12,15 +13,14 @@ use concio_study::file::Keep;
 use concio_study::runner::{Progress, Runner};
 use concio_study::{Plan, StudyFile};
 
-const TIMES: usize = 3;
-
 fn median(mut seconds: Vec<f64>) -> f64 {
     seconds.sort_by(f64::total_cmp);
     seconds[seconds.len() / 2]
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let runs: usize = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(1000);
+    let mut numbers = std::env::args().filter_map(|a| a.parse().ok());
+    let (runs, turns): (usize, usize) = (numbers.next().unwrap_or(1000), numbers.next().unwrap_or(3));
     let wall = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/02-driven-top.toml");
     let folder = tempfile::tempdir()?;
     let text = format!(
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     std::fs::write(&path, text)?;
     let go_on = |_: &Progress| Control::Continue;
     let mut times = vec![Vec::new(); 4];
-    for turn in 0..TIMES {
+    for turn in 0..turns {
         for threads in [1, 2] {
             let begun = Instant::now();
             let plan = Plan::of(StudyFile::read(&path)?)?;

@@ -5,10 +5,11 @@
 //! runs, each of which meets the next at the corner of a block.
 
 use concio::Result;
-use concio::case::Beam;
+use concio::case::{Beam, Case};
 use concio::model::Model;
 use concio::quantity::Length;
 use concio::wall::{Joint, Wall};
+use concio::{graph, pattern};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -71,12 +72,22 @@ impl CracksInput {
         }
         let mut cases = (0..plan.points.len()).map(|number| plan.case(number));
         let Some(first) = cases.next().transpose()? else { return Ok(()) };
+        let beam = |case: &Case| case.load.beam != Beam::Free;
+        let joints = |case: &Case| -> Result<Vec<Joint>> {
+            let wall = pattern::lay(case).map_err(|e| file.of_wall("cracks", e))?;
+            Ok(graph::joints(&wall, beam(case)))
+        };
+        let known = joints(&first)?;
         for case in cases {
             let case = case?;
-            let beam = |beam: &Beam| *beam == Beam::Free;
-            if case.panels != first.panels || beam(&case.load.beam) != beam(&first.load.beam) {
+            let same = case.panels == first.panels && beam(&case) == beam(&first);
+            if !same && joints(&case)? != known {
                 let what = "the runs have walls of different blocks, whose joints cannot be counted together";
-                return Err(file.wrong("cracks", what, "factors that leave `panel` and the kind of beam as they are"));
+                return Err(file.wrong(
+                    "cracks",
+                    what,
+                    "factors that leave joints where they are, and the kind of beam",
+                ));
             }
         }
         let prepared = concio::run::prepare(first, std::path::Path::new("")).map_err(|e| file.of_wall("cracks", e))?;

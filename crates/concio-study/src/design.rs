@@ -82,6 +82,7 @@ pub fn points(file: &StudyFile, factors: &[Factor]) -> Result<Vec<Vec<At>>> {
                 let what = format!("{} is out of range", design.levels);
                 return Err(file.wrong("design.levels", what, "an even number from 4"));
             }
+            suits_morris(file, factors)?;
             morris(runs, k, design.levels, design.seed)
         }
         DesignKind::Sobol if k > MOST_SOBOL => return wrong(format!("{k} factors are too many for it"), "up to 128"),
@@ -92,6 +93,37 @@ pub fn points(file: &StudyFile, factors: &[Factor]) -> Result<Vec<Vec<At>>> {
         DesignKind::Sobol => sobol(runs, k, design.seed),
     };
     Ok(shares.into_iter().map(|row| row.iter().zip(factors).map(|(s, f)| place(*s, f)).collect()).collect())
+}
+
+/// Trajectories move every factor, and go to the ends of its range.
+fn suits_morris(file: &StudyFile, factors: &[Factor]) -> Result<()> {
+    for factor in factors {
+        let mut places = factor.places();
+        places.sort_by(f64::total_cmp);
+        if let Over::Values(values) = &factor.over {
+            if !values.is_bounded() {
+                let what = format!(
+                    "`{}` is not cut off on both sides: design `morris` goes to the ends of each range, which would lie \
+                     4.75 standard deviations off",
+                    factor.name
+                );
+                let allowed =
+                    "`low` and `high` within 4.75 standard deviations, such as 2 on either side of the middle";
+                return Err(file.wrong(&format!("{}.distribution", factor.key), what, allowed));
+            }
+        } else if places.len() < 2 {
+            let what = format!("`{}` has one value, and design `morris` moves every factor", factor.name);
+            return Err(file.wrong(
+                &factor.key,
+                what,
+                "two values or more; what does not vary stands in the wall file",
+            ));
+        } else if places.windows(2).any(|pair| pair[0] == pair[1]) {
+            let what = format!("`{}` has a value twice, and design `morris` moves from each to another", factor.name);
+            return Err(file.wrong(&factor.key, what, "values that differ"));
+        }
+    }
+    Ok(())
 }
 
 fn place(share: f64, factor: &Factor) -> At {

@@ -38,6 +38,9 @@ pub struct Level {
     pub label: Value,
     /// Changes of the wall file.
     pub changes: Changes,
+    /// Where it stands on a scale of its own: the number of a value, the share of a range; none of a name, and of values
+    /// that do not have one unit.
+    pub place: Option<f64>,
 }
 
 /// Changes of a wall file: key paths and values.
@@ -108,7 +111,15 @@ impl Continuous {
         let label = written(value, &self.unit);
         let mut changes = vec![(self.path.clone(), label.clone())];
         changes.extend(self.also.iter().map(|f| (f.path.clone(), written(value * f.times, &self.unit))));
-        Level { label, changes }
+        Level { label, changes, place: Some(share) }
+    }
+
+    /// Whether it has a least and a largest value; a bell curve that is not cut off on both sides has none.
+    pub fn is_bounded(&self) -> bool {
+        match self.law {
+            Law::Normal { shares: [from, to], .. } => from >= TAIL && to <= 1.0 - TAIL,
+            _ => true,
+        }
     }
 }
 
@@ -134,6 +145,28 @@ impl Factor {
             Over::Values(_) => None,
         }
     }
+
+    /// Where its levels stand between the least and the largest, 0 … 1: by their values, names at equal distances. Empty
+    /// for a distribution.
+    pub fn places(&self) -> Vec<f64> {
+        let numbers: Option<Vec<f64>> = match &self.over {
+            Over::Values(_) => return Vec::new(),
+            Over::Scales(scales) => Some(scales.clone()),
+            Over::Levels(levels) => levels.iter().map(|l| l.place).collect(),
+        };
+        let numbers = numbers.unwrap_or_else(|| (0..self.levels().unwrap_or(0)).map(|i| i as f64).collect());
+        let low = numbers.iter().copied().fold(f64::INFINITY, f64::min);
+        let width = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low;
+        numbers.iter().map(|v| if width > 0.0 { (v - low) / width } else { 0.0 }).collect()
+    }
+
+    /// Whether its values have an order: numbers do, of names two alone, the first and the second.
+    pub fn is_ordered(&self) -> bool {
+        match &self.over {
+            Over::Values(_) | Over::Scales(_) => true,
+            Over::Levels(levels) => levels.len() <= 2 || levels.iter().all(|l| l.place.is_some()),
+        }
+    }
 }
 
 /// The factors of a study: those of `vary`, then the motions, then the scales.
@@ -156,14 +189,24 @@ pub fn factors(file: &StudyFile) -> Result<Vec<Factor>> {
         let over = Over::Scales(study.scales.clone());
         factors.push(Factor { name: "scale".into(), key: "scales".into(), unit: String::new(), over });
     }
+    names(file, &factors)?;
+    contradictions(file, &factors)?;
+    Ok(factors)
+}
+
+/// Names are headings of the table of runs: each is there once.
+fn names(file: &StudyFile, factors: &[Factor]) -> Result<()> {
     for (index, factor) in factors.iter().enumerate() {
         if let Some(other) = factors[..index].iter().find(|f| f.name == factor.name) {
             let what = format!("`{}` is the name of two factors, here and at {}", factor.name, other.key);
             return Err(file.wrong(&factor.key, what, "a `name` of its own for each"));
         }
+        if crate::table::is_column(&factor.name) {
+            let what = format!("`{}` is a column that the table of runs has already", factor.name);
+            return Err(file.wrong(&format!("{}.name", factor.key), what, "another `name`"));
+        }
     }
-    contradictions(file, &factors)?;
-    Ok(factors)
+    Ok(())
 }
 
 /// Two factors that change one key: the later would silently win.
@@ -201,7 +244,7 @@ fn motion_factor(file: &StudyFile) -> Result<Factor> {
         if let Some(duration) = motion.duration {
             changes.push(("motion.duration".into(), json(serde_json::to_value(duration))?));
         }
-        levels.push(Level { label, changes });
+        levels.push(Level { label, changes, place: None });
     }
     Ok(Factor { name: "motion".into(), key: "motion".into(), over: Over::Levels(levels), unit: String::new() })
 }
@@ -237,7 +280,7 @@ impl Reader<'_> {
         }
         let over = match given[0] {
             "choices" => self.choices()?,
-            "values" => Over::Levels(v.values.iter().map(|value| self.level(value)).collect::<Result<_>>()?),
+            "values" => Over::Levels(self.values()?),
             "from" => self.range()?,
             _ => Over::Values(self.distribution()?),
         };
@@ -249,9 +292,8 @@ impl Reader<'_> {
         let unit = match &over {
             Over::Values(values) => values.unit.clone(),
             Over::Levels(levels) => {
-                let mut units = levels.iter().map(|l| amount(&l.label).map(|(_, unit)| unit));
-                let first = units.next().flatten().filter(|_| v.choices.is_empty());
-                first.filter(|first| units.all(|u| u.as_ref() == Some(first))).unwrap_or_default()
+                let labels = levels.iter().map(|l| &l.label);
+                one_unit(labels).filter(|_| v.choices.is_empty()).unwrap_or_default()
             }
             Over::Scales(_) => String::new(),
         };
@@ -281,6 +323,7 @@ impl Reader<'_> {
         let level = |choice: &crate::file::Choice| Level {
             label: Value::String(choice.name.clone()),
             changes: choice.set.iter().map(|(k, v)| (k.clone(), v.clone())).collect(),
+            place: None,
         };
         for (i, choice) in v.choices.iter().enumerate() {
             if v.choices[..i].iter().any(|c| c.name == choice.name) {
@@ -294,6 +337,15 @@ impl Reader<'_> {
         Ok(Over::Levels(v.choices.iter().map(level).collect()))
     }
 
+    fn values(&self) -> Result<Vec<Level>> {
+        let values = &self.vary.values;
+        let mut levels = values.iter().map(|value| self.level(value)).collect::<Result<Vec<_>>>()?;
+        if one_unit(values.iter()).is_none() {
+            levels.iter_mut().for_each(|level| level.place = None);
+        }
+        Ok(levels)
+    }
+
     fn level(&self, value: &Value) -> Result<Level> {
         let mut changes = vec![(self.path()?, value.clone())];
         if !self.vary.also.is_empty() {
@@ -301,7 +353,7 @@ impl Reader<'_> {
                 amount(value).ok_or_else(|| self.wrong("also", "follows a number, and a value is none", "numbers"))?;
             changes.extend(self.vary.also.iter().map(|f| (f.path.clone(), written(amount * f.times, &unit))));
         }
-        Ok(Level { label: value.clone(), changes })
+        Ok(Level { label: value.clone(), changes, place: amount(value).map(|(number, _)| number) })
     }
 
     /// The number given at a key, and its unit, which has to be `unit` if that is known.
@@ -446,6 +498,13 @@ impl Reader<'_> {
         };
         Ok(Law::Normal { mean, deviation, log, shares: ends.map(share) })
     }
+}
+
+/// The unit that all values have, empty where they have none; none where some are no numbers or their units differ.
+fn one_unit<'v>(values: impl Iterator<Item = &'v Value>) -> Option<String> {
+    let mut units = values.map(|value| amount(value).map(|(_, unit)| unit));
+    let first = units.next()??;
+    units.all(|unit| unit.as_ref() == Some(&first)).then_some(first)
 }
 
 /// A number and its unit, of a number or a text such as "10 mm".

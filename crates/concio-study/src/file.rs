@@ -304,6 +304,7 @@ impl StudyFile {
     /// As [`StudyFile::read`].
     pub fn of(document: Document) -> Result<Self> {
         let mut study: Study = document.to()?;
+        let given = study.keep.clone();
         study.keep_what_is_asked();
         let path = document.folder().join(&study.wall);
         if !path.is_file() {
@@ -312,13 +313,71 @@ impl StudyFile {
         }
         let wall = case::read(&path)?;
         wall.validate()?;
-        Ok(StudyFile { study, document, wall })
+        let file = StudyFile { study, document, wall };
+        file.passed_over(&given)?;
+        Ok(file)
+    }
+
+    /// Refuses what would be passed over in silence; `keep` is what the file says itself.
+    fn passed_over(&self, keep: &Keep) -> Result<()> {
+        let study = &self.study;
+        let analyses = [(study.first_crack.is_some(), "first-crack"), (study.ida.is_some(), "ida")];
+        for (_, analysis) in analyses.into_iter().filter(|(is, _)| *is) {
+            let beside = [
+                (study.ranking.is_some(), "ranking"),
+                (study.interfaces.is_some(), "interfaces"),
+                (study.cracks.is_some() && analysis == "ida", "cracks"),
+                (study.sensitivity.is_some() && analysis == "first-crack", "sensitivity"),
+                (!keep.joints.is_empty(), "keep.joints"),
+                (keep.results && analysis == "first-crack", "keep.results"),
+                (study.ida.is_some() && analysis == "first-crack", "ida"),
+            ];
+            if let Some((_, key)) = beside.into_iter().find(|(is, _)| *is) {
+                let what = format!("has no meaning beside `[{analysis}]`, which chooses its runs itself");
+                let table = key.split('.').next().unwrap_or(key);
+                return Err(self.wrong(key, what, &format!("one of `[{analysis}]` and `[{table}]`")));
+            }
+        }
+        let varies = !(study.factors.is_empty() && study.motions.is_empty() && study.scales.is_empty());
+        if !varies && !matches!(study.design.kind, DesignKind::Grid | DesignKind::List) {
+            let what = "a design that draws has nothing to draw: nothing varies";
+            return Err(self.wrong("design", what, "at least one `[[vary]]`, `[[motion]]` or `scales`"));
+        }
+        for (i, scale) in study.scales.iter().enumerate() {
+            if study.scales[..i].contains(scale) {
+                let what = format!("{scale} stands there twice");
+                return Err(self.wrong(&format!("scales[{i}]"), what, "each scale once"));
+            }
+        }
+        let at = study.interfaces.as_ref().map(|i| &i.at);
+        let lists = at.map_or([false; 4], |at| {
+            [at.kind.is_empty(), at.panel.is_empty(), at.course.is_empty(), at.joints.is_empty()]
+        });
+        for (key, empty) in ["kind", "panel", "course", "joints"].into_iter().zip(lists) {
+            let key = format!("interfaces.at.{key}");
+            if empty && self.document.has(&key) {
+                return Err(self.wrong(&key, "is empty: it chooses no joint", "at least one, or no such key"));
+            }
+        }
+        if study.scales.is_empty() && self.document.has("scales") {
+            return Err(self.wrong("scales", "is empty", "at least one factor above 0, or no `scales`"));
+        }
+        Ok(())
     }
 
     /// An error about a key of the study file, with its place.
     pub fn wrong(&self, key: &str, what: impl Into<String>, allowed: &str) -> Error {
         let error = InputError::new(what).key(key);
         self.document.locate(if allowed.is_empty() { error } else { error.allowed(allowed) }).into()
+    }
+
+    /// Where the study file says of a key of the wall file that it follows another.
+    fn of_follower(&self, key: &str) -> Option<String> {
+        let find = |(i, vary): (usize, &Vary)| {
+            let follows = |f: &Follower| same_key(&f.path, key);
+            vary.also.iter().position(follows).map(|k| format!("vary[{i}].also[{k}].path"))
+        };
+        self.study.factors.iter().enumerate().find_map(find)
     }
 
     /// What a wall file has against a value that the study file gives at `key`.
@@ -330,11 +389,20 @@ impl StudyFile {
             let line = help.line.map_or(String::new(), |l| format!(", line {l}"));
             return e.help(format!("named in the study file{line}, {key}")).into();
         }
+        let key = e.key.as_deref().and_then(|of| self.of_follower(of)).unwrap_or_else(|| key.to_string());
         let what = e.key.as_ref().map_or(e.what.clone(), |k| format!("{k}: {}", e.what));
         let mut moved = InputError::new(what).key(key);
         (moved.allowed, moved.help) = (e.allowed.clone(), e.help.clone());
         self.document.locate(moved).into()
     }
+}
+
+/// Whether two key paths are one; `[*]` stands for every number.
+fn same_key(a: &str, b: &str) -> bool {
+    let steps = |path: &str| path.split(['.', '[']).map(str::to_string).collect::<Vec<_>>();
+    let same = |a: &String, b: &String| a == b || (a == "*]" && b.ends_with(']'));
+    let (a, b) = (steps(a), steps(b));
+    a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| same(a, b))
 }
 
 /// The JSON Schema of the study file.

@@ -31,7 +31,7 @@ const LEAP: f64 = 10.0;
 const ROUNDS: usize = 60;
 /// How far the two runs around a proposal are apart, over what is asked, as logarithms.
 const PAIR: f64 = 0.9;
-/// A lower factor counts as tried when a run lies so near to it.
+/// A lower factor counts as tried when a run lies so near to it, over the distance from one of them to the next.
 const NEAR: f64 = 0.1;
 /// Bounds of the interval.
 pub const INTERVAL: [f64; 2] = [1e-5, 1.0];
@@ -50,7 +50,8 @@ pub struct FirstCrackInput {
     pub limit: Option<Length>,
     /// Largest relative distance of the two scales between which the crack lies, 1e-5 … 1; default 0.01.
     pub interval: f64,
-    /// How many lower scales are tried besides, 0 … 100; default 3.
+    /// How many lower scales are tried besides, 0 … 100; default 3. They lie evenly between 0 and the answer; a run of the
+    /// search within a tenth of their distance counts for one.
     pub checks: usize,
     /// Periods of the spectral accelerations that are told beside those at the wall's own first period [s], above 0;
     /// default 0.1, 0.2 and 0.5 s.
@@ -404,7 +405,8 @@ impl<'a> Seek<'a> {
 
     /// Lower factors that have not been tried.
     fn checks_left(&self, low: f64) -> Vec<f64> {
-        let tried = |s: f64| self.trials.iter().any(|t| (t.scale / s - 1.0).abs() <= NEAR);
+        let near = NEAR * low / (self.question.checks + 1) as f64;
+        let tried = |s: f64| self.trials.iter().any(|t| (t.scale - s).abs() <= near);
         self.checks(low).into_iter().filter(|s| !tried(*s)).collect()
     }
 
@@ -468,8 +470,11 @@ mod tests {
     fn sought(response: impl Fn(f64) -> f64, interval: f64) -> Result<(Answer, usize)> {
         let rule = Rule::new(Criterion::Slip, Some(LIMIT));
         let question = Question { rule, interval, checks: 3, periods: Vec::new() };
-        let subject = subject()?;
-        let mut seek = Seek::new(&question, &subject)?;
+        seek(&question, &subject()?, response)
+    }
+
+    fn seek(question: &Question, subject: &Subject, response: impl Fn(f64) -> f64) -> Result<(Answer, usize)> {
+        let mut seek = Seek::new(question, subject)?;
         loop {
             let scales = seek.proposals();
             if scales.is_empty() {
@@ -499,6 +504,23 @@ mod tests {
         // A demand that leaps: nothing announces it.
         let (answer, rounds) = sought(|s| if s < 0.7 { 1e-3 * s } else { 50.0 }, 1e-3)?;
         assert!((crack(&answer, 1e-3) / 0.7 - 1.0).abs() < 1.1e-3 && rounds < 20, "{rounds} sets of runs");
+        Ok(())
+    }
+
+    /// However many lower factors are asked for, each has a run of its own.
+    #[test]
+    fn as_many_lower_factors_are_tried_as_asked_for() -> Result<()> {
+        let subject = subject()?;
+        for checks in [1, 3, 30, MOST_CHECKS] {
+            let rule = Rule::new(Criterion::Slip, Some(LIMIT));
+            let question = Question { rule, interval: 0.01, checks, periods: Vec::new() };
+            let (answer, _) = seek(&question, &subject, |s| s / 3.0)?;
+            let below = answer.below().expect("a run below").scale;
+            assert!(answer.checked.len() >= checks, "{checks}: {}", answer.checked.len());
+            let places: std::collections::BTreeSet<usize> =
+                answer.checked.iter().map(|s| (s / below * (checks + 1) as f64).round() as usize).collect();
+            assert!((1..=checks).all(|k| places.contains(&k)), "{checks}: {places:?}");
+        }
         Ok(())
     }
 

@@ -4,10 +4,9 @@
 
 use std::path::Path;
 
-use concio::case::{Case, Signal};
-use concio::ground::process::load;
-use concio::ground::signal::compile;
-use concio::ground::{measures, response_spectrum, synthetic};
+use concio::case::Case;
+use concio::ground::signal::{GroundMotion, compile};
+use concio::ground::{measures, response_spectrum};
 use concio::{Error, InputError, Result};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -65,12 +64,11 @@ impl Intensity {
         if self == Intensity::Scale {
             return Ok(1.0);
         }
-        let (dt, acceleration) = samples(case)?;
-        let most = |values: &[f64]| measures::peak(dt, values).value.abs();
+        let base = Sampled::of_case(case)?;
         let value = match self {
-            Intensity::Pga | Intensity::Scale => most(&acceleration),
-            Intensity::Pgv => most(&velocities(case, dt, acceleration.len())?),
-            Intensity::Sa => response_spectrum(dt, &acceleration, DAMPING, &[period]).psa[0],
+            Intensity::Pga | Intensity::Scale => base.pga(),
+            Intensity::Pgv => base.pgv(),
+            Intensity::Sa => base.psa(DAMPING, &[period])[0],
         };
         if value > 0.0 && value.is_finite() {
             return Ok(value);
@@ -80,40 +78,67 @@ impl Intensity {
     }
 }
 
-/// Velocities of the base [m/s] at `number` instants `dt` apart, exact at each.
-fn velocities(case: &Case, dt: f64, number: usize) -> Result<Vec<f64>> {
-    let motion = compile(&case.motion.base, Path::new(""))?;
-    Ok((0..number).map(|k| motion.at(k as f64 * dt).v).collect())
+/// The motion of a base over a run, at equal intervals from its start: records at their samples, closed forms at a
+/// thousandth of their period.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sampled {
+    /// Interval [s].
+    pub dt: f64,
+    /// Accelerations [m/s²], linear in between.
+    pub acceleration: Vec<f64>,
+    /// Velocities [m/s].
+    pub velocity: Vec<f64>,
 }
 
-/// Sample interval [s] and accelerations [m/s²] of the base, up to the end of the run.
-pub fn samples(case: &Case) -> Result<(f64, Vec<f64>)> {
-    let here = Path::new("");
-    let record = match &case.motion.base {
-        Signal::Record(input) => Some(load(input, here)?),
-        Signal::Synthetic(input) => Some(synthetic::generate(input)?),
-        _ => None,
-    };
-    let duration = case.motion.duration.map(|d| d.si());
-    if let Some(mut record) = record {
-        if let Some(duration) = duration {
-            record.acceleration.truncate((duration / record.dt * (1.0 + 1e-9)) as usize + 1);
-        }
-        return Ok((record.dt, record.acceleration));
+impl Sampled {
+    /// Over a run of `duration` [s].
+    pub fn of(base: &GroundMotion, duration: f64) -> Self {
+        let record = base.sample_interval().map(|dt| (dt, (duration / dt * (1.0 + 1e-9)).floor()));
+        let (dt, intervals) = record.unwrap_or_else(|| {
+            // A rectangle has no useful step: its length counts then.
+            let whole = base.end().filter(|end| *end > 0.0).unwrap_or(duration).min(duration) / LEAST_SAMPLES;
+            let fine = (base.longest_useful_step() / SAMPLES_PER_STEP).min(whole);
+            // Less a little: a whole number of periods is one, whatever rounding makes of it.
+            let number = (duration / fine - 1e-6).ceil().clamp(1.0, MOST_SAMPLES);
+            (duration / number, number)
+        });
+        // What comes after a break is what stands there; but the last sample of a record is its own, not the rest after it.
+        let last = record.and(base.end()).map_or(f64::INFINITY, |end| (end / dt).round());
+        let at = |k: usize| {
+            let (k, t) = (k as f64, k as f64 * dt);
+            if k == last { base.segment((k - 0.5) * dt).at(t) } else { base.at(t) }
+        };
+        let motion = (0..=intervals as usize).map(at);
+        let (acceleration, velocity) = motion.map(|m| (m.a, m.v)).unzip();
+        Sampled { dt, acceleration, velocity }
     }
-    let motion = compile(&case.motion.base, here)?;
-    let missing = || -> Error {
-        InputError::new("is needed: the motion has no end of its own")
-            .key("motion.duration")
-            .allowed("above 0 s")
-            .into()
-    };
-    let duration = duration.or_else(|| motion.end().filter(|end| *end > 0.0)).ok_or_else(missing)?;
-    // A rectangle has no useful step: its length counts then.
-    let whole = motion.end().filter(|end| *end > 0.0).unwrap_or(duration).min(duration) / LEAST_SAMPLES;
-    let fine = (motion.longest_useful_step() / SAMPLES_PER_STEP).min(whole);
-    // Less a little: a whole number of periods is one, whatever rounding makes of it.
-    let number = (duration / fine - 1e-6).ceil().clamp(1.0, MOST_SAMPLES);
-    let dt = duration / number;
-    Ok((dt, (0..=number as usize).map(|k| motion.acceleration(k as f64 * dt)).collect()))
+
+    /// Over the run of a case. Record paths start from the working directory.
+    ///
+    /// # Errors
+    /// A record that cannot be read; a motion without end in a run without duration.
+    pub fn of_case(case: &Case) -> Result<Self> {
+        let motion = compile(&case.motion.base, Path::new(""))?;
+        let duration = case.motion.duration.map(|d| d.si());
+        let duration = duration.or_else(|| motion.end().filter(|end| *end > 0.0)).ok_or_else(|| -> Error {
+            let error = InputError::new("is needed: the motion has no end of its own").key("motion.duration");
+            error.allowed("above 0 s").into()
+        })?;
+        Ok(Self::of(&motion, duration))
+    }
+
+    /// Largest |acceleration| [m/s²].
+    pub fn pga(&self) -> f64 {
+        measures::peak(self.dt, &self.acceleration).value.abs()
+    }
+
+    /// Largest |velocity| [m/s].
+    pub fn pgv(&self) -> f64 {
+        measures::peak(self.dt, &self.velocity).value.abs()
+    }
+
+    /// Pseudo-accelerations at `periods` [s] with a damping ratio [m/s²].
+    pub fn psa(&self, damping: f64, periods: &[f64]) -> Vec<f64> {
+        response_spectrum(self.dt, &self.acceleration, damping, periods).psa
+    }
 }

@@ -126,7 +126,7 @@ pub enum Target {
     PeakDrift,
     /// Largest |force| of the top beam [N].
     TopForcePeak,
-    /// Energy dissipated by friction and damping, devices included [J].
+    /// Energy dissipated by friction, damping, devices, cracks and impacts [J].
     DissipatedEnergy,
     /// Scale of the motion at which the first bond cracks.
     FirstCracking,
@@ -175,11 +175,6 @@ impl Target {
     pub fn of(self, row: &Row) -> Option<f64> {
         match self {
             Target::FirstCracking => None,
-            Target::DissipatedEnergy => {
-                // Engines that keep the work of devices apart have a measure of it.
-                let of_devices = row.number("device_energy").unwrap_or(0.0);
-                Some(row.number("friction_energy")? + row.number("damping_energy")? + of_devices)
-            }
             other => row.number(other.name()),
         }
     }

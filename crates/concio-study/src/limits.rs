@@ -25,7 +25,7 @@ pub enum Criterion {
     Bond,
     /// A head joint or connection opens by a limit.
     Opening,
-    /// The sides of a bed or support joint move against each other by a limit.
+    /// The sides of a bed or support joint move against each other by a limit; elastic deformation of the joint counts.
     Slip,
 }
 
@@ -68,6 +68,13 @@ impl Rule {
     pub fn key(&self) -> String {
         format!("{} {}", self.criterion.name(), self.limit.map_or(String::new(), |l| l.to_string()))
     }
+}
+
+/// Whether a joint that a rule looks at comes nearer to its limit by deforming elastically: by `slip`, where joints have
+/// springs. A head joint that opens is unloaded, and a bond's limit is an elastic one by itself.
+pub fn counts_deformation(model: &Model, rule: &Rule) -> bool {
+    let lies = |e: usize| !model.joints[e].kind.is_upright();
+    rule.criterion == Criterion::Slip && model.elastic.iter().enumerate().any(|(e, law)| lies(e) && law.stiffness > 0.0)
 }
 
 /// How far each joint of a wall may move.

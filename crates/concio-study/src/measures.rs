@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use concio::law::Stribeck;
 use concio::outcome::{BondRow, Outcome};
 use concio::record::StopReason;
 use concio::run::{Prepared, joint_rows};
@@ -11,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::file::PerJoint;
 
-/// Raised when a measure means something else than before: runs measured earlier are then done again.
-pub const VERSION: u32 = 1;
+/// Raised when a measure means something else than before: it stands in every row, and runs measured earlier are done again.
+pub const VERSION: u32 = 3;
 
 /// A number of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +29,7 @@ const fn measure(name: &'static str, unit: &'static str, text: &'static str) -> 
 }
 
 /// The numbers of a run, in the order of [`Row::numbers`].
-pub const MEASURES: [Measure; 31] = [
+pub const MEASURES: [Measure; 32] = [
     measure("time_reached", "s", "time at which the run ended"),
     measure("peak_displacement", "m", "largest |displacement| of a block relative to the base"),
     measure("peak_drift", "", "largest |displacement| of a block of a top course, over the height of its top"),
@@ -43,7 +42,7 @@ pub const MEASURES: [Measure; 31] = [
     measure("largest_opening", "m", "widest gap of a head joint or connection"),
     measure("deepest_closing", "m", "deepest closure of a head joint or connection"),
     measure("peak_elastic_force", "N", "largest |elastic force| in a joint"),
-    measure("peak_friction_force", "N", "largest |friction force| in a joint"),
+    measure("peak_friction_force", "N", "largest |friction force| that a joint bears"),
     measure("peak_viscous_force", "N", "largest |viscous force| in a joint"),
     measure("peak_inertia_force", "N", "largest |mass times relative acceleration| of a block"),
     measure("top_force_peak", "N", "largest |force| of the top beam"),
@@ -62,6 +61,11 @@ pub const MEASURES: [Measure; 31] = [
     measure("first_crack", "s", "time of the first crack"),
     measure("steps", "", "steps of the solver"),
     measure("device_energy", "J", "dissipated by the hysteresis of devices"),
+    measure(
+        "dissipated_energy",
+        "J",
+        "dissipated in all: by friction, damping, devices and breaking bonds, and in impacts",
+    ),
 ];
 
 /// How a run ended.
@@ -81,6 +85,9 @@ pub enum End {
 pub struct Row {
     /// What the run is known by.
     pub id: String,
+    /// [`VERSION`] of the measures; 0 of rows older than that number.
+    #[serde(default)]
+    pub version: u32,
     /// How it ended.
     pub end: End,
     /// Why it stopped or failed.
@@ -104,6 +111,7 @@ impl Row {
     pub fn failed(id: &str, cause: impl Into<String>) -> Self {
         Row {
             id: id.into(),
+            version: VERSION,
             end: End::Failed,
             cause: Some(cause.into()),
             numbers: Vec::new(),
@@ -137,6 +145,7 @@ pub fn row(id: &str, prepared: &Prepared, outcome: &Outcome, keep: &[PerJoint]) 
     let numbers = numbers(prepared, outcome);
     Row {
         id: id.into(),
+        version: VERSION,
         end,
         cause,
         numbers: numbers.into_iter().map(|v| v.is_finite().then_some(v)).collect(),
@@ -162,13 +171,6 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
     let moved = blocks.iter().zip(&envelopes.block_displacement).filter(|(b, _)| tops[b.panel] == Some(b.course));
     let drift = moved.fold(0.0f64, |m, (b, u)| m.max(u / b.y[1]));
     let joints = joint_rows(model);
-    let rub = model.rub_of_joint();
-    let friction = rub.iter().zip(&envelopes.joint_velocity).filter_map(|(rub, v)| {
-        let rub = &model.rubs[(*rub)?];
-        // Up to slip a joint with a set-valued law bears what it has to: its largest is μ_s.
-        let mu = if rub.law.sticks() { rub.law.static_ } else { most_up_to(&rub.law, *v) };
-        Some(mu * rub.normal[0].max(rub.normal[1]))
-    });
     let viscous = joints.iter().zip(&envelopes.joint_velocity).map(|(j, v)| j.damping * v);
     let inertia = model.mass.iter().zip(&envelopes.block_acceleration).map(|(m, a)| m * a);
     let max = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, f64::max);
@@ -186,7 +188,7 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
         most(&envelopes.joint_opening),
         most(&envelopes.joint_closing),
         most(&envelopes.joint_force),
-        max(&mut { friction }),
+        totals.peak_friction_force,
         max(&mut { viscous }),
         max(&mut { inertia }),
         totals.top_force_peak,
@@ -205,16 +207,8 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
         outcome.first_crack().map_or(f64::INFINITY, |b| b.cracked),
         outcome.counters.steps as f64,
         energies.device,
+        energies.friction + energies.damping + energies.device + energies.bond + energies.impact,
     ]
-}
-
-/// Largest |μ| at speeds up to `speed` [m/s]: the law rises, falls and rises again.
-fn most_up_to(law: &Stribeck, speed: f64) -> f64 {
-    const SPEEDS: i32 = 200;
-    // From the foot of the law, in equal ratios.
-    let foot = (1e-3 * law.slip_velocity / law.beta).min(speed);
-    let ratio = (speed / foot).powf(1.0 / f64::from(SPEEDS));
-    (0..=SPEEDS).map(|k| law.value(foot * ratio.powi(k))).filter(|mu| mu.is_finite()).fold(0.0, f64::max)
 }
 
 fn per_joint(kind: PerJoint, joints: usize, outcome: &Outcome) -> Vec<Option<f64>> {

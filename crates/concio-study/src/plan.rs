@@ -26,6 +26,9 @@ pub struct Plan {
     records: Records,
 }
 
+/// Digits of an id.
+const DIGITS: usize = 32;
+
 /// Hashes of record files, each read once.
 #[derive(Debug, Default)]
 pub struct Records(Mutex<HashMap<PathBuf, String>>);
@@ -131,8 +134,13 @@ impl Plan {
         self.changed(&changes, scale * factor).map_err(|e| {
             let labels: Vec<String> =
                 self.factors.iter().zip(self.labels(number)).map(|(f, l)| format!("{} = {l}", f.name)).collect();
-            let key = self.factors.first().map_or("wall", |f| f.key.as_str());
-            match self.file.of_wall(key, e) {
+            let mut key = self.factors.first().map_or("wall".to_string(), |f| f.key.clone());
+            if let (Some(motion), Error::Input(e)) = (self.motion(number), &e)
+                && e.key.as_deref().is_some_and(|k| k.starts_with("motion."))
+            {
+                key = format!("motion[{motion}]");
+            }
+            match self.file.of_wall(&key, e) {
                 Error::Input(e) => e.help(format!("in run {} with {}", number + 1, labels.join(", "))).into(),
                 other => other,
             }
@@ -236,13 +244,9 @@ impl Records {
                 input.record = PathBuf::from(self.hash(&input.record)?);
             }
         }
-        let mut hasher = blake3::Hasher::new();
-        let versions = format!("{} {}", concio::store::SCHEMA_VERSION, crate::measures::VERSION);
-        for part in [env!("CARGO_PKG_VERSION"), &versions, &canonical_json(&case)] {
-            hasher.update(&(part.len() as u64).to_le_bytes());
-            hasher.update(part.as_bytes());
-        }
-        Ok(hasher.finalize().to_hex()[..32].to_string())
+        let mut id = concio::run::hash(&[crate::measures::VERSION.to_string(), canonical_json(&case)]);
+        id.truncate(DIGITS);
+        Ok(id)
     }
 
     fn hash(&self, path: &Path) -> Result<String> {

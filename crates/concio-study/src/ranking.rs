@@ -6,9 +6,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use concio::Result;
+use concio::case::{Beam, Case};
+use concio::{Result, graph, pattern};
+use serde_json::Value;
 
-use crate::file::{PerJoint, StudyFile};
+use crate::file::{PerJoint, StudyFile, Vary};
 use crate::measures::Row;
 use crate::sensitivity::ranks::ranks as midranks;
 use crate::table::Table;
@@ -48,10 +50,72 @@ impl Ranking {
                 return Err(file.wrong(&key, "is listed twice", allowed));
             }
         }
+        if let Some(i) = self.by.iter().position(|by| *by == PerJoint::Damage)
+            && !may_crack(file)
+        {
+            let what = "no joint of this wall is bonded: none has a damage";
+            return Err(file.wrong(
+                &format!("ranking.by[{i}]"),
+                what,
+                "a wall file with `joint.bond`, or another measure",
+            ));
+        }
         if self.listed == 0 {
             return Err(file.wrong("ranking.listed", "0 is out of range", "from 1"));
         }
         Ok(())
+    }
+}
+
+impl Ranking {
+    /// Refuses runs whose walls have other joints than the first: their values cannot be compared joint by joint.
+    ///
+    /// # Errors
+    /// [`concio::Error::Input`] with the line; a wall that cannot be laid.
+    pub fn check_joints<'a>(&self, file: &StudyFile, cases: impl IntoIterator<Item = &'a Case>) -> Result<()> {
+        let names = |case: &Case| -> Result<Vec<String>> {
+            let wall = pattern::lay(case)?;
+            let joints = graph::joints(&wall, case.load.beam != Beam::Free);
+            Ok(joints.iter().map(|j| graph::name(&wall, j)).collect())
+        };
+        let mut cases = cases.into_iter();
+        let Some(first) = cases.next() else { return Ok(()) };
+        let loose = |case: &Case| case.load.beam == Beam::Free;
+        let others = cases.filter(|case| case.panels != first.panels || loose(case) != loose(first));
+        let mut known: Option<Vec<String>> = None;
+        for case in others {
+            let of_first = match known.take() {
+                Some(names) => names,
+                None => names(first)?,
+            };
+            if names(case)? != of_first {
+                let what = "the runs have walls of different joints, which cannot be ranked together";
+                return Err(file.wrong("ranking", what, "factors that leave blocks and the kind of beam as they are"));
+            }
+            known = Some(of_first);
+        }
+        Ok(())
+    }
+}
+
+/// Whether a joint of the study's wall is bonded, or a factor may make it so.
+fn may_crack(file: &StudyFile) -> bool {
+    let joint = &file.wall.case.joint;
+    let bonds = |path: &str| path.split(['.', '[']).any(|step| step == "bond") && path.starts_with("joint");
+    let sets = |vary: &Vary| {
+        let chosen = vary.choices.iter().flat_map(|c| &c.set);
+        vary.path.iter().any(|path| bonds(path) || path == "joint")
+            || chosen.into_iter().any(|(path, value)| bonds(path) || path.starts_with("joint") && has_bond(value))
+    };
+    joint.bond.is_some() || joint.changes.iter().any(|c| c.bond.is_some()) || file.study.factors.iter().any(sets)
+}
+
+/// Whether a value has a table `bond` somewhere.
+fn has_bond(value: &Value) -> bool {
+    match value {
+        Value::Object(map) => map.iter().any(|(key, value)| key == "bond" || has_bond(value)),
+        Value::Array(list) => list.iter().any(has_bond),
+        _ => false,
     }
 }
 

@@ -145,7 +145,7 @@ impl<'a> Runner<'a> {
     /// # Errors
     /// As [`Runner::rows`].
     pub fn rows_until(&mut self, cases: &[Case], rule: &Rule) -> Result<Option<Vec<Row>>> {
-        let own = (self.until.replace(rule.clone()), std::mem::take(&mut self.results));
+        let own = (self.until.replace(*rule), std::mem::take(&mut self.results));
         let rows = self.rows(cases);
         (self.until, self.results) = own;
         rows

@@ -1,13 +1,10 @@
 //! What a motion is to a wall: its peaks and spectral accelerations as the run has them, and the wall's first mode.
 
 use concio::excitation::Excitation;
-use concio::ground::response_spectrum;
 use concio::model::Model;
 
-use crate::intensity::DAMPING;
+use crate::intensity::{DAMPING, Sampled};
 
-/// Samples that a motion in closed form is read off at, at most.
-const MOST_SAMPLES: f64 = 1e6;
 /// Relative change of ω² at which the iteration for the first period ends, and its rounds.
 const SETTLED: f64 = 1e-10;
 const ROUNDS: usize = 200;
@@ -37,23 +34,15 @@ pub struct Mode {
 }
 
 impl Shaking {
-    /// Of the motion of a base over a run; spectra at `periods` [s] and for the wall's first `mode`. Records at their samples, others at a hundredth of their
-    /// shortest period.
+    /// Of the motion of a base over a run; spectra at `periods` [s] and for the wall's first `mode`.
     pub fn of(excitation: &Excitation, periods: &[f64], mode: Option<Mode>) -> Self {
-        let (base, duration) = (&excitation.base, excitation.duration);
-        let fine = (0.2 * base.longest_useful_step()).min(duration / 1000.0).max(duration / MOST_SAMPLES);
-        let dt = base.sample_interval().unwrap_or(fine);
-        let count = (duration / dt + 1e-9).floor() as usize;
-        let motion: Vec<_> = (0..=count).map(|k| base.at(k as f64 * dt)).collect();
-        let acceleration: Vec<f64> = motion.iter().map(|m| m.a).collect();
-        let most = |value: &dyn Fn(usize) -> f64| (0..motion.len()).map(|k| value(k).abs()).fold(0.0, f64::max);
-        let at = |damping: f64, periods: &[f64]| response_spectrum(dt, &acceleration, damping, periods).psa;
+        let base = Sampled::of(&excitation.base, excitation.duration);
         Shaking {
-            pga: most(&|k| motion[k].a),
-            pgv: most(&|k| motion[k].v),
-            sa: at(DAMPING, periods),
-            at_first: mode.map(|m| at(DAMPING, &[m.period])[0]),
-            at_first_damped: mode.map(|m| at(m.damping, &[m.period])[0]),
+            pga: base.pga(),
+            pgv: base.pgv(),
+            sa: base.psa(DAMPING, periods),
+            at_first: mode.map(|m| base.psa(DAMPING, &[m.period])[0]),
+            at_first_damped: mode.map(|m| base.psa(m.damping, &[m.period])[0]),
         }
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Every process appends to a part of its own, so that shards share a folder without locks. A line is written at one
 //! go; one that a killed process left unfinished is passed over, and its run is done again. The same run may stand in
-//! two parts, when shards raced for it: equal inputs give equal rows, and the first is taken.
+//! two parts, when shards raced for it: equal inputs give equal rows, and the first is taken. Rows of other measures than
+//! today's are not known, so that their runs are done again.
 
 use std::collections::HashMap;
 use std::fs::{self, File, OpenOptions};
@@ -12,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use concio::{Error, Result};
 
-use crate::measures::{MEASURES, Row};
+use crate::measures::{MEASURES, Row, VERSION};
 
 /// Folder of the parts in that of the study.
 const RUNS: &str = "runs";
@@ -28,6 +29,8 @@ pub struct Store {
     part: Option<Part>,
     /// Lines that were passed over because they were not whole.
     pub torn: usize,
+    /// Lines that were passed over because their measures are those of another version.
+    pub outdated: usize,
 }
 
 /// The file that this process appends to.
@@ -45,11 +48,12 @@ impl Store {
     /// # Errors
     /// [`Error::Io`] when a part cannot be read.
     pub fn open(folder: &Path) -> Result<Self> {
-        let mut store = Store { folder: folder.to_path_buf(), rows: HashMap::new(), part: None, torn: 0 };
+        let mut store = Store { folder: folder.to_path_buf(), rows: HashMap::new(), part: None, torn: 0, outdated: 0 };
         for path in parts(&folder.join(RUNS))? {
             let bytes = fs::read(&path).map_err(|e| Error::io(&path, e))?;
             for line in bytes.split(|b| *b == b'\n').filter(|l| !l.is_empty()) {
                 match serde_json::from_slice::<Row>(line) {
+                    Ok(row) if row.version != VERSION => store.outdated += 1,
                     Ok(row) if row.numbers.is_empty() || row.numbers.len() == MEASURES.len() => store.keep(row),
                     _ => store.torn += 1,
                 }
@@ -204,6 +208,26 @@ mod tests {
             let back = found.get(&format!("r{i}")).and_then(|r| r.numbers[0]);
             assert_eq!(back.map(f64::to_bits), Some(v.to_bits()));
         }
+        Ok(())
+    }
+
+    /// A line of an earlier version, written before rows had a number of theirs or with another one, counts for nothing
+    /// however many numbers it has.
+    #[test]
+    fn rows_of_other_measures_are_not_known() -> Result<()> {
+        let folder = tempfile::tempdir().map_err(|e| Error::io("", e))?;
+        let mut store = Store::open(folder.path())?;
+        store.append(row("now", 1.0))?;
+        let part = parts(&folder.path().join(RUNS))?.remove(0);
+        let now = fs::read_to_string(&part).map_err(|e| Error::io(&part, e))?;
+        let told = format!("\"version\":{VERSION},");
+        assert!(now.contains(&told), "{now}");
+        let unnumbered = now.replace(&told, "").replace("\"now\"", "\"first\"");
+        let other = now.replace(&told, &format!("\"version\":{},", VERSION - 1)).replace("\"now\"", "\"second\"");
+        fs::write(&part, unnumbered + &other + &now).map_err(|e| Error::io(&part, e))?;
+        let found = Store::open(folder.path())?;
+        assert_eq!((found.len(), found.outdated, found.torn), (1, 2, 0));
+        assert!(found.get("now").is_some() && found.get("first").is_none() && found.get("second").is_none());
         Ok(())
     }
 

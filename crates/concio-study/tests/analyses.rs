@@ -1,6 +1,8 @@
 //! Wrong questions: file, line, cause, what is allowed.
 
-use concio_study::Plan;
+mod common;
+
+use common::Desk;
 
 const MOTION: &str = "[[motion]]\nname = \"a\"\nbase = { sine = { acceleration = \"0.3 g\", frequency = 3 } }\n\
                       duration = \"1 s\"\n";
@@ -8,12 +10,8 @@ const VARY: &str = "[[vary]]\npath = \"joint.friction.static\"\nvalues = [0.5, 0
 
 /// The message about a study file with these lines below `wall = …`.
 fn refused(text: &str) -> String {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let wall = include_str!("../../../examples/01-first-wall.toml");
-    std::fs::write(folder.path().join("wall.toml"), wall).expect("a file");
-    let path = folder.path().join("study.toml");
-    std::fs::write(&path, format!("wall = \"wall.toml\"\n{text}")).expect("a file");
-    match Plan::read(&path) {
+    let desk = Desk::new(include_str!("../../../examples/01-first-wall.toml"));
+    match desk.plan(&format!("wall = \"wall.toml\"\n{text}")) {
         Ok(_) => "was taken".into(),
         Err(e) => e.to_string(),
     }
@@ -32,6 +30,37 @@ fn sensitivity_of_nothing() {
     says("[sensitivity]\nof = [\"peak_drift\"]\n", 2, &["nothing varies", "[[vary]]"]);
     says(&format!("{VARY}[sensitivity]\nof = [\"peak_drift\"]\nconfidence = 1.0\n"), 7, &["between 0 and 1"]);
     says(&format!("{VARY}[sensitivity]\nof = [\"peak_drift\"]\nresamples = 3\n"), 7, &["100"]);
+}
+
+/// Trajectories need two values of every factor, and ends to go to.
+#[test]
+fn trajectories_that_cannot_be() {
+    let morris = "[design]\nkind = \"morris\"\nruns = 3\n";
+    let load = |rest: &str| format!("{morris}{VARY}[[vary]]\npath = \"load.top\"\n{rest}\n");
+    let bell = |law: &str| load(&format!("distribution = {{ law = {law} }}"));
+    says(&load("values = [\"10 kN/m\"]"), 8, &["`load.top` has one value", "two values or more"]);
+    says(&load("values = [1e4, 2e4, 1e4]"), 8, &["a value twice", "values that differ"]);
+    says(&format!("{morris}{VARY}{MOTION}"), 8, &["`motion` has one value"]);
+    for law in [
+        "\"normal\", mean = 1e4, deviation = 1e3",
+        "\"normal\", mean = 1e4, deviation = 1e3, low = 0",
+        "\"lognormal\", median = 1e4, dispersion = 0.3, low = 5e3",
+        "\"lognormal\", median = 1e4, dispersion = 0.3, low = 0, high = 2e4",
+    ] {
+        says(&bell(law), 10, &["`load.top` is not cut off on both sides", "4.75", "`low` and `high`"]);
+    }
+    assert_eq!(refused(&bell("\"normal\", mean = 1e4, deviation = 1e3, low = 8e3, high = 1.2e4")), "was taken");
+    // Draws do not go to the ends.
+    let drawn = bell("\"normal\", mean = 1e4, deviation = 1e3").replace("morris", "random");
+    assert_eq!(refused(&drawn), "was taken");
+}
+
+#[test]
+fn names_that_are_columns_already() {
+    for name in ["run", "peak_drift", "end", "id", "cause", "dissipated_energy"] {
+        says(&VARY.replace("path", &format!("name = \"{name}\"\npath")), 3, &[name, "column", "another `name`"]);
+    }
+    says(&format!("scales = [1, 2]\n{}", VARY.replace("path", "name = \"scale\"\npath")), 2, &["two factors"]);
 }
 
 #[test]
@@ -58,6 +87,22 @@ fn analyses_that_have_no_answer() {
     says(&ida(&format!("{damage}{limits}{list}intensity = \"sa\"\n")), 6, &["period", "above 0 s"]);
     says(&ida(&format!("{damage}{limits}{list}collapse = 1e-4\n")), 8, &["beyond `collapse`"]);
     says(&format!("scales = [1, 2]\n{}", ida(&format!("{damage}{limits}{list}"))), 2, &["contradict"]);
+}
+
+/// Joints can be counted together where they lie the same; weight and thickness of bricks move none.
+#[test]
+fn cracks_are_counted_where_joints_are_the_same() -> concio::Result<()> {
+    let desk = Desk::new(include_str!("../../../examples/01-first-wall.toml"));
+    let check = |path: &str, values: &str| {
+        let vary = format!("[[vary]]\npath = \"panel[*].brick.{path}\"\nvalues = {values}\n");
+        let plan = desk.plan(&format!("wall = \"wall.toml\"\n{vary}[cracks]\ncriterion = \"slip\"\n"))?;
+        plan.file.study.cracks.map_or(Ok(()), |cracks| cracks.check(&plan))
+    };
+    check("specific_weight", "[\"16 kN/m3\", \"20 kN/m3\"]")?;
+    check("thickness", "[\"120 mm\", \"250 mm\"]")?;
+    let error = check("length", "[\"250 mm\", \"300 mm\"]").expect_err("other joints").to_string();
+    assert!(error.contains("study.toml:5:") && error.contains("different blocks"), "{error}");
+    Ok(())
 }
 
 #[test]

@@ -71,14 +71,15 @@ fn an_elastic_panel_cracks_where_strength_over_demand_is_one() -> Result<()> {
 fn asked_again_nothing_is_run() -> Result<()> {
     let plan = Plan::read(&examples().join("first-cracking-elastic.toml"))?;
     let (question, subjects) = of_study(&plan)?;
+    let subjects = &subjects[1..];
     let (one, two) = (tempfile::tempdir().expect("a folder"), tempfile::tempdir().expect("a folder"));
-    let first = answers(&question, &subjects, one.path(), 1)?;
-    assert_eq!(answers(&question, &subjects, two.path(), 2)?, first);
+    let first = answers(&question, subjects, one.path(), 1)?;
+    assert_eq!(answers(&question, subjects, two.path(), 2)?, first);
     let runner = Runner::open(one.path(), &keep(), 1, &|_| Control::Stop)?;
     let whole = runner.id(&subjects[0].case)?;
     let mut runner = runner.until(question.rule);
     assert_ne!(runner.id(&subjects[0].case)?, whole);
-    assert_eq!(search(&question, &subjects, &mut runner)?, Some(first));
+    assert_eq!(search(&question, subjects, &mut runner)?, Some(first));
     Ok(())
 }
 
@@ -106,9 +107,9 @@ fn limits_of_opening_and_slip_are_met() -> Result<()> {
     Ok(())
 }
 
-/// The 6 × 4 panel with 10 kN/m and a floor under nine real records.
+/// The 6 × 4 panel with 10 kN/m and a floor under a real record of each format.
 #[test]
-fn the_panel_cracks_under_nine_records() -> Result<()> {
+fn the_panel_cracks_under_real_records() -> Result<()> {
     let Some(records) = shared_records() else {
         println!("skipped: real accelerograms (shared/ not found)");
         return Ok(());
@@ -119,10 +120,12 @@ fn the_panel_cracks_under_nine_records() -> Result<()> {
     let subject = |path: &PathBuf| {
         let mut case = wall.clone();
         case.motion.base = signal(path);
+        // Six seconds of each: at some scale every shaking cracks a joint.
+        case.motion.duration = Some(6.0.into());
         Subject { name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(), case }
     };
     let subjects: Vec<Subject> = records.iter().map(subject).collect();
-    assert!(subjects.len() >= 8, "{} records", subjects.len());
+    assert!(subjects.len() >= 4, "{} records", subjects.len());
     let folder = tempfile::tempdir().expect("a temporary folder");
     for answer in answers(&question, &subjects, folder.path(), 0)? {
         assert_certified(&answer, 0.01, 3);
@@ -147,15 +150,19 @@ fn signal(path: &Path) -> Signal {
     serde_json::from_value(serde_json::json!({ "record": path })).expect("a motion")
 }
 
-/// The record files beside the project, but for a distant one of 210 s that has to be scaled by 134.
+/// The shortest record file of each format beside the project, but for a distant one of 210 s that has to be scaled by 134.
 fn shared_records() -> Option<Vec<PathBuf>> {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
     let folder = std::env::var_os("CONCIO_SHARED").map_or(beside, PathBuf::from).join("records");
-    let mut files = Vec::new();
-    for format in std::fs::read_dir(folder).ok()?.filter_map(|e| e.ok().map(|e| e.path())).filter(|p| p.is_dir()) {
-        files.extend(std::fs::read_dir(format).ok()?.filter_map(|e| e.ok().map(|e| e.path())));
-    }
-    files.retain(|f| !f.to_string_lossy().contains("us1000hyfh"));
+    let entries = |folder: PathBuf| {
+        let entries = std::fs::read_dir(folder).into_iter().flatten();
+        entries.filter_map(|e| e.ok().map(|e| e.path())).collect::<Vec<PathBuf>>()
+    };
+    let size = |file: &PathBuf| std::fs::metadata(file).map_or(u64::MAX, |m| m.len());
+    let near = |file: &PathBuf| !file.to_string_lossy().contains("us1000hyfh");
+    let formats = entries(folder).into_iter().filter(|p| p.is_dir());
+    let mut files: Vec<PathBuf> =
+        formats.filter_map(|format| entries(format).into_iter().filter(near).min_by_key(size)).collect();
     files.sort();
-    Some(files)
+    (!files.is_empty()).then_some(files)
 }

@@ -1,5 +1,7 @@
 //! The dimensionless form: the dimensionless system gives back the dimensional one, and walls with equal groups move alike.
 
+mod common;
+
 use std::path::Path;
 
 use concio::case::{CaseFile, Scheme, Signal, Solver, Syntax, from_str};
@@ -7,8 +9,9 @@ use concio::ground::signal::compile;
 use concio::model::Model;
 use concio::run::{Prepared, prepare};
 use concio::samples::respond;
-use concio_study::Plan;
 use concio_study::groups::{Group, Reference, groups};
+
+use common::Desk;
 
 /// A panel under a floor mass that shakes too little to slip.
 const WALL: &str = r#"
@@ -128,8 +131,6 @@ fn two_walls_with_equal_groups_move_alike() -> concio::Result<()> {
         .replace("5.4e7 N/m", "2e8 N/m")
         .replace("damping_ratio = 0.05", "damping_ratio = 0.02")
         .replace("static = 0.6", "static = 0.5");
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    std::fs::write(folder.path().join("wall.toml"), &other).expect("a file");
     let value = |name: &str| {
         let group = wanted.iter().find(|g| g.name == name).expect("a group");
         group.value.expect("a value")
@@ -154,8 +155,7 @@ fn two_walls_with_equal_groups_move_alike() -> concio::Result<()> {
         format!("[[vary]]\npath = \"group.{name}\"\nvalues = [{value:?}]\n")
     };
     let study = format!("wall = \"wall.toml\"\n{}", names.map(of).concat());
-    std::fs::write(folder.path().join("study.toml"), study).expect("a file");
-    let plan = Plan::read(&folder.path().join("study.toml"))?;
+    let plan = Desk::new(&other).plan(&study)?;
     let mut case = plan.case(0)?;
     assert!((case.joint.damping_ratio, case.joint.friction.static_) == (0.05, 0.6));
     assert!((case.panels[0].brick.specific_weight.si() / 15e3 - 1.0).abs() > 0.1);
@@ -179,6 +179,31 @@ fn assert_same(a: &Group, b: &Group) {
         (Some(x), Some(y)) => assert!(near(x, y), "{}: {x:?} {y:?}", a.name),
         (x, y) => assert_eq!(x, y, "{}", a.name),
     }
+}
+
+/// Λ is a unit: whether a wall lies in the ranges of the report, and how far off, does not depend on it.
+#[test]
+fn another_length_moves_a_wall_and_the_ranges_alike() -> concio::Result<()> {
+    let prepared = ready(&read(WALL));
+    let of = |length: Option<f64>| {
+        let reference = Reference::of(&prepared.case, length)?;
+        groups(&prepared.case, &prepared.model, Path::new(""), &reference)
+    };
+    let (own, other) = (of(None)?, of(Some(0.1))?);
+    let mut moved = Vec::new();
+    for (a, b) in own.iter().zip(&other) {
+        let (Some(x), Some(y), Some(range), Some(ranged)) = (a.value, b.value, a.table1, b.table1) else { continue };
+        for k in 0..2 {
+            let [one, two] = [x[k] * ranged[k], y[k] * range[k]];
+            assert!((one - two).abs() <= 1e-12 * two.abs(), "{}: {one} {two}", a.name);
+        }
+        if (y[0] - x[0]).abs() > 1e-9 * x[0].abs() {
+            moved.push(a.name);
+            assert!((y[0] / x[0] - 2.5).abs() < 1e-12, "{}: bricks of 0.25 m are 2.5 Λ long", a.name);
+        }
+    }
+    assert_eq!(moved, ["weight", "slip_velocity"]);
+    Ok(())
 }
 
 #[test]

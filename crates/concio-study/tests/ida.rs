@@ -1,13 +1,17 @@
 //! Incremental dynamic analysis of walls that slide: Newmark's block at every intensity, and the ways to get there.
 
+mod common;
+
 use std::path::Path;
 
 use concio::run::Control;
+use concio_study::Runner;
 use concio_study::file::Keep;
 use concio_study::ida::Analysis;
 use concio_study::ida::curve::{fractiles, fragilities};
 use concio_study::ida::likelihood::Evidence;
-use concio_study::{Plan, Runner};
+
+use common::Desk;
 
 /// A panel that cannot deform to speak of, on a joint without spring and with Coulomb's friction of 0.2.
 const BLOCK: &str = r#"
@@ -60,13 +64,8 @@ fn half_sine(a: f64) -> f64 {
     path(low)
 }
 
-fn plan(folder: &Path, study: &str) -> concio::Result<Plan> {
-    std::fs::write(folder.join("wall.toml"), BLOCK).expect("a file");
-    std::fs::write(folder.join("study.toml"), format!("wall = \"wall.toml\"\n{study}")).expect("a file");
-    Plan::read(&folder.join("study.toml"))
-}
-
 const PULSES: &str = r#"
+wall = "wall.toml"
 [[motion]]
 name = "rectangle"
 base = { pulse = { shape = "rectangular", acceleration = "0.5 g", duration = "0.2 s", start = "0.1 s" } }
@@ -103,14 +102,14 @@ fn the_reference_slips() {
 
 #[test]
 fn a_sliding_wall_slips_as_newmark_says_at_every_intensity() -> concio::Result<()> {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let desk = Desk::new(BLOCK);
     let study = format!(
         "{PULSES}[ida]\ndamage = \"peak_joint_displacement\"\nlimits = [{{ name = \"5 cm\", value = \"50 mm\" }}]\n\
          intensities = [\"0.1 g\", \"0.25 g\", \"0.4 g\", \"0.5 g\", \"0.7 g\", \"1 g\"]\n"
     );
-    let plan = plan(folder.path(), &study)?;
+    let plan = desk.plan(&study)?;
     let mut analysis = Analysis::new(&plan)?.expect("the study has [ida]");
-    assert_eq!(run(&mut analysis, &folder.path().join("out"))?, 12);
+    assert_eq!(run(&mut analysis, &desk.path("out"))?, 12);
     for curve in &analysis.curves {
         assert!(curve.failed.is_none() && curve.points.len() == 6, "{curve:?}");
         for p in &curve.points {
@@ -138,8 +137,8 @@ fn a_sliding_wall_slips_as_newmark_says_at_every_intensity() -> concio::Result<(
 #[test]
 fn intensities_of_pulses() -> concio::Result<()> {
     use concio_study::intensity::Intensity;
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let plan = plan(folder.path(), PULSES)?;
+    let desk = Desk::new(BLOCK);
+    let plan = desk.plan(PULSES)?;
     let of = |run: usize, intensity: Intensity, period: f64| intensity.of(&plan.case(run)?, period);
     let a = 0.5 * 9.81;
     let near = |found: f64, exact: f64, allowed: f64| {
@@ -159,14 +158,14 @@ fn intensities_of_pulses() -> concio::Result<()> {
 /// Hunt and fill asks the same questions again when it is taken up: the store answers them all.
 #[test]
 fn hunting_is_taken_up_where_it_was() -> concio::Result<()> {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let desk = Desk::new(BLOCK);
     let study = format!(
         "{PULSES}[ida]\ndamage = \"peak_joint_displacement\"\ncollapse = \"300 mm\"\n\
          limits = [{{ name = \"1 cm\", value = \"10 mm\" }}, {{ name = \"10 cm\", value = 0.1 }}]\n\
          hunt = {{ first = \"0.1 g\", step = \"0.2 g\", most = \"3 g\", runs = 10 }}\n"
     );
-    let plan = plan(folder.path(), &study)?;
-    let out = folder.path().join("out");
+    let plan = desk.plan(&study)?;
+    let out = desk.path("out");
     let mut first = Analysis::new(&plan)?.expect("the study has [ida]");
     assert_eq!(run(&mut first, &out)?, 20);
     let bytes = || std::fs::metadata(out.join("runs/part-0001.jsonl")).expect("a part").len();
@@ -186,16 +185,16 @@ fn hunting_is_taken_up_where_it_was() -> concio::Result<()> {
 /// A draw of parameters with each motion is a curve of its own; the fragility then holds their scatter too.
 #[test]
 fn curves_are_the_runs_of_the_design() -> concio::Result<()> {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let desk = Desk::new(BLOCK);
     let study = format!(
         "{PULSES}[design]\nkind = \"latin-hypercube\"\nruns = 6\n[[vary]]\npath = \"joint.friction.dynamic\"\n\
          from = 0.1\nto = 0.2\n[ida]\ndamage = \"peak_joint_displacement\"\nlimits = [{{ name = \"a\", value = \"20 mm\" }}]\n\
          intensities = [\"0.2 g\", \"0.6 g\", \"1.2 g\"]\n"
     );
-    let plan = plan(folder.path(), &study)?;
+    let plan = desk.plan(&study)?;
     let mut analysis = Analysis::new(&plan)?.expect("the study has [ida]");
     assert_eq!(analysis.curves.len(), 6);
-    run(&mut analysis, &folder.path().join("out"))?;
+    run(&mut analysis, &desk.path("out"))?;
     assert!(analysis.curves.iter().all(|c| c.points.len() == 3 && c.name.contains(", ")));
     assert_eq!(analysis.curves.iter().filter(|c| c.name.ends_with("rectangle")).count(), 3);
     Ok(())

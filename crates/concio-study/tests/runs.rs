@@ -1,18 +1,22 @@
 //! Runs of a study: the same bits whoever does them, nothing lost, nothing stopped by one that fails.
 
+mod common;
+
 use std::collections::HashSet;
 use std::fs;
-use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use concio::case::{Case, Document, Syntax};
+use concio::case::Case;
 use concio::many::{Job, Standing, simulate_each};
 use concio::outcome::Outcome;
 use concio::run::Control;
+use concio_study::Plan;
 use concio_study::file::{Keep, PerJoint};
 use concio_study::measures::{End, Row};
 use concio_study::runner::{Progress, Runner};
-use concio_study::{Plan, StudyFile};
+use concio_study::store::Store;
+
+use common::Desk;
 
 const WALL: &str = r#"
 model = "shear"
@@ -30,12 +34,6 @@ top = { sine = { amplitude = "5 mm", frequency = "20 Hz" } }
 "#;
 
 type Anyhow = Result<(), Box<dyn std::error::Error>>;
-
-fn plan(folder: &Path, text: &str) -> concio::Result<Plan> {
-    fs::write(folder.join("wall.toml"), WALL).map_err(|e| concio::Error::io(folder, e))?;
-    let path = folder.join("study.toml");
-    Plan::of(StudyFile::of(Document::parse(text, Syntax::Toml, Some(&path))?)?)
-}
 
 fn cases(plan: &Plan) -> concio::Result<Vec<Case>> {
     (0..plan.points.len()).map(|i| plan.case(i)).collect()
@@ -67,11 +65,11 @@ distribution = { law = "lognormal", median = "10 kN/m", dispersion = 0.3 }
 
 #[test]
 fn threads_shards_and_order_do_not_change_a_bit() -> Anyhow {
-    let folder = tempfile::tempdir()?;
-    let plan = plan(folder.path(), TWENTY)?;
+    let desk = Desk::new(WALL);
+    let plan = desk.plan(TWENTY)?;
     let cases = cases(&plan)?;
     let run = |name: &str, threads: usize, order: &[usize]| -> concio::Result<Vec<Row>> {
-        let mut runner = Runner::open(&folder.path().join(name), &keep(), threads, &go_on)?;
+        let mut runner = Runner::open(&desk.path(name), &keep(), threads, &go_on)?;
         for &i in order {
             runner.rows(&cases[i..=i])?;
         }
@@ -89,13 +87,13 @@ fn threads_shards_and_order_do_not_change_a_bit() -> Anyhow {
     }
     // Shards in one folder.
     for share in [2, 0, 1] {
-        let mut runner = Runner::open(&folder.path().join("shards"), &keep(), 1, &go_on)?;
+        let mut runner = Runner::open(&desk.path("shards"), &keep(), 1, &go_on)?;
         let mine: Vec<Case> = cases.iter().skip(share).step_by(3).cloned().collect();
         runner.rows(&mine)?;
     }
     let together = run("shards", 1, &[])?;
     assert_eq!(serde_json::to_string(&together)?, serde_json::to_string(&alone)?);
-    assert_eq!(fs::read_dir(folder.path().join("shards/runs"))?.count(), 3, "the last call had nothing to run");
+    assert_eq!(fs::read_dir(desk.path("shards/runs"))?.count(), 3, "the last call had nothing to run");
     Ok(())
 }
 
@@ -111,10 +109,10 @@ fn what_is_known_is_not_run_again_unless_more_is_kept() -> Anyhow {
         RUNS.fetch_add(jobs.len(), Ordering::Relaxed);
         simulate_each(jobs, threads, watch, keep);
     }
-    let folder = tempfile::tempdir()?;
-    let plan = plan(folder.path(), TWENTY)?;
+    let desk = Desk::new(WALL);
+    let plan = desk.plan(TWENTY)?;
     let cases = cases(&plan)?;
-    let out = folder.path().join("out");
+    let out = desk.path("out");
     // The same wall twice in one call is one run.
     let doubled: Vec<Case> = cases.iter().chain(&cases).cloned().collect();
     let rows = Runner::open(&out, &Keep::default(), 2, &go_on)?.solved_by(counted).rows(&doubled)?;
@@ -148,13 +146,13 @@ fn a_run_that_panics_is_recorded_and_the_others_go_on() -> Anyhow {
         }
         simulate_each(jobs, threads, watch, keep);
     }
-    let folder = tempfile::tempdir()?;
+    let desk = Desk::new(WALL);
     let text = TWENTY.replace("runs = 20", "runs = 6");
     let text = text.split("[[vary]]").take(2).collect::<Vec<_>>().join("[[vary]]")
         + "[[vary]]\npath = \"load.top\"\nvalues = [\"10 kN/m\", \"60 kN/m\"]\n";
-    let plan = plan(folder.path(), &text)?;
+    let plan = desk.plan(&text)?;
     let cases = cases(&plan)?;
-    let out = folder.path().join("out");
+    let out = desk.path("out");
     let rows = Runner::open(&out, &keep(), 1, &go_on)?.solved_by(panicking).rows(&cases)?.unwrap_or_default();
     let failed: Vec<&Row> = rows.iter().filter(|r| r.end == End::Failed).collect();
     assert_eq!((rows.len(), failed.len()), (6, 3));
@@ -165,43 +163,52 @@ fn a_run_that_panics_is_recorded_and_the_others_go_on() -> Anyhow {
 
 #[test]
 fn a_stopped_study_goes_on_where_it_was() -> Anyhow {
-    let folder = tempfile::tempdir()?;
-    let mut cases = cases(&plan(folder.path(), TWENTY)?)?;
+    let desk = Desk::new(WALL);
+    let mut cases = cases(&desk.plan(TWENTY)?)?;
     // Long enough for several looks.
     for case in &mut cases {
         case.motion.duration = Some(concio::quantity::Time::from_si(0.4));
     }
-    let out = folder.path().join("out");
-    let stop = |progress: &Progress| if progress.share > 0.3 { Control::Stop } else { Control::Continue };
-    let mut calls = 0;
-    loop {
-        let before = concio_study::store::Store::open(&out)?.len();
-        let ended = if calls == 0 {
-            Runner::open(&out, &keep(), 1, &stop)?.rows(&cases)?
-        } else {
-            Runner::open(&out, &keep(), 1, &go_on)?.rows(&cases)?
-        };
-        calls += 1;
-        match ended {
-            // What was done before the stop is there.
-            None => assert!(concio_study::store::Store::open(&out)?.len() >= before),
-            Some(rows) => {
-                let whole = Runner::open(&folder.path().join("whole"), &keep(), 1, &go_on)?.rows(&cases)?;
-                assert_eq!(Some(rows), whole);
-                break;
-            }
-        }
-    }
-    assert_eq!(calls, 2, "the first call was not stopped");
+    let out = desk.path("out");
+    // Some runs are over by then: they are done eight at a time.
+    let stop = |progress: &Progress| if progress.share > 0.6 { Control::Stop } else { Control::Continue };
+    assert_eq!(Runner::open(&out, &keep(), 1, &stop)?.rows(&cases)?, None, "it was not stopped");
+    let done = Store::open(&out)?.len();
+    assert!(0 < done && done < cases.len(), "{done} of {} runs were over", cases.len());
+    let known = AtomicUsize::new(0);
+    let go_on_with = |progress: &Progress| {
+        known.store(progress.known, Ordering::Relaxed);
+        Control::Continue
+    };
+    let ended = Runner::open(&out, &keep(), 1, &go_on_with)?.rows(&cases)?;
+    assert_eq!(known.into_inner(), done, "what was over is not done again");
+    let whole = Runner::open(&desk.path("whole"), &keep(), 1, &go_on)?.rows(&cases)?;
+    assert!(ended.is_some() && ended == whole);
+    Ok(())
+}
+
+/// What came in is what moves, what is stretched and what was dissipated, in all its ways: cracks and impacts take their part.
+#[test]
+fn dissipation_closes_the_balance_of_a_wall_that_cracks() -> Anyhow {
+    let bond = "[joint.bond]\ntensile_strength = \"0.05 MPa\"\ncohesion = \"0.05 MPa\"\nmode_1_energy = \"5 N/m\"\nmode_2_energy = \"20 N/m\"\n[load]";
+    let desk = Desk::new(&WALL.replace("[load]", bond).replace("20 ms", "50 ms"));
+    let plan = desk.plan("wall = \"wall.toml\"\n")?;
+    let rows = Runner::open(&desk.path("out"), &keep(), 1, &go_on)?.rows(&cases(&plan)?)?.unwrap_or_default();
+    let of = |name: &str| rows[0].number(name).unwrap_or(f64::NAN);
+    let dissipated = of("dissipated_energy");
+    let rest = of("base_work") + of("top_work") - of("kinetic_energy") - of("elastic_energy");
+    println!("{dissipated} J, {rest} J, of bonds {} J, impacts {} J", of("bond_energy"), of("impact_energy"));
+    assert!(of("bond_energy") > 1e-3 * dissipated, "{} J of {dissipated} J", of("bond_energy"));
+    assert!((dissipated / rest - 1.0).abs() < 1e-4, "{dissipated} J against {rest} J");
     Ok(())
 }
 
 #[test]
 fn an_id_knows_the_content_of_records_and_not_their_place() -> Anyhow {
-    let folder = tempfile::tempdir()?;
+    let desk = Desk::new(WALL);
     let record = |scale: f64| (0..200).map(|i| format!("{}\n", scale * (0.1 * f64::from(i)).sin())).collect::<String>();
     for (name, scale) in [("a.txt", 1.0), ("b.txt", 1.0), ("c.txt", 2.0)] {
-        fs::write(folder.path().join(name), record(scale))?;
+        fs::write(desk.path(name), record(scale))?;
     }
     let study = |name: &str| {
         format!(
@@ -209,7 +216,7 @@ fn an_id_knows_the_content_of_records_and_not_their_place() -> Anyhow {
         )
     };
     let id = |name: &str| -> concio::Result<String> {
-        let plan = plan(folder.path(), &study(name))?;
+        let plan = desk.plan(&study(name))?;
         plan.id(&plan.case(0)?)
     };
     assert_eq!(id("a.txt")?, id("b.txt")?);
@@ -219,7 +226,7 @@ fn an_id_knows_the_content_of_records_and_not_their_place() -> Anyhow {
 
 #[test]
 fn every_factor_reaches_the_wall() -> Anyhow {
-    let folder = tempfile::tempdir()?;
+    let desk = Desk::new(WALL);
     let text = r#"
 wall = "wall.toml"
 scales = [1.0, 2.0]
@@ -239,7 +246,7 @@ name = "sine"
 base = { sine = { acceleration = "0.2 g", frequency = "3 Hz" } }
 duration = "30 ms"
 "#;
-    let plan = plan(folder.path(), text)?;
+    let plan = desk.plan(text)?;
     assert_eq!(plan.points.len(), 2 * 3 * 2);
     let mut seen = HashSet::new();
     for number in 0..plan.points.len() {
@@ -321,9 +328,9 @@ fn wrong_study_files() {
         ("wall = \"wall.toml\"\n[[vary]]\npath = \"joint.friction.static\"\nvalues = [0.1]", "dynamic", 2),
     ];
     for (text, says, line) in cases {
-        let folder = tempfile::tempdir().expect("a folder");
+        let desk = Desk::new(WALL);
         let all = || -> concio::Result<()> {
-            let plan = plan(folder.path(), text)?;
+            let plan = desk.plan(text)?;
             (0..plan.points.len()).try_for_each(|i| plan.case(i).map(drop))
         };
         match all() {

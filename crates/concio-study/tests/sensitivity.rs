@@ -1,8 +1,15 @@
 //! Sensitivity indices against functions whose indices are known.
 
+mod common;
+
 use concio::dice::Dice;
-use concio_study::sensitivity::{Bootstrap, Indices, morris, ranks, sobol};
+use concio_study::Plan;
+use concio_study::measures::{End, MEASURES, Row};
+use concio_study::sensitivity::{Bootstrap, Found, Indices, morris, ranks, sensitivity, sobol, tables};
+use concio_study::table::Cells;
 use std::f64::consts::PI;
+
+use common::Desk;
 
 const BOOTSTRAP: Bootstrap = Bootstrap { resamples: 300, confidence: 0.95, seed: 3 };
 
@@ -21,12 +28,7 @@ fn points(kind: &str, runs: usize, k: usize) -> Vec<Vec<f64>> {
     let vary: String = (0..k)
         .map(|i| format!("[[vary]]\nname = \"x{i}\"\npath = \"{}\"\nfrom = {}\nto = {}\n", PATHS[i], 10 + i, 900))
         .collect();
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let wall = WALL;
-    std::fs::write(folder.path().join("wall.toml"), wall).expect("a file");
-    let text = format!("wall = \"wall.toml\"\n[design]\nkind = \"{kind}\"\nruns = {runs}\nseed = 5\n{vary}");
-    std::fs::write(folder.path().join("study.toml"), text).expect("a file");
-    let plan = concio_study::Plan::read(&folder.path().join("study.toml")).expect("a study");
+    let plan = plan(kind, runs, &vary);
     let share = |at: &concio_study::design::At| match at {
         concio_study::design::At::Share(share) => *share,
         concio_study::design::At::Level(level) => *level as f64,
@@ -34,7 +36,65 @@ fn points(kind: &str, runs: usize, k: usize) -> Vec<Vec<f64>> {
     plan.points.iter().map(|row| row.iter().map(share).collect()).collect()
 }
 
-const WALL: &str = include_str!("../../../examples/01-first-wall.toml");
+/// The plan of a design with some factors and questions.
+fn plan(kind: &str, runs: usize, rest: &str) -> Plan {
+    let runs = if runs > 0 { format!("runs = {runs}\n") } else { String::new() };
+    let text = format!("wall = \"wall.toml\"\n[design]\nkind = \"{kind}\"\n{runs}seed = 5\n{rest}");
+    Desk::new(include_str!("../../../examples/01-first-wall.toml")).plan(&text).expect("a study")
+}
+
+/// What a study finds whose runs have `measured` for their largest slip, given the labels of their factors.
+fn found(plan: &Plan, measured: impl Fn(&[serde_json::Value]) -> f64) -> Found {
+    let place = MEASURES.iter().position(|m| m.name == "largest_slip").expect("a measure");
+    let row = |number: usize| {
+        let mut row = Row::failed("", "");
+        (row.end, row.numbers) = (End::Completed, vec![None; MEASURES.len()]);
+        row.numbers[place] = Some(measured(&plan.labels(number)));
+        row
+    };
+    let rows: Vec<Row> = (0..plan.points.len()).map(row).collect();
+    sensitivity(plan, &rows.iter().map(Some).collect::<Vec<_>>()).expect("indices").remove(0)
+}
+
+const ASKED: &str = "[sensitivity]\nof = [\"largest_slip\"]\nresamples = 200\n";
+
+/// Values far from equal distances, in no order.
+const UNEVEN: &str = "[[vary]]\npath = \"load.top\"\nvalues = [\"9 kN/m\", \"1 kN/m\", \"2 kN/m\", \"0 kN/m\"]\n";
+const BETA: &str = "[[vary]]\npath = \"joint.friction.beta\"\nvalues = [50, 150]\n";
+
+fn load(labels: &[serde_json::Value]) -> f64 {
+    let text = labels[0].as_str().expect("a load");
+    text.trim_end_matches(" kN/m").parse().expect("a number")
+}
+
+/// A measure that rises in proportion to a listed value has one elementary effect, that over the list's whole range, and no
+/// scatter; steps by the place in the list would give effects of every size.
+#[test]
+fn listed_values_stand_where_their_numbers_do() {
+    let study = plan("morris", 30, &format!("{UNEVEN}{BETA}{ASKED}"));
+    let found = found(&study, |labels| 0.5 * load(labels));
+    let Ok(Indices::Morris(effects)) = &found.indices else { panic!("{:?}", found.indices) };
+    assert!((effects[0].mean.value - 4.5).abs() < 1e-12 && effects[0].deviation.value < 1e-12, "{:?}", effects[0]);
+    assert_eq!(effects[1].absolute.value, 0.0);
+}
+
+/// The rank coefficient of what rises with a listed value is 1, in whatever order the list has its values. Names have none,
+/// and the table says why.
+#[test]
+fn ranks_are_those_of_values_and_names_have_none() {
+    let names = "[[vary]]\nname = \"case\"\nchoices = [{ name = \"1\" }, { name = \"2\", set = { title = \"b\" } }, \
+                 { name = \"3\", set = { title = \"c\" } }]\n";
+    let study = plan("grid", 0, &format!("{UNEVEN}{names}{BETA}{ASKED}"));
+    let found = found(&study, |labels| load(labels).powi(3));
+    let Ok(Indices::Ranks { coefficients, explained }) = &found.indices else { panic!("{:?}", found.indices) };
+    assert!(coefficients[0].is_some_and(|c| (c.value - 1.0).abs() < 1e-9), "{coefficients:?}");
+    assert!(coefficients[1].is_none() && (explained - 1.0).abs() < 1e-9, "{coefficients:?} {explained}");
+    let table = tables::table(&study, std::slice::from_ref(&found));
+    let note = table.columns.iter().find(|c| c.name == "note").map(|c| &c.cells);
+    let Some(Cells::Texts(notes)) = note else { panic!("{note:?}") };
+    assert!(notes[0].is_none() && notes[2].is_none(), "{notes:?}");
+    assert!(notes[1].as_ref().is_some_and(|n| n.contains("names") && n.contains("mean nothing")), "{notes:?}");
+}
 
 /// sin x1 + 7 sin² x2 + 0.1 x3⁴ sin x1 over −π … π. V1 = ½ (1 + 0.1 π⁴/5)², V2 = 49/8, V13 = 0.01 π⁸ (1/18 − 1/50)
 /// (T. Ishigami, T. Homma, 1990).
@@ -141,8 +201,21 @@ fn bootstrap_intervals_cover() {
 
 #[test]
 fn the_kind_of_index_follows_the_design() {
-    assert_eq!(
-        concio_study::sensitivity::tables::names(&Indices::Ranks { coefficients: Vec::new(), explained: 1.0 }),
-        ["rank_coefficient"]
-    );
+    for (design, runs, index) in [
+        ("morris", 8, "mu_star"),
+        ("sobol", 16, "total"),
+        ("latin-hypercube", 30, "rank_coefficient"),
+        ("random", 30, "rank_coefficient"),
+        ("grid", 0, "rank_coefficient"),
+    ] {
+        let study = plan(design, runs, &format!("{UNEVEN}{BETA}{ASKED}"));
+        let found = found(&study, load);
+        assert_eq!(found.indices.as_ref().map(|i| tables::names(i)[0]), Ok(index), "{design}");
+        let table = tables::table(&study, &[found]);
+        // Only the first factor does anything.
+        let values = table.column(index).map(<[_]>::to_vec).unwrap_or_default();
+        assert_eq!(values.len(), 2, "{design}");
+        let [load, beta] = [values[0], values[1]].map(|v| v.expect("an index").abs());
+        assert!(load > 0.5 && beta < 0.25, "{design}: {load} {beta}");
+    }
 }

@@ -1,17 +1,20 @@
 //! Smart interfaces from the study file to the answer: the same whatever the threads and whether it was interrupted,
 //! better than what it started from, and wrong study files refused with their line.
 
+mod common;
+
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use concio::case::{Document, Syntax};
 use concio::run::Control;
 use concio::{Error, InputError};
+use concio_study::Plan;
 use concio_study::answer::{Answer, answer};
 use concio_study::interfaces::{self, Question};
 use concio_study::measures::Row;
 use concio_study::runner::{Progress, Runner};
-use concio_study::{Plan, StudyFile};
+
+use common::Desk;
 
 /// Nine blocks under a beam, shaken by pulses.
 const WALL: &str = r#"
@@ -78,21 +81,6 @@ change = { friction = {} }
 parameter = [{ path = "friction.static", from = 0.1, to = 1, also = [{ path = "friction.dynamic", times = 1 }] }]
 "#;
 
-struct Desk(tempfile::TempDir);
-
-impl Desk {
-    fn new(wall: &str) -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
-        std::fs::write(folder.path().join("wall.toml"), wall).expect("a wall file");
-        Desk(folder)
-    }
-
-    fn plan(&self, study: &str) -> concio::Result<Plan> {
-        let path = self.0.path().join("study.toml");
-        Plan::of(StudyFile::of(Document::parse(study, Syntax::Toml, Some(&path))?)?)
-    }
-}
-
 fn dry() -> String {
     WALL.replace("BOND", "")
 }
@@ -118,7 +106,7 @@ fn asked(plan: &Plan, out: &Path, threads: usize, most: usize) -> Option<(Questi
 fn threads_and_interruptions_change_nothing() {
     let desk = Desk::new(&dry());
     let plan = desk.plan(STUDY).expect("a plan");
-    let out = |name: &str| desk.0.path().join(name);
+    let out = |name: &str| desk.path(name);
     let (question, one) = asked(&plan, &out("one"), 1, usize::MAX).expect("an end");
     let (_, two) = asked(&plan, &out("two"), 2, usize::MAX).expect("an end");
     assert_eq!(one, two);
@@ -158,7 +146,7 @@ fn two_objectives_and_another_seed() {
         "[[interfaces.objective]]\nmeasure = \"dissipated_energy\"\n[[interfaces.device]]\nname = \"viscous\"",
     );
     let plan = desk.plan(&two).expect("a plan");
-    let (question, both) = asked(&plan, &desk.0.path().join("o"), 2, usize::MAX).expect("an end");
+    let (question, both) = asked(&plan, &desk.path("o"), 2, usize::MAX).expect("an end");
     assert_eq!(question.objectives.iter().map(|o| o.large).collect::<Vec<_>>(), [false, true]);
     for pair in both.search.windows(2) {
         // From the smallest displacement on, every further design of the front dissipates more.
@@ -166,9 +154,9 @@ fn two_objectives_and_another_seed() {
         assert!(a[0].mean < b[0].mean && a[1].mean < b[1].mean);
     }
     let seeded = desk.plan(&STUDY.replace("count = 3", "count = 3\nseed = 2")).expect("a plan");
-    let (_, other) = asked(&seeded, &desk.0.path().join("o"), 2, usize::MAX).expect("an end");
+    let (_, other) = asked(&seeded, &desk.path("o"), 2, usize::MAX).expect("an end");
     let plan = desk.plan(STUDY).expect("a plan");
-    let (_, one) = asked(&plan, &desk.0.path().join("o"), 2, usize::MAX).expect("an end");
+    let (_, one) = asked(&plan, &desk.path("o"), 2, usize::MAX).expect("an end");
     assert_ne!(other.random, one.random);
 }
 
@@ -186,7 +174,7 @@ fn first_cracking_is_an_objective() {
         let plan = desk.plan(&study.replace("population = 8", "population = 4")).expect("a plan");
         let question = interfaces::question(&plan).expect("a question");
         let watch = |_: &Progress| Control::Continue;
-        let mut runner = Runner::open(desk.0.path(), &Default::default(), 2, &watch).expect("a store");
+        let mut runner = Runner::open(&desk.path("out"), &Default::default(), 2, &watch).expect("a store");
         let mut bench = concio_study::bench::Bench::new(&plan, &question, &mut runner);
         let trial = concio_study::bench::Trial { design: None, scene: 0, factor: 1.0 };
         let values = bench.values(&[trial]).expect("values").expect("not stopped");

@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use concio::Result;
 use concio::case::{Syntax, from_str};
-use concio::run::{Prepared, prepare};
+use concio::run::prepare;
 use concio::simulate::Simulation;
 use peak_alloc::PeakAlloc;
 
@@ -85,8 +85,10 @@ fn in_turn(count: u64, friction: &str, steps: u64, smallest: Option<f64>) -> Res
             from_str(&wall(25, 40, friction).replace("seed = 3", &format!("seed = {seed}")), Syntax::Toml, None)?;
         all.push(prepare(file.case, Path::new(""))?);
     }
-    let of = |p: &Prepared| Simulation::new(&p.model, &p.case.solver, &p.sampling);
-    let mut runs = all.iter().map(of).collect::<Result<Vec<_>>>()?;
+    let mut runs = Vec::new();
+    for prepared in &all {
+        runs.push(Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling)?);
+    }
     for run in &mut runs {
         run.advance(FIRST);
     }

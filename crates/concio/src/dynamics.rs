@@ -264,7 +264,8 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
             totals.peak_slip_velocity = totals.peak_slip_velocity.max(w.abs());
         }
     }
-    for rub in &model.rubs {
+    for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
+        totals.peak_friction_force = totals.peak_friction_force.max(rub.largest_normal() * mu.abs());
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         let fastest = (state.v[a] - state.v[b]).abs().max((v_0[a] - v_0[b]).abs());
         // At an impact velocities jump and nothing moves.

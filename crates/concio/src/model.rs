@@ -73,6 +73,13 @@ pub struct Rub {
     pub law: Stribeck,
 }
 
+impl Rub {
+    /// The normal force on the side where it is larger [N].
+    pub fn largest_normal(&self) -> f64 {
+        self.normal[0].max(self.normal[1])
+    }
+}
+
 /// A joint that lets its sides part and never lets them overlap: (R1), (R2).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {

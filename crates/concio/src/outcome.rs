@@ -76,6 +76,9 @@ pub struct Totals {
     pub peak_relative_displacement: f64,
     /// Largest |relative velocity| of a bed or support joint [m/s].
     pub peak_slip_velocity: f64,
+    /// Largest |friction force| in a joint [N], on the side that it is larger on; of a bonded joint that of its cracked
+    /// part, none while it is intact; of one that sticks what it holds. 0 where nothing rubs.
+    pub peak_friction_force: f64,
     /// Largest |force| that the top beam exerts on the wall [N]; 0 without a beam.
     pub top_force_peak: f64,
     /// ∫ F² dt of that force [N² s]; its rms is √(this / time reached).

@@ -144,21 +144,27 @@ fn sampling(output: &Output, excitation: &Excitation) -> Result<Sampling> {
 
 /// Hash of everything that the result depends on.
 fn inputs_hash(case: &Case, folder: &Path) -> Result<String> {
-    let mut hasher = blake3::Hasher::new();
-    let mut part = |bytes: &[u8]| {
-        hasher.update(&(bytes.len() as u64).to_le_bytes());
-        hasher.update(bytes);
-    };
-    part(env!("CARGO_PKG_VERSION").as_bytes());
-    part(&store::SCHEMA_VERSION.to_le_bytes());
-    part(canonical_json(case).as_bytes());
+    let mut parts = vec![canonical_json(case).into_bytes()];
     for signal in [&case.motion.base, &case.motion.top] {
         if let Signal::Record(input) = signal {
             let path = folder.join(&input.record);
-            part(&std::fs::read(&path).map_err(|e| Error::io(&path, e))?);
+            parts.push(std::fs::read(&path).map_err(|e| Error::io(&path, e))?);
         }
     }
-    Ok(hasher.finalize().to_hex().to_string())
+    Ok(hash(&parts))
+}
+
+/// BLAKE3, in hex, of the versions of program and result format and of `parts`, each told from the next by its length: what
+/// a result is known by, here and in studies.
+pub fn hash(parts: &[impl AsRef<[u8]>]) -> String {
+    let mut hasher = blake3::Hasher::new();
+    let format = store::SCHEMA_VERSION.to_le_bytes();
+    let versions = [env!("CARGO_PKG_VERSION").as_bytes(), &format];
+    for part in versions.into_iter().chain(parts.iter().map(AsRef::as_ref)) {
+        hasher.update(&(part.len() as u64).to_le_bytes());
+        hasher.update(part);
+    }
+    hasher.finalize().to_hex().to_string()
 }
 
 impl Prepared {

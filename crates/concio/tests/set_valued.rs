@@ -3,12 +3,14 @@
 
 use std::f64::consts::PI;
 
+use concio::bond::Bond;
 use concio::case::{Pulse, PulseShape, Ramp, Scheme, Signal, Solver};
 use concio::excitation::Excitation;
 use concio::ground::signal::{GroundMotion, compile};
 use concio::law::Stribeck;
 use concio::record::StopReason;
 use concio::samples::{Histories, Link, lumped, respond, shaking, solver};
+use concio::simulate::{Sampling, Simulation};
 use concio::wall::End;
 
 const M: f64 = 100.0;
@@ -127,6 +129,27 @@ fn newmark_pulses() {
         assert_eq!(h.stop_reason, StopReason::Completed);
         let slip = first(&h).last().unwrap().abs();
         assert!((slip / exact - 1.0).abs() < 1e-5, "{shape:?}: {slip} against {exact}");
+    }
+}
+
+/// A block under a constant base acceleration A: stuck, its joint bears m A; in slip μ_k N, whatever μ_s would allow; a
+/// bond that holds leaves nothing to friction.
+#[test]
+fn friction_force_is_what_the_joint_bears() {
+    let (mu_s, mu_k) = (0.5, 0.3);
+    let bond = Bond { strength: 1e4, stiffness: K, residual: 0.0, decay: 0.0, opens: false };
+    let law = coulomb(mu_s, mu_k);
+    let free = Link::friction(0, End::Base, law, N);
+    let bonded = Link::bonded(0, End::Base, bond, Some((law, N)));
+    for (link, a, exact) in [(free, 3.0, 300.0), (free, -3.0, 300.0), (free, 6.0, mu_k * N), (bonded, 3.0, 0.0)] {
+        let pulse =
+            Pulse { shape: PulseShape::Rectangular, acceleration: a.into(), duration: 0.2.into(), start: 0.05.into() };
+        let model = lumped(&[M], &[link], Excitation::of_base(signal(Signal::Pulse(pulse)), 0.6));
+        let sampling = Sampling { interval: 0.01, frame_every: 0, blocks: Vec::new(), joints: Vec::new() };
+        let mut run = Simulation::new(&model, &fine(1e-8), &sampling).unwrap();
+        assert_eq!(run.run_to_end().1, StopReason::Completed);
+        let found = run.state().totals.peak_friction_force;
+        assert!((found - exact).abs() <= 1e-9 * M * a.abs(), "at {a} m/s²: {found} against {exact}");
     }
 }
 

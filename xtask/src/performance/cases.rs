@@ -127,8 +127,8 @@ fn shaken() -> Case {
         interval: 5e-3,
         judge: Judge::Histories { rtol: 1e-8, atol: 1e-16 },
         runs: [
-            runs(Concio, &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6], 0.0, 5),
-            runs(ConcioOrder4, &[1e-3, 1e-5, 1e-6], 0.0, 3),
+            runs(Concio, &[1e-1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6], 0.0, 5),
+            runs(ConcioOrder4, &[1e-1, 1e-3, 1e-5, 1e-6], 0.0, 3),
             runs(Cvode, &[1e-3, BASELINE], 1e-10, 5),
             runs(Cvode, &[1e-5, 1e-6], 1e-12, 3),
         ]
@@ -175,7 +175,7 @@ fn large() -> Case {
         interval: 2e-2,
         judge: Judge::Histories { rtol: 1e-8, atol: 1e-16 },
         runs: [
-            runs(Concio, &[1e-2, 1e-3, 1e-4, 1e-5], 0.0, 3),
+            runs(Concio, &[1e-1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-5], 0.0, 3),
             runs(Cvode, &[1e-3], 1e-10, 1),
             runs(Cvode, &[BASELINE], 1e-10, 3),
         ]

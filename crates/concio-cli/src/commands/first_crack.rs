@@ -4,21 +4,23 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use concio::InputError;
-use concio::case::{self, CaseFile, RecordInput, Signal};
+use concio::case::{self, Case, CaseFile, RecordInput, Signal};
 use concio::quantity::{Length, Time};
 use concio_study::first_crack::{FirstCrackInput, Question, Subject, objection};
 use concio_study::limits::Criterion;
 
 use super::run::refuse_a_file;
+use super::wall_file;
 use crate::args::{CrackCriterion, FirstCrack};
 use crate::failure::Failure;
-use crate::stop;
+use crate::study::asked;
 use crate::study::first_crack::{Do, Request, answer};
+use crate::study::page::Section;
+use crate::{motion, stop};
 
 /// Finds the first crack under each motion.
 pub fn first_crack(args: &FirstCrack) -> Result<ExitCode, Failure> {
-    let wall = case::read(&args.file)?;
-    wall.validate()?;
+    let wall = wall_file::read(&args.file)?;
     let question = question(args).map_err(|e| as_option(e, &args.file))?;
     let subjects = subjects(args, &wall)?;
     for subject in &subjects {
@@ -37,8 +39,23 @@ pub fn first_crack(args: &FirstCrack) -> Result<ExitCode, Failure> {
     };
     let facts = vec![("wall file", args.file.display().to_string()), ("motions", subjects.len().to_string())];
     let threads = args.threads.map_or(0, usize::from);
-    let request = Request { title: &title, facts, question: &question, subjects: &subjects, out: &out, threads };
+    let first = first(&subjects, &wall.case)?;
+    let request = Request { title: &title, facts, first, question: &question, subjects: &subjects, out: &out, threads };
     answer(&request, Do::Share([1, 1]))
+}
+
+/// What was run.
+fn first(subjects: &[Subject], wall: &Case) -> Result<Section, Failure> {
+    let motion = |s: &Subject| [s.name.clone(), motion::short(&s.case.motion.base)];
+    let motions: Vec<[String; 2]> = subjects.iter().map(motion).collect();
+    let asked =
+        "Asked: the least scale of each motion at which a first joint cracks; what counts as a crack stands below.";
+    Ok(Section {
+        title: asked::TITLE.into(),
+        text: vec![asked.into(), asked::wall(wall)?, asked::MODEL.into()],
+        tables: vec![("Motions of the base at scale 1".into(), asked::words(["motion", "what it is"], &motions))],
+        ..Section::default()
+    })
 }
 
 fn question(args: &FirstCrack) -> Result<Question, InputError> {

@@ -42,7 +42,8 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Export(args) => export::export(&args),
         Command::Plot(args) => plot::plot(&args),
         Command::Completions(args) => completions::completions(args.shell),
-        Command::Reference => reference::reference(),
+        Command::Reference { measures: false } => reference::reference(),
+        Command::Reference { measures: true } => reference::measures(),
         Command::Chart { file } => chart::chart(&file),
     }
     .map(|()| ExitCode::SUCCESS)

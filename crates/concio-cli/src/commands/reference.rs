@@ -1,6 +1,7 @@
 //! The reference of the command line as Markdown (docs/cli.md), made from the same text as `--help`.
 
 use clap::CommandFactory;
+use concio_study::measures::{MEASURES, Measure};
 
 use crate::args::Cli;
 use crate::failure::Failure;
@@ -27,6 +28,14 @@ pub fn reference() -> Result<(), Failure> {
         }
     }
     files::print(&text)
+}
+
+/// Prints the measures of a run as a table.
+pub fn measures() -> Result<(), Failure> {
+    let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!("{unit} ") };
+    let line = |m: &Measure| format!("| `{}` | {}| {} |\n", m.name, unit(m.unit), m.text.replace('|', "\\|"));
+    let lines: String = MEASURES.iter().map(line).collect();
+    files::print(&format!("| measure | unit | is |\n|---|---|---|\n{lines}"))
 }
 
 fn section(text: &mut String, name: &str, command: &mut clap::Command) {

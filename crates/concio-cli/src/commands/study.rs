@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use concio::case::{Beam, Case};
-use concio::run::Control;
+use concio::run::{Control, prepare};
 use concio::{InputError, Result};
 use concio_study::file::Keep;
 use concio_study::measures::{End, Row};
@@ -14,10 +14,12 @@ use concio_study::{Plan, answer, file, first_crack, interfaces, table};
 use rayon::prelude::*;
 
 use super::run::refuse_a_file;
+use super::wall_file::Kind;
 use crate::args::{StudyCheck, StudyCommand, StudyPlace, StudyRun};
 use crate::failure::{Failure, STOPPED};
-use crate::format::{columns, pairs};
+use crate::format::{columns, counted, pairs};
 use crate::progress::Runs;
+use crate::study::asked::{self, Trouble};
 use crate::study::first_crack::{Do, Request};
 use crate::{files, stop, study};
 
@@ -49,10 +51,31 @@ pub fn run_command(command: &StudyCommand) -> std::result::Result<ExitCode, Fail
     }
 }
 
+/// What a point of the design is: a run, or what takes several.
+fn point(plan: &Plan) -> &'static str {
+    let study = &plan.file.study;
+    match (study.first_crack.is_some(), study.ida.is_some()) {
+        (true, _) => "case",
+        (_, true) => "curve",
+        _ => "run",
+    }
+}
+
 /// `concio-study/NAME` in the working directory.
 fn folder(place: &StudyPlace) -> PathBuf {
     let name = place.file.file_stem().unwrap_or(place.file.as_os_str());
     place.out.clone().unwrap_or_else(|| Path::new("concio-study").join(name))
+}
+
+/// Reads a study file.
+fn read(path: &Path) -> Result<Plan> {
+    Plan::read(path).map_err(|error| match Kind::of(path) {
+        Some(Kind::Wall) => {
+            let error = InputError::new("is a wall file, and a study file is wanted").in_file(path);
+            error.help("`concio check` and `concio run` take wall files; a study file names one as `wall`").into()
+        }
+        _ => error,
+    })
 }
 
 /// All runs of a plan, complete and valid, with their ids; what is asked of them has a meaning.
@@ -63,35 +86,73 @@ fn cases(plan: &Plan) -> Result<Vec<(String, Case)>> {
     let numbers = 0..plan.points.len();
     let one = |number: usize| plan.case(number).and_then(|case| Ok((plan.id(&case)?, case)));
     // The first that is wrong is told, whatever thread comes to it first.
-    numbers.into_par_iter().map(one).collect::<Vec<_>>().into_iter().collect()
+    let cases: Vec<(String, Case)> =
+        numbers.into_par_iter().map(one).collect::<Vec<_>>().into_iter().collect::<Result<_>>()?;
+    if let Some(ranking) = &plan.file.study.ranking {
+        ranking.check_joints(&plan.file, cases.iter().map(|(_, case)| case))?;
+    }
+    Ok(cases)
+}
+
+/// Tells what `concio check` would warn of: of the wall as it is, under each motion of the study.
+fn warn(plan: &Plan, cases: &[(String, Case)]) -> Result<()> {
+    let wall = &plan.file.wall;
+    let motions = &plan.file.study.motions;
+    let mut by_motion: Vec<(String, Vec<String>)> = Vec::new();
+    for place in 0..motions.len().max(1) {
+        let run = (0..plan.points.len()).find(|&n| plan.motion(n).is_none_or(|m| m == place));
+        let Some((_, case)) = run.and_then(|n| cases.get(n)) else { continue };
+        let (mut base, mut start) = (wall.case.clone(), wall.folder());
+        base.output = case.output.clone();
+        if !motions.is_empty() {
+            // That of the run starts from the working directory.
+            (base.motion, start) = (case.motion.clone(), Path::new(""));
+        }
+        // A wall file may leave to the factors what a run cannot do without.
+        let prepared = prepare(base, start).or_else(|_| prepare(case.clone(), Path::new("")));
+        let key = if motions.is_empty() { "wall".to_string() } else { format!("motion[{place}]") };
+        let warnings = prepared.map_err(|e| plan.file.of_wall(&key, e))?.model.warnings;
+        by_motion.push((motions.get(place).map_or(String::new(), |m| format!("motion {}: ", m.name)), warnings));
+    }
+    let everywhere = |warning: &String| by_motion.iter().all(|(_, warnings)| warnings.contains(warning));
+    let of_wall = by_motion.first().into_iter().flat_map(|(_, w)| w).filter(|w| everywhere(w)).cloned();
+    for warning in wall.unit_doubts().into_iter().chain(of_wall) {
+        files::note(&format!("warning: {warning}"));
+    }
+    for (motion, warnings) in &by_motion {
+        warnings.iter().filter(|w| !everywhere(w)).for_each(|w| files::note(&format!("warning: {motion}{w}")));
+    }
+    Ok(())
 }
 
 fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
-    let plan = Plan::read(&args.place.file)?;
+    let plan = read(&args.place.file)?;
     let cases = cases(&plan)?;
-    if plan.file.study.first_crack.is_some() {
-        let (question, subjects) = first_crack::of_study(&plan)?;
-        let asks = format!("first cracking ({}) under {} motions", question.rule.criterion.name(), subjects.len());
-        return files::print(&pairs(&[("asks", asks)]));
+    let study = &plan.file.study;
+    if study.first_crack.is_some() {
+        first_crack::of_study(&plan)?;
     }
+    warn(&plan, &cases)?;
     let store = Store::open(&folder(&args.place))?;
-    let known = cases.iter().filter(|(id, _)| store.get(id).is_some()).count();
-    let ida = study::ida::described(&plan)?;
-    let mut rows = vec![("wall", plan.file.wall.path().map_or(String::new(), |p| p.display().to_string()))];
-    for factor in &plan.factors {
-        let levels = factor.levels().map_or("a distribution".into(), |n| format!("{n} values"));
-        rows.push(("varies", format!("{}: {levels}", factor.name)));
-    }
-    if ida.is_empty() {
+    let mut rows = asked::lines(&plan, point(&plan));
+    rows.extend(study::ida::described(&plan)?);
+    if study.first_crack.is_none() && study.ida.is_none() {
         rows.push(("runs", cases.len().to_string()));
-        rows.push(("done", known.to_string()));
+        rows.push(("done", cases.iter().filter(|(id, _)| store.get(id).is_some()).count().to_string()));
     }
-    rows.extend(ida);
+    if let Some(interfaces) = &study.interfaces {
+        rows.push(("search", format!("up to {}", counted(interfaces.runs, "run"))));
+    }
+    if study.first_crack.is_some() || study.ida.is_some() || study.interfaces.is_some() {
+        rows.push(("in folder", counted(store.len(), "run")));
+    }
     let mut text = pairs(&rows);
     if args.runs {
         let heading = ["run".to_string()].into_iter().chain(plan.factors.iter().map(|f| f.name.clone())).collect();
-        let label = |v: serde_json::Value| v.as_str().map_or_else(|| v.to_string(), str::to_string);
-        let line = |i: usize| [(i + 1).to_string()].into_iter().chain(plan.labels(i).into_iter().map(label)).collect();
+        let line = |i: usize| {
+            let labels = plan.labels(i);
+            [(i + 1).to_string()].into_iter().chain(labels.iter().map(asked::text)).collect()
+        };
         let lines: Vec<Vec<String>> = [heading].into_iter().chain((0..cases.len()).map(line)).collect();
         text.push('\n');
         text.push_str(&columns(&lines));
@@ -100,13 +161,14 @@ fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
 }
 
 fn run(args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
-    let plan = Plan::read(&args.place.file)?;
+    let plan = read(&args.place.file)?;
     if plan.file.study.first_crack.is_some() {
         return first_cracks(&plan, &args.place, args.threads, Do::Share(args.shard.unwrap_or([1, 1])));
     }
     let cases = cases(&plan)?;
     let out = folder(&args.place);
     refuse_a_file(&out)?;
+    warn(&plan, &cases)?;
     let [share, of] = args.shard.unwrap_or([1, 1]);
     if plan.file.study.ida.is_some() {
         return study::ida::run(&plan, &out, args.threads.map_or(0, usize::from), [share, of]);
@@ -133,7 +195,7 @@ fn run(args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     let missing = found.iter().filter(|r| r.is_none()).count();
     tell(&plan, &found)?;
     if missing > 0 {
-        files::note(&format!("{missing} of {} runs are left to other shards", cases.len()));
+        files::note(&format!("{missing} of {} are left to other shards", counted(cases.len(), "run")));
         return Ok(ExitCode::SUCCESS);
     }
     let rows: Vec<&Row> = found.iter().flatten().copied().collect();
@@ -159,6 +221,7 @@ fn first_cracks(
     let out = folder(place);
     refuse_a_file(&out)?;
     if matches!(what, Do::Share(_)) {
+        warn(plan, &cases(plan)?)?;
         stop::listen()?;
     }
     let file = &plan.file;
@@ -170,8 +233,10 @@ fn first_cracks(
         ("motions", subjects.len().to_string()),
     ];
     let threads = threads.map_or(0, usize::from);
+    let case = subjects.first().map(|s| &s.case);
+    let first = asked::section(plan, point(plan), case, Trouble::default())?;
     let (question, subjects) = (&question, &subjects[..]);
-    study::first_crack::answer(&Request { title, facts, question, subjects, out: &out, threads }, what)
+    study::first_crack::answer(&Request { title, facts, first, question, subjects, out: &out, threads }, what)
 }
 
 /// How many runs there are and what became of them.
@@ -189,16 +254,14 @@ fn tell(plan: &Plan, found: &[Option<&Row>]) -> std::result::Result<(), Failure>
     }
     let bad = found.iter().enumerate().filter_map(|(i, r)| r.as_ref().map(|r| (i, r)));
     for (number, row) in bad.filter(|(_, r)| r.end != End::Completed).take(MOST_NAMED) {
-        let labels: Vec<String> =
-            plan.factors.iter().zip(plan.labels(number)).map(|(f, l)| format!("{} = {l}", f.name)).collect();
         let cause = row.cause.as_deref().unwrap_or("no cause is known");
-        files::note(&format!("run {} ({}): {cause}", number + 1, labels.join(", ")));
+        files::note(&format!("run {} ({}): {cause}", number + 1, asked::values(plan, number)));
     }
     files::print(&pairs(&rows))
 }
 
 fn status(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
-    let plan = Plan::read(&place.file)?;
+    let plan = read(&place.file)?;
     if plan.file.study.ida.is_some() {
         return study::ida::status(&plan, &folder(place));
     }
@@ -213,7 +276,7 @@ fn status(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
 }
 
 fn export(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
-    let plan = Plan::read(&place.file)?;
+    let plan = read(&place.file)?;
     let cases = cases(&plan)?;
     let out = folder(place);
     let store = Store::open(&out)?;
@@ -280,11 +343,10 @@ fn write(
     table::write_csv(&runs, &out.join("runs.csv"))?;
     table::write_parquet(&runs, &out.join("runs.parquet"))?;
     if !plan.file.study.keep.joints.is_empty() {
-        let joints = table::of_joints(found, &|number| joint_names(&cases[number].1));
-        table::write_csv(&joints, &out.join("joints.csv"))?;
-        table::write_parquet(&joints, &out.join("joints.parquet"))?;
+        table::write_joints(found, &|number| joint_names(&cases[number].1), out)?;
     }
-    let mut sections = Vec::new();
+    let mut sections =
+        vec![asked::section(plan, "run", cases.first().map(|(_, case)| case), Trouble::of(plan, found))?];
     if let Some((section, table)) = study::sensitivity::section(plan, found)? {
         table::write_csv(&table, &out.join("sensitivity.csv"))?;
         table::write_parquet(&table, &out.join("sensitivity.parquet"))?;
@@ -307,6 +369,9 @@ fn write(
         sections.extend(study::cracks::section(plan, case, found, out)?);
     }
     sections.push(study::sections::runs(plan, &runs));
+    for section in sections.iter().filter(|s| !s.brief.is_empty()) {
+        files::print(&format!("\n{}", section.brief))?;
+    }
     study::write(out, title, &facts, &sections)
 }
 

@@ -2,19 +2,50 @@
 
 use std::path::Path;
 
-use concio::case::{self, CaseFile, Signal};
+use concio::case::{self, CaseFile, Document, Signal};
 use concio::ground::record::{self, TextOptions};
 use concio::run::{self, Prepared};
 use concio::{Error, InputError};
+use serde_json::{Map, Value};
 
 use crate::failure::Failure;
 use crate::motion;
 
 /// Reads and validates a wall file.
 pub fn read(path: &Path) -> Result<CaseFile, Failure> {
-    let file = case::read(path).map_err(|e| if is_record(path) { of_record(e) } else { e })?;
+    let file = case::read(path).map_err(|e| match Kind::of(path) {
+        Some(Kind::Study) => of_study(path).into(),
+        _ if is_record(path) => of_record(e),
+        _ => e,
+    })?;
     let findings = file.findings();
     if findings.is_empty() { Ok(file) } else { Err(Failure::Input(findings)) }
+}
+
+/// What a file in TOML or JSON is by its keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// It has panels.
+    Wall,
+    /// It names a wall.
+    Study,
+}
+
+impl Kind {
+    /// None where a file cannot be read, or its keys do not tell.
+    pub fn of(path: &Path) -> Option<Kind> {
+        let keys: Map<String, Value> = Document::open(path, "a file").ok()?.to().ok()?;
+        match (keys.contains_key("panel"), keys.get("wall").is_some_and(Value::is_string)) {
+            (true, false) => Some(Kind::Wall),
+            (false, true) => Some(Kind::Study),
+            _ => None,
+        }
+    }
+}
+
+fn of_study(path: &Path) -> InputError {
+    let error = InputError::new("is a study file, and a wall file is wanted").in_file(path);
+    error.help("`concio study check` and `concio study run` take study files; the wall file is named in it as `wall`")
 }
 
 /// Whether a file that is no wall file can be read as an accelerogram.

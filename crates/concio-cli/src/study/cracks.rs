@@ -13,7 +13,7 @@ use concio_study::table::{self, Table};
 use super::crack_map::maps;
 use super::page::{Figure, Section};
 use crate::failure::Failure;
-use crate::format::{si, significant};
+use crate::format::{counted, si, significant};
 
 /// Groups that are drawn.
 const MOST_MAPS: usize = 6;
@@ -54,7 +54,7 @@ pub fn section(plan: &Plan, case: &Case, rows: &[Option<&Row>], out: &Path) -> R
         drawing: maps(&model, drawn(&groups)),
     };
     let tables = vec![("Lines".to_string(), lines), ("Joints".to_string(), joints)];
-    Ok(Some(Section { title: "Crack lines".into(), text, figures: vec![figure], tables }))
+    Ok(Some(Section { title: "Crack lines".into(), text, figures: vec![figure], tables, ..Section::default() }))
 }
 
 /// Each scale on its own, where there are several.
@@ -65,9 +65,9 @@ fn drawn(groups: &[Group]) -> &[Group] {
 
 fn words(model: &Model, group: &Group) -> String {
     let mut said = format!(
-        "{}: {} runs, cracks in {} of them, {} joints in the mean of all",
+        "{}: {}, cracks in {} of them, {} joints in the mean of all",
         capital(&group.name),
-        group.runs,
+        counted(group.runs, "run"),
         group.cracked,
         significant(group.mean, 3)
     );
@@ -82,7 +82,7 @@ fn words(model: &Model, group: &Group) -> String {
         let first = group.joints.iter().max_by(|a, b| a.first.cmp(&b.first).then(b.joint.cmp(&a.joint)));
         if let Some(first) = first.filter(|j| j.first > 0) {
             let name = concio::graph::name(&model.wall, &model.joints[first.joint]);
-            said.push_str(&format!(", first of all most often {name} (in {} runs)", first.first));
+            said.push_str(&format!(", first of all most often {name} (in {})", counted(first.first, "run")));
         }
     }
     match group.lines.first() {
@@ -95,10 +95,9 @@ fn words(model: &Model, group: &Group) -> String {
                 _ => "",
             };
             said.push_str(&format!(
-                "; {} line{}, the largest of {} joints ({} upright){across}, all of which crack in {} of the runs.",
-                group.lines.len(),
-                if group.lines.len() == 1 { "" } else { "s" },
-                line.joints.len(),
+                "; {}, the largest of {} ({} upright){across}, all of which crack in {} of the runs.",
+                counted(group.lines.len(), "line"),
+                counted(line.joints.len(), "joint"),
                 line.heads,
                 percent(line.whole)
             ));

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use concio::run::Control;
 use concio_study::Runner;
 use concio_study::first_crack::{Answer, Question, Subject, Trial, keep, search};
+use concio_study::limits::counts_deformation;
 use concio_study::runner::Progress;
 use concio_study::table::{self, Table};
 use serde_json::{Value, json};
@@ -14,7 +15,7 @@ use super::bars::{Bar, Bars, bars};
 use super::page::{Figure, Section, shown};
 use crate::draw::output::Drawing;
 use crate::failure::{Failure, STOPPED};
-use crate::format::{columns, si, significant};
+use crate::format::{columns, counted, si, significant};
 use crate::progress::Runs;
 use crate::{files, stop};
 
@@ -35,6 +36,8 @@ pub struct Request<'a> {
     pub title: &'a str,
     /// Lines at its head.
     pub facts: Vec<(&'static str, String)>,
+    /// What was run: the first section of the report.
+    pub first: Section,
     /// The question.
     pub question: &'a Question,
     /// The walls under their motions.
@@ -71,8 +74,12 @@ pub fn answer(request: &Request, what: Do) -> Result<ExitCode, Failure> {
     if what == Do::Tell {
         return files::print(&lines(question, &answers)).map(|()| ExitCode::SUCCESS);
     }
-    let path = write(request, &answers)?;
+    let elastic = deforms(question, subjects)?;
+    let path = write(request, &answers, elastic)?;
     files::print(&format!("{}\nopen {}\n", lines(question, &answers), path.display()))?;
+    if elastic {
+        files::note(&format!("note: {DEFORMATION}"));
+    }
     let whole = answers.iter().all(|a| a.crack().is_some() && a.cause.is_none());
     Ok(if whole { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
 }
@@ -94,7 +101,18 @@ fn found(request: &Request, subjects: &[Subject], known_only: bool) -> Result<Op
     Ok(answers?)
 }
 
-fn write(request: &Request, answers: &[Answer]) -> Result<PathBuf, Failure> {
+/// Said of criterion `slip` where joints have springs.
+const DEFORMATION: &str = "criterion slip compares the whole displacement of a joint's sides along each other with the limit: \
+                           what its spring gives way elastically counts as well as what slides";
+
+/// Whether elastic deformation counts for what is asked of these walls.
+fn deforms(question: &Question, subjects: &[Subject]) -> concio::Result<bool> {
+    let Some(subject) = subjects.first() else { return Ok(false) };
+    let model = concio::run::prepare(subject.case.clone(), Path::new(""))?.model;
+    Ok(counts_deformation(&model, &question.rule))
+}
+
+fn write(request: &Request, answers: &[Answer], elastic: bool) -> Result<PathBuf, Failure> {
     let (question, out) = (request.question, request.out);
     let (summary, runs) = (summary(question, answers), all_runs(answers));
     table::write_csv(&summary, &out.join("first-crack.csv"))?;
@@ -108,9 +126,13 @@ fn write(request: &Request, answers: &[Answer]) -> Result<PathBuf, Failure> {
         "interval",
         format!("{} %", significant(100.0 * question.interval, 3).trim_end_matches('0').trim_end_matches('.')),
     ));
+    let mut text = words(question, answers);
+    if elastic {
+        text.push(format!("Note: {DEFORMATION}."));
+    }
     let section = Section {
         title: "First cracking".into(),
-        text: words(question, answers),
+        text,
         figures: figure(answers).into_iter().map(|drawing| Figure {
             name: "first-crack".into(),
             caption: "First crack by motion: factor on the motion, its peak acceleration, and the spectral acceleration of the \
@@ -118,8 +140,9 @@ fn write(request: &Request, answers: &[Answer]) -> Result<PathBuf, Failure> {
             drawing,
         }).collect(),
         tables: vec![("First cracks".into(), summary), ("All runs".into(), runs)],
+        ..Section::default()
     };
-    super::write(out, request.title, &facts, &[section])
+    super::write(out, request.title, &facts, &[&request.first, &section])
 }
 
 fn criterion(question: &Question) -> String {
@@ -267,8 +290,9 @@ fn words(question: &Question, answers: &[Answer]) -> Vec<String> {
     let runs: usize = answers.iter().map(|a| a.trials.len()).sum();
     text.push(format!(
         "Each motion was scaled until a first joint cracked ({asked}). The crack lies between two runs that were made, one without \
-         and one with it, at most {} % apart; {runs} runs in all.",
-        100.0 * question.interval
+         and one with it, at most {} % apart; {} in all.",
+        100.0 * question.interval,
+        counted(runs, "run")
     ));
     let peaks: Vec<f64> = done.iter().map(|(a, t)| t.scale * a.shaking.pga).collect();
     let order = |values: &[f64]| {
@@ -313,8 +337,9 @@ fn words(question: &Question, answers: &[Answer]) -> Vec<String> {
     let above: Vec<&str> =
         answers.iter().filter(|a| !a.uncracked_above().is_empty()).map(|a| a.name.as_str()).collect();
     text.push(format!(
-        "{tried} runs at lower scales were made besides, {} of each motion spread evenly between 0 and the crack; no joint cracked in them. \
+        "{} at lower scales were made besides, {} of each motion spread evenly between 0 and the crack; no joint cracked in them. \
          Cracks between them cannot be excluded where a response does not grow with its motion{}.",
+        counted(tried, "run"),
         question.checks,
         match above.len() {
             0 => ", of which no run gave a sign".to_string(),

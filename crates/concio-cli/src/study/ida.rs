@@ -7,18 +7,20 @@ use concio::run::Control;
 use concio::{InputError, Result};
 use concio_study::Plan;
 use concio_study::ida::curve::{Curve, Found, SHARES, fractiles, fragilities, grid};
+use concio_study::ida::hunt::Way;
 use concio_study::ida::likelihood::Evidence;
 use concio_study::ida::{Analysis, Settings, tables};
 use concio_study::runner::{Progress, Runner};
 use concio_study::store::Store;
 use concio_study::table::{self, Table};
 
+use super::asked;
 use super::page::{Figure, Section, shown};
 use super::sections::label;
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::failure::{Failure, STOPPED};
 use crate::files;
-use crate::format::pairs;
+use crate::format::{counted, pairs, plain};
 use crate::progress::Runs;
 use crate::stop;
 
@@ -61,7 +63,8 @@ pub fn run(plan: &Plan, out: &Path, threads: usize, [share, of]: [usize; 2]) -> 
     tell(&analysis)?;
     let missing = missing(&analysis);
     if missing > 0 {
-        files::note(&format!("{missing} of {} curves are left to other shards", analysis.curves.len()));
+        let all = counted(analysis.curves.len(), "curve");
+        files::note(&format!("{missing} of {all} are left to other shards"));
         return Ok(ExitCode::SUCCESS);
     }
     files::print(&format!("open {}\n", write(plan, &analysis, out)?.display()))?;
@@ -141,7 +144,7 @@ fn tell(analysis: &Analysis) -> std::result::Result<(), Failure> {
         ("curves", analysis.curves.len().to_string()),
         ("done", (analysis.curves.len() - missing(analysis)).to_string()),
         ("runs", runs.to_string()),
-        ("collapse", format!("{collapsed} curves")),
+        ("collapse", counted(collapsed, "curve")),
     ];
     let failed = analysis.curves.iter().filter(|c| c.failed.is_some()).count();
     if failed > 0 {
@@ -208,6 +211,7 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
         ],
         figures: vec![curves_figure(s, &curves, &middle)],
         tables: vec![capacities, middle_table, runs],
+        ..Section::default()
     };
     let mut text: Vec<String> = found.iter().map(|f| line(s, f).trim().to_string()).collect();
     let percent = 100.0 * s.confidence;
@@ -220,8 +224,16 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
              a sample, not of the model."
         ),
     );
-    let fragility =
-        Section { title: "Fragility".into(), text, figures: fragility_figure(s, &found), tables: vec![fits] };
+    let fragility = Section {
+        title: "Fragility".into(),
+        text,
+        figures: fragility_figure(s, &found),
+        tables: vec![fits],
+        ..Section::default()
+    };
+    let case = plan.case(0)?;
+    let mut first = asked::section(plan, "curve", Some(&case), trouble(analysis))?;
+    first.text.insert(1, ways(s));
     let name = |path: Option<&Path>| path.map_or(String::new(), |p| p.display().to_string());
     let title = if plan.file.study.title.is_empty() { "Incremental dynamic analysis" } else { &plan.file.study.title };
     let facts = [
@@ -231,7 +243,55 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
         ("runs", analysis.curves.iter().map(|c| c.points.len()).sum::<usize>().to_string()),
         ("failed curves", analysis.curves.iter().filter(|c| c.failed.is_some()).count().to_string()),
     ];
-    super::write(out, title, &facts, &[fragility, incremental])
+    super::write(out, title, &facts, &[first, fragility, incremental])
+}
+
+/// Which intensities each curve was asked for, and what counts as what.
+fn ways(s: &Settings) -> String {
+    let unit = s.intensity.unit();
+    let of = |v: f64| format!("{} {unit}", shown(v)).trim_end().to_string();
+    let damage = |v: f64| format!("{} {}", shown(v), s.unit).trim_end().to_string();
+    let way = match &s.way {
+        Way::List(list) => format!("at {}", list.iter().map(|v| of(*v)).collect::<Vec<_>>().join(", ")),
+        Way::Hunt { first, step, growth, most, runs, resolution } => format!(
+            "from {} in steps of {} that grow by {}, up to {}, {} each, the gap below a collapse closed to {} of it",
+            of(*first),
+            of(*step),
+            of(*growth),
+            of(*most),
+            counted(*runs, "run"),
+            plain(*resolution)
+        ),
+    };
+    let limits: Vec<String> = s.limits.iter().map(|(name, v)| format!("{name} ({})", damage(*v))).collect();
+    let collapse = match s.collapse.is_finite() {
+        true => {
+            format!("{} counts as collapse, and so does a run that the solver could not finish", damage(s.collapse))
+        }
+        false => "a run that the solver could not finish counts as collapse".into(),
+    };
+    let quantity = intensity(s).quantity;
+    format!("Intensities: {quantity} {way}. Damage: {}; limits {}; {collapse}.", s.damage, limits.join(", "))
+}
+
+/// What became of the curves.
+fn trouble(analysis: &Analysis) -> asked::Trouble {
+    let failed: Vec<&Curve> = analysis.curves.iter().filter(|c| c.failed.is_some()).collect();
+    let runs: usize = analysis.curves.iter().map(|c| c.points.len()).sum();
+    let collapsed = analysis.curves.iter().flat_map(|c| &c.points).filter(|p| p.collapsed).count();
+    let curves = counted(analysis.curves.len(), "curve");
+    let mut told = format!("{curves} of {} in all; {collapsed} of them count as collapse", counted(runs, "run"));
+    if missing(analysis) > 0 {
+        told += &format!("; {} not done yet", counted(missing(analysis), "curve"));
+    }
+    told += &match failed.len() {
+        0 => ".".to_string(),
+        n => format!("; {} failed and cannot be used.", counted(n, "curve")),
+    };
+    let mut table = Table::default();
+    table.texts("curve", failed.iter().map(|c| Some(c.name.clone())).collect());
+    table.texts("cause", failed.iter().map(|c| c.failed.clone()).collect());
+    asked::Trouble { told: vec![told], runs: (!failed.is_empty()).then_some(table) }
 }
 
 fn intensity(s: &Settings) -> Axis {
@@ -298,7 +358,7 @@ fn fragility_figure(s: &Settings, found: &[Found]) -> Vec<Figure> {
         let mut lines = vec![curve(low, OUTER), curve(high, OUTER), curve(middle, MIDDLE)];
         let mark = |(x, p): (f64, f64)| Line { x: vec![x].into(), y: vec![p].into(), style: ONE };
         lines.extend(points(&f.evidence).into_iter().map(mark));
-        let probability = Axis { quantity: "probability".into(), range: Some([0.0, 1.0]), ..Axis::default() };
+        let probability = Axis { quantity: "probability".into(), range: Some([-0.03, 1.03]), ..Axis::default() };
         let heading = format!("{}, from {}", f.limit, f.method);
         Some(Panel { heading, x: intensity(s), y: probability, lines, rising: true, bare: false, marked: false })
     };

@@ -10,7 +10,7 @@ use super::page::{Figure, Section, shown};
 use super::wall_map::{self, Map};
 use crate::draw::chart::{self, Axis, Panel, Sheet};
 use crate::failure::Failure;
-use crate::format::{short, significant};
+use crate::format::{columns, counted, plain, short, significant};
 
 /// Width of the figures [pt], and height of a plot.
 const SIZE: [f64; 2] = [510.0, 170.0];
@@ -46,7 +46,37 @@ pub fn section(question: &Question, answer: &Answer, out: &Path) -> Result<Secti
         (caption("Motion by motion"), motions),
         ("All random draws".into(), draws),
     ];
-    Ok(Section { title: "Smart interfaces".into(), text, figures, tables })
+    let brief = brief(question, answer);
+    Ok(Section { title: "Smart interfaces".into(), text, figures, tables, brief })
+}
+
+/// The search beside its baselines, each objective under the motions of the search and the held-out ones.
+fn brief(question: &Question, answer: &Answer) -> String {
+    let mut lines = vec![vec!["placement".to_string(), "joints".into()]];
+    for objective in &question.objectives {
+        lines[0].push(objective.title());
+        if !question.of(true).is_empty() {
+            lines[0].push("held out".into());
+        }
+    }
+    for entry in entries(question, answer) {
+        let words = [&entry.words[0], &entry.words[1]].map(String::as_str).join(" ");
+        let mut line = vec![words.trim().to_string(), entry.joints.map_or("–".into(), plain)];
+        for (k, objective) in question.objectives.iter().enumerate() {
+            let unit = objective.target.unit();
+            for spreads in [&entry.training, &entry.held_out] {
+                let cell = |s: &Spread| match s.deviation {
+                    0.0 => said(s.mean, unit),
+                    deviation => format!("{} ± {}", said(s.mean, unit), said(deviation, unit)),
+                };
+                line.extend(spreads.get(k).map(cell));
+            }
+        }
+        lines.push(line);
+    }
+    let chosen =
+        answer.search.get(answer.chosen).map_or(String::new(), |line| format!("  {}\n", found(question, line)));
+    columns(&lines) + &chosen
 }
 
 fn asked(question: &Question, answer: &Answer) -> String {
@@ -58,15 +88,16 @@ fn asked(question: &Question, answer: &Answer) -> String {
     let devices: Vec<&str> = question.devices.iter().map(|d| d.name.as_str()).collect();
     let [greedy, search, all] = answer.runs;
     format!(
-        "Asked: {}; devices ({}) in at most {} of {} joints, chosen among {}. The search asked for {search} runs under {} \
-         motions, the greedy placements for {greedy} to tune their parameters, everything together for {all}. Scatter is \
-         the standard deviation over {} copies of the motions that differ by {:e} of their strength.",
+        "Asked: {}; devices ({}) in at most {} of {}, chosen among {}. The search asked for {} under {}, the greedy \
+         placements for {greedy} to tune their parameters, everything together for {all}. Scatter is the standard \
+         deviation over {} copies of the motions that differ by {:e} of their strength.",
         objectives.join("; "),
         devices.join(", "),
         question.places.most,
-        question.joints.len(),
+        counted(question.joints.len(), "joint"),
         question.eligible.len(),
-        question.of(false).len(),
+        counted(search, "run"),
+        counted(question.of(false).len(), "motion"),
         question.input.copies,
         question.input.perturbation,
     )
@@ -77,7 +108,12 @@ fn found(question: &Question, line: &Line) -> String {
     let device = &question.devices[design.device];
     let label = device.label(&design.shares);
     let label = if label.is_empty() { label } else { format!(" ({label})") };
-    format!("Found: {}{label} in {} joints: {}.", device.name, design.joints.len(), question.names(design).join(", "))
+    format!(
+        "Found: {}{label} in {}: {}.",
+        device.name,
+        counted(design.joints.len(), "joint"),
+        question.names(design).join(", ")
+    )
 }
 
 fn judged(question: &Question, k: usize, motions: &str, v: &Verdict) -> String {
@@ -157,11 +193,17 @@ fn quantiles(question: &Question, name: &str, lines: &[Line]) -> Vec<Entry> {
     QUANTILES.into_iter().map(entry).collect()
 }
 
-fn comparison(question: &Question, answer: &Answer) -> Table {
+/// The wall as it is, the random placements, the greedy ones and those of the search.
+fn entries(question: &Question, answer: &Answer) -> Vec<Entry> {
     let mut entries = vec![entry(question, &answer.unreinforced)];
     entries.extend(quantiles(question, "random", &answer.random));
     entries.extend(quantiles(question, "random places of the found device", &answer.placed));
     entries.extend(answer.greedy.iter().chain(&answer.search).map(|l| entry(question, l)));
+    entries
+}
+
+fn comparison(question: &Question, answer: &Answer) -> Table {
+    let entries = entries(question, answer);
     let mut table = Table::default();
     for (k, heading) in ["placement", "device", "parameters"].into_iter().enumerate() {
         table.texts(heading, entries.iter().map(|e| Some(e.words[k].clone())).collect());

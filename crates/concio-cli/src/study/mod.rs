@@ -1,5 +1,6 @@
 //! What `concio study` writes beside tables: figures and one page, made of sections that every analysis brings.
 
+pub mod asked;
 pub mod bars;
 pub mod choices;
 pub mod crack_map;

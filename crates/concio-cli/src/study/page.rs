@@ -1,6 +1,7 @@
 //! The report of a study: one HTML file that fetches nothing, its tables sorted by a click on a heading, its figures
 //! also as SVG and PDF in `figures/`.
 
+use std::borrow::Borrow;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -33,6 +34,8 @@ pub struct Section {
     pub figures: Vec<Figure>,
     /// Tables, each under a line that says what it is.
     pub tables: Vec<(String, Table)>,
+    /// The answer in short, for the terminal: lines, or nothing.
+    pub brief: String,
 }
 
 /// A figure.
@@ -50,9 +53,14 @@ pub struct Figure {
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write(out: &Path, title: &str, facts: &[(&str, String)], sections: &[Section]) -> Result<PathBuf, Failure> {
+pub fn write<S: Borrow<Section>>(
+    out: &Path,
+    title: &str,
+    facts: &[(&str, String)],
+    sections: &[S],
+) -> Result<PathBuf, Failure> {
     let folder = out.join("figures");
-    for figure in sections.iter().flat_map(|s| &s.figures) {
+    for figure in sections.iter().flat_map(|s| &s.borrow().figures) {
         fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
         let lost = |what: String| Failure::Other(format!("figure {}: {what}", figure.name), None);
         let [svg, pdf] = ["svg", "pdf"].map(|ending| folder.join(format!("{}.{ending}", figure.name)));
@@ -64,7 +72,7 @@ pub fn write(out: &Path, title: &str, facts: &[(&str, String)], sections: &[Sect
     Ok(path)
 }
 
-fn html(title: &str, facts: &[(&str, String)], sections: &[Section]) -> Result<String, Failure> {
+fn html<S: Borrow<Section>>(title: &str, facts: &[(&str, String)], sections: &[S]) -> Result<String, Failure> {
     let mut page = String::new();
     let title = escape(title);
     let _ = write!(
@@ -78,7 +86,7 @@ fn html(title: &str, facts: &[(&str, String)], sections: &[Section]) -> Result<S
         let _ = writeln!(page, "<tr><th scope=\"row\">{}</th><td>{}</td></tr>", escape(name), escape(value));
     }
     page.push_str("</table>\n</header>\n<main>\n");
-    for section in sections {
+    for section in sections.iter().map(Borrow::borrow) {
         let _ = writeln!(page, "<section>\n<h2>{}</h2>", escape(&section.title));
         for text in &section.text {
             let _ = writeln!(page, "<p>{}</p>", escape(text));
@@ -169,6 +177,7 @@ mod tests {
             text: vec!["less < more".into()],
             figures: Vec::new(),
             tables: vec![("both".into(), table)],
+            ..Section::default()
         };
         let page = html("x", &[("runs", "2".into())], &[section]).map_err(|_| "no page".to_string())?;
         assert!(page.contains("T &amp; U") && page.contains("less &lt; more") && page.contains("&lt;script&gt;"));

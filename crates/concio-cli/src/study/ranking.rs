@@ -12,7 +12,7 @@ use concio_study::table;
 use super::page::{Figure, Section};
 use super::wall_map::{self, Map};
 use crate::failure::Failure;
-use crate::format::{short, significant};
+use crate::format::{columns, counted, short, significant};
 
 /// The joints in order, if the study asks for it and the runs are of one wall; its table goes into the folder as well.
 ///
@@ -32,6 +32,7 @@ pub fn section(plan: &Plan, case: &Case, rows: &[Option<&Row>], out: &Path) -> R
     }
     let lines = ranking::table(&all, &names);
     table::write_csv(&lines, &out.join("ranking.csv"))?;
+    section.brief = brief(&all, &names, asked.listed);
     section.text = all.iter().map(|r| said(r, &names, asked.listed)).collect();
     section.text.extend(compared(&all));
     let map = |r: &Ranks| {
@@ -54,6 +55,20 @@ pub fn section(plan: &Plan, case: &Case, rows: &[Option<&Row>], out: &Path) -> R
     Ok(Some(section))
 }
 
+/// The first joints by each ranking side by side, mean ratio in brackets.
+fn brief(all: &[Ranks], names: &[String], listed: usize) -> String {
+    let heading = ["critical joints".to_string()].into_iter().chain(all.iter().map(|r| format!("by {}", name(r.by))));
+    let mut lines: Vec<Vec<String>> = vec![heading.collect()];
+    for place in 0..listed.min(names.len()) {
+        let of = |r: &Ranks| {
+            let e = r.order[place];
+            format!("{} ({})", names[e], significant(r.ratio[e], 2))
+        };
+        lines.push([(place + 1).to_string()].into_iter().chain(all.iter().map(of)).collect());
+    }
+    columns(&lines)
+}
+
 fn said(ranks: &Ranks, names: &[String], listed: usize) -> String {
     let one = |&e: &usize| format!("{} ({})", names[e], significant(ranks.ratio[e], 2));
     let first: Vec<String> = ranks.order.iter().take(listed).map(one).collect();
@@ -65,9 +80,9 @@ fn said(ranks: &Ranks, names: &[String], listed: usize) -> String {
         None => String::new(),
     };
     format!(
-        "By {}, over {} runs, mean ratio in brackets: {}. The largest value of any run is {}.{agree}",
+        "By {}, over {}, mean ratio in brackets: {}. The largest value of any run is {}.{agree}",
         name(ranks.by),
-        ranks.runs,
+        counted(ranks.runs, "run"),
         first.join(", "),
         match ranks.by.unit() {
             "m/s²" => format!("{} m/s²", significant(most, 4)),

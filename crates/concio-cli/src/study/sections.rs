@@ -38,7 +38,8 @@ pub fn runs(plan: &Plan, table: &Table) -> Section {
                 x: Axis { quantity: label(&factor.name, &factor.unit), ..Axis::default() },
                 y: Axis { quantity: quantity.into(), unit, ..Axis::default() },
                 lines: points.iter().map(line).collect(),
-                rising: true,
+                // Room at both ends: a mark on the frame would be cut in half.
+                rising: false,
                 bare: false,
                 marked: true,
             });
@@ -55,7 +56,13 @@ pub fn runs(plan: &Plan, table: &Table) -> Section {
             drawing: chart::draw(&sheet),
         });
     }
-    Section { title: "Runs".into(), text: Vec::new(), figures, tables: vec![("All runs".into(), table.clone())] }
+    Section {
+        title: "Runs".into(),
+        text: Vec::new(),
+        figures,
+        tables: vec![("All runs".into(), table.clone())],
+        ..Section::default()
+    }
 }
 
 /// A factor's name with the unit of its values.

@@ -7,7 +7,8 @@ use concio_study::sensitivity::{Found, Index, Indices, sensitivity, tables};
 use concio_study::table::Table;
 
 use super::interval_bars::{self, Group};
-use super::page::{Figure, Section};
+use super::page::{Figure, Section, shown};
+use crate::format::{columns, counted};
 
 /// Width of the figure [pt].
 const WIDTH: f64 = 420.0;
@@ -26,7 +27,50 @@ pub fn section(plan: &Plan, rows: &[Option<&Row>]) -> Result<Option<(Section, Ta
     let figures = figure(plan, &found).into_iter().collect();
     let caption = "Indices with the interval of the bootstrap".to_string();
     let tables = vec![(caption, table.clone())];
-    Ok(Some((Section { title: "Sensitivity".into(), text, figures, tables }, table)))
+    let brief = brief(plan, &found);
+    Ok(Some((Section { title: "Sensitivity".into(), text, figures, tables, brief }, table)))
+}
+
+/// What the indices are called, in the order of [`tables::rows`], as many as are shown.
+fn headings(indices: &Indices) -> &'static [&'static str] {
+    match indices {
+        Indices::Morris(_) => &["μ*", "σ"],
+        Indices::Sobol(_) => &["total", "first order"],
+        Indices::Ranks { .. } => &["rank regression coefficient"],
+    }
+}
+
+/// One line per measure and factor, with the intervals.
+fn brief(plan: &Plan, found: &[Found]) -> String {
+    let mut lines: Vec<Vec<String>> = Vec::new();
+    let mut notes = String::new();
+    for f in found {
+        let indices = match &f.indices {
+            Ok(indices) => indices,
+            Err(cause) => {
+                notes.push_str(&format!("  {}: no indices, {cause}\n", f.measure.name));
+                continue;
+            }
+        };
+        let headings = headings(indices);
+        if lines.is_empty() {
+            let heading = ["sensitivity of", "to"].into_iter().chain(headings.iter().copied());
+            lines.push(heading.map(String::from).collect());
+        }
+        let unit = if matches!(indices, Indices::Morris(_)) { f.measure.unit } else { "" };
+        for (factor, row) in plan.factors.iter().zip(tables::rows(indices)) {
+            let cell = |index: &Option<Index>| match index.filter(|i| i.value.is_finite()) {
+                Some(i) => {
+                    let [low, high] = i.interval.map(shown);
+                    format!("{} {unit}", shown(i.value)).trim_end().to_string() + &format!(" ({low} … {high})")
+                }
+                None => "–".into(),
+            };
+            let cells = row.iter().take(headings.len()).map(cell);
+            lines.push([f.measure.name.to_string(), factor.name.clone()].into_iter().chain(cells).collect());
+        }
+    }
+    columns(&lines) + &notes
 }
 
 fn text(found: &[Found]) -> Vec<String> {
@@ -56,7 +100,7 @@ fn text(found: &[Found]) -> Vec<String> {
             Ok(_) => {}
         }
         if f.left_out > 0 {
-            text.push(format!("{}: {} runs could not be used.", f.measure.name, f.left_out));
+            text.push(format!("{}: {} could not be used.", f.measure.name, counted(f.left_out, "run")));
         }
     }
     text
@@ -64,11 +108,7 @@ fn text(found: &[Found]) -> Vec<String> {
 
 fn figure(plan: &Plan, found: &[Found]) -> Option<Figure> {
     let kind = found.iter().find_map(|f| f.indices.as_ref().ok())?;
-    let legend: &[&str] = match kind {
-        Indices::Morris(_) => &["μ*", "σ"],
-        Indices::Sobol(_) => &["total", "first order"],
-        Indices::Ranks { .. } => &["rank regression coefficient"],
-    };
+    let legend = headings(kind);
     let bar = |index: &Option<Index>| index.map(|i| (i.value, i.interval));
     let group = |f: &Found| {
         let indices = f.indices.as_ref().ok()?;

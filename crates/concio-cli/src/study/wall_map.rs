@@ -15,6 +15,8 @@ const TALLEST: f64 = 1.1;
 const MARGIN: [f64; 3] = [10.0, 16.0, 12.0];
 /// Colour of marks and their width beyond the joint [pt].
 const MARK: (&str, f64) = ("#0b2545", 3.2);
+/// Width of the paper between a mark and the colour of its joint, beyond the joint [pt].
+const INSIDE: f64 = 1.8;
 
 /// A wall to draw.
 #[derive(Debug)]
@@ -95,6 +97,10 @@ fn map(canvas: &mut Canvas, view: &View, (wall, joints, names): (&Wall, &[Joint]
         canvas.path(&line([ax, ay, bx, by]), &attributes, title);
     };
     one.marked.iter().for_each(|&e| stroke(e, MARK.0, width + MARK.1, names.get(e).map(String::as_str)));
+    if coloured {
+        // An outline: a solid mark would drown the colours of its joint and of those beside it.
+        one.marked.iter().for_each(|&e| stroke(e, "#fff", width + INSIDE, None));
+    }
     for e in order {
         let title = names.get(e).map(|n| format!("{n}: {}", significant(value(e), 3)));
         if coloured {
@@ -127,6 +133,10 @@ fn legend(canvas: &mut Canvas, width: f64, top: f64, maps: &[Map], label: &str) 
         let wide = 18.0 + font::width("replaced or listed", size);
         let (x, y) = if x + wide > width { (MARGIN[0], y + 12.0) } else { (x, y) };
         canvas.path(&line([x, y + 3.0, x + 14.0, y + 3.0]), &mark, None);
+        if !label.is_empty() {
+            let inside = format!(r##"fill="none" stroke="#fff" stroke-width="{}""##, px(1.2 + INSIDE));
+            canvas.path(&line([x, y + 3.0, x + 14.0, y + 3.0]), &inside, None);
+        }
         let text = if label.is_empty() { "replaced" } else { "listed" };
         canvas.text([x + 18.0, y + 3.0], size, Anchor::Start, false, "#000", text);
         return y + 14.0;

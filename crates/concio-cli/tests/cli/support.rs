@@ -1,6 +1,7 @@
 //! A folder to type commands in.
 
 use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use snapbox::cmd::Command;
 
@@ -70,6 +71,12 @@ impl Desk {
 
 fn concio(folder: &Path) -> Command {
     Command::new(PROGRAM).current_dir(folder).env("NO_COLOR", "1").env_remove("RUST_BACKTRACE")
+}
+
+/// Anything that differs from one run of a test to the next: the moments of its kills are meant to.
+pub fn chance() -> u64 {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).expect("a clock after 1970");
+    u64::from(now.subsec_nanos()).wrapping_mul(6_364_136_223_846_793_005) >> 33
 }
 
 /// The program under test.

@@ -21,7 +21,7 @@ use concio::model::Model;
 use concio::{InputError, Result};
 use serde::Serialize;
 
-use crate::intensity::{Intensity, samples};
+use crate::intensity::{DAMPING, Intensity, Sampled};
 use crate::motions;
 
 pub use realise::{PREFIX, realise};
@@ -90,7 +90,8 @@ pub struct Group {
     pub formula: &'static str,
     /// Least and largest value in the wall; none where the wall has no such thing.
     pub value: Option<[f64; 2]>,
-    /// Range over the sets of Table 1, or section 4.2, of the report; none where it prints no numbers.
+    /// Range over the sets of Table 1, or section 4.2, of the report; none where it prints no numbers. Where Λ is not the
+    /// length of the wall's reference brick, the bricks of the report are as many Λ long.
     pub table1: Option<[f64; 2]>,
     /// Key of the wall file that a study changes to realise a value of the group; none where it cannot be varied.
     pub realised_by: Option<&'static str>,
@@ -102,6 +103,8 @@ pub struct Group {
 /// As [`Reference::of`]; a record that cannot be read.
 pub fn groups(case: &Case, model: &Model, folder: &Path, reference: &Reference) -> Result<Vec<Group>> {
     let range = table1::ranges();
+    // Λ over the brick's length: of the report's walls as of this one.
+    let units = reference.length / Reference::of(case, None)?.length;
     let (r, joint) = (reference, &case.joint);
     let of = |values: &mut dyn Iterator<Item = f64>| {
         values.fold(None, |range: Option<[f64; 2]>, v| Some(range.map_or([v, v], |[a, b]| [a.min(v), b.max(v)])))
@@ -142,7 +145,8 @@ pub fn groups(case: &Case, model: &Model, folder: &Path, reference: &Reference) 
                 "top_displacement" => top.map(|u| [u, u]),
                 _ => one(model.excitation.duration * r.frequency),
             };
-            let table1 = range.iter().find(|(n, _)| *n == name).map(|(_, range)| *range);
+            let table1 = range.iter().find(|(n, _)| *n == name);
+            let table1 = table1.map(|(_, range)| range.map(|v| v * units.powi(power_of_length(name))));
             Group { name, formula, value, table1, realised_by }
         })
         .collect())
@@ -168,6 +172,15 @@ const GROUPS: [(&str, &str, Option<&str>); 17] = [
     ("acceleration", "A = PGA/(Ω² Λ)", Some("motion.base")),
     ("top_displacement", "U₁/Λ of a driven top", Some("motion.top")),
 ];
+
+/// Power of Λ in a group.
+fn power_of_length(name: &str) -> i32 {
+    match name {
+        "weight" | "load" | "normal_force" | "slip_velocity" | "acceleration" | "top_displacement" => -1,
+        "alpha" => 2,
+        _ => 0,
+    }
+}
 
 /// PGA/(Ω²Λ) and frequency over Ω; that of a record is where its 5 % pseudo-acceleration is largest. None at rest.
 fn base_motion(case: &Case, folder: &Path, r: &Reference) -> Result<Option<[f64; 2]>> {
@@ -197,10 +210,9 @@ fn frequency(signal: &Signal) -> Option<f64> {
 }
 
 fn predominant(case: &Case) -> Result<f64> {
-    let (dt, acceleration) = samples(case)?;
     let periods: Vec<f64> = (0..200).map(|k| 0.02 * 250f64.powf(f64::from(k) / 199.0)).collect();
-    let spectrum = concio::ground::response_spectrum(dt, &acceleration, crate::intensity::DAMPING, &periods);
-    let best = (0..periods.len()).max_by(|&a, &b| spectrum.psa[a].total_cmp(&spectrum.psa[b]));
+    let psa = Sampled::of_case(case)?.psa(DAMPING, &periods);
+    let best = (0..periods.len()).max_by(|&a, &b| psa[a].total_cmp(&psa[b]));
     Ok(best.map_or(f64::NAN, |k| 1.0 / periods[k]))
 }
 

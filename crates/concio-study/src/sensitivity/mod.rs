@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Plan;
 use crate::design::At;
-use crate::factors::{Factor, Over};
+use crate::factors::Factor;
 use crate::file::DesignKind;
 use crate::measures::{End, MEASURES, Measure, Row};
 
@@ -161,7 +161,8 @@ pub fn sensitivity(plan: &Plan, rows: &[Option<&Row>]) -> Result<Vec<Found>> {
     let measures = measures(plan)?;
     let Some(asked) = &plan.file.study.sensitivity else { return Ok(Vec::new()) };
     let bootstrap = Bootstrap { resamples: asked.resamples, confidence: asked.confidence, seed: asked.seed };
-    let shares: Vec<Vec<f64>> = plan.points.iter().map(|row| places(row, &plan.factors)).collect();
+    let levels: Vec<Vec<f64>> = plan.factors.iter().map(Factor::places).collect();
+    let shares: Vec<Vec<f64>> = plan.points.iter().map(|row| places(row, &levels)).collect();
     let of = |measure: &'static Measure| {
         let value = |row: &Option<&Row>| row.filter(|r| r.end == End::Completed).and_then(|r| r.number(measure.name));
         let values: Vec<Option<f64>> = rows.iter().map(value).collect();
@@ -170,7 +171,7 @@ pub fn sensitivity(plan: &Plan, rows: &[Option<&Row>]) -> Result<Vec<Found>> {
             DesignKind::Morris => morris::effects(&shares, &values, k, &bootstrap).map(Indices::Morris),
             DesignKind::Sobol => sobol::shares(&values, k, &bootstrap).map(Indices::Sobol),
             _ => {
-                let ordered: Vec<bool> = plan.factors.iter().map(is_ordered).collect();
+                let ordered: Vec<bool> = plan.factors.iter().map(Factor::is_ordered).collect();
                 ranks::coefficients(&shares, &values, &ordered, &bootstrap)
                     .map(|(coefficients, explained)| Indices::Ranks { coefficients, explained })
             }
@@ -180,19 +181,11 @@ pub fn sensitivity(plan: &Plan, rows: &[Option<&Row>]) -> Result<Vec<Found>> {
     Ok(measures.into_iter().map(of).collect())
 }
 
-/// Where each factor stands in its range, 0 … 1; levels at equal distances.
-fn places(row: &[At], factors: &[Factor]) -> Vec<f64> {
-    let place = |(at, factor): (&At, &Factor)| match at {
+/// Where each factor stands in its range, 0 … 1; `levels` are the places of the levels of each.
+fn places(row: &[At], levels: &[Vec<f64>]) -> Vec<f64> {
+    let place = |(at, levels): (&At, &Vec<f64>)| match at {
         At::Share(share) => *share,
-        At::Level(level) => *level as f64 / (factor.levels().unwrap_or(2).max(2) - 1) as f64,
+        At::Level(level) => levels[*level],
     };
-    row.iter().zip(factors).map(place).collect()
-}
-
-/// Whether the values of a factor have an order: numbers do, of named alternatives two alone.
-fn is_ordered(factor: &Factor) -> bool {
-    match &factor.over {
-        Over::Values(_) | Over::Scales(_) => true,
-        Over::Levels(levels) => levels.len() <= 2 || levels.iter().all(|l| crate::factors::amount(&l.label).is_some()),
-    }
+    row.iter().zip(levels).map(place).collect()
 }

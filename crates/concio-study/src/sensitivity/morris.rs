@@ -2,7 +2,8 @@
 //!
 //! (M1)  d_i = [y(x + Δ e_i) − y(x)]/Δ,   μ = mean d,   μ* = mean |d|,   σ = deviation of d
 //!
-//! x runs over 0 … 1, so an effect is that of the factor's whole range in the unit of the measure. μ* ranks the factors (F.
+//! x runs over 0 … 1: the share of a distribution, the value of a list between its least and its largest, names at equal
+//! distances. So an effect is that of the factor's whole range in the unit of the measure. μ* ranks the factors (F.
 //! Campolongo, J. Cariboni, A. Saltelli, Environ. Model. Softw. 22 (2007) 1509); σ beside it tells curvature and
 //! interaction from a straight line (Morris 1991).
 

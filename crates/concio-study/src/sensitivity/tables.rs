@@ -2,6 +2,7 @@
 
 use super::{Found, Index, Indices};
 use crate::Plan;
+use crate::factors::Factor;
 use crate::table::Table;
 
 /// Names of the indices of a design, in the order of [`rows`].
@@ -22,6 +23,17 @@ pub fn rows(indices: &Indices) -> Vec<Vec<Option<Index>>> {
     }
 }
 
+/// Why a factor has no index beside others that have one.
+fn silent(indices: &Indices, place: usize, factor: &Factor) -> Option<String> {
+    match indices {
+        Indices::Ranks { coefficients, .. } if coefficients[place].is_none() => Some(match factor.is_ordered() {
+            true => "it has one value in the runs that could be used".into(),
+            false => "its values are names, or have several units: ranks of them mean nothing".into(),
+        }),
+        _ => None,
+    }
+}
+
 /// All indices with their intervals. Elementary effects have the unit of their measure, given in a column of its own.
 pub fn table(plan: &Plan, found: &[Found]) -> Table {
     let mut table = Table::default();
@@ -38,7 +50,7 @@ pub fn table(plan: &Plan, found: &[Found]) -> Table {
             measure.push(Some(f.measure.name.to_string()));
             unit.push(Some(f.measure.unit.to_string()));
             factor.push(Some(of.name.clone()));
-            note.push(f.indices.as_ref().err().cloned());
+            note.push(f.indices.as_ref().map_or_else(|cause| Some(cause.clone()), |i| silent(i, k, of)));
             for i in 0..kinds.len() {
                 let index = rows.get(k).and_then(|r| r[i]);
                 let all = index.map(|x| [x.value, x.interval[0], x.interval[1]]);

@@ -88,6 +88,11 @@ impl Document {
         de::from_node(&self.tree).map_err(|fault| self.source.place_fault(fault))
     }
 
+    /// Whether the file gives a key: `scales`, `interfaces.at.kind`.
+    pub fn has(&self, path: &str) -> bool {
+        path.split('.').try_fold(&self.tree, |node, step| node.get(step)).is_some()
+    }
+
     /// Adds file, line and column to an error about a key; a key that the file leaves out stands where its nearest
     /// table does. Errors that name a place already stay as they are.
     pub fn locate(&self, error: InputError) -> InputError {

@@ -68,7 +68,7 @@ pub(super) fn size(record: &mut Record, input: &RecordInput) -> Result<()> {
     match (input.scale, input.pga) {
         (Some(_), Some(_)) => {
             let error = InputError::new("both `scale` and `pga` are given").key("pga");
-            return Err(error.allowed("one of them").into());
+            Err(error.allowed("one of them").into())
         }
         (Some(factor), None) => scale(record, factor),
         (None, Some(pga)) => scale_to_pga(record, pga.si()),

@@ -91,9 +91,9 @@ pub struct Fronts {
 
 impl Fronts {
     /// For a matrix of order `n` with entries below the diagonal at `entries` (row, column): each once, column by
-    /// column, rows and columns numbered in postorder.
-    pub fn new(n: usize, entries: &[(u32, u32)]) -> Self {
-        let groups = groups(n, entries);
+    /// column, rows and columns numbered in postorder. None where there is no memory to find the pattern of the factors.
+    pub fn new(n: usize, entries: &[(u32, u32)]) -> Option<Self> {
+        let groups = groups(n, entries)?;
         let kept = collapsed(&groups);
         let mut fronts = Vec::with_capacity(kept.len());
         let mut rows = Vec::with_capacity(groups.row_idx().len());
@@ -131,7 +131,7 @@ impl Fronts {
             (column - f.first) * f.rows().1 as u32 + place
         };
         let longest = fronts.iter().map(|f| f.rows().1).max().unwrap_or(0);
-        Fronts {
+        Some(Fronts {
             into: places_above(&fronts, &rows, &group_of),
             entry: entries.iter().map(place).collect(),
             factor: vec![0.0; panel],
@@ -142,7 +142,7 @@ impl Fronts {
             fronts,
             children,
             rows,
-        }
+        })
     }
 
     /// Factorises A given by its diagonal and the entries below it, in the order of [`Fronts::new`].
@@ -209,8 +209,8 @@ impl Fronts {
     }
 }
 
-/// Columns of like rows, found by faer.
-fn groups(n: usize, entries: &[(u32, u32)]) -> supernodal::SymbolicSupernodalCholesky<usize> {
+/// Columns of like rows, found by faer; none where memory is too short for them.
+fn groups(n: usize, entries: &[(u32, u32)]) -> Option<supernodal::SymbolicSupernodalCholesky<usize>> {
     // The upper triangle by columns is the lower one by rows.
     let mut start = vec![0usize; n + 1];
     for &(r, _) in entries {
@@ -234,9 +234,7 @@ fn groups(n: usize, entries: &[(u32, u32)]) -> supernodal::SymbolicSupernodalCho
     let stack = MemStack::new(&mut memory);
     let tree = simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
     let joined = SymbolicSupernodalParams { relax: Some(if n > LARGE { &JOINED_LARGE } else { &JOINED }) };
-    // It can fail for want of memory alone, as every other allocation here, or where an index exceeds 64 bits.
-    supernodal::factorize_supernodal_symbolic_cholesky(pattern, tree, &counts, stack, joined)
-        .expect("memory for the pattern of the factors")
+    supernodal::factorize_supernodal_symbolic_cholesky(pattern, tree, &counts, stack, joined).ok()
 }
 
 /// The groups as they are eliminated: first column of each, and its place among `groups`. Those that hang together below
@@ -359,7 +357,7 @@ mod tests {
             diagonal[r as usize] -= v;
             diagonal[c as usize] -= v;
         }
-        let mut fronts = Fronts::new(n, &entries);
+        let mut fronts = Fronts::new(n, &entries).expect("memory");
         assert!(fronts.fronts.iter().any(|f| f.width > 16 && f.height > 16), "loops over long columns are tried too");
         // Twice: nothing of the first time may be left.
         for _ in 0..2 {

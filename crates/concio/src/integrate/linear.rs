@@ -63,14 +63,13 @@ impl Matrix {
     /// unknowns lie. Returns too where each pair stands in `lower` and `upper`; a `symmetric` matrix has no `upper`.
     pub fn new(n: usize, pairs: &[(usize, usize)], at: &[[f64; 2]], symmetric: bool) -> (Self, Vec<u32>) {
         let place = elimination_order(n, pairs, at);
-        if symmetric && n > MOST_LISTED {
-            Self::by_fronts(n, place, pairs)
-        } else {
-            Self::by_entries(n, place, pairs, symmetric)
-        }
+        let by_fronts = if symmetric && n > MOST_LISTED { Self::by_fronts(n, &place, pairs) } else { None };
+        by_fronts.unwrap_or_else(|| Self::by_entries(n, place, pairs, symmetric))
     }
 
-    fn by_fronts(n: usize, mut place: Vec<u32>, pairs: &[(usize, usize)]) -> (Self, Vec<u32>) {
+    /// None where memory is too short.
+    fn by_fronts(n: usize, place: &[u32], pairs: &[(usize, usize)]) -> Option<(Self, Vec<u32>)> {
+        let mut place = place.to_vec();
         let mut entries = below_diagonal(&place, pairs);
         postordered(&mut place, &mut entries);
         let all = below_diagonal(&place, pairs);
@@ -80,10 +79,10 @@ impl Matrix {
         let slot = |&(r, c): &(u32, u32)| entries.partition_point(|&(s, d)| (d, s) < (c, r)) as u32;
         let slots = all.iter().map(slot).collect();
         let lower = vec![0.0; entries.len()];
-        let fronts = Fronts::new(n, &entries);
+        let fronts = Fronts::new(n, &entries)?;
         let mut matrix = Self::empty(n, place, true);
         (matrix.lower, matrix.fronts) = (lower, Some(fronts));
-        (matrix, slots)
+        Some((matrix, slots))
     }
 
     fn empty(n: usize, place: Vec<u32>, symmetric: bool) -> Self {
@@ -378,7 +377,7 @@ mod tests {
         for (symmetric, listed) in [(true, true), (false, true), (true, false), (false, false)] {
             let place = elimination_order(n, &pairs, &[]);
             let (mut m, slots) = match (symmetric, listed) {
-                (true, false) => Matrix::by_fronts(n, place, &pairs),
+                (true, false) => Matrix::by_fronts(n, &place, &pairs).expect("memory"),
                 _ => Matrix::by_entries(n, place, &pairs, symmetric),
             };
             assert!(m.fronts.is_some() || !m.updates.is_empty());
@@ -427,8 +426,11 @@ mod tests {
             [(true, 2.0, Err(NotPositive)), (false, 2.0, Err(NotPositive)), (true, -0.5, Ok(())), (false, -0.5, Ok(()))]
         {
             let (pairs, place) = ([(0, 1), (1, 2), (0, 2)], vec![0, 1, 2]);
-            let (mut m, slots) =
-                if listed { Matrix::by_entries(3, place, &pairs, true) } else { Matrix::by_fronts(3, place, &pairs) };
+            let (mut m, slots) = if listed {
+                Matrix::by_entries(3, place, &pairs, true)
+            } else {
+                Matrix::by_fronts(3, &place, &pairs).expect("memory")
+            };
             m.diagonal.fill(1.0);
             m.lower[slots[0] as usize] = coupling;
             assert_eq!(m.factorise(), expected);

@@ -9,7 +9,7 @@ use pulp::{Simd, WithSimd};
 use crate::integrate::tableau::STAGES;
 use crate::lanes::rows::{Groups, Mask, V, WIDTH};
 use crate::lanes::topology::NONE;
-use crate::lanes::work::{ACCELERATION, DAMPING, NORMAL, NORMALS, PENDING, SLIP, VELOCITY, Work, Z};
+use crate::lanes::work::{ACCELERATION, DAMPING, LARGEST_NORMAL, NORMAL, NORMALS, PENDING, SLIP, VELOCITY, Work, Z};
 use crate::record::Envelopes;
 
 /// Per-joint and per-unknown sums and peaks of all lanes.
@@ -52,6 +52,7 @@ pub struct Peaks {
     pub displacement: [f64; WIDTH],
     pub slip_velocity: [f64; WIDTH],
     pub closing: [f64; WIDTH],
+    pub friction: [f64; WIDTH],
     pub pull: [f64; WIDTH],
 }
 
@@ -264,7 +265,7 @@ impl Settle<'_> {
         let (joints, stiffness) = (w.joints.read(simd), w.stiffness.read(simd));
         let (mu, rubs) = (w.stage_mu[w.tableau.stages - 1].read(simd), w.rubs.read(simd));
         let mut account = self.account.joints.write(simd);
-        let (mut pull, mut fastest, mut deepest) = (zero, zero, zero);
+        let (mut pull, mut fastest, mut deepest, mut rubbing) = (zero, zero, zero, zero);
         let of_joint = account.iter_mut().zip(joints.iter()).zip(stiffness.iter());
         for (((mut peaks, joint), stiffness), at) in of_joint.zip(&t.joints) {
             let [i, k] = at.sides;
@@ -289,6 +290,7 @@ impl Settle<'_> {
                 pull = pull + (force(d) + joint.row(DAMPING) * dv);
             }
             if at.rub != NONE {
+                rubbing = rubbing.max(rubs.of(at.rub, LARGEST_NORMAL) * mu.at(at.rub).abs());
                 let slips = dv.abs().max((v0a - v0b).abs()).above(rubs.of(at.rub, SLIP)).and(waits);
                 peaks.set_where(slips, SLIPPED, peaks.row(SLIPPED) + (d - (z0a - z0b)).abs());
             }
@@ -298,6 +300,7 @@ impl Settle<'_> {
         }
         self.peaks.slip_velocity = fastest.numbers();
         self.peaks.closing = deepest.numbers();
+        self.peaks.friction = rubbing.numbers();
         self.peaks.pull = pull.numbers();
     }
 }

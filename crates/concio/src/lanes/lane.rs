@@ -7,8 +7,8 @@ use crate::integrate::tableau::STAGES;
 use crate::lanes::account::{Account, POWER, Peaks, Powers};
 use crate::lanes::work::{
     ACCELERATION, ACCURACY, ALPHA, AT, BAD_PIVOT, CORRECTION, DAMPING, DYNAMIC, ENGAGED, ERROR_SUM, ERROR_V, ERROR_Z,
-    EXCESS, FLIPPED, GROUND, MU, NORMAL, NORMALS, SAVED, SCALE_V, SCALE_Z, SLIP, SLOPE, SLOPE_AT_REST, STAGE, STATIC,
-    STEEP, STEP, STIFFNESS, SUM, TAU, VELOCITY, WEIGHTS, WIDTH_AT_REST, Work, Z,
+    EXCESS, FLIPPED, GROUND, LARGEST_NORMAL, MU, NORMAL, NORMALS, SAVED, SCALE_V, SCALE_Z, SLIP, SLOPE, SLOPE_AT_REST,
+    STAGE, STATIC, STEEP, STEP, STIFFNESS, SUM, TAU, VELOCITY, WEIGHTS, WIDTH_AT_REST, Work, Z,
 };
 use crate::outcome::Outcome;
 use crate::record::{Energies, Recording, StopReason};
@@ -108,8 +108,10 @@ impl<'m> Lane<'m> {
                 law.slip_velocity,
                 law.beta / law.slip_velocity,
                 law.alpha,
+                rub.largest_normal(),
             ];
-            for (row, value) in [NORMAL, EXCESS, DYNAMIC, SLIP, STEEP, ALPHA].into_iter().zip(constants) {
+            for (row, value) in [NORMAL, EXCESS, DYNAMIC, SLIP, STEEP, ALPHA, LARGEST_NORMAL].into_iter().zip(constants)
+            {
                 w.rubs.set(r, row, i, value);
             }
             w.searches.set(r, STATIC, i, law.static_);
@@ -365,6 +367,7 @@ impl<'m> Lane<'m> {
         sum.peak_relative_displacement = sum.peak_relative_displacement.max(peaks.displacement[i]);
         sum.peak_slip_velocity = sum.peak_slip_velocity.max(peaks.slip_velocity[i]);
         sum.minimum_gap = sum.minimum_gap.min(-peaks.closing[i]);
+        sum.peak_friction_force = sum.peak_friction_force.max(peaks.friction[i]);
         sum.top_force_peak = sum.top_force_peak.max(pull.abs());
         sum.top_force_square += 0.5 * self.waiting * (before * before + pull * pull);
     }

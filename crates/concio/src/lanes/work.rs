@@ -48,13 +48,14 @@ const LANE_ROWS: usize = WEIGHTS + STAGES;
 /// Rows of [`Work::joints`]: damping, and the stiffness as it acts, 0 where the joint is open.
 pub const DAMPING: usize = 0;
 pub const ENGAGED: usize = 1;
-/// Rows of [`Work::rubs`]: N in the equation of a, μ_s − μ_d, μ_d, δ_v, β/δ_v, α.
+/// Rows of [`Work::rubs`]: N in the equation of a, μ_s − μ_d, μ_d, δ_v, β/δ_v, α, the larger N of both sides.
 pub const NORMAL: usize = 0;
 pub const EXCESS: usize = 1;
 pub const DYNAMIC: usize = 2;
 pub const SLIP: usize = 3;
 pub const STEEP: usize = 4;
 pub const ALPHA: usize = 5;
+pub const LARGEST_NORMAL: usize = 6;
 /// Rows of [`Work::searches`]: μ_s, δ_v/β, the slope at rest, the sum of N on both sides.
 pub const STATIC: usize = 0;
 pub const WIDTH_AT_REST: usize = 1;
@@ -95,7 +96,7 @@ pub struct Work {
     pub mass: Rows,
     pub joints: Groups<2>,
     pub stiffness: Rows,
-    pub rubs: Groups<6>,
+    pub rubs: Groups<7>,
     pub searches: Groups<4>,
     pub one_sided: Groups<2>,
     /// The state after the last accepted step, and the tangents there.

@@ -30,6 +30,7 @@ ENERGIES = ["input_base", "input_top", "initial", "kinetic", "elastic", "damping
 TOTALS = {
     "peak_relative_displacement": "m",
     "peak_slip_velocity": "m/s",
+    "peak_friction_force": "N",
     "top_force_peak": "N",
     "top_force_square": "N2 s",
     "minimum_gap": "m",

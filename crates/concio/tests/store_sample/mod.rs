@@ -182,6 +182,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         totals: Totals {
             peak_relative_displacement: 1.1e-3,
             peak_slip_velocity: 2.2e-2,
+            peak_friction_force: 1.7e3,
             top_force_peak: 2.3e5,
             top_force_square: 4.0e8,
             minimum_gap: -1.0e-9,

@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::time::Duration;
+
+use crate::support::{PROGRAM, chance};
 
 /// Slips for long enough that several checkpoints fall into it on any machine.
 const WALL: &str = r#"
@@ -23,7 +25,7 @@ top = { sine = { amplitude = "5 mm", frequency = "3 Hz", ramp = "0.3 s" } }
 const KILLS: u32 = 10;
 
 fn start(wall: &Path, out: &Path) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_concio"))
+    Command::new(PROGRAM)
         .args(["run"])
         .arg(wall)
         .arg("--out")
@@ -34,12 +36,6 @@ fn start(wall: &Path, out: &Path) -> Child {
         .unwrap()
 }
 
-/// Anything that differs from one run of the test to the next: the moments of the kills are meant to.
-fn chance() -> u64 {
-    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap();
-    u64::from(now.subsec_nanos()).wrapping_mul(6_364_136_223_846_793_005) >> 33
-}
-
 #[test]
 fn ten_kills_at_random_moments_change_nothing() {
     let folder = tempfile::tempdir().unwrap();
@@ -47,20 +43,30 @@ fn ten_kills_at_random_moments_change_nothing() {
     fs::write(&wall, WALL).unwrap();
     let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
     assert!(start(&wall, &whole).wait().unwrap().success());
-    let (mut killed, mut resumable) = (0, 0);
-    for _ in 0..KILLS {
+    let checkpoint = broken.join("checkpoint.bin");
+    let written = || fs::metadata(&checkpoint).and_then(|m| m.modified()).ok();
+    let (mut killed, mut taken_up) = (0, 0);
+    for kill in 0..KILLS {
+        let before = written();
         let mut child = start(&wall, &broken);
-        std::thread::sleep(Duration::from_millis(50 + chance() % 2200));
+        // A run writes a checkpoint a second: some are killed before their first, which costs nothing, some after it.
+        if kill % 3 == 2 {
+            while written() == before && child.try_wait().unwrap().is_none() {
+                std::thread::sleep(Duration::from_millis(5));
+            }
+        }
+        std::thread::sleep(Duration::from_millis(20 + chance() % 150));
         // SIGKILL: the process has no say.
         child.kill().unwrap();
         killed += u32::from(!child.wait().unwrap().success());
-        resumable += u32::from(broken.join("checkpoint.bin").exists());
+        taken_up += u32::from(written() != before && written().is_some());
     }
-    let last = Command::new(env!("CARGO_BIN_EXE_concio")).arg("run").arg(&wall).arg("--out").arg(&broken).output();
+    let last = Command::new(PROGRAM).arg("run").arg(&wall).arg("--out").arg(&broken).output();
     let last = last.unwrap();
     assert!(last.status.success(), "{}", String::from_utf8_lossy(&last.stderr));
-    println!("{killed} runs killed, {resumable} left a checkpoint");
-    assert!(killed > 0 && resumable > 0, "no run was killed after a checkpoint: the wall is too quick for this test");
+    println!("{killed} runs killed, {taken_up} after a checkpoint of their own");
+    assert!(killed >= KILLS - 2, "{killed} of {KILLS} kills met a run: the wall is too quick for this test");
+    assert!(taken_up >= 2, "{taken_up} runs were killed after a checkpoint");
     let bytes = |out: &Path| fs::read(out.join("result.h5")).unwrap();
     assert!(bytes(&whole) == bytes(&broken), "the results differ");
     assert!(!broken.join("journal.bin").exists() && !broken.join("checkpoint.bin").exists());

@@ -1,10 +1,6 @@
 //! Critical joints and smart interfaces as a user types them.
 
-#[path = "cli/support.rs"]
-#[allow(dead_code)]
-mod support;
-
-use support::Desk;
+use crate::support::Desk;
 
 const WALL: &str = r#"
 model = "shear"

@@ -1,0 +1,378 @@
+//! What a study asks of which runs, in words: for `concio study check`, and for the first section of every report, from
+//! which a reader judges the rest.
+
+use concio::case::Case;
+use concio_study::Plan;
+use concio_study::file::{Choice, Design, DesignKind, Distribution, DistributionLaw, Follower, Spacing, Study, Vary};
+use concio_study::interfaces::{DeviceInput, ObjectiveInput, Over, Target};
+use concio_study::measures::{End, Row};
+use concio_study::ranking;
+use concio_study::table::Table;
+use serde_json::Value;
+
+use super::page::Section;
+use crate::format::{counted, plain, short};
+use crate::motion;
+
+/// What no result of the model tells, for every report of many runs.
+pub const MODEL: &str = "Limits of the model: every block moves horizontally in the plane of the wall and in no other way. \
+    Blocks do not rock, turn, lift off or fall, units neither split nor crush, nothing moves out of plane. The normal force \
+    of a joint, which friction and cohesion work with, is that of weight and load at rest; it does not change while the \
+    wall moves, and neither do overlaps. The model therefore knows no collapse: large slip, opening or drift says how far \
+    joints moved, not that a real wall would stand it.";
+
+/// Values that a list shows.
+const MOST_VALUES: usize = 12;
+
+/// The questions; empty where the study asks none beside its runs.
+pub fn questions(plan: &Plan) -> Vec<String> {
+    let study = &plan.file.study;
+    let mut asked = Vec::new();
+    if let Some(s) = &study.sensitivity {
+        asked.push(format!("sensitivity of {}", s.of.join(", ")));
+    }
+    if let Some(ida) = &study.ida {
+        let limits: Vec<&str> = ida.limits.iter().map(|l| l.name.as_str()).collect();
+        let (damage, over) = (&ida.damage, ida.intensity.name());
+        asked.push(format!("incremental dynamic analysis: {damage} over {over}, limits {}", limits.join(", ")));
+    }
+    if let Some(first) = &study.first_crack {
+        let motions = counted(plan.points.len(), "motion");
+        asked.push(format!("first cracking ({}) under {motions}", first.criterion.name()));
+    }
+    if let Some(cracks) = &study.cracks {
+        asked.push(format!("crack lines ({})", cracks.criterion.name()));
+    }
+    if let Some(r) = &study.ranking {
+        let by: Vec<&str> = r.by.iter().map(|by| ranking::name(*by)).collect();
+        asked.push(format!("critical joints by {}", by.join(", ")));
+    }
+    if let Some(interfaces) = &study.interfaces {
+        let most = match (interfaces.count, interfaces.share) {
+            (Some(most), _) => counted(most, "joint"),
+            (None, Some(share)) => format!("{} % of all joints", plain(100.0 * share)),
+            (None, None) => "the joints".into(),
+        };
+        asked.push(format!("smart interfaces: which devices in at most {most}"));
+    }
+    asked
+}
+
+/// How the runs are chosen; `one` is what the design's points are: runs, curves, cases.
+pub fn design(plan: &Plan, one: &str) -> String {
+    let Design { kind, runs, seed, levels } = plan.file.study.design;
+    let points = counted(plan.points.len(), one);
+    let drawn = counted(runs.unwrap_or(0), "base point");
+    match kind {
+        _ if plan.factors.is_empty() => format!("{points} of the wall as it is"),
+        DesignKind::Grid => format!("grid, every value with every other: {points}"),
+        DesignKind::List => format!("list, first values together, second values together and so on: {points}"),
+        DesignKind::LatinHypercube => format!("Latin hypercube: {points}, seed {seed}"),
+        DesignKind::Random => format!("independent draws: {points}, seed {seed}"),
+        DesignKind::Morris => {
+            let trajectories = if runs == Some(1) { "trajectory" } else { "trajectories" };
+            format!("Morris: {} {trajectories} on {levels} levels, {points}, seed {seed}", runs.unwrap_or(0))
+        }
+        DesignKind::Sobol => format!("Sobol: {drawn}, {points}, seed {seed}"),
+    }
+}
+
+/// A factor: its name, the keys that it changes and over what it varies.
+pub fn factors(study: &Study) -> Vec<[String; 3]> {
+    let mut factors: Vec<[String; 3]> = study.factors.iter().map(factor).collect();
+    if !study.motions.is_empty() {
+        let over = format!("{}, listed below", counted(study.motions.len(), "motion"));
+        factors.push(["motion".into(), "motion.base".into(), over]);
+    }
+    if !study.scales.is_empty() {
+        let over = listed(study.scales.iter().map(|s| plain(*s)));
+        factors.push(["scale".into(), "factor on motion.base".into(), over]);
+    }
+    factors
+}
+
+fn factor(vary: &Vary) -> [String; 3] {
+    let path = vary.path.clone().unwrap_or_default();
+    let mut keys: Vec<String> = if path.is_empty() { Vec::new() } else { vec![path.clone()] };
+    for Choice { set, .. } in &vary.choices {
+        keys.extend(set.keys().filter(|k| !keys.contains(k)).cloned().collect::<Vec<_>>());
+    }
+    keys.extend(vary.also.iter().map(|Follower { path, times }| format!("{path} × {}", plain(*times))));
+    let over = match (&vary.distribution, &vary.from, &vary.to) {
+        (Some(distribution), ..) => distributed(distribution),
+        (None, Some(from), Some(to)) => {
+            let ends = format!("{} to {}", text(from), text(to));
+            match (vary.count, vary.spacing) {
+                (Some(count), Spacing::Linear) => format!("{ends}, {count} values at equal distances"),
+                (Some(count), Spacing::Log) => format!("{ends}, {count} values at equal ratios"),
+                (None, Spacing::Linear) => format!("{ends}, uniform"),
+                (None, Spacing::Log) => format!("{ends}, uniform in the logarithm"),
+            }
+        }
+        _ if !vary.choices.is_empty() => listed(vary.choices.iter().map(|c| c.name.clone())),
+        _ => listed(vary.values.iter().map(text)),
+    };
+    [vary.name.clone().unwrap_or(path), keys.join(", "), over]
+}
+
+fn distributed(d: &Distribution) -> String {
+    let name = match d.law {
+        DistributionLaw::Uniform => "uniform",
+        DistributionLaw::LogUniform => "uniform in the logarithm",
+        DistributionLaw::Normal => "normal",
+        DistributionLaw::Lognormal => "lognormal",
+        DistributionLaw::Triangular => "triangular",
+    };
+    let dispersion = d.dispersion.map(Value::from);
+    let [low, high] = match d.law {
+        DistributionLaw::Normal | DistributionLaw::Lognormal => ["cut off below", "cut off above"],
+        _ => ["from", "to"],
+    };
+    let parameters = [
+        ("mean", &d.mean),
+        ("deviation", &d.deviation),
+        ("median", &d.median),
+        ("dispersion", &dispersion),
+        ("mode", &d.mode),
+        (low, &d.low),
+        (high, &d.high),
+    ];
+    let given = parameters.into_iter().filter_map(|(name, value)| Some(format!("{name} {}", text(value.as_ref()?))));
+    [name.to_string()].into_iter().chain(given).collect::<Vec<_>>().join(", ")
+}
+
+/// The motions of the base: name, motion, what becomes of it.
+pub fn motions(plan: &Plan) -> Vec<[String; 3]> {
+    let study = &plan.file.study;
+    if study.motions.is_empty() {
+        let own = motion::short(&plan.file.wall.case.motion.base);
+        return vec![["of the wall file".into(), own, String::new()]];
+    }
+    let one = |m: &concio_study::motions::MotionInput| {
+        let duration = m.duration.map(|d| format!("{} long", crate::format::seconds(d.si())));
+        let held = m.held_out.then(|| "held out".to_string());
+        let more: Vec<String> = duration.into_iter().chain(held).collect();
+        [m.name.clone(), motion::short(&m.base), more.join(", ")]
+    };
+    study.motions.iter().map(one).collect()
+}
+
+/// An objective: `mean peak_drift, small`.
+pub fn objective(objective: &ObjectiveInput) -> String {
+    let over = match objective.over {
+        Over::Mean => "mean",
+        Over::Worst => "worst",
+    };
+    let large = match objective.goal {
+        Some(goal) => goal == concio_study::interfaces::Goal::Maximise,
+        None => matches!(objective.measure, Target::DissipatedEnergy | Target::FirstCracking),
+    };
+    format!("{over} {} as {} as can be", objective.measure.title(), if large { "large" } else { "small" })
+}
+
+/// The free parameters of a device with their bounds; `as it is` for one without.
+pub fn bounds(device: &DeviceInput) -> Vec<[String; 2]> {
+    let one = |p: &concio_study::interfaces::ParameterInput| {
+        let log = if p.spacing == Spacing::Log { ", at equal ratios" } else { "" };
+        let also: String = p.also.iter().map(|f| format!("; {} × {}", f.path, plain(f.times))).collect();
+        [p.path.clone(), format!("{} to {}{log}{also}", text(&p.from), text(&p.to))]
+    };
+    if device.parameters.is_empty() {
+        return vec![[String::new(), "as it is".into()]];
+    }
+    device.parameters.iter().map(one).collect()
+}
+
+/// A value as the file says it.
+pub fn text(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_string)
+}
+
+/// The factors of a run with their values: `friction = 0.5, motion = Ricker`.
+pub fn values(plan: &Plan, number: usize) -> String {
+    let labels = plan.factors.iter().zip(plan.labels(number));
+    labels.map(|(f, l)| format!("{} = {}", f.name, text(&l))).collect::<Vec<_>>().join(", ")
+}
+
+fn listed(values: impl ExactSizeIterator<Item = String>) -> String {
+    let all = values.len();
+    let mut shown: Vec<String> = values.take(MOST_VALUES).collect();
+    if all > MOST_VALUES {
+        shown.push(format!("… ({all} in all)"));
+    }
+    shown.join(", ")
+}
+
+/// What was run, as `concio study check` prints it.
+pub fn lines(plan: &Plan, one: &str) -> Vec<(&'static str, String)> {
+    let study = &plan.file.study;
+    let mut rows: Vec<(&'static str, String)> = questions(plan).into_iter().map(|q| ("asks", q)).collect();
+    rows.push(("wall", plan.file.wall.path().map_or(String::new(), |p| p.display().to_string())));
+    rows.push(("design", design(plan, one)));
+    let varied = factors(study).into_iter();
+    rows.extend(varied.map(|[name, keys, over]| match keys == name || keys.is_empty() {
+        true => ("varies", format!("{name}: {over}")),
+        false => ("varies", format!("{name} ({keys}): {over}")),
+    }));
+    for [name, motion, more] in motions(plan) {
+        let more = if more.is_empty() { more } else { format!(", {more}") };
+        rows.push(("motion", format!("{name}: {motion}{more}")));
+    }
+    if let Some(interfaces) = &study.interfaces {
+        rows.extend(interfaces.objectives.iter().map(|o| ("objective", objective(o))));
+        for device in &interfaces.devices {
+            let bounds: Vec<String> =
+                bounds(device).into_iter().map(|[path, over]| format!("{path} {over}").trim().into()).collect();
+            rows.push(("device", format!("{}: {}", device.name, bounds.join("; "))));
+        }
+    }
+    rows
+}
+
+/// Runs that did not end as they should, for [`section`].
+#[derive(Debug, Default)]
+pub struct Trouble {
+    /// Sentences: how many runs there are and what became of them.
+    pub told: Vec<String>,
+    /// Those that have no complete result.
+    pub runs: Option<Table>,
+}
+
+impl Trouble {
+    /// Of the runs of a plan.
+    pub fn of(plan: &Plan, found: &[Option<&Row>]) -> Trouble {
+        let ended = |end: End| found.iter().flatten().filter(|r| r.end == end).count();
+        let [completed, stopped, failed] = [End::Completed, End::Stopped, End::Failed].map(ended);
+        let missing = found.iter().filter(|r| r.is_none()).count();
+        let others = [(stopped, "stopped early"), (failed, "failed"), (missing, "not done yet")];
+        let others: Vec<String> =
+            others.into_iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
+        let told = match (found.len(), others.is_empty()) {
+            (1, true) => "The run was completed.".into(),
+            (n, true) => format!("All {n} runs were completed."),
+            (n, false) => format!("Of {}, {completed} completed, {}.", counted(n, "run"), others.join(", ")),
+        };
+        let bad: Vec<(usize, &Row)> = found
+            .iter()
+            .enumerate()
+            .filter_map(|(i, r)| Some((i, (*r)?)))
+            .filter(|(_, r)| r.end != End::Completed)
+            .collect();
+        let mut runs = Table::default();
+        runs.numbers("run", "", bad.iter().map(|(i, _)| Some((i + 1) as f64)).collect());
+        runs.texts("values", bad.iter().map(|(i, _)| Some(values(plan, *i))).collect());
+        let end = |row: &Row| if row.end == End::Failed { "failed" } else { "stopped early" };
+        runs.texts("ended", bad.iter().map(|(_, r)| Some(end(r).into())).collect());
+        runs.texts("cause", bad.iter().map(|(_, r)| r.cause.clone()).collect());
+        Trouble { told: vec![told], runs: (!bad.is_empty()).then_some(runs) }
+    }
+}
+
+/// The first section of a study's report; `one` is what a point of its design is.
+///
+/// # Errors
+/// A wall that cannot be laid.
+pub fn section(plan: &Plan, one: &str, case: Option<&Case>, trouble: Trouble) -> concio::Result<Section> {
+    let study = &plan.file.study;
+    let mut text: Vec<String> = Vec::new();
+    let asked = questions(plan);
+    if !asked.is_empty() {
+        text.push(format!("Asked: {}.", asked.join("; ")));
+    }
+    text.push(format!("Design: {}.", design(plan, one)));
+    text.extend(case.map(wall).transpose()?);
+    text.extend(trouble.told);
+    text.push(MODEL.into());
+    let mut tables = Vec::new();
+    let factors = factors(study);
+    if !factors.is_empty() {
+        tables.push(("What varied".to_string(), words(["factor", "keys of the wall file", "over"], &factors)));
+    }
+    tables.push(("Motions of the base".into(), words(["motion", "what it is", "use"], &motions(plan))));
+    if let Some(interfaces) = &study.interfaces {
+        let objectives: Vec<[String; 1]> = interfaces.objectives.iter().map(|o| [objective(o)]).collect();
+        tables.push(("Objectives".into(), words(["objective"], &objectives)));
+        let of = |d: &DeviceInput| {
+            bounds(d).into_iter().map(|[path, over]| [d.name.clone(), path, over]).collect::<Vec<_>>()
+        };
+        let devices: Vec<[String; 3]> = interfaces.devices.iter().flat_map(of).collect();
+        tables.push((
+            "Devices and the bounds of their parameters".into(),
+            words(["device", "parameter", "bounds"], &devices),
+        ));
+    }
+    tables.extend(trouble.runs.map(|runs| ("Runs without a complete result".into(), runs)));
+    Ok(Section { title: TITLE.into(), text, tables, ..Section::default() })
+}
+
+/// Heading of the first section.
+pub const TITLE: &str = "What was run";
+
+/// The wall of a run in a sentence.
+///
+/// # Errors
+/// A wall that cannot be laid.
+pub fn wall(case: &Case) -> concio::Result<String> {
+    let wall = concio::pattern::lay(case)?;
+    let joints = concio::graph::joints(&wall, case.load.beam != concio::case::Beam::Free).len();
+    let panels =
+        if wall.panels.len() == 1 { String::new() } else { format!("{}, ", counted(wall.panels.len(), "panel")) };
+    let load = match case.load.top.si() {
+        0.0 => String::new(),
+        load => format!(", {} on top", short(load, "N/m")),
+    };
+    let beam = match case.load.beam {
+        concio::case::Beam::Mass(mass) => format!(", a beam of {}", crate::draw::wall::mass(mass.si())),
+        concio::case::Beam::Free => String::new(),
+        concio::case::Beam::Driven => ", a driven beam".into(),
+        concio::case::Beam::Tied => ", a beam tied to the base".into(),
+    };
+    let blocks = counted(wall.blocks.len(), "block");
+    Ok(format!("Wall of the first run: {panels}{blocks}, {}{load}{beam}.", counted(joints, "joint")))
+}
+
+/// A table of words.
+pub fn words<const N: usize>(names: [&str; N], rows: &[[String; N]]) -> Table {
+    let mut table = Table::default();
+    for (k, name) in names.into_iter().enumerate() {
+        table.texts(name, rows.iter().map(|row| Some(row[k].clone())).collect());
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn vary(text: &str) -> [String; 3] {
+        let vary: Vary = serde_json::from_str(text).expect("an entry of `vary`");
+        factor(&vary)
+    }
+
+    #[test]
+    fn factors_in_words() {
+        let [name, keys, over] = vary(
+            r#"{ "name": "μ", "path": "joint.friction.static", "from": 0.4, "to": 0.8,
+                "also": [{ "path": "joint.friction.dynamic", "times": 0.7 }] }"#,
+        );
+        assert_eq!(name, "μ");
+        assert_eq!(keys, "joint.friction.static, joint.friction.dynamic × 0.7");
+        assert_eq!(over, "0.4 to 0.8, uniform");
+        let over = |text: &str| vary(text)[2].clone();
+        assert_eq!(
+            over(r#"{ "path": "load.top", "from": "1 kN/m", "to": "9 kN/m", "spacing": "log", "count": 3 }"#),
+            "1 kN/m to 9 kN/m, 3 values at equal ratios"
+        );
+        assert_eq!(
+            over(
+                r#"{ "path": "a", "distribution": { "law": "lognormal", "median": "10 kN/m", "dispersion": 0.3,
+                    "high": "20 kN/m" } }"#
+            ),
+            "lognormal, median 10 kN/m, dispersion 0.3, cut off above 20 kN/m"
+        );
+        assert_eq!(over(r#"{ "path": "a", "values": [1, "2 m", true] }"#), "1, 2 m, true");
+        assert_eq!(over(r#"{ "name": "n", "choices": [{ "name": "x", "set": { "a": 1 } }] }"#), "x");
+        let many: Vec<String> = (0..20).map(|v| v.to_string()).collect();
+        assert!(over(&format!(r#"{{ "path": "a", "values": [{}] }}"#, many.join(","))).ends_with("11, … (20 in all)"));
+    }
+}
