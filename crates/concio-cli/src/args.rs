@@ -43,6 +43,7 @@ pub enum Command {
     Compare(Compare),
     Cases(Cases),
     FirstCrack(FirstCrack),
+    Limit(Limit),
     Study(Study),
     Completions(Completions),
     /// Print this reference as Markdown.
@@ -592,6 +593,72 @@ pub enum CrackCriterion {
     Opening,
     /// A bed or support joint is displaced along itself; elastic deformation counts
     Slip,
+}
+
+/// Find the horizontal load under which a dry wall becomes a mechanism.
+///
+/// Blocks are rigid, joints bear no tension and slide at the static friction of the wall file; mortar, stiffness and motion
+/// play no part. The dead load, weights and load.top, stays; the live load is λ times it, horizontal. Friction is associative:
+/// what slides also dilates, which makes λ an upper bound of that of real joints. An estimate without dilation stands beside
+/// it.
+///
+/// Forces in balance prove a lower bound of λ, a mechanism an upper one, both printed. docs/limit-analysis.md says how.
+///
+/// With --out, limit.json (bounds, forces, mechanism) and mechanism.svg are written. Exit status 1 if the bounds are more than
+/// 1e-4 of λ apart.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio limit wall.toml
+  concio limit wall.toml --towards left --heads frictionless
+  concio limit wall.toml --load top --out limits/top
+  concio limit wall.toml --json")]
+pub struct Limit {
+    /// Wall file, TOML or JSON.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// What is turned to the horizontal.
+    #[arg(long, value_enum, default_value = "body")]
+    pub load: LimitLoad,
+    /// Where it pushes to.
+    #[arg(long, value_enum, default_value = "right")]
+    pub towards: Side,
+    /// Friction of head joints and connections.
+    #[arg(long, value_enum, default_value = "as-given")]
+    pub heads: HeadFriction,
+    /// Print JSON (SI units).
+    #[arg(long)]
+    pub json: bool,
+    /// Write limit.json and mechanism.svg into this folder.
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
+}
+
+/// Live loads of limit analysis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LimitLoad {
+    /// The weight of every block, and of a beam that has mass
+    Body,
+    /// The weight of the top course and the load on it
+    Top,
+}
+
+/// Sides of a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Side {
+    /// To −x
+    Left,
+    /// To +x
+    Right,
+}
+
+/// Friction of head joints.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum HeadFriction {
+    /// As joint.friction says
+    AsGiven,
+    /// None
+    Frictionless,
 }
 
 /// Do many runs, and answer what they answer together.

@@ -12,6 +12,7 @@ mod compare;
 mod completions;
 mod export;
 mod first_crack;
+mod limit;
 mod new;
 mod plot;
 mod record;
@@ -30,6 +31,7 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Cases(args) => return cases::cases(&args),
         Command::FirstCrack(args) => return first_crack::first_crack(&args),
         Command::Study(args) => return study::run_command(&args.what),
+        Command::Limit(args) => return limit::limit(&args),
         Command::Check(args) => check::check(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::New(args) => new::new(&args),

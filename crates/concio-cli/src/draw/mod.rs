@@ -3,6 +3,7 @@
 pub mod chart;
 pub mod curves;
 pub mod font;
+pub mod mechanism;
 pub mod output;
 pub mod scale;
 pub mod svg;

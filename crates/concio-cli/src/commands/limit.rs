@@ -1,0 +1,176 @@
+//! `concio limit`.
+
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+
+use concio::{Error, InputError};
+use concio_planar::limit::{self, JointMotion, LimitError, NonAssociative, Options, Problem, Stop};
+use serde_json::{Value, json};
+
+use super::{run::refuse_a_file, wall_file};
+use crate::args::{HeadFriction, Limit, LimitLoad, Side};
+use crate::draw::mechanism;
+use crate::failure::{Failure, STOPPED};
+use crate::files;
+use crate::format::{pairs, si, significant};
+
+/// Names of the results in their folder.
+const RESULT: &str = "limit.json";
+const DRAWING: &str = "mechanism.svg";
+/// Joints that are named on the terminal.
+const NAMED: usize = 8;
+
+/// Finds the collapse multiplier of a wall.
+pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
+    let file = wall_file::read(&args.file)?;
+    if let Some(out) = &args.out {
+        refuse_a_file(out)?;
+    }
+    let problem = Problem::of(&file.case, options(args)).map_err(|e| file.locate(e))?;
+    for warning in &problem.warnings {
+        files::note(&format!("warning: {warning}"));
+    }
+    let found = limit::analyse(&problem).map_err(|e| failure(e, &args.file))?;
+    let result = result(args, &problem, &found);
+    if let Some(out) = &args.out {
+        fs::create_dir_all(out).map_err(|e| Failure::from(Error::io(out, e)))?;
+        files::write(&out.join(RESULT), &format!("{result:#}\n"))?;
+        let drawing = mechanism::draw(&problem, &found).outlined().map_err(|e| Failure::Other(e, None))?;
+        files::write(&out.join(DRAWING), &drawing)?;
+    }
+    if args.json {
+        files::print(&format!("{result:#}\n"))?;
+    } else {
+        let title = if file.case.title.is_empty() { String::new() } else { format!("{}\n\n", file.case.title) };
+        let names = |out: &Path| format!("\nopen {}\n", out.join(DRAWING).display());
+        let written = args.out.as_deref().map(names).unwrap_or_default();
+        files::print(&format!("{title}{}{written}", pairs(&rows(args, &problem, &found))))?;
+    }
+    if found.is_certified() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    let wide = significant(found.gap(), 2);
+    files::note(&format!("no certificate: the bounds are {wide} of λ apart, {} are allowed", limit::CERTIFIED));
+    Ok(ExitCode::from(STOPPED))
+}
+
+fn options(args: &Limit) -> Options {
+    Options {
+        push: match args.load {
+            LimitLoad::Body => limit::Push::Body,
+            LimitLoad::Top => limit::Push::Top,
+        },
+        towards: match args.towards {
+            Side::Left => limit::Towards::Left,
+            Side::Right => limit::Towards::Right,
+        },
+        heads: match args.heads {
+            HeadFriction::AsGiven => limit::Heads::AsGiven,
+            HeadFriction::Frictionless => limit::Heads::Frictionless,
+        },
+    }
+}
+
+fn failure(error: LimitError, path: &Path) -> Failure {
+    match error {
+        LimitError::DoesNotStand => {
+            let error = InputError::new(error.to_string()).in_file(path);
+            error.allowed("a wall whose blocks are in balance without tension").into()
+        }
+        LimitError::NotSolved(_) => Failure::Other(error.to_string(), None),
+    }
+}
+
+fn rows(args: &Limit, problem: &Problem, found: &limit::Limit) -> Vec<(&'static str, String)> {
+    let load = match args.load {
+        LimitLoad::Body => "weight of every block",
+        LimitLoad::Top => "dead load of the top course",
+    };
+    let heads = match args.heads {
+        HeadFriction::AsGiven => "",
+        HeadFriction::Frictionless => ", head joints without friction",
+    };
+    let [lower, upper] = found.bounds.map(|b| format!("{b:.8}"));
+    let total: f64 = problem.live.iter().map(|f| f[0].abs()).sum();
+    let mechanism = &found.mechanism;
+    let named = |chosen: fn(&JointMotion) -> bool| {
+        let names: Vec<&str> =
+            mechanism.joints.iter().filter(|j| chosen(j)).map(|j| problem.joints[j.joint].as_str()).collect();
+        let more = names.len().saturating_sub(NAMED);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        format!("{}: {}{more}", names.len(), names[..names.len().min(NAMED)].join(", "))
+    };
+    let mut rows = vec![
+        ("load", format!("λ × {load}, to the {}{heads}", side(args))),
+        ("λ", format!("{} for associative friction", significant(found.multiplier(), 6))),
+        ("bounds", format!("{lower} by forces, {upper} by a mechanism")),
+        ("force", si(found.multiplier() * total, "N")),
+        ("without dilation", estimate(&found.non_associative)),
+        ("mechanism", mechanism.kind.name().into()),
+    ];
+    if mechanism.joints.iter().any(|j| j.slides) {
+        rows.push(("joints that slide", named(|j| j.slides)));
+    }
+    if mechanism.joints.iter().any(|j| j.opens) {
+        rows.push(("joints that open", named(|j| j.opens)));
+    }
+    rows
+}
+
+fn side(args: &Limit) -> &'static str {
+    match args.towards {
+        Side::Left => "left",
+        Side::Right => "right",
+    }
+}
+
+fn estimate(found: &NonAssociative) -> String {
+    let value = significant(found.multiplier, 4);
+    match found.stop {
+        Stop::Converged => format!("λ = {value}, an estimate; {} rounds", found.rounds),
+        Stop::Rounds => format!("no estimate: not converged in {} rounds, λ last {value}", found.rounds),
+        Stop::Unsolved => format!("no estimate: round {} has no solution", found.rounds),
+    }
+}
+
+fn result(args: &Limit, problem: &Problem, found: &limit::Limit) -> Value {
+    let bodies = problem.assembly.bodies.iter().zip(&found.mechanism.velocities);
+    let blocks: Vec<Value> =
+        bodies.map(|(b, v)| json!({ "name": b.name, "velocity": [v[0], v[1]], "rotation": v[2] })).collect();
+    let joint = |j: &JointMotion| {
+        json!({
+            "name": problem.joints[j.joint], "slides": j.slides, "opens": j.opens,
+            "opening": j.opening, "slip": j.slip,
+        })
+    };
+    let points = problem.assembly.points.iter().zip(&found.forces);
+    let forces: Vec<Value> = points
+        .map(|(p, f)| json!({ "joint": problem.joints[p.joint], "at": p.at, "normal": f[0], "tangential": f[1] }))
+        .collect();
+    let estimate = &found.non_associative;
+    let converged = estimate.stop == Stop::Converged;
+    json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "load": match args.load { LimitLoad::Body => "body", LimitLoad::Top => "top" },
+        "towards": side(args),
+        "heads": match args.heads { HeadFriction::AsGiven => "as-given", HeadFriction::Frictionless => "frictionless" },
+        "live_load": problem.live.iter().map(|f| f[0]).sum::<f64>(),
+        "multiplier": found.multiplier(),
+        "bounds": found.bounds,
+        "gap": found.gap(),
+        "certified": found.is_certified(),
+        "unbalanced": found.unbalanced,
+        "non_associative": {
+            "multiplier": converged.then_some(estimate.multiplier),
+            "converged": converged, "rounds": estimate.rounds, "excess": estimate.excess,
+        },
+        "mechanism": {
+            "kind": found.mechanism.kind.name(),
+            "blocks": blocks,
+            "joints": found.mechanism.joints.iter().map(joint).collect::<Vec<_>>(),
+        },
+        "forces": forces,
+        "warnings": problem.warnings,
+    })
+}

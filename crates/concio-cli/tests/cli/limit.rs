@@ -1,0 +1,107 @@
+//! `concio limit` as a user types it.
+
+use serde_json::Value;
+
+use crate::support::Desk;
+
+/// One block of 1 m × 2 m: it turns at b/h = 0.5, or slides at μ.
+fn block(mu: f64, load: &str) -> String {
+    format!(
+        "title = \"Block\"\nmodel = \"shear\"\n[[panel]]\nbond = \"stack\"\ncourses = 1\nbricks = 1\n\
+         brick = {{ length = 1.0, height = 2.0, thickness = 0.5, specific_weight = 20e3 }}\n\
+         [joint]\nbed = {{ law = \"elastic\", stiffness = 1e8 }}\nhead = {{ law = \"none\" }}\n\
+         friction = {{ law = \"coulomb\", static = {mu}, dynamic = {mu} }}\n[load]\n{load}\n[motion]\nduration = 1.0\n"
+    )
+}
+
+#[test]
+fn a_block_turns_or_slides() {
+    let desk = Desk::new();
+    for (mu, kind, lambda, joint) in [(0.7, "overturning", "0.500000", "open"), (0.3, "sliding", "0.300000", "slide")] {
+        desk.put("block.toml", block(mu, ""));
+        let done = desk.concio("limit block.toml --out found").assert().success();
+        let text = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+        let listed = format!("joints that {joint}");
+        for part in ["Block", kind, lambda, &listed, "base|p1c1b1", "by forces", "to the right", "an estimate"] {
+            assert!(text.contains(part), "{part}:\n{text}");
+        }
+        assert_eq!(desk.json("found/limit.json")["mechanism"]["kind"], kind);
+        let drawing = desk.get("found/mechanism.svg");
+        assert!(drawing.contains(kind) && drawing.contains("<path"), "{drawing}");
+    }
+}
+
+#[test]
+fn what_is_printed_as_json_is_what_is_written() {
+    let desk = Desk::new();
+    desk.put("block.toml", block(0.7, "top = 10e3"));
+    let done = desk.concio("limit block.toml --json --out found --towards left").assert().success();
+    let printed: Value = serde_json::from_slice(&done.get_output().stdout).expect("JSON");
+    assert_eq!(printed, desk.json("found/limit.json"));
+    assert_eq!((&printed["towards"], &printed["certified"]), (&"left".into(), &true.into()));
+    // λ W h/2 = (W + Q) b/2 with W = 20 kN, Q = 10 kN.
+    let bounds = [0, 1].map(|k| printed["bounds"][k].as_f64().expect("a bound"));
+    assert!(bounds.iter().all(|b| (b - 0.75).abs() < 1e-7), "{bounds:?}");
+    let pressed: f64 = printed["forces"].as_array().expect("forces").iter().filter_map(|f| f["normal"].as_f64()).sum();
+    assert!((pressed - 30e3).abs() < 1e-3, "{pressed} N on the base");
+}
+
+#[test]
+fn without_a_folder_nothing_is_written() {
+    let desk = Desk::new();
+    desk.put("block.toml", block(0.7, ""));
+    let before = desk.list();
+    desk.concio("limit block.toml").assert().success();
+    assert_eq!(desk.list(), before);
+}
+
+#[test]
+fn walls_that_cannot_be_asked_are_refused() {
+    let desk = Desk::new();
+    let refused = |parts: &[&str]| {
+        let done = desk.concio("limit block.toml").assert().code(2);
+        let text = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+        for part in parts {
+            assert!(text.contains(part), "{part}:\n{text}");
+        }
+    };
+    desk.put("block.toml", block(0.7, "beam = \"tied\""));
+    refused(&["block.toml:11:", "load.beam", "allowed"]);
+    let device = "[[joint.change]]\nat = { kind = [\"base\"] }\ndevice = { law = \"friction-damper\", slip_force = 1e3 }\n[motion]";
+    desk.put("block.toml", block(0.7, "").replace("[motion]", device));
+    refused(&["block.toml:", "joint.change[0].device", "dry joints"]);
+    let falls = "bond = \"explicit\"\nblock = [{ course = 1, x = 0, y = 0, length = 1, height = 1 }, \
+                 { course = 2, x = 0.8, y = 1, length = 1, height = 1 }]";
+    desk.put("block.toml", block(0.7, "").replace("bond = \"stack\"\ncourses = 1\nbricks = 1", falls));
+    refused(&["block.toml", "does not stand", "allowed"]);
+    desk.put("block.toml", block(-0.7, ""));
+    refused(&["block.toml:10:", "joint.friction.static", "allowed"]);
+}
+
+#[test]
+fn a_bond_that_is_left_out_is_told() {
+    let desk = Desk::new();
+    let bond = "bond = { cohesion = 1e5, friction_angle = \"30 deg\" }\n[load]";
+    desk.put("block.toml", block(0.7, "").replace("[load]", bond));
+    let done = desk.concio("limit block.toml").assert().success();
+    let text = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    assert!(text.contains("warning") && text.contains("bond"), "{text}");
+}
+
+/// The wall file of docs/limit-analysis.md, whose λ is published.
+#[test]
+fn the_example_has_its_published_multiplier() {
+    let desk = Desk::new();
+    desk.put("wall.toml", include_str!("../../../../examples/limit/dry-wall.toml"));
+    let of = |line: &str| -> Value {
+        let done = desk.concio(line).assert().success();
+        serde_json::from_slice(&done.get_output().stdout).expect("JSON")
+    };
+    let multiplier = |found: &Value| found["multiplier"].as_f64().expect("a number");
+    let found = of("limit wall.toml --json");
+    // M. C. Ferris and F. Tin-Loi, International Journal of Mechanical Sciences 43 (2001) 209–224, example 2.
+    assert!((multiplier(&found) - 0.58000).abs() < 1e-5, "{found}");
+    assert_eq!(found["mechanism"]["kind"], "mixed");
+    let frictionless = of("limit wall.toml --json --heads frictionless");
+    assert!((multiplier(&frictionless) - 0.56296).abs() < 1e-4, "{}", frictionless["multiplier"]);
+}

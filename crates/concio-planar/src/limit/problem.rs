@@ -1,0 +1,168 @@
+//! From a wall file to blocks, contact points, friction and loads.
+
+use concio::case::{Beam, Case, JointKind, ModelKind, Motion, NormalForce};
+use concio::model::Model;
+use concio::quantity::Time;
+use concio::wall::Wall;
+use concio::{G, InputError, Result, run};
+
+use crate::assembly::{Assembly, Body, Other};
+
+/// What the live load is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Push {
+    /// The weight of every block, turned to the horizontal.
+    #[default]
+    Body,
+    /// The dead load of the blocks of the top course, the load on them included, turned to the horizontal.
+    Top,
+}
+
+/// Where the live load pushes to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Towards {
+    /// To −x.
+    Left,
+    /// To +x.
+    #[default]
+    Right,
+}
+
+/// Friction of head joints and connections.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Heads {
+    /// What the wall file says.
+    #[default]
+    AsGiven,
+    /// None.
+    Frictionless,
+}
+
+/// What is asked of a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Options {
+    /// What pushes.
+    pub push: Push,
+    /// Where to.
+    pub towards: Towards,
+    /// Friction of head joints.
+    pub heads: Heads,
+}
+
+/// A wall of rigid dry blocks under dead and live load.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// The wall.
+    pub wall: Wall,
+    /// Names of its joints.
+    pub joints: Vec<String>,
+    /// Blocks, a beam with mass after them, and contact points.
+    pub assembly: Assembly,
+    /// μ of every contact point, from 0.
+    pub friction: Vec<f64>,
+    /// Dead load at the centre of every body [N].
+    pub dead: Vec<[f64; 2]>,
+    /// Live load at the centre of every body at λ = 1 [N].
+    pub live: Vec<[f64; 2]>,
+    /// What the analysis leaves out of the wall file.
+    pub warnings: Vec<String>,
+}
+
+impl Problem {
+    /// Of a valid case.
+    ///
+    /// A beam with mass is one more rigid body on the top course: the load on the wall is its weight, its mass what the body
+    /// load takes hold of, at its underside.
+    ///
+    /// # Errors
+    /// Beams that something else holds, devices in joints, walls that cannot be laid.
+    pub fn of(case: &Case, options: Options) -> Result<Problem> {
+        let case = at_rest(case)?;
+        let model = run::prepare(case.clone(), std::path::Path::new("."))?.model;
+        let mut assembly = Assembly::of(&model.wall, &model.joints);
+        let mut dead: Vec<f64> = model.wall.blocks.iter().map(|b| b.weight()).collect();
+        let mut live = match options.push {
+            Push::Body => dead.clone(),
+            Push::Top => vec![0.0; dead.len()],
+        };
+        let top_course: Vec<usize> = (0..dead.len()).filter(|&i| is_top(&model.wall, i)).collect();
+        let load = case.load.top.si();
+        if let Beam::Mass(mass) = case.load.beam {
+            let (beam, length) = beam(&model, mass.si());
+            assembly.bodies.push(beam);
+            dead.push(load * length);
+            live.push(if options.push == Push::Body { mass.si() * G } else { load * length });
+            for point in assembly.points.iter_mut().filter(|p| p.b == Other::Beam) {
+                point.b = Other::Body(model.wall.blocks.len());
+            }
+        } else {
+            top_course.iter().for_each(|&i| dead[i] += load * model.wall.blocks[i].length());
+        }
+        if options.push == Push::Top {
+            top_course.iter().for_each(|&i| live[i] = dead[i]);
+        }
+        let sign = if options.towards == Towards::Right { 1.0 } else { -1.0 };
+        Ok(Problem {
+            joints: model.joint_names(),
+            friction: friction(&model, &assembly, options.heads),
+            assembly,
+            dead: dead.iter().map(|w| [0.0, -w]).collect(),
+            live: live.iter().map(|w| [sign * w, 0.0]).collect(),
+            warnings: warnings(&case),
+            wall: model.wall,
+        })
+    }
+}
+
+/// The case without motion, its joints dry, the load that of a wall that is free to fall.
+fn at_rest(case: &Case) -> Result<Case> {
+    if matches!(case.load.beam, Beam::Driven | Beam::Tied) {
+        let error = InputError::new("a beam that is driven or tied holds the top of the wall").key("load.beam");
+        return Err(error.allowed("\"free\", or { mass = … }").into());
+    }
+    if let Some(number) = case.joint.changes.iter().position(|c| c.device.is_some()) {
+        let error =
+            InputError::new("limit analysis knows dry joints alone").key(format!("joint.change[{number}].device"));
+        return Err(error.help("take the devices out of the wall file").into());
+    }
+    let mut case = case.clone();
+    case.model = ModelKind::Shear;
+    case.motion = Motion { duration: Some(Time::from_si(1.0)), ..Motion::default() };
+    case.output = Default::default();
+    // A model has the friction of those joints alone that carry load by its own account; by this one all do.
+    case.joint.friction.normal_force = NormalForce::Overburden;
+    Ok(case)
+}
+
+fn warnings(case: &Case) -> Vec<String> {
+    let bonded = case.joint.bond.is_some() || case.joint.changes.iter().any(|c| c.bond.is_some());
+    let bonded = bonded.then(|| "the bond of the joints is left out: they count as dry".to_string());
+    bonded.into_iter().collect()
+}
+
+fn is_top(wall: &Wall, block: usize) -> bool {
+    let block = &wall.blocks[block];
+    block.course + 1 == wall.panels[block.panel].courses
+}
+
+/// The beam and the length on which it lies [m].
+fn beam(model: &Model, mass: f64) -> (Body, f64) {
+    let tops: Vec<_> = model.joints.iter().filter(|j| j.kind == JointKind::Top).collect();
+    let length: f64 = tops.iter().map(|j| j.overlap).sum();
+    let x = tops.iter().map(|j| 0.5 * (j.line[0] + j.line[2]) * j.overlap).sum::<f64>() / length;
+    let [left, right, y] = tops.iter().fold([f64::INFINITY, f64::NEG_INFINITY, 0.0], |e, j| {
+        [e[0].min(j.line[0]), e[1].max(j.line[2]), f64::max(e[2], j.line[1])]
+    });
+    let height = 0.5 * model.wall.panels.iter().map(|p| p.reference_height).fold(0.0, f64::max);
+    let corners = vec![[left - x, 0.0], [right - x, 0.0], [right - x, height], [left - x, height]];
+    (Body { name: "beam".into(), centre: [x, y], corners, mass, inertia: mass * (right - left).powi(2) / 12.0 }, length)
+}
+
+fn friction(model: &Model, assembly: &Assembly, heads: Heads) -> Vec<f64> {
+    let mut of_joint = vec![0.0; model.joints.len()];
+    for rub in &model.rubs {
+        of_joint[rub.joint as usize] = rub.law.static_;
+    }
+    let frictionless = |joint: usize| heads == Heads::Frictionless && model.joints[joint].kind.is_upright();
+    assembly.points.iter().map(|p| if frictionless(p.joint) { 0.0 } else { of_joint[p.joint] }).collect()
+}

@@ -1,0 +1,190 @@
+//! Collapse multipliers against closed forms, and what a mechanism and its forces have to obey.
+
+use concio_planar::assembly::Other;
+use concio_planar::limit::{Heads, LimitError, MechanismKind, Options, Problem, Push, Stop, Towards, analyse};
+use proptest::prelude::*;
+
+mod limit_walls;
+use limit_walls::{DryWall, certified};
+
+const LEFT: Options = Options { towards: Towards::Left, push: Push::Body, heads: Heads::AsGiven };
+const TOP: Options = Options { push: Push::Top, towards: Towards::Right, heads: Heads::AsGiven };
+
+fn close(what: &str, found: f64, expected: f64, relative: f64) {
+    let error = (found - expected).abs() / expected.abs();
+    assert!(error <= relative, "{what}: {found} instead of {expected} (relative error {error:.1e})");
+}
+
+/// A block slides at μ or turns about its foot at b/h.
+#[test]
+fn a_block_slides_or_turns() {
+    for ([length, height], mu) in [([1.0, 3.0], 0.1), ([1.0, 3.0], 0.4), ([1.0, 1.0], 0.7), ([2.0, 0.5], 0.9)] {
+        let wall = DryWall::stack(1, [length, height], mu);
+        let expected = f64::min(mu, length / height);
+        for options in [Options::default(), LEFT, TOP] {
+            let limit = wall.limit(options);
+            close("λ", certified(&limit), expected, 1e-9);
+            let kind = if mu < length / height { MechanismKind::Sliding } else { MechanismKind::Overturning };
+            assert_eq!(limit.mechanism.kind, kind, "{length} × {height}, μ = {mu}");
+            assert_eq!(limit.non_associative.stop, Stop::Converged);
+            close("λ without dilation", limit.non_associative.multiplier, expected, 1e-5);
+        }
+    }
+}
+
+/// A stack turns whole about its foot at b/(n h).
+#[test]
+fn a_stack_turns_whole() {
+    for (number, brick, mu) in
+        [(5, [1.0, 1.0], 0.4), (5, [1.0, 1.0], 0.1), (10, [0.5, 0.25], 0.4), (3, [0.3, 0.2], 1.5)]
+    {
+        let expected = f64::min(mu, brick[0] / (number as f64 * brick[1]));
+        close("λ", DryWall::stack(number, brick, mu).multiplier(), expected, 1e-9);
+    }
+}
+
+/// Two blocks pushed at the upper one: it slides at μ or turns at b/h, both turn at 2 b/(3 h).
+#[test]
+fn the_top_course_is_pushed() {
+    for ([length, height], mu, expected) in
+        [([1.0, 1.0], 0.9, 2.0 / 3.0), ([1.0, 1.0], 0.3, 0.3), ([0.3, 0.6], 2.0, 1.0 / 3.0)]
+    {
+        close("λ", certified(&DryWall::stack(2, [length, height], mu).limit(TOP)), expected, 1e-9);
+    }
+    // A load of as much as the block's weight doubles dead and live load of the top alone: λ 3 W h/2 = (3 W) b/2 at the foot.
+    let mut wall = DryWall::stack(2, [1.0, 1.0], 0.9);
+    wall.load = format!("top = {:?}", wall.weight);
+    close("λ", certified(&wall.limit(TOP)), 0.5, 1e-9);
+    close("λ of the weights", certified(&wall.limit(Options::default())), 3.0 / 4.0, 1e-9);
+}
+
+/// A beam of weight Q pushed at its underside turns with the block under it: λ (W h/2 + Q h) = (W + Q) b/2.
+#[test]
+fn a_beam_with_mass_is_one_more_body() {
+    let mut wall = DryWall::stack(1, [1.0, 1.0], 0.9);
+    let (weight, beam) = (20e3, 40e3);
+    wall.load = format!("top = {beam:?}\nbeam = {{ mass = {:?} }}", beam / 9.81);
+    let expected = (weight + beam) * 0.5 / (0.5 * weight + beam);
+    close("λ", certified(&wall.limit(Options::default())), expected, 1e-9);
+    wall.mu = 0.2;
+    close("λ where it slides", certified(&wall.limit(Options::default())), 0.2, 1e-9);
+    wall.load = "beam = \"tied\"".into();
+    let error = Problem::of(&wall.case(), Options::default()).expect_err("a held top").to_string();
+    assert!(error.contains("load.beam") && error.contains("allowed"), "{error}");
+}
+
+#[test]
+fn a_wall_that_falls_by_itself_has_no_multiplier() {
+    let wall = DryWall::new(vec![vec![[0.0, 1.0]], vec![[0.6, 1.2]]], 0.5, 0.7);
+    let found = analyse(&wall.problem(Options::default()));
+    assert_eq!(found.map(|l| l.bounds).expect_err("it falls"), LimitError::DoesNotStand);
+}
+
+/// Forces in balance within the cones, a mechanism that obeys the flow rule, and their powers equal to λ: from the public
+/// results alone.
+#[test]
+fn forces_and_mechanism_obey_their_equations() {
+    for (mu, options) in [(0.65, Options::default()), (0.65, LEFT), (0.8, TOP), (0.3, Options::default())] {
+        let problem = DryWall::running(4, 8, [0.25, 0.12], mu, false).problem(options);
+        let limit = analyse(&problem).expect("a limit");
+        let lambda = certified(&limit);
+        let bodies = &problem.assembly.bodies;
+        let scale = problem.dead.iter().map(|d| d[1].abs()).fold(0.0, f64::max);
+        let load = |i: usize, k: usize| problem.dead[i][k] + lambda * problem.live[i][k];
+        let mut sums: Vec<[f64; 3]> = (0..bodies.len()).map(|i| [load(i, 0), load(i, 1), 0.0]).collect();
+        let velocity = |body: usize, at: [f64; 2]| {
+            let (v, c) = (limit.mechanism.velocities[body], bodies[body].centre);
+            [v[0] - v[2] * (at[1] - c[1]), v[1] + v[2] * (at[0] - c[0])]
+        };
+        for ((point, force), mu) in problem.assembly.points.iter().zip(&limit.forces).zip(&problem.friction) {
+            assert!(force[0] >= 0.0 && force[1].abs() <= mu * force[0] + 1e-12 * scale, "{force:?}");
+            let (n, t) = (point.normal, point.tangent());
+            let f = [0, 1].map(|k| n[k] * force[0] + t[k] * force[1]);
+            let mut relative = velocity(point.a, point.at).map(|v| -v);
+            let mut push = |body: usize, f: [f64; 2]| {
+                let r = [0, 1].map(|k| point.at[k] - bodies[body].centre[k]);
+                let add = [f[0], f[1], r[0] * f[1] - r[1] * f[0]];
+                sums[body].iter_mut().zip(add).for_each(|(s, a)| *s += a);
+            };
+            push(point.a, f.map(|f| -f));
+            if let Other::Body(b) = point.b {
+                push(b, f);
+                let v = velocity(b, point.at);
+                relative = [relative[0] + v[0], relative[1] + v[1]];
+            }
+            let along = |d: [f64; 2]| relative[0] * d[0] + relative[1] * d[1];
+            assert!(along(n) >= mu * along(t).abs() - 1e-12, "opening {} slip {}", along(n), along(t));
+        }
+        assert!(sums.iter().flatten().all(|s| s.abs() <= 1e-9 * scale), "{sums:?}");
+        let power = |loads: &[[f64; 2]]| -> f64 {
+            let of = |(l, v): (&[f64; 2], &[f64; 3])| l[0] * v[0] + l[1] * v[1];
+            loads.iter().zip(&limit.mechanism.velocities).map(of).sum()
+        };
+        close("λ of the powers", -power(&problem.dead) / power(&problem.live), lambda, 1e-9);
+        assert!(limit.unbalanced <= 1e-9 * scale);
+    }
+}
+
+#[test]
+fn friction_of_head_joints_only_holds() {
+    for mu in [0.3, 0.5, 0.65, 0.8] {
+        let wall = DryWall::running(4, 8, [0.25, 0.12], mu, false);
+        let without = certified(&wall.limit(Options { heads: Heads::Frictionless, ..Options::default() }));
+        let with = wall.multiplier();
+        assert!(without <= with * (1.0 + 1e-9), "{without} > {with}");
+        // From μ = 0.65 on bricks turn against each other, and it matters.
+        assert!(mu < 0.6 || without < 0.99 * with, "{without}, {with}");
+    }
+}
+
+/// Dilation can only hold a wall.
+#[test]
+fn friction_without_dilation_holds_less() {
+    for (mu, full) in [(0.5, true), (0.65, false), (0.65, true), (0.8, false)] {
+        let limit = DryWall::running(4, 8, [0.25, 0.12], mu, full).limit(Options::default());
+        let estimate = &limit.non_associative;
+        assert_eq!(estimate.stop, Stop::Converged, "{estimate:?}");
+        assert!(estimate.multiplier <= limit.bounds[1] * (1.0 + 1e-6), "{estimate:?} above {:?}", limit.bounds);
+        assert!(estimate.multiplier > 0.8 * limit.bounds[0], "{estimate:?} far below {:?}", limit.bounds);
+    }
+}
+
+/// Courses of equal width, their bricks drawn; every brick rests on what is below it.
+fn irregular() -> impl Strategy<Value = DryWall> {
+    let course = prop::collection::vec(0.2f64..0.6, 2..5);
+    let courses = prop::collection::vec((course, 0.1f64..0.3), 2..6);
+    (courses, 0.3f64..0.9).prop_map(|(drawn, mu)| {
+        let row = |lengths: &Vec<f64>| {
+            let total: f64 = lengths.iter().sum();
+            let mut x = 0.0;
+            let mut blocks = Vec::new();
+            for length in lengths {
+                blocks.push([x, length / total]);
+                x += length / total;
+            }
+            blocks
+        };
+        let mut wall = DryWall::new(drawn.iter().map(|(lengths, _)| row(lengths)).collect(), 1.0, mu);
+        wall.heights = drawn.iter().map(|(_, height)| *height).collect();
+        wall
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// λ knows weights by their ratios alone.
+    #[test]
+    fn heavier_stone_changes_nothing(wall in irregular(), factor in 0.01f64..100.0) {
+        let heavier = DryWall { weight: factor * wall.weight, ..wall.clone() };
+        close("λ", heavier.multiplier(), wall.multiplier(), 1e-9);
+    }
+
+    /// The wall in a mirror, pushed the other way.
+    #[test]
+    fn left_is_right_in_a_mirror(wall in irregular()) {
+        let mirrored = |row: &Vec<[f64; 2]>| row.iter().rev().map(|[x, length]| [1.0 - x - length, *length]).collect();
+        let mirror = DryWall { courses: wall.courses.iter().map(mirrored).collect(), ..wall.clone() };
+        close("λ", certified(&mirror.limit(LEFT)), wall.multiplier(), 1e-9);
+    }
+}
