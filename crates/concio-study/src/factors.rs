@@ -137,6 +137,17 @@ impl Factor {
         }
     }
 
+    /// The paths that are changed at once, level by level.
+    fn together(&self) -> Vec<Vec<&str>> {
+        match &self.over {
+            Over::Levels(levels) => {
+                levels.iter().map(|l| l.changes.iter().map(|(path, _)| path.as_str()).collect()).collect()
+            }
+            Over::Values(_) => vec![self.paths()],
+            Over::Scales(_) => Vec::new(),
+        }
+    }
+
     /// Number of levels; none for a distribution.
     pub fn levels(&self) -> Option<usize> {
         match &self.over {
@@ -175,6 +186,11 @@ impl Factor {
 /// What contradicts itself, is empty or out of range, with its line.
 pub fn factors(file: &StudyFile) -> Result<Vec<Factor>> {
     let study = &file.study;
+    for (key, empty) in [("vary", study.factors.is_empty()), ("motion", study.motions.is_empty())] {
+        if empty && file.document.has(key) {
+            return Err(file.wrong(key, "is empty: nothing varies by it", &format!("`[[{key}]]`, or no `{key}`")));
+        }
+    }
     let mut factors = Vec::new();
     for (index, vary) in study.factors.iter().enumerate() {
         factors.push(Reader { file, vary, key: format!("vary[{index}]") }.factor()?);
@@ -185,6 +201,10 @@ pub fn factors(file: &StudyFile) -> Result<Vec<Factor>> {
     if !study.scales.is_empty() {
         if let Some(i) = study.scales.iter().position(|s| !(*s > 0.0 && s.is_finite())) {
             return Err(file.wrong(&format!("scales[{i}]"), format!("{} is out of range", study.scales[i]), "above 0"));
+        }
+        if factors.iter().any(|f| f.paths().contains(&"group.acceleration")) {
+            let what = "`scales` and `group.acceleration` contradict each other: both set the strength of the motion";
+            return Err(file.wrong("scales", what, "one of both"));
         }
         let over = Over::Scales(study.scales.clone());
         factors.push(Factor { name: "scale".into(), key: "scales".into(), unit: String::new(), over });
@@ -213,13 +233,34 @@ fn names(file: &StudyFile, factors: &[Factor]) -> Result<()> {
 fn contradictions(file: &StudyFile, factors: &[Factor]) -> Result<()> {
     for (index, factor) in factors.iter().enumerate() {
         for path in factor.paths() {
-            if let Some(other) = factors[..index].iter().find(|f| f.paths().contains(&path)) {
+            let meets = |f: &&Factor| f.paths().iter().any(|other| meet(other, path));
+            if let Some(other) = factors[..index].iter().find(meets) {
                 let what = format!("`{}` and `{}` both change {path}", other.name, factor.name);
                 return Err(file.wrong(&factor.key, what, "each key changed by one factor"));
             }
         }
+        for paths in factor.together() {
+            let twice = |i: &usize| paths[..*i].iter().any(|other| meet(other, paths[*i]));
+            if let Some(i) = (1..paths.len()).find(twice) {
+                let what = format!("`{}` changes {} twice", factor.name, paths[i]);
+                return Err(file.wrong(&factor.key, what, "each key changed once"));
+            }
+        }
     }
     Ok(())
+}
+
+/// Whether two paths change one key: they are the same, or one leads to a part of the other. A group is the key that realises
+/// it; those of the base are set by scaling what its motion is.
+fn meet(a: &str, b: &str) -> bool {
+    let key = |path: &str| match path.strip_prefix("group.") {
+        Some("acceleration" | "frequency") => path.to_string(),
+        Some(name) => crate::groups::realised_by(name).unwrap_or(path).to_string(),
+        None => path.to_string(),
+    };
+    let steps = |path: &str| key(path).split(['.', '[']).map(str::to_string).collect::<Vec<_>>();
+    let same = |a: &String, b: &String| a == b || (a.ends_with(']') && b.ends_with(']') && (a == "*]" || b == "*]"));
+    steps(a).iter().zip(&steps(b)).all(|(a, b)| same(a, b))
 }
 
 fn motion_factor(file: &StudyFile) -> Result<Factor> {
@@ -339,8 +380,15 @@ impl Reader<'_> {
 
     fn values(&self) -> Result<Vec<Level>> {
         let values = &self.vary.values;
+        let mut unit = None;
+        if values.iter().all(|v| amount(v).is_some()) {
+            // Numbers have an order, which differing units would hide.
+            for (i, value) in values.iter().enumerate() {
+                self.amount(&format!("values[{i}]"), Some(value), &mut unit)?;
+            }
+        }
         let mut levels = values.iter().map(|value| self.level(value)).collect::<Result<Vec<_>>>()?;
-        if one_unit(values.iter()).is_none() {
+        if unit.is_none() {
             levels.iter_mut().for_each(|level| level.place = None);
         }
         Ok(levels)

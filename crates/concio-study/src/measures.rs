@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::file::PerJoint;
 
 /// Raised when a measure means something else than before: it stands in every row, and runs measured earlier are done again.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// A number of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub const MEASURES: [Measure; 32] = [
     measure("peak_joint_velocity", "m/s", "largest |relative velocity| of neighbouring blocks"),
     measure("peak_joint_acceleration", "m/s²", "largest |relative acceleration| of neighbouring blocks"),
     measure("peak_slip_velocity", "m/s", "largest |relative velocity| of a bed or support joint"),
-    measure("largest_slip", "m", "largest slip path of a joint"),
+    measure("largest_slip", "m", "largest slip path of a joint; of a bonded one from its crack on"),
     measure("total_slip", "m", "slip paths of all joints together"),
     measure("largest_opening", "m", "widest gap of a head joint or connection"),
     measure("deepest_closing", "m", "deepest closure of a head joint or connection"),

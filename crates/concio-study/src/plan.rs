@@ -89,10 +89,31 @@ impl Plan {
                 Over::Scales(_) => continue,
             };
             for (key, changes) in levels {
-                self.laid(&changes).map_err(|e| self.file.of_wall(&key, e))?;
+                let at = || self.lost_path(factor, &changes).unwrap_or(key);
+                self.laid(&changes).map_err(|e| self.file.of_wall(&at(), e))?;
             }
         }
         Ok(())
+    }
+
+    /// Where a factor gives a path that the wall refuses in the same words whatever stands there: no value is at fault then.
+    fn lost_path(&self, factor: &Factor, changes: &Changes) -> Option<String> {
+        let vary = self.file.study.factors.iter().enumerate().filter(|(_, v)| v.path.is_some());
+        let key = vary.map(|(i, _)| format!("vary[{i}]")).find(|key| *key == factor.key)?;
+        let refused = |path: &str, value: &Value| match self.laid(&vec![(path.to_string(), value.clone())]) {
+            Err(Error::Input(e)) => Some((e.key, e.what)),
+            _ => None,
+        };
+        let others = [Value::Null, Value::Object(serde_json::Map::new())];
+        let lost = |(path, value): &(String, Value)| {
+            let found = refused(path, value);
+            found.is_some() && others.iter().all(|other| refused(path, other) == found)
+        };
+        // The path of the factor comes first, those of `also` behind it.
+        match changes.iter().position(lost)? {
+            0 => Some(format!("{key}.path")),
+            place => Some(format!("{key}.also[{}].path", place - 1)),
+        }
     }
 
     fn level_key(&self, factor: &Factor, level: usize) -> String {
@@ -140,11 +161,27 @@ impl Plan {
             {
                 key = format!("motion[{motion}]");
             }
+            let also = if self.is_left_behind(&e, &changes) { "; `also` lets another key follow" } else { "" };
             match self.file.of_wall(&key, e) {
-                Error::Input(e) => e.help(format!("in run {} with {}", number + 1, labels.join(", "))).into(),
+                Error::Input(e) => e.help(format!("in run {} with {}{also}", number + 1, labels.join(", "))).into(),
                 other => other,
             }
         })
+    }
+
+    /// Whether a wall with some changes is refused for a key that none of them touches: it does not suit what varies.
+    fn is_left_behind(&self, error: &Error, changes: &Changes) -> bool {
+        let Error::Input(e) = error else { return false };
+        let of_wall = e.file.as_deref().is_none_or(|file| Some(file) == self.file.wall.path());
+        let (Some(key), true) = (&e.key, of_wall) else { return false };
+        // Without places in lists: `[*]` stands for each.
+        let plain = |path: &str| path.split(['[', ']']).step_by(2).collect::<String>();
+        let refused = plain(key);
+        let touches = |(path, _): &(String, Value)| {
+            let path = plain(path);
+            path.starts_with(groups::PREFIX) || path.starts_with(&refused) || refused.starts_with(&path)
+        };
+        self.file.study.factors.iter().any(|v| v.path.is_some()) && !changes.iter().any(touches)
     }
 
     /// What run `number` changes of the wall file, and how much stronger its base moves.

@@ -71,6 +71,8 @@ pub struct Runner<'a> {
     pub reading: bool,
     records: Records,
     library: Library,
+    /// Where runs are made ready.
+    pool: rayon::ThreadPool,
     watch: &'a (dyn Fn(&Progress) -> Control + Sync),
     solve: Solve,
     until: Option<Rule>,
@@ -89,6 +91,8 @@ impl<'a> Runner<'a> {
         threads: usize,
         watch: &'a (dyn Fn(&Progress) -> Control + Sync),
     ) -> Result<Self> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|e| Error::io(folder, std::io::Error::other(e)))?;
         Ok(Runner {
             store: Store::open(folder)?,
             threads,
@@ -97,6 +101,7 @@ impl<'a> Runner<'a> {
             reading: false,
             records: Records::default(),
             library: Library::default(),
+            pool,
             watch,
             solve: simulate_each,
             until: None,
@@ -135,9 +140,7 @@ impl<'a> Runner<'a> {
 
     /// The row of a case, if the store has it with all that is kept.
     pub fn known(&self, id: &str) -> Option<&Row> {
-        let row = self.store.get(id)?;
-        let file = !self.results || row.end == End::Failed || self.result_path(id).is_file();
-        (row.has(&self.joints) && file).then_some(row)
+        self.store.holding(id, &self.joints, self.results)
     }
 
     /// [`Runner::rows`] of runs that end with their first crack ([`Runner::until`]), whatever this runner does else.
@@ -149,10 +152,6 @@ impl<'a> Runner<'a> {
         let rows = self.rows(cases);
         (self.until, self.results) = own;
         rows
-    }
-
-    fn result_path(&self, id: &str) -> std::path::PathBuf {
-        self.store.folder().join("results").join(format!("{id}.h5"))
     }
 
     /// The rows of `cases`, in their order: from the store, or run now. None when the watch stopped the runs (what was
@@ -190,15 +189,16 @@ impl<'a> Runner<'a> {
     fn made(&self, cases: &[Case], todo: &[usize]) -> Vec<std::result::Result<Prepared, String>> {
         let begun = Instant::now();
         let mut set = Vec::new();
-        let (mut memory, mut next) = (0, rayon::current_num_threads());
+        let (mut memory, mut next) = (0, self.pool.current_num_threads());
         while set.len() < todo.len().min(MOST_AT_ONCE) && memory < MOST_MEMORY && begun.elapsed() < MOST_MAKING {
             let some = &todo[set.len()..todo.len().min(set.len() + next)];
-            let made: Vec<_> = some.par_iter().map(|&i| ready(&cases[i], &self.library)).collect();
+            let make = || some.par_iter().map(|&i| ready(&cases[i], &self.library)).collect::<Vec<_>>();
+            let made = self.pool.install(make);
             let weight = |p: &Prepared| PER_BLOCK * p.model.wall.blocks.len() + PER_SAMPLE * samples(&p.model);
             memory += made.iter().flatten().map(weight).sum::<usize>();
             set.extend(made);
             // As many again, while those there took little of what there is.
-            next = if 4 * memory < MOST_MEMORY { 2 * next } else { rayon::current_num_threads() };
+            next = if 4 * memory < MOST_MEMORY { 2 * next } else { self.pool.current_num_threads() };
         }
         set
     }
@@ -312,9 +312,10 @@ impl Desk<'_> {
     }
 
     fn write_result(&self, id: &str, prepared: &Prepared, outcome: &Outcome) -> Result<()> {
-        let folder = locked(&self.store).folder().join("results");
-        std::fs::create_dir_all(&folder).map_err(|e| Error::io(&folder, e))?;
-        let path = folder.join(format!("{id}.h5"));
+        let path = locked(&self.store).result_path(id);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
+        }
         let (model, provenance) = (&prepared.model, prepared.provenance());
         files::replace(&path, |own| hdf5::write(own, &provenance, &model.wall, &joint_rows(model), outcome))
     }

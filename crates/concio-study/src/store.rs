@@ -13,7 +13,8 @@ use std::time::{Duration, Instant};
 
 use concio::{Error, Result};
 
-use crate::measures::{MEASURES, Row, VERSION};
+use crate::file::PerJoint;
+use crate::measures::{End, MEASURES, Row, VERSION};
 
 /// Folder of the parts in that of the study.
 const RUNS: &str = "runs";
@@ -43,6 +44,18 @@ struct Part {
 }
 
 impl Store {
+    /// The row of a run, if it holds all that is to be kept: `joints`, and with `results` the whole result.
+    pub fn holding(&self, id: &str, joints: &[PerJoint], results: bool) -> Option<&Row> {
+        let row = self.get(id)?;
+        let file = !results || row.end == End::Failed || self.result_path(id).is_file();
+        (row.has(joints) && file).then_some(row)
+    }
+
+    /// Where the whole result of a run is kept.
+    pub fn result_path(&self, id: &str) -> PathBuf {
+        self.folder.join("results").join(format!("{id}.h5"))
+    }
+
     /// Reads what the folder knows; a folder that is not there knows nothing, and is made when the first row comes.
     ///
     /// # Errors

@@ -276,8 +276,8 @@ fn wrong_study_files() {
     let cases: &[(&str, &str, usize)] = &[
         ("wall = \"none.toml\"", "there is no file", 1),
         ("wall = \"wall.toml\"\ncolour = 1", "unknown key", 2),
-        ("wall = \"wall.toml\"\n[[vary]]\npath = \"joint.frction.static\"\nvalues = [1]", "unknown key", 4),
-        ("wall = \"wall.toml\"\n[[vary]]\npath = \"panel[7].bricks\"\nvalues = [1]", "1 elements", 4),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"joint.frction.static\"\nvalues = [1]", "unknown key", 3),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"panel[7].bricks\"\nvalues = [1]", "1 elements", 3),
         ("wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = []", "it is empty", 2),
         ("wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = [1]\nfrom = 1\nto = 2", "contradict", 5),
         ("wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = [\"10 kg\"]", "not a unit", 4),
@@ -302,6 +302,31 @@ fn wrong_study_files() {
             "wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = [1]\n[[vary]]\nname = \"again\"\npath = \"load.top\"\nvalues = [2]",
             "both change load.top",
             5,
+        ),
+        (
+            "wall = \"wall.toml\"\n[[vary]]\nname = \"a\"\npath = \"panel[*].brick.height\"\nvalues = [0.05]\n[[vary]]\nname = \"b\"\npath = \"panel[0].brick.height\"\nvalues = [0.06]",
+            "both change panel[0].brick.height",
+            6,
+        ),
+        (
+            "wall = \"wall.toml\"\n[[vary]]\nname = \"a\"\npath = \"joint.friction.static\"\nvalues = [0.5]\n[[vary]]\nname = \"b\"\npath = \"group.static\"\nvalues = [0.6]",
+            "both change group.static",
+            6,
+        ),
+        (
+            "wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = [1]\nalso = [{ path = \"load.top\", times = 2 }]",
+            "changes load.top twice",
+            2,
+        ),
+        (
+            "wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = [\"1 kN/m\", \"900 N/m\"]",
+            "its unit is `N/m`",
+            4,
+        ),
+        (
+            "wall = \"wall.toml\"\nscales = [1, 2]\n[[vary]]\npath = \"group.acceleration\"\nvalues = [1e-6]",
+            "both set the strength of the motion",
+            2,
         ),
         (
             "wall = \"wall.toml\"\n[design]\nkind = \"sobol\"\nruns = 65537\n[[vary]]\npath = \"load.top\"\nfrom = 1\nto = 2",

@@ -64,7 +64,7 @@ count = 3
 runs = 400
 population = 8
 draws = 5
-copies = 2
+copies = 4
 finalists = 2
 
 [[interfaces.objective]]
@@ -223,7 +223,7 @@ fn wrong_questions_are_refused_with_their_line() {
         (swap("name = \"rougher\"", "name = \"viscous\""), "interfaces.device[1].name", "two devices"),
         (swap("[\"bed\", \"base\", \"top\"]", "[\"connection\"]"), "interfaces.at", "no joint meets"),
         (swap("runs = 400", "runs = 31"), "interfaces.runs", "less than one generation"),
-        (swap("copies = 2", "copies = 1"), "interfaces.copies", "1 is out of range"),
+        (swap("copies = 4", "copies = 3"), "interfaces.copies", "3 is out of range"),
         (all_held, "motion[0].held_out", "every motion is held out"),
     ] {
         let error = refused(&dry(), &study);

@@ -264,12 +264,16 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
             totals.peak_slip_velocity = totals.peak_slip_velocity.max(w.abs());
         }
     }
+    let mut bonds = model.bonds.iter().zip(&state.bonds).peekable();
     for (rub, mu) in model.rubs.iter().zip(&state.tangents.mu) {
+        while bonds.next_if(|(bond, _)| bond.joint < rub.joint).is_some() {}
+        // What an intact bond lets its blocks move is no slip.
+        let holds = bonds.peek().is_some_and(|(bond, held)| bond.joint == rub.joint && !held.cracked.is_finite());
         totals.peak_friction_force = totals.peak_friction_force.max(rub.largest_normal() * mu.abs());
         let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
         let fastest = (state.v[a] - state.v[b]).abs().max((v_0[a] - v_0[b]).abs());
         // At an impact velocities jump and nothing moves.
-        if h > 0.0 && fastest > if rub.law.sticks() { 0.0 } else { rub.law.slip_velocity } {
+        if h > 0.0 && !holds && fastest > if rub.law.sticks() { 0.0 } else { rub.law.slip_velocity } {
             env.joint_slip[rub.joint as usize] += ((state.z[a] - state.z[b]) - (z_0[a] - z_0[b])).abs();
         }
     }

@@ -363,6 +363,17 @@ fn a_bond_that_holds_is_an_elastic_wall() {
     assert_eq!(bonded.energies, elastic.energies);
 }
 
+/// Blocks that a bond holds move against each other, faster than the slip velocity, and do not slip.
+#[test]
+fn nothing_slips_before_its_bond_cracks() {
+    let mut case = prepared(r#"bond = { cohesion = "1e11 Pa" }"#).case;
+    let Signal::Pulse(pulse) = &mut case.motion.base else { panic!("the wall of these tests has a pulse") };
+    pulse.acceleration = (100.0 * pulse.acceleration.si()).into();
+    let outcome = run_in_memory(&prepare(case, Path::new("")).unwrap()).unwrap();
+    assert!(outcome.totals.peak_slip_velocity > 2e-3, "{}", outcome.totals.peak_slip_velocity);
+    assert!(outcome.envelopes.joint_slip.iter().all(|s| *s == 0.0));
+}
+
 /// Strengths of 0 are dry joints, to the bit; a strength that is next to none is the cracked law from the start.
 #[test]
 fn a_bond_without_strength_is_a_dry_joint() {

@@ -31,8 +31,11 @@ pub fn scale(args: &Scale) -> Result<(), Failure> {
 }
 
 fn row(group: &Group) -> Vec<String> {
-    let varied = group.realised_by.unwrap_or("–");
-    [group.name.into(), group.formula.into(), range(group.value), range(group.table1), varied.into()].to_vec()
+    let varied = match (group.name, group.realised_by) {
+        ("frequency", Some(key)) => format!("{key}, of a sine or pulse alone"),
+        (_, key) => key.unwrap_or("–").into(),
+    };
+    [group.name.into(), group.formula.into(), range(group.value), range(group.table1), varied].to_vec()
 }
 
 fn range(values: Option<[f64; 2]>) -> String {

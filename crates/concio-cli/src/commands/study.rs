@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use concio::case::{Beam, Case};
-use concio::run::{Control, prepare};
+use concio::run::Control;
 use concio::{InputError, Result};
 use concio_study::file::Keep;
 use concio_study::measures::{End, Row};
@@ -19,7 +19,7 @@ use crate::args::{StudyCheck, StudyCommand, StudyPlace, StudyRun};
 use crate::failure::{Failure, STOPPED};
 use crate::format::{columns, counted, pairs};
 use crate::progress::Runs;
-use crate::study::asked::{self, Trouble};
+use crate::study::asked::{self, Shaking, Trouble};
 use crate::study::first_crack::{Do, Request};
 use crate::{files, stop, study};
 
@@ -33,14 +33,16 @@ type Answered = (interfaces::Question, answer::Answer);
 pub fn run_command(command: &StudyCommand) -> std::result::Result<ExitCode, Failure> {
     match command {
         StudyCommand::Check(args) => check(args).map(|()| ExitCode::SUCCESS),
-        StudyCommand::Run(args) => run(args),
+        StudyCommand::Run(args) => run(&read(&args.place.file)?, args),
         StudyCommand::Resume(args) => {
+            // A mistake in the file is told before a folder that it could not have made.
+            let plan = read(&args.place.file)?;
             let folder = folder(&args.place);
             if Store::open(&folder)?.is_empty() {
                 let error = InputError::new("there is nothing to go on with: the folder has no runs").in_file(&folder);
                 return Err(error.help("`concio study run` begins a study").into());
             }
-            run(args)
+            run(&plan, args)
         }
         StudyCommand::Status(place) => status(place),
         StudyCommand::Report(place) | StudyCommand::Export(place) => export(place),
@@ -94,35 +96,9 @@ fn cases(plan: &Plan) -> Result<Vec<(String, Case)>> {
     Ok(cases)
 }
 
-/// Tells what `concio check` would warn of: of the wall as it is, under each motion of the study.
-fn warn(plan: &Plan, cases: &[(String, Case)]) -> Result<()> {
-    let wall = &plan.file.wall;
-    let motions = &plan.file.study.motions;
-    let mut by_motion: Vec<(String, Vec<String>)> = Vec::new();
-    for place in 0..motions.len().max(1) {
-        let run = (0..plan.points.len()).find(|&n| plan.motion(n).is_none_or(|m| m == place));
-        let Some((_, case)) = run.and_then(|n| cases.get(n)) else { continue };
-        let (mut base, mut start) = (wall.case.clone(), wall.folder());
-        base.output = case.output.clone();
-        if !motions.is_empty() {
-            // That of the run starts from the working directory.
-            (base.motion, start) = (case.motion.clone(), Path::new(""));
-        }
-        // A wall file may leave to the factors what a run cannot do without.
-        let prepared = prepare(base, start).or_else(|_| prepare(case.clone(), Path::new("")));
-        let key = if motions.is_empty() { "wall".to_string() } else { format!("motion[{place}]") };
-        let warnings = prepared.map_err(|e| plan.file.of_wall(&key, e))?.model.warnings;
-        by_motion.push((motions.get(place).map_or(String::new(), |m| format!("motion {}: ", m.name)), warnings));
-    }
-    let everywhere = |warning: &String| by_motion.iter().all(|(_, warnings)| warnings.contains(warning));
-    let of_wall = by_motion.first().into_iter().flat_map(|(_, w)| w).filter(|w| everywhere(w)).cloned();
-    for warning in wall.unit_doubts().into_iter().chain(of_wall) {
-        files::note(&format!("warning: {warning}"));
-    }
-    for (motion, warnings) in &by_motion {
-        warnings.iter().filter(|w| !everywhere(w)).for_each(|w| files::note(&format!("warning: {motion}{w}")));
-    }
-    Ok(())
+/// Tells what `concio check` would warn of.
+fn warn(shaking: &Shaking) {
+    shaking.warnings.iter().for_each(|warning| files::note(&format!("warning: {warning}")));
 }
 
 fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
@@ -132,13 +108,15 @@ fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
     if study.first_crack.is_some() {
         first_crack::of_study(&plan)?;
     }
-    warn(&plan, &cases)?;
+    let shaking = asked::shaking(&plan)?;
+    warn(&shaking);
     let store = Store::open(&folder(&args.place))?;
-    let mut rows = asked::lines(&plan, point(&plan));
+    tell_outdated(&store);
+    let mut rows = asked::lines(&plan, point(&plan), &shaking);
     rows.extend(study::ida::described(&plan)?);
     if study.first_crack.is_none() && study.ida.is_none() {
         rows.push(("runs", cases.len().to_string()));
-        rows.push(("done", cases.iter().filter(|(id, _)| store.get(id).is_some()).count().to_string()));
+        rows.push(("done", found(&plan, &store, &cases).iter().flatten().count().to_string()));
     }
     if let Some(interfaces) = &study.interfaces {
         rows.push(("search", format!("up to {}", counted(interfaces.runs, "run"))));
@@ -160,18 +138,17 @@ fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
     files::print(&text)
 }
 
-fn run(args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
-    let plan = read(&args.place.file)?;
+fn run(plan: &Plan, args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     if plan.file.study.first_crack.is_some() {
-        return first_cracks(&plan, &args.place, args.threads, Do::Share(args.shard.unwrap_or([1, 1])));
+        return first_cracks(plan, &args.place, args.threads, Do::Share(args.shard.unwrap_or([1, 1])));
     }
-    let cases = cases(&plan)?;
+    let cases = cases(plan)?;
     let out = folder(&args.place);
     refuse_a_file(&out)?;
-    warn(&plan, &cases)?;
+    warn(&asked::shaking(plan)?);
     let [share, of] = args.shard.unwrap_or([1, 1]);
     if plan.file.study.ida.is_some() {
-        return study::ida::run(&plan, &out, args.threads.map_or(0, usize::from), [share, of]);
+        return study::ida::run(plan, &out, args.threads.map_or(0, usize::from), [share, of]);
     }
     stop::listen()?;
     let mine: Vec<Case> = cases.iter().skip(share - 1).step_by(of).map(|(_, case)| case.clone()).collect();
@@ -191,21 +168,21 @@ fn run(args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     }
     // Other shards may have ended meanwhile.
     let store = Store::open(&out)?;
-    let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
+    let found = found(plan, &store, &cases);
     let missing = found.iter().filter(|r| r.is_none()).count();
-    tell(&plan, &found)?;
+    tell(plan, &found)?;
     if missing > 0 {
         files::note(&format!("{missing} of {} are left to other shards", counted(cases.len(), "run")));
         return Ok(ExitCode::SUCCESS);
     }
     let rows: Vec<&Row> = found.iter().flatten().copied().collect();
-    let answered = ask(&plan, &rows, &out, threads, &watch, false)?;
+    let answered = ask(plan, &rows, &out, threads, &watch, false)?;
     bar.clear();
     if plan.file.study.interfaces.is_some() && answered.is_none() {
         files::note("stopped early; the same command goes on from here");
         return Ok(ExitCode::from(STOPPED));
     }
-    files::print(&format!("open {}\n", write(&plan, &cases, &found, answered, &out)?.display()))?;
+    files::print(&format!("open {}\n", write(plan, &cases, &found, answered, &out)?.display()))?;
     let complete = found.iter().flatten().all(|r| r.end == End::Completed);
     Ok(if complete { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
 }
@@ -221,7 +198,8 @@ fn first_cracks(
     let out = folder(place);
     refuse_a_file(&out)?;
     if matches!(what, Do::Share(_)) {
-        warn(plan, &cases(plan)?)?;
+        cases(plan)?;
+        warn(&asked::shaking(plan)?);
         stop::listen()?;
     }
     let file = &plan.file;
@@ -237,6 +215,22 @@ fn first_cracks(
     let first = asked::section(plan, point(plan), case, Trouble::default())?;
     let (question, subjects) = (&question, &subjects[..]);
     study::first_crack::answer(&Request { title, facts, first, question, subjects, out: &out, threads }, what)
+}
+
+/// The rows of the study's runs that hold all that it keeps.
+fn found<'s>(plan: &Plan, store: &'s Store, cases: &[(String, Case)]) -> Vec<Option<&'s Row>> {
+    let keep = &plan.file.study.keep;
+    cases.iter().map(|(id, _)| store.holding(id, &keep.joints, keep.results)).collect()
+}
+
+/// Says what a folder holds that does not count any more.
+fn tell_outdated(store: &Store) {
+    if store.outdated > 0 {
+        let many = counted(store.outdated, "run");
+        files::note(&format!(
+            "{many} of the folder were measured by another version and do not count: they are done anew"
+        ));
+    }
 }
 
 /// How many runs there are and what became of them.
@@ -270,8 +264,8 @@ fn status(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     }
     let cases = cases(&plan)?;
     let store = Store::open(&folder(place))?;
-    let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
-    tell(&plan, &found)?;
+    tell_outdated(&store);
+    tell(&plan, &found(&plan, &store, &cases))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -280,6 +274,7 @@ fn export(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     let cases = cases(&plan)?;
     let out = folder(place);
     let store = Store::open(&out)?;
+    tell_outdated(&store);
     if store.is_empty() {
         let error = InputError::new("there is nothing to export: the folder has no runs").in_file(&out);
         return Err(error.help("`concio study run` begins a study").into());
@@ -290,11 +285,13 @@ fn export(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     if plan.file.study.first_crack.is_some() {
         return first_cracks(&plan, place, None, Do::Report);
     }
-    let found: Vec<Option<&Row>> = cases.iter().map(|(id, _)| store.get(id)).collect();
+    let found = found(&plan, &store, &cases);
     let rows: Vec<&Row> = found.iter().flatten().copied().collect();
     if rows.is_empty() {
         // Tables of other runs would be overwritten by empty ones.
-        let error = InputError::new(format!("none of its {} runs is one of this study", store.len())).in_file(&out);
+        let error =
+            InputError::new(format!("none of its {} runs is one of this study, or holds what it keeps", store.len()))
+                .in_file(&out);
         return Err(error.help("study or wall file were changed since; `concio study run` does the runs anew").into());
     }
     let answered = match rows.len() == cases.len() {

@@ -1,7 +1,12 @@
 //! What a study asks of which runs, in words: for `concio study check`, and for the first section of every report, from
 //! which a reader judges the rest.
 
-use concio::case::Case;
+use std::path::Path;
+
+use concio::case::{Baseline, Case, Signal};
+use concio::ground::Library;
+use concio::ground::coverage::{Coverage, coverage};
+use concio::run::prepare_with;
 use concio_study::Plan;
 use concio_study::file::{Choice, Design, DesignKind, Distribution, DistributionLaw, Follower, Spacing, Study, Vary};
 use concio_study::interfaces::{DeviceInput, ObjectiveInput, Over, Target};
@@ -11,7 +16,7 @@ use concio_study::table::Table;
 use serde_json::Value;
 
 use super::page::Section;
-use crate::format::{counted, plain, short};
+use crate::format::{counted, plain, seconds, short};
 use crate::motion;
 
 /// What no result of the model tells, for every report of many runs.
@@ -141,20 +146,114 @@ fn distributed(d: &Distribution) -> String {
     [name.to_string()].into_iter().chain(given).collect::<Vec<_>>().join(", ")
 }
 
-/// The motions of the base: name, motion, what becomes of it.
-pub fn motions(plan: &Plan) -> Vec<[String; 3]> {
-    let study = &plan.file.study;
-    if study.motions.is_empty() {
-        let own = motion::short(&plan.file.wall.case.motion.base);
-        return vec![["of the wall file".into(), own, String::new()]];
+/// What moves the base, and what is to be known of it and of the wall.
+#[derive(Debug, Default)]
+pub struct Shaking {
+    /// The motions: name, motion, what becomes of it.
+    pub motions: Vec<[String; 3]>,
+    /// What `concio check` would warn of, one sentence each: of the wall as it is, under each motion of the study.
+    pub warnings: Vec<String>,
+}
+
+/// The motions of a study, each made ready once.
+///
+/// # Errors
+/// A wall or a motion that cannot be made ready.
+pub fn shaking(plan: &Plan) -> concio::Result<Shaking> {
+    let (study, wall) = (&plan.file.study, &plan.file.wall);
+    let varied = varied_of_motion(study);
+    let mut motions = Vec::new();
+    let mut by_motion: Vec<(String, Vec<String>)> = Vec::new();
+    for place in 0..study.motions.len().max(1) {
+        let input = study.motions.get(place);
+        let run = (0..plan.points.len()).find(|&n| plan.motion(n).is_none_or(|m| m == place));
+        let ready = run.map(|number| ready(plan, number, place)).transpose()?;
+        let (warnings, cut) = ready.map_or((None, None), |(warnings, cut)| (Some(warnings), cut));
+        let prefix = input.map_or(String::new(), |m| format!("motion {}: ", m.name));
+        by_motion.extend(warnings.map(|warnings| (prefix, warnings)));
+        let usage = match (varied.is_empty(), cut) {
+            (false, _) => Some(format!("{} varied", varied.join(", "))),
+            (true, Some(cut)) => Some(cut),
+            (true, None) => input.and_then(|m| m.duration).map(|d| format!("{} long", seconds(d.si()))),
+        };
+        motions.push(match input {
+            Some(m) => {
+                let held = m.held_out.then(|| "held out".to_string());
+                let more: Vec<String> = usage.into_iter().chain(held).collect();
+                [m.name.clone(), in_words(&m.base), more.join(", ")]
+            }
+            None => match varied.iter().find(|path| ["motion", "motion.base"].contains(path)) {
+                Some(path) => ["varied".into(), path.to_string(), String::new()],
+                None => ["of the wall file".into(), in_words(&wall.case.motion.base), usage.unwrap_or_default()],
+            },
+        });
     }
-    let one = |m: &concio_study::motions::MotionInput| {
-        let duration = m.duration.map(|d| format!("{} long", crate::format::seconds(d.si())));
-        let held = m.held_out.then(|| "held out".to_string());
-        let more: Vec<String> = duration.into_iter().chain(held).collect();
-        [m.name.clone(), motion::short(&m.base), more.join(", ")]
+    let everywhere = |warning: &String| by_motion.iter().all(|(_, warnings)| warnings.contains(warning));
+    let of_wall = by_motion.first().into_iter().flat_map(|(_, w)| w).filter(|w| everywhere(w)).cloned();
+    let mut warnings: Vec<String> = wall.unit_doubts().into_iter().chain(of_wall).collect();
+    for (motion, found) in &by_motion {
+        warnings.extend(found.iter().filter(|w| !everywhere(w)).map(|w| format!("{motion}{w}")));
+    }
+    Ok(Shaking { motions, warnings })
+}
+
+/// Warnings of the wall under the motion of run `number`, which stands at `place` in the study file; how much of a record
+/// is used, where that is a part.
+fn ready(plan: &Plan, number: usize, place: usize) -> concio::Result<(Vec<String>, Option<String>)> {
+    let case = plan.case(number)?;
+    let wall = &plan.file.wall;
+    let of_study = !plan.file.study.motions.is_empty();
+    let (mut base, mut start) = (wall.case.clone(), wall.folder());
+    base.output = case.output.clone();
+    if of_study {
+        // That of the run starts from the working directory.
+        (base.motion, start) = (case.motion.clone(), Path::new(""));
+    }
+    let library = Library::default();
+    let from = |case: Case, start| prepare_with(case, start, &library).map(|prepared| (prepared, start));
+    // A wall file may leave to the factors what a run cannot do without.
+    let prepared = from(base, start).or_else(|_| from(case, Path::new("")));
+    let key = if of_study { format!("motion[{place}]") } else { "wall".to_string() };
+    let (prepared, start) = prepared.map_err(|e| plan.file.of_wall(&key, e))?;
+    let record = match &prepared.case.motion.base {
+        Signal::Record(input) => Some(library.record(input, start)?),
+        Signal::Synthetic(input) => Some(library.synthetic(input)?),
+        _ => None,
     };
-    study.motions.iter().map(one).collect()
+    let duration = prepared.model.excitation.duration;
+    let cut = record.filter(|record| coverage(record, duration) == Coverage::Cut);
+    let cut = cut.map(|record| format!("{} of {} used", seconds(duration), seconds(record.duration())));
+    Ok((prepared.model.warnings, cut))
+}
+
+/// A motion in a line, with what is taken off a record.
+fn in_words(signal: &Signal) -> String {
+    let text = motion::short(signal);
+    let Signal::Record(input) = signal else { return text };
+    match input.baseline {
+        Baseline::None => text,
+        Baseline::Polynomial(degree) => format!("{text}, baseline: polynomial of degree {degree} subtracted"),
+        Baseline::HighPass { corner, order } => {
+            format!("{text}, baseline: high-pass at {} Hz, order {order}", plain(corner.si()))
+        }
+    }
+}
+
+/// Key paths and groups of the base's motion that `vary` changes.
+fn varied_of_motion(study: &Study) -> Vec<&str> {
+    let mut varied = Vec::new();
+    for vary in &study.factors {
+        let keys = vary.choices.iter().flat_map(|choice| choice.set.keys());
+        let paths = vary.path.iter().chain(vary.also.iter().map(|f| &f.path)).chain(keys).map(String::as_str);
+        for path in paths {
+            let groups = ["group.frequency", "group.acceleration", "group.duration"];
+            let of_motion = path == "motion" || ["motion.base", "motion.duration"].iter().any(|p| path.starts_with(p));
+            if (of_motion || groups.contains(&path)) && !varied.contains(&path) {
+                varied.push(path);
+            }
+        }
+    }
+    varied
 }
 
 /// An objective: `mean peak_drift, small`.
@@ -204,7 +303,7 @@ fn listed(values: impl ExactSizeIterator<Item = String>) -> String {
 }
 
 /// What was run, as `concio study check` prints it.
-pub fn lines(plan: &Plan, one: &str) -> Vec<(&'static str, String)> {
+pub fn lines(plan: &Plan, one: &str, shaking: &Shaking) -> Vec<(&'static str, String)> {
     let study = &plan.file.study;
     let mut rows: Vec<(&'static str, String)> = questions(plan).into_iter().map(|q| ("asks", q)).collect();
     rows.push(("wall", plan.file.wall.path().map_or(String::new(), |p| p.display().to_string())));
@@ -214,8 +313,8 @@ pub fn lines(plan: &Plan, one: &str) -> Vec<(&'static str, String)> {
         true => ("varies", format!("{name}: {over}")),
         false => ("varies", format!("{name} ({keys}): {over}")),
     }));
-    for [name, motion, more] in motions(plan) {
-        let more = if more.is_empty() { more } else { format!(", {more}") };
+    for [name, motion, more] in &shaking.motions {
+        let more = if more.is_empty() { String::new() } else { format!(", {more}") };
         rows.push(("motion", format!("{name}: {motion}{more}")));
     }
     if let Some(interfaces) = &study.interfaces {
@@ -271,7 +370,7 @@ impl Trouble {
 /// The first section of a study's report; `one` is what a point of its design is.
 ///
 /// # Errors
-/// A wall that cannot be laid.
+/// A wall that cannot be laid; as [`shaking`].
 pub fn section(plan: &Plan, one: &str, case: Option<&Case>, trouble: Trouble) -> concio::Result<Section> {
     let study = &plan.file.study;
     let mut text: Vec<String> = Vec::new();
@@ -288,7 +387,12 @@ pub fn section(plan: &Plan, one: &str, case: Option<&Case>, trouble: Trouble) ->
     if !factors.is_empty() {
         tables.push(("What varied".to_string(), words(["factor", "keys of the wall file", "over"], &factors)));
     }
-    tables.push(("Motions of the base".into(), words(["motion", "what it is", "use"], &motions(plan))));
+    let Shaking { motions, warnings } = shaking(plan)?;
+    tables.push(("Motions of the base".into(), words(["motion", "what it is", "use"], &motions)));
+    if !warnings.is_empty() {
+        let warnings: Vec<[String; 1]> = warnings.into_iter().map(|warning| [warning]).collect();
+        tables.push(("Warnings".into(), words(["warning"], &warnings)));
+    }
     if let Some(interfaces) = &study.interfaces {
         let objectives: Vec<[String; 1]> = interfaces.objectives.iter().map(|o| [objective(o)]).collect();
         tables.push(("Objectives".into(), words(["objective"], &objectives)));

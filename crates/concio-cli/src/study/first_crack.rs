@@ -337,7 +337,8 @@ fn words(question: &Question, answers: &[Answer]) -> Vec<String> {
     let above: Vec<&str> =
         answers.iter().filter(|a| !a.uncracked_above().is_empty()).map(|a| a.name.as_str()).collect();
     text.push(format!(
-        "{} at lower scales were made besides, {} of each motion spread evenly between 0 and the crack; no joint cracked in them. \
+        "{} below the interval of the crack were made in all, at least {} of each motion spread evenly between 0 and the crack; no joint \
+         cracked in them. \
          Cracks between them cannot be excluded where a response does not grow with its motion{}.",
         counted(tried, "run"),
         question.checks,

@@ -123,10 +123,15 @@ fn judged(question: &Question, k: usize, motions: &str, v: &Verdict) -> String {
         format!("{} ({share})", said(value, unit))
     };
     let scatter = |s: &Spread| format!("{} ± {}", of(s.mean), said(s.deviation, unit));
-    let against = if v.beats { "better than" } else { "not better than" };
+    let apart = significant(v.lead.abs(), 2);
+    let against = match (v.beats, v.lead == 0.0) {
+        (true, _) => format!("better than all of them, by {apart} scatters"),
+        (false, true) => "as good as the best of them".to_string(),
+        (false, false) => format!("worse than the best of them, by {apart} scatters"),
+    };
     format!(
         "{}, {motions}: the wall as it is {} ± {}; the search {}; greedy {}; the best random placement {}, the median one \
-         {}. The search is {against} all of them, by {} scatters.",
+         {}. The search is {against}.",
         capital(&question.objectives[k].title()),
         said(v.unreinforced.mean, unit),
         said(v.unreinforced.deviation, unit),
@@ -134,7 +139,6 @@ fn judged(question: &Question, k: usize, motions: &str, v: &Verdict) -> String {
         scatter(&v.greedy),
         of(v.random[0]),
         of(v.random[1]),
-        significant(v.lead, 2),
     )
 }
 

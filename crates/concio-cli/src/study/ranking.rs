@@ -40,7 +40,7 @@ pub fn section(plan: &Plan, case: &Case, rows: &[Option<&Row>], out: &Path) -> R
         Map {
             heading: format!("by {}", name(r.by)),
             values: r.ratio.iter().map(|v| v / most).collect(),
-            marked: r.order.iter().take(asked.listed).copied().collect(),
+            marked: r.order.iter().filter(|&&e| r.ratio[e] > 0.0).take(asked.listed).copied().collect(),
         }
     };
     let maps: Vec<Map> = all.iter().map(map).collect();
@@ -62,7 +62,7 @@ fn brief(all: &[Ranks], names: &[String], listed: usize) -> String {
     for place in 0..listed.min(names.len()) {
         let of = |r: &Ranks| {
             let e = r.order[place];
-            format!("{} ({})", names[e], significant(r.ratio[e], 2))
+            if r.ratio[e] > 0.0 { format!("{} ({})", names[e], significant(r.ratio[e], 2)) } else { "–".into() }
         };
         lines.push([(place + 1).to_string()].into_iter().chain(all.iter().map(of)).collect());
     }
@@ -70,8 +70,11 @@ fn brief(all: &[Ranks], names: &[String], listed: usize) -> String {
 }
 
 fn said(ranks: &Ranks, names: &[String], listed: usize) -> String {
+    if ranks.runs == 0 {
+        return format!("By {}: it is zero in every joint of every run, so none is critical.", name(ranks.by));
+    }
     let one = |&e: &usize| format!("{} ({})", names[e], significant(ranks.ratio[e], 2));
-    let first: Vec<String> = ranks.order.iter().take(listed).map(one).collect();
+    let first: Vec<String> = ranks.order.iter().filter(|&&e| ranks.ratio[e] > 0.0).take(listed).map(one).collect();
     let most = ranks.largest.iter().fold(0.0f64, |m, v| m.max(*v));
     let agree = match ranks.agreement {
         Some(rho) => {

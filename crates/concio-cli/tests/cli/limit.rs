@@ -66,7 +66,7 @@ fn walls_that_cannot_be_asked_are_refused() {
         }
     };
     desk.put("block.toml", block(0.7, "beam = \"tied\""));
-    refused(&["block.toml:11:", "load.beam", "allowed"]);
+    refused(&["block.toml:13:", "load.beam", "allowed"]);
     let device = "[[joint.change]]\nat = { kind = [\"base\"] }\ndevice = { law = \"friction-damper\", slip_force = 1e3 }\n[motion]";
     desk.put("block.toml", block(0.7, "").replace("[motion]", device));
     refused(&["block.toml:", "joint.change[0].device", "dry joints"]);
@@ -75,7 +75,7 @@ fn walls_that_cannot_be_asked_are_refused() {
     desk.put("block.toml", block(0.7, "").replace("bond = \"stack\"\ncourses = 1\nbricks = 1", falls));
     refused(&["block.toml", "does not stand", "allowed"]);
     desk.put("block.toml", block(-0.7, ""));
-    refused(&["block.toml:10:", "joint.friction.static", "allowed"]);
+    refused(&["block.toml:11:", "joint.friction.static", "allowed"]);
 }
 
 #[test]

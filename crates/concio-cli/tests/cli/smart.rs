@@ -39,7 +39,7 @@ count = 2
 runs = 60
 population = 6
 draws = 3
-copies = 2
+copies = 4
 [[interfaces.objective]]
 measure = "peak_joint_acceleration"
 [[interfaces.objective]]

@@ -162,7 +162,7 @@ fn the_warnings_of_the_wall_are_those_of_its_studies() {
 
 /// Questions that would be passed over in silence, and lists that choose nothing: text below `wall = …`, the place, parts
 /// of the message.
-const WRONG: [(&str, &[&str], &str, &[&str]); 13] = [
+const WRONG: [(&str, &[&str], &str, &[&str]); 14] = [
     ("ranking beside a search of its own", &[CRACK, "[ranking]\n"], "study.toml:4:", &["ranking", "`[first-crack]`"]),
     ("keep beside it", &[CRACK, "[keep]\njoints = [\"slip\"]\n"], "study.toml:5:", &["keep.joints", "`[first-crack]`"]),
     ("whole results beside it", &[CRACK, "[keep]\nresults = true\n"], "study.toml:5:", &["keep.results"]),
@@ -197,6 +197,16 @@ const WRONG: [(&str, &[&str], &str, &[&str]); 13] = [
         &["[design]\nkind = \"morris\"\nruns = 4\n"],
         "study.toml:2:",
         &["nothing varies", "[[vary]]"],
+    ),
+    (
+        "one motion at two strengths",
+        &[
+            "[[motion]]\nname = \"a\"\nbase = { sine = { acceleration = 1, frequency = 3, cycles = 2 } }\n",
+            "[[motion]]\nname = \"b\"\nbase = { sine = { acceleration = 2, frequency = 3, cycles = 2 } }\n",
+            IDA,
+        ],
+        "study.toml:2:",
+        &["`a` and `b` are one motion"],
     ),
     (
         "a kind of joint that chooses none",
@@ -238,6 +248,21 @@ fn nothing_that_a_study_says_is_passed_over() {
         }
         assert_eq!(desk.list(), ["study.toml", "wall.toml"], "{name}: nothing is written");
     }
+}
+
+/// Rows that were made before anything was kept per joint are no answer to a question that needs it.
+#[test]
+fn a_question_asked_later_has_its_runs_done_again() {
+    let desk = desk(&format!("{MOTIONS}{VARY}{DRAWN}"));
+    desk.concio("study run study.toml --out out").assert().success();
+    let asked = format!("{MOTIONS}{VARY}{DRAWN}[cracks]\ncriterion = \"slip\"\nlimit = \"0.001 um\"\n");
+    desk.put("study.toml", format!("wall = \"wall.toml\"\n{asked}"));
+    let refused = desk.concio("study report study.toml --out out").assert().code(2);
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("or holds what it keeps"));
+    let [said, _] = said(&desk, "study status study.toml --out out");
+    assert!(said.contains("not run"), "{said}");
+    desk.concio("study run study.toml --out out").assert().success();
+    assert!(desk.get("out/report.html").contains("Crack"));
 }
 
 #[test]

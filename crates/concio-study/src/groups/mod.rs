@@ -152,6 +152,11 @@ pub fn groups(case: &Case, model: &Model, folder: &Path, reference: &Reference) 
         .collect())
 }
 
+/// The key of a wall file that a study changes to give a group its value.
+pub fn realised_by(name: &str) -> Option<&'static str> {
+    GROUPS.iter().find(|(known, _, _)| *known == name)?.2
+}
+
 /// Names, formulas, and keys that realise them.
 const GROUPS: [(&str, &str, Option<&str>); 17] = [
     ("mass", "μ_i = m_i/M", None),

@@ -158,7 +158,9 @@ impl Likelihood {
                 break;
             }
         }
-        Err("the limit is not reached more often at higher intensities: there is no lognormal to fit")
+        Err(
+            "how often the limit is reached does not rise enough with intensity for a lognormal with a finite dispersion",
+        )
     }
 
     /// The step, halved until the likelihood does not fall and b stays above 0.

@@ -12,6 +12,8 @@ pub mod hunt;
 pub mod likelihood;
 pub mod tables;
 
+use std::collections::HashMap;
+
 use concio::Result;
 use concio::case::Case;
 use concio::quantity::{Acceleration, Length, Time, Velocity};
@@ -138,6 +140,11 @@ pub fn settings(file: &StudyFile) -> Result<Option<Settings>> {
     if !study.scales.is_empty() {
         let what = "`scales` and `[ida]` contradict each other: an incremental analysis scales the motions itself";
         return Err(file.wrong("scales", what, "no `scales`, or no `[ida]`"));
+    }
+    if let Some(i) = study.factors.iter().position(|f| f.path.as_deref() == Some("group.acceleration")) {
+        let what =
+            "`group.acceleration` and `[ida]` contradict each other: an incremental analysis scales the motions itself";
+        return Err(file.wrong(&format!("vary[{i}].path"), what, "another path, or no `[ida]`"));
     }
     if study.sensitivity.is_some() {
         let what = "`[sensitivity]` and `[ida]` contradict each other: one looks at the runs of the design as they are";
@@ -284,6 +291,21 @@ impl<'a> Analysis<'a> {
             Ok(Curve { name: name(plan, number), number, unit, points: Vec::new(), failed: None })
         };
         let curves = (0..plan.points.len()).map(curve).collect::<Result<Vec<_>>>()?;
+        let mut seen = HashMap::new();
+        for curve in &curves {
+            let id = plan.id(&plan.scaled_case(curve.number, 1.0 / curve.unit)?)?;
+            if let Some(before) = seen.insert(id, &curve.name) {
+                let what = format!(
+                    "`{before}` and `{}` are one motion once they are scaled: it would count twice",
+                    curve.name
+                );
+                return Err(plan.file.wrong(
+                    "motion",
+                    what,
+                    "values that differ by more than the strength of the motion",
+                ));
+            }
+        }
         Ok(Some(Analysis { settings, curves, plan }))
     }
 
