@@ -157,6 +157,17 @@ pub fn answer(plan: &Plan, question: &Question, rows: &[&Row], runner: &mut Runn
     Ok(Some(Answer { ranks, unreinforced, greedy, search, chosen, random, placed, trace, greedy_trace, runs }))
 }
 
+/// Runs that the comparison takes besides the search, at most: the wall as it is, the greedy placements and the finalists in
+/// copies, random placements of both kinds once.
+pub fn comparison(plan: &Plan, question: &Question) -> usize {
+    let rankings = plan.file.study.ranking.clone().unwrap_or_default().by.len();
+    let input = &question.input;
+    // Of two objectives, both ends of a front and its knee.
+    let greedy = rankings * if question.objectives.len() > 1 { 3 } else { 1 };
+    let lines = (1 + greedy + input.finalists) * input.copies + 2 * input.draws;
+    lines * question.scenes.len() * question.runs_each()
+}
+
 /// Of a front the best of every objective and the knee.
 fn spread_out(front: &[Member]) -> Vec<&Member> {
     let values: Vec<Vec<f64>> = front.iter().map(|m| m.values.clone()).collect();

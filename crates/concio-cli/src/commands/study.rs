@@ -119,7 +119,10 @@ fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
         rows.push(("done", found(&plan, &store, &cases).iter().flatten().count().to_string()));
     }
     if let Some(interfaces) = &study.interfaces {
-        rows.push(("search", format!("up to {}", counted(interfaces.runs, "run"))));
+        let question = interfaces::question(&plan)?;
+        let quarter = "a quarter of it, or one generation, for the greedy placements";
+        rows.push(("search", format!("up to {}, besides {quarter}", counted(interfaces.runs, "run"))));
+        rows.push(("comparison", format!("up to {}", counted(answer::comparison(&plan, &question), "run"))));
     }
     if study.first_crack.is_some() || study.ida.is_some() || study.interfaces.is_some() {
         rows.push(("in folder", counted(store.len(), "run")));

@@ -35,6 +35,9 @@ pub fn section(plan: &Plan, case: &Case, rows: &[Option<&Row>], out: &Path) -> R
     section.brief = brief(&all, &names, asked.listed);
     section.text = all.iter().map(|r| said(r, &names, asked.listed)).collect();
     section.text.extend(compared(&all));
+    if plan.file.study.motions.iter().any(|m| m.held_out) {
+        section.text.push("Held-out motions are among these runs; greedy placements are ranked without them.".into());
+    }
     let map = |r: &Ranks| {
         let most = r.ratio.iter().fold(0.0f64, |m, v| m.max(*v)).max(f64::MIN_POSITIVE);
         Map {

@@ -162,7 +162,7 @@ fn the_warnings_of_the_wall_are_those_of_its_studies() {
 
 /// Questions that would be passed over in silence, and lists that choose nothing: text below `wall = …`, the place, parts
 /// of the message.
-const WRONG: [(&str, &[&str], &str, &[&str]); 14] = [
+const WRONG: [(&str, &[&str], &str, &[&str]); 16] = [
     ("ranking beside a search of its own", &[CRACK, "[ranking]\n"], "study.toml:4:", &["ranking", "`[first-crack]`"]),
     ("keep beside it", &[CRACK, "[keep]\njoints = [\"slip\"]\n"], "study.toml:5:", &["keep.joints", "`[first-crack]`"]),
     ("whole results beside it", &[CRACK, "[keep]\nresults = true\n"], "study.toml:5:", &["keep.results"]),
@@ -207,6 +207,13 @@ const WRONG: [(&str, &[&str], &str, &[&str]); 14] = [
         ],
         "study.toml:2:",
         &["`a` and `b` are one motion"],
+    ),
+    ("nothing that varies", &["vary = []\n"], "study.toml:2:", &["vary"]),
+    (
+        "a value that another key bounds",
+        &["[[vary]]\npath = \"joint.friction.static\"\nvalues = [0.1]\n"],
+        "study.toml:2:",
+        &["dynamic", "`also`"],
     ),
     (
         "a kind of joint that chooses none",
@@ -265,6 +272,18 @@ fn a_question_asked_later_has_its_runs_done_again() {
     assert!(desk.get("out/report.html").contains("Crack"));
 }
 
+/// A record that the run cuts: said when it is checked, and kept in the report.
+#[test]
+fn warnings_stand_in_the_report() {
+    let desk = desk(
+        "[[motion]]\nname = \"cut\"\nbase = { synthetic = { seed = 1, pga = \"0.2 g\", duration = \"3 s\" } }\nduration = \"0.2 s\"\n",
+    );
+    let [_, warned] = said(&desk, "study run study.toml --out out");
+    assert!(warned.contains("warning: ") && warned.contains("0.2 s"), "{warned}");
+    let report = desk.get("out/report.html");
+    holds(&report, &["Warnings", "0.2 s of 3 s used"]);
+}
+
 #[test]
 fn wall_and_study_files_are_told_apart() {
     let desk = desk(VARY);
@@ -275,6 +294,8 @@ fn wall_and_study_files_are_told_apart() {
         ("study run wall.toml", "is a wall file"),
         ("study check wall.toml", "`concio check`"),
         ("study status wall.toml", "is a wall file"),
+        ("study resume wall.toml", "is a wall file"),
+        ("study resume none.toml", "none.toml"),
     ] {
         let refused = desk.concio(line).assert().code(2).stdout_eq(str![""]);
         let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
