@@ -11,7 +11,17 @@ const UNITS: [&str; 9] = ["m", "s", "N", "J", "W", "kg", "Hz", "bytes", "px"];
 /// Makes the pages and fails on any warning but the one about units.
 pub fn check(root: &Path) -> Outcome {
     let mut doc = cargo(root);
-    doc.args(["doc", "--release", "--package", "concio", "--package", "concio-study", "--no-deps"]);
+    doc.args([
+        "doc",
+        "--release",
+        "--package",
+        "concio",
+        "--package",
+        "concio-study",
+        "--package",
+        "concio-planar",
+        "--no-deps",
+    ]);
     let output = doc.output().map_err(|e| format!("cargo doc: {e}"))?;
     let text = String::from_utf8_lossy(&output.stderr);
     let said: Vec<&str> = text.split("\n\n").filter(|part| is_complaint(part)).collect();

@@ -12,12 +12,12 @@ const ARRIS: f64 = 5e-3;
 /// between parallel faces the choice must not change from step to step.
 const PREFERENCE: f64 = 1e-4;
 
-/// A position: centre [m] and rotation [rad].
+/// A position: centre [m] and rotation in rad.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Place {
     /// Centre [m].
     pub centre: [f64; 2],
-    /// Rotation from the position in which the wall was laid, counterclockwise [rad].
+    /// Rotation from the position in which the wall was laid, counterclockwise, in rad.
     pub angle: f64,
 }
 

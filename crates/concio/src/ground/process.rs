@@ -32,7 +32,7 @@ const SLACK: f64 = 1e-9;
 /// Reads the channel of the file that `input` names, relative to `base`, and prepares it.
 ///
 /// # Errors
-/// [`crate::Error::Input`] as [`read`] and [`prepare`], and when the file has no such channel.
+/// [`crate::Error::Input`] as [`crate::ground::record::read`] and [`prepare`], and when the file has no such channel.
 pub fn load(input: &RecordInput, base: &Path) -> Result<Record> {
     Library::default().record(input, base)
 }
