@@ -98,6 +98,11 @@ impl Blocks {
         add_outer(&mut self.values[self.columns.len() + self.place[body]], times, row, row);
     }
 
+    /// Adds a column times a row to the block of one body; the sum of what is added has to be symmetric.
+    pub fn add_product(&mut self, body: usize, column: Triple, row: Triple) {
+        add_outer(&mut self.values[self.columns.len() + self.place[body]], 1.0, column, row);
+    }
+
     /// Adds `times` the product of the rows of a pair's two bodies.
     pub fn add_pair(&mut self, slot: Slot, times: f64, [a, b]: [Triple; 2]) {
         let (first, second) = if slot.turned { (b, a) } else { (a, b) };

@@ -13,19 +13,28 @@
 //!
 //! (P4)  p_n = [p_n − ρ (u_n + b)]₊,   p_t = clamp(p_t − ρ u_t, ±μ p_n)
 //!
-//! for any ρ > 0 (Alart and Curnier 1991). [`Solver::newton`] takes the p on the right, and the p_n that bounds friction,
+//! for any ρ > 0 (Alart and Curnier 1991). Where a contact is compliant, ρ is that of its spring over the step, and what is
+//! p on the right is what the spring bore before; bounds of tension and crushing are further limits of p_n, linear springs
+//! further terms of (P1).
+//!
+//! [`Solver::newton`] takes the p on the right, and the p_n that bounds friction,
 //! from the last iterate. (P1) is then the gradient of a convex function of v, quadratic in pieces: Newton's method with a
 //! search along the line finds its least value in a few solutions, and p is taken anew from there until it stays: an
 //! augmented Lagrangian. The matrix is that of the masses and ρ over the contacts that bear; it is symmetric, and factorised
-//! only when one of them opens, closes, sticks or slips. [`Solver::gauss_seidel`] goes through the contacts one by one, as
-//! contact dynamics usually does (Jean 1999).
+//! only when one of them opens, closes, sticks or slips. Where this does not end at once, and no contact bears tension, has
+//! a normal spring or is crushed, an interior point method goes on. [`Solver::gauss_seidel`] goes through the contacts one by
+//! one, as contact dynamics usually does (Jean 1999).
 
 use crate::blocks::{Blocks, Slot, Triple};
+use crate::interior::{self, Interior};
 
 /// ρ over the mass that a contact moves: large for few repetitions, small enough for 16 digits.
 const STIFFENING: f64 = 1e4;
 /// Newton iterations after which a step is given up.
 const MOST: usize = 200;
+/// Newton iterations before the interior point method takes over where it can, and what each may leave out of balance.
+const FEW: usize = 4;
+const QUICKLY: f64 = 0.1;
 /// Points on a line at which the slope is looked at, at most.
 const LOOKS: usize = 30;
 /// Slope that is left on a line, over that at its start.
@@ -47,6 +56,23 @@ pub enum Status {
     Back,
 }
 
+/// A linear part of what a contact bears: offset − ρ u.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Linear {
+    /// Impulse where the velocity is 0 [N s].
+    pub offset: f64,
+    /// ρ [kg].
+    pub rho: f64,
+}
+
+impl Linear {
+    /// At the velocity `u` [m/s], in N s.
+    #[inline]
+    fn at(&self, u: f64) -> f64 {
+        self.offset - self.rho * u
+    }
+}
+
 /// A contact point during one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
@@ -56,25 +82,92 @@ pub struct Contact {
     pub b: usize,
     /// Where the pair stands in the matrix, for two bodies.
     pub slot: Option<Slot>,
-    /// Derivatives of the parting velocity by the velocities of both.
+    /// Derivatives of the parting velocity by the velocities of both, those that are prescribed left out.
     pub normal: [Triple; 2],
     /// The same of the sliding velocity.
     pub tangent: [Triple; 2],
+    /// Parting and sliding velocity that prescribed motion brings [m/s].
+    pub drift: [f64; 2],
     /// μ.
     pub friction: f64,
+    /// What friction bears beside μ p_n [N s].
+    pub hold: f64,
+    /// Least and largest p_n: bond and crushing [N s].
+    pub pressure: [f64; 2],
     /// b [m/s].
     pub bias: f64,
-    /// ρ of normal and tangent [kg].
-    pub rho: [f64; 2],
-    /// Impulses p_n and p_t [N s]; what they are on entry is where the solution starts.
+    /// (P4) of normal and tangent: p of before and ρ.
+    pub law: [Linear; 2],
+    /// Whether these are springs, which stay as they are; otherwise p is taken anew until it stays.
+    pub compliant: [bool; 2],
+    /// What acts beside them, normal and along the tangent.
+    pub spring: [Linear; 2],
+    /// Mass that a push at this point moves, in both directions [kg].
+    pub moved: [f64; 2],
+    /// Impulses p_n and p_t by (P4) [N s].
     pub impulse: [f64; 2],
     /// What it does.
     pub status: Status,
 }
 
+/// What (P4) says of a contact at some velocity.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Answer {
+    impulse: [f64; 2],
+    status: Status,
+    /// Whether p_n lies between its bounds.
+    yields: bool,
+}
+
 impl Contact {
+    /// Of a rigid contact of a body with another, or with the base, that bore `impulse` [N s] before. Rows as in the
+    /// fields; masses say what a push moves.
+    pub fn rigid(
+        (a, b): (Option<usize>, usize),
+        slot: Option<Slot>,
+        [normal, tangent]: [[Triple; 2]; 2],
+        inverse_mass: &[Triple],
+        impulse: [f64; 2],
+    ) -> Self {
+        let of = |rows: [Triple; 2]| {
+            let one = |row: Triple, body: usize| (0..3).map(|k| row[k] * row[k] * inverse_mass[body][k]).sum::<f64>();
+            1.0 / (a.map_or(0.0, |a| one(rows[0], a)) + one(rows[1], b))
+        };
+        let moved = [of(normal), of(tangent)];
+        let law = [0, 1].map(|k| Linear { offset: impulse[k], rho: STIFFENING * moved[k] });
+        Contact {
+            a,
+            b,
+            slot,
+            normal,
+            tangent,
+            drift: [0.0; 2],
+            friction: 0.0,
+            hold: 0.0,
+            pressure: [0.0, f64::INFINITY],
+            bias: 0.0,
+            law,
+            compliant: [false; 2],
+            spring: [Linear::default(); 2],
+            moved,
+            impulse,
+            status: Status::Open,
+        }
+    }
+
+    /// (P4) of a rigid direction, 0 normal and 1 tangent, that bore `impulse` [N s] before.
+    pub fn rigid_law(&self, direction: usize, impulse: f64) -> Linear {
+        Linear { offset: impulse, rho: STIFFENING * self.moved[direction] }
+    }
+
     /// Parting and sliding velocity [m/s].
     pub fn velocity(&self, v: &[Triple]) -> [f64; 2] {
+        let change = self.change(v);
+        [change[0] + self.drift[0], change[1] + self.drift[1]]
+    }
+
+    /// By how much these change with velocities that change by `v`.
+    pub(crate) fn change(&self, v: &[Triple]) -> [f64; 2] {
         let second = v[self.b];
         let mut u = [dot(self.normal[1], second), dot(self.tangent[1], second)];
         if let Some(a) = self.a {
@@ -84,29 +177,69 @@ impl Contact {
         u
     }
 
-    /// The right side of (P4), friction bounded by `bound`: impulses and what they mean.
+    /// The right side of (P4), friction bounded by `bound`.
     #[inline]
-    fn law(&self, [u_n, u_t]: [f64; 2], bound: f64) -> ([f64; 2], Status) {
-        let p_n = (self.impulse[0] - self.rho[0] * (u_n + self.bias)).max(0.0);
-        let p_t = self.impulse[1] - self.rho[1] * u_t;
-        if !(p_n > 0.0 || bound > 0.0) {
-            ([0.0; 2], Status::Open)
+    fn answer(&self, [u_n, u_t]: [f64; 2], bound: f64) -> Answer {
+        let [least, most] = self.pressure;
+        let free = self.law[0].at(u_n + self.bias);
+        let p_n = free.max(least).min(most);
+        let p_t = self.law[1].at(u_t);
+        let yields = free > least && free < most;
+        if p_n == 0.0 && !(bound > 0.0) {
+            Answer { yields, ..Answer::default() }
         } else if p_t > bound {
-            ([p_n, bound], Status::Forth)
+            Answer { impulse: [p_n, bound], status: Status::Forth, yields }
         } else if p_t < -bound {
-            ([p_n, -bound], Status::Back)
+            Answer { impulse: [p_n, -bound], status: Status::Back, yields }
         } else {
-            ([p_n, p_t], Status::Stick)
+            Answer { impulse: [p_n, p_t], status: Status::Stick, yields }
         }
     }
 
-    /// Sets ρ from the masses: that of a push at this point.
-    pub fn weigh(&mut self, inverse_mass: &[Triple]) {
-        let of = |rows: [Triple; 2]| {
-            let one = |row: Triple, body: usize| (0..3).map(|k| row[k] * row[k] * inverse_mass[body][k]).sum::<f64>();
-            1.0 / (self.a.map_or(0.0, |a| one(rows[0], a)) + one(rows[1], self.b))
+    /// What bounds friction where p_n is what it is at the velocity `u_n` [m/s], in N s.
+    fn bound(&self, p_n: f64, u_n: f64) -> f64 {
+        self.friction * (p_n + self.spring[0].at(u_n)).max(0.0) + self.hold
+    }
+
+    /// All that it bears at the velocity `u` [m/s] at the end of the step, in N s.
+    pub fn total(&self, u: [f64; 2]) -> [f64; 2] {
+        self.whole(self.impulse, u)
+    }
+
+    /// Whole impulses at the velocity `u` [m/s] where (P4) gives `p`, in N s.
+    #[inline]
+    pub(crate) fn whole(&self, p: [f64; 2], u: [f64; 2]) -> [f64; 2] {
+        [p[0] + self.spring[0].at(u[0]), p[1] + self.spring[1].at(u[1])]
+    }
+
+    /// Takes what impulses do from the balance of both bodies.
+    #[inline]
+    pub(crate) fn push(&self, balance: &mut [Triple], p: [f64; 2]) {
+        if p == [0.0; 2] {
+            return;
+        }
+        if let Some(a) = self.a {
+            push(&mut balance[a], self.normal[0], self.tangent[0], p);
+        }
+        push(&mut balance[self.b], self.normal[1], self.tangent[1], p);
+    }
+
+    /// Adds what resists: of the normal, of both together and of the tangent.
+    pub(crate) fn couple(&self, matrix: &mut Blocks, [nn, nt, tt]: [f64; 3]) {
+        let mixed = |side: usize| {
+            let (n, t) = (self.normal[side], self.tangent[side]);
+            ([0, 1, 2].map(|k| nn * n[k] + nt * t[k]), [0, 1, 2].map(|k| nt * n[k] + tt * t[k]))
         };
-        self.rho = [of(self.normal), of(self.tangent)].map(|m| STIFFENING * m);
+        let second = mixed(1);
+        matrix.add_product(self.b, self.normal[1], second.0);
+        matrix.add_product(self.b, self.tangent[1], second.1);
+        if let (Some(a), Some(slot)) = (self.a, self.slot) {
+            let first = mixed(0);
+            matrix.add_product(a, self.normal[0], first.0);
+            matrix.add_product(a, self.tangent[0], first.1);
+            matrix.add_pair(slot, 1.0, [self.normal[0], second.0]);
+            matrix.add_pair(slot, 1.0, [self.tangent[0], second.1]);
+        }
     }
 }
 
@@ -125,6 +258,18 @@ pub struct Effort {
     pub converged: bool,
 }
 
+impl Effort {
+    /// This one, and another that ended it.
+    fn then(self, last: Effort) -> Effort {
+        Effort {
+            iterations: self.iterations + last.iterations,
+            factorisations: self.factorisations + last.factorisations,
+            rounds: self.rounds + last.rounds,
+            ..last
+        }
+    }
+}
+
 /// Solves steps of bodies whose pairs stay the same.
 #[derive(Debug, Clone)]
 pub struct Solver {
@@ -135,11 +280,15 @@ pub struct Solver {
     work: Vec<Triple>,
     step: Vec<Triple>,
     /// Of each contact: impulses by (P4) and what they mean, velocities, and their change along the line.
-    trial: Vec<([f64; 2], Status)>,
+    trial: Vec<Answer>,
     velocity: Vec<[f64; 2]>,
     change: Vec<[f64; 2]>,
     /// What bounds friction [N s].
     bound: Vec<f64>,
+    interior: Interior,
+    /// Velocities, and of each contact offsets, impulses and what they mean, before an attempt.
+    start: Vec<Triple>,
+    kept: Vec<([f64; 2], [f64; 2], Status)>,
 }
 
 impl Solver {
@@ -156,6 +305,9 @@ impl Solver {
             velocity: Vec::new(),
             change: Vec::new(),
             bound: Vec::new(),
+            interior: Interior::default(),
+            start: Vec::new(),
+            kept: Vec::new(),
         }
     }
 
@@ -164,7 +316,9 @@ impl Solver {
         &self.matrix
     }
 
-    /// Newton's method on (P1) with (P4), to `tolerance` [m/s]. `v` holds a guess on entry.
+    /// Solves a step to `tolerance` [m/s]: the augmented Lagrangian, for as long as it falls quickly, as it does where
+    /// contacts go on doing what they did; then, where all contacts are such as it knows, an interior point method. `v`
+    /// holds a guess on entry.
     pub fn newton(
         &mut self,
         mass: &[Triple],
@@ -173,16 +327,70 @@ impl Solver {
         v: &mut [Triple],
         tolerance: f64,
     ) -> Effort {
+        if !contacts.iter().all(interior::fits) {
+            return self.lagrangian((mass, free), contacts, v, tolerance, (MOST, f64::INFINITY));
+        }
+        // From nothing the first presses blocks against each other no more than they have to be.
+        let new = contacts.iter().all(|c| c.impulse == [0.0; 2]);
+        let limit = if new { (MOST, f64::INFINITY) } else { (FEW, QUICKLY) };
+        self.keep(contacts, v);
+        let first = self.lagrangian((mass, free), contacts, v, tolerance, limit);
+        if first.converged {
+            return first;
+        }
+        self.restore(contacts, v);
+        // Its factors overwrite those that are known.
+        self.known.clear();
+        let second = self.interior.solve(&mut self.matrix, (mass, free), contacts, v, tolerance);
+        if second.converged {
+            return first.then(second);
+        }
+        self.keep(contacts, v);
+        let third = self.lagrangian((mass, free), contacts, v, tolerance, (MOST, f64::INFINITY));
+        let effort = first.then(second).then(third);
+        if third.residual > second.residual {
+            self.restore(contacts, v);
+            return Effort { residual: second.residual, ..effort };
+        }
+        effort
+    }
+
+    fn keep(&mut self, contacts: &[Contact], v: &[Triple]) {
+        self.kept.clear();
+        self.kept.extend(contacts.iter().map(|c| (c.law.map(|l| l.offset), c.impulse, c.status)));
+        self.start.clear();
+        self.start.extend_from_slice(v);
+    }
+
+    fn restore(&self, contacts: &mut [Contact], v: &mut [Triple]) {
+        for (contact, (offset, impulse, status)) in contacts.iter_mut().zip(&self.kept) {
+            (0..2).for_each(|k| contact.law[k].offset = offset[k]);
+            (contact.impulse, contact.status) = (*impulse, *status);
+        }
+        v.copy_from_slice(&self.start);
+    }
+
+    /// Newton's method on (P1) with (P4), so many iterations at most and as long as each of them leaves no more than a
+    /// share of what is out of balance.
+    fn lagrangian(
+        &mut self,
+        (mass, free): (&[Triple], &[Triple]),
+        contacts: &mut [Contact],
+        v: &mut [Triple],
+        tolerance: f64,
+        (most, share): (usize, f64),
+    ) -> Effort {
         let mut effort = Effort::default();
         let n = contacts.len();
         self.trial.resize(n, Default::default());
         self.velocity.resize(n, [0.0; 2]);
         self.change.resize(n, [0.0; 2]);
         self.bound.clear();
-        self.bound.extend(contacts.iter().map(|c| c.friction * c.impulse[0]));
+        let pressed = |c: &Contact| c.bound(c.impulse[0].clamp(c.pressure[0], c.pressure[1]), c.velocity(v)[0]);
+        self.bound.extend(contacts.iter().map(pressed));
         let mut fresh = false;
         let mut size = self.unbalanced(mass, free, contacts, v);
-        while effort.iterations < MOST {
+        while effort.iterations < most {
             if size <= tolerance {
                 effort.residual = self.accept(contacts);
                 effort.rounds += 1;
@@ -208,7 +416,14 @@ impl Solver {
             if !fresh && now > STALE * size {
                 self.known.clear();
             }
+            let slowly = now > (share * size).max(tolerance);
             size = now;
+            if slowly {
+                break;
+            }
+        }
+        if !effort.converged {
+            effort.residual = effort.residual.max(size);
         }
         effort
     }
@@ -225,13 +440,14 @@ impl Solver {
             }
         }
         for (change, contact) in self.change.iter_mut().zip(contacts) {
-            *change = contact.velocity(&self.step).map(|x| -x);
+            *change = contact.change(&self.step).map(|x| -x);
         }
         let at = |share: f64| {
             let mut sum = slope + share * growth;
             for (k, contact) in contacts.iter().enumerate() {
                 let (u, d) = (self.velocity[k], self.change[k]);
-                let p = contact.law([u[0] + share * d[0], u[1] + share * d[1]], self.bound[k]).0;
+                let u = [u[0] + share * d[0], u[1] + share * d[1]];
+                let p = contact.whole(contact.answer(u, self.bound[k]).impulse, u);
                 sum -= p[0] * d[0] + p[1] * d[1];
             }
             sum
@@ -270,32 +486,29 @@ impl Solver {
         }
         for (k, contact) in contacts.iter().enumerate() {
             self.velocity[k] = contact.velocity(v);
-            self.trial[k] = contact.law(self.velocity[k], self.bound[k]);
-            let (p, status) = self.trial[k];
-            if status == Status::Open {
-                continue;
-            }
-            if let Some(a) = contact.a {
-                push(&mut self.residual[a], contact.normal[0], contact.tangent[0], p);
-            }
-            push(&mut self.residual[contact.b], contact.normal[1], contact.tangent[1], p);
+            self.trial[k] = contact.answer(self.velocity[k], self.bound[k]);
+            contact.push(&mut self.residual, contact.whole(self.trial[k].impulse, self.velocity[k]));
         }
-        let part = |(r, m): (&Triple, &Triple)| {
-            (r[0] / m[0]).abs().max((r[1] / m[1]).abs()).max((r[2] * r[2] / (m[2] * m[0])).sqrt())
-        };
-        self.residual.iter().zip(mass).map(part).fold(0.0, f64::max)
+        unbalance(&self.residual, mass)
     }
 
     /// Takes the impulses of the last iterate; returns by how much they still violate the laws [m/s].
     fn accept(&mut self, contacts: &mut [Contact]) -> f64 {
         let mut worst: f64 = 0.0;
         for (k, contact) in contacts.iter_mut().enumerate() {
-            let (p, status) = self.trial[k];
+            let Answer { impulse, status, .. } = self.trial[k];
             for k in 0..2 {
-                worst = worst.max((p[k] - contact.impulse[k]).abs() / contact.rho[k]);
+                if !contact.compliant[k] {
+                    worst = worst.max((impulse[k] - contact.law[k].offset).abs() / contact.law[k].rho);
+                    contact.law[k].offset = impulse[k];
+                }
             }
-            (contact.impulse, contact.status) = (p, status);
-            self.bound[k] = contact.friction * p[0];
+            (contact.impulse, contact.status) = (impulse, status);
+            let bound = contact.bound(impulse[0], self.velocity[k][0]);
+            if contact.compliant[1] && status != Status::Stick {
+                worst = worst.max((bound - self.bound[k]).abs() / (STIFFENING * contact.moved[1]));
+            }
+            self.bound[k] = bound;
         }
         worst
     }
@@ -310,44 +523,45 @@ impl Solver {
         self.known.extend(self.trial.iter().map(stiff));
         self.matrix.reset(mass);
         for (contact, (normal, tangent)) in contacts.iter().zip(&self.known) {
-            if *normal {
-                couple(&mut self.matrix, contact, contact.rho[0], contact.normal);
-            }
-            if *tangent {
-                couple(&mut self.matrix, contact, contact.rho[1], contact.tangent);
+            let rho = |k: usize, on: bool| contact.spring[k].rho + if on { contact.law[k].rho } else { 0.0 };
+            for (rho, rows) in [(rho(0, *normal), contact.normal), (rho(1, *tangent), contact.tangent)] {
+                if rho > 0.0 {
+                    couple(&mut self.matrix, contact, rho, rows);
+                }
             }
         }
         self.matrix.factorise();
     }
 
-    /// Contact by contact, again and again, until none changes a velocity by more than `tolerance` [m/s].
+    /// Contact by contact, again and again, until none changes a velocity by more than `tolerance` [m/s]: for contacts
+    /// that are rigid, without bonds and springs.
     pub fn gauss_seidel(
         &mut self,
-        mass: &[Triple],
+        inverse_mass: &[Triple],
         free: &[Triple],
         contacts: &mut [Contact],
         v: &mut [Triple],
         tolerance: f64,
         rounds: usize,
     ) -> Effort {
-        let inverse: Vec<Triple> = mass.iter().map(|m| m.map(|m| 1.0 / m)).collect();
         v.copy_from_slice(free);
         for contact in contacts.iter() {
-            thrust(contact, contact.impulse, &inverse, v);
+            thrust(contact, contact.impulse, inverse_mass, v);
         }
         let mut effort = Effort::default();
         while effort.iterations < rounds {
             let mut worst: f64 = 0.0;
             for contact in contacts.iter_mut() {
-                let [u_n, u_t] = contact.velocity(v);
-                // One contact alone: its own masses are ρ.
-                let own = contact.rho.map(|r| r / STIFFENING);
-                let alone = Contact { rho: own, ..*contact };
-                let p_n = alone.law([u_n, u_t], 0.0).0[0];
-                let (p, status) = alone.law([u_n, u_t], contact.friction * p_n);
+                let u = contact.velocity(v);
+                // One contact alone: the mass that it moves is ρ.
+                let own = contact.moved;
+                let law = [0, 1].map(|k| Linear { offset: contact.impulse[k], rho: own[k] });
+                let alone = Contact { law, ..*contact };
+                let p_n = alone.answer(u, 0.0).impulse[0];
+                let Answer { impulse: p, status, .. } = alone.answer(u, contact.friction * p_n);
                 let change = [p[0] - contact.impulse[0], p[1] - contact.impulse[1]];
                 worst = worst.max((change[0] / own[0]).abs()).max((change[1] / own[1]).abs());
-                thrust(contact, change, &inverse, v);
+                thrust(contact, change, inverse_mass, v);
                 (contact.impulse, contact.status) = (p, status);
             }
             effort.iterations += 1;
@@ -361,9 +575,17 @@ impl Solver {
     }
 }
 
+/// The largest part of a balance over the mass [m/s].
+pub(crate) fn unbalance(balance: &[Triple], mass: &[Triple]) -> f64 {
+    let part = |(r, m): (&Triple, &Triple)| {
+        (r[0] / m[0]).abs().max((r[1] / m[1]).abs()).max((r[2] * r[2] / (m[2] * m[0])).sqrt())
+    };
+    balance.iter().zip(mass).map(part).fold(0.0, f64::max)
+}
+
 /// Whether a contact resists in its normal and along its tangent.
-fn stiff((p, status): &([f64; 2], Status)) -> (bool, bool) {
-    (p[0] > 0.0, *status == Status::Stick)
+fn stiff(answer: &Answer) -> (bool, bool) {
+    (answer.yields, answer.status == Status::Stick)
 }
 
 /// Adds `times` the square of a row over both bodies of a contact.

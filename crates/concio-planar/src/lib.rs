@@ -1,12 +1,15 @@
-//! Planar walls: every block has a horizontal, a vertical and an angular unknown, so that it slides, opens and rocks.
+//! Rigid blocks that slide, open and rock: a horizontal, a vertical and an angular unknown each.
 //!
-//! Main path: the engine lays the wall and finds its joints; [`assembly`] makes bodies and contact points of them;
-//! [`motion`] shakes them, with the contact points of [`shape`], the contact solver of [`contact`] and the sparse matrix
-//! of [`blocks`]; [`limit`] asks for the load under which they become a mechanism.
+//! Main path: [`motion`] takes [`body`]s through time, with the contact points of [`shape`], the laws of [`joint`]s, the
+//! contact solver of [`contact`], its interior point method and the sparse matrix of [`blocks`]. What a wall is, and its files, are the engine's matter.
 
-pub mod assembly;
 pub mod blocks;
+pub mod body;
 pub mod contact;
-pub mod limit;
+mod interior;
+pub mod joint;
 pub mod motion;
 pub mod shape;
+
+/// Acceleration of gravity [m/s²].
+pub const G: f64 = 9.81;

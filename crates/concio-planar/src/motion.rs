@@ -1,20 +1,31 @@
 //! Blocks in motion: implicit steps with impacts (Moreau 1988, Jean 1999).
 //!
-//! Positions stand at the ends of steps of one length h and move by the mean of the velocities there; contact points are
+//! Positions stand at the ends of steps of length h and move by the mean of the velocities there; contact points are
 //! those of the middle, q + h v/2. Motion is that of the base, relative to it: what the base accelerates pushes the blocks
-//! the other way, as its exact change of velocity over the step.
+//! the other way, as its exact change of velocity over the step. A step whose contact problem is not solved is taken again in
+//! two halves.
 
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree, RTreeObject};
+use serde::{Deserialize, Serialize};
 
-use crate::assembly::Body;
+use crate::G;
 use crate::blocks::Triple;
-use crate::contact::{Contact, Effort, Solver, Status};
+use crate::body::Body;
+use crate::contact::{Contact, Effort, Solver};
+use crate::joint::{Friction, Law, Point, Start};
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
 
 /// How far apart bodies are that are looked at, over the shortest edge: as far as they may move before all are looked at
 /// again.
 const REACH: f64 = 0.1;
+/// Times that a step is halved.
+const HALVINGS: u32 = 4;
+/// Steps that follow a step without inertia at most, and velocity over that of the first at which none follows.
+const FOLLOWING: usize = 10;
+const AT_REST: f64 = 1e-3;
+/// Contact points of a pair.
+const POINTS: usize = 3;
 
 /// How contact is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -22,76 +33,187 @@ pub enum Method {
     /// [`Solver::newton`].
     #[default]
     Newton,
-    /// [`Solver::gauss_seidel`] with so many rounds at most.
+    /// [`Solver::gauss_seidel`] with so many rounds at most, for rigid joints without bond.
     GaussSeidel(usize),
 }
 
-/// What does not change during a motion.
+/// A joint: two bodies that touch as the wall is laid, and the law between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// First body, on the left or below; none for the base.
+    pub a: Option<usize>,
+    /// Second body.
+    pub b: usize,
+    /// Its law.
+    pub law: Law,
+}
+
+/// Bodies, their joints and their loads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct System {
+    /// The bodies.
+    pub bodies: Vec<Body>,
+    /// Their joints.
+    pub links: Vec<Link>,
+    /// Law of bodies that come to touch elsewhere.
+    pub other: Law,
+    /// Dead load of each body [N], upwards and to the right: its weight, as a rule.
+    pub load: Vec<[f64; 2]>,
+    /// Directions x, y, θ in which each body is held: x follows [`Forcing::held`], the others stay.
+    pub held: Vec<[bool; 3]>,
+}
+
+impl System {
+    /// Dry rigid bodies under their weight with friction μ.
+    pub fn dry(bodies: &[Body], friction: f64) -> Self {
+        System {
+            links: Vec::new(),
+            other: Law::dry(Some(Friction::coulomb(friction))),
+            load: bodies.iter().map(|b| [0.0, -b.mass * G]).collect(),
+            held: vec![[false; 3]; bodies.len()],
+            bodies: bodies.to_vec(),
+        }
+    }
+}
+
+/// What acts between two instants.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Forcing {
+    /// Change of the velocity of the base [m/s].
+    pub base: [f64; 2],
+    /// Way of what is held, relative to the base [m].
+    pub held: f64,
+}
+
+/// How steps are taken.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     /// Step h [s].
     pub step: f64,
-    /// μ of all contacts.
-    pub friction: f64,
-    /// e of impacts, 0 … 1.
-    pub restitution: f64,
-    /// Acceleration of gravity [m/s²].
-    pub gravity: f64,
     /// What contact may be violated by [m/s].
     pub tolerance: f64,
+    /// Whether inertia is left out: every step starts at rest.
+    pub still: bool,
     /// How contact is solved.
     pub method: Method,
 }
 
 impl Setting {
-    /// Steps of `step` [s] with friction μ, plastic impacts.
-    pub fn new(step: f64, friction: f64) -> Self {
-        let method = Method::default();
-        Setting { step, friction, restitution: 0.0, gravity: concio::G, tolerance: 1e-8, method }
+    /// Steps of `step` [s].
+    pub fn new(step: f64) -> Self {
+        Setting { step, tolerance: 1e-8, still: false, method: Method::default() }
     }
 }
 
 /// Energy that went somewhere since the start [J].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Account {
-    /// Brought by gravity and the base.
+    /// Brought by loads and the base.
     pub input: f64,
+    /// Brought by what is held.
+    pub held: f64,
     /// Taken by friction.
     pub friction: f64,
-    /// Taken by impacts.
+    /// Taken by impacts, and by joints that close or ring faster than steps resolve.
     pub impact: f64,
+    /// Taken by dashpots.
+    pub damping: f64,
+    /// Taken by bonds that break and joints that are crushed.
+    pub bond: f64,
+    /// Stored in joints at the moment.
+    pub elastic: f64,
 }
 
 /// What a motion took.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Counters {
     /// Steps.
-    pub steps: usize,
+    pub steps: u64,
     /// Sums of [`Effort`].
-    pub iterations: usize,
+    pub iterations: u64,
     /// Matrices factorised.
-    pub factorisations: usize,
+    pub factorisations: u64,
     /// Times that impulses were taken anew.
-    pub rounds: usize,
+    pub rounds: u64,
+    /// Steps taken again in two halves.
+    pub halved: u64,
     /// Steps whose contact was not solved to the tolerance.
-    pub unsolved: usize,
+    pub unsolved: u64,
     /// Largest violation left [m/s].
     pub residual: f64,
 }
 
+/// What a joint did in the last step, and since the start.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Seen {
+    /// Least and largest distance of its sides [m], below 0 where they overlap.
+    pub gap: [f64; 2],
+    /// Way that its second side has slid along the tangent [m].
+    pub slide: f64,
+    /// Its velocity [m/s].
+    pub speed: f64,
+    /// Parting velocity [m/s].
+    pub parting: f64,
+    /// Pressure, from 0 where it bears no tension [N].
+    pub pressure: f64,
+    /// Force on its second side along the tangent [N].
+    pub shear: f64,
+    /// Part of it that is friction [N].
+    pub friction: f64,
+    /// Length of the way slid, there and back [m].
+    pub path: f64,
+    /// Energy taken [J].
+    pub taken: f64,
+    /// Part of it that breaking and crushing took [J].
+    pub broken: f64,
+    /// Whether it touches.
+    pub touches: bool,
+}
+
 /// A pair that may touch; none is the base.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Pair {
     a: Option<usize>,
     b: usize,
-    /// Impulses of its two contact points in the last step [N s].
-    impulse: [[f64; 2]; 2],
+    link: Option<usize>,
+    points: [Point; POINTS],
+    /// Distance as the wall was laid [m]; 0 for those that have come together.
+    laid: f64,
+}
+
+/// All that changes during a motion, to be kept and taken up again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Kept {
+    places: Vec<Place>,
+    velocities: Vec<Triple>,
+    time: f64,
+    account: Account,
+    counters: Counters,
+    pairs: Vec<Pair>,
+    looked: Vec<Place>,
+    seen: Vec<Seen>,
+    pull: f64,
+}
+
+/// Where a contact comes from.
+#[derive(Debug, Clone, Copy)]
+struct Owner {
+    pair: usize,
+    point: usize,
+    share: f64,
+    start: Start,
+    /// x of the normal and the tangent where a body is held in that direction, in the sense of the push on it.
+    lever: [f64; 2],
 }
 
 /// Bodies in motion.
 #[derive(Debug, Clone)]
 pub struct Motion {
     setting: Setting,
+    links: Vec<Link>,
+    other: Law,
+    load: Vec<[f64; 2]>,
+    held: Vec<[bool; 3]>,
     mass: Vec<Triple>,
     inverse: Vec<Triple>,
     rest: Vec<Polygon>,
@@ -106,29 +228,39 @@ pub struct Motion {
     pub account: Account,
     /// Effort since the start.
     pub counters: Counters,
+    /// What each joint did.
+    pub seen: Vec<Seen>,
+    /// Force of what is held on the others in the last step [N].
+    pub pull: f64,
     pairs: Vec<Pair>,
+    /// First and second body of the links, sorted, with their number.
+    linked: Vec<((Option<usize>, usize), usize)>,
     solver: Solver,
     /// Where the bodies were when pairs were looked for, and how far they may go until then [m].
     looked: Vec<Place>,
     reach: f64,
     radius: Vec<f64>,
     contacts: Vec<Contact>,
-    /// Pair and number of each contact.
-    owners: Vec<(usize, usize)>,
+    owners: Vec<Owner>,
     free: Vec<Triple>,
     after: Vec<Triple>,
 }
 
 impl Motion {
     /// At rest where the bodies were laid.
-    pub fn new(bodies: &[Body], setting: Setting) -> Self {
+    pub fn new(system: &System, setting: Setting) -> Self {
+        let bodies = &system.bodies;
         let rest: Vec<Polygon> = bodies.iter().map(Polygon::of).collect();
         let places: Vec<Place> = bodies.iter().map(|b| Place { centre: b.centre, angle: 0.0 }).collect();
         let shortest = rest.iter().map(|p| p.shortest).fold(f64::INFINITY, f64::min);
         let far = |p: &Polygon| p.corners.iter().map(|c| c[0].hypot(c[1])).fold(0.0, f64::max);
+        let mass: Vec<Triple> = bodies.iter().map(|b| [b.mass, b.mass, b.inertia]).collect();
+        let free = |(m, held): (&Triple, &[bool; 3])| [0, 1, 2].map(|k| if held[k] { 0.0 } else { 1.0 / m[k] });
+        let mut linked: Vec<_> = system.links.iter().enumerate().map(|(k, l)| ((l.a, l.b), k)).collect();
+        linked.sort_unstable();
         let mut motion = Motion {
-            mass: bodies.iter().map(|b| [b.mass, b.mass, b.inertia]).collect(),
-            inverse: bodies.iter().map(|b| [1.0 / b.mass, 1.0 / b.mass, 1.0 / b.inertia]).collect(),
+            inverse: mass.iter().zip(&system.held).map(free).collect(),
+            mass,
             polygons: rest.clone(),
             radius: rest.iter().map(far).collect(),
             rest,
@@ -136,7 +268,10 @@ impl Motion {
             time: 0.0,
             account: Account::default(),
             counters: Counters::default(),
+            seen: vec![Seen::default(); system.links.len()],
+            pull: 0.0,
             pairs: Vec::new(),
+            linked,
             solver: Solver::new(0, &[]),
             looked: places.clone(),
             reach: REACH * shortest,
@@ -145,9 +280,14 @@ impl Motion {
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
             places,
+            links: system.links.clone(),
+            other: system.other,
+            load: system.load.clone(),
+            held: system.held.clone(),
             setting,
         };
         motion.look();
+        motion.lay();
         motion
     }
 
@@ -158,127 +298,267 @@ impl Motion {
         self.look();
     }
 
-    /// One step, during which the velocity of the base changes by `base` [m/s].
-    pub fn step(&mut self, base: [f64; 2]) {
-        let h = self.setting.step;
-        for (body, place) in self.places.iter().enumerate() {
-            let v = self.velocities[body];
-            let centre = [place.centre[0] + 0.5 * h * v[0], place.centre[1] + 0.5 * h * v[1]];
-            self.polygons[body].put(&self.rest[body], &Place { centre, angle: place.angle + 0.5 * h * v[2] });
-            self.free[body] = [v[0] - base[0], v[1] - base[1] - h * self.setting.gravity, v[2]];
+    /// Goes on with `setting` from here.
+    pub fn set(&mut self, setting: Setting) {
+        self.setting = setting;
+    }
+
+    /// Lets the loads come to bear without inertia until nothing moves by more than `within` [m] in a step, in
+    /// `most` steps at most; whether it came to that. The account starts anew.
+    pub fn stand(&mut self, within: f64, most: usize) -> bool {
+        let setting = Setting { still: true, ..self.setting.clone() };
+        let own = std::mem::replace(&mut self.setting, setting);
+        let mut stands = false;
+        for _ in 0..most {
+            self.step(Forcing::default());
+            if self.fastest() * own.step <= within {
+                stands = true;
+                break;
+            }
         }
-        self.meet();
-        // What held in the last step will nearly hold again.
-        self.after.copy_from_slice(&self.velocities);
-        let effort = match self.setting.method {
-            Method::Newton => {
-                self.solver.newton(&self.mass, &self.free, &mut self.contacts, &mut self.after, self.setting.tolerance)
+        self.setting = own;
+        self.velocities.fill([0.0; 3]);
+        self.time = 0.0;
+        self.account = Account { elastic: self.account.elastic, ..Account::default() };
+        self.counters = Counters::default();
+        self.seen.iter_mut().for_each(|s| (s.path, s.taken, s.broken) = (0.0, 0.0, 0.0));
+        stands
+    }
+
+    /// One step of the setting's length.
+    pub fn step(&mut self, forcing: Forcing) {
+        self.take(self.setting.step, forcing, true);
+    }
+
+    /// From here over `h` [s]; `forcing` says what acts between two instants. Without inertia, steps under what acts then
+    /// follow until the bodies are at rest, ten at most: those of a mechanism never are.
+    pub fn go(&mut self, h: f64, forcing: &impl Fn(f64, f64) -> Forcing) {
+        let start = self.time;
+        self.part(start, h, HALVINGS, forcing);
+        let first = self.fastest();
+        for _ in 0..if self.setting.still { FOLLOWING } else { 0 } {
+            if self.fastest() <= AT_REST * first {
+                break;
             }
-            Method::GaussSeidel(rounds) => {
-                let tolerance = self.setting.tolerance;
-                self.solver.gauss_seidel(&self.mass, &self.free, &mut self.contacts, &mut self.after, tolerance, rounds)
-            }
-        };
+            let stays = |from: f64, to: f64| Forcing { held: 0.0, ..forcing(from, to) };
+            self.part(start, h, HALVINGS, &stays);
+        }
+        self.time = start + h;
+    }
+
+    /// Largest velocity of a body's edge [m/s].
+    fn fastest(&self) -> f64 {
+        let of = |(v, r): (&Triple, &f64)| v[0].abs() + v[1].abs() + r * v[2].abs();
+        self.velocities.iter().zip(&self.radius).map(of).fold(0.0, f64::max)
+    }
+
+    fn part(&mut self, from: f64, h: f64, halvings: u32, forcing: &impl Fn(f64, f64) -> Forcing) {
+        self.time = from;
+        if !self.take(h, forcing(from, from + h), halvings == 0) {
+            self.counters.halved += 1;
+            self.part(from, 0.5 * h, halvings - 1, forcing);
+            self.part(from + 0.5 * h, 0.5 * h, halvings - 1, forcing);
+        }
+    }
+
+    /// A step, whether its contact is solved or not if `come_what_may`; otherwise nothing has happened where it is not.
+    fn take(&mut self, h: f64, forcing: Forcing, come_what_may: bool) -> bool {
+        if self.setting.still {
+            self.velocities.fill([0.0; 3]);
+        }
+        self.release(h, &forcing);
+        self.meet(h, forcing.held / h);
+        let effort = self.solve();
         self.count(effort);
-        self.settle();
-        for (body, place) in self.places.iter_mut().enumerate() {
-            let (before, after) = (self.velocities[body], self.after[body]);
-            let mean = [0, 1, 2].map(|k| 0.5 * h * (before[k] + after[k]));
-            place.centre[0] += mean[0];
-            place.centre[1] += mean[1];
-            place.angle += mean[2];
+        if !effort.converged && !come_what_may {
+            return false;
         }
+        self.counters.steps += 1;
+        self.counters.unsolved += u64::from(!effort.converged);
+        self.counters.residual = self.counters.residual.max(effort.residual);
+        self.settle(h, forcing.held);
+        self.advance(h, forcing.held);
         std::mem::swap(&mut self.velocities, &mut self.after);
         self.time += h;
         if self.strayed() {
             self.look();
         }
+        true
+    }
+
+    /// Velocities without contact, and polygons in the middle of the step.
+    fn release(&mut self, h: f64, forcing: &Forcing) {
+        for (body, place) in self.places.iter().enumerate() {
+            let (v, held, load) = (self.velocities[body], self.held[body], self.load[body]);
+            let mut half = v.map(|v| 0.5 * h * v);
+            let pushed = |k: usize| v[k] - forcing.base[k] + h * load[k] * self.inverse[body][k];
+            let mut after = [pushed(0), pushed(1), v[2]];
+            if held[0] {
+                (half[0], after[0]) = (0.5 * forcing.held, forcing.held / h);
+            }
+            for k in 1..3 {
+                if held[k] {
+                    (half[k], after[k]) = (0.0, 0.0);
+                }
+            }
+            let centre = [place.centre[0] + half[0], place.centre[1] + half[1]];
+            self.polygons[body].put(&self.rest[body], &Place { centre, angle: place.angle + half[2] });
+            self.free[body] = after;
+        }
+    }
+
+    fn solve(&mut self) -> Effort {
+        // What held in the last step will nearly hold again.
+        for (body, after) in self.after.iter_mut().enumerate() {
+            let (v, free, held) = (self.velocities[body], self.free[body], self.held[body]);
+            *after = [0, 1, 2].map(|k| if held[k] { free[k] } else { v[k] });
+        }
+        let Motion { solver, mass, inverse, free, contacts, after, setting, .. } = self;
+        match setting.method {
+            Method::Newton => solver.newton(mass, free, contacts, after, setting.tolerance),
+            Method::GaussSeidel(rounds) => {
+                solver.gauss_seidel(inverse, free, contacts, after, setting.tolerance, rounds)
+            }
+        }
+    }
+
+    fn advance(&mut self, h: f64, held: f64) {
+        for (body, place) in self.places.iter_mut().enumerate() {
+            let (before, after) = (self.velocities[body], self.after[body]);
+            let mean = [0, 1, 2].map(|k| 0.5 * h * (before[k] + after[k]));
+            place.centre[0] += if self.held[body][0] { held } else { mean[0] };
+            place.centre[1] += mean[1];
+            place.angle += mean[2];
+        }
     }
 
     /// Contact points of the polygons as they stand.
-    fn meet(&mut self) {
+    fn meet(&mut self, h: f64, held: f64) {
         self.contacts.clear();
         self.owners.clear();
-        for (number, pair) in self.pairs.iter().enumerate() {
-            let b = &self.polygons[pair.b];
-            let found = match pair.a {
-                Some(a) => touches(&self.polygons[a], b, self.reach),
-                None => touches_base(b, self.reach),
+        for number in 0..self.pairs.len() {
+            let pair = &self.pairs[number];
+            let Some(ends) = ends(&self.polygons, pair, self.reach) else { continue };
+            let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
+            let shares = law.shares();
+            let along = |share: f64| Touch {
+                at: [0, 1].map(|k| ends[0].at[k] + share * (ends[1].at[k] - ends[0].at[k])),
+                gap: ends[0].gap + share * (ends[1].gap - ends[0].gap),
+                normal: ends[0].normal,
             };
-            for (which, touch) in found.iter().enumerate() {
-                let Some(touch) = touch else { continue };
-                self.owners.push((number, which));
-                let contact = self.contact(pair, which, touch);
+            for (point, share) in shares.iter().enumerate() {
+                let touch = along(point as f64 / (shares.len() - 1) as f64);
+                let (contact, owner) = self.contact(number, point, *share, &touch, h, held);
                 self.contacts.push(contact);
+                self.owners.push(owner);
             }
         }
     }
 
-    fn contact(&self, pair: &Pair, which: usize, touch: &Touch) -> Contact {
+    fn contact(&self, number: usize, point: usize, share: f64, touch: &Touch, h: f64, held: f64) -> (Contact, Owner) {
+        let pair = &self.pairs[number];
         let (n, t) = (touch.normal, [-touch.normal[1], touch.normal[0]]);
-        let h = self.setting.step;
-        let row = |body: usize, direction: [f64; 2], sign: f64| {
-            let place = &self.places[body];
-            let v = &self.velocities[body];
-            let arm = [0, 1].map(|k| touch.at[k] - place.centre[k] - 0.5 * h * v[k]);
-            [sign * direction[0], sign * direction[1], sign * (arm[0] * direction[1] - arm[1] * direction[0])]
+        let (mut velocity, mut drift, mut lever) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+        let mut row = |body: usize, which: usize, direction: [f64; 2], sign: f64| {
+            let (place, v, fixed) = (&self.places[body], &self.velocities[body], &self.held[body]);
+            let half = if fixed[0] { held } else { v[0] };
+            let arm = [touch.at[0] - place.centre[0] - 0.5 * h * half, touch.at[1] - place.centre[1] - 0.5 * h * v[1]];
+            let mut row =
+                [sign * direction[0], sign * direction[1], sign * (arm[0] * direction[1] - arm[1] * direction[0])];
+            if fixed[0] {
+                drift[which] += row[0] * held;
+                lever[which] += row[0];
+            }
+            for k in 0..3 {
+                if fixed[k] {
+                    row[k] = 0.0;
+                }
+            }
+            velocity[which] += row[0] * v[0] + row[1] * v[1] + row[2] * v[2];
+            row
         };
-        let rows = |direction| [pair.a.map_or([0.0; 3], |a| row(a, direction, -1.0)), row(pair.b, direction, 1.0)];
-        let mut contact = Contact {
-            a: pair.a,
-            b: pair.b,
-            slot: pair.a.map(|a| self.solver.matrix().slot(a, pair.b)),
-            normal: rows(n),
-            tangent: rows(t),
-            friction: self.setting.friction,
-            bias: 0.0,
-            rho: [0.0; 2],
-            impulse: pair.impulse[which],
-            status: Status::Open,
+        let mut rows = |which, direction| {
+            [pair.a.map_or([0.0; 3], |a| row(a, which, direction, -1.0)), row(pair.b, which, direction, 1.0)]
         };
-        let approach = contact.velocity(&self.velocities)[0];
-        contact.bias = if touch.gap > 0.0 {
-            // Open: what is left of the gap may be closed by the end of the step.
-            2.0 * touch.gap / h
-        } else {
-            self.setting.restitution * approach.min(0.0)
-        };
-        contact.weigh(&self.inverse);
-        contact
+        let rows = [rows(0, n), rows(1, t)];
+        let before = [0, 1].map(|k| velocity[k] + drift[k]);
+        let state = &pair.points[point];
+        let slot = pair.a.map(|a| self.solver.matrix().slot(a, pair.b));
+        let mut contact = Contact::rigid((pair.a, pair.b), slot, rows, &self.inverse, state.force.map(|f| h * f));
+        contact.drift = drift;
+        let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
+        let gap = touch.gap - pair.laid - 0.5 * h * before[0];
+        let start = law.begin(state, share, h, self.setting.still, (gap, before), &mut contact);
+        (contact, Owner { pair: number, point, share, start, lever })
     }
 
     fn count(&mut self, effort: Effort) {
-        self.counters.steps += 1;
-        self.counters.iterations += effort.iterations;
-        self.counters.factorisations += effort.factorisations;
-        self.counters.rounds += effort.rounds;
-        self.counters.unsolved += usize::from(!effort.converged);
-        self.counters.residual = self.counters.residual.max(effort.residual);
+        self.counters.iterations += effort.iterations as u64;
+        self.counters.factorisations += effort.factorisations as u64;
+        self.counters.rounds += effort.rounds as u64;
     }
 
-    /// Keeps impulses for the next step and accounts for the energy of this one.
-    fn settle(&mut self) {
-        self.pairs.iter_mut().for_each(|p| p.impulse = [[0.0; 2]; 2]);
-        for (contact, (pair, which)) in self.contacts.iter().zip(&self.owners) {
-            self.pairs[*pair].impulse[*which] = contact.impulse;
-            if contact.impulse == [0.0; 2] {
-                continue;
-            }
-            let (before, after) = (contact.velocity(&self.velocities), contact.velocity(&self.after));
-            let work = [0, 1].map(|k| 0.5 * contact.impulse[k] * (before[k] + after[k]));
-            self.account.impact -= work[0];
-            self.account.friction -= work[1];
+    /// Keeps what the points have come to for the next step, and accounts for the energy of this one.
+    fn settle(&mut self, h: f64, held: f64) {
+        let time = self.time + h;
+        self.account.elastic = 0.0;
+        self.pull = 0.0;
+        for pair in &mut self.pairs {
+            pair.points.iter_mut().for_each(|p| p.force = [0.0; 2]);
         }
+        for seen in &mut self.seen {
+            let Seen { path, taken, broken, slide, gap, .. } = *seen;
+            *seen = Seen { path, taken, broken, slide, gap, ..Seen::default() };
+        }
+        for (contact, owner) in self.contacts.iter().zip(&self.owners) {
+            let pair = &mut self.pairs[owner.pair];
+            let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
+            let after = contact.velocity(&self.after);
+            let point = &mut pair.points[owner.point];
+            let works = law.end(point, owner.share, (h, time), &owner.start, after, contact);
+            let whole = contact.total(after);
+            let account = &mut self.account;
+            account.elastic += works.elastic;
+            account.damping += works.damping;
+            account.friction += works.friction;
+            account.impact += works.impact;
+            account.bond += works.bond;
+            self.pull -= (whole[0] * owner.lever[0] + whole[1] * owner.lever[1]) / h;
+            let Some(seen) = pair.link.map(|k| &mut self.seen[k]) else { continue };
+            let first = owner.point == 0;
+            seen.gap = if first { [point.gap; 2] } else { [seen.gap[0].min(point.gap), seen.gap[1].max(point.gap)] };
+            seen.slide = if first { 0.0 } else { seen.slide } + owner.share * point.slide;
+            seen.speed += owner.share * after[1];
+            seen.parting += owner.share * after[0];
+            seen.pressure += whole[0] / h;
+            seen.shear += whole[1] / h;
+            seen.friction += contact.impulse[1] / h;
+            seen.path += owner.share * works.slip;
+            seen.taken += works.damping + works.friction + works.impact + works.bond;
+            seen.broken += works.bond;
+            seen.touches = true;
+        }
+        self.account.held += self.pull * held;
         for (body, m) in self.mass.iter().enumerate() {
-            let (v, w, f) = (self.velocities[body], self.after[body], self.free[body]);
-            self.account.input += (0..3).map(|k| 0.5 * m[k] * (f[k] - v[k]) * (v[k] + w[k])).sum::<f64>();
+            let (v, w, f, held) = (self.velocities[body], self.after[body], self.free[body], self.held[body]);
+            for k in (0..3).filter(|k| !held[*k]) {
+                self.account.input += 0.5 * m[k] * (f[k] - v[k]) * (v[k] + w[k]);
+                if self.setting.still {
+                    self.account.impact += 0.5 * m[k] * w[k] * w[k];
+                }
+            }
         }
     }
 
-    /// Energy of the motion relative to the base [J].
+    /// Energy of the motion relative to the base [J], what is held left out; 0 without inertia.
     pub fn kinetic(&self) -> f64 {
-        let of = |(m, v): (&Triple, &Triple)| (0..3).map(|k| 0.5 * m[k] * v[k] * v[k]).sum::<f64>();
-        self.mass.iter().zip(&self.velocities).map(of).sum()
+        if self.setting.still {
+            return 0.0;
+        }
+        let of = |((m, v), held): ((&Triple, &Triple), &[bool; 3])| {
+            (0..3).filter(|k| !held[*k]).map(|k| 0.5 * m[k] * v[k] * v[k]).sum::<f64>()
+        };
+        self.mass.iter().zip(&self.velocities).zip(&self.held).map(of).sum()
     }
 
     /// Whether a body may have come to one that it is not paired with.
@@ -304,6 +584,10 @@ impl Motion {
         }
         let tree = RTree::bulk_load(boxes.clone());
         let known = std::mem::take(&mut self.pairs);
+        let fresh = |a, b| {
+            let link = self.linked.binary_search_by_key(&(a, b), |l| l.0).ok().map(|at| self.linked[at].1);
+            Pair { a, b, link, points: [Point::default(); POINTS], laid: 0.0 }
+        };
         let mut pairs: Vec<(Option<usize>, usize)> = Vec::new();
         for own in &boxes {
             let around: AABB<[f64; 2]> = own.geom().envelope();
@@ -314,15 +598,89 @@ impl Motion {
             pairs.extend(others.map(|other| (Some(own.data), other)));
         }
         pairs.sort_unstable();
-        let impulse = |a, b| known.iter().find(|p| (p.a, p.b) == (a, b)).map_or([[0.0; 2]; 2], |p| p.impulse);
-        self.pairs = pairs.iter().map(|&(a, b)| Pair { a, b, impulse: impulse(a, b) }).collect();
-        let coupled: Vec<(usize, usize)> = pairs.iter().filter_map(|&(a, b)| Some((a?, b))).collect();
-        self.solver = Solver::new(self.places.len(), &coupled);
+        // What has gone apart for good may come together again: joints keep what has become of them.
+        let mut next: Vec<Pair> = pairs.iter().map(|&(a, b)| fresh(a, b)).collect();
+        for pair in known {
+            match next.binary_search_by_key(&(pair.a, pair.b), |p| (p.a, p.b)) {
+                Ok(at) => next[at] = pair,
+                Err(at) if pair.link.is_some() => next.insert(at, pair),
+                Err(_) => {}
+            }
+        }
+        self.pairs = next;
+        self.couple();
         self.looked.clone_from(&self.places);
+    }
+
+    /// A matrix for the pairs there are.
+    fn couple(&mut self) {
+        let coupled: Vec<(usize, usize)> = self.pairs.iter().filter_map(|p| Some((p.a?, p.b))).collect();
+        self.solver = Solver::new(self.places.len(), &coupled);
+    }
+
+    /// Takes the distances of the joints as they are for those of the laid wall.
+    fn lay(&mut self) {
+        for pair in self.pairs.iter_mut().filter(|p| p.link.is_some()) {
+            let ends = ends(&self.polygons, pair, self.reach);
+            pair.laid = ends.map_or(0.0, |e| e[0].gap.min(e[1].gap));
+        }
+    }
+
+    /// What has become of the points of a joint; none where its bodies have never been near each other.
+    pub fn points(&self, link: usize) -> Option<&[Point]> {
+        let Link { a, b, law } = &self.links[link];
+        let at = self.pairs.binary_search_by_key(&(*a, *b), |p| (p.a, p.b)).ok()?;
+        Some(&self.pairs[at].points[..law.shares().len()])
+    }
+
+    /// Parts of a joint that its points stand for.
+    pub fn shares(&self, link: usize) -> &'static [f64] {
+        self.links[link].law.shares()
+    }
+
+    /// All that changes.
+    pub fn keep(&self) -> Kept {
+        Kept {
+            places: self.places.clone(),
+            velocities: self.velocities.clone(),
+            time: self.time,
+            account: self.account,
+            counters: self.counters,
+            pairs: self.pairs.clone(),
+            looked: self.looked.clone(),
+            seen: self.seen.clone(),
+            pull: self.pull,
+        }
+    }
+
+    /// Goes on from what was kept; false where it is not of these bodies.
+    pub fn take_up(&mut self, kept: Kept) -> bool {
+        let n = self.places.len();
+        let fits = [kept.places.len(), kept.velocities.len(), kept.looked.len()].iter().all(|k| *k == n)
+            && kept.seen.len() == self.seen.len()
+            && kept.pairs.iter().all(|p| p.b < n && p.a.is_none_or(|a| a < n))
+            && kept.pairs.iter().all(|p| p.link.is_none_or(|k| k < self.links.len()));
+        if fits {
+            let Kept { places, velocities, time, account, counters, pairs, looked, seen, pull } = kept;
+            (self.places, self.velocities, self.time) = (places, velocities, time);
+            (self.account, self.counters, self.pairs) = (account, counters, pairs);
+            (self.looked, self.seen, self.pull) = (looked, seen, pull);
+            self.couple();
+        }
+        fits
     }
 
     /// What the contact points of the last step did: impulses over the step give forces.
     pub fn contacts(&self) -> &[Contact] {
         &self.contacts
+    }
+}
+
+/// Contact points of a pair, none where both are farther than `reach` [m].
+fn ends(polygons: &[Polygon], pair: &Pair, reach: f64) -> Option<[Touch; 2]> {
+    let b = &polygons[pair.b];
+    match pair.a {
+        Some(a) => touches(&polygons[a], b, reach),
+        None => touches_base(b, reach),
     }
 }

@@ -4,7 +4,9 @@
 //! two ends of what is left are the contact points (the manifold of polygon collision codes). Between the faces of two
 //! bricks these are the ends of their overlap, wherever they have slid to; under a rocking block the two corners.
 
-use crate::assembly::Body;
+use serde::{Deserialize, Serialize};
+
+use crate::body::Body;
 
 /// Overlap of two facing edges over the shorter of them below which bricks pass each other: an arris bears nothing.
 const ARRIS: f64 = 5e-3;
@@ -13,7 +15,7 @@ const ARRIS: f64 = 5e-3;
 const PREFERENCE: f64 = 1e-4;
 
 /// A position: centre [m] and rotation in rad.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Place {
     /// Centre [m].
     pub centre: [f64; 2],
@@ -81,13 +83,13 @@ pub struct Touch {
     pub gap: f64,
 }
 
-/// The contact points of `a` and `b` nearer than `margin` [m], in the order of the tangent, the normal turned
-/// counterclockwise.
-pub fn touches(a: &Polygon, b: &Polygon, margin: f64) -> [Option<Touch>; 2] {
+/// The contact points of `a` and `b` in the order of the tangent, the normal turned counterclockwise; none where both are
+/// farther than `margin` [m].
+pub fn touches(a: &Polygon, b: &Polygon, margin: f64) -> Option<[Touch; 2]> {
     let (of_a, edge_a) = separation(a, b);
     let (of_b, edge_b) = separation(b, a);
     if of_a.max(of_b) > margin {
-        return [None; 2];
+        return None;
     }
     let swapped = of_b > of_a + PREFERENCE * a.shortest.min(b.shortest);
     let (reference, edge, other) = if swapped { (b, edge_b, a) } else { (a, edge_a, b) };
@@ -97,21 +99,22 @@ pub fn touches(a: &Polygon, b: &Polygon, margin: f64) -> [Option<Touch>; 2] {
     let touch = |(at, gap): ([f64; 2], f64)| {
         // Half way between the two surfaces.
         let at = [at[0] - 0.5 * gap * out[0], at[1] - 0.5 * gap * out[1]];
-        (gap <= margin).then_some(Touch { at, normal, gap })
+        Touch { at, normal, gap }
     };
-    let Some([first, last]) = found else { return [None; 2] };
+    let [first, last] = found?;
     // Clipping goes along the reference's own tangent.
-    if swapped { [touch(last), touch(first)] } else { [touch(first), touch(last)] }
+    let both = if swapped { [touch(last), touch(first)] } else { [touch(first), touch(last)] };
+    (both[0].gap.min(both[1].gap) <= margin).then_some(both)
 }
 
-/// The contact points of a polygon with the half-plane y ≤ 0, the first body, nearer than `margin` [m].
-pub fn touches_base(a: &Polygon, margin: f64) -> [Option<Touch>; 2] {
+/// The contact points of a polygon with the half-plane y ≤ 0, the first body; none where both are farther than `margin`
+/// [m].
+pub fn touches_base(a: &Polygon, margin: f64) -> Option<[Touch; 2]> {
     let edge = a.edge(a.facing([0.0, -1.0]));
     // Along the tangent of the upward normal, which points to the left.
     let [p, q] = if edge[0][0] > edge[1][0] { edge } else { [edge[1], edge[0]] };
-    let touch =
-        |p: [f64; 2]| (p[1] <= margin).then_some(Touch { at: [p[0], 0.5 * p[1]], normal: [0.0, 1.0], gap: p[1] });
-    [touch(p), touch(q)]
+    let touch = |p: [f64; 2]| Touch { at: [p[0], 0.5 * p[1]], normal: [0.0, 1.0], gap: p[1] };
+    (p[1].min(q[1]) <= margin).then_some([touch(p), touch(q)])
 }
 
 /// The edge of `a` beyond which `b` lies farthest, and how far.

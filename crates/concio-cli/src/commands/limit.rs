@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use concio::{Error, InputError};
-use concio_planar::limit::{self, JointMotion, LimitError, NonAssociative, Options, Problem, Stop};
+use concio_limit::{self as limit, JointMotion, LimitError, NonAssociative, Options, Problem, Stop};
 use serde_json::{Value, json};
 
 use super::{run::refuse_a_file, wall_file};

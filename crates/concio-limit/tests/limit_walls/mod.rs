@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use concio::case::{Case, Syntax, from_str};
-use concio_planar::limit::{Limit, Options, Problem, analyse};
+use concio_limit::{Limit, Options, Problem, analyse};
 
 /// A dry wall of blocks `[x, length]` by courses from the bottom.
 #[derive(Debug, Clone)]

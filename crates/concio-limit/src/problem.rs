@@ -1,12 +1,13 @@
 //! From a wall file to blocks, contact points, friction and loads.
 
-use concio::case::{Beam, Case, JointKind, ModelKind, Motion, NormalForce};
+use concio::case::{Beam, Case, JointKind, Motion, NormalForce};
 use concio::model::Model;
 use concio::quantity::Time;
 use concio::wall::Wall;
 use concio::{G, InputError, Result, run};
+use concio_planar::body::Body;
 
-use crate::assembly::{Assembly, Body, Other};
+use crate::assembly::{Assembly, Other};
 
 /// What the live load is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -126,7 +127,6 @@ fn at_rest(case: &Case) -> Result<Case> {
         return Err(error.help("take the devices out of the wall file").into());
     }
     let mut case = case.clone();
-    case.model = ModelKind::Shear;
     case.motion = Motion { duration: Some(Time::from_si(1.0)), ..Motion::default() };
     case.output = Default::default();
     // A model has the friction of those joints alone that carry load by its own account; by this one all do.

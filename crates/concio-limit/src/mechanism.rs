@@ -1,7 +1,7 @@
 //! What a mechanism does, joint by joint.
 
-use super::Problem;
-use super::equations::Equations;
+use crate::Problem;
+use crate::equations::Equations;
 
 /// How a wall falls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

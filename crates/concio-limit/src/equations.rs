@@ -1,6 +1,6 @@
 //! (L1) as sparse columns, free of dimensions: forces over the mean dead load, lengths over the mean size of a block.
 
-use super::Problem;
+use crate::Problem;
 use crate::assembly::{ContactPoint, Other};
 
 /// Entries of a sparse column: row and value.

@@ -3,15 +3,15 @@
 
 use std::path::{Path, PathBuf};
 
-use concio_planar::limit::{Heads, Options, Push, Stop};
+use concio_limit::{Heads, Options, Push, Stop};
 use serde_json::Value;
 
 mod limit_walls;
 use limit_walls::{DryWall, certified};
 
 const FRICTIONLESS: Options =
-    Options { heads: Heads::Frictionless, push: Push::Body, towards: concio_planar::limit::Towards::Right };
-const TOP: Options = Options { heads: Heads::AsGiven, push: Push::Top, towards: concio_planar::limit::Towards::Right };
+    Options { heads: Heads::Frictionless, push: Push::Body, towards: concio_limit::Towards::Right };
+const TOP: Options = Options { heads: Heads::AsGiven, push: Push::Top, towards: concio_limit::Towards::Right };
 
 fn reference() -> Option<Value> {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
@@ -129,10 +129,10 @@ fn shear_walls_under_a_beam() {
     assert_eq!(walls, 56);
 }
 
-fn limit_under(wall: &DryWall, beam_weight: f64) -> concio_planar::limit::Limit {
+fn limit_under(wall: &DryWall, beam_weight: f64) -> concio_limit::Limit {
     let mut case = wall.case();
     let last = case.panels[0].blocks.last_mut().expect("the beam");
     last.specific_weight = Some(concio::quantity::SpecificWeight::from_si(beam_weight));
-    let problem = concio_planar::limit::Problem::of(&case, TOP).expect("a wall");
-    concio_planar::limit::analyse(&problem).expect("a limit")
+    let problem = concio_limit::Problem::of(&case, TOP).expect("a wall");
+    concio_limit::analyse(&problem).expect("a limit")
 }

@@ -11,8 +11,8 @@
 //! Source: M. Gilbert, C. Casapulla and H. M. Ahmed, Limit analysis of masonry block structures with non-associative
 //! frictional joints using linear programming, Computers and Structures 84 (2006) 873–887.
 
-use super::equations::Equations;
-use super::program::{Friction, Solution, solve};
+use crate::equations::Equations;
+use crate::program::{Friction, Solution, solve};
 
 /// The estimate for friction without dilation.
 #[derive(Debug, Clone, PartialEq)]

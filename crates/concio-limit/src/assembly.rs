@@ -7,36 +7,7 @@
 
 use concio::case::JointKind;
 use concio::wall::{Block, End, Joint, Wall};
-
-/// A rigid block.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Body {
-    /// Unique name.
-    pub name: String,
-    /// Centre of gravity [m].
-    pub centre: [f64; 2],
-    /// Corners from the centre, counterclockwise [m].
-    pub corners: Vec<[f64; 2]>,
-    /// Mass [kg].
-    pub mass: f64,
-    /// Moment of inertia about the centre [kg m²].
-    pub inertia: f64,
-}
-
-impl Body {
-    /// A brick of the wall: m and m (L² + H²)/12 (model notes, section 7).
-    pub fn of(block: &Block) -> Self {
-        let (l, h) = (0.5 * block.length(), 0.5 * block.height());
-        let mass = block.mass();
-        Body {
-            name: block.name.clone(),
-            centre: [0.5 * (block.x[0] + block.x[1]), 0.5 * (block.y[0] + block.y[1])],
-            corners: vec![[-l, -h], [l, -h], [l, h], [-l, h]],
-            mass,
-            inertia: mass * (l * l + h * h) / 3.0,
-        }
-    }
-}
+use concio_planar::body::Body;
 
 /// What a body touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -85,13 +56,21 @@ pub struct Assembly {
 impl Assembly {
     /// Of a wall and its joints ([`concio::graph::joints`]).
     pub fn of(wall: &Wall, joints: &[Joint]) -> Self {
-        let bodies = wall.blocks.iter().map(Body::of).collect();
-        let points = joints.iter().enumerate().flat_map(|(number, joint)| points(number, joint)).collect();
+        let bodies = wall.blocks.iter().map(body).collect();
+        let points = joints.iter().enumerate().flat_map(|(number, joint)| points(wall, number, joint)).collect();
         Assembly { bodies, points }
     }
 }
 
-fn points(number: usize, joint: &Joint) -> [ContactPoint; 2] {
+/// A brick as a rigid body: m and m (L² + H²)/12 (model notes, section 7); a polygon with its own moment.
+fn body(block: &Block) -> Body {
+    match block.is_rectangle() {
+        true => Body::rectangle(&block.name, block.x, block.y, block.mass()),
+        false => concio::planar::polygon(block),
+    }
+}
+
+fn points(wall: &Wall, number: usize, joint: &Joint) -> [ContactPoint; 2] {
     let [x0, y0, x1, y1] = joint.line;
     let b = match joint.b {
         End::Block(b) => Other::Body(b),
@@ -100,6 +79,7 @@ fn points(number: usize, joint: &Joint) -> [ContactPoint; 2] {
     };
     // From the left block to the right one, from the lower to the upper; out of a block into base or beam.
     let normal = match joint.kind {
+        _ if x0 != x1 && y0 != y1 => across(wall, joint),
         JointKind::Head | JointKind::Connection => [1.0, 0.0],
         JointKind::Bed | JointKind::Top => [0.0, 1.0],
         JointKind::Base => [0.0, -1.0],
@@ -112,4 +92,14 @@ fn points(number: usize, joint: &Joint) -> [ContactPoint; 2] {
         normal,
         length: 0.5 * joint.overlap,
     })
+}
+
+/// Unit normal of a sloping joint, out of its first block.
+fn across(wall: &Wall, joint: &Joint) -> [f64; 2] {
+    let [x0, y0, x1, y1] = joint.line;
+    let length = (x1 - x0).hypot(y1 - y0);
+    let normal = [(y1 - y0) / length, (x0 - x1) / length];
+    let centre = wall.blocks[joint.a].centre();
+    let outwards = normal[0] * (x0 - centre[0]) + normal[1] * (y0 - centre[1]);
+    normal.map(|n| n * outwards.signum())
 }

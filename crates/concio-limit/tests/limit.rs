@@ -1,7 +1,7 @@
 //! Collapse multipliers against closed forms, and what a mechanism and its forces have to obey.
 
-use concio_planar::assembly::Other;
-use concio_planar::limit::{Heads, LimitError, MechanismKind, Options, Problem, Push, Stop, Towards, analyse};
+use concio_limit::assembly::Other;
+use concio_limit::{Heads, LimitError, MechanismKind, Options, Problem, Push, Stop, Towards, analyse};
 use proptest::prelude::*;
 
 mod limit_walls;

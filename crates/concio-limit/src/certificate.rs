@@ -13,9 +13,9 @@
 use clarabel::algebra::CscMatrix;
 use clarabel::qdldl::{QDLDLFactorisation, QDLDLSettings};
 
-use super::LimitError;
-use super::equations::{Column, Equations, dot, power};
-use super::program::{Edge, Solution, edges, opening};
+use crate::LimitError;
+use crate::equations::{Column, Equations, dot, power};
+use crate::program::{Edge, Solution, edges, opening};
 
 /// Forces and the multiplier that they prove.
 pub(super) struct Lower {

@@ -10,7 +10,7 @@
 //! (L3) o = v_b·n − v_a·n, s = v_b·t − v_a·t, (L4) o ≥ μ |s|, (L5) F·v = 1, λ = −D·v.
 //!
 //! Forces that obey (L1) and (L2) bound λ from below, velocities that obey (L4) and (L5) from above. Both are made to hold
-//! after the solver has ended (`limit/certificate.rs`): the bounds do not rest on what it says of itself.
+//! after the solver has ended (`certificate.rs`): the bounds do not rest on what it says of itself.
 //!
 //! Source: R. K. Livesley, Limit analysis of structures formed from rigid blocks, International Journal for Numerical
 //! Methods in Engineering 12 (1978) 1853–1871; M. C. Ferris and F. Tin-Loi, International Journal of Mechanical
@@ -18,6 +18,7 @@
 
 use std::fmt;
 
+pub mod assembly;
 mod certificate;
 mod equations;
 mod fixed_friction;

@@ -6,8 +6,8 @@
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
-use super::LimitError;
-use super::equations::{Column, Equations, power};
+use crate::LimitError;
+use crate::equations::{Column, Equations, power};
 
 /// Friction of a contact point: |T| ≤ cohesion + slope N.
 #[derive(Debug, Clone, Copy)]

@@ -1,0 +1,488 @@
+//! What a joint bears at its contact points during one step: springs, dashpots, friction, bond, crushing.
+//!
+//! A rigid joint has two points, its ends. A compliant one has three, its ends and its middle, with a sixth, two thirds and a
+//! sixth of its length: they give a layer of springs its stiffness against parting and against turning exactly, and have the
+//! corner at the edge. Over a step the stretch g of a spring goes on with the mean of the velocities at its ends, and its
+//! force is that of g_0 + θ (g_1 − g_0):
+//!
+//! (P6)  θ = ½ (1 + x²/(1 + x²)),   x = h ω/4,   ω² = k/m
+//!
+//! where a spring lets go, in compression only or in line with friction, m being the mass that the point moves: a stiff
+//! joint that rings faster than the step resolves is damped. A spring that closes during the step takes θ = 1: any
+//! less would make energy. What θ takes counts as lost in impacts. Springs in both directions take the midpoint, θ = ½, which keeps energy
+//! whatever the step: the modes of a mortared wall are slower than its joints alone, and would be damped with them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::{Contact, Linear, Status};
+
+/// Law of a joint. Stiffnesses, dashpots and strengths are those of its whole length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Law {
+    /// How the joint bears pressure, and tension.
+    pub normal: Normal,
+    /// How it bears shear beside friction.
+    pub shear: Shear,
+    /// Friction under the pressure of the moment.
+    pub friction: Option<Friction>,
+    /// What holds it until it cracks.
+    pub bond: Option<Bond>,
+    /// Pressure at which it is crushed [N]; infinite where it is not.
+    pub crushing: f64,
+    /// Force at which it yields across and along, whatever the pressure, as a friction damper does [N]; 0 for none.
+    pub slip: [f64; 2],
+}
+
+/// Normal direction of a joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Normal {
+    /// Parts freely and never overlaps.
+    Rigid {
+        /// e of impacts, 0 … 1.
+        restitution: f64,
+    },
+    /// Springs and a dashpot.
+    Springs {
+        /// In both directions [N/m], until the bond cracks; without bond for good.
+        both: f64,
+        /// In compression only, besides [N/m].
+        press: f64,
+        /// Dashpot [N s/m], which acts where a spring does.
+        damping: f64,
+    },
+}
+
+/// Shear of a joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shear {
+    /// Spring [N/m].
+    pub stiffness: f64,
+    /// Dashpot beside it [N s/m].
+    pub damping: f64,
+    /// Whether the spring bears no more than friction allows, as a dry joint's roughness does; otherwise it acts beside
+    /// friction, as mortar does (the shear model's equation (2)).
+    pub series: bool,
+}
+
+/// Dry friction that sticks truly up to μ_s, in slip (6) without its first factor: the shear model's (6b), and (6a) where
+/// δ_v is 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// μ_s.
+    pub static_: f64,
+    /// μ_d.
+    pub dynamic: f64,
+    /// δ_v [m/s].
+    pub slip_velocity: f64,
+    /// α [s²/m²].
+    pub alpha: f64,
+}
+
+impl Friction {
+    /// Coulomb's law with one μ.
+    pub fn coulomb(mu: f64) -> Self {
+        Friction { static_: mu, dynamic: mu, slip_velocity: 0.0, alpha: 0.0 }
+    }
+
+    /// μ at the speed of sliding [m/s]; 0 where it sticks.
+    pub fn at(&self, speed: f64) -> f64 {
+        if speed == 0.0 {
+            return self.static_;
+        }
+        let fallen = if self.slip_velocity > 0.0 { (-speed / self.slip_velocity).exp() } else { 0.0 };
+        self.dynamic + (self.static_ - self.dynamic) * fallen + self.alpha * speed * speed
+    }
+}
+
+/// Bond of a joint by tension cut-off and Mohr and Coulomb, brittle or softening exponentially (B3).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bond {
+    /// f_t A [N].
+    pub tension: f64,
+    /// c A [N].
+    pub cohesion: f64,
+    /// tan φ.
+    pub tan_angle: f64,
+    /// δ_c of opening and of shear [m]; 0 where it is brittle.
+    pub decay: [f64; 2],
+    /// η: part of the shear stiffness that stays.
+    pub residual: f64,
+}
+
+/// Distance up to which sides touch [m]: more than positions are rounded by.
+const TOUCHING: f64 = 1e-12;
+/// Part of its strength below which a softening bond counts as broken.
+const BROKEN: f64 = 1e-3;
+
+impl Law {
+    /// Dry and rigid, plastic in impacts.
+    pub fn dry(friction: Option<Friction>) -> Self {
+        Law {
+            normal: Normal::Rigid { restitution: 0.0 },
+            shear: Shear { stiffness: 0.0, damping: 0.0, series: false },
+            friction,
+            bond: None,
+            crushing: f64::INFINITY,
+            slip: [0.0; 2],
+        }
+    }
+
+    /// Whether it has a spring, and so three points.
+    pub fn is_compliant(&self) -> bool {
+        matches!(self.normal, Normal::Springs { .. })
+    }
+
+    /// Parts of the joint that its points stand for.
+    pub fn shares(&self) -> &'static [f64] {
+        if self.is_compliant() { &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0] } else { &[0.5, 0.5] }
+    }
+
+    /// Springs at a point whose bond is damaged by `damage`: in both directions, and in compression only.
+    fn springs(&self, damage: f64) -> (f64, f64) {
+        match self.normal {
+            Normal::Rigid { .. } => (0.0, 0.0),
+            Normal::Springs { both, press, .. } => (both * (1.0 - damage), press + both * damage),
+        }
+    }
+
+    fn normal_damping(&self) -> f64 {
+        if let Normal::Springs { damping, .. } = self.normal { damping } else { 0.0 }
+    }
+
+    /// Shear spring beside friction.
+    fn mortar(&self, damage: f64) -> f64 {
+        match (&self.bond, self.shear.series) {
+            (None, true) => 0.0,
+            (None, false) => self.shear.stiffness,
+            (Some(bond), _) => self.shear.stiffness * (1.0 - damage * (1.0 - bond.residual)),
+        }
+    }
+
+    /// Dashpot beside it: a damper has one without a spring.
+    fn mortar_damping(&self, damage: f64) -> f64 {
+        match (&self.bond, self.shear.series) {
+            (None, true) => 0.0,
+            (Some(bond), _) if damage == 1.0 && bond.residual == 0.0 => 0.0,
+            _ => self.shear.damping,
+        }
+    }
+
+    /// Whether the normal dashpot acts in both directions at a point so damaged; otherwise where it is pressed.
+    fn damps_both(&self, damage: f64) -> bool {
+        let (both, press) = self.springs(damage);
+        both > 0.0 || press == 0.0
+    }
+
+    /// Whether the shear spring is in line with friction at a point so damaged.
+    fn in_line(&self, damage: f64) -> bool {
+        self.shear.series && self.shear.stiffness > 0.0 && (self.bond.is_none() || damage == 1.0)
+    }
+}
+
+/// What has become of a contact point.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// Forces of the last step [N].
+    pub force: [f64; 2],
+    /// Way that it has slid, along the tangent [m].
+    pub slide: f64,
+    /// What a spring in line with friction bears, along the tangent [N].
+    pub bearing: f64,
+    /// Speed of sliding [m/s]; 0 where it sticks.
+    pub speed: f64,
+    /// Crushed off [m].
+    pub crushed: f64,
+    /// Farthest opening and sliding that counted for damage [m].
+    pub reach: [f64; 2],
+    /// D, 0 … 1.
+    pub damage: f64,
+    /// χ, the part that rubs, 0 … 1.
+    pub rubbing: f64,
+    /// When its bond first cracked [s]; infinite while it is intact.
+    pub cracked: f64,
+    /// When nothing was left of it [s].
+    pub broken: f64,
+    /// Distance of the two sides [m].
+    pub gap: f64,
+}
+
+impl Default for Point {
+    fn default() -> Self {
+        Point {
+            force: [0.0; 2],
+            slide: 0.0,
+            bearing: 0.0,
+            speed: 0.0,
+            crushed: 0.0,
+            reach: [0.0; 2],
+            damage: 0.0,
+            rubbing: 0.0,
+            cracked: f64::INFINITY,
+            broken: f64::INFINITY,
+            gap: 0.0,
+        }
+    }
+}
+
+/// A contact point at the start of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Start {
+    /// Distance [m].
+    pub gap: f64,
+    /// Parting and sliding velocity [m/s].
+    pub velocity: [f64; 2],
+}
+
+/// The normal direction of a point over a step: its mean velocity, distances at the ends, impulses of (P4) and of springs.
+struct Across {
+    h: f64,
+    mean: f64,
+    gaps: [f64; 2],
+    pressed: f64,
+    linear: f64,
+}
+
+/// Where the energy at a point went during a step [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Works {
+    /// Stored at the end.
+    pub elastic: f64,
+    /// To dashpots.
+    pub damping: f64,
+    /// To friction.
+    pub friction: f64,
+    /// To impacts, and to joints that close or ring faster than the step resolves.
+    pub impact: f64,
+    /// To the breaking of bonds and to crushing.
+    pub bond: f64,
+    /// Way slid [m].
+    pub slip: f64,
+}
+
+impl Law {
+    /// Makes a rigid contact one of this law: `share` is the part of the joint that it stands for, `h` the step [s], `gap` and
+    /// `velocity` the state at its start. Without inertia (`still`) springs are those of the end of the step.
+    pub fn begin(
+        &self,
+        point: &Point,
+        share: f64,
+        h: f64,
+        still: bool,
+        (gap, velocity): (f64, [f64; 2]),
+        contact: &mut Contact,
+    ) -> Start {
+        let [u_n, u_t] = velocity;
+        let theta = |k: f64, m: f64| {
+            let x = 0.0625 * h * h * k / m;
+            if still { 1.0 } else { 0.5 * (1.0 + x / (1.0 + x)) }
+        };
+        let (both, press) = self.springs(point.damage);
+        let (both, press, dashpot) = (share * both, share * press, share * self.normal_damping());
+        let midpoint = if still { 1.0 } else { 0.5 };
+        let resolved = theta(both + press, contact.moved[0]);
+        let theta_press = if gap + point.crushed > TOUCHING { 1.0 } else { resolved };
+        // A spring of `k` stretched by `g` with a dashpot of `c`.
+        let over = |k: f64, c: f64, g: f64, u: f64, theta: f64| Linear {
+            offset: -h * (k * (g + 0.5 * theta * h * u) + 0.5 * c * u),
+            rho: 0.5 * h * (k * theta * h + c),
+        };
+        let intact = self.bond.is_some() && point.damage < 1.0;
+        match self.normal {
+            Normal::Rigid { restitution } => {
+                // Open: what is left of the gap may be closed by the end of the step.
+                let left = gap + 0.5 * h * u_n;
+                contact.bias = if left > 0.0 { 2.0 * left / h } else { restitution * u_n.min(0.0) };
+                if let (true, Some(bond)) = (intact, &self.bond) {
+                    contact.pressure[0] = -share * bond.tension * h;
+                }
+            }
+            Normal::Springs { .. } => {
+                let beside = if self.damps_both(point.damage) { dashpot } else { 0.0 };
+                contact.spring[0] = over(both, beside, gap, u_n, midpoint);
+                contact.law[0] = over(press, dashpot - beside, gap + point.crushed, u_n, theta_press);
+                contact.compliant[0] = true;
+            }
+        }
+        contact.pressure[1] = share * self.crushing * h;
+        let [across, along] = self.slip.map(|force| share * force * h);
+        if across > 0.0 {
+            // Beside springs of its own a damper takes the place of those in compression.
+            contact.pressure = [-across, across];
+            contact.law[0] = contact.rigid_law(0, h * point.force[0]);
+            contact.compliant[0] = false;
+        }
+        let shear = share * self.shear.stiffness;
+        if self.in_line(point.damage) {
+            let line = over(shear, share * self.shear.damping, 0.0, u_t, theta(shear, contact.moved[1]));
+            contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
+            contact.compliant[1] = true;
+        } else {
+            let mortar = share * self.mortar(point.damage);
+            let damping = share * self.mortar_damping(point.damage);
+            contact.spring[1] = over(mortar, damping, point.slide, u_t, midpoint);
+        }
+        contact.hold = along;
+        let rubs = if self.bond.is_some() { point.rubbing } else { 1.0 };
+        contact.friction = rubs * self.friction.map_or(0.0, |law| law.at(point.speed));
+        if let (true, false, Some(bond)) = (intact, self.is_compliant(), &self.bond) {
+            // Without springs the bond is rigid too.
+            (contact.friction, contact.hold) = (bond.tan_angle, share * bond.cohesion * h);
+        }
+        Start { gap, velocity }
+    }
+
+    /// What the step came to, `after` being the velocity at its end, `time` its end [s].
+    pub fn end(
+        &self,
+        point: &mut Point,
+        share: f64,
+        (h, time): (f64, f64),
+        start: &Start,
+        after: [f64; 2],
+        contact: &Contact,
+    ) -> Works {
+        let mean = [0, 1].map(|k| 0.5 * (start.velocity[k] + after[k]));
+        let gap = start.gap + h * mean[0];
+        let mut works = Works::default();
+        let linear = [0, 1].map(|k| contact.spring[k].offset - contact.spring[k].rho * after[k]);
+        let compressed = (contact.impulse[0] + linear[0]) / h;
+        let normal =
+            Across { h, mean: mean[0], gaps: [start.gap, gap], pressed: contact.impulse[0], linear: linear[0] };
+        self.end_normal(point, share, normal, &mut works);
+        self.end_shear(point, share, h, mean[1], (contact, linear[1]), &mut works);
+        point.force = contact.impulse.map(|p| p / h);
+        point.gap = gap;
+        let slides = matches!(contact.status, Status::Forth | Status::Back);
+        point.speed = if slides { after[1].abs() } else { 0.0 };
+        works.slip = if slides { h * mean[1].abs() } else { 0.0 };
+        if self.bond.is_some() && point.damage < 1.0 {
+            self.wear(point, share, time, compressed, contact, &mut works);
+        }
+        works
+    }
+
+    fn end_normal(
+        &self,
+        point: &mut Point,
+        share: f64,
+        Across { h, mean, gaps: [start, gap], pressed, linear }: Across,
+        works: &mut Works,
+    ) {
+        let Normal::Springs { .. } = self.normal else {
+            works.impact -= pressed * mean;
+            return;
+        };
+        let (both, press) = self.springs(point.damage);
+        let (both, press, dashpot) = (share * both, share * press, share * self.normal_damping());
+        if self.slip[0] > 0.0 {
+            works.friction -= pressed * mean;
+        }
+        let pressed = if self.slip[0] > 0.0 { 0.0 } else { pressed };
+        let acts = self.damps_both(point.damage) || pressed != 0.0;
+        let damping = if acts { dashpot * mean * mean * h } else { 0.0 };
+        let stored = |g: f64, crushed: f64| 0.5 * both * g * g + 0.5 * press * (g + crushed).min(0.0).powi(2);
+        let before = stored(start, point.crushed);
+        let most = share * self.crushing;
+        if press > 0.0 && -press * (gap + point.crushed) > most {
+            let further = -gap - most / press - point.crushed;
+            point.crushed += further;
+            works.bond += most * further;
+        }
+        works.elastic += stored(gap, point.crushed);
+        works.damping += damping;
+        works.impact += -(pressed + linear) * mean - (stored(gap, point.crushed) - before) - damping - works.bond;
+    }
+
+    fn end_shear(
+        &self,
+        point: &mut Point,
+        share: f64,
+        h: f64,
+        mean: f64,
+        (contact, linear): (&Contact, f64),
+        works: &mut Works,
+    ) {
+        let borne = contact.impulse[1];
+        let slides = contact.status != Status::Stick;
+        if self.in_line(point.damage) {
+            let k = share * self.shear.stiffness;
+            let before = point.bearing;
+            let limit = borne.abs() / h;
+            let free = before - k * h * mean;
+            point.bearing = if slides { free.clamp(-limit, limit) } else { free };
+            let damping = if slides { 0.0 } else { share * self.shear.damping * mean * mean * h };
+            let stored = 0.5 * point.bearing * point.bearing / k;
+            works.elastic += stored;
+            works.damping += damping;
+            works.friction += -borne * mean - (stored - 0.5 * before * before / k) - damping;
+        } else {
+            works.friction -= borne * mean;
+        }
+        let mortar = share * self.mortar(point.damage);
+        let damping = share * self.mortar_damping(point.damage) * mean * mean * h;
+        let before = 0.5 * mortar * point.slide * point.slide;
+        point.slide += h * mean;
+        let stored = 0.5 * mortar * point.slide * point.slide;
+        works.elastic += stored;
+        works.damping += damping;
+        works.impact += -linear * mean - (stored - before) - damping;
+    }
+
+    /// Damage by what the point has come to; `compressed` is what presses it [N].
+    fn wear(&self, point: &mut Point, share: f64, time: f64, compressed: f64, contact: &Contact, works: &mut Works) {
+        let Some(bond) = self.bond else { return };
+        let before = point.damage;
+        let Normal::Springs { both, .. } = self.normal else {
+            let torn = bond.tension > 0.0 && contact.impulse[0] <= contact.pressure[0];
+            let parted = bond.tension == 0.0 && contact.impulse[0] == 0.0;
+            if torn || parted || contact.status == Status::Forth || contact.status == Status::Back {
+                (point.damage, point.rubbing) = (1.0, 1.0);
+                (point.cracked, point.broken) = (time, time);
+            }
+            return;
+        };
+        let strength = (share * bond.cohesion + compressed * bond.tan_angle).max(0.0);
+        let demand = share * self.shear.stiffness * point.slide.abs();
+        // Where there is no strength left, any shear is too much.
+        let exceeded = if demand == 0.0 { 0.0 } else { demand / strength };
+        let [opening, sliding] = &mut point.reach;
+        let shear = match self.shear.stiffness {
+            0.0 => [0.0; 2],
+            k => worn(exceeded, bond.cohesion / k, bond.decay[1], sliding),
+        };
+        let open = match both {
+            0.0 => [0.0; 2],
+            k => worn(both * point.gap / bond.tension, bond.tension / k, bond.decay[0], opening),
+        };
+        point.damage = point.damage.max(shear[0]).max(open[0]);
+        point.rubbing = point.rubbing.max(shear[1]).max(open[1]);
+        let lost = point.damage - before;
+        if lost > 0.0 {
+            point.cracked = point.cracked.min(time);
+            if 1.0 - point.rubbing < BROKEN {
+                (point.damage, point.rubbing, point.broken) = (1.0, 1.0, time);
+            }
+            let lost = point.damage - before;
+            let torn = 0.5 * share * both * point.gap.max(0.0).powi(2);
+            let sheared = 0.5 * share * self.shear.stiffness * (1.0 - bond.residual) * point.slide.powi(2);
+            works.bond += lost * (torn + sheared);
+            works.elastic -= lost * (torn + sheared);
+        }
+    }
+}
+
+/// D and χ by (B3) where `exceeded` is the stretch over `limit` [m], the farthest so far kept in `reach` [m]; both 1 from the
+/// limit on where it is brittle.
+fn worn(exceeded: f64, limit: f64, decay: f64, reach: &mut f64) -> [f64; 2] {
+    if exceeded > 1.0 {
+        *reach = reach.max(exceeded * limit).max(limit);
+    }
+    match decay {
+        _ if *reach == 0.0 => [if exceeded > 1.0 { 1.0 } else { 0.0 }; 2],
+        0.0 => [1.0; 2],
+        _ => {
+            let left = ((limit - *reach) / decay).exp();
+            [1.0 - limit / *reach * left, 1.0 - left]
+        }
+    }
+}
