@@ -3,8 +3,8 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::case::{
-    Case, Device, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointKind, Joints, NormalForce,
-    Selector, Spring, SpringLaw,
+    Case, Device, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointKind, Joints, ModelKind,
+    NormalForce, Selector, Spring, SpringLaw,
 };
 use crate::error::{InputError, Result};
 use crate::graph;
@@ -21,8 +21,11 @@ pub(crate) fn friction_choice(friction: &Friction) -> (FrictionOn, NormalForce) 
 
 /// What holds for one joint after all changes.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct JointLaw {
+pub struct JointLaw {
+    /// The spring as the wall file says it, changes included; law `none` where a device stands. Its stiffness is to be
+    /// had from [`JointLaw::stiffness`].
     pub spring: Spring,
+    /// ζ, 0 … 2.
     pub damping_ratio: f64,
     friction: FrictionLaw,
     parameters: Stribeck,
@@ -62,12 +65,24 @@ impl BondValues {
 }
 
 impl JointLaw {
+    /// Stiffness of the whole joint [N/m], overlap weight or area taken into account: neither is to be multiplied to it
+    /// again. Without [`Spring::rigidity`] and [`Spring::stiffness_factor`].
+    pub fn stiffness(&self, joint: &Joint, wall: &Wall) -> f64 {
+        joint.weight * self.nominal_stiffness(joint, wall)
+    }
+
+    /// K_H or K_V [N/m]: what times the overlap weight is the stiffness of the joint.
+    pub(crate) fn nominal_stiffness(&self, joint: &Joint, wall: &Wall) -> f64 {
+        self.spring.stiffness.over(joint.area(wall) / joint.weight)
+    }
+
     /// The joint's device, if it has one.
     pub fn device<'c>(&self, case: &'c Case) -> Option<&'c Device> {
         case.joint.changes.get(self.device? as usize)?.device.as_ref()
     }
 
-    /// The friction law, if the joint has one and is among those that rub.
+    /// The friction law, if the joint has one and is among those that rub: law `stribeck-stick` has an infinite β, law
+    /// `coulomb` a slip velocity of 0 too.
     pub fn rubs(&self) -> Option<Stribeck> {
         let law = self.parameters;
         match self.friction {
@@ -80,11 +95,11 @@ impl JointLaw {
     }
 }
 
-/// The law of every joint.
+/// The law of every joint of `wall`, in the order of `joints`.
 ///
 /// # Errors
 /// Selectors that name nothing or meet no joint, laws that make no sense for a kind of joint.
-pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLaw>> {
+pub fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLaw>> {
     let settings = &case.joint;
     for (kind, key, spring) in [
         (JointKind::Bed, "bed", Some(settings.bed)),
@@ -92,7 +107,7 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
         (JointKind::Top, "top", settings.top),
     ] {
         let law = spring.map_or(SpringLaw::Elastic, |s| s.law);
-        check_spring(kind, law).map_err(|e| e.key(format!("joint.{key}.law")))?;
+        check_spring(case.model, kind, law).map_err(|e| e.key(format!("joint.{key}.law")))?;
     }
     let mut laws: Vec<JointLaw> = joints.iter().map(|j| common_law(settings, j.kind)).collect();
     for (number, change) in settings.changes.iter().enumerate() {
@@ -106,6 +121,8 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
                 law.spring.restitution = c.restitution.or(law.spring.restitution);
                 law.spring.stiffness_factor = c.stiffness_factor.unwrap_or(law.spring.stiffness_factor);
                 law.damping_ratio = c.damping_ratio.unwrap_or(law.damping_ratio);
+                law.spring.normal_to_shear = c.normal_to_shear.unwrap_or(law.spring.normal_to_shear);
+                law.spring.compressive_strength = c.compressive_strength.or(law.spring.compressive_strength);
             }
             if let Some(c) = &change.friction {
                 law.friction = c.law.unwrap_or(law.friction);
@@ -129,7 +146,7 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
             if change.device.is_some() {
                 law.device = Some(number as u32);
             }
-            check_spring(joints[e].kind, law.spring.law)
+            check_spring(case.model, joints[e].kind, law.spring.law)
                 .map_err(|e| e.key(format!("joint.change[{number}].spring.law")))?;
         }
     }
@@ -139,18 +156,19 @@ pub(crate) fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<
     Ok(laws)
 }
 
-/// Bed and support joints slide both ways: a law for one direction has no meaning there.
-fn check_spring(kind: JointKind, law: SpringLaw) -> std::result::Result<(), InputError> {
+/// Bed and support joints of shear walls slide both ways and do nothing else: a law for one direction has no meaning
+/// there.
+fn check_spring(model: ModelKind, kind: JointKind, law: SpringLaw) -> std::result::Result<(), InputError> {
     let name = match law {
         SpringLaw::NoTension => "no-tension",
         SpringLaw::Rigid => "rigid",
         SpringLaw::Elastic | SpringLaw::None => return Ok(()),
     };
-    if kind.is_upright() {
+    if kind.is_upright() || model == ModelKind::Planar {
         return Ok(());
     }
     let what = format!("law `{name}` is for head joints and connections; this joint slides in both directions");
-    Err(InputError::new(what).allowed("elastic, none"))
+    Err(InputError::new(what).allowed("elastic, none; with `model = \"planar\"` every law"))
 }
 
 fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {

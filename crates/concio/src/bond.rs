@@ -25,7 +25,7 @@ use crate::model::{Elastic, Model, Rub};
 use crate::outcome::BondRow;
 use crate::quantity::shown;
 use crate::state::BondState;
-use crate::wall::{End, Joint, Wall};
+use crate::wall::{Joint, Wall};
 
 /// ε: a softening bond that bears no more than this fraction of its strength is broken.
 const BROKEN: f64 = 1e-3;
@@ -220,13 +220,13 @@ pub(crate) fn compile(
         }
         let Some(b) = law.bond else { continue };
         let opens = joint.kind.is_upright();
-        let area = joint.overlap * thickness(wall, joint);
+        let area = joint.area(wall);
         let pressed = 0.5 * (normal[e][0] + normal[e][1]) * b.tan_angle;
         let strength = if opens { b.tensile_strength * area } else { b.cohesion * area + pressed };
         if strength <= 0.0 {
             continue;
         }
-        let stiffness = joint.weight * law.spring.stiffness.si() * law.spring.stiffness_factor;
+        let stiffness = law.stiffness(joint, wall) * law.spring.stiffness_factor;
         if matches!(law.spring.law, SpringLaw::None | SpringLaw::Rigid) || stiffness == 0.0 {
             return Err(without_stiffness(&graph::name(wall, joint)).into());
         }
@@ -283,15 +283,6 @@ fn without_stiffness(name: &str) -> InputError {
     InputError::new(format!("joint {name} has no stiffness: a bond is elastic until it cracks"))
         .key("joint.bond")
         .allowed("law `elastic` or `no-tension` with a stiffness above 0, or leave the joint out with `on`")
-}
-
-/// Thickness of the contact [m], that of the thinner block.
-fn thickness(wall: &Wall, joint: &Joint) -> f64 {
-    let of = |i: usize| wall.blocks[i].thickness;
-    match joint.b {
-        End::Block(b) => of(joint.a).min(of(b)),
-        End::Base | End::Top => of(joint.a),
-    }
 }
 
 #[cfg(test)]

@@ -28,7 +28,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::quantity::{
-    Acceleration, Angle, EnergyPerArea, ForcePerLength, Frequency, Length, Mass, SpecificWeight, Stress, Time, Velocity,
+    Acceleration, Angle, EnergyPerArea, Force, ForcePerLength, Frequency, Length, Mass, SpecificWeight, Stiffness,
+    Stress, Time, Velocity,
 };
 
 /// A wall, its joints, its loads and its motion: all that one run needs.
@@ -48,6 +49,9 @@ pub struct Case {
     /// 4,000,000 blocks.
     #[serde(rename = "panel")]
     pub panels: Vec<Panel>,
+    /// Tie rods. Planar walls alone.
+    #[serde(default, rename = "tie", skip_serializing_if = "Vec::is_empty")]
+    pub ties: Vec<Tie>,
     /// Laws of the joints.
     pub joint: Joints,
     /// Loads at the top.
@@ -69,8 +73,18 @@ pub struct Case {
 pub enum ModelKind {
     /// One horizontal unknown per block (the report's model).
     Shear,
-    /// Horizontal, vertical and rotation (not in this version: refused with a message).
+    /// Horizontal, vertical and rotation: blocks rock, lift off and slide.
     Planar,
+}
+
+impl ModelKind {
+    /// As wall files and results spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            ModelKind::Shear => "shear",
+            ModelKind::Planar => "planar",
+        }
+    }
 }
 
 /// A named parameter set. In the file: `set = "p1"`, or `set = { name = "p1", at = 0.25 }`.
@@ -135,10 +149,67 @@ pub struct Panel {
     /// Blocks one by one (`bond = "explicit"`).
     #[serde(default, rename = "block", skip_serializing_if = "Vec::is_empty")]
     pub blocks: Vec<ExplicitBlock>,
+    /// The arch (`bond = "arch"`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arch: Option<Arch>,
+    /// Doors and windows (`running`, `stack`, `irregular`).
+    #[serde(default, rename = "opening", skip_serializing_if = "Vec::is_empty")]
+    pub openings: Vec<Opening>,
     /// Thickness of the connection to the panel on the left [m], from 0; default the head mortar of this panel. Not
     /// for the first panel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub connection: Option<Length>,
+}
+
+/// A circular arch of equal voussoirs with radial joints without thickness, called `p1c1b1`, … from the left. Its thickness
+/// out of plane and its weight are those of the panel's brick. The springers have level beds; those of a segment are
+/// pentagons, filled up to below the end of their backs.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Arch {
+    /// Clear span [m], above 0.
+    pub span: Length,
+    /// Rise of the intrados over the springing [m], above 0 and up to half the span: a semicircle.
+    pub rise: Length,
+    /// Thickness of the ring [m], above 0.
+    pub thickness: Length,
+    /// Number of voussoirs, 3 … 1,000.
+    #[schemars(range(min = 3, max = 1000))]
+    pub voussoirs: usize,
+    /// Height of the springing [m], from 0: there the base bears the springers. Default 0.
+    #[serde(default)]
+    pub springing: Length,
+}
+
+/// A door or a window: blocks inside are left out, those that its sides cut are cut there. A rest no longer than the head
+/// mortar is left out too.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Opening {
+    /// Left side [m], from 0: from the panel's leftmost edge.
+    pub x: Length,
+    /// Bottom [m], from 0: from the base. It lies on a bed joint; a door has 0.
+    pub y: Length,
+    /// Width [m], above 0; the opening lies within the panel.
+    pub width: Length,
+    /// Height [m], above 0; the top lies on a bed joint.
+    pub height: Length,
+    /// One block over the opening; default none: then the blocks over it have to bridge it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lintel: Option<Lintel>,
+}
+
+/// A lintel, called `p1o1` after panel and opening.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Lintel {
+    /// Height [m], above 0; the lintel's top lies on a bed joint.
+    pub height: Length,
+    /// How far it reaches onto the wall on either side [m], above 0.
+    pub bearing: Length,
+    /// Specific weight [N/m³], above 0; default the brick's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub specific_weight: Option<SpecificWeight>,
 }
 
 /// How the blocks of a panel are laid.
@@ -153,6 +224,8 @@ pub enum Bond {
     Irregular,
     /// Every block is listed.
     Explicit,
+    /// A ring of voussoirs. Planar walls and limit analysis alone.
+    Arch,
 }
 
 /// Ends of the courses of a running bond.
@@ -241,17 +314,75 @@ pub struct ExplicitBlock {
     /// Course, from 1 at the bottom; every course up to the highest has a block. Only courses one apart share joints.
     #[schemars(range(min = 1))]
     pub course: usize,
-    /// Left edge [m]; a panel after the first is then moved as a whole to the right of the one before it.
-    pub x: Length,
+    /// Left edge [m]; a panel after the first is then moved as a whole to the right of the one before it. Needed unless
+    /// `corners` are given, like `y`, `length` and `height`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x: Option<Length>,
     /// Bottom edge [m], from 0: the base is at 0.
-    pub y: Length,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y: Option<Length>,
     /// Length [m], above 0.
-    pub length: Length,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length: Option<Length>,
     /// Height [m], above 0.
-    pub height: Length,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<Length>,
+    /// Corners [x, y] of a convex block [m] instead of `x`, `y`, `length` and `height`: 3 to 16, in their order round the
+    /// block one way or the other, y from 0. Blocks that are no level rectangles are for planar walls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub corners: Vec<[Length; 2]>,
     /// Specific weight of this block [N/m³], above 0; default the brick's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub specific_weight: Option<SpecificWeight>,
+}
+
+impl ExplicitBlock {
+    /// Its corners [m] as they are given.
+    pub fn outline(&self) -> Vec<[f64; 2]> {
+        let of = |l: Option<Length>| l.map_or(0.0, Length::si);
+        if self.corners.is_empty() {
+            let (x, y) = (of(self.x), of(self.y));
+            return crate::polygon::of_box([x, x + of(self.length)], [y, y + of(self.height)]);
+        }
+        self.corners.iter().map(|c| c.map(Length::si)).collect()
+    }
+    /// Whether it is a rectangle whose sides are level and upright.
+    pub fn is_rectangle(&self) -> bool {
+        let corners = self.outline();
+        let [x, y] = crate::polygon::bounds(&corners);
+        let on = |v: f64, ends: [f64; 2]| v == ends[0] || v == ends[1];
+        self.corners.is_empty() || (corners.len() == 4 && corners.iter().all(|c| on(c[0], x) && on(c[1], y)))
+    }
+}
+
+/// A rod between two blocks, or a block and the base, that bears tension alone.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Tie {
+    /// What one end is fixed to: the name of a block, or `base`.
+    pub from: String,
+    /// What the other end is fixed to, another than `from`.
+    pub to: String,
+    /// Where it is fixed to `from` [m]: x and y from the block's centre of gravity, of the base from where the wall begins.
+    /// Default the centre.
+    #[serde(default)]
+    pub at: [Length; 2],
+    /// Where it is fixed to `to` [m], likewise.
+    #[serde(default)]
+    pub to_at: [Length; 2],
+    /// E A over its length [N/m], above 0.
+    pub stiffness: ForcePerLength,
+    /// Force at which it yields [N], above 0; default none: it does not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yield_force: Option<Force>,
+    /// By how much its ends may part before it bears [m], from 0. Default 0.
+    #[serde(default)]
+    pub slack: Length,
+}
+
+impl Tie {
+    /// What an end is fixed to that is fixed to no block.
+    pub const BASE: &'static str = "base";
 }
 
 /// Laws of the joints of the wall.
@@ -296,10 +427,11 @@ fn default_damping_ratio() -> f64 {
 pub struct Spring {
     /// The law.
     pub law: SpringLaw,
-    /// K_H or K_V [N/m], from 0: of a half-brick contact for bed joints, of the whole joint for head joints. `elastic`
-    /// and `no-tension` need it.
+    /// K_H or K_V [N/m], from 0: of a half-brick contact for bed joints, of the whole joint for head joints; or with a
+    /// unit such as N/mm3 per area of the joint. `elastic` and `no-tension` need it. In planar walls it is the
+    /// tangential stiffness of bed, base and top joints, the normal one of head joints and connections.
     #[serde(default)]
-    pub stiffness: ForcePerLength,
+    pub stiffness: Stiffness,
     /// κ of equation (3), above 0: how much stiffer than `stiffness` a closed no-tension joint is. Default 1000.
     #[serde(default = "default_rigidity")]
     #[schemars(range(min = 0.0))]
@@ -318,10 +450,27 @@ pub struct Spring {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 2.0))]
     pub damping_ratio: Option<f64>,
+    /// k_n/k_s, above 0: how much stiffer the joint is when pressed than when sheared. Planar walls alone; default 2.4,
+    /// a layer of mortar with a Poisson's ratio of 0.2.
+    #[serde(default = "isotropic", skip_serializing_if = "is_isotropic")]
+    #[schemars(range(min = 0.0))]
+    pub normal_to_shear: f64,
+    /// f_c in Pa, above 0: largest pressure that the joint bears before it crushes. Planar walls alone; default none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compressive_strength: Option<Stress>,
 }
 
 fn default_rigidity() -> f64 {
     1000.0
+}
+/// 2 (1 + ν) of an isotropic layer that is thin beside its length, ν = 0.2.
+const ISOTROPIC: f64 = 2.4;
+
+fn isotropic() -> f64 {
+    ISOTROPIC
+}
+pub(crate) fn is_isotropic(ratio: &f64) -> bool {
+    *ratio == ISOTROPIC
 }
 fn one() -> f64 {
     1.0
@@ -333,10 +482,11 @@ fn one() -> f64 {
 pub enum SpringLaw {
     /// Linear in both directions, equation (2).
     Elastic,
-    /// Compression only, κ times the stiffness, equation (3).
+    /// Compression only, κ times the stiffness, equation (3). For head joints and connections, in planar walls for every
+    /// joint.
     NoTension,
     /// Compression only and rigid: sides part freely and never overlap, equations (R1) to (R4). For head joints and
-    /// connections; `stiffness` gives it its damping (4) alone.
+    /// connections, in planar walls for every joint; in shear walls `stiffness` gives it its damping (4) alone.
     Rigid,
     /// No elastic force and no damping.
     None,
@@ -564,9 +714,9 @@ pub struct SpringChange {
     /// The law.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<SpringLaw>,
-    /// K_H or K_V [N/m], from 0.
+    /// K_H or K_V [N/m], or per area of the joint, from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness: Option<ForcePerLength>,
+    pub stiffness: Option<Stiffness>,
     /// κ, above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<f64>,
@@ -580,6 +730,12 @@ pub struct SpringChange {
     /// ζ, 0 … 2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_ratio: Option<f64>,
+    /// k_n/k_s, above 0. Planar walls alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal_to_shear: Option<f64>,
+    /// f_c in Pa, above 0. Planar walls alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compressive_strength: Option<Stress>,
 }
 
 /// What a [`JointChange`] changes of the friction.
@@ -638,6 +794,28 @@ pub struct Load {
     pub top: ForcePerLength,
     /// The top beam.
     pub beam: Beam,
+    /// Whether the beam may turn. Planar walls with a beam alone; default free.
+    #[serde(skip_serializing_if = "is_default")]
+    pub beam_rotation: BeamRotation,
+    /// Height of the beam [m], above 0: what drives, holds and loads it acts at its middle. Planar walls with a beam alone;
+    /// default half of a brick's height.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beam_height: Option<Length>,
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+/// Rotation of the top beam of a planar wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BeamRotation {
+    /// The beam turns as the wall below makes it: a wall that stands alone.
+    #[default]
+    Free,
+    /// The beam stays level: a pier between stiff spandrels.
+    Fixed,
 }
 
 /// The top beam: `"free"`, `"driven"`, `"tied"` or `{ mass = "1000 kg" }`.
@@ -658,18 +836,25 @@ pub enum Beam {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Motion {
-    /// Length of the run [s], above 0; default the length of the longest record or synthetic record, without one the
-    /// key is needed.
+    /// Length of the run [s], above 0; default the length of the longest record, synthetic record or path, without one
+    /// the key is needed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<Time>,
     /// U0: motion of the base.
     pub base: Signal,
     /// U1: motion of the top beam; given exactly when `load.beam` is `driven`.
     pub top: Signal,
+    /// V0: vertical motion of the base, positive upwards. Planar walls alone; default none.
+    #[serde(skip_serializing_if = "is_default")]
+    pub vertical: Signal,
+    /// Leave inertia out: every step starts at rest, and what moves the wall does so slowly. Planar walls alone; default
+    /// false.
+    #[serde(skip_serializing_if = "is_default")]
+    pub quasi_static: bool,
 }
 
-/// A motion: `"none"`, or a table with exactly one of `record`, `sine`, `ramp`, `pulse`, `sweep`, `synthetic`
-/// (and beside `record` the keys of [`RecordInput`]).
+/// A motion: `"none"`, or a table with exactly one of `record`, `sine`, `ramp`, `tilt`, `path`, `pulse`, `sweep`,
+/// `synthetic` (and beside `record` the keys of [`RecordInput`]).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Signal {
     /// At rest.
@@ -681,6 +866,10 @@ pub enum Signal {
     Sine(Sine),
     /// A ramp of the displacement.
     Ramp(Ramp),
+    /// An acceleration that grows and stays.
+    Tilt(Tilt),
+    /// A displacement that goes from place to place.
+    Path(DisplacementPath),
     /// A pulse.
     Pulse(Pulse),
     /// A swept sine.
@@ -791,6 +980,31 @@ pub struct Ramp {
     pub rise: Time,
 }
 
+/// An acceleration that grows linearly and stays, as if the ground were tilted slowly: a horizontal force on every block
+/// in proportion to its mass.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Tilt {
+    /// Acceleration reached [m/s²], of either sign.
+    pub acceleration: Acceleration,
+    /// How long it takes [s], above 0.
+    pub rise: Time,
+    /// When it starts [s], from 0; default 0.
+    #[serde(default)]
+    pub start: Time,
+}
+
+/// A displacement that goes from 0 to each of the given ones in turn, at one speed, and stays at the last.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DisplacementPath {
+    /// Displacements in their order [m], of either sign: at least one, up to 1,000, each other than the one before it
+    /// and the first other than 0.
+    pub displacements: Vec<Length>,
+    /// How fast it goes [m/s], above 0.
+    pub speed: Velocity,
+}
+
 /// A pulse of the acceleration.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -875,11 +1089,14 @@ pub struct Solver {
     /// Longest step [s], above 0; default none but the sample interval of the records.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_step: Option<Time>,
+    /// Step of a planar wall [s], above 0; default 1 ms. Planar walls alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step: Option<Time>,
 }
 
 impl Default for Solver {
     fn default() -> Self {
-        Solver { scheme: Scheme::TrBdf2, tolerance: 1e-2, floor: Length::from_si(1e-14), max_step: None }
+        Solver { scheme: Scheme::TrBdf2, tolerance: 1e-2, floor: Length::from_si(1e-14), max_step: None, step: None }
     }
 }
 

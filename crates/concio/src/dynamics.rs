@@ -9,6 +9,7 @@ use crate::integrate::devices;
 use crate::integrate::events::TOUCHING;
 use crate::law::spring_force;
 use crate::model::{Elastic, Model, Support};
+use crate::planar::{Row, turned};
 use crate::record::{Channel, Energies};
 use crate::state::{BondState, DeviceState, Power, State, Tangents, View};
 
@@ -426,6 +427,12 @@ const JOINT: [(&str, &str, &str); 5] = [
     ("friction", "N", "friction force, or that of a device with a law of its own, same sign"),
 ];
 
+/// Beside them, of the joints of planar walls.
+const PLANAR_JOINT: [(&str, &str, &str); 2] = [
+    ("opening", "m", "widest distance of the sides along the joint, from 0"),
+    ("pressure", "N", "normal force, compression positive"),
+];
+
 /// Beside them, of joints with a bond.
 const DAMAGE: (&str, &str, &str) = ("damage", "1", "damage of the bond: part of its stiffness that is lost, 0 to 1");
 
@@ -454,9 +461,11 @@ impl Channels {
                 }
                 Watched::Joint(e, _, bond) => {
                     let of_bond = bond.map(|_| &DAMAGE);
+                    let of_planar = model.planar.iter().flat_map(|_| &PLANAR_JOINT);
                     list.extend(
                         JOINT
                             .iter()
+                            .chain(of_planar)
                             .chain(of_bond)
                             .map(|(n, u, d)| channel(format!("joint/{}/{n}", joint_names[e]), u, d)),
                     );
@@ -467,6 +476,34 @@ impl Channels {
         let is_top = |i: &usize| blocks[*i].course + 1 == model.wall.panels[blocks[*i].panel].courses;
         let top_course = (0..blocks.len()).filter(is_top).collect();
         Ok((Channels { watched, top_course }, list))
+    }
+
+    /// [`Channels::sample`] of a planar wall.
+    pub(crate) fn sample_planar(&self, model: &Model, at: Row, row: &mut Vec<f64>) {
+        let mean = |values: &[f64]| {
+            self.top_course.iter().map(|&i| values[i]).sum::<f64>() / self.top_course.len().max(1) as f64
+        };
+        let base = model.excitation.drive(at.t).base(at.t);
+        row.extend([base.a, base.u, at.shear, mean(at.z), mean(at.v), at.state.pull]);
+        row.extend(model.floating_beam().map_or([0.0; 3], |beam| [at.z[beam], at.v[beam], at.a[beam]]));
+        row.push(peak(&at.z[..model.wall.blocks.len()]));
+        push_energies(&at.state.energies, row);
+        for w in &self.watched {
+            match *w {
+                Watched::Block(i) => row.extend([at.z[i], at.v[i], at.a[i]]),
+                Watched::Joint(e, _, bond) => {
+                    let (seen, kind) = (&at.seen[e], model.joints[e].kind);
+                    let sign = turned(kind);
+                    let (moved, speed, force) = match kind.is_upright() {
+                        true => (seen.gap[1], seen.parting, seen.pressure),
+                        false => (sign * seen.slide, sign * seen.speed, -sign * (seen.shear - seen.friction)),
+                    };
+                    row.extend([moved, speed, force, 0.0, -sign * seen.friction]);
+                    row.extend([seen.gap[1].max(0.0), seen.pressure]);
+                    row.extend(bond.map(|b| at.state.bonds[b].damage));
+                }
+            }
+        }
     }
 
     /// Appends one row of values.
@@ -482,10 +519,7 @@ impl Channels {
         row.extend([base.a, base.u, shear, mean(at.z), mean(at.v), pull]);
         row.extend([at.z[beam], at.v[beam], at.a[beam]]);
         row.push(peak(&at.z[..model.wall.blocks.len()]));
-        let Energies { input_top, kinetic, elastic, damping, friction, bond, device, impact, nonreciprocal, .. } =
-            *energies;
-        row.extend([energies.input(), kinetic, elastic, damping, friction, bond, device, impact, nonreciprocal]);
-        row.extend([energies.residual(), input_top]);
+        push_energies(energies, row);
         for w in &self.watched {
             match *w {
                 Watched::Block(i) => row.extend([at.z[i], at.v[i], at.a[i]]),
@@ -502,6 +536,14 @@ impl Channels {
             }
         }
     }
+}
+
+/// The energy channels, in the order of [`ENERGIES`].
+fn push_energies(energies: &Energies, row: &mut Vec<f64>) {
+    let Energies { input_top, kinetic, elastic, damping, friction, bond, device, impact, nonreciprocal, .. } =
+        *energies;
+    row.extend([energies.input(), kinetic, elastic, damping, friction, bond, device, impact, nonreciprocal]);
+    row.extend([energies.residual(), input_top]);
 }
 
 fn chosen(key: &str, what: &str, asked: &[String], names: &[String]) -> Result<Vec<usize>> {

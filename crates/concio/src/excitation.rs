@@ -19,6 +19,8 @@ pub struct Excitation {
     pub base: GroundMotion,
     /// U1; at rest unless the beam is driven.
     pub top: GroundMotion,
+    /// V0, positive upwards; at rest in shear walls.
+    pub vertical: GroundMotion,
     /// Whether U1 is prescribed; otherwise the top follows the base (tied) or is no support at all.
     pub driven: bool,
     /// The top's sine as the wall file gives it, for [`Excitation::system_motions`].
@@ -32,6 +34,7 @@ pub struct Excitation {
 pub struct Drive {
     base: Segment,
     top: Option<Segment>,
+    vertical: Segment,
     /// Last instant of the piece [s].
     pub end: f64,
 }
@@ -45,6 +48,10 @@ impl Drive {
     /// Absolute motion of the base.
     pub fn base(&self, t: f64) -> Kinematics {
         self.base.at(t)
+    }
+    /// Absolute vertical motion of the base, positive upwards.
+    pub fn vertical(&self, t: f64) -> Kinematics {
+        self.vertical.at(t)
     }
     /// Motion of the top support relative to the base.
     #[inline]
@@ -62,23 +69,27 @@ impl Drive {
 impl Excitation {
     /// A motion of the base alone.
     pub fn of_base(base: GroundMotion, duration: f64) -> Self {
-        Excitation { base, top: GroundMotion::AtRest, driven: false, top_sine: None, duration }
+        let (top, vertical) = (GroundMotion::AtRest, GroundMotion::AtRest);
+        Excitation { base, top, vertical, driven: false, top_sine: None, duration }
     }
     /// A driven top above a base at rest.
     pub fn of_top(top: GroundMotion, duration: f64) -> Self {
-        Excitation { base: GroundMotion::AtRest, top, driven: true, top_sine: None, duration }
+        let (base, vertical) = (GroundMotion::AtRest, GroundMotion::AtRest);
+        Excitation { base, top, vertical, driven: true, top_sine: None, duration }
     }
 
     /// The motion just after `t`.
     pub fn drive(&self, t: f64) -> Drive {
         let base = piece(&self.base, t);
         let top = self.driven.then(|| piece(&self.top, t));
-        Drive { base, top, end: base.end.min(top.map_or(f64::INFINITY, |s| s.end)).min(self.duration) }
+        let vertical = piece(&self.vertical, t);
+        let end = base.end.min(top.map_or(f64::INFINITY, |s| s.end)).min(vertical.end).min(self.duration);
+        Drive { base, top, vertical, end }
     }
     /// Longest step that resolves the motion [s].
     pub fn longest_step(&self) -> f64 {
         let top = if self.driven { self.top.longest_useful_step() } else { f64::INFINITY };
-        self.base.longest_useful_step().min(top)
+        self.base.longest_useful_step().min(self.vertical.longest_useful_step()).min(top)
     }
     /// Jump of the base's velocity at `t` [m/s].
     pub fn base_velocity_jump(&self, t: f64) -> f64 {

@@ -1,41 +1,144 @@
 //! Blocks → joints, from geometry alone; and the vertical load that each joint carries (theory, sections 1 and 3).
 
+use std::ops::Range;
+
 use crate::case::{JointKind, NormalForce};
 use crate::pattern::CONTACT_TOLERANCE;
+use crate::polygon::{facing, of_box};
 use crate::wall::{Block, End, Joint, Wall};
 
 /// Finds all joints: base, then course by course bed and head joints of each panel, then connections, then the
 /// joints of a top beam if there is one. The order is part of the result format.
 pub fn joints(wall: &Wall, beam: bool) -> Vec<Joint> {
-    let courses = courses(wall);
+    let courses = standing(wall);
     let mut joints = Vec::new();
+    let shaped: Vec<bool> = shaped(wall);
     for (panel, rows) in courses.iter().enumerate() {
         let reference = wall.panels[panel].reference_length;
+        if shaped[panel] {
+            polygons(wall, panel, &mut joints);
+            continue;
+        }
         for &i in rows.first().into_iter().flatten() {
             joints.push(support(wall, i, JointKind::Base, End::Base));
         }
         for (r, row) in rows.iter().enumerate() {
-            heads(wall, row, wall.panels[panel].mortar[1] + CONTACT_TOLERANCE * reference, &mut joints);
+            heads(wall, r, row, wall.panels[panel].mortar[1] + CONTACT_TOLERANCE * reference, &mut joints);
             if let Some(above) = rows.get(r + 1) {
-                beds(wall, row, above, reference, &mut joints);
+                let ends = |i: &&usize| wall.blocks[**i].course == r;
+                let begins = |i: &&usize| wall.blocks[**i].lowest_course() == r + 1;
+                beds(wall, row.iter().filter(ends), above.iter().filter(begins), reference, &mut joints);
             }
         }
     }
     for (left, pair) in courses.windows(2).enumerate() {
-        connections(wall, left, &pair[0], &pair[1], &mut joints);
+        if shaped[left] || shaped[left + 1] {
+            polygon_connections(wall, left, &mut joints);
+        } else {
+            connections(wall, left, &pair[0], &pair[1], &mut joints);
+        }
     }
     if beam {
-        for (_, rows) in
+        for (panel, rows) in
             courses.iter().enumerate().filter(|(panel, _)| below_beam(wall, *panel) <= packing(wall, *panel))
         {
             for &i in rows.last().into_iter().flatten() {
-                joints.push(support(wall, i, JointKind::Top, End::Top));
+                match shaped[panel] {
+                    true => joints.extend(side(wall, i, JointKind::Top, End::Top)),
+                    false => joints.push(support(wall, i, JointKind::Top, End::Top)),
+                }
             }
         }
     }
     // They stay as long as the model does.
     joints.shrink_to_fit();
     joints
+}
+
+/// Which panels have blocks that are not rectangles: their joints are found by the sides that face each other, without
+/// regard to courses.
+fn shaped(wall: &Wall) -> Vec<bool> {
+    let mut shaped = vec![false; wall.panels.len()];
+    for block in wall.blocks.iter().filter(|b| !b.is_rectangle()) {
+        shaped[block.panel] = true;
+    }
+    shaped
+}
+
+/// Base joints, and the joints between blocks of a panel from left to right.
+fn polygons(wall: &Wall, panel: usize, joints: &mut Vec<Joint>) {
+    let info = &wall.panels[panel];
+    let mut order: Vec<usize> = (0..wall.blocks.len()).filter(|&i| wall.blocks[i].panel == panel).collect();
+    // As elsewhere the lowest blocks lie on the base at whatever height.
+    let lowest = order.iter().map(|&i| wall.blocks[i].y[0]).fold(f64::INFINITY, f64::min);
+    for &i in &order {
+        let on_base = side(wall, i, JointKind::Base, End::Base);
+        joints.extend(on_base.filter(|j| j.line[1] <= lowest.max(info.mortar[0]) + ROUGH * info.reference_length));
+    }
+    order.sort_by(|&i, &j| wall.blocks[i].x[0].total_cmp(&wall.blocks[j].x[0]));
+    let widest = info.mortar[0].max(info.mortar[1]);
+    for (k, &i) in order.iter().enumerate() {
+        let reach = wall.blocks[i].x[1] + widest + ROUGH * info.reference_length;
+        for &j in order[k + 1..].iter().take_while(|&&j| wall.blocks[j].x[0] <= reach) {
+            joints.extend(between(wall, i, j, None));
+        }
+    }
+}
+
+fn polygon_connections(wall: &Wall, left: usize, joints: &mut Vec<Joint>) {
+    let of = |panel: usize| (0..wall.blocks.len()).filter(move |&i| wall.blocks[i].panel == panel);
+    for i in of(left) {
+        joints.extend(of(left + 1).filter_map(|j| between(wall, i, j, Some(wall.panels[left + 1].connection))));
+    }
+}
+
+/// Gaps and overlaps of this part of L_ref beside the mortar count as none where blocks are polygons: their corners are
+/// often written in millimetres.
+const ROUGH: f64 = 4e-3;
+
+/// The joint between two blocks of which at least one is a polygon: bed or head by its slope, within 45° of the horizontal
+/// or not; with `connection`, the width of the gap between their panels [m], that.
+fn between(wall: &Wall, i: usize, j: usize, connection: Option<f64>) -> Option<Joint> {
+    let (a, b) = (&wall.blocks[i], &wall.blocks[j]);
+    let info = &wall.panels[a.panel];
+    let rough = ROUGH * info.reference_length;
+    let widest = |normal: [f64; 2]| connection.unwrap_or(info.mortar[usize::from(normal[0].abs() > normal[1].abs())]);
+    let allows = |normal: [f64; 2], gap: f64| (-rough..=widest(normal) + rough).contains(&gap);
+    let found = facing(&a.corners(), &b.corners(), CONTACT_TOLERANCE * info.reference_length, allows)?;
+    let [across, up] = found.normal;
+    let level = up.abs() >= across.abs();
+    let kind = match connection {
+        Some(_) => JointKind::Connection,
+        None if level => JointKind::Bed,
+        None => JointKind::Head,
+    };
+    let forwards = if level && connection.is_none() { up > 0.0 } else { across > 0.0 };
+    let [a, b] = if forwards || connection.is_some() { [i, j] } else { [j, i] };
+    let mut ends = found.ends;
+    let axis = usize::from(!level);
+    if ends[0][axis] > ends[1][axis] {
+        ends.swap(0, 1);
+    }
+    let unit = if kind == JointKind::Bed { 0.5 * info.reference_length } else { info.reference_height };
+    let line = [ends[0][0], ends[0][1], ends[1][0], ends[1][1]];
+    Some(Joint { kind, a, b: End::Block(b), weight: found.length / unit, overlap: found.length, line })
+}
+
+/// The joint of a polygon's level side with base or beam.
+fn side(wall: &Wall, i: usize, kind: JointKind, b: End) -> Option<Joint> {
+    let block = &wall.blocks[i];
+    let reference = wall.panels[block.panel].reference_length;
+    let ([x0, x1], far) = (block.x, block.height() + reference);
+    let other = match kind {
+        JointKind::Base => of_box([x0, x1], [block.y[0] - far, block.y[0]]),
+        _ => of_box([x0, x1], [block.y[1], block.y[1] + far]),
+    };
+    let touches = |_: [f64; 2], gap: f64| gap.abs() <= ROUGH * reference;
+    let found = facing(&block.corners(), &other, CONTACT_TOLERANCE * reference, touches)?;
+    let level = found.normal[1].abs() >= found.normal[0].abs();
+    let [[from, y], [to, _]] = found.ends;
+    let line = [from.min(to), y, from.max(to), y];
+    level.then_some(Joint { kind, a: i, b, weight: 2.0 * found.length / reference, overlap: found.length, line })
 }
 
 /// How far the top of a panel lies below the level of the beam, which lies on the highest panel [m].
@@ -58,11 +161,22 @@ fn loads(wall: &Wall, load: f64, beam: bool) -> Vec<f64> {
     (0..wall.panels.len()).map(|panel| if carries(panel) { load } else { 0.0 }).collect()
 }
 
-/// Block indices by panel and course, from left to right.
+/// Block indices by panel and course, from left to right; a lintel stands in the topmost of its courses.
 pub fn courses(wall: &Wall) -> Vec<Vec<Vec<usize>>> {
+    rows(wall, |block| block.course..block.course + 1)
+}
+
+/// The same with lintels in all of their courses.
+fn standing(wall: &Wall) -> Vec<Vec<Vec<usize>>> {
+    rows(wall, |block| block.lowest_course()..block.course + 1)
+}
+
+fn rows(wall: &Wall, of: impl Fn(&Block) -> Range<usize>) -> Vec<Vec<Vec<usize>>> {
     let mut rows: Vec<Vec<Vec<usize>>> = wall.panels.iter().map(|p| vec![Vec::new(); p.courses]).collect();
     for (i, block) in wall.blocks.iter().enumerate() {
-        rows[block.panel][block.course].push(i);
+        for r in of(block) {
+            rows[block.panel][r].push(i);
+        }
     }
     for row in rows.iter_mut().flatten() {
         row.sort_by(|&i, &j| wall.blocks[i].x[0].total_cmp(&wall.blocks[j].x[0]));
@@ -84,10 +198,14 @@ fn support(wall: &Wall, i: usize, kind: JointKind, b: End) -> Joint {
     }
 }
 
-/// Neighbours in a course. A gap wider than the mortar is an opening, not a joint.
-fn heads(wall: &Wall, row: &[usize], widest: f64, joints: &mut Vec<Joint>) {
+/// Neighbours in course `r`. A gap wider than the mortar is an opening, not a joint. Lintels beside each other share one
+/// joint, in the lowest course that both take up.
+fn heads(wall: &Wall, r: usize, row: &[usize], widest: f64, joints: &mut Vec<Joint>) {
     for pair in row.windows(2) {
         let (left, right) = (&wall.blocks[pair[0]], &wall.blocks[pair[1]]);
+        if left.lowest_course().max(right.lowest_course()) < r {
+            continue;
+        }
         let y = [left.y[0].max(right.y[0]), left.y[1].min(right.y[1])];
         if right.x[0] - left.x[1] <= widest && y[1] > y[0] {
             joints.push(upright(JointKind::Head, pair[0], pair[1], left, right, y, 1.0));
@@ -101,27 +219,33 @@ fn upright(kind: JointKind, a: usize, b: usize, left: &Block, right: &Block, y: 
 }
 
 /// Contacts between a course and the one above, by one sweep over both.
-fn beds(wall: &Wall, below: &[usize], above: &[usize], reference: f64, joints: &mut Vec<Joint>) {
-    let (mut i, mut j) = (0, 0);
-    while i < below.len() && j < above.len() {
-        let (low, high) = (&wall.blocks[below[i]], &wall.blocks[above[j]]);
+fn beds<'a>(
+    wall: &Wall,
+    mut below: impl Iterator<Item = &'a usize>,
+    mut above: impl Iterator<Item = &'a usize>,
+    reference: f64,
+    joints: &mut Vec<Joint>,
+) {
+    let mut pair = (below.next(), above.next());
+    while let (Some(&i), Some(&j)) = pair {
+        let (low, high) = (&wall.blocks[i], &wall.blocks[j]);
         let x = [low.x[0].max(high.x[0]), low.x[1].min(high.x[1])];
         let overlap = x[1] - x[0];
         if overlap > CONTACT_TOLERANCE * reference {
             let y = 0.5 * (low.y[1] + high.y[0]);
             joints.push(Joint {
                 kind: JointKind::Bed,
-                a: below[i],
-                b: End::Block(above[j]),
+                a: i,
+                b: End::Block(j),
                 weight: 2.0 * overlap / reference,
                 overlap,
                 line: [x[0], y, x[1], y],
             });
         }
         if low.x[1] < high.x[1] {
-            i += 1;
+            pair.0 = below.next();
         } else {
-            j += 1;
+            pair.1 = above.next();
         }
     }
 }
@@ -132,17 +256,14 @@ fn beds(wall: &Wall, below: &[usize], above: &[usize], reference: f64, joints: &
 fn connections(wall: &Wall, panel: usize, left: &[Vec<usize>], right: &[Vec<usize>], joints: &mut Vec<Joint>) {
     let reference = wall.panels[panel].reference_height;
     let widest = wall.panels[panel + 1].connection + CONTACT_TOLERANCE * wall.panels[panel].reference_length;
+    // A course without blocks cannot be joined; a lintel stands in several.
+    let mut left: Vec<usize> = left.iter().filter_map(|row| row.last().copied()).collect();
+    let mut right: Vec<usize> = right.iter().filter_map(|row| row.first().copied()).collect();
+    left.dedup();
+    right.dedup();
     let (mut r, mut s) = (0, 0);
     while r < left.len() && s < right.len() {
-        let (Some(&i), Some(&j)) = (left[r].last(), right[s].first()) else {
-            // An empty course cannot be joined; pass over it.
-            if left[r].is_empty() {
-                r += 1
-            } else {
-                s += 1
-            }
-            continue;
-        };
+        let (i, j) = (left[r], right[s]);
         let (a, b) = (&wall.blocks[i], &wall.blocks[j]);
         let y = [a.y[0].max(b.y[0]), a.y[1].min(b.y[1])];
         if b.x[0] - a.x[1] <= widest && y[1] - y[0] > CONTACT_TOLERANCE * reference {

@@ -22,6 +22,8 @@ pub mod model;
 pub mod moment;
 pub mod outcome;
 pub mod pattern;
+pub mod planar;
+mod polygon;
 pub mod quantity;
 pub mod record;
 pub mod run;

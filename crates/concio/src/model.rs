@@ -3,12 +3,13 @@
 
 use crate::assign::{JointLaw, friction_choice, resolve};
 use crate::bond::{self, Bonded};
-use crate::case::{Beam, Case, DeviceLaw, SpringLaw};
+use crate::case::{Beam, Case, DeviceLaw, ModelKind, SpringLaw};
 use crate::device::{self, Device, Nonlinear};
 use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::graph;
 use crate::law::Stribeck;
+use crate::planar::{self, Planar};
 use crate::wall::{Block, End, Joint, Wall};
 
 /// Everything a run needs and nothing it changes.
@@ -47,6 +48,8 @@ pub struct Model {
     /// Largest ω² = Σk/m of a block over its bilateral joints [1/s²], never 0: the time scale of the first step and
     /// of the floor of the velocities.
     pub stiffest: f64,
+    /// What the blocks of a planar wall are and do; none in the shear model, which the arrays above are of.
+    pub planar: Option<Planar>,
     /// Things a user should know before believing the result.
     pub warnings: Vec<String>,
 }
@@ -154,12 +157,17 @@ impl Model {
         let (_, from) = friction_choice(&case.joint.friction);
         let normal = graph::normal_forces(&wall, &joints, case.load.top.si(), has_beam, from);
         let mut mass: Vec<f64> = wall.blocks.iter().map(|b| b.mass()).collect();
-        let floating = if let Beam::Mass(m) = beam {
-            mass.push(m.si());
-            Some(mass.len() - 1)
-        } else {
-            None
+        let turns = case.model == ModelKind::Planar;
+        let floating = match beam {
+            Beam::Mass(m) => Some(m.si()),
+            // It rises and turns, if it does not slide.
+            Beam::Driven | Beam::Tied if turns => planar::beam(case, &wall, &joints).map(|b| b.body.mass),
+            _ => None,
         };
+        let floating = floating.map(|m| {
+            mass.push(m);
+            mass.len() - 1
+        });
         let n = mass.len();
         let side = |joint: &Joint| {
             let b = match joint.b {
@@ -182,11 +190,15 @@ impl Model {
         };
         let mut rubs: Vec<Rub> = laws.iter().zip(&normal).enumerate().filter_map(rub).collect();
         rubs.shrink_to_fit();
-        let bonds = bond::compile(&wall, &joints, &laws, &normal, &rubs, &mut elastic)?;
+        let bonds = match turns {
+            true => planar::bonds(&wall, &joints, &laws),
+            false => bond::compile(&wall, &joints, &laws, &normal, &rubs, &mut elastic)?,
+        };
         let reciprocal = rubs.iter().all(|r| sides[r.joint as usize][1] as usize >= n || r.normal[0] == r.normal[1]);
         let stiffest = stiffest(&mass, &sides, &device::at_rest(&elastic, &nonlinear), excitation.duration);
         let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
-        let warnings = warnings(case, &wall, rubs.len(), idle, reciprocal);
+        let warnings = warnings(case, &wall, rubs.len(), if turns { 0 } else { idle }, reciprocal);
+        let planar = turns.then(|| planar::compile(case, &wall, &joints, &laws)).transpose()?;
         let rigid = |(e, law): (usize, &JointLaw)| {
             let spring = &law.spring;
             (spring.law == SpringLaw::Rigid)
@@ -212,6 +224,7 @@ impl Model {
             excitation,
             reciprocal,
             stiffest,
+            planar,
             warnings,
         })
     }
@@ -298,19 +311,19 @@ pub(crate) fn stiffest(mass: &[f64], sides: &[[u32; 2]], elastic: &[Elastic], du
 }
 
 fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
-    let spring = &law.spring;
+    let (spring, nominal) = (&law.spring, law.nominal_stiffness(joint, wall));
     let upright = joint.kind.is_upright();
     let (stiffness, damping, unilateral) = match spring.law {
         SpringLaw::None => (0.0, 0.0, false),
-        SpringLaw::Elastic => (spring.stiffness.si(), law.damping_ratio, false),
-        SpringLaw::NoTension => (spring.stiffness.si() * spring.rigidity, law.damping_ratio, upright),
+        SpringLaw::Elastic => (nominal, law.damping_ratio, false),
+        SpringLaw::NoTension => (nominal * spring.rigidity, law.damping_ratio, upright),
         // What it bears follows from the motion of its sides, not from a stiffness.
         SpringLaw::Rigid => (0.0, law.damping_ratio, false),
     };
     let reference = wall.panels[wall.blocks[joint.a].panel].reference_mass;
     Elastic {
         stiffness: joint.weight * stiffness * spring.stiffness_factor,
-        damping: joint.weight * 2.0 * damping * (spring.stiffness.si() * reference).sqrt(),
+        damping: joint.weight * 2.0 * damping * (nominal * reference).sqrt(),
         unilateral,
     }
 }

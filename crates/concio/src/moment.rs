@@ -1,38 +1,86 @@
 //! A stored run at one of its frames: displacement, velocity and acceleration of every block, and the relative motion
-//! and the forces of every joint by equations (2) to (6) of the theory. Signs are those of the sampled channels.
+//! and the forces of every joint, in the shear model by equations (2) to (6) of the theory, in the planar model as the
+//! frame holds them. Signs are those of the sampled channels.
 
 use crate::law::Stribeck;
 use crate::outcome::BondRow;
+use crate::record::{Layout, Recording};
 use crate::store::{FrictionRow, StoredRun};
-use crate::wall::End;
+use crate::wall::{Block, End};
 
-/// Motion of a block or of the top beam, relative to the base.
+/// Motion of a block or of the top beam, relative to the base; the horizontal one unless said.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Motion {
-    /// [m]
+    /// Of the centre [m].
     pub displacement: f64,
     /// [m/s]
     pub velocity: f64,
     /// [m/s²]
     pub acceleration: f64,
+    /// How far the centre has risen [m]; 0 in the shear model.
+    pub vertical: f64,
+    /// Rotation about the centre, counterclockwise, in rad; 0 in the shear model.
+    pub rotation: f64,
+}
+
+impl Motion {
+    /// Displacement [m] of the point that is at `arm` [m] from the centre when the body is at rest, by the whole rotation
+    /// and not only its first order.
+    pub fn of_point(&self, arm: [f64; 2]) -> [f64; 2] {
+        if self.rotation == 0.0 {
+            return [self.displacement, self.vertical];
+        }
+        // cos φ − 1 without the digits that small rotations lose in the difference.
+        let (sine, less) = (self.rotation.sin(), -2.0 * (0.5 * self.rotation).sin().powi(2));
+        [self.displacement + less * arm[0] - sine * arm[1], self.vertical + sine * arm[0] + less * arm[1]]
+    }
+
+    /// Displacement [m] of the point of `block` that is at `point` [m] when the block is at rest.
+    pub fn of_point_in(&self, block: &Block, point: [f64; 2]) -> [f64; 2] {
+        let centre = block.centre();
+        self.of_point([point[0] - centre[0], point[1] - centre[1]])
+    }
 }
 
 /// Relative motion and forces of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointMotion {
-    /// Relative displacement [m]: the gap of a head joint or connection (positive is open), else lower side less upper.
+    /// Relative displacement [m]. In the shear model the gap of a head joint or connection (positive is open), else lower
+    /// side less upper. In the planar model the sliding along the joint: of an upright one how far the left side has risen
+    /// over the right one, else lower side less upper.
     pub slip: f64,
-    /// Its rate [m/s].
+    /// Widest opening over the length of the joint [m], from 0; in the shear model only head joints and connections open.
+    pub opening: f64,
+    /// Normal force [N], positive in compression. In the shear model the elastic force of an upright joint, and what is
+    /// carried by a joint that rubs.
+    pub pressure: f64,
+    /// Rate of the relative displacement [m/s]; 0 in the planar model, whose frames hold no rates of joints.
     pub velocity: f64,
-    /// Its second rate [m/s²].
+    /// Its second rate [m/s²]; 0 in the planar model.
     pub acceleration: f64,
     /// Elastic force on the lower or left block, against its relative motion [N]; 0 for a rigid joint, whose force follows
-    /// from no motion.
+    /// from no motion, and in the planar model, where `pressure` and `friction` are the whole force.
     pub elastic: f64,
-    /// Viscous force, same sign [N].
+    /// Viscous force, same sign [N]; 0 in the planar model.
     pub damping: f64,
-    /// Friction force, same sign [N]: by (6), or as the frame holds it where a law is set-valued or a joint bonded.
+    /// Friction force, same sign [N]: by (6), or as the frame holds it where a law is set-valued or a joint bonded. In the
+    /// planar model the whole tangential force.
     pub friction: f64,
+}
+
+impl Motion {
+    /// Of unknown `index` in frame `frame`; both must be there.
+    pub fn in_frame(layout: &Layout, recording: &Recording, frame: usize, index: usize) -> Self {
+        let at = frame * layout.unknowns + index;
+        let turned = |rows: &[f64]| if layout.turned > 0 { rows[frame * layout.turned + index] } else { 0.0 };
+        Motion {
+            displacement: recording.frame_displacement[at],
+            velocity: recording.frame_velocity[at],
+            acceleration: recording.frame_acceleration[at],
+            vertical: turned(&recording.frame_vertical),
+            rotation: turned(&recording.frame_rotation),
+        }
+    }
 }
 
 /// One frame of a run.
@@ -56,7 +104,7 @@ impl<'r> Moment<'r> {
         self.run.outcome.recording.frame_time[self.frame]
     }
 
-    /// Motion of the top beam, driven, tied or with mass; at rest when there is none.
+    /// Motion of the top beam, free, driven, tied or with mass; at rest when there is none.
     pub fn beam(&self) -> Motion {
         self.beam
     }
@@ -68,6 +116,9 @@ impl<'r> Moment<'r> {
 
     /// Relative motion and forces of joint `joint`, below `joints.len()`.
     pub fn joint(&self, joint: usize) -> JointMotion {
+        if let Some(held) = self.held(joint) {
+            return held;
+        }
         let row = &self.run.joints[joint];
         let a = self.block(row.joint.a);
         let b = match row.joint.b {
@@ -78,11 +129,14 @@ impl<'r> Moment<'r> {
         let (d, w) = (a.displacement - b.displacement, a.velocity - b.velocity);
         let upright = row.joint.kind.is_upright();
         let sign = if upright { -1.0 } else { 1.0 };
+        let elastic = row.elastic_force(d, self.bond(joint));
         JointMotion {
             slip: sign * d,
+            opening: if upright { (-d).max(0.0) } else { 0.0 },
+            pressure: if upright { elastic } else { row.normal_force[0] },
             velocity: sign * w,
             acceleration: sign * (a.acceleration - b.acceleration),
-            elastic: row.elastic_force(d, self.bond(joint)),
+            elastic,
             damping: row.damping * w,
             friction: friction(self.run, self.frame, joint, w),
         }
@@ -90,6 +144,20 @@ impl<'r> Moment<'r> {
 }
 
 impl Moment<'_> {
+    /// What the frame holds of a joint; none in the shear model, where it follows from the motion of its sides.
+    fn held(&self, joint: usize) -> Option<JointMotion> {
+        let (layout, recording) = (&self.run.outcome.layout, &self.run.outcome.recording);
+        let at = self.frame * layout.touching + joint;
+        let of = |rows: &[f64]| rows.get(at).copied().filter(|_| layout.touching > 0);
+        Some(JointMotion {
+            slip: of(&recording.frame_slip)?,
+            opening: of(&recording.frame_opening)?,
+            pressure: of(&recording.frame_pressure)?,
+            friction: recording.frame_friction.get(self.frame * layout.held + joint).copied().unwrap_or(0.0),
+            ..JointMotion::default()
+        })
+    }
+
     /// Damage of a joint, 0 … 1; none for a joint without bond.
     pub fn damage(&self, joint: usize) -> Option<f64> {
         self.bond(joint).map(|(_, damage)| damage)
@@ -105,16 +173,10 @@ impl Moment<'_> {
 }
 
 fn unknown(run: &StoredRun, frame: usize, index: usize) -> Motion {
-    let recording = &run.outcome.recording;
-    let at = frame * run.outcome.layout.unknowns + index;
-    Motion {
-        displacement: recording.frame_displacement[at],
-        velocity: recording.frame_velocity[at],
-        acceleration: recording.frame_acceleration[at],
-    }
+    Motion::in_frame(&run.outcome.layout, &run.outcome.recording, frame, index)
 }
 
-/// A beam with mass is the last unknown; the others are sampled channels, a frame being every `frame_every`th sample.
+/// A beam with motion of its own is the last unknown; the others are sampled channels, a frame being every `frame_every`th sample.
 fn beam(run: &StoredRun, frame: usize) -> Motion {
     let layout = &run.outcome.layout;
     if layout.unknowns > run.wall.blocks.len() {
@@ -127,7 +189,12 @@ fn beam(run: &StoredRun, frame: usize) -> Motion {
         run.outcome.recording.values.get(sample * width + at).copied()
     };
     let of = |quantity: &str| value(&format!("beam/{quantity}")).unwrap_or(0.0);
-    Motion { displacement: of("displacement"), velocity: of("velocity"), acceleration: of("acceleration") }
+    Motion {
+        displacement: of("displacement"),
+        velocity: of("velocity"),
+        acceleration: of("acceleration"),
+        ..Motion::default()
+    }
 }
 
 /// What a frame holds of a joint's friction [N], or (6) at the relative velocity `w`.

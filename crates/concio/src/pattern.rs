@@ -7,11 +7,14 @@
 
 use std::collections::HashMap;
 
-use crate::case::{Bond, Case, Ends, First, Panel, de::suggestion, validate};
-use crate::wall::{Block, PanelInfo, Wall};
+use crate::case::{Bond, Case, Ends, ExplicitBlock, First, Panel, Tie, de::suggestion, validate};
+use crate::polygon;
+use crate::wall::{Block, PanelInfo, Shape, Wall};
 use crate::{InputError, Result};
 
+mod arch;
 mod check;
+mod openings;
 mod random;
 
 /// Contacts and overlaps shorter than this part of L_ref count as none: they come from rounding.
@@ -30,21 +33,24 @@ pub fn panel_name(case: &Case, panel: usize) -> String {
 struct Rect {
     x: [f64; 2],
     y: [f64; 2],
-    /// Place in the panel's list of explicit blocks, from 0; elsewhere the place in the course.
+    /// Place in the panel's list of explicit blocks, from 0; of a lintel that of its opening; elsewhere the place in the
+    /// course.
     source: usize,
+    /// Number of courses that a lintel takes up, 0 of all other blocks.
+    lintel: usize,
 }
 
 impl Rect {
     fn new(x: f64, y: f64, length: f64, height: f64, source: usize) -> Rect {
-        Rect { x: [x, x + length], y: [y, y + height], source }
+        Rect { x: [x, x + length], y: [y, y + height], source, lintel: 0 }
     }
 }
 
-/// The courses of a panel from the bottom, each from left to right.
+/// The courses of a panel from the bottom, each from left to right; a lintel stands in the topmost that it takes up.
 type Courses = Vec<Vec<Rect>>;
 
 /// Lays the blocks of the wall, panel by panel, course by course from the bottom, left to right. Equal cases give
-/// equal bits on every machine: only sums, products and quotients are taken.
+/// equal bits on every machine: only sums, products and quotients are taken, but for the angles of arches.
 ///
 /// # Errors
 /// [`InputError`] when a panel breaks the bounds of its keys; when blocks overlap, rest on nothing, vanish by rounding
@@ -56,14 +62,18 @@ pub fn lay(case: &Case) -> Result<Wall> {
     for (index, panel) in case.panels.iter().enumerate() {
         let info = panel_info(case, index);
         let mut courses = courses(panel, index)?;
+        openings::cut(panel, index, &mut courses)?;
         if let Some(right) = right {
             shift(&mut courses, right + info.connection);
         }
         check::panel(panel, index, &courses)?;
         right = Some(edge(&courses, f64::NEG_INFINITY, |r| r.x[1], f64::max));
+        let first = wall.blocks.len();
         append(&mut wall.blocks, panel, index, &courses);
+        check::polygons(panel, index, &courses, &wall.blocks[first..])?;
         wall.panels.push(PanelInfo { courses: courses.len(), ..info });
     }
+    check::stands(case, &wall)?;
     names(case, &wall)?;
     Ok(wall)
 }
@@ -77,6 +87,7 @@ fn panel_info(case: &Case, index: usize) -> PanelInfo {
         course: 0,
         x: [0.0, brick.length.si()],
         y: [0.0, brick.height.si()],
+        shape: None,
         thickness: brick.thickness.si(),
         specific_weight: brick.specific_weight.si(),
     };
@@ -97,7 +108,7 @@ fn courses(panel: &Panel, index: usize) -> Result<Courses> {
         (Bond::Stack, _) => Ok(regular(panel, false)),
         (Bond::Irregular, Some(texture)) => random::courses(panel, texture, index),
         (Bond::Irregular, None) => Ok(listed(panel)),
-        (Bond::Explicit, _) => Ok(explicit(panel)),
+        (Bond::Explicit | Bond::Arch, _) => Ok(shaped(panel)),
     }
 }
 
@@ -155,11 +166,29 @@ fn stacked(panel: &Panel, lists: impl IntoIterator<Item = (f64, f64, Vec<f64>)>)
         .collect()
 }
 
-fn explicit(panel: &Panel) -> Courses {
-    let count = panel.blocks.iter().map(|b| b.course).max().unwrap_or(0);
+/// The corners of all blocks of a panel that is not laid of bricks, counterclockwise.
+fn shapes(panel: &Panel) -> Vec<Vec<polygon::Point>> {
+    match (&panel.arch, panel.bond) {
+        (Some(arch), Bond::Arch) => arch::voussoirs(arch),
+        (_, Bond::Explicit) => panel.blocks.iter().map(convex_outline).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn convex_outline(block: &ExplicitBlock) -> Vec<polygon::Point> {
+    // The wall file was checked: a block that is not convex does not come here.
+    let given = block.outline();
+    polygon::convex(&given).unwrap_or(given)
+}
+
+/// Courses of explicit blocks and of arches.
+fn shaped(panel: &Panel) -> Courses {
+    let count = panel.blocks.iter().map(|b| b.course).max().unwrap_or(1);
     let mut courses = vec![Vec::new(); count];
-    for (k, b) in panel.blocks.iter().enumerate() {
-        courses[b.course - 1].push(Rect::new(b.x.si(), b.y.si(), b.length.si(), b.height.si(), k));
+    for (k, corners) in shapes(panel).iter().enumerate() {
+        let [x, y] = polygon::bounds(corners);
+        let course = panel.blocks.get(k).map_or(0, |b| b.course - 1);
+        courses[course].push(Rect { x, y, source: k, lintel: 0 });
     }
     for course in &mut courses {
         course.sort_by(|a: &Rect, b| a.x[0].total_cmp(&b.x[0]));
@@ -181,21 +210,51 @@ fn shift(courses: &mut Courses, left: f64) {
 
 fn append(blocks: &mut Vec<Block>, panel: &Panel, index: usize, courses: &Courses) {
     blocks.reserve(courses.iter().map(Vec::len).sum());
+    let shapes = shapes(panel);
     for (r, course) in courses.iter().enumerate() {
         for (k, rect) in course.iter().enumerate() {
             let given = if panel.bond == Bond::Explicit { panel.blocks.get(rect.source) } else { None };
-            let weight = given.and_then(|b| b.specific_weight).unwrap_or(panel.brick.specific_weight);
+            let of_lintel = panel.openings.get(rect.source).filter(|_| rect.lintel > 0).and_then(|o| o.lintel);
+            let own = given.and_then(|b| b.specific_weight).or(of_lintel.and_then(|l| l.specific_weight));
             blocks.push(Block {
-                name: given.and_then(|b| b.id.clone()).unwrap_or_else(|| block_name(index, r, k)),
+                name: name(panel, index, r, k, rect),
                 panel: index,
                 course: r,
                 x: rect.x,
                 y: rect.y,
+                shape: Shape::of(
+                    rect.lintel.max(1),
+                    shapes.get(rect.source).map_or_else(|| polygon::of_box(rect.x, rect.y), |c| moved(c, rect)),
+                    rect.x,
+                    rect.y,
+                ),
                 thickness: panel.brick.thickness.si(),
-                specific_weight: weight.si(),
+                specific_weight: own.unwrap_or(panel.brick.specific_weight).si(),
             });
         }
     }
+}
+
+/// Corners of a block, moved along with its panel.
+fn moved(corners: &[polygon::Point], rect: &Rect) -> Vec<polygon::Point> {
+    let [x, y] = polygon::bounds(corners);
+    let level = |c: &polygon::Point| x.contains(&c[0]) && y.contains(&c[1]);
+    if corners.len() == 4 && corners.iter().all(level) {
+        return polygon::of_box(rect.x, rect.y);
+    }
+    corners.iter().map(|c| [c[0] + (rect.x[0] - x[0]), c[1]]).collect()
+}
+
+/// The name of a block at a place of a course, both from 0.
+fn name(panel: &Panel, index: usize, course: usize, place: usize, rect: &Rect) -> String {
+    if rect.lintel > 0 {
+        return format!("p{}o{}", index + 1, rect.source + 1);
+    }
+    if panel.bond != Bond::Explicit {
+        return block_name(index, course, rect.source);
+    }
+    let given = panel.blocks.get(rect.source).and_then(|b| b.id.clone());
+    given.unwrap_or_else(|| block_name(index, course, place))
 }
 
 /// `p1c2b3`: panel, course and place, each from 1 in the name and from 0 here.
@@ -226,8 +285,13 @@ pub fn out_of_reach<'a>(name: &str, blocks: impl Iterator<Item = &'a crate::wall
 /// Names are unique, and the blocks to be recorded exist.
 fn names(case: &Case, wall: &Wall) -> Result<()> {
     let own = case.panels.iter().any(|p| p.blocks.iter().any(|b| b.id.is_some()));
-    let wanted = case.output.blocks.iter().enumerate().filter(|(_, name)| *name != "all");
-    if !own && wanted.clone().next().is_none() {
+    let kept = case.output.blocks.iter().enumerate().filter(|(_, name)| *name != "all");
+    let kept = kept.map(|(k, name)| (format!("output.blocks[{k}]"), name, "`all`, or names"));
+    let tied = case.ties.iter().enumerate().flat_map(|(i, tie)| [(i, "from", &tie.from), (i, "to", &tie.to)]);
+    let tied = tied.filter(|(.., name)| *name != Tie::BASE);
+    let tied = tied.map(|(i, end, name)| (format!("tie[{i}].{end}"), name, "`base`, or names of blocks"));
+    let wanted: Vec<(String, &String, &str)> = tied.chain(kept).collect();
+    if !own && wanted.is_empty() {
         return Ok(());
     }
     let mut seen = HashMap::with_capacity(wall.blocks.len());
@@ -236,10 +300,10 @@ fn names(case: &Case, wall: &Wall) -> Result<()> {
             return Err(twice(case, &block.name).into());
         }
     }
-    for (k, name) in wanted {
+    for (key, name, allowed) in wanted {
         if !seen.contains_key(name.as_str()) {
-            let error = InputError::new(format!("no block is called `{name}`")).key(format!("output.blocks[{k}]"));
-            let error = error.allowed("`all`, or names as `concio check` draws them");
+            let error = InputError::new(format!("no block is called `{name}`")).key(key);
+            let error = error.allowed(format!("{allowed} as `concio check` draws them"));
             // A suggestion is sought among few names only: it compares with each.
             let near = suggestion(name, wall.blocks.iter().map(|b| b.name.as_str()).take(10_000));
             let meant = near.map(|n| format!("did you mean `{n}`?"));

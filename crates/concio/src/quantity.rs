@@ -152,7 +152,7 @@ impl<D: Dimension> JsonSchema for Quantity<D> {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
             "description": format!("A {}: a number in {}, or a text with one of the units {}.", D::NAME, D::UNITS[0].0, Self::units()),
-            "anyOf": [{ "type": "number" }, { "type": "string", "pattern": "^\\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\\s*\\S+( \\S+)?\\s*$" }],
+            "anyOf": [{ "type": "number" }, { "type": "string", "pattern": TEXT_PATTERN }],
         })
     }
 }
@@ -225,6 +225,24 @@ dimension!(
     "kN/mm" = 1e6
 );
 dimension!(
+    ForcePerVolume,
+    ForcePerVolumeTag,
+    "stiffness per area",
+    "N/m3" = 1.0,
+    "N/m³" = 1.0,
+    "kN/m3" = 1e3,
+    "MN/m3" = 1e6,
+    "GN/m3" = 1e9,
+    "N/mm3" = 1e9,
+    "N/mm³" = 1e9,
+    "kN/mm3" = 1e12,
+    "Pa/m" = 1.0,
+    "MPa/m" = 1e6,
+    "MPa/mm" = 1e9,
+    "GPa/m" = 1e9,
+    "GPa/mm" = 1e12
+);
+dimension!(
     SpecificWeight,
     SpecificWeightTag,
     "specific weight",
@@ -255,9 +273,145 @@ dimension!(
     "°" = std::f64::consts::PI / 180.0
 );
 
+/// Stiffness of a joint: a number for each joint, or one for each area of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stiffness {
+    /// Of a joint [N/m], as the key says: of a half-brick contact or of the whole joint.
+    PerJoint(ForcePerLength),
+    /// Of a square metre of joint [N/m³].
+    PerArea(ForcePerVolume),
+}
+
+impl Stiffness {
+    /// Of a joint [N/m] that has the area `area` [m²]; what is given per joint has no regard to the area.
+    pub fn over(self, area: f64) -> f64 {
+        match self {
+            Stiffness::PerJoint(k) => k.si(),
+            Stiffness::PerArea(k) => k.si() * area,
+        }
+    }
+
+    /// The number in SI, in N/m or per area in N/m³: to be held against bounds, not to compute with.
+    pub fn amount(self) -> f64 {
+        self.over(1.0)
+    }
+
+    /// Reads `"54 MN/m"` or `"36 N/mm3"`.
+    ///
+    /// # Errors
+    /// As [`Quantity::parse`].
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let unit = text.trim()[number_end(text.trim())..].trim();
+        if ForcePerVolumeTag::UNITS.iter().any(|(name, _)| *name == unit) {
+            return Quantity::parse(text).map(Stiffness::PerArea);
+        }
+        let per_joint = Quantity::parse(text).map(Stiffness::PerJoint);
+        per_joint.map_err(|message| {
+            let per_area = Quantity::<ForcePerVolumeTag>::units();
+            format!("{message}; per area of the joint: {per_area}").replace("of force per length", "of stiffness")
+        })
+    }
+}
+
+impl Default for Stiffness {
+    fn default() -> Self {
+        Stiffness::PerJoint(ForcePerLength::default())
+    }
+}
+
+impl From<f64> for Stiffness {
+    /// Per joint [N/m].
+    fn from(si: f64) -> Self {
+        Stiffness::PerJoint(si.into())
+    }
+}
+
+impl fmt::Display for Stiffness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Stiffness::PerJoint(k) => k.fmt(f),
+            Stiffness::PerArea(k) => k.fmt(f),
+        }
+    }
+}
+
+impl Serialize for Stiffness {
+    /// Per area as a text with its unit, so that it is read as what it was.
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Stiffness::PerJoint(k) => k.serialize(s),
+            Stiffness::PerArea(k) => s.collect_str(k),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Stiffness {
+    fn deserialize<De: Deserializer<'de>>(d: De) -> Result<Self, De::Error> {
+        struct Visitor;
+        impl de::Visitor<'_> for Visitor {
+            type Value = Stiffness;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                let (per_joint, per_area) = (ForcePerLength::units(), ForcePerVolume::units());
+                write!(f, "a stiffness: a number in N/m or a text with its unit ({per_joint}; per area: {per_area})")
+            }
+            fn visit_f64<E: de::Error>(self, v: f64) -> Result<Stiffness, E> {
+                Ok(v.into())
+            }
+            fn visit_i64<E: de::Error>(self, v: i64) -> Result<Stiffness, E> {
+                Ok((v as f64).into())
+            }
+            fn visit_u64<E: de::Error>(self, v: u64) -> Result<Stiffness, E> {
+                Ok((v as f64).into())
+            }
+            fn visit_str<E: de::Error>(self, v: &str) -> Result<Stiffness, E> {
+                Stiffness::parse(v).map_err(E::custom)
+            }
+        }
+        d.deserialize_any(Visitor)
+    }
+}
+
+impl JsonSchema for Stiffness {
+    fn schema_name() -> Cow<'static, str> {
+        "stiffness".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let (per_joint, per_area) = (ForcePerLength::units(), ForcePerVolume::units());
+        json_schema!({
+            "description": format!(
+                "A stiffness: a number in N/m, or a text with one of the units {per_joint}; per area of the joint with one of {per_area}."
+            ),
+            "anyOf": [{ "type": "number" }, { "type": "string", "pattern": TEXT_PATTERN }],
+        })
+    }
+}
+
+/// What a number with a unit looks like.
+const TEXT_PATTERN: &str = "^\\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\\s*\\S+( \\S+)?\\s*$";
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_stiffness_keeps_what_it_is_given_for() {
+        let read = |json: &str| serde_json::from_str::<Stiffness>(json).map_err(|e| e.to_string());
+        assert_eq!(read("5.4e7"), Ok(5.4e7.into()));
+        assert_eq!(read("\"54 MN/m\"").map(|k| k.over(7.0)), Ok(54e6));
+        for (text, si) in [("36 N/mm3", 36e9), ("36 MPa/mm", 36e9), ("0.036 GPa/mm", 36e9), ("36e9 N/m³", 36e9)] {
+            let per_area = read(&format!("\"{text}\"")).expect(text);
+            assert!(matches!(per_area, Stiffness::PerArea(_)), "{text}");
+            assert!((per_area.over(0.015) / (0.015 * si) - 1.0).abs() < 1e-15, "{text}");
+        }
+        // Odd digits too come back to the bit.
+        for stiffness in [Stiffness::from(0.1 + 0.2), Stiffness::PerArea((1e11 / 3.0).into())] {
+            let json = serde_json::to_string(&stiffness).expect("written");
+            assert_eq!(read(&json), Ok(stiffness), "{json}");
+        }
+        let wrong = read("\"3 kg\"").expect_err("a mass");
+        assert!(wrong.contains("`kg` is not a unit of stiffness; allowed: N/m") && wrong.contains("N/mm3"), "{wrong}");
+        assert!(read("\"36\"").expect_err("no unit").contains("has no unit"));
+    }
 
     #[test]
     fn units_are_converted() {

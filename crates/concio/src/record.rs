@@ -23,8 +23,17 @@ pub struct Layout {
     pub samples: usize,
     /// A frame is kept at every this many samples; 0 for none.
     pub frame_every: usize,
-    /// Number of unknowns in a frame (blocks, then the beam's if it has mass).
+    /// Number of moving bodies in a frame: the blocks, then the beam if it has motion of its own. In the shear model that is
+    /// a beam with mass; in the planar model any beam, because it can lift and turn.
     pub unknowns: usize,
+    /// Number of bodies whose vertical displacement and rotation a frame holds: `unknowns` in the planar model, 0 in the
+    /// shear model.
+    #[serde(default)]
+    pub turned: usize,
+    /// Number of joints whose slip, opening and pressure a frame holds: all of them in the planar model, where they follow
+    /// from no law of the joint alone; none in the shear model.
+    #[serde(default)]
+    pub touching: usize,
     /// Number of joints whose friction a frame holds: all of them where a law is set-valued, since what holds a joint
     /// at rest follows from no velocity, a joint is bonded, or a device has a law of its own; otherwise none.
     #[serde(default)]
@@ -36,6 +45,10 @@ pub struct Layout {
     pub channels: Vec<Channel>,
 }
 
+/// Number of arrays in a recording, and how many of them are of samples; the others are of frames.
+const ARRAYS: usize = 13;
+const SAMPLED: usize = 2;
+
 /// Samples and frames, row by row.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Recording {
@@ -45,15 +58,27 @@ pub struct Recording {
     pub values: Vec<f64>,
     /// Time of each frame [s].
     pub frame_time: Vec<f64>,
-    /// `frame_time.len()` rows: displacement of every unknown relative to the base [m].
+    /// `frame_time.len()` rows: horizontal displacement of every unknown, of its centre, relative to the base [m].
     pub frame_displacement: Vec<f64>,
-    /// `frame_time.len()` rows: velocity of every unknown relative to the base [m/s].
+    /// `frame_time.len()` rows: horizontal velocity of every unknown relative to the base [m/s].
     pub frame_velocity: Vec<f64>,
-    /// `frame_time.len()` rows: acceleration of every unknown relative to the base [m/s²].
+    /// `frame_time.len()` rows: horizontal acceleration of every unknown relative to the base [m/s²].
     pub frame_acceleration: Vec<f64>,
+    /// `frame_time.len()` rows of `layout.turned`: how far the centre of every body has risen [m].
+    pub frame_vertical: Vec<f64>,
+    /// `frame_time.len()` rows of `layout.turned`: rotation of every body about its centre, counterclockwise, in rad.
+    pub frame_rotation: Vec<f64>,
     /// `frame_time.len()` rows: friction force on side a of every joint [N]; rows of none unless a law is set-valued, a
-    /// joint is bonded, or a device has a law of its own, whose force counts here.
+    /// joint is bonded, or a device has a law of its own, whose force counts here. In the planar model the whole
+    /// tangential force of every joint.
     pub frame_friction: Vec<f64>,
+    /// `frame_time.len()` rows of `layout.touching`: sliding along every joint [m]; of bed and support joints the lower side
+    /// less the upper one, of upright joints how far the left side has risen over the right one.
+    pub frame_slip: Vec<f64>,
+    /// `frame_time.len()` rows of `layout.touching`: widest opening of every joint over its length [m], from 0.
+    pub frame_opening: Vec<f64>,
+    /// `frame_time.len()` rows of `layout.touching`: normal force of every joint [N], positive in compression.
+    pub frame_pressure: Vec<f64>,
     /// `frame_time.len()` rows: damage of every bonded joint, 0 … 1.
     pub frame_damage: Vec<f64>,
     /// What happened at one instant, in the order of time.
@@ -84,17 +109,23 @@ pub enum EventKind {
     Crack,
     /// The end of a bond, with its stretch [m]; of a brittle one at the instant of its crack.
     Break,
+    /// A block has moved so far that the wall counts as collapsed, with its displacement [m]; the joint is one of that
+    /// block's.
+    Collapse,
+    /// The first crushing of a joint of a planar wall, with its depth [m].
+    Crush,
 }
 
 impl EventKind {
     /// All kinds; the place in the list is the number that a journal keeps.
-    const ALL: [EventKind; 3] = [EventKind::Impact, EventKind::Crack, EventKind::Break];
+    const ALL: [EventKind; 5] =
+        [EventKind::Impact, EventKind::Crack, EventKind::Break, EventKind::Collapse, EventKind::Crush];
 
     /// Unit of [`Event::value`].
     pub fn unit(self) -> &'static str {
         match self {
             EventKind::Impact => "N s",
-            EventKind::Crack | EventKind::Break => "m",
+            EventKind::Crack | EventKind::Break | EventKind::Collapse | EventKind::Crush => "m",
         }
     }
 }
@@ -115,34 +146,44 @@ impl Event {
 impl Recording {
     /// Adds the rows of `other` at the end.
     pub fn append(&mut self, other: &Recording) {
-        self.time.extend_from_slice(&other.time);
-        self.values.extend_from_slice(&other.values);
-        self.frame_time.extend_from_slice(&other.frame_time);
-        self.frame_displacement.extend_from_slice(&other.frame_displacement);
-        self.frame_velocity.extend_from_slice(&other.frame_velocity);
-        self.frame_acceleration.extend_from_slice(&other.frame_acceleration);
-        self.frame_friction.extend_from_slice(&other.frame_friction);
-        self.frame_damage.extend_from_slice(&other.frame_damage);
+        for (to, from) in self.arrays_mut().into_iter().zip(other.arrays()) {
+            to.extend_from_slice(from);
+        }
         self.events.extend_from_slice(&other.events);
     }
 
-    /// The arrays in the order in which a journal keeps them, with the length of a row of each.
-    pub(crate) fn arrays(&self, layout: &Layout) -> [(&Vec<f64>, usize); 8] {
-        let n = layout.unknowns;
+    /// The arrays in the order in which a journal keeps them, samples first, then frames.
+    pub(crate) fn arrays(&self) -> [&Vec<f64>; ARRAYS] {
         [
-            (&self.time, 1),
-            (&self.values, layout.channels.len()),
-            (&self.frame_time, 1),
-            (&self.frame_displacement, n),
-            (&self.frame_velocity, n),
-            (&self.frame_acceleration, n),
-            (&self.frame_friction, layout.held),
-            (&self.frame_damage, layout.bonded),
+            &self.time,
+            &self.values,
+            &self.frame_time,
+            &self.frame_displacement,
+            &self.frame_velocity,
+            &self.frame_acceleration,
+            &self.frame_friction,
+            &self.frame_damage,
+            &self.frame_vertical,
+            &self.frame_rotation,
+            &self.frame_slip,
+            &self.frame_opening,
+            &self.frame_pressure,
         ]
     }
 
-    /// The same arrays, to be filled: samples first, then frames.
-    pub(crate) fn arrays_mut(&mut self) -> [&mut Vec<f64>; 8] {
+    /// Rows and length of a row of every array for so many samples and frames, in the order of [`Recording::arrays`].
+    pub(crate) fn shapes(layout: &Layout, samples: usize, frames: usize) -> [(usize, usize); ARRAYS] {
+        let n = layout.unknowns;
+        let (turned, touching) = (layout.turned, layout.touching);
+        let of_frames = [1, n, n, n, layout.held, layout.bonded, turned, turned, touching, touching, touching];
+        let mut shapes = [(samples, layout.channels.len()); ARRAYS];
+        shapes[0].1 = 1;
+        shapes[SAMPLED..].copy_from_slice(&of_frames.map(|width| (frames, width)));
+        shapes
+    }
+
+    /// The same arrays, to be filled.
+    pub(crate) fn arrays_mut(&mut self) -> [&mut Vec<f64>; ARRAYS] {
         [
             &mut self.time,
             &mut self.values,
@@ -152,6 +193,11 @@ impl Recording {
             &mut self.frame_acceleration,
             &mut self.frame_friction,
             &mut self.frame_damage,
+            &mut self.frame_vertical,
+            &mut self.frame_rotation,
+            &mut self.frame_slip,
+            &mut self.frame_opening,
+            &mut self.frame_pressure,
         ]
     }
 
@@ -163,18 +209,12 @@ impl Recording {
 
     /// Empty, with room for so many samples, frames and events.
     pub(crate) fn with_room(layout: &Layout, samples: usize, frames: usize, events: usize) -> Self {
-        let room = |rows: usize, width: usize| Vec::with_capacity(rows.saturating_mul(width));
-        Recording {
-            time: room(samples, 1),
-            values: room(samples, layout.channels.len()),
-            frame_time: room(frames, 1),
-            frame_displacement: room(frames, layout.unknowns),
-            frame_velocity: room(frames, layout.unknowns),
-            frame_acceleration: room(frames, layout.unknowns),
-            frame_friction: room(frames, layout.held),
-            frame_damage: room(frames, layout.bonded),
-            events: Vec::with_capacity(events),
+        let mut recording = Recording { events: Vec::with_capacity(events), ..Recording::default() };
+        let shapes = Recording::shapes(layout, samples, frames);
+        for (array, (rows, width)) in recording.arrays_mut().into_iter().zip(shapes) {
+            array.reserve_exact(rows.saturating_mul(width));
         }
+        recording
     }
 }
 
@@ -195,7 +235,7 @@ pub struct Envelopes {
     pub joint_acceleration: Vec<f64>,
     /// Per joint: slip path [m], summed over the steps in which |v| exceeds δ_v at an end (0 for joints without friction).
     pub joint_slip: Vec<f64>,
-    /// Per joint: widest gap of a head joint or connection [m], from 0 (0 for the others).
+    /// Per joint: widest gap of a head joint or connection [m], from 0 (0 for the others); in the planar model of every joint.
     pub joint_opening: Vec<f64>,
     /// Per joint: deepest closure (negative gap) of a head joint or connection [m], from 0.
     pub joint_closing: Vec<f64>,
@@ -275,6 +315,9 @@ pub struct Counters {
     pub located: u64,
     /// Impacts of rigid joints.
     pub impacts: u64,
+    /// Steps whose contact was not solved to the tolerance.
+    #[serde(default)]
+    pub unsolved: u64,
 }
 
 /// Why a run ended.

@@ -107,14 +107,15 @@ fn excitation(case: &Case, folder: &Path, library: &Library) -> Result<Excitatio
     let compiled = |signal, key| compile_with(signal, folder, library).map_err(|e| at_key(e, key));
     let base = compiled(&case.motion.base, "motion.base")?;
     let top = compiled(&case.motion.top, "motion.top")?;
+    let vertical = compiled(&case.motion.vertical, "motion.vertical")?;
     let driven = case.load.beam == Beam::Driven;
-    let ends = [base.end(), top.end().filter(|_| driven)].into_iter().flatten();
+    let ends = [base.end(), vertical.end(), top.end().filter(|_| driven)].into_iter().flatten();
     let end = ends.reduce(f64::max).filter(|&end| end > 0.0);
     let duration = case.motion.duration.map(|d| d.si()).or(end).ok_or_else(|| {
         InputError::new("is needed: the motion has no end of its own").key("motion.duration").allowed("above 0 s")
     })?;
     let top_sine = if let Signal::Sine(sine) = case.motion.top { Some(sine) } else { None };
-    Ok(Excitation { base, top, driven, top_sine, duration })
+    Ok(Excitation { base, top, vertical, driven, top_sine, duration })
 }
 
 fn at_key(error: Error, key: &str) -> Error {
@@ -127,7 +128,10 @@ fn at_key(error: Error, key: &str) -> Error {
 fn sampling(output: &Output, excitation: &Excitation) -> Result<Sampling> {
     let duration = excitation.duration;
     let top = excitation.driven.then_some(&excitation.top);
-    let of_record = [Some(&excitation.base), top].into_iter().flatten().filter_map(|m| m.sample_interval());
+    let of_record = [Some(&excitation.base), Some(&excitation.vertical), top]
+        .into_iter()
+        .flatten()
+        .filter_map(|m| m.sample_interval());
     let interval = match output.interval {
         Some(interval) => interval.si(),
         None => of_record.reduce(f64::min).unwrap_or(duration / 2000.0).min(duration),
@@ -145,7 +149,7 @@ fn sampling(output: &Output, excitation: &Excitation) -> Result<Sampling> {
 /// Hash of everything that the result depends on.
 fn inputs_hash(case: &Case, folder: &Path) -> Result<String> {
     let mut parts = vec![canonical_json(case).into_bytes()];
-    for signal in [&case.motion.base, &case.motion.top] {
+    for signal in [&case.motion.base, &case.motion.top, &case.motion.vertical] {
         if let Signal::Record(input) = signal {
             let path = folder.join(&input.record);
             parts.push(std::fs::read(&path).map_err(|e| Error::io(&path, e))?);
@@ -174,7 +178,7 @@ impl Prepared {
             case_json: canonical_json(&self.case),
             inputs_hash: self.inputs_hash.clone(),
             version: env!("CARGO_PKG_VERSION").into(),
-            model: "shear".into(),
+            model: self.case.model.name().into(),
         }
     }
 }

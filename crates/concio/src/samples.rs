@@ -98,6 +98,7 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         course: 0,
         x: [i as f64, i as f64 + 1.0],
         y: [0.0, 1.0],
+        shape: None,
         thickness: 1.0,
         specific_weight: masses[i] * crate::G,
     };
@@ -163,6 +164,7 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         excitation,
         reciprocal: true,
         stiffest,
+        planar: None,
         warnings: Vec::new(),
     }
 }
@@ -206,5 +208,5 @@ pub fn respond(model: &Model, solver: &Solver, interval: f64, z: &[f64], v: &[f6
 
 /// A solver of the given scheme and tolerance, without a floor that matters.
 pub fn solver(scheme: crate::case::Scheme, tolerance: f64) -> Solver {
-    Solver { scheme, tolerance, floor: Length::from_si(1e-15), max_step: None }
+    Solver { scheme, tolerance, floor: Length::from_si(1e-15), max_step: None, step: None }
 }

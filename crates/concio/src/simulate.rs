@@ -15,6 +15,7 @@ use crate::integrate::stage::Failure;
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
 use crate::outcome::Outcome;
+use crate::planar;
 use crate::record::{Event, EventKind, Layout, Recording, StopReason};
 use crate::run::Status;
 use crate::state::{Instant, State, View};
@@ -54,6 +55,8 @@ pub struct Simulation<'m> {
     /// The smooth piece of the motion in which the state lies; follows from the time.
     pub(crate) drive: Drive,
     longest_step: f64,
+    /// The bodies of a planar wall, whose steps are their own.
+    planar: Option<Box<planar::Run>>,
 }
 
 /// A step under way: where it aims, and its present try.
@@ -124,12 +127,15 @@ impl<'m> Simulation<'m> {
     pub fn new(model: &'m Model, solver: &Solver, sampling: &Sampling) -> Result<Self> {
         let (channels, list) = Channels::new(model, &sampling.blocks, &sampling.joints)?;
         let duration = model.excitation.duration;
+        let turns = model.planar.is_some();
         let layout = Layout {
             interval: sampling.interval,
             samples: (duration / sampling.interval * (1.0 + 1e-12) + 1e-9).floor() as usize + 1,
             frame_every: sampling.frame_every,
             unknowns: model.unknowns(),
-            held: if model.sticks() || !model.bonds.is_empty() || !model.nonlinear.is_empty() {
+            turned: if turns { model.unknowns() } else { 0 },
+            touching: if turns { model.joints.len() } else { 0 },
+            held: if turns || model.sticks() || !model.bonds.is_empty() || !model.nonlinear.is_empty() {
                 model.joints.len()
             } else {
                 0
@@ -139,14 +145,20 @@ impl<'m> Simulation<'m> {
         };
         let mut state = State::at_rest(model);
         let drive = model.excitation.drive(0.0);
-        kick(model, &mut state, model.excitation.base_velocity_jump(0.0));
+        let longest = WINDOW as f64 * layout.interval;
+        let planar = model.planar.as_ref().map(|planar| Box::new(planar::Run::new(model, planar, longest)));
         let mut work = Step::new(model, solver.scheme);
-        settle_all(model, &drive, &mut work, &mut state);
+        if let Some(bodies) = &planar {
+            bodies.begin(&mut state);
+        } else {
+            kick(model, &mut state, model.excitation.base_velocity_jump(0.0));
+            settle_all(model, &drive, &mut work, &mut state);
+            begin_account(model, &mut state);
+        }
         state.step = (0.01 / model.stiffest.sqrt()).min(duration);
         if !state.step.is_finite() {
             state.step = duration;
         }
-        begin_account(model, &mut state);
         let frames = if layout.frame_every > 0 { (2 * WINDOW).div_ceil(layout.frame_every) } else { 0 };
         let recording = Recording::with_room(&layout, 2 * WINDOW, frames, EVENTS + events::at_once(model));
         let longest_step = solver.max_step.map_or(f64::INFINITY, |h| h.si()).min(model.excitation.longest_step());
@@ -162,6 +174,7 @@ impl<'m> Simulation<'m> {
             instant,
             drive,
             longest_step,
+            planar,
         };
         run.sample();
         Ok(run)
@@ -227,6 +240,14 @@ impl<'m> Simulation<'m> {
 
     /// One accepted step, to the next break of the motion or frame at the farthest.
     fn step(&mut self) -> std::result::Result<(), StopReason> {
+        let Simulation { model, state, recording, planar, .. } = self;
+        if let Some(bodies) = planar {
+            bodies.step(model, state, |event| recording.events.push(event))?;
+            while self.sample_is_due() {
+                self.sample();
+            }
+            return Ok(());
+        }
         let mut plan = self.plan();
         loop {
             self.size(&mut plan);
@@ -438,7 +459,13 @@ impl<'m> Simulation<'m> {
 
     /// Takes the sample that is due at the state's own instant.
     pub(crate) fn sample(&mut self) {
-        let Simulation { model, drive, channels, layout, state, recording, .. } = self;
+        let at = self.sample_time(self.state.samples);
+        let Simulation { model, drive, channels, layout, state, recording, planar, .. } = self;
+        if let Some(bodies) = planar {
+            bodies.sample(model, channels, layout, state, (state.samples, at), recording);
+            state.samples += 1;
+            return;
+        }
         keep(model, drive, channels, layout, state.view(), state.samples, recording);
         state.samples += 1;
     }
@@ -476,12 +503,18 @@ impl<'m> Simulation<'m> {
     /// not part of it: empty it first.
     pub fn save(&self) -> Vec<u8> {
         // Plain vectors of numbers into memory: nothing that could fail.
-        postcard::to_stdvec(&self.state).unwrap_or_default()
+        let bodies = self.planar.as_ref().map(|bodies| bodies.keep());
+        postcard::to_stdvec(&(&self.state, bodies)).unwrap_or_default()
     }
     /// Goes back to a saved state; false when the bytes are not one of this model's.
     pub fn restore(&mut self, bytes: &[u8]) -> bool {
-        let Ok(state) = postcard::from_bytes::<State>(bytes) else { return false };
-        if !state.fits(self.model) {
+        let Ok((state, kept)) = postcard::from_bytes::<(State, Option<planar::Kept>)>(bytes) else { return false };
+        let bodies = match (&mut self.planar, kept) {
+            (Some(bodies), Some(kept)) => bodies.take_up(kept),
+            (None, None) => true,
+            _ => false,
+        };
+        if !bodies || !state.fits(self.model) {
             return false;
         }
         self.drive = self.model.excitation.drive(state.t);

@@ -1,6 +1,7 @@
 //! Blocks and joints of a wall: what geometry alone says. `pattern` makes the blocks, `graph` the joints.
 
 use crate::case::JointKind;
+use crate::polygon;
 
 /// A rigid block (brick, stone).
 #[derive(Debug, Clone, PartialEq)]
@@ -9,34 +10,93 @@ pub struct Block {
     pub name: String,
     /// Panel, from 0.
     pub panel: usize,
-    /// Course in its panel, from 0 at the bottom.
+    /// Course in its panel, from 0 at the bottom; of a block as high as several, the topmost of them.
     pub course: usize,
     /// Left and right edge [m].
     pub x: [f64; 2],
     /// Bottom and top edge [m].
     pub y: [f64; 2],
+    /// What makes it other than a rectangle in one course, if anything does.
+    pub shape: Option<Box<Shape>>,
     /// Out-of-plane thickness B [m].
     pub thickness: f64,
     /// γ [N/m³].
     pub specific_weight: f64,
 }
 
+/// Shape of a block that is no rectangle, or is higher than a course.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// Number of courses that it takes up: 1 but for lintels.
+    pub span: usize,
+    /// Corners [m], counterclockwise; none of a rectangle whose sides are level and upright.
+    pub corners: Vec<[f64; 2]>,
+}
+
+impl Shape {
+    /// Of a block with these edges and corners; none where there is nothing to say.
+    pub fn of(span: usize, corners: Vec<[f64; 2]>, x: [f64; 2], y: [f64; 2]) -> Option<Box<Self>> {
+        let corners = if corners == polygon::of_box(x, y) { Vec::new() } else { corners };
+        (span != 1 || !corners.is_empty()).then(|| Box::new(Shape { span, corners }))
+    }
+}
+
 impl Block {
-    /// L_i [m].
+    /// Number of courses that it takes up: 1 but for lintels.
+    pub fn span(&self) -> usize {
+        self.shape.as_ref().map_or(1, |shape| shape.span)
+    }
+    /// Corners [m], counterclockwise: of a rectangle the four, from the bottom left.
+    pub fn corners(&self) -> Vec<[f64; 2]> {
+        let own = self.shape.as_ref().filter(|shape| !shape.corners.is_empty());
+        own.map_or_else(|| self.box_corners().to_vec(), |shape| shape.corners.clone())
+    }
+    /// The lowest course that it takes up, from 0.
+    pub fn lowest_course(&self) -> usize {
+        (self.course + 1).saturating_sub(self.span())
+    }
+    /// L_i [m]: from its leftmost to its rightmost corner.
     pub fn length(&self) -> f64 {
         self.x[1] - self.x[0]
     }
-    /// H_i [m].
+    /// H_i [m]: from its lowest to its highest corner.
     pub fn height(&self) -> f64 {
         self.y[1] - self.y[0]
     }
-    /// m_i = γ L_i H_i B / g [kg] (theory, section 1).
+    /// Whether it is a rectangle whose sides are level and upright.
+    pub fn is_rectangle(&self) -> bool {
+        self.shape.as_ref().is_none_or(|shape| shape.corners.is_empty())
+    }
+    /// Corners of the rectangle around it [m], counterclockwise from the bottom left.
+    pub fn box_corners(&self) -> [[f64; 2]; 4] {
+        let ([x0, x1], [y0, y1]) = (self.x, self.y);
+        [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]
+    }
+    /// Area [m²].
+    pub fn area(&self) -> f64 {
+        if self.is_rectangle() { self.length() * self.height() } else { 0.5 * polygon::doubled_area(&self.corners()) }
+    }
+    /// Centre of gravity at rest [m]: what a block's displacement is told of, and what it turns about.
+    pub fn centre(&self) -> [f64; 2] {
+        if self.is_rectangle() {
+            return [0.5 * (self.x[0] + self.x[1]), 0.5 * (self.y[0] + self.y[1])];
+        }
+        polygon::centroid(&self.corners())
+    }
+    /// ∫ r² dA about the centre, in m⁴.
+    pub fn polar_moment(&self) -> f64 {
+        polygon::polar_moment(&self.corners())
+    }
+    /// m_i = γ L_i H_i B / g [kg] of a rectangle (theory, section 1).
     pub fn mass(&self) -> f64 {
         self.weight() / crate::G
     }
     /// m_i g [N].
     pub fn weight(&self) -> f64 {
-        self.specific_weight * self.length() * self.height() * self.thickness
+        if self.is_rectangle() {
+            return self.specific_weight * self.length() * self.height() * self.thickness;
+        }
+        self.specific_weight * self.area() * self.thickness
     }
 }
 
@@ -84,14 +144,27 @@ pub enum End {
 pub struct Joint {
     /// Kind.
     pub kind: JointKind,
-    /// Block index: the left block of a head joint or connection, the lower of a bed joint, the block of a support.
+    /// Block index: the left block of a head joint or connection, the lower of a bed joint, the block of a support. Of an
+    /// inclined joint, the block whose side at the joint looks upwards (bed) or to the right (head).
     pub a: usize,
     /// The other side.
     pub b: End,
-    /// Overlap weight w = 2 ℓ/L_ref of bed and support joints; 1 for head joints.
+    /// Overlap weight w = 2 ℓ/L_ref of bed and support joints; 1 for head joints, ℓ/H where blocks are polygons.
     pub weight: f64,
     /// Overlap ℓ [m]: contact length.
     pub overlap: f64,
-    /// Middle line of the contact: x0, y0, x1, y1 [m].
+    /// Middle line of the contact: x0, y0, x1, y1 [m], from left to right or, of head joints, upwards.
     pub line: [f64; 4],
+}
+
+impl Joint {
+    /// Area of the contact [m²]: its length times the thickness of the thinner block.
+    pub fn area(&self, wall: &Wall) -> f64 {
+        let of = |i: usize| wall.blocks[i].thickness;
+        let thickness = match self.b {
+            End::Block(b) => of(self.a).min(of(b)),
+            End::Base | End::Top => of(self.a),
+        };
+        self.overlap * thickness
+    }
 }

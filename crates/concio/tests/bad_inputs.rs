@@ -50,6 +50,11 @@ fn edit(from: &str, to: &str) -> String {
     GOOD.replacen(from, to, 1)
 }
 
+/// The same of a planar wall.
+fn planar(from: &str, to: &str) -> String {
+    edit(from, to).replacen("\"shear\"", "\"planar\"", 1)
+}
+
 /// `GOOD` with another panel.
 fn panel(lines: &str) -> String {
     let (head, tail) = GOOD.split_once("[[panel]]").expect("a panel");
@@ -73,6 +78,23 @@ fn table() -> Vec<Bad> {
     let random = |rest: &str| {
         panel(&format!(
             "bond = \"irregular\"\ncourses = 4\nmortar = {{ bed = 0.01, head = 0.01 }}\nrandom = {{ seed = 1, height = [0.05, 0.06], {rest} }}"
+        ))
+    };
+    let shaped = |corners: &str, more: &str| {
+        let lines = format!("bond = \"explicit\"\n[[panel.block]]\ncourse = 1\ncorners = {corners}\n{more}\n");
+        panel(&lines).replacen("\"shear\"", "\"planar\"", 1)
+    };
+    let arch = |keys: &str| {
+        panel(&format!("bond = \"arch\"\narch = {{ span = 2, thickness = 0.2, {keys} }}")).replacen(
+            "\"shear\"",
+            "\"planar\"",
+            1,
+        )
+    };
+    let tie = |keys: &str| edit("\"shear\"\n", &format!("\"planar\"\ntie = [{{ {keys} }}]\n"));
+    let opening = |keys: &str| {
+        panel(&format!(
+            "bond = \"running\"\ncourses = 6\nbricks = 4\nmortar = {{ bed = 0.01, head = 0.01 }}\nopening = [{{ {keys} }}]"
         ))
     };
     let motion = |base: &str| edit("base = \"none\"", &format!("base = {base}"));
@@ -103,7 +125,26 @@ fn table() -> Vec<Bad> {
         "bond on nothing", edit("[load]", "[joint.bond]\ncohesion = 1e5\non = []\n[load]"), "on = []", "joint.bond.on", "no kind of joint is named", "`bed`, `head`";
         "bond with a key too many", edit("[load]", "[joint.bond]\ncohesion = 1e5\nshear = 3\n[load]"), "shear", "joint.bond.shear", "unknown key", "cohesion";
         "change of a bond out of range", change("at = { kind = [\"bed\"] }\nbond = { mode_2_energy = -1 }"), "bond =", "joint.change[0].bond.mode_2_energy", "-1 N/m is out of range", "from 0 N/m";
-        "planar model", edit("\"shear\"", "\"planar\""), "model", "model", "not in this version", "`shear`";
+        "negative stiffness per area", edit("law = \"elastic\", stiffness = \"5.4e7 N/m\"", "law = \"elastic\", stiffness = \"-36 N/mm3\""), "bed = { law", "joint.bed.stiffness", "-3.6e10 N/m3 is out of range", "from 0 N/m3";
+        "stiffness with the unit of a stress", edit("law = \"elastic\", stiffness = \"5.4e7 N/m\"", "law = \"elastic\", stiffness = \"36 MPa\""), "bed = { law", "joint.bed.stiffness", "`MPa` is not a unit of stiffness", "N/m, kN/m, MN/m, GN/m, N/mm, kN/mm; per area of the joint: N/m3";
+        "unknown model", edit("\"shear\"", "\"rocking\""), "model", "model", "`rocking` is not known here", "`shear`, `planar`";
+        "step of a shear wall", format!("{GOOD}[solver]\nstep = \"1 ms\"\n"), "step", "solver.step", "the key is for planar walls", "with `model = \"planar\"`";
+        "shear wall without inertia", edit("duration =", "quasi_static = true\nduration ="), "quasi_static", "motion.quasi_static", "the key is for planar walls", "leave it out";
+        "shear wall shaken vertically", edit("base =", "vertical = { sine = { amplitude = \"1 mm\", frequency = 3 } }\nbase ="), "vertical", "motion.vertical", "the key is for planar walls", "leave it out";
+        "level beam of a shear wall", edit("beam = \"driven\"", "beam = \"driven\"\nbeam_rotation = \"fixed\""), "beam_rotation", "load.beam_rotation", "the key is for planar walls", "leave it out";
+        "normal stiffness of a shear wall", edit("rigidity = 1000", "normal_to_shear = 3"), "head = { law", "joint.head.normal_to_shear", "the key is for planar walls", "leave it out";
+        "crushing in a shear wall", change("at = { kind = [\"head\"] }\nspring = { compressive_strength = \"5 MPa\" }"), "spring =", "joint.change[0].spring.compressive_strength", "the key is for planar walls", "leave it out";
+        "pressure by overburden in a planar wall", planar("slip_velocity =", "normal_force = \"overburden\", slip_velocity ="), "friction", "joint.friction.normal_force", "follows from the motion of its blocks", "`transmitted`";
+        "preset of the report in a planar wall", planar("slip_velocity =", "preset = \"report\", slip_velocity ="), "friction", "joint.friction.preset", "follows from the motion of its blocks", "no preset";
+        "level beam where there is none", planar("beam = \"driven\"", "beam_rotation = \"fixed\"").replace("top = { sine", "base = { sine").replace("base = \"none\"\n", ""), "beam_rotation", "load.beam_rotation", "there is no beam", "`driven`, `tied`";
+        "joint softer when pressed", planar("rigidity = 1000", "normal_to_shear = 0"), "head = { law", "joint.head.normal_to_shear", "0 is out of range", "above 0";
+        "joint without strength", planar("rigidity = 1000", "compressive_strength = \"0 MPa\""), "head = { law", "joint.head.compressive_strength", "0 Pa is out of range", "above 0 Pa";
+        "step of no length", format!("{}[solver]\nstep = 0\n", planar("0.5 s", "0.5 s")), "step", "solver.step", "0 s is out of range", "above 0 s";
+        "tilt at once", motion("{ tilt = { acceleration = \"0.5 g\", rise = 0 } }"), "base =", "motion.base.tilt.rise", "0 s is out of range", "above 0 s";
+        "path without places", motion("{ path = { displacements = [], speed = 1 } }"), "base =", "motion.base.path.displacements", "0 displacements are given", "at least one";
+        "path that stands", motion("{ path = { displacements = [0.1, 0.1], speed = 1 } }"), "base =", "motion.base.path.displacements[1]", "0.1 m stands before it", "other than the one before it";
+        "path that starts where it is", motion("{ path = { displacements = [0, 0.1], speed = 1 } }"), "base =", "motion.base.path.displacements[0]", "the path starts at 0 m", "the first other than 0";
+        "path backwards", motion("{ path = { displacements = [0.1], speed = -1 } }"), "base =", "motion.base.path.speed", "-1 m/s is out of range", "above 0 m/s";
         "restitution above one", edit("law = \"no-tension\"", "law = \"rigid\", restitution = 1.2"), "head = { law", "joint.head.restitution", "1.2 is out of range", "0 … 1";
         "negative restitution", edit("law = \"no-tension\"", "law = \"rigid\", restitution = -0.1"), "head = { law", "joint.head.restitution", "-0.1 is out of range", "0 … 1";
         "restitution of a spring", edit("law = \"no-tension\"", "law = \"no-tension\", restitution = 0.5"), "head = { law", "joint.head.restitution", "for law `rigid` alone", "law = \"rigid\"";
@@ -147,6 +188,36 @@ fn table() -> Vec<Bad> {
         "duplicate ids", explicit(&[block(1, 0.0, 0.0, "id = \"a\""), block(2, 0.0, 0.05, "id = \"a\" # again")]), "id = \"a\" # again", "panel[0].block[1].id", "`a` is the name of panel[0].block[0] already", "unique";
         "overlapping blocks", explicit(&[block(1, 0.0, 0.0, "id = \"a\""), block(1, 0.2, 0.0, "id = \"b\""), block(2, 0.1, 0.05, "")]), "[[panel.block]]", "panel[0].block[1]", "blocks a and b overlap", "side by side";
         "blocks through each other", explicit(&[block(1, 0.0, 0.0, ""), block(2, 0.1, 0.06, ""), block(3, 0.1, 0.08, "")]), "[[panel.block]]", "panel[0].block[2]", "blocks p1c2b1 and p1c3b1 overlap", "share edges at most";
+        "opening off the bed joints", opening("x = 0.3, y = 0.1, width = 0.3, height = 0.13"), "opening =", "panel[0].opening[0].y", "the edge at a height of 0.1 m is not on a bed joint", "0.065 … 0.075 m or 0.13 … 0.14 m";
+        "opening that ends in a course", opening("x = 0.3, y = 0.065, width = 0.3, height = 0.1"), "opening =", "panel[0].opening[0].height", "the edge at a height of 0.165 m is not on a bed joint", "0.065 … 0.075 m or 0.13 … 0.14 m";
+        "opening lower than a course", opening("x = 0.3, y = 0.065, width = 0.3, height = 0.005"), "opening =", "panel[0].opening[0].height", "is not on a bed joint", "0.065 … 0.075 m";
+        "opening above the wall", opening("x = 0.3, y = 0.065, width = 0.3, height = 3"), "opening =", "panel[0].opening[0].height", "is not on a bed joint", "0.325 … 0.335 m";
+        "lintel that ends in a course", opening("x = 0.3, y = 0, width = 0.3, height = 0.13, lintel = { height = 0.1, bearing = 0.1 }"), "opening =", "panel[0].opening[0].lintel.height", "is not on a bed joint", "0.065 … 0.075 m or 0.13 … 0.14 m";
+        "lintel beyond the wall's end", opening("x = 0.05, y = 0, width = 0.3, height = 0.13, lintel = { height = 0.13, bearing = 0.1 }"), "opening =", "panel[0].opening[0].x", "beyond the panel's left edge", "from 0.1 m, the bearing";
+        "opening beyond the wall's end", opening("x = 0.9, y = 0, width = 0.3, height = 0.13"), "opening =", "panel[0].opening[0].width", "ends at 1.2 m, beyond the panel", "up to 0.13 m at this `x`";
+        "opening without lintel", opening("x = 0.3, y = 0, width = 0.6, height = 0.13"), "opening =", "panel[0].opening[0]", "rests on nothing", "a `lintel` bears what lies over an opening";
+        "opening that leaves a sliver", opening("x = 0.1295, y = 0.065, width = 0.2, height = 0.065").replace("head = 0.01", "head = 0.001"), "opening =", "panel[0].opening[0]", "the cut leaves", "rests from 0.005 m, or up to 0.001 m, which go";
+        "opening of the whole width", opening("x = 0, y = 0.26, width = 1.03, height = 0.13"), "opening =", "panel[0].opening[0]", "nothing is left of course 5", "a block in every course";
+        "openings through each other", opening("x = 0.3, y = 0, width = 0.3, height = 0.13, lintel = { height = 0.065, bearing = 0.1 } }, { x = 0.65, y = 0.13, width = 0.1, height = 0.065"), "opening =", "panel[0].opening[1]", "lies over opening[0] or its lintel", "beside each other";
+        "opening in listed blocks", panel("bond = \"explicit\"\nopening = [{ x = 0, y = 0, width = 1, height = 1 }]\n[[panel.block]]\ncourse = 1\nx = 0\ny = 0\nlength = 1\nheight = 1"), "opening =", "panel[0].opening", "does not go with bond `explicit`", "`running`, `stack` or `irregular`";
+        "opening of no width", opening("x = 0.3, y = 0, width = 0, height = 0.13"), "opening =", "panel[0].opening[0].width", "0 m is out of range", "above 0 m";
+        "block of two corners", shaped("[[0, 0], [1, 0]]", ""), "corners =", "panel[0].block[0].corners", "the block has 2 corners", "3 to 16";
+        "block with a dent", shaped("[[0, 0], [1, 0], [0.4, 0.4], [0, 1]]", ""), "corners =", "panel[0].block[0].corners[2]", "the block is not convex", "corners in their order";
+        "corner below the base", shaped("[[0, -0.1], [1, 0], [0, 1]]", ""), "corners =", "panel[0].block[0].corners[0]", "-0.1 m is out of range", "from 0 m";
+        "block by corners and sides", shaped("[[0, 0], [1, 0], [0, 1]]", "length = 1"), "length =", "panel[0].block[0].length", "the block has `corners`", "`corners`, or `x`, `y`, `length` and `height`";
+        "block without its height", explicit(&[block(1, 0.0, 0.0, "").replace("height = 0.05\n", "")]), "[[panel.block]]", "panel[0].block[0].height", "the key is missing: a block has", "above 0 m";
+        "sloping block in a shear wall", shaped("[[0, 0], [1, 0], [0, 1]]", "").replacen("\"planar\"", "\"shear\"", 1), "corners =", "panel[0].block[0].corners", "no level rectangle", "rectangles; with `model = \"planar\"`";
+        "arch higher than a semicircle", arch("rise = 1.2, voussoirs = 9"), "arch =", "panel[0].arch.rise", "1.2 m is more than half the span", "above 0 m, up to 1 m";
+        "arch of two blocks", arch("rise = 1, voussoirs = 2"), "arch =", "panel[0].arch.voussoirs", "2 is out of range", "3 … 1,000";
+        "arch without arch", panel("bond = \"arch\"").replacen("\"shear\"", "\"planar\"", 1), "[[panel]]", "panel[0].arch", "the key is missing: bond `arch` needs it", "span = …";
+        "arch of a shear wall", arch("rise = 1, voussoirs = 9").replacen("\"planar\"", "\"shear\"", 1), "bond =", "panel[0].bond", "an arch could not give way", "`arch` with `model = \"planar\"`";
+        "tie to a block that is not there", tie("from = \"p1c1b1\", to = \"p1c9b1\", stiffness = 1e7"), "tie =", "tie[0].to", "no block is called `p1c9b1`", "`base`, or names of blocks";
+        "tie of a block with itself", tie("from = \"p1c1b1\", to = \"p1c1b1\", stiffness = 1e7"), "tie =", "tie[0].to", "both ends are fixed to block p1c1b1", "another block than `from`";
+        "tie of the base with itself", tie("from = \"base\", to = \"base\", stiffness = 1e7"), "tie =", "tie[0].to", "both ends are fixed to the base", "another block than `from`";
+        "tie without stiffness", tie("from = \"base\", to = \"p1c1b1\""), "tie =", "tie[0].stiffness", "the key is missing", "E A over its length";
+        "tie that pushes", tie("from = \"base\", to = \"p1c1b1\", stiffness = 1e7, yield_force = \"-3 kN\""), "tie =", "tie[0].yield_force", "-3000 N is out of range", "above 0 N";
+        "tie that is too long", tie("from = \"base\", to = \"p1c1b1\", stiffness = 1e7, slack = -1e-3"), "tie =", "tie[0].slack", "-0.001 m is out of range", "from 0 m";
+        "tie of a shear wall", tie("from = \"base\", to = \"p1c1b1\", stiffness = 1e7").replacen("\"planar\"", "\"shear\"", 1), "tie =", "tie[0]", "ties are for planar walls", "leave it out";
         "a wall without overlap", explicit(&[block(1, 0.0, 0.0, ""), block(2, 0.25, 0.05, "id = \"hanging\"")]), "[[panel.block]]", "panel[0].block[1]", "block hanging of course 2 rests on nothing", "an overlap with a block of course 1";
         "a course left out", explicit(&[block(1, 0.0, 0.0, ""), block(3, 0.0, 0.05, "")]), "[[panel.block]]", "panel[0].block", "course 2 has no block", "without a gap";
         "listed courses beside each other", panel("bond = \"irregular\"\n[[panel.course]]\nheight = 0.1\nbricks = [0.25]\n[[panel.course]]\nheight = 0.1\nbricks = [0.25]\noffset = 0.3"), "[[panel.course]]", "panel[0].course[1]", "rests on nothing", "an overlap";
@@ -209,6 +280,21 @@ fn input_error(result: Result<()>, title: &str) -> InputError {
 #[test]
 fn the_good_file_is_good() {
     check(GOOD).unwrap_or_else(|e| panic!("{e}"));
+}
+
+#[test]
+fn what_only_planar_walls_have_is_taken_there() {
+    let text = planar(
+        "law = \"elastic\"",
+        "law = \"rigid\", restitution = 0.2, normal_to_shear = 3, compressive_strength = 5e6",
+    )
+    .replace("beam = \"driven\"", "beam = \"driven\"\nbeam_rotation = \"fixed\"")
+    .replace("duration = \"0.5 s\"\n", "quasi_static = true\nvertical = { tilt = { acceleration = 1, rise = 1 } }\n")
+    .replace(
+        "sine = { amplitude = \"5 mm\", frequency = \"2 Hz\" }",
+        "path = { displacements = [0.01], speed = 0.001 }",
+    );
+    check(&format!("{text}[solver]\nstep = \"2 ms\"\n")).unwrap_or_else(|e| panic!("{e}"));
 }
 
 #[test]

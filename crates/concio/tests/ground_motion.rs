@@ -3,12 +3,15 @@
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use concio::case::{Baseline, HistoryQuantity, Pulse, PulseShape, Ramp, RecordInput, Signal, Sine, Sweep, Synthetic};
+use concio::case::{
+    Baseline, DisplacementPath, HistoryQuantity, Pulse, PulseShape, Ramp, RecordInput, Signal, Sine, Sweep, Synthetic,
+    Tilt,
+};
 use concio::ground::process::{self, integrate, prepare};
 use concio::ground::record::{Format, Record, TextOptions, parse};
 use concio::ground::signal::{GroundMotion, compile, from_record};
 use concio::ground::{STANDARD_GRAVITY, measure, response_spectrum};
-use concio::quantity::{Acceleration, Frequency, Length, Time};
+use concio::quantity::{Acceleration, Frequency, Length, Time, Velocity};
 use proptest::prelude::*;
 
 fn record(dt: f64, npts: usize, a: impl Fn(f64) -> f64) -> Record {
@@ -376,6 +379,57 @@ fn pulse(shape: PulseShape, peak: f64, duration: f64, start: f64) -> GroundMotio
     motion(Signal::Pulse(Pulse { shape, acceleration, duration, start }))
 }
 
+fn tilt(acceleration: f64, start: f64, rise: f64) -> GroundMotion {
+    let (start, rise) = (seconds(start), seconds(rise));
+    motion(Signal::Tilt(Tilt { acceleration: Acceleration::from_si(acceleration), start, rise }))
+}
+
+fn path(displacements: &[f64], speed: f64) -> GroundMotion {
+    let displacements = displacements.iter().copied().map(Length::from_si).collect();
+    motion(Signal::Path(DisplacementPath { displacements, speed: Velocity::from_si(speed) }))
+}
+
+/// a = A τ/T up to T, then A: v = A τ²/(2 T), u = A τ³/(6 T), beyond T v = A (τ − T/2), u = A (τ²/2 − τ T/2 + T²/6).
+#[test]
+fn a_tilt_follows_its_closed_form() {
+    let (a, start, rise) = (4.905, 0.7, 10.0);
+    let motion = tilt(a, start, rise);
+    for t in [0.0, 0.3, 0.7, 1.2, 5.0, 10.69, 10.71, 12.0, 40.0] {
+        let s = f64::max(t - start, 0.0);
+        let expected = if s < rise {
+            [a * s.powi(3) / (6.0 * rise), a * s * s / (2.0 * rise), a * s / rise]
+        } else {
+            [a * (0.5 * s * s - 0.5 * s * rise + rise * rise / 6.0), a * (s - 0.5 * rise), a]
+        };
+        let now = motion.at(t);
+        for (found, expected) in [now.u, now.v, now.a].into_iter().zip(expected) {
+            assert!((found - expected).abs() <= 1e-13 * expected.abs(), "{found} instead of {expected} at {t}");
+        }
+    }
+    assert_eq!([motion.next_break(0.0), motion.next_break(1.0)], [start, start + rise]);
+    assert_eq!((motion.end(), motion.next_break(11.0)), (None, f64::INFINITY));
+}
+
+/// Corner k lies where the whole way up to it has been gone at the speed.
+#[test]
+fn a_path_turns_at_its_corners() {
+    let (places, speed) = ([1e-3, -1e-3, 2e-3, 1.5e-3], 0.5e-3);
+    let motion = path(&places, speed);
+    let (mut t, mut way, mut place) = (0.0, 0.0, 0.0);
+    for target in places {
+        let middle = motion.at((way + 0.5 * f64::abs(target - place)) / speed);
+        assert!((middle.u - 0.5 * (place + target)).abs() < 1e-15 && middle.a == 0.0);
+        assert_eq!(middle.v, speed.copysign(target - place));
+        way += f64::abs(target - place);
+        t = motion.next_break(t);
+        assert!((t - way / speed).abs() < 1e-12 && (motion.at(t).u - target).abs() < 1e-15, "{t} s");
+        place = target;
+    }
+    assert_eq!((t, motion.end()), (13.0, Some(13.0)));
+    let after = motion.at(20.0);
+    assert_eq!((after.u, after.v, after.a), (1.5e-3, 0.0, 0.0));
+}
+
 /// All motions that are not at rest, with the time over which they are looked at.
 fn motions() -> Vec<(&'static str, GroundMotion, f64)> {
     let sweep = |logarithmic| {
@@ -403,6 +457,9 @@ fn motions() -> Vec<(&'static str, GroundMotion, f64)> {
         ("ramped sine acceleration", sine(None, Some(3.0), 2.0, 0.7, None), 3.0),
         ("sine acceleration of 3 cycles", sine(None, Some(3.0), 2.0, 0.7, Some(3.0)), 3.0),
         ("ramp", motion(Signal::Ramp(ramp)), 2.0),
+        ("tilt", tilt(3.0, 0.4, 0.5), 2.0),
+        ("tilt at once", tilt(-3.0, 0.0, 0.5), 2.0),
+        ("path", path(&[0.01, -0.01, 0.02], 0.02), 4.0),
         ("rectangular", pulse(PulseShape::Rectangular, 2.0, 0.5, 0.3), 2.0),
         ("half sine", pulse(PulseShape::HalfSine, -2.0, 0.5, 0.3), 2.0),
         ("one sine", pulse(PulseShape::OneSine, 2.0, 0.5, 0.0), 2.0),
@@ -470,6 +527,7 @@ fn motions_are_continuous_and_start_from_rest() {
             "sine of 2.3 cycles" => vec![0.3, 1.15],
             "sine that ends in its ramp" => vec![1.0],
             "ramp" => vec![0.4, 0.9],
+            "path" => vec![0.0, 0.5, 1.5, 3.0],
             _ => vec![],
         };
         assert_eq!(jumps.len(), expected.len(), "{name}: {jumps:?}");
@@ -536,7 +594,8 @@ fn sweeps_follow_their_phase() {
         (false, Box::new(|t: f64| 0.5 * t + 0.35 * t * t) as Box<dyn Fn(f64) -> f64>),
         (true, Box::new(|t: f64| 0.5 * 5.0 / 8.0_f64.ln() * (8.0_f64.powf(t / 5.0) - 1.0))),
     ] {
-        let (_, sweep, _) = motions().swap_remove(if logarithmic { 13 } else { 12 });
+        let name = if logarithmic { "logarithmic sweep" } else { "linear sweep" };
+        let (_, sweep, _) = motions().into_iter().find(|m| m.0 == name).unwrap();
         for k in 0..500 {
             let t = 0.01 * k as f64;
             assert!((sweep.acceleration(t) - (2.0 * PI * cycles(t)).sin()).abs() < 5e-4, "{t}");
@@ -616,6 +675,14 @@ fn signals_out_of_range_are_refused() {
     );
     let ramp = Ramp { amplitude: Length::from_si(0.1), start: seconds(0.0), rise: seconds(0.0) };
     assert!(refused(Signal::Ramp(ramp)).contains("ramp.rise"));
+    let tilt = Tilt { acceleration: Acceleration::from_si(1.0), start: seconds(0.0), rise: seconds(0.0) };
+    assert!(refused(Signal::Tilt(tilt)).contains("tilt.rise"));
+    let places = |speed: f64, u: &[f64]| DisplacementPath {
+        displacements: u.iter().copied().map(Length::from_si).collect(),
+        speed: Velocity::from_si(speed),
+    };
+    assert!(refused(Signal::Path(places(0.0, &[1.0]))).contains("path.speed"));
+    assert!(refused(Signal::Path(places(1.0, &[1.0, 1.0]))).contains("other than the one before it"));
     let sweep = Sweep {
         acceleration: Acceleration::from_si(1.0),
         frequency: [1e6, 1.0].map(Frequency::from_si),

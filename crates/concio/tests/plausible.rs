@@ -68,6 +68,11 @@ fn each_mistake_of_unit_is_told_with_a_guess() {
             "joint.bed.stiffness is 54 N/m, less than 1000 N/m; did you mean \"54 MN/m\"?",
         ),
         (
+            "stiffness = 5.4e7 }\nhead",
+            "stiffness = \"36 N/m3\" }\nhead",
+            "joint.bed.stiffness is 36 N/m3, less than 1000000 N/m3; did you mean \"36 N/mm3\"?",
+        ),
+        (
             "static = 0.6",
             "static = 30",
             "joint.friction.static is 30, more than 2; did you mean 0.58, the tangent of 30 degrees?",
@@ -83,6 +88,15 @@ fn each_mistake_of_unit_is_told_with_a_guess() {
         // 300 m of brick still make a wall: nothing else is doubted.
         assert!(found.len() == 1 && found[0].contains(told), "{wrong}: {found:?}");
     }
+}
+
+/// What a run leaves out is said.
+#[test]
+fn ties_are_left_out_with_a_warning() {
+    let tie = "model = \"planar\"\ntie = [{ from = \"base\", to = \"p1c1b1\", stiffness = 2e7 }]";
+    assert!(WALL.contains("model = \"shear\""));
+    let found = doubts(&case(&WALL.replace("model = \"shear\"", tie)));
+    assert!(found.len() == 1 && found[0].contains("they are left out"), "{found:?}");
 }
 
 #[test]

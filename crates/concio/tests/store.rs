@@ -75,7 +75,7 @@ fn equal_runs_give_equal_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let (a, b) = (folder.path().join("a.h5"), folder.path().join("other name.h5"));
     // More than one chunk in every large array.
-    let size = Size { courses: 30, bricks: 30, samples: 3001, frame_every: 10, channels: 5, beam: true };
+    let size = Size { courses: 30, bricks: 30, samples: 3001, frame_every: 10, channels: 5, beam: true, planar: false };
     write(&a, &sample(size));
     write(&b, &sample(size));
     assert!(fs::read(&a).unwrap() == fs::read(&b).unwrap());
@@ -180,7 +180,7 @@ proptest! {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("result.h5");
         let whole = WHOLE.get_or_init(|| {
-            let size = Size { samples: 21, channels: 4, courses: 2, bricks: 2, frame_every: 5, beam: false };
+            let size = Size { samples: 21, channels: 4, courses: 2, bricks: 2, frame_every: 5, beam: false, planar: false };
             write(&path, &sample(size));
             fs::read(&path).unwrap()
         });
@@ -608,7 +608,8 @@ fn other_readers_agree() {
     let sizes = [
         SMALL,
         Size { frame_every: 0, beam: false, ..SMALL },
-        Size { courses: 40, bricks: 50, samples: 501, frame_every: 25, channels: 9, beam: false },
+        Size { courses: 40, bricks: 50, samples: 501, frame_every: 25, channels: 9, beam: false, planar: false },
+        Size { planar: true, ..SMALL },
     ];
     for size in sizes {
         let folder = tempfile::tempdir().unwrap();
@@ -650,8 +651,10 @@ fn other_readers_agree() {
 #[ignore = "writes a gigabyte; prints figures"]
 fn large_runs() {
     let folder = tempfile::tempdir().unwrap();
-    let long = Size { courses: 6, bricks: 4, samples: 80_001, frame_every: 0, channels: 200, beam: false };
-    let wide = Size { courses: 100, bricks: 100, samples: 2000, frame_every: 1, channels: 10, beam: false };
+    let long =
+        Size { courses: 6, bricks: 4, samples: 80_001, frame_every: 0, channels: 200, beam: false, planar: false };
+    let wide =
+        Size { courses: 100, bricks: 100, samples: 2000, frame_every: 1, channels: 10, beam: false, planar: false };
     for (name, size) in [("80,001 samples of 200 channels", long), ("2,000 frames of 10,000 blocks", wide)] {
         let s = sample(size);
         let path = folder.path().join("result.h5");

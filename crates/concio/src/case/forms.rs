@@ -207,7 +207,8 @@ impl JsonSchema for Baseline {
     }
 }
 
-/// A motion: exactly one of `record`, `sine`, `ramp`, `pulse`, `sweep`, `synthetic`; the other keys belong to `record`.
+/// A motion: exactly one of `record`, `sine`, `ramp`, `tilt`, `path`, `pulse`, `sweep`, `synthetic`; the other keys belong
+/// to `record`.
 #[derive(Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 struct SignalTable {
@@ -242,6 +243,12 @@ struct SignalTable {
     /// A ramp of the displacement.
     #[serde(skip_serializing_if = "Option::is_none")]
     ramp: Option<Ramp>,
+    /// An acceleration that grows linearly and stays.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tilt: Option<Tilt>,
+    /// A displacement that goes from place to place at one speed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    path: Option<DisplacementPath>,
     /// A pulse of the acceleration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pulse: Option<Pulse>,
@@ -274,7 +281,8 @@ impl SignalTable {
 
 impl Form for Signal {
     type Table = SignalTable;
-    const WANTED: &'static str = "\"none\" or a table with exactly one of record, sine, ramp, pulse, sweep, synthetic";
+    const WANTED: &'static str =
+        "\"none\" or a table with exactly one of record, sine, ramp, tilt, path, pulse, sweep, synthetic";
     fn from_word<E: de::Error>(word: &str) -> Result<Self, E> {
         match word {
             "none" => Ok(Signal::None),
@@ -289,6 +297,8 @@ impl Form for Signal {
         let given = [
             table.sine.map(Signal::Sine),
             table.ramp.map(Signal::Ramp),
+            table.tilt.map(Signal::Tilt),
+            table.path.map(Signal::Path),
             table.pulse.map(Signal::Pulse),
             table.sweep.map(Signal::Sweep),
             table.synthetic.map(Signal::Synthetic),
@@ -328,6 +338,8 @@ impl Serialize for Signal {
             Signal::Record(record) => record.serialize(s),
             Signal::Sine(v) => tagged(s, "sine", v),
             Signal::Ramp(v) => tagged(s, "ramp", v),
+            Signal::Tilt(v) => tagged(s, "tilt", v),
+            Signal::Path(v) => tagged(s, "path", v),
             Signal::Pulse(v) => tagged(s, "pulse", v),
             Signal::Sweep(v) => tagged(s, "sweep", v),
             Signal::Synthetic(v) => tagged(s, "synthetic", v),

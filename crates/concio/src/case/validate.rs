@@ -3,15 +3,18 @@
 
 use std::fmt::Display;
 
-use super::{Beam, Case, ModelKind, ParameterSet, Signal};
-use crate::quantity::{Dimension, Quantity, shown};
+use super::{Beam, Case, ParameterSet, Signal};
+use crate::quantity::{Dimension, Quantity, Stiffness, shown};
 use crate::{InputError, Result};
 
 mod devices;
 mod joints;
+mod models;
 mod motion;
+mod ties;
 mod walls;
 
+pub(crate) use walls::tidy;
 pub use walls::{LARGEST_WALL, block_bound};
 
 /// Largest and, but for 0, smallest magnitude of a number in SI.
@@ -31,16 +34,15 @@ pub fn validate(case: &Case) -> Result<()> {
 /// Everything that is wrong with the case, in the order of the wall file's documentation; empty when it can be run.
 pub fn findings(case: &Case) -> Vec<InputError> {
     let mut f = Findings::default();
-    if case.model == ModelKind::Planar {
-        f.push("model", "model `planar` is not in this version yet", "`shear`");
-    }
     f.list.extend(case.set.as_ref().and_then(parameter_set));
     walls::check(&mut f, case);
+    ties::check(&mut f, case);
     joints::check(&mut f, case);
     load(&mut f, case);
     motion::check(&mut f, case);
     solver(&mut f, case);
     output(&mut f, case);
+    models::check(&mut f, case);
     f.list
 }
 
@@ -117,6 +119,12 @@ impl Findings {
     fn quantity<D: Dimension>(&mut self, key: impl Display, q: Quantity<D>, bound: Bound) {
         self.value(key, q.si(), &format!(" {}", D::UNITS[0].0), bound);
     }
+    fn stiffness(&mut self, key: impl Display, k: Stiffness) {
+        match k {
+            Stiffness::PerJoint(k) => self.quantity(key, k, Bound::From0),
+            Stiffness::PerArea(k) => self.quantity(key, k, Bound::From0),
+        }
+    }
     fn number(&mut self, key: impl Display, v: f64, bound: Bound) {
         self.value(key, v, "", bound);
     }
@@ -165,8 +173,10 @@ fn solver(f: &mut Findings, case: &Case) {
     let s = &case.solver;
     f.number("solver.tolerance", s.tolerance, Bound::Between(1e-12, 0.1));
     f.quantity("solver.floor", s.floor, Bound::Above0);
-    if let Some(step) = s.max_step {
-        f.quantity("solver.max_step", step, Bound::Above0);
+    for (key, step) in [("solver.max_step", s.max_step), ("solver.step", s.step)] {
+        if let Some(step) = step {
+            f.quantity(key, step, Bound::Above0);
+        }
     }
 }
 

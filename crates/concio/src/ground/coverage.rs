@@ -46,18 +46,20 @@ pub fn coverage(record: &Record, duration: f64) -> Coverage {
 /// Records that cannot be read.
 pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) -> Result<Vec<String>> {
     let driven = case.load.beam == Beam::Driven;
-    let motions = [("base", &case.motion.base, true), ("top", &case.motion.top, driven)];
+    let motion = &case.motion;
+    let motions = [("base", &motion.base, true), ("top", &motion.top, driven), ("vertical", &motion.vertical, true)];
     let mut found = Vec::new();
     for (name, signal, _) in motions.into_iter().filter(|m| m.2) {
+        let place = if name == "vertical" { "vertical direction" } else { name };
         match signal {
             Signal::Record(input) => {
                 found.extend(unchosen(name, input, folder, library)?);
                 let record = library.record(input, folder)?;
-                found.extend(uncovered(name, "record", &record, duration));
-                found.extend(drifting(name, &record));
+                found.extend(uncovered(place, "record", &record, duration));
+                found.extend(drifting(place, &record));
             }
             Signal::Synthetic(input) => {
-                found.extend(uncovered(name, "accelerogram", &library.synthetic(input)?, duration));
+                found.extend(uncovered(place, "accelerogram", &library.synthetic(input)?, duration));
             }
             _ => {}
         }

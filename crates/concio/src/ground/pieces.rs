@@ -167,8 +167,12 @@ impl Pieces {
 
     /// Stands still from `start`, where it is then, and ends so.
     pub(super) fn hold(&mut self, start: f64) -> &mut Self {
+        self.rest(start, self.segment(start - 2.0 * self.slack).at(start).u)
+    }
+
+    /// Stands still at `place` from `start`, and ends so.
+    pub(super) fn rest(&mut self, start: f64, place: f64) -> &mut Self {
         self.end = Some(start);
-        let place = self.segment(start - 2.0 * self.slack).at(start).u;
         self.displacement(start, Form::rest(place))
     }
 

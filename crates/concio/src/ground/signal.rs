@@ -12,8 +12,8 @@
 //! and displacement are the exact integrals; after the last sample the acceleration is zero and the velocity stays.
 //! A displacement history is followed by its natural cubic spline: the offset of the first sample is kept, the
 //! velocity starts with the spline's slope, and after the last sample the velocity stays. Signals given as an
-//! acceleration are integrated from rest; when they end, the acceleration is zero and the velocity stays. A sine
-//! or ramp given as a displacement stands still where it ends. A swept sine is sampled at 100 points per cycle of its
+//! acceleration are integrated from rest; when they end, the acceleration is zero and the velocity stays; that of a tilt
+//! never ends. A sine, ramp or path given as a displacement stands still where it ends. A swept sine is sampled at 100 points per cycle of its
 //! highest frequency, which is within 5e-4 of its amplitude, and followed as a record.
 
 use std::f64::consts::PI;
@@ -85,7 +85,7 @@ impl GroundMotion {
     }
 
     /// By how much the velocity jumps at a break [m/s]; 0 elsewhere. Only motions given as displacements do: a sine
-    /// without ramp at t = 0, a ramp at both ends, a displacement history at t = 0.
+    /// without ramp at t = 0, a ramp at both ends, a path at its corners, a displacement history at t = 0.
     pub fn velocity_jump(&self, t: f64) -> f64 {
         let after = self.segment(t);
         let slack = match self {
@@ -184,6 +184,8 @@ pub fn compile_with(signal: &case::Signal, base: &Path, library: &Library) -> Re
         case::Signal::Record(input) => from_record(&library.record(input, base)?),
         case::Signal::Sine(sine) => GroundMotion::Pieces(compile_sine(sine)?),
         case::Signal::Ramp(ramp) => GroundMotion::Pieces(compile_ramp(ramp)?),
+        case::Signal::Tilt(tilt) => GroundMotion::Pieces(compile_tilt(tilt)?),
+        case::Signal::Path(path) => GroundMotion::Pieces(compile_path(path)?),
         case::Signal::Pulse(pulse) => GroundMotion::Pieces(compile_pulse(pulse)?),
         case::Signal::Sweep(sweep) => compile_sweep(sweep)?,
         case::Signal::Synthetic(synthetic) => from_record(&library.synthetic(synthetic)?),
@@ -251,6 +253,37 @@ fn compile_ramp(ramp: &case::Ramp) -> Result<Pieces> {
     let mut pieces = Pieces::new(f64::INFINITY);
     pieces.displacement(start, Form::Cubic { origin: start, u: 0.0, v: amplitude / rise, a: 0.0, jerk: 0.0 });
     pieces.hold(start + rise);
+    Ok(pieces)
+}
+
+fn compile_tilt(tilt: &case::Tilt) -> Result<Pieces> {
+    let reached = finite("tilt.acceleration", tilt.acceleration.si())?;
+    let start = not_negative("tilt.start", tilt.start.si(), "s")?;
+    let rise = positive("tilt.rise", tilt.rise.si(), "s")?;
+    let mut pieces = Pieces::new(f64::INFINITY);
+    let growing = Form::Cubic { origin: start, u: 0.0, v: 0.0, a: 0.0, jerk: reached / rise };
+    let steady = Form::Cubic { origin: start + rise, u: 0.0, v: 0.0, a: reached, jerk: 0.0 };
+    pieces.acceleration(start, growing).acceleration(start + rise, steady);
+    Ok(pieces)
+}
+
+fn compile_path(path: &case::DisplacementPath) -> Result<Pieces> {
+    let speed = positive("path.speed", path.speed.si(), "m/s")?;
+    let mut pieces = Pieces::new(f64::INFINITY);
+    let (mut time, mut place) = (0.0, 0.0);
+    for target in &path.displacements {
+        let target = finite("path.displacements", target.si())?;
+        let way: f64 = target - place;
+        if way == 0.0 {
+            let error = InputError::new("a displacement is that which comes before it").key("path.displacements");
+            return Err(error.allowed("each other than the one before it, the first other than 0").into());
+        }
+        let v = speed.copysign(way);
+        pieces.displacement(time, Form::Cubic { origin: time, u: place, v, a: 0.0, jerk: 0.0 });
+        time += way.abs() / speed;
+        place = target;
+    }
+    pieces.rest(time, place);
     Ok(pieces)
 }
 

@@ -3,9 +3,10 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::{CONTACT_TOLERANCE, Courses, Rect, block_name};
-use crate::case::{Bond, Panel};
-use crate::{InputError, Result};
+use super::{CONTACT_TOLERANCE, Courses, Rect};
+use crate::case::{Bond, Case, Panel};
+use crate::wall::{Block, End, Wall};
+use crate::{InputError, Result, graph, polygon};
 
 /// Smallest block and largest coordinate, as parts and multiples of the panel's brick: between them rounding stays
 /// below the contact tolerance.
@@ -13,14 +14,103 @@ const SMALLEST: f64 = 1e-5;
 const FARTHEST: f64 = 1e7;
 
 pub(super) fn panel(panel: &Panel, index: usize, courses: &Courses) -> Result<()> {
-    let site = Site { panel, index, tolerance: CONTACT_TOLERANCE * panel.brick.length.si() };
+    let left = super::edge(courses, f64::INFINITY, |r| r.x[0], f64::min);
+    let site = Site { panel, index, tolerance: CONTACT_TOLERANCE * panel.brick.length.si(), left };
     site.sizes(courses)?;
+    if panel.bond == Bond::Arch || panel.blocks.iter().any(|b| !b.is_rectangle()) {
+        return Ok(());
+    }
     if panel.bond == Bond::Explicit {
         site.side_by_side(courses)?;
         site.overlaps(courses)?;
     }
-    courses.windows(2).enumerate().try_for_each(|(r, pair)| site.rests(r, &pair[0], &pair[1]))?;
+    if panel.openings.is_empty() {
+        courses.windows(2).enumerate().try_for_each(|(r, pair)| site.rests(r, &pair[0], &pair[1]))
+    } else {
+        (1..courses.len()).try_for_each(|r| site.rests(r - 1, &courses[r - 1], &beginning(courses, r)))
+    }
+}
+
+/// How far blocks that are no rectangles may reach into each other, as a part of the brick's length: corners written in
+/// millimetres are that far off.
+const ROUGH: f64 = 4e-3;
+
+/// Overlaps in a panel of blocks that are not all rectangles; `blocks` are those of `courses`, in their order.
+pub(super) fn polygons(panel: &Panel, index: usize, courses: &Courses, blocks: &[Block]) -> Result<()> {
+    if blocks.iter().all(Block::is_rectangle) {
+        return Ok(());
+    }
+    let tolerance = ROUGH * panel.brick.length.si();
+    let mut order: Vec<usize> = (0..blocks.len()).collect();
+    order.sort_by(|&i, &j| blocks[i].x[0].total_cmp(&blocks[j].x[0]));
+    let sources: Vec<usize> = courses.iter().flatten().map(|rect| rect.source).collect();
+    for (k, &i) in order.iter().enumerate() {
+        let beside = order[k + 1..].iter().take_while(|&&j| blocks[j].x[0] < blocks[i].x[1]);
+        for &j in beside {
+            if polygon::depth(&blocks[i].corners(), &blocks[j].corners()) > tolerance {
+                let (a, b) = if sources[i] < sources[j] { (i, j) } else { (j, i) };
+                let what = format!("blocks {} and {} overlap", blocks[a].name, blocks[b].name);
+                let key = match panel.bond {
+                    Bond::Arch => format!("panel[{index}].arch"),
+                    _ => format!("panel[{index}].block[{}]", sources[b]),
+                };
+                return Err(InputError::new(what).key(key).allowed("blocks that share edges at most").into());
+            }
+        }
+    }
     Ok(())
+}
+
+/// In a panel of blocks that are not all rectangles, every block hangs together with the base by joints.
+pub(super) fn stands(case: &Case, wall: &Wall) -> Result<()> {
+    if wall.blocks.iter().all(Block::is_rectangle) {
+        return Ok(());
+    }
+    let mut beside = vec![Vec::new(); wall.blocks.len()];
+    let mut reached: Vec<usize> = Vec::new();
+    for joint in graph::joints(wall, false) {
+        match joint.b {
+            End::Block(b) => {
+                beside[joint.a].push(b);
+                beside[b].push(joint.a);
+            }
+            End::Base | End::Top => reached.push(joint.a),
+        }
+    }
+    let mut found = vec![false; wall.blocks.len()];
+    while let Some(i) = reached.pop() {
+        if !std::mem::replace(&mut found[i], true) {
+            reached.extend(&beside[i]);
+        }
+    }
+    let Some(lost) = found.iter().position(|found| !found) else { return Ok(()) };
+    let block = &wall.blocks[lost];
+    let what = format!("block {} has no joint that leads to the base", block.name);
+    let error = InputError::new(what).key(key_of(case, block));
+    let allowed = "sides that face those of other blocks, or the base at y = 0, over no more than the mortar";
+    Err(error.allowed(allowed).into())
+}
+
+/// The key of a block that is given by hand.
+fn key_of(case: &Case, block: &Block) -> String {
+    let given = &case.panels[block.panel].blocks;
+    let named = given.iter().position(|b| b.id.as_deref() == Some(block.name.as_str()));
+    let placed =
+        || given.iter().position(|b| polygon::bounds(&b.outline())[1] == block.y && b.course == block.course + 1);
+    match named.or_else(placed) {
+        Some(k) => format!("panel[{}].block[{k}]", block.panel),
+        None => format!("panel[{}]", block.panel),
+    }
+}
+
+/// The blocks whose lowest course is `r`, from left to right.
+fn beginning(courses: &Courses, r: usize) -> Vec<Rect> {
+    let of = |(upper, course): (usize, &Vec<Rect>)| -> Vec<Rect> {
+        course.iter().filter(|b| upper + 1 == r + b.lintel.max(1)).copied().collect()
+    };
+    let mut found: Vec<Rect> = courses.iter().enumerate().skip(r).flat_map(of).collect();
+    found.sort_by(|a, b| a.x[0].total_cmp(&b.x[0]));
+    found
 }
 
 /// A panel under check.
@@ -29,14 +119,26 @@ struct Site<'a> {
     index: usize,
     /// Overlaps up to this are rounding [m].
     tolerance: f64,
+    /// The panel's leftmost edge [m].
+    left: f64,
 }
 
 impl Site<'_> {
     /// The key that a block comes from.
     fn key(&self, course: usize, rect: &Rect) -> String {
         let i = self.index;
+        let below = |o: &crate::case::Opening| o.y.si() + o.height.si() <= rect.y[0] + self.tolerance;
+        let [x0, x1] = rect.x.map(|x| x - self.left);
+        let beside = |o: &crate::case::Opening| x0 < o.x.si() + o.width.si() && x1 > o.x.si();
+        if rect.lintel > 0 {
+            return format!("panel[{i}].opening[{}].lintel", rect.source);
+        }
+        if let Some(k) = self.panel.openings.iter().rposition(|o| below(o) && beside(o)) {
+            return format!("panel[{i}].opening[{k}]");
+        }
         match (self.panel.bond, &self.panel.random) {
             (Bond::Explicit, _) => format!("panel[{i}].block[{}]", rect.source),
+            (Bond::Arch, _) => format!("panel[{i}].arch"),
             (Bond::Irregular, None) => format!("panel[{i}].course[{course}]"),
             (Bond::Irregular, Some(_)) => format!("panel[{i}].random"),
             (Bond::Running | Bond::Stack, _) => format!("panel[{i}]"),
@@ -44,8 +146,7 @@ impl Site<'_> {
     }
     /// The name of the block at a place of a course.
     fn name(&self, course: usize, place: usize, rect: &Rect) -> String {
-        let given = if self.panel.bond == Bond::Explicit { self.panel.blocks.get(rect.source) } else { None };
-        given.and_then(|b| b.id.clone()).unwrap_or_else(|| block_name(self.index, course, place))
+        super::name(self.panel, self.index, course, place, rect)
     }
     fn sizes(&self, courses: &Courses) -> Result<()> {
         let (length, height) = (self.panel.brick.length.si(), self.panel.brick.height.si());
@@ -136,7 +237,10 @@ impl Site<'_> {
                 let what =
                     format!("block {name} of course {} rests on nothing: its load has no way to the base", r + 2);
                 let allowed = format!("an overlap with a block of course {}", r + 1);
-                return Err(InputError::new(what).key(key).allowed(allowed).into());
+                let error = InputError::new(what).allowed(allowed);
+                let over_opening = key.contains(".opening[") && !key.ends_with("lintel");
+                let error = if over_opening { error.help("a `lintel` bears what lies over an opening") } else { error };
+                return Err(error.key(key).into());
             }
             if let Some(over) = carriers.find(|b| b.y[1] > rect.y[0] + self.tolerance) {
                 let what = format!(

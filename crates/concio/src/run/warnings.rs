@@ -4,6 +4,7 @@ use crate::case::JointKind;
 use crate::graph;
 use crate::model::Model;
 use crate::outcome::Outcome;
+use crate::record::EventKind;
 use crate::store::{JointRow, residual_relative};
 
 /// Relative displacement of a joint, as a fraction of its overlap, from which its geometry should not be taken as
@@ -11,28 +12,63 @@ use crate::store::{JointRow, residual_relative};
 const LARGE_SLIP: f64 = 0.1;
 /// Friction work of joints that never slip, over the largest energy in play, that could be taken for damage.
 const NOTICEABLE_CREEP: f64 = 0.05;
+/// Part of the steps whose contact may be left unsolved before a result should be doubted for it.
+const UNSOLVED: f64 = 1e-3;
 /// Residual of the energy account over the largest work beyond which a result should not be used.
 const LARGE_RESIDUAL: f64 = 1e-3;
 
 /// One sentence each, the gravest first.
 pub(super) fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<String> {
-    [unbalanced(outcome), large_slips(model, outcome), creep(joints, outcome)].into_iter().flatten().collect()
+    let told = [
+        match &model.planar {
+            None => unbalanced(outcome, "solver.tolerance"),
+            // Without inertia the account has what stands for it.
+            Some(planar) if planar.still => None,
+            Some(_) => unbalanced(outcome, "solver.step"),
+        },
+        unsolved(outcome),
+        collapsed(joints, outcome),
+        large_slips(model, outcome),
+        creep(joints, outcome),
+    ];
+    told.into_iter().flatten().collect()
 }
 
 /// A residual that is not a number is the stop reason's to tell.
-fn unbalanced(outcome: &Outcome) -> Option<String> {
+fn unbalanced(outcome: &Outcome, key: &str) -> Option<String> {
     let residual = residual_relative(outcome);
     (residual > LARGE_RESIDUAL).then(|| {
         format!(
-            "the energy account is off by {:.2} % of the largest work, more than 0.1 %: do not use the result, lower \
-             solver.tolerance",
+            "the energy account is off by {:.2} % of the largest work, more than 0.1 %: do not use the result, lower {key}",
             100.0 * residual
         )
     })
 }
 
-/// The model keeps its joints as they were laid: says where that ceases to be a fair picture.
+/// Says where contact was found no better than within a looser bound than asked for, in more than a few steps.
+fn unsolved(outcome: &Outcome) -> Option<String> {
+    let (unsolved, steps) = (outcome.counters.unsolved, outcome.counters.steps);
+    (unsolved as f64 > UNSOLVED * steps as f64).then(|| {
+        format!(
+            "the contact of {unsolved} of {steps} steps was not solved to the tolerance: blocks may overlap there, and forces \
+             be off; lower solver.step"
+        )
+    })
+}
+
+/// A wall that fell is no result of the forces that it bore before.
+fn collapsed(joints: &[JointRow], outcome: &Outcome) -> Option<String> {
+    let event = outcome.recording.events.iter().find(|e| e.kind == EventKind::Collapse)?;
+    let at = joints.get(event.joint as usize).map_or("", |j| j.name.as_str());
+    let what = "peaks, slips and energies of the whole run are those of a wall that fell";
+    Some(format!("the wall counts as collapsed from t = {:.4} s on, by a block at joint {at}: {what}", event.time))
+}
+
+/// The shear model keeps its joints as they were laid: says where that ceases to be a fair picture.
 fn large_slips(model: &Model, outcome: &Outcome) -> Option<String> {
+    if outcome.layout.touching > 0 {
+        return None;
+    }
     let ratio = |e: usize| outcome.envelopes.joint_displacement[e] / model.joints[e].overlap;
     let bed = |e: &usize| matches!(model.joints[*e].kind, JointKind::Bed);
     let worst = (0..model.joints.len()).filter(bed).max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
@@ -71,6 +107,7 @@ mod tests {
     use crate::case::{Scheme, Solver};
     use crate::excitation::Excitation;
     use crate::ground::signal::GroundMotion;
+    use crate::record::Event;
     use crate::samples::{Link, lumped, solver};
     use crate::simulate::{Sampling, Simulation};
     use crate::wall::End;
@@ -94,5 +131,28 @@ mod tests {
         assert!(told[0].contains(&format!("{:.2} % of the largest work", 100.0 * residual)), "{told:?}");
         let (residual, told) = warned(solver(Scheme::TrBdf2, 1e-5));
         assert!(residual < LARGE_RESIDUAL && told.is_empty(), "{residual}: {told:?}");
+    }
+
+    /// What a planar run leaves unsolved and a wall that fell are told, and slips that its joints follow are not.
+    #[test]
+    fn planar_runs_are_doubted_for_what_they_can_get_wrong() {
+        let links = [Link::spring(0, End::Base, 1e5, 0.0), Link::spring(0, End::Block(1), 1e5, 0.0)];
+        let model = lumped(&[10.0, 10.0], &links, Excitation::of_base(GroundMotion::AtRest, 0.1));
+        let sampling = Sampling { interval: 0.1, frame_every: 0, blocks: Vec::new(), joints: Vec::new() };
+        let mut run = Simulation::new(&model, &solver(Scheme::TrBdf2, 1e-5), &sampling).unwrap();
+        let (rows, reason) = run.run_to_end();
+        let mut outcome = run.outcome(rows, reason);
+        let joints = crate::run::joint_rows(&model);
+        outcome.envelopes.joint_displacement.fill(1e3);
+        assert!(of(&model, &joints, &outcome)[0].contains("of its overlap"), "{:?}", of(&model, &joints, &outcome));
+        outcome.layout.touching = joints.len();
+        (outcome.counters.steps, outcome.counters.unsolved) = (10_000, 10);
+        assert!(of(&model, &joints, &outcome).is_empty(), "{:?}", of(&model, &joints, &outcome));
+        outcome.counters.unsolved = 11;
+        let collapse = Event { time: 0.25, joint: 0, kind: EventKind::Collapse, value: 0.1 };
+        outcome.recording.events.push(collapse);
+        let told = of(&model, &joints, &outcome);
+        assert_eq!(told.len(), 2, "{told:?}");
+        assert!(told[0].contains("11 of 10000 steps") && told[1].contains("t = 0.2500 s"), "{told:?}");
     }
 }

@@ -2,7 +2,7 @@
 //! exports go through the same tables, so that none of them can forget a quantity that the others know.
 
 use crate::outcome::{BondRow, Totals};
-use crate::record::{Channel, Counters, Energies, Envelopes};
+use crate::record::{Channel, Counters, Energies, Envelopes, Layout, Recording};
 use crate::store::{FrictionRow, JointRow};
 use crate::wall::{Block, PanelInfo};
 
@@ -22,6 +22,24 @@ pub(super) struct Field<T, V> {
     pub slot: fn(&mut T) -> &mut V,
 }
 
+/// A quantity of which a frame holds one row.
+pub(super) struct Frames {
+    /// The quantity.
+    pub field: Field<Recording, Vec<f64>>,
+    /// Length of a row. Where it is 0 nothing is stored, but for the motion of the unknowns, which every result has.
+    pub width: fn(&Layout) -> usize,
+}
+
+impl Frames {
+    /// Whether a result of that layout holds it.
+    pub fn is_in(&self, layout: &Layout) -> bool {
+        (self.width)(layout) > 0 || MOTION.contains(&self.field.name)
+    }
+}
+
+/// Frames that every result holds.
+const MOTION: [&str; 3] = ["displacement", "velocity", "acceleration"];
+
 macro_rules! field {
     ($name:literal, $unit:literal, $($member:ident).+ $([$index:literal])?, $description:literal) => {
         Field {
@@ -33,6 +51,44 @@ macro_rules! field {
         }
     };
 }
+
+macro_rules! frames {
+    ($name:literal, $unit:literal, $member:ident, $width:ident, $description:literal) => {
+        Frames { field: field!($name, $unit, $member, $description), width: |layout| layout.$width }
+    };
+}
+
+/// What frames hold beside their time.
+pub(super) const FRAMES: [Frames; 10] = [
+    frames!(
+        "displacement",
+        "m",
+        frame_displacement,
+        unknowns,
+        "Horizontal displacement of every unknown relative to the base."
+    ),
+    frames!("velocity", "m/s", frame_velocity, unknowns, "Horizontal velocity of every unknown relative to the base."),
+    frames!(
+        "acceleration",
+        "m/s2",
+        frame_acceleration,
+        unknowns,
+        "Horizontal acceleration of every unknown relative to the base."
+    ),
+    frames!("vertical", "m", frame_vertical, turned, "How far the centre of every unknown has risen."),
+    frames!("rotation", "rad", frame_rotation, turned, "Rotation of every unknown about its centre, counterclockwise."),
+    frames!("friction", "N", frame_friction, held, "Friction force of every joint on its lower or left side."),
+    frames!(
+        "slip",
+        "m",
+        frame_slip,
+        touching,
+        "Sliding along every joint: lower side less upper, left side less right."
+    ),
+    frames!("opening", "m", frame_opening, touching, "Widest opening of every joint over its length, from 0."),
+    frames!("pressure", "N", frame_pressure, touching, "Normal force of every joint, positive in compression."),
+    frames!("damage", "1", frame_damage, bonded, "Damage of every bonded joint, 0 to 1, in the order of /bonds."),
+];
 
 /// Envelopes with one value per unknown.
 pub(super) const BLOCK_ENVELOPES: [Field<Envelopes, Vec<f64>>; 3] = [
@@ -52,7 +108,12 @@ pub(super) const JOINT_ENVELOPES: [Field<Envelopes, Vec<f64>>; 10] = [
         joint_slip,
         "Way slipped: |relative velocity| integrated over the time above the slip velocity."
     ),
-    field!("opening", "m", joint_opening, "Widest gap of a head joint or connection."),
+    field!(
+        "opening",
+        "m",
+        joint_opening,
+        "Widest gap of a head joint or connection; in the planar model of any joint."
+    ),
     field!("closing", "m", joint_closing, "Deepest closure of a head joint or connection."),
     field!("force", "N", joint_force, "Largest elastic force, or force of rigid contact, sign dropped."),
     field!("dissipation", "J", joint_dissipation, "Energy dissipated by damping, friction and impacts."),
@@ -99,7 +160,7 @@ pub(super) const TOTALS: [Field<Totals, f64>; 9] = [
 ];
 
 /// Work of the solver.
-pub(super) const COUNTERS: [Field<Counters, u64>; 8] = [
+pub(super) const COUNTERS: [Field<Counters, u64>; 9] = [
     field!("steps", "1", steps, "Accepted steps."),
     field!("rejected", "1", rejected, "Steps rejected by the error control."),
     field!("failed", "1", failed, "Steps repeated because the iteration did not converge."),
@@ -108,6 +169,7 @@ pub(super) const COUNTERS: [Field<Counters, u64>; 8] = [
     field!("events", "1", events, "Instants at which something happened that ended a step."),
     field!("located", "1", located, "Attempts at steps that were cut for them."),
     field!("impacts", "1", impacts, "Impacts of rigid joints."),
+    field!("unsolved", "1", unsolved, "Steps whose contact was not solved to the tolerance."),
 ];
 
 /// Real quantities of a block.

@@ -8,7 +8,7 @@ use crate::case::DeviceLaw;
 use crate::error::{Error, Result};
 use crate::outcome::Outcome;
 use crate::record::{Event, Layout, Recording};
-use crate::store::fields::{self, Field};
+use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::{Sink, label};
 use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, atomic, vtkhdf};
 use crate::wall::{Block, End, PanelInfo, Wall};
@@ -77,12 +77,13 @@ pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outco
         return refuse(format!("not written: {unknowns} unknowns for {} blocks", wall.blocks.len()));
     }
     expect("histories", recording.values.len(), recording.time.len() * layout.channels.len())?;
-    let frame = recording.frame_time.len() * unknowns;
-    expect("frames of displacement", recording.frame_displacement.len(), frame)?;
-    expect("frames of velocity", recording.frame_velocity.len(), frame)?;
-    expect("frames of acceleration", recording.frame_acceleration.len(), frame)?;
-    expect("frames of friction", recording.frame_friction.len(), recording.frame_time.len() * layout.held)?;
-    expect("frames of damage", recording.frame_damage.len(), recording.frame_time.len() * layout.bonded)?;
+    if let Some(what) = layout_against(layout, joints.len()) {
+        return refuse(format!("not written: {what}"));
+    }
+    for Frames { field, width } in &fields::FRAMES {
+        let expected = recording.frame_time.len() * width(layout);
+        expect(&format!("frames of {}", field.name), (field.get)(recording).len(), expected)?;
+    }
     expect("list of bonds", outcome.bonds.len(), layout.bonded)?;
     if let Some(bond) = outcome.bonds.iter().find(|b| b.joint >= joints.len()) {
         return refuse(format!("not written: a bond of joint {} of {}", bond.joint, joints.len()));
@@ -97,6 +98,15 @@ pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outco
         expect(field.name, (field.get)(&outcome.envelopes).len(), joints.len())?;
     }
     Ok(())
+}
+
+/// What contradicts itself in a layout for so many joints: either all of them, or all bodies, are held, or none.
+pub(super) fn layout_against(layout: &Layout, joints: usize) -> Option<String> {
+    let Layout { unknowns, turned, touching, .. } = *layout;
+    if turned != 0 && turned != unknowns {
+        return Some(format!("{turned} rotations for {unknowns} unknowns"));
+    }
+    (touching != 0 && touching != joints).then(|| format!("{touching} slips for {joints} joints"))
 }
 
 fn write_head(sink: &mut Sink, provenance: &Provenance, outcome: &Outcome) -> Result<()> {
@@ -188,6 +198,11 @@ fn write_layout(sink: &mut Sink, layout: &Layout) -> Result<()> {
     let held =
         label("1", "Joints whose friction the frames hold: all where a law is set-valued or a joint bonded, else 0.");
     sink.number("layout/held", layout.held as u64, held)?;
+    let turned = label("1", "Unknowns whose rise and rotation the frames hold: all in the planar model, else 0.");
+    sink.number("layout/turned", layout.turned as u64, turned)?;
+    let touching =
+        label("1", "Joints whose slip, opening and pressure the frames hold: all in the planar model, else 0.");
+    sink.number("layout/touching", layout.touching as u64, touching)?;
     let names: Vec<&str> = layout.channels.iter().map(|c| c.name.as_str()).collect();
     sink.texts("layout/channels", &names, "Names of the channels, in order.")?;
     sink.texts("layout/paths", &fields::channel_paths(&layout.channels), "Where each channel is, under /history.")
@@ -206,17 +221,11 @@ fn write_history(sink: &mut Sink, layout: &Layout, recording: &Recording) -> Res
 }
 
 fn write_frames(sink: &mut Sink, layout: &Layout, recording: &Recording) -> Result<()> {
-    let shape = [recording.frame_time.len(), layout.unknowns];
     sink.list("frames/time", &recording.frame_time, label("s", "Time of the frames."))?;
-    let displacement = label("m", "Displacement of every unknown relative to the base.");
-    sink.array("frames/displacement", &shape, &recording.frame_displacement, displacement)?;
-    let velocity = label("m/s", "Velocity of every unknown relative to the base.");
-    sink.array("frames/velocity", &shape, &recording.frame_velocity, velocity)?;
-    let acceleration = label("m/s2", "Acceleration of every unknown relative to the base.");
-    sink.array("frames/acceleration", &shape, &recording.frame_acceleration, acceleration)?;
-    if layout.held > 0 {
-        let friction = label("N", "Friction force of every joint on its lower or left side.");
-        sink.array("frames/friction", &[recording.frame_time.len(), layout.held], &recording.frame_friction, friction)?;
+    for Frames { field, width } in fields::FRAMES.iter().filter(|f| f.is_in(layout)) {
+        let shape = [recording.frame_time.len(), width(layout)];
+        let name = format!("frames/{}", field.name);
+        sink.array(&name, &shape, (field.get)(recording), label(field.unit, field.description))?;
     }
     Ok(())
 }
@@ -229,10 +238,7 @@ fn write_bonds(sink: &mut Sink, outcome: &Outcome) -> Result<()> {
     }
     let joints: Vec<i64> = bonds.iter().map(|b| b.joint as i64).collect();
     sink.list("bonds/joint", &joints, label("1", "Index of the joint."))?;
-    write_columns(sink, "bonds", &fields::BONDS, bonds)?;
-    let shape = [outcome.recording.frame_time.len(), outcome.layout.bonded];
-    let damage = label("1", "Damage of every bonded joint, 0 to 1, in the order of /bonds.");
-    sink.array("frames/damage", &shape, &outcome.recording.frame_damage, damage)
+    write_columns(sink, "bonds", &fields::BONDS, bonds)
 }
 
 /// Nothing where nothing happened: other readers refuse a list of no texts.
@@ -246,7 +252,10 @@ fn write_events(sink: &mut Sink, events: &[Event]) -> Result<()> {
     sink.list("events/time", &numbers(|e| e.time), label("s", "When it happened."))?;
     sink.list("events/joint", &joints, label("1", "Index of the joint."))?;
     sink.texts("events/kind", &kinds, "What happened.")?;
-    let value = label("SI", "Impulse of an impact [N s]; stretch of a bond that cracks or is broken [m].");
+    let value = label(
+        "SI",
+        "Impulse of an impact [N s]; stretch of a bond that cracks or is broken, displacement of a block in a collapse [m].",
+    );
     sink.list("events/value", &numbers(|e| e.value), value)
 }
 

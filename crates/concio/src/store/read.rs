@@ -10,9 +10,9 @@ use crate::case::{DeviceLaw, JointKind};
 use crate::error::Result;
 use crate::outcome::{BondRow, Outcome, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording};
-use crate::store::fields::{self, Field};
+use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::Source;
-use crate::store::hdf5::{BASE, FORMAT, NO_DEVICE, NO_FRICTION, TOP};
+use crate::store::hdf5::{BASE, FORMAT, NO_DEVICE, NO_FRICTION, TOP, layout_against};
 use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, StoredRun};
 use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 
@@ -32,6 +32,9 @@ pub fn read(path: &Path) -> Result<StoredRun> {
     if layout.unknowns < wall.blocks.len() {
         let what = format!("is {} for {} blocks", layout.unknowns, wall.blocks.len());
         return Err(source.wrong("layout/unknowns", what));
+    }
+    if let Some(what) = layout_against(&layout, joints.len()) {
+        return Err(source.wrong("layout", format!("has {what}")));
     }
     let recording = read_recording(&source, &layout, joints.len())?;
     let envelopes = read_envelopes(&source, layout.unknowns, joints.len())?;
@@ -101,6 +104,7 @@ fn read_blocks(source: &Source, panel_count: usize) -> Result<Vec<Block>> {
             course: index(source, "wall/blocks/course", course)?,
             x: [0.0; 2],
             y: [0.0; 2],
+            shape: None,
             thickness: 0.0,
             specific_weight: 0.0,
         });
@@ -202,6 +206,8 @@ fn read_layout(source: &Source, bonded: usize) -> Result<Layout> {
         frame_every: count(source, "layout/frame_every")?,
         unknowns: count(source, "layout/unknowns")?,
         held: count(source, "layout/held")?,
+        turned: count(source, "layout/turned")?,
+        touching: count(source, "layout/touching")?,
         bonded,
         channels,
     })
@@ -218,30 +224,14 @@ fn read_recording(source: &Source, layout: &Layout, joints: usize) -> Result<Rec
         }
     }
     let frame_time: Vec<f64> = source.array("frames/time", &[None])?;
-    let shape = [Some(frame_time.len()), Some(layout.unknowns)];
-    let frame_displacement = source.array("frames/displacement", &shape)?;
-    let frame_velocity = source.array("frames/velocity", &shape)?;
-    let frame_acceleration = source.array("frames/acceleration", &shape)?;
-    let frame_friction = match layout.held {
-        0 => Vec::new(),
-        held => source.array("frames/friction", &[Some(frame_time.len()), Some(held)])?,
-    };
-    let frame_damage = match layout.bonded {
-        0 => Vec::new(),
-        bonded => source.array("frames/damage", &[Some(frame_time.len()), Some(bonded)])?,
-    };
+    let frames = frame_time.len();
     let events = read_events(source, joints)?;
-    Ok(Recording {
-        time,
-        values,
-        frame_time,
-        frame_displacement,
-        frame_velocity,
-        frame_acceleration,
-        frame_friction,
-        frame_damage,
-        events,
-    })
+    let mut recording = Recording { time, values, frame_time, events, ..Recording::default() };
+    for Frames { field, width } in fields::FRAMES.iter().filter(|f| f.is_in(layout)) {
+        let shape = [Some(frames), Some(width(layout))];
+        *(field.slot)(&mut recording) = source.array(&format!("frames/{}", field.name), &shape)?;
+    }
+    Ok(recording)
 }
 
 fn read_events(source: &Source, joints: usize) -> Result<Vec<Event>> {

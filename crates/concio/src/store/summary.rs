@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::error::{Error, Result};
 use crate::outcome::Outcome;
+use crate::planar;
 use crate::record::Energies;
 use crate::store::{JointRow, Provenance, atomic};
 use crate::wall::Wall;
@@ -33,6 +34,7 @@ pub fn summary(
     facts: &RunFacts,
 ) -> Value {
     let totals = &outcome.totals;
+    let graph: Vec<_> = joints.iter().map(|row| row.joint.clone()).collect();
     json!({
         "blocks": wall.blocks.len(),
         "joints": joints.len(),
@@ -51,6 +53,7 @@ pub fn summary(
         "top_force_rms": top_force_rms(outcome),
         "minimum_gap": totals.minimum_gap,
         "contact_residual": totals.contact_residual,
+        "failure": planar::failure(wall, &graph, &outcome.recording),
         "bonds": bonds(outcome, joints),
         "energy": energy(&outcome.energies, residual_relative(outcome)),
         "counters": outcome.counters,

@@ -6,6 +6,7 @@
 use std::path::Path;
 
 use crate::error::Result;
+use crate::moment::Motion;
 use crate::outcome::Outcome;
 use crate::store::fields;
 use crate::store::h5::{Label, Sink, label};
@@ -39,8 +40,8 @@ pub(super) fn write_group(sink: &mut Sink, wall: &Wall, outcome: &Outcome) -> Re
     if outcome.recording.frame_time.is_empty() {
         return Ok(());
     }
-    write_moving_data(sink, wall.blocks.len(), outcome)?;
-    write_steps(sink, wall.blocks.len(), &outcome.recording.frame_time)
+    write_moving_data(sink, &wall.blocks, outcome)?;
+    write_steps(sink, wall.blocks.len(), outcome)
 }
 
 fn write_grid(sink: &mut Sink, blocks: &[Block]) -> Result<()> {
@@ -49,18 +50,13 @@ fn write_grid(sink: &mut Sink, blocks: &[Block]) -> Result<()> {
     sink.list("VTKHDF/NumberOfPoints", &[points as i64], none("Points of the grid."))?;
     sink.list("VTKHDF/NumberOfCells", &[blocks.len() as i64], none("Cells of the grid: the blocks."))?;
     sink.list("VTKHDF/NumberOfConnectivityIds", &[points as i64], none("Entries of Connectivity."))?;
-    let corners: Vec<f64> = blocks.iter().flat_map(corners).flatten().collect();
+    let corners: Vec<f64> = blocks.iter().flat_map(Block::box_corners).flat_map(|[x, y]| [x, y, 0.0]).collect();
     sink.array("VTKHDF/Points", &[points, 3], &corners, label("m", "Corners of the blocks at rest."))?;
     let connectivity: Vec<i64> = (0..points as i64).collect();
     sink.list("VTKHDF/Connectivity", &connectivity, none("Points of the cells."))?;
     let offsets: Vec<i64> = (0..=blocks.len() as i64).map(|k| k * CORNERS as i64).collect();
     sink.list("VTKHDF/Offsets", &offsets, none("Where the points of a cell start."))?;
     sink.list("VTKHDF/Types", &vec![VTK_QUAD; blocks.len()], none("Kind of cell."))
-}
-
-fn corners(block: &Block) -> [[f64; 3]; CORNERS] {
-    let ([x0, x1], [y0, y1]) = (block.x, block.y);
-    [[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]]
 }
 
 fn write_constant_data(sink: &mut Sink, blocks: &[Block], outcome: &Outcome) -> Result<()> {
@@ -86,19 +82,29 @@ fn constant_data<'a>(blocks: &[Block], outcome: &'a Outcome) -> Vec<(String, Vec
     data
 }
 
-fn write_moving_data(sink: &mut Sink, blocks: usize, outcome: &Outcome) -> Result<()> {
-    let (recording, unknowns) = (&outcome.recording, outcome.layout.unknowns);
-    let frames = recording.frame_time.len();
-    let displacement = label("m", "Displacement relative to the base.");
-    let points = [frames, blocks * CORNERS, 3];
+fn write_moving_data(sink: &mut Sink, blocks: &[Block], outcome: &Outcome) -> Result<()> {
+    let (layout, recording, unknowns) = (&outcome.layout, &outcome.recording, outcome.layout.unknowns);
+    let (frames, count) = (recording.frame_time.len(), blocks.len());
+    let displacement = label("m", "Displacement of the corners relative to the base.");
+    let points = [frames, count * CORNERS, 3];
     sink.frames("VTKHDF/PointData/displacement", points, displacement, |frame, row: &mut [f32]| {
-        let values = &recording.frame_displacement[frame * unknowns..];
-        for (corners, value) in row.chunks_exact_mut(3 * CORNERS).zip(values) {
-            corners.iter_mut().step_by(3).for_each(|x| *x = *value as f32);
+        for (index, (block, points)) in blocks.iter().zip(row.chunks_exact_mut(3 * CORNERS)).enumerate() {
+            let motion = Motion::in_frame(layout, recording, frame, index);
+            for (corner, point) in block.box_corners().into_iter().zip(points.chunks_exact_mut(3)) {
+                let [x, y] = motion.of_point_in(block, corner);
+                (point[0], point[1]) = (x as f32, y as f32);
+            }
         }
     })?;
-    let velocity = label("m/s", "Velocity relative to the base.");
-    sink.frames("VTKHDF/CellData/velocity", [frames, blocks, 3], velocity, |frame, row: &mut [f32]| {
+    if layout.turned > 0 {
+        let rotation = label("rad", "Rotation, counterclockwise.");
+        sink.frames("VTKHDF/CellData/rotation", [frames, count, 1], rotation, |frame, row: &mut [f32]| {
+            let values = &recording.frame_rotation[frame * layout.turned..];
+            row.iter_mut().zip(values).for_each(|(to, from)| *to = *from as f32);
+        })?;
+    }
+    let velocity = label("m/s", "Horizontal velocity relative to the base.");
+    sink.frames("VTKHDF/CellData/velocity", [frames, count, 3], velocity, |frame, row: &mut [f32]| {
         let values = &recording.frame_velocity[frame * unknowns..];
         for (vector, value) in row.chunks_exact_mut(3).zip(values) {
             vector[0] = *value as f32;
@@ -107,7 +113,8 @@ fn write_moving_data(sink: &mut Sink, blocks: usize, outcome: &Outcome) -> Resul
 }
 
 /// One step per frame; the grid and the constant data start at 0 in all of them.
-fn write_steps(sink: &mut Sink, blocks: usize, times: &[f64]) -> Result<()> {
+fn write_steps(sink: &mut Sink, blocks: usize, outcome: &Outcome) -> Result<()> {
+    let times = &outcome.recording.frame_time;
     let steps = times.len();
     let none = label("1", "Offset of each step.");
     sink.number_attribute("VTKHDF/Steps", "NSteps", steps as i64)?;
@@ -123,6 +130,9 @@ fn write_steps(sink: &mut Sink, blocks: usize, times: &[f64]) -> Result<()> {
     let every = |length: usize| (0..steps).map(|k| (k * length) as i64).collect::<Vec<_>>();
     sink.list("VTKHDF/Steps/PointDataOffsets/displacement", &every(blocks * CORNERS), none)?;
     sink.list("VTKHDF/Steps/CellDataOffsets/velocity", &every(blocks), none)?;
+    if outcome.layout.turned > 0 {
+        sink.list("VTKHDF/Steps/CellDataOffsets/rotation", &every(blocks), none)?;
+    }
     for name in ["mass", "course", "panel"] {
         sink.list(&format!("VTKHDF/Steps/CellDataOffsets/{name}"), &zeros, none)?;
     }

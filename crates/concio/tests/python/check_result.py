@@ -39,7 +39,7 @@ TOTALS = {
     "peak_residual": "J",
     "time_reached": "s",
 }
-COUNTERS = ["steps", "rejected", "failed", "iterations", "factorisations", "events", "located", "impacts"]
+COUNTERS = ["steps", "rejected", "failed", "iterations", "factorisations", "events", "located", "impacts", "unsolved"]
 BLOCK_COLUMNS = {"x0": "m", "x1": "m", "y0": "m", "y1": "m", "thickness": "m", "specific_weight": "N/m3", "mass": "kg"}
 PANEL_COLUMNS = {
     "reference_length": "m",
@@ -120,11 +120,11 @@ class Result:
 def check_head(result):
     attributes = result.file.attrs
     require(attributes["format"] == "concio-result", "attribute format")
-    require(attributes["schema_version"] == 5, "attribute schema_version")
+    require(attributes["schema_version"] == 6, "attribute schema_version")
     require(attributes["stop_reason"] in STOP_REASONS, f"stop_reason {attributes['stop_reason']!r}")
     for name in ["version", "model", "inputs_hash"]:
         require(isinstance(attributes[name], str) and attributes[name], f"attribute {name}")
-    require(result.array("schema_version", (), "u4", "1") == 5, "schema_version")
+    require(result.array("schema_version", (), "u4", "1") == 6, "schema_version")
     (case,) = result.texts("case", 1)
     require(isinstance(json.loads(case), dict), "case is no JSON object")
 
@@ -183,7 +183,7 @@ def check_history(result):
     return time, [f"{name} [{unit}]" if unit != "1" else name for name, unit in zip(names, units)], values
 
 
-def check_frames(result, unknowns):
+def check_frames(result, unknowns, joints):
     frames = result.file["frames/time"].shape[0]
     time = result.array("frames/time", (frames,), "f8", "s")
     require((np.diff(time) > 0).all(), "times of frames do not rise")
@@ -193,11 +193,25 @@ def check_frames(result, unknowns):
     held = int(result.array("layout/held", (), "u8", "1"))
     if held:
         result.array("frames/friction", (frames, held), "f8", "N")
+    turned = int(result.array("layout/turned", (), "u8", "1"))
+    touching = int(result.array("layout/touching", (), "u8", "1"))
+    planar = result.file.attrs["model"] == "planar"
+    require(turned == (unknowns if planar else 0), f"{turned} rotations for {unknowns} unknowns")
+    require(touching == (joints if planar else 0), f"{touching} slips for {joints} joints")
+    vertical = rotation = np.zeros((frames, unknowns))
+    if turned:
+        vertical = result.array("frames/vertical", (frames, turned), "f8", "m")
+        rotation = result.array("frames/rotation", (frames, turned), "f8", "rad")
+    if touching:
+        result.array("frames/slip", (frames, touching), "f8", "m")
+        opening = result.array("frames/opening", (frames, touching), "f8", "m")
+        require((opening >= 0).all(), "an opening is negative")
+        result.array("frames/pressure", (frames, touching), "f8", "N")
     if "bonds" in result.file:
         check_bonds(result, frames)
     if "events" in result.file:
         check_events(result)
-    return time, displacement, velocity
+    return time, (displacement, vertical, rotation), velocity
 
 
 def check_events(result):
@@ -205,7 +219,7 @@ def check_events(result):
     require(len(events) > 0 and (np.diff(events) >= 0).all(), "events are not in the order of time")
     joints = result.array("events/joint", events.shape, "i8", "1")
     require((joints >= 0).all(), "events/joint")
-    require(set(result.texts("events/kind", len(events))) <= {"impact", "crack", "break"}, "events/kind")
+    require(set(result.texts("events/kind", len(events))) <= {"impact", "crack", "break", "collapse"}, "events/kind")
     result.array("events/value", events.shape, "f8", "SI")
 
 
@@ -242,8 +256,19 @@ def check_vtkhdf_tree(result):
     result.asked.update(f"VTKHDF/{name}" for name in names)
 
 
-def check_vtk(path, blocks, envelopes, time, displacement, velocity):
+def corners_moved(corners, shift, rise, rotation):
+    """Displacement of the corners of blocks that turn about their centres by matrices of rotation."""
+    centre = corners.mean(axis=1, keepdims=True)
+    turn = np.moveaxis(np.array([[np.cos(rotation), -np.sin(rotation)], [np.sin(rotation), np.cos(rotation)]]), 2, 0)
+    moved = np.zeros_like(corners)
+    arm = (corners - centre)[:, :, :2]
+    moved[:, :, :2] = np.einsum("bij,bcj->bci", turn, arm) - arm + np.stack([shift, rise], axis=1)[:, None, :]
+    return moved
+
+
+def check_vtk(path, blocks, envelopes, time, motion, velocity):
     """Compares what vtkHDFReader makes of the file, step by step, with the datasets."""
+    planar = motion[2].any()
     n = len(blocks["x0"])
     reader = vtkHDFReader()
     require(reader.CanReadFile(str(path)), f"VTK refuses {path}")
@@ -275,10 +300,15 @@ def check_vtk(path, blocks, envelopes, time, displacement, velocity):
         for key, values in envelopes.items():
             equal(cell[f"peak_{key}"], values[:n], f"{where}: peak_{key}")
         if len(time):
-            moved = np.zeros((n, 4, 3), dtype=np.float32)
-            moved[:, :, 0] = displacement[step, :n, None]
+            shift, rise, rotation = (rows[step, :n] for rows in motion)
+            moved = corners_moved(corners, shift, rise, rotation).reshape(-1, 3)
             point = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
-            equal(point, moved.reshape(-1, 3), f"{where}: displacement")
+            if planar:
+                # Turning is computed in other ways on the two sides; 32-bit floats are what is stored.
+                require(np.allclose(point, moved, rtol=2e-7, atol=1e-9), f"{where}: displacement")
+                equal(cell["rotation"], rotation.astype(np.float32), f"{where}: rotation")
+            else:
+                equal(point, moved.astype(np.float32), f"{where}: displacement")
             speed = np.zeros((n, 3), dtype=np.float32)
             speed[:, 0] = velocity[step, :n]
             equal(cell["velocity"], speed, f"{where}: velocity")
@@ -293,7 +323,7 @@ def check_npz(path, file):
     with np.load(path) as archive:
         for name in archive.files:
             array = archive[name]
-            if name in ["version", "inputs_hash", "stop_reason"]:
+            if name in ["version", "model", "inputs_hash", "stop_reason"]:
                 require(array[0].decode() == file.attrs[name], f"npz: {name}")
             elif array.dtype.kind == "S":
                 equal(np.array([t.decode() for t in array]), np.array(file[name].asstr()[()]), f"npz: {name}")
@@ -317,7 +347,7 @@ def check_csv_events(folder, file, joints):
     equal(np.array([float(row["value"]) for row in rows]), file["events/value"][()], "csv: events, value")
     require([row["kind"] for row in rows] == list(file["events/kind"].asstr()), "csv: events, kind")
     require([row["joint"] for row in rows] == [joints[k] for k in file["events/joint"]], "csv: events, joint")
-    units = {"impact": "N s", "crack": "m", "break": "m"}
+    units = {"impact": "N s", "crack": "m", "break": "m", "collapse": "m"}
     require(all(row["unit"] == units[row["kind"]] for row in rows), "csv: events, unit")
 
 
@@ -359,7 +389,7 @@ def main():
     unknowns = int(result.array("layout/unknowns", (), "u8", "1"))
     require(len(block_names) <= unknowns <= len(block_names) + 1, "unknowns are neither the blocks nor one more")
     time, heads, values = check_history(result)
-    frames = check_frames(result, unknowns)
+    frames = check_frames(result, unknowns, len(joint_names))
     block_envelopes, joint_envelopes = check_sums(result, unknowns, len(joint_names))
     check_vtkhdf_tree(result)
     result.check_nothing_left()

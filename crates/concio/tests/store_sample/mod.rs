@@ -16,9 +16,11 @@ pub struct Size {
     pub frame_every: usize,
     pub channels: usize,
     pub beam: bool,
+    pub planar: bool,
 }
 
-pub const SMALL: Size = Size { courses: 3, bricks: 4, samples: 401, frame_every: 10, channels: 7, beam: true };
+pub const SMALL: Size =
+    Size { courses: 3, bricks: 4, samples: 401, frame_every: 10, channels: 7, beam: true, planar: false };
 
 pub struct Sample {
     pub provenance: Provenance,
@@ -35,7 +37,7 @@ pub fn sample(size: Size) -> Sample {
         case_json: r#"{"title":"Prüfwand – β, δ_v","model":"shear"}"#.into(),
         inputs_hash: "0123456789abcdef".into(),
         version: "0.1.0".into(),
-        model: "shear".into(),
+        model: if size.planar { "planar" } else { "shear" }.into(),
     };
     Sample { provenance, wall, joints, outcome }
 }
@@ -51,6 +53,7 @@ fn wall(size: Size) -> Wall {
                 course,
                 x: [x, x + 0.25],
                 y: [y, y + 0.055],
+                shape: None,
                 thickness: 0.12,
                 specific_weight: 18_000.0 + course as f64,
             });
@@ -125,7 +128,9 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         samples: size.samples,
         frame_every: size.frame_every,
         unknowns,
-        held: 3,
+        turned: if size.planar { unknowns } else { 0 },
+        touching: if size.planar { joints } else { 0 },
+        held: if size.planar { joints } else { 3 },
         bonded: joints.min(2),
         channels: channels(size.channels, wall),
     };
@@ -199,6 +204,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             events: 60,
             located: 70,
             impacts: 80,
+            unsolved: 90,
         },
         stop_reason: StopReason::Completed,
     }
@@ -227,6 +233,9 @@ pub fn rows(layout: &Layout, range: std::ops::Range<usize>) -> Recording {
         if k % 97 == 5 {
             rows.events.push(Event { time: t, joint: (k % 3) as u32, kind: EventKind::Impact, value: 0.5 * t });
         }
+        if k % 97 == 6 && layout.turned > 0 {
+            rows.events.push(Event { time: t, joint: (k % 3) as u32, kind: EventKind::Collapse, value: 0.25 * t });
+        }
         rows.values.extend((0..layout.channels.len()).map(|c| (c as f64 + 1.0) * (t * 40.0 + c as f64).sin()));
         if layout.frame_every > 0 && k % layout.frame_every == 0 {
             rows.frame_time.push(t);
@@ -234,6 +243,13 @@ pub fn rows(layout: &Layout, range: std::ops::Range<usize>) -> Recording {
             rows.frame_velocity.extend((0..layout.unknowns).map(|u| 3e-2 * (t * 30.0 + u as f64 * 0.01).cos()));
             rows.frame_friction.extend((0..layout.held).map(|e| 50.0 * (t * 20.0 + e as f64 * 0.1).sin()));
             rows.frame_damage.extend((0..layout.bonded).map(|b| (0.5 + t * 20.0 + b as f64 * 0.1).min(1.0)));
+            // Turns of half a circle and more, and others so small that 1 − cos of them is below the digits of 1.
+            let turn = |u: usize| if u.is_multiple_of(2) { 40.0 * t * (u as f64 + 1.0) } else { 1e-9 * (t + u as f64) };
+            rows.frame_vertical.extend((0..layout.turned).map(|u| 2e-3 * (t * 25.0 + u as f64 * 0.02).sin()));
+            rows.frame_rotation.extend((0..layout.turned).map(turn));
+            rows.frame_slip.extend((0..layout.touching).map(|e| 1e-3 * (t * 20.0 + e as f64 * 0.3).sin()));
+            rows.frame_opening.extend((0..layout.touching).map(|e| 1e-4 * (t * 10.0 + e as f64 * 0.3).sin().max(0.0)));
+            rows.frame_pressure.extend((0..layout.touching).map(|e| 700.0 * (t * 15.0 + e as f64 * 0.2).cos()));
             rows.frame_acceleration.extend((0..layout.unknowns).map(|u| -0.9 * (t * 30.0 + u as f64 * 0.01).sin()));
         }
     }

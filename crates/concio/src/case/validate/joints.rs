@@ -49,12 +49,16 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
 const DAMPING: Bound = Bound::Between(0.0, 2.0);
 
 fn spring(f: &mut Findings, kind: &str, s: &Spring) {
-    f.quantity(format_args!("joint.{kind}.stiffness"), s.stiffness, Bound::From0);
+    f.stiffness(format_args!("joint.{kind}.stiffness"), s.stiffness);
     f.number(format_args!("joint.{kind}.rigidity"), s.rigidity, Bound::Above0);
     f.number(format_args!("joint.{kind}.stiffness_factor"), s.stiffness_factor, Bound::From0);
     restitution(f, format!("joint.{kind}.restitution"), s.restitution, Some(s.law));
     if let Some(ratio) = s.damping_ratio {
         f.number(format_args!("joint.{kind}.damping_ratio"), ratio, DAMPING);
+    }
+    f.number(format_args!("joint.{kind}.normal_to_shear"), s.normal_to_shear, Bound::Above0);
+    if let Some(strength) = s.compressive_strength {
+        f.quantity(format_args!("joint.{kind}.compressive_strength"), strength, Bound::Above0);
     }
 }
 
@@ -140,12 +144,16 @@ fn change(f: &mut Findings, i: usize, change: &JointChange) {
         // Without a law the joint keeps its own, which is not known here: a restitution of no rigid joint has no effect.
         restitution(f, format!("joint.change[{i}].spring.restitution"), s.restitution, s.law);
         if let Some(v) = s.stiffness {
-            f.quantity(format_args!("joint.change[{i}].spring.stiffness"), v, Bound::From0);
+            f.stiffness(format_args!("joint.change[{i}].spring.stiffness"), v);
+        }
+        if let Some(v) = s.compressive_strength {
+            f.quantity(format_args!("joint.change[{i}].spring.compressive_strength"), v, Bound::Above0);
         }
         for (key, value, bound) in [
             ("rigidity", s.rigidity, Bound::Above0),
             ("stiffness_factor", s.stiffness_factor, Bound::From0),
             ("damping_ratio", s.damping_ratio, DAMPING),
+            ("normal_to_shear", s.normal_to_shear, Bound::Above0),
         ] {
             if let Some(v) = value {
                 f.number(format_args!("joint.change[{i}].spring.{key}"), v, bound);
@@ -240,6 +248,7 @@ fn selector(f: &mut Findings, i: usize, at: &Selector, case: &Case, names: &[Str
 fn courses(panel: &Panel) -> usize {
     match panel.bond {
         Bond::Explicit => panel.blocks.iter().map(|b| b.course).max().unwrap_or(0),
+        Bond::Arch => 1,
         Bond::Irregular if panel.random.is_none() => panel.course_list.len(),
         _ => panel.courses.unwrap_or(0),
     }

@@ -1,13 +1,13 @@
 //! Motions of base and top.
 
 use super::{Bound, Findings};
-use crate::case::{Baseline, Case, Pulse, Ramp, RecordInput, Signal, Sine, Sweep, Synthetic};
+use crate::case::{Baseline, Case, DisplacementPath, Pulse, Ramp, RecordInput, Signal, Sine, Sweep, Synthetic, Tilt};
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
     let m = &case.motion;
     match m.duration {
         Some(duration) => f.quantity("motion.duration", duration, Bound::Above0),
-        None if ![&m.base, &m.top].iter().any(|s| matches!(s, Signal::Record(_) | Signal::Synthetic(_))) => {
+        None if ![&m.base, &m.top, &m.vertical].iter().any(|s| has_length(s)) => {
             let what = "the key is missing, and no record says how long the run is";
             f.push("motion.duration", what, "above 0 s");
         }
@@ -15,6 +15,12 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
     }
     signal(f, "motion.base", &m.base);
     signal(f, "motion.top", &m.top);
+    signal(f, "motion.vertical", &m.vertical);
+}
+
+/// Whether a run without `duration` ends with the motion: after the others a wall still has something to do.
+fn has_length(signal: &Signal) -> bool {
+    matches!(signal, Signal::Record(_) | Signal::Synthetic(_) | Signal::Path(_))
 }
 
 fn signal(f: &mut Findings, key: &str, signal: &Signal) {
@@ -23,6 +29,8 @@ fn signal(f: &mut Findings, key: &str, signal: &Signal) {
         Signal::Record(r) => record(f, key, r),
         Signal::Sine(s) => sine(f, key, s),
         Signal::Ramp(r) => ramp(f, key, r),
+        Signal::Tilt(t) => tilt(f, key, t),
+        Signal::Path(p) => path(f, key, p),
         Signal::Pulse(p) => pulse(f, key, p),
         Signal::Sweep(s) => sweep(f, key, s),
         Signal::Synthetic(s) => synthetic(f, key, s),
@@ -92,6 +100,33 @@ fn ramp(f: &mut Findings, key: &str, r: &Ramp) {
     f.quantity(format_args!("{key}.ramp.amplitude"), r.amplitude, Bound::Finite);
     f.quantity(format_args!("{key}.ramp.start"), r.start, Bound::From0);
     f.quantity(format_args!("{key}.ramp.rise"), r.rise, Bound::Above0);
+}
+
+fn tilt(f: &mut Findings, key: &str, t: &Tilt) {
+    f.quantity(format_args!("{key}.tilt.acceleration"), t.acceleration, Bound::Finite);
+    f.quantity(format_args!("{key}.tilt.rise"), t.rise, Bound::Above0);
+    f.quantity(format_args!("{key}.tilt.start"), t.start, Bound::From0);
+}
+
+/// Most places of a path: each step of a run looks for its own among them.
+const MOST_PLACES: usize = 1000;
+
+fn path(f: &mut Findings, key: &str, p: &DisplacementPath) {
+    f.quantity(format_args!("{key}.path.speed"), p.speed, Bound::Above0);
+    if !(1..=MOST_PLACES).contains(&p.displacements.len()) {
+        let what = format!("{} displacements are given", p.displacements.len());
+        f.push(format_args!("{key}.path.displacements"), what, "at least one, up to 1,000");
+    }
+    let mut before = 0.0;
+    for (k, d) in p.displacements.iter().enumerate() {
+        f.quantity(format_args!("{key}.path.displacements[{k}]"), *d, Bound::Finite);
+        if d.si() == before {
+            let what = if k == 0 { format!("the path starts at {d} already") } else { format!("{d} stands before it") };
+            let allowed = "each displacement other than the one before it, the first other than 0";
+            f.push(format_args!("{key}.path.displacements[{k}]"), what, allowed);
+        }
+        before = d.si();
+    }
 }
 
 fn pulse(f: &mut Findings, key: &str, p: &Pulse) {

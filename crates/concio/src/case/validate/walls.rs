@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::{Bound, Findings};
 use crate::InputError;
-use crate::case::{Bond, Case, Ends, First, Panel, RandomTexture};
+use crate::case::{Bond, Case, Ends, ExplicitBlock, First, Panel, RandomTexture};
 
 /// Most blocks of a wall.
 pub const LARGEST_WALL: usize = 4_000_000;
@@ -12,8 +12,11 @@ pub const LARGEST_WALL: usize = 4_000_000;
 /// No fewer blocks than the panel will have (for a random texture an upper bound, else the number).
 pub fn block_bound(panel: &Panel) -> usize {
     let courses = panel.courses.unwrap_or(0);
-    match (panel.bond, &panel.random) {
+    // An opening may part a block of every course, and adds its lintel.
+    let parted = panel.openings.len().saturating_mul(courses.max(panel.course_list.len()).saturating_add(1));
+    parted.saturating_add(match (panel.bond, &panel.random) {
         (Bond::Explicit, _) => panel.blocks.len(),
+        (Bond::Arch, _) => panel.arch.map_or(0, |a| a.voussoirs),
         (Bond::Irregular, None) => panel.course_list.iter().map(|c| c.bricks.len()).sum(),
         (Bond::Irregular, Some(r)) => {
             let mortar = panel.mortar.head.si();
@@ -31,7 +34,7 @@ pub fn block_bound(panel: &Panel) -> usize {
             };
             courses.saturating_mul(panel.bricks.unwrap_or(0)).saturating_add(longer)
         }
-    }
+    })
 }
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
@@ -43,10 +46,12 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
     for (i, panel) in case.panels.iter().enumerate() {
         common(f, i, panel);
         keys(f, i, panel);
+        openings(f, i, panel);
         match panel.bond {
             Bond::Running | Bond::Stack => regular(f, i, panel),
             Bond::Irregular => irregular(f, i, panel),
             Bond::Explicit => explicit(f, i, panel),
+            Bond::Arch => arch(f, i, panel),
         }
         total = total.saturating_add(block_bound(panel));
         if total > LARGEST_WALL {
@@ -92,10 +97,27 @@ fn common(f: &mut Findings, i: usize, panel: &Panel) {
     }
 }
 
+fn openings(f: &mut Findings, i: usize, panel: &Panel) {
+    for (k, o) in panel.openings.iter().enumerate() {
+        let key = format!("panel[{i}].opening[{k}]");
+        f.quantity(format_args!("{key}.x"), o.x, Bound::From0);
+        f.quantity(format_args!("{key}.y"), o.y, Bound::From0);
+        f.quantity(format_args!("{key}.width"), o.width, Bound::Above0);
+        f.quantity(format_args!("{key}.height"), o.height, Bound::Above0);
+        if let Some(lintel) = &o.lintel {
+            f.quantity(format_args!("{key}.lintel.height"), lintel.height, Bound::Above0);
+            f.quantity(format_args!("{key}.lintel.bearing"), lintel.bearing, Bound::Above0);
+            if let Some(weight) = lintel.specific_weight {
+                f.quantity(format_args!("{key}.lintel.specific_weight"), weight, Bound::Above0);
+            }
+        }
+    }
+}
+
 /// Keys that another bond takes are refused: left unread they would mislead.
 fn keys(f: &mut Findings, i: usize, panel: &Panel) {
     use Bond::*;
-    let given: [(&str, bool, &[Bond], &str); 7] = [
+    let given: [(&str, bool, &[Bond], &str); 9] = [
         ("courses", panel.courses.is_some(), &[Running, Stack, Irregular], "`running`, `stack` or `irregular`"),
         ("bricks", panel.bricks.is_some(), &[Running, Stack], "`running` or `stack`"),
         ("ends", panel.ends != Ends::default(), &[Running], "`running`"),
@@ -103,6 +125,8 @@ fn keys(f: &mut Findings, i: usize, panel: &Panel) {
         ("course", !panel.course_list.is_empty(), &[Irregular], "`irregular`"),
         ("random", panel.random.is_some(), &[Irregular], "`irregular`"),
         ("block", !panel.blocks.is_empty(), &[Explicit], "`explicit`"),
+        ("arch", panel.arch.is_some(), &[Arch], "`arch`"),
+        ("opening", !panel.openings.is_empty(), &[Running, Stack, Irregular], "`running`, `stack` or `irregular`"),
     ];
     for (key, given, bonds, allowed) in given {
         if given && !bonds.contains(&panel.bond) {
@@ -118,6 +142,7 @@ fn bond_name(bond: Bond) -> &'static str {
         Bond::Stack => "stack",
         Bond::Irregular => "irregular",
         Bond::Explicit => "explicit",
+        Bond::Arch => "arch",
     }
 }
 
@@ -214,7 +239,7 @@ fn random(f: &mut Findings, i: usize, panel: &Panel, r: &RandomTexture) {
 }
 
 /// To a micrometre, for messages.
-fn tidy(v: f64) -> f64 {
+pub(crate) fn tidy(v: f64) -> f64 {
     (v * 1e6).round() / 1e6
 }
 
@@ -238,6 +263,26 @@ fn unfillable(panel: &Panel, r: &RandomTexture) -> Option<InputError> {
     Some(InputError::new(what).allowed(allowed))
 }
 
+fn arch(f: &mut Findings, i: usize, panel: &Panel) {
+    let Some(a) = &panel.arch else {
+        let what = "the key is missing: bond `arch` needs it";
+        f.push(format_args!("panel[{i}].arch"), what, "{ span = …, rise = …, thickness = …, voussoirs = … }");
+        return;
+    };
+    f.quantity(format_args!("panel[{i}].arch.span"), a.span, Bound::Above0);
+    f.quantity(format_args!("panel[{i}].arch.rise"), a.rise, Bound::Above0);
+    f.quantity(format_args!("panel[{i}].arch.thickness"), a.thickness, Bound::Above0);
+    f.quantity(format_args!("panel[{i}].arch.springing"), a.springing, Bound::From0);
+    let half = 0.5 * a.span.si();
+    if a.rise.si() > half {
+        let what = format!("{} is more than half the span", a.rise);
+        f.push(format_args!("panel[{i}].arch.rise"), what, format!("above 0 m, up to {} m", tidy(half)));
+    }
+    if !(3..=1000).contains(&a.voussoirs) {
+        f.push(format_args!("panel[{i}].arch.voussoirs"), format!("{} is out of range", a.voussoirs), "3 … 1,000");
+    }
+}
+
 fn explicit(f: &mut Findings, i: usize, panel: &Panel) {
     if panel.blocks.is_empty() {
         f.push(format_args!("panel[{i}].block"), "the panel has no block", "at least one [[panel.block]]");
@@ -247,10 +292,10 @@ fn explicit(f: &mut Findings, i: usize, panel: &Panel) {
         if block.course == 0 {
             f.push(key("course"), "0 is out of range", "from 1 at the bottom");
         }
-        f.quantity(format_args!("panel[{i}].block[{k}].x"), block.x, Bound::Finite);
-        f.quantity(format_args!("panel[{i}].block[{k}].y"), block.y, Bound::From0);
-        f.quantity(format_args!("panel[{i}].block[{k}].length"), block.length, Bound::Above0);
-        f.quantity(format_args!("panel[{i}].block[{k}].height"), block.height, Bound::Above0);
+        match block.corners.is_empty() {
+            true => sides(f, &format!("panel[{i}].block[{k}]"), block),
+            false => corners(f, &format!("panel[{i}].block[{k}]"), block),
+        }
         if let Some(weight) = block.specific_weight {
             f.quantity(format_args!("panel[{i}].block[{k}].specific_weight"), weight, Bound::Above0);
         }
@@ -261,6 +306,48 @@ fn explicit(f: &mut Findings, i: usize, panel: &Panel) {
         }
     }
     courses_in_use(f, i, panel);
+}
+
+fn sides(f: &mut Findings, key: &str, block: &ExplicitBlock) {
+    for (name, value, bound) in [
+        ("x", block.x, Bound::Finite),
+        ("y", block.y, Bound::From0),
+        ("length", block.length, Bound::Above0),
+        ("height", block.height, Bound::Above0),
+    ] {
+        match value {
+            Some(v) => f.quantity(format_args!("{key}.{name}"), v, bound),
+            None => {
+                let what = "the key is missing: a block has `x`, `y`, `length` and `height`, or `corners`";
+                f.push(format_args!("{key}.{name}"), what, bound.text(" m"));
+            }
+        }
+    }
+}
+
+/// Corners of a convex block.
+fn corners(f: &mut Findings, key: &str, block: &ExplicitBlock) {
+    let given = [("x", block.x), ("y", block.y), ("length", block.length), ("height", block.height)];
+    if let Some((name, _)) = given.iter().find(|(_, value)| value.is_some()) {
+        let what = "the block has `corners`, which say where it is";
+        f.push(format_args!("{key}.{name}"), what, "`corners`, or `x`, `y`, `length` and `height`");
+    }
+    let before = f.list.len();
+    if !(3..=16).contains(&block.corners.len()) {
+        let what = format!("the block has {} corners", block.corners.len());
+        f.push(format_args!("{key}.corners"), what, "3 to 16");
+    }
+    for (n, [x, y]) in block.corners.iter().enumerate() {
+        f.quantity(format_args!("{key}.corners[{n}]"), *x, Bound::Finite);
+        f.quantity(format_args!("{key}.corners[{n}]"), *y, Bound::From0);
+    }
+    if f.list.len() > before {
+        return;
+    }
+    if let Err(n) = crate::polygon::convex(&block.outline()) {
+        let what = "the block is not convex: it turns the wrong way, or not at all, at this corner";
+        f.push(format_args!("{key}.corners[{n}]"), what, "corners in their order round a convex block");
+    }
 }
 
 fn courses_in_use(f: &mut Findings, i: usize, panel: &Panel) {

@@ -9,7 +9,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::error::{Error, Result};
-use crate::store::fields::{self, Field};
+use crate::store::fields::{self, Field, Frames};
 use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword, other_side};
 use crate::store::{FrictionRow, StoredRun, atomic};
 use crate::wall::Block;
@@ -84,6 +84,7 @@ fn fill(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
     let provenance = &run.provenance;
     archive.texts("case", &[&provenance.case_json])?;
     archive.texts("version", &[&provenance.version])?;
+    archive.texts("model", &[&provenance.model])?;
     archive.texts("inputs_hash", &[&provenance.inputs_hash])?;
     archive.texts("stop_reason", &[keyword(&run.outcome.stop_reason)])?;
     fill_blocks(archive, run)?;
@@ -133,17 +134,11 @@ fn fill_recording(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
         archive.array(&format!("history/{path}"), &[samples], column)?;
     }
     archive.list("frames/time", &recording.frame_time)?;
-    let shape = [recording.frame_time.len(), layout.unknowns];
-    archive.array("frames/displacement", &shape, recording.frame_displacement.iter().copied())?;
-    archive.array("frames/velocity", &shape, recording.frame_velocity.iter().copied())?;
-    archive.array("frames/acceleration", &shape, recording.frame_acceleration.iter().copied())?;
-    if layout.held > 0 {
-        let shape = [recording.frame_time.len(), layout.held];
-        archive.array("frames/friction", &shape, recording.frame_friction.iter().copied())?;
+    for Frames { field, width } in fields::FRAMES.iter().filter(|f| f.is_in(layout)) {
+        let shape = [recording.frame_time.len(), width(layout)];
+        archive.array(&format!("frames/{}", field.name), &shape, (field.get)(recording).iter().copied())?;
     }
     if layout.bonded > 0 {
-        let shape = [recording.frame_time.len(), layout.bonded];
-        archive.array("frames/damage", &shape, recording.frame_damage.iter().copied())?;
         archive.integers("bonds/joint", run.outcome.bonds.iter().map(|b| b.joint as i64))?;
         columns(archive, "bonds", &fields::BONDS, &run.outcome.bonds)?;
     }

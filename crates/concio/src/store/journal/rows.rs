@@ -6,19 +6,18 @@ use crate::record::{Event, Layout, Recording};
 /// Adds the bytes of `rows`; an error when their lengths do not fit the layout.
 pub(super) fn encode(rows: &Recording, layout: &Layout, bytes: &mut Vec<u8>) -> Result<(), String> {
     let (samples, frames) = (rows.time.len(), rows.frame_time.len());
-    let arrays = rows.arrays(layout);
-    let counts = [samples, samples, frames, frames, frames, frames, frames, frames];
-    for ((array, width), rows) in arrays.iter().zip(counts) {
+    let arrays = rows.arrays();
+    for (array, (rows, width)) in arrays.iter().zip(Recording::shapes(layout, samples, frames)) {
         if array.len() != rows * width {
             let found = array.len();
             return Err(format!("not written: {found} values in {rows} rows of {width}"));
         }
     }
-    bytes.reserve(24 + 8 * arrays.iter().map(|(a, _)| a.len()).sum::<usize>() + 32 * rows.events.len());
+    bytes.reserve(24 + 8 * arrays.iter().map(|a| a.len()).sum::<usize>() + 32 * rows.events.len());
     bytes.extend_from_slice(&(samples as u64).to_le_bytes());
     bytes.extend_from_slice(&(frames as u64).to_le_bytes());
     bytes.extend_from_slice(&(rows.events.len() as u64).to_le_bytes());
-    for (array, _) in arrays {
+    for array in arrays {
         let from = bytes.len();
         bytes.resize(from + 8 * array.len(), 0);
         for (into, value) in bytes[from..].as_chunks_mut::<8>().0.iter_mut().zip(array) {
@@ -37,9 +36,7 @@ pub(super) fn decode(bytes: &[u8], layout: &Layout, to: &mut Recording) -> Optio
     let samples = usize::try_from(u64::from_le_bytes(*samples)).ok()?;
     let frames = usize::try_from(u64::from_le_bytes(*frames)).ok()?;
     let events = usize::try_from(u64::from_le_bytes(*events)).ok()?;
-    let widths = to.arrays(layout).map(|(_, width)| width);
-    let counts = [samples, samples, frames, frames, frames, frames, frames, frames];
-    for ((array, width), rows) in to.arrays_mut().into_iter().zip(widths).zip(counts) {
+    for (array, (rows, width)) in to.arrays_mut().into_iter().zip(Recording::shapes(layout, samples, frames)) {
         bytes = take(bytes, rows.checked_mul(width)?, array)?;
     }
     let mut rows = Vec::new();
@@ -65,10 +62,7 @@ pub(super) fn with_capacity(layout: &Layout, bytes: u64) -> Recording {
     let there = usize::try_from(bytes / 8).unwrap_or(usize::MAX);
     let limit = |rows: usize, width: usize| rows.min(there / width.max(1));
     let frames = layout.samples.checked_div(layout.frame_every).map_or(0, |n| n + 1);
-    Recording::with_room(
-        layout,
-        limit(layout.samples, layout.channels.len()),
-        limit(frames, 3 * layout.unknowns + layout.held + layout.bonded),
-        0,
-    )
+    let in_frame: usize =
+        Recording::shapes(layout, 0, 1).iter().filter(|(rows, _)| *rows > 0).map(|(_, width)| width).sum();
+    Recording::with_room(layout, limit(layout.samples, layout.channels.len()), limit(frames, in_frame), 0)
 }

@@ -1,0 +1,273 @@
+//! Planar walls: from a wall and its laws to rigid bodies that slide, open and rock, and their run.
+//!
+//! Geometry, joints, laws, motions, results and studies are those of the shear model; only what a block can do differs.
+//! The mechanics are those of `concio_planar`.
+
+use concio_planar::body::Body;
+use concio_planar::joint::{Bond as PointBond, Friction, Law, Normal, Shear};
+use concio_planar::motion::{Link, System};
+
+use crate::assign::JointLaw;
+use crate::bond::{Bond, BondValues, Bonded};
+use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw};
+use crate::error::{InputError, Result};
+use crate::graph;
+use crate::law::Stribeck;
+use crate::wall::{End, Joint, Wall};
+
+mod modes;
+mod run;
+
+pub use modes::{Failure, Mode, failure};
+pub(crate) use run::{Kept, Row, Run, turned};
+
+/// Step unless the wall file says otherwise [s].
+pub const STEP: f64 = 1e-3;
+/// The same without inertia, where what stands for it is the smaller the longer steps are.
+pub const QUASI_STATIC_STEP: f64 = 2e-2;
+
+/// A wall whose blocks rise and turn.
+#[derive(Debug, Clone)]
+pub struct Planar {
+    /// Bodies, blocks first and the beam last, their joints in the order of the wall's, their loads.
+    pub system: System,
+    /// Step h [s].
+    pub step: f64,
+    /// Whether inertia is left out.
+    pub still: bool,
+}
+
+/// The top beam as a body: its level is that of the highest panel.
+pub(crate) struct BeamBody {
+    /// The body.
+    pub body: Body,
+    /// Length on which it lies [m].
+    pub length: f64,
+}
+
+/// The beam of a planar wall; none where the top is free.
+pub(crate) fn beam(case: &Case, wall: &Wall, joints: &[Joint]) -> Option<BeamBody> {
+    if case.load.beam == Beam::Free {
+        return None;
+    }
+    let tops: Vec<&Joint> = joints.iter().filter(|j| j.kind == JointKind::Top).collect();
+    let length: f64 = tops.iter().map(|j| j.overlap).sum();
+    let [left, right] =
+        tops.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |e, j| [e[0].min(j.line[0]), e[1].max(j.line[2])]);
+    let level = top_level(wall);
+    let usual = 0.5 * wall.panels.iter().map(|p| p.reference_height).fold(0.0, f64::max);
+    let height = case.load.beam_height.map_or(usual, |h| h.si());
+    let mass = match case.load.beam {
+        Beam::Mass(mass) => mass.si(),
+        // Held from side to side, it needs a mass for its rise and turn alone; its load is a dead one.
+        _ => tops.iter().map(|j| wall.blocks[j.a].mass()).sum(),
+    };
+    Some(BeamBody { body: Body::rectangle("beam", [left, right], [level, level + height], mass), length })
+}
+
+/// A convex block as it is: where its joints have mortar, its sides keep the distance that they were laid with.
+pub fn polygon(block: &crate::wall::Block) -> Body {
+    let centre = block.centre();
+    let mass = block.mass();
+    Body {
+        name: block.name.clone(),
+        centre,
+        corners: block.corners().iter().map(|c| [c[0] - centre[0], c[1] - centre[1]]).collect(),
+        mass,
+        inertia: mass * block.polar_moment() / block.area(),
+    }
+}
+
+fn top_level(wall: &Wall) -> f64 {
+    wall.blocks.iter().map(|b| b.y[1]).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Makes bodies and laws of a wall.
+///
+/// # Errors
+/// Devices that planar walls do not have, bonds without strength where they are needed.
+pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Result<Planar> {
+    let mut bodies = bodies(wall, joints);
+    let n = bodies.len();
+    let load = case.load.top.si();
+    let mut loads: Vec<[f64; 2]> = wall.blocks.iter().map(|b| [0.0, -b.weight()]).collect();
+    let mut held = vec![[false; 3]; n];
+    match beam(case, wall, joints) {
+        Some(beam) => {
+            loads.push([0.0, -load * beam.length]);
+            let level = case.load.beam_rotation == BeamRotation::Fixed;
+            held.push([matches!(case.load.beam, Beam::Driven | Beam::Tied), false, level]);
+            bodies.push(beam.body);
+        }
+        None => {
+            for (block, load_on) in wall.blocks.iter().zip(&mut loads) {
+                if block.course + 1 == wall.panels[block.panel].courses {
+                    load_on[1] -= load * block.length();
+                }
+            }
+        }
+    }
+    let link = |(joint, law): (&Joint, &JointLaw)| {
+        let (a, b) = match joint.b {
+            End::Block(b) => (Some(joint.a), b),
+            End::Base => (None, joint.a),
+            End::Top => (Some(joint.a), n),
+        };
+        Ok(Link { a, b, law: compile_law(case, wall, joint, law)? })
+    };
+    let links = joints.iter().zip(laws).map(link).collect::<Result<Vec<Link>>>()?;
+    let other = Law::dry(common_friction(case));
+    let system = System { bodies, links, other, load: loads, held };
+    let still = case.motion.quasi_static;
+    let step = case.solver.step.map_or(if still { QUASI_STATIC_STEP } else { STEP }, |h| h.si());
+    Ok(Planar { system, step, still })
+}
+
+/// Blocks reach to the middle of their mortar joints, to the base and to the beam.
+fn bodies(wall: &Wall, joints: &[Joint]) -> Vec<Body> {
+    let mut faces: Vec<[f64; 4]> = wall.blocks.iter().map(|b| [b.x[0], b.x[1], b.y[0], b.y[1]]).collect();
+    let level = top_level(wall);
+    for joint in joints {
+        let [x, y, ..] = joint.line;
+        match (joint.kind, joint.b) {
+            (JointKind::Head | JointKind::Connection, End::Block(b)) => {
+                faces[joint.a][1] = faces[joint.a][1].max(x);
+                faces[b][0] = faces[b][0].min(x);
+            }
+            (JointKind::Bed, End::Block(b)) => {
+                faces[joint.a][3] = faces[joint.a][3].max(y);
+                faces[b][2] = faces[b][2].min(y);
+            }
+            (JointKind::Base, _) => faces[joint.a][2] = 0.0,
+            (JointKind::Top, _) => faces[joint.a][3] = level,
+            _ => {}
+        }
+    }
+    let body = |(block, [left, right, low, high]): (&crate::wall::Block, [f64; 4])| {
+        if !block.is_rectangle() {
+            return polygon(block);
+        }
+        let mut body = Body::rectangle(&block.name, block.x, block.y, block.mass());
+        let [x, y] = body.centre;
+        body.corners = vec![[left - x, low - y], [right - x, low - y], [right - x, high - y], [left - x, high - y]];
+        body
+    };
+    wall.blocks.iter().zip(faces).map(body).collect()
+}
+
+/// The bonded joints, for their rows in results: the strength of a bed joint without the pressure of the moment, that of a
+/// head joint in tension.
+pub(crate) fn bonds(wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Vec<Bonded> {
+    let of = |(e, (joint, law)): (usize, (&Joint, &JointLaw))| {
+        let values = bond_of(law)?;
+        let opens = joint.kind.is_upright();
+        let area = joint.area(wall);
+        let which = usize::from(!opens);
+        let strength = area * if opens { values.tensile_strength } else { values.cohesion };
+        let stiffness = law.stiffness(joint, wall) * law.spring.stiffness_factor;
+        let law = Bond { strength, stiffness, residual: values.residual, decay: 0.0, opens };
+        let softening = Bond::new(strength, stiffness, values.residual, values.energy[which] * area, opens);
+        Some(Bonded { joint: e as u32, rub: None, law: softening.unwrap_or(law) })
+    };
+    joints.iter().zip(laws).enumerate().filter_map(of).collect()
+}
+
+/// The bond of a joint; strengths of 0 are none.
+fn bond_of(law: &JointLaw) -> Option<&BondValues> {
+    law.bond.as_ref().filter(|b| b.tensile_strength > 0.0 || b.cohesion > 0.0 || b.tan_angle > 0.0)
+}
+
+fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Result<Law> {
+    if let Some(device) = law.device(case) {
+        return device_law(wall, joint, device);
+    }
+    let spring = &law.spring;
+    let upright = joint.kind.is_upright();
+    let given = law.stiffness(joint, wall);
+    let stiffness = given * spring.stiffness_factor;
+    // The stiffness of the wall file is that of the shear model: along a bed joint, across a head joint.
+    let ratio = spring.normal_to_shear;
+    let [across, along] = if upright { [1.0, 1.0 / ratio] } else { [ratio, 1.0] };
+    let reference = wall.panels[wall.blocks[joint.a].panel].reference_mass;
+    let dashpot = |k: f64| 2.0 * law.damping_ratio * (k * joint.weight * reference).sqrt();
+    let area = joint.area(wall);
+    let bond = bond_of(law).map(|values| {
+        let strength = [values.tensile_strength * area, values.cohesion * area];
+        let stiff = [across * stiffness, along * stiffness];
+        let decay = |k: usize| {
+            let beyond = values.energy[k] * area - 0.5 * strength[k] * strength[k] / stiff[k];
+            if values.energy[k] > 0.0 && beyond > 0.0 { beyond / strength[k] } else { 0.0 }
+        };
+        PointBond {
+            tension: strength[0],
+            cohesion: strength[1],
+            tan_angle: values.tan_angle,
+            decay: [decay(0), decay(1)],
+            residual: values.residual,
+        }
+    });
+    let (normal, series) = match spring.law {
+        SpringLaw::Rigid => (Normal::Rigid { restitution: spring.restitution.unwrap_or(0.0) }, false),
+        SpringLaw::None => (Normal::Springs { both: 0.0, press: 0.0, damping: 0.0 }, false),
+        SpringLaw::Elastic => {
+            (Normal::Springs { both: across * stiffness, press: 0.0, damping: dashpot(across * given) }, false)
+        }
+        SpringLaw::NoTension => {
+            let (own, closed) = (across * stiffness, across * stiffness * spring.rigidity);
+            let (both, press) = if bond.is_some() { (own, (closed - own).max(0.0)) } else { (0.0, closed) };
+            (Normal::Springs { both, press, damping: dashpot(across * given) }, true)
+        }
+    };
+    let shear = match spring.law {
+        SpringLaw::Rigid | SpringLaw::None => Shear { stiffness: 0.0, damping: 0.0, series: false },
+        _ => Shear { stiffness: along * stiffness, damping: dashpot(along * given), series },
+    };
+    let crushing = spring.compressive_strength.map_or(f64::INFINITY, |f| f.si() * area);
+    Ok(Law { normal, shear, friction: law.rubs().map(friction), bond, crushing, slip: [0.0; 2] })
+}
+
+/// A device lies in the plane of a bed joint, which bears pressure beside it, and across a head joint, which bears nothing
+/// else.
+fn device_law(wall: &Wall, joint: &Joint, device: &Device) -> Result<Law> {
+    let refuse = |what: &str| {
+        let name = graph::name(wall, joint);
+        let error = InputError::new(format!("the device of joint {name} is {what}")).key("joint.change");
+        Err(error.allowed("in planar walls: linear `viscous`, `elastic`, `friction-damper`").into())
+    };
+    let upright = joint.kind.is_upright();
+    let (mut stiffness, mut damping, mut slip) = (0.0, device.damping.map_or(0.0, |c| c.si()), 0.0);
+    match device.law {
+        DeviceLaw::Viscous if device.exponent.is_none_or(|e| e == 1.0) => {}
+        DeviceLaw::Viscous => return refuse("a dashpot with a power of the velocity"),
+        DeviceLaw::Elastic => stiffness = device.stiffness.map_or(0.0, |k| k.si()),
+        DeviceLaw::FrictionDamper => (slip, damping) = (device.slip_force.map_or(0.0, |f| f.si()), 0.0),
+        DeviceLaw::BoucWen | DeviceLaw::ReCentring => return refuse(&format!("`{}`", device.law.name())),
+    }
+    let mut law = Law::dry(None);
+    if upright {
+        law.normal = Normal::Springs { both: stiffness, press: 0.0, damping };
+        law.slip = [slip, 0.0];
+    } else {
+        law.shear = Shear { stiffness, damping, series: false };
+        law.slip = [0.0, slip];
+    }
+    Ok(law)
+}
+
+fn friction(law: Stribeck) -> Friction {
+    let Stribeck { static_, dynamic, slip_velocity, alpha, .. } = law;
+    Friction { static_, dynamic, slip_velocity, alpha }
+}
+
+/// What blocks rub with that come to touch where there was no joint.
+fn common_friction(case: &Case) -> Option<Friction> {
+    use crate::case::FrictionLaw;
+    let f = &case.joint.friction;
+    let slip_velocity = if f.law == FrictionLaw::Coulomb { 0.0 } else { f.slip_velocity.si() };
+    (f.law != FrictionLaw::None).then_some(Friction {
+        static_: f.static_,
+        dynamic: f.dynamic,
+        slip_velocity,
+        alpha: f.alpha,
+    })
+}

@@ -1,0 +1,186 @@
+//! How a planar wall failed: what of its displacement is turning, sliding, or a stepped crack.
+//!
+//! At the frame in which the top has gone farthest, its displacement is split: a course that turns by θ brings θ times its
+//! height (rocking), a bed joint plane in which all joints have slid the same way brings what the least of them slid
+//! (sliding). What is left comes from joints that slide and open here and not there; where these reach through the wall in
+//! steps, it is a diagonal crack.
+
+use serde::{Deserialize, Serialize};
+
+use crate::graph;
+use crate::record::{EventKind, Recording};
+use crate::wall::{End, Joint, Wall};
+
+/// Part of the top's displacement from which a mode is named.
+const NAMED: f64 = 0.25;
+/// Displacement of the top over the height of the wall below which it has not failed.
+const MOVED: f64 = 1e-4;
+/// Opening and slip from which a joint counts as cracked in a stepped crack, over the displacement of the top.
+const CRACKED: f64 = 0.02;
+
+/// Ways to fail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mode {
+    /// Parts of the wall turn about their toes.
+    Rocking,
+    /// One part of the wall slides on another along a bed joint.
+    Sliding,
+    /// A crack runs in steps through bed and head joints.
+    Diagonal,
+    /// The toe is crushed.
+    Crushing,
+    /// Blocks have fallen.
+    Collapse,
+}
+
+impl Mode {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Mode::Rocking => "rocking",
+            Mode::Sliding => "bed sliding",
+            Mode::Diagonal => "stepped diagonal crack",
+            Mode::Crushing => "toe crushing",
+            Mode::Collapse => "collapse",
+        }
+    }
+}
+
+/// How a wall failed, and of which parts the displacement of its top consists.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Failure {
+    /// The modes, the largest part first; none where it did not fail.
+    pub modes: Vec<Mode>,
+    /// Instant at which the top has gone farthest [s].
+    pub time: f64,
+    /// Displacement of the top then [m].
+    pub top: f64,
+    /// Part of it from turning, 0 … 1.
+    pub rocking: f64,
+    /// Part of it from planes that slid, 0 … 1.
+    pub sliding: f64,
+}
+
+/// How the wall of this recording failed; none where frames are missing or not of a planar wall.
+pub fn failure(wall: &Wall, joints: &[Joint], recording: &Recording) -> Option<Failure> {
+    let frames = recording.frame_time.len();
+    let per = |values: &[f64]| values.len().checked_div(frames).unwrap_or(0);
+    let (unknowns, held) = (per(&recording.frame_displacement), per(&recording.frame_slip));
+    if held != joints.len() || per(&recording.frame_rotation) != unknowns || unknowns < wall.blocks.len() {
+        return None;
+    }
+    let courses = graph::courses(wall);
+    let top: Vec<usize> = courses.iter().filter_map(|rows| rows.last()).flatten().copied().collect();
+    // Where there is a beam, it is the top.
+    let beam = (unknowns > wall.blocks.len()).then_some(unknowns - 1);
+    let of_top = |frame: usize| match beam {
+        Some(beam) => recording.frame_displacement[frame * unknowns + beam],
+        None => {
+            top.iter().map(|&i| recording.frame_displacement[frame * unknowns + i]).sum::<f64>()
+                / top.len().max(1) as f64
+        }
+    };
+    let frame = (0..frames).max_by(|a, b| of_top(*a).abs().total_cmp(&of_top(*b).abs()))?;
+    let moved = of_top(frame);
+    let rotation = |i: usize| recording.frame_rotation[frame * unknowns + i];
+    let slip = |e: usize| recording.frame_slip[frame * held + e];
+    let opening = |e: usize| recording.frame_opening[frame * held + e];
+    // What stays behind a crack does not count: every block as far as it has gone.
+    let gone = |i: usize| wall.blocks[i].mass() * recording.frame_displacement[frame * unknowns + i].abs();
+    let mean = |row: &[usize]| {
+        let weight: f64 = row.iter().map(|&i| gone(i)).sum();
+        let turn: f64 = row.iter().map(|&i| -rotation(i) * gone(i) * wall.blocks[i].height()).sum();
+        if weight > 0.0 { turn / weight } else { 0.0 }
+    };
+    // All panels carry the same top: what one of them does is what the wall does, so that the mean of them counts.
+    let panels = courses.len().max(1) as f64;
+    let turned: f64 = courses.iter().flatten().filter(|row| !row.is_empty()).map(|row| mean(row)).sum::<f64>() / panels;
+    let slid = slid(wall, joints, &slip) / panels;
+    let share = |part: f64| if moved == 0.0 { 0.0 } else { (part / moved).clamp(0.0, 1.0) };
+    let (rocking, sliding) = (share(turned), share(slid));
+    let height = wall.blocks.iter().map(|b| b.y[1]).fold(0.0, f64::max);
+    let limit = CRACKED * moved.abs();
+    let cracked = |e: &usize| if joints[*e].kind.is_upright() { opening(*e) > limit } else { slip(*e).abs() > limit };
+    let mut parts = vec![(Mode::Rocking, rocking), (Mode::Sliding, sliding)];
+    if steps(wall, joints, &cracked) {
+        parts.push((Mode::Diagonal, 1.0 - (rocking + sliding).min(1.0)));
+    }
+    parts.retain(|part| part.1 >= NAMED && moved.abs() > MOVED * height);
+    parts.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut modes: Vec<Mode> = parts.into_iter().map(|part| part.0).collect();
+    let happened = |kind| recording.events.iter().any(|e| e.kind == kind);
+    modes.extend(happened(EventKind::Crush).then_some(Mode::Crushing));
+    modes.extend(happened(EventKind::Collapse).then_some(Mode::Collapse));
+    Some(Failure { modes, time: recording.frame_time[frame], top: moved, rocking, sliding })
+}
+
+/// Sum over the planes of bed joints of what slid right through [m], with its sign: below towards above.
+fn slid(wall: &Wall, joints: &[Joint], slip: &impl Fn(usize) -> f64) -> f64 {
+    let mut planes: Vec<Vec<Option<[f64; 2]>>> = wall.panels.iter().map(|p| vec![None; p.courses + 1]).collect();
+    for (e, joint) in joints.iter().enumerate() {
+        // Offset of the upper side: slip is that of the lower one, of a base joint that of the block itself.
+        let (block, above, offset) = match joint.b {
+            End::Base => (joint.a, 0, slip(e)),
+            End::Block(upper) if !joint.kind.is_upright() => (upper, 0, -slip(e)),
+            End::Top => (joint.a, 1, -slip(e)),
+            End::Block(_) => continue,
+        };
+        let block = &wall.blocks[block];
+        let plane = &mut planes[block.panel][block.course + above];
+        let [low, high] = plane.unwrap_or([offset; 2]);
+        *plane = Some([low.min(offset), high.max(offset)]);
+    }
+    let through = |[low, high]: [f64; 2]| {
+        if low > 0.0 {
+            low
+        } else if high < 0.0 {
+            high
+        } else {
+            0.0
+        }
+    };
+    planes.iter().flatten().flatten().map(|ends| through(*ends)).sum()
+}
+
+/// Whether cracked joints hang together over at least half of the courses, through head joints and pieces of bed joints.
+fn steps(wall: &Wall, joints: &[Joint], cracked: &impl Fn(&usize) -> bool) -> bool {
+    // Joints meet where they share a block and an end.
+    let list: Vec<usize> = (0..joints.len()).filter(cracked).collect();
+    let touch = |a: &Joint, b: &Joint| {
+        let reach = 0.6 * wall.panels.iter().map(|p| p.mortar[0].max(p.mortar[1])).fold(0.0, f64::max) + 1e-6;
+        let ends = |j: &Joint| [[j.line[0], j.line[1]], [j.line[2], j.line[3]]];
+        ends(a).iter().any(|p| {
+            let [x0, y0, x1, y1] = b.line;
+            p[0] >= x0 - reach && p[0] <= x1 + reach && p[1] >= y0 - reach && p[1] <= y1 + reach
+        }) || ends(b).iter().any(|p| {
+            let [x0, y0, x1, y1] = a.line;
+            p[0] >= x0 - reach && p[0] <= x1 + reach && p[1] >= y0 - reach && p[1] <= y1 + reach
+        })
+    };
+    let courses = wall.panels.iter().map(|p| p.courses).max().unwrap_or(0);
+    let mut seen = vec![false; list.len()];
+    for start in 0..list.len() {
+        if seen[start] {
+            continue;
+        }
+        let (mut stack, mut heads) = (vec![start], std::collections::BTreeSet::new());
+        seen[start] = true;
+        while let Some(k) = stack.pop() {
+            let joint = &joints[list[k]];
+            if joint.kind.is_upright() {
+                heads.insert(wall.blocks[joint.a].course);
+            }
+            for other in 0..list.len() {
+                if !seen[other] && touch(joint, &joints[list[other]]) {
+                    seen[other] = true;
+                    stack.push(other);
+                }
+            }
+        }
+        if 2 * heads.len() >= courses.max(2) {
+            return true;
+        }
+    }
+    false
+}

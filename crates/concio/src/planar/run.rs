@@ -1,0 +1,366 @@
+//! A planar wall in motion as a run sees it: its bodies' steps, and what of them goes into state and samples.
+
+use concio_planar::motion::{self, Forcing, Motion, Seen, Setting};
+use concio_planar::shape::Place;
+use serde::{Deserialize, Serialize};
+
+use crate::case::JointKind;
+use crate::dynamics::Channels;
+use crate::excitation::Excitation;
+use crate::ground::signal::GroundMotion;
+use crate::model::Model;
+use crate::planar::Planar;
+use crate::record::{Event, EventKind, Layout, Recording, StopReason};
+use crate::state::{BondState, State};
+
+/// Largest way of a body in a step without inertia at which the wall stands under its loads [m].
+const STANDS: f64 = 1e-10;
+/// Steps in which it has to come to that.
+const SETTLING: usize = 400;
+/// Fall of a block over its height, and turn in rad, from which its wall counts as collapsed.
+const FALLEN: f64 = 0.5;
+const TURNED: f64 = std::f64::consts::FRAC_PI_4;
+
+/// A run of a planar wall.
+#[derive(Debug, Clone)]
+pub(crate) struct Run {
+    motion: Motion,
+    step: f64,
+    still: bool,
+    /// Where the bodies stand under their loads.
+    origin: Vec<Place>,
+    /// Relative velocity of every joint before the step [m/s].
+    before: Vec<f64>,
+    collapsed: bool,
+    /// Whether each joint has been crushed.
+    crushed: Vec<bool>,
+    /// Motion at a sample.
+    at: Sample,
+}
+
+/// What is kept of a run beside its state.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct Kept {
+    motion: motion::Kept,
+    origin: Vec<Place>,
+    before: Vec<f64>,
+    collapsed: bool,
+    crushed: Vec<bool>,
+}
+
+#[derive(Debug, Clone, Default)]
+struct Sample {
+    z: Vec<f64>,
+    v: Vec<f64>,
+    vertical: Vec<f64>,
+    rotation: Vec<f64>,
+    /// Those of the step's start.
+    start: [Vec<f64>; 4],
+    from: f64,
+}
+
+/// What channels of a planar wall are read off.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Row<'a> {
+    pub t: f64,
+    pub z: &'a [f64],
+    pub v: &'a [f64],
+    pub a: &'a [f64],
+    pub seen: &'a [Seen],
+    pub state: &'a State,
+    /// Horizontal force of the base on the wall [N].
+    pub shear: f64,
+}
+
+/// Force along a joint on its lower or left side, against its relative motion [N], of a force on its second side
+/// along its tangent; and slip of the way of the second side: base joints have the base as the first side, not the second.
+pub(crate) fn turned(kind: JointKind) -> f64 {
+    if kind == JointKind::Base { -1.0 } else { 1.0 }
+}
+
+impl Run {
+    /// At rest under its loads.
+    pub fn new(model: &Model, planar: &Planar, longest: f64) -> Self {
+        let setting = Setting { still: planar.still, ..Setting::new(planar.step) };
+        let mut motion = Motion::new(&planar.system, setting);
+        motion.stand(STANDS, SETTLING);
+        let n = motion.places.len();
+        let zeros = vec![0.0; n];
+        let sample = Sample {
+            z: zeros.clone(),
+            v: zeros.clone(),
+            vertical: zeros.clone(),
+            rotation: zeros.clone(),
+            start: [(); 4].map(|()| zeros.clone()),
+            from: 0.0,
+        };
+        Run {
+            origin: motion.places.clone(),
+            step: planar.step.min(longest),
+            still: planar.still,
+            before: vec![0.0; model.joints.len()],
+            collapsed: false,
+            crushed: vec![false; model.joints.len()],
+            at: sample,
+            motion,
+        }
+    }
+
+    /// Energies at the start.
+    pub fn begin(&self, state: &mut State) {
+        state.energies.elastic = self.motion.account.elastic;
+        state.energies.initial = self.motion.account.elastic;
+    }
+
+    /// What has to be kept beside the state.
+    pub fn keep(&self) -> Kept {
+        let (origin, before, crushed) = (self.origin.clone(), self.before.clone(), self.crushed.clone());
+        Kept { motion: self.motion.keep(), origin, before, collapsed: self.collapsed, crushed }
+    }
+
+    /// Goes on from what was kept; false where it is not of this wall.
+    pub fn take_up(&mut self, kept: Kept) -> bool {
+        let Kept { motion, origin, before, collapsed, crushed } = kept;
+        let fits =
+            origin.len() == self.origin.len() && before.len() == self.before.len() && self.motion.take_up(motion);
+        if fits {
+            (self.origin, self.before, self.collapsed, self.crushed) = (origin, before, collapsed, crushed);
+        }
+        fits
+    }
+
+    /// One step, to the end of the run at the farthest.
+    pub fn step(&mut self, model: &Model, state: &mut State, mut tell: impl FnMut(Event)) -> Result<(), StopReason> {
+        let excitation = &model.excitation;
+        let remaining = excitation.duration - state.t;
+        let lands = self.step >= remaining * (1.0 - 1e-9);
+        let h = if lands { remaining } else { self.step };
+        self.at.from = state.t;
+        self.copy(Side::Start);
+        let drives = model.floating_beam().filter(|_| model.beam == crate::case::Beam::Driven);
+        let still = self.still;
+        // Without inertia forces are those of the step's end.
+        let change = |motion: &GroundMotion, from: f64, to: f64| match still {
+            true => (to - from) * motion.acceleration(to),
+            false => velocity(motion, to) - velocity(motion, from),
+        };
+        let forcing = |from: f64, to: f64| Forcing {
+            base: [&excitation.base, &excitation.vertical].map(|motion| change(motion, from, to)),
+            held: if drives.is_some() { drive(excitation, to) - drive(excitation, from) } else { 0.0 },
+        };
+        self.motion.time = state.t;
+        self.motion.go(h, &forcing);
+        state.t = if lands { excitation.duration } else { state.t + h };
+        self.copy(Side::End);
+        if self.at.z.iter().chain(&self.at.vertical).chain(&self.at.rotation).any(|x| !x.is_finite()) {
+            return Err(StopReason::NotFinite);
+        }
+        self.observe(model, state, h, &mut tell);
+        Ok(())
+    }
+
+    fn copy(&mut self, side: Side) {
+        let Sample { z, v, vertical, rotation, start, .. } = &mut self.at;
+        let [z, v, vertical, rotation] = match side {
+            Side::End => [z, v, vertical, rotation],
+            Side::Start => {
+                let [z, v, vertical, rotation] = start;
+                [z, v, vertical, rotation]
+            }
+        };
+        for (i, (now, then)) in self.motion.places.iter().zip(&self.origin).enumerate() {
+            z[i] = now.centre[0] - then.centre[0];
+            vertical[i] = now.centre[1] - then.centre[1];
+            rotation[i] = now.angle - then.angle;
+            v[i] = self.motion.velocities[i][0];
+        }
+    }
+
+    /// State, envelopes and totals after a step.
+    fn observe(&mut self, model: &Model, state: &mut State, h: f64, tell: &mut impl FnMut(Event)) {
+        let n = self.at.z.len();
+        for i in 0..n {
+            state.a[i] = (self.at.v[i] - self.at.start[1][i]) / h;
+        }
+        state.z[..n].copy_from_slice(&self.at.z);
+        state.v[..n].copy_from_slice(&self.at.v);
+        let (account, counted) = (&self.motion.account, &self.motion.counters);
+        let energies = &mut state.energies;
+        (energies.input_base, energies.input_top) = (account.input, account.held);
+        (energies.kinetic, energies.elastic) = (self.motion.kinetic(), account.elastic);
+        (energies.damping, energies.friction) = (account.damping, account.friction);
+        (energies.bond, energies.impact) = (account.bond, account.impact);
+        let counters = &mut state.counters;
+        (counters.steps, counters.rejected, counters.unsolved) = (counted.steps, counted.halved, counted.unsolved);
+        (counters.iterations, counters.factorisations) = (counted.iterations, counted.factorisations);
+        let blocks = model.wall.blocks.len();
+        let envelopes = &mut state.envelopes;
+        for i in 0..n {
+            envelopes.block_displacement[i] = envelopes.block_displacement[i].max(state.z[i].abs());
+            envelopes.block_velocity[i] = envelopes.block_velocity[i].max(state.v[i].abs());
+            envelopes.block_acceleration[i] = envelopes.block_acceleration[i].max(state.a[i].abs());
+        }
+        let totals = &mut state.totals;
+        let largest = state.z[..blocks].iter().fold(0.0, |most: f64, z| most.max(z.abs()));
+        totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
+        totals.contact_residual = totals.contact_residual.max(counted.residual);
+        for (e, (seen, joint)) in self.motion.seen.iter().zip(&model.joints).enumerate() {
+            let upright = joint.kind.is_upright();
+            let opening = seen.gap[1].max(0.0);
+            let (moved, speed) = if upright { (opening, seen.parting) } else { (seen.slide.abs(), seen.speed) };
+            envelopes.joint_displacement[e] = envelopes.joint_displacement[e].max(moved);
+            envelopes.joint_velocity[e] = envelopes.joint_velocity[e].max(speed.abs());
+            envelopes.joint_acceleration[e] = envelopes.joint_acceleration[e].max((speed - self.before[e]).abs() / h);
+            self.before[e] = speed;
+            envelopes.joint_slip[e] = seen.path;
+            envelopes.joint_opening[e] = envelopes.joint_opening[e].max(opening);
+            envelopes.joint_closing[e] = envelopes.joint_closing[e].max(-seen.gap[0]);
+            let force = if upright { seen.pressure } else { seen.shear };
+            envelopes.joint_force[e] = envelopes.joint_force[e].max(force.abs());
+            envelopes.joint_dissipation[e] = seen.taken;
+            totals.peak_friction_force = totals.peak_friction_force.max(seen.friction.abs());
+            if upright {
+                totals.minimum_gap = totals.minimum_gap.min(seen.gap[0]);
+            } else {
+                totals.peak_slip_velocity = totals.peak_slip_velocity.max(seen.speed.abs());
+            }
+        }
+        let pull = self.pull(model, state, h);
+        let totals = &mut state.totals;
+        totals.top_force_peak = totals.top_force_peak.max(pull.abs());
+        totals.top_force_square += 0.5 * h * (state.pull * state.pull + pull * pull);
+        state.pull = pull;
+        totals.peak_input = totals.peak_input.max(state.energies.input().abs());
+        totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
+        self.cracks(model, state, tell);
+        for (e, crushed) in self.crushed.iter_mut().enumerate().filter(|(_, crushed)| !**crushed) {
+            let depth = self.motion.points(e).map_or(0.0, |p| p.iter().map(|p| p.crushed).fold(0.0, f64::max));
+            if depth > 0.0 {
+                *crushed = true;
+                tell(Event { time: state.t, joint: e as u32, kind: EventKind::Crush, value: depth });
+            }
+        }
+        if !self.collapsed
+            && let Some(event) = self.collapse(model, state.t)
+        {
+            self.collapsed = true;
+            tell(event);
+        }
+    }
+
+    /// Force of the beam on the wall [N].
+    fn pull(&self, model: &Model, state: &State, h: f64) -> f64 {
+        match model.floating_beam() {
+            None => 0.0,
+            Some(beam) if matches!(model.beam, crate::case::Beam::Mass(_)) => {
+                let base = &model.excitation.base;
+                let ground = velocity(base, state.t) - velocity(base, self.at.from);
+                -model.mass[beam] * (state.a[beam] + ground / h)
+            }
+            Some(_) => self.motion.pull,
+        }
+    }
+
+    fn cracks(&self, model: &Model, state: &mut State, tell: &mut impl FnMut(Event)) {
+        for (bond, held) in model.bonds.iter().zip(&mut state.bonds) {
+            let e = bond.joint as usize;
+            let Some(points) = self.motion.points(e) else { continue };
+            let first = points.iter().map(|p| p.cracked).fold(f64::INFINITY, f64::min);
+            let last = points.iter().map(|p| p.broken).fold(0.0, f64::max);
+            let reach = points.iter().map(|p| p.reach[0].max(p.reach[1])).fold(0.0, f64::max);
+            let stretch = points.iter().map(|p| p.slide.abs().max(p.gap)).fold(0.0, f64::max);
+            let shares = self.motion.shares(e);
+            let damage = points.iter().zip(shares).map(|(p, share)| share * p.damage).sum();
+            if !held.cracked.is_finite() && first.is_finite() {
+                tell(Event { time: first, joint: bond.joint, kind: EventKind::Crack, value: stretch });
+            }
+            if !held.broken.is_finite() && last.is_finite() {
+                tell(Event { time: last, joint: bond.joint, kind: EventKind::Break, value: stretch });
+            }
+            let seen = &self.motion.seen[e];
+            let force = if model.joints[e].kind.is_upright() { -seen.pressure } else { seen.shear.abs() };
+            let peak = held.peak.max(force);
+            *held = BondState { reach, damage, spent: seen.broken, peak, cracked: first, broken: last };
+        }
+    }
+
+    /// The first block that has fallen or turned over.
+    fn collapse(&self, model: &Model, time: f64) -> Option<Event> {
+        let down = |(i, block): (usize, &crate::wall::Block)| {
+            (-self.at.vertical[i] > FALLEN * block.height() || self.at.rotation[i].abs() > TURNED).then_some(i)
+        };
+        let block = model.wall.blocks.iter().enumerate().find_map(down)?;
+        let of_block = |j: &crate::wall::Joint| j.a == block || j.b == crate::wall::End::Block(block);
+        let joint = model.joints.iter().position(of_block)? as u32;
+        let value = self.at.z[block].hypot(self.at.vertical[block]);
+        Some(Event { time, joint, kind: EventKind::Collapse, value })
+    }
+
+    /// Appends sample `k` at `t` [s], and the frame if one is due.
+    pub fn sample(
+        &mut self,
+        model: &Model,
+        channels: &Channels,
+        layout: &Layout,
+        state: &State,
+        (k, t): (u64, f64),
+        recording: &mut Recording,
+    ) {
+        let share =
+            if state.t > self.at.from { ((t - self.at.from) / (state.t - self.at.from)).clamp(0.0, 1.0) } else { 1.0 };
+        let [z, v, vertical, rotation] = {
+            let Sample { z, v, vertical, rotation, start, .. } = &mut self.at;
+            // Between the ends of the step in place: what is overwritten is read no more.
+            for (first, last) in start.iter_mut().zip([&*z, v, vertical, rotation]) {
+                first.iter_mut().zip(last).for_each(|(a, b)| *a += share * (b - *a));
+            }
+            self.at.from = t;
+            &self.at.start
+        };
+        let base: f64 = 0.0
+            - self
+                .motion
+                .seen
+                .iter()
+                .zip(&model.joints)
+                .filter(|(_, j)| j.kind == JointKind::Base)
+                .map(|(s, _)| s.shear)
+                .sum::<f64>();
+        recording.time.push(t);
+        let row = Row { t, z, v, a: &state.a, seen: &self.motion.seen, state, shear: base };
+        channels.sample_planar(model, row, &mut recording.values);
+        if layout.frame_every == 0 || !k.is_multiple_of(layout.frame_every as u64) {
+            return;
+        }
+        recording.frame_time.push(t);
+        recording.frame_displacement.extend_from_slice(z);
+        recording.frame_velocity.extend_from_slice(v);
+        recording.frame_acceleration.extend_from_slice(&state.a[..z.len()]);
+        recording.frame_vertical.extend_from_slice(vertical);
+        recording.frame_rotation.extend_from_slice(rotation);
+        recording.frame_damage.extend(state.bonds.iter().map(|bond| bond.damage));
+        for (seen, joint) in self.motion.seen.iter().zip(&model.joints) {
+            let sign = turned(joint.kind);
+            recording.frame_slip.push(sign * seen.slide);
+            recording.frame_opening.push(seen.gap[1].max(0.0));
+            recording.frame_pressure.push(seen.pressure);
+            recording.frame_friction.push(-sign * seen.shear);
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Side {
+    Start,
+    End,
+}
+
+/// Velocity of the base [m/s], that of a base that is set in motion at t = 0 included.
+fn velocity(motion: &GroundMotion, t: f64) -> f64 {
+    if t == 0.0 { 0.0 } else { motion.at(t).v }
+}
+
+/// Displacement of a driven top relative to the base [m].
+fn drive(excitation: &Excitation, t: f64) -> f64 {
+    excitation.top.at(t).u - excitation.base.at(t).u
+}

@@ -1,0 +1,250 @@
+//! Doors and windows: what is cut, what the lintel touches, and how the load comes down beside them.
+
+use std::collections::BTreeSet;
+
+use concio::case::{Case, JointKind, NormalForce, Syntax, from_str};
+use concio::graph;
+use concio::pattern::lay;
+use concio::wall::{End, Wall};
+use proptest::prelude::*;
+
+const REST: &str = r#"
+[joint]
+bed = { law = "elastic", stiffness = "36 N/mm3" }
+head = { law = "no-tension", stiffness = "15 N/mm3" }
+friction = { law = "coulomb", static = 0.6, dynamic = 0.6 }
+[load]
+top = "3 kN/m"
+[motion]
+duration = 1
+"#;
+
+fn case(panel: &str) -> Case {
+    let brick = "brick = { length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18e3 }";
+    let text = format!("model = \"shear\"\n[[panel]]\n{brick}\n{panel}\n{REST}");
+    let file = from_str(&text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    file.validate().unwrap_or_else(|e| panic!("{e}\n{text}"));
+    file.case
+}
+
+fn wall(panel: &str) -> Wall {
+    lay(&case(panel)).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// All that is above the base comes down on it.
+fn balance(wall: &Wall) {
+    let joints = graph::joints(wall, false);
+    let forces = graph::normal_forces(wall, &joints, 3e3, false, NormalForce::Transmitted);
+    let base: f64 = joints.iter().zip(&forces).filter(|(j, _)| j.kind == JointKind::Base).map(|(_, n)| n[0]).sum();
+    let top = |b: &&concio::wall::Block| b.course + 1 == wall.panels[b.panel].courses;
+    let load: f64 = wall.blocks.iter().filter(top).map(|b| 3e3 * b.length()).sum();
+    let all = load + wall.blocks.iter().map(|b| b.weight()).sum::<f64>();
+    assert!((base / all - 1.0).abs() < 1e-12, "{base} N on the base, {all} N above it");
+}
+
+fn named<'w>(wall: &'w Wall, name: &str) -> &'w concio::wall::Block {
+    wall.blocks.iter().find(|b| b.name == name).unwrap_or_else(|| panic!("no block {name}"))
+}
+
+const DOOR: &str = "bond = \"running\"\ncourses = 8\nbricks = 6\nmortar = { bed = 0.01, head = 0.01 }\n[[panel.opening]]\n\
+                    x = 0.5\ny = 0\nwidth = 0.6\nheight = 0.26\nlintel = { height = 0.13, bearing = 0.15 }\n";
+
+/// Courses of 0.065 m: the door takes four of them away, its lintel two.
+#[test]
+fn a_door_with_a_lintel() {
+    let wall = wall(DOOR);
+    let lintel = named(&wall, "p1o1");
+    let close = |a: [f64; 2], b: [f64; 2]| assert!((0..2).all(|k| (a[k] - b[k]).abs() < 1e-12), "{a:?} {b:?}");
+    close(lintel.x, [0.35, 1.25]);
+    close(lintel.y, [0.26, 0.39]);
+    assert_eq!((lintel.course, lintel.lowest_course()), (5, 4));
+    for block in &wall.blocks {
+        let row = block.course;
+        let zone = match row {
+            0..=3 => [0.5, 1.1],
+            4 | 5 if block.name != "p1o1" => [0.34, 1.26],
+            _ => continue,
+        };
+        assert!(block.x[1] <= zone[0] + 1e-12 || block.x[0] >= zone[1] - 1e-12, "{} at {:?}", block.name, block.x);
+    }
+    // Bricks end at 0.25, 0.51, …: the second of the bottom course is cut at the door, the fifth begins there.
+    close(named(&wall, "p1c1b2").x, [0.26, 0.5]);
+    close(named(&wall, "p1c1b3").x, [1.1, 1.29]);
+    let names: BTreeSet<&str> = wall.blocks.iter().map(|b| b.name.as_str()).collect();
+    assert_eq!(names.len(), wall.blocks.len());
+
+    let joints = graph::joints(&wall, true);
+    let number = wall.blocks.iter().position(|b| b.name == "p1o1").expect("a lintel");
+    let touches = |kind: JointKind| {
+        let mut of: Vec<String> = joints
+            .iter()
+            .filter(|j| j.kind == kind && (j.a == number || j.b == End::Block(number)))
+            .map(|j| graph::name(&wall, j))
+            .collect();
+        of.sort();
+        of
+    };
+    // It lies on what is left of the course below at either end and has two courses beside it on either side.
+    assert_eq!(
+        touches(JointKind::Bed).iter().filter(|n| n.ends_with("|p1o1")).count(),
+        4,
+        "{:?}",
+        touches(JointKind::Bed)
+    );
+    assert_eq!(touches(JointKind::Head), ["p1c5b2|p1o1", "p1c6b2|p1o1", "p1o1|p1c5b3", "p1o1|p1c6b3"]);
+    // No joint leads through the door.
+    for joint in joints.iter().filter(|j| j.kind == JointKind::Head) {
+        let [x, y] = [joint.line[0], 0.5 * (joint.line[1] + joint.line[3])];
+        assert!(!(y < 0.26 && (0.5..1.1).contains(&x)), "{}", graph::name(&wall, joint));
+    }
+    balance(&wall);
+}
+
+/// What lies over the door comes down on its two sides, half of it on each if both are alike.
+#[test]
+fn the_lintel_parts_its_load_by_its_bearings() {
+    // Stack bond of 5 bricks of 0.25 m without mortar; the lintel bears on 0.1 m of the outer ones.
+    let wall = wall(
+        "bond = \"stack\"\ncourses = 4\nbricks = 5\n[[panel.opening]]\nx = 0.25\ny = 0\nwidth = 0.75\nheight = 0.11\n\
+         lintel = { height = 0.055, bearing = 0.1, specific_weight = \"25 kN/m3\" }\n",
+    );
+    assert!((named(&wall, "p1o1").weight() / (25e3 * 0.95 * 0.055 * 0.12) - 1.0).abs() < 1e-12);
+    let joints = graph::joints(&wall, false);
+    let forces = graph::normal_forces(&wall, &joints, 3e3, false, NormalForce::Transmitted);
+    let of = |name: &str| {
+        let e = joints.iter().position(|j| graph::name(&wall, j) == name).unwrap_or_else(|| panic!("no joint {name}"));
+        forces[e][0]
+    };
+    // Over the lintel: its weight, three bricks with their loads, and 0.1 m of those that lie on it and the rests beside.
+    let column = |length: f64| length * (3e3 + 18e3 * 0.055 * 0.12);
+    let on_lintel = column(0.75) + 2.0 * column(0.25) * (0.1 / 0.25);
+    let expected = 0.5 * (on_lintel + named(&wall, "p1o1").weight());
+    for name in ["p1c2b1|p1o1", "p1c2b2|p1o1"] {
+        assert!((of(name) / expected - 1.0).abs() < 1e-12, "{name}: {} N, not {expected} N", of(name));
+    }
+    balance(&wall);
+}
+
+/// A beam over two piers: the lintel is the top of the wall and bears load and beam.
+#[test]
+fn a_lintel_may_be_the_top_of_the_wall() {
+    let wall = wall(
+        "bond = \"stack\"\ncourses = 4\nbricks = 5\n[[panel.opening]]\nx = 0.25\ny = 0\nwidth = 0.75\nheight = 0.11\n\
+         lintel = { height = 0.11, bearing = 0.25 }\n",
+    );
+    let names: Vec<&str> = wall.blocks.iter().map(|b| b.name.as_str()).collect();
+    assert_eq!(names, ["p1c1b1", "p1c1b2", "p1c2b1", "p1c2b2", "p1o1"]);
+    let tops: Vec<_> = graph::joints(&wall, true).into_iter().filter(|j| j.kind == JointKind::Top).collect();
+    assert_eq!(tops.iter().map(|j| j.overlap).collect::<Vec<_>>(), [1.25]);
+    balance(&wall);
+}
+
+/// Two lintels of two courses that meet have one joint, panels beside a lintel too.
+#[test]
+fn lintels_have_one_joint_with_each_neighbour() {
+    let panel = "bond = \"stack\"\ncourses = 5\nbricks = 8\n[[panel.opening]]\nx = 0.25\ny = 0\nwidth = 0.5\nheight = 0.055\n\
+                 lintel = { height = 0.11, bearing = 0.25 }\n[[panel.opening]]\nx = 1.25\ny = 0\nwidth = 0.5\nheight = 0.055\n\
+                 lintel = { height = 0.11, bearing = 0.25 }\n";
+    let brick = "brick = { length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18e3 }";
+    let wall = wall(&format!(
+        "{panel}[[panel]]\n{brick}\nbond = \"stack\"\ncourses = 1\nbricks = 1\n[[panel]]\nbrick = {{ length = 0.25, height = 0.22, thickness = 0.12, specific_weight = 18e3 }}\nbond = \"stack\"\ncourses = 1\nbricks = 1\n"
+    ));
+    let joints = graph::joints(&wall, false);
+    let names: Vec<String> = joints.iter().map(|j| graph::name(&wall, j)).collect();
+    assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len(), "{names:?}");
+    let between = joints.iter().find(|j| graph::name(&wall, j) == "p1o1|p1o2").expect("lintels that touch");
+    assert!((between.overlap - 0.11).abs() < 1e-12);
+    balance(&wall);
+}
+
+#[test]
+fn a_block_may_bridge_a_small_opening() {
+    let wall = wall(
+        "bond = \"running\"\ncourses = 4\nbricks = 3\n[[panel.opening]]\nx = 0.42\ny = 0.055\nwidth = 0.15\nheight = 0.055\n",
+    );
+    // The second course: half, whole, whole and half bricks; the opening parts the third of them.
+    let second: Vec<[f64; 2]> = wall.blocks.iter().filter(|b| b.course == 1).map(|b| b.x).collect();
+    assert_eq!(second.len(), 5);
+    for (x, expected) in second.iter().zip([[0.0, 0.125], [0.125, 0.375], [0.375, 0.42], [0.57, 0.625], [0.625, 0.75]])
+    {
+        assert!((0..2).all(|k| (x[k] - expected[k]).abs() < 1e-12), "{second:?}");
+    }
+    balance(&wall);
+}
+
+/// Heights of a random texture are not known beforehand: the message names them, to be copied.
+#[test]
+fn the_heights_in_a_message_are_allowed() {
+    let panel = |y: f64, height: f64| {
+        format!(
+            "bond = \"irregular\"\ncourses = 8\nmortar = {{ bed = 0.01, head = 0.01 }}\n\
+             random = {{ seed = 4, width = 1.5, length = [0.12, 0.3], height = [0.05, 0.09], stagger = 0.02 }}\n\
+             [[panel.opening]]\nx = 0.5\ny = {y}\nwidth = 0.4\nheight = {height}\nlintel = {{ height = 5.0, bearing = 0.2 }}\n"
+        )
+    };
+    let refused = |text: &str| match lay(&case(text)) {
+        Err(concio::Error::Input(e)) => *e,
+        other => panic!("{other:?}"),
+    };
+    let last = |e: &concio::InputError| -> f64 {
+        let allowed = e.allowed.clone().unwrap_or_default();
+        let first = allowed.split(' ').next().unwrap_or_default();
+        first.parse().unwrap_or_else(|_| panic!("{e}"))
+    };
+    let e = refused(&panel(0.1234, 0.1));
+    assert_eq!(e.key.as_deref(), Some("panel[0].opening[0].y"), "{e}");
+    let y = last(&e);
+    let e = refused(&panel(y, 0.2));
+    assert_eq!(e.key.as_deref(), Some("panel[0].opening[0].height"), "{e}");
+    let height = last(&e);
+    let e = refused(&panel(y, height));
+    assert_eq!(e.key.as_deref(), Some("panel[0].opening[0].lintel.height"), "{e}");
+    let text = panel(y, height).replace("height = 5.0", &format!("height = {}", last(&e)));
+    balance(&wall(&text));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 128, ..ProptestConfig::default() })]
+
+    /// Wherever openings may be: nothing lies in them or through each other, names are unique, and the load comes down.
+    #[test]
+    fn openings_of_all_bonds(
+        bond in 0usize..3,
+        x in 0.0f64..1.2,
+        width in 0.1f64..0.9,
+        from in 0usize..5,
+        rows in 1usize..4,
+        lintel in 1usize..3,
+        bearing in 0.05f64..0.3,
+        mortar in prop_oneof![Just(0.0), Just(0.01)],
+    ) {
+        let bond = [
+            "bond = \"running\"\nbricks = 8",
+            "bond = \"stack\"\nbricks = 8",
+            "bond = \"irregular\"\nrandom = { seed = 9, width = 2, length = [0.12, 0.3], height = [0.055, 0.055], stagger = 0.02 }",
+        ][bond];
+        let pitch = 0.055 + mortar;
+        let text = format!(
+            "{bond}\ncourses = 9\nmortar = {{ bed = {mortar}, head = {mortar} }}\n[[panel.opening]]\nx = {x}\ny = {}\n\
+             width = {width}\nheight = {}\nlintel = {{ height = {}, bearing = {bearing} }}\n",
+            from as f64 * pitch, rows as f64 * pitch, lintel as f64 * pitch
+        );
+        match lay(&case(&text)) {
+            // Slivers and bearings beyond the panel are refused.
+            Err(e) => prop_assert!(e.to_string().contains("the cut leaves") || e.to_string().contains("beyond the panel"), "{e}"),
+            Ok(wall) => {
+                let overlap = |p: [f64; 2], q: [f64; 2]| p[1].min(q[1]) - p[0].max(q[0]);
+                let hole = ([x, x + width], [from as f64 * pitch + mortar, (from + rows) as f64 * pitch]);
+                for (i, a) in wall.blocks.iter().enumerate() {
+                    prop_assert!(overlap(a.x, hole.0) < 1e-6 || overlap(a.y, hole.1) < 1e-6, "{} in the opening", a.name);
+                    prop_assert!(a.length() > 0.0049);
+                    for b in &wall.blocks[i + 1..] {
+                        prop_assert!(overlap(a.x, b.x) < 1e-9 || overlap(a.y, b.y) < 1e-9, "{} {}", a.name, b.name);
+                        prop_assert_ne!(&a.name, &b.name);
+                    }
+                }
+                balance(&wall);
+            }
+        }
+    }
+}
