@@ -18,7 +18,8 @@ for (const folder of process.argv.slice(2)) {
     const times = await page.evaluate(async () => {
         const { store, stage } = window.concioReport;
         const all = {};
-        for (const label of ["displacement", "friction force"]) {
+        const planar = store.report.contents.planar;
+        for (const label of planar ? ["horizontal displacement", "tangential force"] : ["displacement", "friction force"]) {
             const select = document.querySelector("#paint");
             select.value = [...select.options].find((o) => o.text.startsWith(label)).value;
             select.dispatchEvent(new Event("change"));

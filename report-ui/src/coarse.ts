@@ -3,20 +3,17 @@
 import type { Report } from "./data";
 import { si } from "./format";
 
-/** Bytes of frames that a page holds, and of one unknown in one frame; as in the program that writes the page. */
-const MOST_BYTES = 16 * 2 ** 20;
-const BYTES = 15;
-
 /** A note under plots that join frames by straight lines. */
 export function coarseness(report: Report): string {
-    const { time, count, unknowns } = report.frames;
+    const { time, count } = report.frames;
+    const { bytes, most } = report.contents.frames;
     if (count < 2) {
         return "";
     }
     const interval = time[1] - time[0];
     const drawn = `Drawn from frames ${si(interval, "s", 3)} apart, joined by straight lines: what happens between two frames is not shown, `
         + "and corners of the lines are no sign of stick-slip.";
-    const finest = (time[count - 1] * unknowns * BYTES) / MOST_BYTES;
+    const finest = (time[count - 1] * bytes) / most;
     const finer = roundUp(Math.max(interval / 10, finest));
     if (finer > 0.6 * interval) {
         return `${drawn} The page holds no more frames of this run; [output] blocks = ["name"] and joints = ["name"] keep `

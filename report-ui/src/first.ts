@@ -8,18 +8,19 @@ import type { Item } from "./store";
 /** Part of a brick's side that a joint has to touch: slivers, where a cut brick ends over a joint, tell little. */
 const LEAST_CONTACT = 0.1;
 
-/** The block displaced most and the joint that did most: slipped, else opened, else dissipated. */
+/** The block displaced most and the joint that did most: slipped, else opened, else dissipated; opened first where blocks rock. */
 export function firstItems(report: Report): Item[] {
     const joints = Array.from({ length: report.joints }, (_, e) => e).filter((e) => !isSliver(report, e));
     const blocks = Array.from({ length: report.blocks }, (_, i) => i);
-    const found = [worst(report, "block", blocks, ["displacement"]), worst(report, "joint", joints, ["slip", "opening", "dissipation", "displacement"])];
+    const first = report.contents.planar ? ["opening", "slip"] : ["slip", "opening"];
+    const found = [worst(report, "block", blocks, ["displacement"]), worst(report, "joint", joints, [...first, "dissipation", "displacement"])];
     return found.filter((item) => item !== null);
 }
 
 /** The one of `among` with the largest peak of the first of these quantities that is not zero in all of them. */
 function worst(report: Report, owner: Owner, among: number[], keys: string[]): Item | null {
     for (const key of keys) {
-        const quantity = quantitiesOf(owner, "peak").find((q) => q.key === key);
+        const quantity = quantitiesOf(report, owner, "peak").find((q) => q.key === key);
         if (quantity === undefined || among.length === 0) {
             continue;
         }

@@ -1,5 +1,6 @@
 /**
- * Displacements, velocities and accelerations of every unknown at the frames.
+ * Displacements, velocities and accelerations of every unknown at the frames; of blocks that rise and turn also how far they
+ * have risen [m] and their rotation in rad, counterclockwise.
  *
  * A joint moves by 10⁻⁷ m between blocks that move by 5·10⁻³ m, so that 32-bit floats would swallow it. All values of one
  * frame are whole multiples, of 40 bits, of one quantum: differences of two blocks are exact to a quantum, which is
@@ -9,7 +10,9 @@
 import type { Report } from "./data";
 
 export const FIELDS = ["displacement", "velocity", "acceleration"] as const;
-export type Field = (typeof FIELDS)[number];
+/** What blocks do beside that in a planar run; 0 in others. */
+export const TURNS = ["vertical", "rotation"] as const;
+export type Field = (typeof FIELDS)[number] | (typeof TURNS)[number];
 
 const HIGH = 2 ** 32;
 /** The number that stands for a value that is not finite. */
@@ -25,7 +28,7 @@ export class Frames {
     readonly time: Float64Array;
     readonly count: number;
     readonly unknowns: number;
-    private readonly columns: Record<Field, Column>;
+    private readonly columns: Partial<Record<Field, Column>>;
 
     constructor(report: Report) {
         this.time = report.array("frame/time") as Float64Array;
@@ -36,15 +39,17 @@ export class Frames {
             low: report.array(`frame/${field}/low`) as Uint32Array,
             high: report.array(`frame/${field}/high`) as Int8Array,
         });
-        this.columns = { displacement: column("displacement"), velocity: column("velocity"), acceleration: column("acceleration") };
+        const fields: readonly Field[] = report.contents.planar ? [...FIELDS, ...TURNS] : FIELDS;
+        this.columns = Object.fromEntries(fields.map((field) => [field, column(field)]));
     }
 
     /** One value of one frame; 0 for the base, which is unknown −1. */
     value(field: Field, frame: number, unknown: number): number {
-        if (unknown < 0) {
+        const column = this.columns[field];
+        if (unknown < 0 || column === undefined) {
             return 0;
         }
-        const { quantum, low, high } = this.columns[field];
+        const { quantum, low, high } = column;
         const at = frame * this.unknowns + unknown;
         const steps = high[at] * HIGH + low[at];
         return steps === NOT_FINITE ? NaN : steps * quantum[frame];
@@ -52,7 +57,12 @@ export class Frames {
 
     /** All values of one frame. */
     read(field: Field, frame: number, into: Float64Array): void {
-        const { quantum, low, high } = this.columns[field];
+        const column = this.columns[field];
+        if (column === undefined) {
+            into.fill(0);
+            return;
+        }
+        const { quantum, low, high } = column;
         const [step, start] = [quantum[frame], frame * this.unknowns];
         for (let i = 0; i < this.unknowns; i++) {
             const steps = high[start + i] * HIGH + low[start + i];

@@ -8,7 +8,9 @@ import type { Field } from "./frames";
 
 /** What a joint does at a frame. */
 export const JOINT_KEYS = ["displacement", "velocity", "acceleration", "elastic", "damping", "friction"] as const;
-export type JointKey = (typeof JOINT_KEYS)[number];
+/** The same where blocks rise and turn: it follows from no motion of two blocks alone, and the frames hold it. */
+export const TOUCH_KEYS = ["slip", "opening", "pressure", "friction"] as const;
+export type JointKey = (typeof JOINT_KEYS)[number] | (typeof TOUCH_KEYS)[number];
 
 /** μ(v). */
 export function coefficient(law: FrictionLaw, v: number): number {

@@ -1,9 +1,10 @@
 /** The quantities that can be shown: at the moment, from the frames, or their peaks, from the envelopes. */
 
 import type { Report } from "./data";
-import { FIELDS } from "./frames";
+import { FIELDS, TURNS } from "./frames";
 import type { Field } from "./frames";
-import { JOINT_KEYS, jointValue, largestCoefficient } from "./laws";
+import { extent } from "./extent";
+import { JOINT_KEYS, jointValue, largestCoefficient, TOUCH_KEYS } from "./laws";
 import type { JointKey } from "./laws";
 
 export type Owner = "block" | "joint";
@@ -15,14 +16,26 @@ export interface Quantity {
     when: "moment" | "peak";
     label: string;
     unit: string;
+    /** The runs that have it: those whose blocks move horizontally alone, or those whose blocks rise and turn. */
+    model: "shear" | "planar";
 }
 
-const BLOCK_LABELS: Record<Field, [string, string]> = {
+const BLOCK_LABELS: Record<(typeof FIELDS)[number], [string, string]> = {
     displacement: ["displacement", "m"],
     velocity: ["velocity", "m/s"],
     acceleration: ["acceleration", "m/s²"],
 };
-const JOINT_LABELS: Record<JointKey, [string, string]> = {
+const TURN_LABELS: Record<(typeof TURNS)[number], [string, string]> = {
+    vertical: ["vertical displacement", "m"],
+    rotation: ["rotation", "rad"],
+};
+const TOUCH_LABELS: Record<(typeof TOUCH_KEYS)[number], [string, string]> = {
+    slip: ["slip", "m"],
+    opening: ["opening", "m"],
+    pressure: ["normal force", "N"],
+    friction: ["tangential force", "N"],
+};
+const JOINT_LABELS: Record<(typeof JOINT_KEYS)[number], [string, string]> = {
     displacement: ["relative displacement", "m"],
     velocity: ["relative velocity", "m/s"],
     acceleration: ["relative acceleration", "m/s²"],
@@ -42,15 +55,23 @@ const JOINT_PEAKS: [string, string, string][] = [
     ["dissipation", "energy dissipated", "J"],
 ];
 
+/** Envelopes that are called otherwise where blocks rise and turn. */
+const PLANAR_PEAKS: Record<string, string> = { force: "force" };
+
 export const QUANTITIES: Quantity[] = [
-    ...FIELDS.map((key) => quantity(key, "block", "moment", ...BLOCK_LABELS[key])),
-    ...JOINT_KEYS.map((key) => quantity(key, "joint", "moment", ...JOINT_LABELS[key])),
-    ...FIELDS.map((key) => quantity(key, "block", "peak", ...BLOCK_LABELS[key])),
-    ...JOINT_PEAKS.map(([key, label, unit]) => quantity(key, "joint", "peak", label, unit)),
+    ...FIELDS.map((key) => quantity("shear", key, "block", "moment", ...BLOCK_LABELS[key])),
+    ...JOINT_KEYS.map((key) => quantity("shear", key, "joint", "moment", ...JOINT_LABELS[key])),
+    ...FIELDS.map((key) => quantity("shear", key, "block", "peak", ...BLOCK_LABELS[key])),
+    ...JOINT_PEAKS.map(([key, label, unit]) => quantity("shear", key, "joint", "peak", label, unit)),
+    ...FIELDS.map((key) => quantity("planar", key, "block", "moment", `horizontal ${BLOCK_LABELS[key][0]}`, BLOCK_LABELS[key][1])),
+    ...TURNS.map((key) => quantity("planar", key, "block", "moment", ...TURN_LABELS[key])),
+    ...TOUCH_KEYS.map((key) => quantity("planar", key, "joint", "moment", ...TOUCH_LABELS[key])),
+    ...FIELDS.map((key) => quantity("planar", key, "block", "peak", ...BLOCK_LABELS[key])),
+    ...JOINT_PEAKS.map(([key, label, unit]) => quantity("planar", key, "joint", "peak", PLANAR_PEAKS[key] ?? label, unit)),
 ];
 
-function quantity(key: string, owner: Owner, when: Quantity["when"], label: string, unit: string): Quantity {
-    return { key, owner, when, label, unit };
+function quantity(model: Quantity["model"], key: string, owner: Owner, when: Quantity["when"], label: string, unit: string): Quantity {
+    return { key, owner, when, label, unit, model };
 }
 
 /** Label that says what the motion of a block is measured against, for places without a heading that does. */
@@ -58,8 +79,19 @@ export function fullLabel(q: Quantity): string {
     return q.owner === "block" ? `${q.label} relative to the base` : q.label;
 }
 
-export function quantitiesOf(owner: Owner, when: Quantity["when"]): Quantity[] {
-    return QUANTITIES.filter((q) => q.owner === owner && q.when === when);
+export function quantitiesOf(report: Report, owner: Owner, when: Quantity["when"]): Quantity[] {
+    const model = report.contents.planar ? "planar" : "shear";
+    return QUANTITIES.filter((q) => q.model === model && q.owner === owner && q.when === when);
+}
+
+/** The envelope that is the peak of a quantity at the moment, by its key; null for those that have none. */
+export function peakKey(q: Quantity): string | null {
+    if (q.owner === "block") {
+        return q.key;
+    }
+    // The force in the envelopes of a planar run is the one across upright joints and the one along the others.
+    const none = q.model === "planar" && q.key !== "opening";
+    return none ? null : q.key === "elastic" ? "force" : q.key;
 }
 
 /** The envelope behind a peak quantity. */
@@ -71,11 +103,11 @@ export function envelope(report: Report, q: Quantity): Float64Array {
 export class Moment {
     frame = 0;
     private readonly fields: Record<Field, Float64Array>;
-    private readonly known: Record<Field, number> = { displacement: -1, velocity: -1, acceleration: -1 };
+    private readonly known: Record<Field, number> = { displacement: -1, velocity: -1, acceleration: -1, vertical: -1, rotation: -1 };
 
     constructor(readonly report: Report) {
         const empty = () => new Float64Array(report.frames.unknowns);
-        this.fields = { displacement: empty(), velocity: empty(), acceleration: empty() };
+        this.fields = { displacement: empty(), velocity: empty(), acceleration: empty(), vertical: empty(), rotation: empty() };
     }
 
     /** Values of all unknowns: blocks, then the beam. */
@@ -144,8 +176,17 @@ function keptForce(report: Report, q: Quantity): Float32Array | undefined {
     return report.has(name) ? (report.array(name) as Float32Array) : undefined;
 }
 
-/** Largest size that a quantity has in the whole run, from the envelopes. */
+/** Largest size that a quantity has in the whole run, from the envelopes, or where there is none from the frames. */
 export function peak(report: Report, q: Quantity): number {
+    if (report.contents.planar && q.when === "moment") {
+        if (q.key === "vertical" || q.key === "rotation") {
+            return extent(report)[q.key];
+        }
+        if (q.owner === "joint") {
+            const atFrames = largest(keptForce(report, q) ?? []);
+            return q.key === "opening" ? Math.max(atFrames, largest(envelope(report, q))) : atFrames;
+        }
+    }
     if (q.owner === "joint" && q.when === "moment" && q.key !== "elastic") {
         const speed = envelope(report, { ...q, when: "peak", key: "velocity" });
         if (q.key === "damping") {

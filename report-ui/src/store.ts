@@ -3,7 +3,8 @@
 import { scale } from "./colour";
 import type { Scale } from "./colour";
 import type { Report } from "./data";
-import { largest, Moment, peak, QUANTITIES } from "./quantities";
+import { extent } from "./extent";
+import { largest, Moment, peak, quantitiesOf } from "./quantities";
 import type { Owner, Quantity } from "./quantities";
 
 /** A block or a joint. */
@@ -42,10 +43,11 @@ export class Store {
     constructor(readonly report: Report) {
         this.moment = new Moment(report);
         const when = report.frames.count > 0 ? "moment" : "peak";
-        this.paint = QUANTITIES.find((q) => q.owner === "block" && q.when === when) as Quantity;
+        [this.paint] = quantitiesOf(report, "block", when);
         const channel = report.channel("peak/displacement");
         const sizes = channel < 0 ? new Float64Array(1) : report.atFrames(channel);
-        this.peakFrame = sizes.reduce((best, size, k) => (size > sizes[best] ? k : best), 0);
+        const largestAt = sizes.reduce((best, size, k) => (size > sizes[best] ? k : best), 0);
+        this.peakFrame = report.contents.planar ? extent(report).frame : largestAt;
         // A wall at rest says nothing: the page opens at its largest displacement, and plays from the start.
         this.moment.frame = this.peakFrame;
     }
@@ -123,8 +125,10 @@ export class Store {
 
     /** Colours for values of what is painted. */
     scale(values: ArrayLike<number>): Scale {
-        const signed = this.paint.when === "moment";
-        if (signed && this.span === "moment") {
+        const now = this.paint.when === "moment";
+        // Joints open from nothing.
+        const signed = now && this.paint.key !== "opening";
+        if (now && this.span === "moment") {
             return scale(largest(values), signed);
         }
         let known = this.peaks.get(this.paint);

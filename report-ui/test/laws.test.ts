@@ -55,7 +55,7 @@ test("joints at a moment: signs and forces of equations (2) to (5)", () => {
 test("histories are the moments one after the other", () => {
     const report = made();
     const moment = new Moment(report);
-    for (const q of [...quantitiesOf("block", "moment"), ...quantitiesOf("joint", "moment")]) {
+    for (const q of (["block", "joint"] as const).flatMap((owner) => quantitiesOf(report, owner, "moment"))) {
         const values = history(report, q, 1);
         for (let frame = 0; frame < 3; frame++) {
             moment.frame = frame;

@@ -3,6 +3,7 @@
 import type { Contents, FrictionLaw } from "../src/data";
 import { LAYOUT, Report } from "../src/data";
 import { FIELDS } from "../src/frames";
+import type { Field } from "../src/frames";
 
 export const LAW: FrictionLaw = { law: "stribeck", static: 0.6, dynamic: 0.42, slip_velocity: 1e-3, beta: 100, alpha: 0.7 };
 
@@ -18,7 +19,19 @@ const KINDS = new Map<Function, "f64" | "f32" | "u32" | "i32" | "i8">([
     [Float64Array, "f64"], [Float32Array, "f32"], [Uint32Array, "u32"], [Int32Array, "i32"], [Int8Array, "i8"],
 ]);
 
-export function made(more: Record<string, Numbers> = {}): Report {
+/** Of a planar run: how far left block, right block and beam rise and turn at three frames. */
+export const RISE = [[0, 0, 0], [0, 0.1, 0], [0, 1e-3, 2e-3]];
+export const TURN = [[0, 0, 0], [0, Math.PI / 2, 0], [0, -0.1, 0.01]];
+/** Slips, openings, normal and tangential forces of the joints there, joint by joint and frame by frame. */
+export const TOUCH = { slip: 1e-3, opening: 2e-3, pressure: 700, friction: 300 };
+
+/** The same blocks as a planar run. */
+export function madePlanar(more: Record<string, Numbers> = {}): Report {
+    const touch = Object.entries(TOUCH).map(([name, size]) => [`frame/joint/${name}`, Float32Array.from({ length: 9 }, (_, k) => size * (k - 3))]);
+    return made({ ...packed("vertical", RISE), ...packed("rotation", TURN), ...Object.fromEntries(touch), ...more }, true);
+}
+
+export function made(more: Record<string, Numbers> = {}, planar = false): Report {
     const real = (...values: number[]) => Float64Array.from(values);
     const arrays: Record<string, Numbers> = {
         "block/x0": real(0, 0.26), "block/x1": real(0.25, 0.51), "block/y0": real(0, 0), "block/y1": real(0.05, 0.05),
@@ -36,8 +49,8 @@ export function made(more: Record<string, Numbers> = {}): Report {
     const contents: Contents = {
         layout: LAYOUT, name: "made", title: "", block_names: ["p1c1b1", "p1c1b2"],
         joint_names: ["base|p1c1b1", "p1c1b1|p1c1b2", "p1c1b2|top"], joint_kinds: ["base", "head", "top"],
-        joint_laws: ["elastic", "no-tension", "elastic"], frictions: [LAW], bonds: {}, beam: { kind: "mass", label: "beam" },
-        frames: { recorded: 3, every: 1 }, curve: { samples: 3, points: 3, interval: 0.1, left_out: 0 }, channels: [], spectrum: null,
+        joint_laws: ["elastic", "no-tension", "elastic"], frictions: [LAW], bonds: {}, planar, collapse: null, beam: { kind: "mass", label: "beam", moves: true },
+        frames: { recorded: 3, every: 1, bytes: 45, most: 2 ** 24 }, curve: { samples: 3, points: 3, interval: 0.1, left_out: 0 }, channels: [], spectrum: null,
         arrays: {},
     };
     let at = 0;
@@ -53,17 +66,19 @@ export function made(more: Record<string, Numbers> = {}): Report {
 }
 
 function frames(): Record<string, Numbers> {
-    const arrays: Record<string, Numbers> = {};
-    FIELDS.forEach((field, k) => {
-        const rows = MOTION.map((row) => row.map((v) => v * 10 ** k));
-        const quanta = rows.map((row) => {
-            const largest = Math.max(...row.filter(Number.isFinite).map(Math.abs));
-            return largest === 0 ? 1 : 2 ** (Math.ceil(Math.log2(largest)) - 38);
-        });
-        const steps = rows.flatMap((row, r) => row.map((v) => (Number.isFinite(v) ? Math.round(v / quanta[r]) : -(2 ** 39))));
-        arrays[`frame/${field}/quantum`] = Float64Array.from(quanta);
-        arrays[`frame/${field}/low`] = Uint32Array.from(steps.map((s) => ((s % 2 ** 32) + 2 ** 32) % 2 ** 32));
-        arrays[`frame/${field}/high`] = Int8Array.from(steps.map((s) => Math.floor(s / 2 ** 32)));
+    return Object.assign({}, ...FIELDS.map((field, k) => packed(field, MOTION.map((row) => row.map((v) => v * 10 ** k)))));
+}
+
+/** Rows of a field as the page holds them. */
+function packed(field: Field, rows: number[][]): Record<string, Numbers> {
+    const quanta = rows.map((row) => {
+        const largest = Math.max(...row.filter(Number.isFinite).map(Math.abs));
+        return largest === 0 ? 1 : 2 ** (Math.ceil(Math.log2(largest)) - 38);
     });
-    return arrays;
+    const steps = rows.flatMap((row, r) => row.map((v) => (Number.isFinite(v) ? Math.round(v / quanta[r]) : -(2 ** 39))));
+    return {
+        [`frame/${field}/quantum`]: Float64Array.from(quanta),
+        [`frame/${field}/low`]: Uint32Array.from(steps.map((s) => ((s % 2 ** 32) + 2 ** 32) % 2 ** 32)),
+        [`frame/${field}/high`]: Int8Array.from(steps.map((s) => Math.floor(s / 2 ** 32))),
+    };
 }

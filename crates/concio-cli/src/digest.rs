@@ -1,7 +1,8 @@
 //! The numbers of a run that the terminal and the report both show.
 
 use concio::outcome::{BondRow, Outcome};
-use concio::record::StopReason;
+use concio::planar::Failure;
+use concio::record::{EventKind, StopReason};
 use concio::store::JointRow;
 use serde_json::Value;
 
@@ -22,11 +23,16 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
     let length = |value: f64| si(beside(value, moved), "m");
     let velocity = beside(totals.peak_slip_velocity, largest(&outcome.envelopes.block_velocity));
     let opening = largest(&outcome.envelopes.joint_opening);
+    // In the shear model bed joints cannot open.
+    let opens = if outcome.layout.touching > 0 { "joints" } else { "head joints" };
     let mut rows = vec![
         ("peak displacement", format!("{} relative to the base", si(moved, "m"))),
         ("peak slip velocity", si(velocity, "m/s")),
-        ("head joints", format!("opened {}, pressed in {}", length(opening), length(0.0 - totals.minimum_gap))),
+        (opens, format!("opened {}, pressed in {}", length(opening), length(0.0 - totals.minimum_gap))),
     ];
+    if let Some(failure) = failure(summary) {
+        rows.push(("failure", failure));
+    }
     let devices = joints.iter().filter(|j| j.device.is_some()).count();
     if devices > 0 {
         let taken = joints.iter().zip(&outcome.envelopes.joint_dissipation).filter(|(j, _)| j.device.is_some());
@@ -42,6 +48,11 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
             let name = joints.get(first.joint).map_or("", |j| j.name.as_str());
             rows.push(("  first crack", first_crack(bonds, first.cracked, name)));
         }
+    }
+    if let Some(event) = outcome.recording.events.iter().find(|e| e.kind == EventKind::Collapse) {
+        let name = joints.get(event.joint as usize).map_or("", |j| j.name.as_str());
+        let way = si(event.value, "m");
+        rows.push(("collapse", format!("t = {} s, a block at joint {name} moved {way}", significant(event.time, 4))));
     }
     if totals.top_force_peak > 0.0 {
         let rms = si(number("/top_force_rms"), "N");
@@ -72,9 +83,26 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
     }
     rows.push(("energy residual", format!("{:.1e} of the largest work", residual(summary))));
     let counters = &outcome.counters;
-    rows.push(("steps", format!("{}, {} rejected, {} repeated", counters.steps, counters.rejected, counters.failed)));
+    let mut steps = format!("{}, {} rejected, {} repeated", counters.steps, counters.rejected, counters.failed);
+    if counters.unsolved > 0 {
+        steps += &format!(", {} with contact not solved to the tolerance", counters.unsolved);
+    }
+    rows.push(("steps", steps));
     rows.push(("solver time", clock(number("/solve_seconds"))));
     rows
+}
+
+/// How a planar wall failed, in words.
+fn failure(summary: &Value) -> Option<String> {
+    let failure: Failure = serde_json::from_value(summary.get("failure")?.clone()).ok()?;
+    if failure.modes.is_empty() {
+        return Some("none".into());
+    }
+    let names: Vec<&str> = failure.modes.iter().map(|mode| mode.name()).collect();
+    let part = |share: f64| format!("{:.0} %", 100.0 * share);
+    let of_top =
+        format!("of the top's way {} turning, {} planes that slid", part(failure.rocking), part(failure.sliding));
+    Some(format!("{}; {of_top}", names.join(", ")))
 }
 
 /// `value`, or 0 where it is rounding beside `large`, the largest of its kind.

@@ -19,8 +19,8 @@ pub fn describe(prepared: &Prepared, folder: &Path) -> Result<Rows, Failure> {
     let (motion, duration) = (&prepared.case.motion, prepared.model.excitation.duration);
     let driven = prepared.case.load.beam == Beam::Driven;
     let mut found = Rows::new();
-    for (name, signal) in [("base", &motion.base), ("top", &motion.top)] {
-        if name == "top" && !driven {
+    for (name, signal) in [("base", &motion.base), ("top", &motion.top), ("vertical", &motion.vertical)] {
+        if (name == "top" && !driven) || (name == "vertical" && *signal == Signal::None) {
             continue;
         }
         match signal {
@@ -132,6 +132,20 @@ fn closed_form(signal: &Signal) -> String {
             seconds(r.start.si()),
             seconds(r.rise.si())
         ),
+        Signal::Tilt(t) => format!(
+            "tilt to an {} from {} within {}",
+            acceleration(t.acceleration.si()),
+            seconds(t.start.si()),
+            seconds(t.rise.si())
+        ),
+        Signal::Path(p) => {
+            let places = p.displacements.iter().map(|u| crate::format::si(u.si(), "m"));
+            let shown: Vec<String> = match p.displacements.len() {
+                0..=6 => places.collect(),
+                many => places.take(5).chain([format!("… ({many} in all)")]).collect(),
+            };
+            format!("path to {} at {}", shown.join(", "), crate::format::si(p.speed.si(), "m/s"))
+        }
         Signal::Pulse(p) => {
             let shape = match p.shape {
                 PulseShape::Rectangular => "rectangular pulse",

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use concio::case::Signal;
-use concio::quantity::{Acceleration, Length};
+use concio::quantity::{Acceleration, Length, Velocity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +39,12 @@ pub fn scaled(signal: &Signal, factor: f64) -> Signal {
             sine.acceleration = sine.acceleration.map(acceleration);
         }
         Signal::Ramp(ramp) => ramp.amplitude = Length::from_si(ramp.amplitude.si() * factor),
+        Signal::Tilt(tilt) => tilt.acceleration = acceleration(tilt.acceleration),
+        Signal::Path(path) => {
+            path.displacements.iter_mut().for_each(|u| *u = Length::from_si(u.si() * factor));
+            // Its corners stay where they are in time.
+            path.speed = Velocity::from_si(path.speed.si() * factor.abs());
+        }
         Signal::Pulse(pulse) => pulse.acceleration = acceleration(pulse.acceleration),
         Signal::Sweep(sweep) => sweep.acceleration = acceleration(sweep.acceleration),
         Signal::Synthetic(synthetic) => synthetic.pga = acceleration(synthetic.pga),

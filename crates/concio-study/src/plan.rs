@@ -232,6 +232,7 @@ impl Plan {
             motion.base = motions::rooted(&motion.base, &folder);
         }
         motion.top = motions::rooted(&motion.top, &folder);
+        motion.vertical = motions::rooted(&motion.vertical, &folder);
         if scale != 1.0 {
             motion.base = motions::scaled(&motion.base, scale);
         }
@@ -276,7 +277,7 @@ impl Records {
     /// A record that cannot be read.
     pub fn id(&self, case: &Case) -> Result<String> {
         let mut case = case.clone();
-        for signal in [&mut case.motion.base, &mut case.motion.top] {
+        for signal in [&mut case.motion.base, &mut case.motion.top, &mut case.motion.vertical] {
             if let Signal::Record(input) = signal {
                 input.record = PathBuf::from(self.hash(&input.record)?);
             }

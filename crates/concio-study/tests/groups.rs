@@ -97,6 +97,30 @@ fn dimensionless(prepared: &Prepared, r: &Reference) -> Model {
     model
 }
 
+/// A stiffness per area counts as that of a half-brick contact (L B/2) and of a head joint (H B) of the reference brick, and
+/// a study gives such a wall another group.
+#[test]
+fn groups_of_a_stiffness_per_area() {
+    let (bed, head) = (5.4e7 / (0.5 * 0.25 * 0.12), 2.7e7 / (0.055 * 0.12));
+    let text = WALL
+        .replace("\"5.4e7 N/m\"", &format!("\"{bed:?} N/m3\""))
+        .replace("\"2.7e7 N/m\"", &format!("\"{:?} N/mm3\"", head * 1e-9));
+    let values = |file: &CaseFile| {
+        let prepared = ready(file);
+        let r = Reference::of(&prepared.case, None).expect("a reference");
+        groups(&prepared.case, &prepared.model, Path::new(""), &r).expect("groups")
+    };
+    let (per_joint, per_area) = (values(&read(WALL)), values(&read(&text)));
+    for (a, b) in per_joint.iter().zip(&per_area) {
+        let (Some(a), Some(b)) = (a.value, b.value) else { continue };
+        assert!((0..2).all(|k| (a[k] - b[k]).abs() <= 1e-12 * b[k].abs()), "{a:?} {b:?}");
+    }
+    let wanted = vec![("group.head_stiffness".to_string(), serde_json::json!(700.0))];
+    let other = concio_study::groups::realise(&read(&text), Vec::new(), &wanted).expect("another wall");
+    let found = values(&other).into_iter().find(|g| g.name == "head_stiffness").and_then(|g| g.value);
+    assert!(found.is_some_and(|v| (v[0] / 700.0 - 1.0).abs() < 1e-12), "{found:?}");
+}
+
 #[test]
 fn the_dimensionless_system_scaled_back_is_the_wall() {
     let prepared = ready(&read(WALL));

@@ -27,7 +27,7 @@ function paintChoice(store: Store): HTMLElement {
     const groups = (["moment", "peak"] as const).flatMap((when) =>
         (["block", "joint"] as const).map((owner) => {
             const label = `${owner === "block" ? "Blocks" : "Joints"}, ${when === "moment" ? "at the moment" : "peak over the run"}`;
-            const options = quantitiesOf(owner, when).map((q) =>
+            const options = quantitiesOf(store.report, owner, when).map((q) =>
                 h("option", { value: QUANTITIES.indexOf(q), selected: q === store.paint }, fullLabel(q)),
             );
             return { when, group: h("optgroup", { label }, ...options) };

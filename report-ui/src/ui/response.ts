@@ -24,9 +24,12 @@ export class Response {
     private upright: Quantity;
 
     constructor(private readonly store: Store, private readonly owner: Owner) {
-        this.quantities = quantitiesOf(owner, "moment");
+        this.quantities = quantitiesOf(store.report, owner, "moment");
         [this.shown, this.upright] = this.quantities;
-        this.upright = this.quantities[1];
+        if (store.report.contents.planar && owner === "joint") {
+            // Frames hold no velocities of joints there: force over slip says more than opening over slip.
+            this.upright = this.quantities.find((q) => q.key === "friction") ?? this.upright;
+        }
         const name = owner === "block" ? "blocks" : "joints";
         const against = owner === "block" ? ", relative to the base" : "";
         this.time = new TimePlot(store, `Selected ${name}${against}`, 230);

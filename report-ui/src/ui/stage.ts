@@ -4,9 +4,9 @@ import { h } from "../dom";
 import { isPrinting, onLayout } from "../layout";
 import { largest } from "../quantities";
 import type { Store } from "../store";
-import { draw, shifts } from "../wall/draw";
-import type { Shifts } from "../wall/draw";
+import { draw } from "../wall/draw";
 import { pick } from "../wall/pick";
+import { Places } from "../wall/places";
 import { automaticScale, baseScale, View } from "../wall/view";
 import { ColourBar } from "./bar";
 import { Tooltip } from "./tooltip";
@@ -33,9 +33,8 @@ export class Stage {
     private readonly zoom: Zoom;
     /** Whether the wall needs the whole width of the page. */
     readonly wide: boolean;
-    private readonly column: Float64Array;
     private readonly base: Float64Array | null;
-    private at: Shifts;
+    private readonly at: Places;
     private size: [number, number] = [0, 0];
     /** Height that the canvas may take [px]. */
     private most = 0;
@@ -50,8 +49,7 @@ export class Stage {
         this.base = channel < 0 ? null : report.atFrames(channel);
         const peak = this.base === null ? 0 : largest(this.base);
         this.baseFactor = peak > 0 ? baseScale(peak, this.view) : 0;
-        this.column = new Float64Array(report.frames.unknowns);
-        this.at = { column: this.column, base: 0 };
+        this.at = new Places(report, this.view);
         this.context = this.canvas.getContext("2d") as CanvasRenderingContext2D;
         this.tooltip = new Tooltip(store);
         this.wide = report.blocks >= MANY && this.view.width >= LONG * this.view.height;
@@ -84,7 +82,7 @@ export class Stage {
         const { store, view } = this;
         const moves = store.baseMoves && this.base !== null && this.baseFactor > 0;
         const baseShift = moves && this.base !== null ? this.base[store.frame] * this.baseFactor * view.zoom : 0;
-        this.at = shifts(store, view, baseShift, this.column);
+        this.at.update(store, baseShift);
         this.bar.show(store, draw(this.context, this.size, view, store, this.at));
         this.describe();
     }

@@ -3,7 +3,7 @@
 import type { Bond } from "../data";
 import { h, setText } from "../dom";
 import { si, significant, unitText } from "../format";
-import { quantitiesOf } from "../quantities";
+import { peakKey, quantitiesOf } from "../quantities";
 import type { Quantity } from "../quantities";
 import type { Item, Store } from "../store";
 
@@ -34,9 +34,10 @@ export function valueTable(store: Store, item: Item): { table: HTMLTableElement;
         cells.push({ element, value: () => store.moment.value(q, item.index), unit: unitText(q.unit) });
         return h("td", {}, element);
     };
-    const peaks = quantitiesOf(item.owner, "peak").filter((q) => applies(store, item, q));
-    const now = store.report.frames.count > 0 ? quantitiesOf(item.owner, "moment") : [];
-    const peakOf = (q: Quantity) => peaks.find((p) => p.key === (q.key === "elastic" ? "force" : q.key));
+    const { report } = store;
+    const peaks = quantitiesOf(report, item.owner, "peak").filter((q) => applies(store, item, q));
+    const now = report.frames.count > 0 ? quantitiesOf(report, item.owner, "moment") : [];
+    const peakOf = (q: Quantity) => peaks.find((p) => p.key === peakKey(q));
     const paired = now.map((q) => [q, peakOf(q)] as const);
     const single = peaks.filter((p) => !paired.some(([, peak]) => peak === p)).map((p) => [undefined, p] as const);
     const rows = [...paired, ...single].map(([q, p]) => {
@@ -49,11 +50,11 @@ export function valueTable(store: Store, item: Item): { table: HTMLTableElement;
     return { table: h("table", { class: "values" }, h("thead", {}, head), h("tbody", {}, ...rows)), cells };
 }
 
-/** Opening and closing are of head joints and connections, slip of joints that rub. */
+/** Opening and closing are of head joints and connections, but where blocks rise and turn; slip of joints that rub. */
 function applies(store: Store, item: Item, q: Quantity): boolean {
     const { upright, friction } = store.report.joint;
     if (item.owner === "joint" && (q.key === "opening" || q.key === "closing")) {
-        return upright[item.index];
+        return upright[item.index] || store.report.contents.planar;
     }
     return item.owner === "block" || q.key !== "slip" || friction[item.index] >= 0;
 }
@@ -71,7 +72,7 @@ export function facts(store: Store, { owner, index }: Item): string {
     const law = frictions[friction[index]];
     const parts = [
         `${joint_kinds[index]} joint of ${si(overlap[index], "m", 3)}`,
-        `${joint_laws[index]}, ${si(stiffness[index], "N/m", 3)}`,
+        report.contents.planar && stiffness[index] === 0 ? joint_laws[index] : `${joint_laws[index]}, ${si(stiffness[index], "N/m", 3)}`,
     ];
     if (law !== undefined) {
         parts.push(`N = ${si(normal[index], "N", 3)}, μs = ${law.static}, μd = ${law.dynamic}`);

@@ -4,11 +4,14 @@ import { isDark, LINES, step, STEPS } from "../colour";
 import type { Scale } from "../colour";
 import type { Report } from "../data";
 import type { Item, Store } from "../store";
+import type { Places } from "./places";
 import type { View } from "./view";
 
 const BRICK = "#ecd9c6";
 const MORTAR = "#e6e1d8";
 const INK = "#222";
+/** Lower and upper side of the beam above the wall [px]. */
+const BEAM = [5, 25];
 const FONT = "system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
 
 /** Width of the joint that does most, over the width of one that does nothing. */
@@ -16,26 +19,8 @@ const THICKEST = 3.3;
 /** Blocks up to which each bears its name. */
 const MOST_NAMED = 250;
 
-/** Horizontal shift of every column of the frames on the canvas [px], and of the base. */
-export interface Shifts {
-    column: Float64Array;
-    base: number;
-}
-
-export function shifts(store: Store, view: View, baseShift: number, into: Float64Array): Shifts {
-    into.fill(baseShift);
-    if (store.report.frames.count > 0) {
-        const z = store.moment.field("displacement");
-        const factor = store.magnify * view.zoom;
-        for (let i = 0; i < z.length; i++) {
-            into[i] += Number.isFinite(z[i]) ? factor * z[i] : 0;
-        }
-    }
-    return { column: into, base: baseShift };
-}
-
 /** Draws everything. */
-export function draw(context: CanvasRenderingContext2D, size: [number, number], view: View, store: Store, at: Shifts): Scale {
+export function draw(context: CanvasRenderingContext2D, size: [number, number], view: View, store: Store, at: Places): Scale {
     const values = store.moment.values(store.paint);
     const colours = store.scale(values);
     context.clearRect(0, 0, ...size);
@@ -86,7 +71,7 @@ function base(context: CanvasRenderingContext2D, view: View, shift: number): voi
 }
 
 /** Every block with half a joint around it and a whole one below: what blocks leave uncovered is mortar. */
-function mortar(context: CanvasRenderingContext2D, view: View, report: Report, at: Shifts): void {
+function mortar(context: CanvasRenderingContext2D, view: View, report: Report, at: Places): void {
     const { x0, x1, y0, y1, bed, head } = report.block;
     // Thinner than that it cannot be seen.
     if (view.zoom * Math.max(bed[0], head[0]) < 0.7) {
@@ -96,20 +81,33 @@ function mortar(context: CanvasRenderingContext2D, view: View, report: Report, a
     for (let i = 0; i < report.blocks; i++) {
         const left = Math.max(x0[i] - head[i] / 2, view.bounds.left);
         const right = Math.min(x1[i] + head[i] / 2, view.bounds.right);
-        const [top, bottom] = [view.y(y1[i]), view.y(Math.max(y0[i] - bed[i], view.bounds.bottom))];
-        context.fillRect(view.x(left) + at.column[i], top, (right - left) * view.zoom, bottom - top);
+        fill(context, view, at, i, [left, Math.max(y0[i] - bed[i], view.bounds.bottom), right, y1[i]]);
     }
+}
+
+/** Fills a rectangle, left, bottom, right, top [m] at rest, that moves with a column. */
+function fill(context: CanvasRenderingContext2D, view: View, at: Places, column: number, [left, bottom, right, top]: number[]): void {
+    if (at.isUpright(column)) {
+        const [x, y] = at.point(column, left, top);
+        context.fillRect(x, y, (right - left) * view.zoom, (top - bottom) * view.zoom);
+        return;
+    }
+    context.beginPath();
+    context.moveTo(...at.point(column, left, bottom));
+    context.lineTo(...at.point(column, right, bottom));
+    context.lineTo(...at.point(column, right, top));
+    context.lineTo(...at.point(column, left, top));
+    context.fill();
 }
 
 function blocks(
     context: CanvasRenderingContext2D,
     view: View,
     report: Report,
-    at: Shifts,
+    at: Places,
     stepOf: ((block: number) => number) | null,
     colours: Scale,
 ): void {
-    const { x0, x1, y0, y1 } = report.block;
     let last = -2;
     for (let i = 0; i < report.blocks; i++) {
         const k = stepOf === null ? -1 : stepOf(i);
@@ -117,8 +115,7 @@ function blocks(
             context.fillStyle = k < 0 ? (stepOf === null ? BRICK : "#fff") : colours.colours[k];
             last = k;
         }
-        const left = view.x(x0[i]) + at.column[i];
-        context.fillRect(left, view.y(y1[i]), (x1[i] - x0[i]) * view.zoom, (y1[i] - y0[i]) * view.zoom);
+        at.fill(context, i);
     }
     // In a large wall outlines would hide the colours.
     if (view.zoom * Math.sqrt((view.width * view.height) / report.blocks) < 9) {
@@ -128,18 +125,9 @@ function blocks(
     context.lineWidth = 0.6;
     context.beginPath();
     for (let i = 0; i < report.blocks; i++) {
-        const left = view.x(x0[i]) + at.column[i];
-        context.rect(left, view.y(y1[i]), (x1[i] - x0[i]) * view.zoom, (y1[i] - y0[i]) * view.zoom);
+        at.trace(context, i);
     }
     context.stroke();
-}
-
-/** Ends of a joint's line, which goes with the mean of its sides. */
-export function line(view: View, report: Report, at: Shifts, e: number): [number, number, number, number] {
-    const j = report.joint;
-    const side = (column: number) => (column < 0 ? at.base : at.column[column]);
-    const shift = 0.5 * (side(j.a[e]) + side(j.b[e]));
-    return [view.x(j.x0[e]) + shift, view.y(j.y0[e]), view.x(j.x1[e]) + shift, view.y(j.y1[e])];
 }
 
 /** Joints by value: large sizes lie on top and are thicker. */
@@ -147,7 +135,7 @@ function colouredJoints(
     context: CanvasRenderingContext2D,
     view: View,
     report: Report,
-    at: Shifts,
+    at: Places,
     values: ArrayLike<number>,
     colours: Scale,
 ): void {
@@ -165,8 +153,8 @@ function colouredJoints(
         context.strokeStyle = colour;
         context.lineWidth = width;
         context.beginPath();
-        for (const e of list) {
-            const [x0, y0, x1, y1] = line(view, report, at, e);
+        for (const e of list.filter((joint) => !at.hasParted(joint))) {
+            const [x0, y0, x1, y1] = at.line(e);
             context.moveTo(x0, y0);
             context.lineTo(x1, y1);
         }
@@ -181,23 +169,29 @@ function thinnest(view: View): number {
     return Math.max(1, Math.min(2.5, 0.005 * view.zoom));
 }
 
-function beam(context: CanvasRenderingContext2D, view: View, report: Report, at: Shifts): void {
+function beam(context: CanvasRenderingContext2D, view: View, report: Report, at: Places): void {
     if (report.beam < 0 || view.beam === null) {
         return;
     }
-    const x = view.x(view.beam[0]) + at.column[report.beam];
-    const width = (view.beam[1] - view.beam[0]) * view.zoom;
-    const y = view.y(view.bounds.top) - 25;
+    const [low, high] = BEAM.map((height) => view.bounds.top + height / view.zoom);
+    const [left, right] = view.beam;
     context.fillStyle = "#d6dae0";
     context.strokeStyle = INK;
     context.lineWidth = 1;
-    context.fillRect(x, y, width, 20);
-    context.strokeRect(x, y, width, 20);
-    text(context, report.contents.beam.label, x + width / 2, y + 10, width - 8, 12, INK);
+    context.beginPath();
+    context.moveTo(...at.point(report.beam, left, low));
+    context.lineTo(...at.point(report.beam, right, low));
+    context.lineTo(...at.point(report.beam, right, high));
+    context.lineTo(...at.point(report.beam, left, high));
+    context.closePath();
+    context.fill();
+    context.stroke();
+    const [x, y] = at.point(report.beam, (left + right) / 2, (low + high) / 2);
+    text(context, report.contents.beam.label, [x, y, at.angle(report.beam)], (right - left) * view.zoom - 8, 12, INK);
 }
 
-function names(context: CanvasRenderingContext2D, view: View, store: Store, at: Shifts, values: ArrayLike<number>, colours: Scale): void {
-    const { block, blocks, contents } = store.report;
+function names(context: CanvasRenderingContext2D, view: View, store: Store, at: Places, values: ArrayLike<number>, colours: Scale): void {
+    const { block, blocks, contents, outline } = store.report;
     if (blocks > MOST_NAMED * view.enlarged ** 2) {
         return;
     }
@@ -208,13 +202,20 @@ function names(context: CanvasRenderingContext2D, view: View, store: Store, at: 
         }
         const k = store.paint.owner === "block" ? step(colours, values[i]) : -1;
         const colour = k >= 0 && isDark(colours, k) ? "#fff" : INK;
-        const x = view.x(block.x0[i]) + at.column[i] + width / 2;
-        text(context, contents.block_names[i], x, view.y(block.y1[i]) + height / 2, width - 4, Math.min(12, height - 1), colour);
+        const [x, y] = at.point(i, outline.centreX[i], outline.centreY[i]);
+        text(context, contents.block_names[i], [x, y, at.angle(i)], width - 4, Math.min(12, height - 1), colour);
     }
 }
 
-/** A text around a point, left out when it does not fit. */
-function text(context: CanvasRenderingContext2D, words: string, x: number, y: number, width: number, size: number, colour: string): void {
+/** A text around a point, turned clockwise by an angle; left out when it does not fit. */
+function text(
+    context: CanvasRenderingContext2D,
+    words: string,
+    [x, y, angle]: [number, number, number],
+    width: number,
+    size: number,
+    colour: string,
+): void {
     context.font = `${size}px ${FONT}`;
     if (words === "" || context.measureText(words).width > width) {
         return;
@@ -222,7 +223,15 @@ function text(context: CanvasRenderingContext2D, words: string, x: number, y: nu
     context.fillStyle = colour;
     context.textAlign = "center";
     context.textBaseline = "middle";
-    context.fillText(words, x, y + 0.5);
+    if (angle === 0) {
+        context.fillText(words, x, y + 0.5);
+        return;
+    }
+    context.save();
+    context.translate(x, y);
+    context.rotate(angle);
+    context.fillText(words, 0, 0.5);
+    context.restore();
 }
 
 /** A frame around an item, outside of it: it must not hide the colour. */
@@ -230,30 +239,22 @@ function mark(
     context: CanvasRenderingContext2D,
     view: View,
     report: Report,
-    at: Shifts,
+    at: Places,
     item: Item,
     colour: string,
     widest: number,
 ): void {
-    const i = item.index;
-    let [left, top, right, bottom, gap] = [0, 0, 0, 0, 0];
-    if (item.owner === "block") {
-        const { x0, x1, y0, y1 } = report.block;
-        left = view.x(x0[i]) + at.column[i];
-        [right, top, bottom] = [left + (x1[i] - x0[i]) * view.zoom, view.y(y1[i]), view.y(y0[i])];
-    } else {
-        [left, top, right, bottom] = line(view, report, at, i);
-        [top, bottom] = [Math.min(top, bottom), Math.max(top, bottom)];
-        gap = 0.5 * THICKEST * thinnest(view);
-    }
     // In a wall of small blocks a wide frame would hide the neighbours.
     const { x0, x1, y0, y1 } = report.block;
     const side = view.zoom * Math.min(x1[0] - x0[0], y1[0] - y0[0]);
     const width = Math.max(1, Math.min(widest, 0.12 * side));
     const edge = Math.min(1, 0.5 * width);
-    const grow = gap + 0.5 * width + edge;
+    const by = 0.5 * width + edge;
+    const gap = 0.5 * THICKEST * thinnest(view);
+    const corners = item.owner === "block" ? grown(at.corners(item.index), by) : around(at.line(item.index), gap + by);
     const outline = new Path2D();
-    outline.rect(left - grow, top - grow, right - left + 2 * grow, bottom - top + 2 * grow);
+    corners.forEach(([x, y], k) => (k === 0 ? outline.moveTo(x, y) : outline.lineTo(x, y)));
+    outline.closePath();
     // A light edge around the mark keeps it plain on dark colours.
     context.strokeStyle = "#fff";
     context.lineWidth = width + 2 * edge;
@@ -261,4 +262,31 @@ function mark(
     context.strokeStyle = colour;
     context.lineWidth = width;
     context.stroke(outline);
+}
+
+type Point = [number, number];
+
+/** A convex outline with its sides moved outwards. */
+export function grown(corners: Point[], by: number): Point[] {
+    const n = corners.length;
+    const area = corners.reduce((sum, [x, y], k) => sum + x * corners[(k + 1) % n][1] - y * corners[(k + 1) % n][0], 0);
+    const sign = area < 0 ? -1 : 1;
+    const normal = (k: number): Point => {
+        const [[x0, y0], [x1, y1]] = [corners[(k + n) % n], corners[(k + 1) % n]];
+        const length = Math.hypot(x1 - x0, y1 - y0) || 1;
+        return [(sign * (y1 - y0)) / length, (sign * (x0 - x1)) / length];
+    };
+    return corners.map(([x, y], k) => {
+        const [[ax, ay], [bx, by_]] = [normal(k - 1), normal(k)];
+        // Acute corners would run far out.
+        const factor = by / Math.max(0.3, 1 + ax * bx + ay * by_);
+        return [x + factor * (ax + bx), y + factor * (ay + by_)];
+    });
+}
+
+/** A rectangle around a line, with its sides that far from it. */
+function around([x0, y0, x1, y1]: [number, number, number, number], by: number): Point[] {
+    const length = Math.hypot(x1 - x0, y1 - y0);
+    const [tx, ty] = length === 0 ? [by, 0] : [(by * (x1 - x0)) / length, (by * (y1 - y0)) / length];
+    return [[x0 - tx + ty, y0 - ty - tx], [x1 + tx + ty, y1 + ty - tx], [x1 + tx - ty, y1 + ty + tx], [x0 - tx - ty, y0 - ty + tx]];
 }

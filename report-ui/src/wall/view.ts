@@ -1,12 +1,15 @@
 /** Where the wall lies on the canvas, and how much its displacements are enlarged. */
 
 import type { Report } from "../data";
-import { envelope, largest, QUANTITIES } from "../quantities";
+import { extent } from "../extent";
+import { envelope, largest, quantitiesOf } from "../quantities";
 
 /** Part of the wall's larger side that the largest displacement takes on the canvas. */
 const SHOWN = 0.05;
 /** The same for the motion of the base. */
 const BASE_SHOWN = 0.06;
+/** Part of the wall's larger side that blocks may go beyond it before they leave the picture. */
+const MOST_BEYOND = 0.6;
 /** Largest enlargement of the wall over its whole. */
 const MOST_ENLARGED = 40;
 
@@ -25,6 +28,8 @@ export class View {
     enlarged = 1;
     /** Left and right end of the top beam, null without one. */
     readonly beam: [number, number] | null;
+    /** Room for blocks that go beyond the wall: left, right, above, below [m]. */
+    private readonly beyond: [number, number, number, number];
     private originX = 0;
     private originY = 0;
     /** Place of the wall's corner when it fits [px], and size of the canvas. */
@@ -36,6 +41,12 @@ export class View {
         this.bounds = { left: ends(x0, Math.min), right: ends(x1, Math.max), bottom: ends(y0, Math.min), top: ends(y1, Math.max) };
         const tops = report.contents.joint_kinds.flatMap((kind, e) => (kind === "top" ? [e] : []));
         const end = (line: Float64Array, better: (a: number, b: number) => number) => tops.map((e) => line[e]).reduce((a, b) => better(a, b));
+        this.beyond = [0, 0, 0, 0];
+        if (report.contents.planar && automaticScale(report, this) === 1) {
+            const { left, right, above, below } = extent(report);
+            const most = MOST_BEYOND * Math.max(this.width, this.height);
+            this.beyond = [Math.min(left, most), Math.min(right, most), Math.min(above, most), Math.min(below, most)];
+        }
         this.beam = tops.length === 0 ? null : [end(report.joint.x0, Math.min), end(report.joint.x1, Math.max)];
     }
 
@@ -52,10 +63,12 @@ export class View {
         const [above, below] = [this.beam === null ? 12 : 40, 20];
         const side = Math.max(16, width * 0.09);
         const room = Math.max(60, most - above - below);
-        this.zoom = Math.min((width - 2 * side) / this.width, room / this.height);
-        const height = this.height * this.zoom + above + below;
-        this.originX = 0.5 * (width - this.width * this.zoom) - this.bounds.left * this.zoom;
-        this.originY = above + this.bounds.top * this.zoom;
+        const [left, right, higher, lower] = this.beyond;
+        const [wide, high] = [this.width + left + right, this.height + higher + lower];
+        this.zoom = Math.min((width - 2 * side) / wide, room / high);
+        const height = high * this.zoom + above + below;
+        this.originX = 0.5 * (width - wide * this.zoom) + (left - this.bounds.left) * this.zoom;
+        this.originY = above + (this.bounds.top + higher) * this.zoom;
         this.home = { zoom: this.zoom, x: this.originX, y: this.originY, width, height: Math.ceil(height) };
         this.enlarged = 1;
         return height;
@@ -92,9 +105,15 @@ export class View {
     }
 }
 
-/** The factor that makes the largest displacement of the run plain to see: 1, 2 or 5 times a power of ten. */
+/**
+ * The factor that makes the largest displacement of the run plain to see: 1, 2 or 5 times a power of ten. Blocks that rise and
+ * turn are drawn as they are where that can be seen, and never smaller.
+ */
 export function automaticScale(report: Report, view: View): number {
-    const displacement = QUANTITIES.find((q) => q.key === "displacement" && q.owner === "block" && q.when === "peak");
+    if (report.contents.planar) {
+        return Math.max(1, rounded((SHOWN * Math.max(view.width, view.height)) / extent(report).way));
+    }
+    const displacement = quantitiesOf(report, "block", "peak").find((q) => q.key === "displacement");
     const ofBlocks = displacement === undefined ? 0 : largest(envelope(report, displacement).subarray(0, report.blocks));
     // A beam that slides far over the wall may go half a step out of the picture, but not leave it.
     const ofBeam = report.beam < 0 ? 0 : largest(report.frames.history("displacement", report.beam));

@@ -1,4 +1,4 @@
-//! Diagrams of measured points, for docs/performance.md: both axes logarithmic, a curve per series.
+//! Diagrams for documents, a curve per series: of measured points with both axes logarithmic, or plain.
 
 use std::fs;
 use std::path::Path;
@@ -24,13 +24,16 @@ struct Chart {
     x: String,
     y: String,
     series: Vec<Series>,
+    /// Curves over linear axes instead of marked points over logarithmic ones.
+    #[serde(default)]
+    plain: bool,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Series {
     name: String,
-    /// Above 0.
+    /// Above 0 unless the axes are linear.
     points: Vec<[f64; 2]>,
 }
 
@@ -48,7 +51,7 @@ fn drawing(chart: &Chart) -> Drawing {
         let all = chart.series.iter().flat_map(|s| &s.points).map(|p| p[k]);
         let [low, high] = all.fold([f64::INFINITY, 0.0], |r, v| [f64::min(r[0], v), f64::max(r[1], v)]);
         let range = if low > 0.0 && low <= high { [low / ROOM, high * ROOM] } else { [1.0, 10.0] };
-        Axis { quantity: label.into(), unit: "", range: Some(range), logarithmic: true }
+        Axis { quantity: label.into(), unit: "", range: (!chart.plain).then_some(range), logarithmic: !chart.plain }
     };
     let line = |(style, series): (usize, &Series)| Line {
         x: series.points.iter().map(|p| p[0]).collect::<Vec<_>>().into(),
@@ -62,7 +65,7 @@ fn drawing(chart: &Chart) -> Drawing {
         lines: chart.series.iter().enumerate().map(line).collect(),
         rising: false,
         bare: false,
-        marked: true,
+        marked: !chart.plain,
     };
     let sheet = Sheet {
         title: chart.title.clone(),
@@ -83,7 +86,9 @@ mod tests {
     #[test]
     fn every_point_is_marked() {
         let series = |name: &str, points: &[[f64; 2]]| Series { name: name.into(), points: points.to_vec() };
-        let of = |series| drawing(&Chart { title: "t".into(), x: "time [s]".into(), y: "error".into(), series }).svg();
+        let of = |series| {
+            drawing(&Chart { title: "t".into(), x: "time [s]".into(), y: "error".into(), plain: false, series }).svg()
+        };
         let svg = of(vec![series("one", &[[0.1, 1e-3], [1.0, 1e-4]]), series("two", &[[0.2, 0.5]])]);
         assert_eq!(svg.matches("<circle").count(), 2, "{svg}");
         assert!(svg.contains(">one<") && svg.contains(">two<") && svg.contains("time [s]"));

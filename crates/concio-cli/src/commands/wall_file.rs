@@ -73,7 +73,8 @@ pub fn motion(file: &CaseFile, prepared: &Prepared) -> Result<Vec<(&'static str,
 /// Adds to an error in a record where the wall file names that record.
 fn named(file: &CaseFile, error: Error) -> Error {
     let Error::Input(mut error) = error else { return error };
-    let motions = [("motion.base", &file.case.motion.base), ("motion.top", &file.case.motion.top)];
+    let motion = &file.case.motion;
+    let motions = [("motion.base", &motion.base), ("motion.top", &motion.top), ("motion.vertical", &motion.vertical)];
     let found = motions.into_iter().find(|(_, signal)| {
         let Signal::Record(input) = signal else { return false };
         error.file.as_deref() == Some(file.folder().join(&input.record).as_path())

@@ -1,11 +1,11 @@
 //! A wall as it begins to fall: blocks moved by the velocities of a mechanism, over the wall at rest.
 
-use concio_planar::assembly::Body;
-use concio_planar::limit::{Limit, Problem};
+use concio_limit::{Limit, Problem};
+use concio_planar::body::Body;
 
 use super::chart::LETTERS;
 use super::output::Drawing;
-use super::svg::{Anchor, Canvas, line, px};
+use super::svg::{Anchor, Canvas, line, polygon};
 use super::wall::{BRICK, ground};
 use crate::format::significant;
 
@@ -68,10 +68,10 @@ pub fn draw(problem: &Problem, found: &Limit) -> Drawing {
     let view = View { origin: [0.5 * (WIDTH - size[0] * scale) - x[0] * scale, bottom], scale };
     let mut canvas = Canvas::default();
     let grey = r##"fill="#ececec" stroke="#a0a0a0" stroke-width="0.4""##;
-    canvas.path(&rest.iter().map(|p| polygon(&view, p)).collect::<String>(), grey, None);
+    canvas.path(&rest.iter().map(|p| outlined(&view, p)).collect::<String>(), grey, None);
     let brick = format!(r##"fill="{BRICK}" fill-opacity="0.85" stroke="#333" stroke-width="0.5""##);
     for (body, corners) in bodies.iter().zip(&moved) {
-        canvas.path(&polygon(&view, corners), &brick, Some(&body.name));
+        canvas.path(&outlined(&view, corners), &brick, Some(&body.name));
     }
     joints(&mut canvas, &view, problem, found, &motions);
     let [left, right] = wide.map(|x| view.at([x, 0.0])[0]);
@@ -96,9 +96,8 @@ fn extent(outlines: &[Vec<[f64; 2]>]) -> [[f64; 2]; 2] {
     })
 }
 
-fn polygon(view: &View, corners: &[[f64; 2]]) -> String {
-    let points: Vec<String> = corners.iter().map(|p| view.at(*p).map(px).join(" ")).collect();
-    format!("M{}z", points.join("L"))
+fn outlined(view: &View, corners: &[[f64; 2]]) -> String {
+    polygon(&corners.iter().map(|p| view.at(*p)).collect::<Vec<_>>())
 }
 
 const SLIDES: &str = r##"fill="none" stroke="#1f5fa8" stroke-width="1.6""##;
@@ -130,9 +129,8 @@ fn legend(canvas: &mut Canvas, found: &Limit, y: f64) {
         canvas.path(&line([x, y, x + 18.0, y]), attributes, None);
         canvas.text([x + 22.0, y], size, Anchor::Start, false, "#000", text);
     };
-    let number = |chosen: fn(&concio_planar::limit::JointMotion) -> bool| {
-        found.mechanism.joints.iter().filter(|j| chosen(j)).count()
-    };
+    let number =
+        |chosen: fn(&concio_limit::JointMotion) -> bool| found.mechanism.joints.iter().filter(|j| chosen(j)).count();
     entry(canvas, ROOM[0], SLIDES, &format!("slides only ({})", number(|j| j.slides && !j.opens)));
     entry(canvas, ROOM[0] + 110.0, OPENS, &format!("opens ({})", number(|j| j.opens)));
     let text = "grey: at rest; wall to scale, its motion enlarged";

@@ -112,6 +112,26 @@ pub fn rectangle([x0, y0, x1, y1]: [f64; 4]) -> String {
     format!("M{} {}H{}V{}H{}z", px(x0), px(y0), px(x1), px(y1), px(x0))
 }
 
+/// A closed outline over its corners as path data; an upright rectangle, counterclockwise on paper from the bottom left, in
+/// the short form.
+pub fn closed(corners: &[[f64; 2]]) -> String {
+    if let [a, b, c, d] = *corners
+        && a[1] == b[1]
+        && b[0] == c[0]
+        && c[1] == d[1]
+        && d[0] == a[0]
+    {
+        return rectangle([d[0], d[1], b[0], b[1]]);
+    }
+    polygon(corners)
+}
+
+/// A closed outline over its corners as path data.
+pub fn polygon(corners: &[[f64; 2]]) -> String {
+    let points: Vec<String> = corners.iter().map(|p| p.map(px).join(" ")).collect();
+    format!("M{}z", points.join("L"))
+}
+
 /// A straight line as path data.
 pub fn line([x0, y0, x1, y1]: [f64; 4]) -> String {
     format!("M{} {}L{} {}", px(x0), px(y0), px(x1), px(y1))

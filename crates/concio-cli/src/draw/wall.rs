@@ -2,9 +2,9 @@
 //! brightness, so that the drawing can be read in grey.
 
 use concio::case::JointKind;
-use concio::wall::{Joint, Wall};
+use concio::wall::{Block, Joint, Wall};
 
-use super::svg::{Anchor, Canvas, line, px, rectangle};
+use super::svg::{Anchor, Canvas, closed, line, px, rectangle};
 use crate::format::si;
 
 /// Colour of bricks.
@@ -127,6 +127,10 @@ impl View {
     fn rectangle(&self, x: [f64; 2], y: [f64; 2]) -> [f64; 4] {
         [self.x(x[0]), self.y(y[1]), self.x(x[1]), self.y(y[0])]
     }
+    /// Outline of a block, over its corners, as path data.
+    fn outline(&self, block: &Block) -> String {
+        closed(&block.corners().iter().map(|&[x, y]| [self.x(x), self.y(y)]).collect::<Vec<_>>())
+    }
     fn line(&self, l: [f64; 4]) -> [f64; 4] {
         [self.x(l[0]), self.y(l[1]), self.x(l[2]), self.y(l[3])]
     }
@@ -196,10 +200,9 @@ fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
         Paint::Blocks(_) => Some(0.0),
         _ => None,
     };
-    let outline = |i: usize| view.rectangle(wall.blocks[i].x, wall.blocks[i].y);
     if !is_detailed(subject) {
         for (fill, members) in shades((0..wall.blocks.len()).map(fraction), BRICK) {
-            let d: String = members.iter().map(|&i| rectangle(outline(i))).collect();
+            let d: String = members.iter().map(|&i| view.outline(&wall.blocks[i])).collect();
             canvas.path(&d, &attributes(&fill), None);
         }
         return;
@@ -221,8 +224,8 @@ fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
             Some(f) => (shade(f), if f > 0.55 { "#fff" } else { "#111" }),
             None => (BRICK.into(), "#111"),
         };
-        canvas.path(&rectangle(outline(i)), &attributes(&fill), Some(&title));
-        label(canvas, outline(i), LETTERS[1], false, letters, &block.name);
+        canvas.path(&view.outline(block), &attributes(&fill), Some(&title));
+        label(canvas, view.rectangle(block.x, block.y), LETTERS[1], false, letters, &block.name);
     }
 }
 

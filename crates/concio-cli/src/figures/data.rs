@@ -6,6 +6,7 @@ use std::ops::Range;
 use concio::InputError;
 use concio::case::{self, Case, Syntax};
 use concio::moment::{JointMotion, Moment};
+use concio::record::EventKind;
 use concio::store::StoredRun;
 
 use crate::failure::Failure;
@@ -71,6 +72,16 @@ impl<'a> Data<'a> {
             return Err(error.allowed(format!("a part of 0 s to {end} s with two samples or more")).into());
         }
         Ok(data)
+    }
+
+    /// Whether blocks rise and turn in this run.
+    pub fn is_planar(&self) -> bool {
+        self.run.outcome.layout.turned > 0
+    }
+
+    /// When the wall counted as collapsed [s].
+    pub fn collapse(&self) -> Option<f64> {
+        self.run.outcome.recording.events.iter().find(|e| e.kind == EventKind::Collapse).map(|e| e.time)
     }
 
     /// Which of rising instants lie in the window.
@@ -205,7 +216,8 @@ impl<'a> Data<'a> {
     }
 
     /// Relative motion of the sides of a joint, signed as its channels are: positive opens a head joint; of other
-    /// joints that of the lower block against the upper, or of a block against base or beam.
+    /// joints that of the lower block against the upper, or of a block against base or beam. In a planar run the sliding along
+    /// the joint, of which frames hold no velocity: it is not a number there.
     ///
     /// # Errors
     /// Neither samples nor frames were kept.
@@ -219,7 +231,7 @@ impl<'a> Data<'a> {
         Ok(Motion {
             time,
             displacement: rows.iter().map(|m| m.slip).collect(),
-            velocity: rows.iter().map(|m| m.velocity).collect(),
+            velocity: rows.iter().map(|m| if self.is_planar() { f64::NAN } else { m.velocity }).collect(),
             sampled: false,
         })
     }
@@ -239,8 +251,9 @@ impl<'a> Data<'a> {
                 [rows.iter().map(|m| m.slip).collect(), rows.iter().map(|m| m.friction).collect()]
             }
         };
-        // The force is that on the left block, the gap grows with the motion of the right one.
-        if row.joint.kind.is_upright() {
+        // The force is that on the left block, the gap grows with the motion of the right one. Slip along a planar joint
+        // is told of the same side as its force.
+        if row.joint.kind.is_upright() && !self.is_planar() {
             force.iter_mut().for_each(|f| *f = -*f);
         }
         Ok([slip, force])

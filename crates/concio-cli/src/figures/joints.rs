@@ -34,7 +34,9 @@ pub fn histories(data: &Data, options: &Options) -> Result<Drawing, InputError> 
         chosen.iter().zip(&motions).filter(|(_, m)| !m.sampled).map(|(&e, _)| joints[e].name.as_str()).collect();
     let range = around(motions.iter().flat_map(|m| &m.displacement), 0.06);
     let upright = chosen.iter().filter(|&&e| joints[e].joint.kind.is_upright()).count();
-    let quantity = if upright == chosen.len() {
+    let quantity = if data.is_planar() {
+        "slip"
+    } else if upright == chosen.len() {
         "gap"
     } else if upright == 0 {
         "slip"
@@ -51,7 +53,11 @@ pub fn histories(data: &Data, options: &Options) -> Result<Drawing, InputError> 
         marked: false,
     };
     let drawing = chart::draw(&Sheet {
-        title: "Histories of the relative displacement of neighbouring blocks (positive opens a head joint)".into(),
+        title: if data.is_planar() {
+            "Histories of the sliding of neighbouring blocks along their joints".into()
+        } else {
+            "Histories of the relative displacement of neighbouring blocks (positive opens a head joint)".into()
+        },
         legend: Vec::new(),
         panels: chosen.iter().zip(&motions).enumerate().map(panel).collect(),
         columns: 1,

@@ -8,6 +8,7 @@ use crate::args::Figure;
 use crate::draw::output::{Drawing, POINTS};
 
 mod data;
+mod deformed;
 mod energies;
 mod joints;
 mod motion;
@@ -66,7 +67,7 @@ impl Options {
 /// What the figure needs and the run did not keep or does not have, and what to do; names that do not exist.
 pub fn draw(figure: Figure, data: &Data, options: &Options) -> Result<Drawing, InputError> {
     match figure {
-        Figure::Deformed => wall::deformed(data, options),
+        Figure::Deformed => deformed::deformed(data, options),
         Figure::PeakAcceleration => wall::peak_acceleration(data, options),
         Figure::Acceleration => wall::acceleration(data, options),
         Figure::Cracks => wall::cracks(data, options),

@@ -40,8 +40,13 @@ pub fn joints(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         return Err(InputError::new("no joint moved").help("name joints with --joints"));
     }
     let portrait = |&e: &usize| {
-        let quantity = if joints[e].joint.kind.is_upright() { "gap" } else { "slip" };
-        Ok((joints[e].name.as_str(), quantity, data.joint_motion(e)?))
+        let gap = joints[e].joint.kind.is_upright() && !data.is_planar();
+        let (name, motion) = (joints[e].name.as_str(), data.joint_motion(e)?);
+        if data.is_planar() && !motion.sampled {
+            let error = InputError::new(format!("the velocity of joint {name} was not kept")).key("--joints");
+            return Err(error.help(format!("run the wall file again with `joints = [\"{name}\"]` under [output]")));
+        }
+        Ok((name, if gap { "gap" } else { "slip" }, motion))
     };
     let portraits: Result<Vec<_>, _> = chosen.iter().map(portrait).collect();
     let title = "Phase portraits of joints: relative velocity over relative displacement of their sides";

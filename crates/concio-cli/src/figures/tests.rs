@@ -119,3 +119,168 @@ fn blocks_are_drawn_where_they_are() {
         assert!((left[i] - expected).abs() < 0.02, "{i}: {} {expected}", left[i]);
     }
 }
+
+/// A planar run, made by hand of the wall above: in its second frame the last block has slid, risen and turned, the joint
+/// under it has opened, and another has slid.
+fn planar() -> StoredRun {
+    let mut run = stored("");
+    let (blocks, joints) = (run.wall.blocks.len(), run.joints.len());
+    let outcome = &mut run.outcome;
+    let layout = &mut outcome.layout;
+    (layout.unknowns, layout.turned) = (blocks + 1, blocks + 1);
+    (layout.touching, layout.held) = (joints, joints);
+    let recording = &mut outcome.recording;
+    recording.frame_time.truncate(2);
+    let still = |width: usize| vec![0.0; 2 * width];
+    recording.frame_displacement = still(blocks + 1);
+    recording.frame_velocity = still(blocks + 1);
+    recording.frame_acceleration = still(blocks + 1);
+    recording.frame_vertical = still(blocks + 1);
+    recording.frame_rotation = still(blocks + 1);
+    recording.frame_slip = still(joints);
+    recording.frame_opening = still(joints);
+    recording.frame_pressure = still(joints);
+    recording.frame_friction = still(joints);
+    let at = blocks + 1 + (blocks - 1);
+    recording.frame_displacement[at] = 0.03;
+    recording.frame_vertical[at] = 0.02;
+    recording.frame_rotation[at] = TURN;
+    let under = bed_under(&run, blocks - 1);
+    run.outcome.recording.frame_opening[joints + under] = 4e-3;
+    run.outcome.recording.frame_slip[joints] = -2e-3;
+    run.provenance.model = "planar".into();
+    run
+}
+
+const TURN: f64 = 0.4;
+
+fn bed_under(run: &StoredRun, block: usize) -> usize {
+    let under =
+        |j: &concio::store::JointRow| j.joint.b == concio::wall::End::Block(block) && !j.joint.kind.is_upright();
+    run.joints.iter().position(under).expect("a joint")
+}
+
+/// Corners of a path over `M x yL x y…`, or of an upright rectangle `M x yH x V y H x z`, as drawn.
+fn corners(svg: &str, title: &str) -> Vec<[f64; 2]> {
+    let row = svg.lines().find(|l| l.contains(&format!("<title>{title}"))).expect("an element");
+    let d = row.split('"').nth(1).expect("a path").trim_start_matches('M').trim_end_matches('z');
+    let number = |n: &str| n.parse::<f64>().expect("a number");
+    match d.split(['H', 'V']).collect::<Vec<_>>()[..] {
+        [start, right, bottom, _] => {
+            let (left, top) = start.split_once(' ').expect("a point");
+            let [left, top, right, bottom] = [left, top, right, bottom].map(number);
+            vec![[left, bottom], [right, bottom], [right, top], [left, top]]
+        }
+        _ => d.split('L').map(|p| p.split_once(' ').map(|(x, y)| [number(x), number(y)]).expect("a point")).collect(),
+    }
+}
+
+/// At scale 1 the corners of a block that slid, rose and turned are those of its rectangle, turned about its centre.
+#[test]
+fn blocks_that_turn_are_drawn_turned() {
+    let run = planar();
+    let data = Data::new(&run, [None; 2]).expect("data");
+    let options = Options { scale: Some(1.0), ..Options::default() };
+    let svg = draw(Figure::Deformed, &data, &options).expect("a figure").body;
+    let (blocks, last) = (&run.wall.blocks, run.wall.blocks.len() - 1);
+    // The first block does not move: it tells where things are drawn.
+    let rest = corners(&svg, &blocks[0].name);
+    let scale = (rest[1][0] - rest[0][0]) / blocks[0].length();
+    let place =
+        |p: [f64; 2]| [rest[0][0] + scale * (p[0] - blocks[0].x[0]), rest[0][1] - scale * (p[1] - blocks[0].y[0])];
+    let [x, y] = blocks[last].centre();
+    let (l, h) = (0.5 * blocks[last].length(), 0.5 * blocks[last].height());
+    let drawn = corners(&svg, &blocks[last].name);
+    for (corner, [a, b]) in [[-l, -h], [l, -h], [l, h], [-l, h]].into_iter().enumerate() {
+        let expected = place([x + 0.03 + TURN.cos() * a - TURN.sin() * b, y + 0.02 + TURN.sin() * a + TURN.cos() * b]);
+        let error = (0..2).map(|k| (drawn[corner][k] - expected[k]).abs()).fold(0.0, f64::max);
+        assert!(error < 0.05, "corner {corner}: {:?}, not {expected:?}", drawn[corner]);
+    }
+    assert!(svg.contains("turned by up to 22.9°") && svg.contains("displacements to scale"), "{svg}");
+    // Everything is within the width.
+    assert!(drawn.iter().all(|p| p[0] > 0.0 && p[0] < options.points() && p[1] > 0.0));
+}
+
+/// Magnified by 10 the way of every corner is 10 times as long.
+#[test]
+fn magnified_corners_go_the_same_way_further() {
+    let run = planar();
+    let data = Data::new(&run, [None; 2]).expect("data");
+    let last = run.wall.blocks.len() - 1;
+    let way = |scale: f64| {
+        let options = Options { scale: Some(scale), ..Options::default() };
+        let svg = draw(Figure::Deformed, &data, &options).expect("a figure").body;
+        let rest = corners(&svg, &run.wall.blocks[0].name);
+        let per_metre = (rest[1][0] - rest[0][0]) / run.wall.blocks[0].length();
+        let [still, moved] = [0, last].map(|i| (corners(&svg, &run.wall.blocks[i].name), &run.wall.blocks[i]));
+        let from = |(drawn, block): &(Vec<[f64; 2]>, &concio::wall::Block)| {
+            [drawn[2][0] / per_metre - block.x[1], -drawn[2][1] / per_metre - block.y[1]]
+        };
+        [0, 1].map(|k| from(&moved)[k] - from(&still)[k])
+    };
+    let (once, often) = (way(1.0), way(10.0));
+    for k in 0..2 {
+        assert!((often[k] / once[k] - 10.0).abs() < 0.1, "{once:?} {often:?}");
+    }
+}
+
+/// A joint that opened is drawn in the colour of its opening, one that slid alone dashed, the others not at all.
+#[test]
+fn joints_that_opened_or_slid_lie_over_the_deformed_wall() {
+    let run = planar();
+    let data = Data::new(&run, [None; 2]).expect("data");
+    let svg = draw(Figure::Deformed, &data, &Options::default()).expect("a figure").body;
+    let drawn: Vec<&str> = svg.lines().filter(|l| l.contains(": opened ")).collect();
+    let [open, slid] = [bed_under(&run, run.wall.blocks.len() - 1), 0].map(|e| run.joints[e].name.as_str());
+    assert_eq!(drawn.len(), 2, "{drawn:?}");
+    let of = |name: &str| *drawn.iter().find(|l| l.contains(&format!("<title>{name}:"))).expect("a joint");
+    assert!(of(open).contains("opened 4.000 mm") && !of(open).contains("dasharray"), "{}", of(open));
+    assert!(of(slid).contains("slid −2.000 mm") || of(slid).contains("slid -2.000 mm"), "{}", of(slid));
+    assert!(of(slid).contains("dasharray"));
+    assert!(svg.contains("opening of joints [1], 1 = 4 mm") && svg.contains("slid without opening, up to 2 mm"));
+    // Nothing of that in a shear run.
+    let run = stored("");
+    let data = Data::new(&run, [None; 2]).expect("data");
+    let svg = draw(Figure::Deformed, &data, &Options::default()).expect("a figure").body;
+    assert!(!svg.contains(": opened ") && !svg.contains("turned by"));
+}
+
+/// What frames of a planar run do not hold is refused with what to do; openings have a map of their own.
+#[test]
+fn figures_that_need_velocities_of_joints_say_so() {
+    let mut run = planar();
+    let joint = run.joints[0].name.clone();
+    let data = Data::new(&run, [None; 2]).expect("data");
+    let options = Options { joints: vec![joint], ..Options::default() };
+    let error = draw(Figure::JointPhase, &data, &options).expect_err("no velocities").to_string();
+    assert!(error.contains("was not kept"), "{error}");
+    assert!(draw(Figure::JointHistories, &data, &options).is_ok());
+    assert!(draw(Figure::Acceleration, &data, &options).is_err());
+    run.outcome.envelopes.joint_opening.fill(0.0);
+    run.outcome.envelopes.joint_opening[3] = 2e-3;
+    let data = Data::new(&run, [None; 2]).expect("data");
+    let svg = draw(Figure::Cracks, &data, &Options::default()).expect("a figure").body;
+    assert!(svg.contains("opening of joints [1], 1 = 2 mm"), "{svg}");
+}
+
+/// Joints of a block that has left its neighbours are not drawn, and what comes after a collapse is no peak.
+#[test]
+fn what_has_fallen_has_no_joints_and_is_no_peak() {
+    use concio::record::{Event, EventKind};
+    let mut run = planar();
+    let (blocks, under) = (run.wall.blocks.len(), bed_under(&run, run.wall.blocks.len() - 1));
+    run.outcome.recording.frame_displacement[blocks + 1 + (blocks - 1)] = 1.0;
+    let name = run.joints[under].name.clone();
+    let joints = |run: &StoredRun| {
+        let data = Data::new(run, [None; 2]).expect("data");
+        let svg = draw(Figure::Deformed, &data, &Options::default()).expect("a figure").body;
+        (svg.lines().filter(|l| l.contains(": opened ")).count(), svg.contains(&format!("<title>{name}: opened")), svg)
+    };
+    let (drawn, of_fallen, svg) = joints(&run);
+    assert_eq!((drawn, of_fallen), (1, false), "{svg}");
+    let time = run.outcome.recording.frame_time[0];
+    run.outcome.recording.events.push(Event { time, joint: under as u32, kind: EventKind::Collapse, value: 1.0 });
+    let (drawn, _, svg) = joints(&run);
+    assert_eq!(drawn, 0);
+    assert!(svg.contains("t = 0"), "{svg}");
+}

@@ -1,57 +1,58 @@
-//! The wall at an instant: deformed, or with its joints coloured by relative acceleration.
+//! Walls with their joints coloured by a value, and what drawings of walls for print share.
 
 use concio::InputError;
 use concio::case::JointKind;
-use concio::moment::Moment;
+use concio::moment::{Moment, Motion};
 
 use super::Options;
 use super::data::{Data, Instant};
 use crate::draw::chart::LETTERS;
 use crate::draw::font;
 use crate::draw::output::Drawing;
-use crate::draw::svg::{Anchor, Canvas, line, px, rectangle};
-use crate::draw::wall::{BRICK, LIGHT, ground, round_length, shade};
-use crate::format::{plain, short, si, significant};
+use crate::draw::svg::{Anchor, Canvas, closed, line, px, rectangle};
+use crate::draw::wall::{LIGHT, ground, shade};
+use crate::format::{plain, short, significant};
 
 /// Height of the wall over the width of the figure, at most.
 const TALLEST: f64 = 1.15;
 /// Room left and right of the wall [pt].
-const SIDE: f64 = 8.0;
+pub(super) const SIDE: f64 = 8.0;
 /// Height of the top beam and its distance from the wall [pt].
 const BEAM: [f64; 2] = [8.0, 1.5];
-/// The largest displacement as drawn, over the length of a typical block.
-const DRAWN: f64 = 0.3;
 /// Height of the hatching below the base [pt].
 const GROUND: f64 = 5.0;
 
 /// From metres to points.
-struct View {
-    origin: [f64; 2],
-    scale: f64,
+pub(super) struct View {
+    pub(super) origin: [f64; 2],
+    pub(super) scale: f64,
     /// Left, right, bottom, top of the wall at rest [m].
-    bounds: [f64; 4],
+    pub(super) bounds: [f64; 4],
     /// Where the ground ends below [pt].
-    below: f64,
+    pub(super) below: f64,
 }
 
 impl View {
-    /// A wall whose blocks reach `out` [m] beyond it to the left and to the right, under headings of height `head`.
-    fn new(data: &Data, width: f64, out: [f64; 2], head: f64) -> View {
-        let blocks = &data.run.wall.blocks;
-        let bounds = blocks.iter().fold([f64::INFINITY, f64::NEG_INFINITY, 0.0, f64::NEG_INFINITY], |b, k| {
-            [b[0].min(k.x[0]), b[1].max(k.x[1]), f64::min(b[2], k.y[0]), b[3].max(k.y[1])]
-        });
-        let [wide, high] = [(bounds[1] - bounds[0] + out[0] + out[1]).max(1e-9), (bounds[3] - bounds[2]).max(1e-9)];
+    /// A wall whose blocks reach beyond it, under headings of height `head`.
+    pub(super) fn new(data: &Data, width: f64, reach: Reach, head: f64) -> View {
+        let bounds = bounds(data);
+        let wide = (bounds[1] - bounds[0] + reach.left + reach.right).max(1e-9);
+        let high = (bounds[3] - bounds[2] + reach.above + reach.below).max(1e-9);
         let scale = ((width - 2.0 * SIDE) / wide).min(TALLEST * width / high);
-        let left = 0.5 * (width - wide * scale) + out[0] * scale;
+        let left = 0.5 * (width - wide * scale) + reach.left * scale;
         let beam = if has_beam(data) { BEAM[0] + BEAM[1] + 2.0 } else { 2.0 };
         let bottom = head + beam + high * scale;
         View {
-            origin: [left - bounds[0] * scale, bottom + bounds[2] * scale],
+            origin: [left - bounds[0] * scale, bottom + (bounds[2] - reach.below) * scale],
             scale,
             bounds,
             below: bottom + GROUND + 2.0,
         }
+    }
+
+    /// A place given in metres.
+    pub(super) fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.origin[0] + x * self.scale, self.origin[1] - y * self.scale]
     }
 
     /// Left, top, right, bottom of a rectangle given in metres.
@@ -60,73 +61,61 @@ impl View {
         [ox + x[0] * self.scale, oy - y[1] * self.scale, ox + x[1] * self.scale, oy - y[0] * self.scale]
     }
 
-    fn ground(&self, canvas: &mut Canvas) {
+    pub(super) fn ground(&self, canvas: &mut Canvas) {
         let [left, _, right, bottom] = self.rectangle([self.bounds[0], self.bounds[1]], [self.bounds[2]; 2]);
         ground(canvas, [left, right, bottom], 0.65);
     }
 
-    /// The top beam, moved by `shift` [m].
-    fn beam(&self, canvas: &mut Canvas, data: &Data, shift: f64, attributes: &str) {
-        let tops = data.run.joints.iter().map(|j| &j.joint).filter(|j| j.kind == JointKind::Top);
-        let ends = tops.fold([f64::INFINITY, f64::NEG_INFINITY], |e, j| [e[0].min(j.line[0]), e[1].max(j.line[2])]);
+    /// The top beam, its motion so many times as large.
+    pub(super) fn beam(&self, canvas: &mut Canvas, data: &Data, (motion, scale): (Motion, f64), attributes: &str) {
+        let ends = beam_ends(data);
         if ends[0] < ends[1] {
-            let [left, top, right, _] = self.rectangle(ends.map(|x| x + shift), [self.bounds[3]; 2]);
-            canvas.path(&rectangle([left, top - BEAM[0] - BEAM[1], right, top - BEAM[1]]), attributes, None);
+            let foot = beam_foot(data);
+            let [low, high] = [BEAM[1], BEAM[0] + BEAM[1]].map(|v| self.bounds[3] + v / self.scale);
+            let corners = [[ends[0], low], [ends[1], low], [ends[1], high], [ends[0], high]];
+            let moved = corners.map(|[x, y]| {
+                let way = motion.of_point([x - foot[0], y - foot[1]]);
+                self.at([x + scale * way[0], y + scale * way[1]])
+            });
+            canvas.path(&closed(&moved), attributes, None);
         }
     }
 }
 
-fn has_beam(data: &Data) -> bool {
+/// How far a wall reaches beyond what it takes at rest [m].
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Reach {
+    pub(super) left: f64,
+    pub(super) right: f64,
+    pub(super) above: f64,
+    pub(super) below: f64,
+}
+
+/// Left, right, bottom, top of the wall at rest [m].
+pub(super) fn bounds(data: &Data) -> [f64; 4] {
+    let start = [f64::INFINITY, f64::NEG_INFINITY, 0.0, f64::NEG_INFINITY];
+    data.run
+        .wall
+        .blocks
+        .iter()
+        .flat_map(|k| k.corners())
+        .fold(start, |b, [x, y]| [b[0].min(x), b[1].max(x), f64::min(b[2], y), b[3].max(y)])
+}
+
+/// Left and right end of the joints under the top beam [m].
+fn beam_ends(data: &Data) -> [f64; 2] {
+    let tops = data.run.joints.iter().map(|j| &j.joint).filter(|j| j.kind == JointKind::Top);
+    tops.fold([f64::INFINITY, f64::NEG_INFINITY], |e, j| [e[0].min(j.line[0]), e[1].max(j.line[2])])
+}
+
+/// The point that the beam is drawn to turn about [m]: the middle of its lower side.
+pub(super) fn beam_foot(data: &Data) -> [f64; 2] {
+    let ends = beam_ends(data);
+    [0.5 * (ends[0] + ends[1]), bounds(data)[3]]
+}
+
+pub(super) fn has_beam(data: &Data) -> bool {
     data.run.joints.iter().any(|j| j.joint.kind == JointKind::Top)
-}
-
-/// The panel at an instant, displacements enlarged, over its outline at rest.
-pub fn deformed(data: &Data, options: &Options) -> Result<Drawing, InputError> {
-    let moment = data.moment(options.at, largest_displacement)?;
-    let blocks = &data.run.wall.blocks;
-    let moved: Vec<f64> = (0..blocks.len()).map(|i| moment.block(i).displacement).collect();
-    let beam = has_beam(data).then(|| moment.beam().displacement);
-    if moved.iter().chain(&beam).any(|z| !z.is_finite()) {
-        let what = format!("displacements at {} s are not finite", plain(moment.time()));
-        return Err(InputError::new(what).key("--at").help("the run failed there: choose an earlier instant"));
-    }
-    let all = moved.iter().chain(&beam);
-    let [low, high] = all.fold([0.0f64; 2], |e, z| [e[0].min(*z), e[1].max(*z)]);
-    let largest = high.max(-low);
-    let scale = options.scale.unwrap_or_else(|| automatic_scale(data, largest));
-    let out = [-low * scale, high * scale];
-    let time = format!("t = {}", crate::format::seconds(rounded(moment.time())));
-    let drawn =
-        if scale == 1.0 { "displacements to scale".into() } else { format!("displacements × {}", plain(scale)) };
-    let mut canvas = Canvas::default();
-    let of_blocks = moved.iter().fold(0.0, |m, z| z.abs().max(m));
-    let mut texts = vec![time, drawn, format!("blocks up to {}", short(three(of_blocks), "m"))];
-    texts.extend(beam.map(|z| format!("beam {}", short(three(z), "m"))));
-    let head = headings(&mut canvas, options.points(), &texts);
-    let view = View::new(data, options.points(), out, head);
-    let rest = r##"fill="#e6e6e6" stroke="#8c8c8c" stroke-width="0.4""##;
-    let shift = |z: f64, b: &concio::wall::Block| rectangle(view.rectangle(b.x.map(|x| x + z * scale), b.y));
-    canvas.path(&blocks.iter().map(|b| shift(0.0, b)).collect::<String>(), rest, None);
-    if let Some(z) = beam {
-        view.beam(&mut canvas, data, 0.0, rest);
-        view.beam(&mut canvas, data, z * scale, r##"fill="#c9c9c9" stroke="#222" stroke-width="0.5""##);
-    }
-    let brick = format!(r##"fill="{BRICK}" stroke="#333" stroke-width="0.5""##);
-    for (block, z) in blocks.iter().zip(&moved) {
-        canvas.path(&shift(*z, block), &brick, Some(&format!("{}: {}", block.name, si(*z, "m"))));
-    }
-    view.ground(&mut canvas);
-    let bottom = bars(&mut canvas, &view, options.points(), (largest > 0.0).then_some((scale, largest)));
-    Ok(Drawing {
-        body: canvas.into_body(),
-        size: [options.points(), bottom],
-        title: format!("Deformed wall at {} s, displacements × {}", plain(rounded(moment.time())), plain(scale)),
-        note: String::new(),
-    })
-}
-
-fn largest_displacement(data: &Data, moment: &Moment) -> f64 {
-    (0..data.run.wall.blocks.len()).map(|i| moment.block(i).displacement.abs()).fold(0.0, f64::max)
 }
 
 fn largest_acceleration(data: &Data, moment: &Moment) -> f64 {
@@ -134,25 +123,17 @@ fn largest_acceleration(data: &Data, moment: &Moment) -> f64 {
 }
 
 /// Three significant digits.
-fn three(value: f64) -> f64 {
+pub(super) fn three(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 /// A time without the digits that sums of intervals leave behind.
-fn rounded(time: f64) -> f64 {
+pub(super) fn rounded(time: f64) -> f64 {
     (time * 1e9).round() / 1e9
 }
 
-/// 1, 2 or 5 times a power of ten, so that the largest displacement shows and blocks stay apart.
-fn automatic_scale(data: &Data, largest: f64) -> f64 {
-    let mut lengths: Vec<f64> = data.run.wall.blocks.iter().map(concio::wall::Block::length).collect();
-    lengths.sort_by(f64::total_cmp);
-    let typical = lengths.get(lengths.len() / 2).copied().unwrap_or(1.0);
-    if largest > 0.0 { round_length(DRAWN * typical / largest).max(1.0) } else { 1.0 }
-}
-
 /// Texts in as few centred lines as they need; where they end [pt].
-fn headings(canvas: &mut Canvas, width: f64, texts: &[String]) -> f64 {
+pub(super) fn headings(canvas: &mut Canvas, width: f64, texts: &[String]) -> f64 {
     let size = f64::from(LETTERS[1]);
     let mut lines: Vec<String> = Vec::new();
     for text in texts {
@@ -171,37 +152,6 @@ fn headings(canvas: &mut Canvas, width: f64, texts: &[String]) -> f64 {
     y
 }
 
-/// A bar for lengths, and one for displacements; where they end [pt].
-fn bars(canvas: &mut Canvas, view: &View, width: f64, displacements: Option<(f64, f64)>) -> f64 {
-    let size = f64::from(LETTERS[0]);
-    let y = view.below + 6.0;
-    let bar = |canvas: &mut Canvas, x: f64, length: f64, text: &str| {
-        let end = x + length;
-        let ticks = [line([x, y, end, y]), line([x, y - 2.0, x, y + 2.0]), line([end, y - 2.0, end, y + 2.0])];
-        canvas.path(&ticks.concat(), r##"fill="none" stroke="#000" stroke-width="0.8""##, None);
-        canvas.text([end + 4.0, y], size, Anchor::Start, false, "#000", text);
-        end + 4.0 + font::width(text, size)
-    };
-    let wall = view.bounds[1] - view.bounds[0];
-    let length = round_length(0.25 * wall);
-    let text = if length < 1.0 {
-        format!("{} mm", plain((length * 1e6).round() / 1e3))
-    } else {
-        format!("{} m", plain(length))
-    };
-    let end = bar(canvas, SIDE, length * view.scale, &format!("wall: {text}"));
-    if let Some((scale, largest)) = displacements {
-        let length = round_length(largest);
-        let drawn = length * scale * view.scale;
-        let text = format!("displacement: {}", short(length, "m"));
-        let room = drawn + 4.0 + font::width(&text, size);
-        if end + 14.0 + room <= width - 2.0 {
-            bar(canvas, (width - SIDE - room).max(end + 14.0), drawn, &text);
-        }
-    }
-    y + 8.0
-}
-
 /// Joints coloured by the largest relative acceleration of each, over the largest of all.
 pub fn peak_acceleration(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let peaks = &data.run.outcome.envelopes.joint_acceleration;
@@ -211,6 +161,10 @@ pub fn peak_acceleration(data: &Data, options: &Options) -> Result<Drawing, Inpu
 
 /// Joints coloured by their relative acceleration at an instant, over the largest in the whole history.
 pub fn acceleration(data: &Data, options: &Options) -> Result<Drawing, InputError> {
+    if data.is_planar() {
+        return Err(InputError::new("frames of a planar run hold no accelerations of joints")
+            .help("`peak-acceleration` draws the largest of the run"));
+    }
     let largest = largest(&data.run.outcome.envelopes.joint_acceleration)?;
     let moment = data.moment(options.at, largest_acceleration)?;
     let values: Vec<f64> = (0..data.run.joints.len()).map(|e| moment.joint(e).acceleration.abs()).collect();
@@ -221,6 +175,9 @@ pub fn acceleration(data: &Data, options: &Options) -> Result<Drawing, InputErro
 /// Joints coloured by the damage of their bonds, at the end of the run or at an instant.
 pub fn cracks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let bonds = &data.run.outcome.bonds;
+    if bonds.is_empty() && data.is_planar() {
+        return openings(data, options);
+    }
     if bonds.is_empty() {
         return Err(InputError::new("no joint of this run is bonded").help("see `bond` in docs/wall-file.md"));
     }
@@ -241,6 +198,27 @@ pub fn cracks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     ];
     let (drawn, bottom) = map(data, options, &values, &texts, "damage of the bond [1], 0 = intact, 1 = broken");
     let title = "Joints coloured by the damage of their bonds".into();
+    Ok(Drawing { body: drawn, size: [options.points(), bottom], title, note: String::new() })
+}
+
+/// Joints of a wall without bonds coloured by their opening, the widest of the run or that at an instant.
+fn openings(data: &Data, options: &Options) -> Result<Drawing, InputError> {
+    let peaks = &data.run.outcome.envelopes.joint_opening;
+    let (values, text) = if options.at == Instant::Peak {
+        (peaks.clone(), "widest over the whole history".into())
+    } else {
+        let moment = data.moment(options.at, |_, _| 0.0)?;
+        let values = (0..data.run.joints.len()).map(|e| moment.joint(e).opening).collect();
+        (values, format!("t = {}", crate::format::seconds(rounded(moment.time()))))
+    };
+    let largest = values.iter().copied().filter(|v: &f64| v.is_finite()).fold(0.0, f64::max);
+    if largest == 0.0 {
+        return Err(InputError::new("no joint opened").key("--at"));
+    }
+    let values: Vec<Option<f64>> = values.iter().map(|v| Some(v / largest)).collect();
+    let label = format!("opening of joints [1], 1 = {}", short(three(largest), "m"));
+    let (drawn, bottom) = map(data, options, &values, &[text], &label);
+    let title = "Joints coloured by their opening".into();
     Ok(Drawing { body: drawn, size: [options.points(), bottom], title, note: String::new() })
 }
 
@@ -268,9 +246,11 @@ fn largest(peaks: &[f64]) -> Result<f64, InputError> {
 fn map(data: &Data, options: &Options, values: &[Option<f64>], texts: &[String], label: &str) -> (String, f64) {
     let mut canvas = Canvas::default();
     let head = headings(&mut canvas, options.points(), texts);
-    let view = View::new(data, options.points(), [0.0; 2], head);
-    view.beam(&mut canvas, data, 0.0, r##"fill="#e6e6e6" stroke="#8c8c8c" stroke-width="0.4""##);
-    let outlines: String = data.run.wall.blocks.iter().map(|b| rectangle(view.rectangle(b.x, b.y))).collect();
+    let view = View::new(data, options.points(), Reach::default(), head);
+    let still = (Motion::default(), 0.0);
+    view.beam(&mut canvas, data, still, r##"fill="#e6e6e6" stroke="#8c8c8c" stroke-width="0.4""##);
+    let outline = |b: &concio::wall::Block| closed(&b.corners().iter().map(|c| view.at(*c)).collect::<Vec<_>>());
+    let outlines: String = data.run.wall.blocks.iter().map(outline).collect();
     canvas.path(&outlines, &format!(r##"fill="{LIGHT}" stroke="#a8a8a8" stroke-width="0.35""##), None);
     view.ground(&mut canvas);
     let width = (0.012 * view.scale).clamp(1.0, 3.0);
@@ -295,9 +275,9 @@ fn map(data: &Data, options: &Options, values: &[Option<f64>], texts: &[String],
             canvas.path(&line([ax, ay, bx, by]), &attributes, title.as_deref());
         }
     }
-    let mut bottom = colour_bar(&mut canvas, &view, options.points(), label);
+    let mut bottom = colour_bar(&mut canvas, view.below, options.points(), label);
     if values.iter().any(Option::is_none) {
-        bottom = unbonded_key(&mut canvas, options.points(), bottom, width);
+        bottom = line_key(&mut canvas, options.points(), bottom, &unbonded(width), "not bonded");
     }
     (canvas.into_body(), bottom)
 }
@@ -311,12 +291,12 @@ fn unbonded(width: f64) -> String {
     )
 }
 
-/// What the dashes stand for, in the middle of a line from `y`; where it ends [pt].
-fn unbonded_key(canvas: &mut Canvas, width: f64, y: f64, stroke: f64) -> f64 {
-    let (size, text, sample) = (f64::from(LETTERS[1]), "not bonded", 16.0);
+/// What a kind of line stands for, in the middle of a line from `y`; where it ends [pt].
+pub(super) fn line_key(canvas: &mut Canvas, width: f64, y: f64, attributes: &str, text: &str) -> f64 {
+    let (size, sample) = (f64::from(LETTERS[1]), 16.0);
     let x = 0.5 * (width - sample - 4.0 - font::width(text, size));
     let middle = y + 0.5 * size;
-    canvas.path(&line([x, middle, x + sample, middle]), &unbonded(stroke), None);
+    canvas.path(&line([x, middle, x + sample, middle]), attributes, None);
     canvas.text([x + sample + 4.0, middle], size, Anchor::Start, false, "#000", text);
     y + size + 4.0
 }
@@ -333,10 +313,10 @@ fn hits(data: &Data) -> String {
     )
 }
 
-/// The colours from 0 to 1 with what they stand for; where it ends [pt].
-fn colour_bar(canvas: &mut Canvas, view: &View, width: f64, label: &str) -> f64 {
+/// The colours from 0 to 1 with what they stand for, below `from` [pt]; where it ends [pt].
+pub(super) fn colour_bar(canvas: &mut Canvas, from: f64, width: f64, label: &str) -> f64 {
     let [small, size] = LETTERS.map(f64::from);
-    let (y, x, long, high) = (view.below + 3.0, 0.5 * (width - 0.6 * width), 0.6 * width, 6.0);
+    let (y, x, long, high) = (from + 3.0, 0.5 * (width - 0.6 * width), 0.6 * width, 6.0);
     let steps = 100;
     for k in 0..steps {
         let fraction = |k: usize| k as f64 / steps as f64;

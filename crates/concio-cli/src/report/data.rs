@@ -3,6 +3,7 @@
 use concio::case::Beam;
 use concio::ground::response_spectrum;
 use concio::outcome::BondRow;
+use concio::record::EventKind;
 use concio::store::{FrictionRow, JointRow};
 use concio::wall::{Block, End};
 use serde_json::{Value, json};
@@ -11,12 +12,12 @@ use super::pack::Pack;
 use super::{Content, beam_label};
 
 /// Layout of the data; the page's program refuses another.
-const LAYOUT: u32 = 1;
+const LAYOUT: u32 = 2;
 /// Bytes that frames may take [bytes]; beyond it only every second, third, … goes into the page. A wall of 20 × 20 bricks
 /// with 2,000 frames stays below.
 const MOST_FRAMES: usize = 16 << 20;
-/// Bytes of one unknown in one frame: displacement, velocity, acceleration.
-const UNKNOWN: usize = 15;
+/// Bytes of one value of an unknown in one frame, and of a joint's.
+const VALUE: [usize; 2] = [5, 4];
 /// Points of a history; a longer one is drawn by the lowest and highest value of short intervals.
 const MOST_POINTS: usize = 6000;
 /// Histories that the page gets beyond those that every run keeps.
@@ -47,8 +48,19 @@ pub fn payload(content: &Content) -> (String, String) {
         "joint_laws": names(&|j| j.device.map_or(json!(j.law), |device| json!(format!("{} device", device.name())))),
         "frictions": frictions,
         "bonds": bonds(content),
-        "beam": { "kind": beam_kind(content.case.load.beam), "label": beam_label(&content.case) },
-        "frames": { "recorded": content.outcome.recording.frame_time.len(), "every": frames.every },
+        "planar": content.is_planar(),
+        "collapse": content.outcome.recording.events.iter().find(|e| e.kind == EventKind::Collapse).map(|e| e.time),
+        "beam": {
+            "kind": beam_kind(content.case.load.beam),
+            "label": beam_label(&content.case),
+            "moves": frames.beam,
+        },
+        "frames": {
+            "recorded": content.outcome.recording.frame_time.len(),
+            "every": frames.every,
+            "bytes": frames.bytes,
+            "most": MOST_FRAMES,
+        },
         "curve": curve,
         "channels": channels,
         "spectrum": spectrum,
@@ -86,43 +98,67 @@ fn beam_kind(beam: Beam) -> &'static str {
 struct Kept {
     every: usize,
     samples: Vec<usize>,
+    /// Whether the beam is the last column of a frame.
+    beam: bool,
+    /// Bytes of one frame.
+    bytes: usize,
 }
 
 fn frames(pack: &mut Pack, content: &Content) -> Kept {
     let (recording, layout) = (&content.outcome.recording, &content.outcome.layout);
     let recorded = recording.frame_time.len();
     let blocks = content.wall.blocks.len();
-    let has_beam = content.case.load.beam != Beam::Free;
+    let of_its_own = layout.unknowns > blocks;
+    let has_beam = of_its_own || content.case.load.beam != Beam::Free;
     let unknowns = blocks + usize::from(has_beam);
-    let every = (recorded * unknowns * UNKNOWN).div_ceil(MOST_FRAMES).max(1);
+    let moving = [
+        ("displacement", &recording.frame_displacement, layout.unknowns),
+        ("velocity", &recording.frame_velocity, layout.unknowns),
+        ("acceleration", &recording.frame_acceleration, layout.unknowns),
+        ("vertical", &recording.frame_vertical, layout.turned),
+        ("rotation", &recording.frame_rotation, layout.turned),
+    ]
+    .map(|(name, values, width)| (width > 0).then_some((name, values, width)));
+    let touching = [
+        ("slip", &recording.frame_slip),
+        ("opening", &recording.frame_opening),
+        ("pressure", &recording.frame_pressure),
+        ("friction", &recording.frame_friction),
+    ];
+    let of_joints = if content.is_planar() { touching.len() * layout.touching } else { 0 };
+    let bytes = VALUE[0] * unknowns * moving.iter().flatten().count() + VALUE[1] * of_joints;
+    let every = (recorded * bytes).div_ceil(MOST_FRAMES).max(1);
     let kept: Vec<usize> = (0..recorded).step_by(every).collect();
     let samples: Vec<usize> = kept.iter().map(|k| k * layout.frame_every).collect();
     pack.reals("frame/time", &kept.iter().map(|&k| recording.frame_time[k]).collect::<Vec<_>>());
-    for (name, values) in [
-        ("displacement", &recording.frame_displacement),
-        ("velocity", &recording.frame_velocity),
-        ("acceleration", &recording.frame_acceleration),
-    ] {
-        let beam = content.history(&format!("beam/{name}")).filter(|_| has_beam);
+    for (name, values, width) in moving.into_iter().flatten() {
+        // A beam without an unknown of its own is known from its history.
+        let beam = if of_its_own { None } else { content.history(&format!("beam/{name}")) };
         let mut rows = Vec::with_capacity(kept.len() * unknowns);
         for (&k, &sample) in kept.iter().zip(&samples) {
-            rows.extend_from_slice(&values[k * layout.unknowns..][..blocks]);
-            // A beam without an unknown of its own is known from its history.
-            rows.extend(beam.as_ref().map(|b| b.get(sample).copied().unwrap_or(f64::NAN)));
+            let row = &values[k * width..][..width];
+            rows.extend_from_slice(&row[..blocks]);
+            if has_beam {
+                let of_beam = row.get(blocks).or_else(|| beam.as_ref()?.get(sample));
+                rows.push(of_beam.copied().unwrap_or(f64::NAN));
+            }
         }
         pack.rows(&format!("frame/{name}"), rows.chunks_exact(unknowns));
     }
-    if layout.held > 0 {
-        let rows = kept.iter().flat_map(|&k| &recording.frame_friction[k * layout.held..][..layout.held]);
-        pack.curves("frame/joint/friction", &rows.map(|f| *f as f32).collect::<Vec<_>>());
+    for (name, values) in touching {
+        let width = if name == "friction" { layout.held } else { layout.touching };
+        if width > 0 {
+            let rows = kept.iter().flat_map(|&k| &values[k * width..][..width]);
+            pack.curves(&format!("frame/joint/{name}"), &rows.map(|f| *f as f32).collect::<Vec<_>>());
+        }
     }
-    if !content.outcome.bonds.is_empty() {
+    if !content.outcome.bonds.is_empty() && !content.is_planar() {
         let beam = content.history("beam/displacement");
         let of_beam = |sample: usize| beam.as_ref().and_then(|b| b.get(sample)).copied().unwrap_or(0.0);
         let rows = kept.iter().zip(&samples).flat_map(|(&k, &sample)| elastic_forces(content, k, of_beam(sample)));
         pack.curves("frame/joint/elastic", &rows.map(|f| f as f32).collect::<Vec<_>>());
     }
-    Kept { every, samples }
+    Kept { every, samples, beam: has_beam, bytes }
 }
 
 /// Elastic forces of all joints at a frame, where bonds make them more than a function of the displacements [N].
@@ -328,6 +364,90 @@ mod tests {
         let times = buckets.times(&time);
         assert_eq!(times.len(), MOST_POINTS);
         assert!(times.windows(2).all(|w| w[0] < w[1]));
+    }
+
+    const WALL: &str = r#"
+        model = "shear"
+        set = "report"
+        [[panel]]
+        bond = "running"
+        courses = 2
+        bricks = 2
+        [load]
+        top = "10 kN/m"
+        beam = "driven"
+        [motion]
+        duration = "0.01 s"
+        top = { sine = { amplitude = "1 mm", frequency = "20 Hz" } }
+    "#;
+
+    /// The array of that name in a payload, of numbers of `N` bytes.
+    fn array<const N: usize>(contents: &Value, numbers: &[u8], name: &str) -> Vec<[u8; N]> {
+        let place = &contents["arrays"][name];
+        let [at, count] = ["at", "count"].map(|key| place[key].as_u64().expect(name) as usize);
+        numbers[at..][..N * count].as_chunks::<N>().0.to_vec()
+    }
+
+    /// What frames hold of blocks and joints of a planar run, the beam among them, comes out of the page's numbers.
+    #[test]
+    fn frames_of_planar_runs_bring_rotations_and_joints() {
+        use base64::Engine as _;
+        let file = concio::case::from_str(WALL, concio::case::Syntax::Toml, None).expect("a wall");
+        let prepared = concio::run::prepare(file.case, std::path::Path::new(".")).expect("a system");
+        let mut outcome = concio::run::run_in_memory(&prepared).expect("a run");
+        let (rows, frames) = (concio::run::joint_rows(&prepared.model), outcome.recording.frame_time.len());
+        let (columns, joints) = (prepared.model.wall.blocks.len() + 1, rows.len());
+        let layout = &mut outcome.layout;
+        (layout.unknowns, layout.turned, layout.touching, layout.held) = (columns, columns, joints, joints);
+        let made = |width: usize, size: f64| (0..frames * width).map(|k| size * (k as f64 - 7.0)).collect::<Vec<f64>>();
+        let recording = &mut outcome.recording;
+        for array in [
+            &mut recording.frame_displacement,
+            &mut recording.frame_velocity,
+            &mut recording.frame_acceleration,
+            &mut recording.frame_vertical,
+            &mut recording.frame_rotation,
+        ] {
+            *array = made(columns, 1e-4);
+        }
+        for array in [
+            &mut recording.frame_slip,
+            &mut recording.frame_opening,
+            &mut recording.frame_pressure,
+            &mut recording.frame_friction,
+        ] {
+            *array = made(joints, 3.0);
+        }
+        let content = Content {
+            name: "made".into(),
+            case: prepared.case.clone(),
+            text: None,
+            command: None,
+            wall: &prepared.model.wall,
+            joints: &rows,
+            outcome: &outcome,
+            summary: &json!({}),
+        };
+        let (contents, numbers) = payload(&content);
+        let contents: Value = serde_json::from_str(&contents).expect("JSON");
+        let numbers = base64::engine::general_purpose::STANDARD.decode(numbers).expect("base64");
+        assert_eq!((&contents["planar"], &contents["beam"]["moves"]), (&json!(true), &json!(true)));
+        assert_eq!(contents["frames"]["bytes"], json!(25 * columns + 16 * joints));
+        let quanta = array::<8>(&contents, &numbers, "frame/rotation/quantum");
+        let [low, high] = ["low", "high"].map(|part| format!("frame/rotation/{part}"));
+        let (low, high) = (array::<4>(&contents, &numbers, &low), array::<1>(&contents, &numbers, &high));
+        assert_eq!((quanta.len(), low.len(), high.len()), (frames, frames * columns, frames * columns));
+        for (k, expected) in outcome.recording.frame_rotation.iter().enumerate() {
+            let steps = i64::from(i8::from_le_bytes(high[k])) * (1 << 32) + i64::from(u32::from_le_bytes(low[k]));
+            let value = steps as f64 * f64::from_le_bytes(quanta[k / columns]);
+            assert!((value - expected).abs() <= 1e-11 * expected.abs().max(0.1), "{k}: {value}, not {expected}");
+        }
+        for name in ["slip", "opening", "pressure", "friction"] {
+            let found = array::<4>(&contents, &numbers, &format!("frame/joint/{name}"));
+            let found: Vec<f32> = found.into_iter().map(f32::from_le_bytes).collect();
+            let expected: Vec<f32> = made(joints, 3.0).iter().map(|v| *v as f32).collect();
+            assert_eq!(found, expected, "{name}");
+        }
     }
 
     #[test]

@@ -1,9 +1,11 @@
 //! When not to believe a result: what the model cannot show, and what this run strains.
 
 use concio::case::FrictionLaw;
+use concio::record::EventKind;
 
 use super::Content;
 use crate::digest::residual;
+use crate::format::seconds;
 
 /// Residual of the energy account beyond which a run is not to be trusted.
 pub const LARGEST_RESIDUAL: f64 = 1e-3;
@@ -11,6 +13,14 @@ pub const LARGEST_RESIDUAL: f64 = 1e-3;
 /// One sentence or two each; those of this run come first.
 pub fn list(content: &Content) -> Vec<String> {
     let mut doubts = of_this_run(content);
+    if content.is_planar() {
+        doubts.push(
+            "Blocks are rigid and stay in the plane of the wall: a joint has all the give there is, cracks run along joints \
+             and never through a block, and leaves do not part."
+                .into(),
+        );
+        return doubts;
+    }
     doubts.push(
         "Blocks move horizontally only. Rocking, uplift, flexure and diagonal cracking cannot occur in this model: a \
          slender wall, or one under little load, may fail in those ways first."
@@ -48,6 +58,20 @@ fn of_this_run(content: &Content) -> Vec<String> {
         doubts.push(format!(
             "The energy account of this run does not close: its residual is {residual:.1e} of the largest work, more \
              than {LARGEST_RESIDUAL}. Lower solver.tolerance."
+        ));
+    }
+    let unsolved = outcome.counters.unsolved;
+    if unsolved > 0 {
+        doubts.push(format!(
+            "The contact of {unsolved} of {} steps was not solved to the tolerance: blocks may overlap there, and forces be \
+             off.",
+            outcome.counters.steps
+        ));
+    }
+    if let Some(event) = outcome.recording.events.iter().find(|e| e.kind == EventKind::Collapse) {
+        doubts.push(format!(
+            "The wall counts as collapsed from t = {} on: what its blocks do afterwards is no more than a picture.",
+            seconds(event.time)
         ));
     }
     if slips {

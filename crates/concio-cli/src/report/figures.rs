@@ -19,10 +19,11 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     let of_blocks = &envelopes.block_displacement;
     let of_blocks = of_blocks.get(..content.wall.blocks.len()).unwrap_or(of_blocks);
     let field = |title, unit, values| Field { title, unit, values, none: "no value" };
+    let gap = if content.is_planar() { "widest opening" } else { "widest gap of the head joints" };
     let views = [
         ("displacement", Paint::Blocks(field("peak displacement relative to the base", "m", of_blocks))),
         ("slip", Paint::Joints(field("way slipped", "m", &envelopes.joint_slip))),
-        ("opening", Paint::Joints(field("widest gap of the head joints", "m", &envelopes.joint_opening))),
+        ("opening", Paint::Joints(field(gap, "m", &envelopes.joint_opening))),
         ("acceleration", Paint::Joints(field("peak relative acceleration", "m/s²", &envelopes.joint_acceleration))),
         ("dissipation", Paint::Joints(field("energy dissipated", "J", &envelopes.joint_dissipation))),
     ];

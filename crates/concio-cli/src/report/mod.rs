@@ -76,6 +76,11 @@ impl<'a> Content<'a> {
         })
     }
 
+    /// Whether blocks rise and turn.
+    fn is_planar(&self) -> bool {
+        self.outcome.layout.turned > 0
+    }
+
     /// A history by the name of its channel.
     fn history(&self, name: &str) -> Option<Vec<f64>> {
         let channels = &self.outcome.layout.channels;

@@ -16,7 +16,7 @@ pub mod table1;
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use concio::case::{Beam, Case, Signal, SpringLaw};
+use concio::case::{Beam, Brick, Case, Signal, SpringLaw};
 use concio::model::Model;
 use concio::{InputError, Result};
 use serde::Serialize;
@@ -51,11 +51,12 @@ impl Reference {
         let brick = panel.brick;
         let sides = brick.length.si() * brick.height.si() * brick.thickness.si();
         let mass = brick.specific_weight.si() * sides / concio::G;
-        let of = |spring: &concio::case::Spring| match spring.law {
+        let of = |spring: &concio::case::Spring, area: f64| match spring.law {
             SpringLaw::None => 0.0,
-            _ => spring.stiffness.si(),
+            _ => spring.stiffness.over(area),
         };
-        let stiffness = [of(&case.joint.bed), of(&case.joint.head)].into_iter().find(|k| *k > 0.0);
+        let [bed, head] = areas(&brick);
+        let stiffness = [of(&case.joint.bed, bed), of(&case.joint.head, head)].into_iter().find(|k| *k > 0.0);
         let Some(stiffness) = stiffness else {
             let error =
                 InputError::new("the dimensionless form needs a stiffness, and neither bed nor head joints have one");
@@ -79,6 +80,12 @@ impl Reference {
     pub fn force(&self) -> f64 {
         self.stiffness * self.length
     }
+}
+
+/// Areas [m²] of a half-brick contact and of a head joint of the reference brick: what stands for the wall where one
+/// number has to be had of a stiffness per area.
+fn areas(brick: &Brick) -> [f64; 2] {
+    [0.5 * brick.length.si(), brick.height.si()].map(|side| side * brick.thickness.si())
 }
 
 /// A group and what the wall has of it.
@@ -226,6 +233,7 @@ fn top_amplitude(case: &Case) -> Option<f64> {
     match (&case.load.beam, &case.motion.top) {
         (Beam::Driven, Signal::Sine(sine)) => sine.amplitude.map(|u| u.si().abs()),
         (Beam::Driven, Signal::Ramp(ramp)) => Some(ramp.amplitude.si().abs()),
+        (Beam::Driven, Signal::Path(path)) => path.displacements.iter().map(|u| u.si().abs()).reduce(f64::max),
         _ => None,
     }
 }

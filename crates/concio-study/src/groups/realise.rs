@@ -113,12 +113,13 @@ fn with_amplitude(file: &CaseFile, amplitude: f64) -> Result<Signal> {
     let case = &file.case;
     let (Beam::Driven, Some(now)) = (case.load.beam, top_amplitude(case).filter(|u| *u > 0.0)) else {
         let error = InputError::new("the top is not driven by a displacement");
-        return Err(error.allowed("a driven beam, moved by a sine or ramp with an `amplitude`").into());
+        return Err(error.allowed("a driven beam, moved by a path, or a sine or ramp with an `amplitude`").into());
     };
     let mut top = case.motion.top.clone();
     match &mut top {
         Signal::Sine(sine) => sine.amplitude = sine.amplitude.map(|u| Length::from_si(u.si() * amplitude / now)),
         Signal::Ramp(ramp) => ramp.amplitude = Length::from_si(ramp.amplitude.si() * amplitude / now),
+        path @ Signal::Path(_) => return Ok(motions::scaled(path, amplitude / now)),
         _ => {}
     }
     Ok(top)

@@ -2,7 +2,7 @@
 
 use concio::case::{Case, SetName, Syntax, from_str};
 
-use super::Reference;
+use super::{Reference, areas};
 
 /// Ranges of the groups over the sets p1 to p4 and section 4.2, each set's own range of numbers included. Stiffnesses of
 /// bed and head joints are taken to vary independently of each other.
@@ -28,8 +28,9 @@ pub fn of_set(set: SetName) -> Vec<(&'static str, [f64; 2])> {
         let values = [f(&ends[0]), f(&ends[1])];
         [values[0].min(values[1]), values[0].max(values[1])]
     };
-    let bed = over(&|c| c.joint.bed.stiffness.si());
-    let head = over(&|c| c.joint.head.stiffness.si() * c.joint.head.rigidity);
+    let areas = |c: &Case| areas(&c.panels[0].brick);
+    let bed = over(&|c| c.joint.bed.stiffness.over(areas(c)[0]));
+    let head = over(&|c| c.joint.head.stiffness.over(areas(c)[1]) * c.joint.head.rigidity);
     let mut found = vec![("stiffness", [1.0, 2.0]), ("head_stiffness", [head[0] / bed[1], head[1] / bed[0]])];
     let reference = |c: &Case| Reference::of(c, None).ok();
     if weighs {
