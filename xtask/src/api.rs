@@ -19,6 +19,8 @@ pub fn check(root: &Path) -> Outcome {
         "--package",
         "concio-study",
         "--package",
+        "concio-limit",
+        "--package",
         "concio-planar",
         "--no-deps",
     ]);

@@ -16,6 +16,7 @@ mod histories;
 mod links;
 mod peers;
 mod performance;
+mod planar;
 mod python;
 mod report_ui;
 mod schemes;
@@ -30,6 +31,7 @@ cargo xtask ci         everything that CI does
 cargo xtask docs       make the generated documents (reference, schema, symbols, gallery, pictures)
 cargo xtask cases      run the cases of the report anew; docs/report-cases.md and its pictures follow from them
 cargo xtask studies    make the worked examples of docs/studies/ anew: runs, output, figures (or those named)
+cargo xtask planar     make the runs and pictures of docs/planar.md anew
 cargo xtask examples   run every wall file in examples/
 cargo xtask shown      try the wall files and commands that documents show
 cargo xtask equations  check the numbers of equations
@@ -49,6 +51,7 @@ fn main() -> ExitCode {
         "cases" => build(&root).and_then(|()| cases::make(&root)).and_then(|()| documents::make(&root)),
         "docs" => build(&root).and_then(|()| documents::make(&root)),
         "studies" => build(&root).and_then(|()| studies::make(&root, &rest)),
+        "planar" => build(&root).and_then(|()| planar::make(&root)),
         "examples" => build(&root).and_then(|()| examples::run_all(&root)),
         "shown" => build(&root).and_then(|()| shown::check(&root)),
         "equations" => equations::check(&root),
