@@ -28,4 +28,10 @@ impl Body {
             inertia: mass * (l * l + h * h) / 3.0,
         }
     }
+
+    /// From its lowest to its highest corner [m].
+    pub fn height(&self) -> f64 {
+        let y = || self.corners.iter().map(|c| c[1]);
+        y().fold(f64::NEG_INFINITY, f64::max) - y().fold(f64::INFINITY, f64::min)
+    }
 }

@@ -173,6 +173,19 @@ impl Law {
         both > 0.0 || press == 0.0
     }
 
+    /// Stiffness and dashpot across and along a point so damaged [N/m, N s/m], of the whole joint, while it is pressed or not and sticks.
+    pub fn tangent(&self, damage: f64, pressed: bool) -> [[f64; 2]; 2] {
+        let (both, press) = self.springs(damage);
+        let bears = pressed || self.damps_both(damage);
+        let across = [both + if pressed { press } else { 0.0 }, if bears { self.normal_damping() } else { 0.0 }];
+        let along = match self.in_line(damage) {
+            true if pressed => [self.shear.stiffness, self.shear.damping],
+            true => [0.0; 2],
+            false => [self.mortar(damage), self.mortar_damping(damage)],
+        };
+        [across, along]
+    }
+
     /// Whether the shear spring is in line with friction at a point so damaged.
     fn in_line(&self, damage: f64) -> bool {
         self.shear.series && self.shear.stiffness > 0.0 && (self.bond.is_none() || damage == 1.0)

@@ -16,6 +16,10 @@ use crate::contact::{Contact, Effort, Solver};
 use crate::joint::{Friction, Law, Point, Start};
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
 
+mod vibration;
+
+pub use vibration::Vibration;
+
 /// How far apart bodies are that are looked at, over the shortest edge: as far as they may move before all are looked at
 /// again.
 const REACH: f64 = 0.1;
@@ -322,7 +326,25 @@ impl Motion {
         self.account = Account { elastic: self.account.elastic, ..Account::default() };
         self.counters = Counters::default();
         self.seen.iter_mut().for_each(|s| (s.path, s.taken, s.broken) = (0.0, 0.0, 0.0));
+        // What cracks under the loads is cracked when time begins.
+        for point in self.pairs.iter_mut().flat_map(|p| &mut p.points) {
+            for time in [&mut point.cracked, &mut point.broken] {
+                *time = if time.is_finite() { 0.0 } else { f64::INFINITY };
+            }
+        }
         stands
+    }
+
+    /// Farthest way of a body from where it was laid [m].
+    pub fn strayed_by(&self, system: &System) -> f64 {
+        let way =
+            |(place, body): (&Place, &Body)| (place.centre[0] - body.centre[0]).hypot(place.centre[1] - body.centre[1]);
+        self.places.iter().zip(&system.bodies).map(way).fold(0.0, f64::max)
+    }
+
+    /// How steps are taken.
+    pub fn setting(&self) -> &Setting {
+        &self.setting
     }
 
     /// One step of the setting's length.

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::file::PerJoint;
 
 /// Raised when a measure means something else than before: it stands in every row, and runs measured earlier are done again.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 /// A number of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,7 +29,7 @@ const fn measure(name: &'static str, unit: &'static str, text: &'static str) -> 
 }
 
 /// The numbers of a run, in the order of [`Row::numbers`].
-pub const MEASURES: [Measure; 32] = [
+pub const MEASURES: [Measure; 33] = [
     measure("time_reached", "s", "time at which the run ended"),
     measure("peak_displacement", "m", "largest |displacement| of a block relative to the base"),
     measure("peak_drift", "", "largest |displacement| of a block of a top course, over the height of its top"),
@@ -39,7 +39,7 @@ pub const MEASURES: [Measure; 32] = [
     measure("peak_slip_velocity", "m/s", "largest |relative velocity| of a bed or support joint"),
     measure("largest_slip", "m", "largest slip path of a joint; of a bonded one from its crack on"),
     measure("total_slip", "m", "slip paths of all joints together"),
-    measure("largest_opening", "m", "widest gap of a head joint or connection"),
+    measure("largest_opening", "m", "widest gap of a head joint or connection, in planar walls of any joint"),
     measure("deepest_closing", "m", "deepest closure of a head joint or connection"),
     measure("peak_elastic_force", "N", "largest |elastic force| in a joint"),
     measure("peak_friction_force", "N", "largest |friction force| that a joint bears"),
@@ -66,6 +66,7 @@ pub const MEASURES: [Measure; 32] = [
         "J",
         "dissipated in all: by friction, damping, devices and breaking bonds, and in impacts",
     ),
+    measure("collapse", "s", "time at which a block of a planar wall had fallen or turned over"),
 ];
 
 /// How a run ended.
@@ -208,6 +209,7 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
         outcome.counters.steps as f64,
         energies.device,
         energies.friction + energies.damping + energies.device + energies.bond + energies.impact,
+        totals.collapse.unwrap_or(f64::INFINITY),
     ]
 }
 

@@ -2,6 +2,7 @@
 
 use concio::excitation::Excitation;
 use concio::model::Model;
+use concio::planar::Vibration;
 
 use crate::intensity::{DAMPING, Sampled};
 
@@ -48,11 +49,16 @@ impl Shaking {
 }
 
 /// First mode of a wall all of whose joints are intact: bonds have their stiffness in both directions, elastic
-/// joints theirs; head joints without tension or bond are left out. None when nothing holds the wall.
+/// joints theirs; head joints without tension or bond are left out. None when nothing holds the wall. Of a planar wall its slowest
+/// vibration about where it stands ([`concio::planar::Planar::slowest`]).
 ///
 /// Inverse iteration with the Rayleigh quotient; the systems are solved by conjugate gradients, preconditioned by the
 /// diagonal (e.g. J. Nocedal, S. Wright, Numerical Optimization, 2nd ed. 2006, algorithm 5.3).
 pub fn first_mode(model: &Model) -> Option<Mode> {
+    if let Some(planar) = &model.planar {
+        let of = |v: Vibration| Mode { period: 2.0 * std::f64::consts::PI / v.frequency, damping: v.damping };
+        return planar.slowest().map(of);
+    }
     let n = model.unknowns();
     let mut stiffness: Vec<f64> = model.elastic.iter().map(|e| if e.unilateral { 0.0 } else { e.stiffness }).collect();
     for bond in &model.bonds {

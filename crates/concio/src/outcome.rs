@@ -92,4 +92,6 @@ pub struct Totals {
     pub peak_input: f64,
     /// Largest |residual of the energy account| so far [J].
     pub peak_residual: f64,
+    /// When a block of a planar wall had fallen or turned over [s]; none where none did.
+    pub collapse: Option<f64>,
 }

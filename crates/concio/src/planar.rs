@@ -18,6 +18,7 @@ use crate::wall::{End, Joint, Wall};
 mod modes;
 mod run;
 
+pub use concio_planar::motion::Vibration;
 pub use modes::{Failure, Mode, failure};
 pub(crate) use run::{Kept, Row, Run, turned};
 
@@ -35,6 +36,13 @@ pub struct Planar {
     pub step: f64,
     /// Whether inertia is left out.
     pub still: bool,
+}
+
+impl Planar {
+    /// The slowest vibration of the wall as it stands under its loads ([`concio_planar::motion::Motion::slowest`]).
+    pub fn slowest(&self) -> Option<Vibration> {
+        run::standing(self).slowest()
+    }
 }
 
 /// The top beam as a body: its level is that of the highest panel.

@@ -67,6 +67,14 @@ fn tables(out: &Path) -> [Vec<u8>; 4] {
     ["runs.csv", "joints.csv", "runs.parquet", "joints.parquet"].map(|name| fs::read(out.join(name)).unwrap())
 }
 
+/// Whether the folder of a study holds a run.
+fn rows(out: &Path) -> bool {
+    let Ok(files) = fs::read_dir(out.join("runs")) else { return false };
+    files
+        .flatten()
+        .any(|file| file.path().extension().is_some_and(|e| e == "jsonl") && file.metadata().unwrap().len() > 0)
+}
+
 /// A study of fewer runs, for what needs no time.
 fn short() -> (tempfile::TempDir, PathBuf) {
     let (folder, study) = folder();
@@ -82,9 +90,13 @@ fn ten_kills_and_two_racing_processes_change_nothing() {
     let output = concio(&study, &whole, &["run"]).output().unwrap();
     assert!(output.status.success(), "{}", text(&output));
     let mut killed = 0;
-    for _ in 0..KILLS {
+    for kill in 0..KILLS {
         let mut child = concio(&study, &broken, &["run", "--threads", "1"]).spawn().unwrap();
         std::thread::sleep(Duration::from_millis(20 + chance() % 150));
+        // However slow the machine is, one of them is killed with runs on disk.
+        while kill == 3 && !rows(&broken) && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(5));
+        }
         // SIGKILL: the process has no say.
         child.kill().unwrap();
         killed += u32::from(!child.wait().unwrap().success());

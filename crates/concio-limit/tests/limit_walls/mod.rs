@@ -1,9 +1,19 @@
 //! Dry walls block by block.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
-use concio::case::{Case, Syntax, from_str};
-use concio_limit::{Limit, Options, Problem, analyse};
+use concio::case::{Case, ModelKind, Spring, SpringLaw, Syntax, from_str};
+use concio::run::prepare;
+use concio::simulate::{Progress, Simulation};
+use concio_limit::{Heads, Limit, Options, Problem, Push, Towards, analyse};
+
+/// Under horizontal body force, head joints without friction.
+#[allow(dead_code)]
+pub const FRICTIONLESS: Options = Options { heads: Heads::Frictionless, push: Push::Body, towards: Towards::Right };
+
+/// Displacement at which a wall counts as moving [m]: what a mechanism covers within a thousandth of the ramp.
+const MOVING: f64 = 1e-4;
 
 /// A dry wall of blocks `[x, length]` by courses from the bottom.
 #[derive(Debug, Clone)]
@@ -104,4 +114,58 @@ pub fn certified(limit: &Limit) -> f64 {
     let [lower, upper] = limit.bounds;
     assert!((upper - lower).abs() <= 1e-9 * upper.abs().max(1e-3), "{lower} … {upper}");
     limit.multiplier()
+}
+
+/// The wall with rigid joints, its blocks free to rise and turn, without inertia.
+fn planar(wall: &DryWall, motion: &str) -> Case {
+    let mut case = wall.case();
+    case.model = ModelKind::Planar;
+    let rigid = |spring: Spring| Spring { law: SpringLaw::Rigid, ..spring };
+    (case.joint.bed, case.joint.head) = (rigid(case.joint.bed), rigid(case.joint.head));
+    case.motion = serde_json::from_str(motion).expect("a motion");
+    case.motion.quasi_static = true;
+    case
+}
+
+fn simulation(case: Case, each: impl FnMut(&mut Simulation) -> bool) {
+    let prepared = prepare(case, Path::new(".")).expect("a wall");
+    let mut run = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling).expect("a run");
+    let mut each = each;
+    while each(&mut run) {
+        run.clear_recording();
+    }
+    assert!(run.state().totals.contact_residual < 1e-5, "{:e}", run.state().totals.contact_residual);
+}
+
+/// Base acceleration over g at which a block moves, by the planar model under a ramp of 1,000 steps up to `most`.
+#[allow(dead_code)]
+pub fn tilted(wall: &DryWall, most: f64) -> f64 {
+    // The base goes to the left, the blocks are pushed to the right.
+    let acceleration = -most * concio::G;
+    let case = planar(
+        wall,
+        &format!(r#"{{ "base": {{ "tilt": {{ "acceleration": {acceleration:?}, "rise": 20 }} }}, "duration": 20 }}"#),
+    );
+    let mut time = 0.0;
+    simulation(case, |run| {
+        time = run.time();
+        let moves = run.state().totals.peak_relative_displacement >= MOVING;
+        assert!(moves || run.advance(1) == Progress::Running, "it moves");
+        !moves
+    });
+    most * time / 20.0
+}
+
+/// Largest force of a driven beam on its way over 2 mm [N], by the planar model in steps of 0.02 mm.
+#[allow(dead_code)]
+pub fn pushed(wall: &DryWall) -> f64 {
+    let mut case =
+        planar(wall, r#"{ "top": { "path": { "displacements": ["2 mm"], "speed": "1 mm/s" } }, "duration": 2 }"#);
+    case.solver.step = Some(concio::quantity::Time::from_si(0.02));
+    let mut peak = 0.0;
+    simulation(case, |run| {
+        peak = run.state().totals.top_force_peak;
+        run.advance(1) == Progress::Running
+    });
+    peak
 }

@@ -29,11 +29,12 @@ impl Point {
     pub fn of(intensity: f64, scale: f64, row: &Row, settings: &Settings) -> Result<Self, String> {
         let damage = row.number(&settings.damage);
         let at = || format!("at {intensity} {}", settings.intensity.unit());
+        let fell = row.number("collapse").is_some();
         let collapsed = match (row.end, damage) {
             (End::Failed, _) => return Err(format!("{}: {}", at(), row.cause.as_deref().unwrap_or("failed"))),
             (End::Stopped, _) => true,
             (End::Completed, None) => return Err(format!("{}: the run has no {}", at(), settings.damage)),
-            (End::Completed, Some(damage)) => damage >= settings.collapse,
+            (End::Completed, Some(damage)) => fell || damage >= settings.collapse,
         };
         Ok(Point { intensity, scale, damage, collapsed, id: row.id.clone() })
     }

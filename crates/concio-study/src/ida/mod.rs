@@ -29,7 +29,7 @@ use curve::{Curve, Point};
 use hunt::Way;
 
 /// Measures that do not grow with the shaking.
-const NO_DAMAGE: [&str; 4] = ["time_reached", "first_crack", "energy_residual", "steps"];
+const NO_DAMAGE: [&str; 5] = ["time_reached", "first_crack", "energy_residual", "steps", "collapse"];
 /// Intensities of a list, and runs of a curve.
 const MOST_PER_CURVE: usize = 1000;
 
@@ -48,8 +48,8 @@ pub struct Ida {
     pub damage: String,
     /// Limit states, at least one.
     pub limits: Vec<Limit>,
-    /// Damage from which on the wall counts as collapsed, above 0, as in `limits`. A run that the solver could not finish
-    /// counts as collapse in any case.
+    /// Damage from which on the wall counts as collapsed, above 0, as in `limits`. A run that the solver could not finish, and
+    /// one of a planar wall of which a block fell, counts as collapse in any case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collapse: Option<Value>,
     /// Intensities at which every motion is run, rising, each above 0: a number in SI or a text with its unit.

@@ -14,7 +14,7 @@ use crate::wall::{End, Joint, Wall};
 /// Part of the top's displacement from which a mode is named.
 const NAMED: f64 = 0.25;
 /// Displacement of the top over the height of the wall below which it has not failed.
-const MOVED: f64 = 1e-4;
+const MOVED: f64 = 5e-4;
 /// Opening and slip from which a joint counts as cracked in a stepped crack, over the displacement of the top.
 const CRACKED: f64 = 0.02;
 

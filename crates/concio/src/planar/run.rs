@@ -1,5 +1,6 @@
 //! A planar wall in motion as a run sees it: its bodies' steps, and what of them goes into state and samples.
 
+use concio_planar::body::Body;
 use concio_planar::motion::{self, Forcing, Motion, Seen, Setting};
 use concio_planar::shape::Place;
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,8 @@ use crate::state::{BondState, State};
 const STANDS: f64 = 1e-10;
 /// Steps in which it has to come to that.
 const SETTLING: usize = 400;
+/// Way of a body over the least height of a block from which a wall that has not come to that is falling.
+const FALLING: f64 = 0.01;
 /// Fall of a block over its height, and turn in rad, from which its wall counts as collapsed.
 const FALLEN: f64 = 0.5;
 const TURNED: f64 = std::f64::consts::FRAC_PI_4;
@@ -31,7 +34,6 @@ pub(crate) struct Run {
     origin: Vec<Place>,
     /// Relative velocity of every joint before the step [m/s].
     before: Vec<f64>,
-    collapsed: bool,
     /// Whether each joint has been crushed.
     crushed: Vec<bool>,
     /// Motion at a sample.
@@ -44,7 +46,6 @@ pub(crate) struct Kept {
     motion: motion::Kept,
     origin: Vec<Place>,
     before: Vec<f64>,
-    collapsed: bool,
     crushed: Vec<bool>,
 }
 
@@ -78,12 +79,21 @@ pub(crate) fn turned(kind: JointKind) -> f64 {
     if kind == JointKind::Base { -1.0 } else { 1.0 }
 }
 
+/// The wall at rest under its loads. What falls under them alone does so in the run, from where it was laid.
+pub(super) fn standing(planar: &Planar) -> Motion {
+    let setting = Setting { still: planar.still, ..Setting::new(planar.step) };
+    let mut motion = Motion::new(&planar.system, setting.clone());
+    let least = planar.system.bodies.iter().map(Body::height).fold(f64::INFINITY, f64::min);
+    if !motion.stand(STANDS, SETTLING) && motion.strayed_by(&planar.system) > FALLING * least {
+        motion = Motion::new(&planar.system, setting);
+    }
+    motion
+}
+
 impl Run {
     /// At rest under its loads.
     pub fn new(model: &Model, planar: &Planar, longest: f64) -> Self {
-        let setting = Setting { still: planar.still, ..Setting::new(planar.step) };
-        let mut motion = Motion::new(&planar.system, setting);
-        motion.stand(STANDS, SETTLING);
+        let motion = standing(planar);
         let n = motion.places.len();
         let zeros = vec![0.0; n];
         let sample = Sample {
@@ -99,7 +109,6 @@ impl Run {
             step: planar.step.min(longest),
             still: planar.still,
             before: vec![0.0; model.joints.len()],
-            collapsed: false,
             crushed: vec![false; model.joints.len()],
             at: sample,
             motion,
@@ -115,16 +124,16 @@ impl Run {
     /// What has to be kept beside the state.
     pub fn keep(&self) -> Kept {
         let (origin, before, crushed) = (self.origin.clone(), self.before.clone(), self.crushed.clone());
-        Kept { motion: self.motion.keep(), origin, before, collapsed: self.collapsed, crushed }
+        Kept { motion: self.motion.keep(), origin, before, crushed }
     }
 
     /// Goes on from what was kept; false where it is not of this wall.
     pub fn take_up(&mut self, kept: Kept) -> bool {
-        let Kept { motion, origin, before, collapsed, crushed } = kept;
+        let Kept { motion, origin, before, crushed } = kept;
         let fits =
             origin.len() == self.origin.len() && before.len() == self.before.len() && self.motion.take_up(motion);
         if fits {
-            (self.origin, self.before, self.collapsed, self.crushed) = (origin, before, collapsed, crushed);
+            (self.origin, self.before, self.crushed) = (origin, before, crushed);
         }
         fits
     }
@@ -240,10 +249,10 @@ impl Run {
                 tell(Event { time: state.t, joint: e as u32, kind: EventKind::Crush, value: depth });
             }
         }
-        if !self.collapsed
+        if state.totals.collapse.is_none()
             && let Some(event) = self.collapse(model, state.t)
         {
-            self.collapsed = true;
+            state.totals.collapse = Some(event.time);
             tell(event);
         }
     }

@@ -194,6 +194,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             contact_residual: 3.0e-16,
             peak_input: 8.0,
             peak_residual: 2.0e-6,
+            collapse: None,
         },
         counters: Counters {
             steps: 10,

@@ -1,0 +1,111 @@
+//! The slowest small vibration of bodies about where they stand.
+
+use super::{Motion, Owner};
+use crate::blocks::{Blocks, Triple};
+use crate::contact::Contact;
+use crate::joint::Normal;
+
+/// Relative change of ω² at which the iteration ends, and its rounds.
+const SETTLED: f64 = 1e-12;
+const ROUNDS: usize = 1000;
+
+/// A small vibration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vibration {
+    /// Circular frequency ω [1/s].
+    pub frequency: f64,
+    /// Damping ratio by the dashpots.
+    pub damping: f64,
+}
+
+/// A spring and a dashpot along a row of the two bodies.
+struct Holds {
+    rows: [Triple; 2],
+    stiffness: f64,
+    damping: f64,
+}
+
+impl Motion {
+    /// The slowest vibration about where the bodies are after the last step, with the joints that bear there as they bear: springs in
+    /// compression only where they are pressed, in line with friction where they stick. The weight's own stiffness is left out. None
+    /// where a rigid joint bears, or nothing holds a body.
+    ///
+    /// Inverse iteration with the Rayleigh quotient.
+    pub fn slowest(&self) -> Option<Vibration> {
+        let rigid = |(contact, owner): (&Contact, &Owner)| {
+            let law = self.pairs[owner.pair].link.map_or(&self.other, |k| &self.links[k].law);
+            matches!(law.normal, Normal::Rigid { .. }) && contact.impulse[0] != 0.0
+        };
+        if self.contacts.iter().zip(&self.owners).any(rigid) {
+            return None;
+        }
+        let mut matrix =
+            Blocks::new(self.places.len(), &self.pairs.iter().filter_map(|p| Some((p.a?, p.b))).collect::<Vec<_>>());
+        // What is held stays: any stiffness of its own does.
+        let stays = |held: &[bool; 3]| [0, 1, 2].map(|k| if held[k] { 1.0 } else { 0.0 });
+        matrix.reset(&self.held.iter().map(stays).collect::<Vec<_>>());
+        let mut springs = Vec::new();
+        for (contact, owner) in self.contacts.iter().zip(&self.owners) {
+            for holds in self.holding(contact, owner).into_iter().filter(|h| h.stiffness > 0.0 || h.damping > 0.0) {
+                matrix.add(contact.b, holds.stiffness, holds.rows[1]);
+                if let (Some(a), Some(slot)) = (contact.a, contact.slot) {
+                    matrix.add(a, holds.stiffness, holds.rows[0]);
+                    matrix.add_pair(slot, holds.stiffness, holds.rows);
+                }
+                springs.push((contact.a, contact.b, holds));
+            }
+        }
+        matrix.factorise();
+        let free = |body: usize, k: usize| !self.held[body][k];
+        let start = |(body, held): (usize, &[bool; 3])| {
+            let sway = 1.0 + self.places[body].centre[1].abs();
+            [sway, 0.1 * sway, 0.1].map(|x| if held[0] { 0.1 * x } else { x })
+        };
+        let mut x: Vec<Triple> = self.held.iter().enumerate().map(start).collect();
+        let mut work = vec![[0.0; 3]; x.len()];
+        let mut before = f64::INFINITY;
+        for _ in 0..ROUNDS {
+            let push = |(body, x): (usize, &Triple)| {
+                [0, 1, 2].map(|k| if free(body, k) { self.mass[body][k] * x[k] } else { 0.0 })
+            };
+            let load: Vec<Triple> = x.iter().enumerate().map(push).collect();
+            x.copy_from_slice(&load);
+            matrix.solve(&mut x, &mut work);
+            let top: f64 = x.iter().zip(&load).map(|(x, f)| (0..3).map(|k| x[k] * f[k]).sum::<f64>()).sum();
+            let bottom: f64 =
+                x.iter().zip(&self.mass).map(|(x, m)| (0..3).map(|k| m[k] * x[k] * x[k]).sum::<f64>()).sum();
+            let square = top / bottom;
+            if !(square.is_finite() && square > 0.0) {
+                return None;
+            }
+            if (square - before).abs() <= SETTLED * square {
+                let taken = |(a, b, holds): &(Option<usize>, usize, Holds)| {
+                    let along = |body: usize, row: &Triple| (0..3).map(|k| row[k] * x[body][k]).sum::<f64>();
+                    let stretch = a.map_or(0.0, |a| along(a, &holds.rows[0])) + along(*b, &holds.rows[1]);
+                    holds.damping * stretch * stretch
+                };
+                let frequency = square.sqrt();
+                let taken: f64 = springs.iter().map(taken).sum();
+                return Some(Vibration { frequency, damping: taken / (2.0 * frequency * bottom) });
+            }
+            before = square;
+            let scale = 1.0 / bottom.sqrt();
+            x.iter_mut().flatten().for_each(|x| *x *= scale);
+        }
+        None
+    }
+
+    /// What a point is held by, across and along.
+    fn holding(&self, contact: &Contact, owner: &Owner) -> [Holds; 2] {
+        let law = self.pairs[owner.pair].link.map_or(&self.other, |k| &self.links[k].law);
+        let point = &self.pairs[owner.pair].points[owner.point];
+        let pressed = contact.impulse[0] > 0.0;
+        let [across, along] = law.tangent(point.damage, pressed);
+        let holds = |rows, [stiffness, damping]: [f64; 2]| Holds {
+            rows,
+            stiffness: owner.share * stiffness,
+            damping: owner.share * damping,
+        };
+        [holds(contact.normal, across), holds(contact.tangent, along)]
+    }
+}
