@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use serde::{Deserialize, Serialize};
+
 /// A block, by rows.
 pub type Block = [[f64; 3]; 3];
 /// Three unknowns of a body.
@@ -25,6 +27,13 @@ pub struct Blocks {
     /// Blocks right of the diagonal, row by row, then the diagonal ones.
     values: Vec<Block>,
     /// Inverses of the eliminated diagonal blocks.
+    inverse: Vec<Block>,
+}
+
+/// Factors of a matrix, to be kept.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Factors {
+    values: Vec<Block>,
     inverse: Vec<Block>,
 }
 
@@ -150,6 +159,21 @@ impl Blocks {
         for (body, value) in x.iter_mut().enumerate() {
             *value = work[self.place[body]];
         }
+    }
+
+    /// The factors as they are.
+    pub fn keep(&self) -> Factors {
+        Factors { values: self.values.clone(), inverse: self.inverse.clone() }
+    }
+
+    /// Takes factors of this pattern; false where they are of another.
+    pub fn take_up(&mut self, factors: Factors) -> bool {
+        let Factors { values, inverse } = factors;
+        let fits = values.len() == self.values.len() && inverse.len() == self.inverse.len();
+        if fits {
+            (self.values, self.inverse) = (values, inverse);
+        }
+        fits
     }
 
     /// Blocks right of the diagonal, fill included.

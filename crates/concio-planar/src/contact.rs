@@ -25,7 +25,9 @@
 //! a normal spring or is crushed, an interior point method goes on. [`Solver::gauss_seidel`] goes through the contacts one by
 //! one, as contact dynamics usually does (Jean 1999).
 
-use crate::blocks::{Blocks, Slot, Triple};
+use serde::{Deserialize, Serialize};
+
+use crate::blocks::{Blocks, Factors, Slot, Triple};
 use crate::interior::{self, Interior};
 
 /// ρ over the mass that a contact moves: large for few repetitions, small enough for 16 digits.
@@ -155,6 +157,18 @@ impl Contact {
         }
     }
 
+    /// Of what acts along one line alone and bore `impulse` [N s] before.
+    pub(crate) fn along(
+        bodies: (Option<usize>, usize),
+        slot: Option<Slot>,
+        line: [Triple; 2],
+        inverse_mass: &[Triple],
+        impulse: f64,
+    ) -> Self {
+        let own = Contact::rigid(bodies, slot, [line, line], inverse_mass, [impulse, 0.0]);
+        Contact { tangent: [[0.0; 3]; 2], ..own }
+    }
+
     /// (P4) of a rigid direction, 0 normal and 1 tangent, that bore `impulse` [N s] before.
     pub fn rigid_law(&self, direction: usize, impulse: f64) -> Linear {
         Linear { offset: impulse, rho: STIFFENING * self.moved[direction] }
@@ -260,7 +274,7 @@ pub struct Effort {
 
 impl Effort {
     /// This one, and another that ended it.
-    fn then(self, last: Effort) -> Effort {
+    pub(crate) fn then(self, last: Effort) -> Effort {
         Effort {
             iterations: self.iterations + last.iterations,
             factorisations: self.factorisations + last.factorisations,
@@ -268,6 +282,13 @@ impl Effort {
             ..last
         }
     }
+}
+
+/// What a solver takes from step to step: the next begins with the factors of the last, and ends at other bits without them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Known {
+    known: Vec<(bool, bool)>,
+    factors: Factors,
 }
 
 /// Solves steps of bodies whose pairs stay the same.
@@ -314,6 +335,21 @@ impl Solver {
     /// The matrix, for the slots of its pairs.
     pub fn matrix(&self) -> &Blocks {
         &self.matrix
+    }
+
+    /// What the next step begins with.
+    pub fn known(&self) -> Known {
+        match self.known.is_empty() {
+            true => Known::default(),
+            false => Known { known: self.known.clone(), factors: self.matrix.keep() },
+        }
+    }
+
+    /// Goes on with what a solver of the same bodies and pairs knew; false where it is not of these.
+    pub fn take_up(&mut self, Known { known, factors }: Known) -> bool {
+        let fits = known.is_empty() || self.matrix.take_up(factors);
+        self.known = if fits { known } else { Vec::new() };
+        fits
     }
 
     /// Solves a step to `tolerance` [m/s]: the augmented Lagrangian, for as long as it falls quickly, as it does where

@@ -12,9 +12,13 @@ use serde::{Deserialize, Serialize};
 use crate::G;
 use crate::blocks::Triple;
 use crate::body::Body;
-use crate::contact::{Contact, Effort, Solver};
+use crate::contact::{Contact, Effort, Known, Solver};
 use crate::joint::{Friction, Law, Point, Start};
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
+use crate::tie::{Strain, Tie};
+use ties::{Pull, Rod};
+
+mod ties;
 
 mod vibration;
 
@@ -37,7 +41,7 @@ pub enum Method {
     /// [`Solver::newton`].
     #[default]
     Newton,
-    /// [`Solver::gauss_seidel`] with so many rounds at most, for rigid joints without bond.
+    /// [`Solver::gauss_seidel`] with so many rounds at most, for rigid joints without bond, and no ties.
     GaussSeidel(usize),
 }
 
@@ -59,6 +63,8 @@ pub struct System {
     pub bodies: Vec<Body>,
     /// Their joints.
     pub links: Vec<Link>,
+    /// Tie rods.
+    pub ties: Vec<Tie>,
     /// Law of bodies that come to touch elsewhere.
     pub other: Law,
     /// Dead load of each body [N], upwards and to the right: its weight, as a rule.
@@ -72,6 +78,7 @@ impl System {
     pub fn dry(bodies: &[Body], friction: f64) -> Self {
         System {
             links: Vec::new(),
+            ties: Vec::new(),
             other: Law::dry(Some(Friction::coulomb(friction))),
             load: bodies.iter().map(|b| [0.0, -b.mass * G]).collect(),
             held: vec![[false; 3]; bodies.len()],
@@ -124,7 +131,9 @@ pub struct Account {
     pub damping: f64,
     /// Taken by bonds that break and joints that are crushed.
     pub bond: f64,
-    /// Stored in joints at the moment.
+    /// Taken by ties that yield.
+    pub ties: f64,
+    /// Stored in joints and ties at the moment.
     pub elastic: f64,
 }
 
@@ -197,6 +206,8 @@ pub struct Kept {
     looked: Vec<Place>,
     seen: Vec<Seen>,
     pull: f64,
+    strains: Vec<Strain>,
+    known: Known,
 }
 
 /// Where a contact comes from.
@@ -210,11 +221,20 @@ struct Owner {
     lever: [f64; 2],
 }
 
+/// A push on a body along a direction: the row of it, and what it adds to velocity, drift and lever of the contact.
+struct Push {
+    row: Triple,
+    velocity: f64,
+    drift: f64,
+    lever: f64,
+}
+
 /// Bodies in motion.
 #[derive(Debug, Clone)]
 pub struct Motion {
     setting: Setting,
     links: Vec<Link>,
+    rods: Vec<Rod>,
     other: Law,
     load: Vec<[f64; 2]>,
     held: Vec<[bool; 3]>,
@@ -236,6 +256,7 @@ pub struct Motion {
     pub seen: Vec<Seen>,
     /// Force of what is held on the others in the last step [N].
     pub pull: f64,
+    strains: Vec<Strain>,
     pairs: Vec<Pair>,
     /// First and second body of the links, sorted, with their number.
     linked: Vec<((Option<usize>, usize), usize)>,
@@ -246,6 +267,8 @@ pub struct Motion {
     radius: Vec<f64>,
     contacts: Vec<Contact>,
     owners: Vec<Owner>,
+    /// Where the contacts that follow those of the pairs come from.
+    pulls: Vec<Pull>,
     free: Vec<Triple>,
     after: Vec<Triple>,
 }
@@ -274,6 +297,7 @@ impl Motion {
             counters: Counters::default(),
             seen: vec![Seen::default(); system.links.len()],
             pull: 0.0,
+            strains: vec![Strain::default(); system.ties.len()],
             pairs: Vec::new(),
             linked,
             solver: Solver::new(0, &[]),
@@ -281,8 +305,10 @@ impl Motion {
             reach: REACH * shortest,
             contacts: Vec::new(),
             owners: Vec::new(),
+            pulls: Vec::with_capacity(system.ties.len()),
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
+            rods: system.ties.iter().map(|tie| Rod::new(tie, &places)).collect(),
             places,
             links: system.links.clone(),
             other: system.other,
@@ -390,7 +416,11 @@ impl Motion {
         }
         self.release(h, &forcing);
         self.meet(h, forcing.held / h);
-        let effort = self.solve();
+        self.fasten(h, forcing.held / h);
+        let mut effort = self.solve();
+        if self.overstrained(h) {
+            effort = effort.then(self.solve_on());
+        }
         self.count(effort);
         if !effort.converged && !come_what_may {
             return false;
@@ -435,6 +465,11 @@ impl Motion {
             let (v, free, held) = (self.velocities[body], self.free[body], self.held[body]);
             *after = [0, 1, 2].map(|k| if held[k] { free[k] } else { v[k] });
         }
+        self.solve_on()
+    }
+
+    /// From the velocities that are there.
+    fn solve_on(&mut self) -> Effort {
         let Motion { solver, mass, inverse, free, contacts, after, setting, .. } = self;
         match setting.method {
             Method::Newton => solver.newton(mass, free, contacts, after, setting.tolerance),
@@ -485,19 +520,11 @@ impl Motion {
             let (place, v, fixed) = (&self.places[body], &self.velocities[body], &self.held[body]);
             let half = if fixed[0] { held } else { v[0] };
             let arm = [touch.at[0] - place.centre[0] - 0.5 * h * half, touch.at[1] - place.centre[1] - 0.5 * h * v[1]];
-            let mut row =
-                [sign * direction[0], sign * direction[1], sign * (arm[0] * direction[1] - arm[1] * direction[0])];
-            if fixed[0] {
-                drift[which] += row[0] * held;
-                lever[which] += row[0];
-            }
-            for k in 0..3 {
-                if fixed[k] {
-                    row[k] = 0.0;
-                }
-            }
-            velocity[which] += row[0] * v[0] + row[1] * v[1] + row[2] * v[2];
-            row
+            let push = self.push(body, arm, direction.map(|d| sign * d), held);
+            velocity[which] += push.velocity;
+            drift[which] += push.drift;
+            lever[which] += push.lever;
+            push.row
         };
         let mut rows = |which, direction| {
             [pair.a.map_or([0.0; 3], |a| row(a, which, direction, -1.0)), row(pair.b, which, direction, 1.0)]
@@ -512,6 +539,19 @@ impl Motion {
         let gap = touch.gap - pair.laid - 0.5 * h * before[0];
         let start = law.begin(state, share, h, self.setting.still, (gap, before), &mut contact);
         (contact, Owner { pair: number, point, share, start, lever })
+    }
+
+    /// A push at `arm` from the centre of a body [m], what is held moving at `held` [m/s].
+    fn push(&self, body: usize, arm: [f64; 2], direction: [f64; 2], held: f64) -> Push {
+        let (v, fixed) = (&self.velocities[body], &self.held[body]);
+        let mut row = [direction[0], direction[1], arm[0] * direction[1] - arm[1] * direction[0]];
+        let [drift, lever] = if fixed[0] { [row[0] * held, row[0]] } else { [0.0; 2] };
+        for k in 0..3 {
+            if fixed[k] {
+                row[k] = 0.0;
+            }
+        }
+        Push { row, velocity: row[0] * v[0] + row[1] * v[1] + row[2] * v[2], drift, lever }
     }
 
     fn count(&mut self, effort: Effort) {
@@ -560,6 +600,7 @@ impl Motion {
             seen.broken += works.bond;
             seen.touches = true;
         }
+        self.settle_ties((h, time));
         self.account.held += self.pull * held;
         for (body, m) in self.mass.iter().enumerate() {
             let (v, w, f, held) = (self.velocities[body], self.after[body], self.free[body], self.held[body]);
@@ -636,7 +677,8 @@ impl Motion {
 
     /// A matrix for the pairs there are.
     fn couple(&mut self) {
-        let coupled: Vec<(usize, usize)> = self.pairs.iter().filter_map(|p| Some((p.a?, p.b))).collect();
+        let pairs = self.pairs.iter().map(|p| (p.a, p.b)).chain(self.rods.iter().map(|r| (r.tie.a, r.tie.b)));
+        let coupled: Vec<(usize, usize)> = pairs.filter_map(|(a, b)| Some((a?, b))).collect();
         self.solver = Solver::new(self.places.len(), &coupled);
     }
 
@@ -672,6 +714,8 @@ impl Motion {
             looked: self.looked.clone(),
             seen: self.seen.clone(),
             pull: self.pull,
+            strains: self.strains.clone(),
+            known: self.solver.known(),
         }
     }
 
@@ -680,14 +724,16 @@ impl Motion {
         let n = self.places.len();
         let fits = [kept.places.len(), kept.velocities.len(), kept.looked.len()].iter().all(|k| *k == n)
             && kept.seen.len() == self.seen.len()
+            && kept.strains.len() == self.strains.len()
             && kept.pairs.iter().all(|p| p.b < n && p.a.is_none_or(|a| a < n))
             && kept.pairs.iter().all(|p| p.link.is_none_or(|k| k < self.links.len()));
         if fits {
-            let Kept { places, velocities, time, account, counters, pairs, looked, seen, pull } = kept;
+            let Kept { places, velocities, time, account, counters, pairs, looked, seen, pull, strains, known } = kept;
             (self.places, self.velocities, self.time) = (places, velocities, time);
             (self.account, self.counters, self.pairs) = (account, counters, pairs);
-            (self.looked, self.seen, self.pull) = (looked, seen, pull);
+            (self.looked, self.seen, self.pull, self.strains) = (looked, seen, pull, strains);
             self.couple();
+            return self.solver.take_up(known);
         }
         fits
     }
