@@ -86,7 +86,7 @@ impl Problem {
             Push::Body => dead.clone(),
             Push::Top => vec![0.0; dead.len()],
         };
-        let top_course: Vec<usize> = (0..dead.len()).filter(|&i| is_top(&model.wall, i)).collect();
+        let loaded = model.wall.loaded();
         let load = case.load.top.si();
         if let Beam::Mass(mass) = case.load.beam {
             let (beam, length) = beam(&model, mass.si());
@@ -97,10 +97,10 @@ impl Problem {
                 point.b = Other::Body(model.wall.blocks.len());
             }
         } else {
-            top_course.iter().for_each(|&i| dead[i] += load * model.wall.blocks[i].length());
+            dead.iter_mut().zip(&loaded).for_each(|(dead, length)| *dead += load * length);
         }
         if options.push == Push::Top {
-            top_course.iter().for_each(|&i| live[i] = dead[i]);
+            (0..loaded.len()).filter(|&i| loaded[i] > 0.0).for_each(|i| live[i] = dead[i]);
         }
         let sign = if options.towards == Towards::Right { 1.0 } else { -1.0 };
         Ok(Problem {
@@ -138,11 +138,6 @@ fn warnings(case: &Case) -> Vec<String> {
     let bonded = case.joint.bond.is_some() || case.joint.changes.iter().any(|c| c.bond.is_some());
     let bonded = bonded.then(|| "the bond of the joints is left out: they count as dry".to_string());
     bonded.into_iter().collect()
-}
-
-fn is_top(wall: &Wall, block: usize) -> bool {
-    let block = &wall.blocks[block];
-    block.course + 1 == wall.panels[block.panel].courses
 }
 
 /// The beam and the length on which it lies [m].

@@ -332,6 +332,11 @@ impl Solver {
         }
     }
 
+    /// Whether it is for no bodies.
+    pub fn is_empty(&self) -> bool {
+        self.residual.is_empty()
+    }
+
     /// The matrix, for the slots of its pairs.
     pub fn matrix(&self) -> &Blocks {
         &self.matrix
@@ -459,7 +464,7 @@ impl Solver {
             }
         }
         if !effort.converged {
-            effort.residual = effort.residual.max(size);
+            effort.residual = worse(effort.residual, size);
         }
         effort
     }
@@ -535,7 +540,7 @@ impl Solver {
             let Answer { impulse, status, .. } = self.trial[k];
             for k in 0..2 {
                 if !contact.compliant[k] {
-                    worst = worst.max((impulse[k] - contact.law[k].offset).abs() / contact.law[k].rho);
+                    worst = worse(worst, (impulse[k] - contact.law[k].offset).abs() / contact.law[k].rho);
                     contact.law[k].offset = impulse[k];
                 }
             }
@@ -614,9 +619,15 @@ impl Solver {
 /// The largest part of a balance over the mass [m/s].
 pub(crate) fn unbalance(balance: &[Triple], mass: &[Triple]) -> f64 {
     let part = |(r, m): (&Triple, &Triple)| {
-        (r[0] / m[0]).abs().max((r[1] / m[1]).abs()).max((r[2] * r[2] / (m[2] * m[0])).sqrt())
+        let turn = (r[2] * r[2] / (m[2] * m[0])).sqrt();
+        worse(worse((r[0] / m[0]).abs(), (r[1] / m[1]).abs()), turn)
     };
-    balance.iter().zip(mass).map(part).fold(0.0, f64::max)
+    balance.iter().zip(mass).map(part).fold(0.0, worse)
+}
+
+/// The larger of two violations; one that is no number is the largest.
+pub(crate) fn worse(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
 }
 
 /// Whether a contact resists in its normal and along its tangent.

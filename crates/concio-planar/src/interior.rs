@@ -15,7 +15,7 @@
 //! one left it. However many contacts open and close, that takes a dozen or two of iterations.
 
 use crate::blocks::{Blocks, Triple};
-use crate::contact::{Contact, Effort, Status, unbalance};
+use crate::contact::{Contact, Effort, Status, unbalance, worse};
 
 /// Iterations after which a step is given up.
 const MOST: usize = 60;
@@ -82,7 +82,8 @@ struct Left {
 /// Whether [`Interior::solve`] knows what a contact does.
 pub(crate) fn fits(contact: &Contact) -> bool {
     let plain = contact.pressure == [0.0, f64::INFINITY] && contact.hold == 0.0 && contact.friction <= STEEP;
-    plain && contact.spring[0] == Default::default() && contact.moved.iter().all(|m| m.is_finite())
+    let firm = (0..2).all(|k| !contact.compliant[k] || contact.law[k].rho > 0.0);
+    plain && firm && contact.spring[0] == Default::default() && contact.moved.iter().all(|m| m.is_finite())
 }
 
 impl Interior {
@@ -99,7 +100,7 @@ impl Interior {
         let mut effort = Effort { rounds: 1, ..Effort::default() };
         loop {
             let left = self.look(mass, free, contacts, v);
-            effort.residual = left.residual.max(left.drawn);
+            effort.residual = worse(left.residual, left.drawn);
             if left.residual <= tolerance {
                 if left.drawn <= tolerance {
                     effort.converged = true;
@@ -108,7 +109,7 @@ impl Interior {
                 self.points.iter_mut().zip(contacts.iter()).for_each(|(point, c)| point.anchor_at(c));
                 effort.rounds += 1;
             }
-            if effort.iterations == MOST {
+            if effort.iterations == MOST || !left.residual.is_finite() {
                 break;
             }
             self.factorise(matrix, mass, contacts);
@@ -169,13 +170,13 @@ impl Interior {
             (point.opens, point.second) = (0.0, [0.0; 2]);
             for k in 0..2 {
                 let apart = (point.gamma[k] / contact.moved[0]).min(point.w[k]);
-                worst = worst.max(point.off[k].abs()).max(apart);
+                worst = worse(worse(worst, point.off[k].abs()), apart);
                 sum += point.gamma[k] * point.w[k];
             }
             contact.push(&mut self.residual, contact.whole(p, u));
         }
         let mean = sum / (2 * self.points.len()).max(1) as f64;
-        Left { residual: worst.max(unbalance(&self.residual, mass)), mean, drawn }
+        Left { residual: worse(worst, unbalance(&self.residual, mass)), mean, drawn }
     }
 
     fn factorise(&mut self, matrix: &mut Blocks, mass: &[Triple], contacts: &[Contact]) {

@@ -84,6 +84,11 @@ impl Friction {
         Friction { static_: mu, dynamic: mu, slip_velocity: 0.0, alpha: 0.0 }
     }
 
+    /// μ of a slide without inertia, as slow as can be: that at rest, or of one that has no δ_v μ_d once it has slid.
+    pub fn slowly(&self, slid: bool) -> f64 {
+        if slid && self.slip_velocity == 0.0 { self.dynamic } else { self.static_ }
+    }
+
     /// μ at the speed of sliding [m/s]; 0 where it sticks.
     pub fn at(&self, speed: f64) -> f64 {
         if speed == 0.0 {
@@ -125,6 +130,13 @@ impl Law {
             crushing: f64::INFINITY,
             slip: [0.0; 2],
         }
+    }
+
+    /// Whether there is nothing between the sides, not even contact.
+    pub fn bears_nothing(&self) -> bool {
+        let no_springs = self.normal == Normal::Springs { both: 0.0, press: 0.0, damping: 0.0 };
+        let Shear { stiffness, damping, .. } = self.shear;
+        no_springs && [stiffness, damping] == [0.0; 2] && self.slip == [0.0; 2] && self.bond.is_none()
     }
 
     /// Whether it has a spring, and so three points.
@@ -205,7 +217,7 @@ pub struct Point {
     pub speed: f64,
     /// Crushed off [m].
     pub crushed: f64,
-    /// Farthest opening and sliding that counted for damage [m].
+    /// Farthest opening and sliding beyond what the bond can bear [m].
     pub reach: [f64; 2],
     /// D, 0 … 1.
     pub damage: f64,
@@ -244,11 +256,14 @@ pub struct Start {
     pub gap: f64,
     /// Parting and sliding velocity [m/s].
     pub velocity: [f64; 2],
+    /// Whether inertia is left out.
+    pub still: bool,
 }
 
-/// The normal direction of a point over a step: its mean velocity, distances at the ends, impulses of (P4) and of springs.
+/// The normal direction of a point over a step that ends at `time`: its mean velocity, distances at the ends, impulses of (P4) and of springs.
 struct Across {
     h: f64,
+    time: f64,
     mean: f64,
     gaps: [f64; 2],
     pressed: f64,
@@ -311,9 +326,16 @@ impl Law {
             }
             Normal::Springs { .. } => {
                 let beside = if self.damps_both(point.damage) { dashpot } else { 0.0 };
-                contact.spring[0] = over(both, beside, gap, u_n, midpoint);
-                contact.law[0] = over(press, dashpot - beside, gap + point.crushed, u_n, theta_press);
+                // What crushes is all that presses.
+                let bounded = self.crushing.is_finite() && both > 0.0 && gap + 0.5 * h * u_n < 0.0;
+                let (apart, within) = if bounded { (0.0, both + press) } else { (both, press) };
+                let theta = if bounded { midpoint } else { theta_press };
+                contact.spring[0] = over(apart, beside, gap, u_n, midpoint);
+                contact.law[0] = over(within, dashpot - beside, gap + point.crushed, u_n, theta);
                 contact.compliant[0] = true;
+                if bounded {
+                    contact.pressure[0] = f64::NEG_INFINITY;
+                }
             }
         }
         contact.pressure[1] = share * self.crushing * h;
@@ -336,12 +358,13 @@ impl Law {
         }
         contact.hold = along;
         let rubs = if self.bond.is_some() { point.rubbing } else { 1.0 };
-        contact.friction = rubs * self.friction.map_or(0.0, |law| law.at(point.speed));
+        let slowly = |law: Friction| if still { law.slowly(point.speed > 0.0) } else { law.at(point.speed) };
+        contact.friction = rubs * self.friction.map_or(0.0, slowly);
         if let (true, false, Some(bond)) = (intact, self.is_compliant(), &self.bond) {
             // Without springs the bond is rigid too.
             (contact.friction, contact.hold) = (bond.tan_angle, share * bond.cohesion * h);
         }
-        Start { gap, velocity }
+        Start { gap, velocity, still }
     }
 
     /// What the step came to, `after` being the velocity at its end, `time` its end [s].
@@ -360,13 +383,15 @@ impl Law {
         let linear = [0, 1].map(|k| contact.spring[k].offset - contact.spring[k].rho * after[k]);
         let compressed = (contact.impulse[0] + linear[0]) / h;
         let normal =
-            Across { h, mean: mean[0], gaps: [start.gap, gap], pressed: contact.impulse[0], linear: linear[0] };
+            Across { h, time, mean: mean[0], gaps: [start.gap, gap], pressed: contact.impulse[0], linear: linear[0] };
         self.end_normal(point, share, normal, &mut works);
         self.end_shear(point, share, h, mean[1], (contact, linear[1]), &mut works);
         point.force = contact.impulse.map(|p| p / h);
         point.gap = gap;
         let slides = matches!(contact.status, Status::Forth | Status::Back);
-        point.speed = if slides { after[1].abs() } else { 0.0 };
+        // Without inertia what has slid goes on to count as sliding: its speed means nothing.
+        let rests = if start.still { point.speed } else { 0.0 };
+        point.speed = if slides { after[1].abs() } else { rests };
         works.slip = if slides { h * mean[1].abs() } else { 0.0 };
         if self.bond.is_some() && point.damage < 1.0 {
             self.wear(point, share, time, compressed, contact, &mut works);
@@ -378,11 +403,17 @@ impl Law {
         &self,
         point: &mut Point,
         share: f64,
-        Across { h, mean, gaps: [start, gap], pressed, linear }: Across,
+        Across { h, time, mean, gaps: [start, gap], pressed, linear }: Across,
         works: &mut Works,
     ) {
+        let most = share * self.crushing;
         let Normal::Springs { .. } = self.normal else {
-            works.impact -= pressed * mean;
+            if pressed >= h * most && mean < 0.0 {
+                point.crushed -= h * mean;
+                works.bond -= pressed * mean;
+            } else {
+                works.impact -= pressed * mean;
+            }
             return;
         };
         let (both, press) = self.springs(point.damage);
@@ -395,15 +426,22 @@ impl Law {
         let damping = if acts { dashpot * mean * mean * h } else { 0.0 };
         let stored = |g: f64, crushed: f64| 0.5 * both * g * g + 0.5 * press * (g + crushed).min(0.0).powi(2);
         let before = stored(start, point.crushed);
-        let most = share * self.crushing;
-        if press > 0.0 && -press * (gap + point.crushed) > most {
-            let further = -gap - most / press - point.crushed;
+        let mut after = stored(gap, point.crushed);
+        let all = both + press;
+        if all > 0.0 && -all * (gap + point.crushed) > most {
+            let further = -gap - most / all - point.crushed;
             point.crushed += further;
             works.bond += most * further;
+            after = 0.5 * most * most / all;
+            if both > 0.0 {
+                // Nothing of a bond outlives it.
+                (point.damage, point.rubbing, point.broken) = (1.0, 1.0, time);
+                point.cracked = point.cracked.min(time);
+            }
         }
-        works.elastic += stored(gap, point.crushed);
+        works.elastic += after;
         works.damping += damping;
-        works.impact += -(pressed + linear) * mean - (stored(gap, point.crushed) - before) - damping - works.bond;
+        works.impact += -(pressed + linear) * mean - (after - before) - damping - works.bond;
     }
 
     fn end_shear(
@@ -447,7 +485,7 @@ impl Law {
         let before = point.damage;
         let Normal::Springs { both, .. } = self.normal else {
             let torn = bond.tension > 0.0 && contact.impulse[0] <= contact.pressure[0];
-            let parted = bond.tension == 0.0 && contact.impulse[0] == 0.0;
+            let parted = bond.tension == 0.0 && point.gap > TOUCHING;
             if torn || parted || contact.status == Status::Forth || contact.status == Status::Back {
                 (point.damage, point.rubbing) = (1.0, 1.0);
                 (point.cracked, point.broken) = (time, time);
@@ -456,16 +494,14 @@ impl Law {
         };
         let strength = (share * bond.cohesion + compressed * bond.tan_angle).max(0.0);
         let demand = share * self.shear.stiffness * point.slide.abs();
-        // Where there is no strength left, any shear is too much.
-        let exceeded = if demand == 0.0 { 0.0 } else { demand / strength };
         let [opening, sliding] = &mut point.reach;
         let shear = match self.shear.stiffness {
             0.0 => [0.0; 2],
-            k => worn(exceeded, bond.cohesion / k, bond.decay[1], sliding),
+            k => worn([demand, strength].map(|f| f / (share * k)), bond.decay[1], sliding),
         };
         let open = match both {
             0.0 => [0.0; 2],
-            k => worn(both * point.gap / bond.tension, bond.tension / k, bond.decay[0], opening),
+            k => worn([point.gap - TOUCHING, bond.tension / k], bond.decay[0], opening),
         };
         point.damage = point.damage.max(shear[0]).max(open[0]);
         point.rubbing = point.rubbing.max(shear[1]).max(open[1]);
@@ -484,18 +520,17 @@ impl Law {
     }
 }
 
-/// D and χ by (B3) where `exceeded` is the stretch over `limit` [m], the farthest so far kept in `reach` [m]; both 1 from the
-/// limit on where it is brittle.
-fn worn(exceeded: f64, limit: f64, decay: f64, reach: &mut f64) -> [f64; 2] {
-    if exceeded > 1.0 {
-        *reach = reach.max(exceeded * limit).max(limit);
+/// D and χ by (B3) of what is stretched by `stretch` and can bear `limit` [m], where it goes beyond that farther than ever before, which
+/// `reach` keeps; 0 where it does not. Both are 1 beyond the limit where it is brittle.
+fn worn([stretch, limit]: [f64; 2], decay: f64, reach: &mut f64) -> [f64; 2] {
+    let beyond = stretch - limit;
+    if !(beyond > *reach) {
+        return [0.0; 2];
     }
-    match decay {
-        _ if *reach == 0.0 => [if exceeded > 1.0 { 1.0 } else { 0.0 }; 2],
-        0.0 => [1.0; 2],
-        _ => {
-            let left = ((limit - *reach) / decay).exp();
-            [1.0 - limit / *reach * left, 1.0 - left]
-        }
+    *reach = beyond;
+    if decay == 0.0 {
+        return [1.0; 2];
     }
+    let left = (-beyond / decay).exp();
+    [1.0 - limit / stretch * left, 1.0 - left]
 }

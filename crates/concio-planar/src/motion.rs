@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::G;
 use crate::blocks::Triple;
 use crate::body::Body;
-use crate::contact::{Contact, Effort, Known, Solver};
+use crate::contact::{Contact, Effort, Known, Solver, worse};
 use crate::joint::{Friction, Law, Point, Start};
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
 use crate::tie::{Strain, Tie};
@@ -24,11 +24,14 @@ mod vibration;
 
 pub use vibration::Vibration;
 
-/// How far apart bodies are that are looked at, over the shortest edge: as far as they may move before all are looked at
-/// again.
+/// How far bodies without a joint may be apart to be looked at, over the shortest edge: half as far they may move before all are
+/// looked at again.
 const REACH: f64 = 0.1;
 /// Times that a step is halved.
 const HALVINGS: u32 = 4;
+/// Least step in which loads come to bear [s], and after how many it is doubled: the slowest modes take the longest steps.
+const SETTLING: f64 = 2e-2;
+const DOUBLED: usize = 40;
 /// Steps that follow a step without inertia at most, and velocity over that of the first at which none follows.
 const FOLLOWING: usize = 10;
 const AT_REST: f64 = 1e-3;
@@ -221,11 +224,10 @@ struct Owner {
     lever: [f64; 2],
 }
 
-/// A push on a body along a direction: the row of it, and what it adds to velocity, drift and lever of the contact.
+/// A push on a body along a direction: the row of it, and what it adds to velocity and lever of the contact.
 struct Push {
     row: Triple,
     velocity: f64,
-    drift: f64,
     lever: f64,
 }
 
@@ -258,13 +260,16 @@ pub struct Motion {
     pub pull: f64,
     strains: Vec<Strain>,
     pairs: Vec<Pair>,
-    /// First and second body of the links, sorted, with their number.
-    linked: Vec<((Option<usize>, usize), usize)>,
+    /// Bodies of the links, the one of the lower number first, sorted.
+    linked: Vec<(Option<usize>, usize)>,
     solver: Solver,
-    /// Where the bodies were when pairs were looked for, and how far they may go until then [m].
+    /// Where the bodies were when pairs were looked for, twice as far as each may go until that is done again [m], and how far its
+    /// corners are from its centre [m].
     looked: Vec<Place>,
-    reach: f64,
+    reach: Vec<f64>,
     radius: Vec<f64>,
+    /// Pairs of bodies in the matrix.
+    coupled: Vec<(usize, usize)>,
     contacts: Vec<Contact>,
     owners: Vec<Owner>,
     /// Where the contacts that follow those of the pairs come from.
@@ -279,17 +284,17 @@ impl Motion {
         let bodies = &system.bodies;
         let rest: Vec<Polygon> = bodies.iter().map(Polygon::of).collect();
         let places: Vec<Place> = bodies.iter().map(|b| Place { centre: b.centre, angle: 0.0 }).collect();
-        let shortest = rest.iter().map(|p| p.shortest).fold(f64::INFINITY, f64::min);
         let far = |p: &Polygon| p.corners.iter().map(|c| c[0].hypot(c[1])).fold(0.0, f64::max);
         let mass: Vec<Triple> = bodies.iter().map(|b| [b.mass, b.mass, b.inertia]).collect();
         let free = |(m, held): (&Triple, &[bool; 3])| [0, 1, 2].map(|k| if held[k] { 0.0 } else { 1.0 / m[k] });
-        let mut linked: Vec<_> = system.links.iter().enumerate().map(|(k, l)| ((l.a, l.b), k)).collect();
+        let mut linked: Vec<_> = system.links.iter().map(|l| in_order(l.a, l.b)).collect();
         linked.sort_unstable();
         let mut motion = Motion {
             inverse: mass.iter().zip(&system.held).map(free).collect(),
             mass,
             polygons: rest.clone(),
             radius: rest.iter().map(far).collect(),
+            reach: rest.iter().map(|p| REACH * p.shortest).collect(),
             rest,
             velocities: vec![[0.0; 3]; bodies.len()],
             time: 0.0,
@@ -302,7 +307,7 @@ impl Motion {
             linked,
             solver: Solver::new(0, &[]),
             looked: places.clone(),
-            reach: REACH * shortest,
+            coupled: Vec::new(),
             contacts: Vec::new(),
             owners: Vec::new(),
             pulls: Vec::with_capacity(system.ties.len()),
@@ -334,16 +339,24 @@ impl Motion {
     }
 
     /// Lets the loads come to bear without inertia until nothing moves by more than `within` [m] in a step, in
-    /// `most` steps at most; whether it came to that. The account starts anew.
+    /// `most` steps at most, or until a body has gone farther than it is large; whether it came to rest. The account starts anew.
     pub fn stand(&mut self, within: f64, most: usize) -> bool {
-        let setting = Setting { still: true, ..self.setting.clone() };
+        let setting = Setting { still: true, step: self.setting.step.max(SETTLING), ..self.setting.clone() };
         let own = std::mem::replace(&mut self.setting, setting);
+        let laid = self.places.clone();
         let mut stands = false;
-        for _ in 0..most {
+        for number in 1..=most {
             self.step(Forcing::default());
-            if self.fastest() * own.step <= within {
+            if self.fastest() * self.setting.step <= within {
                 stands = true;
                 break;
+            }
+            let gone = |(k, p): (usize, &Place)| !(way(&laid[k], p) <= self.radius[k]);
+            if self.places.iter().enumerate().any(gone) {
+                break;
+            }
+            if number.is_multiple_of(DOUBLED) {
+                self.setting.step *= 2.0;
             }
         }
         self.setting = own;
@@ -363,9 +376,8 @@ impl Motion {
 
     /// Farthest way of a body from where it was laid [m].
     pub fn strayed_by(&self, system: &System) -> f64 {
-        let way =
-            |(place, body): (&Place, &Body)| (place.centre[0] - body.centre[0]).hypot(place.centre[1] - body.centre[1]);
-        self.places.iter().zip(&system.bodies).map(way).fold(0.0, f64::max)
+        let gone = |(place, body): (&Place, &Body)| way(place, &Place { centre: body.centre, angle: 0.0 });
+        self.places.iter().zip(&system.bodies).map(gone).fold(0.0, worse)
     }
 
     /// How steps are taken.
@@ -414,9 +426,12 @@ impl Motion {
         if self.setting.still {
             self.velocities.fill([0.0; 3]);
         }
-        self.release(h, &forcing);
-        self.meet(h, forcing.held / h);
-        self.fasten(h, forcing.held / h);
+        // From rest to twice the mean, as all that moves does without inertia.
+        let rate = forcing.held / h;
+        let held = if self.setting.still { [0.0, 2.0 * rate] } else { [rate; 2] };
+        self.release(h, &forcing, held);
+        self.meet(h, held);
+        self.fasten(h, held);
         let mut effort = self.solve();
         if self.overstrained(h) {
             effort = effort.then(self.solve_on());
@@ -427,7 +442,7 @@ impl Motion {
         }
         self.counters.steps += 1;
         self.counters.unsolved += u64::from(!effort.converged);
-        self.counters.residual = self.counters.residual.max(effort.residual);
+        self.counters.residual = worse(self.counters.residual, effort.residual);
         self.settle(h, forcing.held);
         self.advance(h, forcing.held);
         std::mem::swap(&mut self.velocities, &mut self.after);
@@ -438,15 +453,15 @@ impl Motion {
         true
     }
 
-    /// Velocities without contact, and polygons in the middle of the step.
-    fn release(&mut self, h: f64, forcing: &Forcing) {
+    /// Velocities without contact, and polygons in the middle of the step; what is held moves at `rate` before and after it [m/s].
+    fn release(&mut self, h: f64, forcing: &Forcing, rate: [f64; 2]) {
         for (body, place) in self.places.iter().enumerate() {
             let (v, held, load) = (self.velocities[body], self.held[body], self.load[body]);
             let mut half = v.map(|v| 0.5 * h * v);
             let pushed = |k: usize| v[k] - forcing.base[k] + h * load[k] * self.inverse[body][k];
             let mut after = [pushed(0), pushed(1), v[2]];
             if held[0] {
-                (half[0], after[0]) = (0.5 * forcing.held, forcing.held / h);
+                (half[0], after[0]) = (0.5 * h * rate[0], rate[1]);
             }
             for k in 1..3 {
                 if held[k] {
@@ -490,13 +505,18 @@ impl Motion {
     }
 
     /// Contact points of the polygons as they stand.
-    fn meet(&mut self, h: f64, held: f64) {
+    fn meet(&mut self, h: f64, held: [f64; 2]) {
         self.contacts.clear();
         self.owners.clear();
         for number in 0..self.pairs.len() {
             let pair = &self.pairs[number];
-            let Some(ends) = ends(&self.polygons, pair, self.reach) else { continue };
+            let Some(ends) = ends(&self.polygons, pair, self.margin(pair)) else { continue };
             let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
+            if let (true, Some(link)) = (law.bears_nothing(), pair.link) {
+                let gaps = ends.map(|e| e.gap);
+                self.seen[link].gap = [gaps[0].min(gaps[1]), gaps[0].max(gaps[1])];
+                continue;
+            }
             let shares = law.shares();
             let along = |share: f64| Touch {
                 at: [0, 1].map(|k| ends[0].at[k] + share * (ends[1].at[k] - ends[0].at[k])),
@@ -512,17 +532,24 @@ impl Motion {
         }
     }
 
-    fn contact(&self, number: usize, point: usize, share: f64, touch: &Touch, h: f64, held: f64) -> (Contact, Owner) {
+    fn contact(
+        &self,
+        number: usize,
+        point: usize,
+        share: f64,
+        touch: &Touch,
+        h: f64,
+        held: [f64; 2],
+    ) -> (Contact, Owner) {
         let pair = &self.pairs[number];
         let (n, t) = (touch.normal, [-touch.normal[1], touch.normal[0]]);
-        let (mut velocity, mut drift, mut lever) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+        let (mut velocity, mut lever) = ([0.0; 2], [0.0; 2]);
         let mut row = |body: usize, which: usize, direction: [f64; 2], sign: f64| {
             let (place, v, fixed) = (&self.places[body], &self.velocities[body], &self.held[body]);
-            let half = if fixed[0] { held } else { v[0] };
+            let half = if fixed[0] { held[0] } else { v[0] };
             let arm = [touch.at[0] - place.centre[0] - 0.5 * h * half, touch.at[1] - place.centre[1] - 0.5 * h * v[1]];
-            let push = self.push(body, arm, direction.map(|d| sign * d), held);
+            let push = self.push(body, arm, direction.map(|d| sign * d));
             velocity[which] += push.velocity;
-            drift[which] += push.drift;
             lever[which] += push.lever;
             push.row
         };
@@ -530,28 +557,28 @@ impl Motion {
             [pair.a.map_or([0.0; 3], |a| row(a, which, direction, -1.0)), row(pair.b, which, direction, 1.0)]
         };
         let rows = [rows(0, n), rows(1, t)];
-        let before = [0, 1].map(|k| velocity[k] + drift[k]);
+        let before = [0, 1].map(|k| velocity[k] + lever[k] * held[0]);
         let state = &pair.points[point];
         let slot = pair.a.map(|a| self.solver.matrix().slot(a, pair.b));
         let mut contact = Contact::rigid((pair.a, pair.b), slot, rows, &self.inverse, state.force.map(|f| h * f));
-        contact.drift = drift;
+        contact.drift = lever.map(|lever| lever * held[1]);
         let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
-        let gap = touch.gap - pair.laid - 0.5 * h * before[0];
+        let gap = touch.gap - 0.5 * h * before[0];
         let start = law.begin(state, share, h, self.setting.still, (gap, before), &mut contact);
         (contact, Owner { pair: number, point, share, start, lever })
     }
 
-    /// A push at `arm` from the centre of a body [m], what is held moving at `held` [m/s].
-    fn push(&self, body: usize, arm: [f64; 2], direction: [f64; 2], held: f64) -> Push {
+    /// A push at `arm` from the centre of a body [m].
+    fn push(&self, body: usize, arm: [f64; 2], direction: [f64; 2]) -> Push {
         let (v, fixed) = (&self.velocities[body], &self.held[body]);
         let mut row = [direction[0], direction[1], arm[0] * direction[1] - arm[1] * direction[0]];
-        let [drift, lever] = if fixed[0] { [row[0] * held, row[0]] } else { [0.0; 2] };
+        let lever = if fixed[0] { row[0] } else { 0.0 };
         for k in 0..3 {
             if fixed[k] {
                 row[k] = 0.0;
             }
         }
-        Push { row, velocity: row[0] * v[0] + row[1] * v[1] + row[2] * v[2], drift, lever }
+        Push { row, velocity: row[0] * v[0] + row[1] * v[1] + row[2] * v[2], lever }
     }
 
     fn count(&mut self, effort: Effort) {
@@ -627,8 +654,7 @@ impl Motion {
     /// Whether a body may have come to one that it is not paired with.
     fn strayed(&self) -> bool {
         let far = |(k, (now, then)): (usize, (&Place, &Place))| {
-            let moved = (now.centre[0] - then.centre[0]).hypot(now.centre[1] - then.centre[1]);
-            moved + self.radius[k] * (now.angle - then.angle).abs() > 0.5 * self.reach
+            way(now, then) + self.radius[k] * (now.angle - then.angle).abs() > 0.5 * self.reach[k]
         };
         self.places.iter().zip(&self.looked).enumerate().any(far)
     }
@@ -640,53 +666,61 @@ impl Motion {
             self.polygons[body].put(&self.rest[body], place);
             let corners = &self.polygons[body].corners;
             let bound = |k: usize, sign: f64| {
-                sign * corners.iter().map(|c| sign * c[k]).fold(f64::NEG_INFINITY, f64::max) + sign * self.reach
+                sign * corners.iter().map(|c| sign * c[k]).fold(f64::NEG_INFINITY, f64::max) + sign * self.reach[body]
             };
             let low = [bound(0, -1.0), bound(1, -1.0)];
             boxes.push(GeomWithData::new(Rectangle::from_corners(low, [bound(0, 1.0), bound(1, 1.0)]), body));
         }
         let tree = RTree::bulk_load(boxes.clone());
         let known = std::mem::take(&mut self.pairs);
-        let fresh = |a, b| {
-            let link = self.linked.binary_search_by_key(&(a, b), |l| l.0).ok().map(|at| self.linked[at].1);
-            Pair { a, b, link, points: [Point::default(); POINTS], laid: 0.0 }
-        };
-        let mut pairs: Vec<(Option<usize>, usize)> = Vec::new();
+        let fresh = |a, b, link| Pair { a, b, link, points: [Point::default(); POINTS], laid: 0.0 };
+        // Joints stay whatever becomes of them: what has gone apart may come together again.
+        let mut pairs: Vec<Pair> =
+            self.links.iter().enumerate().map(|(k, link)| fresh(link.a, link.b, Some(k))).collect();
+        let alone = |a, b| self.linked.binary_search(&(a, b)).is_err();
         for own in &boxes {
             let around: AABB<[f64; 2]> = own.geom().envelope();
-            if around.lower()[1] <= 0.0 {
-                pairs.push((None, own.data));
+            if around.lower()[1] <= 0.0 && alone(None, own.data) {
+                pairs.push(fresh(None, own.data, None));
             }
             let others = tree.locate_in_envelope_intersecting(&around).map(|o| o.data).filter(|o| *o > own.data);
-            pairs.extend(others.map(|other| (Some(own.data), other)));
+            let others = others.filter(|other| alone(Some(own.data), *other));
+            pairs.extend(others.map(|other| fresh(Some(own.data), other, None)));
         }
-        pairs.sort_unstable();
-        // What has gone apart for good may come together again: joints keep what has become of them.
-        let mut next: Vec<Pair> = pairs.iter().map(|&(a, b)| fresh(a, b)).collect();
+        pairs.sort_by_key(|p| (p.a, p.b));
         for pair in known {
-            match next.binary_search_by_key(&(pair.a, pair.b), |p| (p.a, p.b)) {
-                Ok(at) => next[at] = pair,
-                Err(at) if pair.link.is_some() => next.insert(at, pair),
-                Err(_) => {}
+            if let Ok(at) = pairs.binary_search_by_key(&(pair.a, pair.b), |p| (p.a, p.b)) {
+                pairs[at] = pair;
             }
         }
-        self.pairs = next;
+        self.pairs = pairs;
         self.couple();
         self.looked.clone_from(&self.places);
     }
 
-    /// A matrix for the pairs there are.
+    /// How far bodies of a pair may be apart to be looked at [m]: any distance where there is a joint.
+    fn margin(&self, pair: &Pair) -> f64 {
+        match pair.link {
+            Some(_) => f64::INFINITY,
+            None => pair.a.map_or(0.0, |a| self.reach[a]).max(self.reach[pair.b]),
+        }
+    }
+
+    /// A matrix for the pairs there are, unless it is there.
     fn couple(&mut self) {
         let pairs = self.pairs.iter().map(|p| (p.a, p.b)).chain(self.rods.iter().map(|r| (r.tie.a, r.tie.b)));
         let coupled: Vec<(usize, usize)> = pairs.filter_map(|(a, b)| Some((a?, b))).collect();
-        self.solver = Solver::new(self.places.len(), &coupled);
+        if coupled != self.coupled || self.solver.is_empty() {
+            self.solver = Solver::new(self.places.len(), &coupled);
+            self.coupled = coupled;
+        }
     }
 
     /// Takes the distances of the joints as they are for those of the laid wall.
     fn lay(&mut self) {
         for pair in self.pairs.iter_mut().filter(|p| p.link.is_some()) {
-            let ends = ends(&self.polygons, pair, self.reach);
-            pair.laid = ends.map_or(0.0, |e| e[0].gap.min(e[1].gap));
+            let ends = ends(&self.polygons, pair, f64::INFINITY);
+            pair.laid += ends.map_or(0.0, |e| e[0].gap.min(e[1].gap));
         }
     }
 
@@ -744,11 +778,23 @@ impl Motion {
     }
 }
 
-/// Contact points of a pair, none where both are farther than `reach` [m].
-fn ends(polygons: &[Polygon], pair: &Pair, reach: f64) -> Option<[Touch; 2]> {
+/// Contact points of a pair with what is left of their distance to that of the laid wall, none where both are farther than `margin` [m].
+fn ends(polygons: &[Polygon], pair: &Pair, margin: f64) -> Option<[Touch; 2]> {
     let b = &polygons[pair.b];
-    match pair.a {
-        Some(a) => touches(&polygons[a], b, reach),
-        None => touches_base(b, reach),
+    let Some(a) = pair.a else { return touches_base(b, pair.laid, margin) };
+    let touches = touches(&polygons[a], b, margin)?;
+    Some(touches.map(|touch| Touch { gap: touch.gap - pair.laid, ..touch }))
+}
+
+/// How far two centres are apart [m].
+fn way(a: &Place, b: &Place) -> f64 {
+    (a.centre[0] - b.centre[0]).hypot(a.centre[1] - b.centre[1])
+}
+
+/// A pair of bodies, or the base and one, with the lower number first.
+fn in_order(a: Option<usize>, b: usize) -> (Option<usize>, usize) {
+    match a {
+        Some(a) if a > b => (Some(b), a),
+        _ => (a, b),
     }
 }

@@ -107,14 +107,17 @@ pub fn touches(a: &Polygon, b: &Polygon, margin: f64) -> Option<[Touch; 2]> {
     (both[0].gap.min(both[1].gap) <= margin).then_some(both)
 }
 
-/// The contact points of a polygon with the half-plane y ≤ 0, the first body; none where both are farther than `margin`
-/// [m].
-pub fn touches_base(a: &Polygon, margin: f64) -> Option<[Touch; 2]> {
+/// The contact points of a polygon with the half-plane y ≤ `level` [m], the first body; none where both are farther than
+/// `margin` [m].
+pub fn touches_base(a: &Polygon, level: f64, margin: f64) -> Option<[Touch; 2]> {
     let edge = a.edge(a.facing([0.0, -1.0]));
     // Along the tangent of the upward normal, which points to the left.
     let [p, q] = if edge[0][0] > edge[1][0] { edge } else { [edge[1], edge[0]] };
-    let touch = |p: [f64; 2]| Touch { at: [p[0], 0.5 * p[1]], normal: [0.0, 1.0], gap: p[1] };
-    (p[1].min(q[1]) <= margin).then_some([touch(p), touch(q)])
+    let touch = |p: [f64; 2]| {
+        let gap = p[1] - level;
+        Touch { at: [p[0], p[1] - 0.5 * gap], normal: [0.0, 1.0], gap }
+    };
+    (p[1].min(q[1]) - level <= margin).then_some([touch(p), touch(q)])
 }
 
 /// The edge of `a` beyond which `b` lies farthest, and how far.

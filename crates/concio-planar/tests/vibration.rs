@@ -37,7 +37,8 @@ fn a_block_on_springs_sways_as_two_unknowns_do() {
     let press = Normal::Springs { both: 0.0, press: ACROSS, damping: 0.0 };
     for (normal, lets_go) in [(both, false), (press, true)] {
         let found = block(normal, lets_go).slowest().expect("it is held");
-        assert!((found.frequency / expected() - 1.0).abs() < 1e-8, "{found:?} instead of {}", expected());
+        // Under its weight it stands 15 µm lower than it was laid.
+        assert!((found.frequency / expected() - 1.0).abs() < 5e-5, "{found:?} instead of {}", expected());
         assert!(found.damping > 0.0, "{found:?}");
     }
     assert_eq!(block(Normal::Rigid { restitution: 0.0 }, false).slowest(), None);

@@ -108,10 +108,8 @@ pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointL
             bodies.push(beam.body);
         }
         None => {
-            for (block, load_on) in wall.blocks.iter().zip(&mut loads) {
-                if block.course + 1 == wall.panels[block.panel].courses {
-                    load_on[1] -= load * block.length();
-                }
+            for (load_on, length) in loads.iter_mut().zip(wall.loaded()) {
+                load_on[1] -= load * length;
             }
         }
     }
@@ -125,7 +123,7 @@ pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointL
     };
     let links = joints.iter().zip(laws).map(link).collect::<Result<Vec<Link>>>()?;
     let other = Law::dry(common_friction(case));
-    let system = System { bodies, links, other, load: loads, held };
+    let system = System { bodies, links, ties: Vec::new(), other, load: loads, held };
     let still = case.motion.quasi_static;
     let step = case.solver.step.map_or(if still { QUASI_STATIC_STEP } else { STEP }, |h| h.si());
     Ok(Planar { system, step, still })

@@ -153,6 +153,16 @@ pub(crate) fn facing(a: &[Point], b: &[Point], shortest: f64, allows: impl Fn(Po
     found
 }
 
+/// Height of the upper side of a convex polygon at `x` [m]; none beside it.
+pub(crate) fn top_at(corners: &[Point], x: f64) -> Option<f64> {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    let crossing = |(p, q): (&Point, &Point)| {
+        let share = (x - p[0]) / (q[0] - p[0]);
+        (p[0] != q[0] && (0.0..=1.0).contains(&share)).then(|| p[1] + share * (q[1] - p[1]))
+    };
+    edges.filter_map(crossing).reduce(f64::max)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -128,6 +128,33 @@ pub struct Wall {
     pub blocks: Vec<Block>,
 }
 
+impl Wall {
+    /// On how much of each block a load along the top of the wall lies [m]: blocks of the top courses, of polygons what is seen of
+    /// them from above; 0 of all others.
+    pub fn loaded(&self) -> Vec<f64> {
+        let mut lengths = vec![0.0; self.blocks.len()];
+        for (panel, info) in self.panels.iter().enumerate() {
+            let top = |(_, b): &(usize, &Block)| b.panel == panel && b.course + 1 == info.courses;
+            let blocks: Vec<(usize, &Block)> = self.blocks.iter().enumerate().filter(top).collect();
+            if blocks.iter().all(|(_, b)| b.is_rectangle()) {
+                blocks.iter().for_each(|(i, b)| lengths[*i] = b.length());
+                continue;
+            }
+            let backs: Vec<(usize, Vec<[f64; 2]>)> = blocks.iter().map(|(i, b)| (*i, b.corners())).collect();
+            let mut cuts: Vec<f64> = backs.iter().flat_map(|(_, corners)| corners.iter().map(|c| c[0])).collect();
+            cuts.sort_by(f64::total_cmp);
+            for cut in cuts.windows(2) {
+                let middle = 0.5 * (cut[0] + cut[1]);
+                let heights = backs.iter().filter_map(|(i, corners)| Some((*i, polygon::top_at(corners, middle)?)));
+                if let Some((highest, _)) = heights.max_by(|a, b| a.1.total_cmp(&b.1)) {
+                    lengths[highest] += cut[1] - cut[0];
+                }
+            }
+        }
+        lengths
+    }
+}
+
 /// One side of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {

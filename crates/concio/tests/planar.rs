@@ -224,3 +224,308 @@ base = { pulse = { shape = "rectangular", acceleration = -1, duration = "0.05 s"
     close(x, 0.05 * mass / 10e3, 1e-3);
     close(outcome.energies.damping, outcome.energies.input(), 1e-3);
 }
+
+/// Bricks of 0.5 m × 0.2 m × 1 m, 2 kN each, one on the other.
+fn stack(courses: usize, rest: &str) -> String {
+    format!(
+        r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = {courses}
+bricks = 1
+brick = {{ length = 0.5, height = 0.2, thickness = 1, specific_weight = 20e3 }}
+{rest}"#
+    )
+}
+
+/// What the base bears under every joint on it [N].
+fn pressures(text: &str) -> (Prepared, Vec<f64>) {
+    let (prepared, outcome) = ran(text);
+    let joints = prepared.model.joints.len();
+    let last = outcome.recording.frame_pressure.len() - joints;
+    let pressures = outcome.recording.frame_pressure[last..].to_vec();
+    (prepared, pressures)
+}
+
+const ARCH: &str = r#"
+model = "planar"
+[[panel]]
+bond = "arch"
+arch = { span = "2 m", rise = "1 m", thickness = "0.3 m", voussoirs = 15, springing = "SPRINGING" }
+brick = { length = 0.3, height = 0.2, thickness = 0.5, specific_weight = 20e3 }
+[joint]
+bed = { law = "rigid" }
+head = { law = "rigid" }
+friction = { law = "coulomb", static = 0.7, dynamic = 0.7, on = "all" }
+[load]
+top = "LOAD"
+[motion]
+duration = "0.5 s"
+"#;
+
+/// A symmetric arch bears the same on either side, on the base or on abutments at a height, and no more than its weight and what
+/// lies on its width of 2.6 m.
+#[test]
+fn an_arch_stands_and_bears_the_same_on_either_side() {
+    for (springing, load) in [("0 m", 0.0), ("1.5 m", 0.0), ("1.5 m", 1e4)] {
+        let text = ARCH.replace("SPRINGING", springing).replace("LOAD", &format!("{load:?} N/m"));
+        let (prepared, pressures) = pressures(&text);
+        let names = prepared.model.joint_names();
+        let of = |name: &str| pressures[names.iter().position(|n| n == name).expect("a joint")];
+        let weight: f64 = prepared.model.wall.blocks.iter().map(|b| b.weight()).sum();
+        let [left, right] = ["base|p1c1b1", "base|p1c1b15"].map(of);
+        close(left + right, weight + 2.6 * load, 1e-6);
+        close(left, right, 1e-6);
+        let joints = prepared.model.joints.iter().zip(&names).filter(|(j, _)| j.b != concio::wall::End::Base);
+        assert!(
+            joints.clone().count() == 14 && joints.clone().all(|(_, name)| of(name) > 1e3),
+            "{names:?} {pressures:?}"
+        );
+    }
+}
+
+/// Head joints without anything in them, beside rigid ones: the wall slides as one with full head joints.
+#[test]
+fn empty_head_joints_bear_nothing() {
+    let text = r#"
+model = "planar"
+[[panel]]
+bond = "running"
+courses = 6
+bricks = 4
+brick = { length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18e3 }
+[joint]
+bed = { law = "rigid" }
+head = { law = "none" }
+friction = { law = "coulomb", static = 0.6, dynamic = 0.6 }
+[motion]
+duration = "1 s"
+base = { sine = { acceleration = "0.8 g", frequency = "3 Hz" } }
+"#;
+    let (_, outcome) = ran(text);
+    close(outcome.totals.peak_relative_displacement, 6.556e-3, 1e-3);
+    assert!(outcome.totals.contact_residual < 1e-7, "{:e}", outcome.totals.contact_residual);
+}
+
+/// Without inertia, a block that sticks to a driven beam goes where the beam goes, and the beam does the work of the friction below.
+#[test]
+fn a_slow_beam_takes_the_wall_along() {
+    let (prepared, outcome) = ran(&stack(
+        1,
+        r#"
+[joint]
+bed = { law = "rigid" }
+head = { law = "none" }
+friction = { law = "coulomb", static = 0.3, dynamic = 0.3 }
+[[joint.change]]
+at = { kind = ["top"] }
+friction = { static = 1, dynamic = 1 }
+[load]
+top = "100 kN/m"
+beam = "driven"
+beam_rotation = "fixed"
+[motion]
+top = { path = { displacements = ["10 mm"], speed = "1 mm/s" } }
+duration = "10 s"
+quasi_static = true
+"#,
+    ));
+    let beam = prepared.model.unknowns();
+    let last = outcome.recording.frame_displacement.len() - beam;
+    close(outcome.recording.frame_displacement[last], 10e-3, 1e-6);
+    // In every step it starts from rest, which takes m 2 v/h beside, a thousandth.
+    close(outcome.energies.friction, 0.3 * 52e3 * 10e-3, 2e-3);
+    close(outcome.energies.input_top, 0.3 * 52e3 * 10e-3, 2e-3);
+}
+
+/// Twice as much as the joint's strength, by whatever law: the wall comes down, and no joint has borne more than its strength.
+#[test]
+fn joints_of_every_law_are_crushed() {
+    for law in ["rigid", "elastic", "no-tension"] {
+        let stiffness = if law == "rigid" { "" } else { ", stiffness = \"15 N/mm3\", rigidity = 1" };
+        let stiffness = if law == "elastic" { ", stiffness = \"15 N/mm3\"" } else { stiffness };
+        let bond =
+            if law == "no-tension" { "bond = { tensile_strength = \"0.1 MPa\", cohesion = \"0.1 MPa\" }" } else { "" };
+        let text = |load: &str| {
+            stack(
+                2,
+                &format!(
+                    r#"
+[joint]
+bed = {{ law = "{law}"{stiffness}, compressive_strength = "1 MPa" }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.6, dynamic = 0.6 }}
+{bond}
+[load]
+top = "{load}"
+[motion]
+duration = "0.1 s"
+"#
+                ),
+            )
+        };
+        let (_, outcome) = ran(&text("2000 kN/m"));
+        let events = &outcome.recording.events;
+        assert!(events.iter().any(|e| e.kind == EventKind::Crush) && outcome.totals.collapse.is_some(), "{law}");
+        let (_, below) = ran(&text("900 kN/m"));
+        assert!(
+            below.recording.events.is_empty() && below.totals.collapse.is_none(),
+            "{law}: {:?}",
+            below.recording.events
+        );
+    }
+}
+
+/// A wall stands under its weight before it moves, however short its steps are.
+#[test]
+fn a_wall_has_settled_when_it_begins() {
+    let stored = |step: &str| {
+        let (_, outcome) = ran(&stack(
+            2,
+            &format!(
+                r#"
+[joint]
+bed = {{ law = "elastic", stiffness = "0.15 N/mm3" }}
+head = {{ law = "none" }}
+[solver]
+step = {step}
+[motion]
+duration = "2 ms"
+"#
+            ),
+        ));
+        outcome.energies.initial
+    };
+    // k = 2.4 · 0.15e9 · 0.5 N/m under 4 kN and 2 kN.
+    let exact = 0.5 * (4e3f64.powi(2) + 2e3f64.powi(2)) / (2.4 * 0.15e9 * 0.5);
+    for step in ["1e-3", "1e-5"] {
+        close(stored(step), exact, 1e-6);
+    }
+}
+
+/// An elastic joint pulls as far as its sides go, and gives back what it stored.
+#[test]
+fn an_elastic_joint_pulls_at_any_distance() {
+    let (_, outcome) = ran(r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = { length = 0.5, height = 0.5, thickness = 1, specific_weight = 20e3 }
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+connection = 0
+brick = { length = 0.5, height = 0.5, thickness = 1, specific_weight = 20e3 }
+[joint]
+damping_ratio = 0
+bed = { law = "rigid" }
+head = { law = "none" }
+connection = { law = "elastic", stiffness = "2e4 N/m" }
+friction = { law = "coulomb", static = 0, dynamic = 0 }
+[[joint.change]]
+at = { kind = ["base"], panel = ["p1"] }
+friction = { static = 2, dynamic = 2 }
+[motion]
+duration = "2 s"
+base = { pulse = { shape = "rectangular", acceleration = "-0.5 g", duration = "0.2 s" } }
+[output]
+joints = ["all"]
+"#);
+    // An oscillator of 1 block after a rectangular push.
+    let (mass, stiffness) = (5e3 / concio::G, 2e4f64);
+    let omega = (stiffness / mass).sqrt();
+    let peak = 2.0 * 0.5 * concio::G / (omega * omega) * (0.5 * omega * 0.2).sin();
+    let opened = outcome.envelopes.joint_opening.iter().fold(0.0, |m: f64, o| m.max(*o));
+    assert!(peak > 0.05, "{peak}");
+    close(opened, peak, 1e-3);
+    let residual = outcome.totals.peak_residual / outcome.totals.peak_input;
+    assert!(residual < 1e-6, "{residual:e}");
+}
+
+/// Breaking in shear takes G_f^II whatever presses: what is left of the work is friction.
+#[test]
+fn pressure_takes_no_fracture_energy() {
+    for load in [5.0, 100.0, 500.0] {
+        let (_, outcome) = ran(&stack(
+            1,
+            &format!(
+                r#"
+[joint]
+damping_ratio = 0
+bed = {{ law = "elastic", stiffness = "15 N/mm3" }}
+top = {{ law = "rigid" }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.6, dynamic = 0.6 }}
+[joint.bond]
+cohesion = "0.1 MPa"
+tensile_strength = "0.1 MPa"
+friction_angle = "30.96375653 deg"
+mode_2_energy = "200 N/m"
+on = ["base"]
+[[joint.change]]
+at = {{ kind = ["top"] }}
+bond = {{ tensile_strength = "10 MPa", cohesion = "10 MPa" }}
+[load]
+top = "{load} kN/m"
+beam = "driven"
+beam_rotation = "fixed"
+[motion]
+top = {{ path = {{ displacements = ["30 mm"], speed = "1 mm/s" }} }}
+duration = "30 s"
+quasi_static = true
+[solver]
+step = "10 ms"
+"#
+            ),
+        ));
+        // 2 mm of softening length: nothing is left after fifteen of them. tan φ = μ: friction beside it is μ N all the way.
+        let energies = &outcome.energies;
+        let pressure = 2e3 + 0.5e3 * load;
+        let rubbed = energies.input_top - 0.6 * pressure * 30e-3;
+        assert!((rubbed / 100.0 - 1.0).abs() < 0.1, "{load}: {rubbed} J of 100 J");
+    }
+}
+
+/// What friction does to a slow push does not follow from the steps it is taken in.
+#[test]
+fn slow_friction_is_that_of_any_step() {
+    let forces = |law: &str, step: &str| {
+        let (_, outcome) = ran(&stack(
+            1,
+            &format!(
+                r#"
+[joint]
+bed = {{ law = "no-tension", stiffness = "15 N/mm3", rigidity = 1 }}
+head = {{ law = "none" }}
+friction = {{ law = "{law}", static = 0.6, dynamic = 0.3, slip_velocity = "1 mm/s" }}
+[[joint.change]]
+at = {{ kind = ["top"] }}
+friction = {{ static = 2, dynamic = 2 }}
+[load]
+top = "100 kN/m"
+beam = "driven"
+beam_rotation = "fixed"
+[motion]
+top = {{ path = {{ displacements = ["5 mm"], speed = "1 mm/s" }} }}
+duration = "5 s"
+quasi_static = true
+[solver]
+step = {step}
+"#
+            ),
+        ));
+        let last = *channel(&outcome, "top/force").last().expect("samples");
+        [outcome.totals.top_force_peak, last.abs()]
+    };
+    for (law, after) in [("stribeck-stick", 0.6), ("coulomb", 0.3)] {
+        for step in ["20e-3", "2e-3"] {
+            let [peak, last] = forces(law, step);
+            assert!(peak < 0.6 * 52e3 * 1.0001, "{law} {step}: {peak}");
+            close(last, after * 52e3, 1e-3);
+        }
+    }
+}

@@ -34,7 +34,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let duration = model.excitation.duration;
     let samples = (duration / prepared.sampling.interval).floor() as u64 + 1;
     let general = pairs(&[
-        ("unknowns", model.unknowns().to_string()),
+        ("unknowns", (model.unknowns() * if model.planar.is_some() { 3 } else { 1 }).to_string()),
         ("mass", mass(model.mass.iter().sum())),
         ("duration", format!("{}, {samples} samples kept", seconds(duration))),
     ]);

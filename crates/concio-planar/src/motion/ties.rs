@@ -28,7 +28,7 @@ pub(super) struct Pull {
 
 impl Motion {
     /// Contacts of the ties, after those of the pairs.
-    pub(super) fn fasten(&mut self, h: f64, held: f64) {
+    pub(super) fn fasten(&mut self, h: f64, held: [f64; 2]) {
         self.pulls.clear();
         for number in 0..self.rods.len() {
             if let Some((contact, pull)) = self.pull_of(number, h, held) {
@@ -39,27 +39,28 @@ impl Motion {
     }
 
     /// None for a tie whose ends have come to the same place: it has no direction, and is slack.
-    fn pull_of(&self, number: usize, h: f64, held: f64) -> Option<(Contact, Pull)> {
+    fn pull_of(&self, number: usize, h: f64, held: [f64; 2]) -> Option<(Contact, Pull)> {
         let Rod { tie, law, reach } = &self.rods[number];
         let middle = |body: usize| {
             let (place, v, fixed) = (self.places[body], self.velocities[body], self.held[body]);
-            let way = [if fixed[0] { held } else { v[0] }, v[1], v[2]].map(|v| 0.5 * h * v);
+            let way = [if fixed[0] { held[0] } else { v[0] }, v[1], v[2]].map(|v| 0.5 * h * v);
             Place { centre: [place.centre[0] + way[0], place.centre[1] + way[1]], angle: place.angle + way[2] }
         };
         let (a, b) = (tie.a.map(middle), middle(tie.b));
         let (line, _) = between(ends_of(tie, a.as_ref(), &b))?;
-        let on_b = self.push(tie.b, turned(&b, tie.at[1]), line, held);
+        let on_b = self.push(tie.b, turned(&b, tie.at[1]), line);
         let away = line.map(|d| 0.0 - d);
         let on_a = match (tie.a, &a) {
-            (Some(body), Some(place)) => self.push(body, turned(place, tie.at[0]), away, held),
-            _ => Push { row: [0.0; 3], velocity: 0.0, drift: 0.0, lever: 0.0 },
+            (Some(body), Some(place)) => self.push(body, turned(place, tie.at[0]), away),
+            _ => Push { row: [0.0; 3], velocity: 0.0, lever: 0.0 },
         };
         let strain = &self.strains[number];
         let slot = tie.a.map(|a| self.solver.matrix().slot(a, tie.b));
         let rows = [on_a.row, on_b.row];
         let mut contact = Contact::along((tie.a, tie.b), slot, rows, &self.inverse, h * strain.point.force[0]);
-        contact.drift[0] = on_a.drift + on_b.drift;
-        let closing = on_a.velocity + on_b.velocity + contact.drift[0];
+        let lever = on_a.lever + on_b.lever;
+        contact.drift[0] = lever * held[1];
+        let closing = on_a.velocity + on_b.velocity + lever * held[0];
         let (_, length) = between(ends_of(tie, tie.a.map(|a| &self.places[a]), &self.places[tie.b]))?;
         let start =
             law.begin(&strain.point, 1.0, h, self.setting.still, (reach - length, [closing, 0.0]), &mut contact);
@@ -68,7 +69,7 @@ impl Motion {
         contact.pressure[1] = f64::INFINITY;
         contact.friction = 1.0;
         (contact.law[1], contact.compliant[1]) = (Linear { offset: 0.0, rho: contact.law[0].rho }, true);
-        Some((contact, Pull { rod: number, start, line, lever: on_a.lever + on_b.lever }))
+        Some((contact, Pull { rod: number, start, line, lever }))
     }
 
     /// Whether a tie bears more than it can, a step of `h` [s] being solved as if none yielded; all are bounded then. Where none

@@ -39,8 +39,7 @@ impl Motion {
         if self.contacts.iter().zip(&self.owners).any(rigid) {
             return None;
         }
-        let mut matrix =
-            Blocks::new(self.places.len(), &self.pairs.iter().filter_map(|p| Some((p.a?, p.b))).collect::<Vec<_>>());
+        let mut matrix = Blocks::new(self.places.len(), &self.coupled);
         // What is held stays: any stiffness of its own does.
         let stays = |held: &[bool; 3]| [0, 1, 2].map(|k| if held[k] { 1.0 } else { 0.0 });
         matrix.reset(&self.held.iter().map(stays).collect::<Vec<_>>());

@@ -7,6 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::case::JointKind;
 use crate::graph;
 use crate::record::{EventKind, Recording};
 use crate::wall::{End, Joint, Wall};
@@ -90,7 +91,9 @@ pub fn failure(wall: &Wall, joints: &[Joint], recording: &Recording) -> Option<F
     let gone = |i: usize| wall.blocks[i].mass() * recording.frame_displacement[frame * unknowns + i].abs();
     let mean = |row: &[usize]| {
         let weight: f64 = row.iter().map(|&i| gone(i)).sum();
-        let turn: f64 = row.iter().map(|&i| -rotation(i) * gone(i) * wall.blocks[i].height()).sum();
+        // Its bed of mortar turns with a block.
+        let pitch = |i: usize| wall.blocks[i].height() + wall.panels[wall.blocks[i].panel].mortar[0];
+        let turn: f64 = row.iter().map(|&i| -rotation(i) * gone(i) * pitch(i)).sum();
         if weight > 0.0 { turn / weight } else { 0.0 }
     };
     // All panels carry the same top: what one of them does is what the wall does, so that the mean of them counts.
@@ -109,9 +112,11 @@ pub fn failure(wall: &Wall, joints: &[Joint], recording: &Recording) -> Option<F
     parts.retain(|part| part.1 >= NAMED && moved.abs() > MOVED * height);
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut modes: Vec<Mode> = parts.into_iter().map(|part| part.0).collect();
-    let happened = |kind| recording.events.iter().any(|e| e.kind == kind);
-    modes.extend(happened(EventKind::Crush).then_some(Mode::Crushing));
-    modes.extend(happened(EventKind::Collapse).then_some(Mode::Collapse));
+    let lies = |e: u32| matches!(joints[e as usize].kind, JointKind::Base | JointKind::Bed);
+    let crushed = recording.events.iter().any(|e| e.kind == EventKind::Crush && lies(e.joint));
+    modes.extend(crushed.then_some(Mode::Crushing));
+    let fell = recording.events.iter().any(|e| e.kind == EventKind::Collapse);
+    modes.extend(fell.then_some(Mode::Collapse));
     Some(Failure { modes, time: recording.frame_time[frame], top: moved, rocking, sliding })
 }
 
@@ -120,14 +125,20 @@ fn slid(wall: &Wall, joints: &[Joint], slip: &impl Fn(usize) -> f64) -> f64 {
     let mut planes: Vec<Vec<Option<[f64; 2]>>> = wall.panels.iter().map(|p| vec![None; p.courses + 1]).collect();
     for (e, joint) in joints.iter().enumerate() {
         // Offset of the upper side: slip is that of the lower one, of a base joint that of the block itself.
-        let (block, above, offset) = match joint.b {
-            End::Base => (joint.a, 0, slip(e)),
-            End::Block(upper) if !joint.kind.is_upright() => (upper, 0, -slip(e)),
-            End::Top => (joint.a, 1, -slip(e)),
-            End::Block(_) => continue,
+        let lower = &wall.blocks[joint.a];
+        let (panel, course, offset) = match joint.b {
+            End::Base => (lower.panel, lower.lowest_course(), slip(e)),
+            End::Top => (lower.panel, lower.course + 1, -slip(e)),
+            End::Block(upper) => {
+                let upper = &wall.blocks[upper];
+                // Of an arch, all voussoirs are one course: nothing slides right through.
+                if joint.kind.is_upright() || upper.lowest_course() <= lower.course {
+                    continue;
+                }
+                (upper.panel, upper.lowest_course(), -slip(e))
+            }
         };
-        let block = &wall.blocks[block];
-        let plane = &mut planes[block.panel][block.course + above];
+        let plane = &mut planes[panel][course];
         let [low, high] = plane.unwrap_or([offset; 2]);
         *plane = Some([low.min(offset), high.max(offset)]);
     }

@@ -18,8 +18,10 @@ use crate::state::{BondState, State};
 const STANDS: f64 = 1e-10;
 /// Steps in which it has to come to that.
 const SETTLING: usize = 400;
-/// Way of a body over the least height of a block from which a wall that has not come to that is falling.
+/// Way of a body over the least height of a block from which a wall that has not come to that is falling, and from which what has
+/// come to rest is no longer the wall.
 const FALLING: f64 = 0.01;
+const FELL: f64 = 0.25;
 /// Fall of a block over its height, and turn in rad, from which its wall counts as collapsed.
 const FALLEN: f64 = 0.5;
 const TURNED: f64 = std::f64::consts::FRAC_PI_4;
@@ -84,7 +86,9 @@ pub(super) fn standing(planar: &Planar) -> Motion {
     let setting = Setting { still: planar.still, ..Setting::new(planar.step) };
     let mut motion = Motion::new(&planar.system, setting.clone());
     let least = planar.system.bodies.iter().map(Body::height).fold(f64::INFINITY, f64::min);
-    if !motion.stand(STANDS, SETTLING) && motion.strayed_by(&planar.system) > FALLING * least {
+    let most = if motion.stand(STANDS, SETTLING) { FELL } else { FALLING };
+    // What is no number has not stood.
+    if !(motion.strayed_by(&planar.system) <= most * least) {
         motion = Motion::new(&planar.system, setting);
     }
     motion
