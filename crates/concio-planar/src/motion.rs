@@ -588,6 +588,12 @@ impl Motion {
             let link = self.linked.binary_search_by_key(&(a, b), |l| l.0).ok().map(|at| self.linked[at].1);
             Pair { a, b, link, points: [Point::default(); POINTS], laid: 0.0 }
         };
+        // A joint names the lower or left of its bodies first, whichever of them comes first.
+        let ordered = |low: usize, high: usize| {
+            let turned = (Some(high), low);
+            let is_joint = self.linked.binary_search_by_key(&turned, |l| l.0).is_ok();
+            if is_joint { turned } else { (Some(low), high) }
+        };
         let mut pairs: Vec<(Option<usize>, usize)> = Vec::new();
         for own in &boxes {
             let around: AABB<[f64; 2]> = own.geom().envelope();
@@ -595,7 +601,7 @@ impl Motion {
                 pairs.push((None, own.data));
             }
             let others = tree.locate_in_envelope_intersecting(&around).map(|o| o.data).filter(|o| *o > own.data);
-            pairs.extend(others.map(|other| (Some(own.data), other)));
+            pairs.extend(others.map(|other| ordered(own.data, other)));
         }
         pairs.sort_unstable();
         // What has gone apart for good may come together again: joints keep what has become of them.
