@@ -1,11 +1,12 @@
 /** The report of a run whose blocks rise and turn, in a browser; the run is made by hand (`turned.mjs`). */
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { assertShows, goTo, launch, open } from "./page.mjs";
 import { makeTurned, motion, touch } from "./turned.mjs";
-import { desk, example, run } from "./truth.mjs";
+import { concio, desk, example, run } from "./truth.mjs";
 
 const place = desk();
 let browser;
@@ -118,4 +119,58 @@ test("it plays with every quantity", async () => {
     await page.locator("body").press(" ");
     await page.waitForFunction(() => Number(document.querySelector(".player input").value) > 5);
     assert.deepEqual(problems, []);
+});
+
+/** The corners of a block at the frame, from the table of corners that the program itself exports. */
+const moved = (page, name, corners) => page.evaluate(([name, corners, centre]) => {
+    const { store, stage } = window.concioReport;
+    const { report, frame, magnify } = store;
+    const i = report.contents.block_names.indexOf(name);
+    const [u, v, turn] = ["displacement", "vertical", "rotation"].map((field) => report.frames.value(field, frame, i));
+    const canvas = document.querySelector(".stage canvas").getBoundingClientRect();
+    return corners.map(([x, y]) => {
+        const [rx, ry] = [x - centre[0], y - centre[1]];
+        const [dx, dy] = [u + (Math.cos(turn) - 1) * rx - Math.sin(turn) * ry, v + Math.sin(turn) * rx + (Math.cos(turn) - 1) * ry];
+        return [canvas.left + stage.view.x(x + magnify * dx), canvas.top + stage.view.y(y + magnify * dy)];
+    });
+}, [name, corners, centreOf(corners)]);
+
+function centreOf(corners) {
+    let [area, x, y] = [0, 0, 0];
+    corners.forEach(([ax, ay], k) => {
+        const [bx, by] = corners[(k + 1) % corners.length];
+        const cross = ax * by - bx * ay;
+        [area, x, y] = [area + cross, x + (ax + bx) * cross, y + (ay + by) * cross];
+    });
+    return [x / (3 * area), y / (3 * area)];
+}
+
+test("the voussoirs of an arch are drawn with their own corners, at rest and as they fall", async () => {
+    const from = run(place.folder, "arch", example("17-arch"));
+    concio(from, "export", ".", "--csv");
+    const rows = readFileSync(join(from, "csv", "corners.csv"), "utf8").trimEnd().split("\n").slice(1).map((line) => line.split(","));
+    const { page, problems } = await open(browser, from);
+    await page.locator("#factor").selectOption("1");
+    for (const key of ["Home", "End"]) {
+        await page.locator("body").press(key);
+        await painted(page);
+        for (const name of ["p1c1b6", "p1c1b16"]) {
+            const outline = await moved(page, name, rows.filter((row) => row[0] === name).map((row) => row.slice(1).map(Number)));
+            assert.equal(outline.length, 4);
+            const [left, right] = [Math.min, Math.max].map((end) => end(...outline.map(([x]) => x)));
+            const [top, bottom] = [Math.min, Math.max].map((end) => end(...outline.map(([, y]) => y)));
+            const centre = centreOf(outline);
+            const inside = outline.map(([x, y]) => [centre[0] + 0.85 * (x - centre[0]), centre[1] + 0.85 * (y - centre[1])]);
+            assert.deepEqual(await opacities(page, inside), [255, 255, 255, 255], `${key}: inside ${name}`);
+            // A haunch leaves two corners of the rectangle around it: those towards the back and the soffit.
+            const leans = name === "p1c1b6" ? [[left + 2, top + 2], [right - 2, bottom - 2]] : [[right - 2, top + 2], [left + 2, bottom - 2]];
+            assert.deepEqual(await opacities(page, leans), [0, 0], `${key}: beside ${name}`);
+            await page.mouse.move(...centre);
+            await page.waitForSelector(".tooltip:not([hidden])");
+            assert.equal(await page.locator(".tooltip strong").textContent(), name);
+            await page.mouse.move(1, 1);
+        }
+    }
+    // The browser grumbles at the second time that the test looks at the pixels.
+    assert.deepEqual(problems.filter((text) => !text.includes("willReadFrequently")), []);
 });

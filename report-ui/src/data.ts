@@ -67,7 +67,7 @@ type Numbers = Float64Array | Float32Array | Uint32Array | Int32Array | Int8Arra
 const TYPES = { f64: Float64Array, f32: Float32Array, u32: Uint32Array, i32: Int32Array, i8: Int8Array };
 
 /** Layout of the data that this program reads. */
-export const LAYOUT = 2;
+export const LAYOUT = 3;
 
 /** The data of a report. Blocks, joints and unknowns are called by their indices. */
 export class Report {
@@ -136,7 +136,7 @@ export class Report {
             bed: real("block/bed"),
             head: real("block/head"),
         };
-        this.outline = rectangles(this.block);
+        this.outline = this.has("outline/start") ? this.polygons() : rectangles(this.block);
         this.beam = contents.beam.moves ? this.blocks : -1;
         this.joint = {
             a: whole("joint/a"),
@@ -154,6 +154,19 @@ export class Report {
             upright: contents.joint_kinds.map(isUpright),
         };
         this.frames = new Frames(this);
+    }
+
+    /** Outlines as the page brings them, where a block is no upright rectangle. */
+    private polygons(): Report["outline"] {
+        const { x0, x1, y0, y1 } = this.block;
+        const start = this.array("outline/start") as Int32Array;
+        const [x, y, centreX, centreY] = ["x", "y", "centre_x", "centre_y"].map((name) => this.array(`outline/${name}`) as Float64Array);
+        const isCorner = (i: number, k: number) => (x[k] === x0[i] || x[k] === x1[i]) && (y[k] === y0[i] || y[k] === y1[i]);
+        const isRectangle = (i: number) => {
+            const corners = Array.from({ length: start[i + 1] - start[i] }, (_, k) => start[i] + k);
+            return corners.length === 4 && corners.every((k) => isCorner(i, k));
+        };
+        return { start, x, y, centreX, centreY, rectangle: Uint8Array.from(x0.keys(), (i) => (isRectangle(i) ? 1 : 0)) };
     }
 
     has(name: string): boolean {

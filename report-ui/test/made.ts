@@ -31,6 +31,21 @@ export function madePlanar(more: Record<string, Numbers> = {}): Report {
     return made({ ...packed("vertical", RISE), ...packed("rotation", TURN), ...Object.fromEntries(touch), ...more }, true);
 }
 
+/** The same with a left block that is a trapezium, wider below, and a right one with a corner cut off. */
+export function madePolygons(): Report {
+    const real = (...values: number[]) => Float64Array.from(values);
+    return madePlanar({
+        "outline/start": Int32Array.from([0, 4, 9]),
+        "outline/x": real(0, 0.25, 0.2, 0.05, 0.26, 0.51, 0.51, 0.36, 0.26),
+        "outline/y": real(0, 0, 0.05, 0.05, 0, 0, 0.025, 0.05, 0.05),
+        "outline/centre_x": real(0.125, CUT[0]),
+        "outline/centre_y": real(0.05 * (0.25 + 2 * 0.15) / (3 * 0.4), CUT[1]),
+    });
+}
+
+/** Centre of the right block: its rectangle less the triangle over half of its height and three fifths of its length. */
+export const CUT = [[0.385, 0.46], [0.025, 0.125 / 3]].map(([whole, part]) => (0.0125 * whole - 0.001875 * part) / 0.010625);
+
 export function made(more: Record<string, Numbers> = {}, planar = false): Report {
     const real = (...values: number[]) => Float64Array.from(values);
     const arrays: Record<string, Numbers> = {

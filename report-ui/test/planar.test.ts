@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { extent } from "../src/extent";
 import { history, peak, quantitiesOf } from "../src/quantities";
 import { Store } from "../src/store";
-import { grown } from "../src/wall/draw";
+import { grown } from "../src/wall/outline";
 import { pick } from "../src/wall/pick";
 import { Places } from "../src/wall/places";
 import { automaticScale, View } from "../src/wall/view";

@@ -1,4 +1,4 @@
-//! Makes the runs and pictures of docs/planar.md anew: dry walls beside their laboratory tests, one panel that fails in three ways.
+//! Makes the runs and pictures of docs/planar.md anew: dry walls beside their laboratory tests, one panel that fails in three ways, an arch.
 
 use std::fs;
 use std::path::Path;
@@ -35,6 +35,8 @@ pub fn make(root: &Path) -> Outcome {
         let run = ran(root, &scratch, name, &wall)?;
         deformed(root, &run, &images, name)?;
     }
+    let arch = ran(root, &scratch, "arch", &text(root, "17-arch.toml")?)?;
+    deformed(root, &arch, &images, "arch")?;
     let beside = root.join("../shared/reference/dry-walls");
     for (load, units) in TESTED {
         let name = format!("ws-{load}");

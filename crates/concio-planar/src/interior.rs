@@ -201,7 +201,8 @@ impl Interior {
         let share = self.pass(matrix, contacts, 0.0, 1.0);
         let after = |p: &Point| (0..2).map(|k| p.product(k, share)).sum::<f64>();
         let after = self.points.iter().map(after).sum::<f64>() / (2 * self.points.len()).max(1) as f64;
-        let target = mean * (after / mean).powi(3);
+        // Rounding takes products of nothing below 0.
+        let target = (mean * (after / mean).powi(3)).max(0.0);
         for (point, contact) in self.points.iter_mut().zip(contacts) {
             point.second = [0, 1].map(|k| point.d_gamma[k] * point.d_w[k]);
             point.slide(contact.friction, share);

@@ -10,7 +10,7 @@ use std::path::Path;
 use concio::moment::{Moment, Motion};
 use concio::record::EventKind;
 use concio::store::{self, Journal, JournalHeader, RunFacts, StoredRun, export, hdf5};
-use store_sample::{SMALL, Sample, Size, rows, sample};
+use store_sample::{SMALL, Sample, Size, reshape, rows, sample};
 
 const PLANAR: Size = Size { planar: true, ..SMALL };
 
@@ -163,6 +163,57 @@ fn the_corners_in_a_vtkhdf_file_are_those_of_the_turned_rectangle() {
         assert!(error < 1e-7, "corner {corner}: {:?}, not {wanted:?}", place(corner));
     }
     assert!(moved.iter().enumerate().all(|(k, value)| k / 12 == block || *value == 0.0), "other blocks are at rest");
+}
+
+/// Of polygons cells have their corners, moved about their centres of gravity; area times density and thickness is the mass.
+#[test]
+fn cells_of_polygons_have_their_area_and_move_about_their_centres() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.vtkhdf");
+    let mut run = still();
+    reshape(&mut run.wall);
+    let (triangle, pentagon) = (4, 5);
+    let turn = -2.0_f64;
+    for block in [triangle, pentagon] {
+        run.outcome.recording.frame_displacement[block] = 0.25;
+        run.outcome.recording.frame_vertical[block] = -0.5;
+        run.outcome.recording.frame_rotation[block] = turn;
+    }
+    export::vtkhdf(&run, &path).unwrap();
+    let file = rust_hdf5::H5File::open(&path).unwrap();
+    let rest: Vec<f64> = file.dataset("VTKHDF/Points").unwrap().read_raw().unwrap();
+    let moved: Vec<f32> = file.dataset("VTKHDF/PointData/displacement").unwrap().read_raw().unwrap();
+    let offsets: Vec<i64> = file.dataset("VTKHDF/Offsets").unwrap().read_raw().unwrap();
+    let kinds: Vec<u8> = file.dataset("VTKHDF/Types").unwrap().read_raw().unwrap();
+    let masses: Vec<f64> = file.dataset("VTKHDF/CellData/mass").unwrap().read_raw().unwrap();
+    assert_eq!(rest.len(), moved.len());
+    assert_eq!(rest.len(), 3 * 4 * run.wall.blocks.len(), "a corner less and one more");
+    assert_eq!(kinds, [9, 9, 9, 9, 7, 7, 9, 9, 9, 9, 9, 9], "quadrilaterals and polygons");
+    for (i, block) in run.wall.blocks.iter().enumerate() {
+        let points: Vec<usize> = (offsets[i] as usize..offsets[i + 1] as usize).collect();
+        let at = |k: usize| [0, 1].map(|axis| rest[3 * k + axis]);
+        let now = |k: usize| [0, 1].map(|axis| rest[3 * k + axis] + f64::from(moved[3 * k + axis]));
+        let around = |place: &dyn Fn(usize) -> [f64; 2]| {
+            let n = points.len();
+            let pairs = (0..n).map(|k| [place(points[k]), place(points[(k + 1) % n])]);
+            pairs.map(|[p, q]| 0.5 * (p[0] * q[1] - p[1] * q[0])).sum::<f64>()
+        };
+        let weight = block.specific_weight * block.thickness;
+        assert!((around(&at) * weight / (masses[i] * concio::G) - 1.0).abs() < 1e-12, "{}", block.name);
+        assert!((around(&now) / around(&at) - 1.0).abs() < 1e-4, "{}: turning keeps the area", block.name);
+    }
+    // The centre of a triangle is the mean of its corners; those go round it.
+    let first = offsets[triangle] as usize;
+    let mean = [0, 1].map(|axis| (0..3).map(|k| rest[3 * (first + k) + axis]).sum::<f64>() / 3.0);
+    for k in first..first + 3 {
+        let arm = [0, 1].map(|axis| rest[3 * k + axis] - mean[axis]);
+        let wanted = [
+            0.25 + turn.cos() * arm[0] - turn.sin() * arm[1] - arm[0],
+            -0.5 + turn.sin() * arm[0] + turn.cos() * arm[1] - arm[1],
+        ];
+        let error = (0..2).map(|axis| (f64::from(moved[3 * k + axis]) - wanted[axis]).abs()).fold(0.0, f64::max);
+        assert!(error < 1e-7, "corner {k}: {error}");
+    }
 }
 
 /// The displacement of a corner by a rotation of 1e-9 is 1e-9 times the arm to all digits, and a block keeps its sides.

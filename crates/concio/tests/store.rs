@@ -13,7 +13,7 @@ use concio::Error;
 use concio::record::{Channel, Recording};
 use concio::store::{self, Journal, JournalHeader, RunFacts, StoredRun, export, hdf5};
 use proptest::prelude::*;
-use store_sample::{SMALL, Sample, Size, rows, sample};
+use store_sample::{SMALL, Sample, Size, reshape, rows, sample};
 
 fn write(path: &Path, s: &Sample) {
     hdf5::write(path, &s.provenance, &s.wall, &s.joints, &s.outcome).unwrap();
@@ -47,6 +47,26 @@ fn runs_without_frames_channels_or_samples_are_read_back() {
     early.outcome.stop_reason = concio::record::StopReason::StepTooShort;
     round_trip(early);
     round_trip(sample(Size { courses: 0, bricks: 0, channels: 0, ..SMALL }));
+}
+
+/// Polygons and lintels too; a file whose corners do not fit its blocks is refused.
+#[test]
+fn shapes_are_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    let mut s = sample(SMALL);
+    reshape(&mut s.wall);
+    write(&path, &s);
+    let read = hdf5::read(&path).unwrap();
+    let corners = |i: usize| read.wall.blocks[i].shape.as_ref().map(|shape| (shape.span, shape.corners.len()));
+    assert_eq!([2, 3, 4, 5, 6].map(corners), [Some((2, 0)), None, Some((1, 3)), Some((1, 5)), Some((1, 4))]);
+    assert!(read == stored(s));
+    let mut s = sample(SMALL);
+    reshape(&mut s.wall);
+    s.wall.blocks[4].x[1] += 0.01;
+    write(&path, &s);
+    let error = hdf5::read(&path).unwrap_err().to_string();
+    assert!(error.contains("`wall/blocks/corners` does not agree with the edges of block 4"), "{error}");
 }
 
 #[test]
@@ -593,6 +613,15 @@ fn csv_holds_every_number_with_its_unit() {
     quiet.outcome.recording.events.clear();
     export::csv(&quiet, &folder.path().join("quiet")).unwrap();
     assert!(!folder.path().join("quiet/events.csv").exists(), "a table of nothing");
+    assert!(!at.join("corners.csv").exists(), "rectangles have edges");
+    let mut shaped = run.clone();
+    reshape(&mut shaped.wall);
+    export::csv(&shaped, &folder.path().join("shaped")).unwrap();
+    let corners = fs::read_to_string(folder.path().join("shaped/corners.csv")).unwrap();
+    let of_triangle: Vec<&str> = corners.lines().filter(|l| l.starts_with("p1c2b1,")).collect();
+    assert_eq!((corners.lines().next(), of_triangle.len()), (Some("block,x [m],y [m]"), 3));
+    let [x, y] = shaped.wall.blocks[4].corners()[2];
+    assert_eq!(of_triangle[2], format!("p1c2b1,{x:e},{y:e}"));
     let (head, blocks) = table("blocks.csv");
     let mass = head.iter().position(|h| h == "mass [kg]").unwrap();
     assert_eq!(blocks[5][mass].parse::<f64>().unwrap(), run.wall.blocks[5].mass());
@@ -611,10 +640,14 @@ fn other_readers_agree() {
         Size { courses: 40, bricks: 50, samples: 501, frame_every: 25, channels: 9, beam: false, planar: false },
         Size { planar: true, ..SMALL },
     ];
-    for size in sizes {
+    let mut samples = Vec::from(sizes.map(|size| (size, sample(size))));
+    let mut shaped = sample(Size { planar: true, ..SMALL });
+    reshape(&mut shaped.wall);
+    samples.push((SMALL, shaped));
+    for (size, sample) in samples {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
-        write(&at("result.h5"), &sample(size));
+        write(&at("result.h5"), &sample);
         let run = hdf5::read(&at("result.h5")).unwrap();
         export::csv(&run, &at("csv")).unwrap();
         export::npz(&run, &at("result.npz")).unwrap();

@@ -4,6 +4,8 @@ import { isDark, LINES, step, STEPS } from "../colour";
 import type { Scale } from "../colour";
 import type { Report } from "../data";
 import type { Item, Store } from "../store";
+import { grown, rest } from "./outline";
+import type { Point } from "./outline";
 import type { Places } from "./places";
 import type { View } from "./view";
 
@@ -24,9 +26,9 @@ export function draw(context: CanvasRenderingContext2D, size: [number, number], 
     const values = store.moment.values(store.paint);
     const colours = store.scale(values);
     context.clearRect(0, 0, ...size);
-    ghost(context, view, at.base);
-    base(context, view, at.base);
     const { report } = store;
+    ghost(context, view, report, at.base);
+    base(context, view, at.base);
     mortar(context, view, report, at);
     if (store.paint.owner === "block") {
         blocks(context, view, report, at, (i) => step(colours, values[i]), colours);
@@ -46,12 +48,16 @@ export function draw(context: CanvasRenderingContext2D, size: [number, number], 
 }
 
 /** Outline at rest, to see the motion against. */
-function ghost(context: CanvasRenderingContext2D, view: View, shift: number): void {
-    const { left, top } = view.bounds;
+function ghost(context: CanvasRenderingContext2D, view: View, report: Report, shift: number): void {
     context.strokeStyle = "#c9ccd1";
     context.setLineDash([4, 4]);
     context.lineWidth = 1;
-    context.strokeRect(view.x(left) + shift, view.y(top), view.width * view.zoom, view.height * view.zoom);
+    context.beginPath();
+    for (const [[x0, y0], [x1, y1]] of rest(report).contour) {
+        context.moveTo(view.x(x0) + shift, view.y(y0));
+        context.lineTo(view.x(x1) + shift, view.y(y1));
+    }
+    context.stroke();
     context.setLineDash([]);
 }
 
@@ -70,7 +76,7 @@ function base(context: CanvasRenderingContext2D, view: View, shift: number): voi
     context.stroke();
 }
 
-/** Every block with half a joint around it and a whole one below: what blocks leave uncovered is mortar. */
+/** Every block with half a joint around it, and a rectangle with a whole one below: what blocks leave uncovered is mortar. */
 function mortar(context: CanvasRenderingContext2D, view: View, report: Report, at: Places): void {
     const { x0, x1, y0, y1, bed, head } = report.block;
     // Thinner than that it cannot be seen.
@@ -78,7 +84,13 @@ function mortar(context: CanvasRenderingContext2D, view: View, report: Report, a
         return;
     }
     context.fillStyle = MORTAR;
+    const around = rest(report).mortar;
     for (let i = 0; i < report.blocks; i++) {
+        const outline = around[i];
+        if (outline !== null) {
+            fillOutline(context, at, i, outline);
+            continue;
+        }
         const left = Math.max(x0[i] - head[i] / 2, view.bounds.left);
         const right = Math.min(x1[i] + head[i] / 2, view.bounds.right);
         fill(context, view, at, i, [left, Math.max(y0[i] - bed[i], view.bounds.bottom), right, y1[i]]);
@@ -92,11 +104,15 @@ function fill(context: CanvasRenderingContext2D, view: View, at: Places, column:
         context.fillRect(x, y, (right - left) * view.zoom, (top - bottom) * view.zoom);
         return;
     }
+    fillOutline(context, at, column, [[left, bottom], [right, bottom], [right, top], [left, top]]);
+}
+
+/** Fills an outline [m] that moves with a column. */
+function fillOutline(context: CanvasRenderingContext2D, at: Places, column: number, corners: Point[]): void {
     context.beginPath();
-    context.moveTo(...at.point(column, left, bottom));
-    context.lineTo(...at.point(column, right, bottom));
-    context.lineTo(...at.point(column, right, top));
-    context.lineTo(...at.point(column, left, top));
+    for (const [x, y] of corners) {
+        context.lineTo(...at.point(column, x, y));
+    }
     context.fill();
 }
 
@@ -191,12 +207,13 @@ function beam(context: CanvasRenderingContext2D, view: View, report: Report, at:
 }
 
 function names(context: CanvasRenderingContext2D, view: View, store: Store, at: Places, values: ArrayLike<number>, colours: Scale): void {
-    const { block, blocks, contents, outline } = store.report;
+    const { blocks, contents, outline } = store.report;
     if (blocks > MOST_NAMED * view.enlarged ** 2) {
         return;
     }
+    const { room } = rest(store.report);
     for (let i = 0; i < blocks; i++) {
-        const [width, height] = [(block.x1[i] - block.x0[i]) * view.zoom, (block.y1[i] - block.y0[i]) * view.zoom];
+        const [width, height] = [room[i][0] * view.zoom, room[i][1] * view.zoom];
         if (height < 11 || width < 26) {
             continue;
         }
@@ -262,26 +279,6 @@ function mark(
     context.strokeStyle = colour;
     context.lineWidth = width;
     context.stroke(outline);
-}
-
-type Point = [number, number];
-
-/** A convex outline with its sides moved outwards. */
-export function grown(corners: Point[], by: number): Point[] {
-    const n = corners.length;
-    const area = corners.reduce((sum, [x, y], k) => sum + x * corners[(k + 1) % n][1] - y * corners[(k + 1) % n][0], 0);
-    const sign = area < 0 ? -1 : 1;
-    const normal = (k: number): Point => {
-        const [[x0, y0], [x1, y1]] = [corners[(k + n) % n], corners[(k + 1) % n]];
-        const length = Math.hypot(x1 - x0, y1 - y0) || 1;
-        return [(sign * (y1 - y0)) / length, (sign * (x0 - x1)) / length];
-    };
-    return corners.map(([x, y], k) => {
-        const [[ax, ay], [bx, by_]] = [normal(k - 1), normal(k)];
-        // Acute corners would run far out.
-        const factor = by / Math.max(0.3, 1 + ax * bx + ay * by_);
-        return [x + factor * (ax + bx), y + factor * (ay + by_)];
-    });
 }
 
 /** A rectangle around a line, with its sides that far from it. */

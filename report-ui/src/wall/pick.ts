@@ -2,6 +2,7 @@
 
 import type { Report } from "../data";
 import type { Item } from "../store";
+import { distanceTo } from "./outline";
 import type { Places } from "./places";
 import type { View } from "./view";
 
@@ -47,11 +48,4 @@ function holds(corners: [number, number][], x: number, y: number): boolean {
         right ||= side > 0;
     });
     return !(left && right);
-}
-
-function distanceTo([x0, y0, x1, y1]: [number, number, number, number], x: number, y: number): number {
-    const [dx, dy] = [x1 - x0, y1 - y0];
-    const length = dx * dx + dy * dy;
-    const t = length === 0 ? 0 : Math.max(0, Math.min(1, ((x - x0) * dx + (y - y0) * dy) / length));
-    return Math.hypot(x - x0 - t * dx, y - y0 - t * dy);
 }

@@ -160,11 +160,15 @@ pub fn ground(canvas: &mut Canvas, [left, right, base]: [f64; 3], size: f64) {
     canvas.path(&hatch, &format!(r##"fill="none" stroke="#222" stroke-width="{}""##, px(size)), Some("base"));
 }
 
-/// A rectangle around each panel.
+/// A rectangle around each panel that is one.
 fn outlines(canvas: &mut Canvas, view: &View, wall: &Wall) {
     for panel in 0..wall.panels.len() {
         let mut b = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-        for block in wall.blocks.iter().filter(|b| b.panel == panel) {
+        let of_panel = || wall.blocks.iter().filter(|b| b.panel == panel);
+        if !of_panel().all(Block::is_rectangle) {
+            continue;
+        }
+        for block in of_panel() {
             b = [b[0].min(block.x[0]), b[1].min(block.y[0]), b[2].max(block.x[1]), b[3].max(block.y[1])];
         }
         if b[0] < b[2] {
@@ -173,7 +177,8 @@ fn outlines(canvas: &mut Canvas, view: &View, wall: &Wall) {
     }
 }
 
-/// Every block with half a joint around it, in one path: what is not covered by blocks afterwards is mortar.
+/// Every block with half a joint around it, and a rectangle with a whole one below, in one path: what is not covered by blocks
+/// afterwards is mortar.
 fn mortar(canvas: &mut Canvas, view: &View, wall: &Wall) {
     let mut d = String::new();
     for block in &wall.blocks {
@@ -183,11 +188,62 @@ fn mortar(canvas: &mut Canvas, view: &View, wall: &Wall) {
             continue;
         }
         let half = panel.mortar.map(|t| 0.5 * t);
+        if !block.is_rectangle() {
+            let [x0, y0, x1, y1] = view.bounds;
+            let within = |&[x, y]: &[f64; 2]| [view.x(x.clamp(x0, x1)), view.y(y.clamp(y0, y1))];
+            let around = grown(&block.corners(), half[0].max(half[1]));
+            d.push_str(&closed(&around.iter().map(within).collect::<Vec<_>>()));
+            continue;
+        }
         let low = (block.y[0] - panel.mortar[0]).max(view.bounds[1]);
         let x = [block.x[0] - half[1], block.x[1] + half[1]].map(|x| x.clamp(view.bounds[0], view.bounds[2]));
         d.push_str(&rectangle(view.rectangle(x, [low, block.y[1]])));
     }
     canvas.path(&d, r##"fill="#e9e6e0""##, None);
+}
+
+/// A convex outline, counterclockwise, with its sides moved outwards.
+fn grown(corners: &[[f64; 2]], by: f64) -> Vec<[f64; 2]> {
+    let n = corners.len();
+    let normal = |k: usize| {
+        let [[x0, y0], [x1, y1]] = [corners[k % n], corners[(k + 1) % n]];
+        let length = (x1 - x0).hypot(y1 - y0);
+        [(y1 - y0) / length, (x0 - x1) / length]
+    };
+    let moved = |k: usize| {
+        let ([ax, ay], [bx, by_]) = (normal(k + n - 1), normal(k));
+        // Acute corners would run far out.
+        let factor = by / (1.0 + ax * bx + ay * by_).max(0.3);
+        [corners[k][0] + factor * (ax + bx), corners[k][1] + factor * (ay + by_)]
+    };
+    (0..n).map(moved).collect()
+}
+
+/// Room for the name of a block [m], left and right, bottom and top: all of a rectangle; within a polygon one that is half as
+/// high as it is above and below its centre.
+fn room(block: &Block) -> [[f64; 2]; 2] {
+    if block.is_rectangle() {
+        return [block.x, block.y];
+    }
+    let (corners, [x, y]) = (block.corners(), block.centre());
+    let quarter = 0.25 * chord(&corners, 0, x).map_or(0.0, |[low, high]| high - low);
+    let half = [y - quarter, y, y + quarter].into_iter().map(|at| {
+        let across = chord(&corners, 1, at);
+        across.map_or(0.0, |[left, right]| (x - left).min(right - x).max(0.0))
+    });
+    let half = half.fold(f64::INFINITY, f64::min);
+    [[x - half, x + half], [y - quarter, y + quarter]]
+}
+
+/// Where the line on which coordinate `axis` is `at` runs through a convex outline: from and to in the other coordinate.
+fn chord(corners: &[[f64; 2]], axis: usize, at: f64) -> Option<[f64; 2]> {
+    let sides = (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]);
+    let crossed = sides.filter(|[p, q]| (p[axis] <= at) != (q[axis] <= at)).map(|[p, q]| {
+        let part = (at - p[axis]) / (q[axis] - p[axis]);
+        p[1 - axis] + part * (q[1 - axis] - p[1 - axis])
+    });
+    let ends = crossed.fold([f64::INFINITY, f64::NEG_INFINITY], |e, v| [e[0].min(v), e[1].max(v)]);
+    (ends[0] < ends[1]).then_some(ends)
 }
 
 fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
@@ -225,7 +281,8 @@ fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
             None => (BRICK.into(), "#111"),
         };
         canvas.path(&view.outline(block), &attributes(&fill), Some(&title));
-        label(canvas, view.rectangle(block.x, block.y), LETTERS[1], false, letters, &block.name);
+        let [x, y] = room(block);
+        label(canvas, view.rectangle(x, y), LETTERS[1], false, letters, &block.name);
     }
 }
 
@@ -280,6 +337,10 @@ fn joint_names(canvas: &mut Canvas, view: &View, subject: &Subject) {
     canvas.open_halo();
     for (joint, name) in subject.joints.iter().zip(subject.names) {
         let [x0, y0, x1, y1] = view.line(joint.line);
+        // Names are level or upright, and there is no room for such beside a sloping joint.
+        if x0 != x1 && y0 != y1 {
+            continue;
+        }
         let mortar = subject.wall.panels[subject.wall.blocks[joint.a].panel].mortar;
         match joint.kind {
             JointKind::Top => {}
@@ -426,5 +487,43 @@ pub fn mass(kilograms: f64) -> String {
         format!("{} kg", crate::format::significant(kilograms, 4))
     } else {
         si(kilograms / 1000.0, "t")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TRIANGLE: [[f64; 2]; 3] = [[0.0, 0.0], [3.0, 0.0], [0.0, 3.0]];
+
+    #[test]
+    fn grown_outlines_keep_their_sides_at_a_distance() {
+        let around = grown(&TRIANGLE, 0.1);
+        assert!((around[0][0] + 0.1).abs() < 1e-12 && (around[0][1] + 0.1).abs() < 1e-12, "{around:?}");
+        let square = grown(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], 0.5);
+        assert_eq!(square, [[-0.5, -0.5], [1.5, -0.5], [1.5, 1.5], [-0.5, 1.5]]);
+    }
+
+    /// All corners of what a name may take lie in the block.
+    #[test]
+    fn names_find_room_in_polygons() {
+        let shape = concio::wall::Shape { span: 1, corners: TRIANGLE.to_vec() };
+        let block = Block {
+            name: "p1c1b1".into(),
+            panel: 0,
+            course: 0,
+            x: [0.0, 3.0],
+            y: [0.0, 3.0],
+            shape: Some(Box::new(shape)),
+            thickness: 1.0,
+            specific_weight: 1.0,
+        };
+        let [x, y] = room(&block);
+        // The chord through the centre (1, 1) is 2 long.
+        assert!((y[0] - 0.5).abs() < 1e-12 && (y[1] - 1.5).abs() < 1e-12, "{y:?}");
+        assert!((x[1] - 1.5).abs() < 1e-12 && x[0] >= 0.0, "{x:?}");
+        assert!(x[1] + y[1] <= 3.0 + 1e-12);
+        let rectangle = Block { shape: None, ..block };
+        assert_eq!(room(&rectangle), [[0.0, 3.0], [0.0, 3.0]]);
     }
 }

@@ -201,6 +201,33 @@ fn blocks_that_turn_are_drawn_turned() {
     assert!(drawn.iter().all(|p| p[0] > 0.0 && p[0] < options.points() && p[1] > 0.0));
 }
 
+/// A pentagon is drawn over its five corners, turned about its centre of gravity and not about the middle of its edges.
+#[test]
+fn polygons_are_drawn_with_their_corners() {
+    let mut run = planar();
+    let last = run.wall.blocks.len() - 1;
+    let block = &mut run.wall.blocks[last];
+    let ([x0, x1], [y0, y1]) = (block.x, block.y);
+    let outline = vec![[x0, y0], [x1, y0], [x1, y0 + 0.01], [x0 + 0.1, y1], [x0, y1]];
+    block.shape = Some(Box::new(concio::wall::Shape { span: 1, corners: outline.clone() }));
+    let data = Data::new(&run, [None; 2]).expect("data");
+    let options = Options { scale: Some(1.0), ..Options::default() };
+    let svg = draw(Figure::Deformed, &data, &options).expect("a figure").body;
+    let still = &run.wall.blocks[0];
+    let rest = corners(&svg, &still.name);
+    let scale = (rest[1][0] - rest[0][0]) / still.length();
+    let place = |p: [f64; 2]| [rest[0][0] + scale * (p[0] - still.x[0]), rest[0][1] - scale * (p[1] - still.y[0])];
+    let (drawn, [x, y]) = (corners(&svg, &run.wall.blocks[last].name), run.wall.blocks[last].centre());
+    assert!((x - 0.5 * (x0 + x1)).abs() > 0.01, "the centre is elsewhere");
+    assert_eq!(drawn.len(), 5);
+    for (found, corner) in drawn.iter().zip(&outline) {
+        let (a, b) = (corner[0] - x, corner[1] - y);
+        let expected = place([x + 0.03 + TURN.cos() * a - TURN.sin() * b, y + 0.02 + TURN.sin() * a + TURN.cos() * b]);
+        let error = (0..2).map(|k| (found[k] - expected[k]).abs()).fold(0.0, f64::max);
+        assert!(error < 0.05, "{found:?}, not {expected:?}");
+    }
+}
+
 /// Magnified by 10 the way of every corner is 10 times as long.
 #[test]
 fn magnified_corners_go_the_same_way_further() {

@@ -12,7 +12,7 @@ use super::pack::Pack;
 use super::{Content, beam_label};
 
 /// Layout of the data; the page's program refuses another.
-const LAYOUT: u32 = 2;
+const LAYOUT: u32 = 3;
 /// Bytes that frames may take [bytes]; beyond it only every second, third, … goes into the page. A wall of 20 × 20 bricks
 /// with 2,000 frames stays below.
 const MOST_FRAMES: usize = 16 << 20;
@@ -283,6 +283,24 @@ fn wall(pack: &mut Pack, content: &Content) {
         let mortar = |b: &Block| content.wall.panels[b.panel].mortar[number];
         pack.reals(&format!("block/{name}"), &content.wall.blocks.iter().map(mortar).collect::<Vec<_>>());
     }
+    if content.wall.blocks.iter().any(|b| !b.is_rectangle()) {
+        outlines(pack, &content.wall.blocks);
+    }
+}
+
+/// Corners and centres of the blocks, where edges do not tell them.
+fn outlines(pack: &mut Pack, blocks: &[Block]) {
+    let (mut start, mut corners) = (vec![0], Vec::new());
+    for block in blocks {
+        corners.extend(block.corners());
+        start.push(corners.len() as i32);
+    }
+    let centres: Vec<[f64; 2]> = blocks.iter().map(Block::centre).collect();
+    pack.indices("outline/start", &start);
+    for (k, axis) in ["x", "y"].into_iter().enumerate() {
+        pack.reals(&format!("outline/{axis}"), &corners.iter().map(|c: &[f64; 2]| c[k]).collect::<Vec<_>>());
+        pack.reals(&format!("outline/centre_{axis}"), &centres.iter().map(|c| c[k]).collect::<Vec<_>>());
+    }
 }
 
 /// Sides, lines and laws of the joints; the different friction laws.
@@ -448,6 +466,64 @@ mod tests {
             let expected: Vec<f32> = made(joints, 3.0).iter().map(|v| *v as f32).collect();
             assert_eq!(found, expected, "{name}");
         }
+    }
+
+    const ARCH: &str = r#"
+        model = "planar"
+        [[panel]]
+        bond = "arch"
+        arch = { span = 2, rise = 0.5, thickness = 0.3, voussoirs = 7 }
+        brick = { length = 0.3, height = 0.3, thickness = 0.5, specific_weight = 20e3 }
+        mortar = { bed = 0, head = 0 }
+        [joint]
+        bed = { law = "rigid" }
+        head = { law = "rigid" }
+        friction = { law = "coulomb", static = 0.6, dynamic = 0.6, on = "all" }
+        [motion]
+        duration = "0.01 s"
+    "#;
+
+    /// Corners and centres of voussoirs come with the page; of a wall of rectangles its edges tell them.
+    #[test]
+    fn outlines_of_polygons_come_with_the_page() {
+        use base64::Engine as _;
+        let data_of = |text: &str| {
+            let file = concio::case::from_str(text, concio::case::Syntax::Toml, None).expect("a wall");
+            let prepared = concio::run::prepare(file.case, std::path::Path::new(".")).expect("a system");
+            let outcome = concio::run::run_in_memory(&prepared).expect("a run");
+            let rows = concio::run::joint_rows(&prepared.model);
+            let content = Content {
+                name: "made".into(),
+                case: prepared.case.clone(),
+                text: None,
+                command: None,
+                wall: &prepared.model.wall,
+                joints: &rows,
+                outcome: &outcome,
+                summary: &json!({}),
+            };
+            let (contents, numbers) = payload(&content);
+            let contents: Value = serde_json::from_str(&contents).expect("JSON");
+            let numbers = base64::engine::general_purpose::STANDARD.decode(numbers).expect("base64");
+            (prepared.model.wall, contents, numbers)
+        };
+        let (wall, contents, numbers) = data_of(ARCH);
+        let reals = |name: &str| -> Vec<f64> {
+            array::<8>(&contents, &numbers, name).into_iter().map(f64::from_le_bytes).collect()
+        };
+        let start: Vec<i32> =
+            array::<4>(&contents, &numbers, "outline/start").into_iter().map(i32::from_le_bytes).collect();
+        let (x, y) = (reals("outline/x"), reals("outline/y"));
+        let centres = [reals("outline/centre_x"), reals("outline/centre_y")];
+        assert_eq!((start.len(), x.len()), (8, 2 * 5 + 5 * 4), "springers have five corners");
+        for (i, block) in wall.blocks.iter().enumerate() {
+            let range = start[i] as usize..start[i + 1] as usize;
+            let corners: Vec<[f64; 2]> = range.map(|k| [x[k], y[k]]).collect();
+            assert_eq!(corners, block.corners(), "{}", block.name);
+            assert_eq!([centres[0][i], centres[1][i]], block.centre(), "{}", block.name);
+        }
+        let (_, contents, _) = data_of(WALL);
+        assert!(contents["arrays"]["outline/start"].is_null() && contents["arrays"]["block/x0"].is_object());
     }
 
     #[test]

@@ -2,11 +2,12 @@
 
 use concio::case::JointKind;
 use concio::model::Model;
+use concio::wall::Block;
 use concio_study::crack_lines::{CrackLine, Group, meet};
 
 use crate::draw::chart::LETTERS;
 use crate::draw::output::Drawing;
-use crate::draw::svg::{Anchor, Canvas, line, px, rectangle};
+use crate::draw::svg::{Anchor, Canvas, closed, line, px, rectangle};
 use crate::draw::wall::{LIGHT, ground, shade};
 use crate::format::significant;
 
@@ -38,9 +39,8 @@ impl View {
         line([ax, ay, bx, by])
     }
 
-    fn rectangle(&self, x: [f64; 2], y: [f64; 2]) -> String {
-        let ([left, bottom], [right, top]) = (self.point(x[0], y[0]), self.point(x[1], y[1]));
-        rectangle([left, top, right, bottom])
+    fn outline(&self, block: &Block) -> String {
+        closed(&block.corners().iter().map(|&[x, y]| self.point(x, y)).collect::<Vec<_>>())
     }
 }
 
@@ -74,7 +74,7 @@ pub fn maps(model: &Model, groups: &[Group]) -> Drawing {
 
 fn map(canvas: &mut Canvas, view: &View, model: &Model, group: &Group) {
     let wall = &model.wall;
-    let blocks: String = wall.blocks.iter().map(|b| view.rectangle(b.x, b.y)).collect();
+    let blocks: String = wall.blocks.iter().map(|b| view.outline(b)).collect();
     canvas.path(&blocks, &format!(r##"fill="{LIGHT}" stroke="#b4b4b4" stroke-width="0.35""##), None);
     let ([left, base], [right, top]) =
         (view.point(view.bounds[0], view.bounds[1]), view.point(view.bounds[2], view.bounds[3]));

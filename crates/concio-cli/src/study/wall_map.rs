@@ -5,7 +5,7 @@ use concio::wall::{Joint, Wall};
 use crate::draw::chart::LETTERS;
 use crate::draw::font;
 use crate::draw::output::Drawing;
-use crate::draw::svg::{Anchor, Canvas, line, px, rectangle};
+use crate::draw::svg::{Anchor, Canvas, closed, line, px, rectangle};
 use crate::draw::wall::{LIGHT, ground, shade};
 use crate::format::significant;
 
@@ -78,10 +78,8 @@ fn fitting(heading: &str) -> f64 {
 }
 
 fn map(canvas: &mut Canvas, view: &View, (wall, joints, names): (&Wall, &[Joint], &[String]), one: &Map) {
-    let outline = |b: &concio::wall::Block| {
-        let ([left, bottom], [right, top]) = (view.point(b.x[0], b.y[0]), view.point(b.x[1], b.y[1]));
-        rectangle([left, top, right, bottom])
-    };
+    let outline =
+        |b: &concio::wall::Block| closed(&b.corners().iter().map(|&[x, y]| view.point(x, y)).collect::<Vec<_>>());
     let blocks: String = wall.blocks.iter().map(outline).collect();
     canvas.path(&blocks, &format!(r##"fill="{LIGHT}" stroke="#b4b4b4" stroke-width="0.35""##), None);
     let value = |e: usize| one.values.get(e).copied().unwrap_or(0.0);

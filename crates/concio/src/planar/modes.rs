@@ -170,6 +170,10 @@ fn steps(wall: &Wall, joints: &[Joint], cracked: &impl Fn(&usize) -> bool) -> bo
         })
     };
     let courses = wall.panels.iter().map(|p| p.courses).max().unwrap_or(0);
+    // In an arch or a single course there are no steps.
+    if courses < 2 {
+        return false;
+    }
     let mut seen = vec![false; list.len()];
     for start in 0..list.len() {
         if seen[start] {
@@ -189,7 +193,7 @@ fn steps(wall: &Wall, joints: &[Joint], cracked: &impl Fn(&usize) -> bool) -> bo
                 }
             }
         }
-        if 2 * heads.len() >= courses.max(2) {
+        if 2 * heads.len() >= courses {
             return true;
         }
     }

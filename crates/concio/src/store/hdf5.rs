@@ -10,6 +10,7 @@ use crate::outcome::Outcome;
 use crate::record::{Event, Layout, Recording};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::{Sink, label};
+use crate::store::outlines::{self, Outlines};
 use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, atomic, vtkhdf};
 use crate::wall::{Block, End, PanelInfo, Wall};
 
@@ -131,12 +132,23 @@ fn write_wall(sink: &mut Sink, wall: &Wall) -> Result<()> {
     let mass: Vec<f64> = blocks.iter().map(Block::mass).collect();
     sink.list("wall/blocks/mass", &mass, label("kg", "Mass."))?;
     write_columns(sink, "wall/blocks", &fields::BLOCKS, blocks)?;
+    write_outlines(sink, blocks)?;
 
     let panels: &[PanelInfo] = &wall.panels;
     sink.texts("wall/panels/name", &names(panels, |p| &p.name), "Name of the panel.")?;
     let courses: Vec<i64> = panels.iter().map(|p| p.courses as i64).collect();
     sink.list("wall/panels/courses", &courses, label("1", "Number of courses."))?;
     write_columns(sink, "wall/panels", &fields::PANELS, panels)
+}
+
+fn write_outlines(sink: &mut Sink, blocks: &[Block]) -> Result<()> {
+    let outlines = Outlines::of(blocks);
+    let start = label("1", "First corner of the block in corners; one entry more than blocks, the number of corners.");
+    sink.list(outlines::START, &outlines.starts(), start)?;
+    let corners = label("m", "Corners of the blocks, x and y, counterclockwise.");
+    sink.array(outlines::CORNERS, &[outlines.corners.len(), 2], outlines.corners.as_flattened(), corners)?;
+    let span: Vec<i64> = blocks.iter().map(|b| b.span() as i64).collect();
+    sink.list(outlines::SPAN, &span, label("1", "Courses that the block takes up: 1 but for lintels."))
 }
 
 fn write_joints(sink: &mut Sink, joints: &[JointRow]) -> Result<()> {

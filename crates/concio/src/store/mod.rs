@@ -7,6 +7,7 @@ mod fields;
 mod h5;
 pub mod hdf5;
 pub mod journal;
+mod outlines;
 mod read;
 mod summary;
 pub mod vtkhdf;

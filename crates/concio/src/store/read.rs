@@ -13,6 +13,7 @@ use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, La
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::Source;
 use crate::store::hdf5::{BASE, FORMAT, NO_DEVICE, NO_FRICTION, TOP, layout_against};
+use crate::store::outlines;
 use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, StoredRun};
 use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 
@@ -110,6 +111,7 @@ fn read_blocks(source: &Source, panel_count: usize) -> Result<Vec<Block>> {
         });
     }
     read_columns(source, "wall/blocks", &fields::BLOCKS, &mut blocks)?;
+    outlines::read(source, &mut blocks)?;
     Ok(blocks)
 }
 

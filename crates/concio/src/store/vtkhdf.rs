@@ -1,7 +1,8 @@
-//! The VTKHDF view of a run: one quadrilateral per block, one step per frame, so that ParaView and `vtkHDFReader`
+//! The VTKHDF view of a run: one polygon per block, one step per frame, so that ParaView and `vtkHDFReader`
 //! play a result file as it is. Format: VTK file formats, "VTKHDF", transient UnstructuredGrid, version 2.0.
 //!
-//! Blocks share no points: four points each, in the order of the blocks, counter-clockwise from the bottom left.
+//! Blocks share no points: each has its corners, in the order of the blocks, counter-clockwise, those of a rectangle from the
+//! bottom left.
 
 use std::path::Path;
 
@@ -10,13 +11,14 @@ use crate::moment::Motion;
 use crate::outcome::Outcome;
 use crate::store::fields;
 use crate::store::h5::{Label, Sink, label};
+use crate::store::outlines::Outlines;
 use crate::store::{StoredRun, atomic, hdf5};
 use crate::wall::{Block, Wall};
 
-/// VTK's number of the four-cornered cell.
+/// VTK's numbers of the cell with four corners, and of that with any number of them.
 const VTK_QUAD: u8 = 9;
-/// Corners of a block.
-const CORNERS: usize = 4;
+/// See [`VTK_QUAD`].
+const VTK_POLYGON: u8 = 7;
 
 /// Writes the VTKHDF group alone to a file of its own (by custom `.vtkhdf`).
 ///
@@ -35,28 +37,30 @@ pub fn write(path: &Path, run: &StoredRun) -> Result<()> {
 pub(super) fn write_group(sink: &mut Sink, wall: &Wall, outcome: &Outcome) -> Result<()> {
     sink.list_attribute("VTKHDF", "Version", &[2i64, 0])?;
     sink.ascii_attribute("VTKHDF", "Type", "UnstructuredGrid")?;
-    write_grid(sink, &wall.blocks)?;
+    let outlines = Outlines::of(&wall.blocks);
+    write_grid(sink, &outlines)?;
     write_constant_data(sink, &wall.blocks, outcome)?;
     if outcome.recording.frame_time.is_empty() {
         return Ok(());
     }
-    write_moving_data(sink, &wall.blocks, outcome)?;
-    write_steps(sink, wall.blocks.len(), outcome)
+    write_moving_data(sink, &outlines, outcome)?;
+    write_steps(sink, &outlines, outcome)
 }
 
-fn write_grid(sink: &mut Sink, blocks: &[Block]) -> Result<()> {
-    let points = blocks.len() * CORNERS;
+fn write_grid(sink: &mut Sink, outlines: &Outlines) -> Result<()> {
+    let (points, cells) = (outlines.corners.len(), outlines.centres.len());
     let none = |description| label("1", description);
     sink.list("VTKHDF/NumberOfPoints", &[points as i64], none("Points of the grid."))?;
-    sink.list("VTKHDF/NumberOfCells", &[blocks.len() as i64], none("Cells of the grid: the blocks."))?;
+    sink.list("VTKHDF/NumberOfCells", &[cells as i64], none("Cells of the grid: the blocks."))?;
     sink.list("VTKHDF/NumberOfConnectivityIds", &[points as i64], none("Entries of Connectivity."))?;
-    let corners: Vec<f64> = blocks.iter().flat_map(Block::box_corners).flat_map(|[x, y]| [x, y, 0.0]).collect();
+    let corners: Vec<f64> = outlines.corners.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
     sink.array("VTKHDF/Points", &[points, 3], &corners, label("m", "Corners of the blocks at rest."))?;
     let connectivity: Vec<i64> = (0..points as i64).collect();
     sink.list("VTKHDF/Connectivity", &connectivity, none("Points of the cells."))?;
-    let offsets: Vec<i64> = (0..=blocks.len() as i64).map(|k| k * CORNERS as i64).collect();
-    sink.list("VTKHDF/Offsets", &offsets, none("Where the points of a cell start."))?;
-    sink.list("VTKHDF/Types", &vec![VTK_QUAD; blocks.len()], none("Kind of cell."))
+    sink.list("VTKHDF/Offsets", &outlines.starts(), none("Where the points of a cell start."))?;
+    let kind = |corners: usize| if corners == 4 { VTK_QUAD } else { VTK_POLYGON };
+    let kinds: Vec<u8> = outlines.each().map(|(_, corners)| kind(corners.len())).collect();
+    sink.list("VTKHDF/Types", &kinds, none("Kind of cell."))
 }
 
 fn write_constant_data(sink: &mut Sink, blocks: &[Block], outcome: &Outcome) -> Result<()> {
@@ -82,17 +86,18 @@ fn constant_data<'a>(blocks: &[Block], outcome: &'a Outcome) -> Vec<(String, Vec
     data
 }
 
-fn write_moving_data(sink: &mut Sink, blocks: &[Block], outcome: &Outcome) -> Result<()> {
+fn write_moving_data(sink: &mut Sink, outlines: &Outlines, outcome: &Outcome) -> Result<()> {
     let (layout, recording, unknowns) = (&outcome.layout, &outcome.recording, outcome.layout.unknowns);
-    let (frames, count) = (recording.frame_time.len(), blocks.len());
+    let (frames, count) = (recording.frame_time.len(), outlines.centres.len());
     let displacement = label("m", "Displacement of the corners relative to the base.");
-    let points = [frames, count * CORNERS, 3];
+    let points = [frames, outlines.corners.len(), 3];
     sink.frames("VTKHDF/PointData/displacement", points, displacement, |frame, row: &mut [f32]| {
-        for (index, (block, points)) in blocks.iter().zip(row.chunks_exact_mut(3 * CORNERS)).enumerate() {
+        for (index, (centre, corners)) in outlines.each().enumerate() {
             let motion = Motion::in_frame(layout, recording, frame, index);
-            for (corner, point) in block.box_corners().into_iter().zip(points.chunks_exact_mut(3)) {
-                let [x, y] = motion.of_point_in(block, corner);
-                (point[0], point[1]) = (x as f32, y as f32);
+            for k in corners {
+                let [x, y] = outlines.corners[k];
+                let way = motion.of_point([x - centre[0], y - centre[1]]);
+                (row[3 * k], row[3 * k + 1]) = (way[0] as f32, way[1] as f32);
             }
         }
     })?;
@@ -113,7 +118,8 @@ fn write_moving_data(sink: &mut Sink, blocks: &[Block], outcome: &Outcome) -> Re
 }
 
 /// One step per frame; the grid and the constant data start at 0 in all of them.
-fn write_steps(sink: &mut Sink, blocks: usize, outcome: &Outcome) -> Result<()> {
+fn write_steps(sink: &mut Sink, outlines: &Outlines, outcome: &Outcome) -> Result<()> {
+    let (points, blocks) = (outlines.corners.len(), outlines.centres.len());
     let times = &outcome.recording.frame_time;
     let steps = times.len();
     let none = label("1", "Offset of each step.");
@@ -128,7 +134,7 @@ fn write_steps(sink: &mut Sink, blocks: usize, outcome: &Outcome) -> Result<()> 
         sink.array(&format!("VTKHDF/Steps/{name}"), &[steps, 1], &zeros, none)?;
     }
     let every = |length: usize| (0..steps).map(|k| (k * length) as i64).collect::<Vec<_>>();
-    sink.list("VTKHDF/Steps/PointDataOffsets/displacement", &every(blocks * CORNERS), none)?;
+    sink.list("VTKHDF/Steps/PointDataOffsets/displacement", &every(points), none)?;
     sink.list("VTKHDF/Steps/CellDataOffsets/velocity", &every(blocks), none)?;
     if outcome.layout.turned > 0 {
         sink.list("VTKHDF/Steps/CellDataOffsets/rotation", &every(blocks), none)?;

@@ -129,6 +129,15 @@ def check_head(result):
     require(isinstance(json.loads(case), dict), "case is no JSON object")
 
 
+def area_and_centre(corners):
+    """Of a polygon with its corners counterclockwise; about its first corner, so that no digits are lost far from the origin."""
+    x, y = (corners - corners[0]).T
+    cross = x * np.roll(y, -1) - np.roll(x, -1) * y
+    area = cross.sum() / 2
+    first = [((v + np.roll(v, -1)) * cross).sum() / (6 * area) for v in (x, y)]
+    return area, corners[0] + first
+
+
 def check_wall(result):
     names = result.texts("wall/blocks/name")
     n = len(names)
@@ -140,11 +149,19 @@ def check_wall(result):
     require(((panel >= 0) & (panel < len(panels))).all(), "panel out of range")
     require(((course >= 0) & (course < courses[panel])).all(), "course out of range")
     blocks = {key: result.array(f"wall/blocks/{key}", (n,), "f8", unit) for key, unit in BLOCK_COLUMNS.items()}
-    volume = (blocks["x1"] - blocks["x0"]) * (blocks["y1"] - blocks["y0"]) * blocks["thickness"]
-    require(np.allclose(blocks["mass"], volume * blocks["specific_weight"] / G, rtol=1e-14), "mass is not γ L H B / g")
+    start = result.array("wall/blocks/corner_start", (n + 1,), "i8", "1")
+    require(start[0] == 0 and (np.diff(start) >= 3).all(), "corner_start")
+    corners = np.split(result.array("wall/blocks/corners", (start[-1], 2), "f8", "m"), start[1:-1])
+    require((result.array("wall/blocks/span", (n,), "i8", "1") >= 1).all(), "span")
+    areas, centres = zip(*map(area_and_centre, corners))
+    weight = areas * blocks["thickness"] * blocks["specific_weight"]
+    require(np.allclose(blocks["mass"], weight / G, rtol=1e-12), "mass is not γ A B / g")
+    for edge, axis, side in [("x0", 0, np.min), ("x1", 0, np.max), ("y0", 1, np.min), ("y1", 1, np.max)]:
+        found = [side(c[:, axis]) for c in corners]
+        require(np.allclose(found, blocks[edge], rtol=1e-12, atol=1e-12), f"corners do not agree with {edge}")
     for key, unit in PANEL_COLUMNS.items():
         result.array(f"wall/panels/{key}", (len(panels),), "f8", unit)
-    return names, blocks | {"panel": panel, "course": course}
+    return names, blocks | {"panel": panel, "course": course}, (corners, np.array(centres))
 
 
 def check_joints(result, blocks):
@@ -256,17 +273,17 @@ def check_vtkhdf_tree(result):
     result.asked.update(f"VTKHDF/{name}" for name in names)
 
 
-def corners_moved(corners, shift, rise, rotation):
+def corners_moved(outlines, shift, rise, rotation):
     """Displacement of the corners of blocks that turn about their centres by matrices of rotation."""
-    centre = corners.mean(axis=1, keepdims=True)
-    turn = np.moveaxis(np.array([[np.cos(rotation), -np.sin(rotation)], [np.sin(rotation), np.cos(rotation)]]), 2, 0)
-    moved = np.zeros_like(corners)
-    arm = (corners - centre)[:, :, :2]
-    moved[:, :, :2] = np.einsum("bij,bcj->bci", turn, arm) - arm + np.stack([shift, rise], axis=1)[:, None, :]
-    return moved
+    moved = []
+    for corners, centre, x, y, angle in zip(*outlines, shift, rise, rotation):
+        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        arm = corners - centre
+        moved.append(np.column_stack([arm @ turn.T - arm + [x, y], np.zeros(len(arm))]))
+    return np.concatenate(moved)
 
 
-def check_vtk(path, blocks, envelopes, time, motion, velocity):
+def check_vtk(path, blocks, outlines, envelopes, time, motion, velocity):
     """Compares what vtkHDFReader makes of the file, step by step, with the datasets."""
     planar = motion[2].any()
     n = len(blocks["x0"])
@@ -278,9 +295,9 @@ def check_vtk(path, blocks, envelopes, time, motion, velocity):
     steps = information.Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS()) or ()
     equal(np.array(steps, dtype=float), time, f"{path}: times of the steps")
     require(reader.GetNumberOfSteps() == max(len(time), 1), f"{path}: {reader.GetNumberOfSteps()} steps")
-    corners = np.zeros((n, 4, 3))
-    corners[:, :, 0] = np.stack([blocks["x0"], blocks["x1"], blocks["x1"], blocks["x0"]], axis=1)
-    corners[:, :, 1] = np.stack([blocks["y0"], blocks["y0"], blocks["y1"], blocks["y1"]], axis=1)
+    counts = np.array([len(c) for c in outlines[0]])
+    flat = np.concatenate(outlines[0])
+    corners = np.column_stack([flat, np.zeros(len(flat))])
     # All steps of a short run; of a long one as many, the first and last among them.
     for step in np.unique(np.linspace(0, max(len(time) - 1, 0), 200).astype(int)):
         if len(time):
@@ -289,11 +306,13 @@ def check_vtk(path, blocks, envelopes, time, motion, velocity):
             reader.Update()
         grid = reader.GetOutputDataObject(0)
         where = f"{path}: step {step}"
-        require(grid.GetNumberOfPoints() == 4 * n and grid.GetNumberOfCells() == n, f"{where}: size of the grid")
+        require(grid.GetNumberOfPoints() == len(corners) and grid.GetNumberOfCells() == n, f"{where}: size of the grid")
         if step == 0:
-            require(all(grid.GetCellType(k) == 9 for k in range(n)), f"{where}: cells are not quadrilaterals")
-        equal(vtk_to_numpy(grid.GetPoints().GetData()), corners.reshape(-1, 3), f"{where}: points")
-        equal(vtk_to_numpy(grid.GetCells().GetConnectivityArray()), np.arange(4 * n), f"{where}: connectivity")
+            kinds = [grid.GetCellType(k) for k in range(n)]
+            equal(kinds, np.where(counts == 4, 9, 7), f"{where}: kinds of cells")
+            equal([grid.GetCell(k).GetNumberOfPoints() for k in range(n)], counts, f"{where}: points of cells")
+        equal(vtk_to_numpy(grid.GetPoints().GetData()), corners, f"{where}: points")
+        equal(vtk_to_numpy(grid.GetCells().GetConnectivityArray()), np.arange(len(corners)), f"{where}: connectivity")
         cell = {key: vtk_to_numpy(grid.GetCellData().GetArray(key)) for key in vtk_names(grid.GetCellData())}
         for key in ["mass", "course", "panel"]:
             equal(cell[key], blocks[key].astype(float), f"{where}: {key}")
@@ -301,7 +320,7 @@ def check_vtk(path, blocks, envelopes, time, motion, velocity):
             equal(cell[f"peak_{key}"], values[:n], f"{where}: peak_{key}")
         if len(time):
             shift, rise, rotation = (rows[step, :n] for rows in motion)
-            moved = corners_moved(corners, shift, rise, rotation).reshape(-1, 3)
+            moved = corners_moved(outlines, shift, rise, rotation)
             point = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
             if planar:
                 # Turning is computed in other ways on the two sides; 32-bit floats are what is stored.
@@ -335,6 +354,18 @@ def check_npz(path, file):
         wanted = {w for w in wanted if any(w == top or w.startswith(top + "/") for top in tops)}
         missing = wanted - set(archive.files)
         require(not missing, f"npz: {sorted(missing)} missing")
+
+
+def check_csv_corners(folder, names, corners, file):
+    rectangles = all(len(c) == 4 and len(set(c[:, 0])) == 2 and len(set(c[:, 1])) == 2 for c in corners)
+    require((folder / "corners.csv").exists() != rectangles, "csv: corners")
+    if rectangles:
+        return
+    with open(folder / "corners.csv", newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    found = np.array([[float(row["x [m]"]), float(row["y [m]"])] for row in rows])
+    equal(found, file["wall/blocks/corners"][()], "csv: corners")
+    require([row["block"] for row in rows] == [n for n, c in zip(names, corners) for _ in c], "csv: blocks of corners")
 
 
 def check_csv_events(folder, file, joints):
@@ -384,7 +415,7 @@ def main():
 
     result = Result(arguments.result)
     check_head(result)
-    block_names, blocks = check_wall(result)
+    block_names, blocks, outlines = check_wall(result)
     joint_names, _ = check_joints(result, len(block_names))
     unknowns = int(result.array("layout/unknowns", (), "u8", "1"))
     require(len(block_names) <= unknowns <= len(block_names) + 1, "unknowns are neither the blocks nor one more")
@@ -395,7 +426,7 @@ def main():
     result.check_nothing_left()
 
     for path in filter(None, [arguments.result, arguments.vtkhdf]):
-        check_vtk(path, blocks, block_envelopes, *frames)
+        check_vtk(path, blocks, outlines, block_envelopes, *frames)
     if arguments.npz:
         check_npz(arguments.npz, result.file)
     if arguments.csv:
@@ -403,6 +434,7 @@ def main():
         envelopes = {"block": block_envelopes, "joint": joint_envelopes}
         check_csv(arguments.csv, time, heads, values, names, envelopes)
         check_csv_events(arguments.csv, result.file, joint_names)
+        check_csv_corners(arguments.csv, block_names, outlines[0], result.file)
     print(
         f"{arguments.result}: {len(block_names)} blocks, {len(joint_names)} joints, {len(time)} samples of "
         f"{len(values)} channels, {len(frames[0])} frames: h5py and VTK agree"

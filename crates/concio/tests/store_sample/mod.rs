@@ -5,7 +5,7 @@ use concio::case::{DeviceLaw, FrictionLaw, JointKind, SpringLaw};
 use concio::outcome::{BondRow, Outcome, Totals};
 use concio::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use concio::store::{FrictionRow, JointRow, Provenance};
-use concio::wall::{Block, End, Joint, PanelInfo, Wall};
+use concio::wall::{Block, End, Joint, PanelInfo, Shape, Wall};
 
 /// How large a made-up run is.
 #[derive(Debug, Clone, Copy)]
@@ -69,6 +69,22 @@ fn wall(size: Size) -> Wall {
         connection: 0.012,
     };
     Wall { panels: vec![panel], blocks }
+}
+
+/// Makes the third block a lintel, the fifth a triangle, the sixth a pentagon and the seventh a trapezium, within their edges.
+pub fn reshape(wall: &mut Wall) {
+    let outlines: [&[[f64; 2]]; 3] = [
+        &[[0.0, 0.0], [1.0, 0.25], [0.5, 1.0]],
+        &[[0.25, 0.0], [1.0, 0.0], [1.0, 0.5], [0.75, 1.0], [0.0, 1.0]],
+        &[[0.125, 0.0], [0.875, 0.0], [1.0, 1.0], [0.0, 1.0]],
+    ];
+    wall.blocks[2].shape = Some(Box::new(Shape { span: 2, corners: Vec::new() }));
+    for (block, parts) in wall.blocks[4..].iter_mut().zip(outlines) {
+        // At an end of the unit interval the edge itself, to its last digit.
+        let between = |[low, high]: [f64; 2], part: f64| if part == 1.0 { high } else { low + part * (high - low) };
+        let corners = parts.iter().map(|&[a, b]| [between(block.x, a), between(block.y, b)]).collect();
+        block.shape = Some(Box::new(Shape { span: 1, corners }));
+    }
 }
 
 /// Base supports, head joints, one bed joint from each block to the one above it, top supports.

@@ -13,8 +13,8 @@ use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword};
 use crate::store::{FrictionRow, StoredRun, atomic};
 use crate::wall::{Block, End};
 
-/// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv`, `bonds.csv` where
-/// joints are bonded and `events.csv` where something happened, into `folder`, which is made if need be. Numbers read back to
+/// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv`, `corners.csv` where a
+/// block is no rectangle, `bonds.csv` where joints are bonded and `events.csv` where something happened, into `folder`, which is made if need be. Numbers read back to
 /// the same bits.
 ///
 /// # Errors
@@ -24,6 +24,9 @@ pub fn csv(run: &StoredRun, folder: &Path) -> Result<()> {
     fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
     table(&folder.join("histories.csv"), |t| histories(t, run))?;
     table(&folder.join("blocks.csv"), |t| blocks(t, run))?;
+    if run.wall.blocks.iter().any(|b| !b.is_rectangle()) {
+        table(&folder.join("corners.csv"), |t| corners(t, run))?;
+    }
     table(&folder.join("joints.csv"), |t| joints(t, run))?;
     table(&folder.join("block_envelopes.csv"), |t| {
         envelopes(t, "block", &fields::BLOCK_ENVELOPES, &unknown_names(run), &run.outcome.envelopes)
@@ -115,6 +118,23 @@ fn blocks(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
         numbers(table, &fields::BLOCKS, block)?;
         table.number(Block::mass(block))?;
         table.end_row()?;
+    }
+    Ok(())
+}
+
+/// Of all blocks, rectangles too: one row for each corner.
+fn corners(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
+    for (name, unit) in [("block", "1"), ("x", "m"), ("y", "m")] {
+        table.head(name, unit)?;
+    }
+    table.end_row()?;
+    for block in &run.wall.blocks {
+        for [x, y] in block.corners() {
+            table.cell(&block.name)?;
+            table.number(x)?;
+            table.number(y)?;
+            table.end_row()?;
+        }
     }
     Ok(())
 }

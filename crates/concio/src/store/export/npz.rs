@@ -11,6 +11,7 @@ use zip::{CompressionMethod, ZipWriter};
 use crate::error::{Error, Result};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword, other_side};
+use crate::store::outlines::{self, Outlines};
 use crate::store::{FrictionRow, StoredRun, atomic};
 use crate::wall::Block;
 
@@ -100,7 +101,11 @@ fn fill_blocks(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
     archive.integers("wall/blocks/panel", blocks.iter().map(|b| b.panel as i64))?;
     archive.integers("wall/blocks/course", blocks.iter().map(|b| b.course as i64))?;
     archive.list("wall/blocks/mass", &blocks.iter().map(Block::mass).collect::<Vec<_>>())?;
-    columns(archive, "wall/blocks", &fields::BLOCKS, blocks)
+    columns(archive, "wall/blocks", &fields::BLOCKS, blocks)?;
+    let outlines = Outlines::of(blocks);
+    archive.integers(outlines::START, outlines.starts().into_iter())?;
+    archive.array(outlines::CORNERS, &[outlines.corners.len(), 2], outlines.corners.as_flattened().iter().copied())?;
+    archive.integers(outlines::SPAN, blocks.iter().map(|b| b.span() as i64))
 }
 
 fn fill_panels(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
