@@ -29,6 +29,9 @@ const FLOOR: f64 = 1.0;
 const SHARE: f64 = 0.02;
 /// Least opening at the start, over what is out of balance.
 const CRACK: f64 = 0.01;
+/// Mean product below which a solution that is not there yet is given up, far below that of any tolerance [J]: it would end in
+/// 0 over 0.
+const NOTHING: f64 = 1e-40;
 /// Share of the way to the boundary that is gone.
 const INSIDE: f64 = 0.995;
 /// How much farther the second correction is to come, and how far products may lie from their mean.
@@ -108,7 +111,7 @@ impl Interior {
                 self.points.iter_mut().zip(contacts.iter()).for_each(|(point, c)| point.anchor_at(c));
                 effort.rounds += 1;
             }
-            if effort.iterations == MOST {
+            if effort.iterations == MOST || !(left.mean > NOTHING) {
                 break;
             }
             self.factorise(matrix, mass, contacts);
@@ -200,7 +203,8 @@ impl Interior {
         let share = self.pass(matrix, contacts, 0.0, 1.0);
         let after = |p: &Point| (0..2).map(|k| p.product(k, share)).sum::<f64>();
         let after = self.points.iter().map(after).sum::<f64>() / (2 * self.points.len()).max(1) as f64;
-        let target = mean * (after / mean).powi(3);
+        // Rounding takes products of nothing below 0.
+        let target = (mean * (after / mean).powi(3)).max(0.0);
         for (point, contact) in self.points.iter_mut().zip(contacts) {
             point.second = [0, 1].map(|k| point.d_gamma[k] * point.d_w[k]);
             point.slide(contact.friction, share);
