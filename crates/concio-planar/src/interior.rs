@@ -29,9 +29,6 @@ const FLOOR: f64 = 1.0;
 const SHARE: f64 = 0.02;
 /// Least opening at the start, over what is out of balance.
 const CRACK: f64 = 0.01;
-/// Mean product below which a solution that is not there yet is given up, far below that of any tolerance [J]: it would end in
-/// 0 over 0.
-const NOTHING: f64 = 1e-40;
 /// Share of the way to the boundary that is gone.
 const INSIDE: f64 = 0.995;
 /// How much farther the second correction is to come, and how far products may lie from their mean.
@@ -111,12 +108,16 @@ impl Interior {
                 self.points.iter_mut().zip(contacts.iter()).for_each(|(point, c)| point.anchor_at(c));
                 effort.rounds += 1;
             }
-            if effort.iterations == MOST || !(left.mean > NOTHING) {
+            if effort.iterations == MOST {
                 break;
             }
             self.factorise(matrix, mass, contacts);
             effort.iterations += 1;
             let share = self.direct(matrix, contacts, left.mean);
+            // Where products vanish before the conditions hold, rounding ends in nothing over nothing.
+            if !self.step.iter().flatten().all(|x| x.is_finite()) {
+                break;
+            }
             for (v, step) in v.iter_mut().zip(&self.step) {
                 (0..3).for_each(|k| v[k] += share * step[k]);
             }
