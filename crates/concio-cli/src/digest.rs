@@ -1,6 +1,6 @@
 //! The numbers of a run that the terminal and the report both show.
 
-use concio::outcome::{BondRow, Outcome};
+use concio::outcome::{BondRow, Outcome, TieRow};
 use concio::planar::Failure;
 use concio::record::{EventKind, StopReason};
 use concio::store::JointRow;
@@ -48,6 +48,9 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
             let name = joints.get(first.joint).map_or("", |j| j.name.as_str());
             rows.push(("  first crack", first_crack(bonds, first.cracked, name)));
         }
+    }
+    if let Some(ties) = ties(&outcome.ties) {
+        rows.push(("ties", ties));
     }
     if let Some(event) = outcome.recording.events.iter().find(|e| e.kind == EventKind::Collapse) {
         let name = joints.get(event.joint as usize).map_or("", |j| j.name.as_str());
@@ -103,6 +106,14 @@ fn failure(summary: &Value) -> Option<String> {
     let of_top =
         format!("of the top's way {} turning, {} planes that slid", part(failure.rocking), part(failure.sliding));
     Some(format!("{}; {of_top}", names.join(", ")))
+}
+
+/// What the ties bore, and how many yielded.
+fn ties(ties: &[TieRow]) -> Option<String> {
+    let most = ties.iter().max_by(|a, b| a.force.total_cmp(&b.force))?;
+    let yielded = ties.iter().filter(|t| t.yielded.is_finite()).count();
+    let (force, count) = (si(most.force, "N"), ties.len());
+    Some(format!("{force} at most, in that from {} to {}; {yielded} of {count} yielded", most.from, most.to))
 }
 
 /// `value`, or 0 where it is rounding beside `large`, the largest of its kind.

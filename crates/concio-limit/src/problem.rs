@@ -137,7 +137,9 @@ fn at_rest(case: &Case) -> Result<Case> {
 fn warnings(case: &Case) -> Vec<String> {
     let bonded = case.joint.bond.is_some() || case.joint.changes.iter().any(|c| c.bond.is_some());
     let bonded = bonded.then(|| "the bond of the joints is left out: they count as dry".to_string());
-    bonded.into_iter().collect()
+    let tied = (!case.ties.is_empty())
+        .then(|| "the ties are left out: the multiplier is that of the wall without them".to_string());
+    bonded.into_iter().chain(tied).collect()
 }
 
 /// The beam and the length on which it lies [m].

@@ -115,6 +115,10 @@ impl Interior {
             self.factorise(matrix, mass, contacts);
             effort.iterations += 1;
             let share = self.direct(matrix, contacts, left.mean);
+            // Where products vanish before the conditions hold, rounding ends in nothing over nothing.
+            if !self.step.iter().flatten().all(|x| x.is_finite()) {
+                break;
+            }
             for (v, step) in v.iter_mut().zip(&self.step) {
                 (0..3).for_each(|k| v[k] += share * step[k]);
             }

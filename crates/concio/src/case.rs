@@ -363,7 +363,7 @@ pub struct Tie {
     pub from: String,
     /// What the other end is fixed to, another than `from`.
     pub to: String,
-    /// Where it is fixed to `from` [m]: x and y from the block's centre of gravity, of the base from where the wall begins.
+    /// Where it is fixed to `from` [m]: x and y from the block's centre of gravity, of the base from the origin of the wall.
     /// Default the centre.
     #[serde(default)]
     pub at: [Length; 2],

@@ -197,7 +197,8 @@ impl Model {
         let reciprocal = rubs.iter().all(|r| sides[r.joint as usize][1] as usize >= n || r.normal[0] == r.normal[1]);
         let stiffest = stiffest(&mass, &sides, &device::at_rest(&elastic, &nonlinear), excitation.duration);
         let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
-        let warnings = warnings(case, &wall, rubs.len(), if turns { 0 } else { idle }, reciprocal);
+        let mut warnings = warnings(case, &wall, rubs.len(), if turns { 0 } else { idle }, reciprocal);
+        warnings.extend(planar::detached(case, &wall));
         let planar = turns.then(|| planar::compile(case, &wall, &joints, &laws)).transpose()?;
         let rigid = |(e, law): (usize, &JointLaw)| {
             let spring = &law.spring;

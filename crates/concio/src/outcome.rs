@@ -16,6 +16,8 @@ pub struct Outcome {
     pub envelopes: Envelopes,
     /// The joints with a bond and what became of it, in the order of the joints.
     pub bonds: Vec<BondRow>,
+    /// The ties and what became of them, in the order of the wall file.
+    pub ties: Vec<TieRow>,
     /// Energy account at the end.
     pub energies: Energies,
     /// Peaks over the run.
@@ -59,6 +61,21 @@ pub struct BondRow {
     pub cracked: f64,
     /// When nothing was left of it [s]; infinite when something is.
     pub broken: f64,
+}
+
+/// What became of a tie.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TieRow {
+    /// What one end is fixed to: a block, or `base`, which comes first.
+    pub from: String,
+    /// The block that the other end is fixed to.
+    pub to: String,
+    /// Largest force that it bore [N], from 0.
+    pub force: f64,
+    /// By how much it has yielded [m], from 0.
+    pub stretch: f64,
+    /// When it first yielded [s]; infinite when it did not, 0 where it had to before the motion began.
+    pub yielded: f64,
 }
 
 impl BondRow {

@@ -6,10 +6,11 @@
 use concio_planar::body::Body;
 use concio_planar::joint::{Bond as PointBond, Friction, Law, Normal, Shear};
 use concio_planar::motion::{Link, System};
+use concio_planar::tie::Tie as Rod;
 
 use crate::assign::JointLaw;
 use crate::bond::{Bond, BondValues, Bonded};
-use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw};
+use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw, Tie};
 use crate::error::{InputError, Result};
 use crate::graph;
 use crate::law::Stribeck;
@@ -26,6 +27,9 @@ pub(crate) use run::{Kept, Row, Run, turned};
 pub const STEP: f64 = 1e-3;
 /// The same without inertia, where what stands for it is the smaller the longer steps are.
 pub const QUASI_STATIC_STEP: f64 = 2e-2;
+
+/// How far outside of its block a tie may be fixed [m]: what numbers are rounded by.
+const BESIDE: f64 = 1e-6;
 
 /// A wall whose blocks rise and turn.
 #[derive(Debug, Clone)]
@@ -93,7 +97,7 @@ fn top_level(wall: &Wall) -> f64 {
 /// Makes bodies and laws of a wall.
 ///
 /// # Errors
-/// Devices that planar walls do not have, bonds without strength where they are needed.
+/// Devices that planar walls do not have, ties without length.
 pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Result<Planar> {
     let mut bodies = bodies(wall, joints);
     let n = bodies.len();
@@ -123,10 +127,68 @@ pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointL
     };
     let links = joints.iter().zip(laws).map(link).collect::<Result<Vec<Link>>>()?;
     let other = Law::dry(common_friction(case));
-    let system = System { bodies, links, ties: Vec::new(), other, load: loads, held };
+    let ties = ties(case, wall)?;
+    let system = System { bodies, links, ties, other, load: loads, held };
     let still = case.motion.quasi_static;
     let step = case.solver.step.map_or(if still { QUASI_STATIC_STEP } else { STEP }, |h| h.si());
     Ok(Planar { system, step, still })
+}
+
+/// Ties as rods between bodies; the base is the first of the two.
+fn ties(case: &Case, wall: &Wall) -> Result<Vec<Rod>> {
+    let rod = |(i, tie): (usize, &Tie)| {
+        let wrong = |end: &str, what: String, allowed: &str| {
+            InputError::new(what).key(format!("tie[{i}].{end}")).allowed(allowed)
+        };
+        let body = |end: &str, name: &String| match wall.blocks.iter().position(|b| b.name == *name) {
+            None if name != Tie::BASE => {
+                Err(wrong(end, format!("no block is called `{name}`"), "`base`, or names of blocks"))
+            }
+            found => Ok(found),
+        };
+        let ends = [(body("from", &tie.from)?, tie.at), (body("to", &tie.to)?, tie.to_at)]
+            .map(|(body, at)| (body, at.map(|x| x.si())));
+        let ((a, at_a), (Some(b), at_b)) = (if ends[1].0.is_some() { (ends[0], ends[1]) } else { (ends[1], ends[0]) })
+        else {
+            return Err(
+                wrong("to", "both ends are fixed to the base".into(), "another block than `from`, or `base`").into()
+            );
+        };
+        let place = |body: Option<usize>, at: [f64; 2]| {
+            let from = body.map_or([0.0; 2], |body| wall.blocks[body].centre());
+            [from[0] + at[0], from[1] + at[1]]
+        };
+        if place(a, at_a) == place(Some(b), at_b) {
+            return Err(
+                wrong("to_at", "both ends are at the same place".into(), "a place apart from that of `from`").into()
+            );
+        }
+        let yield_force = tie.yield_force.map_or(f64::INFINITY, |f| f.si());
+        Ok(Rod { a, b, at: [at_a, at_b], stiffness: tie.stiffness.si(), yield_force, slack: tie.slack.si() })
+    };
+    case.ties.iter().enumerate().map(rod).collect()
+}
+
+/// Says of ties that they are fixed outside of their block: a plate lies on it at the farthest.
+pub(crate) fn detached(case: &Case, wall: &Wall) -> Vec<String> {
+    let doubt = |i: usize, key: &str, name: &String, at: [f64; 2]| {
+        let block = wall.blocks.iter().find(|b| b.name == *name)?;
+        let centre = block.centre();
+        let place = [centre[0] + at[0], centre[1] + at[1]];
+        let corners = block.corners();
+        let beyond = |(k, p): (usize, &[f64; 2])| {
+            let q = corners[(k + 1) % corners.len()];
+            let (way, there) = ([q[0] - p[0], q[1] - p[1]], [place[0] - p[0], place[1] - p[1]]);
+            (way[1] * there[0] - way[0] * there[1]) / way[0].hypot(way[1])
+        };
+        let far = corners.iter().enumerate().map(beyond).fold(f64::NEG_INFINITY, f64::max);
+        (far > BESIDE).then(|| format!("tie[{i}].{key} lies {:.3} m outside of block {name}", far))
+    };
+    let both = |(i, tie): (usize, &Tie)| {
+        let [at, to_at] = [tie.at, tie.to_at].map(|at| at.map(|x| x.si()));
+        [doubt(i, "at", &tie.from, at), doubt(i, "to_at", &tie.to, to_at)]
+    };
+    case.ties.iter().enumerate().flat_map(both).flatten().collect()
 }
 
 /// Blocks reach to the middle of their mortar joints, to the base and to the beam.

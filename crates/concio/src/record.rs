@@ -268,7 +268,7 @@ pub struct Energies {
     pub friction: f64,
     /// Dissipated by the breaking of bonds.
     pub bond: f64,
-    /// Dissipated by the hysteresis of devices.
+    /// Dissipated by the hysteresis of devices, and by ties that yield.
     pub device: f64,
     /// Lost in the impacts of rigid joints.
     pub impact: f64,

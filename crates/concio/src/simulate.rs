@@ -545,6 +545,7 @@ impl<'m> Simulation<'m> {
         envelopes.joint_impacts.resize(self.model.joints.len(), 0.0);
         Outcome {
             bonds,
+            ties: self.planar.map_or_else(Vec::new, |bodies| bodies.ties(self.model)),
             layout: self.layout,
             recording,
             time_reached: self.state.t,

@@ -90,15 +90,6 @@ fn each_mistake_of_unit_is_told_with_a_guess() {
     }
 }
 
-/// What a run leaves out is said.
-#[test]
-fn ties_are_left_out_with_a_warning() {
-    let tie = "model = \"planar\"\ntie = [{ from = \"base\", to = \"p1c1b1\", stiffness = 2e7 }]";
-    assert!(WALL.contains("model = \"shear\""));
-    let found = doubts(&case(&WALL.replace("model = \"shear\"", tie)));
-    assert!(found.len() == 1 && found[0].contains("they are left out"), "{found:?}");
-}
-
 #[test]
 fn the_doubts_are_warnings_of_a_prepared_run() {
     let prepared =

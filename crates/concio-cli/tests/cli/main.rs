@@ -12,3 +12,4 @@ mod smart;
 mod studies;
 mod study_runs;
 mod support;
+mod ties;

@@ -98,11 +98,6 @@ pub fn doubts(case: &Case) -> Vec<String> {
     for (index, panel) in case.panels.iter().enumerate() {
         of_panel(&mut doubts, &format!("panel[{index}]"), panel);
     }
-    if !case.ties.is_empty() {
-        doubts.0.push(
-            "the ties of the wall file are read and checked, but no run knows them yet: they are left out".into(),
-        );
-    }
     for (index, tie) in case.ties.iter().enumerate() {
         doubts.look(&format!("tie[{index}].stiffness"), tie.stiffness.si(), &STIFFNESS);
     }

@@ -3,13 +3,15 @@
 use concio_planar::body::Body;
 use concio_planar::motion::{self, Forcing, Motion, Seen, Setting};
 use concio_planar::shape::Place;
+use concio_planar::tie;
 use serde::{Deserialize, Serialize};
 
-use crate::case::JointKind;
+use crate::case::{JointKind, Tie};
 use crate::dynamics::Channels;
 use crate::excitation::Excitation;
 use crate::ground::signal::GroundMotion;
 use crate::model::Model;
+use crate::outcome::TieRow;
 use crate::planar::Planar;
 use crate::record::{Event, EventKind, Layout, Recording, StopReason};
 use crate::state::{BondState, State};
@@ -38,6 +40,7 @@ pub(crate) struct Run {
     before: Vec<f64>,
     /// Whether each joint has been crushed.
     crushed: Vec<bool>,
+    ties: Vec<Borne>,
     /// Motion at a sample.
     at: Sample,
 }
@@ -49,6 +52,15 @@ pub(crate) struct Kept {
     origin: Vec<Place>,
     before: Vec<f64>,
     crushed: Vec<bool>,
+    ties: Vec<Borne>,
+}
+
+/// What a tie has borne so far, as in [`TieRow`].
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+struct Borne {
+    force: f64,
+    stretch: f64,
+    yielded: f64,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -108,14 +120,41 @@ impl Run {
             start: [(); 4].map(|()| zeros.clone()),
             from: 0.0,
         };
-        Run {
+        let mut run = Run {
             origin: motion.places.clone(),
             step: planar.step.min(longest),
             still: planar.still,
             before: vec![0.0; model.joints.len()],
             crushed: vec![false; model.joints.len()],
+            ties: vec![Borne { force: 0.0, stretch: 0.0, yielded: f64::INFINITY }; planar.system.ties.len()],
             at: sample,
             motion,
+        };
+        run.strain(0.0);
+        run
+    }
+
+    /// What became of the ties.
+    pub fn ties(&self, model: &Model) -> Vec<TieRow> {
+        let name = |body: usize| model.wall.blocks[body].name.clone();
+        let row = |((tie, _), borne): ((&tie::Tie, &tie::Strain), &Borne)| TieRow {
+            from: tie.a.map_or_else(|| Tie::BASE.into(), name),
+            to: name(tie.b),
+            force: borne.force,
+            stretch: borne.stretch,
+            yielded: borne.yielded,
+        };
+        self.motion.ties().zip(&self.ties).map(row).collect()
+    }
+
+    /// Peaks of the ties after a step that ended at `time` [s].
+    fn strain(&mut self, time: f64) {
+        for (row, (tie, strain)) in self.ties.iter_mut().zip(self.motion.ties()) {
+            row.force = row.force.max(strain.force(tie));
+            row.stretch = strain.yielded();
+            if row.stretch > 0.0 {
+                row.yielded = row.yielded.min(time);
+            }
         }
     }
 
@@ -128,16 +167,19 @@ impl Run {
     /// What has to be kept beside the state.
     pub fn keep(&self) -> Kept {
         let (origin, before, crushed) = (self.origin.clone(), self.before.clone(), self.crushed.clone());
-        Kept { motion: self.motion.keep(), origin, before, crushed }
+        Kept { motion: self.motion.keep(), origin, before, crushed, ties: self.ties.clone() }
     }
 
     /// Goes on from what was kept; false where it is not of this wall.
     pub fn take_up(&mut self, kept: Kept) -> bool {
-        let Kept { motion, origin, before, crushed } = kept;
-        let fits =
-            origin.len() == self.origin.len() && before.len() == self.before.len() && self.motion.take_up(motion);
+        let Kept { motion, origin, before, crushed, ties } = kept;
+        let fits = origin.len() == self.origin.len()
+            && before.len() == self.before.len()
+            && ties.len() == self.ties.len()
+            && self.motion.take_up(motion);
         if fits {
             (self.origin, self.before, self.crushed) = (origin, before, crushed);
+            self.ties = ties;
         }
         fits
     }
@@ -203,6 +245,7 @@ impl Run {
         (energies.kinetic, energies.elastic) = (self.motion.kinetic(), account.elastic);
         (energies.damping, energies.friction) = (account.damping, account.friction);
         (energies.bond, energies.impact) = (account.bond, account.impact);
+        energies.device = account.ties;
         let counters = &mut state.counters;
         (counters.steps, counters.rejected, counters.unsolved) = (counted.steps, counted.halved, counted.unsolved);
         (counters.iterations, counters.factorisations) = (counted.iterations, counted.factorisations);
@@ -245,6 +288,7 @@ impl Run {
         state.pull = pull;
         totals.peak_input = totals.peak_input.max(state.energies.input().abs());
         totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
+        self.strain(state.t);
         self.cracks(model, state, tell);
         for (e, crushed) in self.crushed.iter_mut().enumerate().filter(|(_, crushed)| !**crushed) {
             let depth = self.motion.points(e).map_or(0.0, |p| p.iter().map(|p| p.crushed).fold(0.0, f64::max));
@@ -339,6 +383,8 @@ impl Run {
                 .filter(|(_, j)| j.kind == JointKind::Base)
                 .map(|(s, _)| s.shear)
                 .sum::<f64>();
+        let anchored = self.motion.ties().filter(|(tie, _)| tie.a.is_none()).map(|(_, strain)| strain.pull[0]);
+        let base = anchored.fold(base, |sum, pull| sum + pull);
         recording.time.push(t);
         let row = Row { t, z, v, a: &state.a, seen: &self.motion.seen, state, shear: base };
         channels.sample_planar(model, row, &mut recording.values);

@@ -1,7 +1,7 @@
 //! Tables of the quantities a result holds: name on disk, unit, meaning, and where they are kept. Writer, reader and
 //! exports go through the same tables, so that none of them can forget a quantity that the others know.
 
-use crate::outcome::{BondRow, Totals};
+use crate::outcome::{BondRow, TieRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Layout, Recording};
 use crate::store::{FrictionRow, JointRow};
 use crate::wall::{Block, PanelInfo};
@@ -131,7 +131,7 @@ pub(super) const ENERGIES: [Field<Energies, f64>; 11] = [
     field!("damping", "J", damping, "Energy dissipated by viscous damping."),
     field!("friction", "J", friction, "Energy dissipated by friction."),
     field!("bond", "J", bond, "Energy dissipated by breaking bonds."),
-    field!("device", "J", device, "Energy dissipated by the hysteresis of devices."),
+    field!("device", "J", device, "Energy dissipated by the hysteresis of devices and by ties that yield."),
     field!("impact", "J", impact, "Energy lost in the impacts of rigid joints."),
     field!("nonreciprocal", "J", nonreciprocal, "Energy taken out by friction whose action differs from its reaction."),
 ];
@@ -227,6 +227,13 @@ pub(super) const BONDS: [Field<BondRow, f64>; 9] = [
     field!("spent", "J", spent, "Energy that breaking has taken."),
     field!("cracked", "s", cracked, "Time of the first crack; infinite when there was none."),
     field!("broken", "s", broken, "Time at which nothing was left of the bond; infinite when something is."),
+];
+
+/// Real quantities of a tie.
+pub(super) const TIES: [Field<TieRow, f64>; 3] = [
+    field!("force", "N", force, "Largest force that the tie bore."),
+    field!("stretch", "m", stretch, "By how much it has yielded."),
+    field!("yielded", "s", yielded, "Time at which it first yielded; infinite when it did not."),
 ];
 
 /// Where each channel is kept under `/history`: its name, unless HDF5 could not hold it under that name beside the

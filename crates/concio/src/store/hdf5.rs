@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::case::DeviceLaw;
 use crate::error::{Error, Result};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, TieRow};
 use crate::record::{Event, Layout, Recording};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::{Sink, label};
@@ -49,6 +49,7 @@ pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointR
         write_history(&mut sink, &outcome.layout, &outcome.recording)?;
         write_frames(&mut sink, &outcome.layout, &outcome.recording)?;
         write_bonds(&mut sink, outcome)?;
+        write_ties(&mut sink, &outcome.ties)?;
         write_events(&mut sink, &outcome.recording.events)?;
         write_sums(&mut sink, outcome)?;
         vtkhdf::write_group(&mut sink, wall, outcome)?;
@@ -251,6 +252,16 @@ fn write_bonds(sink: &mut Sink, outcome: &Outcome) -> Result<()> {
     let joints: Vec<i64> = bonds.iter().map(|b| b.joint as i64).collect();
     sink.list("bonds/joint", &joints, label("1", "Index of the joint."))?;
     write_columns(sink, "bonds", &fields::BONDS, bonds)
+}
+
+/// Nothing where there are none.
+fn write_ties(sink: &mut Sink, ties: &[TieRow]) -> Result<()> {
+    if ties.is_empty() {
+        return Ok(());
+    }
+    sink.texts("ties/from", &names(ties, |t| &t.from), "What one end is fixed to, base first.")?;
+    sink.texts("ties/to", &names(ties, |t| &t.to), "The block that the other end is fixed to.")?;
+    write_columns(sink, "ties", &fields::TIES, ties)
 }
 
 /// Nothing where nothing happened: other readers refuse a list of no texts.

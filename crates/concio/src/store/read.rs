@@ -8,7 +8,7 @@ use serde::de::value::{Error as KeywordError, StrDeserializer};
 
 use crate::case::{DeviceLaw, JointKind};
 use crate::error::Result;
-use crate::outcome::{BondRow, Outcome, Totals};
+use crate::outcome::{BondRow, Outcome, TieRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::Source;
@@ -42,6 +42,7 @@ pub fn read(path: &Path) -> Result<StoredRun> {
     let outcome = Outcome {
         recording,
         bonds,
+        ties: read_ties(&source)?,
         envelopes,
         energies: read_numbers(&source, "energy", &fields::ENERGIES, Energies::default())?,
         totals: read_numbers(&source, "totals", &fields::TOTALS, Totals::default())?,
@@ -191,6 +192,21 @@ fn read_bonds(source: &Source, joints: usize) -> Result<Vec<BondRow>> {
     }
     read_columns(source, "bonds", &fields::BONDS, &mut bonds)?;
     Ok(bonds)
+}
+
+/// None in a file without them.
+fn read_ties(source: &Source) -> Result<Vec<TieRow>> {
+    if !source.has("ties/from") {
+        return Ok(Vec::new());
+    }
+    let (from, to) = (source.texts("ties/from")?, source.texts("ties/to")?);
+    if to.len() != from.len() {
+        return Err(source.wrong("ties/to", format!("has {} entries, expected {}", to.len(), from.len())));
+    }
+    let mut ties: Vec<TieRow> =
+        from.into_iter().zip(to).map(|(from, to)| TieRow { from, to, ..TieRow::default() }).collect();
+    read_columns(source, "ties", &fields::TIES, &mut ties)?;
+    Ok(ties)
 }
 
 fn read_layout(source: &Source, bonded: usize) -> Result<Layout> {

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::error::{Error, Result};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, TieRow};
 use crate::planar;
 use crate::record::Energies;
 use crate::store::{JointRow, Provenance, atomic};
@@ -55,6 +55,7 @@ pub fn summary(
         "contact_residual": totals.contact_residual,
         "failure": planar::failure(wall, &graph, &outcome.recording),
         "bonds": bonds(outcome, joints),
+        "ties": ties(outcome),
         "energy": energy(&outcome.energies, residual_relative(outcome)),
         "counters": outcome.counters,
         "inputs_hash": provenance.inputs_hash,
@@ -101,6 +102,20 @@ fn bonds(outcome: &Outcome, joints: &[JointRow]) -> Value {
         "first_crack": first.map(|b| b.cracked),
         "first_joint": first.and_then(|b| joints.get(b.joint)).map(|j| &j.name),
     })
+}
+
+/// What each tie bore; null where there are none.
+fn ties(outcome: &Outcome) -> Value {
+    let row = |tie: &TieRow| {
+        json!({
+            "from": tie.from,
+            "to": tie.to,
+            "peak_force": tie.force,
+            "yielded": tie.yielded,
+            "stretch": tie.stretch,
+        })
+    };
+    if outcome.ties.is_empty() { Value::Null } else { outcome.ties.iter().map(row).collect() }
 }
 
 fn energy(energies: &Energies, residual_relative: f64) -> Value {

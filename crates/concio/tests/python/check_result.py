@@ -53,6 +53,7 @@ BOND_COLUMNS = {
     "strength": "N", "stiffness": "N/m", "residual_stiffness": "1", "energy": "J", "decay": "m", "damage": "1",
     "spent": "J", "cracked": "s", "broken": "s",
 }
+TIE_COLUMNS = {"force": "N", "stretch": "m", "yielded": "s"}
 JOINT_COLUMNS = {
     "weight": "1",
     "overlap": "m",
@@ -226,6 +227,8 @@ def check_frames(result, unknowns, joints):
         result.array("frames/pressure", (frames, touching), "f8", "N")
     if "bonds" in result.file:
         check_bonds(result, frames)
+    if "ties" in result.file:
+        check_ties(result)
     if "events" in result.file:
         check_events(result)
     return time, (displacement, vertical, rotation), velocity
@@ -248,6 +251,14 @@ def check_bonds(result, frames):
     damage = result.array("frames/damage", (frames, n), "f8", "1")
     require(((damage >= 0) & (damage <= 1)).all(), "damage is not between 0 and 1")
     require((columns["cracked"] <= columns["broken"]).all(), "a bond was broken before it cracked")
+
+
+def check_ties(result):
+    n = result.file["ties/from"].shape[0]
+    ends = zip(result.texts("ties/from", n), result.texts("ties/to", n))
+    require(all(a != b for a, b in ends), "a tie is fixed to one block twice")
+    columns = {key: result.array(f"ties/{key}", (n,), "f8", unit) for key, unit in TIE_COLUMNS.items()}
+    require((np.isfinite(columns["yielded"]) == (columns["stretch"] > 0)).all(), "when a tie yielded")
 
 
 def check_sums(result, unknowns, joints):
@@ -348,7 +359,7 @@ def check_npz(path, file):
                 equal(np.array([t.decode() for t in array]), np.array(file[name].asstr()[()]), f"npz: {name}")
             else:
                 equal(array, file[name][()], f"npz: {name}")
-        tops = ["case", "wall", "history", "frames", "bonds", "events", "envelope", "energy", "totals", "counters"]
+        tops = ["case", "wall", "history", "frames", "bonds", "ties", "events", "envelope", "energy", "totals", "counters"]
         wanted = []
         file.visititems(lambda name, item: wanted.append(name) if isinstance(item, h5py.Dataset) else None)
         wanted = {w for w in wanted if any(w == top or w.startswith(top + "/") for top in tops)}

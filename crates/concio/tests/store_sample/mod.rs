@@ -2,7 +2,7 @@
 //! shows; they obey no mechanics.
 
 use concio::case::{DeviceLaw, FrictionLaw, JointKind, SpringLaw};
-use concio::outcome::{BondRow, Outcome, Totals};
+use concio::outcome::{BondRow, Outcome, TieRow, Totals};
 use concio::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use concio::store::{FrictionRow, JointRow, Provenance};
 use concio::wall::{Block, End, Joint, PanelInfo, Shape, Wall};
@@ -181,7 +181,15 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         cracked: 1e-3,
         broken: if k == 0 { f64::INFINITY } else { 2e-3 },
     };
+    let tie = |k: usize| TieRow {
+        from: if k == 0 { "base".into() } else { wall.blocks[0].name.clone() },
+        to: wall.blocks[k.max(1)].name.clone(),
+        force: 4.2e4 + k as f64,
+        stretch: 1e-3 * k as f64,
+        yielded: if k == 0 { f64::INFINITY } else { 5e-4 },
+    };
     Outcome {
+        ties: if size.planar && wall.blocks.len() > 1 { (0..2).map(tie).collect() } else { Vec::new() },
         bonds: (0..layout.bonded).map(bond).collect(),
         time_reached: layout.interval * (size.samples - 1) as f64,
         layout,

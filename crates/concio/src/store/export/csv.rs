@@ -14,7 +14,8 @@ use crate::store::{FrictionRow, StoredRun, atomic};
 use crate::wall::{Block, End};
 
 /// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv`, `corners.csv` where a
-/// block is no rectangle, `bonds.csv` where joints are bonded and `events.csv` where something happened, into `folder`, which is made if need be. Numbers read back to
+/// block is no rectangle, `bonds.csv` where joints are bonded, `ties.csv` where there are ties and `events.csv` where something
+/// happened, into `folder`, which is made if need be. Numbers read back to
 /// the same bits.
 ///
 /// # Errors
@@ -33,6 +34,9 @@ pub fn csv(run: &StoredRun, folder: &Path) -> Result<()> {
     })?;
     if !run.outcome.bonds.is_empty() {
         table(&folder.join("bonds.csv"), |t| bonds(t, run))?;
+    }
+    if !run.outcome.ties.is_empty() {
+        table(&folder.join("ties.csv"), |t| ties(t, run))?;
     }
     if !run.outcome.recording.events.is_empty() {
         table(&folder.join("events.csv"), |t| events(t, run))?;
@@ -175,6 +179,20 @@ fn bonds(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     for bond in &run.outcome.bonds {
         table.cell(run.joints.get(bond.joint).map_or("", |j| &j.name))?;
         numbers(table, &fields::BONDS, bond)?;
+        table.end_row()?;
+    }
+    Ok(())
+}
+
+fn ties(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
+    table.head("from", "1")?;
+    table.head("to", "1")?;
+    heads(table, &fields::TIES)?;
+    table.end_row()?;
+    for tie in &run.outcome.ties {
+        table.cell(&tie.from)?;
+        table.cell(&tie.to)?;
+        numbers(table, &fields::TIES, tie)?;
         table.end_row()?;
     }
     Ok(())

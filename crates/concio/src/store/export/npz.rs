@@ -147,6 +147,12 @@ fn fill_recording(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
         archive.integers("bonds/joint", run.outcome.bonds.iter().map(|b| b.joint as i64))?;
         columns(archive, "bonds", &fields::BONDS, &run.outcome.bonds)?;
     }
+    let ties = &run.outcome.ties;
+    if !ties.is_empty() {
+        archive.texts("ties/from", &ties.iter().map(|t| &t.from).collect::<Vec<_>>())?;
+        archive.texts("ties/to", &ties.iter().map(|t| &t.to).collect::<Vec<_>>())?;
+        columns(archive, "ties", &fields::TIES, ties)?;
+    }
     let events = &recording.events;
     if events.is_empty() {
         return Ok(());

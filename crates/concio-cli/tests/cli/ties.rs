@@ -1,0 +1,53 @@
+//! Walls with tie rods, run as a user runs them.
+
+use crate::support::Desk;
+
+/// A block of 5 kN with μ = 0.4 that a push of 0.7 of its weight would move, held by a rod.
+const WALL: &str = r#"
+model = "planar"
+[[panel]]
+bond = "explicit"
+block = [{ id = "stone", course = 1, x = 0, y = 0, length = 1, height = 0.25 }]
+brick = { length = 1, height = 0.25, thickness = 1, specific_weight = 20e3 }
+[joint]
+bed = { law = "rigid" }
+head = { law = "rigid" }
+friction = { law = "coulomb", static = 0.4, dynamic = 0.4 }
+[[tie]]
+from = "base"
+at = [-2, 0.125]
+to = "stone"
+to_at = [-0.5, 0]
+stiffness = "5 MN/m"
+[motion]
+duration = "1 s"
+quasi_static = true
+base = { tilt = { acceleration = "-0.7 g", rise = "0.5 s" } }
+"#;
+
+#[test]
+fn a_run_tells_what_its_rods_bore() {
+    let desk = Desk::new();
+    desk.put("tied.toml", WALL);
+    let done = desk.concio("run tied.toml --out tied").assert().success();
+    let output = done.get_output();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    assert!(text.contains("at most, in that from base to stone; 0 of 1 yielded"), "{text}");
+    assert!(!text.contains("left out"), "{text}");
+    let tie = &desk.json("tied/summary.json")["ties"][0];
+    let force = tie["peak_force"].as_f64().expect("a force");
+    assert!((force - 0.3 * 5e3).abs() < 1.0, "{tie}");
+    assert!(tie["yielded"].is_null(), "{tie}");
+    desk.concio("export tied --csv").assert().success();
+    let rows = desk.get("tied/csv/ties.csv");
+    assert!(rows.starts_with("from,to,force [N],stretch [m],yielded [s]\nbase,stone,1"), "{rows}");
+}
+
+#[test]
+fn limit_analysis_says_that_it_leaves_rods_out() {
+    let desk = Desk::new();
+    desk.put("tied.toml", WALL);
+    let done = desk.concio("limit tied.toml").assert().success();
+    let told = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    assert!(told.contains("the ties are left out"), "{told}");
+}
