@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use concio::case::{Case, ModelKind, Spring, SpringLaw, Syntax, from_str};
+use concio::case::{Beam, Case, ModelKind, Spring, SpringLaw, Syntax, from_str};
+use concio::quantity::{ForcePerLength, Length, Time};
 use concio::run::prepare;
 use concio::simulate::{Progress, Simulation};
 use concio_limit::{Heads, Limit, Options, Problem, Push, Towards, analyse};
@@ -12,8 +13,8 @@ use concio_limit::{Heads, Limit, Options, Problem, Push, Towards, analyse};
 #[allow(dead_code)]
 pub const FRICTIONLESS: Options = Options { heads: Heads::Frictionless, push: Push::Body, towards: Towards::Right };
 
-/// Displacement at which a wall counts as moving [m]: what a mechanism covers within a thousandth of the ramp.
-const MOVING: f64 = 1e-4;
+/// Displacement at which a wall counts as moving [m]: what a mechanism covers within a few thousandths of the ramp.
+const MOVING: f64 = 1e-5;
 
 /// A dry wall of blocks `[x, length]` by courses from the bottom.
 #[derive(Debug, Clone)]
@@ -156,12 +157,16 @@ pub fn tilted(wall: &DryWall, most: f64) -> f64 {
     most * time / 20.0
 }
 
-/// Largest force of a driven beam on its way over 2 mm [N], by the planar model in steps of 0.02 mm.
+/// Largest force of a driven beam on its way over 2 mm [N], which presses with `load` [N/m] and is `height` high [m], by the planar
+/// model in steps of 0.02 mm.
 #[allow(dead_code)]
-pub fn pushed(wall: &DryWall) -> f64 {
+pub fn pushed(wall: &DryWall, load: f64, height: f64) -> f64 {
     let mut case =
         planar(wall, r#"{ "top": { "path": { "displacements": ["2 mm"], "speed": "1 mm/s" } }, "duration": 2 }"#);
-    case.solver.step = Some(concio::quantity::Time::from_si(0.02));
+    case.load.beam = Beam::Driven;
+    case.load.top = ForcePerLength::from_si(load);
+    case.load.beam_height = Some(Length::from_si(height));
+    case.solver.step = Some(Time::from_si(0.02));
     let mut peak = 0.0;
     simulation(case, |run| {
         peak = run.state().totals.top_force_peak;
