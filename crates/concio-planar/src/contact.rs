@@ -358,15 +358,15 @@ impl Solver {
     }
 
     /// Solves a step to `tolerance` [m/s]: the augmented Lagrangian, for as long as it falls quickly, as it does where
-    /// contacts go on doing what they did; then, where all contacts are such as it knows, an interior point method. `v`
-    /// holds a guess on entry.
+    /// contacts go on doing what they did; then, where all contacts are such as it knows, an interior point method, which may leave
+    /// `enough` [m/s] where it does not come nearer. `v` holds a guess on entry.
     pub fn newton(
         &mut self,
         mass: &[Triple],
         free: &[Triple],
         contacts: &mut [Contact],
         v: &mut [Triple],
-        tolerance: f64,
+        (tolerance, enough): (f64, f64),
     ) -> Effort {
         if !contacts.iter().all(interior::fits) {
             return self.lagrangian((mass, free), contacts, v, tolerance, (MOST, f64::INFINITY));
@@ -382,8 +382,8 @@ impl Solver {
         self.restore(contacts, v);
         // Its factors overwrite those that are known.
         self.known.clear();
-        let second = self.interior.solve(&mut self.matrix, (mass, free), contacts, v, tolerance);
-        if second.converged {
+        let second = self.interior.solve(&mut self.matrix, (mass, free), contacts, v, (tolerance, enough));
+        if second.residual <= enough {
             return first.then(second);
         }
         self.keep(contacts, v);

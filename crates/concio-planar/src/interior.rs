@@ -22,6 +22,8 @@ const MOST: usize = 60;
 /// 1/E over ρ of a rigid contact: more leaves what head joints bear to the cones instead of to what they bore before, less
 /// gives way by more than the tolerance.
 const FIRM: f64 = 1e4;
+/// Iterations in which what is left has to be halved, once it is small enough.
+const PATIENCE: usize = 8;
 /// μ beyond which μ |u_t| of the last direction is no good guess for the next.
 const STEEP: f64 = 3.0;
 /// Least impulse at the start, over what is out of balance, and over what was borne before.
@@ -87,17 +89,18 @@ pub(crate) fn fits(contact: &Contact) -> bool {
 }
 
 impl Interior {
-    /// Solves a step to `tolerance` [m/s]; `v` holds a guess on entry.
+    /// Solves a step to `tolerance` [m/s], or for as long as that gets nearer to it from `enough` [m/s] on; `v` holds a guess on entry.
     pub(crate) fn solve(
         &mut self,
         matrix: &mut Blocks,
         (mass, free): (&[Triple], &[Triple]),
         contacts: &mut [Contact],
         v: &mut [Triple],
-        tolerance: f64,
+        (tolerance, enough): (f64, f64),
     ) -> Effort {
         self.start(mass, free, contacts, v, tolerance);
         let mut effort = Effort { rounds: 1, ..Effort::default() };
+        let (mut least, mut since) = (f64::INFINITY, 0);
         loop {
             let left = self.look(mass, free, contacts, v);
             effort.residual = worse(left.residual, left.drawn);
@@ -109,7 +112,9 @@ impl Interior {
                 self.points.iter_mut().zip(contacts.iter()).for_each(|(point, c)| point.anchor_at(c));
                 effort.rounds += 1;
             }
-            if effort.iterations == MOST || !left.residual.is_finite() {
+            (least, since) = if effort.residual <= 0.5 * least { (effort.residual, 0) } else { (least, since + 1) };
+            let stays = effort.residual <= enough && since >= PATIENCE;
+            if effort.iterations == MOST || stays || !left.residual.is_finite() {
                 break;
             }
             self.factorise(matrix, mass, contacts);

@@ -248,3 +248,20 @@ proptest! {
         }
     }
 }
+
+/// Heights of courses without mortar are sums that rounding puts a little above or below what is written: an opening on every one.
+#[test]
+fn openings_lie_on_any_dry_bed() {
+    let brick = "brick = { length = 0.4, height = 0.2, thickness = 0.4, specific_weight = 20e3 }\nmortar = { bed = 0, head = 0 }";
+    for bottom in 0..30 {
+        let opening = format!(
+            "[[panel.opening]]\nx = 1.2\ny = {:.1}\nwidth = 0.8\nheight = 0.6\nlintel = {{ height = 0.2, bearing = 0.2 }}",
+            0.2 * bottom as f64
+        );
+        let panel = format!("bond = \"running\"\ncourses = 36\nbricks = 8\n{opening}");
+        let text = format!("model = \"shear\"\n[[panel]]\n{brick}\n{panel}\n{REST}");
+        let file = from_str(&text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let wall = lay(&file.case).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(named(&wall, "p1o1").lowest_course(), bottom + 3);
+    }
+}

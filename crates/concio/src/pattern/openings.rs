@@ -164,8 +164,9 @@ impl Frame {
     fn bed(&self, y: f64, zero: f64, least: usize) -> std::result::Result<(usize, f64), InputError> {
         let within = |[low, high]: &[f64; 2]| (low - self.near..=high + self.near).contains(&y);
         if let Some(bed) = self.beds.iter().position(within).filter(|bed| *bed >= least) {
+            // Of a dry wall both are one height, but for rounding.
             let [low, high] = self.beds[bed];
-            return Ok((bed, y.clamp(low, high)));
+            return Ok((bed, y.max(low).min(high)));
         }
         let possible = &self.beds[least.min(self.beds.len())..];
         let above = possible.iter().position(|bed| bed[0] > y).unwrap_or(possible.len());

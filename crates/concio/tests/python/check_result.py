@@ -239,7 +239,7 @@ def check_events(result):
     require(len(events) > 0 and (np.diff(events) >= 0).all(), "events are not in the order of time")
     joints = result.array("events/joint", events.shape, "i8", "1")
     require((joints >= 0).all(), "events/joint")
-    require(set(result.texts("events/kind", len(events))) <= {"impact", "crack", "break", "collapse"}, "events/kind")
+    require(set(result.texts("events/kind", len(events))) <= {"impact", "crack", "break", "crush", "collapse"}, "events/kind")
     result.array("events/value", events.shape, "f8", "SI")
 
 
@@ -389,7 +389,7 @@ def check_csv_events(folder, file, joints):
     equal(np.array([float(row["value"]) for row in rows]), file["events/value"][()], "csv: events, value")
     require([row["kind"] for row in rows] == list(file["events/kind"].asstr()), "csv: events, kind")
     require([row["joint"] for row in rows] == [joints[k] for k in file["events/joint"]], "csv: events, joint")
-    units = {"impact": "N s", "crack": "m", "break": "m", "collapse": "m"}
+    units = {"impact": "N s", "crack": "m", "break": "m", "crush": "m", "collapse": "m"}
     require(all(row["unit"] == units[row["kind"]] for row in rows), "csv: events, unit")
 
 
