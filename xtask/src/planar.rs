@@ -37,6 +37,8 @@ pub fn make(root: &Path) -> Outcome {
     }
     let arch = ran(root, &scratch, "arch", &text(root, "17-arch.toml")?)?;
     deformed(root, &arch, &images, "arch")?;
+    let facade = ran(root, &scratch, "facade", &text(root, "large/facade.toml")?)?;
+    deformed(root, &facade, &images, "facade")?;
     let beside = root.join("../shared/reference/dry-walls");
     for (load, units) in TESTED {
         let name = format!("ws-{load}");

@@ -108,8 +108,8 @@ pub struct Forcing {
 pub struct Setting {
     /// Step h [s].
     pub step: f64,
-    /// What contact is to be violated by at most [m/s]. Steps that leave a hundred times as much are taken again in two halves, and count
-    /// as unsolved where that does not help.
+    /// What contact is to be violated by at most [m/s]. Steps that leave a hundred times as much, without inertia any more
+    /// than it, are taken again in two halves, and count as unsolved where that does not help.
     pub tolerance: f64,
     /// Whether inertia is left out: every step starts at rest.
     pub still: bool,
@@ -121,6 +121,11 @@ impl Setting {
     /// Steps of `step` [s], contact solved to a millionth of the velocity that gravity gives in one.
     pub fn new(step: f64) -> Self {
         Setting { step, tolerance: ACCURACY * G * step, still: false, method: Method::default() }
+    }
+
+    /// What may be left of a step that is not taken again in two halves [m/s]. Without inertia errors are not carried away by what follows.
+    fn enough(&self) -> f64 {
+        if self.still { self.tolerance } else { ENOUGH * self.tolerance }
     }
 }
 
@@ -158,7 +163,7 @@ pub struct Counters {
     pub rounds: u64,
     /// Steps taken again in two halves.
     pub halved: u64,
-    /// Steps whose contact was left with more than a hundred times the tolerance.
+    /// Steps whose contact was left with more than a hundred times the tolerance, without inertia with more than it.
     pub unsolved: u64,
     /// Largest violation left [m/s].
     pub residual: f64,
@@ -442,7 +447,7 @@ impl Motion {
             effort = effort.then(self.solve_on());
         }
         self.count(effort);
-        let enough = effort.residual <= ENOUGH * self.setting.tolerance;
+        let enough = effort.residual <= self.setting.enough();
         if !enough && !come_what_may {
             return false;
         }
@@ -493,9 +498,7 @@ impl Motion {
     fn solve_on(&mut self) -> Effort {
         let Motion { solver, mass, inverse, free, contacts, after, setting, .. } = self;
         match setting.method {
-            Method::Newton => {
-                solver.newton(mass, free, contacts, after, (setting.tolerance, ENOUGH * setting.tolerance))
-            }
+            Method::Newton => solver.newton(mass, free, contacts, after, (setting.tolerance, setting.enough())),
             Method::GaussSeidel(rounds) => {
                 solver.gauss_seidel(inverse, free, contacts, after, setting.tolerance, rounds)
             }
