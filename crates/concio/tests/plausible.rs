@@ -96,3 +96,23 @@ fn the_doubts_are_warnings_of_a_prepared_run() {
         concio::run::prepare(case(&WALL.replace("mass = 4000", "mass = 4")), Path::new(".")).expect("a wall");
     assert!(prepared.model.warnings.iter().any(|w| w.starts_with("load.beam.mass is 4 kg")));
 }
+
+/// Joints of planar walls open: what holds without limit there, or not at all, is told.
+#[test]
+fn joints_that_hold_without_limit_are_told() {
+    let planar = |joint: &str| {
+        doubts(&case(&format!(
+            "model = \"planar\"\n[[panel]]\nbond = \"running\"\ncourses = 4\nbricks = 3\n\
+             brick = {{ length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18e3 }}\n\
+             [joint]\nhead = {{ law = \"no-tension\", stiffness = \"36 N/mm3\" }}\n{joint}\n[motion]\nduration = 1"
+        )))
+    };
+    let elastic = "bed = { law = \"elastic\", stiffness = \"15 N/mm3\" }";
+    let found = planar(elastic);
+    assert!(found.len() == 1 && found[0].contains("pull without limit"), "{found:?}");
+    let bond = |text: &str| planar(&format!("{elastic}\nbond = {{ {text} }}"));
+    let found = bond("tensile_strength = \"0.1 MPa\"");
+    assert!(found.len() == 1 && found[0].contains("joint.bond.cohesion is 0"), "{found:?}");
+    assert_eq!(bond("tensile_strength = \"0.1 MPa\", cohesion = \"0.1 MPa\""), Vec::<String>::new());
+    assert_eq!(planar("bed = { law = \"no-tension\", stiffness = \"15 N/mm3\", rigidity = 1 }"), Vec::<String>::new());
+}

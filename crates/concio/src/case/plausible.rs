@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::node::{Node, Value};
-use super::{Beam, Case, FrictionChange, Panel, Signal, SpringChange};
+use super::{Beam, Case, FrictionChange, ModelKind, Panel, Signal, SpringChange, SpringLaw};
 use crate::quantity::{Stiffness, shown};
 
 /// What a quantity is expected to be, in SI.
@@ -102,6 +102,9 @@ pub fn doubts(case: &Case) -> Vec<String> {
         doubts.look(&format!("tie[{index}].stiffness"), tie.stiffness.si(), &STIFFNESS);
     }
     of_joints(&mut doubts, case);
+    if case.model == ModelKind::Planar {
+        of_planar_joints(&mut doubts, case);
+    }
     doubts.look("load.top", case.load.top.si(), &LOAD);
     if let Beam::Mass(mass) = case.load.beam {
         doubts.look("load.beam.mass", mass.si(), &BEAM);
@@ -241,6 +244,26 @@ fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {
         if let Some(weight) = block.specific_weight {
             doubts.look(&format!("{at}.block[{b}].specific_weight"), weight.si(), &WEIGHT);
         }
+    }
+}
+
+/// What is right in shear walls, whose joints cannot open, and hardly meant where they can.
+fn of_planar_joints(doubts: &mut Doubts, case: &Case) {
+    let joint = &case.joint;
+    let changed = joint.changes.iter().any(|change| change.bond.is_some());
+    match &joint.bond {
+        None if joint.bed.law == SpringLaw::Elastic && !changed => doubts.0.push(
+            "joint.bed is `elastic` without a bond: in a planar wall such joints pull without limit, and bear shear without limit beside \
+             friction; dry joints are `no-tension` with `rigidity = 1`, or `rigid`"
+                .into(),
+        ),
+        Some(bond) if (bond.tensile_strength.si() > 0.0) != (bond.cohesion.si() > 0.0) => {
+            let missing = if bond.cohesion.si() > 0.0 { "tensile_strength" } else { "cohesion" };
+            doubts.0.push(format!(
+                "joint.bond.{missing} is 0: joints of a planar wall are pulled and sheared, and those without it crack almost at once"
+            ));
+        }
+        _ => {}
     }
 }
 

@@ -327,7 +327,9 @@ impl Run {
             let reach = points.iter().map(|p| p.reach[0].max(p.reach[1])).fold(0.0, f64::max);
             let stretch = points.iter().map(|p| p.slide.abs().max(p.gap)).fold(0.0, f64::max);
             let shares = self.motion.shares(e);
-            let damage = points.iter().zip(shares).map(|(p, share)| share * p.damage).sum();
+            // Shares of thirds do not add up to 1 to the bit.
+            let gone = points.iter().all(|p| p.damage == 1.0);
+            let damage = if gone { 1.0 } else { points.iter().zip(shares).map(|(p, share)| share * p.damage).sum() };
             if !held.cracked.is_finite() && first.is_finite() {
                 tell(Event { time: first, joint: bond.joint, kind: EventKind::Crack, value: stretch });
             }

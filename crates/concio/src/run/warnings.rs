@@ -51,7 +51,8 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
     (unsolved as f64 > UNSOLVED * steps as f64).then(|| {
         format!(
             "the contact of {unsolved} of {steps} steps was not solved to the tolerance: blocks may overlap there, and forces \
-             be off; lower solver.step"
+             be off, by {:.1e} m/s at most; where all joints are rigid, give them a stiffness, else lower solver.step",
+            outcome.totals.contact_residual
         )
     })
 }
