@@ -88,7 +88,7 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
     let counters = &outcome.counters;
     let mut steps = format!("{}, {} rejected, {} repeated", counters.steps, counters.rejected, counters.failed);
     if counters.unsolved > 0 {
-        steps += &format!(", {} with contact not solved to the tolerance", counters.unsolved);
+        steps += &format!(", {} with contact left unsolved", counters.unsolved);
     }
     rows.push(("steps", steps));
     rows.push(("solver time", clock(number("/solve_seconds"))));

@@ -2,14 +2,15 @@
 
 use std::collections::BTreeSet;
 
+use pulp::{Arch, Simd, WithSimd};
 use serde::{Deserialize, Serialize};
 
-/// A block, by rows.
-pub type Block = [[f64; 3]; 3];
+/// A block, by rows of four for the sake of registers; the last column is 0.
+pub type Block = [[f64; 4]; 3];
 /// Three unknowns of a body.
 pub type Triple = [f64; 3];
 
-const ZERO: Block = [[0.0; 3]; 3];
+const ZERO: Block = [[0.0; 4]; 3];
 
 /// A symmetric positive definite matrix in the order of elimination: for every row a diagonal block and the blocks right
 /// of it, fill included. A = Uᵀ D U, D of blocks.
@@ -26,15 +27,73 @@ pub struct Blocks {
     targets: Vec<u32>,
     /// Blocks right of the diagonal, row by row, then the diagonal ones.
     values: Vec<Block>,
-    /// Inverses of the eliminated diagonal blocks.
-    inverse: Vec<Block>,
+    /// The eliminated diagonal blocks.
+    pivots: Vec<Pivot>,
+}
+
+/// A diagonal block by its own factors L D Lᵀ. Its inverse would not do: where contacts hold one direction of a body 10⁸ times as stiffly as
+/// another, what it makes of the other is rounded by as much.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+struct Pivot {
+    /// Below the diagonal of L: second row, then third.
+    l: [f64; 3],
+    /// 1/D.
+    d: [f64; 3],
+}
+
+impl Pivot {
+    #[inline(always)]
+    fn of(a: &Block) -> Self {
+        let d0 = 1.0 / a[0][0];
+        let l = [a[1][0] * d0, a[2][0] * d0];
+        let d1 = 1.0 / (a[1][1] - l[0] * a[1][0]);
+        let below = a[2][1] - l[1] * a[1][0];
+        let l21 = below * d1;
+        let d2 = 1.0 / (a[2][2] - l[1] * a[2][0] - l21 * below);
+        Pivot { l: [l[0], l[1], l21], d: [d0, d1, d2] }
+    }
+
+    /// A⁻¹ of the columns of a block.
+    #[inline(always)]
+    fn solved(&self, b: &Block) -> Block {
+        let mut y = *b;
+        let [l10, l20, l21] = self.l;
+        for j in 0..4 {
+            y[1][j] -= l10 * y[0][j];
+            y[2][j] = (y[2][j] - l20 * y[0][j] - l21 * y[1][j]) * self.d[2];
+            y[1][j] = y[1][j] * self.d[1] - l21 * y[2][j];
+            y[0][j] = y[0][j] * self.d[0] - l10 * y[1][j] - l20 * y[2][j];
+        }
+        y
+    }
+
+    #[inline]
+    fn solve(&self, x: Triple) -> Triple {
+        let [l10, l20, l21] = self.l;
+        let y1 = x[1] - l10 * x[0];
+        let z2 = (x[2] - l20 * x[0] - l21 * y1) * self.d[2];
+        let z1 = y1 * self.d[1] - l21 * z2;
+        [x[0] * self.d[0] - l10 * z1 - l20 * z2, z1, z2]
+    }
+}
+
+/// [`Blocks::factorise`] compiled for some registers.
+struct Elimination<'a>(&'a mut Blocks);
+
+impl WithSimd for Elimination<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.0.eliminate();
+    }
 }
 
 /// Factors of a matrix, to be kept.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Factors {
     values: Vec<Block>,
-    inverse: Vec<Block>,
+    pivots: Vec<Pivot>,
 }
 
 /// Where the block of a pair of bodies stands, and whether the second of them comes first there.
@@ -63,7 +122,7 @@ impl Blocks {
             start.push(columns.len());
         }
         let values = vec![ZERO; columns.len() + bodies];
-        let mut blocks = Blocks { place, start, columns, targets: Vec::new(), values, inverse: vec![ZERO; bodies] };
+        let mut blocks = Blocks { place, start, columns, targets: Vec::new(), values, pivots: vec![Pivot::default(); bodies] };
         blocks.targets = blocks.updates();
         blocks
     }
@@ -71,7 +130,7 @@ impl Blocks {
     /// Per row, for every pair of its columns in the order of the loops of [`Blocks::factorise`].
     fn updates(&self) -> Vec<u32> {
         let mut targets = Vec::new();
-        for k in 0..self.inverse.len() {
+        for k in 0..self.pivots.len() {
             let row = &self.columns[self.start[k]..self.start[k + 1]];
             for (first, &i) in row.iter().enumerate() {
                 targets.push((self.columns.len() + i) as u32);
@@ -120,17 +179,24 @@ impl Blocks {
 
     /// Eliminates row by row.
     pub fn factorise(&mut self) {
-        let diagonal = self.columns.len();
-        let mut next = 0;
-        for k in 0..self.inverse.len() {
-            let inverse = inverted(&self.values[diagonal + k]);
-            self.inverse[k] = inverse;
-            for i in self.start[k]..self.start[k + 1] {
-                let factor = transposed_product(&self.values[i], &inverse);
-                for j in i..self.start[k + 1] {
-                    let right = self.values[j];
-                    subtract_product(&mut self.values[self.targets[next] as usize], &factor, &right);
-                    next += 1;
+        // In the widest registers there are; nothing is fused, so that bits do not tell them apart.
+        Arch::new().dispatch(Elimination(self));
+    }
+
+    #[inline(always)]
+    fn eliminate(&mut self) {
+        let Blocks { start, columns, targets, values, pivots, .. } = self;
+        let mut targets = targets.iter();
+        for k in 0..pivots.len() {
+            let own = Pivot::of(&values[columns.len() + k]);
+            pivots[k] = own;
+            // What a row changes comes after it.
+            let (rows, after) = values.split_at_mut(start[k + 1]);
+            let row = &rows[start[k]..];
+            for (first, left) in row.iter().enumerate() {
+                let factor = own.solved(left);
+                for (right, target) in row[first..].iter().zip(&mut targets) {
+                    subtract_product(&mut after[*target as usize - start[k + 1]], &factor, right);
                 }
             }
         }
@@ -142,7 +208,7 @@ impl Blocks {
             work[self.place[body]] = *value;
         }
         for k in 0..work.len() {
-            let value = times(&self.inverse[k], work[k]);
+            let value = self.pivots[k].solve(work[k]);
             work[k] = value;
             for at in self.start[k]..self.start[k + 1] {
                 subtract_transposed(&mut work[self.columns[at]], &self.values[at], value);
@@ -153,7 +219,7 @@ impl Blocks {
             for at in self.start[k]..self.start[k + 1] {
                 add_times(&mut sum, &self.values[at], work[self.columns[at]]);
             }
-            let back = times(&self.inverse[k], sum);
+            let back = self.pivots[k].solve(sum);
             (0..3).for_each(|i| work[k][i] -= back[i]);
         }
         for (body, value) in x.iter_mut().enumerate() {
@@ -163,15 +229,15 @@ impl Blocks {
 
     /// The factors as they are.
     pub fn keep(&self) -> Factors {
-        Factors { values: self.values.clone(), inverse: self.inverse.clone() }
+        Factors { values: self.values.clone(), pivots: self.pivots.clone() }
     }
 
     /// Takes factors of this pattern; false where they are of another.
     pub fn take_up(&mut self, factors: Factors) -> bool {
-        let Factors { values, inverse } = factors;
-        let fits = values.len() == self.values.len() && inverse.len() == self.inverse.len();
+        let Factors { values, pivots } = factors;
+        let fits = values.len() == self.values.len() && pivots.len() == self.pivots.len();
         if fits {
-            (self.values, self.inverse) = (values, inverse);
+            (self.values, self.pivots) = (values, pivots);
         }
         fits
     }
@@ -210,28 +276,14 @@ fn add_outer(block: &mut Block, times: f64, column: Triple, row: Triple) {
     }
 }
 
-/// aᵀ b.
-fn transposed_product(a: &Block, b: &Block) -> Block {
-    let mut c = ZERO;
-    for i in 0..3 {
-        for j in 0..3 {
-            c[i][j] = a[0][i] * b[0][j] + a[1][i] * b[1][j] + a[2][i] * b[2][j];
-        }
-    }
-    c
-}
-
-#[inline]
+/// c − aᵀ b.
+#[inline(always)]
 fn subtract_product(c: &mut Block, a: &Block, b: &Block) {
     for i in 0..3 {
-        for j in 0..3 {
-            c[i][j] -= a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
+        for j in 0..4 {
+            c[i][j] -= a[0][i] * b[0][j] + a[1][i] * b[1][j] + a[2][i] * b[2][j];
         }
     }
-}
-
-fn times(a: &Block, x: Triple) -> Triple {
-    [0, 1, 2].map(|i| a[i][0] * x[0] + a[i][1] * x[1] + a[i][2] * x[2])
 }
 
 #[inline]
@@ -246,21 +298,6 @@ fn subtract_transposed(y: &mut Triple, a: &Block, x: Triple) {
     for i in 0..3 {
         y[i] -= a[0][i] * x[0] + a[1][i] * x[1] + a[2][i] * x[2];
     }
-}
-
-fn inverted(a: &Block) -> Block {
-    let cofactor = |i: usize, j: usize| {
-        let [p, q, r, s] = [(i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3];
-        a[p][r] * a[q][s] - a[p][s] * a[q][r]
-    };
-    let determinant = a[0][0] * cofactor(0, 0) + a[0][1] * cofactor(0, 1) + a[0][2] * cofactor(0, 2);
-    let mut inverse = ZERO;
-    for i in 0..3 {
-        for j in 0..3 {
-            inverse[j][i] = cofactor(i, j) / determinant;
-        }
-    }
-    inverse
 }
 
 #[cfg(test)]

@@ -211,7 +211,8 @@ impl Contact {
     }
 
     /// What bounds friction where p_n is what it is at the velocity `u_n` [m/s], in N s.
-    fn bound(&self, p_n: f64, u_n: f64) -> f64 {
+    #[inline]
+    pub(crate) fn bound(&self, p_n: f64, u_n: f64) -> f64 {
         self.friction * (p_n + self.spring[0].at(u_n)).max(0.0) + self.hold
     }
 
@@ -386,10 +387,16 @@ impl Solver {
         if second.residual <= enough {
             return first.then(second);
         }
-        self.keep(contacts, v);
+        // An interior point method that went astray says nothing.
+        let nearer = second.residual <= first.residual;
+        if nearer {
+            self.keep(contacts, v);
+        } else {
+            self.restore(contacts, v);
+        }
         let third = self.lagrangian((mass, free), contacts, v, tolerance, (MOST, f64::INFINITY));
         let effort = first.then(second).then(third);
-        if third.residual > second.residual {
+        if nearer && worse(second.residual, third.residual) > second.residual {
             self.restore(contacts, v);
             return Effort { residual: second.residual, ..effort };
         }

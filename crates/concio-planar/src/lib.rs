@@ -8,6 +8,7 @@ pub mod body;
 pub mod contact;
 mod interior;
 pub mod joint;
+mod mixing;
 pub mod motion;
 pub mod shape;
 pub mod tie;

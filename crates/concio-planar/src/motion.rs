@@ -442,10 +442,7 @@ impl Motion {
         self.release(h, &forcing, held);
         self.meet(h, held);
         self.fasten(h, held);
-        let mut effort = self.solve();
-        if self.overstrained(h) {
-            effort = effort.then(self.solve_on());
-        }
+        let effort = self.solve();
         self.count(effort);
         let enough = effort.residual <= self.setting.enough();
         if !enough && !come_what_may {
@@ -491,11 +488,6 @@ impl Motion {
             let (v, free, held) = (self.velocities[body], self.free[body], self.held[body]);
             *after = [0, 1, 2].map(|k| if held[k] { free[k] } else { v[k] });
         }
-        self.solve_on()
-    }
-
-    /// From the velocities that are there.
-    fn solve_on(&mut self) -> Effort {
         let Motion { solver, mass, inverse, free, contacts, after, setting, .. } = self;
         match setting.method {
             Method::Newton => solver.newton(mass, free, contacts, after, (setting.tolerance, setting.enough())),

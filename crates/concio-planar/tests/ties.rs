@@ -52,7 +52,8 @@ fn a_rod_holds_what_friction_does_not() {
     for _ in 0..50 {
         motion.go(h, &|from, to| Forcing { base: [-(to - from) * a, 0.0], held: 0.0 });
     }
-    close(force(&motion), MASS * (a - mu * G), 1e-7);
+    // Contact is solved to a millionth of what gravity does in a step, here m g.
+    assert!((force(&motion) - MASS * (a - mu * G)).abs() <= 1e-6 * MASS * G, "{}", force(&motion));
     assert_eq!(motion.counters.unsolved, 0);
     // The other way it is slack, and the block goes.
     let still = Setting { still: true, ..Setting::new(h) };

@@ -212,7 +212,7 @@ pub(crate) fn compile(
     elastic: &mut [Elastic],
 ) -> Result<Vec<Bonded>> {
     let mut bonds = Vec::new();
-    let mut worst: [Option<Snap>; 2] = [None; 2];
+    let mut snaps = Snaps::default();
     let mut rub = 0;
     for (e, (joint, law)) in joints.iter().zip(laws).enumerate() {
         while rub < rubs.len() && (rubs[rub].joint as usize) < e {
@@ -234,31 +234,51 @@ pub(crate) fn compile(
         let Some(bond) = Bond::new(strength, stiffness, residual, energy * area, opens) else {
             let brittle = Bond { strength, stiffness, residual, decay: 0.0, opens };
             let snap = Snap { joint: e, least: brittle.least_energy() / area, given: energy, whole: residual == 1.0 };
-            let slot = &mut worst[usize::from(!opens)];
-            if slot.is_none_or(|w| snap.least > w.least) {
-                *slot = Some(snap);
-            }
+            snaps.add(usize::from(!opens), snap);
             continue;
         };
         elastic[e].unilateral |= opens;
         let rub = (rub < rubs.len() && rubs[rub].joint as usize == e).then_some(rub as u32);
         bonds.push(Bonded { joint: e as u32, rub, law: bond });
     }
-    for (key, snap) in ["mode_1_energy", "mode_2_energy"].into_iter().zip(worst) {
-        if let Some(snap) = snap {
-            return Err(snap.refused(key, &graph::name(wall, &joints[snap.joint])).into());
-        }
-    }
+    snaps.refused(wall, joints)?;
     Ok(bonds)
 }
 
 /// A joint whose fracture energy is too small.
 #[derive(Debug, Clone, Copy)]
-struct Snap {
-    joint: usize,
-    least: f64,
-    given: f64,
-    whole: bool,
+pub(crate) struct Snap {
+    pub joint: usize,
+    /// Least fracture energy, and that given [N/m].
+    pub least: f64,
+    pub given: f64,
+    /// Whether nothing of its stiffness goes.
+    pub whole: bool,
+}
+
+/// In either mode, the joint that would need the most.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Snaps([Option<Snap>; 2]);
+
+impl Snaps {
+    /// Takes in a joint that would snap back in `mode`, 0 or 1.
+    pub fn add(&mut self, mode: usize, snap: Snap) {
+        let worst = &mut self.0[mode];
+        if worst.is_none_or(|w| snap.least > w.least) {
+            *worst = Some(snap);
+        }
+    }
+
+    /// # Errors
+    /// Where there is one.
+    pub fn refused(&self, wall: &Wall, joints: &[Joint]) -> Result<()> {
+        for (key, snap) in ["mode_1_energy", "mode_2_energy"].into_iter().zip(self.0) {
+            if let Some(snap) = snap {
+                return Err(snap.refused(key, &graph::name(wall, &joints[snap.joint])).into());
+            }
+        }
+        Ok(())
+    }
 }
 
 impl Snap {

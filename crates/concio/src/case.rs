@@ -1114,8 +1114,8 @@ pub enum Scheme {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Output {
-    /// Interval of the histories [s], above 0; default the record's sample interval, or duration/2000. Up to
-    /// 100,000,000 samples.
+    /// Interval of the histories [s], above 0; default the record's sample interval, or duration/2000; without inertia
+    /// so many whole steps that there are no more than 2000. Up to 100,000,000 samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interval: Option<Time>,
     /// Interval of the full frames (displacement and velocity of every block) [s], from 0 (no frames);

@@ -9,7 +9,7 @@ use concio_planar::motion::{Link, System};
 use concio_planar::tie::Tie as Rod;
 
 use crate::assign::JointLaw;
-use crate::bond::{Bond, BondValues, Bonded};
+use crate::bond::{Bond, BondValues, Bonded, Snap, Snaps};
 use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw, Tie};
 use crate::error::{InputError, Result};
 use crate::graph;
@@ -125,13 +125,18 @@ pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointL
         };
         Ok(Link { a, b, law: compile_law(case, wall, joint, law)? })
     };
+    softening(wall, joints, laws)?;
     let links = joints.iter().zip(laws).map(link).collect::<Result<Vec<Link>>>()?;
     let other = Law::dry(common_friction(case));
     let ties = ties(case, wall)?;
     let system = System { bodies, links, ties, other, load: loads, held };
-    let still = case.motion.quasi_static;
-    let step = case.solver.step.map_or(if still { QUASI_STATIC_STEP } else { STEP }, |h| h.si());
-    Ok(Planar { system, step, still })
+    Ok(Planar { system, step: step(case), still: case.motion.quasi_static })
+}
+
+/// Step of a wall [s].
+pub(crate) fn step(case: &Case) -> f64 {
+    let own = if case.motion.quasi_static { QUASI_STATIC_STEP } else { STEP };
+    case.solver.step.map_or(own, |h| h.si())
 }
 
 /// Ties as rods between bodies; the base is the first of the two.
@@ -250,21 +255,18 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Resul
         return device_law(wall, joint, device);
     }
     let spring = &law.spring;
-    let upright = joint.kind.is_upright();
+    let ways = ways(joint, law);
+    let [across, along] = ways;
     let given = law.stiffness(joint, wall);
     let stiffness = given * spring.stiffness_factor;
-    // The stiffness of the wall file is that of the shear model: along a bed joint, across a head joint.
-    let ratio = spring.normal_to_shear;
-    let [across, along] = if upright { [1.0, 1.0 / ratio] } else { [ratio, 1.0] };
     let reference = wall.panels[wall.blocks[joint.a].panel].reference_mass;
     let dashpot = |k: f64| 2.0 * law.damping_ratio * (k * joint.weight * reference).sqrt();
     let area = joint.area(wall);
     let bond = bond_of(law).map(|values| {
         let strength = [values.tensile_strength * area, values.cohesion * area];
-        let stiff = [across * stiffness, along * stiffness];
         let decay = |k: usize| {
-            let beyond = values.energy[k] * area - 0.5 * strength[k] * strength[k] / stiff[k];
-            if values.energy[k] > 0.0 && beyond > 0.0 { beyond / strength[k] } else { 0.0 }
+            let beyond = values.energy[k] * area - stored(strength[k], ways[k] * stiffness);
+            if strength[k] > 0.0 && values.energy[k] > 0.0 && beyond > 0.0 { beyond / strength[k] } else { 0.0 }
         };
         PointBond {
             tension: strength[0],
@@ -292,6 +294,36 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Resul
     };
     let crushing = spring.compressive_strength.map_or(f64::INFINITY, |f| f.si() * area);
     Ok(Law { normal, shear, friction: law.rubs().map(friction), bond, crushing, slip: [0.0; 2] })
+}
+
+/// Energy of a spring at its strength [J].
+fn stored(strength: f64, stiffness: f64) -> f64 {
+    0.5 * strength * strength / stiffness
+}
+
+/// Refuses bonds that store more at their strength than breaking takes, in either direction and without pressure.
+fn softening(wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Result<()> {
+    let mut snaps = Snaps::default();
+    for (number, (joint, law)) in joints.iter().zip(laws).enumerate() {
+        let stiffness = law.stiffness(joint, wall) * law.spring.stiffness_factor;
+        let springs = matches!(law.spring.law, SpringLaw::Elastic | SpringLaw::NoTension) && stiffness > 0.0;
+        let Some(values) = bond_of(law).filter(|_| springs) else { continue };
+        let (area, ways) = (joint.area(wall), ways(joint, law));
+        for (mode, strength) in [values.tensile_strength, values.cohesion].into_iter().enumerate() {
+            let (least, given) = (stored(strength * area, ways[mode] * stiffness) / area, values.energy[mode]);
+            if given > 0.0 && given <= least {
+                snaps.add(mode, Snap { joint: number, least, given, whole: false });
+            }
+        }
+    }
+    snaps.refused(wall, joints)
+}
+
+/// Stiffnesses across and along over that of the wall file, which is that of the shear model: along a bed joint, across a head
+/// joint.
+fn ways(joint: &Joint, law: &JointLaw) -> [f64; 2] {
+    let ratio = law.spring.normal_to_shear;
+    if joint.kind.is_upright() { [1.0, 1.0 / ratio] } else { [ratio, 1.0] }
 }
 
 /// A device lies in the plane of a bed joint, which bears pressure beside it, and across a head joint, which bears nothing

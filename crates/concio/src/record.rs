@@ -315,7 +315,7 @@ pub struct Counters {
     pub located: u64,
     /// Impacts of rigid joints.
     pub impacts: u64,
-    /// Steps whose contact was not solved to the tolerance.
+    /// Steps whose contact was left with more than a hundred times the tolerance, without inertia with more than it.
     #[serde(default)]
     pub unsolved: u64,
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-use crate::case::{Beam, Case, Output, Signal, canonical_json, plausible};
+use crate::case::{Beam, Case, Signal, canonical_json, plausible};
 use crate::error::{Error, InputError, Result};
 use crate::excitation::Excitation;
 use crate::ground::signal::compile_with;
@@ -13,6 +13,7 @@ use crate::ground::{Library, coverage};
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::pattern;
+use crate::planar;
 use crate::record::StopReason;
 use crate::simulate::{Progress, Sampling, Simulation};
 use crate::store::{self, JointRow, Journal, JournalHeader, Provenance, RunFacts};
@@ -93,7 +94,7 @@ pub fn prepare(case: Case, folder: &Path) -> Result<Prepared> {
 pub fn prepare_with(case: Case, folder: &Path, library: &Library) -> Result<Prepared> {
     let wall = pattern::lay(&case)?;
     let excitation = excitation(&case, folder, library)?;
-    let sampling = sampling(&case.output, &excitation)?;
+    let sampling = sampling(&case, &excitation)?;
     let inputs_hash = inputs_hash(&case, folder)?;
     let of_records = coverage::warnings(&case, folder, excitation.duration, library)?;
     let mut model = Model::compile(&case, wall, excitation)?;
@@ -125,8 +126,13 @@ fn at_key(error: Error, key: &str) -> Error {
     }
 }
 
-fn sampling(output: &Output, excitation: &Excitation) -> Result<Sampling> {
-    let duration = excitation.duration;
+fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
+    let (output, duration) = (&case.output, excitation.duration);
+    // Between steps without inertia there is nothing: samples there would make stairs.
+    let of_steps = case.motion.quasi_static.then(|| {
+        let step = planar::step(case);
+        step * (duration / 2000.0 / step).ceil().max(1.0)
+    });
     let top = excitation.driven.then_some(&excitation.top);
     let of_record = [Some(&excitation.base), Some(&excitation.vertical), top]
         .into_iter()
@@ -134,7 +140,7 @@ fn sampling(output: &Output, excitation: &Excitation) -> Result<Sampling> {
         .filter_map(|m| m.sample_interval());
     let interval = match output.interval {
         Some(interval) => interval.si(),
-        None => of_record.reduce(f64::min).unwrap_or(duration / 2000.0).min(duration),
+        None => of_steps.or(of_record.reduce(f64::min)).unwrap_or(duration / 2000.0).min(duration),
     };
     if !(interval <= duration && duration / interval <= MOST_SAMPLES) {
         let what = format!("{interval} s for a run of {duration} s");

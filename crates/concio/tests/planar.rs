@@ -105,6 +105,53 @@ base = { tilt = { acceleration = "-0.1 g", rise = "1 s" } }
     close(channel(&outcome, "base/shear").last().copied().unwrap_or(0.0).abs(), force, 1e-3);
 }
 
+/// Without inertia samples are taken at the ends of steps: what grows steadily is a line, not a stair.
+#[test]
+fn samples_without_inertia_are_those_of_steps() {
+    let text = block(
+        r#"
+[joint]
+bed = { law = "elastic", stiffness = "36e6 N/m3" }
+head = { law = "none" }
+[motion]
+duration = "DURATION s"
+quasi_static = true
+base = { tilt = { acceleration = "0.1 g", rise = "DURATION s" } }
+"#,
+    );
+    for (duration, interval) in [("1", 0.02), ("100", 0.06)] {
+        let (prepared, outcome) = ran(&text.replace("DURATION", duration));
+        assert!((prepared.sampling.interval - interval).abs() < 1e-12, "{}", prepared.sampling.interval);
+        let x = channel(&outcome, "top/displacement");
+        let last = x[x.len() - 1].abs() / (x.len() - 1) as f64;
+        let uneven = |w: &[f64]| ((w[1] - w[0]).abs() / last - 1.0).abs();
+        // The weight, which leans, makes it grow by a little more.
+        assert!(x.windows(2).map(uneven).fold(0.0, f64::max) < 0.02, "{duration}");
+    }
+}
+
+/// A bond that stores more at its strength than breaking takes snaps back; both modes are told with the least that is allowed.
+#[test]
+fn bonds_that_snap_back_are_refused() {
+    let of = |bond: &str| {
+        let text = block(&format!(
+            "[joint]\nbed = {{ law = \"elastic\", stiffness = \"10 N/mm3\", normal_to_shear = 2 }}\nhead = {{ law = \"none\" }}\n\
+             bond = {{ tensile_strength = \"0.2 MPa\", cohesion = \"0.3 MPa\", {bond} }}\n[motion]\nduration = 1"
+        ));
+        let file = from_str(&text, Syntax::Toml, None).expect("a wall file");
+        file.validate().expect("a valid wall");
+        prepare(file.case, Path::new(".")).map(|_| ()).map_err(|e| e.to_string())
+    };
+    // f_t²/(2 k_n) = 1 N/m and c²/(2 k_s) = 4.5 N/m.
+    assert_eq!(of("mode_1_energy = 1.01, mode_2_energy = 4.51"), Ok(()));
+    assert_eq!(of("mode_1_energy = 0"), Ok(()));
+    let refused = |bond: &str| of(bond).expect_err("a bond that snaps back");
+    let told = refused("mode_1_energy = 0.99");
+    assert!(told.contains("joint.bond.mode_1_energy") && told.contains("from 1.01 N/m"), "{told}");
+    let told = refused("mode_1_energy = 5, mode_2_energy = 4.49");
+    assert!(told.contains("joint.bond.mode_2_energy") && told.contains("from 4.51 N/m"), "{told}");
+}
+
 /// A block on rigid dry ground slides when it is tilted by μ, and turns over by b/h; the run tells the collapse.
 #[test]
 fn a_block_tilts_until_it_slides_or_turns() {

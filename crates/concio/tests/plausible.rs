@@ -114,5 +114,10 @@ fn joints_that_hold_without_limit_are_told() {
     let found = bond("tensile_strength = \"0.1 MPa\"");
     assert!(found.len() == 1 && found[0].contains("joint.bond.cohesion is 0"), "{found:?}");
     assert_eq!(bond("tensile_strength = \"0.1 MPa\", cohesion = \"0.1 MPa\""), Vec::<String>::new());
-    assert_eq!(planar("bed = { law = \"no-tension\", stiffness = \"15 N/mm3\", rigidity = 1 }"), Vec::<String>::new());
+    let dry = "bed = { law = \"no-tension\", stiffness = \"15 N/mm3\", rigidity = 1 }";
+    assert_eq!(planar(dry), Vec::<String>::new());
+    let found = planar(&dry.replace("rigidity = 1", "rigidity = 500"));
+    assert!(found.len() == 1 && found[0].contains("rigidity = 500 times as stiff"), "{found:?}");
+    let found = planar(&format!("{dry}\n[solver]\ntolerance = 1e-3\nmax_step = \"1 ms\""));
+    assert!(found.len() == 2 && found[0].contains("solver.tolerance does nothing"), "{found:?}");
 }

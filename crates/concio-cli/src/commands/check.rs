@@ -4,6 +4,8 @@ use concio::bond;
 use concio::case::{Case, JointKind};
 use concio::model::Model;
 
+mod planar;
+
 use super::wall_file;
 use crate::args::Check;
 use crate::draw::wall::{self, Paint, Subject, kind_name, mass};
@@ -38,15 +40,21 @@ pub fn check(args: &Check) -> Result<(), Failure> {
         ("mass", mass(model.mass.iter().sum())),
         ("duration", format!("{}, {samples} samples kept", seconds(duration))),
     ]);
-    let bonds = bond_rows(&prepared.case, model)?;
-    let bonds = if bonds.is_empty() { String::new() } else { format!("{}\n", columns(&bonds)) };
+    let case = &prepared.case;
+    let (joints, bonds, ties) = match &model.planar {
+        None => (joint_rows(model), bond_rows(case, model)?, Vec::new()),
+        Some(own) => (planar::joint_rows(model, own), planar::bond_rows(case, model)?, planar::tie_rows(case, own)),
+    };
+    let table = |rows: &[Vec<String>]| if rows.is_empty() { String::new() } else { format!("{}\n", columns(rows)) };
     let list = if args.joints { format!("\n{}", columns(&joint_list(model))) } else { String::new() };
-    let title = &prepared.case.title;
+    let title = &case.title;
     let title = if title.is_empty() { String::new() } else { format!("{title}\n\n") };
     let text = format!(
-        "{title}{}\n{}\n{bonds}{general}\n{}{list}\n{} is a valid wall file.\n",
+        "{title}{}\n{}\n{}{}{general}\n{}{list}\n{} is a valid wall file.\n",
         columns(&panel_rows(model)),
-        columns(&joint_rows(model)),
+        columns(&joints),
+        table(&bonds),
+        table(&ties),
         pairs(&motion),
         args.file.display()
     );

@@ -1,6 +1,6 @@
 //! When not to believe a result: what the model cannot show, and what this run strains.
 
-use concio::case::FrictionLaw;
+use concio::case::{FrictionLaw, ModelKind};
 use concio::record::EventKind;
 
 use super::Content;
@@ -57,13 +57,14 @@ fn of_this_run(content: &Content) -> Vec<String> {
     if !(residual <= LARGEST_RESIDUAL) {
         doubts.push(format!(
             "The energy account of this run does not close: its residual is {residual:.1e} of the largest work, more \
-             than {LARGEST_RESIDUAL}. Lower solver.tolerance."
+             than {LARGEST_RESIDUAL}. Lower {}.",
+            if content.case.model == ModelKind::Planar { "solver.step" } else { "solver.tolerance" }
         ));
     }
     let unsolved = outcome.counters.unsolved;
     if unsolved > 0 {
         doubts.push(format!(
-            "The contact of {unsolved} of {} steps was not solved to the tolerance: blocks may overlap there, and forces be \
+            "The contact of {unsolved} of {} steps was left unsolved: blocks may overlap there, and forces be \
              off.",
             outcome.counters.steps
         ));

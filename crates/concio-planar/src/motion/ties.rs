@@ -1,7 +1,7 @@
 //! Ties in the steps of a motion: one contact each, in compression only along the line that its ends approach each other on.
 
 use super::{Motion, Push};
-use crate::contact::{Contact, Linear};
+use crate::contact::Contact;
 use crate::joint::{Law, Start};
 use crate::shape::Place;
 use crate::tie::{Strain, Tie};
@@ -64,24 +64,7 @@ impl Motion {
         let (_, length) = between(ends_of(tie, tie.a.map(|a| &self.places[a]), &self.places[tie.b]))?;
         let start =
             law.begin(&strain.point, 1.0, h, self.setting.still, (reach - length, [closing, 0.0]), &mut contact);
-        // The interior point method knows no upper bound: see `overstrained`. Along a tangent on which nothing moves friction
-        // bears nothing; it keeps the edges of the cone of (P5) apart.
-        contact.pressure[1] = f64::INFINITY;
-        contact.friction = 1.0;
-        (contact.law[1], contact.compliant[1]) = (Linear { offset: 0.0, rho: contact.law[0].rho }, true);
         Some((contact, Pull { rod: number, start, line, lever }))
-    }
-
-    /// Whether a tie bears more than it can, a step of `h` [s] being solved as if none yielded; all are bounded then. Where none
-    /// does, what was found is the solution with the bounds too.
-    pub(super) fn overstrained(&mut self, h: f64) -> bool {
-        let ties = &mut self.contacts[self.owners.len()..];
-        let most = |pull: &Pull| h * self.rods[pull.rod].tie.yield_force;
-        if !ties.iter().zip(&self.pulls).any(|(contact, pull)| contact.impulse[0] > most(pull)) {
-            return false;
-        }
-        ties.iter_mut().zip(&self.pulls).for_each(|(contact, pull)| contact.pressure[1] = most(pull));
-        true
     }
 
     /// Keeps what the ties have come to, and accounts for their energy.

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::node::{Node, Value};
-use super::{Beam, Case, FrictionChange, ModelKind, Panel, Signal, SpringChange, SpringLaw};
+use super::{Beam, Case, FrictionChange, ModelKind, Panel, Signal, Solver, SpringChange, SpringLaw};
 use crate::quantity::{Stiffness, shown};
 
 /// What a quantity is expected to be, in SI.
@@ -89,6 +89,8 @@ const STEP: Expected = Expected { limits: [1e-7, 0.05], usual: [1e-5, 0.01], uni
 const SPEED: Expected =
     Expected { limits: [1e-9, 3.0], usual: [1e-6, 0.5], unit: "m/s", slips: &[(1e-3, "mm/s", 1e-3)] };
 
+/// Stiffness of pressed bed joints of planar walls over what the file calls their stiffness, above which it was hardly meant.
+const STIFFER: f64 = 10.0;
 /// Coefficients of friction above this are rather angles in degrees.
 const LARGEST_FRICTION: f64 = 2.0;
 
@@ -103,7 +105,7 @@ pub fn doubts(case: &Case) -> Vec<String> {
     }
     of_joints(&mut doubts, case);
     if case.model == ModelKind::Planar {
-        of_planar_joints(&mut doubts, case);
+        of_planar(&mut doubts, case);
     }
     doubts.look("load.top", case.load.top.si(), &LOAD);
     if let Beam::Mass(mass) = case.load.beam {
@@ -248,8 +250,25 @@ fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {
 }
 
 /// What is right in shear walls, whose joints cannot open, and hardly meant where they can.
-fn of_planar_joints(doubts: &mut Doubts, case: &Case) {
+fn of_planar(doubts: &mut Doubts, case: &Case) {
+    let (given, own) = (&case.solver, Solver::default());
+    let idle = [
+        ("scheme", given.scheme != own.scheme),
+        ("tolerance", given.tolerance != own.tolerance),
+        ("max_step", given.max_step.is_some()),
+        ("floor", given.floor != own.floor),
+    ];
+    for (key, _) in idle.iter().filter(|(_, given)| *given) {
+        doubts.0.push(format!("solver.{key} does nothing in a planar wall, whose steps have one length: `solver.step`"));
+    }
     let joint = &case.joint;
+    if joint.bed.law == SpringLaw::NoTension && joint.bed.rigidity > STIFFER {
+        doubts.0.push(format!(
+            "joint.bed is `no-tension`: pressed bed joints of this planar wall are rigidity = {} times as stiff as `stiffness` \
+             says; `rigidity = 1` makes them as stiff as that",
+            shown(joint.bed.rigidity)
+        ));
+    }
     let changed = joint.changes.iter().any(|change| change.bond.is_some());
     match &joint.bond {
         None if joint.bed.law == SpringLaw::Elastic && !changed => doubts.0.push(

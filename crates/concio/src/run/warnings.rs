@@ -50,7 +50,7 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
     let (unsolved, steps) = (outcome.counters.unsolved, outcome.counters.steps);
     (unsolved as f64 > UNSOLVED * steps as f64).then(|| {
         format!(
-            "the contact of {unsolved} of {steps} steps was not solved to the tolerance: blocks may overlap there, and forces \
+            "the contact of {unsolved} of {steps} steps was left unsolved: blocks may overlap there, and forces \
              be off, by {:.1e} m/s at most; where all joints are rigid, give them a stiffness, else lower solver.step",
             outcome.totals.contact_residual
         )

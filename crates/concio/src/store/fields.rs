@@ -169,7 +169,12 @@ pub(super) const COUNTERS: [Field<Counters, u64>; 9] = [
     field!("events", "1", events, "Instants at which something happened that ended a step."),
     field!("located", "1", located, "Attempts at steps that were cut for them."),
     field!("impacts", "1", impacts, "Impacts of rigid joints."),
-    field!("unsolved", "1", unsolved, "Steps whose contact was not solved to the tolerance."),
+    field!(
+        "unsolved",
+        "1",
+        unsolved,
+        "Steps whose contact was left with more than a hundred times the tolerance, without inertia with more than it."
+    ),
 ];
 
 /// Real quantities of a block.

@@ -1,0 +1,98 @@
+//! Joints, bonds and ties of planar walls, which press, part and slide.
+
+use concio::bond;
+use concio::case::Case;
+use concio::model::Model;
+use concio::planar::Planar;
+use concio_planar::joint::{Law, Normal};
+
+use super::{KINDS, range};
+use crate::draw::wall::kind_name;
+use crate::failure::Failure;
+use crate::format::{plain, si, significant};
+
+/// Stiffnesses of pressed joints across, of sticking ones along, and friction, kind by kind.
+pub fn joint_rows(model: &Model, planar: &Planar) -> Vec<Vec<String>> {
+    let mut rows = vec![["joints", "number", "pressed", "sheared", "friction", "crushed by"].map(String::from).to_vec()];
+    for kind in KINDS {
+        let links = model.joints.iter().zip(&planar.system.links).filter(|(joint, _)| joint.kind == kind);
+        let laws: Vec<&Law> = links.map(|(_, link)| &link.law).collect();
+        if laws.is_empty() {
+            continue;
+        }
+        let finite = |law: &&Law| Some(law.crushing).filter(|f| f.is_finite());
+        rows.push(vec![
+            kind_name(kind).into(),
+            laws.len().to_string(),
+            pressed(&laws),
+            range(laws.iter().map(|l| l.shear.stiffness).filter(|k| *k > 0.0), |v| si(v, "N/m")),
+            range(laws.iter().filter_map(|l| l.friction).map(|f| f.static_), |v| significant(v, 3)),
+            range(laws.iter().filter_map(finite), |v| si(v, "N")),
+        ]);
+    }
+    rows.push(vec!["all".into(), model.joints.len().to_string()]);
+    if !model.devices.is_empty() {
+        rows.push(vec!["  with devices".into(), model.devices.len().to_string()]);
+    }
+    rows
+}
+
+/// Stiffnesses of the joints that have one, restitution of the rigid ones.
+fn pressed(laws: &[&Law]) -> String {
+    let stiffness = laws.iter().filter_map(|law| match law.normal {
+        Normal::Springs { both, press, .. } => Some(both + press).filter(|k| *k > 0.0),
+        Normal::Rigid { .. } => None,
+    });
+    let restitution = laws.iter().filter_map(|law| match law.normal {
+        Normal::Rigid { restitution } => Some(restitution),
+        Normal::Springs { .. } => None,
+    });
+    let springs = range(stiffness, |v| si(v, "N/m"));
+    let rigid = range(restitution, plain);
+    match (springs.as_str(), rigid.as_str()) {
+        (_, "–") => springs,
+        ("–", _) => format!("rigid, e = {rigid}"),
+        _ => format!("{springs} or rigid, e = {rigid}"),
+    }
+}
+
+/// What holds the bonded joints, which part and slide, kind by kind; nothing where there are none.
+pub fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
+    if model.bonds.is_empty() {
+        return Ok(Vec::new());
+    }
+    let given = bond::given(case, model)?;
+    let mut rows = vec![["bonds", "number", "f_t", "c", "tan φ", "G_f^I", "G_f^II"].map(String::from).to_vec()];
+    for kind in KINDS {
+        let bonds = model.bonds.iter().filter(|b| model.joints[b.joint as usize].kind == kind);
+        let values: Vec<_> = bonds.filter_map(|b| given[b.joint as usize]).collect();
+        if values.is_empty() {
+            continue;
+        }
+        let tough = |v: f64| if v == 0.0 { "brittle".into() } else { si(v, "N/m") };
+        rows.push(vec![
+            kind_name(kind).into(),
+            values.len().to_string(),
+            range(values.iter().map(|b| b.tensile_strength), |v| si(v, "Pa")),
+            range(values.iter().map(|b| b.cohesion), |v| si(v, "Pa")),
+            range(values.iter().map(|b| b.tan_angle), |v| significant(v, 3)),
+            range(values.iter().map(|b| b.energy[0]), tough),
+            range(values.iter().map(|b| b.energy[1]), tough),
+        ]);
+    }
+    rows.push(vec!["all".into(), model.bonds.len().to_string()]);
+    Ok(rows)
+}
+
+/// The tie rods; nothing where there are none.
+pub fn tie_rows(case: &Case, planar: &Planar) -> Vec<Vec<String>> {
+    if planar.system.ties.is_empty() {
+        return Vec::new();
+    }
+    let mut rows = vec![["ties", "from", "to", "stiffness", "yields at"].map(String::from).to_vec()];
+    for (number, (rod, tie)) in planar.system.ties.iter().zip(&case.ties).enumerate() {
+        let yields = if rod.yield_force.is_finite() { si(rod.yield_force, "N") } else { "–".into() };
+        rows.push(vec![(number + 1).to_string(), tie.from.clone(), tie.to.clone(), si(rod.stiffness, "N/m"), yields]);
+    }
+    rows
+}
