@@ -122,7 +122,8 @@ impl Blocks {
             start.push(columns.len());
         }
         let values = vec![ZERO; columns.len() + bodies];
-        let mut blocks = Blocks { place, start, columns, targets: Vec::new(), values, pivots: vec![Pivot::default(); bodies] };
+        let mut blocks =
+            Blocks { place, start, columns, targets: Vec::new(), values, pivots: vec![Pivot::default(); bodies] };
         blocks.targets = blocks.updates();
         blocks
     }

@@ -21,8 +21,7 @@
 //! from the last iterate. (P1) is then the gradient of a convex function of v, quadratic in pieces: Newton's method with a
 //! search along the line finds its least value in a few solutions, and p is taken anew from there until it stays: an
 //! augmented Lagrangian. The matrix is that of the masses and ρ over the contacts that bear; it is symmetric, and factorised
-//! only when one of them opens, closes, sticks or slips. Where this does not end at once, and no contact bears tension, has
-//! a normal spring or is crushed, an interior point method goes on. [`Solver::gauss_seidel`] goes through the contacts one by
+//! only when one of them opens, closes, sticks or slips. Where this does not end at once, an interior point method goes on. [`Solver::gauss_seidel`] goes through the contacts one by
 //! one, as contact dynamics usually does (Jean 1999).
 
 use serde::{Deserialize, Serialize};
@@ -359,7 +358,7 @@ impl Solver {
     }
 
     /// Solves a step to `tolerance` [m/s]: the augmented Lagrangian, for as long as it falls quickly, as it does where
-    /// contacts go on doing what they did; then, where all contacts are such as it knows, an interior point method, which may leave
+    /// contacts go on doing what they did; then, unless a contact has a μ beyond what it knows, an interior point method, which may leave
     /// `enough` [m/s] where it does not come nearer. `v` holds a guess on entry.
     pub fn newton(
         &mut self,

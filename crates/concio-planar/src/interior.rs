@@ -30,7 +30,7 @@ const MOST: usize = 60;
 const FIRM: f64 = 1e4;
 /// Iterations in which what is left has to be halved: once it is small enough, and before.
 const PATIENCE: usize = 8;
-const STALLED: usize = 12;
+const STALLED: usize = 25;
 /// μ beyond which μ |ũ_t| of the last direction is no good guess for the next.
 const STEEP: f64 = 3.0;
 /// Least distance from the bounds at the start, over what is out of balance, and over what was borne before.
@@ -928,7 +928,8 @@ mod tests {
                 (t[0], t[1]) = (-n[1], n[0]);
                 let row = |d: [f64; 2], sign: f64, arm: f64| [sign * d[0], sign * d[1], arm];
                 let arms = [draw.next(), draw.next(), draw.next(), draw.next()].map(|x| 0.3 * x);
-                let rows = [[row(n, -1.0, arms[0]), row(n, 1.0, arms[1])], [row(t, -1.0, arms[2]), row(t, 1.0, arms[3])]];
+                let rows =
+                    [[row(n, -1.0, arms[0]), row(n, 1.0, arms[1])], [row(t, -1.0, arms[2]), row(t, 1.0, arms[3])]];
                 if a.is_none() && b > 0 && draw.next() > 0.0 {
                     continue;
                 }

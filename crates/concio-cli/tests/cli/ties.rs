@@ -46,11 +46,15 @@ fn a_run_tells_what_its_rods_bore() {
 #[test]
 fn check_tells_rods_and_joints() {
     let desk = Desk::new();
-    desk.put("tied.toml", &WALL.replace("stiffness = \"5 MN/m\"", "stiffness = \"5 MN/m\"\nyield_force = \"2 kN\""));
+    desk.put("tied.toml", WALL.replace("stiffness = \"5 MN/m\"", "stiffness = \"5 MN/m\"\nyield_force = \"2 kN\""));
     let done = desk.concio("check tied.toml").assert().success();
     let text = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
     let row = |start: &str| {
-        let line = text.lines().map(str::trim_start).find(|l| l.starts_with(start)).unwrap_or_else(|| panic!("{start}: {text}"));
+        let line = text
+            .lines()
+            .map(str::trim_start)
+            .find(|l| l.starts_with(start))
+            .unwrap_or_else(|| panic!("{start}: {text}"));
         line.split_whitespace().map(String::from).collect::<Vec<_>>().join(" ")
     };
     assert_eq!(row("joints"), "joints number pressed sheared friction crushed by");

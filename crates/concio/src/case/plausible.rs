@@ -259,7 +259,9 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
         ("floor", given.floor != own.floor),
     ];
     for (key, _) in idle.iter().filter(|(_, given)| *given) {
-        doubts.0.push(format!("solver.{key} does nothing in a planar wall, whose steps have one length: `solver.step`"));
+        doubts
+            .0
+            .push(format!("solver.{key} does nothing in a planar wall, whose steps have one length: `solver.step`"));
     }
     let joint = &case.joint;
     if joint.bed.law == SpringLaw::NoTension && joint.bed.rigidity > STIFFER {

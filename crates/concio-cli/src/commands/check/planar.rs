@@ -13,7 +13,8 @@ use crate::format::{plain, si, significant};
 
 /// Stiffnesses of pressed joints across, of sticking ones along, and friction, kind by kind.
 pub fn joint_rows(model: &Model, planar: &Planar) -> Vec<Vec<String>> {
-    let mut rows = vec![["joints", "number", "pressed", "sheared", "friction", "crushed by"].map(String::from).to_vec()];
+    let mut rows =
+        vec![["joints", "number", "pressed", "sheared", "friction", "crushed by"].map(String::from).to_vec()];
     for kind in KINDS {
         let links = model.joints.iter().zip(&planar.system.links).filter(|(joint, _)| joint.kind == kind);
         let laws: Vec<&Law> = links.map(|(_, link)| &link.law).collect();
