@@ -21,8 +21,8 @@
 //! from the last iterate. (P1) is then the gradient of a convex function of v, quadratic in pieces: Newton's method with a
 //! search along the line finds its least value in a few solutions, and p is taken anew from there until it stays: an
 //! augmented Lagrangian. The matrix is that of the masses and ρ over the contacts that bear; it is symmetric, and factorised
-//! only when one of them opens, closes, sticks or slips. Where this does not end at once, an interior point method goes on. [`Solver::gauss_seidel`] goes through the contacts one by
-//! one, as contact dynamics usually does (Jean 1999).
+//! only when one of them opens, closes, sticks or slips. Where this does not end at once, an interior point method goes on.
+//! [`Solver::gauss_seidel`] goes through the contacts one by one, as contact dynamics usually does (Jean 1999).
 
 use serde::{Deserialize, Serialize};
 

@@ -648,9 +648,10 @@ impl<const N: usize> Point<N> {
             }
             let (s, l) = (self.s[i], self.lambda[i]);
             let astray = far[i] - s;
-            self.astray[i] = if astray.abs() > rounded { astray } else { 0.0 };
+            // What is no number stays one, to be seen.
+            self.astray[i] = if astray.abs() <= rounded { 0.0 } else { astray };
             (0..2).for_each(|k| self.off[k] -= normals[i][k] * l);
-            left.residual = worse(left.residual, (self.astray[i].abs() / self.mass).max((s / self.mass).min(l)));
+            left.residual = worse(worse(left.residual, self.astray[i].abs() / self.mass), (s / self.mass).min(l));
             left.products += s * l;
             left.number += 1;
         }

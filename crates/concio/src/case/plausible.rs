@@ -258,11 +258,10 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
         ("max_step", given.max_step.is_some()),
         ("floor", given.floor != own.floor),
     ];
-    for (key, _) in idle.iter().filter(|(_, given)| *given) {
-        doubts
-            .0
-            .push(format!("solver.{key} does nothing in a planar wall, whose steps have one length: `solver.step`"));
-    }
+    let told = |(key, _): (&str, bool)| {
+        format!("solver.{key} does nothing in a planar wall, whose steps have one length: `solver.step`")
+    };
+    doubts.0.extend(idle.into_iter().filter(|(_, given)| *given).map(told));
     let joint = &case.joint;
     if joint.bed.law == SpringLaw::NoTension && joint.bed.rigidity > STIFFER {
         doubts.0.push(format!(
