@@ -1,4 +1,4 @@
-//! Symmetric matrices of 3 × 3 blocks with a pattern that stays: ordered and laid out once, factorised again and again.
+//! Matrices of 3 × 3 blocks with a pattern that is symmetric and stays: ordered and laid out once, factorised again and again.
 
 use std::collections::BTreeSet;
 
@@ -12,8 +12,8 @@ pub type Triple = [f64; 3];
 
 const ZERO: Block = [[0.0; 4]; 3];
 
-/// A symmetric positive definite matrix in the order of elimination: for every row a diagonal block and the blocks right
-/// of it, fill included. A = Uᵀ D U, D of blocks.
+/// A matrix in the order of elimination: for every row a diagonal block and the blocks right of it, fill included; those below the diagonal
+/// are the same turned over, or stand beside them where the matrix is not symmetric. A = L D U, D of blocks.
 #[derive(Debug, Clone)]
 pub struct Blocks {
     /// Place in the order of elimination of each body.
@@ -22,21 +22,35 @@ pub struct Blocks {
     start: Vec<usize>,
     /// Places of the columns right of the diagonal, rising in each row.
     columns: Vec<usize>,
-    /// What an elimination changes: per row and pair of its columns, where the block of the pair stands; the diagonal
-    /// blocks follow those right of it.
+    /// What changes each row when those before it are eliminated, row by row, and where each row's begin.
+    feeds: Vec<Feed>,
+    fed: Vec<usize>,
+    /// Per feed, for each block of the feeding row right of the one named there: which block of the fed row it changes.
     targets: Vec<u32>,
-    /// Blocks right of the diagonal, row by row, then the diagonal ones.
-    values: Vec<Block>,
+    diagonal: Vec<Block>,
+    /// Blocks right of the diagonal, and those below it turned over, which are not looked at in a symmetric matrix.
+    right: Vec<Block>,
+    below: Vec<Block>,
+    is_symmetric: bool,
     /// The eliminated diagonal blocks.
     pivots: Vec<Pivot>,
 }
 
-/// A diagonal block by its own factors L D Lᵀ. Its inverse would not do: where contacts hold one direction of a body 10⁸ times as stiffly as
+/// An eliminated row that changes another.
+#[derive(Debug, Clone, Copy)]
+struct Feed {
+    row: u32,
+    /// Where its block in the column of the other stands.
+    at: u32,
+}
+
+/// A diagonal block by its own factors L D U. Its inverse would not do: where contacts hold one direction of a body 10⁸ times as stiffly as
 /// another, what it makes of the other is rounded by as much.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct Pivot {
-    /// Below the diagonal of L: second row, then third.
+    /// Below the diagonal of L: second row, then third; of U turned over the same.
     l: [f64; 3],
+    u: [f64; 3],
     /// 1/D.
     d: [f64; 3],
 }
@@ -46,34 +60,42 @@ impl Pivot {
     fn of(a: &Block) -> Self {
         let d0 = 1.0 / a[0][0];
         let l = [a[1][0] * d0, a[2][0] * d0];
-        let d1 = 1.0 / (a[1][1] - l[0] * a[1][0]);
-        let below = a[2][1] - l[1] * a[1][0];
+        let u = [a[0][1] * d0, a[0][2] * d0];
+        let d1 = 1.0 / (a[1][1] - l[0] * a[0][1]);
+        let below = a[2][1] - l[1] * a[0][1];
+        let right = a[1][2] - l[0] * a[0][2];
         let l21 = below * d1;
-        let d2 = 1.0 / (a[2][2] - l[1] * a[2][0] - l21 * below);
-        Pivot { l: [l[0], l[1], l21], d: [d0, d1, d2] }
+        let d2 = 1.0 / (a[2][2] - l[1] * a[0][2] - l21 * right);
+        Pivot { l: [l[0], l[1], l21], u: [u[0], u[1], right * d1], d: [d0, d1, d2] }
+    }
+
+    /// Of the block turned over.
+    #[inline(always)]
+    fn turned(&self) -> Self {
+        Pivot { l: self.u, u: self.l, d: self.d }
     }
 
     /// A⁻¹ of the columns of a block.
     #[inline(always)]
     fn solved(&self, b: &Block) -> Block {
         let mut y = *b;
-        let [l10, l20, l21] = self.l;
+        let ([l10, l20, l21], [u10, u20, u21]) = (self.l, self.u);
         for j in 0..4 {
             y[1][j] -= l10 * y[0][j];
             y[2][j] = (y[2][j] - l20 * y[0][j] - l21 * y[1][j]) * self.d[2];
-            y[1][j] = y[1][j] * self.d[1] - l21 * y[2][j];
-            y[0][j] = y[0][j] * self.d[0] - l10 * y[1][j] - l20 * y[2][j];
+            y[1][j] = y[1][j] * self.d[1] - u21 * y[2][j];
+            y[0][j] = y[0][j] * self.d[0] - u10 * y[1][j] - u20 * y[2][j];
         }
         y
     }
 
     #[inline]
     fn solve(&self, x: Triple) -> Triple {
-        let [l10, l20, l21] = self.l;
+        let ([l10, l20, l21], [u10, u20, u21]) = (self.l, self.u);
         let y1 = x[1] - l10 * x[0];
         let z2 = (x[2] - l20 * x[0] - l21 * y1) * self.d[2];
-        let z1 = y1 * self.d[1] - l21 * z2;
-        [x[0] * self.d[0] - l10 * z1 - l20 * z2, z1, z2]
+        let z1 = y1 * self.d[1] - u21 * z2;
+        [x[0] * self.d[0] - u10 * z1 - u20 * z2, z1, z2]
     }
 }
 
@@ -85,14 +107,17 @@ impl WithSimd for Elimination<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.0.eliminate();
+        match self.0.is_symmetric {
+            true => self.0.eliminate::<true>(),
+            false => self.0.eliminate::<false>(),
+        }
     }
 }
 
-/// Factors of a matrix, to be kept.
+/// Factors of a symmetric matrix, to be kept.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Factors {
-    values: Vec<Block>,
+    right: Vec<Block>,
     pivots: Vec<Pivot>,
 }
 
@@ -111,7 +136,7 @@ impl Blocks {
             near[a].insert(b);
             near[b].insert(a);
         }
-        let (order, rows) = eliminated(near);
+        let (order, rows) = grouped(eliminated(near));
         let mut place = vec![0; bodies];
         order.iter().enumerate().for_each(|(k, &body)| place[body] = k);
         let (mut start, mut columns) = (vec![0], Vec::new());
@@ -121,24 +146,42 @@ impl Blocks {
             columns.extend(row);
             start.push(columns.len());
         }
-        let values = vec![ZERO; columns.len() + bodies];
-        let mut blocks =
-            Blocks { place, start, columns, targets: Vec::new(), values, pivots: vec![Pivot::default(); bodies] };
-        blocks.targets = blocks.updates();
+        let mut blocks = Blocks {
+            place,
+            start,
+            feeds: Vec::with_capacity(columns.len()),
+            fed: vec![0],
+            targets: Vec::new(),
+            diagonal: vec![ZERO; bodies],
+            right: vec![ZERO; columns.len()],
+            below: vec![ZERO; columns.len()],
+            columns,
+            is_symmetric: true,
+            pivots: vec![Pivot::default(); bodies],
+        };
+        blocks.link();
         blocks
     }
 
-    /// Per row, for every pair of its columns in the order of the loops of [`Blocks::factorise`].
-    fn updates(&self) -> Vec<u32> {
-        let mut targets = Vec::new();
-        for k in 0..self.pivots.len() {
-            let row = &self.columns[self.start[k]..self.start[k + 1]];
-            for (first, &i) in row.iter().enumerate() {
-                targets.push((self.columns.len() + i) as u32);
-                targets.extend(row[first + 1..].iter().map(|&j| self.find(i, j) as u32));
+    /// What changes each row.
+    fn link(&mut self) {
+        let n = self.diagonal.len();
+        let (mut feeds, mut targets) = (vec![Vec::new(); n], Vec::new());
+        for row in 0..n {
+            for at in self.start[row]..self.start[row + 1] {
+                feeds[self.columns[at]].push(Feed { row: row as u32, at: at as u32 });
             }
         }
-        targets
+        for (own, feeds) in feeds.iter().enumerate() {
+            for feed in feeds {
+                let others = &self.columns[feed.at as usize + 1..self.start[feed.row as usize + 1]];
+                let places = others.iter().map(|&j| (self.find(own, j) - self.start[own]) as u32);
+                targets.extend(places);
+            }
+            self.feeds.extend(feeds);
+            self.fed.push(self.feeds.len());
+        }
+        self.targets = targets;
     }
 
     /// Where column `j` stands in row `i`, both places; the pattern is closed under elimination, so it is there.
@@ -153,29 +196,45 @@ impl Blocks {
         if i < j { Slot { at: self.find(i, j), turned: false } } else { Slot { at: self.find(j, i), turned: true } }
     }
 
-    /// All zero but for the diagonal, which gets `diagonal` by body.
+    /// A symmetric matrix, all zero but for the diagonal, which gets `diagonal` by body.
     pub fn reset(&mut self, diagonal: &[Triple]) {
-        self.values.fill(ZERO);
+        self.is_symmetric = true;
+        self.right.fill(ZERO);
         for (body, values) in diagonal.iter().enumerate() {
-            let block = &mut self.values[self.columns.len() + self.place[body]];
+            let block = &mut self.diagonal[self.place[body]];
+            *block = ZERO;
             (0..3).for_each(|k| block[k][k] = values[k]);
         }
     }
 
+    /// The same of one that need not be symmetric.
+    pub fn reset_whole(&mut self, diagonal: &[Triple]) {
+        self.reset(diagonal);
+        self.is_symmetric = false;
+        self.below.fill(ZERO);
+    }
+
     /// Adds `times` the square of a row of one body.
     pub fn add(&mut self, body: usize, times: f64, row: Triple) {
-        add_outer(&mut self.values[self.columns.len() + self.place[body]], times, row, row);
+        add_outer(&mut self.diagonal[self.place[body]], times, row, row);
     }
 
-    /// Adds a column times a row to the block of one body; the sum of what is added has to be symmetric.
+    /// Adds a column times a row to the block of one body; the sum of what is added to a symmetric matrix has to be symmetric.
     pub fn add_product(&mut self, body: usize, column: Triple, row: Triple) {
-        add_outer(&mut self.values[self.columns.len() + self.place[body]], 1.0, column, row);
+        add_outer(&mut self.diagonal[self.place[body]], 1.0, column, row);
     }
 
-    /// Adds `times` the product of the rows of a pair's two bodies.
+    /// Adds `times` the product of the rows of a pair's two bodies, to a symmetric matrix.
     pub fn add_pair(&mut self, slot: Slot, times: f64, [a, b]: [Triple; 2]) {
         let (first, second) = if slot.turned { (b, a) } else { (a, b) };
-        add_outer(&mut self.values[slot.at], times, first, second);
+        add_outer(&mut self.right[slot.at], times, first, second);
+    }
+
+    /// Adds the columns of a pair's two bodies times the rows of the other, to a matrix that need not be symmetric.
+    pub fn add_products(&mut self, slot: Slot, columns: [Triple; 2], rows: [Triple; 2]) {
+        let (first, second) = if slot.turned { (1, 0) } else { (0, 1) };
+        add_outer(&mut self.right[slot.at], 1.0, columns[first], rows[second]);
+        add_outer(&mut self.below[slot.at], 1.0, rows[first], columns[second]);
     }
 
     /// Eliminates row by row.
@@ -184,22 +243,35 @@ impl Blocks {
         Arch::new().dispatch(Elimination(self));
     }
 
+    /// Every row takes what those before it change: it stays near while they pass by.
     #[inline(always)]
-    fn eliminate(&mut self) {
-        let Blocks { start, columns, targets, values, pivots, .. } = self;
-        let mut targets = targets.iter();
-        for k in 0..pivots.len() {
-            let own = Pivot::of(&values[columns.len() + k]);
-            pivots[k] = own;
-            // What a row changes comes after it.
-            let (rows, after) = values.split_at_mut(start[k + 1]);
-            let row = &rows[start[k]..];
-            for (first, left) in row.iter().enumerate() {
-                let factor = own.solved(left);
-                for (right, target) in row[first..].iter().zip(&mut targets) {
-                    subtract_product(&mut after[*target as usize - start[k + 1]], &factor, right);
+    fn eliminate<const SYMMETRIC: bool>(&mut self) {
+        let Blocks { start, feeds, fed, targets, diagonal, right, below, pivots, .. } = self;
+        let mut targets = &targets[..];
+        for own in 0..pivots.len() {
+            let (before, after) = right.split_at_mut(start[own]);
+            let row = &mut after[..start[own + 1] - start[own]];
+            let (before_below, after) = below.split_at_mut(start[own]);
+            let row_below = &mut after[..row.len()];
+            let mut square = diagonal[own];
+            for feed in &feeds[fed[own]..fed[own + 1]] {
+                let (at, end) = (feed.at as usize, start[feed.row as usize + 1]);
+                let pivot = pivots[feed.row as usize];
+                let forth = pivot.solved(&before[at]);
+                let back = if SYMMETRIC { forth } else { pivot.turned().solved(&before_below[at]) };
+                subtract_product(&mut square, &back, &before[at]);
+                let (own_targets, others) = targets.split_at(end - at - 1);
+                targets = others;
+                for (source, target) in before[at + 1..end].iter().zip(own_targets) {
+                    subtract_product(&mut row[*target as usize], &back, source);
+                }
+                if !SYMMETRIC {
+                    for (source, target) in before_below[at + 1..end].iter().zip(own_targets) {
+                        subtract_product(&mut row_below[*target as usize], &forth, source);
+                    }
                 }
             }
+            pivots[own] = Pivot::of(&square);
         }
     }
 
@@ -208,17 +280,20 @@ impl Blocks {
         for (body, value) in x.iter().enumerate() {
             work[self.place[body]] = *value;
         }
+        let below = if self.is_symmetric { &self.right } else { &self.below };
         for k in 0..work.len() {
             let value = self.pivots[k].solve(work[k]);
             work[k] = value;
-            for at in self.start[k]..self.start[k + 1] {
-                subtract_transposed(&mut work[self.columns[at]], &self.values[at], value);
+            let own = self.start[k]..self.start[k + 1];
+            for (column, block) in self.columns[own.clone()].iter().zip(&below[own]) {
+                subtract_transposed(&mut work[*column], block, value);
             }
         }
         for k in (0..work.len()).rev() {
             let mut sum = [0.0; 3];
-            for at in self.start[k]..self.start[k + 1] {
-                add_times(&mut sum, &self.values[at], work[self.columns[at]]);
+            let own = self.start[k]..self.start[k + 1];
+            for (column, block) in self.columns[own.clone()].iter().zip(&self.right[own]) {
+                add_times(&mut sum, block, work[*column]);
             }
             let back = self.pivots[k].solve(sum);
             (0..3).for_each(|i| work[k][i] -= back[i]);
@@ -228,17 +303,17 @@ impl Blocks {
         }
     }
 
-    /// The factors as they are.
+    /// The factors of a symmetric matrix as they are.
     pub fn keep(&self) -> Factors {
-        Factors { values: self.values.clone(), pivots: self.pivots.clone() }
+        Factors { right: self.right.clone(), pivots: self.pivots.clone() }
     }
 
     /// Takes factors of this pattern; false where they are of another.
     pub fn take_up(&mut self, factors: Factors) -> bool {
-        let Factors { values, pivots } = factors;
-        let fits = values.len() == self.values.len() && pivots.len() == self.pivots.len();
+        let Factors { right, pivots } = factors;
+        let fits = right.len() == self.right.len() && pivots.len() == self.pivots.len();
         if fits {
-            (self.values, self.pivots) = (values, pivots);
+            (self.right, self.pivots, self.is_symmetric) = (right, pivots, true);
         }
         fits
     }
@@ -249,8 +324,11 @@ impl Blocks {
     }
 }
 
-/// Minimum degree: the order in which bodies are eliminated, and the neighbours that each has left then.
-fn eliminated(mut near: Vec<BTreeSet<usize>>) -> (Vec<usize>, Vec<Vec<usize>>) {
+/// The order in which bodies are eliminated, and the neighbours that each has left then.
+type Order = (Vec<usize>, Vec<Vec<usize>>);
+
+/// Minimum degree.
+fn eliminated(mut near: Vec<BTreeSet<usize>>) -> Order {
     let mut queue: BTreeSet<(usize, usize)> = near.iter().enumerate().map(|(b, n)| (n.len(), b)).collect();
     let (mut order, mut rows) = (Vec::new(), Vec::new());
     while let Some((_, body)) = queue.pop_first() {
@@ -267,6 +345,29 @@ fn eliminated(mut near: Vec<BTreeSet<usize>>) -> (Vec<usize>, Vec<Vec<usize>>) {
         rows.push(row);
     }
     (order, rows)
+}
+
+/// The same elimination with what feeds a row right before it, by the tree of who feeds whom first.
+fn grouped((order, rows): Order) -> Order {
+    let n = order.len();
+    let mut place = vec![0; n];
+    order.iter().enumerate().for_each(|(k, &body)| place[body] = k);
+    let mut feeders: Vec<Vec<usize>> = vec![Vec::new(); n];
+    let mut open = Vec::new();
+    for (k, row) in rows.iter().enumerate() {
+        match row.iter().map(|b| place[*b]).min() {
+            Some(next) => feeders[next].push(k),
+            None => open.push(k),
+        }
+    }
+    // Every one before those that feed it, and then backwards.
+    let mut last_first = Vec::with_capacity(n);
+    while let Some(k) = open.pop() {
+        last_first.push(k);
+        open.extend(&feeders[k]);
+    }
+    last_first.reverse();
+    last_first.iter().map(|&k| (order[k], rows[k].clone())).unzip()
 }
 
 fn add_outer(block: &mut Block, times: f64, column: Triple, row: Triple) {
@@ -305,10 +406,8 @@ fn subtract_transposed(y: &mut Triple, a: &Block, x: Triple) {
 mod tests {
     use super::*;
 
-    /// A grid of bodies with diagonals, values from a seeded sequence.
-    #[test]
-    fn solves_what_it_multiplied() {
-        let (w, h) = (7, 6);
+    /// A grid of bodies with diagonals.
+    fn grid(w: usize, h: usize) -> Vec<(usize, usize)> {
         let mut pairs = Vec::new();
         for k in 0..w * h {
             let (x, y) = (k % w, k / w);
@@ -322,37 +421,58 @@ mod tests {
                 pairs.push((k, k + w + 1));
             }
         }
+        pairs
+    }
+
+    /// A matrix of seeded values solves what it multiplied, whether it is symmetric or not; the next one of the same pattern too.
+    #[test]
+    fn solves_what_it_multiplied() {
+        let n = 42;
+        let pairs = grid(7, 6);
         let mut seed = 1u64;
         let mut draw = || {
             seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (seed >> 33) as f64 / (1u64 << 31) as f64 - 0.5
         };
-        let n = w * h;
         let mut blocks = Blocks::new(n, &pairs);
-        let mut dense = vec![vec![0.0; 3 * n]; 3 * n];
-        blocks.reset(&vec![[0.9, 0.8, 0.7]; n]);
-        for k in 0..n {
-            (0..3).for_each(|i| dense[3 * k + i][3 * k + i] = [0.9, 0.8, 0.7][i]);
-        }
-        for &(a, b) in &pairs {
-            let (rows, weight) = ([[draw(), draw(), draw()], [draw(), draw(), draw()]], 1.0 + draw());
-            blocks.add_pair(blocks.slot(a, b), weight, rows);
-            blocks.add(a, weight, rows[0]);
-            blocks.add(b, weight, rows[1]);
-            let both: Vec<(usize, f64)> =
-                (0..3).map(|k| (3 * a + k, rows[0][k])).chain((0..3).map(|k| (3 * b + k, rows[1][k]))).collect();
-            for &(i, x) in &both {
-                both.iter().for_each(|&(j, y)| dense[i][j] += weight * x * y);
-            }
-        }
-        let wanted: Vec<Triple> = (0..n).map(|_| [draw(), draw(), draw()]).collect();
-        let flat: Vec<f64> = wanted.iter().flatten().copied().collect();
-        let mut x: Vec<Triple> =
-            (0..n).map(|k| [0, 1, 2].map(|i| dense[3 * k + i].iter().zip(&flat).map(|(a, b)| a * b).sum())).collect();
-        blocks.factorise();
-        blocks.solve(&mut x, &mut vec![[0.0; 3]; n]);
-        let error = x.iter().flatten().zip(&flat).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        assert!(error < 1e-13, "{error:e}");
         assert!(blocks.fill() < 4 * pairs.len());
+        for symmetric in [true, false, true] {
+            let mut dense = vec![vec![0.0; 3 * n]; 3 * n];
+            let own = [0.9, 0.8, 0.7];
+            if symmetric {
+                blocks.reset(&vec![own; n])
+            } else {
+                blocks.reset_whole(&vec![own; n])
+            }
+            (0..3 * n).for_each(|k| dense[k][k] = own[k % 3]);
+            for &(a, b) in &pairs {
+                let rows = [[draw(), draw(), draw()], [draw(), draw(), draw()]];
+                // Towards the rows turned by a bit: more than half of the product stays symmetric.
+                let bent = if symmetric { 0.0 } else { 0.3 };
+                let columns = rows.map(|row| row.map(|x| x + bent * draw()));
+                if symmetric {
+                    blocks.add_pair(blocks.slot(a, b), 1.0, rows);
+                    blocks.add(a, 1.0, rows[0]);
+                    blocks.add(b, 1.0, rows[1]);
+                } else {
+                    blocks.add_products(blocks.slot(a, b), columns, rows);
+                    blocks.add_product(a, columns[0], rows[0]);
+                    blocks.add_product(b, columns[1], rows[1]);
+                }
+                let both = [a, b];
+                for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))) {
+                    dense[3 * both[i / 3] + i % 3][3 * both[j / 3] + j % 3] +=
+                        columns[i / 3][i % 3] * rows[j / 3][j % 3];
+                }
+            }
+            let wanted: Vec<Triple> = (0..n).map(|_| [draw(), draw(), draw()]).collect();
+            let flat: Vec<f64> = wanted.iter().flatten().copied().collect();
+            let product = |row: &Vec<f64>| row.iter().zip(&flat).map(|(a, b)| a * b).sum::<f64>();
+            let mut x: Vec<Triple> = (0..n).map(|k| [0, 1, 2].map(|i| product(&dense[3 * k + i]))).collect();
+            blocks.factorise();
+            blocks.solve(&mut x, &mut vec![[0.0; 3]; n]);
+            let error = x.iter().flatten().zip(&flat).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(error < 1e-12, "{error:e}");
+        }
     }
 }

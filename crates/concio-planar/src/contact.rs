@@ -238,21 +238,19 @@ impl Contact {
         push(&mut balance[self.b], self.normal[1], self.tangent[1], p);
     }
 
-    /// Adds what resists: of the normal, of both together and of the tangent.
-    pub(crate) fn couple(&self, matrix: &mut Blocks, [nn, nt, tt]: [f64; 3]) {
-        let mixed = |side: usize| {
-            let (n, t) = (self.normal[side], self.tangent[side]);
-            ([0, 1, 2].map(|k| nn * n[k] + nt * t[k]), [0, 1, 2].map(|k| nt * n[k] + tt * t[k]))
-        };
-        let second = mixed(1);
-        matrix.add_product(self.b, self.normal[1], second.0);
-        matrix.add_product(self.b, self.tangent[1], second.1);
+    /// Adds what resists to a matrix that is not symmetric: across and along to the same, and along to across.
+    pub(crate) fn couple(&self, matrix: &mut Blocks, [nn, tt, tn]: [f64; 3]) {
+        let along = |side: usize| [0, 1, 2].map(|k| tn * self.normal[side][k] + tt * self.tangent[side][k]);
+        let across = |side: usize| self.normal[side].map(|x| nn * x);
+        let second = [across(1), along(1)];
+        matrix.add_product(self.b, self.normal[1], second[0]);
+        matrix.add_product(self.b, self.tangent[1], second[1]);
         if let (Some(a), Some(slot)) = (self.a, self.slot) {
-            let first = mixed(0);
-            matrix.add_product(a, self.normal[0], first.0);
-            matrix.add_product(a, self.tangent[0], first.1);
-            matrix.add_pair(slot, 1.0, [self.normal[0], second.0]);
-            matrix.add_pair(slot, 1.0, [self.tangent[0], second.1]);
+            let first = [across(0), along(0)];
+            matrix.add_product(a, self.normal[0], first[0]);
+            matrix.add_product(a, self.tangent[0], first[1]);
+            matrix.add_products(slot, self.normal, [first[0], second[0]]);
+            matrix.add_products(slot, self.tangent, [first[1], second[1]]);
         }
     }
 }
@@ -358,7 +356,7 @@ impl Solver {
     }
 
     /// Solves a step to `tolerance` [m/s]: the augmented Lagrangian, for as long as it falls quickly, as it does where
-    /// contacts go on doing what they did; then, unless a contact has a μ beyond what it knows, an interior point method, which may leave
+    /// contacts go on doing what they did; then, unless a contact moves nothing, an interior point method, which may leave
     /// `enough` [m/s] where it does not come nearer. `v` holds a guess on entry.
     pub fn newton(
         &mut self,

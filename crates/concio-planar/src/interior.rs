@@ -6,22 +6,19 @@
 //!
 //! with s_n what springs beside press, and with a multiplier λ ≥ 0 for each, 0 ≤ λ ⊥ s ≥ 0,
 //!
-//! (P5a)  u_n + b + E_n (p_n − p_n⁰) + μ |ũ_t| = λ₁ − λ₂ + μ (λ₃ + λ₄),   ũ_t = u_t + E_t (p_t − p_t⁰) = λ₄ − λ₃
+//! (P5a)  u_n + b + E_n (p_n − p_n⁰) = λ₁ − λ₂,   u_t + E_t (p_t − p_t⁰) = λ₄ − λ₃
 //!
-//! are (P2) and (P3): μ |ũ_t| takes back the opening that the edges of friction would give to what slides (De Saxcé and Feng 1998).
-//! For given μ |ũ_t| and s_n these are the conditions of a convex quadratic program, whichever impulses redundant contacts share.
+//! are (P2) and (P3): what slides bears against its slide all that friction allows, and opens no more than what sticks. In the plane this is a linear
+//! complementarity problem (Lötstedt 1981), and not a program with a least value: its matrix is not symmetric.
 //! E is 1/ρ of (P4), that of a spring where a contact is compliant; elsewhere it is small, p⁰ is what the
-//! contact bore before, and both choose among impulses that give the same motion those nearest to p⁰. Where friction alone holds a
-//! contact down, s₃ and s₄ keep p_n from falling below 0.
+//! contact bore before, and both choose among impulses that give the same motion those nearest to p⁰.
 //!
 //! Every iteration solves (P1), (P5) and (P5a), linear about the iterate and with products λ s that fall, for v: a matrix like that
 //! of [`crate::contact`] with a full 2 × 2 block for each contact. It is factorised once per iteration and used for a
-//! prediction, a correction (Mehrotra 1992) and another towards equal products (Gondzio 1996), each with μ |ũ_t| and s_n as the last
-//! one left them. However many contacts open and close, that takes a dozen or two of iterations.
+//! prediction and a correction (Mehrotra 1992). However many contacts open and close, that takes a dozen or two of iterations.
 
 use crate::blocks::{Blocks, Triple};
 use crate::contact::{Contact, Effort, Status, unbalance, worse};
-use crate::mixing::{self, Mixing};
 
 /// Iterations after which a step is given up.
 const MOST: usize = 60;
@@ -31,8 +28,6 @@ const FIRM: f64 = 1e4;
 /// Iterations in which what is left has to be halved: once it is small enough, and before.
 const PATIENCE: usize = 8;
 const STALLED: usize = 25;
-/// μ beyond which μ |ũ_t| of the last direction is no good guess for the next.
-const STEEP: f64 = 3.0;
 /// Least distance from the bounds at the start, over what is out of balance, and over what was borne before.
 const FLOOR: f64 = 1.0;
 const SHARE: f64 = 0.02;
@@ -40,20 +35,10 @@ const SHARE: f64 = 0.02;
 const CRACK: f64 = 0.01;
 /// Share of the way to the boundary that is gone.
 const INSIDE: f64 = 0.995;
-/// How much farther the second correction is to come, and how far products may lie from their mean.
-const REACH: f64 = 0.3;
-const SPREAD: f64 = 10.0;
-/// Share of the way from which a direction is worth to be made exact in μ |ũ_t|, and what that may be off by then, over what is left.
-const WORTH: f64 = 0.3;
-const EXACT: f64 = 0.1;
-/// Part of the way of an inexact direction that an exact one has to go.
-const WORSE: f64 = 0.1;
 /// Share of the way after which products are evened out instead of reduced.
 const STUCK: f64 = 0.03;
 /// What distances from bounds are rounded by, over the impulses: to mend it would keep the way short where a bound is met.
 const ROUNDED: f64 = 1e-13;
-/// Part of the squares of multipliers by which a single one is told from several.
-const SLIGHT: f64 = 1e-8;
 
 /// Where the bodies of a contact stand, none being the base, and how their velocities part and slide it.
 #[derive(Debug, Clone, Copy)]
@@ -66,7 +51,10 @@ struct Rows {
 
 const BASE: u32 = u32::MAX;
 
-/// A contact during a solution: with two bounds, those of friction, or with four.
+/// How multipliers stand in (P5a), the first two along and the others across.
+const SENSE: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
+
+/// A contact during a solution: with three bounds, or with that of crushing four.
 #[derive(Debug, Clone, Copy)]
 struct Point<const N: usize> {
     /// How far each bound is away, and its multiplier: friction forth and back, least and most p_n.
@@ -79,24 +67,17 @@ struct Point<const N: usize> {
     mu: f64,
     /// Diagonal of E.
     soft: [f64; 2],
-    /// ũ_t.
-    sliding: f64,
-    /// Change of |ũ_t| and of B along the direction.
-    slides: f64,
-    gives: f64,
     /// Second-order part of the products.
     second: [f64; N],
-    /// K⁻¹ with K = E + Σ λ/s a aᵀ, a the normals of the bounds; K⁻¹ a; impulses where velocities stay.
-    inverse: [f64; 3],
-    lift: [[f64; 2]; N],
+    /// What impulses answer to velocities, across and along, and what friction along answers to pressure.
+    answer: [f64; 3],
+    /// Impulses where velocities stay.
     right: [f64; 2],
     /// Mass that a push moves, and spring across [kg].
     mass: f64,
     rho: f64,
     /// Changes along the direction.
     way: Way<N>,
-    d_sliding: f64,
-    d_gives: f64,
     /// Impulses, and those that it is drawn to, p⁰.
     p: [f64; 2],
     anchor: [f64; 2],
@@ -125,27 +106,23 @@ struct Group<const N: usize> {
     which: Vec<u32>,
     rows: Vec<Rows>,
     points: Vec<Point<N>>,
-    kept: Vec<Way<N>>,
 }
 
 impl<const N: usize> Default for Group<N> {
     fn default() -> Self {
-        Group { which: Vec::new(), rows: Vec::new(), points: Vec::new(), kept: Vec::new() }
+        Group { which: Vec::new(), rows: Vec::new(), points: Vec::new() }
     }
 }
 
 /// Room for the solution.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Interior {
-    /// Contacts that only friction bounds, and the others.
-    cones: Group<2>,
-    others: Group<4>,
+    /// Contacts that are not crushed, and those that are.
+    usual: Group<3>,
+    crushed: Group<4>,
     residual: Vec<Triple>,
     step: Vec<Triple>,
-    kept: Vec<Triple>,
     work: Vec<Triple>,
-    mixing: Mixing,
-    lagging: [Vec<f64>; 2],
     /// Share of the way that was gone last.
     last: f64,
 }
@@ -174,28 +151,15 @@ struct Course {
     share: f64,
     /// Growth of the products with the share and its square.
     growth: [f64; 2],
-    /// By how much |ũ_t| and B are off that it was made with [m/s].
-    off: f64,
 }
 
 impl Course {
-    const BEGIN: Course = Course { share: 1.0, growth: [0.0; 2], off: 0.0 };
-}
-
-/// How second-order parts and what lags behind come from the last direction.
-#[derive(Debug, Clone, Copy)]
-enum Correction {
-    /// As it was gone so far; products are taken whole.
-    Whole { share: f64 },
-    /// As it was gone so far; products at the share `wide` are drawn towards the target.
-    Even { share: f64, wide: f64 },
-    /// Second-order parts stay.
-    Stays,
+    const BEGIN: Course = Course { share: 1.0, growth: [0.0; 2] };
 }
 
 /// Whether [`Interior::solve`] knows what a contact does.
 pub(crate) fn fits(contact: &Contact) -> bool {
-    contact.friction <= STEEP && contact.moved[0].is_finite()
+    contact.moved[0].is_finite()
 }
 
 impl Interior {
@@ -219,8 +183,8 @@ impl Interior {
                     effort.converged = true;
                     break;
                 }
-                self.cones.anchor(contacts);
-                self.others.anchor(contacts);
+                self.usual.anchor(contacts);
+                self.crushed.anchor(contacts);
                 effort.rounds += 1;
             }
             (least, since) = if effort.residual <= 0.5 * least { (effort.residual, 0) } else { (least, since + 1) };
@@ -230,7 +194,7 @@ impl Interior {
             }
             self.factorise(matrix, mass, contacts);
             effort.iterations += 1;
-            let share = self.direct(matrix, &left, tolerance);
+            let share = self.direct(matrix, &left);
             // Where products vanish before the conditions hold, rounding ends in nothing over nothing.
             if !self.step.iter().flatten().all(|x| x.is_finite()) {
                 break;
@@ -238,126 +202,79 @@ impl Interior {
             for (v, step) in v.iter_mut().zip(&self.step) {
                 (0..3).for_each(|k| v[k] += share * step[k]);
             }
-            self.cones.go(share);
-            self.others.go(share);
+            self.usual.go(share);
+            self.crushed.go(share);
             self.last = share;
         }
         effort.factorisations = effort.iterations;
-        self.cones.tell(contacts, v);
-        self.others.tell(contacts, v);
+        self.usual.tell(contacts, v);
+        self.crushed.tell(contacts, v);
         effort
     }
 
     /// Within the bounds, near what was borne before: as far from them as that is off balance.
     fn start(&mut self, mass: &[Triple], free: &[Triple], contacts: &[Contact], v: &[Triple], tolerance: f64) {
-        for room in [&mut self.residual, &mut self.step, &mut self.kept, &mut self.work] {
+        for room in [&mut self.residual, &mut self.step, &mut self.work] {
             room.resize(v.len(), [0.0; 3]);
         }
         self.last = 1.0;
-        self.cones.clear();
-        self.others.clear();
+        self.usual.clear();
+        self.crushed.clear();
         inertia(&mut self.residual, mass, free, v);
         for (number, contact) in contacts.iter().enumerate() {
             let u = contact.velocity(v);
-            let p = match is_cone(contact) && contact.pressure[1] == f64::INFINITY {
-                true => self.cones.add(number, contact, u),
-                false => self.others.add(number, contact, u),
+            let p = match contact.pressure[1] == f64::INFINITY {
+                true => self.usual.add(number, contact, u),
+                false => self.crushed.add(number, contact, u),
             };
             contact.push(&mut self.residual, contact.whole(p, u));
         }
         let scale = unbalance(&self.residual, mass).max(tolerance);
-        self.cones.enter(contacts, v, scale);
-        self.others.enter(contacts, v, scale);
+        self.usual.enter(contacts, v, scale);
+        self.crushed.enter(contacts, v, scale);
     }
 
     /// What is left of (P1), into `self.residual`, and of (P5).
     fn look(&mut self, mass: &[Triple], free: &[Triple], contacts: &[Contact], v: &[Triple]) -> Left {
         inertia(&mut self.residual, mass, free, v);
         let mut left = Left::default();
-        self.cones.look(contacts, v, &mut self.residual, &mut left);
-        self.others.look(contacts, v, &mut self.residual, &mut left);
+        self.usual.look(contacts, v, &mut self.residual, &mut left);
+        self.crushed.look(contacts, v, &mut self.residual, &mut left);
         left.residual = worse(left.residual, unbalance(&self.residual, mass));
         left
     }
 
     fn factorise(&mut self, matrix: &mut Blocks, mass: &[Triple], contacts: &[Contact]) {
-        matrix.reset(mass);
-        self.cones.couple(contacts, matrix);
-        self.others.couple(contacts, matrix);
+        matrix.reset_whole(mass);
+        self.usual.couple(contacts, matrix);
+        self.crushed.couple(contacts, matrix);
         matrix.factorise();
     }
 
     /// The direction, into `self.step` and the points, and how far it is gone.
-    fn direct(&mut self, matrix: &Blocks, left: &Left, tolerance: f64) -> f64 {
+    fn direct(&mut self, matrix: &Blocks, left: &Left) -> f64 {
         let mean = left.mean();
-        let first = self.pass(matrix, 0.0, 1.0, Correction::Stays);
+        let first = self.pass(matrix, 0.0, 1.0);
         let after = left.products + first.share * (first.growth[0] + first.share * first.growth[1]);
         let after = after / left.number.max(1) as f64;
         // Rounding takes products of nothing below 0.
         let falls = if mean > 0.0 { (mean * (after / mean).powi(3)).max(0.0) } else { 0.0 };
-        let target = if self.last < STUCK { mean } else { falls };
-        let second = self.pass(matrix, target, INSIDE, Correction::Whole { share: first.share });
-        self.keep();
-        let wide = (second.share + REACH).min(1.0);
-        let third = self.pass(matrix, target, INSIDE, Correction::Even { share: second.share, wide });
-        let enough = EXACT * left.residual.max(tolerance);
-        let best = second.share.max(third.share);
-        let exact = (best >= WORTH && third.off > enough).then(|| {
-            if third.share > second.share {
-                self.keep();
-            }
-            self.settle(matrix, target, third, enough)
-        });
-        match exact {
-            Some(share) if share >= WORSE * best => share,
-            None if third.share > second.share => third.share,
-            _ => {
-                self.step.copy_from_slice(&self.kept);
-                self.cones.restore();
-                self.others.restore();
-                best
-            }
-        }
-    }
-
-    /// The direction for which what lags behind is that of the direction itself, to `enough` [m/s] or nearly; how far it may be gone.
-    fn settle(&mut self, matrix: &Blocks, target: f64, mut course: Course, enough: f64) -> f64 {
-        let n = self.cones.points.len() + 2 * self.others.points.len();
-        self.mixing.begin(n);
-        for _ in 0..mixing::MOST {
-            let [x, g] = &mut self.lagging;
-            x.clear();
-            g.clear();
-            self.cones.lag(x, g);
-            self.others.lag(x, g);
-            self.mixing.next(x, g);
-            let left = self.cones.take(x);
-            self.others.take(left);
-            course = self.pass(matrix, target, INSIDE, Correction::Stays);
-            if course.off <= enough {
-                break;
-            }
-        }
-        course.share
-    }
-
-    fn keep(&mut self) {
-        self.kept.copy_from_slice(&self.step);
-        self.cones.keep();
-        self.others.keep();
+        self.usual.correct();
+        self.crushed.correct();
+        self.pass(matrix, if self.last < STUCK { mean } else { falls }, INSIDE).share
     }
 
     /// A direction to products of `target`; how far it may be gone, `keep` of the way to the boundary.
-    fn pass(&mut self, matrix: &Blocks, target: f64, keep: f64, correction: Correction) -> Course {
+    fn pass(&mut self, matrix: &Blocks, target: f64, keep: f64) -> Course {
         for (step, residual) in self.step.iter_mut().zip(&self.residual) {
             *step = residual.map(|r| -r);
         }
-        self.cones.aim(target, correction, &mut self.step);
-        self.others.aim(target, correction, &mut self.step);
+        self.usual.aim(target, &mut self.step);
+        self.crushed.aim(target, &mut self.step);
         matrix.solve(&mut self.step, &mut self.work);
         let mut course = Course::BEGIN;
-        self.cones.turn(&self.step, target, keep, &mut course);
-        self.others.turn(&self.step, target, keep, &mut course);
+        self.usual.turn(&self.step, target, keep, &mut course);
+        self.crushed.turn(&self.step, target, keep, &mut course);
         course
     }
 }
@@ -399,15 +316,15 @@ impl<const N: usize> Group<N> {
         for (point, which) in self.points.iter_mut().zip(&self.which) {
             let contact = &contacts[*which as usize];
             point.invert();
-            let [a, b, c] = point.inverse;
-            contact.couple(matrix, [a + contact.spring[0].rho, b, c + contact.spring[1].rho]);
+            let [across, along, tilt] = point.answer;
+            let [beside, along_beside] = contact.spring.map(|s| s.rho);
+            contact.couple(matrix, [across + beside, along + along_beside, -tilt * (across + beside)]);
         }
     }
 
     /// Impulses where velocities stay, onto the bodies.
-    fn aim(&mut self, target: f64, correction: Correction, step: &mut [Triple]) {
+    fn aim(&mut self, target: f64, step: &mut [Triple]) {
         for (point, rows) in self.points.iter_mut().zip(&self.rows) {
-            point.correct(target, correction);
             point.aim(target);
             rows.push(step, point.right);
         }
@@ -419,38 +336,11 @@ impl<const N: usize> Group<N> {
         }
     }
 
-    fn keep(&mut self) {
-        self.kept.clear();
-        self.kept.extend(self.points.iter().map(|point| point.way));
-    }
-
-    fn restore(&mut self) {
-        self.points.iter_mut().zip(&self.kept).for_each(|(point, way)| point.way = *way);
-    }
-
-    /// What lags behind in the direction, and what the direction makes of it [m/s].
-    fn lag(&self, x: &mut Vec<f64>, g: &mut Vec<f64>) {
-        for point in &self.points {
-            x.push(point.mu * point.slides);
-            g.push(point.mu * point.slide(1.0));
-            if N > 2 {
-                x.push(point.gives / point.mass);
-                g.push(point.d_gives / point.mass);
-            }
-        }
-    }
-
-    /// Takes from `x` what is to lag behind; what is left of it.
-    fn take<'a>(&mut self, mut x: &'a [f64]) -> &'a [f64] {
+    /// Takes what the last direction leaves out of the products into account.
+    fn correct(&mut self) {
         for point in &mut self.points {
-            let own = if N > 2 { 2 } else { 1 };
-            point.slides = if point.mu > 0.0 { x[0] / point.mu } else { 0.0 };
-            if N > 2 {
-                point.gives = x[1] * point.mass;
-            }
-            x = &x[own..];
+            point.second = std::array::from_fn(|i| point.way.s[i] * point.way.lambda[i]);
         }
-        x
     }
 
     fn go(&mut self, share: f64) {
@@ -505,8 +395,8 @@ impl Rows {
     }
 }
 
-/// Whether friction alone keeps p_n from falling below 0.
-fn is_cone(contact: &Contact) -> bool {
+/// Whether friction follows from pressure alone.
+fn grips(contact: &Contact) -> bool {
     let alone = contact.pressure[0] == 0.0 && contact.hold == 0.0 && contact.spring[0] == Default::default();
     alone && contact.friction > 0.0 && !is_fixed(contact) && contact.moved[1].is_finite()
 }
@@ -530,8 +420,8 @@ impl<const N: usize> Point<N> {
         let bound = contact.bound(p_n, u[0]);
         let p = [p_n, contact.impulse[1].clamp(-bound, bound)];
         let rubs = (contact.friction > 0.0 || contact.hold > 0.0) && contact.moved[1].is_finite();
-        let moves = [!fixed, rubs && (bound > 0.0 || is_cone(contact))];
-        let bounds = [moves[1], moves[1], !fixed && least.is_finite() && !is_cone(contact), !fixed && most.is_finite()];
+        let moves = [!fixed, rubs && (bound > 0.0 || grips(contact))];
+        let bounds = [moves[1], moves[1], !fixed && least.is_finite(), !fixed && most.is_finite()];
         Point {
             s: [0.0; N],
             lambda: [0.0; N],
@@ -539,18 +429,12 @@ impl<const N: usize> Point<N> {
             off: [0.0; 2],
             mu: contact.friction,
             soft: [0, 1].map(|k| if moves[k] { soft(contact, k) } else { 0.0 }),
-            sliding: 0.0,
-            slides: 0.0,
-            gives: 0.0,
             second: [0.0; N],
-            inverse: [0.0; 3],
-            lift: [[0.0; 2]; N],
+            answer: [0.0; 3],
             right: [0.0; 2],
             mass: contact.moved[0],
             rho: contact.spring[0].rho,
             way: Way::NONE,
-            d_sliding: 0.0,
-            d_gives: 0.0,
             p,
             anchor: [0, 1].map(|k| if contact.compliant[k] { contact.law[k].offset } else { p[k] }),
             moves,
@@ -559,46 +443,26 @@ impl<const N: usize> Point<N> {
         }
     }
 
-    /// Whether there is bound `i`.
-    #[inline]
-    fn has(&self, i: usize) -> bool {
-        N == 2 || self.on[i]
-    }
-
     /// Impulses, distances and multipliers at the start, where velocities are out of balance by `scale` [m/s]: so far from
     /// the bounds that bearing or not stays open.
     fn enter(&mut self, contact: &Contact, u: [f64; 2], scale: f64) {
-        let mu = contact.friction;
         let floor = FLOOR * contact.moved[0] * scale + SHARE * self.p[0].abs();
         let [least, most] = contact.pressure;
-        let cone = is_cone(contact);
         let inside = floor.min(0.5 * (most - least));
-        if cone {
-            let side = self.p[1] / mu;
-            let [a, b] = [self.p[0] + side, self.p[0] - side].map(|g| (0.5 * g).max(floor));
-            self.p = [a + b, mu * (a - b)];
-        } else {
-            if N > 2 && self.on[2] {
-                self.p[0] = self.p[0].max(least + inside);
-            }
-            if N > 2 && self.on[3] {
-                self.p[0] = self.p[0].min(most - inside);
-            }
-            let bound = contact.bound(self.p[0], u[0]);
-            let room = (bound - floor.min(0.5 * bound)).max(0.0);
-            self.p[1] = self.p[1].clamp(-room, room);
+        if self.on[2] {
+            self.p[0] = self.p[0].max(least + inside);
         }
-        let across = u[0] + contact.bias + self.shift(0);
-        self.sliding = u[1] + self.shift(1);
+        if N > 3 && self.on[3] {
+            self.p[0] = self.p[0].min(most - inside);
+        }
         let bound = contact.bound(self.p[0], u[0]);
-        let up = if cone { 0.5 * (across / mu + self.sliding.abs()) } else { 0.0 };
-        let part = if cone { 0.5 } else { 1.0 };
+        let room = (bound - floor.min(0.5 * bound)).max(0.0);
+        self.p[1] = self.p[1].clamp(-room, room);
+        let (across, along) = (u[0] + contact.bias + self.shift(0), u[1] + self.shift(1));
         let far = self.far(contact, bound);
-        let wanted = [up - part * self.sliding, up + part * self.sliding, across, -across];
-        let edge = if cone { 2.0 * mu } else { 1.0 };
+        let wanted = [-along, along, across, -across];
         for i in 0..N {
-            let edge = if i < 2 { edge } else { 1.0 };
-            self.s[i] = far[i].max(edge * floor);
+            self.s[i] = far[i].max(floor);
             self.lambda[i] = wanted[i].max(CRACK * FLOOR * scale * floor / self.s[i]);
         }
     }
@@ -611,13 +475,6 @@ impl<const N: usize> Point<N> {
         std::array::from_fn(|i| far[i])
     }
 
-    /// Normals of the bounds.
-    #[inline]
-    fn normals(&self) -> [[f64; 2]; N] {
-        let normals = [[self.mu, -1.0], [self.mu, 1.0], [1.0, 0.0], [-1.0, 0.0]];
-        std::array::from_fn(|i| normals[i])
-    }
-
     /// E (p − p⁰).
     #[inline]
     fn shift(&self, k: usize) -> f64 {
@@ -627,22 +484,20 @@ impl<const N: usize> Point<N> {
     /// By how much it is off at the velocity `u`.
     #[inline]
     fn look(&mut self, contact: &Contact, u: [f64; 2], left: &mut Left) {
-        let cone = N == 2 || is_cone(contact);
-        let beside = if cone { 0.0 } else { contact.spring[0].offset - contact.spring[0].rho * u[0] };
-        self.mu = if cone || self.tends(contact, u[0]) + beside > 0.0 { contact.friction } else { 0.0 };
+        let alone = grips(contact);
+        let beside = if alone { 0.0 } else { contact.spring[0].offset - contact.spring[0].rho * u[0] };
+        self.mu = if alone || self.tends(contact, u[0]) + beside > 0.0 { contact.friction } else { 0.0 };
         let bound = (self.mu * (self.p[0] + beside)).max(0.0) + contact.hold;
-        if !cone && self.rubs {
+        if !alone && self.rubs {
             self.grip(bound, contact);
             self.mu = if self.moves[1] { self.mu } else { 0.0 };
         }
         let shift = [self.shift(0), self.shift(1)];
-        self.sliding = u[1] + shift[1];
         let far = self.far(contact, bound);
         let rounded = ROUNDED * (self.p[0].abs() + self.p[1].abs() + bound.abs());
-        let normals = self.normals();
-        self.off = [u[0] + contact.bias + shift[0] + self.mu * self.sliding.abs(), self.sliding];
+        self.off = [u[0] + contact.bias + shift[0], u[1] + shift[1]];
         for i in 0..N {
-            if !self.has(i) {
+            if !self.on[i] {
                 self.astray[i] = 0.0;
                 continue;
             }
@@ -650,13 +505,13 @@ impl<const N: usize> Point<N> {
             let astray = far[i] - s;
             // What is no number stays one, to be seen.
             self.astray[i] = if astray.abs() <= rounded { 0.0 } else { astray };
-            (0..2).for_each(|k| self.off[k] -= normals[i][k] * l);
+            self.off[if i < 2 { 1 } else { 0 }] -= SENSE[i] * l;
             left.residual = worse(worse(left.residual, self.astray[i].abs() / self.mass), (s / self.mass).min(l));
             left.products += s * l;
             left.number += 1;
         }
         for k in 0..2 {
-            if N > 2 && !self.moves[k] {
+            if !self.moves[k] {
                 self.off[k] = 0.0;
             }
             left.residual = worse(left.residual, self.off[k].abs());
@@ -664,7 +519,7 @@ impl<const N: usize> Point<N> {
                 left.drawn = left.drawn.max(shift[k].abs());
             }
         }
-        (self.slides, self.gives, self.second) = (0.0, 0.0, [0.0; N]);
+        self.second = [0.0; N];
     }
 
     /// What p_n would be without friction, whose bounds would not let the whole pass from pressure to tension.
@@ -696,119 +551,64 @@ impl<const N: usize> Point<N> {
 
     #[inline]
     fn invert(&mut self) {
-        let [e_n, e_t] = self.soft;
-        let (mut x, mut z, mut y) = (e_n, 0.0, e_t);
-        let normals = self.normals();
-        let d: [f64; N] = std::array::from_fn(|i| if self.has(i) { self.lambda[i] / self.s[i] } else { 0.0 });
-        // The determinant as a sum of squares: what is near a bound is nearly singular.
-        let mut determinant = e_n * e_t;
-        for i in 0..N {
-            let [n, t] = normals[i];
-            x += d[i] * n * n;
-            z += d[i] * n * t;
-            y += d[i] * t * t;
-            determinant += d[i] * (e_t * n * n + e_n * t * t);
-            for j in 0..i {
-                determinant += d[i] * d[j] * crossed(normals[i], normals[j]).powi(2);
-            }
-        }
-        let whole = N == 2 || self.moves == [true; 2];
-        let over = 1.0 / determinant;
-        self.inverse = match self.moves {
-            _ if whole => [y * over, -z * over, x * over],
-            [true, _] => [1.0 / x, 0.0, 0.0],
-            [_, true] => [0.0, 0.0, 1.0 / y],
-            _ => [0.0; 3],
-        };
-        for i in 0..N {
-            let [n, t] = normals[i];
-            if !whole {
-                self.lift[i] = applied(self.inverse, [n, t]);
-                continue;
-            }
-            let mut lift = [e_t * n, e_n * t];
-            for j in 0..N {
-                let across = crossed(normals[i], normals[j]);
-                lift[0] += d[j] * normals[j][1] * across;
-                lift[1] -= d[j] * normals[j][0] * across;
-            }
-            self.lift[i] = lift.map(|l| l * over);
-        }
-    }
-
-    /// Second-order parts and what lags behind, from the last direction.
-    #[inline]
-    fn correct(&mut self, target: f64, correction: Correction) {
-        let share = match correction {
-            Correction::Stays => return,
-            Correction::Whole { share } | Correction::Even { share, .. } => share,
-        };
-        for i in 0..N {
-            let (ds, dl) = (self.way.s[i], self.way.lambda[i]);
-            if let Correction::Even { wide, .. } = correction {
-                let product = (self.s[i] + wide * ds) * (self.lambda[i] + wide * dl);
-                let missing = product.clamp(target / SPREAD, SPREAD * target) - product;
-                self.second[i] -= missing.max(-SPREAD * target);
-            } else {
-                self.second[i] = ds * dl;
-            }
-        }
-        self.slides = self.slide(share);
-        self.gives = share * self.d_gives;
-    }
-
-    /// By how much |ũ_t| grows over a share of the direction [m/s].
-    #[inline]
-    fn slide(&self, share: f64) -> f64 {
-        (self.sliding + share * self.d_sliding).abs() - self.sliding.abs()
-    }
-
-    /// By how much bound `i` is missed where the impulses stay.
-    #[inline]
-    fn missed(&self, i: usize) -> f64 {
-        self.astray[i] + if N > 2 && i < 2 { self.gives } else { 0.0 }
+        let d: [f64; N] = std::array::from_fn(|i| if self.on[i] { self.lambda[i] / self.s[i] } else { 0.0 });
+        let across = self.soft[0] + d[2] + if N > 3 { d[3] } else { 0.0 };
+        let along = self.soft[1] + d[0] + d[1];
+        let [across, along] = [across, along].map(|k| 1.0 / k);
+        let across = if self.moves[0] { across } else { 0.0 };
+        let along = if self.moves[1] { along } else { 0.0 };
+        self.answer = [across, along, self.mu * (d[1] - d[0]) * along];
     }
 
     /// Impulses for products of `target` where velocities stay.
     #[inline]
     fn aim(&mut self, target: f64) {
-        self.right = applied(self.inverse, [-self.off[0] - self.mu * self.slides, -self.off[1]]);
+        let mut off = self.off.map(|o| -o);
         for i in 0..N {
-            if self.has(i) {
+            if self.on[i] {
                 let (s, l) = (self.s[i], self.lambda[i]);
-                let held = (target - self.second[i] - l * self.missed(i)) / s - l;
-                (0..2).for_each(|k| self.right[k] += self.lift[i][k] * held);
+                off[if i < 2 { 1 } else { 0 }] += SENSE[i] * ((target - self.second[i] - l * self.astray[i]) / s - l);
             }
         }
+        let [across, along, tilt] = self.answer;
+        let p_n = across * off[0];
+        self.right = [p_n, along * off[1] - tilt * p_n];
     }
 
     /// The direction where velocities change by `du`, and what it comes to.
     #[inline]
     fn turn(&mut self, du: [f64; 2], target: f64, keep: f64, course: &mut Course) {
-        let back = applied(self.inverse, du);
-        let d_p = [self.right[0] - back[0], self.right[1] - back[1]];
+        let [across, along, tilt] = self.answer;
+        let beside = -self.rho * du[0];
+        let (d_n, d_t) = (-across * du[0], -along * du[1]);
+        let d_p = [self.right[0] + d_n, self.right[1] + d_t - tilt * (d_n + beside)];
         self.way.p = d_p;
-        self.d_sliding = du[1] + self.soft[1] * d_p[1];
-        // (P5a), which is linear but for μ |ũ_t|.
-        let left = [du[0] + self.soft[0] * d_p[0] + self.off[0] + self.mu * self.slides, self.d_sliding + self.off[1]];
-        if N == 2 {
-            let up = left[0] / self.mu;
-            (self.way.lambda[0], self.way.lambda[1]) = (0.5 * (up - left[1]), 0.5 * (up + left[1]));
-        } else {
-            self.d_gives = -self.mu * self.rho * du[0];
-            self.multipliers(left, target);
+        let bound = self.mu * (d_p[0] + beside);
+        let far = [bound - d_p[1], bound + d_p[1], d_p[0], -d_p[0]];
+        let far: [f64; N] = std::array::from_fn(|i| far[i] + self.astray[i]);
+        let mut dl: [f64; N] = std::array::from_fn(|i| match self.on[i] {
+            true => (target - self.second[i] - self.lambda[i] * far[i]) / self.s[i] - self.lambda[i],
+            false => 0.0,
+        });
+        // (P5a) is linear: what rounding leaves of it where a bound is met goes to the multipliers there.
+        for k in 0..2 {
+            let own = if k == 0 { 2..N } else { 0..2 };
+            let mut left = du[k] + self.soft[k] * d_p[k] + self.off[k];
+            let mut weight = 0.0;
+            for i in own.clone().filter(|i| self.on[*i]) {
+                left -= SENSE[i] * dl[i];
+                weight += self.lambda[i] * self.lambda[i];
+            }
+            if weight > 0.0 && self.moves[k] {
+                own.filter(|i| self.on[*i]).for_each(|i| dl[i] += SENSE[i] * left * self.lambda[i].powi(2) / weight);
+            }
         }
-        let normals = self.normals();
+        self.way.lambda = dl;
         // What bears at a bound lies at it to rounding: distances follow from the products there.
-        let edge = if N == 2 { self.mass * 4.0 * self.mu * self.mu } else { self.mass };
         for i in 0..N {
-            if self.has(i) {
-                let ([n, t], s, l) = (normals[i], self.s[i], self.lambda[i]);
-                let dl = self.way.lambda[i];
-                let ds = match s < edge * l {
-                    true => (target - self.second[i] - s * dl) / l - s,
-                    false => n * d_p[0] + t * d_p[1] + self.missed(i),
-                };
+            if self.on[i] {
+                let (s, l, dl) = (self.s[i], self.lambda[i], dl[i]);
+                let ds = if s < self.mass * l { (target - self.second[i] - s * dl) / l - s } else { far[i] };
                 self.way.s[i] = ds;
                 if ds < 0.0 {
                     course.share = course.share.min(-keep * s / ds);
@@ -820,49 +620,15 @@ impl<const N: usize> Point<N> {
                 course.growth[1] += ds * dl;
             }
         }
-        course.off = course.off.max(self.mu * (self.slide(1.0) - self.slides).abs());
-        if N > 2 {
-            course.off = course.off.max((self.d_gives - self.gives).abs() / self.mass);
-        }
-    }
-
-    /// Changes of the multipliers that leave nothing of `left`: those of the products, and as their squares what rounding leaves of
-    /// it where a bound is met.
-    fn multipliers(&mut self, mut left: [f64; 2], target: f64) {
-        let normals = self.normals();
-        let (mut x, mut z, mut y) = (0.0, 0.0, 0.0);
-        for i in (0..N).filter(|i| self.on[*i]) {
-            let ([n, t], s, l) = (normals[i], self.s[i], self.lambda[i]);
-            let ds = n * self.way.p[0] + t * self.way.p[1] + self.missed(i);
-            let dl = (target - self.second[i] - l * ds) / s - l;
-            self.way.lambda[i] = dl;
-            left = [left[0] - n * dl, left[1] - t * dl];
-            (x, z, y) = (x + l * l * n * n, z + l * l * n * t, y + l * l * t * t);
-        }
-        (0..2).filter(|k| !self.moves[*k]).for_each(|k| left[k] = 0.0);
-        let slight = SLIGHT * (x + y);
-        let (x, y) = (x + slight, y + slight);
-        let determinant = x * y - z * z;
-        if determinant > 0.0 {
-            let mend = [(y * left[0] - z * left[1]) / determinant, (x * left[1] - z * left[0]) / determinant];
-            for i in (0..N).filter(|i| self.on[*i]) {
-                self.way.lambda[i] += self.lambda[i].powi(2) * (normals[i][0] * mend[0] + normals[i][1] * mend[1]);
-            }
-        }
     }
 
     /// Impulses and what they mean.
     fn tell(&self, contact: &mut Contact, v: &[Triple]) {
-        let cone = is_cone(contact);
-        let edge = if cone { 2.0 * self.mu } else { 1.0 };
-        let at = [edge, edge, 1.0, 1.0];
-        let held: [bool; N] =
-            std::array::from_fn(|i| self.has(i) && self.s[i] <= self.mass * at[i] * at[i] * self.lambda[i]);
+        let held: [bool; N] = std::array::from_fn(|i| self.on[i] && self.s[i] <= self.mass * self.lambda[i]);
         let [least, most] = contact.pressure;
-        let p_n = match held.get(2..) {
-            Some([true, _]) => least,
-            Some([_, true]) => most,
-            _ if cone && held[0] && held[1] => 0.0,
+        let p_n = match held[2..] {
+            [true, ..] => least,
+            [_, true] => most,
             _ => self.p[0].clamp(least, most),
         };
         let bound = contact.bound(p_n, contact.velocity(v)[0]);
@@ -885,14 +651,6 @@ fn inertia(residual: &mut [Triple], mass: &[Triple], free: &[Triple], v: &[Tripl
     for (body, r) in residual.iter_mut().enumerate() {
         (0..3).for_each(|k| r[k] = mass[body][k] * (v[body][k] - free[body][k]));
     }
-}
-
-fn crossed(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
-
-fn applied([a, b, c]: [f64; 3], [x, y]: [f64; 2]) -> [f64; 2] {
-    [a * x + b * y, b * x + c * y]
 }
 
 #[cfg(test)]

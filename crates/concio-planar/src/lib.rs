@@ -8,7 +8,6 @@ pub mod body;
 pub mod contact;
 mod interior;
 pub mod joint;
-mod mixing;
 pub mod motion;
 pub mod shape;
 pub mod tie;
