@@ -123,8 +123,6 @@ pub(crate) struct Interior {
     residual: Vec<Triple>,
     step: Vec<Triple>,
     work: Vec<Triple>,
-    /// Share of the way that was gone last.
-    last: f64,
 }
 
 /// What is left of the conditions [m/s].
@@ -175,8 +173,10 @@ impl Interior {
         self.start(mass, free, contacts, v, tolerance);
         let mut effort = Effort { rounds: 1, ..Effort::default() };
         let (mut least, mut since) = (f64::INFINITY, 0);
+        // Share of the last direction that is gone.
+        let mut share = 0.0;
         loop {
-            let left = self.look(mass, free, contacts, v);
+            let left = self.look(matrix, (mass, free), contacts, v, share);
             effort.residual = worse(left.residual, left.drawn);
             if left.residual <= tolerance {
                 if left.drawn <= tolerance {
@@ -192,9 +192,9 @@ impl Interior {
             if effort.iterations == MOST || stays || !left.residual.is_finite() {
                 break;
             }
-            self.factorise(matrix, mass, contacts);
+            matrix.factorise();
             effort.iterations += 1;
-            let share = self.direct(matrix, &left);
+            share = self.direct(matrix, &left, effort.iterations > 1 && share < STUCK);
             // Where products vanish before the conditions hold, rounding ends in nothing over nothing.
             if !self.step.iter().flatten().all(|x| x.is_finite()) {
                 break;
@@ -202,9 +202,6 @@ impl Interior {
             for (v, step) in v.iter_mut().zip(&self.step) {
                 (0..3).for_each(|k| v[k] += share * step[k]);
             }
-            self.usual.go(share);
-            self.crushed.go(share);
-            self.last = share;
         }
         effort.factorisations = effort.iterations;
         self.usual.tell(contacts, v);
@@ -217,7 +214,6 @@ impl Interior {
         for room in [&mut self.residual, &mut self.step, &mut self.work] {
             room.resize(v.len(), [0.0; 3]);
         }
-        self.last = 1.0;
         self.usual.clear();
         self.crushed.clear();
         inertia(&mut self.residual, mass, free, v);
@@ -234,49 +230,61 @@ impl Interior {
         self.crushed.enter(contacts, v, scale);
     }
 
-    /// What is left of (P1), into `self.residual`, and of (P5).
-    fn look(&mut self, mass: &[Triple], free: &[Triple], contacts: &[Contact], v: &[Triple]) -> Left {
+    /// Goes the share of the last direction. What is left then of (P1), into `self.residual`, and of (P5), and the matrix and the right side, into
+    /// `self.step`, of a direction that would leave nothing: all in one go through the contacts, which are most of what has to be fetched.
+    fn look(
+        &mut self,
+        matrix: &mut Blocks,
+        (mass, free): (&[Triple], &[Triple]),
+        contacts: &[Contact],
+        v: &[Triple],
+        share: f64,
+    ) -> Left {
         inertia(&mut self.residual, mass, free, v);
-        let mut left = Left::default();
-        self.usual.look(contacts, v, &mut self.residual, &mut left);
-        self.crushed.look(contacts, v, &mut self.residual, &mut left);
+        self.step.fill([0.0; 3]);
+        matrix.reset_whole(mass);
+        let mut sums = Sums { left: Left::default(), residual: &mut self.residual, step: &mut self.step, matrix };
+        self.usual.look(contacts, v, share, &mut sums);
+        self.crushed.look(contacts, v, share, &mut sums);
+        let mut left = sums.left;
         left.residual = worse(left.residual, unbalance(&self.residual, mass));
         left
     }
 
-    fn factorise(&mut self, matrix: &mut Blocks, mass: &[Triple], contacts: &[Contact]) {
-        matrix.reset_whole(mass);
-        self.usual.couple(contacts, matrix);
-        self.crushed.couple(contacts, matrix);
-        matrix.factorise();
-    }
-
-    /// The direction, into `self.step` and the points, and how far it is gone.
-    fn direct(&mut self, matrix: &Blocks, left: &Left) -> f64 {
+    /// The direction, into `self.step` and the points, and how far it is gone; `stuck` where the last was hardly gone at all.
+    fn direct(&mut self, matrix: &Blocks, left: &Left, stuck: bool) -> f64 {
         let mean = left.mean();
-        let first = self.pass(matrix, 0.0, 1.0);
+        let first = self.turn(matrix, 0.0, 1.0);
         let after = left.products + first.share * (first.growth[0] + first.share * first.growth[1]);
         let after = after / left.number.max(1) as f64;
         // Rounding takes products of nothing below 0.
         let falls = if mean > 0.0 { (mean * (after / mean).powi(3)).max(0.0) } else { 0.0 };
-        self.usual.correct();
-        self.crushed.correct();
-        self.pass(matrix, if self.last < STUCK { mean } else { falls }, INSIDE).share
+        let target = if stuck { mean } else { falls };
+        self.step.fill([0.0; 3]);
+        self.usual.correct(target, &mut self.step);
+        self.crushed.correct(target, &mut self.step);
+        self.turn(matrix, target, INSIDE).share
     }
 
-    /// A direction to products of `target`; how far it may be gone, `keep` of the way to the boundary.
-    fn pass(&mut self, matrix: &Blocks, target: f64, keep: f64) -> Course {
+    /// The direction of the right side in `self.step`, to products of `target`; how far it may be gone, `keep` of the way to the boundary.
+    fn turn(&mut self, matrix: &Blocks, target: f64, keep: f64) -> Course {
         for (step, residual) in self.step.iter_mut().zip(&self.residual) {
-            *step = residual.map(|r| -r);
+            (0..3).for_each(|k| step[k] -= residual[k]);
         }
-        self.usual.aim(target, &mut self.step);
-        self.crushed.aim(target, &mut self.step);
         matrix.solve(&mut self.step, &mut self.work);
         let mut course = Course::BEGIN;
         self.usual.turn(&self.step, target, keep, &mut course);
         self.crushed.turn(&self.step, target, keep, &mut course);
         course
     }
+}
+
+/// What a look at the contacts adds up.
+struct Sums<'a> {
+    left: Left,
+    residual: &'a mut [Triple],
+    step: &'a mut [Triple],
+    matrix: &'a mut Blocks,
 }
 
 impl<const N: usize> Group<N> {
@@ -303,28 +311,26 @@ impl<const N: usize> Group<N> {
         }
     }
 
-    fn look(&mut self, contacts: &[Contact], v: &[Triple], residual: &mut [Triple], left: &mut Left) {
-        for (point, which) in self.points.iter_mut().zip(&self.which) {
+    fn look(&mut self, contacts: &[Contact], v: &[Triple], share: f64, sums: &mut Sums) {
+        for ((point, rows), which) in self.points.iter_mut().zip(&self.rows).zip(&self.which) {
             let contact = &contacts[*which as usize];
             let u = contact.velocity(v);
-            point.look(contact, u, left);
-            contact.push(residual, contact.whole(point.p, u));
-        }
-    }
-
-    fn couple(&mut self, contacts: &[Contact], matrix: &mut Blocks) {
-        for (point, which) in self.points.iter_mut().zip(&self.which) {
-            let contact = &contacts[*which as usize];
+            point.go(share);
+            point.look(contact, u, &mut sums.left);
+            contact.push(sums.residual, contact.whole(point.p, u));
             point.invert();
             let [across, along, tilt] = point.answer;
             let [beside, along_beside] = contact.spring.map(|s| s.rho);
-            contact.couple(matrix, [across + beside, along + along_beside, -tilt * (across + beside)]);
+            contact.couple(sums.matrix, [across + beside, along + along_beside, -tilt * (across + beside)]);
+            point.aim(0.0);
+            rows.push(sums.step, point.right);
         }
     }
 
-    /// Impulses where velocities stay, onto the bodies.
-    fn aim(&mut self, target: f64, step: &mut [Triple]) {
+    /// Takes what the last direction leaves out of the products into account; impulses where velocities stay, onto the bodies.
+    fn correct(&mut self, target: f64, step: &mut [Triple]) {
         for (point, rows) in self.points.iter_mut().zip(&self.rows) {
+            point.second = std::array::from_fn(|i| point.way.s[i] * point.way.lambda[i]);
             point.aim(target);
             rows.push(step, point.right);
         }
@@ -333,23 +339,6 @@ impl<const N: usize> Group<N> {
     fn turn(&mut self, step: &[Triple], target: f64, keep: f64, course: &mut Course) {
         for (point, rows) in self.points.iter_mut().zip(&self.rows) {
             point.turn(rows.change(step), target, keep, course);
-        }
-    }
-
-    /// Takes what the last direction leaves out of the products into account.
-    fn correct(&mut self) {
-        for point in &mut self.points {
-            point.second = std::array::from_fn(|i| point.way.s[i] * point.way.lambda[i]);
-        }
-    }
-
-    fn go(&mut self, share: f64) {
-        for point in &mut self.points {
-            (0..2).for_each(|k| point.p[k] += share * point.way.p[k]);
-            for i in 0..N {
-                point.s[i] += share * point.way.s[i];
-                point.lambda[i] += share * point.way.lambda[i];
-            }
         }
     }
 
@@ -473,6 +462,15 @@ impl<const N: usize> Point<N> {
         let ([p_n, p_t], [least, most]) = (self.p, contact.pressure);
         let far = [bound - p_t, bound + p_t, p_n - least, most - p_n];
         std::array::from_fn(|i| far[i])
+    }
+
+    #[inline]
+    fn go(&mut self, share: f64) {
+        (0..2).for_each(|k| self.p[k] += share * self.way.p[k]);
+        for i in 0..N {
+            self.s[i] += share * self.way.s[i];
+            self.lambda[i] += share * self.way.lambda[i];
+        }
     }
 
     /// E (p − p⁰).
