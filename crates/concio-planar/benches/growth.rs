@@ -70,6 +70,7 @@ struct Cost {
     iterations: f64,
     /// Per block and step [s].
     time: f64,
+    halved: u64,
     unsolved: u64,
 }
 
@@ -79,16 +80,17 @@ fn shaken(size: [usize; 2], seconds: f64) -> Cost {
     let mut motion = Motion::new(&system, Setting::new(STEP));
     motion.stand(1e-9, 400);
     let base = |t: f64| 0.5 * G / (6.0 * PI) * (1.0 - (6.0 * PI * t).cos());
+    let steps = (seconds / STEP).round();
     let begun = Instant::now();
-    for _ in 0..(seconds / STEP).round() as usize {
+    for _ in 0..steps as usize {
         motion.go(STEP, &|from, to| Forcing { base: [base(to) - base(from), 0.0], held: 0.0 });
     }
     let (time, counters) = (begun.elapsed().as_secs_f64(), motion.counters);
-    let steps = counters.steps as f64;
     Cost {
         blocks,
         iterations: counters.iterations as f64 / steps,
         time: time / (steps * blocks as f64),
+        halved: counters.halved,
         unsolved: counters.unsolved,
     }
 }
@@ -99,9 +101,10 @@ fn main() {
         for size in sizes {
             let (cost, least) = (shaken(size, seconds), shaken(sizes[0], seconds));
             println!(
-                "{what}, {} blocks: {:.1} iterations per step, {} unsolved, time per block and step {:.2}",
+                "{what}, {} blocks: {:.1} iterations per step, {} halved, {} unsolved, time per block and step {:.2}",
                 cost.blocks,
                 cost.iterations,
+                cost.halved,
                 cost.unsolved,
                 cost.time / least.time
             );

@@ -44,8 +44,9 @@ struct Feed {
     at: u32,
 }
 
-/// A diagonal block by its own factors L D U. Its inverse would not do: where contacts hold one direction of a body 10⁸ times as stiffly as
-/// another, what it makes of the other is rounded by as much.
+/// A diagonal block by its own factors, P A = L D U with rows exchanged by P. Its inverse would not do: where contacts hold one direction of a
+/// body 10⁸ times as stiffly as another, what it makes of the other is rounded by as much. And rows have to be exchanged where the matrix is not
+/// symmetric: joints that slide may take a number on the diagonal through 0 in a block that is far from singular.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct Pivot {
     /// Below the diagonal of L: second row, then third; of U turned over the same.
@@ -53,32 +54,54 @@ struct Pivot {
     u: [f64; 3],
     /// 1/D.
     d: [f64; 3],
+    /// Which row comes first, second and third, and where the unknowns go.
+    rows: [u8; 3],
+    unknowns: [u8; 3],
 }
+
+const IN_ORDER: [u8; 3] = [0, 1, 2];
 
 impl Pivot {
     #[inline(always)]
-    fn of(a: &Block) -> Self {
+    fn of<const SYMMETRIC: bool>(a: &Block) -> Self {
+        let mut a = *a;
+        let mut rows = IN_ORDER;
+        let mut first = |a: &mut Block, k: usize, i: usize| {
+            if !SYMMETRIC && a[i][k].abs() > a[k][k].abs() {
+                a.swap(i, k);
+                rows.swap(i, k);
+            }
+        };
+        first(&mut a, 0, 1);
+        first(&mut a, 0, 2);
         let d0 = 1.0 / a[0][0];
-        let l = [a[1][0] * d0, a[2][0] * d0];
-        let u = [a[0][1] * d0, a[0][2] * d0];
-        let d1 = 1.0 / (a[1][1] - l[0] * a[0][1]);
-        let below = a[2][1] - l[1] * a[0][1];
-        let right = a[1][2] - l[0] * a[0][2];
-        let l21 = below * d1;
-        let d2 = 1.0 / (a[2][2] - l[1] * a[0][2] - l21 * right);
-        Pivot { l: [l[0], l[1], l21], u: [u[0], u[1], right * d1], d: [d0, d1, d2] }
+        for i in 1..3 {
+            a[i][0] *= d0;
+            (1..3).for_each(|j| a[i][j] -= a[i][0] * a[0][j]);
+        }
+        first(&mut a, 1, 2);
+        let d1 = 1.0 / a[1][1];
+        a[2][1] *= d1;
+        let d2 = 1.0 / (a[2][2] - a[2][1] * a[1][2]);
+        Pivot {
+            l: [a[1][0], a[2][0], a[2][1]],
+            u: [a[0][1] * d0, a[0][2] * d0, a[1][2] * d1],
+            d: [d0, d1, d2],
+            rows,
+            unknowns: IN_ORDER,
+        }
     }
 
     /// Of the block turned over.
     #[inline(always)]
     fn turned(&self) -> Self {
-        Pivot { l: self.u, u: self.l, d: self.d }
+        Pivot { l: self.u, u: self.l, d: self.d, rows: self.unknowns, unknowns: self.rows }
     }
 
     /// A⁻¹ of the columns of a block.
     #[inline(always)]
     fn solved(&self, b: &Block) -> Block {
-        let mut y = *b;
+        let mut y = self.rows.map(|row| b[row as usize]);
         let ([l10, l20, l21], [u10, u20, u21]) = (self.l, self.u);
         for j in 0..4 {
             y[1][j] -= l10 * y[0][j];
@@ -86,16 +109,22 @@ impl Pivot {
             y[1][j] = y[1][j] * self.d[1] - u21 * y[2][j];
             y[0][j] = y[0][j] * self.d[0] - u10 * y[1][j] - u20 * y[2][j];
         }
-        y
+        let mut x = ZERO;
+        (0..3).for_each(|k| x[self.unknowns[k] as usize] = y[k]);
+        x
     }
 
     #[inline]
-    fn solve(&self, x: Triple) -> Triple {
+    fn solve(&self, b: Triple) -> Triple {
+        let y = self.rows.map(|row| b[row as usize]);
         let ([l10, l20, l21], [u10, u20, u21]) = (self.l, self.u);
-        let y1 = x[1] - l10 * x[0];
-        let z2 = (x[2] - l20 * x[0] - l21 * y1) * self.d[2];
+        let y1 = y[1] - l10 * y[0];
+        let z2 = (y[2] - l20 * y[0] - l21 * y1) * self.d[2];
         let z1 = y1 * self.d[1] - u21 * z2;
-        [x[0] * self.d[0] - u10 * z1 - u20 * z2, z1, z2]
+        let z = [y[0] * self.d[0] - u10 * z1 - u20 * z2, z1, z2];
+        let mut x = [0.0; 3];
+        (0..3).for_each(|k| x[self.unknowns[k] as usize] = z[k]);
+        x
     }
 }
 
@@ -226,12 +255,14 @@ impl Blocks {
 
     /// Adds `times` the product of the rows of a pair's two bodies, to a symmetric matrix.
     pub fn add_pair(&mut self, slot: Slot, times: f64, [a, b]: [Triple; 2]) {
+        debug_assert!(self.is_symmetric);
         let (first, second) = if slot.turned { (b, a) } else { (a, b) };
         add_outer(&mut self.right[slot.at], times, first, second);
     }
 
     /// Adds the columns of a pair's two bodies times the rows of the other, to a matrix that need not be symmetric.
     pub fn add_products(&mut self, slot: Slot, columns: [Triple; 2], rows: [Triple; 2]) {
+        debug_assert!(!self.is_symmetric);
         let (first, second) = if slot.turned { (1, 0) } else { (0, 1) };
         add_outer(&mut self.right[slot.at], 1.0, columns[first], rows[second]);
         add_outer(&mut self.below[slot.at], 1.0, rows[first], columns[second]);
@@ -271,7 +302,7 @@ impl Blocks {
                     }
                 }
             }
-            pivots[own] = Pivot::of(&square);
+            pivots[own] = Pivot::of::<SYMMETRIC>(&square);
         }
     }
 
@@ -305,6 +336,7 @@ impl Blocks {
 
     /// The factors of a symmetric matrix as they are.
     pub fn keep(&self) -> Factors {
+        debug_assert!(self.is_symmetric);
         Factors { right: self.right.clone(), pivots: self.pivots.clone() }
     }
 
@@ -427,8 +459,10 @@ mod tests {
     /// A matrix of seeded values solves what it multiplied, whether it is symmetric or not; the next one of the same pattern too.
     #[test]
     fn solves_what_it_multiplied() {
-        let n = 42;
-        let pairs = grid(7, 6);
+        // A grid, another beside it, and a body alone.
+        let n = 42 + 12 + 1;
+        let mut pairs = grid(7, 6);
+        pairs.extend(grid(4, 3).iter().map(|(a, b)| (a + 42, b + 42)));
         let mut seed = 1u64;
         let mut draw = || {
             seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);

@@ -560,7 +560,9 @@ impl Solver {
 
     /// Whether the last factors are those of the contacts that bear and stick now.
     fn factors_fit(&self) -> bool {
-        self.known.len() == self.trial.len() && self.trial.iter().zip(&self.known).all(|(t, k)| stiff(t) == *k)
+        self.known.len() == self.trial.len()
+            && !self.known.is_empty()
+            && self.trial.iter().zip(&self.known).all(|(t, k)| stiff(t) == *k)
     }
 
     fn factorise(&mut self, mass: &[Triple], contacts: &[Contact]) {
