@@ -157,6 +157,11 @@ impl Law {
         }
     }
 
+    /// Whether springs of a point so damaged act in compression only.
+    pub(crate) fn only_presses(&self, damage: f64) -> bool {
+        self.is_compliant() && self.springs(damage).0 == 0.0
+    }
+
     fn normal_damping(&self) -> f64 {
         if let Normal::Springs { damping, .. } = self.normal { damping } else { 0.0 }
     }

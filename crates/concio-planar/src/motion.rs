@@ -39,6 +39,9 @@ const AT_REST: f64 = 1e-3;
 const ACCURACY: f64 = 1e-6;
 /// What is left at most, over the tolerance, of a step that is not taken again in two halves.
 const ENOUGH: f64 = 100.0;
+/// How much deeper than their velocities took them the sides of a joint may overlap, over `REACH`: where a stone that falls comes upon another edge
+/// of its neighbour there would be a spring pressed in by nothing, and energy of nothing.
+const JUMP: f64 = 3e-3;
 /// Contact points of a pair.
 const POINTS: usize = 3;
 
@@ -566,7 +569,11 @@ impl Motion {
         let mut contact = Contact::rigid((pair.a, pair.b), slot, rows, &self.inverse, state.force.map(|f| h * f));
         contact.drift = lever.map(|lever| lever * held[1]);
         let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
-        let gap = touch.gap - 0.5 * h * before[0];
+        let mut gap = touch.gap - 0.5 * h * before[0];
+        let followed = state.gap.min(0.0);
+        if law.only_presses(state.damage) && gap < followed - JUMP * self.reach[pair.b] {
+            gap = followed;
+        }
         let start = law.begin(state, share, h, self.setting.still, (gap, before), &mut contact);
         (contact, Owner { pair: number, point, share, start, lever })
     }
