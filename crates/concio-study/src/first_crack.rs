@@ -332,6 +332,9 @@ impl<'a> Seek<'a> {
             }
         }
         let (name, kind) = self.joints[joint].clone();
+        if time == Some(0.0) {
+            self.cause.get_or_insert(format!("joint {name} cracks under the loads at rest, whatever the motion"));
+        }
         let trial = Trial { scale, cracked: time.is_some(), utilisation, joint: name, kind, time };
         let place = self.trials.partition_point(|t| t.scale < scale);
         self.trials.insert(place, trial);

@@ -52,7 +52,7 @@ fn first(subjects: &[Subject], wall: &Case) -> Result<Section, Failure> {
         "Asked: the least scale of each motion at which a first joint cracks; what counts as a crack stands below.";
     Ok(Section {
         title: asked::TITLE.into(),
-        text: vec![asked.into(), asked::wall(wall)?, asked::MODEL.into()],
+        text: vec![asked.into(), asked::wall(wall)?, asked::limits(wall.model).into()],
         tables: vec![("Motions of the base at scale 1".into(), asked::words(["motion", "what it is"], &motions))],
         ..Section::default()
     })

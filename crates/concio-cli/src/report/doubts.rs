@@ -10,6 +10,9 @@ use crate::format::seconds;
 /// Residual of the energy account beyond which a run is not to be trusted.
 pub const LARGEST_RESIDUAL: f64 = 1e-3;
 
+/// Part of what was lost beyond which that in impacts is told of where joints have springs.
+const MUCH: f64 = 0.1;
+
 /// One sentence or two each; those of this run come first.
 pub fn list(content: &Content) -> Vec<String> {
     let mut doubts = of_this_run(content);
@@ -75,12 +78,30 @@ fn of_this_run(content: &Content) -> Vec<String> {
             seconds(event.time)
         ));
     }
-    if slips {
+    let planar = content.is_planar();
+    if planar && content.case.motion.quasi_static {
         doubts.push(
-            "Joints slip in this run. Stick-slip is sensitive to the last digit: energies, envelopes and forces can be \
-             relied on, the course of a single history after many slips cannot."
+            "This run leaves inertia out: forces and displacements count up to where the wall gives way; velocities, and how \
+             and when blocks fall, mean nothing."
                 .into(),
         );
+    }
+    let e = &outcome.energies;
+    let lost = e.damping + e.friction + e.bond + e.device + e.impact;
+    if planar && e.impact > MUCH * lost && content.joints.iter().any(|joint| joint.stiffness > 0.0) {
+        doubts.push(format!(
+            "{:.0} % of what was lost went into impacts, and into springs of joints that close or ring faster than a step resolves. \
+             Run it again with half of solver.step: what falls with the step is not the wall's, and friction and damping \
+             take it over.",
+            100.0 * e.impact / lost
+        ));
+    }
+    if slips {
+        let sure = if planar { "envelopes and forces" } else { "energies, envelopes and forces" };
+        doubts.push(format!(
+            "Joints slip in this run. Stick-slip is sensitive to the last digit: {sure} can be relied on, the course of a \
+             single history after many slips cannot."
+        ));
     }
     doubts
 }

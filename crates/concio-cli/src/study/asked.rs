@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use concio::case::{Baseline, Case, Signal};
+use concio::case::{Baseline, Case, ModelKind, Signal};
 use concio::ground::Library;
 use concio::ground::coverage::{Coverage, coverage};
 use concio::run::prepare_with;
@@ -19,12 +19,18 @@ use super::page::Section;
 use crate::format::{counted, plain, seconds, short};
 use crate::motion;
 
-/// What no result of the model tells, for every report of many runs.
-pub const MODEL: &str = "Limits of the model: every block moves horizontally in the plane of the wall and in no other way. \
+/// What no result of the shear model tells, for every report of many of its runs.
+const SHEAR: &str = "Limits of the model: every block moves horizontally in the plane of the wall and in no other way. \
     Blocks do not rock, turn, lift off or fall, units neither split nor crush, nothing moves out of plane. The normal force \
     of a joint, which friction and cohesion work with, is that of weight and load at rest; it does not change while the \
     wall moves, and neither do overlaps. The model therefore knows no collapse: large slip, opening or drift says how far \
     joints moved, not that a real wall would stand it.";
+
+/// The same of the planar model.
+const PLANAR: &str = "Limits of the planar model: blocks are rigid and stay in the plane of the wall. A joint has all the give \
+    there is, cracks run along joints and never through a block, leaves do not part, and nothing moves out of plane. A run \
+    counts as collapsed from the first block that falls: what its measures say of the time after that is no more than a \
+    picture.";
 
 /// Values that a list shows.
 const MOST_VALUES: usize = 12;
@@ -367,6 +373,22 @@ impl Trouble {
     }
 }
 
+/// What no result of the model tells.
+pub fn limits(model: ModelKind) -> &'static str {
+    match model {
+        ModelKind::Shear => SHEAR,
+        ModelKind::Planar => PLANAR,
+    }
+}
+
+/// That of the models that runs of the study have.
+fn models(plan: &Plan, case: Option<&Case>) -> Vec<&'static str> {
+    if plan.file.study.factors.iter().any(|factor| factor.path.as_deref() == Some("model")) {
+        return vec![SHEAR, PLANAR];
+    }
+    vec![limits(case.map_or(ModelKind::Shear, |case| case.model))]
+}
+
 /// The first section of a study's report; `one` is what a point of its design is.
 ///
 /// # Errors
@@ -381,7 +403,7 @@ pub fn section(plan: &Plan, one: &str, case: Option<&Case>, trouble: Trouble) ->
     text.push(format!("Design: {}.", design(plan, one)));
     text.extend(case.map(wall).transpose()?);
     text.extend(trouble.told);
-    text.push(MODEL.into());
+    text.extend(models(plan, case).into_iter().map(String::from));
     let mut tables = Vec::new();
     let factors = factors(study);
     if !factors.is_empty() {

@@ -175,3 +175,38 @@ fn crack_lines_are_counted_over_runs() {
     assert!(desk.get("out/report.html").contains("Crack lines"));
     assert!(desk.path("out/figures/crack-lines.svg").is_file() && desk.path("out/crack-lines.csv").is_file());
 }
+
+const PLANAR: &str = r#"model = "planar"
+
+[[panel]]
+bond = "running"
+courses = 3
+bricks = 2
+brick = { length = "250 mm", height = "120 mm", thickness = "250 mm", specific_weight = "18 kN/m3" }
+mortar = { bed = "10 mm", head = "10 mm" }
+
+[joint]
+bed = { law = "elastic", stiffness = "15 N/mm3" }
+head = { law = "elastic", stiffness = "36 N/mm3" }
+friction = { law = "coulomb", static = 0.6, dynamic = 0.6, on = "all" }
+bond = { tensile_strength = "0.1 MPa", cohesion = "0.1 MPa", friction_angle = "31 deg" }
+
+[motion]
+base = { sine = { acceleration = "0.3 g", frequency = "5 Hz", ramp = "0.1 s" } }
+duration = "0.3 s"
+"#;
+
+/// Reports of planar walls tell the limits of their own model; a wall that loads alone crack is not shaken ever more gently.
+#[test]
+fn planar_walls_have_limits_of_their_own_and_cracks_at_rest_are_told() {
+    let desk = Desk::new();
+    desk.put("wall.toml", PLANAR);
+    desk.concio("first-crack wall.toml --interval 0.2 --out out").assert().success();
+    let report = desk.get("out/report.html");
+    assert!(report.contains("Limits of the planar model") && !report.contains("Blocks do not rock"));
+    desk.put("weak.toml", PLANAR.replace("tensile_strength = \"0.1 MPa\", ", ""));
+    let told = desk.concio("first-crack weak.toml --out weak").assert().code(1);
+    let told = String::from_utf8_lossy(&told.get_output().stderr).into_owned()
+        + &String::from_utf8_lossy(&told.get_output().stdout);
+    assert!(told.contains("cracks under the loads at rest"), "{told}");
+}

@@ -125,7 +125,8 @@ fn bond_values(f: &mut Findings, key: &str, b: &BondChange) {
 }
 
 fn below_static(f: &mut Findings, key: impl std::fmt::Display, dynamic: f64, static_: f64) {
-    if dynamic > static_ {
+    // Of a static one that is wrong itself nothing follows.
+    if dynamic > static_ && static_ >= 0.0 {
         let what = format!("{dynamic} is above the static coefficient");
         f.push(key, what, format!("0 … {static_}, the static coefficient"));
     }
