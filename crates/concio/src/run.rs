@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use concio_planar::joint::Normal;
 use serde_json::Value;
 
 use crate::case::{Beam, Case, Signal, canonical_json, plausible};
@@ -286,6 +287,11 @@ fn write(
 pub fn joint_rows(model: &Model) -> Vec<JointRow> {
     use crate::case::{FrictionLaw, SpringLaw};
     let (contact, device) = (model.contact_of_joint(), model.device_of_joint());
+    // Bed joints bear no tension in planar walls alone.
+    let only_presses = |e: usize| {
+        let law = model.planar.as_ref().map(|planar| planar.system.links[e].law.normal);
+        matches!(law, Some(Normal::Springs { both: 0.0, press, .. }) if press > 0.0)
+    };
     let row = |(e, rub): (usize, Option<usize>)| {
         let rub = rub.map(|r| &model.rubs[r]);
         let (joint, law) = (&model.joints[e], &model.elastic[e]);
@@ -294,7 +300,7 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
             name: crate::graph::name(&model.wall, joint),
             law: match law {
                 _ if contact[e].is_some() => SpringLaw::Rigid,
-                l if l.unilateral => SpringLaw::NoTension,
+                l if l.unilateral || only_presses(e) => SpringLaw::NoTension,
                 l if l.stiffness == 0.0 && l.damping == 0.0 => SpringLaw::None,
                 _ => SpringLaw::Elastic,
             },
