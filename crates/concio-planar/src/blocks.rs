@@ -54,18 +54,15 @@ struct Pivot {
     u: [f64; 3],
     /// 1/D.
     d: [f64; 3],
-    /// Which row comes first, second and third, and where the unknowns go.
+    /// Which row comes first, second and third.
     rows: [u8; 3],
-    unknowns: [u8; 3],
 }
-
-const IN_ORDER: [u8; 3] = [0, 1, 2];
 
 impl Pivot {
     #[inline(always)]
     fn of<const SYMMETRIC: bool>(a: &Block) -> Self {
         let mut a = *a;
-        let mut rows = IN_ORDER;
+        let mut rows = [0, 1, 2];
         let mut first = |a: &mut Block, k: usize, i: usize| {
             if !SYMMETRIC && a[i][k].abs() > a[k][k].abs() {
                 a.swap(i, k);
@@ -83,34 +80,21 @@ impl Pivot {
         let d1 = 1.0 / a[1][1];
         a[2][1] *= d1;
         let d2 = 1.0 / (a[2][2] - a[2][1] * a[1][2]);
-        Pivot {
-            l: [a[1][0], a[2][0], a[2][1]],
-            u: [a[0][1] * d0, a[0][2] * d0, a[1][2] * d1],
-            d: [d0, d1, d2],
-            rows,
-            unknowns: IN_ORDER,
-        }
-    }
-
-    /// Of the block turned over.
-    #[inline(always)]
-    fn turned(&self) -> Self {
-        Pivot { l: self.u, u: self.l, d: self.d, rows: self.unknowns, unknowns: self.rows }
+        Pivot { l: [a[1][0], a[2][0], a[2][1]], u: [a[0][1] * d0, a[0][2] * d0, a[1][2] * d1], d: [d0, d1, d2], rows }
     }
 
     /// A⁻¹ of the columns of a block.
     #[inline(always)]
     fn solved(&self, b: &Block) -> Block {
-        let mut y = self.rows.map(|row| b[row as usize]);
-        let ([l10, l20, l21], [u10, u20, u21]) = (self.l, self.u);
-        for j in 0..4 {
-            y[1][j] -= l10 * y[0][j];
-            y[2][j] = (y[2][j] - l20 * y[0][j] - l21 * y[1][j]) * self.d[2];
-            y[1][j] = y[1][j] * self.d[1] - u21 * y[2][j];
-            y[0][j] = y[0][j] * self.d[0] - u10 * y[1][j] - u20 * y[2][j];
-        }
+        swept(self.l, self.d, self.u, self.rows.map(|row| b[row as usize]))
+    }
+
+    /// The same of A turned over.
+    #[inline(always)]
+    fn solved_turned(&self, b: &Block) -> Block {
+        let y = swept(self.u, self.d, self.l, *b);
         let mut x = ZERO;
-        (0..3).for_each(|k| x[self.unknowns[k] as usize] = y[k]);
+        (0..3).for_each(|k| x[self.rows[k] as usize] = y[k]);
         x
     }
 
@@ -121,11 +105,20 @@ impl Pivot {
         let y1 = y[1] - l10 * y[0];
         let z2 = (y[2] - l20 * y[0] - l21 * y1) * self.d[2];
         let z1 = y1 * self.d[1] - u21 * z2;
-        let z = [y[0] * self.d[0] - u10 * z1 - u20 * z2, z1, z2];
-        let mut x = [0.0; 3];
-        (0..3).for_each(|k| x[self.unknowns[k] as usize] = z[k]);
-        x
+        [y[0] * self.d[0] - u10 * z1 - u20 * z2, z1, z2]
     }
+}
+
+/// What L D U, U turned over, makes the columns of a block.
+#[inline(always)]
+fn swept([l10, l20, l21]: [f64; 3], d: [f64; 3], [u10, u20, u21]: [f64; 3], mut y: Block) -> Block {
+    for j in 0..4 {
+        y[1][j] -= l10 * y[0][j];
+        y[2][j] = (y[2][j] - l20 * y[0][j] - l21 * y[1][j]) * d[2];
+        y[1][j] = y[1][j] * d[1] - u21 * y[2][j];
+        y[0][j] = y[0][j] * d[0] - u10 * y[1][j] - u20 * y[2][j];
+    }
+    y
 }
 
 /// [`Blocks::factorise`] compiled for some registers.
@@ -289,7 +282,7 @@ impl Blocks {
                 let (at, end) = (feed.at as usize, start[feed.row as usize + 1]);
                 let pivot = pivots[feed.row as usize];
                 let forth = pivot.solved(&before[at]);
-                let back = if SYMMETRIC { forth } else { pivot.turned().solved(&before_below[at]) };
+                let back = if SYMMETRIC { forth } else { pivot.solved_turned(&before_below[at]) };
                 subtract_product(&mut square, &back, &before[at]);
                 let (own_targets, others) = targets.split_at(end - at - 1);
                 targets = others;

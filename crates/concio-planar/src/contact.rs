@@ -69,7 +69,7 @@ pub struct Linear {
 impl Linear {
     /// At the velocity `u` [m/s], in N s.
     #[inline]
-    fn at(&self, u: f64) -> f64 {
+    pub(crate) fn at(&self, u: f64) -> f64 {
         self.offset - self.rho * u
     }
 }

@@ -83,9 +83,11 @@ struct Point<const N: usize> {
     /// Impulses, and those that it is drawn to, p⁰.
     p: [f64; 2],
     anchor: [f64; 2],
-    /// Whether the impulse across and along may change, whether there is friction, and which bounds there are.
+    /// Whether the impulse across and along may change, whether there is friction, whether it follows from pressure alone, and which
+    /// bounds there are.
     moves: [bool; 2],
     rubs: bool,
+    dry: bool,
     on: [bool; N],
 }
 
@@ -433,6 +435,7 @@ impl<const N: usize> Point<N> {
             anchor: [0, 1].map(|k| if contact.compliant[k] { contact.law[k].offset } else { p[k] }),
             moves,
             rubs,
+            dry: is_dry(contact),
             on: std::array::from_fn(|i| bounds[i]),
         }
     }
@@ -487,11 +490,10 @@ impl<const N: usize> Point<N> {
     /// By how much it is off at the velocity `u`.
     #[inline]
     fn look(&mut self, contact: &Contact, u: [f64; 2], left: &mut Left) {
-        let alone = is_dry(contact);
-        let beside = if alone { 0.0 } else { contact.spring[0].offset - contact.spring[0].rho * u[0] };
-        self.mu = if alone || self.tends(contact, u[0]) + beside > 0.0 { contact.friction } else { 0.0 };
+        let beside = contact.spring[0].at(u[0]);
+        self.mu = if self.dry || self.tends(contact, u[0]) + beside > 0.0 { contact.friction } else { 0.0 };
         let bound = (self.mu * (self.p[0] + beside)).max(0.0) + contact.hold;
-        if !alone && self.rubs {
+        if !self.dry && self.rubs {
             self.grip(bound, contact);
             self.mu = if self.moves[1] { self.mu } else { 0.0 };
         }
@@ -530,7 +532,7 @@ impl<const N: usize> Point<N> {
     fn tends(&self, contact: &Contact, u_n: f64) -> f64 {
         let [least, most] = contact.pressure;
         let free = match contact.compliant[0] {
-            true => contact.law[0].offset - contact.law[0].rho * (u_n + contact.bias),
+            true => contact.law[0].at(u_n + contact.bias),
             false => self.p[0] - self.mass * (u_n + contact.bias),
         };
         free.clamp(least, most)

@@ -208,7 +208,7 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
         outcome.first_crack().map_or(f64::INFINITY, |b| b.cracked),
         outcome.counters.steps as f64,
         energies.device,
-        energies.friction + energies.damping + energies.device + energies.bond + energies.impact,
+        energies.dissipated(),
         totals.collapse.unwrap_or(f64::INFINITY),
     ]
 }

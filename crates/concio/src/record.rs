@@ -281,6 +281,12 @@ impl Energies {
     pub fn input(&self) -> f64 {
         self.input_base + self.input_top
     }
+
+    /// Lost in all ways that a wall loses energy [J].
+    pub fn dissipated(&self) -> f64 {
+        self.friction + self.damping + self.device + self.bond + self.impact
+    }
+
     /// E_kin + E_el − E_0 + E_diss − W_in: 0 but for the errors of the integration.
     pub fn residual(&self) -> f64 {
         self.kinetic

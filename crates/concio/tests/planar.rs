@@ -580,9 +580,7 @@ step = {step}
 /// Results call bed joints what the wall file does.
 #[test]
 fn bed_joints_that_bear_no_tension_are_told_so() {
-    let text = include_str!("../../../examples/15-dry-shear-wall.toml");
-    let case = concio::case::from_str(text, concio::case::Syntax::Toml, None).expect("an example").case;
-    let model = concio::run::prepare(case, std::path::Path::new("examples")).expect("a wall").model;
-    let rows = concio::run::joint_rows(&model);
+    let wall = prepared(include_str!("../../../examples/15-dry-shear-wall.toml"));
+    let rows = concio::run::joint_rows(&wall.model);
     assert!(rows.iter().all(|row| row.law == concio::case::SpringLaw::NoTension));
 }

@@ -86,14 +86,13 @@ fn of_this_run(content: &Content) -> Vec<String> {
                 .into(),
         );
     }
-    let e = &outcome.energies;
-    let lost = e.damping + e.friction + e.bond + e.device + e.impact;
-    if planar && e.impact > MUCH * lost && content.joints.iter().any(|joint| joint.stiffness > 0.0) {
+    let (impact, lost) = (outcome.energies.impact, outcome.energies.dissipated());
+    if planar && impact > MUCH * lost && content.joints.iter().any(|joint| joint.stiffness > 0.0) {
         doubts.push(format!(
             "{:.0} % of what was lost went into impacts, and into springs of joints that close or ring faster than a step resolves. \
              Run it again with half of solver.step: what falls with the step is not the wall's, and friction and damping \
              take it over.",
-            100.0 * e.impact / lost
+            100.0 * impact / lost
         ));
     }
     if slips {
