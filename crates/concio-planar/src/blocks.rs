@@ -12,8 +12,50 @@ pub type Triple = [f64; 3];
 
 const ZERO: Block = [[0.0; 4]; 3];
 
+/// A block right of the diagonal and, behind each of its rows, that of the block below the diagonal turned over, which is not looked at in a
+/// symmetric matrix: what is eliminated changes both alike, and so a row of both is changed at once.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
+struct Both([[f64; 8]; 3]);
+
+impl Both {
+    const ZERO: Self = Both([[0.0; 8]; 3]);
+
+    /// The block right of the diagonal.
+    #[inline(always)]
+    fn right(&self) -> Block {
+        let part = |row: &[f64; 8]| [row[0], row[1], row[2], row[3]];
+        [part(&self.0[0]), part(&self.0[1]), part(&self.0[2])]
+    }
+
+    /// What the factors have here: D⁻¹ L⁻¹ P of what is right of the diagonal, and what is below times U⁻¹.
+    #[inline(always)]
+    fn eliminate<const SYMMETRIC: bool>(&mut self, pivot: &Pivot) {
+        let Pivot { l, u, d, rows } = pivot;
+        let [a, b, c] = rows;
+        let start = |row: &[f64; 8]| [row[0], row[1], row[2], row[3]];
+        let end = |row: &[f64; 8]| [row[4], row[5], row[6], row[7]];
+        let right = [start(&self.0[*a as usize]), start(&self.0[*b as usize]), start(&self.0[*c as usize])];
+        let below = if SYMMETRIC { right } else { [end(&self.0[0]), end(&self.0[1]), end(&self.0[2])] };
+        let (right, below) = (swept(right, l), swept(below, u));
+        for i in 0..3 {
+            for j in 0..4 {
+                self.0[i][j] = right[i][j] * d[i];
+                self.0[i][4 + j] = below[i][j];
+            }
+        }
+    }
+
+    fn add(&mut self, from: usize, times: f64, column: Triple, row: Triple) {
+        for i in 0..3 {
+            (0..3).for_each(|j| self.0[i][from + j] += times * column[i] * row[j]);
+        }
+    }
+}
+
 /// A matrix in the order of elimination: for every row a diagonal block and the blocks right of it, fill included; those below the diagonal
-/// are the same turned over, or stand beside them where the matrix is not symmetric. A = L D U, D of blocks.
+/// are the same turned over, or stand behind them where the matrix is not symmetric. The factors take their place: 𝓛 𝓤 with P⁻¹ L D and U of
+/// [`Pivot`] on their diagonals.
 #[derive(Debug, Clone)]
 pub struct Blocks {
     /// Place in the order of elimination of each body.
@@ -28,9 +70,8 @@ pub struct Blocks {
     /// Per feed, for each block of the feeding row right of the one named there: which block of the fed row it changes.
     targets: Vec<u32>,
     diagonal: Vec<Block>,
-    /// Blocks right of the diagonal, and those below it turned over, which are not looked at in a symmetric matrix.
-    right: Vec<Block>,
-    below: Vec<Block>,
+    /// Blocks off the diagonal.
+    beside: Vec<Both>,
     is_symmetric: bool,
     /// The eliminated diagonal blocks.
     pivots: Vec<Pivot>,
@@ -83,42 +124,20 @@ impl Pivot {
         Pivot { l: [a[1][0], a[2][0], a[2][1]], u: [a[0][1] * d0, a[0][2] * d0, a[1][2] * d1], d: [d0, d1, d2], rows }
     }
 
-    /// A⁻¹ of the columns of a block.
-    #[inline(always)]
-    fn solved(&self, b: &Block) -> Block {
-        swept(self.l, self.d, self.u, self.rows.map(|row| b[row as usize]))
-    }
-
-    /// The same of A turned over.
-    #[inline(always)]
-    fn solved_turned(&self, b: &Block) -> Block {
-        let y = swept(self.u, self.d, self.l, *b);
-        let mut x = ZERO;
-        (0..3).for_each(|k| x[self.rows[k] as usize] = y[k]);
-        x
-    }
-
+    /// L⁻¹ P of a triple.
     #[inline]
-    fn solve(&self, b: Triple) -> Triple {
-        let y = self.rows.map(|row| b[row as usize]);
-        let ([l10, l20, l21], [u10, u20, u21]) = (self.l, self.u);
-        let y1 = y[1] - l10 * y[0];
-        let z2 = (y[2] - l20 * y[0] - l21 * y1) * self.d[2];
-        let z1 = y1 * self.d[1] - u21 * z2;
-        [y[0] * self.d[0] - u10 * z1 - u20 * z2, z1, z2]
+    fn forth(&self, b: Triple) -> Triple {
+        let [y0, y1, y2] = self.rows.map(|row| b[row as usize]);
+        let y1 = y1 - self.l[0] * y0;
+        [y0, y1, y2 - self.l[1] * y0 - self.l[2] * y1]
     }
-}
 
-/// What L D U, U turned over, makes the columns of a block.
-#[inline(always)]
-fn swept([l10, l20, l21]: [f64; 3], d: [f64; 3], [u10, u20, u21]: [f64; 3], mut y: Block) -> Block {
-    for j in 0..4 {
-        y[1][j] -= l10 * y[0][j];
-        y[2][j] = (y[2][j] - l20 * y[0][j] - l21 * y[1][j]) * d[2];
-        y[1][j] = y[1][j] * d[1] - u21 * y[2][j];
-        y[0][j] = y[0][j] * d[0] - u10 * y[1][j] - u20 * y[2][j];
+    /// U⁻¹ of a triple.
+    #[inline]
+    fn back(&self, [y0, y1, y2]: Triple) -> Triple {
+        let y1 = y1 - self.u[2] * y2;
+        [y0 - self.u[0] * y1 - self.u[1] * y2, y1, y2]
     }
-    y
 }
 
 /// [`Blocks::factorise`] compiled for some registers.
@@ -136,7 +155,7 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
-/// Factors of a symmetric matrix, to be kept.
+/// Factors of a symmetric matrix, to be kept: what is right of the diagonal of 𝓤.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Factors {
     right: Vec<Block>,
@@ -175,8 +194,7 @@ impl Blocks {
             fed: vec![0],
             targets: Vec::new(),
             diagonal: vec![ZERO; bodies],
-            right: vec![ZERO; columns.len()],
-            below: vec![ZERO; columns.len()],
+            beside: vec![Both::ZERO; columns.len()],
             columns,
             is_symmetric: true,
             pivots: vec![Pivot::default(); bodies],
@@ -221,7 +239,7 @@ impl Blocks {
     /// A symmetric matrix, all zero but for the diagonal, which gets `diagonal` by body.
     pub fn reset(&mut self, diagonal: &[Triple]) {
         self.is_symmetric = true;
-        self.right.fill(ZERO);
+        self.beside.fill(Both::ZERO);
         for (body, values) in diagonal.iter().enumerate() {
             let block = &mut self.diagonal[self.place[body]];
             *block = ZERO;
@@ -233,7 +251,6 @@ impl Blocks {
     pub fn reset_whole(&mut self, diagonal: &[Triple]) {
         self.reset(diagonal);
         self.is_symmetric = false;
-        self.below.fill(ZERO);
     }
 
     /// Adds `times` the square of a row of one body.
@@ -250,52 +267,50 @@ impl Blocks {
     pub fn add_pair(&mut self, slot: Slot, times: f64, [a, b]: [Triple; 2]) {
         debug_assert!(self.is_symmetric);
         let (first, second) = if slot.turned { (b, a) } else { (a, b) };
-        add_outer(&mut self.right[slot.at], times, first, second);
+        self.beside[slot.at].add(0, times, first, second);
     }
 
     /// Adds the columns of a pair's two bodies times the rows of the other, to a matrix that need not be symmetric.
     pub fn add_products(&mut self, slot: Slot, columns: [Triple; 2], rows: [Triple; 2]) {
         debug_assert!(!self.is_symmetric);
         let (first, second) = if slot.turned { (1, 0) } else { (0, 1) };
-        add_outer(&mut self.right[slot.at], 1.0, columns[first], rows[second]);
-        add_outer(&mut self.below[slot.at], 1.0, rows[first], columns[second]);
+        let both = &mut self.beside[slot.at];
+        both.add(0, 1.0, columns[first], rows[second]);
+        both.add(4, 1.0, rows[first], columns[second]);
     }
 
     /// Eliminates row by row.
     pub fn factorise(&mut self) {
-        // In the widest registers there are; nothing is fused, so that bits do not tell them apart.
+        // In the widest registers there are. Products are added without rounding in between on every machine, where need be one by one, so
+        // that bits do not tell them apart.
         Arch::new().dispatch(Elimination(self));
     }
 
     /// Every row takes what those before it change: it stays near while they pass by.
     #[inline(always)]
     fn eliminate<const SYMMETRIC: bool>(&mut self) {
-        let Blocks { start, feeds, fed, targets, diagonal, right, below, pivots, .. } = self;
+        let Blocks { start, feeds, fed, targets, diagonal, beside, pivots, .. } = self;
         let mut targets = &targets[..];
         for own in 0..pivots.len() {
-            let (before, after) = right.split_at_mut(start[own]);
+            let (before, after) = beside.split_at_mut(start[own]);
             let row = &mut after[..start[own + 1] - start[own]];
-            let (before_below, after) = below.split_at_mut(start[own]);
-            let row_below = &mut after[..row.len()];
             let mut square = diagonal[own];
             for feed in &feeds[fed[own]..fed[own + 1]] {
                 let (at, end) = (feed.at as usize, start[feed.row as usize + 1]);
-                let pivot = pivots[feed.row as usize];
-                let forth = pivot.solved(&before[at]);
-                let back = if SYMMETRIC { forth } else { pivot.solved_turned(&before_below[at]) };
-                subtract_product(&mut square, &back, &before[at]);
+                let factor = Factor::of(&before[at]);
+                subtract_square(&mut square, &before[at]);
                 let (own_targets, others) = targets.split_at(end - at - 1);
                 targets = others;
                 for (source, target) in before[at + 1..end].iter().zip(own_targets) {
-                    subtract_product(&mut row[*target as usize], &back, source);
-                }
-                if !SYMMETRIC {
-                    for (source, target) in before_below[at + 1..end].iter().zip(own_targets) {
-                        subtract_product(&mut row_below[*target as usize], &forth, source);
-                    }
+                    let target = &mut row[*target as usize];
+                    if SYMMETRIC { factor.subtract::<4>(target, source) } else { factor.subtract::<8>(target, source) }
                 }
             }
-            pivots[own] = Pivot::of::<SYMMETRIC>(&square);
+            let pivot = Pivot::of::<SYMMETRIC>(&square);
+            for both in row {
+                both.eliminate::<SYMMETRIC>(&pivot);
+            }
+            pivots[own] = pivot;
         }
     }
 
@@ -304,23 +319,25 @@ impl Blocks {
         for (body, value) in x.iter().enumerate() {
             work[self.place[body]] = *value;
         }
-        let below = if self.is_symmetric { &self.right } else { &self.below };
+        let half = if self.is_symmetric { 0 } else { 4 };
         for k in 0..work.len() {
-            let value = self.pivots[k].solve(work[k]);
-            work[k] = value;
+            let pivot = &self.pivots[k];
+            let reduced = pivot.forth(work[k]);
+            work[k] = [0, 1, 2].map(|i| reduced[i] * pivot.d[i]);
+            // What is below is D times what is beside it, if it is not held.
+            let value = if self.is_symmetric { reduced } else { work[k] };
             let own = self.start[k]..self.start[k + 1];
-            for (column, block) in self.columns[own.clone()].iter().zip(&below[own]) {
-                subtract_transposed(&mut work[*column], block, value);
+            for (column, both) in self.columns[own.clone()].iter().zip(&self.beside[own]) {
+                subtract_transposed(&mut work[*column], both, half, value);
             }
         }
         for k in (0..work.len()).rev() {
-            let mut sum = [0.0; 3];
+            let mut value = work[k];
             let own = self.start[k]..self.start[k + 1];
-            for (column, block) in self.columns[own.clone()].iter().zip(&self.right[own]) {
-                add_times(&mut sum, block, work[*column]);
+            for (column, both) in self.columns[own.clone()].iter().zip(&self.beside[own]) {
+                subtract_times(&mut value, both, work[*column]);
             }
-            let back = self.pivots[k].solve(sum);
-            (0..3).for_each(|i| work[k][i] -= back[i]);
+            work[k] = self.pivots[k].back(value);
         }
         for (body, value) in x.iter_mut().enumerate() {
             *value = work[self.place[body]];
@@ -330,15 +347,18 @@ impl Blocks {
     /// The factors of a symmetric matrix as they are.
     pub fn keep(&self) -> Factors {
         debug_assert!(self.is_symmetric);
-        Factors { right: self.right.clone(), pivots: self.pivots.clone() }
+        Factors { right: self.beside.iter().map(Both::right).collect(), pivots: self.pivots.clone() }
     }
 
     /// Takes factors of this pattern; false where they are of another.
     pub fn take_up(&mut self, factors: Factors) -> bool {
         let Factors { right, pivots } = factors;
-        let fits = right.len() == self.right.len() && pivots.len() == self.pivots.len();
+        let fits = right.len() == self.beside.len() && pivots.len() == self.pivots.len();
         if fits {
-            (self.right, self.pivots, self.is_symmetric) = (right, pivots, true);
+            for (both, right) in self.beside.iter_mut().zip(&right) {
+                both.0.iter_mut().zip(right).for_each(|(both, row)| both[..4].copy_from_slice(row));
+            }
+            (self.pivots, self.is_symmetric) = (pivots, true);
         }
         fits
     }
@@ -403,27 +423,70 @@ fn add_outer(block: &mut Block, times: f64, column: Triple, row: Triple) {
     }
 }
 
-/// c − aᵀ b.
+/// What a row is multiplied by when it changes another, turned round: the block below the diagonal for what is right of it, and behind it
+/// the block on the right for what is below.
+#[derive(Debug, Clone, Copy)]
+struct Factor([[[f64; 8]; 3]; 3]);
+
+impl Factor {
+    #[inline(always)]
+    fn of(own: &Both) -> Self {
+        let turned = |i: usize, k: usize| {
+            let (a, b) = (-own.0[k][4 + i], -own.0[k][i]);
+            [a, a, a, a, b, b, b, b]
+        };
+        // Written out: loops over these go through memory.
+        Factor([
+            [turned(0, 0), turned(0, 1), turned(0, 2)],
+            [turned(1, 0), turned(1, 1), turned(1, 2)],
+            [turned(2, 0), turned(2, 1), turned(2, 2)],
+        ])
+    }
+
+    /// Takes the product with the first so many columns of the source from those of the target.
+    #[inline(always)]
+    fn subtract<const COLUMNS: usize>(&self, target: &mut Both, source: &Both) {
+        for (row, factors) in target.0.iter_mut().zip(&self.0) {
+            let mut sum: [f64; COLUMNS] = std::array::from_fn(|j| row[j]);
+            for (factor, source) in factors.iter().zip(&source.0) {
+                sum = std::array::from_fn(|j| factor[j].mul_add(source[j], sum[j]));
+            }
+            row[..COLUMNS].copy_from_slice(&sum);
+        }
+    }
+}
+
+/// L⁻¹ of the columns of a block.
 #[inline(always)]
-fn subtract_product(c: &mut Block, a: &Block, b: &Block) {
+fn swept(y: Block, l: &[f64; 3]) -> Block {
+    let less = |y: [f64; 4], l: f64, x: [f64; 4]| -> [f64; 4] { std::array::from_fn(|j| (-l).mul_add(x[j], y[j])) };
+    let y1 = less(y[1], l[0], y[0]);
+    [y[0], y1, less(less(y[2], l[1], y[0]), l[2], y1)]
+}
+
+/// What a row takes from the diagonal block of another.
+#[inline(always)]
+fn subtract_square(target: &mut Block, own: &Both) {
+    let source: [[f64; 4]; 3] = own.right();
     for i in 0..3 {
-        for j in 0..4 {
-            c[i][j] -= a[0][i] * b[0][j] + a[1][i] * b[1][j] + a[2][i] * b[2][j];
+        for k in 0..3 {
+            let factor = -own.0[k][4 + i];
+            target[i] = std::array::from_fn(|j| factor.mul_add(source[k][j], target[i][j]));
         }
     }
 }
 
 #[inline]
-fn add_times(y: &mut Triple, a: &Block, x: Triple) {
+fn subtract_times(y: &mut Triple, a: &Both, x: Triple) {
     for i in 0..3 {
-        y[i] += a[i][0] * x[0] + a[i][1] * x[1] + a[i][2] * x[2];
+        y[i] -= a.0[i][0] * x[0] + a.0[i][1] * x[1] + a.0[i][2] * x[2];
     }
 }
 
 #[inline]
-fn subtract_transposed(y: &mut Triple, a: &Block, x: Triple) {
+fn subtract_transposed(y: &mut Triple, a: &Both, from: usize, x: Triple) {
     for i in 0..3 {
-        y[i] -= a[0][i] * x[0] + a[1][i] * x[1] + a[2][i] * x[2];
+        y[i] -= a.0[0][from + i] * x[0] + a.0[1][from + i] * x[1] + a.0[2][from + i] * x[2];
     }
 }
 

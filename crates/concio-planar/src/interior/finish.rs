@@ -1,0 +1,202 @@
+//! The end of a solution: Newton's method on (P2) and (P3) as they are, from an iterate of the interior point method.
+//!
+//! Near the solution it is known of nearly every bound whether it holds. With that taken for granted, the laws are linear; what then pulls at a
+//! bound lets go, what passes one is held, and the next iterate solves again. A bound that neither holds nor is far away, as where a joint
+//! is about to slide, costs the interior point method half a digit in each iteration, and here nothing. From afar this goes in circles, and
+//! rigid contacts, which share impulses out among them, hold more bounds than there are velocities.
+
+use super::{DIRECTION, Group, Interior, Left, Point, SENSE, Sums, inertia, soft};
+use crate::blocks::{Blocks, Triple};
+use crate::contact::{Contact, Effort, unbalance, worse};
+
+/// What may be left where it begins, over the tolerance.
+pub(super) const NEAR: f64 = 1e4;
+/// What is left then, over that, before it begins again.
+pub(super) const AGAIN: f64 = 0.1;
+/// Share of rigid contacts beyond which it does not begin.
+const RIGID: f64 = 0.1;
+/// Iterations at most, and those after which each has to leave less than the last.
+const MOST: usize = 12;
+const FREELY: usize = 3;
+
+/// Whether so few contacts are rigid that impulses follow from velocities.
+pub(super) fn may_end(contacts: &[Contact]) -> bool {
+    let rigid = contacts.iter().filter(|c| !c.compliant[0] && c.moved[0].is_finite()).count();
+    (rigid as f64) < RIGID * contacts.len() as f64
+}
+
+impl Interior {
+    /// Solves a step to `tolerance` [m/s] from where it is, with the bounds at first that the last direction tells (`led`). Where it does not
+    /// converge, `v` and the points are as they were, but not the matrix.
+    pub(super) fn finish(
+        &mut self,
+        matrix: &mut Blocks,
+        (mass, free): (&[Triple], &[Triple]),
+        contacts: &[Contact],
+        v: &mut [Triple],
+        tolerance: f64,
+        led: bool,
+    ) -> Effort {
+        let mut effort = Effort::default();
+        self.before.clear();
+        self.before.extend_from_slice(v);
+        self.usual.keep();
+        self.limited.keep();
+        let mut last = f64::INFINITY;
+        for k in 0..=MOST {
+            inertia(&mut self.residual, mass, free, v);
+            self.step.fill([0.0; 3]);
+            matrix.reset_whole(mass);
+            let mut sums = Sums { left: Left::default(), residual: &mut self.residual, step: &mut self.step, matrix };
+            self.usual.choose(contacts, v, led && k == 0, &mut sums);
+            self.limited.choose(contacts, v, led && k == 0, &mut sums);
+            let drawn = sums.left.drawn;
+            let left = worse(sums.left.residual, unbalance(&self.residual, mass));
+            if left <= tolerance {
+                effort.residual = worse(left, drawn);
+                if drawn <= tolerance {
+                    self.usual.settle(contacts, v);
+                    self.limited.settle(contacts, v);
+                    effort.converged = true;
+                    return effort;
+                }
+                self.usual.anchor(contacts);
+                self.limited.anchor(contacts);
+                effort.rounds += 1;
+                continue;
+            }
+            let falls = k <= FREELY || left < last;
+            if k == MOST || !left.is_finite() || !falls {
+                break;
+            }
+            last = left;
+            matrix.factorise();
+            effort.iterations += 1;
+            for (step, residual) in self.step.iter_mut().zip(&self.residual) {
+                (0..3).for_each(|k| step[k] -= residual[k]);
+            }
+            matrix.solve(&mut self.step, &mut self.work);
+            self.usual.jump(&self.step);
+            self.limited.jump(&self.step);
+            for (v, step) in v.iter_mut().zip(&self.step) {
+                (0..3).for_each(|k| v[k] += step[k]);
+            }
+        }
+        v.copy_from_slice(&self.before);
+        self.usual.restore();
+        self.limited.restore();
+        effort
+    }
+}
+
+impl<const N: usize> Group<N> {
+    fn keep(&mut self) {
+        self.before.clear();
+        self.before.extend(self.points.iter().map(|point| (point.p, point.anchor)));
+    }
+
+    fn restore(&mut self) {
+        for (point, before) in self.points.iter_mut().zip(&self.before) {
+            (point.p, point.anchor) = *before;
+        }
+    }
+
+    /// What is left, which bounds hold, and the matrix and right side of where that leads.
+    fn choose(&mut self, contacts: &[Contact], v: &[Triple], led: bool, sums: &mut Sums) {
+        for ((point, rows), which) in self.points.iter_mut().zip(&self.rows).zip(&self.which) {
+            let contact = &contacts[*which as usize];
+            let u = contact.velocity(v);
+            point.choose(contact, u, led, &mut sums.left);
+            contact.push(sums.residual, contact.whole(point.p, u));
+            contact.couple(sums.matrix, point.answers(contact));
+            rows.push(sums.step, point.right);
+        }
+    }
+
+    fn jump(&mut self, step: &[Triple]) {
+        for (point, rows) in self.points.iter_mut().zip(&self.rows) {
+            let change = point.follows(rows.change(step));
+            (0..2).for_each(|k| point.p[k] += change[k]);
+        }
+    }
+
+    /// Distances and multipliers of the impulses as they are.
+    fn settle(&mut self, contacts: &[Contact], v: &[Triple]) {
+        for (point, which) in self.points.iter_mut().zip(&self.which) {
+            let contact = &contacts[*which as usize];
+            point.settle(contact, contact.velocity(v));
+        }
+    }
+}
+
+impl<const N: usize> Point<N> {
+    /// Which bounds hold by the last direction: those whose distance falls faster than the multiplier (El-Bakry, Tapia and Zhang 1994).
+    fn led(&self) -> [bool; N] {
+        std::array::from_fn(|i| self.on[i] && self.lambda[i] * self.way.s[i] < self.s[i] * self.way.lambda[i])
+    }
+
+    /// What it leaves of (P2) and (P3) at the velocity `u`, and what impulses do where the bounds hold that hold by impulses and velocities now,
+    /// or by the last direction.
+    fn choose(&mut self, contact: &Contact, u: [f64; 2], by_way: bool, left: &mut Left) {
+        let [least, most] = contact.pressure;
+        let pressed = self.p[0] + contact.spring[0].at(u[0]);
+        let mu = if self.dry || pressed > 0.0 { contact.friction } else { 0.0 };
+        let led = self.led();
+        (self.response, self.right) = ([0.0; 3], [0.0; 2]);
+        if self.moves[0] {
+            let off = u[0] + contact.bias + self.shift(0);
+            let tends = self.p[0] - self.mass * off;
+            left.residual = worse(left.residual, (self.p[0] - tends.clamp(least, most)).abs() / self.mass);
+            let held = match by_way {
+                true => [led[2], N > 3 && led[N - 1]],
+                false => [tends <= least, tends >= most],
+            };
+            match held {
+                [true, _] => self.right[0] = least - self.p[0],
+                [_, true] => self.right[0] = most - self.p[0],
+                _ => {
+                    self.response[0] = 1.0 / self.soft[0];
+                    self.right[0] = -off / self.soft[0];
+                }
+            }
+            if !contact.compliant[0] {
+                left.drawn = left.drawn.max(self.shift(0).abs());
+            }
+        }
+        if self.rubs {
+            if self.soft[1] == 0.0 {
+                self.soft[1] = soft(contact, 1);
+            }
+            let bound = (mu * pressed).max(0.0) + contact.hold;
+            let off = u[1] + self.shift(1);
+            let tends = self.p[1] - contact.moved[1] * off;
+            left.residual = worse(left.residual, (self.p[1] - tends.clamp(-bound, bound)).abs() / contact.moved[1]);
+            let slides = match (by_way && self.on[0], led[0] && led[1]) {
+                (true, true) => [tends > 0.0, tends <= 0.0],
+                (true, false) => [led[0], led[1]],
+                _ => [tends >= bound, tends <= -bound],
+            };
+            let to = |sign: f64| sign * (mu * pressed + contact.hold) - self.p[1] + sign * mu * self.right[0];
+            match slides {
+                [true, _] => (self.response[2], self.right[1]) = (-mu, to(1.0)),
+                [_, true] => (self.response[2], self.right[1]) = (mu, to(-1.0)),
+                _ => {
+                    self.response[1] = 1.0 / self.soft[1];
+                    self.right[1] = -off / self.soft[1];
+                }
+            }
+            if !contact.compliant[1] {
+                left.drawn = left.drawn.max(self.shift(1).abs());
+            }
+        }
+    }
+
+    fn settle(&mut self, contact: &Contact, u: [f64; 2]) {
+        let bound = contact.bound(self.p[0], u[0]);
+        let grips = self.rubs && (self.dry || bound > 0.0);
+        (self.moves[1], self.on[0], self.on[1]) = (grips, grips, grips);
+        let pulls = [u[0] + contact.bias + self.shift(0), u[1] + self.shift(1)];
+        self.s = self.far(contact, bound).map(|s| s.max(0.0));
+        self.lambda = std::array::from_fn(|i| (SENSE[i] * pulls[DIRECTION[i]]).max(0.0));
+    }
+}
