@@ -281,7 +281,7 @@ impl Blocks {
 
     /// Eliminates row by row.
     pub fn factorise(&mut self) {
-        // In the widest registers there are. Products are added without rounding in between on every machine, where need be one by one, so
+        // In the widest registers there are. Products of blocks are added without rounding in between on every machine, where need be one by one, so
         // that bits do not tell them apart.
         Arch::new().dispatch(Elimination(self));
     }

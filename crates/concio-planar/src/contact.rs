@@ -458,7 +458,8 @@ impl Solver {
             effort.iterations += 1;
             self.go(mass, free, contacts, v);
             let now = self.unbalanced(mass, free, contacts, v);
-            if !fresh && now > STALE * size {
+            // What is no number says so too.
+            if !fresh && (now > STALE * size || now.is_nan()) {
                 self.known.clear();
             }
             let slowly = now > (share * size).max(tolerance);

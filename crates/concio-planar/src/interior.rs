@@ -17,7 +17,7 @@
 //! Every iteration solves (P1), (P5) and (P5a), linear about the iterate and with products λ s that fall, for v: a matrix like that
 //! of [`crate::contact`] with what friction answers to pressure in each contact. It is factorised once per iteration and used for a
 //! prediction and a correction (Mehrotra 1992). However many contacts open and close, that takes about a dozen iterations, the last few of them by
-//! Newton's method on the laws themselves (`interior/finish.rs`).
+//! Newton's method on the laws themselves where nearly all contacts have springs (`interior/finish.rs`).
 
 mod finish;
 
@@ -39,8 +39,9 @@ const NEARER: f64 = 0.01;
 /// Least distance from the bounds at the start, over what is out of balance, and over what was borne before.
 const FLOOR: f64 = 1.0;
 const SHARE: f64 = 0.02;
-/// Least multiplier at the start, over what is out of balance.
+/// Least multiplier at the start, over what is out of balance, and that of friction that begins to bear, over its bound by the mass.
 const CRACK: f64 = 0.5;
+const GRIP: f64 = 0.01;
 /// Share of the way to the boundary that is gone.
 const INSIDE: f64 = 0.995;
 /// Share of the way after which products are evened out instead of reduced.
@@ -117,8 +118,8 @@ struct Group<const N: usize> {
     which: Vec<u32>,
     rows: Vec<Rows>,
     points: Vec<Point<N>>,
-    /// Impulses, and what they are drawn to, before an attempt to end.
-    before: Vec<([f64; 2], [f64; 2])>,
+    /// Impulses, what they are drawn to and E, before an attempt to end.
+    before: Vec<[[f64; 2]; 3]>,
 }
 
 impl<const N: usize> Default for Group<N> {
@@ -211,15 +212,15 @@ impl Interior {
             if effort.iterations == 0 {
                 begun = Some(left.residual);
             }
-            if let Some(begun) = begun.take_if(|_| since == ANEW && effort.residual > enough) {
+            let stays = since >= if effort.residual <= enough { PATIENCE } else { STALLED };
+            if effort.iterations >= MOST || stays || !left.residual.is_finite() {
+                break;
+            }
+            if let Some(begun) = begun.take_if(|_| since >= ANEW && effort.residual > enough) {
                 self.usual.enter(contacts, v, NEARER * begun);
                 self.limited.enter(contacts, v, NEARER * begun);
-                (share, least, since) = (0.0, f64::INFINITY, 0);
+                (share, stuck, least, since) = (0.0, false, f64::INFINITY, 0);
                 continue;
-            }
-            let stays = since >= if effort.residual <= enough { PATIENCE } else { STALLED };
-            if effort.iterations == MOST || stays || !left.residual.is_finite() {
-                break;
             }
             if left.residual <= near {
                 let end = self.finish(matrix, (mass, free), contacts, v, tolerance, share > 0.0);
@@ -309,14 +310,19 @@ impl Interior {
 
     /// The direction of the right side in `self.step`, to products of `target`; how far it may be gone, `keep` of the way to the boundary.
     fn turn(&mut self, matrix: &Blocks, target: f64, keep: f64) -> Course {
-        for (step, residual) in self.step.iter_mut().zip(&self.residual) {
-            (0..3).for_each(|k| step[k] -= residual[k]);
-        }
-        matrix.solve(&mut self.step, &mut self.work);
+        self.solve_right_side(matrix);
         let mut course = Course::BEGIN;
         self.usual.turn(&self.step, target, keep, &mut course);
         self.limited.turn(&self.step, target, keep, &mut course);
         course
+    }
+
+    /// Change of the velocities of the right side in `self.step`, in its place.
+    fn solve_right_side(&mut self, matrix: &Blocks) {
+        for (step, residual) in self.step.iter_mut().zip(&self.residual) {
+            (0..3).for_each(|k| step[k] -= residual[k]);
+        }
+        matrix.solve(&mut self.step, &mut self.work);
     }
 }
 
@@ -487,9 +493,7 @@ impl<const N: usize> Point<N> {
         let bound = contact.bound(self.p[0], u[0]);
         let room = (bound - floor.min(0.5 * bound)).max(0.0);
         self.p[1] = self.p[1].clamp(-room, room);
-        let (across, along) = (u[0] + contact.bias + self.shift(0), u[1] + self.shift(1));
-        let far = self.far(contact, bound);
-        let wanted = [-along, along, across, -across];
+        let (far, wanted) = (self.far(contact, bound), self.wanted(contact, u));
         for i in 0..N {
             self.s[i] = far[i].max(floor);
             self.lambda[i] = wanted[i].max(CRACK * FLOOR * scale * floor / self.s[i]);
@@ -502,6 +506,12 @@ impl<const N: usize> Point<N> {
         let ([p_n, p_t], [least, most]) = (self.p, contact.pressure);
         let far = [bound - p_t, bound + p_t, p_n - least, most - p_n];
         std::array::from_fn(|i| far[i])
+    }
+
+    /// Multipliers by the velocities, each as if its bound alone held.
+    fn wanted(&self, contact: &Contact, u: [f64; 2]) -> [f64; N] {
+        let pulls = [u[0] + contact.bias + self.shift(0), u[1] + self.shift(1)];
+        std::array::from_fn(|i| SENSE[i] * pulls[DIRECTION[i]])
     }
 
     #[inline]
@@ -578,7 +588,8 @@ impl<const N: usize> Point<N> {
         } else if !self.moves[1] && grips {
             for i in 0..2 {
                 self.s[i] = bound;
-                self.lambda[i] = CRACK * bound / contact.moved[1];
+                self.lambda[i] = GRIP * bound / contact.moved[1];
+                (self.way.s[i], self.way.lambda[i]) = (0.0, 0.0);
             }
             self.anchor[1] = if contact.compliant[1] { contact.law[1].offset } else { 0.0 };
             self.soft[1] = soft(contact, 1);
@@ -812,7 +823,7 @@ mod tests {
         let pairs: Vec<_> = (1..6).map(|b| (b - 1, b)).collect();
         let mut matrix = Blocks::new(6, &pairs);
         let mut interior = Interior::default();
-        for springs in [0.4, 1.0] {
+        for springs in [0.4, 0.97, 1.0] {
             let (mut solved, mut to_rounding) = (0, 0);
             for seed in 0..500 {
                 let mut draw = Draw(seed);
@@ -827,10 +838,9 @@ mod tests {
                     assert!(left < 1e-5, "seed {seed}: {left:e} {effort:?}");
                 }
             }
-            println!("{springs} with springs: {solved} solved, {to_rounding} to rounding");
             // Contacts that point anywhere may have no solution.
             assert!(solved > 475, "{solved}");
-            assert!((to_rounding > 450) == (springs == 1.0), "{to_rounding}");
+            assert!(springs < 1.0 || to_rounding > 450, "{to_rounding}");
         }
     }
 }

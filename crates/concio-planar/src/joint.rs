@@ -459,7 +459,8 @@ impl Law {
         works: &mut Works,
     ) {
         let borne = contact.impulse[1];
-        let slides = contact.status != Status::Stick;
+        // Where friction may bear nothing, what does not slide bears nothing either.
+        let slides = contact.status != Status::Stick || borne == 0.0;
         if self.in_line(point.damage) {
             let k = share * self.shear.stiffness;
             let before = point.bearing;

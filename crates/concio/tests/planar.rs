@@ -584,3 +584,23 @@ fn bed_joints_that_bear_no_tension_are_told_so() {
     let rows = concio::run::joint_rows(&wall.model);
     assert!(rows.iter().all(|row| row.law == concio::case::SpringLaw::NoTension));
 }
+
+/// Joints that do not rub neither bear shear nor store or lose anything by it.
+#[test]
+fn nothing_is_lost_by_friction_that_there_is_not() {
+    let (_, outcome) = ran(&block(
+        r#"
+[joint]
+bed = { law = "no-tension", stiffness = "15 N/mm3", rigidity = 1 }
+head = { law = "none" }
+[motion]
+base = { sine = { amplitude = "5 mm", frequency = "2 Hz" } }
+duration = "0.5 s"
+"#,
+    ));
+    let energies = &outcome.energies;
+    assert!(energies.friction.abs() < 1e-12 && energies.damping < 1e-6, "{energies:?}");
+    // The block stays where it is while the base moves under it.
+    let slip = outcome.envelopes.joint_slip.iter().fold(0.0, |m: f64, x| m.max(*x));
+    assert!(slip > 5e-3, "{slip}");
+}

@@ -5,7 +5,7 @@
 //! is about to slide, costs the interior point method half a digit in each iteration, and here nothing. From afar this goes in circles, and
 //! rigid contacts, which share impulses out among them, hold more bounds than there are velocities.
 
-use super::{DIRECTION, Group, Interior, Left, Point, SENSE, Sums, inertia, soft};
+use super::{Group, Interior, Left, Point, Sums, inertia, soft};
 use crate::blocks::{Blocks, Triple};
 use crate::contact::{Contact, Effort, unbalance, worse};
 
@@ -21,13 +21,14 @@ const FREELY: usize = 3;
 
 /// Whether so few contacts are rigid that impulses follow from velocities.
 pub(super) fn may_end(contacts: &[Contact]) -> bool {
-    let rigid = contacts.iter().filter(|c| !c.compliant[0] && c.moved[0].is_finite()).count();
+    let rubs = |c: &Contact| c.friction > 0.0 || c.hold > 0.0;
+    let rigid = contacts.iter().filter(|c| !c.compliant[0] || (!c.compliant[1] && rubs(c))).count();
     (rigid as f64) < RIGID * contacts.len() as f64
 }
 
 impl Interior {
     /// Solves a step to `tolerance` [m/s] from where it is, with the bounds at first that the last direction tells (`led`). Where it does not
-    /// converge, `v` and the points are as they were, but not the matrix.
+    /// converge, `v` and the points are as they were, but not what a look makes of them.
     pub(super) fn finish(
         &mut self,
         matrix: &mut Blocks,
@@ -63,6 +64,7 @@ impl Interior {
                 self.usual.anchor(contacts);
                 self.limited.anchor(contacts);
                 effort.rounds += 1;
+                last = f64::INFINITY;
                 continue;
             }
             let falls = k <= FREELY || left < last;
@@ -72,10 +74,7 @@ impl Interior {
             last = left;
             matrix.factorise();
             effort.iterations += 1;
-            for (step, residual) in self.step.iter_mut().zip(&self.residual) {
-                (0..3).for_each(|k| step[k] -= residual[k]);
-            }
-            matrix.solve(&mut self.step, &mut self.work);
+            self.solve_right_side(matrix);
             self.usual.jump(&self.step);
             self.limited.jump(&self.step);
             for (v, step) in v.iter_mut().zip(&self.step) {
@@ -92,12 +91,12 @@ impl Interior {
 impl<const N: usize> Group<N> {
     fn keep(&mut self) {
         self.before.clear();
-        self.before.extend(self.points.iter().map(|point| (point.p, point.anchor)));
+        self.before.extend(self.points.iter().map(|point| [point.p, point.anchor, point.soft]));
     }
 
     fn restore(&mut self) {
         for (point, before) in self.points.iter_mut().zip(&self.before) {
-            (point.p, point.anchor) = *before;
+            [point.p, point.anchor, point.soft] = *before;
         }
     }
 
@@ -141,7 +140,7 @@ impl<const N: usize> Point<N> {
         let [least, most] = contact.pressure;
         let pressed = self.p[0] + contact.spring[0].at(u[0]);
         let mu = if self.dry || pressed > 0.0 { contact.friction } else { 0.0 };
-        let led = self.led();
+        let led = if by_way { self.led() } else { [false; N] };
         (self.response, self.right) = ([0.0; 3], [0.0; 2]);
         if self.moves[0] {
             let off = u[0] + contact.bias + self.shift(0);
@@ -195,8 +194,7 @@ impl<const N: usize> Point<N> {
         let bound = contact.bound(self.p[0], u[0]);
         let grips = self.rubs && (self.dry || bound > 0.0);
         (self.moves[1], self.on[0], self.on[1]) = (grips, grips, grips);
-        let pulls = [u[0] + contact.bias + self.shift(0), u[1] + self.shift(1)];
         self.s = self.far(contact, bound).map(|s| s.max(0.0));
-        self.lambda = std::array::from_fn(|i| (SENSE[i] * pulls[DIRECTION[i]]).max(0.0));
+        self.lambda = self.wanted(contact, u).map(|l| l.max(0.0));
     }
 }

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::node::{Node, Value};
-use super::{Beam, Case, FrictionChange, ModelKind, Panel, Signal, Solver, SpringChange, SpringLaw};
+use super::{Beam, Case, FrictionChange, FrictionLaw, ModelKind, Panel, Signal, Solver, SpringChange, SpringLaw};
 use crate::quantity::{Stiffness, shown};
 
 /// What a quantity is expected to be, in SI.
@@ -271,6 +271,13 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
         ));
     }
     let changed = joint.changes.iter().any(|change| change.bond.is_some());
+    let dry = joint.bond.is_none() && joint.bed.law != SpringLaw::Elastic && !changed;
+    let rubs = joint.changes.iter().any(|change| change.friction.is_some());
+    if dry && joint.friction.law == FrictionLaw::None && joint.friction.preset.is_none() && !rubs {
+        doubts.0.push(
+            "joint.friction is missing: dry joints of this planar wall slide at the least push; stones have a `static` of 0.4 to 0.8".into(),
+        );
+    }
     match &joint.bond {
         None if joint.bed.law == SpringLaw::Elastic && !changed => doubts.0.push(
             "joint.bed is `elastic` without a bond: in a planar wall such joints pull without limit, and bear shear without limit beside \
