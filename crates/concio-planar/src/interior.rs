@@ -219,7 +219,8 @@ impl Interior {
             if let Some(begun) = begun.take_if(|_| since >= ANEW && effort.residual > enough) {
                 self.usual.enter(contacts, v, NEARER * begun);
                 self.limited.enter(contacts, v, NEARER * begun);
-                (share, stuck, least, since) = (0.0, false, f64::INFINITY, 0);
+                // A last direction that was hardly gone leaves `stuck`: the first from here evens products out.
+                (share, least, since) = (0.0, f64::INFINITY, 0);
                 continue;
             }
             if left.residual <= near {

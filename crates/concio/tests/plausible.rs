@@ -114,7 +114,10 @@ fn joints_that_hold_without_limit_are_told() {
     let found = bond("tensile_strength = \"0.1 MPa\"");
     assert!(found.len() == 1 && found[0].contains("joint.bond.cohesion is 0"), "{found:?}");
     assert_eq!(bond("tensile_strength = \"0.1 MPa\", cohesion = \"0.1 MPa\""), Vec::<String>::new());
-    let dry = "bed = { law = \"no-tension\", stiffness = \"15 N/mm3\", rigidity = 1 }";
+    let smooth = "bed = { law = \"no-tension\", stiffness = \"15 N/mm3\", rigidity = 1 }";
+    let found = planar(smooth);
+    assert!(found.len() == 1 && found[0].contains("joint.friction is missing"), "{found:?}");
+    let dry = &format!("{smooth}\nfriction = {{ law = \"coulomb\", static = 0.6, dynamic = 0.6 }}");
     assert_eq!(planar(dry), Vec::<String>::new());
     let found = planar(&dry.replace("rigidity = 1", "rigidity = 500"));
     assert!(found.len() == 1 && found[0].contains("rigidity = 500 times as stiff"), "{found:?}");
