@@ -55,7 +55,7 @@ impl Both {
 
 /// A matrix in the order of elimination: for every row a diagonal block and the blocks right of it, fill included; those below the diagonal
 /// are the same turned over, or stand behind them where the matrix is not symmetric. The factors take their place: 𝓛 𝓤 with P⁻¹ L D and U of
-/// [`Pivot`] on their diagonals.
+/// `Pivot` on their diagonals.
 #[derive(Debug, Clone)]
 pub struct Blocks {
     /// Place in the order of elimination of each body.
