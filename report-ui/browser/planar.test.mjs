@@ -69,8 +69,8 @@ test("quantities are those of a planar run, with the numbers of its frames", asy
         const i = names.block.length - 2;
         const middle = (await corners(page, names.block[i])).reduce(([a, b], [x, y]) => [a + x / 4, b + y / 4], [0, 0]);
         await page.mouse.move(...middle);
-        await page.waitForSelector(".tooltip:not([hidden])");
-        assert.equal(await page.locator(".tooltip strong").textContent(), names.block[i]);
+        // Until the page has followed the pointer it tells of what was under it before.
+        await page.waitForFunction((name) => document.querySelector(".tooltip:not([hidden]) strong")?.textContent === name, names.block[i]);
         const { vertical, rotation } = motion(frame, frames, i);
         await assertShows(page.locator('.tooltip data[data-key="moment/vertical"]'), vertical, "m", 0.03, "rise");
         await assertShows(page.locator('.tooltip data[data-key="moment/rotation"]'), rotation, "rad", 0.3, "rotation");
