@@ -74,19 +74,68 @@ impl Linear {
     }
 }
 
-/// A contact point during one step.
+/// Where the two bodies of a contact stand, and how their velocities part and slide it: what is fetched most often.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contact {
-    /// First body; none for what moves with the base.
-    pub a: Option<usize>,
-    /// Second body.
-    pub b: usize,
-    /// Where the pair stands in the matrix, for two bodies.
-    pub slot: Option<Slot>,
+pub(crate) struct Rows {
+    /// [`BASE`] for what moves with the base.
+    a: u32,
+    b: u32,
     /// Derivatives of the parting velocity by the velocities of both, those that are prescribed left out.
     pub normal: [Triple; 2],
     /// The same of the sliding velocity.
     pub tangent: [Triple; 2],
+}
+
+const BASE: u32 = u32::MAX;
+
+impl Rows {
+    /// First body; none for what moves with the base.
+    pub fn first(&self) -> Option<usize> {
+        if self.a == BASE { None } else { Some(self.a as usize) }
+    }
+
+    /// Second body.
+    pub fn second(&self) -> usize {
+        self.b as usize
+    }
+
+    /// By how much the parting and the sliding velocity change with velocities that change by `v`.
+    #[inline]
+    pub fn change(&self, v: &[Triple]) -> [f64; 2] {
+        let second = &v[self.b as usize];
+        let mut u = [dot(&self.normal[1], second), dot(&self.tangent[1], second)];
+        if self.a != BASE {
+            let first = &v[self.a as usize];
+            u[0] += dot(&self.normal[0], first);
+            u[1] += dot(&self.tangent[0], first);
+        }
+        u
+    }
+
+    /// Adds what impulses do to both bodies.
+    #[inline(always)]
+    pub fn push(&self, balance: &mut [Triple], p: [f64; 2]) {
+        self.each(p, |body, push| (0..3).for_each(|k| balance[body][k] += push[k]));
+    }
+
+    /// What impulses do to each body.
+    #[inline(always)]
+    fn each(&self, p: [f64; 2], mut on: impl FnMut(usize, Triple)) {
+        let of = |side: usize| [0, 1, 2].map(|k| self.normal[side][k] * p[0] + self.tangent[side][k] * p[1]);
+        if self.a != BASE {
+            on(self.a as usize, of(0));
+        }
+        on(self.b as usize, of(1));
+    }
+}
+
+/// A contact point during one step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Its bodies and directions.
+    pub(crate) rows: Rows,
+    /// Where the pair stands in the matrix, for two bodies.
+    pub slot: Option<Slot>,
     /// Parting and sliding velocity that prescribed motion brings [m/s].
     pub drift: [f64; 2],
     /// μ.
@@ -121,8 +170,8 @@ struct Answer {
 }
 
 impl Contact {
-    /// Of a rigid contact of a body with another, or with the base, that bore `impulse` [N s] before. Rows as in the
-    /// fields; masses say what a push moves.
+    /// Of a rigid contact of a body with another, or with the base, that bore `impulse` [N s] before. Derivatives of the parting and
+    /// of the sliding velocity by the velocities of both, those that are prescribed left out; masses say what a push moves.
     pub fn rigid(
         (a, b): (Option<usize>, usize),
         slot: Option<Slot>,
@@ -137,11 +186,8 @@ impl Contact {
         let moved = [of(normal), of(tangent)];
         let law = [0, 1].map(|k| Linear { offset: impulse[k], rho: STIFFENING * moved[k] });
         Contact {
-            a,
-            b,
+            rows: Rows { a: a.map_or(BASE, |a| a as u32), b: b as u32, normal, tangent },
             slot,
-            normal,
-            tangent,
             drift: [0.0; 2],
             friction: 0.0,
             hold: 0.0,
@@ -165,7 +211,7 @@ impl Contact {
         impulse: f64,
     ) -> Self {
         let own = Contact::rigid(bodies, slot, [line, line], inverse_mass, [impulse, 0.0]);
-        Contact { tangent: [[0.0; 3]; 2], ..own }
+        Contact { rows: Rows { tangent: [[0.0; 3]; 2], ..own.rows }, ..own }
     }
 
     /// (P4) of a rigid direction, 0 normal and 1 tangent, that bore `impulse` [N s] before.
@@ -175,19 +221,8 @@ impl Contact {
 
     /// Parting and sliding velocity [m/s].
     pub fn velocity(&self, v: &[Triple]) -> [f64; 2] {
-        let change = self.change(v);
+        let change = self.rows.change(v);
         [change[0] + self.drift[0], change[1] + self.drift[1]]
-    }
-
-    /// By how much these change with velocities that change by `v`.
-    pub(crate) fn change(&self, v: &[Triple]) -> [f64; 2] {
-        let second = v[self.b];
-        let mut u = [dot(self.normal[1], second), dot(self.tangent[1], second)];
-        if let Some(a) = self.a {
-            u[0] += dot(self.normal[0], v[a]);
-            u[1] += dot(self.tangent[0], v[a]);
-        }
-        u
     }
 
     /// The right side of (P4), friction bounded by `bound`.
@@ -229,28 +264,25 @@ impl Contact {
     /// Takes what impulses do from the balance of both bodies.
     #[inline]
     pub(crate) fn push(&self, balance: &mut [Triple], p: [f64; 2]) {
-        if p == [0.0; 2] {
-            return;
+        if p != [0.0; 2] {
+            self.rows.push(balance, p.map(|p| -p));
         }
-        if let Some(a) = self.a {
-            push(&mut balance[a], self.normal[0], self.tangent[0], p);
-        }
-        push(&mut balance[self.b], self.normal[1], self.tangent[1], p);
     }
 
     /// Adds what resists to a matrix that is not symmetric: across and along to the same, and along to across.
     pub(crate) fn couple(&self, matrix: &mut Blocks, [nn, tt, tn]: [f64; 3]) {
-        let along = |side: usize| [0, 1, 2].map(|k| tn * self.normal[side][k] + tt * self.tangent[side][k]);
-        let across = |side: usize| self.normal[side].map(|x| nn * x);
-        let second = [across(1), along(1)];
-        matrix.add_product(self.b, self.normal[1], second[0]);
-        matrix.add_product(self.b, self.tangent[1], second[1]);
-        if let (Some(a), Some(slot)) = (self.a, self.slot) {
+        let Rows { normal, tangent, .. } = self.rows;
+        let along = |side: usize| [0, 1, 2].map(|k| tn * normal[side][k] + tt * tangent[side][k]);
+        let across = |side: usize| normal[side].map(|x| nn * x);
+        let (b, second) = (self.rows.second(), [across(1), along(1)]);
+        matrix.add_product(b, normal[1], second[0]);
+        matrix.add_product(b, tangent[1], second[1]);
+        if let (Some(a), Some(slot)) = (self.rows.first(), self.slot) {
             let first = [across(0), along(0)];
-            matrix.add_product(a, self.normal[0], first[0]);
-            matrix.add_product(a, self.tangent[0], first[1]);
-            matrix.add_products(slot, self.normal, [first[0], second[0]]);
-            matrix.add_products(slot, self.tangent, [first[1], second[1]]);
+            matrix.add_product(a, normal[0], first[0]);
+            matrix.add_product(a, tangent[0], first[1]);
+            matrix.add_products(slot, normal, [first[0], second[0]]);
+            matrix.add_products(slot, tangent, [first[1], second[1]]);
         }
     }
 }
@@ -486,7 +518,7 @@ impl Solver {
             }
         }
         for (change, contact) in self.change.iter_mut().zip(contacts) {
-            *change = contact.change(&self.step).map(|x| -x);
+            *change = contact.rows.change(&self.step).map(|x| -x);
         }
         let at = |share: f64| {
             let mut sum = slope + share * growth;
@@ -572,7 +604,7 @@ impl Solver {
         self.matrix.reset(mass);
         for (contact, (normal, tangent)) in contacts.iter().zip(&self.known) {
             let rho = |k: usize, on: bool| contact.spring[k].rho + if on { contact.law[k].rho } else { 0.0 };
-            for (rho, rows) in [(rho(0, *normal), contact.normal), (rho(1, *tangent), contact.tangent)] {
+            for (rho, rows) in [(rho(0, *normal), contact.rows.normal), (rho(1, *tangent), contact.rows.tangent)] {
                 if rho > 0.0 {
                     couple(&mut self.matrix, contact, rho, rows);
                 }
@@ -644,8 +676,8 @@ fn stiff(answer: &Answer) -> (bool, bool) {
 
 /// Adds `times` the square of a row over both bodies of a contact.
 fn couple(matrix: &mut Blocks, contact: &Contact, times: f64, rows: [Triple; 2]) {
-    matrix.add(contact.b, times, rows[1]);
-    if let (Some(a), Some(slot)) = (contact.a, contact.slot) {
+    matrix.add(contact.rows.second(), times, rows[1]);
+    if let (Some(a), Some(slot)) = (contact.rows.first(), contact.slot) {
         matrix.add(a, times, rows[0]);
         matrix.add_pair(slot, times, rows);
     }
@@ -653,23 +685,9 @@ fn couple(matrix: &mut Blocks, contact: &Contact, times: f64, rows: [Triple; 2])
 
 /// Adds an impulse to the velocities.
 fn thrust(contact: &Contact, p: [f64; 2], inverse: &[Triple], v: &mut [Triple]) {
-    let mut on = |body: usize, side: usize| {
-        for k in 0..3 {
-            v[body][k] += inverse[body][k] * (contact.normal[side][k] * p[0] + contact.tangent[side][k] * p[1]);
-        }
-    };
-    if let Some(a) = contact.a {
-        on(a, 0);
-    }
-    on(contact.b, 1);
+    contact.rows.each(p, |body, push| (0..3).for_each(|k| v[body][k] += inverse[body][k] * push[k]));
 }
 
-fn push(r: &mut Triple, normal: Triple, tangent: Triple, p: [f64; 2]) {
-    for k in 0..3 {
-        r[k] -= normal[k] * p[0] + tangent[k] * p[1];
-    }
-}
-
-fn dot(a: Triple, b: Triple) -> f64 {
+fn dot(a: &Triple, b: &Triple) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

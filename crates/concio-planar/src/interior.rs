@@ -8,9 +8,10 @@
 //!
 //! (P5a)  u_n + b + E_n (p_n − p_n⁰) = λ₁ − λ₂,   u_t + E_t (p_t − p_t⁰) = λ₄ − λ₃
 //!
-//! are (P2) and (P3): what slides bears against its slide all that friction allows, and opens no more than what sticks. In the plane this is a linear
-//! complementarity problem (Lötstedt 1981), and not a program with a least value: its matrix is not symmetric. Where springs beside or bonds can pull,
-//! [p_n + s_n]₊ has a kink besides, and whether friction bears anything is decided from iterate to iterate.
+//! are (P2) and (P3): what slides bears against its slide all that friction allows, and opens no more than what sticks. In the plane
+//! this is a linear complementarity problem (Lötstedt 1981), and not a program with a least value: its matrix is not symmetric. Where
+//! springs beside or bonds can pull, [p_n + s_n]₊ has a kink besides, and whether friction bears anything is decided from iterate to
+//! iterate.
 //! E is 1/ρ of (P4), that of a spring where a contact is compliant; elsewhere it is small, p⁰ is what the
 //! contact bore before, and both choose among impulses that give the same motion those nearest to p⁰.
 //!
@@ -22,7 +23,7 @@
 mod finish;
 
 use crate::blocks::{Blocks, Triple};
-use crate::contact::{Contact, Effort, Status, unbalance, worse};
+use crate::contact::{Contact, Effort, Rows, Status, unbalance, worse};
 
 /// Iterations after which a step is given up.
 const MOST: usize = 60;
@@ -32,8 +33,9 @@ const FIRM: f64 = 1e4;
 /// Iterations in which what is left has to be halved: once it is small enough, and before.
 const PATIENCE: usize = 8;
 const STALLED: usize = 25;
-/// Iterations that have not halved what is left after which it begins anew, once, from where it came to, and for what is out of balance then the share of what
-/// was left at first: bounds it came too near to on its way keep the way short, and there are steps that it never ends otherwise.
+/// Iterations that have not halved what is left after which it begins anew, once, from where it came to, and for what is out of balance
+/// then the share of what was left at first: bounds it came too near to on its way keep the way short, and there are steps that it never
+/// ends otherwise.
 const ANEW: usize = 4;
 const NEARER: f64 = 0.01;
 /// Least distance from the bounds at the start, over what is out of balance, and over what was borne before.
@@ -48,17 +50,6 @@ const INSIDE: f64 = 0.995;
 const STUCK: f64 = 0.03;
 /// What distances from bounds are rounded by, over the impulses: to mend it would keep the way short where a bound is met.
 const ROUNDED: f64 = 1e-13;
-
-/// Where the bodies of a contact stand, none being the base, and how their velocities part and slide it.
-#[derive(Debug, Clone, Copy)]
-struct Rows {
-    a: u32,
-    b: u32,
-    normal: [Triple; 2],
-    tangent: [Triple; 2],
-}
-
-const BASE: u32 = u32::MAX;
 
 /// How the multiplier of each bound stands in (P5a), and in which direction: 0 across, 1 along.
 const SENSE: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
@@ -158,6 +149,15 @@ impl Left {
     }
 }
 
+/// What an iterate is looked at for.
+#[derive(Debug, Clone, Copy)]
+enum Method {
+    /// Interior points, after this share of their last direction.
+    Inside { share: f64 },
+    /// Newton's method on the laws; whether the last direction tells which bounds hold.
+    AtBounds { led: bool },
+}
+
 /// What a direction comes to.
 #[derive(Debug, Clone, Copy)]
 struct Course {
@@ -195,7 +195,7 @@ impl Interior {
         // What was left at the start, until it began anew.
         let mut begun = None;
         loop {
-            let mut left = self.look(matrix, (mass, free), contacts, v, share);
+            let mut left = self.look(matrix, (mass, free), contacts, v, Method::Inside { share });
             effort.residual = worse(left.residual, left.drawn);
             if left.residual <= tolerance {
                 if left.drawn <= tolerance {
@@ -232,7 +232,7 @@ impl Interior {
                     break;
                 }
                 near = finish::AGAIN * left.residual;
-                left = self.look(matrix, (mass, free), contacts, v, 0.0);
+                left = self.look(matrix, (mass, free), contacts, v, Method::Inside { share: 0.0 });
             }
             matrix.factorise();
             effort.iterations += 1;
@@ -273,22 +273,22 @@ impl Interior {
         self.limited.enter(contacts, v, scale);
     }
 
-    /// Goes the share of the last direction. What is left then of (P1), into `self.residual`, and of (P5), and the matrix and the right side, into
-    /// `self.step`, of a direction that would leave nothing: all in one go through the contacts, which are most of what has to be fetched.
+    /// What is left of (P1), into `self.residual`, and of the laws, and the matrix and the right side, into `self.step`, of a direction that would
+    /// leave nothing: all in one go through the contacts, which are most of what has to be fetched.
     fn look(
         &mut self,
         matrix: &mut Blocks,
         (mass, free): (&[Triple], &[Triple]),
         contacts: &[Contact],
         v: &[Triple],
-        share: f64,
+        method: Method,
     ) -> Left {
         inertia(&mut self.residual, mass, free, v);
         self.step.fill([0.0; 3]);
         matrix.reset_whole(mass);
         let mut sums = Sums { left: Left::default(), residual: &mut self.residual, step: &mut self.step, matrix };
-        self.usual.look(contacts, v, share, &mut sums);
-        self.limited.look(contacts, v, share, &mut sums);
+        self.usual.look(contacts, v, method, &mut sums);
+        self.limited.look(contacts, v, method, &mut sums);
         let mut left = sums.left;
         left.residual = worse(left.residual, unbalance(&self.residual, mass));
         left
@@ -346,8 +346,7 @@ impl<const N: usize> Group<N> {
     fn add(&mut self, number: usize, contact: &Contact, u: [f64; 2]) -> [f64; 2] {
         let point = Point::lay(contact, u);
         self.which.push(number as u32);
-        let Contact { a, b, normal, tangent, .. } = *contact;
-        self.rows.push(Rows { a: a.map_or(BASE, |a| a as u32), b: b as u32, normal, tangent });
+        self.rows.push(contact.rows);
         self.points.push(point);
         point.p
     }
@@ -359,17 +358,22 @@ impl<const N: usize> Group<N> {
         }
     }
 
-    fn look(&mut self, contacts: &[Contact], v: &[Triple], share: f64, sums: &mut Sums) {
-        for ((point, rows), which) in self.points.iter_mut().zip(&self.rows).zip(&self.which) {
+    fn look(&mut self, contacts: &[Contact], v: &[Triple], method: Method, sums: &mut Sums) {
+        for (point, which) in self.points.iter_mut().zip(&self.which) {
             let contact = &contacts[*which as usize];
             let u = contact.velocity(v);
-            point.go(share);
-            point.look(contact, u, &mut sums.left);
+            match method {
+                Method::Inside { share } => {
+                    point.go(share);
+                    point.look(contact, u, &mut sums.left);
+                    point.invert();
+                    point.aim(0.0);
+                }
+                Method::AtBounds { led } => point.choose(contact, u, led, &mut sums.left),
+            }
             contact.push(sums.residual, contact.whole(point.p, u));
-            point.invert();
             contact.couple(sums.matrix, point.answers(contact));
-            point.aim(0.0);
-            rows.push(sums.step, point.right);
+            contact.rows.push(sums.step, point.right);
         }
     }
 
@@ -400,33 +404,6 @@ impl<const N: usize> Group<N> {
         for (point, which) in self.points.iter().zip(&self.which) {
             point.tell(&mut contacts[*which as usize], v);
         }
-    }
-}
-
-impl Rows {
-    #[inline]
-    fn change(&self, v: &[Triple]) -> [f64; 2] {
-        let dot = |row: &Triple, v: &Triple| row[0] * v[0] + row[1] * v[1] + row[2] * v[2];
-        let second = &v[self.b as usize];
-        let mut u = [dot(&self.normal[1], second), dot(&self.tangent[1], second)];
-        if self.a != BASE {
-            let first = &v[self.a as usize];
-            u[0] += dot(&self.normal[0], first);
-            u[1] += dot(&self.tangent[0], first);
-        }
-        u
-    }
-
-    #[inline(always)]
-    fn push(&self, balance: &mut [Triple], p: [f64; 2]) {
-        let mut on = |body: u32, side: usize| {
-            let balance = &mut balance[body as usize];
-            (0..3).for_each(|k| balance[k] += self.normal[side][k] * p[0] + self.tangent[side][k] * p[1]);
-        };
-        if self.a != BASE {
-            on(self.a, 0);
-        }
-        on(self.b, 1);
     }
 }
 
@@ -817,8 +794,8 @@ mod tests {
         worse(worst, unbalance(&balance, &[MASS; 6]))
     }
 
-    /// Whatever bounds contacts have, what is called solved obeys their laws; nearly all is solved. Where all have springs Newton's method ends it, to
-    /// rounding.
+    /// Whatever bounds contacts have, what is called solved obeys their laws; nearly all is solved. Where all have springs Newton's method
+    /// ends it, to rounding.
     #[test]
     fn every_kind_of_contact_obeys_its_laws() {
         let pairs: Vec<_> = (1..6).map(|b| (b - 1, b)).collect();

@@ -1,7 +1,8 @@
 //! Rigid blocks that slide, open and rock: a horizontal, a vertical and an angular unknown each.
 //!
 //! Main path: [`motion`] takes [`body`]s through time, with the contact points of [`shape`], the laws of [`joint`]s and [`tie`]s, the
-//! contact solver of [`contact`], its interior point method and the sparse matrix of [`blocks`]. What a wall is, and its files, are the engine's matter.
+//! contact solver of [`contact`], its interior point method and the sparse matrix of [`blocks`]. What a wall is, and its files, are the
+//! engine's matter.
 
 pub mod blocks;
 pub mod body;

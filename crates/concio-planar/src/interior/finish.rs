@@ -5,9 +5,9 @@
 //! is about to slide, costs the interior point method half a digit in each iteration, and here nothing. From afar this goes in circles, and
 //! rigid contacts, which share impulses out among them, hold more bounds than there are velocities.
 
-use super::{Group, Interior, Left, Point, Sums, inertia, soft};
+use super::{Group, Interior, Left, Method, Point, soft};
 use crate::blocks::{Blocks, Triple};
-use crate::contact::{Contact, Effort, unbalance, worse};
+use crate::contact::{Contact, Effort, worse};
 
 /// What may be left where it begins, over the tolerance.
 pub(super) const NEAR: f64 = 1e4;
@@ -45,14 +45,8 @@ impl Interior {
         self.limited.keep();
         let mut last = f64::INFINITY;
         for k in 0..=MOST {
-            inertia(&mut self.residual, mass, free, v);
-            self.step.fill([0.0; 3]);
-            matrix.reset_whole(mass);
-            let mut sums = Sums { left: Left::default(), residual: &mut self.residual, step: &mut self.step, matrix };
-            self.usual.choose(contacts, v, led && k == 0, &mut sums);
-            self.limited.choose(contacts, v, led && k == 0, &mut sums);
-            let drawn = sums.left.drawn;
-            let left = worse(sums.left.residual, unbalance(&self.residual, mass));
+            let method = Method::AtBounds { led: led && k == 0 };
+            let Left { residual: left, drawn, .. } = self.look(matrix, (mass, free), contacts, v, method);
             if left <= tolerance {
                 effort.residual = worse(left, drawn);
                 if drawn <= tolerance {
@@ -100,18 +94,6 @@ impl<const N: usize> Group<N> {
         }
     }
 
-    /// What is left, which bounds hold, and the matrix and right side of where that leads.
-    fn choose(&mut self, contacts: &[Contact], v: &[Triple], led: bool, sums: &mut Sums) {
-        for ((point, rows), which) in self.points.iter_mut().zip(&self.rows).zip(&self.which) {
-            let contact = &contacts[*which as usize];
-            let u = contact.velocity(v);
-            point.choose(contact, u, led, &mut sums.left);
-            contact.push(sums.residual, contact.whole(point.p, u));
-            contact.couple(sums.matrix, point.answers(contact));
-            rows.push(sums.step, point.right);
-        }
-    }
-
     fn jump(&mut self, step: &[Triple]) {
         for (point, rows) in self.points.iter_mut().zip(&self.rows) {
             let change = point.follows(rows.change(step));
@@ -136,7 +118,7 @@ impl<const N: usize> Point<N> {
 
     /// What it leaves of (P2) and (P3) at the velocity `u`, and what impulses do where the bounds hold that hold by impulses and velocities now,
     /// or by the last direction.
-    fn choose(&mut self, contact: &Contact, u: [f64; 2], by_way: bool, left: &mut Left) {
+    pub(super) fn choose(&mut self, contact: &Contact, u: [f64; 2], by_way: bool, left: &mut Left) {
         let [least, most] = contact.pressure;
         let pressed = self.p[0] + contact.spring[0].at(u[0]);
         let mu = if self.dry || pressed > 0.0 { contact.friction } else { 0.0 };

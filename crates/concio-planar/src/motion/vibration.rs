@@ -46,12 +46,12 @@ impl Motion {
         let mut springs = Vec::new();
         for (contact, owner) in self.contacts.iter().zip(&self.owners) {
             for holds in self.holding(contact, owner).into_iter().filter(|h| h.stiffness > 0.0 || h.damping > 0.0) {
-                matrix.add(contact.b, holds.stiffness, holds.rows[1]);
-                if let (Some(a), Some(slot)) = (contact.a, contact.slot) {
+                matrix.add(contact.rows.second(), holds.stiffness, holds.rows[1]);
+                if let (Some(a), Some(slot)) = (contact.rows.first(), contact.slot) {
                     matrix.add(a, holds.stiffness, holds.rows[0]);
                     matrix.add_pair(slot, holds.stiffness, holds.rows);
                 }
-                springs.push((contact.a, contact.b, holds));
+                springs.push((contact.rows.first(), contact.rows.second(), holds));
             }
         }
         matrix.factorise();
@@ -105,6 +105,6 @@ impl Motion {
             stiffness: owner.share * stiffness,
             damping: owner.share * damping,
         };
-        [holds(contact.normal, across), holds(contact.tangent, along)]
+        [holds(contact.rows.normal, across), holds(contact.rows.tangent, along)]
     }
 }
