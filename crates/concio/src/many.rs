@@ -9,8 +9,8 @@
 //! forces that differ in action and reaction (`overburden`).
 
 use std::collections::HashMap;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard};
 
 use crate::case::Solver;
 use crate::error::Result;
@@ -81,6 +81,8 @@ pub fn simulate_each(
     let batch = Batch {
         jobs,
         queues: queues(jobs, threads),
+        rest: Mutex::new(Rest { runs: Vec::new(), busy: threads }),
+        more: Condvar::new(),
         watch,
         keep,
         ended: AtomicUsize::new(0),
@@ -104,9 +106,6 @@ struct Queue {
     lanes: usize,
 }
 
-/// Lanes from which on they are faster than as many single runs.
-const FEWEST_LANES: usize = 3;
-
 fn queues(jobs: &[Job], threads: usize) -> Vec<Queue> {
     let mut alone = Vec::new();
     let mut groups: Vec<Vec<usize>> = Vec::new();
@@ -128,15 +127,40 @@ fn queues(jobs: &[Job], threads: usize) -> Vec<Queue> {
     for group in groups {
         // No thread takes so many that another has none.
         let lanes = group.len().div_ceil(threads).min(crate::lanes::WIDTH);
-        if lanes < FEWEST_LANES { alone.extend(group) } else { queues.push(queue(group, lanes)) }
+        if lanes < crate::lanes::FEWEST { alone.extend(group) } else { queues.push(queue(group, lanes)) }
     }
     queues.push(queue(alone, 1));
     queues
 }
 
+/// A run under way that goes on alone, and what it has recorded so far.
+struct Under<'a> {
+    number: usize,
+    run: Simulation<'a>,
+    rows: Recording,
+}
+
+impl Under<'_> {
+    /// Share of the run that is done, from 0 to 1.
+    fn share(&self) -> f64 {
+        let status = self.run.status();
+        status.time / status.duration
+    }
+}
+
+/// What the last lanes have left for whatever thread is free.
+struct Rest<'a> {
+    runs: Vec<Under<'a>>,
+    /// Threads at the queues, which may leave some yet.
+    busy: usize,
+}
+
 struct Batch<'a> {
     jobs: &'a [Job<'a>],
     queues: Vec<Queue>,
+    rest: Mutex<Rest<'a>>,
+    /// Told when there is more in `rest`, or less to come.
+    more: Condvar,
     watch: &'a (dyn Fn(Standing) -> Control + Sync),
     keep: &'a (dyn Fn(usize, Result<Outcome>) + Sync),
     ended: AtomicUsize,
@@ -145,8 +169,19 @@ struct Batch<'a> {
     stopped: AtomicBool,
 }
 
+/// A thread at the queues; however it goes, the others do not wait for it.
+struct Busy<'b, 'a>(&'b Batch<'a>);
+
+impl Drop for Busy<'_, '_> {
+    fn drop(&mut self) {
+        self.0.rest().busy -= 1;
+        self.0.more.notify_all();
+    }
+}
+
 impl<'a> Batch<'a> {
     fn work(&self, thread: usize) {
+        let busy = Busy(self);
         for queue in &self.queues {
             let mut seat = Seat { batch: self, queue, thread };
             while let Some((number, run)) = seat.next() {
@@ -154,10 +189,51 @@ impl<'a> Batch<'a> {
                     // The first run says what kind the group is of, and takes the first lane.
                     Gang::new(&run, queue.lanes).start((number, run), &mut seat);
                 } else {
-                    seat.alone(number, run);
+                    self.alone(thread, Under { number, run, rows: Recording::default() });
                 }
             }
         }
+        drop(busy);
+        while let Some(under) = self.next_left() {
+            self.alone(thread, under);
+        }
+    }
+
+    fn rest(&self) -> MutexGuard<'_, Rest<'a>> {
+        self.rest.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+
+    /// The run that is farthest from its end of those left by their lanes; waits while there may be one.
+    fn next_left(&self) -> Option<Under<'a>> {
+        let mut rest = self.rest();
+        while rest.runs.is_empty() && rest.busy > 0 {
+            rest = self.more.wait(rest).unwrap_or_else(|poisoned| poisoned.into_inner());
+        }
+        let shares = rest.runs.iter().map(Under::share).enumerate();
+        let (least, _) = shares.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(rest.runs.swap_remove(least))
+    }
+
+    fn alone(&self, thread: usize, mut under: Under<'a>) {
+        let reason = loop {
+            if self.stopped.load(Ordering::Relaxed) {
+                break StopReason::Interrupted;
+            }
+            let progress = under.run.advance(BETWEEN_LOOKS);
+            under.rows.append(under.run.recording());
+            under.run.clear_recording();
+            if let Progress::Ended(reason) = progress {
+                break reason;
+            }
+            self.goes_on(thread, under.share());
+        };
+        // What ends here is no longer under way.
+        self.under_way()[thread] = 0.0;
+        self.give(under.number, Ok(under.run.outcome(under.rows, reason)));
+    }
+
+    fn under_way(&self) -> MutexGuard<'_, Vec<f64>> {
+        self.under_way.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
     fn give(&self, number: usize, outcome: Result<Outcome>) {
@@ -166,10 +242,11 @@ impl<'a> Batch<'a> {
     }
 
     fn goes_on(&self, thread: usize, under_way: f64) -> bool {
+        let left: f64 = self.rest().runs.iter().map(Under::share).sum();
         let sum: f64 = {
-            let mut shares = self.under_way.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            let mut shares = self.under_way();
             shares[thread] = under_way;
-            shares.iter().sum()
+            left + shares.iter().sum::<f64>()
         };
         let (ended, of) = (self.ended.load(Ordering::Relaxed), self.jobs.len());
         let standing = Standing { ended, of, share: ((ended as f64 + sum) / of as f64).min(1.0) };
@@ -205,6 +282,11 @@ impl<'a> Desk<'a> for Seat<'_, 'a> {
         self.batch.give(number, Ok(outcome));
     }
 
+    fn left(&mut self, number: usize, run: Simulation<'a>, rows: Recording) {
+        self.batch.rest().runs.push(Under { number, run, rows });
+        self.batch.more.notify_one();
+    }
+
     fn goes_on(&mut self, under_way: f64) -> bool {
         self.batch.goes_on(self.thread, under_way)
     }
@@ -212,23 +294,3 @@ impl<'a> Desk<'a> for Seat<'_, 'a> {
 
 /// Steps of a single run from one look at the watch to the next.
 const BETWEEN_LOOKS: u64 = 4096;
-
-impl<'a> Seat<'_, 'a> {
-    fn alone(&mut self, number: usize, mut run: Simulation<'a>) {
-        let mut rows = Recording::default();
-        let reason = loop {
-            let progress = run.advance(BETWEEN_LOOKS);
-            rows.append(run.recording());
-            run.clear_recording();
-            if let Progress::Ended(reason) = progress {
-                break reason;
-            }
-            let status = run.status();
-            if !self.goes_on(status.time / status.duration) {
-                break StopReason::Interrupted;
-            }
-        };
-        let outcome = run.outcome(rows, reason);
-        self.ended(number, outcome);
-    }
-}

@@ -372,6 +372,19 @@ impl<'m> Lane<'m> {
         sum.top_force_square += 0.5 * self.waiting * (before * before + pull * pull);
     }
 
+    /// Number of the run, the run at the end of a step whose account is made up, and what it has recorded.
+    pub fn leave(mut self, w: &Work, account: &Account, i: usize) -> (usize, Simulation<'m>, Recording) {
+        self.unload_state(w, i);
+        let state = &mut self.run.state;
+        account.unload(i, &w.topology.place, &mut state.envelopes);
+        for (e, power) in state.joint_power.iter_mut().enumerate() {
+            *power = account.joints.at(e, POWER, i);
+        }
+        self.rows.append(self.run.recording());
+        self.run.clear_recording();
+        (self.number, self.run, self.rows)
+    }
+
     /// Number and result of the run, which ends with `reason`, or because it is complete.
     pub fn outcome(mut self, w: &Work, account: &Account, i: usize, reason: Option<StopReason>) -> (usize, Outcome) {
         account.unload(i, &w.topology.place, &mut self.run.state.envelopes);

@@ -22,7 +22,7 @@ pub use crate::lanes::topology::Kind;
 use crate::lanes::topology::Topology;
 use crate::lanes::work::{ACCEPTED, Advance, CONVERGED, GIVEN_UP, GOING, Iterate, PENDING, Turn, Work};
 use crate::outcome::Outcome;
-use crate::record::StopReason;
+use crate::record::{Recording, StopReason};
 use crate::simulate::Simulation;
 
 /// Up to eight runs of one kind.
@@ -36,6 +36,8 @@ pub struct Gang<'m> {
     width: usize,
     /// Turns so far.
     turns: u64,
+    /// Whether the desk has no more runs.
+    last: bool,
 }
 
 /// Where a gang gets its runs and leaves what became of them.
@@ -44,11 +46,15 @@ pub trait Desk<'m> {
     fn next(&mut self) -> Option<(usize, Simulation<'m>)>;
     /// A run has ended.
     fn ended(&mut self, number: usize, outcome: Outcome);
+    /// A run under way has left its lane, with what it has recorded so far: it goes on alone, to the same bits.
+    fn left(&mut self, number: usize, run: Simulation<'m>, rows: Recording);
     /// Called from time to time with the sum of the shares that the runs under way have reached; false to stop them
     /// where they are.
     fn goes_on(&mut self, under_way: f64) -> bool;
 }
 
+/// Lanes from which on they are faster than as many single runs.
+pub const FEWEST: usize = 4;
 /// Turns from one [`Desk::goes_on`] to the next.
 const BETWEEN_LOOKS: u64 = 4096;
 
@@ -65,11 +71,12 @@ impl<'m> Gang<'m> {
             lanes: [const { None }; WIDTH],
             width: width.min(WIDTH),
             turns: 0,
+            last: false,
         }
     }
 
-    /// Works from `first` on until the desk has no more runs and all lanes are empty, with the widest instructions of
-    /// the machine. They are chosen here and not by pulp's `Arch`, because rows have eight lanes on all.
+    /// Works from `first` on until the desk has no more runs, and then on fewer than [`FEWEST`] lanes no longer, with the
+    /// widest instructions of the machine. They are chosen here and not by pulp's `Arch`, because rows have eight lanes on all.
     pub fn start(mut self, first: (usize, Simulation<'m>), desk: &mut dyn Desk<'m>) {
         self.take(0, first);
         #[cfg(target_arch = "x86_64")]
@@ -179,6 +186,7 @@ impl<'m> Gang<'m> {
         if restarts.is_some() || ends {
             self.settle(simd);
         }
+        let few = self.last && self.lanes.iter().flatten().count() < FEWEST;
         let Some(lane) = &mut self.lanes[i] else { return };
         if let Some(jump) = restarts {
             lane.restart(&mut self.work, &mut self.account, i, jump);
@@ -186,8 +194,19 @@ impl<'m> Gang<'m> {
         lane.sample(&self.work, i);
         if ends {
             self.finish(i, None, desk);
+        } else if few {
+            self.leave(simd, i, desk);
         } else {
             lane.begin_step(&mut self.work, i);
+        }
+    }
+
+    /// Gives up lane `i`, between two steps.
+    fn leave<S: Simd>(&mut self, simd: S, i: usize, desk: &mut dyn Desk<'m>) {
+        self.settle(simd);
+        if let Some(lane) = self.lanes[i].take() {
+            let (number, run, rows) = lane.leave(&self.work, &self.account, i);
+            desk.left(number, run, rows);
         }
     }
 
@@ -244,8 +263,9 @@ impl<'m> Gang<'m> {
     }
 
     fn take_next(&mut self, i: usize, desk: &mut dyn Desk<'m>) {
-        if let Some(run) = desk.next() {
-            self.take(i, run);
+        match desk.next() {
+            Some(run) => self.take(i, run),
+            None => self.last = true,
         }
     }
 
@@ -306,6 +326,11 @@ mod tests {
         }
         fn ended(&mut self, number: usize, outcome: Outcome) {
             self.outcomes.push((number, outcome));
+        }
+        fn left(&mut self, number: usize, mut run: Simulation<'m>, mut rows: Recording) {
+            let (rest, reason) = run.run_to_end();
+            rows.append(&rest);
+            self.outcomes.push((number, run.outcome(rows, reason)));
         }
         fn goes_on(&mut self, _: f64) -> bool {
             true

@@ -21,8 +21,9 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// None for models that lanes do not take: set-valued laws, bonds, devices with laws of their own, action that differs from reaction, and walls so
-    /// large that a single run factorises in another way and vectors are full without lanes.
+    /// None for models that lanes do not take: set-valued laws, bonds, devices with laws of their own, action that
+    /// differs from reaction, and walls so large that a single run factorises in another way and vectors are full
+    /// without lanes.
     pub fn of(model: &Model, scheme: Scheme) -> Option<Self> {
         let plain = !model.set_valued() && model.bonds.is_empty() && model.nonlinear.is_empty() && model.reciprocal;
         if !plain || model.unknowns() > MOST_LISTED {
