@@ -244,6 +244,9 @@ fn keys_and_values() -> Vec<Bad> {
         "hyphen in a key", edit("slip_velocity", "slip-velocity"), "friction", "joint.friction.slip-velocity", "unknown key", "did you mean `slip_velocity`?";
         "one panel in one bracket", edit("[[panel]]", "[panel]"), "[panel]", "panel", "a table cannot stand here", "[[two brackets]]";
         "brick without height", edit("height = \"55 mm\", ", ""), "brick =", "panel[0].brick.height", "the key is missing", "H [m], above 0";
+        "file without a model", edit("model = \"shear\"", ""), "", "model", "the key is missing", "`shear`, `planar`";
+        "spring law with a typing error", edit("law = \"no-tension\"", "law = \"rigd\""), "head = { law", "joint.head.law", "`rigd` is not known here", "did you mean `rigid`?";
+        "spring law that there is not", edit("law = \"no-tension\"", "law = \"cubic\""), "head = { law", "joint.head.law", "`cubic` is not known here", "`elastic`, `no-tension`, `rigid`, `none`";
         "unknown table", format!("{GOOD}[soil]\nvs = 200\n"), "[soil]", "soil", "unknown key", "`motion`";
         "missing table", GOOD.split("[motion]").next().unwrap_or_default(), "model", "motion", "the key is missing", "Motion of base and top";
         "no joints and no set", "model = \"shear\"\n[[panel]]\n", "model", "joint", "the key is missing", "set = \"report\"";

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use concio::case::{
-    Baseline, Beam, Case, FrictionLaw, FrictionOn, NormalForce, Signal, SpringLaw, Syntax, canonical_json, example,
-    from_str, read, schema, starter,
+    Baseline, Beam, Case, FrictionLaw, FrictionOn, ModelKind, NormalForce, Signal, SpringLaw, Syntax, canonical_json,
+    example, from_str, read, schema, starter,
 };
 use concio::pattern::lay;
 use concio::wall::Wall;
@@ -84,7 +84,8 @@ fn the_design_page_is_read_as_it_stands() {
 fn a_stored_case_reads_back_equal() {
     let texts = [
         DESIGN.to_string(),
-        starter().to_string(),
+        starter(ModelKind::Shear).to_string(),
+        starter(ModelKind::Planar).to_string(),
         DESIGN.replace("\"driven\"", "{ mass = \"1 t\" }").replace("top = { sine", "# top = { sine"),
         DESIGN.replace("base = \"none\"", "base = { record = \"a b.at2\", pga = \"0.3 g\", trim = [1, \"20 s\"], baseline = { high-pass = \"0.1 Hz\" } }"),
         DESIGN.replace("base = \"none\"", "base = { record = \"x.csv\", scale = -1.7, baseline = { polynomial = 2 }, quantity = \"displacement\", units = \"mm\", dt = 0.01 }"),
@@ -214,7 +215,12 @@ fn the_preset_of_the_report_is_written_out() {
 
 #[test]
 fn templates_are_walls() {
-    toml(starter());
+    for model in [ModelKind::Shear, ModelKind::Planar] {
+        let file = from_str(starter(model), Syntax::Toml, None).expect("a starter is read");
+        file.validate().expect("a starter is valid");
+        file.wall().expect("a starter is laid");
+        assert_eq!(file.case.model, model);
+    }
     let example = example().expect("the built-in wall is read");
     example.validate().expect("the built-in wall is valid");
     assert_eq!(example.wall().expect("the built-in wall is laid").blocks.len(), 27);

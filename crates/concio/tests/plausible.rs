@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use concio::case::plausible::doubts;
-use concio::case::{Case, Syntax, from_str, starter};
+use concio::case::{Case, ModelKind, Syntax, from_str, starter};
 
 const WALL: &str = r#"
 model = "shear"
@@ -48,7 +48,9 @@ fn case(text: &str) -> Case {
 #[test]
 fn an_ordinary_wall_raises_none() {
     assert_eq!(doubts(&case(WALL)), Vec::<String>::new());
-    assert_eq!(doubts(&case(starter())), Vec::<String>::new());
+    for model in [ModelKind::Shear, ModelKind::Planar] {
+        assert_eq!(doubts(&case(starter(model))), Vec::<String>::new());
+    }
 }
 
 /// Each number is one that engineers write when they forget that a bare number is in SI.
@@ -104,7 +106,8 @@ fn joints_that_hold_without_limit_are_told() {
         doubts(&case(&format!(
             "model = \"planar\"\n[[panel]]\nbond = \"running\"\ncourses = 4\nbricks = 3\n\
              brick = {{ length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18e3 }}\n\
-             [joint]\nhead = {{ law = \"no-tension\", stiffness = \"36 N/mm3\" }}\n{joint}\n[motion]\nduration = 1"
+             [joint]\nhead = {{ law = \"no-tension\", stiffness = \"36 N/mm3\" }}\n{joint}{}duration = 1",
+            if joint.contains("[motion]") { "\n" } else { "\n[motion]\n" }
         )))
     };
     let elastic = "bed = { law = \"elastic\", stiffness = \"15 N/mm3\" }";
@@ -121,6 +124,12 @@ fn joints_that_hold_without_limit_are_told() {
     assert_eq!(planar(dry), Vec::<String>::new());
     let found = planar(&dry.replace("rigidity = 1", "rigidity = 500"));
     assert!(found.len() == 1 && found[0].contains("rigidity = 500 times as stiff"), "{found:?}");
+    let found = planar(&format!(
+        "{dry}\n[motion]\nquasi_static = true\nbase = {{ sine = {{ amplitude = \"5 mm\", frequency = 2 }} }}"
+    ));
+    assert!(found.len() == 1 && found[0].contains("motion.base shakes a wall without inertia"), "{found:?}");
+    let tilt = "base = { tilt = { acceleration = \"0.5 g\", rise = \"5 s\" } }";
+    assert_eq!(planar(&format!("{dry}\n[motion]\nquasi_static = true\n{tilt}")), Vec::<String>::new());
     let found = planar(&format!("{dry}\n[solver]\ntolerance = 1e-3\nmax_step = \"1 ms\""));
     assert!(found.len() == 2 && found[0].contains("solver.tolerance does nothing"), "{found:?}");
 }

@@ -2,13 +2,18 @@
 
 use std::path::Path;
 
-use crate::args::New;
+use concio::case::ModelKind;
+
+use crate::args::{Model, New};
 use crate::failure::Failure;
 use crate::files;
 
 /// Writes the starter file.
 pub fn new(args: &New) -> Result<(), Failure> {
-    let text = concio::case::starter();
+    let text = concio::case::starter(match args.model {
+        Model::Shear => ModelKind::Shear,
+        Model::Planar => ModelKind::Planar,
+    });
     if args.file == Path::new("-") {
         return files::print(text);
     }

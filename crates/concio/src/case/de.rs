@@ -26,7 +26,8 @@ pub(crate) fn from_node<'de, T: Deserialize<'de>>(node: &'de Node) -> Result<T, 
 }
 
 /// The closest of `known` to `word`, if it is close: the fewest letters mistyped, then the longer word, since letters
-/// are left out more often than added (a plural), then the most alike from the start, then the nearest letters and digits, so that of numbered names the nearest number wins.
+/// are left out more often than added (a plural), then the most alike from the start, then the nearest letters and
+/// digits, so that of numbered names the nearest number wins.
 pub(crate) fn suggestion<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let plain = |text: &str| text.to_lowercase().replace('-', "_");
     let word = plain(word);
@@ -43,9 +44,6 @@ pub(crate) fn suggestion<'a>(word: &str, known: impl IntoIterator<Item = &'a str
     best.map(|(.., name)| name)
 }
 
-/// Words that the wall file knows but this version refuses: not offered as what could stand there.
-const NOT_YET: [&str; 1] = ["rigid"];
-
 /// What to write instead when `text` starts with a number with a decimal comma.
 pub(crate) fn decimal_comma(text: &str) -> Option<String> {
     let text = text.trim();
@@ -56,9 +54,8 @@ pub(crate) fn decimal_comma(text: &str) -> Option<String> {
     is_number.then(|| format!("decimals take a point: write {whole}.{digits}"))
 }
 
-fn list(words: &[&str]) -> String {
-    let offered = words.iter().filter(|w| !NOT_YET.contains(w));
-    offered.map(|w| format!("`{w}`")).collect::<Vec<_>>().join(", ")
+pub(crate) fn list(words: &[impl std::fmt::Display]) -> String {
+    words.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// A step of a key path; paths are built from the inside out.
@@ -157,7 +154,7 @@ impl de::Error for Failure {
     }
     fn unknown_variant(variant: &str, expected: &'static [&'static str]) -> Self {
         let error = InputError::new(format!("`{variant}` is not known here")).allowed(list(expected));
-        Failure::new(match suggestion(variant, expected.iter().copied().filter(|w| !NOT_YET.contains(w))) {
+        Failure::new(match suggestion(variant, expected.iter().copied()) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error,
         })

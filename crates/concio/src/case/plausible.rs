@@ -270,6 +270,16 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
             shown(joint.bed.rigidity)
         ));
     }
+    if case.motion.quasi_static {
+        let signals = [("base", &case.motion.base), ("vertical", &case.motion.vertical)];
+        let shakes = |signal: &Signal| !matches!(signal, Signal::None | Signal::Tilt(_));
+        for (key, _) in signals.into_iter().filter(|(_, signal)| shakes(signal)) {
+            doubts.0.push(format!(
+                "motion.{key} shakes a wall without inertia (`quasi_static`): its accelerations are forces that come and go slowly, and \
+                 nothing swings or rocks on; `{key} = {{ tilt = … }}` is the load that grows"
+            ));
+        }
+    }
     let changed = joint.changes.iter().any(|change| change.bond.is_some());
     let dry = joint.bond.is_none() && joint.bed.law != SpringLaw::Elastic && !changed;
     let rubs = joint.changes.iter().any(|change| change.friction.is_some());

@@ -195,7 +195,9 @@ fn described(mut fault: Fault, tree: &Node) -> Fault {
         e.help = e.key.as_deref().and_then(|key| misspelt(tree, key));
     }
     if e.what == de::MISSING && e.allowed.is_none() {
-        e.allowed = e.key.as_deref().and_then(super::describe).map(|text| text.trim_end_matches('.').to_string());
+        let words = |key: &str| super::templates::choices(key).map(|words| de::list(&words));
+        let told = |key: &str| super::describe(key).map(|text| text.trim_end_matches('.').to_string());
+        e.allowed = e.key.as_deref().and_then(|key| words(key).or_else(|| told(key)));
     }
     fault
 }

@@ -1,8 +1,8 @@
-//! What helps to write a wall file: the JSON Schema, the starter file, the built-in example.
+//! What helps to write a wall file: the JSON Schema, the starter files, the built-in example.
 
 use serde_json::{Map, Value, json};
 
-use super::{Case, CaseFile, Syntax, from_str};
+use super::{Case, CaseFile, ModelKind, Syntax, from_str};
 use crate::Result;
 
 /// The JSON Schema (draft 2020-12) of the wall file, with the documentation of every key.
@@ -59,9 +59,12 @@ fn relax(schema: &mut Value, keys: &[&str]) {
     }
 }
 
-/// A commented wall file to start from, in TOML.
-pub fn starter() -> &'static str {
-    include_str!("starter.toml")
+/// A commented wall file of this model to start from, in TOML.
+pub fn starter(model: ModelKind) -> &'static str {
+    match model {
+        ModelKind::Shear => include_str!("starter.toml"),
+        ModelKind::Planar => include_str!("starter-planar.toml"),
+    }
 }
 
 /// The built-in wall: a brick panel of six courses under a heavy floor, shaken by a synthetic record.
@@ -75,9 +78,31 @@ pub fn example() -> Result<CaseFile> {
 /// What the schema says of a key (`panel[0].brick.length`): meaning, unit, bounds, default.
 pub fn describe(key: &str) -> Option<String> {
     let schema = schema();
-    let steps: Vec<&str> = key.split(['.', '[']).filter(|s| !s.is_empty()).collect();
-    let found = follow(&schema, &schema, &steps)?;
+    let found = follow(&schema, &schema, &steps(key))?;
     found.get("description").and_then(Value::as_str).map(|text| text.replace('\n', " "))
+}
+
+/// The words that a key may stand for; none where it takes others too.
+pub(crate) fn choices(key: &str) -> Option<Vec<String>> {
+    let schema = schema();
+    let found = follow(&schema, &schema, &steps(key))?;
+    let found = referred(&schema, found).unwrap_or(found);
+    let word = |option: &Value| option.as_str().map(str::to_string);
+    match (found.get("enum"), found.get("oneOf")) {
+        (Some(Value::Array(words)), _) => words.iter().map(word).collect(),
+        (_, Some(Value::Array(options))) => options.iter().map(|o| o.get("const").and_then(word)).collect(),
+        _ => None,
+    }
+}
+
+fn steps(key: &str) -> Vec<&str> {
+    key.split(['.', '[']).filter(|s| !s.is_empty()).collect()
+}
+
+/// What a part of the schema refers to.
+fn referred<'a>(root: &'a Value, at: &Value) -> Option<&'a Value> {
+    let name = at.get("$ref").and_then(Value::as_str)?.strip_prefix("#/$defs/")?;
+    root["$defs"].get(name)
 }
 
 /// The part of the schema that a path leads to. References are looked into only when the path goes on, so that the
@@ -93,8 +118,7 @@ fn follow<'a>(root: &'a Value, at: &'a Value, steps: &[&str]) -> Option<&'a Valu
         let list = rest.is_empty() && step.ends_with(']') && next.get("description").is_none();
         return if list { Some(at) } else { follow(root, next, rest) };
     }
-    let reference = at.get("$ref").and_then(Value::as_str).and_then(|r| r.strip_prefix("#/$defs/"));
-    if let Some(definition) = reference.and_then(|name| root["$defs"].get(name)) {
+    if let Some(definition) = referred(root, at) {
         return follow(root, definition, steps);
     }
     at.get("anyOf")?.as_array()?.iter().find_map(|option| follow(root, option, steps))
