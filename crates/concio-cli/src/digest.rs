@@ -2,7 +2,7 @@
 
 use concio::outcome::{BondRow, Outcome, TieRow};
 use concio::planar::Failure;
-use concio::record::{EventKind, StopReason};
+use concio::record::StopReason;
 use concio::store::JointRow;
 use serde_json::Value;
 
@@ -52,10 +52,15 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
     if let Some(ties) = ties(&outcome.ties) {
         rows.push(("ties", ties));
     }
-    if let Some(event) = outcome.recording.events.iter().find(|e| e.kind == EventKind::Collapse) {
+    if let Some(event) = outcome.recording.collapse() {
         let name = joints.get(event.joint as usize).map_or("", |j| j.name.as_str());
         let way = si(event.value, "m");
         rows.push(("collapse", format!("t = {} s, a block at joint {name} moved {way}", significant(event.time, 4))));
+    }
+    let (shear, weight) = (number("/base_shear_peak"), number("/weight"));
+    if shear > 0.0 {
+        let share = significant(shear / weight, 4);
+        rows.push(("largest base shear", format!("{}, {share} of the weight", si(shear, "N"))));
     }
     if totals.top_force_peak > 0.0 {
         let rms = si(number("/top_force_rms"), "N");

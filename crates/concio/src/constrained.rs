@@ -106,9 +106,7 @@ pub fn respond(prepared: &Prepared, heads: Heads, blocks: &[String], joints: &[S
 impl Variant {
     /// The history of a channel, none if there is no such channel.
     pub fn history(&self, name: &str) -> Option<Vec<f64>> {
-        let channels = &self.outcome.layout.channels;
-        let at = channels.iter().position(|c| c.name == name)?;
-        Some(self.outcome.recording.values.chunks_exact(channels.len()).map(|row| row[at]).collect())
+        self.outcome.history(name)
     }
 
     /// Deepest interpenetration over all steps [m], from 0.

@@ -427,7 +427,13 @@ const JOINT: [(&str, &str, &str); 5] = [
     ("friction", "N", "friction force, or that of a device with a law of its own, same sign"),
 ];
 
-/// Beside them, of the joints of planar walls.
+/// Beside them, of the blocks of planar walls.
+const PLANAR_BLOCK: [(&str, &str, &str); 2] = [
+    ("vertical", "m", "how far the centre has risen"),
+    ("rotation", "rad", "rotation about the centre, counterclockwise"),
+];
+
+/// Beside those of joints, of the joints of planar walls.
 const PLANAR_JOINT: [(&str, &str, &str); 2] = [
     ("opening", "m", "widest distance of the sides along the joint, from 0"),
     ("pressure", "N", "normal force, compression positive"),
@@ -457,7 +463,11 @@ impl Channels {
         for w in &watched {
             match *w {
                 Watched::Block(i) => {
-                    list.extend(BLOCK.iter().map(|(n, u, d)| channel(format!("block/{}/{n}", block_names[i]), u, d)));
+                    let of_planar = model.planar.iter().flat_map(|_| &PLANAR_BLOCK);
+                    let name = &block_names[i];
+                    list.extend(
+                        BLOCK.iter().chain(of_planar).map(|(n, u, d)| channel(format!("block/{name}/{n}"), u, d)),
+                    );
                 }
                 Watched::Joint(e, _, bond) => {
                     let of_bond = bond.map(|_| &DAMAGE);
@@ -490,7 +500,7 @@ impl Channels {
         push_energies(&at.state.energies, row);
         for w in &self.watched {
             match *w {
-                Watched::Block(i) => row.extend([at.z[i], at.v[i], at.a[i]]),
+                Watched::Block(i) => row.extend([at.z[i], at.v[i], at.a[i], at.vertical[i], at.rotation[i]]),
                 Watched::Joint(e, _, bond) => {
                     let (seen, kind) = (&at.seen[e], model.joints[e].kind);
                     let sign = turned(kind);

@@ -1,6 +1,7 @@
 //! The compiled system: immutable arrays that the time loop reads. One horizontal unknown per block, and one for
 //! a top beam with mass (theory, sections 2 and 3).
 
+use crate::G;
 use crate::assign::{JointLaw, friction_choice, resolve};
 use crate::bond::{self, Bonded};
 use crate::case::{Beam, Case, DeviceLaw, ModelKind, SpringLaw};
@@ -135,6 +136,11 @@ impl Model {
     /// Number of unknowns.
     pub fn unknowns(&self) -> usize {
         self.mass.len()
+    }
+    /// Weight of all that has mass: blocks, and the top beam where it has one [N].
+    pub fn weight(&self) -> f64 {
+        let blocks: f64 = self.wall.blocks.iter().map(Block::weight).sum();
+        blocks + if let Beam::Mass(mass) = self.beam { mass.si() * G } else { 0.0 }
     }
     /// Index that stands for the base in [`Model::sides`].
     pub fn base(&self) -> usize {

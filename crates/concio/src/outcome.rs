@@ -31,6 +31,19 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// The history of a channel by its name, one value per sample; none where there is no such channel.
+    pub fn history(&self, name: &str) -> Option<Vec<f64>> {
+        let channels = &self.layout.channels;
+        let at = channels.iter().position(|c| c.name == name)?;
+        Some(self.recording.values.chunks_exact(channels.len()).map(|row| row[at]).collect())
+    }
+
+    /// Largest |horizontal force of the base on the wall| of all samples [N]; of a wall that collapses until it does.
+    pub fn base_shear_peak(&self) -> f64 {
+        let shear = self.history("base/shear").unwrap_or_default();
+        shear.iter().take(self.recording.standing(&self.recording.time)).fold(0.0, |most, force| most.max(force.abs()))
+    }
+
     /// The bond that cracked first, of several at once the one of the first joint; none when none cracked.
     pub fn first_crack(&self) -> Option<&BondRow> {
         let cracked = self.bonds.iter().filter(|b| b.cracked.is_finite());

@@ -144,6 +144,16 @@ impl Event {
 }
 
 impl Recording {
+    /// When and where a planar wall counted as collapsed; none where it did not.
+    pub fn collapse(&self) -> Option<&Event> {
+        self.events.iter().find(|e| e.kind == EventKind::Collapse)
+    }
+    /// How many of these rising instants [s] a planar wall stood, that of its collapse included; all where it did not collapse.
+    pub fn standing(&self, times: &[f64]) -> usize {
+        // Times of samples and of steps differ by rounding.
+        self.collapse().map_or(times.len(), |event| times.partition_point(|t| *t <= event.time * (1.0 + 1e-9)))
+    }
+
     /// Adds the rows of `other` at the end.
     pub fn append(&mut self, other: &Recording) {
         for (to, from) in self.arrays_mut().into_iter().zip(other.arrays()) {

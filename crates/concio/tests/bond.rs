@@ -50,9 +50,7 @@ fn run(model: &Model, solver: &Solver, samples: usize) -> Outcome {
 }
 
 fn channel(outcome: &Outcome, name: &str) -> Vec<f64> {
-    let width = outcome.layout.channels.len();
-    let at = outcome.layout.channels.iter().position(|c| c.name == name).expect(name);
-    outcome.recording.values.iter().skip(at).step_by(width).copied().collect()
+    outcome.history(name).expect(name)
 }
 
 fn peak(values: &[f64]) -> f64 {

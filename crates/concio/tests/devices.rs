@@ -100,9 +100,7 @@ fn residual(outcome: &Outcome) -> f64 {
 }
 
 fn channel(outcome: &Outcome, name: &str) -> Vec<f64> {
-    let width = outcome.layout.channels.len();
-    let at = outcome.layout.channels.iter().position(|c| c.name == name).expect(name);
-    outcome.recording.values.iter().skip(at).step_by(width).copied().collect()
+    outcome.history(name).expect(name)
 }
 
 /// Force of the device below, all its parts.

@@ -59,8 +59,7 @@ fn outcome(text: &str) -> Outcome {
 }
 
 fn channel(out: &Outcome, name: &str) -> Vec<f64> {
-    let c = out.layout.channels.iter().position(|c| c.name == name).unwrap();
-    out.recording.values.chunks(out.layout.channels.len()).map(|row| row[c]).collect()
+    out.history(name).expect(name)
 }
 
 /// The 6 × 4 panel: 27 blocks in courses of 4 and 5, joints as counted by hand.

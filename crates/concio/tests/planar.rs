@@ -34,9 +34,7 @@ brick = {{ length = 0.5, height = 0.5, thickness = 1, specific_weight = 20e3 }}
 }
 
 fn channel(outcome: &Outcome, name: &str) -> Vec<f64> {
-    let width = outcome.layout.channels.len();
-    let at = outcome.layout.channels.iter().position(|c| c.name == name).expect("a channel");
-    outcome.recording.values.chunks(width).map(|row| row[at]).collect()
+    outcome.history(name).expect("a channel")
 }
 
 fn close(found: f64, expected: f64, relative: f64) {
@@ -152,7 +150,8 @@ fn bonds_that_snap_back_are_refused() {
     assert!(told.contains("joint.bond.mode_2_energy") && told.contains("from 4.51 N/m"), "{told}");
 }
 
-/// A block on rigid dry ground slides when it is tilted by μ, and turns over by b/h; the run tells the collapse.
+/// A block on rigid dry ground slides when it is tilted by μ, and turns over by b/h; the run tells the collapse, and what it bore and how
+/// far it went until then.
 #[test]
 fn a_block_tilts_until_it_slides_or_turns() {
     let tilted = |mu: f64, height: f64| {
@@ -179,10 +178,17 @@ interval = 0.02
     };
     let slides = tilted(0.4, 0.5);
     assert!((starts(&slides) - 4.0).abs() < 0.041, "{}", starts(&slides));
-    assert!(!slides.recording.events.iter().any(|e| e.kind == EventKind::Collapse));
+    assert!(slides.recording.collapse().is_none());
+    close(slides.base_shear_peak(), 0.4 * 5e3, 1e-7);
     let turns = tilted(0.7, 1.25);
     assert!((starts(&turns) - 4.0).abs() < 0.041, "{}", starts(&turns));
-    assert!(turns.recording.events.iter().any(|e| e.kind == EventKind::Collapse));
+    let gone = channel(&turns, "peak/displacement");
+    let standing = turns.recording.standing(&turns.recording.time);
+    assert!(
+        (turns.recording.collapse().expect("it turns over").time - turns.recording.time[standing - 1]).abs() < 1e-9
+    );
+    close(turns.totals.peak_relative_displacement, gone[standing - 1], 1e-9);
+    assert!(gone[standing..].iter().any(|x| *x > 1.2 * gone[standing - 1]));
 }
 
 /// The first crack of a bonded joint in tension comes at the strength: N/A − 6 M/(b ℓ²) = −f_t at the edge.

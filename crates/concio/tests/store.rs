@@ -523,7 +523,8 @@ fn a_full_disk_keeps_the_former_result() {
 #[test]
 fn summary_has_the_keys_that_other_programs_read() {
     let s = sample(SMALL);
-    let facts = RunFacts { duration: 0.1, solve_seconds: 0.5, resumed_from: None, warnings: vec!["One.".into()] };
+    let facts =
+        RunFacts { duration: 0.1, weight: 3e4, solve_seconds: 0.5, resumed_from: None, warnings: vec!["One.".into()] };
     let summary = store::summary(&s.provenance, &s.wall, &s.joints, &s.outcome, &facts);
     let number = |key: &str| summary.pointer(key).and_then(|v| v.as_f64()).unwrap_or_else(|| panic!("no {key}"));
     assert_eq!(number("/blocks"), 12.0);
@@ -533,6 +534,9 @@ fn summary_has_the_keys_that_other_programs_read() {
     assert_eq!(number("/solve_seconds"), 0.5);
     assert_eq!(number("/peak_relative_displacement"), 1.1e-3);
     assert_eq!(number("/peak_slip_velocity"), 2.2e-2);
+    assert_eq!(number("/weight"), 3e4);
+    // The sample keeps no such channel.
+    assert_eq!(number("/base_shear_peak"), 0.0);
     assert_eq!(number("/top_work"), 2.5);
     assert_eq!(number("/top_force_peak"), 2.3e5);
     // √(4e8 N² s / 0.1 s)

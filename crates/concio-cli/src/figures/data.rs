@@ -6,7 +6,6 @@ use std::ops::Range;
 use concio::InputError;
 use concio::case::{self, Case, Syntax};
 use concio::moment::{JointMotion, Moment};
-use concio::record::EventKind;
 use concio::store::StoredRun;
 
 use crate::failure::Failure;
@@ -81,7 +80,7 @@ impl<'a> Data<'a> {
 
     /// When the wall counted as collapsed [s].
     pub fn collapse(&self) -> Option<f64> {
-        self.run.outcome.recording.events.iter().find(|e| e.kind == EventKind::Collapse).map(|e| e.time)
+        self.run.outcome.recording.collapse().map(|e| e.time)
     }
 
     /// Which of rising instants lie in the window.

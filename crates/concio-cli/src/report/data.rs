@@ -3,7 +3,6 @@
 use concio::case::Beam;
 use concio::ground::response_spectrum;
 use concio::outcome::BondRow;
-use concio::record::EventKind;
 use concio::store::{FrictionRow, JointRow};
 use concio::wall::{Block, End};
 use serde_json::{Value, json};
@@ -49,7 +48,7 @@ pub fn payload(content: &Content) -> (String, String) {
         "frictions": frictions,
         "bonds": bonds(content),
         "planar": content.is_planar(),
-        "collapse": content.outcome.recording.events.iter().find(|e| e.kind == EventKind::Collapse).map(|e| e.time),
+        "collapse": content.outcome.recording.collapse().map(|e| e.time),
         "beam": {
             "kind": beam_kind(content.case.load.beam),
             "label": beam_label(&content.case),

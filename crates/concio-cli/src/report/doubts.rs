@@ -1,7 +1,6 @@
 //! When not to believe a result: what the model cannot show, and what this run strains.
 
 use concio::case::{FrictionLaw, ModelKind};
-use concio::record::EventKind;
 
 use super::Content;
 use crate::digest::residual;
@@ -72,7 +71,7 @@ fn of_this_run(content: &Content) -> Vec<String> {
             outcome.counters.steps
         ));
     }
-    if let Some(event) = outcome.recording.events.iter().find(|e| e.kind == EventKind::Collapse) {
+    if let Some(event) = outcome.recording.collapse() {
         doubts.push(format!(
             "The wall counts as collapsed from t = {} on: what its blocks do afterwards is no more than a picture.",
             seconds(event.time)

@@ -83,9 +83,7 @@ impl<'a> Content<'a> {
 
     /// A history by the name of its channel.
     fn history(&self, name: &str) -> Option<Vec<f64>> {
-        let channels = &self.outcome.layout.channels;
-        let at = channels.iter().position(|c| c.name == name)?;
-        Some(self.outcome.recording.values.chunks_exact(channels.len()).map(|row| row[at]).collect())
+        self.outcome.history(name)
     }
 }
 

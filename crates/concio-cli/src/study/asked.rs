@@ -29,8 +29,7 @@ const SHEAR: &str = "Limits of the model: every block moves horizontally in the 
 /// The same of the planar model.
 const PLANAR: &str = "Limits of the planar model: blocks are rigid and stay in the plane of the wall. A joint has all the give \
     there is, cracks run along joints and never through a block, leaves do not part, and nothing moves out of plane. A run \
-    counts as collapsed from the first block that falls: what its measures say of the time after that is no more than a \
-    picture.";
+    counts as collapsed from the first block that falls: its peaks, slips and openings are those of the time until then.";
 
 /// Values that a list shows.
 const MOST_VALUES: usize = 12;

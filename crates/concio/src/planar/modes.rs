@@ -63,7 +63,7 @@ pub struct Failure {
     pub sliding: f64,
 }
 
-/// How the wall of this recording failed; none where frames are missing or not of a planar wall.
+/// How the wall of this recording failed, before a collapse made rubble of it; none where frames are missing or not of a planar wall.
 pub fn failure(wall: &Wall, joints: &[Joint], recording: &Recording) -> Option<Failure> {
     let frames = recording.frame_time.len();
     let per = |values: &[f64]| values.len().checked_div(frames).unwrap_or(0);
@@ -82,7 +82,8 @@ pub fn failure(wall: &Wall, joints: &[Joint], recording: &Recording) -> Option<F
                 / top.len().max(1) as f64
         }
     };
-    let frame = (0..frames).max_by(|a, b| of_top(*a).abs().total_cmp(&of_top(*b).abs()))?;
+    let frame =
+        (0..recording.standing(&recording.frame_time)).max_by(|a, b| of_top(*a).abs().total_cmp(&of_top(*b).abs()))?;
     let moved = of_top(frame);
     let rotation = |i: usize| recording.frame_rotation[frame * unknowns + i];
     let slip = |e: usize| recording.frame_slip[frame * held + e];
@@ -113,10 +114,10 @@ pub fn failure(wall: &Wall, joints: &[Joint], recording: &Recording) -> Option<F
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut modes: Vec<Mode> = parts.into_iter().map(|part| part.0).collect();
     let lies = |e: u32| matches!(joints[e as usize].kind, JointKind::Base | JointKind::Bed);
-    let crushed = recording.events.iter().any(|e| e.kind == EventKind::Crush && lies(e.joint));
+    let end = recording.collapse().map_or(f64::INFINITY, |event| event.time);
+    let crushed = recording.events.iter().any(|e| e.kind == EventKind::Crush && e.time <= end && lies(e.joint));
     modes.extend(crushed.then_some(Mode::Crushing));
-    let fell = recording.events.iter().any(|e| e.kind == EventKind::Collapse);
-    modes.extend(fell.then_some(Mode::Collapse));
+    modes.extend(end.is_finite().then_some(Mode::Collapse));
     Some(Failure { modes, time: recording.frame_time[frame], top: moved, rocking, sliding })
 }
 

@@ -81,6 +81,8 @@ pub(crate) struct Row<'a> {
     pub z: &'a [f64],
     pub v: &'a [f64],
     pub a: &'a [f64],
+    pub vertical: &'a [f64],
+    pub rotation: &'a [f64],
     pub seen: &'a [Seen],
     pub state: &'a State,
     /// Horizontal force of the base on the wall [N].
@@ -249,37 +251,12 @@ impl Run {
         let counters = &mut state.counters;
         (counters.steps, counters.rejected, counters.unsolved) = (counted.steps, counted.halved, counted.unsolved);
         (counters.iterations, counters.factorisations) = (counted.iterations, counted.factorisations);
-        let blocks = model.wall.blocks.len();
-        let envelopes = &mut state.envelopes;
-        for i in 0..n {
-            envelopes.block_displacement[i] = envelopes.block_displacement[i].max(state.z[i].abs());
-            envelopes.block_velocity[i] = envelopes.block_velocity[i].max(state.v[i].abs());
-            envelopes.block_acceleration[i] = envelopes.block_acceleration[i].max(state.a[i].abs());
+        state.totals.contact_residual = state.totals.contact_residual.max(counted.residual);
+        for (taken, seen) in state.envelopes.joint_dissipation.iter_mut().zip(&self.motion.seen) {
+            *taken = seen.taken;
         }
-        let totals = &mut state.totals;
-        let largest = state.z[..blocks].iter().fold(0.0, |most: f64, z| most.max(z.abs()));
-        totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
-        totals.contact_residual = totals.contact_residual.max(counted.residual);
-        for (e, (seen, joint)) in self.motion.seen.iter().zip(&model.joints).enumerate() {
-            let upright = joint.kind.is_upright();
-            let opening = seen.gap[1].max(0.0);
-            let (moved, speed) = if upright { (opening, seen.parting) } else { (seen.slide.abs(), seen.speed) };
-            envelopes.joint_displacement[e] = envelopes.joint_displacement[e].max(moved);
-            envelopes.joint_velocity[e] = envelopes.joint_velocity[e].max(speed.abs());
-            envelopes.joint_acceleration[e] = envelopes.joint_acceleration[e].max((speed - self.before[e]).abs() / h);
-            self.before[e] = speed;
-            envelopes.joint_slip[e] = seen.path;
-            envelopes.joint_opening[e] = envelopes.joint_opening[e].max(opening);
-            envelopes.joint_closing[e] = envelopes.joint_closing[e].max(-seen.gap[0]);
-            let force = if upright { seen.pressure } else { seen.shear };
-            envelopes.joint_force[e] = envelopes.joint_force[e].max(force.abs());
-            envelopes.joint_dissipation[e] = seen.taken;
-            totals.peak_friction_force = totals.peak_friction_force.max(seen.friction.abs());
-            if upright {
-                totals.minimum_gap = totals.minimum_gap.min(seen.gap[0]);
-            } else {
-                totals.peak_slip_velocity = totals.peak_slip_velocity.max(seen.speed.abs());
-            }
+        if state.totals.collapse.is_none() {
+            self.raise(model, state, h);
         }
         let pull = self.pull(model, state, h);
         let totals = &mut state.totals;
@@ -302,6 +279,40 @@ impl Run {
         {
             state.totals.collapse = Some(event.time);
             tell(event);
+        }
+    }
+
+    /// Peaks of blocks and joints, of a wall that has not collapsed.
+    fn raise(&mut self, model: &Model, state: &mut State, h: f64) {
+        let blocks = model.wall.blocks.len();
+        let envelopes = &mut state.envelopes;
+        for i in 0..self.at.z.len() {
+            envelopes.block_displacement[i] = envelopes.block_displacement[i].max(state.z[i].abs());
+            envelopes.block_velocity[i] = envelopes.block_velocity[i].max(state.v[i].abs());
+            envelopes.block_acceleration[i] = envelopes.block_acceleration[i].max(state.a[i].abs());
+        }
+        let totals = &mut state.totals;
+        let largest = state.z[..blocks].iter().fold(0.0, |most: f64, z| most.max(z.abs()));
+        totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
+        for (e, (seen, joint)) in self.motion.seen.iter().zip(&model.joints).enumerate() {
+            let upright = joint.kind.is_upright();
+            let opening = seen.gap[1].max(0.0);
+            let (moved, speed) = if upright { (opening, seen.parting) } else { (seen.slide.abs(), seen.speed) };
+            envelopes.joint_displacement[e] = envelopes.joint_displacement[e].max(moved);
+            envelopes.joint_velocity[e] = envelopes.joint_velocity[e].max(speed.abs());
+            envelopes.joint_acceleration[e] = envelopes.joint_acceleration[e].max((speed - self.before[e]).abs() / h);
+            self.before[e] = speed;
+            envelopes.joint_slip[e] = seen.path;
+            envelopes.joint_opening[e] = envelopes.joint_opening[e].max(opening);
+            envelopes.joint_closing[e] = envelopes.joint_closing[e].max(-seen.gap[0]);
+            let force = if upright { seen.pressure } else { seen.shear };
+            envelopes.joint_force[e] = envelopes.joint_force[e].max(force.abs());
+            totals.peak_friction_force = totals.peak_friction_force.max(seen.friction.abs());
+            if upright {
+                totals.minimum_gap = totals.minimum_gap.min(seen.gap[0]);
+            } else {
+                totals.peak_slip_velocity = totals.peak_slip_velocity.max(seen.speed.abs());
+            }
         }
     }
 
@@ -388,7 +399,7 @@ impl Run {
         let anchored = self.motion.ties().filter(|(tie, _)| tie.a.is_none()).map(|(_, strain)| strain.pull[0]);
         let base = anchored.fold(base, |sum, pull| sum + pull);
         recording.time.push(t);
-        let row = Row { t, z, v, a: &state.a, seen: &self.motion.seen, state, shear: base };
+        let row = Row { t, z, v, a: &state.a, vertical, rotation, seen: &self.motion.seen, state, shear: base };
         channels.sample_planar(model, row, &mut recording.values);
         if layout.frame_every == 0 || !k.is_multiple_of(layout.frame_every as u64) {
             return;

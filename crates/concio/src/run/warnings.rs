@@ -4,7 +4,6 @@ use crate::case::JointKind;
 use crate::graph;
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::record::EventKind;
 use crate::store::{JointRow, residual_relative};
 
 /// Relative displacement of a joint, as a fraction of its overlap, from which its geometry should not be taken as
@@ -59,9 +58,9 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
 
 /// A wall that fell is no result of the forces that it bore before.
 fn collapsed(joints: &[JointRow], outcome: &Outcome) -> Option<String> {
-    let event = outcome.recording.events.iter().find(|e| e.kind == EventKind::Collapse)?;
+    let event = outcome.recording.collapse()?;
     let at = joints.get(event.joint as usize).map_or("", |j| j.name.as_str());
-    let what = "peaks, slips and energies of the whole run are those of a wall that fell";
+    let what = "peaks and slips are those of the time before, energies those of the whole run";
     Some(format!("the wall counts as collapsed from t = {:.4} s on, by a block at joint {at}: {what}", event.time))
 }
 
@@ -108,7 +107,7 @@ mod tests {
     use crate::case::{Scheme, Solver};
     use crate::excitation::Excitation;
     use crate::ground::signal::GroundMotion;
-    use crate::record::Event;
+    use crate::record::{Event, EventKind};
     use crate::samples::{Link, lumped, solver};
     use crate::simulate::{Sampling, Simulation};
     use crate::wall::End;

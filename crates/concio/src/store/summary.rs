@@ -16,6 +16,8 @@ use crate::wall::Wall;
 pub struct RunFacts {
     /// Duration asked for [s].
     pub duration: f64,
+    /// Weight of all that has mass: blocks, and the top beam where it has one [N].
+    pub weight: f64,
     /// Time by the clock that solving took [s], since the resume if there was one.
     pub solve_seconds: f64,
     /// Time from which a run that had been cut off was taken up [s].
@@ -38,7 +40,8 @@ pub fn summary(
     json!({
         "blocks": wall.blocks.len(),
         "joints": joints.len(),
-        "unknowns": outcome.layout.unknowns,
+        "unknowns": outcome.layout.unknowns + 2 * outcome.layout.turned,
+        "weight": facts.weight,
         "model": provenance.model,
         "duration": facts.duration,
         "time_reached": outcome.time_reached,
@@ -49,6 +52,7 @@ pub fn summary(
         "peak_relative_displacement": totals.peak_relative_displacement,
         "peak_slip_velocity": totals.peak_slip_velocity,
         "top_work": outcome.energies.input_top,
+        "base_shear_peak": outcome.base_shear_peak(),
         "top_force_peak": totals.top_force_peak,
         "top_force_rms": top_force_rms(outcome),
         "minimum_gap": totals.minimum_gap,
