@@ -11,19 +11,8 @@ const UNITS: [&str; 10] = ["m", "m²", "s", "N", "J", "W", "kg", "Hz", "bytes", 
 /// Makes the pages and fails on any warning but the one about units.
 pub fn check(root: &Path) -> Outcome {
     let mut doc = cargo(root);
-    doc.args([
-        "doc",
-        "--release",
-        "--package",
-        "concio",
-        "--package",
-        "concio-study",
-        "--package",
-        "concio-limit",
-        "--package",
-        "concio-planar",
-        "--no-deps",
-    ]);
+    // The whole workspace, as the lints have: for some packages alone, dependencies would have other features and be checked anew.
+    doc.args(["doc", "--locked", "--release", "--workspace", "--lib", "--no-deps"]);
     let output = doc.output().map_err(|e| format!("cargo doc: {e}"))?;
     let text = String::from_utf8_lossy(&output.stderr);
     let said: Vec<&str> = text.split("\n\n").filter(|part| is_complaint(part)).collect();

@@ -24,11 +24,14 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
     let velocity = beside(totals.peak_slip_velocity, largest(&outcome.envelopes.block_velocity));
     let opening = largest(&outcome.envelopes.joint_opening);
     // In the shear model bed joints cannot open.
-    let opens = if outcome.layout.touching > 0 { "joints" } else { "head joints" };
+    let (opens, deepest) = match outcome.layout.touching {
+        0 => ("head joints", 0.0 - totals.minimum_gap),
+        _ => ("joints", largest(&outcome.envelopes.joint_closing)),
+    };
     let mut rows = vec![
         ("peak displacement", format!("{} relative to the base", si(moved, "m"))),
         ("peak slip velocity", si(velocity, "m/s")),
-        (opens, format!("opened {}, pressed in {}", length(opening), length(0.0 - totals.minimum_gap))),
+        (opens, format!("opened {}, pressed in {}", length(opening), length(deepest))),
     ];
     if let Some(failure) = failure(summary) {
         rows.push(("failure", failure));

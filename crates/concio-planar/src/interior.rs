@@ -107,6 +107,7 @@ impl<const N: usize> Way<N> {
 struct Group<const N: usize> {
     /// Their numbers.
     which: Vec<u32>,
+    /// Theirs again, close together: most goes through the contacts need no more of them.
     rows: Vec<Rows>,
     points: Vec<Point<N>>,
     /// Impulses, what they are drawn to and E, before an attempt to end.

@@ -65,8 +65,8 @@ pub fn simulate_many(jobs: &[Job], threads: usize) -> Vec<Result<Outcome>> {
 }
 
 /// Runs all `jobs` on `threads` threads (0: one per core) and hands each result to `keep` with the number of its job,
-/// as it ends and on the thread that made it: no more results are held than runs are under way. `watch` is called a few
-/// times a second on every thread; after [`Control::Stop`] the runs under way end as
+/// as it ends and on the thread that ended it: no more results are held than runs are under way. `watch` is called a few
+/// times a second on every thread that has a run; after [`Control::Stop`] the runs under way end as
 /// [`StopReason::Interrupted`] where they are, and those that have not begun are left out.
 pub fn simulate_each(
     jobs: &[Job],
@@ -81,8 +81,9 @@ pub fn simulate_each(
     let batch = Batch {
         jobs,
         queues: queues(jobs, threads),
-        rest: Mutex::new(Rest { runs: Vec::new(), busy: threads }),
+        rest: Mutex::new(Rest { runs: Vec::new(), busy: 0 }),
         more: Condvar::new(),
+        waiting: AtomicUsize::new(0),
         watch,
         keep,
         ended: AtomicUsize::new(0),
@@ -90,11 +91,17 @@ pub fn simulate_each(
         stopped: AtomicBool::new(false),
     };
     std::thread::scope(|scope| {
-        for thread in 1..threads {
+        // All are busy before the first may wait for the others.
+        let busy: Vec<Busy> = (0..threads).map(|_| Busy::new(&batch)).collect();
+        let mut seats = busy.into_iter().enumerate();
+        let own = seats.next();
+        for (thread, busy) in seats {
             let batch = &batch;
-            scope.spawn(move || batch.work(thread));
+            scope.spawn(move || batch.work(thread, busy));
         }
-        batch.work(0);
+        if let Some((thread, busy)) = own {
+            batch.work(thread, busy);
+        }
     });
 }
 
@@ -141,10 +148,13 @@ struct Under<'a> {
 }
 
 impl Under<'_> {
-    /// Share of the run that is done, from 0 to 1.
     fn share(&self) -> f64 {
+        self.run.status().share()
+    }
+    /// Time that it has yet to go through [s].
+    fn left(&self) -> f64 {
         let status = self.run.status();
-        status.time / status.duration
+        status.duration - status.time
     }
 }
 
@@ -155,12 +165,23 @@ struct Rest<'a> {
     busy: usize,
 }
 
+impl<'a> Rest<'a> {
+    /// The run that has farthest to go.
+    fn take(&mut self) -> Option<Under<'a>> {
+        let left = self.runs.iter().map(Under::left).enumerate();
+        let (most, _) = left.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(self.runs.swap_remove(most))
+    }
+}
+
 struct Batch<'a> {
     jobs: &'a [Job<'a>],
     queues: Vec<Queue>,
     rest: Mutex<Rest<'a>>,
     /// Told when there is more in `rest`, or less to come.
     more: Condvar,
+    /// Threads that wait for it.
+    waiting: AtomicUsize,
     watch: &'a (dyn Fn(Standing) -> Control + Sync),
     keep: &'a (dyn Fn(usize, Result<Outcome>) + Sync),
     ended: AtomicUsize,
@@ -172,6 +193,13 @@ struct Batch<'a> {
 /// A thread at the queues; however it goes, the others do not wait for it.
 struct Busy<'b, 'a>(&'b Batch<'a>);
 
+impl<'b, 'a> Busy<'b, 'a> {
+    fn new(batch: &'b Batch<'a>) -> Self {
+        batch.rest().busy += 1;
+        Busy(batch)
+    }
+}
+
 impl Drop for Busy<'_, '_> {
     fn drop(&mut self) {
         self.0.rest().busy -= 1;
@@ -180,17 +208,20 @@ impl Drop for Busy<'_, '_> {
 }
 
 impl<'a> Batch<'a> {
-    fn work(&self, thread: usize) {
-        let busy = Busy(self);
+    fn work(&self, thread: usize, busy: Busy) {
         for queue in &self.queues {
             let mut seat = Seat { batch: self, queue, thread };
             while let Some((number, run)) = seat.next() {
                 if queue.lanes > 1 {
                     // The first run says what kind the group is of, and takes the first lane.
                     Gang::new(&run, queue.lanes).start((number, run), &mut seat);
+                    self.under_way()[thread] = 0.0;
                 } else {
                     self.alone(thread, Under { number, run, rows: Recording::default() });
                 }
+            }
+            while let Some(under) = self.left_now() {
+                self.alone(thread, under);
             }
         }
         drop(busy);
@@ -203,15 +234,20 @@ impl<'a> Batch<'a> {
         self.rest.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    /// The run that is farthest from its end of those left by their lanes; waits while there may be one.
+    /// The next of the runs that have been left by their lanes.
+    fn left_now(&self) -> Option<Under<'a>> {
+        self.rest().take()
+    }
+
+    /// The next of the runs left by their lanes; waits while there may be one.
     fn next_left(&self) -> Option<Under<'a>> {
         let mut rest = self.rest();
         while rest.runs.is_empty() && rest.busy > 0 {
+            self.waiting.fetch_add(1, Ordering::Relaxed);
             rest = self.more.wait(rest).unwrap_or_else(|poisoned| poisoned.into_inner());
+            self.waiting.fetch_sub(1, Ordering::Relaxed);
         }
-        let shares = rest.runs.iter().map(Under::share).enumerate();
-        let (least, _) = shares.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        Some(rest.runs.swap_remove(least))
+        rest.take()
     }
 
     fn alone(&self, thread: usize, mut under: Under<'a>) {
@@ -283,8 +319,15 @@ impl<'a> Desk<'a> for Seat<'_, 'a> {
     }
 
     fn left(&mut self, number: usize, run: Simulation<'a>, rows: Recording) {
-        self.batch.rest().runs.push(Under { number, run, rows });
+        let under = Under { number, run, rows };
+        let share = under.share();
+        self.batch.under_way()[self.thread] -= share;
+        self.batch.rest().runs.push(under);
         self.batch.more.notify_one();
+    }
+
+    fn idle(&self) -> usize {
+        self.batch.waiting.load(Ordering::Relaxed)
     }
 
     fn goes_on(&mut self, under_way: f64) -> bool {

@@ -47,6 +47,13 @@ pub struct Status {
     pub steps: u64,
 }
 
+impl Status {
+    /// Share of the run that is done, from 0 to 1.
+    pub fn share(&self) -> f64 {
+        self.time / self.duration
+    }
+}
+
 /// What the caller wants to happen next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Control {

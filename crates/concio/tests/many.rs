@@ -194,6 +194,36 @@ fn a_batch_can_be_watched_and_stopped() {
     }
 }
 
+/// More kinds than one, more runs than lanes, several threads: the last runs of each kind leave their lanes, and all come to the bits that they
+/// have alone. Stopped amid that, each run that had begun is told once, ended or as far as it came.
+#[test]
+fn last_runs_leave_their_lanes() {
+    let taller = PANEL.replace("courses = 4", "courses = 5");
+    let mut runs = variants(&format!("{PANEL}{FRICTION}{DRIVEN}"), 13);
+    runs.extend(variants(&format!("{taller}{FRICTION}{DRIVEN}"), 11));
+    let singles = alone(&runs);
+    for threads in [1, 2, 3] {
+        assert!(batch(&runs, threads) == singles, "{threads} threads");
+    }
+    let jobs: Vec<Job> = runs.iter().map(Job::from).collect();
+    for after in [5, 12, 20] {
+        let told: Mutex<Vec<(usize, Outcome)>> = Mutex::new(Vec::new());
+        let watch = |_: concio::many::Standing| match told.lock().unwrap().len() >= after {
+            true => Control::Stop,
+            false => Control::Continue,
+        };
+        simulate_each(&jobs, 2, &watch, &|k, out| told.lock().unwrap().push((k, out.unwrap())));
+        let mut told = told.into_inner().unwrap();
+        told.sort_by_key(|(k, _)| *k);
+        assert!(told.windows(2).all(|pair| pair[0].0 < pair[1].0), "a run is told twice");
+        for (k, out) in &told {
+            let (rows, width) = (out.recording.time.len(), out.layout.channels.len());
+            assert!(out.stop_reason == StopReason::Interrupted || *out == singles[*k], "run {k}");
+            assert_eq!(out.recording.values[..], singles[*k].recording.values[..rows * width], "run {k}");
+        }
+    }
+}
+
 /// Slipping panels with other friction: the mean work of the batch at the default tolerance against that of single
 /// runs at a thousandth of it. Single histories are chaotic there, the mean is not.
 #[test]

@@ -78,11 +78,6 @@ impl<'a> Data<'a> {
         self.run.outcome.layout.turned > 0
     }
 
-    /// When the wall counted as collapsed [s].
-    pub fn collapse(&self) -> Option<f64> {
-        self.run.outcome.recording.collapse().map(|e| e.time)
-    }
-
     /// Which of rising instants lie in the window.
     fn shown(&self, time: &[f64]) -> Range<usize> {
         // Half a nanosecond takes the rounding of decimals.
@@ -103,9 +98,7 @@ impl<'a> Data<'a> {
 
     /// All values of a channel.
     fn column(&self, name: &str) -> Option<impl Iterator<Item = f64>> {
-        let channels = &self.run.outcome.layout.channels;
-        let at = channels.iter().position(|c| c.name == name)?;
-        Some(self.run.outcome.recording.values.chunks_exact(channels.len()).map(move |row| row[at]))
+        self.run.outcome.history(name).map(Vec::into_iter)
     }
 
     /// The frames in the window.

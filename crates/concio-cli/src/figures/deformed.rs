@@ -253,7 +253,7 @@ fn cracks_key(canvas: &mut Canvas, width: f64, from: f64, [opening, slip]: [f64;
 
 /// The largest way of a corner; what comes after a collapse is below all others, because it says nothing of the wall.
 fn largest_displacement(data: &Data, moment: &Moment) -> f64 {
-    if data.collapse().is_some_and(|at| moment.time() > at) {
+    if data.run.outcome.recording.standing(&[moment.time()]) == 0 {
         return -1.0;
     }
     let way = |(i, block): (usize, &Block)| Shape::of(block, moment.block(i)).largest();

@@ -74,7 +74,7 @@ pub fn histories(content: &Content) -> Vec<String> {
 }
 
 /// Histories of the blocks and joints that the wall file asks for, at most [`ASKED`] of them, and how many are left
-/// out: of a block its displacement, of a joint its relative displacement and its forces.
+/// out: of a block its displacement, in planar walls its rise and rotation too, of a joint its relative displacement and its forces.
 pub fn asked(content: &Content) -> (Vec<String>, usize) {
     let channels = content.outcome.layout.channels.iter();
     let single = |c: &&Channel| c.name.starts_with("block/") || c.name.starts_with("joint/");
@@ -86,7 +86,7 @@ pub fn asked(content: &Content) -> (Vec<String>, usize) {
 
 fn of_owner(content: &Content, owner: &str) -> Vec<String> {
     let title = owner.replacen('/', " ", 1);
-    let draw = |unit: &'static str| {
+    let draw = |(unit, of_several): (&'static str, &'static str)| {
         let of_unit = content.outcome.layout.channels.iter().filter(|c| c.unit == unit);
         let found: Vec<(&str, Vec<f64>)> = of_unit
             .filter(|c| c.name.rsplit_once('/').is_some_and(|(o, _)| o == owner))
@@ -98,7 +98,7 @@ fn of_owner(content: &Content, owner: &str) -> Vec<String> {
             x: &content.outcome.recording.time,
             y,
         });
-        let quantity = if named { "force" } else { found.first()?.0 };
+        let quantity = if named { of_several } else { found.first()?.0 };
         Some(curves::draw(&Figure {
             title: &title,
             x_label: "time [s]",
@@ -110,7 +110,7 @@ fn of_owner(content: &Content, owner: &str) -> Vec<String> {
             logarithmic: false,
         }))
     };
-    ["m", "N"].into_iter().filter_map(draw).collect()
+    [("m", "displacement"), ("rad", "rotation"), ("N", "force")].into_iter().filter_map(draw).collect()
 }
 
 /// The energy account over time, and its residual.

@@ -275,8 +275,8 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
         let shakes = |signal: &Signal| !matches!(signal, Signal::None | Signal::Tilt(_));
         for (key, _) in signals.into_iter().filter(|(_, signal)| shakes(signal)) {
             doubts.0.push(format!(
-                "motion.{key} shakes a wall without inertia (`quasi_static`): its accelerations are forces that come and go slowly, and \
-                 nothing swings or rocks on; `{key} = {{ tilt = … }}` is the load that grows"
+                "motion.{key} is a motion, and `quasi_static` leaves inertia out: its accelerations act as forces that change slowly, which is \
+                 no earthquake analysis; a load that grows is `base = {{ tilt = … }}`"
             ));
         }
     }

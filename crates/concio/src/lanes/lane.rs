@@ -85,8 +85,7 @@ impl<'m> Lane<'m> {
 
     /// Share of the run that is done, from 0 to 1.
     pub fn share(&self) -> f64 {
-        let status = self.run.status();
-        status.time / status.duration
+        self.run.status().share()
     }
 
     /// Writes model and state into lane `i`.

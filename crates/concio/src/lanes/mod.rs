@@ -48,6 +48,8 @@ pub trait Desk<'m> {
     fn ended(&mut self, number: usize, outcome: Outcome);
     /// A run under way has left its lane, with what it has recorded so far: it goes on alone, to the same bits.
     fn left(&mut self, number: usize, run: Simulation<'m>, rows: Recording);
+    /// How many others could take runs that leave their lanes.
+    fn idle(&self) -> usize;
     /// Called from time to time with the sum of the shares that the runs under way have reached; false to stop them
     /// where they are.
     fn goes_on(&mut self, under_way: f64) -> bool;
@@ -186,7 +188,7 @@ impl<'m> Gang<'m> {
         if restarts.is_some() || ends {
             self.settle(simd);
         }
-        let few = self.last && self.lanes.iter().flatten().count() < FEWEST;
+        let few = self.last && self.lanes.iter().flatten().count() < FEWEST * (1 + desk.idle());
         let Some(lane) = &mut self.lanes[i] else { return };
         if let Some(jump) = restarts {
             lane.restart(&mut self.work, &mut self.account, i, jump);
@@ -331,6 +333,9 @@ mod tests {
             let (rest, reason) = run.run_to_end();
             rows.append(&rest);
             self.outcomes.push((number, run.outcome(rows, reason)));
+        }
+        fn idle(&self) -> usize {
+            0
         }
         fn goes_on(&mut self, _: f64) -> bool {
             true

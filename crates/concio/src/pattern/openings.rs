@@ -11,6 +11,8 @@ use crate::{InputError, Result};
 /// How far off a bed joint a height may be, as a part of the brick's height: numbers copied from a message have been
 /// rounded.
 const NEAR: f64 = 1e-3;
+/// Length over the panel's larger side from which a bare number was meant in millimetres.
+const BARE: f64 = 20.0;
 
 /// Shortest rest of a cut block, as a part of the brick's length.
 const SLIVER: f64 = 0.02;
@@ -134,7 +136,23 @@ impl Frame {
         }
     }
 
+    /// Says of lengths that no panel has what they were meant to be.
+    fn plausible(&self, o: &Opening) -> std::result::Result<(), Fault> {
+        let [wide, high] = [self.x[1] - self.x[0], self.beds.last().map_or(0.0, |bed| bed[1])];
+        let slab = o.lintel.map_or([0.0; 2], |l| [l.height.si(), l.bearing.si()]);
+        let lengths = [(".x", o.x.si()), (".y", o.y.si()), (".width", o.width.si()), (".height", o.height.si())];
+        for (key, length) in lengths.into_iter().chain([(".lintel.height", slab[0]), (".lintel.bearing", slab[1])]) {
+            if length > BARE * wide.max(high) {
+                let what = format!("{} m in a panel of {} m × {} m", tidy(length), tidy(wide), tidy(high));
+                let help = format!("did you mean \"{} mm\"?", tidy(length));
+                return Err((key, InputError::new(what).allowed("a length within the panel").help(help)));
+            }
+        }
+        Ok(())
+    }
+
     fn hole(&self, o: &Opening) -> std::result::Result<Hole, Fault> {
+        self.plausible(o)?;
         let reach = o.lintel.map_or(0.0, |l| l.bearing.si());
         let with = if reach > 0.0 { "with the lintel's bearing it " } else { "it " };
         let x = [self.x[0] + o.x.si(), self.x[0] + o.x.si() + o.width.si()];

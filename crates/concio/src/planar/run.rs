@@ -255,17 +255,18 @@ impl Run {
         for (taken, seen) in state.envelopes.joint_dissipation.iter_mut().zip(&self.motion.seen) {
             *taken = seen.taken;
         }
-        if state.totals.collapse.is_none() {
-            self.raise(model, state, h);
-        }
         let pull = self.pull(model, state, h);
         let totals = &mut state.totals;
-        totals.top_force_peak = totals.top_force_peak.max(pull.abs());
+        if totals.collapse.is_none() {
+            totals.top_force_peak = totals.top_force_peak.max(pull.abs());
+            self.raise(model, state, h);
+            self.strain(state.t);
+        }
+        let totals = &mut state.totals;
         totals.top_force_square += 0.5 * h * (state.pull * state.pull + pull * pull);
         state.pull = pull;
         totals.peak_input = totals.peak_input.max(state.energies.input().abs());
         totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
-        self.strain(state.t);
         self.cracks(model, state, tell);
         for (e, crushed) in self.crushed.iter_mut().enumerate().filter(|(_, crushed)| !**crushed) {
             let depth = self.motion.points(e).map_or(0.0, |p| p.iter().map(|p| p.crushed).fold(0.0, f64::max));

@@ -60,7 +60,7 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
 fn collapsed(joints: &[JointRow], outcome: &Outcome) -> Option<String> {
     let event = outcome.recording.collapse()?;
     let at = joints.get(event.joint as usize).map_or("", |j| j.name.as_str());
-    let what = "peaks and slips are those of the time before, energies those of the whole run";
+    let what = "peaks and slips are those of the time before, cracks and energies those of the whole run";
     Some(format!("the wall counts as collapsed from t = {:.4} s on, by a block at joint {at}: {what}", event.time))
 }
 
