@@ -45,7 +45,8 @@ pub struct Standing {
     pub ended: usize,
     /// Runs in all.
     pub of: usize,
-    /// Share of the work that is done, from 0 to 1: every run counts alike, one under way by the time it has reached.
+    /// Share of the work that is done, from 0 to 1, never less than before: every run counts alike, one under way by the time it has
+    /// reached.
     pub share: f64,
 }
 
@@ -87,7 +88,7 @@ pub fn simulate_each(
         watch,
         keep,
         ended: AtomicUsize::new(0),
-        under_way: Mutex::new(vec![0.0; threads]),
+        reached: Mutex::new(Reached { under_way: vec![0.0; threads], told: 0.0 }),
         stopped: AtomicBool::new(false),
     };
     std::thread::scope(|scope| {
@@ -174,6 +175,15 @@ impl<'a> Rest<'a> {
     }
 }
 
+/// How far the runs under way are.
+struct Reached {
+    /// Per thread: sum over its runs of the share that each has reached.
+    under_way: Vec<f64>,
+    /// The largest share of the batch that was told: what leaves its lane is taken out as it is, and was counted as it was at the last
+    /// look, so that a sum may fall.
+    told: f64,
+}
+
 struct Batch<'a> {
     jobs: &'a [Job<'a>],
     queues: Vec<Queue>,
@@ -185,8 +195,7 @@ struct Batch<'a> {
     watch: &'a (dyn Fn(Standing) -> Control + Sync),
     keep: &'a (dyn Fn(usize, Result<Outcome>) + Sync),
     ended: AtomicUsize,
-    /// Per thread: sum over its runs under way of the share that each has reached.
-    under_way: Mutex<Vec<f64>>,
+    reached: Mutex<Reached>,
     stopped: AtomicBool,
 }
 
@@ -215,7 +224,7 @@ impl<'a> Batch<'a> {
                 if queue.lanes > 1 {
                     // The first run says what kind the group is of, and takes the first lane.
                     Gang::new(&run, queue.lanes).start((number, run), &mut seat);
-                    self.under_way()[thread] = 0.0;
+                    self.reached().under_way[thread] = 0.0;
                 } else {
                     self.alone(thread, Under { number, run, rows: Recording::default() });
                 }
@@ -264,12 +273,12 @@ impl<'a> Batch<'a> {
             self.goes_on(thread, under.share());
         };
         // What ends here is no longer under way.
-        self.under_way()[thread] = 0.0;
+        self.reached().under_way[thread] = 0.0;
         self.give(under.number, Ok(under.run.outcome(under.rows, reason)));
     }
 
-    fn under_way(&self) -> MutexGuard<'_, Vec<f64>> {
-        self.under_way.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    fn reached(&self) -> MutexGuard<'_, Reached> {
+        self.reached.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
     fn give(&self, number: usize, outcome: Result<Outcome>) {
@@ -279,13 +288,15 @@ impl<'a> Batch<'a> {
 
     fn goes_on(&self, thread: usize, under_way: f64) -> bool {
         let left: f64 = self.rest().runs.iter().map(Under::share).sum();
-        let sum: f64 = {
-            let mut shares = self.under_way();
-            shares[thread] = under_way;
-            left + shares.iter().sum::<f64>()
-        };
         let (ended, of) = (self.ended.load(Ordering::Relaxed), self.jobs.len());
-        let standing = Standing { ended, of, share: ((ended as f64 + sum) / of as f64).min(1.0) };
+        let share = {
+            let mut reached = self.reached();
+            reached.under_way[thread] = under_way;
+            let sum = left + reached.under_way.iter().sum::<f64>();
+            reached.told = ((ended as f64 + sum) / of as f64).clamp(reached.told, 1.0);
+            reached.told
+        };
+        let standing = Standing { ended, of, share };
         if (self.watch)(standing) == Control::Stop {
             self.stopped.store(true, Ordering::Relaxed);
         }
@@ -321,7 +332,7 @@ impl<'a> Desk<'a> for Seat<'_, 'a> {
     fn left(&mut self, number: usize, run: Simulation<'a>, rows: Recording) {
         let under = Under { number, run, rows };
         let share = under.share();
-        self.batch.under_way()[self.thread] -= share;
+        self.batch.reached().under_way[self.thread] -= share;
         self.batch.rest().runs.push(under);
         self.batch.more.notify_one();
     }
