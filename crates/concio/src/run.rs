@@ -127,9 +127,13 @@ fn excitation(case: &Case, folder: &Path, library: &Library) -> Result<Excitatio
     Ok(Excitation { base, top, vertical, driven, top_sine, duration })
 }
 
+/// An error of a motion is at its key of the wall file, or below it, unless it is one of the record's file.
 fn at_key(error: Error, key: &str) -> Error {
     match error {
-        Error::Input(e) if e.key.is_none() && e.file.is_none() => e.key(key).into(),
+        Error::Input(e) if e.file.is_none() => {
+            let below = e.key.as_ref().map(|below| format!("{key}.{below}"));
+            e.key(below.unwrap_or_else(|| key.into())).into()
+        }
         other => other,
     }
 }

@@ -334,6 +334,20 @@ fn shaken(duration: &str) -> String {
     )
 }
 
+/// The record's own file is in order: the place that is told is that of the key in the wall file.
+#[test]
+fn a_channel_that_a_record_does_not_have_is_told_where_it_was_asked_for() {
+    let desk = Desk::new();
+    desk.put("test.AT2", AT2);
+    let wall = shaken("").replace("pga = \"0.5 g\"", "channel = 7");
+    let line = 1 + wall.lines().position(|line| line.starts_with("base = ")).expect("the base is shaken");
+    desk.put("wall.toml", wall);
+    let refused = desk.concio("check wall.toml").assert().code(2);
+    let told = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(told.contains(&format!("wall.toml:{line}:")) && told.contains("motion.base.channel"), "{told}");
+    assert!(told.contains("channel 7 of") && told.contains("1 … 1"), "{told}");
+}
+
 #[test]
 fn check_says_how_a_record_is_used() {
     let desk = Desk::new();

@@ -171,7 +171,7 @@ pub fn subtract_polynomial(values: &mut [f64], degree: usize) -> Result<()> {
 fn high_pass(record: &mut Record, corner: f64, order: usize) -> Result<()> {
     let nyquist = 0.5 / record.dt;
     if !(corner > 0.0 && corner < nyquist) {
-        let error = InputError::new(format!("corner {corner} Hz")).key("baseline.high-pass");
+        let error = InputError::new(format!("corner {corner} Hz")).key("baseline.high_pass");
         return Err(error.allowed(format!("above 0, below the Nyquist frequency {} Hz", tidy(nyquist))).into());
     }
     if !(1..=8).contains(&order) {
