@@ -50,12 +50,10 @@ export interface Contents {
     bonds: Record<string, Bond>;
     /** Whether blocks rise and turn, and frames hold what joints do. */
     planar: boolean;
-    /** When the wall counted as collapsed [s]. */
-    collapse: number | null;
     /** `moves`: it is the last column of the frames. */
     beam: { kind: "free" | "driven" | "tied" | "mass"; label: string; moves: boolean };
-    /** Bytes of one frame, and of all that a page holds. */
-    frames: { recorded: number; every: number; bytes: number; most: number };
+    /** Bytes of one frame, and of all that a page holds; `standing`: how many of its frames come before a collapse. */
+    frames: { recorded: number; every: number; standing: number; bytes: number; most: number };
     curve: { samples: number; points: number; interval: number; left_out: number };
     channels: Channel[];
     spectrum: { damping: number; interval: number } | null;
@@ -67,7 +65,7 @@ type Numbers = Float64Array | Float32Array | Uint32Array | Int32Array | Int8Arra
 const TYPES = { f64: Float64Array, f32: Float32Array, u32: Uint32Array, i32: Int32Array, i8: Int8Array };
 
 /** Layout of the data that this program reads. */
-export const LAYOUT = 3;
+export const LAYOUT = 4;
 
 /** The data of a report. Blocks, joints and unknowns are called by their indices. */
 export class Report {

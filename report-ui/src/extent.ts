@@ -47,7 +47,7 @@ function measure(report: Report): Extent {
                 const [rx, ry] = [outline.x[k] - outline.centreX[i], outline.y[k] - outline.centreY[i]];
                 const [dx, dy] = [u[i] + less * rx - sine * ry, v[i] + sine * rx + less * ry];
                 const way = Math.hypot(dx, dy);
-                if (way > found.way && !(frames.time[frame] > (report.contents.collapse ?? Infinity))) {
+                if (way > found.way && frame < report.contents.frames.standing) {
                     [found.way, found.frame] = [way, frame];
                 }
                 found.left = Math.max(found.left, left - outline.x[k] - dx);

@@ -64,8 +64,8 @@ export function made(more: Record<string, Numbers> = {}, planar = false): Report
     const contents: Contents = {
         layout: LAYOUT, name: "made", title: "", block_names: ["p1c1b1", "p1c1b2"],
         joint_names: ["base|p1c1b1", "p1c1b1|p1c1b2", "p1c1b2|top"], joint_kinds: ["base", "head", "top"],
-        joint_laws: ["elastic", "no-tension", "elastic"], frictions: [LAW], bonds: {}, planar, collapse: null, beam: { kind: "mass", label: "beam", moves: true },
-        frames: { recorded: 3, every: 1, bytes: 45, most: 2 ** 24 }, curve: { samples: 3, points: 3, interval: 0.1, left_out: 0 }, channels: [], spectrum: null,
+        joint_laws: ["elastic", "no-tension", "elastic"], frictions: [LAW], bonds: {}, planar, beam: { kind: "mass", label: "beam", moves: true },
+        frames: { recorded: 3, every: 1, standing: 3, bytes: 45, most: 2 ** 24 }, curve: { samples: 3, points: 3, interval: 0.1, left_out: 0 }, channels: [], spectrum: null,
         arrays: {},
     };
     let at = 0;

@@ -85,7 +85,7 @@ test("a joint whose sides are far apart is no joint any more", () => {
 
 test("the frame of the largest way is none after a collapse", () => {
     const report = madePlanar();
-    report.contents.collapse = 0.05;
+    report.contents.frames.standing = 1;
     expect(extent(report)).toMatchObject({ frame: 0, way: 0, vertical: expect.closeTo(0.1, 9) });
 });
 

@@ -84,6 +84,7 @@ fn failure(error: LimitError, path: &Path) -> Failure {
 
 fn rows(args: &Limit, problem: &Problem, found: &limit::Limit) -> Vec<(&'static str, String)> {
     let load = match args.load {
+        LimitLoad::Body if problem.live.len() > problem.wall.blocks.len() => "weight of every block and of the beam",
         LimitLoad::Body => "weight of every block",
         LimitLoad::Top => "dead load of the top course",
     };

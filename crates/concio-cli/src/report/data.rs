@@ -11,7 +11,7 @@ use super::pack::Pack;
 use super::{Content, beam_label};
 
 /// Layout of the data; the page's program refuses another.
-const LAYOUT: u32 = 3;
+const LAYOUT: u32 = 4;
 /// Bytes that frames may take [bytes]; beyond it only every second, third, … goes into the page. A wall of 20 × 20 bricks
 /// with 2,000 frames stays below.
 const MOST_FRAMES: usize = 16 << 20;
@@ -48,7 +48,6 @@ pub fn payload(content: &Content) -> (String, String) {
         "frictions": frictions,
         "bonds": bonds(content),
         "planar": content.is_planar(),
-        "collapse": content.outcome.recording.collapse().map(|e| e.time),
         "beam": {
             "kind": beam_kind(content.case.load.beam),
             "label": beam_label(&content.case),
@@ -57,6 +56,7 @@ pub fn payload(content: &Content) -> (String, String) {
         "frames": {
             "recorded": content.outcome.recording.frame_time.len(),
             "every": frames.every,
+            "standing": frames.standing,
             "bytes": frames.bytes,
             "most": MOST_FRAMES,
         },
@@ -96,6 +96,8 @@ fn beam_kind(beam: Beam) -> &'static str {
 /// Which frames the page gets: every so many, and the samples that they are.
 struct Kept {
     every: usize,
+    /// How many come before a collapse.
+    standing: usize,
     samples: Vec<usize>,
     /// Whether the beam is the last column of a frame.
     beam: bool,
@@ -129,7 +131,8 @@ fn frames(pack: &mut Pack, content: &Content) -> Kept {
     let every = (recorded * bytes).div_ceil(MOST_FRAMES).max(1);
     let kept: Vec<usize> = (0..recorded).step_by(every).collect();
     let samples: Vec<usize> = kept.iter().map(|k| k * layout.frame_every).collect();
-    pack.reals("frame/time", &kept.iter().map(|&k| recording.frame_time[k]).collect::<Vec<_>>());
+    let times: Vec<f64> = kept.iter().map(|&k| recording.frame_time[k]).collect();
+    pack.reals("frame/time", &times);
     for (name, values, width) in moving.into_iter().flatten() {
         // A beam without an unknown of its own is known from its history.
         let beam = if of_its_own { None } else { content.history(&format!("beam/{name}")) };
@@ -157,7 +160,7 @@ fn frames(pack: &mut Pack, content: &Content) -> Kept {
         let rows = kept.iter().zip(&samples).flat_map(|(&k, &sample)| elastic_forces(content, k, of_beam(sample)));
         pack.curves("frame/joint/elastic", &rows.map(|f| f as f32).collect::<Vec<_>>());
     }
-    Kept { every, samples, beam: has_beam, bytes }
+    Kept { every, standing: recording.standing(&times), samples, beam: has_beam, bytes }
 }
 
 /// Elastic forces of all joints at a frame, where bonds make them more than a function of the displacements [N].
