@@ -55,10 +55,8 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
     if let Some(ties) = ties(&outcome.ties) {
         rows.push(("ties", ties));
     }
-    if let Some(event) = outcome.recording.collapse() {
-        let name = joints.get(event.joint as usize).map_or("", |j| j.name.as_str());
-        let way = si(event.value, "m");
-        rows.push(("collapse", format!("t = {} s, a block at joint {name} moved {way}", significant(event.time, 4))));
+    if let Some(collapse) = collapse(summary) {
+        rows.push(("collapse", collapse));
     }
     let (shear, weight) = (number("/base_shear_peak"), number("/weight"));
     if shear > 0.0 {
@@ -114,6 +112,16 @@ fn failure(summary: &Value) -> Option<String> {
     let of_top =
         format!("of the top's way {} turning, {} planes that slid", part(failure.rocking), part(failure.sliding));
     Some(format!("{}; {of_top}", names.join(", ")))
+}
+
+/// Which block of a planar wall fell first, and when.
+fn collapse(summary: &Value) -> Option<String> {
+    let collapse = summary.get("collapse")?;
+    let block = collapse.get("block")?.as_str()?;
+    let number = |key: &str| collapse.get(key).and_then(Value::as_f64);
+    let did = if collapse.get("turned")?.as_bool()? { "turned over" } else { "had fallen" };
+    let (time, way) = (significant(number("time")?, 4), si(number("displacement")?, "m"));
+    Some(format!("t = {time} s: block {block} {did}, {way} from its place"))
 }
 
 /// What the ties bore, and how many yielded.

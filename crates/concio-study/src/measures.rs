@@ -209,7 +209,7 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
         outcome.counters.steps as f64,
         energies.device,
         energies.dissipated(),
-        totals.collapse.unwrap_or(f64::INFINITY),
+        totals.collapse.map_or(f64::INFINITY, |collapse| collapse.time),
     ]
 }
 

@@ -122,6 +122,19 @@ pub struct Totals {
     pub peak_input: f64,
     /// Largest |residual of the energy account| so far [J].
     pub peak_residual: f64,
-    /// When a block of a planar wall had fallen or turned over [s]; none where none did.
-    pub collapse: Option<f64>,
+    /// Of a planar wall, the first block that had fallen or turned over; none where none did.
+    pub collapse: Option<Collapse>,
+}
+
+/// What a planar wall counts as collapsed by.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Collapse {
+    /// When [s].
+    pub time: f64,
+    /// The block, by its index.
+    pub block: usize,
+    /// Its displacement [m].
+    pub way: f64,
+    /// Whether it had turned over; else it had fallen.
+    pub turned: bool,
 }

@@ -11,10 +11,11 @@ use crate::dynamics::Channels;
 use crate::excitation::Excitation;
 use crate::ground::signal::GroundMotion;
 use crate::model::Model;
-use crate::outcome::TieRow;
+use crate::outcome::{Collapse, TieRow};
 use crate::planar::Planar;
 use crate::record::{Event, EventKind, Layout, Recording, StopReason};
 use crate::state::{BondState, State};
+use crate::wall::End;
 
 /// Largest way of a body in a step without inertia at which the wall stands under its loads [m].
 const STANDS: f64 = 1e-10;
@@ -276,10 +277,14 @@ impl Run {
             }
         }
         if state.totals.collapse.is_none()
-            && let Some(event) = self.collapse(model, state.t)
+            && let Some(collapse) = self.collapse(model, state.t)
         {
-            state.totals.collapse = Some(event.time);
-            tell(event);
+            state.totals.collapse = Some(collapse);
+            let of_block = |j: &crate::wall::Joint| j.a == collapse.block || j.b == End::Block(collapse.block);
+            if let Some(joint) = model.joints.iter().position(of_block) {
+                let Collapse { time, way, .. } = collapse;
+                tell(Event { time, joint: joint as u32, kind: EventKind::Collapse, value: way });
+            }
         }
     }
 
@@ -356,15 +361,12 @@ impl Run {
     }
 
     /// The first block that has fallen or turned over.
-    fn collapse(&self, model: &Model, time: f64) -> Option<Event> {
-        let down = |(i, block): (usize, &crate::wall::Block)| {
-            (-self.at.vertical[i] > FALLEN * block.height() || self.at.rotation[i].abs() > TURNED).then_some(i)
-        };
-        let block = model.wall.blocks.iter().enumerate().find_map(down)?;
-        let of_block = |j: &crate::wall::Joint| j.a == block || j.b == crate::wall::End::Block(block);
-        let joint = model.joints.iter().position(of_block)? as u32;
-        let value = self.at.z[block].hypot(self.at.vertical[block]);
-        Some(Event { time, joint, kind: EventKind::Collapse, value })
+    fn collapse(&self, model: &Model, time: f64) -> Option<Collapse> {
+        let turned = |i: usize| self.at.rotation[i].abs() > TURNED;
+        let fallen = |i: usize| -self.at.vertical[i] > FALLEN * model.wall.blocks[i].height();
+        let block = (0..model.wall.blocks.len()).find(|&i| turned(i) || fallen(i))?;
+        let way = self.at.z[block].hypot(self.at.vertical[block]);
+        Some(Collapse { time, block, way, turned: turned(block) })
     }
 
     /// Appends sample `k` at `t` [s], and the frame if one is due.

@@ -3,7 +3,7 @@
 use crate::case::JointKind;
 use crate::graph;
 use crate::model::Model;
-use crate::outcome::Outcome;
+use crate::outcome::{Collapse, Outcome};
 use crate::store::{JointRow, residual_relative};
 
 /// Relative displacement of a joint, as a fraction of its overlap, from which its geometry should not be taken as
@@ -26,7 +26,7 @@ pub(super) fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<S
             Some(_) => unbalanced(outcome, "solver.step"),
         },
         unsolved(outcome),
-        collapsed(joints, outcome),
+        collapsed(model, outcome),
         large_slips(model, outcome),
         creep(joints, outcome),
     ];
@@ -57,11 +57,11 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
 }
 
 /// A wall that fell is no result of the forces that it bore before.
-fn collapsed(joints: &[JointRow], outcome: &Outcome) -> Option<String> {
-    let event = outcome.recording.collapse()?;
-    let at = joints.get(event.joint as usize).map_or("", |j| j.name.as_str());
+fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
+    let Collapse { time, block, turned, .. } = outcome.totals.collapse?;
+    let (name, did) = (&model.wall.blocks.get(block)?.name, if turned { "turned over" } else { "had fallen" });
     let what = "peaks and slips are those of the time before, cracks and energies those of the whole run";
-    Some(format!("the wall counts as collapsed from t = {:.4} s on, by a block at joint {at}: {what}", event.time))
+    Some(format!("the wall counts as collapsed from t = {time:.4} s on, when block {name} {did}: {what}"))
 }
 
 /// The shear model keeps its joints as they were laid: says where that ceases to be a fair picture.
@@ -107,7 +107,6 @@ mod tests {
     use crate::case::{Scheme, Solver};
     use crate::excitation::Excitation;
     use crate::ground::signal::GroundMotion;
-    use crate::record::{Event, EventKind};
     use crate::samples::{Link, lumped, solver};
     use crate::simulate::{Sampling, Simulation};
     use crate::wall::End;
@@ -149,10 +148,12 @@ mod tests {
         (outcome.counters.steps, outcome.counters.unsolved) = (10_000, 10);
         assert!(of(&model, &joints, &outcome).is_empty(), "{:?}", of(&model, &joints, &outcome));
         outcome.counters.unsolved = 11;
-        let collapse = Event { time: 0.25, joint: 0, kind: EventKind::Collapse, value: 0.1 };
-        outcome.recording.events.push(collapse);
+        outcome.totals.collapse = Some(Collapse { time: 0.25, block: 1, way: 0.1, turned: true });
         let told = of(&model, &joints, &outcome);
         assert_eq!(told.len(), 2, "{told:?}");
-        assert!(told[0].contains("11 of 10000 steps") && told[1].contains("t = 0.2500 s"), "{told:?}");
+        assert!(
+            told[0].contains("11 of 10000 steps") && told[1].contains("t = 0.2500 s on, when block m2 turned"),
+            "{told:?}"
+        );
     }
 }
