@@ -236,6 +236,11 @@ impl Blocks {
         if i < j { Slot { at: self.find(i, j), turned: false } } else { Slot { at: self.find(j, i), turned: true } }
     }
 
+    /// Where the block of a pair, or the row of a body with the base, stands among all: contacts in this order go through the matrix once.
+    pub fn rank(&self, slot: Option<Slot>, body: usize) -> usize {
+        slot.map_or(self.start[self.place[body]], |slot| slot.at)
+    }
+
     /// A symmetric matrix, all zero but for the diagonal, which gets `diagonal` by body.
     pub fn reset(&mut self, diagonal: &[Triple]) {
         self.is_symmetric = true;

@@ -10,7 +10,7 @@ use rstar::{AABB, RTree, RTreeObject};
 use serde::{Deserialize, Serialize};
 
 use crate::G;
-use crate::blocks::Triple;
+use crate::blocks::{Slot, Triple};
 use crate::body::Body;
 use crate::contact::{Contact, Effort, Known, Solver, worse};
 use crate::joint::{Friction, Law, Point, Start};
@@ -226,6 +226,13 @@ pub struct Kept {
     known: Known,
 }
 
+/// A pair, and where it stands in the matrix.
+#[derive(Debug, Clone, Copy)]
+struct Seat {
+    pair: usize,
+    slot: Option<Slot>,
+}
+
 /// Where a contact comes from.
 #[derive(Debug, Clone, Copy)]
 struct Owner {
@@ -283,6 +290,8 @@ pub struct Motion {
     radius: Vec<f64>,
     /// Pairs of bodies in the matrix.
     coupled: Vec<(usize, usize)>,
+    /// The pairs in the order of their places in the matrix.
+    seats: Vec<Seat>,
     contacts: Vec<Contact>,
     owners: Vec<Owner>,
     /// Where the contacts that follow those of the pairs come from.
@@ -321,6 +330,7 @@ impl Motion {
             solver: Solver::new(0, &[]),
             looked: places.clone(),
             coupled: Vec::new(),
+            seats: Vec::new(),
             contacts: Vec::new(),
             owners: Vec::new(),
             pulls: Vec::with_capacity(system.ties.len()),
@@ -514,8 +524,9 @@ impl Motion {
     fn meet(&mut self, h: f64, held: [f64; 2]) {
         self.contacts.clear();
         self.owners.clear();
-        for number in 0..self.pairs.len() {
-            let pair = &self.pairs[number];
+        for k in 0..self.seats.len() {
+            let seat = self.seats[k];
+            let pair = &self.pairs[seat.pair];
             let Some(ends) = ends(&self.polygons, pair, self.margin(pair)) else { continue };
             let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
             if let (true, Some(link)) = (law.bears_nothing(), pair.link) {
@@ -531,23 +542,15 @@ impl Motion {
             };
             for (point, share) in shares.iter().enumerate() {
                 let touch = along(point as f64 / (shares.len() - 1) as f64);
-                let (contact, owner) = self.contact(number, point, *share, &touch, h, held);
+                let (contact, owner) = self.contact(seat, point, *share, &touch, h, held);
                 self.contacts.push(contact);
                 self.owners.push(owner);
             }
         }
     }
 
-    fn contact(
-        &self,
-        number: usize,
-        point: usize,
-        share: f64,
-        touch: &Touch,
-        h: f64,
-        held: [f64; 2],
-    ) -> (Contact, Owner) {
-        let pair = &self.pairs[number];
+    fn contact(&self, seat: Seat, point: usize, share: f64, touch: &Touch, h: f64, held: [f64; 2]) -> (Contact, Owner) {
+        let pair = &self.pairs[seat.pair];
         let (n, t) = (touch.normal, [-touch.normal[1], touch.normal[0]]);
         let (mut velocity, mut lever) = ([0.0; 2], [0.0; 2]);
         let mut row = |body: usize, which: usize, direction: [f64; 2], sign: f64| {
@@ -565,8 +568,7 @@ impl Motion {
         let rows = [rows(0, n), rows(1, t)];
         let before = [0, 1].map(|k| velocity[k] + lever[k] * held[0]);
         let state = &pair.points[point];
-        let slot = pair.a.map(|a| self.solver.matrix().slot(a, pair.b));
-        let mut contact = Contact::rigid((pair.a, pair.b), slot, rows, &self.inverse, state.force.map(|f| h * f));
+        let mut contact = Contact::rigid((pair.a, pair.b), seat.slot, rows, &self.inverse, state.force.map(|f| h * f));
         contact.drift = lever.map(|lever| lever * held[1]);
         let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
         let mut gap = touch.gap - 0.5 * h * before[0];
@@ -575,7 +577,7 @@ impl Motion {
             gap = followed;
         }
         let start = law.begin(state, share, h, self.setting.still, (gap, before), &mut contact);
-        (contact, Owner { pair: number, point, share, start, lever })
+        (contact, Owner { pair: seat.pair, point, share, start, lever })
     }
 
     /// A push at `arm` from the centre of a body [m].
@@ -716,7 +718,7 @@ impl Motion {
         }
     }
 
-    /// A matrix for the pairs there are, unless it is there.
+    /// A matrix for the pairs there are, unless it is there, and their places in it.
     fn couple(&mut self) {
         let pairs = self.pairs.iter().map(|p| (p.a, p.b)).chain(self.rods.iter().map(|r| (r.tie.a, r.tie.b)));
         let coupled: Vec<(usize, usize)> = pairs.filter_map(|(a, b)| Some((a?, b))).collect();
@@ -724,6 +726,10 @@ impl Motion {
             self.solver = Solver::new(self.places.len(), &coupled);
             self.coupled = coupled;
         }
+        let matrix = self.solver.matrix();
+        let seat = |(k, pair): (usize, &Pair)| Seat { pair: k, slot: pair.a.map(|a| matrix.slot(a, pair.b)) };
+        self.seats = self.pairs.iter().enumerate().map(seat).collect();
+        self.seats.sort_by_key(|seat| matrix.rank(seat.slot, self.pairs[seat.pair].b));
     }
 
     /// Takes the distances of the joints as they are for those of the laid wall.
