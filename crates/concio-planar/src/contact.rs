@@ -36,9 +36,6 @@ const MOST: usize = 200;
 /// Newton iterations before the interior point method takes over where it can, and what each may leave out of balance.
 const FEW: usize = 4;
 const QUICKLY: f64 = 0.1;
-/// Attempts of the augmented Lagrangian that fail one after the other before it is left out for a while, and steps of that at most.
-const FAILURES: u32 = 4;
-const LONGEST_PAUSE: u32 = 8;
 /// Points on a line at which the slope is looked at, at most.
 const LOOKS: usize = 30;
 /// Slope that is left on a line, over that at its start.
@@ -322,32 +319,6 @@ impl Effort {
 pub struct Known {
     known: Vec<(bool, bool)>,
     factors: Factors,
-    pause: Pause,
-}
-
-/// How long the augmented Lagrangian is left out: where it goes on failing it is tried after one step, then after two, four and so on.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-struct Pause {
-    /// Attempts that failed since the last that did not.
-    failures: u32,
-    /// Steps yet to come without it.
-    left: u32,
-}
-
-impl Pause {
-    /// Whether it is left out in this step.
-    fn goes_on(&mut self) -> bool {
-        let goes_on = self.left > 0;
-        self.left -= u32::from(goes_on);
-        goes_on
-    }
-
-    /// After an attempt that failed.
-    fn begin(&mut self) {
-        self.failures = (self.failures + 1).min(FAILURES + LONGEST_PAUSE);
-        let over = self.failures.checked_sub(FAILURES + 1);
-        self.left = over.map_or(0, |over| (1 << over).min(LONGEST_PAUSE));
-    }
 }
 
 /// Solves steps of bodies whose pairs stay the same.
@@ -366,7 +337,6 @@ pub struct Solver {
     /// What bounds friction [N s].
     bound: Vec<f64>,
     interior: Interior,
-    pause: Pause,
     /// Velocities, and of each contact offsets, impulses and what they mean, before an attempt.
     start: Vec<Triple>,
     kept: Vec<([f64; 2], [f64; 2], Status)>,
@@ -387,7 +357,6 @@ impl Solver {
             change: Vec::new(),
             bound: Vec::new(),
             interior: Interior::default(),
-            pause: Pause::default(),
             start: Vec::new(),
             kept: Vec::new(),
         }
@@ -406,21 +375,20 @@ impl Solver {
     /// What the next step begins with.
     pub fn known(&self) -> Known {
         match self.known.is_empty() {
-            true => Known { pause: self.pause, ..Known::default() },
-            false => Known { known: self.known.clone(), factors: self.matrix.keep(), pause: self.pause },
+            true => Known::default(),
+            false => Known { known: self.known.clone(), factors: self.matrix.keep() },
         }
     }
 
     /// Goes on with what a solver of the same bodies and pairs knew; false where it is not of these.
-    pub fn take_up(&mut self, Known { known, factors, pause }: Known) -> bool {
+    pub fn take_up(&mut self, Known { known, factors }: Known) -> bool {
         let fits = known.is_empty() || self.matrix.take_up(factors);
         self.known = if fits { known } else { Vec::new() };
-        self.pause = pause;
         fits
     }
 
     /// Solves a step to `tolerance` [m/s]: the augmented Lagrangian, for as long as it falls quickly, as it does where
-    /// contacts go on doing what they did, and not at all for a while where it did not; then, unless a contact moves nothing, an interior point method, which may leave
+    /// contacts go on doing what they did; then, unless a contact moves nothing, an interior point method, which may leave
     /// `enough` [m/s] where it does not come nearer. `v` holds a guess on entry.
     pub fn newton(
         &mut self,
@@ -437,16 +405,11 @@ impl Solver {
         let new = contacts.iter().all(|c| c.impulse == [0.0; 2]);
         let limit = if new { (MOST, f64::INFINITY) } else { (FEW, QUICKLY) };
         self.keep(contacts, v);
-        let mut first = Effort { residual: f64::INFINITY, ..Effort::default() };
-        if !self.pause.goes_on() || new {
-            first = self.lagrangian((mass, free), contacts, v, tolerance, limit);
-            if first.converged {
-                self.pause = Pause::default();
-                return first;
-            }
-            self.pause.begin();
-            self.restore(contacts, v);
+        let first = self.lagrangian((mass, free), contacts, v, tolerance, limit);
+        if first.converged {
+            return first;
         }
+        self.restore(contacts, v);
         // Its factors overwrite those that are known.
         self.known.clear();
         let second = self.interior.solve(&mut self.matrix, (mass, free), contacts, v, (tolerance, enough));
