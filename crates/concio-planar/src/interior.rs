@@ -687,7 +687,7 @@ impl<const N: usize> Point<N> {
     }
 }
 
-fn inertia(residual: &mut [Triple], mass: &[Triple], free: &[Triple], v: &[Triple]) {
+pub(crate) fn inertia(residual: &mut [Triple], mass: &[Triple], free: &[Triple], v: &[Triple]) {
     for (body, r) in residual.iter_mut().enumerate() {
         (0..3).for_each(|k| r[k] = mass[body][k] * (v[body][k] - free[body][k]));
     }

@@ -156,6 +156,18 @@ fn a_full_cycle_of_a_free_block() {
     close("second peak", found.peaks[1], 0.4512, 1e-2);
 }
 
+/// While a block turns about one corner nothing has to be found out: one solution, and another for what ρ gives way by.
+#[test]
+fn turning_on_goes_on_as_it_did() {
+    let mut motion = Rocker::homogeneous(0.3, 0.9).tilted(0.5, 1e-3);
+    for _ in 0..400 {
+        motion.step(Forcing { base: [0.0; 2], held: 0.0 });
+    }
+    assert!(motion.places[0].angle < -0.01, "still on its first corner: {}", motion.places[0].angle);
+    let counters = &motion.counters;
+    assert!(counters.unsolved == 0 && counters.iterations <= 3 * counters.steps, "{counters:?}");
+}
+
 /// The time of the first fall is off by what the step is, or less: an impact has its place somewhere within one.
 #[test]
 fn rocking_converges() {

@@ -55,6 +55,7 @@ fn main() {
         step(1e-3),
         step(1e-2),
         step(5e-3),
+        step(2e-3),
         step(1.0 / 60.0),
         step(2.5e-4),
         tuned("as it comes", 1.0 / 60.0, 4, 1.0, None),
