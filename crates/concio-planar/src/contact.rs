@@ -22,6 +22,7 @@
 //! search along the line finds its least value in a few solutions, and p is taken anew from there until it stays: an
 //! augmented Lagrangian. The matrix is that of the masses and ρ over the contacts that bear; it is symmetric, and factorised
 //! only when one of them opens, closes, sticks or slips. Where this does not end at once, an interior point method goes on.
+//! Where few contacts bear, as under a block that rocks, it begins with what they did in the step before.
 //! [`Solver::gauss_seidel`] goes through the contacts one by one, as contact dynamics usually does (Jean 1999).
 
 use serde::{Deserialize, Serialize};
@@ -36,8 +37,9 @@ const MOST: usize = 200;
 /// Newton iterations before the interior point method takes over where it can, and what each may leave out of balance.
 const FEW: usize = 4;
 const QUICKLY: f64 = 0.1;
-/// Share of its bound by which friction may miss it and has slid all the same: rounding.
-const SLID: f64 = 1e-9;
+/// Share of its bound by which an impulse may miss it and was held by it all the same: pressure rises with friction bounded by that of the
+/// iterate before, until what is out of balance counts as solved.
+const HELD: f64 = 1e-5;
 /// Points on a line at which the slope is looked at, at most.
 const LOOKS: usize = 30;
 /// Slope that is left on a line, over that at its start.
@@ -250,9 +252,9 @@ impl Contact {
     fn goes_on(&self, u: [f64; 2], bound: f64) -> Answer {
         let [least, most] = self.pressure;
         let [normal, tangent] = self.law;
-        let yields = normal.offset > least && normal.offset < most;
+        let yields = normal.offset > least * (1.0 - HELD) && normal.offset < most * (1.0 - HELD);
         let p_n = if yields { normal.at(u[0] + self.bias) } else { normal.offset.clamp(least, most) };
-        let slid = bound * (1.0 - SLID);
+        let slid = bound * (1.0 - HELD);
         let (p_t, status) = match tangent.offset {
             _ if !(bound > 0.0) => (0.0, Status::Open),
             p if p >= slid => (bound, Status::Forth),
@@ -406,7 +408,7 @@ impl Solver {
     }
 
     /// Solves a step to `tolerance` [m/s]: the augmented Lagrangian, for as long as it falls quickly, as it does where
-    /// contacts go on doing what they did (where their impulses follow from that, it begins there); then, unless a contact moves nothing, an interior point method, which may leave
+    /// contacts go on doing what they did; then, unless a contact moves nothing, an interior point method, which may leave
     /// `enough` [m/s] where it does not come nearer. `v` holds a guess on entry.
     pub fn newton(
         &mut self,
@@ -466,7 +468,7 @@ impl Solver {
     }
 
     /// Newton's method on (P1) with (P4), so many iterations at most and as long as each of them leaves no more than a
-    /// share of what is out of balance.
+    /// share of what is out of balance; with a share below 1, after [`Solver::keep`], it may begin with what goes on as it did.
     fn lagrangian(
         &mut self,
         (mass, free): (&[Triple], &[Triple]),
@@ -534,14 +536,20 @@ impl Solver {
         effort
     }
 
-    /// Whether so few contacts bore before that their impulses follow from the motion, as where a block or a column rocks and hardly ever
-    /// in a wall.
-    fn is_determined(&self, contacts: &[Contact]) -> bool {
-        let of = |(contact, bound): (&Contact, &f64)| {
+    /// Whether contacts that bore before hold no more than the bodies at them have velocities: where a block rocks their impulses follow from
+    /// the motion; in walls there are mostly more.
+    fn is_determined(&mut self, contacts: &[Contact]) -> bool {
+        let mut held = 0;
+        self.step.fill([0.0; 3]);
+        for (contact, bound) in contacts.iter().zip(&self.bound) {
             let answer = contact.goes_on([0.0; 2], *bound);
-            usize::from(answer.yields) + usize::from(answer.status == Status::Stick)
-        };
-        contacts.iter().zip(&self.bound).map(of).sum::<usize>() <= 3 * self.residual.len()
+            let holds = usize::from(answer.yields) + usize::from(answer.status == Status::Stick);
+            if holds > 0 {
+                held += holds;
+                contact.rows.each([1.0; 2], |body, _| self.step[body] = [1.0; 3]);
+            }
+        }
+        held as f64 <= self.step.iter().flatten().sum()
     }
 
     /// Velocities at which contacts go on doing what they did, whether they then can or not.
