@@ -45,8 +45,8 @@ pub struct Standing {
     pub ended: usize,
     /// Runs in all.
     pub of: usize,
-    /// Share of the work that is done, from 0 to 1, never less than before: every run counts alike, one under way by the time it has
-    /// reached.
+    /// Share of the work that is done, from 0 to 1, no less than any that was counted before: every run counts alike, one under way by
+    /// the time it has reached.
     pub share: f64,
 }
 
@@ -293,7 +293,7 @@ impl<'a> Batch<'a> {
             let mut reached = self.reached();
             reached.under_way[thread] = under_way;
             let sum = left + reached.under_way.iter().sum::<f64>();
-            reached.told = ((ended as f64 + sum) / of as f64).clamp(reached.told, 1.0);
+            reached.told = ((ended as f64 + sum) / of as f64).max(reached.told).min(1.0);
             reached.told
         };
         let standing = Standing { ended, of, share };

@@ -148,6 +148,7 @@ impl Recording {
     pub fn collapse(&self) -> Option<&Event> {
         self.events.iter().find(|e| e.kind == EventKind::Collapse)
     }
+
     /// How many of these rising instants [s] a planar wall stood, that of its collapse included; all where it did not collapse.
     pub fn standing(&self, times: &[f64]) -> usize {
         // Times of samples and of steps differ by rounding.

@@ -418,9 +418,14 @@ duration = "0.1 s"
                 ),
             )
         };
-        let (_, outcome) = ran(&text("2000 kN/m"));
+        let (prepared, outcome) = ran(&text("2000 kN/m"));
         let events = &outcome.recording.events;
-        assert!(events.iter().any(|e| e.kind == EventKind::Crush) && outcome.totals.collapse.is_some(), "{law}");
+        assert!(events.iter().any(|e| e.kind == EventKind::Crush), "{law}");
+        // The event is of a joint of the block that the totals name.
+        let (told, named) = (outcome.recording.collapse().expect(law), outcome.totals.collapse.expect(law));
+        assert_eq!((told.time, told.value), (named.time, named.way), "{law}");
+        let joint = &prepared.model.joints[told.joint as usize];
+        assert!(joint.a == named.block || joint.b == concio::wall::End::Block(named.block), "{law}");
         let (_, below) = ran(&text("900 kN/m"));
         assert!(
             below.recording.events.is_empty() && below.totals.collapse.is_none(),

@@ -277,14 +277,10 @@ impl Run {
             }
         }
         if state.totals.collapse.is_none()
-            && let Some(collapse) = self.collapse(model, state.t)
+            && let Some((collapse, event)) = self.collapse(model, state.t)
         {
             state.totals.collapse = Some(collapse);
-            let of_block = |j: &crate::wall::Joint| j.a == collapse.block || j.b == End::Block(collapse.block);
-            if let Some(joint) = model.joints.iter().position(of_block) {
-                let Collapse { time, way, .. } = collapse;
-                tell(Event { time, joint: joint as u32, kind: EventKind::Collapse, value: way });
-            }
+            tell(event);
         }
     }
 
@@ -360,13 +356,16 @@ impl Run {
         }
     }
 
-    /// The first block that has fallen or turned over.
-    fn collapse(&self, model: &Model, time: f64) -> Option<Collapse> {
+    /// The first block that has fallen or turned over, and the same as an event of one of its joints.
+    fn collapse(&self, model: &Model, time: f64) -> Option<(Collapse, Event)> {
         let turned = |i: usize| self.at.rotation[i].abs() > TURNED;
         let fallen = |i: usize| -self.at.vertical[i] > FALLEN * model.wall.blocks[i].height();
         let block = (0..model.wall.blocks.len()).find(|&i| turned(i) || fallen(i))?;
+        let of_block = |j: &crate::wall::Joint| j.a == block || j.b == End::Block(block);
+        let joint = model.joints.iter().position(of_block)? as u32;
         let way = self.at.z[block].hypot(self.at.vertical[block]);
-        Some(Collapse { time, block, way, turned: turned(block) })
+        let event = Event { time, joint, kind: EventKind::Collapse, value: way };
+        Some((Collapse { time, block, way, turned: turned(block) }, event))
     }
 
     /// Appends sample `k` at `t` [s], and the frame if one is due.
