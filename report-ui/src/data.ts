@@ -52,7 +52,7 @@ export interface Contents {
     planar: boolean;
     /** `moves`: it is the last column of the frames. */
     beam: { kind: "free" | "driven" | "tied" | "mass"; label: string; moves: boolean };
-    /** Bytes of one frame, and of all that a page holds; `standing`: how many of its frames come before a collapse. */
+    /** Bytes of one frame, and of all that a page holds; `standing`: how many of its frames show the wall up to its collapse, that instant included. */
     frames: { recorded: number; every: number; standing: number; bytes: number; most: number };
     curve: { samples: number; points: number; interval: number; left_out: number };
     channels: Channel[];

@@ -109,9 +109,9 @@ fn failure(summary: &Value) -> Option<String> {
     }
     let names: Vec<&str> = failure.modes.iter().map(|mode| mode.name()).collect();
     let part = |share: f64| format!("{:.0} %", 100.0 * share);
-    let of_top =
-        format!("of the top's way {} turning, {} planes that slid", part(failure.rocking), part(failure.sliding));
-    Some(format!("{}; {of_top}", names.join(", ")))
+    let top = format!("top {} at t = {} s", si(failure.top, "m"), significant(failure.time, 4));
+    let (turning, sliding) = (part(failure.rocking), part(failure.sliding));
+    Some(format!("{}; {top}: {turning} of it turning, {sliding} planes that slid", names.join(", ")))
 }
 
 /// Which block of a planar wall fell first, and when.

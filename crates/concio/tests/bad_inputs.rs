@@ -191,7 +191,7 @@ fn table() -> Vec<Bad> {
         "opening off the bed joints", opening("x = 0.3, y = 0.1, width = 0.3, height = 0.13"), "opening =", "panel[0].opening[0].y", "the edge at a height of 0.1 m is not on a bed joint", "0.065 … 0.075 m or 0.13 … 0.14 m";
         "opening that ends in a course", opening("x = 0.3, y = 0.065, width = 0.3, height = 0.1"), "opening =", "panel[0].opening[0].height", "the edge at a height of 0.165 m is not on a bed joint", "0.065 … 0.075 m or 0.13 … 0.14 m";
         "opening lower than a course", opening("x = 0.3, y = 0.065, width = 0.3, height = 0.005"), "opening =", "panel[0].opening[0].height", "is not on a bed joint", "0.065 … 0.075 m";
-        "opening above the wall", opening("x = 0.3, y = 0.065, width = 0.3, height = 3"), "opening =", "panel[0].opening[0].height", "is not on a bed joint", "0.325 … 0.335 m";
+        "opening above the wall", opening("x = 0.3, y = 0.065, width = 0.3, height = 3"), "opening =", "panel[0].opening[0].height", "the edge at a height of 3.065 m is above the panel, whose top is at 0.39 m", "0.325 … 0.335 m";
         "opening in bare millimetres", opening("x = 300, y = 0, width = 300, height = 130"), "opening =", "panel[0].opening[0].x", "300 m in a panel of 1.03 m", "did you mean \"300 mm\"?";
         "bearing in bare millimetres", opening("x = 0.3, y = 0, width = 0.3, height = 0.13, lintel = { height = 0.06, bearing = 100 }"), "opening =", "panel[0].opening[0].lintel.bearing", "100 m in a panel", "did you mean \"100 mm\"?";
         "lintel that ends in a course", opening("x = 0.3, y = 0, width = 0.3, height = 0.13, lintel = { height = 0.1, bearing = 0.1 }"), "opening =", "panel[0].opening[0].lintel.height", "is not on a bed joint", "0.065 … 0.075 m or 0.13 … 0.14 m";

@@ -96,7 +96,7 @@ fn beam_kind(beam: Beam) -> &'static str {
 /// Which frames the page gets: every so many, and the samples that they are.
 struct Kept {
     every: usize,
-    /// How many come before a collapse.
+    /// How many show the wall up to its collapse, that instant included.
     standing: usize,
     samples: Vec<usize>,
     /// Whether the beam is the last column of a frame.
@@ -412,6 +412,7 @@ mod tests {
     #[test]
     fn frames_of_planar_runs_bring_rotations_and_joints() {
         use base64::Engine as _;
+        use concio::record::{Event, EventKind};
         let file = concio::case::from_str(WALL, concio::case::Syntax::Toml, None).expect("a wall");
         let prepared = concio::run::prepare(file.case, std::path::Path::new(".")).expect("a system");
         let mut outcome = concio::run::run_in_memory(&prepared).expect("a run");
@@ -438,6 +439,8 @@ mod tests {
         ] {
             *array = made(joints, 3.0);
         }
+        let collapse = Event { time: recording.frame_time[2], joint: 0, kind: EventKind::Collapse, value: 0.1 };
+        recording.events.push(collapse);
         let content = Content {
             name: "made".into(),
             case: prepared.case.clone(),
@@ -452,6 +455,7 @@ mod tests {
         let contents: Value = serde_json::from_str(&contents).expect("JSON");
         let numbers = base64::engine::general_purpose::STANDARD.decode(numbers).expect("base64");
         assert_eq!((&contents["planar"], &contents["beam"]["moves"]), (&json!(true), &json!(true)));
+        assert_eq!((&contents["frames"]["every"], &contents["frames"]["standing"]), (&json!(1), &json!(3)));
         assert_eq!(contents["frames"]["bytes"], json!(25 * columns + 16 * joints));
         let quanta = array::<8>(&contents, &numbers, "frame/rotation/quantum");
         let [low, high] = ["low", "high"].map(|part| format!("frame/rotation/{part}"));

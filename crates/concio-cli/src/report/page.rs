@@ -128,7 +128,11 @@ fn without_script(page: &mut String, content: &Content) {
         let _ = writeln!(drawings, "<div id=\"w{k}\">{drawing}</div>");
     }
     let views = format!("<div class=\"views\">{buttons}\n{drawings}</div>\n");
-    section(page, "walls", "The wall: peaks over the whole run", &views);
+    let when = match content.outcome.recording.collapse() {
+        Some(event) => format!("until its collapse at t = {}", seconds(event.time)),
+        None => "over the whole run".into(),
+    };
+    section(page, "walls", &format!("The wall: peaks {when}"), &views);
     section(page, "histories", "Histories", &figures::histories(content).concat());
     asked(page, content);
     section(page, "energies", "Energy", &figures::energies(content).concat());

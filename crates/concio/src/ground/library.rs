@@ -83,8 +83,9 @@ impl Library {
             let mut records = read(&path, &TextOptions::from(input))?;
             let (channel, channels) = (input.channel.unwrap_or(1), records.len());
             if !(1..=channels).contains(&channel) {
-                let error = InputError::new(format!("channel {channel} of {}", path.display())).key("channel");
-                return Err(error.allowed(format!("1 … {channels}")).into());
+                let what = format!("{} has no channel {channel}", path.display());
+                let allowed = if channels == 1 { "1, the only one".into() } else { format!("1 … {channels}") };
+                return Err(InputError::new(what).key("channel").allowed(allowed).into());
             }
             let mut record = records.swap_remove(channel - 1);
             process::correct(&mut record, input).map_err(|e| in_file(e, &path))?;

@@ -193,7 +193,13 @@ impl Frame {
             .map(|bed| bed.map(|v| tidy(v - zero)))
             .map(|[low, high]| if low == high { format!("{low} m") } else { format!("{low} … {high} m") })
             .collect();
-        let what = format!("the edge at a height of {} m is not on a bed joint", tidy(y));
+        let top = self.beds.last().map_or(0.0, |bed| bed[0]);
+        let what = match y > top + self.near {
+            true => {
+                format!("the edge at a height of {} m is above the panel, whose top is at {} m", tidy(y), tidy(top))
+            }
+            false => format!("the edge at a height of {} m is not on a bed joint", tidy(y)),
+        };
         let allowed = if near.is_empty() { "a lower place: no course is left above".into() } else { near.join(" or ") };
         Err(InputError::new(what).allowed(allowed))
     }

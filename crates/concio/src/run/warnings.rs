@@ -59,7 +59,10 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
 /// A wall that fell is no result of the forces that it bore before.
 fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
     let Collapse { time, block, turned, .. } = outcome.totals.collapse?;
-    let (name, did) = (&model.wall.blocks.get(block)?.name, if turned { "turned over" } else { "had fallen" });
+    let (name, did) = (
+        &model.wall.blocks.get(block)?.name,
+        if turned { "turned by 45°" } else { "had fallen by half of its height" },
+    );
     let what = "peaks and slips are those of the time before, cracks and energies those of the whole run";
     Some(format!("the wall counts as collapsed from t = {time:.4} s on, when block {name} {did}: {what}"))
 }
@@ -152,7 +155,7 @@ mod tests {
         let told = of(&model, &joints, &outcome);
         assert_eq!(told.len(), 2, "{told:?}");
         assert!(
-            told[0].contains("11 of 10000 steps") && told[1].contains("t = 0.2500 s on, when block m2 turned"),
+            told[0].contains("11 of 10000 steps") && told[1].contains("t = 0.2500 s on, when block m2 turned by 45°"),
             "{told:?}"
         );
     }
