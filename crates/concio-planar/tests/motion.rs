@@ -116,6 +116,36 @@ fn equal_input_gives_equal_bits() {
     assert_eq!(run().places, run().places);
 }
 
+/// Slender stones on top of each other that rock, slide and come apart, so that contacts are few, then more, then others: what goes on
+/// from the middle ends at the same bits, every step is solved, and the account closes.
+#[test]
+fn a_tower_that_falls_goes_on_from_where_it_was_kept() {
+    let stones: Vec<Body> = (0..3)
+        .map(|k| brick(&format!("{k}"), [0.0, 0.15], [0.4 * f64::from(k), 0.4 * f64::from(k + 1)], 20e3))
+        .collect();
+    let new = || Motion::new(&System::dry(&stones, 0.5), Setting::new(1e-3));
+    let shake = |motion: &mut Motion, steps: usize| {
+        for _ in 0..steps {
+            let (t, h) = (motion.time, 1e-3);
+            motion.step(Forcing { base: [base(0.7 * G, 2.0, t + h) - base(0.7 * G, 2.0, t), 0.0], held: 0.0 });
+        }
+    };
+    let mut whole = new();
+    shake(&mut whole, 1200);
+    for middle in [60, 300, 700] {
+        let (mut first, mut second) = (new(), new());
+        shake(&mut first, middle);
+        assert!(second.take_up(first.keep()));
+        shake(&mut second, 1200 - middle);
+        assert!(second.keep() == whole.keep(), "from step {middle}");
+    }
+    let most = whole.places.iter().map(|place| place.angle.abs()).fold(0.0, f64::max);
+    assert!(most > 1.0, "a stone has fallen over: {most}");
+    assert_eq!(whole.counters.unsolved, 0, "{:?}", whole.counters);
+    let account = &whole.account;
+    assert!(unbalanced(&whole) < 1e-3 * account.input.abs().max(account.friction), "{account:?}");
+}
+
 /// A stone whose joint is found a millimetre deeper than its velocity took it, as where it comes upon another edge of its neighbour, is not
 /// thrown back by what it takes to press that in; it comes to rest there.
 #[test]
