@@ -3,8 +3,8 @@
 //!     cargo bench --bench large [-- STEPS]
 //!
 //! A panel under a synthetic earthquake, from rest: STEPS steps (60 unless said) after the first 20, in which the step
-//! size finds itself; panels that grow to all sides, and panels of 25 courses that grow in length. Laying the wall and finding the order of elimination are timed apart. Bytes are those that model
-//! and run ask for, without output.
+//! size finds itself. Panels grow to all sides first, then in length alone, at 25 courses. Laying the wall and finding
+//! the order of elimination are timed apart. Bytes are those that model and run ask for, without output.
 //!
 //! Part of the growth has nothing to do with the solver: small walls live in the caches. The last lines tell it: as many
 //! small walls as make up the largest, one step of each in turn.
