@@ -256,7 +256,13 @@ impl Contact {
         let p_n = if yields { normal.at(u[0] + self.bias) } else { normal.offset.clamp(least, most) };
         let slid = bound * (1.0 - HELD);
         let (p_t, status) = match tangent.offset {
-            _ if !(bound > 0.0) => (0.0, Status::Open),
+            _ if !(bound > 0.0) && p_n == 0.0 => (0.0, Status::Open),
+            // Friction that can bear nothing slides by the velocity, as in `answer`; across a tie there is none.
+            _ if !(bound > 0.0) => match tangent.at(u[1]) {
+                p if p > 0.0 => (0.0, Status::Forth),
+                p if p < 0.0 => (0.0, Status::Back),
+                _ => (0.0, Status::Stick),
+            },
             p if p >= slid => (bound, Status::Forth),
             p if p <= -slid => (-bound, Status::Back),
             _ => (tangent.at(u[1]), Status::Stick),
@@ -546,6 +552,9 @@ impl Solver {
             let holds = usize::from(answer.yields) + usize::from(answer.status == Status::Stick);
             if holds > 0 {
                 held += holds;
+                if held > 3 * self.step.len() {
+                    return false;
+                }
                 contact.rows.each([1.0; 2], |body, _| self.step[body] = [1.0; 3]);
             }
         }

@@ -12,6 +12,7 @@
 //! less would make energy. What θ takes counts as lost in impacts. Springs in both directions take the midpoint, θ = ½, which keeps energy
 //! whatever the step: the modes of a mortared wall are slower than its joints alone, and would be damped with them.
 
+use concio_device as device;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{Contact, Linear, Status};
@@ -31,6 +32,26 @@ pub struct Law {
     pub crushing: f64,
     /// Force at which it yields across and along, whatever the pressure, as a friction damper does [N]; 0 for none.
     pub slip: [f64; 2],
+    /// A device with a law of its own.
+    pub device: Option<Device>,
+}
+
+/// A device whose force is no straight line, in one direction of a joint beside all else that it bears.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Device {
+    /// 0 across, 1 along.
+    pub direction: usize,
+    /// Its law, of the whole joint.
+    pub law: device::Law,
+}
+
+/// How a device is linear about a velocity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Slope {
+    /// By its tangent.
+    Tangent,
+    /// So steep that iterations do not go round in circles.
+    Steep,
 }
 
 /// Normal direction of a joint.
@@ -129,6 +150,7 @@ impl Law {
             bond: None,
             crushing: f64::INFINITY,
             slip: [0.0; 2],
+            device: None,
         }
     }
 
@@ -136,7 +158,8 @@ impl Law {
     pub fn bears_nothing(&self) -> bool {
         let no_springs = self.normal == Normal::Springs { both: 0.0, press: 0.0, damping: 0.0 };
         let Shear { stiffness, damping, .. } = self.shear;
-        no_springs && [stiffness, damping] == [0.0; 2] && self.slip == [0.0; 2] && self.bond.is_none()
+        let no_device = self.slip == [0.0; 2] && self.device.is_none();
+        no_springs && [stiffness, damping] == [0.0; 2] && no_device && self.bond.is_none()
     }
 
     /// Whether it has a spring, and so three points.
@@ -159,7 +182,7 @@ impl Law {
 
     /// Whether springs of a point so damaged act in compression only.
     pub(crate) fn only_presses(&self, damage: f64) -> bool {
-        self.is_compliant() && self.springs(damage).0 == 0.0
+        self.is_compliant() && self.springs(damage).0 == 0.0 && self.device.is_none()
     }
 
     fn normal_damping(&self) -> f64 {
@@ -200,7 +223,11 @@ impl Law {
             true => [0.0; 2],
             false => [self.mortar(damage), self.mortar_damping(damage)],
         };
-        [across, along]
+        let mut both = [across, along];
+        if let Some(Device { direction, law }) = self.device {
+            both[direction][0] += law.initial_stiffness();
+        }
+        both
     }
 
     /// Whether the shear spring is in line with friction at a point so damaged.
@@ -222,6 +249,8 @@ pub struct Point {
     pub speed: f64,
     /// Crushed off [m].
     pub crushed: f64,
+    /// Internal variable of a device, ζ [1] of (I5) or s [m] of (I7).
+    pub internal: f64,
     /// Farthest opening and sliding beyond what the bond can bear [m].
     pub reach: [f64; 2],
     /// D, 0 … 1.
@@ -244,6 +273,7 @@ impl Default for Point {
             bearing: 0.0,
             speed: 0.0,
             crushed: 0.0,
+            internal: 0.0,
             reach: [0.0; 2],
             damage: 0.0,
             rubbing: 0.0,
@@ -288,6 +318,8 @@ pub struct Works {
     pub impact: f64,
     /// To the breaking of bonds and to crushing.
     pub bond: f64,
+    /// To the hysteresis of devices.
+    pub device: f64,
     /// Way slid [m].
     pub slip: f64,
 }
@@ -372,6 +404,28 @@ impl Law {
         Start { gap, velocity, still }
     }
 
+    /// What a device bears at a point over a step of `h` [s], linear about the velocity `after` at its end [m/s]; by how much that misses a line
+    /// of before, `line`, there [N s].
+    pub(crate) fn bent(
+        &self,
+        device: &Device,
+        (point, share): (&Point, f64),
+        h: f64,
+        start: &Start,
+        (after, slope): (f64, Slope),
+        line: Linear,
+    ) -> (Linear, f64) {
+        let before = start.velocity[device.direction];
+        let mean = 0.5 * (before + after);
+        let stride = device.law.over([stretch(device, point, start), point.internal], mean, h);
+        let [force, tangent] = if start.still { stride.end } else { stride.mean };
+        let steep = device.law.steepest(mean, h) * if start.still { 2.0 } else { 1.0 };
+        let rise = if slope == Slope::Steep { steep.max(tangent) } else { tangent };
+        let rho = 0.5 * h * share * rise;
+        let bears = -h * share * force;
+        (Linear { offset: bears + rho * after, rho }, bears - line.at(after))
+    }
+
     /// What the step came to, `after` being the velocity at its end, `time` its end [s].
     pub fn end(
         &self,
@@ -389,6 +443,18 @@ impl Law {
         let compressed = (contact.impulse[0] + linear[0]) / h;
         let normal =
             Across { h, time, mean: mean[0], gaps: [start.gap, gap], pressed: contact.impulse[0], linear: linear[0] };
+        if let Some(device) = &self.device {
+            let from = stretch(device, point, start);
+            let way = mean[device.direction];
+            let stride = device.law.over([from, point.internal], way, h);
+            let stored = |d: f64, internal: f64| share * device.law.stored(d, internal);
+            let after = stored(from + h * way, stride.internal);
+            let lost = share * stride.lost;
+            works.elastic += after;
+            *if device.law.is_viscous() { &mut works.damping } else { &mut works.device } += lost;
+            works.impact -= after - stored(from, point.internal) + lost;
+            point.internal = stride.internal;
+        }
         self.end_normal(point, share, normal, &mut works);
         self.end_shear(point, share, h, mean[1], (contact, linear[1]), &mut works);
         point.force = contact.impulse.map(|p| p / h);
@@ -524,6 +590,11 @@ impl Law {
             works.elastic -= lost * (torn + sheared);
         }
     }
+}
+
+/// How far a device is stretched at the start of a step [m].
+fn stretch(device: &Device, point: &Point, start: &Start) -> f64 {
+    if device.direction == 0 { start.gap } else { point.slide }
 }
 
 /// D and χ by (B3) of what is stretched by `stretch` and can bear `limit` [m], where it goes beyond that farther than ever before, which

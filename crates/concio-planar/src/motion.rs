@@ -16,10 +16,11 @@ use crate::contact::{Contact, Effort, Known, Solver, worse};
 use crate::joint::{Friction, Law, Point, Start};
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
 use crate::tie::{Strain, Tie};
+use devices::Bent;
 use ties::{Pull, Rod};
 
+mod devices;
 mod ties;
-
 mod vibration;
 
 pub use vibration::Vibration;
@@ -147,8 +148,8 @@ pub struct Account {
     pub damping: f64,
     /// Taken by bonds that break and joints that are crushed.
     pub bond: f64,
-    /// Taken by ties that yield.
-    pub ties: f64,
+    /// Taken by the hysteresis of devices and by ties that yield.
+    pub device: f64,
     /// Stored in joints and ties at the moment.
     pub elastic: f64,
 }
@@ -296,6 +297,8 @@ pub struct Motion {
     owners: Vec<Owner>,
     /// Where the contacts that follow those of the pairs come from.
     pulls: Vec<Pull>,
+    /// Contacts of devices with a law of their own.
+    bent: Vec<Bent>,
     free: Vec<Triple>,
     after: Vec<Triple>,
 }
@@ -334,6 +337,7 @@ impl Motion {
             contacts: Vec::new(),
             owners: Vec::new(),
             pulls: Vec::with_capacity(system.ties.len()),
+            bent: Vec::new(),
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
             rods: system.ties.iter().map(|tie| Rod::new(tie, &places)).collect(),
@@ -455,7 +459,9 @@ impl Motion {
         self.release(h, &forcing, held);
         self.meet(h, held);
         self.fasten(h, held);
+        self.guess();
         let effort = self.solve();
+        let effort = self.follow_devices(h, effort);
         self.count(effort);
         let enough = effort.residual <= self.setting.enough();
         if !enough && !come_what_may {
@@ -495,12 +501,15 @@ impl Motion {
         }
     }
 
-    fn solve(&mut self) -> Effort {
-        // What held in the last step will nearly hold again.
+    /// What held in the last step will nearly hold again.
+    fn guess(&mut self) {
         for (body, after) in self.after.iter_mut().enumerate() {
             let (v, free, held) = (self.velocities[body], self.free[body], self.held[body]);
             *after = [0, 1, 2].map(|k| if held[k] { free[k] } else { v[k] });
         }
+    }
+
+    fn solve(&mut self) -> Effort {
         let Motion { solver, mass, inverse, free, contacts, after, setting, .. } = self;
         match setting.method {
             Method::Newton => solver.newton(mass, free, contacts, after, (setting.tolerance, setting.enough())),
@@ -524,6 +533,7 @@ impl Motion {
     fn meet(&mut self, h: f64, held: [f64; 2]) {
         self.contacts.clear();
         self.owners.clear();
+        self.bent.clear();
         for k in 0..self.seats.len() {
             let seat = self.seats[k];
             let pair = &self.pairs[seat.pair];
@@ -545,8 +555,12 @@ impl Motion {
                 let (contact, owner) = self.contact(seat, point, *share, &touch, h, held);
                 self.contacts.push(contact);
                 self.owners.push(owner);
+                if let Some(device) = law.device {
+                    self.bent.push(Bent::of(&device, self.contacts.len() - 1, &contact));
+                }
             }
         }
+        self.begin_devices(h);
     }
 
     fn contact(&self, seat: Seat, point: usize, share: f64, touch: &Touch, h: f64, held: [f64; 2]) -> (Contact, Owner) {
@@ -624,6 +638,7 @@ impl Motion {
             account.friction += works.friction;
             account.impact += works.impact;
             account.bond += works.bond;
+            account.device += works.device;
             self.pull -= (whole[0] * owner.lever[0] + whole[1] * owner.lever[1]) / h;
             let Some(seen) = pair.link.map(|k| &mut self.seen[k]) else { continue };
             let first = owner.point == 0;
@@ -635,7 +650,7 @@ impl Motion {
             seen.shear += whole[1] / h;
             seen.friction += contact.impulse[1] / h;
             seen.path += owner.share * works.slip;
-            seen.taken += works.damping + works.friction + works.impact + works.bond;
+            seen.taken += works.damping + works.friction + works.impact + works.bond + works.device;
             seen.broken += works.bond;
             seen.touches = true;
         }

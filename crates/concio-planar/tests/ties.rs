@@ -35,7 +35,7 @@ fn yielded(motion: &Motion) -> f64 {
 /// Kinetic energy of before `given` [J].
 fn unbalanced(motion: &Motion, given: f64) -> f64 {
     let a = &motion.account;
-    motion.kinetic() + a.elastic + a.friction + a.impact + a.damping + a.bond + a.ties - a.input - given
+    motion.kinetic() + a.elastic + a.friction + a.impact + a.damping + a.bond + a.device - a.input - given
 }
 
 fn close(found: f64, expected: f64, relative: f64) {
@@ -108,7 +108,7 @@ fn a_slack_rod_bears_late_and_never_pushes() {
     close(peak, v * (0.5 * STIFFNESS * MASS).sqrt(), 1e-3);
     let after = motion.velocities[0][0] - motion.velocities[1][0];
     close(after, v, 2e-3);
-    assert_eq!((force(&motion), motion.account.ties), (0.0, 0.0));
+    assert_eq!((force(&motion), motion.account.device), (0.0, 0.0));
     let given = 0.25 * MASS * v * v;
     assert!(unbalanced(&motion, given).abs() < 1e-9 * given, "{:e}", unbalanced(&motion, given));
     let (other, ..) = parted(turned);
@@ -132,7 +132,7 @@ fn a_rod_yields_and_unloads_as_it_was_loaded() {
     }
     close(peak, most, 1e-12);
     close(yielded(&motion), plastic, 1e-4);
-    close(motion.account.ties, most * yielded(&motion), 1e-9);
+    close(motion.account.device, most * yielded(&motion), 1e-9);
     close(-motion.velocities[0][0], most / (STIFFNESS * MASS).sqrt(), 1e-3);
     assert_eq!(force(&motion), 0.0);
     assert!(unbalanced(&motion, given).abs() < 1e-9 * given, "{:e}", unbalanced(&motion, given));

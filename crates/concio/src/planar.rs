@@ -4,21 +4,24 @@
 //! The mechanics are those of `concio_planar`.
 
 use concio_planar::body::Body;
-use concio_planar::joint::{Bond as PointBond, Friction, Law, Normal, Shear};
+use concio_planar::joint::{self, Bond as PointBond, Friction, Law, Normal, Shear};
 use concio_planar::motion::{Link, System};
 use concio_planar::tie::Tie as Rod;
 
 use crate::assign::JointLaw;
 use crate::bond::{Bond, BondValues, Bonded, Snap, Snaps};
 use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw, Tie};
+use crate::device;
 use crate::error::{InputError, Result};
-use crate::graph;
 use crate::law::Stribeck;
+use crate::model::Elastic;
 use crate::wall::{End, Joint, Wall};
 
+mod collapse;
 mod modes;
 mod run;
 
+pub use collapse::Collapsed;
 pub use concio_planar::motion::Vibration;
 pub use modes::{Failure, Mode, failure};
 pub(crate) use run::{Kept, Row, Run, turned};
@@ -252,7 +255,7 @@ fn bond_of(law: &JointLaw) -> Option<&BondValues> {
 
 fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Result<Law> {
     if let Some(device) = law.device(case) {
-        return device_law(wall, joint, device);
+        return Ok(device_law(joint, device));
     }
     let spring = &law.spring;
     let ways = ways(joint, law);
@@ -293,7 +296,7 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Resul
         _ => Shear { stiffness: along * stiffness, damping: dashpot(along * given), series },
     };
     let crushing = spring.compressive_strength.map_or(f64::INFINITY, |f| f.si() * area);
-    Ok(Law { normal, shear, friction: law.rubs().map(friction), bond, crushing, slip: [0.0; 2] })
+    Ok(Law { normal, shear, friction: law.rubs().map(friction), bond, crushing, slip: [0.0; 2], device: None })
 }
 
 /// Energy of a spring at its strength [J].
@@ -328,30 +331,20 @@ fn ways(joint: &Joint, law: &JointLaw) -> [f64; 2] {
 
 /// A device lies in the plane of a bed joint, which bears pressure beside it, and across a head joint, which bears nothing
 /// else.
-fn device_law(wall: &Wall, joint: &Joint, device: &Device) -> Result<Law> {
-    let refuse = |what: &str| {
-        let name = graph::name(wall, joint);
-        let error = InputError::new(format!("the device of joint {name} is {what}")).key("joint.change");
-        Err(error.allowed("in planar walls: linear `viscous`, `elastic`, `friction-damper`").into())
-    };
-    let upright = joint.kind.is_upright();
-    let (mut stiffness, mut damping, mut slip) = (0.0, device.damping.map_or(0.0, |c| c.si()), 0.0);
-    match device.law {
-        DeviceLaw::Viscous if device.exponent.is_none_or(|e| e == 1.0) => {}
-        DeviceLaw::Viscous => return refuse("a dashpot with a power of the velocity"),
-        DeviceLaw::Elastic => stiffness = device.stiffness.map_or(0.0, |k| k.si()),
-        DeviceLaw::FrictionDamper => (slip, damping) = (device.slip_force.map_or(0.0, |f| f.si()), 0.0),
-        DeviceLaw::BoucWen | DeviceLaw::ReCentring => return refuse(&format!("`{}`", device.law.name())),
+fn device_law(joint: &Joint, device: &Device) -> Law {
+    let Elastic { stiffness, damping, .. } = device::elastic(device);
+    let slip = device.slip_force.filter(|_| device.law == DeviceLaw::FrictionDamper).map_or(0.0, |f| f.si());
+    let own = |direction| device::nonlinear(device).map(|law| joint::Device { direction, law });
+    match joint.kind.is_upright() {
+        true => {
+            let normal = Normal::Springs { both: stiffness, press: 0.0, damping };
+            Law { normal, slip: [slip, 0.0], device: own(0), ..Law::dry(None) }
+        }
+        false => {
+            let shear = Shear { stiffness, damping, series: false };
+            Law { shear, slip: [0.0, slip], device: own(1), ..Law::dry(None) }
+        }
     }
-    let mut law = Law::dry(None);
-    if upright {
-        law.normal = Normal::Springs { both: stiffness, press: 0.0, damping };
-        law.slip = [slip, 0.0];
-    } else {
-        law.shear = Shear { stiffness, damping, series: false };
-        law.slip = [0.0, slip];
-    }
-    Ok(law)
 }
 
 fn friction(law: Stribeck) -> Friction {

@@ -80,7 +80,7 @@ impl Motion {
             strain.pull = pull.line.map(|d| d * contact.impulse[0] / h);
             self.account.elastic += works.elastic;
             self.account.impact += works.impact;
-            self.account.ties += works.bond;
+            self.account.device += works.bond;
             self.pull -= contact.impulse[0] * pull.lever / h;
         }
     }

@@ -5,7 +5,8 @@
 //! the stage and of s before the step. Where the tangent misses the law by much, the next one is drawn where the law
 //! meets a line, as for friction.
 
-use crate::device::{From, Law, Response};
+use concio_device::{Law, Origin, Response};
+
 use crate::integrate::joints::Joints;
 use crate::integrate::stage::{FAR, MEETING, MOST_SEARCHED};
 use crate::integrate::tableau::STAGES;
@@ -24,7 +25,7 @@ struct Fitted {
     rates: [f64; STAGES],
     /// The stage under way.
     stage: usize,
-    from: From,
+    from: Origin,
     /// w_p.
     before: f64,
     /// Where the tangent is drawn, and the law at the last iterate.
@@ -48,7 +49,7 @@ impl Devices {
             start: DeviceState::default(),
             rates: [0.0; STAGES],
             stage: 0,
-            from: From::default(),
+            from: Origin::default(),
             before: 0.0,
             tangent: Response::default(),
             found: Response::default(),
@@ -213,7 +214,7 @@ impl Devices {
 
 /// The law where f(w) + Z w = `target` + Z w_0, from the point `f` at w_0: Newton inside the bracket that a law which never
 /// falls leaves. Two digits are enough.
-fn meet(law: &Law, from: &From, f: Response, target: f64, z: f64, near: f64) -> Response {
+fn meet(law: &Law, from: &Origin, f: Response, target: f64, z: f64, near: f64) -> Response {
     let (w_0, other) = (f.w, f.w - (f.force - target) / z);
     if !other.is_finite() {
         return f;
