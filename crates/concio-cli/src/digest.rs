@@ -1,9 +1,10 @@
 //! The numbers of a run that the terminal and the report both show.
 
 use concio::outcome::{BondRow, Outcome, TieRow};
-use concio::planar::Failure;
+use concio::planar::{Collapsed, Failure};
 use concio::record::StopReason;
 use concio::store::JointRow;
+use concio::wall::Wall;
 use serde_json::Value;
 
 use crate::format::{clock, si, significant};
@@ -14,7 +15,7 @@ const ROUNDING: f64 = 1e-9;
 const NOWHERE: f64 = 1e-14;
 
 /// Names and values, the important ones first.
-pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'static str, String)> {
+pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value) -> Vec<(&'static str, String)> {
     let (totals, energies) = (&outcome.totals, &outcome.energies);
     let number = |pointer: &str| summary.pointer(pointer).and_then(Value::as_f64).unwrap_or(f64::NAN);
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
@@ -29,7 +30,7 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
         _ => ("joints", largest(&outcome.envelopes.joint_closing)),
     };
     let mut rows = vec![
-        ("peak displacement", format!("{} relative to the base", si(moved, "m"))),
+        ("peak displacement", peak(wall, outcome, moved)),
         ("peak slip velocity", si(velocity, "m/s")),
         (opens, format!("opened {}, pressed in {}", length(opening), length(deepest))),
     ];
@@ -101,6 +102,20 @@ pub fn rows(outcome: &Outcome, joints: &[JointRow], summary: &Value) -> Vec<(&'s
     rows
 }
 
+/// The peak displacement, of which block it was, and how far blocks are from their places when the wall comes to its end standing.
+fn peak(wall: &Wall, outcome: &Outcome, moved: f64) -> String {
+    let mut told = format!("{} relative to the base", si(moved, "m"));
+    let farthest = wall.blocks.iter().zip(&outcome.envelopes.block_displacement).max_by(|a, b| a.1.total_cmp(b.1));
+    if let Some((block, _)) = farthest.filter(|_| moved > 0.0) {
+        told += &format!(", of {}", block.name);
+        let last = outcome.history("peak/displacement").and_then(|history| history.last().copied());
+        if let Some(last) = last.filter(|_| outcome.recording.collapse().is_none()) {
+            told += &format!("; {} at the end", si(beside(last, moved), "m"));
+        }
+    }
+    told
+}
+
 /// How a planar wall failed, in words.
 fn failure(summary: &Value) -> Option<String> {
     let failure: Failure = serde_json::from_value(summary.get("failure")?.clone()).ok()?;
@@ -116,12 +131,14 @@ fn failure(summary: &Value) -> Option<String> {
 
 /// Which block of a planar wall fell first, and when.
 fn collapse(summary: &Value) -> Option<String> {
-    let collapse = summary.get("collapse")?;
-    let block = collapse.get("block")?.as_str()?;
-    let number = |key: &str| collapse.get(key).and_then(Value::as_f64);
-    let did = if collapse.get("turned")?.as_bool()? { "turned over" } else { "had fallen" };
-    let (time, way) = (significant(number("time")?, 4), si(number("displacement")?, "m"));
-    Some(format!("t = {time} s: block {block} {did}, {way} from its place"))
+    let collapse: Collapsed = serde_json::from_value(summary.get("collapse")?.clone()).ok()?;
+    let (time, way) = (significant(collapse.time, 4), si(collapse.displacement, "m"));
+    let (block, did) = (&collapse.block, collapse.what());
+    let others = match collapse.fallen {
+        0 | 1 => String::new(),
+        fallen => format!("; {fallen} blocks down at the end"),
+    };
+    Some(format!("t = {time} s: block {block} {did}, {way} from its place{others}"))
 }
 
 /// What the ties bore, and how many yielded.

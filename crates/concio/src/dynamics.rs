@@ -225,7 +225,8 @@ pub fn accelerate(model: &Model, drive: &Drive, state: &mut State) {
 pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
     let n = model.unknowns();
     let [z_0, v_0] = start;
-    let pull = borne_by(model, &model.on_beam, Acting::of(state.view()));
+    let [shear, pull] =
+        [&model.on_base, &model.on_beam].map(|support| borne_by(model, support, Acting::of(state.view())));
     let env = &mut state.envelopes;
     let mut largest = 0.0f64;
     for i in 0..n {
@@ -297,6 +298,7 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
         let e = contact.joint as usize;
         env.joint_force[e] = env.joint_force[e].max(*borne);
     }
+    totals.base_shear_peak = totals.base_shear_peak.max(shear.abs());
     totals.top_force_peak = totals.top_force_peak.max(pull.abs());
     totals.top_force_square += 0.5 * h * (state.pull * state.pull + pull * pull);
     state.pull = pull;

@@ -38,12 +38,6 @@ impl Outcome {
         Some(self.recording.values.chunks_exact(channels.len()).map(|row| row[at]).collect())
     }
 
-    /// Largest |horizontal force of the base on the wall| of all samples [N]; of a wall that collapses until it does.
-    pub fn base_shear_peak(&self) -> f64 {
-        let shear = self.history("base/shear").unwrap_or_default();
-        shear.iter().take(self.recording.standing(&self.recording.time)).fold(0.0, |most, force| most.max(force.abs()))
-    }
-
     /// The bond that cracked first, of several at once the one of the first joint; none when none cracked.
     pub fn first_crack(&self) -> Option<&BondRow> {
         let cracked = self.bonds.iter().filter(|b| b.cracked.is_finite());
@@ -109,6 +103,8 @@ pub struct Totals {
     /// Largest |friction force| in a joint [N], on the side that it is larger on; of a bonded joint that of its cracked
     /// part, none while it is intact; of one that sticks what it holds. 0 where nothing rubs.
     pub peak_friction_force: f64,
+    /// Largest |horizontal force of the base on the wall| [N]; of a planar wall the mean over a step, impacts among it.
+    pub base_shear_peak: f64,
     /// Largest |force| that the top beam exerts on the wall [N]; 0 without a beam.
     pub top_force_peak: f64,
     /// ∫ F² dt of that force [N² s]; its rms is √(this / time reached).

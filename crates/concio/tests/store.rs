@@ -535,8 +535,9 @@ fn summary_has_the_keys_that_other_programs_read() {
     assert_eq!(number("/peak_relative_displacement"), 1.1e-3);
     assert_eq!(number("/peak_slip_velocity"), 2.2e-2);
     assert_eq!(number("/weight"), 3e4);
-    // The sample keeps no such channel.
-    assert_eq!(number("/base_shear_peak"), 0.0);
+    assert_eq!(number("/base_shear_peak"), 1.9e5);
+    assert_eq!((number("/collapse/time"), number("/collapse/displacement")), (0.06, 0.25));
+    assert_eq!(summary.pointer("/collapse/block").and_then(|v| v.as_str()), Some(s.wall.blocks[0].name.as_str()));
     assert_eq!(number("/top_work"), 2.5);
     assert_eq!(number("/top_force_peak"), 2.3e5);
     // √(4e8 N² s / 0.1 s)

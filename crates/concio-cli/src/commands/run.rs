@@ -87,7 +87,7 @@ fn tell(finished: &Finished, prepared: &Prepared, joints: &[JointRow], report: &
         let [at, end] = [finished.outcome.time_reached, prepared.model.excitation.duration].map(seconds);
         files::note(&format!("stopped early at t = {at} of {end}: {}", digest::why(reason)));
     }
-    let rows = digest::rows(&finished.outcome, joints, &finished.summary);
+    let rows = digest::rows(&prepared.model.wall, joints, &finished.outcome, &finished.summary);
     files::print(&format!("{}\nopen {}\n", pairs(&rows), report.display()))
 }
 

@@ -38,7 +38,12 @@ pub fn html(content: &Content) -> String {
     tiles(&mut page, content);
     page.push_str("<div id=\"app\"></div>\n");
     without_script(&mut page, content);
-    section(&mut page, "summary", "Summary", &table(&digest::rows(content.outcome, content.joints, content.summary)));
+    section(
+        &mut page,
+        "summary",
+        "Summary",
+        &table(&digest::rows(content.wall, content.joints, content.outcome, content.summary)),
+    );
     let list: String = doubts::list(content).iter().map(|d| format!("<li>{}</li>\n", escape(d))).collect();
     section(&mut page, "doubts", "When not to believe this result", &format!("<ul>\n{list}</ul>\n"));
     reproduction(&mut page, content);

@@ -54,6 +54,7 @@ pub struct Peaks {
     pub closing: [f64; WIDTH],
     pub friction: [f64; WIDTH],
     pub pull: [f64; WIDTH],
+    pub base_shear: [f64; WIDTH],
 }
 
 impl Account {
@@ -253,7 +254,7 @@ impl Settle<'_> {
         self.peaks.displacement = most.numbers();
     }
 
-    /// Peaks of the joints and the force on the beam.
+    /// Peaks of the joints and the forces on beam and base.
     #[inline(always)]
     fn observe_joints<S: Simd>(&mut self, simd: S) {
         let (w, t) = (self.work, &self.work.topology);
@@ -266,6 +267,7 @@ impl Settle<'_> {
         let (mu, rubs) = (w.stage_mu[w.tableau.stages - 1].read(simd), w.rubs.read(simd));
         let mut account = self.account.joints.write(simd);
         let (mut pull, mut fastest, mut deepest, mut rubbing) = (zero, zero, zero, zero);
+        let mut shear = zero;
         let of_joint = account.iter_mut().zip(joints.iter()).zip(stiffness.iter());
         for (((mut peaks, joint), stiffness), at) in of_joint.zip(&t.joints) {
             let [i, k] = at.sides;
@@ -288,6 +290,8 @@ impl Settle<'_> {
             }
             if at.to_beam {
                 pull = pull + (force(d) + joint.row(DAMPING) * dv);
+            } else if at.to_base {
+                shear = shear + (force(d) + joint.row(DAMPING) * dv);
             }
             if at.rub != NONE {
                 rubbing = rubbing.max(rubs.of(at.rub, LARGEST_NORMAL) * mu.at(at.rub).abs());
@@ -298,10 +302,14 @@ impl Settle<'_> {
         for &r in &t.rubs_of_beam {
             pull = pull + rubs.of(r, NORMAL) * mu.at(r);
         }
+        for &r in &t.rubs_of_base {
+            shear = shear + rubs.of(r, NORMAL) * mu.at(r);
+        }
         self.peaks.slip_velocity = fastest.numbers();
         self.peaks.closing = deepest.numbers();
         self.peaks.friction = rubbing.numbers();
         self.peaks.pull = pull.numbers();
+        self.peaks.base_shear = shear.numbers();
     }
 }
 

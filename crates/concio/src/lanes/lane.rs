@@ -367,6 +367,7 @@ impl<'m> Lane<'m> {
         sum.peak_slip_velocity = sum.peak_slip_velocity.max(peaks.slip_velocity[i]);
         sum.minimum_gap = sum.minimum_gap.min(-peaks.closing[i]);
         sum.peak_friction_force = sum.peak_friction_force.max(peaks.friction[i]);
+        sum.base_shear_peak = sum.base_shear_peak.max(peaks.base_shear[i].abs());
         sum.top_force_peak = sum.top_force_peak.max(pull.abs());
         sum.top_force_square += 0.5 * self.waiting * (before * before + pull * pull);
     }

@@ -55,6 +55,8 @@ pub struct JointAt {
     /// Whether its other side is the beam whose force is recorded, and whether that beam is driven or tied.
     pub to_beam: bool,
     pub to_top: bool,
+    /// Whether its other side is the base.
+    pub to_base: bool,
 }
 
 /// A joint that rubs.
@@ -112,9 +114,10 @@ pub struct Topology {
     pub joints: Vec<JointAt>,
     pub rubs: Vec<RubAt>,
     pub one_sided: Vec<OneSidedAt>,
-    /// Places in `rubs` of those at the beam and at the driven or tied top.
+    /// Places in `rubs` of those at the beam, at the driven or tied top and at the base.
     pub rubs_of_beam: Vec<u32>,
     pub rubs_of_top: Vec<u32>,
+    pub rubs_of_base: Vec<u32>,
     /// What every unknown, by place, gathers from the joints and from those that rub.
     pub of_joints: Incidence,
     pub of_rubs: Incidence,
@@ -158,6 +161,7 @@ impl Topology {
                 upright: model.joints[e].kind.is_upright(),
                 to_beam: s[1] == beam,
                 to_top: s[1] as usize == model.top(),
+                to_base: s[1] as usize == model.base(),
             };
             if model.elastic[e].unilateral {
                 joint.one_sided = one_sided.len() as u32;
@@ -176,6 +180,7 @@ impl Topology {
             rubs.filter(|(_, rub)| chosen(&joints[rub.joint as usize])).map(at).collect::<Vec<u32>>()
         };
         let (rubs_of_beam, rubs_of_top) = (rubs_at(|j| j.to_beam), rubs_at(|j| j.to_top));
+        let rubs_of_base = rubs_at(|j| j.to_base);
         let (start, rows) = matrix.pattern();
         let (row_counts, row_entries) = by_rows(start, rows);
         let (product_counts, products) = products(start, rows);
@@ -187,6 +192,7 @@ impl Topology {
             one_sided,
             rubs_of_beam,
             rubs_of_top,
+            rubs_of_base,
             of_joints: Incidence::new(n, joints.iter().map(|j| j.sides)),
             of_rubs: Incidence::new(n, model.rubs.iter().map(|r| joints[r.joint as usize].sides)),
             joints,

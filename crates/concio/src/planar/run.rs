@@ -13,6 +13,7 @@ use crate::ground::signal::GroundMotion;
 use crate::model::Model;
 use crate::outcome::{Collapse, TieRow};
 use crate::planar::Planar;
+use crate::planar::collapse::is_down;
 use crate::record::{Event, EventKind, Layout, Recording, StopReason};
 use crate::state::{BondState, State};
 use crate::wall::End;
@@ -25,9 +26,6 @@ const SETTLING: usize = 400;
 /// come to rest is no longer the wall.
 const FALLING: f64 = 0.01;
 const FELL: f64 = 0.25;
-/// Fall of a block over its height, and turn in rad, from which its wall counts as collapsed.
-const FALLEN: f64 = 0.5;
-const TURNED: f64 = std::f64::consts::FRAC_PI_4;
 
 /// A run of a planar wall.
 #[derive(Debug, Clone)]
@@ -248,7 +246,7 @@ impl Run {
         (energies.kinetic, energies.elastic) = (self.motion.kinetic(), account.elastic);
         (energies.damping, energies.friction) = (account.damping, account.friction);
         (energies.bond, energies.impact) = (account.bond, account.impact);
-        energies.device = account.ties;
+        energies.device = account.device;
         let counters = &mut state.counters;
         (counters.steps, counters.rejected, counters.unsolved) = (counted.steps, counted.halved, counted.unsolved);
         (counters.iterations, counters.factorisations) = (counted.iterations, counted.factorisations);
@@ -259,6 +257,7 @@ impl Run {
         let pull = self.pull(model, state, h);
         let totals = &mut state.totals;
         if totals.collapse.is_none() {
+            totals.base_shear_peak = totals.base_shear_peak.max(base_shear(model, &self.motion).abs());
             totals.top_force_peak = totals.top_force_peak.max(pull.abs());
             self.raise(model, state, h);
             self.strain(state.t);
@@ -358,14 +357,13 @@ impl Run {
 
     /// The first block that has fallen or turned over, and the same as an event of one of its joints.
     fn collapse(&self, model: &Model, time: f64) -> Option<(Collapse, Event)> {
-        let turned = |i: usize| self.at.rotation[i].abs() > TURNED;
-        let fallen = |i: usize| -self.at.vertical[i] > FALLEN * model.wall.blocks[i].height();
-        let block = (0..model.wall.blocks.len()).find(|&i| turned(i) || fallen(i))?;
+        let down = |i: usize| is_down(self.at.rotation[i], self.at.vertical[i], model.wall.blocks[i].height());
+        let (block, turned) = (0..model.wall.blocks.len()).find_map(|i| Some((i, down(i)?)))?;
         let of_block = |j: &crate::wall::Joint| j.a == block || j.b == End::Block(block);
         let joint = model.joints.iter().position(of_block)? as u32;
         let way = self.at.z[block].hypot(self.at.vertical[block]);
         let event = Event { time, joint, kind: EventKind::Collapse, value: way };
-        Some((Collapse { time, block, way, turned: turned(block) }, event))
+        Some((Collapse { time, block, way, turned }, event))
     }
 
     /// Appends sample `k` at `t` [s], and the frame if one is due.
@@ -389,19 +387,9 @@ impl Run {
             self.at.from = t;
             &self.at.start
         };
-        let base: f64 = 0.0
-            - self
-                .motion
-                .seen
-                .iter()
-                .zip(&model.joints)
-                .filter(|(_, j)| j.kind == JointKind::Base)
-                .map(|(s, _)| s.shear)
-                .sum::<f64>();
-        let anchored = self.motion.ties().filter(|(tie, _)| tie.a.is_none()).map(|(_, strain)| strain.pull[0]);
-        let base = anchored.fold(base, |sum, pull| sum + pull);
         recording.time.push(t);
-        let row = Row { t, z, v, a: &state.a, vertical, rotation, seen: &self.motion.seen, state, shear: base };
+        let (seen, shear) = (&self.motion.seen, base_shear(model, &self.motion));
+        let row = Row { t, z, v, a: &state.a, vertical, rotation, seen, state, shear };
         channels.sample_planar(model, row, &mut recording.values);
         if layout.frame_every == 0 || !k.is_multiple_of(layout.frame_every as u64) {
             return;
@@ -421,6 +409,14 @@ impl Run {
             recording.frame_friction.push(-sign * seen.shear);
         }
     }
+}
+
+/// Horizontal force of the base on the wall in the last step, that of ties to it included [N].
+fn base_shear(model: &Model, motion: &Motion) -> f64 {
+    let joints = motion.seen.iter().zip(&model.joints).filter(|(_, j)| j.kind == JointKind::Base);
+    let borne = 0.0 - joints.map(|(s, _)| s.shear).sum::<f64>();
+    let anchored = motion.ties().filter(|(tie, _)| tie.a.is_none()).map(|(_, strain)| strain.pull[0]);
+    anchored.fold(borne, |sum, pull| sum + pull)
 }
 
 #[derive(Debug, Clone, Copy)]

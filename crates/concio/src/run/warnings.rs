@@ -3,7 +3,7 @@
 use crate::case::JointKind;
 use crate::graph;
 use crate::model::Model;
-use crate::outcome::{Collapse, Outcome};
+use crate::outcome::Outcome;
 use crate::store::{JointRow, residual_relative};
 
 /// Relative displacement of a joint, as a fraction of its overlap, from which its geometry should not be taken as
@@ -58,11 +58,8 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
 
 /// A wall that fell is no result of the forces that it bore before.
 fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
-    let Collapse { time, block, turned, .. } = outcome.totals.collapse?;
-    let (name, did) = (
-        &model.wall.blocks.get(block)?.name,
-        if turned { "turned by 45°" } else { "had fallen by half of its height" },
-    );
+    let collapse = outcome.totals.collapse?;
+    let (name, time, did) = (&model.wall.blocks.get(collapse.block)?.name, collapse.time, collapse.what());
     let what = "peaks and slips are those of the time before, cracks and energies those of the whole run";
     Some(format!("the wall counts as collapsed from t = {time:.4} s on, when block {name} {did}: {what}"))
 }
@@ -110,6 +107,7 @@ mod tests {
     use crate::case::{Scheme, Solver};
     use crate::excitation::Excitation;
     use crate::ground::signal::GroundMotion;
+    use crate::outcome::Collapse;
     use crate::samples::{Link, lumped, solver};
     use crate::simulate::{Sampling, Simulation};
     use crate::wall::End;

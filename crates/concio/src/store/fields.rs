@@ -137,7 +137,7 @@ pub(super) const ENERGIES: [Field<Energies, f64>; 11] = [
 ];
 
 /// Numbers that sum a run up.
-pub(super) const TOTALS: [Field<Totals, f64>; 9] = [
+pub(super) const TOTALS: [Field<Totals, f64>; 10] = [
     field!(
         "peak_relative_displacement",
         "m",
@@ -146,6 +146,7 @@ pub(super) const TOTALS: [Field<Totals, f64>; 9] = [
     ),
     field!("peak_slip_velocity", "m/s", peak_slip_velocity, "Largest relative velocity of a bed or support joint."),
     field!("peak_friction_force", "N", peak_friction_force, "Largest friction force in a joint, sign dropped."),
+    field!("base_shear_peak", "N", base_shear_peak, "Largest horizontal force of the base on the wall, sign dropped."),
     field!("top_force_peak", "N", top_force_peak, "Largest force of the top beam on the wall, sign dropped."),
     field!("top_force_square", "N2 s", top_force_square, "Time integral of the square of that force."),
     field!("minimum_gap", "m", minimum_gap, "Most negative gap of a head joint or connection, from 0 down."),

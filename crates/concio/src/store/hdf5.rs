@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::case::DeviceLaw;
 use crate::error::{Error, Result};
-use crate::outcome::{Outcome, TieRow};
+use crate::outcome::{Collapse, Outcome, TieRow};
 use crate::record::{Event, Layout, Recording};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::{Sink, label};
@@ -50,6 +50,7 @@ pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointR
         write_frames(&mut sink, &outcome.layout, &outcome.recording)?;
         write_bonds(&mut sink, outcome)?;
         write_ties(&mut sink, &outcome.ties)?;
+        write_collapse(&mut sink, outcome.totals.collapse.as_ref())?;
         write_events(&mut sink, &outcome.recording.events)?;
         write_sums(&mut sink, outcome)?;
         vtkhdf::write_group(&mut sink, wall, outcome)?;
@@ -262,6 +263,15 @@ fn write_ties(sink: &mut Sink, ties: &[TieRow]) -> Result<()> {
     sink.texts("ties/from", &names(ties, |t| &t.from), "What one end is fixed to, base first.")?;
     sink.texts("ties/to", &names(ties, |t| &t.to), "The block that the other end is fixed to.")?;
     write_columns(sink, "ties", &fields::TIES, ties)
+}
+
+/// Nothing where the wall did not collapse.
+fn write_collapse(sink: &mut Sink, collapse: Option<&Collapse>) -> Result<()> {
+    let Some(Collapse { time, block, way, turned }) = collapse else { return Ok(()) };
+    sink.number("collapse/time", *time, label("s", "When the first block had fallen or turned over."))?;
+    sink.number("collapse/block", *block as i64, label("1", "Index of that block."))?;
+    sink.number("collapse/displacement", *way, label("m", "Its displacement then."))?;
+    sink.number("collapse/turned", u8::from(*turned), label("1", "1 where it had turned over, 0 where it had fallen."))
 }
 
 /// Nothing where nothing happened: other readers refuse a list of no texts.

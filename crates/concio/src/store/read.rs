@@ -8,7 +8,7 @@ use serde::de::value::{Error as KeywordError, StrDeserializer};
 
 use crate::case::{DeviceLaw, JointKind};
 use crate::error::Result;
-use crate::outcome::{BondRow, Outcome, TieRow, Totals};
+use crate::outcome::{BondRow, Collapse, Outcome, TieRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::Source;
@@ -45,7 +45,10 @@ pub fn read(path: &Path) -> Result<StoredRun> {
         ties: read_ties(&source)?,
         envelopes,
         energies: read_numbers(&source, "energy", &fields::ENERGIES, Energies::default())?,
-        totals: read_numbers(&source, "totals", &fields::TOTALS, Totals::default())?,
+        totals: Totals {
+            collapse: read_collapse(&source, wall.blocks.len())?,
+            ..read_numbers(&source, "totals", &fields::TOTALS, Totals::default())?
+        },
         counters: read_numbers(&source, "counters", &fields::COUNTERS, Counters::default())?,
         stop_reason: keyword(&source, "stop_reason", &source.attribute("stop_reason")?)?,
         time_reached: source.number("totals/time_reached")?,
@@ -207,6 +210,19 @@ fn read_ties(source: &Source) -> Result<Vec<TieRow>> {
         from.into_iter().zip(to).map(|(from, to)| TieRow { from, to, ..TieRow::default() }).collect();
     read_columns(source, "ties", &fields::TIES, &mut ties)?;
     Ok(ties)
+}
+
+/// None in a file without it.
+fn read_collapse(source: &Source, blocks: usize) -> Result<Option<Collapse>> {
+    if !source.has("collapse/time") {
+        return Ok(None);
+    }
+    Ok(Some(Collapse {
+        time: source.number("collapse/time")?,
+        block: block(source, "collapse/block", source.number("collapse/block")?, blocks)?,
+        way: source.number("collapse/displacement")?,
+        turned: source.number::<u8>("collapse/turned")? != 0,
+    }))
 }
 
 fn read_layout(source: &Source, bonded: usize) -> Result<Layout> {

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::error::{Error, Result};
-use crate::outcome::{Collapse, Outcome, TieRow};
+use crate::outcome::{Outcome, TieRow};
 use crate::planar;
 use crate::record::Energies;
 use crate::store::{JointRow, Provenance, atomic};
@@ -52,12 +52,12 @@ pub fn summary(
         "peak_relative_displacement": totals.peak_relative_displacement,
         "peak_slip_velocity": totals.peak_slip_velocity,
         "top_work": outcome.energies.input_top,
-        "base_shear_peak": outcome.base_shear_peak(),
+        "base_shear_peak": totals.base_shear_peak,
         "top_force_peak": totals.top_force_peak,
         "top_force_rms": top_force_rms(outcome),
         "minimum_gap": totals.minimum_gap,
         "contact_residual": totals.contact_residual,
-        "collapse": collapse(outcome, wall),
+        "collapse": planar::Collapsed::of(outcome, wall),
         "failure": planar::failure(wall, &graph, &outcome.recording),
         "bonds": bonds(outcome, joints),
         "ties": ties(outcome),
@@ -91,13 +91,6 @@ pub fn residual_relative(outcome: &Outcome) -> f64 {
 /// Root mean square of the force of the top beam over the time reached [N].
 pub fn top_force_rms(outcome: &Outcome) -> f64 {
     if outcome.time_reached > 0.0 { (outcome.totals.top_force_square / outcome.time_reached).sqrt() } else { 0.0 }
-}
-
-/// Which block of a planar wall fell or turned over first, and when; null where none did.
-fn collapse(outcome: &Outcome, wall: &Wall) -> Value {
-    let Some(Collapse { time, block, way, turned }) = outcome.totals.collapse else { return Value::Null };
-    let name = wall.blocks.get(block).map(|b| &b.name);
-    json!({ "time": time, "block": name, "displacement": way, "turned": turned })
 }
 
 /// How many bonds cracked and broke, and which was the first; null where no joint is bonded.

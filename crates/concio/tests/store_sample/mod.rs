@@ -2,7 +2,7 @@
 //! shows; they obey no mechanics.
 
 use concio::case::{DeviceLaw, FrictionLaw, JointKind, SpringLaw};
-use concio::outcome::{BondRow, Outcome, TieRow, Totals};
+use concio::outcome::{BondRow, Collapse, Outcome, TieRow, Totals};
 use concio::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use concio::store::{FrictionRow, JointRow, Provenance};
 use concio::wall::{Block, End, Joint, PanelInfo, Shape, Wall};
@@ -212,13 +212,14 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             peak_relative_displacement: 1.1e-3,
             peak_slip_velocity: 2.2e-2,
             peak_friction_force: 1.7e3,
+            base_shear_peak: 1.9e5,
             top_force_peak: 2.3e5,
             top_force_square: 4.0e8,
             minimum_gap: -1.0e-9,
             contact_residual: 3.0e-16,
             peak_input: 8.0,
             peak_residual: 2.0e-6,
-            collapse: None,
+            collapse: wall.blocks.first().map(|_| Collapse { time: 0.06, block: 0, way: 0.25, turned: true }),
         },
         counters: Counters {
             steps: 10,
