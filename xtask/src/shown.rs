@@ -154,7 +154,13 @@ fn missing<'a>(said: &str, quoted: &'a str, tolerance: f64) -> Result<(), &'a st
     let mut lines = said.lines().map(str::trim);
     for quote in quoted.lines().map(str::trim).filter(|l| !l.is_empty() && *l != "…") {
         let matches = |line: &str| match quote.split_once('…') {
-            Some((start, end)) => line.starts_with(start.trim_end()) && line.ends_with(end.trim_start()),
+            Some((start, end)) => {
+                let [words, start, end] = [line, start, end].map(|t| t.split_whitespace().collect::<Vec<_>>());
+                let of = |from: usize, part: &[&str]| {
+                    alike(&words[from..from + part.len()].join(" "), &part.join(" "), tolerance)
+                };
+                words.len() >= start.len() + end.len() && of(0, &start) && of(words.len() - end.len(), &end)
+            }
             None => alike(line, quote, tolerance),
         };
         if !lines.any(matches) {
@@ -190,6 +196,8 @@ mod tests {
         assert_eq!(missing(said, "two …\n", 0.0), Ok(()));
         assert_eq!(missing(said, "two … s\n", 0.0), Ok(()));
         assert_eq!(missing(said, "two … m\n", 0.0), Err("two … m"));
+        assert_eq!(missing("a 1.02 m, of b at c", "a 1.00 m, … at c", 0.05), Ok(()));
+        assert_eq!(missing("a 1.02 m, of b at c", "a 1.00 m, … at c", 0.01), Err("a 1.00 m, … at c"));
         assert_eq!(missing(said, "four\none\n", 0.0), Err("one"));
         assert_eq!(missing(said, "three\n", 0.0), Err("three"));
         assert_eq!(missing(said, "two 3.3 s\n", 0.2), Ok(()));

@@ -633,9 +633,9 @@ pub struct Limit {
     /// What is turned to the horizontal.
     #[arg(long, value_enum, default_value = "body")]
     pub load: LimitLoad,
-    /// Where it pushes to.
-    #[arg(long, value_enum, default_value = "right")]
-    pub towards: Side,
+    /// Where it pushes to; default both ways, and what is told is the weaker.
+    #[arg(long, value_enum)]
+    pub towards: Option<Side>,
     /// Friction of head joints and connections.
     #[arg(long, value_enum, default_value = "as-given")]
     pub heads: HeadFriction,

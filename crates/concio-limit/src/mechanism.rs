@@ -23,6 +23,15 @@ impl MechanismKind {
             MechanismKind::Mixed => "mixed",
         }
     }
+
+    /// What it means.
+    pub fn what(self) -> &'static str {
+        match self {
+            MechanismKind::Sliding => "sliding: no joint opens",
+            MechanismKind::Overturning => "overturning: no joint slides",
+            MechanismKind::Mixed => "mixed: joints slide and joints open",
+        }
+    }
 }
 
 /// What the two ends of a joint do, per unit of the largest velocity of a block's corner.

@@ -139,7 +139,11 @@ fn warnings(case: &Case) -> Vec<String> {
     let bonded = bonded.then(|| "the bond of the joints is left out: they count as dry".to_string());
     let tied = (!case.ties.is_empty())
         .then(|| "the ties are left out: the multiplier is that of the wall without them".to_string());
-    bonded.into_iter().chain(tied).collect()
+    let mortar = |p: &concio::case::Panel| p.mortar.bed.si() > 0.0 || p.mortar.head.si() > 0.0;
+    let laid = case.panels.iter().any(mortar).then(|| {
+        "mortar counts as a dry joint, a line in its middle: it bears no tension, and blocks touch there".to_string()
+    });
+    bonded.into_iter().chain(laid).chain(tied).collect()
 }
 
 /// The beam and the length on which it lies [m].

@@ -250,7 +250,7 @@ fn keys_and_values() -> Vec<Bad> {
         "spring law with a typing error", edit("law = \"no-tension\"", "law = \"rigd\""), "head = { law", "joint.head.law", "`rigd` is not known here", "did you mean `rigid`?";
         "spring law that there is not", edit("law = \"no-tension\"", "law = \"cubic\""), "head = { law", "joint.head.law", "`cubic` is not known here", "`elastic`, `no-tension`, `rigid`, `none`";
         "unknown table", format!("{GOOD}[soil]\nvs = 200\n"), "[soil]", "soil", "unknown key", "`motion`";
-        "missing table", GOOD.split("[motion]").next().unwrap_or_default(), "model", "motion", "the key is missing", "Motion of base and top";
+        "missing table", GOOD.split("[motion]").next().unwrap_or_default(), "model", "motion", "the key is missing", "a table `[motion]`: Motion of base and top";
         "no joints and no set", "model = \"shear\"\n[[panel]]\n", "model", "joint", "the key is missing", "set = \"report\"";
         "wrong unit", edit("\"55 mm\"", "\"55 kg\""), "brick =", "panel[0].brick.height", "`kg` is not a unit of length", "m, cm, mm";
         "no unit in a text", edit("\"55 mm\"", "\"55\""), "brick =", "panel[0].brick.height", "`55` has no unit", "m, cm, mm";

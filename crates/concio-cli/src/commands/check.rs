@@ -24,9 +24,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let prepared = wall_file::prepare(&file)?;
     let model = &prepared.model;
     let motion = wall_file::motion(&file, &prepared)?;
-    for warning in &model.warnings {
-        files::note(&format!("warning: {warning}"));
-    }
+    wall_file::warn(&file, &model.warnings);
     if let Some(path) = &args.svg {
         let names = model.joint_names();
         let beam = report::beam_label(&prepared.case);

@@ -20,6 +20,8 @@ const RESULT: &str = "limit.json";
 const DRAWING: &str = "mechanism.svg";
 /// Joints that are named on the terminal.
 const NAMED: usize = 8;
+/// Relative difference of two multipliers that are equal.
+const EQUAL: f64 = 1e-6;
 
 /// Finds the collapse multiplier of a wall.
 pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
@@ -27,16 +29,23 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
     if let Some(out) = &args.out {
         refuse_a_file(out)?;
     }
-    let problem = Problem::of(&file.case, options(args)).map_err(|e| file.locate(e))?;
-    for warning in &problem.warnings {
-        files::note(&format!("warning: {warning}"));
+    let sides = args.towards.map_or(vec![Side::Right, Side::Left], |side| vec![side]);
+    let mut pushed = Vec::with_capacity(sides.len());
+    for towards in sides {
+        let problem = Problem::of(&file.case, options(args, towards)).map_err(|e| file.locate(e))?;
+        if pushed.is_empty() {
+            problem.warnings.iter().for_each(|warning| files::note(&format!("warning: {warning}")));
+        }
+        let found = limit::analyse(&problem).map_err(|e| failure(e, &args.file))?;
+        pushed.push(Pushed { towards, problem, found });
     }
-    let found = limit::analyse(&problem).map_err(|e| failure(e, &args.file))?;
-    let result = result(args, &problem, &found);
+    let (weaker, other) = weaker(pushed);
+    let Pushed { problem, found, .. } = &weaker;
+    let result = result(args, &weaker, other.as_ref());
     if let Some(out) = &args.out {
         fs::create_dir_all(out).map_err(|e| Failure::from(Error::io(out, e)))?;
         files::write(&out.join(RESULT), &format!("{result:#}\n"))?;
-        let drawing = mechanism::draw(&problem, &found).outlined().map_err(|e| Failure::Other(e, None))?;
+        let drawing = mechanism::draw(problem, found).outlined().map_err(|e| Failure::Other(e, None))?;
         files::write(&out.join(DRAWING), &drawing)?;
     }
     if args.json {
@@ -45,7 +54,7 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
         let title = if file.case.title.is_empty() { String::new() } else { format!("{}\n\n", file.case.title) };
         let names = |out: &Path| format!("\nopen {}\n", out.join(DRAWING).display());
         let written = args.out.as_deref().map(names).unwrap_or_default();
-        files::print(&format!("{title}{}{written}", pairs(&rows(args, &problem, &found))))?;
+        files::print(&format!("{title}{}{written}", pairs(&rows(args, &weaker, other.as_ref()))))?;
     }
     if found.is_certified() {
         return Ok(ExitCode::SUCCESS);
@@ -55,13 +64,30 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
     Ok(ExitCode::from(STOPPED))
 }
 
-fn options(args: &Limit) -> Options {
+/// What was found for one way.
+struct Pushed {
+    towards: Side,
+    problem: Problem,
+    found: limit::Limit,
+}
+
+/// The way in which the wall bears less, of two that are equal but for rounding the first, and the other.
+fn weaker(mut pushed: Vec<Pushed>) -> (Pushed, Option<Pushed>) {
+    let other = if pushed.len() > 1 { pushed.pop() } else { None };
+    let first = pushed.remove(0);
+    match other {
+        Some(other) if other.found.multiplier() < first.found.multiplier() * (1.0 - EQUAL) => (other, Some(first)),
+        other => (first, other),
+    }
+}
+
+fn options(args: &Limit, towards: Side) -> Options {
     Options {
         push: match args.load {
             LimitLoad::Body => limit::Push::Body,
             LimitLoad::Top => limit::Push::Top,
         },
-        towards: match args.towards {
+        towards: match towards {
             Side::Left => limit::Towards::Left,
             Side::Right => limit::Towards::Right,
         },
@@ -82,7 +108,11 @@ fn failure(error: LimitError, path: &Path) -> Failure {
     }
 }
 
-fn rows(args: &Limit, problem: &Problem, found: &limit::Limit) -> Vec<(&'static str, String)> {
+fn rows(
+    args: &Limit,
+    Pushed { towards, problem, found }: &Pushed,
+    other: Option<&Pushed>,
+) -> Vec<(&'static str, String)> {
     let load = match args.load {
         LimitLoad::Body if problem.live.len() > problem.wall.blocks.len() => "weight of every block and of the beam",
         LimitLoad::Body => "weight of every block",
@@ -103,13 +133,17 @@ fn rows(args: &Limit, problem: &Problem, found: &limit::Limit) -> Vec<(&'static 
         format!("{}: {}{more}", names.len(), names[..names.len().min(NAMED)].join(", "))
     };
     let mut rows = vec![
-        ("load", format!("λ × {load}, to the {}{heads}", side(args))),
+        ("load", format!("λ × {load}, to the {}{heads}", side(*towards))),
         ("λ", format!("{} for associative friction", significant(found.multiplier(), 6))),
         ("bounds", format!("{lower} by forces, {upper} by a mechanism")),
         ("force", si(found.multiplier() * total, "N")),
         ("without dilation", estimate(&found.non_associative)),
-        ("mechanism", mechanism.kind.name().into()),
+        ("mechanism", mechanism.kind.what().into()),
     ];
+    if let Some(other) = other {
+        let value = significant(other.found.multiplier(), 6);
+        rows.insert(3, ("the other way", format!("λ = {value} to the {}", side(other.towards))));
+    }
     if mechanism.joints.iter().any(|j| j.slides) {
         rows.push(("joints that slide", named(|j| j.slides)));
     }
@@ -119,8 +153,8 @@ fn rows(args: &Limit, problem: &Problem, found: &limit::Limit) -> Vec<(&'static 
     rows
 }
 
-fn side(args: &Limit) -> &'static str {
-    match args.towards {
+fn side(side: Side) -> &'static str {
+    match side {
         Side::Left => "left",
         Side::Right => "right",
     }
@@ -135,7 +169,7 @@ fn estimate(found: &NonAssociative) -> String {
     }
 }
 
-fn result(args: &Limit, problem: &Problem, found: &limit::Limit) -> Value {
+fn result(args: &Limit, Pushed { towards, problem, found }: &Pushed, other: Option<&Pushed>) -> Value {
     let bodies = problem.assembly.bodies.iter().zip(&found.mechanism.velocities);
     let blocks: Vec<Value> =
         bodies.map(|(b, v)| json!({ "name": b.name, "velocity": [v[0], v[1]], "rotation": v[2] })).collect();
@@ -154,11 +188,12 @@ fn result(args: &Limit, problem: &Problem, found: &limit::Limit) -> Value {
     json!({
         "version": env!("CARGO_PKG_VERSION"),
         "load": match args.load { LimitLoad::Body => "body", LimitLoad::Top => "top" },
-        "towards": side(args),
+        "towards": side(*towards),
         "heads": match args.heads { HeadFriction::AsGiven => "as-given", HeadFriction::Frictionless => "frictionless" },
         "live_load": problem.live.iter().map(|f| f[0]).sum::<f64>(),
         "multiplier": found.multiplier(),
         "bounds": found.bounds,
+        "other_way": other.map(|o| json!({ "towards": side(o.towards), "multiplier": o.found.multiplier(), "bounds": o.found.bounds })),
         "gap": found.gap(),
         "certified": found.is_certified(),
         "unbalanced": found.unbalanced,

@@ -32,9 +32,7 @@ pub fn run(args: &Run) -> Result<ExitCode, Failure> {
     if args.fresh {
         concio::run::forget(&out)?;
     }
-    for warning in &prepared.model.warnings {
-        files::note(&format!("warning: {warning}"));
-    }
+    wall_file::warn(&file, &prepared.model.warnings);
     let finished = simulate(&prepared, &out)?;
     let joints = concio::run::joint_rows(&prepared.model);
     let mut content = report::Content::of_run(&out, &prepared, &joints, &finished, file.text());

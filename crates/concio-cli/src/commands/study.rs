@@ -14,7 +14,7 @@ use concio_study::{Plan, answer, file, first_crack, interfaces, table};
 use rayon::prelude::*;
 
 use super::run::refuse_a_file;
-use super::wall_file::Kind;
+use super::wall_file::{self, Kind};
 use crate::args::{StudyCheck, StudyCommand, StudyPlace, StudyRun};
 use crate::failure::{Failure, STOPPED};
 use crate::format::{columns, counted, pairs};
@@ -97,8 +97,8 @@ fn cases(plan: &Plan) -> Result<Vec<(String, Case)>> {
 }
 
 /// Tells what `concio check` would warn of.
-fn warn(shaking: &Shaking) {
-    shaking.warnings.iter().for_each(|warning| files::note(&format!("warning: {warning}")));
+fn warn(plan: &Plan, shaking: &Shaking) {
+    wall_file::warn(&plan.file.wall, &shaking.warnings);
 }
 
 fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
@@ -109,7 +109,7 @@ fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
         first_crack::of_study(&plan)?;
     }
     let shaking = asked::shaking(&plan)?;
-    warn(&shaking);
+    warn(&plan, &shaking);
     let store = Store::open(&folder(&args.place))?;
     tell_outdated(&store);
     let mut rows = asked::lines(&plan, point(&plan), &shaking);
@@ -148,7 +148,7 @@ fn run(plan: &Plan, args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     let cases = cases(plan)?;
     let out = folder(&args.place);
     refuse_a_file(&out)?;
-    warn(&asked::shaking(plan)?);
+    warn(&plan, &asked::shaking(plan)?);
     let [share, of] = args.shard.unwrap_or([1, 1]);
     if plan.file.study.ida.is_some() {
         return study::ida::run(plan, &out, args.threads.map_or(0, usize::from), [share, of]);
@@ -202,7 +202,7 @@ fn first_cracks(
     refuse_a_file(&out)?;
     if matches!(what, Do::Share(_)) {
         cases(plan)?;
-        warn(&asked::shaking(plan)?);
+        warn(&plan, &asked::shaking(plan)?);
         stop::listen()?;
     }
     let file = &plan.file;

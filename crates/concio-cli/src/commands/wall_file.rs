@@ -9,6 +9,7 @@ use concio::{Error, InputError};
 use serde_json::{Map, Value};
 
 use crate::failure::Failure;
+use crate::files;
 use crate::motion;
 
 /// Reads and validates a wall file.
@@ -20,6 +21,14 @@ pub fn read(path: &Path) -> Result<CaseFile, Failure> {
     })?;
     let findings = file.findings();
     if findings.is_empty() { Ok(file) } else { Err(Failure::Input(findings)) }
+}
+
+/// Tells warnings, those about a key of the wall file with its line.
+pub fn warn(file: &CaseFile, warnings: &[String]) {
+    for warning in warnings {
+        let place = file.path().zip(file.line_of(warning)).map(|(path, line)| format!(" ({}:{line})", path.display()));
+        files::note(&format!("warning: {warning}{}", place.unwrap_or_default()));
+    }
 }
 
 /// What a file in TOML or JSON is by its keys.

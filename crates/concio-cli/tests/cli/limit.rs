@@ -88,6 +88,49 @@ fn a_bond_that_is_left_out_is_told() {
     assert!(text.contains("warning") && text.contains("bond"), "{text}");
 }
 
+/// A door near the left end: what is told is the weaker way, with the other beside it, and each way alone tells the same of itself.
+#[test]
+fn a_wall_is_pushed_to_its_weaker_side() {
+    let desk = Desk::new();
+    desk.put(
+        "door.toml",
+        r#"
+model = "planar"
+[[panel]]
+bond = "running"
+courses = 8
+bricks = 6
+brick = { length = "0.4 m", height = "0.2 m", thickness = "0.3 m", specific_weight = "20 kN/m3" }
+mortar = { bed = "10 mm", head = "10 mm" }
+opening = [{ x = "0.41 m", y = 0, width = "0.81 m", height = "0.84 m", lintel = { height = "0.21 m", bearing = "0.2 m" } }]
+[joint]
+bed = { law = "rigid" }
+head = { law = "rigid" }
+friction = { law = "coulomb", static = 0.6, dynamic = 0.6 }
+[motion]
+duration = 1
+"#,
+    );
+    let of = |line: &str| -> Value {
+        let done = desk.concio(line).assert().success();
+        serde_json::from_slice(&done.get_output().stdout).expect("JSON")
+    };
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let both = of("limit door.toml --json");
+    let [left, right] = ["left", "right"].map(|side| of(&format!("limit door.toml --json --towards {side}")));
+    assert!(number(&left["multiplier"]) < 0.95 * number(&right["multiplier"]), "{left} {right}");
+    assert_eq!((&both["towards"], &both["multiplier"]), (&left["towards"], &left["multiplier"]));
+    assert_eq!(
+        (&both["other_way"]["towards"], &both["other_way"]["multiplier"]),
+        (&"right".into(), &right["multiplier"])
+    );
+    assert!(left["other_way"].is_null());
+    let done = desk.concio("limit door.toml").assert().success();
+    let [told, warned] = [&done.get_output().stdout, &done.get_output().stderr].map(|o| String::from_utf8_lossy(o));
+    assert!(told.contains("to the left") && told.contains("to the right"), "{told}");
+    assert!(warned.contains("mortar counts as a dry joint"), "{warned}");
+}
+
 /// The wall file of docs/limit-analysis.md, whose λ is published.
 #[test]
 fn the_example_has_its_published_multiplier() {

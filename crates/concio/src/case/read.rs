@@ -92,6 +92,13 @@ impl CaseFile {
     pub fn unit_doubts(&self) -> Vec<String> {
         plausible::bare_accelerations(&self.document.tree)
     }
+    /// Line from 1 of what a doubt begins with the key of ([`plausible::doubts`]); none for other sentences.
+    pub fn line_of(&self, doubt: &str) -> Option<usize> {
+        let key = doubt.split(' ').next().filter(|word| word.contains('.') && !word.ends_with('.'))?;
+        super::describe(key)?;
+        self.place(InputError::new("").key(key)).line
+    }
+
     /// The blocks of the wall ([`crate::pattern::lay`]), with file and line in errors.
     pub fn wall(&self) -> Result<Wall> {
         crate::pattern::lay(&self.case).map_err(|e| self.locate(e))
@@ -197,7 +204,12 @@ fn described(mut fault: Fault, tree: &Node) -> Fault {
     if e.what == de::MISSING && e.allowed.is_none() {
         let words = |key: &str| super::templates::choices(key).map(|words| de::list(&words));
         let told = |key: &str| super::describe(key).map(|text| text.trim_end_matches('.').to_string());
+        // Inside of other tables a table mostly stands on the line of its key.
+        let table = |key: &str| super::templates::table(key).filter(|_| !key.contains('.'));
         e.allowed = e.key.as_deref().and_then(|key| words(key).or_else(|| told(key)));
+        if let (Some(allowed), Some(table)) = (&mut e.allowed, e.key.as_deref().and_then(table)) {
+            *allowed = format!("a table `{table}`: {allowed}");
+        }
     }
     fault
 }

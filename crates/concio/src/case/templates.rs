@@ -95,6 +95,17 @@ pub(crate) fn choices(key: &str) -> Option<Vec<String>> {
     }
 }
 
+/// How a table of the wall file begins in TOML: `[motion]`, `[[panel]]`; none where a key is none.
+pub(crate) fn table(key: &str) -> Option<String> {
+    let schema = schema();
+    let found = follow(&schema, &schema, &steps(key))?;
+    let of = |at: &Value| referred(&schema, at).unwrap_or(at).get("properties").is_some();
+    match found.get("items") {
+        Some(items) if of(items) => Some(format!("[[{key}]]")),
+        _ => of(found).then(|| format!("[{key}]")),
+    }
+}
+
 fn steps(key: &str) -> Vec<&str> {
     key.split(['.', '[']).filter(|s| !s.is_empty()).collect()
 }

@@ -60,7 +60,8 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
 fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
     let collapse = outcome.totals.collapse?;
     let (name, time, did) = (&model.wall.blocks.get(collapse.block)?.name, collapse.time, collapse.what());
-    let what = "peaks and slips are those of the time before, cracks and energies those of the whole run";
+    let what = "peaks and slips are those of the time before, cracks and energies those of the whole run; another step \
+                moves time and block";
     Some(format!("the wall counts as collapsed from t = {time:.4} s on, when block {name} {did}: {what}"))
 }
 
