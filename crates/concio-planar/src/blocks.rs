@@ -263,9 +263,14 @@ impl Blocks {
         add_outer(&mut self.diagonal[self.place[body]], times, row, row);
     }
 
-    /// Adds a column times a row to the block of one body; the sum of what is added to a symmetric matrix has to be symmetric.
-    pub fn add_product(&mut self, body: usize, column: Triple, row: Triple) {
-        add_outer(&mut self.diagonal[self.place[body]], 1.0, column, row);
+    /// Adds two columns times two rows to the block of one body; the sum of what is added to a symmetric matrix has to be symmetric.
+    #[inline(always)]
+    pub fn add_products(&mut self, body: usize, columns: [Triple; 2], rows: [Triple; 2]) {
+        let block = &mut self.diagonal[self.place[body]];
+        let rows = rows.map(|[x, y, z]| [x, y, z, 0.0]);
+        for (i, sum) in block.iter_mut().enumerate() {
+            *sum = std::array::from_fn(|j| sum[j] + columns[0][i] * rows[0][j] + columns[1][i] * rows[1][j]);
+        }
     }
 
     /// Adds `times` the product of the rows of a pair's two bodies, to a symmetric matrix.
@@ -275,13 +280,22 @@ impl Blocks {
         self.beside[slot.at].add(0, times, first, second);
     }
 
-    /// Adds the columns of a pair's two bodies times the rows of the other, to a matrix that need not be symmetric.
-    pub fn add_products(&mut self, slot: Slot, columns: [Triple; 2], rows: [Triple; 2]) {
+    /// Adds twice the columns of a pair's two bodies times the rows of the other, to a matrix that need not be symmetric.
+    #[inline(always)]
+    pub fn add_pairs_of_products(&mut self, slot: Slot, columns: [[Triple; 2]; 2], rows: [[Triple; 2]; 2]) {
         debug_assert!(!self.is_symmetric);
         let (first, second) = if slot.turned { (1, 0) } else { (0, 1) };
-        let both = &mut self.beside[slot.at];
-        both.add(0, 1.0, columns[first], rows[second]);
-        both.add(4, 1.0, rows[first], columns[second]);
+        // What is right of the diagonal, and behind it what is below, turned over.
+        let ends = |start: Triple, end: Triple| [start[0], start[1], start[2], 0.0, end[0], end[1], end[2], 0.0];
+        let across = [0, 1].map(|k| ends(rows[k][second], columns[k][second]));
+        let down = |k: usize, i: usize| {
+            let (a, b) = (columns[k][first][i], rows[k][first][i]);
+            [a, a, a, a, b, b, b, b]
+        };
+        for (i, sum) in self.beside[slot.at].0.iter_mut().enumerate() {
+            let [one, other] = [down(0, i), down(1, i)];
+            *sum = std::array::from_fn(|j| sum[j] + one[j] * across[0][j] + other[j] * across[1][j]);
+        }
     }
 
     /// Eliminates row by row.
@@ -541,23 +555,29 @@ mod tests {
             }
             (0..3 * n).for_each(|k| dense[k][k] = own[k % 3]);
             for &(a, b) in &pairs {
-                let rows = [[draw(), draw(), draw()], [draw(), draw(), draw()]];
+                let mut rows = || [[draw(), draw(), draw()], [draw(), draw(), draw()]];
+                let rows = [rows(), rows()];
                 // Towards the rows turned by a bit: more than half of the product stays symmetric.
                 let bent = if symmetric { 0.0 } else { 0.3 };
-                let columns = rows.map(|row| row.map(|x| x + bent * draw()));
+                let columns = rows.map(|pair| pair.map(|row| row.map(|x| x + bent * draw())));
                 if symmetric {
-                    blocks.add_pair(blocks.slot(a, b), 1.0, rows);
-                    blocks.add(a, 1.0, rows[0]);
-                    blocks.add(b, 1.0, rows[1]);
+                    for rows in rows {
+                        blocks.add_pair(blocks.slot(a, b), 1.0, rows);
+                        blocks.add(a, 1.0, rows[0]);
+                        blocks.add(b, 1.0, rows[1]);
+                    }
                 } else {
-                    blocks.add_products(blocks.slot(a, b), columns, rows);
-                    blocks.add_product(a, columns[0], rows[0]);
-                    blocks.add_product(b, columns[1], rows[1]);
+                    let of = |two: [[Triple; 2]; 2], body: usize| two.map(|pair| pair[body]);
+                    blocks.add_pairs_of_products(blocks.slot(a, b), columns, rows);
+                    blocks.add_products(a, of(columns, 0), of(rows, 0));
+                    blocks.add_products(b, of(columns, 1), of(rows, 1));
                 }
                 let both = [a, b];
-                for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))) {
-                    dense[3 * both[i / 3] + i % 3][3 * both[j / 3] + j % 3] +=
-                        columns[i / 3][i % 3] * rows[j / 3][j % 3];
+                for (columns, rows) in columns.iter().zip(&rows) {
+                    for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))) {
+                        dense[3 * both[i / 3] + i % 3][3 * both[j / 3] + j % 3] +=
+                            columns[i / 3][i % 3] * rows[j / 3][j % 3];
+                    }
                 }
             }
             let wanted: Vec<Triple> = (0..n).map(|_| [draw(), draw(), draw()]).collect();

@@ -72,7 +72,7 @@ pub struct Linear {
 
 impl Linear {
     /// At the velocity `u` [m/s], in N s.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn at(&self, u: f64) -> f64 {
         self.offset - self.rho * u
     }
@@ -104,7 +104,7 @@ impl Rows {
     }
 
     /// By how much the parting and the sliding velocity change with velocities that change by `v`.
-    #[inline]
+    #[inline(always)]
     pub fn change(&self, v: &[Triple]) -> [f64; 2] {
         let second = &v[self.b as usize];
         let mut u = [dot(&self.normal[1], second), dot(&self.tangent[1], second)];
@@ -224,6 +224,7 @@ impl Contact {
     }
 
     /// Parting and sliding velocity [m/s].
+    #[inline(always)]
     pub fn velocity(&self, v: &[Triple]) -> [f64; 2] {
         let change = self.rows.change(v);
         [change[0] + self.drift[0], change[1] + self.drift[1]]
@@ -271,7 +272,7 @@ impl Contact {
     }
 
     /// What bounds friction where p_n is what it is at the velocity `u_n` [m/s], in N s.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn bound(&self, p_n: f64, u_n: f64) -> f64 {
         self.friction * (p_n + self.spring[0].at(u_n)).max(0.0) + self.hold
     }
@@ -282,13 +283,13 @@ impl Contact {
     }
 
     /// Whole impulses at the velocity `u` [m/s] where (P4) gives `p`, in N s.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn whole(&self, p: [f64; 2], u: [f64; 2]) -> [f64; 2] {
         [p[0] + self.spring[0].at(u[0]), p[1] + self.spring[1].at(u[1])]
     }
 
     /// Takes what impulses do from the balance of both bodies.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn push(&self, balance: &mut [Triple], p: [f64; 2]) {
         if p != [0.0; 2] {
             self.rows.push(balance, p.map(|p| -p));
@@ -296,19 +297,17 @@ impl Contact {
     }
 
     /// Adds what resists to a matrix that is not symmetric: across and along to the same, and along to across.
+    #[inline(always)]
     pub(crate) fn couple(&self, matrix: &mut Blocks, [nn, tt, tn]: [f64; 3]) {
         let Rows { normal, tangent, .. } = self.rows;
         let along = |side: usize| [0, 1, 2].map(|k| tn * normal[side][k] + tt * tangent[side][k]);
         let across = |side: usize| normal[side].map(|x| nn * x);
         let (b, second) = (self.rows.second(), [across(1), along(1)]);
-        matrix.add_product(b, normal[1], second[0]);
-        matrix.add_product(b, tangent[1], second[1]);
+        matrix.add_products(b, [normal[1], tangent[1]], second);
         if let (Some(a), Some(slot)) = (self.rows.first(), self.slot) {
             let first = [across(0), along(0)];
-            matrix.add_product(a, normal[0], first[0]);
-            matrix.add_product(a, tangent[0], first[1]);
-            matrix.add_products(slot, normal, [first[0], second[0]]);
-            matrix.add_products(slot, tangent, [first[1], second[1]]);
+            matrix.add_products(a, [normal[0], tangent[0]], first);
+            matrix.add_pairs_of_products(slot, [normal, tangent], [[first[0], second[0]], [first[1], second[1]]]);
         }
     }
 }
@@ -735,6 +734,7 @@ pub(crate) fn unbalance(balance: &[Triple], mass: &[Triple]) -> f64 {
 }
 
 /// The larger of two violations; one that is no number is the largest.
+#[inline(always)]
 pub(crate) fn worse(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
@@ -758,6 +758,7 @@ fn thrust(contact: &Contact, p: [f64; 2], inverse: &[Triple], v: &mut [Triple]) 
     contact.rows.each(p, |body, push| (0..3).for_each(|k| v[body][k] += inverse[body][k] * push[k]));
 }
 
+#[inline(always)]
 fn dot(a: &Triple, b: &Triple) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -22,6 +22,8 @@
 
 mod finish;
 
+use pulp::{Arch, Simd, WithSimd};
+
 use crate::blocks::{Blocks, Triple};
 use crate::contact::{Contact, Effort, Rows, Status, unbalance, worse};
 
@@ -61,6 +63,8 @@ struct Point<const N: usize> {
     /// How far each bound is away, and its multiplier: friction forth and back, least and most p_n.
     s: [f64; N],
     lambda: [f64; N],
+    /// One over the distance, 0 where there is no such bound.
+    near: [f64; N],
     /// By how much (P5) and (P5a) are off.
     astray: [f64; N],
     off: [f64; 2],
@@ -360,6 +364,11 @@ impl<const N: usize> Group<N> {
     }
 
     fn look(&mut self, contacts: &[Contact], v: &[Triple], method: Method, sums: &mut Sums) {
+        Arch::new().dispatch(Look { group: self, contacts, v, method, sums });
+    }
+
+    #[inline(always)]
+    fn look_at_each(&mut self, contacts: &[Contact], v: &[Triple], method: Method, sums: &mut Sums) {
         for (point, which) in self.points.iter_mut().zip(&self.which) {
             let contact = &contacts[*which as usize];
             let u = contact.velocity(v);
@@ -380,6 +389,11 @@ impl<const N: usize> Group<N> {
 
     /// Takes what the last direction leaves out of the products into account; impulses where velocities stay, onto the bodies.
     fn correct(&mut self, target: f64, step: &mut [Triple]) {
+        Arch::new().dispatch(Correct { group: self, target, step });
+    }
+
+    #[inline(always)]
+    fn correct_each(&mut self, target: f64, step: &mut [Triple]) {
         for (point, rows) in self.points.iter_mut().zip(&self.rows) {
             point.second = std::array::from_fn(|i| point.way.s[i] * point.way.lambda[i]);
             point.aim(target);
@@ -388,6 +402,11 @@ impl<const N: usize> Group<N> {
     }
 
     fn turn(&mut self, step: &[Triple], target: f64, keep: f64, course: &mut Course) {
+        Arch::new().dispatch(Turn { group: self, step, target, keep, course });
+    }
+
+    #[inline(always)]
+    fn turn_each(&mut self, step: &[Triple], target: f64, keep: f64, course: &mut Course) {
         for (point, rows) in self.points.iter_mut().zip(&self.rows) {
             point.turn(rows.change(step), target, keep, course);
         }
@@ -405,6 +424,58 @@ impl<const N: usize> Group<N> {
         for (point, which) in self.points.iter().zip(&self.which) {
             point.tell(&mut contacts[*which as usize], v);
         }
+    }
+}
+
+/// [`Group::look`] compiled for some registers, as all that goes through the contacts in every iteration: the bits are the same in all.
+struct Look<'a, 'b, const N: usize> {
+    group: &'a mut Group<N>,
+    contacts: &'a [Contact],
+    v: &'a [Triple],
+    method: Method,
+    sums: &'a mut Sums<'b>,
+}
+
+impl<const N: usize> WithSimd for Look<'_, '_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.group.look_at_each(self.contacts, self.v, self.method, self.sums);
+    }
+}
+
+/// [`Group::correct`].
+struct Correct<'a, const N: usize> {
+    group: &'a mut Group<N>,
+    target: f64,
+    step: &'a mut [Triple],
+}
+
+impl<const N: usize> WithSimd for Correct<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.group.correct_each(self.target, self.step);
+    }
+}
+
+/// [`Group::turn`].
+struct Turn<'a, const N: usize> {
+    group: &'a mut Group<N>,
+    step: &'a [Triple],
+    target: f64,
+    keep: f64,
+    course: &'a mut Course,
+}
+
+impl<const N: usize> WithSimd for Turn<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.group.turn_each(self.step, self.target, self.keep, self.course);
     }
 }
 
@@ -438,6 +509,7 @@ impl<const N: usize> Point<N> {
         Point {
             s: [0.0; N],
             lambda: [0.0; N],
+            near: [0.0; N],
             astray: [0.0; N],
             off: [0.0; 2],
             mu: contact.friction,
@@ -480,7 +552,7 @@ impl<const N: usize> Point<N> {
     }
 
     /// Distances from the bounds by the impulses.
-    #[inline]
+    #[inline(always)]
     fn far(&self, contact: &Contact, bound: f64) -> [f64; N] {
         let ([p_n, p_t], [least, most]) = (self.p, contact.pressure);
         let far = [bound - p_t, bound + p_t, p_n - least, most - p_n];
@@ -493,7 +565,7 @@ impl<const N: usize> Point<N> {
         std::array::from_fn(|i| SENSE[i] * pulls[DIRECTION[i]])
     }
 
-    #[inline]
+    #[inline(always)]
     fn go(&mut self, share: f64) {
         (0..2).for_each(|k| self.p[k] += share * self.way.p[k]);
         for i in 0..N {
@@ -503,13 +575,13 @@ impl<const N: usize> Point<N> {
     }
 
     /// E (p − p⁰).
-    #[inline]
+    #[inline(always)]
     fn shift(&self, k: usize) -> f64 {
         self.soft[k] * (self.p[k] - self.anchor[k])
     }
 
     /// By how much it is off at the velocity `u`.
-    #[inline]
+    #[inline(always)]
     fn look(&mut self, contact: &Contact, u: [f64; 2], left: &mut Left) {
         let beside = contact.spring[0].at(u[0]);
         self.mu = if self.dry || self.tends(contact, u[0]) + beside > 0.0 { contact.friction } else { 0.0 };
@@ -549,7 +621,7 @@ impl<const N: usize> Point<N> {
     }
 
     /// What p_n would be without friction, whose bounds would not let the whole pass from pressure to tension.
-    #[inline]
+    #[inline(always)]
     fn tends(&self, contact: &Contact, u_n: f64) -> f64 {
         let [least, most] = contact.pressure;
         let free = match contact.compliant[0] {
@@ -576,9 +648,10 @@ impl<const N: usize> Point<N> {
         (self.moves[1], self.on[0], self.on[1]) = (grips, grips, grips);
     }
 
-    #[inline]
+    #[inline(always)]
     fn invert(&mut self) {
-        let d: [f64; N] = std::array::from_fn(|i| if self.on[i] { self.lambda[i] / self.s[i] } else { 0.0 });
+        self.near = std::array::from_fn(|i| if self.on[i] { 1.0 / self.s[i] } else { 0.0 });
+        let d: [f64; N] = std::array::from_fn(|i| self.lambda[i] * self.near[i]);
         let across = self.soft[0] + d[2] + if N > 3 { d[3] } else { 0.0 };
         let along = self.soft[1] + d[0] + d[1];
         let [across, along] = [across, along].map(|k| 1.0 / k);
@@ -588,13 +661,13 @@ impl<const N: usize> Point<N> {
     }
 
     /// Impulses for products of `target` where velocities stay.
-    #[inline]
+    #[inline(always)]
     fn aim(&mut self, target: f64) {
         let mut off = self.off.map(|o| -o);
         for i in 0..N {
             if self.on[i] {
-                let (s, l) = (self.s[i], self.lambda[i]);
-                off[DIRECTION[i]] += SENSE[i] * ((target - self.second[i] - l * self.astray[i]) / s - l);
+                let l = self.lambda[i];
+                off[DIRECTION[i]] += SENSE[i] * ((target - self.second[i] - l * self.astray[i]) * self.near[i] - l);
             }
         }
         let [across, along, tilt] = self.response;
@@ -603,7 +676,7 @@ impl<const N: usize> Point<N> {
     }
 
     /// What it and the springs beside answer to velocities: across and along to the same, and along to across.
-    #[inline]
+    #[inline(always)]
     fn answers(&self, contact: &Contact) -> [f64; 3] {
         let [across, along, tilt] = self.response;
         let [beside, along_beside] = contact.spring.map(|s| s.rho);
@@ -611,7 +684,7 @@ impl<const N: usize> Point<N> {
     }
 
     /// Change of the impulses where velocities change by `du`.
-    #[inline]
+    #[inline(always)]
     fn follows(&self, du: [f64; 2]) -> [f64; 2] {
         let [across, along, tilt] = self.response;
         let (d_n, d_t) = (-across * du[0], -along * du[1]);
@@ -619,7 +692,7 @@ impl<const N: usize> Point<N> {
     }
 
     /// The direction where velocities change by `du`, and what it comes to.
-    #[inline]
+    #[inline(always)]
     fn turn(&mut self, du: [f64; 2], target: f64, keep: f64, course: &mut Course) {
         let d_p = self.follows(du);
         self.way.p = d_p;
@@ -627,7 +700,7 @@ impl<const N: usize> Point<N> {
         let far = [bound - d_p[1], bound + d_p[1], d_p[0], -d_p[0]];
         let far: [f64; N] = std::array::from_fn(|i| far[i] + self.astray[i]);
         let mut dl: [f64; N] = std::array::from_fn(|i| match self.on[i] {
-            true => (target - self.second[i] - self.lambda[i] * far[i]) / self.s[i] - self.lambda[i],
+            true => (target - self.second[i] - self.lambda[i] * far[i]) * self.near[i] - self.lambda[i],
             false => 0.0,
         });
         // (P5a) is linear: what rounding leaves of it goes to the multipliers, most to the largest.
@@ -650,11 +723,12 @@ impl<const N: usize> Point<N> {
                 let (s, l, dl) = (self.s[i], self.lambda[i], dl[i]);
                 let ds = if s < self.mass * l { (target - self.second[i] - s * dl) / l - s } else { far[i] };
                 self.way.s[i] = ds;
-                if ds < 0.0 {
-                    course.share = course.share.min(-keep * s / ds);
+                // Most bounds are farther off than the nearest so far: only those that are not are divided by.
+                if ds * course.share < -keep * s {
+                    course.share = -keep * s / ds;
                 }
-                if dl < 0.0 {
-                    course.share = course.share.min(-keep * l / dl);
+                if dl * course.share < -keep * l {
+                    course.share = -keep * l / dl;
                 }
                 course.growth[0] += s * dl + l * ds;
                 course.growth[1] += ds * dl;
