@@ -70,7 +70,11 @@ pub struct Blocks {
     /// Per feed, for each block of the feeding row right of the one named there: which block of the fed row it changes.
     targets: Vec<u32>,
     diagonal: Vec<Block>,
-    /// Blocks off the diagonal.
+    /// Blocks of the pairs, row by row: where each is among those of its row, where each row's begin, and what is in them.
+    paired: Vec<u32>,
+    first: Vec<usize>,
+    given: Vec<Both>,
+    /// Factors off the diagonal, fill included.
     beside: Vec<Both>,
     is_symmetric: bool,
     /// The eliminated diagonal blocks.
@@ -125,7 +129,7 @@ impl Pivot {
     }
 
     /// L⁻¹ P of a triple.
-    #[inline]
+    #[inline(always)]
     fn forth(&self, b: Triple) -> Triple {
         let [y0, y1, y2] = self.rows.map(|row| b[row as usize]);
         let y1 = y1 - self.l[0] * y0;
@@ -141,16 +145,16 @@ impl Pivot {
 }
 
 /// [`Blocks::factorise`] compiled for some registers.
-struct Elimination<'a>(&'a mut Blocks);
+struct Elimination<'a, 'b>(&'a mut Blocks, &'b mut [Triple]);
 
-impl WithSimd for Elimination<'_> {
+impl WithSimd for Elimination<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         match self.0.is_symmetric {
-            true => self.0.eliminate::<true>(),
-            false => self.0.eliminate::<false>(),
+            true => self.0.eliminate::<true>(self.1),
+            false => self.0.eliminate::<false>(self.1),
         }
     }
 }
@@ -177,7 +181,7 @@ impl Blocks {
             near[a].insert(b);
             near[b].insert(a);
         }
-        let (order, rows) = grouped(eliminated(near));
+        let (order, rows) = grouped(eliminated(near.clone()));
         let mut place = vec![0; bodies];
         order.iter().enumerate().for_each(|(k, &body)| place[body] = k);
         let (mut start, mut columns) = (vec![0], Vec::new());
@@ -194,11 +198,22 @@ impl Blocks {
             fed: vec![0],
             targets: Vec::new(),
             diagonal: vec![ZERO; bodies],
+            paired: Vec::new(),
+            first: vec![0],
+            given: Vec::new(),
             beside: vec![Both::ZERO; columns.len()],
             columns,
             is_symmetric: true,
             pivots: vec![Pivot::default(); bodies],
         };
+        for (own, body) in order.iter().enumerate() {
+            let mut columns: Vec<usize> = near[*body].iter().map(|b| blocks.place[*b]).filter(|j| *j > own).collect();
+            columns.sort_unstable();
+            let places: Vec<u32> = columns.iter().map(|j| (blocks.find(own, *j) - blocks.start[own]) as u32).collect();
+            blocks.paired.extend(places);
+            blocks.first.push(blocks.paired.len());
+        }
+        blocks.given = vec![Both::ZERO; blocks.paired.len()];
         blocks.link();
         blocks
     }
@@ -230,21 +245,24 @@ impl Blocks {
         from + self.columns[from..self.start[i + 1]].partition_point(|c| *c < j)
     }
 
-    /// Where the block of a pair stands.
+    /// Where the block of a pair stands, one of those that the matrix was made with.
     pub fn slot(&self, a: usize, b: usize) -> Slot {
         let (i, j) = (self.place[a], self.place[b]);
-        if i < j { Slot { at: self.find(i, j), turned: false } } else { Slot { at: self.find(j, i), turned: true } }
+        let (row, column) = (i.min(j), i.max(j));
+        let (from, wanted) = (self.first[row], (self.find(row, column) - self.start[row]) as u32);
+        let at = from + self.paired[from..self.first[row + 1]].partition_point(|k| *k < wanted);
+        Slot { at, turned: i > j }
     }
 
     /// Where the block of a pair, or the row of a body with the base, stands among all: contacts in this order go through the matrix once.
     pub fn rank(&self, slot: Option<Slot>, body: usize) -> usize {
-        slot.map_or(self.start[self.place[body]], |slot| slot.at)
+        slot.map_or(self.first[self.place[body]], |slot| slot.at)
     }
 
     /// A symmetric matrix, all zero but for the diagonal, which gets `diagonal` by body.
     pub fn reset(&mut self, diagonal: &[Triple]) {
         self.is_symmetric = true;
-        self.beside.fill(Both::ZERO);
+        self.given.fill(Both::ZERO);
         for (body, values) in diagonal.iter().enumerate() {
             let block = &mut self.diagonal[self.place[body]];
             *block = ZERO;
@@ -277,7 +295,7 @@ impl Blocks {
     pub fn add_pair(&mut self, slot: Slot, times: f64, [a, b]: [Triple; 2]) {
         debug_assert!(self.is_symmetric);
         let (first, second) = if slot.turned { (b, a) } else { (a, b) };
-        self.beside[slot.at].add(0, times, first, second);
+        self.given[slot.at].add(0, times, first, second);
     }
 
     /// Adds twice the columns of a pair's two bodies times the rows of the other, to a matrix that need not be symmetric.
@@ -292,7 +310,7 @@ impl Blocks {
             let (a, b) = (columns[k][first][i], rows[k][first][i]);
             [a, a, a, a, b, b, b, b]
         };
-        for (i, sum) in self.beside[slot.at].0.iter_mut().enumerate() {
+        for (i, sum) in self.given[slot.at].0.iter_mut().enumerate() {
             let [one, other] = [down(0, i), down(1, i)];
             *sum = std::array::from_fn(|j| sum[j] + one[j] * across[0][j] + other[j] * across[1][j]);
         }
@@ -300,23 +318,48 @@ impl Blocks {
 
     /// Eliminates row by row.
     pub fn factorise(&mut self) {
+        self.factorise_with(&mut []);
+    }
+
+    /// Eliminates, and solves in place, as [`Blocks::solve`] does then, what goes forth with the elimination that has each block at hand.
+    pub fn factorise_and_solve(&mut self, x: &mut [Triple], work: &mut [Triple]) {
+        if self.is_symmetric {
+            self.factorise();
+            self.solve(x, work);
+            return;
+        }
+        self.sort(x, work);
+        self.factorise_with(work);
+        self.back(x, work);
+    }
+
+    /// With right sides in the order of elimination, or none, of a matrix that is not symmetric.
+    fn factorise_with(&mut self, sides: &mut [Triple]) {
         // In the widest registers there are. Products of blocks are added without rounding in between on every machine, where need be one by one, so
         // that bits do not tell them apart.
-        Arch::new().dispatch(Elimination(self));
+        Arch::new().dispatch(Elimination(self, sides));
     }
 
     /// Every row takes what those before it change: it stays near while they pass by.
     #[inline(always)]
-    fn eliminate<const SYMMETRIC: bool>(&mut self) {
-        let Blocks { start, feeds, fed, targets, diagonal, beside, pivots, .. } = self;
+    fn eliminate<const SYMMETRIC: bool>(&mut self, sides: &mut [Triple]) {
+        let Blocks { start, feeds, fed, targets, diagonal, paired, first, given, beside, pivots, .. } = self;
         let mut targets = &targets[..];
         for own in 0..pivots.len() {
             let (before, after) = beside.split_at_mut(start[own]);
             let row = &mut after[..start[own + 1] - start[own]];
+            row.fill(Both::ZERO);
+            for (at, given) in paired[first[own]..first[own + 1]].iter().zip(&given[first[own]..first[own + 1]]) {
+                row[*at as usize] = *given;
+            }
             let mut square = diagonal[own];
+            let mut side = sides.get(own).copied().unwrap_or_default();
             for feed in &feeds[fed[own]..fed[own + 1]] {
                 let (at, end) = (feed.at as usize, start[feed.row as usize + 1]);
                 let factor = Factor::of(&before[at]);
+                if !SYMMETRIC && let Some(above) = sides.get(feed.row as usize) {
+                    subtract_transposed(&mut side, &before[at], 4, *above);
+                }
                 subtract_square(&mut square, &before[at]);
                 let (own_targets, others) = targets.split_at(end - at - 1);
                 targets = others;
@@ -329,15 +372,17 @@ impl Blocks {
             for both in row {
                 both.eliminate::<SYMMETRIC>(&pivot);
             }
+            if let Some(place) = sides.get_mut(own) {
+                let reduced = pivot.forth(side);
+                *place = [0, 1, 2].map(|i| reduced[i] * pivot.d[i]);
+            }
             pivots[own] = pivot;
         }
     }
 
     /// Solves with the factors, in place; `work` has as many triples as there are bodies.
     pub fn solve(&self, x: &mut [Triple], work: &mut [Triple]) {
-        for (body, value) in x.iter().enumerate() {
-            work[self.place[body]] = *value;
-        }
+        self.sort(x, work);
         let half = if self.is_symmetric { 0 } else { 4 };
         for k in 0..work.len() {
             let pivot = &self.pivots[k];
@@ -350,6 +395,18 @@ impl Blocks {
                 subtract_transposed(&mut work[*column], both, half, value);
             }
         }
+        self.back(x, work);
+    }
+
+    /// Right sides in the order of elimination.
+    fn sort(&self, x: &[Triple], sides: &mut [Triple]) {
+        for (body, value) in x.iter().enumerate() {
+            sides[self.place[body]] = *value;
+        }
+    }
+
+    /// From what has gone forth to the solution by body.
+    fn back(&self, x: &mut [Triple], work: &mut [Triple]) {
         for k in (0..work.len()).rev() {
             let mut value = work[k];
             let own = self.start[k]..self.start[k + 1];
@@ -502,7 +559,7 @@ fn subtract_times(y: &mut Triple, a: &Both, x: Triple) {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn subtract_transposed(y: &mut Triple, a: &Both, from: usize, x: Triple) {
     for i in 0..3 {
         y[i] -= a.0[0][from + i] * x[0] + a.0[1][from + i] * x[1] + a.0[2][from + i] * x[2];
@@ -584,8 +641,11 @@ mod tests {
             let flat: Vec<f64> = wanted.iter().flatten().copied().collect();
             let product = |row: &Vec<f64>| row.iter().zip(&flat).map(|(a, b)| a * b).sum::<f64>();
             let mut x: Vec<Triple> = (0..n).map(|k| [0, 1, 2].map(|i| product(&dense[3 * k + i]))).collect();
+            let (mut together, mut work) = (x.clone(), vec![[0.0; 3]; n]);
+            blocks.factorise_and_solve(&mut together, &mut work);
             blocks.factorise();
-            blocks.solve(&mut x, &mut vec![[0.0; 3]; n]);
+            blocks.solve(&mut x, &mut work);
+            assert_eq!(x, together);
             let error = x.iter().flatten().zip(&flat).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(error < 1e-12, "{error:e}");
         }

@@ -239,7 +239,6 @@ impl Interior {
                 near = finish::AGAIN * left.residual;
                 left = self.look(matrix, (mass, free), contacts, v, Method::Inside { share: 0.0 });
             }
-            matrix.factorise();
             effort.iterations += 1;
             share = self.direct(matrix, &left, stuck);
             stuck = share < STUCK;
@@ -300,9 +299,11 @@ impl Interior {
     }
 
     /// The direction, into `self.step` and the points, and how far it is gone; `stuck` where the last was hardly gone at all.
-    fn direct(&mut self, matrix: &Blocks, left: &Left, stuck: bool) -> f64 {
+    fn direct(&mut self, matrix: &mut Blocks, left: &Left, stuck: bool) -> f64 {
         let mean = left.mean();
-        let first = self.turn(matrix, 0.0, 1.0);
+        self.begin_right_side();
+        matrix.factorise_and_solve(&mut self.step, &mut self.work);
+        let first = self.turn(0.0, 1.0);
         let after = left.products + first.share * (first.growth[0] + first.share * first.growth[1]);
         let after = after / left.number.max(1) as f64;
         // Rounding takes products of nothing below 0.
@@ -311,24 +312,24 @@ impl Interior {
         self.step.fill([0.0; 3]);
         self.usual.correct(target, &mut self.step);
         self.limited.correct(target, &mut self.step);
-        self.turn(matrix, target, INSIDE).share
+        self.begin_right_side();
+        matrix.solve(&mut self.step, &mut self.work);
+        self.turn(target, INSIDE).share
     }
 
-    /// The direction of the right side in `self.step`, to products of `target`; how far it may be gone, `keep` of the way to the boundary.
-    fn turn(&mut self, matrix: &Blocks, target: f64, keep: f64) -> Course {
-        self.solve_right_side(matrix);
+    /// The direction of the velocities in `self.step`, to products of `target`; how far it may be gone, `keep` of the way to the boundary.
+    fn turn(&mut self, target: f64, keep: f64) -> Course {
         let mut course = Course::BEGIN;
         self.usual.turn(&self.step, target, keep, &mut course);
         self.limited.turn(&self.step, target, keep, &mut course);
         course
     }
 
-    /// Change of the velocities of the right side in `self.step`, in its place.
-    fn solve_right_side(&mut self, matrix: &Blocks) {
+    /// Takes what is out of balance from what the contacts push, `self.step`: the right side for the change of the velocities.
+    fn begin_right_side(&mut self) {
         for (step, residual) in self.step.iter_mut().zip(&self.residual) {
             (0..3).for_each(|k| step[k] -= residual[k]);
         }
-        matrix.solve(&mut self.step, &mut self.work);
     }
 }
 

@@ -66,9 +66,9 @@ impl Interior {
                 break;
             }
             last = left;
-            matrix.factorise();
             effort.iterations += 1;
-            self.solve_right_side(matrix);
+            self.begin_right_side();
+            matrix.factorise_and_solve(&mut self.step, &mut self.work);
             self.usual.jump(&self.step);
             self.limited.jump(&self.step);
             for (v, step) in v.iter_mut().zip(&self.step) {
