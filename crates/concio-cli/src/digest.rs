@@ -83,7 +83,7 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
         rows.push(("  broken bonds", energy(energies.bond)));
     }
     if energies.device != 0.0 {
-        rows.push(("  devices", si(energies.device, "J")));
+        rows.push(("  hysteresis of devices", si(energies.device, "J")));
     }
     if energies.impact != 0.0 {
         rows.push(("  impacts", energy(energies.impact)));
@@ -135,8 +135,9 @@ fn collapse(summary: &Value) -> Option<String> {
     let (time, way) = (significant(collapse.time, 4), si(collapse.displacement, "m"));
     let (block, did) = (&collapse.block, collapse.what());
     let others = match collapse.fallen {
-        0 | 1 => String::new(),
-        fallen => format!("; {fallen} blocks down at the end"),
+        None => String::new(),
+        Some(1) => "; 1 block down at the end".into(),
+        Some(fallen) => format!("; {fallen} blocks down at the end"),
     };
     Some(format!("t = {time} s: block {block} {did}, {way} from its place{others}"))
 }

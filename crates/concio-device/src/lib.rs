@@ -18,7 +18,8 @@
 
 /// Velocity over v_0 below which a dashpot with α < 1 is linear: its slope would be infinite at rest.
 const SLOW: f64 = 1e-4;
-/// Piece of a way over that in which ζ would come to its limit, how many there are at most, and way over d_y that is none.
+/// Piece of a way over that in which ζ would come to its limit, how many there are at most (longer ways end a thousandth off), and way over d_y
+/// that is none.
 const SHORT: f64 = 0.25;
 const MOST_PIECES: f64 = 400.0;
 const TINY: f64 = 1e-9;
@@ -123,21 +124,7 @@ impl Law {
                 Stride { mean: [force, slope], end: [force, slope], internal: 0.0, lost: force * way }
             }
             Law::BoucWen(law) => law.over(internal, w, h),
-            Law::ReCentring(law) => {
-                let to = d + way;
-                let (settled, moves) = law.settled(internal, to);
-                let lost = self.spent(internal, settled);
-                let force = self.force(to, w, settled);
-                let mean = match settled == internal {
-                    true => [law.stiffness * (d + 0.5 * way - internal), 0.5 * h * law.stiffness],
-                    false => {
-                        let mean = (self.stored(to, settled) - self.stored(d, internal) + lost) / way;
-                        [mean, ((force - mean) / w).max(0.0)]
-                    }
-                };
-                let slope = if moves { 0.0 } else { h * law.stiffness };
-                Stride { mean, end: [force, slope], internal: settled, lost }
-            }
+            Law::ReCentring(law) => law.over(d, internal, w, h),
         }
     }
 
@@ -359,6 +346,8 @@ impl BoucWen {
             left -= part;
         }
         let mean = if way == 0.0 { start } else { worked / way };
+        // What is no number stays one.
+        let (zeta, mean) = if way.is_finite() { (zeta, mean) } else { (f64::NAN, f64::NAN) };
         // The sign of the way counts where it is 0, too.
         let rise = |zeta: f64| h * self.rate(1f64.copysign(w), zeta).abs();
         let bends = way.abs() > TINY * self.displacement;
@@ -369,6 +358,7 @@ impl BoucWen {
 
     /// ζ = ζ_p + τ ζ̇(w, ζ) and dζ/dw. The residual grows with ζ, and its zero lies between ζ_p and the limit: Newton inside
     /// bisection.
+    #[inline]
     fn step(&self, w: f64, from: &Origin) -> (f64, f64) {
         let (start, tau) = (from.internal, from.tau);
         let slope = |zeta: f64| {
@@ -402,6 +392,37 @@ impl BoucWen {
 }
 
 impl ReCentring {
+    /// [`Law::over`]: s is a straight line between the corners of the flag that lie on the way.
+    fn over(&self, d: f64, internal: f64, w: f64, h: f64) -> Stride {
+        let way = h * w;
+        // Along the way upwards: backwards all is the same the other way round.
+        let up = 1f64.copysign(way);
+        let (from, to) = (up * d, up * (d + way));
+        let start = up * self.settled(internal, d).0;
+        let back = (1.0 - self.flag) * self.activation;
+        // s stays until the flag takes it along: back to 0 below 0, forth beyond d_a.
+        let at = |d: f64| start.max((d + back).min(0.0)).max(d - self.activation);
+        let corners = if start < 0.0 { [start - back, -back] } else { [from; 2] };
+        let mut mean = if way == 0.0 { start } else { 0.0 };
+        let mut last = from;
+        for corner in [corners[0], corners[1], self.activation + start.max(0.0), to] {
+            let next = if corner >= to { to } else { corner.max(last) };
+            if next > last {
+                mean += 0.5 * (at(last) + at(next)) * ((next - last) / (to - from));
+                last = next;
+            }
+        }
+        // What is no number stays one.
+        let mean = if way.is_finite() { self.stiffness * (d + 0.5 * way - up * mean) } else { f64::NAN };
+        let (settled, moves) = self.settled(up * start, d + way);
+        let force = self.stiffness * (d + way - settled);
+        let most = 0.5 * h * self.stiffness;
+        let slope = if way == 0.0 { most } else { ((force - mean) / w).clamp(0.0, most) };
+        let lost = 0.5 * self.flag * self.stiffness * self.activation * (settled - up * start).abs();
+        let end = [force, if moves { 0.0 } else { 2.0 * most }];
+        Stride { mean: [mean, slope], end, internal: settled, lost }
+    }
+
     /// s at the relative displacement `d`, coming from `held` without a turn, and whether it moves with d there.
     #[inline]
     fn settled(&self, held: f64, d: f64) -> (f64, bool) {
@@ -484,6 +505,38 @@ mod tests {
             let stored = law.stored(d, internal);
             assert!(lost > 0.0 && stored > 0.0);
             assert!((stored + lost - work).abs() < 2e-4 * work, "{law:?}: {stored} + {lost} of {work}");
+        }
+    }
+
+    /// Ways of nothing or next to it, from what a flag has taken along by rounding: forces are those of the start, no slope is steeper than the
+    /// steepest, and what is no number is told as none.
+    #[test]
+    fn the_shortest_ways_bear_what_the_start_does() {
+        for law in laws() {
+            for internal in [-0.6, 0.0, 0.4f64] {
+                let internal = if matches!(law, Law::ReCentring(_)) { 1e-3 * internal } else { internal };
+                for off in [0.0, 1e-18, -1e-9, 1e-9] {
+                    let d = internal + 1e-3 * internal.signum() + off;
+                    for w in [0.0, 1e-12, -1e-12, 1e-9, -1e-6] {
+                        let (stride, start) = (law.over([d, internal], w, 1e-3), law.force(d, w, internal));
+                        let near = 1e-2 * law.steepest(w, 1e-3) * 1e-6 + law.initial_stiffness() * 2e-9;
+                        assert!(
+                            (stride.mean[0] - start).abs() <= near,
+                            "{law:?} {internal} {off} {w}: {stride:?} {start}"
+                        );
+                        assert!(
+                            (stride.end[0] - start).abs() <= near,
+                            "{law:?} {internal} {off} {w}: {stride:?} {start}"
+                        );
+                        assert!(
+                            stride.mean[1] >= 0.0 && stride.mean[1] <= law.steepest(w, 1e-3) * (1.0 + 1e-9),
+                            "{stride:?}"
+                        );
+                        assert!(stride.lost >= 0.0);
+                    }
+                }
+                assert!(law.over([1e-4, internal], f64::NAN, 1e-3).mean[0].is_nan(), "{law:?}");
+            }
         }
     }
 

@@ -34,6 +34,8 @@ pub struct Law {
     pub slip: [f64; 2],
     /// A device with a law of its own.
     pub device: Option<Device>,
+    /// Whether its stretch across goes on with the motion, whatever edges of the blocks face each other, as that of a device does.
+    pub follows: bool,
 }
 
 /// A device whose force is no straight line, in one direction of a joint beside all else that it bears.
@@ -45,13 +47,14 @@ pub struct Device {
     pub law: device::Law,
 }
 
-/// How a device is linear about a velocity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Slope {
-    /// By its tangent.
-    Tangent,
-    /// So steep that iterations do not go round in circles.
-    Steep,
+/// What a device bears over a step where the velocity at its end is some one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Borne {
+    /// Impulse [N s].
+    pub impulse: f64,
+    /// By how much it falls as that velocity rises, and how fast no line has to fall for iterations not to go round in circles [kg].
+    pub rho: f64,
+    pub steepest: f64,
 }
 
 /// Normal direction of a joint.
@@ -151,6 +154,7 @@ impl Law {
             crushing: f64::INFINITY,
             slip: [0.0; 2],
             device: None,
+            follows: false,
         }
     }
 
@@ -404,26 +408,21 @@ impl Law {
         Start { gap, velocity, still }
     }
 
-    /// What a device bears at a point over a step of `h` [s], linear about the velocity `after` at its end [m/s]; by how much that misses a line
-    /// of before, `line`, there [N s].
-    pub(crate) fn bent(
+    /// What a device bears at a point over a step of `h` [s] where the velocity at its end is `after` [m/s].
+    pub(crate) fn borne(
         &self,
         device: &Device,
         (point, share): (&Point, f64),
         h: f64,
         start: &Start,
-        (after, slope): (f64, Slope),
-        line: Linear,
-    ) -> (Linear, f64) {
-        let before = start.velocity[device.direction];
-        let mean = 0.5 * (before + after);
+        after: f64,
+    ) -> Borne {
+        let mean = 0.5 * (start.velocity[device.direction] + after);
         let stride = device.law.over([stretch(device, point, start), point.internal], mean, h);
-        let [force, tangent] = if start.still { stride.end } else { stride.mean };
-        let steep = device.law.steepest(mean, h) * if start.still { 2.0 } else { 1.0 };
-        let rise = if slope == Slope::Steep { steep.max(tangent) } else { tangent };
-        let rho = 0.5 * h * share * rise;
-        let bears = -h * share * force;
-        (Linear { offset: bears + rho * after, rho }, bears - line.at(after))
+        let ([force, slope], ends) = if start.still { (stride.end, 2.0) } else { (stride.mean, 1.0) };
+        let steepest = ends * device.law.steepest(mean, h);
+        let rho = |slope: f64| 0.5 * h * share * slope;
+        Borne { impulse: -h * share * force, rho: rho(slope.max(0.0).min(steepest)), steepest: rho(steepest) }
     }
 
     /// What the step came to, `after` being the velocity at its end, `time` its end [s].
@@ -463,7 +462,13 @@ impl Law {
         // Without inertia what has slid goes on to count as sliding: its speed means nothing.
         let rests = if start.still { point.speed } else { 0.0 };
         point.speed = if slides { after[1].abs() } else { rests };
-        works.slip = if slides { h * mean[1].abs() } else { 0.0 };
+        // Where nothing rubs all that moves under pressure slides.
+        let free = contact.friction == 0.0 && contact.hold == 0.0 && compressed > 0.0;
+        works.slip = if slides || free { h * mean[1].abs() } else { 0.0 };
+        // Where a slide turns round in an impact, friction against its end pushes along its mean: part of what the impact takes.
+        if works.friction < 0.0 {
+            works.impact += std::mem::take(&mut works.friction);
+        }
         if self.bond.is_some() && point.damage < 1.0 {
             self.wear(point, share, time, compressed, contact, &mut works);
         }

@@ -52,7 +52,7 @@ pub enum Method {
     /// [`Solver::newton`].
     #[default]
     Newton,
-    /// [`Solver::gauss_seidel`] with so many rounds at most, for rigid joints without bond, and no ties.
+    /// [`Solver::gauss_seidel`] with so many rounds at most, for rigid joints without bond and devices, and no ties.
     GaussSeidel(usize),
 }
 
@@ -587,7 +587,9 @@ impl Motion {
         let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
         let mut gap = touch.gap - 0.5 * h * before[0];
         let followed = state.gap.min(0.0);
-        if law.only_presses(state.damage) && gap < followed - JUMP * self.reach[pair.b] {
+        if law.follows {
+            gap = state.gap;
+        } else if law.only_presses(state.damage) && gap < followed - JUMP * self.reach[pair.b] {
             gap = followed;
         }
         let start = law.begin(state, share, h, self.setting.still, (gap, before), &mut contact);

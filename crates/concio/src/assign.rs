@@ -9,7 +9,7 @@ use crate::case::{
 use crate::error::{InputError, Result};
 use crate::graph;
 use crate::law::Stribeck;
-use crate::wall::{End, Joint, Wall};
+use crate::wall::{Joint, Wall};
 
 /// Which joints rub and where their normal force comes from, the preset taken into account.
 pub(crate) fn friction_choice(friction: &Friction) -> (FrictionOn, NormalForce) {
@@ -226,12 +226,7 @@ pub fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Resu
         }
     }
     let holds = |joint: &Joint| {
-        let block = &wall.blocks[joint.a];
-        let course = match (joint.kind, joint.b) {
-            (JointKind::Bed, End::Block(upper)) => wall.blocks[upper].course + 1,
-            (JointKind::Top, _) => block.course + 2,
-            _ => block.course + 1,
-        };
+        let (block, course) = (&wall.blocks[joint.a], joint.course(wall));
         let middle = [0.5 * (joint.line[0] + joint.line[2]), 0.5 * (joint.line[1] + joint.line[3])];
         (at.kind.is_empty() || at.kind.contains(&joint.kind))
             && (at.panel.is_empty() || at.panel.contains(&wall.panels[block.panel].name))

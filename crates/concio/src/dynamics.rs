@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::case::DeviceLaw;
 use crate::error::{InputError, Result};
 use crate::excitation::Drive;
 use crate::integrate::dense::extreme;
@@ -503,14 +504,26 @@ impl Channels {
         for w in &self.watched {
             match *w {
                 Watched::Block(i) => row.extend([at.z[i], at.v[i], at.a[i], at.vertical[i], at.rotation[i]]),
-                Watched::Joint(e, _, bond) => {
+                Watched::Joint(e, index, bond) => {
                     let (seen, kind) = (&at.seen[e], model.joints[e].kind);
                     let sign = turned(kind);
                     let (moved, speed, force) = match kind.is_upright() {
                         true => (seen.gap[1], seen.parting, seen.pressure),
                         false => (sign * seen.slide, sign * seen.speed, -sign * (seen.shear - seen.friction)),
                     };
-                    row.extend([moved, speed, force, 0.0, -sign * seen.friction]);
+                    let device = model.devices.binary_search_by_key(&(e as u32), |device| device.joint);
+                    row.extend([moved, speed]);
+                    row.extend(match device.map(|k| model.devices[k].law) {
+                        Err(_) => [force, 0.0, -sign * seen.friction],
+                        Ok(law) => {
+                            let whole = if kind.is_upright() { seen.pressure } else { -sign * seen.shear };
+                            match law {
+                                DeviceLaw::Elastic => [whole, 0.0, 0.0],
+                                DeviceLaw::Viscous if index[2].is_none() => [0.0, whole, 0.0],
+                                _ => [0.0, 0.0, whole],
+                            }
+                        }
+                    });
                     row.extend([seen.gap[1].max(0.0), seen.pressure]);
                     row.extend(bond.map(|b| at.state.bonds[b].damage));
                 }

@@ -296,7 +296,16 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Resul
         _ => Shear { stiffness: along * stiffness, damping: dashpot(along * given), series },
     };
     let crushing = spring.compressive_strength.map_or(f64::INFINITY, |f| f.si() * area);
-    Ok(Law { normal, shear, friction: law.rubs().map(friction), bond, crushing, slip: [0.0; 2], device: None })
+    Ok(Law {
+        normal,
+        shear,
+        friction: law.rubs().map(friction),
+        bond,
+        crushing,
+        slip: [0.0; 2],
+        device: None,
+        follows: false,
+    })
 }
 
 /// Energy of a spring at its strength [J].
@@ -338,7 +347,7 @@ fn device_law(joint: &Joint, device: &Device) -> Law {
     match joint.kind.is_upright() {
         true => {
             let normal = Normal::Springs { both: stiffness, press: 0.0, damping };
-            Law { normal, slip: [slip, 0.0], device: own(0), ..Law::dry(None) }
+            Law { normal, slip: [slip, 0.0], device: own(0), follows: true, ..Law::dry(None) }
         }
         false => {
             let shear = Shear { stiffness, damping, series: false };

@@ -185,6 +185,16 @@ pub struct Joint {
 }
 
 impl Joint {
+    /// Course from 1 that it counts to in a wall file: a bed joint to that which lies on it, the joints of the top to one more than there are.
+    pub fn course(&self, wall: &Wall) -> usize {
+        let below = wall.blocks[self.a].course + 1;
+        match (self.kind, self.b) {
+            (JointKind::Bed, End::Block(upper)) => wall.blocks[upper].course + 1,
+            (JointKind::Top, _) => below + 1,
+            _ => below,
+        }
+    }
+
     /// Area of the contact [m²]: its length times the thickness of the thinner block.
     pub fn area(&self, wall: &Wall) -> f64 {
         let of = |i: usize| wall.blocks[i].thickness;

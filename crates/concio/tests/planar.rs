@@ -503,9 +503,11 @@ quasi_static = true
         assert_eq!(outcome.counters.unsolved, 0);
         let at = |t: f64| {
             let at = outcome.recording.time.partition_point(|s| *s < t - 1e-9);
-            channel(&outcome, "top/force")[at].abs() / count
+            channel(&outcome, "top/force")[at] / count
         };
-        [at(10.0), at(15.0)]
+        // All that the wall moves under its load is the way of the device, 10 mm there and 5 mm back.
+        close(outcome.envelopes.joint_slip[0], 15e-3, 1e-3);
+        [at(10.0).abs(), at(15.0) * at(10.0).signum()]
     };
     let [pushed, back] =
         force(r#"{ law = "re-centring", stiffness = 4e6, activation_force = 4e3, flag = 0.75, post_stiffness = 1e5 }"#);
@@ -514,7 +516,7 @@ quasi_static = true
     let [pushed, back] =
         force(r#"{ law = "bouc-wen", yield_force = 4e3, yield_displacement = "1 mm", hardening = 0.1 }"#);
     close(pushed, 0.1 * 4e6 * 10e-3 + 0.9 * 4e3, 1e-4);
-    close(back, (0.1 * 4e6 * 5e-3 - 0.9 * 4e3f64).abs(), 1e-2);
+    close(back, 0.1 * 4e6 * 5e-3 - 0.9 * 4e3, 1e-2);
 }
 
 /// Twice as much as the joint's strength, by whatever law: the wall comes down, and no joint has borne more than its strength.

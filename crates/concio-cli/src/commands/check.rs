@@ -154,7 +154,7 @@ fn joint_list(model: &Model) -> Vec<Vec<String>> {
     let rubs = model.rub_of_joint();
     for (((joint, name), rub), device) in model.joints.iter().zip(model.joint_names()).zip(rubs).zip(devices) {
         let normal = rub.map_or("–".into(), |r| range(model.rubs[r].normal.into_iter(), |v| si(v, "N")));
-        let course = (model.wall.blocks[joint.a].course + 1).to_string();
+        let course = joint.course(&model.wall).to_string();
         let mut row = vec![name, kind_name(joint.kind).into(), course, significant(joint.weight, 4), normal];
         if !model.devices.is_empty() {
             row.push(device.map_or("–", |law| law.name()).into());

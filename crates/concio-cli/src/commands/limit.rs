@@ -56,12 +56,14 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
         let written = args.out.as_deref().map(names).unwrap_or_default();
         files::print(&format!("{title}{}{written}", pairs(&rows(args, &weaker, other.as_ref()))))?;
     }
-    if found.is_certified() {
-        return Ok(ExitCode::SUCCESS);
+    // A way that is not certified may be the weaker.
+    let open: Vec<&Pushed> =
+        [Some(&weaker), other.as_ref()].into_iter().flatten().filter(|p| !p.found.is_certified()).collect();
+    for Pushed { towards, found, .. } in &open {
+        let (wide, side, most) = (significant(found.gap(), 2), side(*towards), limit::CERTIFIED);
+        files::note(&format!("no certificate to the {side}: the bounds are {wide} of λ apart, {most} are allowed"));
     }
-    let wide = significant(found.gap(), 2);
-    files::note(&format!("no certificate: the bounds are {wide} of λ apart, {} are allowed", limit::CERTIFIED));
-    Ok(ExitCode::from(STOPPED))
+    Ok(if open.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
 }
 
 /// What was found for one way.
@@ -71,12 +73,12 @@ struct Pushed {
     found: limit::Limit,
 }
 
-/// The way in which the wall bears less, of two that are equal but for rounding the first, and the other.
+/// The way in which the wall bears less for certain, of two that are equal but for rounding the first, and the other.
 fn weaker(mut pushed: Vec<Pushed>) -> (Pushed, Option<Pushed>) {
     let other = if pushed.len() > 1 { pushed.pop() } else { None };
     let first = pushed.remove(0);
     match other {
-        Some(other) if other.found.multiplier() < first.found.multiplier() * (1.0 - EQUAL) => (other, Some(first)),
+        Some(other) if other.found.bounds[0] < first.found.bounds[0] * (1.0 - EQUAL) => (other, Some(first)),
         other => (first, other),
     }
 }

@@ -148,7 +148,7 @@ fn run(plan: &Plan, args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     let cases = cases(plan)?;
     let out = folder(&args.place);
     refuse_a_file(&out)?;
-    warn(&plan, &asked::shaking(plan)?);
+    warn(plan, &asked::shaking(plan)?);
     let [share, of] = args.shard.unwrap_or([1, 1]);
     if plan.file.study.ida.is_some() {
         return study::ida::run(plan, &out, args.threads.map_or(0, usize::from), [share, of]);
@@ -202,7 +202,7 @@ fn first_cracks(
     refuse_a_file(&out)?;
     if matches!(what, Do::Share(_)) {
         cases(plan)?;
-        warn(&plan, &asked::shaking(plan)?);
+        warn(plan, &asked::shaking(plan)?);
         stop::listen()?;
     }
     let file = &plan.file;

@@ -1,7 +1,7 @@
 //! Joints over time, and friction over slip.
 
 use concio::InputError;
-use concio::case::JointKind;
+use concio::case::{DeviceLaw, JointKind};
 
 use super::data::{Data, Motion};
 use super::{Options, asked, choose, largest, letter};
@@ -77,10 +77,11 @@ fn kind(kind: JointKind) -> &'static str {
     }
 }
 
-/// Friction force over slip; of the joints that dissipated most unless joints are named.
+/// Friction force over slip, of devices with a law of their own theirs; of the joints that dissipated most unless joints are named.
 pub fn hysteresis(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let joints = &data.run.joints;
-    let rubs = |e: usize| joints[e].friction.is_some();
+    let yields = |law: DeviceLaw| matches!(law, DeviceLaw::BoucWen | DeviceLaw::ReCentring);
+    let rubs = |e: usize| joints[e].friction.is_some() || joints[e].device.is_some_and(yields);
     let known: Vec<usize> = data.sampled_joints().into_iter().filter(|&e| rubs(e)).collect();
     let chosen = if options.joints.is_empty() {
         let dissipated = &data.run.outcome.envelopes.joint_dissipation;
@@ -89,7 +90,8 @@ pub fn hysteresis(data: &Data, options: &Options) -> Result<Drawing, InputError>
         asked(&options.joints, "--joints", |n| data.joint(n))?
     };
     if let Some(&e) = chosen.iter().find(|&&e| !rubs(e)) {
-        let error = InputError::new(format!("joint {} has no friction", joints[e].name)).key("--joints");
+        let error = InputError::new(format!("joint {} has no friction, and no device that yields", joints[e].name))
+            .key("--joints");
         return Err(error.help("choose bed or support joints, or `friction.on = \"all\"` in the wall file"));
     }
     if chosen.is_empty() {

@@ -99,7 +99,7 @@ fn tiles(page: &mut String, content: &Content) {
     let mut tiles = vec![
         ("peak displacement", si(totals.peak_relative_displacement, "m"), "of a block, relative to the base"),
         ("peak slip velocity", si(totals.peak_slip_velocity, "m/s"), "of bed and support joints"),
-        ("work done on the wall", si(energies.input(), "J"), "by base and top, over the whole run"),
+        ("work done on the wall", si(energies.input(), "J"), "by base, top and weight, over the whole run"),
         (
             "energy residual",
             format!("{residual:.1e}"),

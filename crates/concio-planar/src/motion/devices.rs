@@ -2,14 +2,16 @@
 //! are the same.
 //!
 //! A device follows its law along the straight way of a step, however far that goes, and bears the mean of it: what it stores and loses is
-//! its work. Lines are tangents at first; where these go in circles, as at a corner, they are so steep that they cannot.
+//! its work. Lines are tangents at first; where these go in circles, as at a corner, chords of the last two iterates, and in the end lines so steep that
+//! they cannot.
 
 use super::Motion;
 use crate::contact::{Contact, Effort, Linear, worse};
-use crate::joint::{Device, Slope};
+use crate::joint::Device;
 
-/// Solutions for tangents, and at most.
+/// Solutions for tangents, for chords, and at most.
 const TANGENTS: usize = 8;
+const CHORDS: usize = 24;
 const MOST: usize = 60;
 
 /// A contact with such a device.
@@ -19,11 +21,13 @@ pub(super) struct Bent {
     device: Device,
     /// What acts beside the device in its direction.
     beside: Linear,
+    /// Velocity at the end of the step [m/s] and impulse there [N s] that the line goes through.
+    at: [f64; 2],
 }
 
 impl Bent {
     pub(super) fn of(device: &Device, number: usize, contact: &Contact) -> Self {
-        Bent { contact: number, device: *device, beside: contact.spring[device.direction] }
+        Bent { contact: number, device: *device, beside: contact.spring[device.direction], at: [0.0; 2] }
     }
 }
 
@@ -33,22 +37,22 @@ impl Motion {
         for k in 0..self.bent.len() {
             let Bent { contact, device, .. } = self.bent[k];
             let after = self.owners[contact].start.velocity[device.direction];
-            self.bend(k, h, after, Slope::Tangent);
+            self.bend(k, h, after, 0);
         }
     }
 
-    /// Solves again until the lines are those of the solution, after a first one that took `effort`.
+    /// Solves again until the lines are those of the solution, after a first one that took `effort`; no longer where contact stays unsolved.
     pub(super) fn follow_devices(&mut self, h: f64, effort: Effort) -> Effort {
         let mut effort = effort;
         for round in 0.. {
-            let slope = if round < TANGENTS { Slope::Tangent } else { Slope::Steep };
             let mut missed = 0.0;
             for k in 0..self.bent.len() {
                 let Bent { contact, device, .. } = self.bent[k];
                 let after = self.contacts[contact].velocity(&self.after)[device.direction];
-                missed = worse(missed, self.bend(k, h, after, slope));
+                missed = worse(missed, self.bend(k, h, after, round));
             }
-            if !(missed > self.setting.tolerance) || round == MOST {
+            let solved = effort.residual <= self.setting.enough();
+            if !(solved && missed > self.setting.tolerance) || round == MOST {
                 effort.residual = worse(effort.residual, missed);
                 break;
             }
@@ -59,17 +63,25 @@ impl Motion {
 
     /// Makes a device linear about the velocity `after` at the end of the step [m/s]; returns by how much the line of before missed it there
     /// [m/s].
-    fn bend(&mut self, k: usize, h: f64, after: f64, slope: Slope) -> f64 {
-        let Bent { contact, device, beside } = self.bent[k];
+    fn bend(&mut self, k: usize, h: f64, after: f64, round: usize) -> f64 {
+        let Bent { contact, device, beside, at } = self.bent[k];
         let owner = &self.owners[contact];
         let pair = &self.pairs[owner.pair];
         let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
         let contact = &mut self.contacts[contact];
         let spring = &mut contact.spring[device.direction];
         let line = Linear { offset: spring.offset - beside.offset, rho: spring.rho - beside.rho };
-        let point = (&pair.points[owner.point], owner.share);
-        let (next, missed) = law.bent(&device, point, h, &owner.start, (after, slope), line);
-        *spring = Linear { offset: beside.offset + next.offset, rho: beside.rho + next.rho };
-        missed.abs() / contact.moved[device.direction]
+        let borne = law.borne(&device, (&pair.points[owner.point], owner.share), h, &owner.start, after);
+        let rho = match round {
+            0..TANGENTS => borne.rho,
+            TANGENTS..CHORDS if after != at[0] => {
+                ((at[1] - borne.impulse) / (after - at[0])).max(borne.rho).min(borne.steepest)
+            }
+            _ => borne.steepest,
+        };
+        self.bent[k].at = [after, borne.impulse];
+        let missed = (borne.impulse - line.at(after)).abs() / contact.moved[device.direction];
+        *spring = Linear { offset: beside.offset + borne.impulse + rho * after, rho: beside.rho + rho };
+        missed
     }
 }

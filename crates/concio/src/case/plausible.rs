@@ -89,6 +89,13 @@ const STEP: Expected = Expected { limits: [1e-7, 0.05], usual: [1e-5, 0.01], uni
 const SPEED: Expected =
     Expected { limits: [1e-9, 3.0], usual: [1e-6, 0.5], unit: "m/s", slips: &[(1e-3, "mm/s", 1e-3)] };
 
+/// Forces at which devices yield or slip: from a clip of some newtons to a damper of a bridge.
+const DEVICE_FORCE: Expected =
+    Expected { limits: [5.0, 1e7], usual: [50.0, 1e6], unit: "N", slips: &[(1e3, "kN", 1e3), (1e-3, "N", 1.0)] };
+/// How far devices go until they yield.
+const DEVICE_YIELD: Expected =
+    Expected { limits: [1e-7, 0.05], usual: [1e-6, 0.02], unit: "m", slips: &[FROM_MM, FROM_CM] };
+
 /// Stiffness of pressed bed joints of planar walls over what the file calls their stiffness, above which it was hardly meant.
 const STIFFER: f64 = 10.0;
 /// Coefficients of friction above this are rather angles in degrees.
@@ -337,6 +344,18 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
         }
         if let Some(FrictionChange { slip_velocity: Some(velocity), .. }) = change.friction {
             doubts.look(&format!("{at}.friction.slip_velocity"), velocity.si(), &SLIP_VELOCITY);
+        }
+        if let Some(device) = &change.device {
+            let forces = [
+                ("slip_force", device.slip_force),
+                ("yield_force", device.yield_force),
+                ("activation_force", device.activation_force),
+            ];
+            for (key, force) in forces {
+                doubts.look(&format!("{at}.device.{key}"), force.map_or(0.0, |f| f.si()), &DEVICE_FORCE);
+            }
+            let way = device.yield_displacement.map_or(0.0, |d| d.si());
+            doubts.look(&format!("{at}.device.yield_displacement"), way, &DEVICE_YIELD);
         }
     }
 }

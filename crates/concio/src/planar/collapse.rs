@@ -37,8 +37,8 @@ pub struct Collapsed {
     pub displacement: f64,
     /// Whether it had turned over; else it had fallen.
     pub turned: bool,
-    /// How many blocks had fallen or turned over in the last frame.
-    pub fallen: usize,
+    /// How many blocks had fallen or turned over in the last frame; none where there are no frames.
+    pub fallen: Option<usize>,
 }
 
 impl Collapsed {
@@ -57,10 +57,10 @@ impl Collapsed {
 }
 
 /// How many blocks have fallen or turned over in the last frame.
-fn fallen(outcome: &Outcome, wall: &Wall) -> usize {
+fn fallen(outcome: &Outcome, wall: &Wall) -> Option<usize> {
     let width = outcome.layout.turned;
-    let last = |rows: &Vec<f64>| rows.len().checked_sub(width).map(|from| rows[from..].to_vec()).unwrap_or_default();
-    let [turns, rises] = [&outcome.recording.frame_rotation, &outcome.recording.frame_vertical].map(last);
-    let moved = turns.iter().zip(&rises).zip(&wall.blocks);
-    moved.filter(|((turn, rise), block)| is_down(**turn, **rise, block.height()).is_some()).count()
+    let last = |rows: &'_ [f64]| rows.len().checked_sub(width.max(1));
+    let (turns, rises) = (&outcome.recording.frame_rotation, &outcome.recording.frame_vertical);
+    let moved = turns[last(turns)?..].iter().zip(&rises[last(rises)?..]).zip(&wall.blocks);
+    Some(moved.filter(|((turn, rise), block)| is_down(**turn, **rise, block.height()).is_some()).count())
 }

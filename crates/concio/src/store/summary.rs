@@ -61,6 +61,7 @@ pub fn summary(
         "failure": planar::failure(wall, &graph, &outcome.recording),
         "bonds": bonds(outcome, joints),
         "ties": ties(outcome),
+        "devices": devices(outcome, joints),
         "energy": energy(&outcome.energies, residual_relative(outcome)),
         "counters": outcome.counters,
         "inputs_hash": provenance.inputs_hash,
@@ -107,6 +108,13 @@ fn bonds(outcome: &Outcome, joints: &[JointRow]) -> Value {
         "first_crack": first.map(|b| b.cracked),
         "first_joint": first.and_then(|b| joints.get(b.joint)).map(|j| &j.name),
     })
+}
+
+/// How many joints have a device, and what these took; null where none has.
+fn devices(outcome: &Outcome, joints: &[JointRow]) -> Value {
+    let taken = joints.iter().zip(&outcome.envelopes.joint_dissipation).filter(|(row, _)| row.device.is_some());
+    let (count, taken) = taken.fold((0, 0.0), |(count, sum), (_, taken)| (count + 1, sum + taken));
+    if count == 0 { Value::Null } else { json!({ "joints": count, "dissipated": taken }) }
 }
 
 /// What each tie bore; null where there are none.

@@ -31,6 +31,7 @@ TOTALS = {
     "peak_relative_displacement": "m",
     "peak_slip_velocity": "m/s",
     "peak_friction_force": "N",
+    "base_shear_peak": "N",
     "top_force_peak": "N",
     "top_force_square": "N2 s",
     "minimum_gap": "m",
@@ -121,11 +122,11 @@ class Result:
 def check_head(result):
     attributes = result.file.attrs
     require(attributes["format"] == "concio-result", "attribute format")
-    require(attributes["schema_version"] == 6, "attribute schema_version")
+    require(attributes["schema_version"] == 7, "attribute schema_version")
     require(attributes["stop_reason"] in STOP_REASONS, f"stop_reason {attributes['stop_reason']!r}")
     for name in ["version", "model", "inputs_hash"]:
         require(isinstance(attributes[name], str) and attributes[name], f"attribute {name}")
-    require(result.array("schema_version", (), "u4", "1") == 6, "schema_version")
+    require(result.array("schema_version", (), "u4", "1") == 7, "schema_version")
     (case,) = result.texts("case", 1)
     require(isinstance(json.loads(case), dict), "case is no JSON object")
 
@@ -229,6 +230,8 @@ def check_frames(result, unknowns, joints):
         check_bonds(result, frames)
     if "ties" in result.file:
         check_ties(result)
+    if "collapse" in result.file:
+        check_collapse(result)
     if "events" in result.file:
         check_events(result)
     return time, (displacement, vertical, rotation), velocity
@@ -259,6 +262,15 @@ def check_ties(result):
     require(all(a != b for a, b in ends), "a tie is fixed to one block twice")
     columns = {key: result.array(f"ties/{key}", (n,), "f8", unit) for key, unit in TIE_COLUMNS.items()}
     require((np.isfinite(columns["yielded"]) == (columns["stretch"] > 0)).all(), "when a tie yielded")
+
+
+def check_collapse(result):
+    time = result.array("collapse/time", (), "f8", "s")
+    require(0 <= time <= result.file["totals/time_reached"][()], "collapse/time")
+    block = result.array("collapse/block", (), "i8", "1")
+    require(0 <= block < len(result.file["wall/blocks/name"]), "collapse/block")
+    require(result.array("collapse/displacement", (), "f8", "m") >= 0, "collapse/displacement")
+    require(result.array("collapse/turned", (), "u1", "1") in (0, 1), "collapse/turned")
 
 
 def check_sums(result, unknowns, joints):
@@ -359,7 +371,7 @@ def check_npz(path, file):
                 equal(np.array([t.decode() for t in array]), np.array(file[name].asstr()[()]), f"npz: {name}")
             else:
                 equal(array, file[name][()], f"npz: {name}")
-        tops = ["case", "wall", "history", "frames", "bonds", "ties", "events", "envelope", "energy", "totals", "counters"]
+        tops = ["case", "wall", "history", "frames", "bonds", "ties", "collapse", "events", "envelope", "energy", "totals", "counters"]
         wanted = []
         file.visititems(lambda name, item: wanted.append(name) if isinstance(item, h5py.Dataset) else None)
         wanted = {w for w in wanted if any(w == top or w.startswith(top + "/") for top in tops)}

@@ -9,6 +9,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::error::{Error, Result};
+use crate::outcome::Collapse;
 use crate::store::fields::{self, Field, Frames};
 use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword, other_side};
 use crate::store::outlines::{self, Outlines};
@@ -179,6 +180,12 @@ fn fill_sums(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
     }
     for field in &fields::COUNTERS {
         archive.array(&format!("counters/{}", field.name), &[], [*(field.get)(&outcome.counters)])?;
+    }
+    if let Some(Collapse { time, block, way, turned }) = outcome.totals.collapse {
+        archive.array("collapse/time", &[], [time])?;
+        archive.array("collapse/block", &[], [block as i64])?;
+        archive.array("collapse/displacement", &[], [way])?;
+        archive.array("collapse/turned", &[], [u8::from(turned)])?;
     }
     archive.array("totals/time_reached", &[], [outcome.time_reached])
 }
