@@ -81,7 +81,7 @@ pub struct ReCentring {
 pub struct Origin {
     /// Relative displacement [m].
     pub d: f64,
-    /// ζ [1] or s [m].
+    /// ζ or s [m].
     pub internal: f64,
     /// τ [s].
     pub tau: f64,
@@ -96,7 +96,7 @@ pub struct Response {
     pub force: f64,
     /// Its slope over the relative velocity [N s/m].
     pub slope: f64,
-    /// ζ [1] or s [m]; 0 where there is none.
+    /// ζ or s [m]; 0 where there is none.
     pub internal: f64,
 }
 
@@ -107,7 +107,7 @@ pub struct Stride {
     pub mean: [f64; 2],
     /// Force at the end, and its slope.
     pub end: [f64; 2],
-    /// ζ [1] or s [m] at the end.
+    /// ζ or s [m] at the end.
     pub internal: f64,
     /// Dissipated [J], from 0.
     pub lost: f64,

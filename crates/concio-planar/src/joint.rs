@@ -253,7 +253,7 @@ pub struct Point {
     pub speed: f64,
     /// Crushed off [m].
     pub crushed: f64,
-    /// Internal variable of a device, ζ [1] of (I5) or s [m] of (I7).
+    /// Internal variable of a device, ζ of (I5) or s [m] of (I7).
     pub internal: f64,
     /// Farthest opening and sliding beyond what the bond can bear [m].
     pub reach: [f64; 2],
