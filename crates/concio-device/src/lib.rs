@@ -345,7 +345,7 @@ impl BoucWen {
             lost += self.lost(part, middle);
             left -= part;
         }
-        let mean = if way == 0.0 { start } else { worked / way };
+        let mean = if way.abs() > f64::MIN_POSITIVE / f64::EPSILON { worked / way } else { start };
         // What is no number stays one.
         let (zeta, mean) = if way.is_finite() { (zeta, mean) } else { (f64::NAN, f64::NAN) };
         // The sign of the way counts where it is 0, too.
@@ -403,7 +403,8 @@ impl ReCentring {
         // s stays until the flag takes it along: back to 0 below 0, forth beyond d_a.
         let at = |d: f64| start.max((d + back).min(0.0)).max(d - self.activation);
         let corners = if start < 0.0 { [start - back, -back] } else { [from; 2] };
-        let mut mean = if way == 0.0 { start } else { 0.0 };
+        // Next to d, a way may be nothing.
+        let mut mean = if to > from { 0.0 } else { start };
         let mut last = from;
         for corner in [corners[0], corners[1], self.activation + start.max(0.0), to] {
             let next = if corner >= to { to } else { corner.max(last) };
@@ -417,7 +418,7 @@ impl ReCentring {
         let (settled, moves) = self.settled(up * start, d + way);
         let force = self.stiffness * (d + way - settled);
         let most = 0.5 * h * self.stiffness;
-        let slope = if way == 0.0 { most } else { ((force - mean) / w).clamp(0.0, most) };
+        let slope = if !(to > from) { most } else { ((force - mean) / w).clamp(0.0, most) };
         let lost = 0.5 * self.flag * self.stiffness * self.activation * (settled - up * start).abs();
         let end = [force, if moves { 0.0 } else { 2.0 * most }];
         Stride { mean: [mean, slope], end, internal: settled, lost }
@@ -517,7 +518,7 @@ mod tests {
                 let internal = if matches!(law, Law::ReCentring(_)) { 1e-3 * internal } else { internal };
                 for off in [0.0, 1e-18, -1e-9, 1e-9] {
                     let d = internal + 1e-3 * internal.signum() + off;
-                    for w in [0.0, 1e-12, -1e-12, 1e-9, -1e-6] {
+                    for w in [0.0, 5e-324, 1e-300, 1e-17, -1e-20, 1e-12, -1e-12, 1e-9, -1e-6] {
                         let (stride, start) = (law.over([d, internal], w, 1e-3), law.force(d, w, internal));
                         let near = 1e-2 * law.steepest(w, 1e-3) * 1e-6 + law.initial_stiffness() * 2e-9;
                         assert!(
