@@ -6,7 +6,7 @@ use crate::equations::Equations;
 /// How a wall falls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MechanismKind {
-    /// Joints slide, none opens.
+    /// Joints slide, and what opens beside them does so without a turn of any block.
     Sliding,
     /// Joints open, none slides.
     Overturning,
@@ -27,7 +27,7 @@ impl MechanismKind {
     /// What it means.
     pub fn what(self) -> &'static str {
         match self {
-            MechanismKind::Sliding => "sliding: no joint opens",
+            MechanismKind::Sliding => "sliding: no block turns",
             MechanismKind::Overturning => "overturning: no joint slides",
             MechanismKind::Mixed => "mixed: joints slide and joints open",
         }
@@ -90,7 +90,12 @@ pub(super) fn describe(problem: &Problem, equations: &Equations, velocities: &[f
             joints.push(motion);
         }
     }
-    let kind = match (joints.iter().any(|j| j.slides), joints.iter().any(|j| j.opens)) {
+    let turns = |i: usize| {
+        let radius = bodies[i].corners.iter().map(|r| r[0].hypot(r[1])).fold(0.0, f64::max);
+        of(i)[2].abs() * radius / fastest > NOTHING
+    };
+    let opens = joints.iter().any(|j| j.opens) && (0..bodies.len()).any(turns);
+    let kind = match (joints.iter().any(|j| j.slides), opens) {
         (true, false) => MechanismKind::Sliding,
         (false, _) => MechanismKind::Overturning,
         (true, true) => MechanismKind::Mixed,

@@ -32,6 +32,15 @@ fn a_block_slides_or_turns() {
     }
 }
 
+/// A squat wall of little friction slides at μ: bricks go at rates of their own, so that head joints open, and none turns.
+#[test]
+fn what_only_slides_is_no_mixed_mechanism() {
+    let limit = DryWall::running(6, 4, [0.4, 0.2], 0.2, true).limit(Options::default());
+    close("λ", certified(&limit), 0.2, 1e-9);
+    assert!(limit.mechanism.joints.iter().any(|j| j.opens), "all as one");
+    assert_eq!(limit.mechanism.kind, MechanismKind::Sliding);
+}
+
 /// A stack turns whole about its foot at b/(n h).
 #[test]
 fn a_stack_turns_whole() {

@@ -22,7 +22,7 @@
 
 mod finish;
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::Arch;
 
 use crate::blocks::{Blocks, Triple};
 use crate::contact::{Contact, Effort, Rows, Status, unbalance, worse};
@@ -364,8 +364,9 @@ impl<const N: usize> Group<N> {
         }
     }
 
+    /// As all that goes through the contacts in every iteration compiled for the widest registers: the bits are the same in all.
     fn look(&mut self, contacts: &[Contact], v: &[Triple], method: Method, sums: &mut Sums) {
-        Arch::new().dispatch(Look { group: self, contacts, v, method, sums });
+        Arch::new().dispatch(|| self.look_at_each(contacts, v, method, sums));
     }
 
     #[inline(always)]
@@ -390,7 +391,7 @@ impl<const N: usize> Group<N> {
 
     /// Takes what the last direction leaves out of the products into account; impulses where velocities stay, onto the bodies.
     fn correct(&mut self, target: f64, step: &mut [Triple]) {
-        Arch::new().dispatch(Correct { group: self, target, step });
+        Arch::new().dispatch(|| self.correct_each(target, step));
     }
 
     #[inline(always)]
@@ -403,7 +404,7 @@ impl<const N: usize> Group<N> {
     }
 
     fn turn(&mut self, step: &[Triple], target: f64, keep: f64, course: &mut Course) {
-        Arch::new().dispatch(Turn { group: self, step, target, keep, course });
+        Arch::new().dispatch(|| self.turn_each(step, target, keep, course));
     }
 
     #[inline(always)]
@@ -425,58 +426,6 @@ impl<const N: usize> Group<N> {
         for (point, which) in self.points.iter().zip(&self.which) {
             point.tell(&mut contacts[*which as usize], v);
         }
-    }
-}
-
-/// [`Group::look`] compiled for some registers, as all that goes through the contacts in every iteration: the bits are the same in all.
-struct Look<'a, 'b, const N: usize> {
-    group: &'a mut Group<N>,
-    contacts: &'a [Contact],
-    v: &'a [Triple],
-    method: Method,
-    sums: &'a mut Sums<'b>,
-}
-
-impl<const N: usize> WithSimd for Look<'_, '_, N> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.group.look_at_each(self.contacts, self.v, self.method, self.sums);
-    }
-}
-
-/// [`Group::correct`].
-struct Correct<'a, const N: usize> {
-    group: &'a mut Group<N>,
-    target: f64,
-    step: &'a mut [Triple],
-}
-
-impl<const N: usize> WithSimd for Correct<'_, N> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.group.correct_each(self.target, self.step);
-    }
-}
-
-/// [`Group::turn`].
-struct Turn<'a, const N: usize> {
-    group: &'a mut Group<N>,
-    step: &'a [Triple],
-    target: f64,
-    keep: f64,
-    course: &'a mut Course,
-}
-
-impl<const N: usize> WithSimd for Turn<'_, N> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.group.turn_each(self.step, self.target, self.keep, self.course);
     }
 }
 

@@ -210,8 +210,14 @@ pub fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Resu
         let mut set = BTreeSet::new();
         for name in &at.joints {
             let e = names.get(name).ok_or_else(|| {
-                InputError::new(format!("no joint is named `{name}`"))
-                    .allowed("names as `concio check` lists and draws them, for example base|p1c1b1 or p1c1b1|p1c2b1")
+                let error = InputError::new(format!("no joint is named `{name}`"));
+                match name.split_once('|').map(|(a, b)| format!("{b}|{a}")).filter(|turned| names.contains_key(turned))
+                {
+                    Some(turned) => error.allowed(format!("the same blocks the other way round: `{turned}`")),
+                    None => error.allowed(
+                        "names as `concio check` lists and draws them, for example base|p1c1b1 or p1c1b1|p1c2b1",
+                    ),
+                }
             })?;
             if !set.insert(*e) {
                 return Err(InputError::new(format!("joint `{name}` is listed twice")).allowed("each joint once"));

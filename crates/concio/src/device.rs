@@ -3,10 +3,11 @@
 
 pub use concio_device::{BoucWen, Law, Power, ReCentring};
 
-use crate::assign::JointLaw;
+use crate::assign::{JointLaw, resolve};
 use crate::case::{Case, Device as Given, DeviceLaw};
+use crate::error::Result;
 use crate::law::Stribeck;
-use crate::model::{Elastic, Rub};
+use crate::model::{Elastic, Model, Rub};
 
 /// β and γ of (I5) unless given.
 pub(crate) const BETA: f64 = 0.5;
@@ -23,6 +24,45 @@ pub struct Device {
     pub joint: u32,
     /// Its law.
     pub law: DeviceLaw,
+}
+
+/// What a device is good for, in numbers that all laws have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rating {
+    /// Its law.
+    pub law: DeviceLaw,
+    /// Stiffness at rest [N/m].
+    pub stiffness: f64,
+    /// Dashpot [N s/m], that of a power law at its reference velocity.
+    pub damping: f64,
+    /// Force at which it slips, yields or is activated [N]; infinite where it does none of these.
+    pub gives_way: f64,
+}
+
+impl Rating {
+    fn of(given: &Given) -> Self {
+        let force = match given.law {
+            DeviceLaw::Viscous | DeviceLaw::Elastic => None,
+            DeviceLaw::FrictionDamper => given.slip_force,
+            DeviceLaw::BoucWen => given.yield_force,
+            DeviceLaw::ReCentring => given.activation_force,
+        };
+        Rating {
+            law: given.law,
+            stiffness: elastic(given).stiffness + nonlinear(given).map_or(0.0, |law| law.initial_stiffness()),
+            damping: given.damping.map_or(0.0, |c| c.si()),
+            gives_way: force.map_or(f64::INFINITY, |f| f.si()),
+        }
+    }
+}
+
+/// The devices that `case`, whose model is `model`, has, in the order of [`Model::devices`].
+///
+/// # Errors
+/// None that compiling the model did not have.
+pub fn ratings(case: &Case, model: &Model) -> Result<Vec<Rating>> {
+    let laws = resolve(case, &model.wall, &model.joints)?;
+    Ok(laws.iter().filter_map(|law| law.device(case)).map(Rating::of).collect())
 }
 
 /// What a device does beyond a spring, a dashpot and friction.

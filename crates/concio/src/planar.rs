@@ -48,7 +48,12 @@ pub struct Planar {
 impl Planar {
     /// The slowest vibration of the wall as it stands under its loads ([`concio_planar::motion::Motion::slowest`]).
     pub fn slowest(&self) -> Option<Vibration> {
-        run::standing(self).slowest()
+        run::standing(self).0.slowest()
+    }
+
+    /// How far blocks and beam settle at most under their loads before anything moves [m]; none where the wall does not stand under them.
+    pub fn settlement(&self) -> Option<f64> {
+        run::standing(self).1
     }
 }
 

@@ -357,6 +357,29 @@ fn columns_point_at_the_value_or_key() {
     assert!(check(&text).is_err());
 }
 
+/// Where the laws of bed or head joints are missing, those of the model's starter file are shown.
+#[test]
+fn missing_laws_are_shown_as_they_may_be() {
+    for (model, allowed, help) in [
+        ("shear", "`bed = { law = \"elastic\", stiffness = \"5.4e7 N/m\" }`", "set = \"report\""),
+        (
+            "planar",
+            "`bed = { law = \"no-tension\", stiffness = \"10 N/mm3\", rigidity = 1 }`",
+            "concio new --model planar",
+        ),
+    ] {
+        let wall = format!(
+            "model = \"{model}\"\n[[panel]]\nbond = \"stack\"\ncourses = 3\nbricks = 1\n\
+             brick = {{ length = 1.0, height = 1.0, thickness = 1.0, specific_weight = \"20 kN/m3\" }}\n\
+             mortar = {{ bed = 0, head = 0 }}\n[joint]\n[motion]\nduration = \"1 s\"\n"
+        );
+        let e = input_error(check(&wall), model);
+        assert_eq!((e.key.as_deref(), e.line), (Some("joint.bed"), Some(8)), "{e}");
+        assert!(e.allowed.as_ref().is_some_and(|a| a.ends_with(allowed)), "{e}");
+        assert!(e.help.as_ref().is_some_and(|h| h.contains(help)), "{e}");
+    }
+}
+
 #[test]
 fn json_errors_have_places_too() {
     let text = "{\n  \"model\": \"shear\",\n  \"panel\": [\n    { \"bond\": \"stack\", \"corses\": 3 }\n  ]\n}";

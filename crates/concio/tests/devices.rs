@@ -595,20 +595,24 @@ fn an_elastic_device_like_the_mortar_gives_its_bits() {
     assert!(run_in_memory(&prepared(&text)).unwrap() == run_in_memory(&plain).unwrap());
 }
 
+/// A name that no joint bears is told, and where it is that of a joint turned round, its own.
 #[test]
 fn a_device_needs_a_joint() {
-    let text = PANEL.replace(
-        "CHANGES",
-        r#"[[joint.change]]
-        at = { joints = ["p9c1b1|p1c2b2"] }
-        device = { law = "viscous", damping = 100 }"#,
-    );
-    let file = from_str(&text, Syntax::Toml, None).unwrap();
-    match prepare(file.case.clone(), Path::new("")) {
-        Err(Error::Input(e)) => {
-            assert_eq!(e.key.as_deref(), Some("joint.change[0].at"));
-            assert!(e.what.contains("no joint is named `p9c1b1|p1c2b2`"), "{e}");
+    for (name, allowed) in [
+        ("p9c1b1|p1c2b2", "names as `concio check` lists"),
+        ("p1c2b2|p1c1b1", "the same blocks the other way round: `p1c1b1|p1c2b2`"),
+    ] {
+        let change = format!(
+            "[[joint.change]]\nat = {{ joints = [\"{name}\"] }}\ndevice = {{ law = \"viscous\", damping = 100 }}"
+        );
+        let file = from_str(&PANEL.replace("CHANGES", &change), Syntax::Toml, None).unwrap();
+        match prepare(file.case.clone(), Path::new("")) {
+            Err(Error::Input(e)) => {
+                assert_eq!(e.key.as_deref(), Some("joint.change[0].at"));
+                assert!(e.what.contains(&format!("no joint is named `{name}`")), "{e}");
+                assert!(e.allowed.as_ref().is_some_and(|a| a.starts_with(allowed)), "{e}");
+            }
+            other => panic!("{other:?}"),
         }
-        other => panic!("{other:?}"),
     }
 }

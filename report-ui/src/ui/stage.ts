@@ -117,6 +117,10 @@ export class Stage {
 
     private listen(): void {
         const under = (event: PointerEvent | MouseEvent, reach: number) => {
+            // Blocks are where they are drawn: what is about to be drawn anew has to be before it is looked for.
+            if (this.waiting) {
+                this.paint();
+            }
             const area = this.canvas.getBoundingClientRect();
             const [x, y] = [event.clientX - area.left, event.clientY - area.top];
             this.tooltip.at = [x, y, area.width];

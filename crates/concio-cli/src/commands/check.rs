@@ -1,8 +1,10 @@
 //! `concio check`.
 
 use concio::bond;
-use concio::case::{Case, JointKind};
+use concio::case::{Case, DeviceLaw, JointKind};
+use concio::device;
 use concio::model::Model;
+use concio_study::shaking::first_mode;
 
 mod planar;
 
@@ -13,6 +15,8 @@ use crate::failure::Failure;
 use crate::format::{columns, pairs, plain, seconds, si, significant};
 use crate::{files, report};
 
+/// Most blocks of walls whose rest and first period are looked for.
+const TRIED: usize = 2_000;
 const KINDS: [JointKind; 5] = [JointKind::Base, JointKind::Bed, JointKind::Head, JointKind::Connection, JointKind::Top];
 
 /// Validates a wall file and prints what it describes.
@@ -33,26 +37,37 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     }
     let duration = model.excitation.duration;
     let samples = (duration / prepared.sampling.interval).floor() as u64 + 1;
-    let general = pairs(&[
+    let mut general = vec![
         ("unknowns", (model.unknowns() * if model.planar.is_some() { 3 } else { 1 }).to_string()),
         ("mass", mass(model.mass.iter().sum())),
-        ("duration", format!("{}, {samples} samples kept", seconds(duration))),
-    ]);
+    ];
+    if model.wall.blocks.len() <= TRIED {
+        general.extend(model.planar.as_ref().map(|own| ("under its loads", planar::rest(own))));
+        let mode = first_mode(model).map(|m| format!("{}, {}", si(m.period, "s"), si(1.0 / m.period, "Hz")));
+        general.extend(mode.map(|mode| ("first period", mode)));
+    }
+    general.push(("duration", format!("{}, {samples} samples kept", seconds(duration))));
     let case = &prepared.case;
-    let (joints, bonds, ties) = match &model.planar {
+    let (mut joints, bonds, ties) = match &model.planar {
         None => (joint_rows(model), bond_rows(case, model)?, Vec::new()),
         Some(own) => (planar::joint_rows(model, own), planar::bond_rows(case, model)?, planar::tie_rows(case, own)),
     };
+    let devices = device_rows(case, model)?;
+    if devices.is_empty() {
+        joints.push(vec!["all".into(), model.joints.len().to_string()]);
+    }
     let table = |rows: &[Vec<String>]| if rows.is_empty() { String::new() } else { format!("{}\n", columns(rows)) };
     let list = if args.joints { format!("\n{}", columns(&joint_list(model))) } else { String::new() };
     let title = &case.title;
     let title = if title.is_empty() { String::new() } else { format!("{title}\n\n") };
     let text = format!(
-        "{title}{}\n{}\n{}{}{general}\n{}{list}\n{} is a valid wall file.\n",
+        "{title}{}\n{}\n{}{}{}{}\n{}{list}\n{} is a valid wall file.\n",
         columns(&panel_rows(model)),
         columns(&joints),
+        table(&devices),
         table(&bonds),
         table(&ties),
+        pairs(&general),
         pairs(&motion),
         args.file.display()
     );
@@ -80,12 +95,14 @@ fn panel_rows(model: &Model) -> Vec<Vec<String>> {
 
 fn joint_rows(model: &Model) -> Vec<Vec<String>> {
     let mut rows = vec![["joints", "number", "stiffness", "friction", "normal force"].map(String::from).to_vec()];
+    let devices = model.device_of_joint();
     for kind in KINDS {
-        let members: Vec<usize> = (0..model.joints.len()).filter(|&e| model.joints[e].kind == kind).collect();
+        let is_one = |e: &usize| model.joints[*e].kind == kind && devices[*e].is_none();
+        let members: Vec<usize> = (0..model.joints.len()).filter(is_one).collect();
         if members.is_empty() {
             continue;
         }
-        let rubs: Vec<_> = model.rubs.iter().filter(|r| model.joints[r.joint as usize].kind == kind).collect();
+        let rubs: Vec<_> = model.rubs.iter().filter(|r| is_one(&(r.joint as usize))).collect();
         let friction = range(rubs.iter().map(|r| r.law.static_), |v| significant(v, 3));
         let normal = range(rubs.iter().flat_map(|r| r.normal), |v| si(v, "N"));
         rows.push(vec![
@@ -96,11 +113,35 @@ fn joint_rows(model: &Model) -> Vec<Vec<String>> {
             normal,
         ]);
     }
-    rows.push(vec!["all".into(), model.joints.len().to_string()]);
-    if !model.devices.is_empty() {
-        rows.push(vec!["  with devices".into(), model.devices.len().to_string()]);
-    }
     rows
+}
+
+/// The joints that are devices, law by law, after which nothing but their sum with the others is left; nothing where there are none.
+fn device_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
+    let mut laws: Vec<DeviceLaw> = Vec::new();
+    let ratings = device::ratings(case, model)?;
+    for device in &ratings {
+        if !laws.contains(&device.law) {
+            laws.push(device.law);
+        }
+    }
+    if laws.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut rows = vec![["devices", "number", "at rest", "dashpot", "gives way at"].map(String::from).to_vec()];
+    for law in laws {
+        let of = || ratings.iter().filter(move |d| d.law == law);
+        let positive = |value: f64| Some(value).filter(|v| *v > 0.0 && v.is_finite());
+        rows.push(vec![
+            law.name().into(),
+            of().count().to_string(),
+            range(of().filter_map(|d| positive(d.stiffness)), |v| si(v, "N/m")),
+            range(of().filter_map(|d| positive(d.damping)), |v| si(v, "N s/m")),
+            range(of().filter_map(|d| positive(d.gives_way)), |v| si(v, "N")),
+        ]);
+    }
+    rows.push(vec!["all joints".into(), model.joints.len().to_string()]);
+    Ok(rows)
 }
 
 /// Stiffnesses of the joints that have one, restitution of the rigid ones.

@@ -177,9 +177,10 @@ Small wall
   top          3  51.84 MN/m … 108.0 MN/m     0.600  1.200 kN … 2.500 kN
   all         23
 
-  unknowns  10
-  mass      23.98 kg
-  duration  0.05 s, 2001 samples kept
+  unknowns      10
+  mass          23.98 kg
+  first period  [..]
+  duration      0.05 s, 2001 samples kept
 
   base  at rest
   top   sine of 2 Hz, displacement 2.000 mm, ramp of 0.05 s
@@ -193,6 +194,48 @@ wall.toml is a valid wall file.
         assert!(drawing.contains(&format!(">{name}<")), "{name}");
     }
     assert_eq!(desk.list(), ["wall.svg", "wall.toml"]);
+}
+
+/// Devices have a table of their own, and the rows of the joints know nothing of them.
+#[test]
+fn check_tells_what_devices_bear() {
+    let desk = Desk::new();
+    desk.put("devices.toml", include_str!("../../../../examples/13-interfaces.toml"));
+    let done = desk.concio("check devices.toml").assert().success();
+    let out = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    let rows: Vec<String> = out.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
+    for row in [
+        "bed 32 51.84 MN/m 0.400 4.814 kN … 5.045 kN",
+        "devices number at rest dashpot gives way at",
+        "friction-damper 6 – – 500.0 N",
+        "re-centring 2 20.00 MN/m – 4.000 kN",
+        "bouc-wen 1 100.0 MN/m 1.000 kN s/m 2.000 kN",
+        "all joints 70",
+    ] {
+        assert!(rows.iter().any(|r| r == row), "{row}\n{out}");
+    }
+}
+
+/// A planar wall is let down onto its joints: whether it stands is told before it is run.
+#[test]
+fn check_tells_whether_a_planar_wall_stands() {
+    let desk = Desk::new();
+    let wall = |x: f64| {
+        format!(
+            "model = \"planar\"\n[[panel]]\nbond = \"explicit\"\n\
+             brick = {{ length = 1.0, height = 0.5, thickness = 0.4, specific_weight = \"20 kN/m3\" }}\n\
+             [[panel.block]]\ncourse = 1\nx = 0.0\ny = 0.0\nlength = 1.0\nheight = 0.5\n\
+             [[panel.block]]\ncourse = 2\nx = {x}\ny = 0.5\nlength = 1.0\nheight = 0.5\n\
+             [joint]\nbed = {{ law = \"rigid\" }}\nhead = {{ law = \"rigid\" }}\n\
+             friction = {{ law = \"coulomb\", static = 0.6, dynamic = 0.6 }}\n[motion]\nduration = \"1 s\"\n"
+        )
+    };
+    for (x, told) in [(0.4, "under its loads  stands"), (0.6, "under its loads  does not stand")] {
+        desk.put("wall.toml", wall(x));
+        let done = desk.concio("check wall.toml").assert().success();
+        let out = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+        assert!(out.contains(told), "{x}: {out}");
+    }
 }
 
 #[test]

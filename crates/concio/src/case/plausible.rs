@@ -354,6 +354,10 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
             for (key, force) in forces {
                 doubts.look(&format!("{at}.device.{key}"), force.map_or(0.0, |f| f.si()), &DEVICE_FORCE);
             }
+            if device.reference_velocity.is_some() && device.exponent.unwrap_or(1.0) == 1.0 {
+                let key = format!("{at}.device.reference_velocity");
+                doubts.0.push(format!("{key} does nothing where `exponent` is 1: the dashpot is linear"));
+            }
             let way = device.yield_displacement.map_or(0.0, |d| d.si());
             doubts.look(&format!("{at}.device.yield_displacement"), way, &DEVICE_YIELD);
         }

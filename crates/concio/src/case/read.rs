@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::document::{self, Document};
 use super::node::{Fault, Node, Value};
-use super::{Case, ParameterSet, change, de, plausible, sets, validate};
+use super::{Case, ModelKind, ParameterSet, change, de, plausible, sets, validate};
 use crate::wall::Wall;
 use crate::{Error, InputError, Result};
 
@@ -201,6 +201,12 @@ fn described(mut fault: Fault, tree: &Node) -> Fault {
     if e.what == de::MISSING && e.help.is_none() {
         e.help = e.key.as_deref().and_then(|key| misspelt(tree, key));
     }
+    if e.what == de::MISSING
+        && let Some(springs) = e.key.as_deref().and_then(|key| springs_of_starter(tree, key))
+    {
+        e.allowed = Some(format!("a law with its numbers, such as `{springs}`"));
+        e.help.get_or_insert_with(|| where_joints_are(tree).into());
+    }
     if e.what == de::MISSING && e.allowed.is_none() {
         let words = |key: &str| super::templates::choices(key).map(|words| de::list(&words));
         let told = |key: &str| super::describe(key).map(|text| text.trim_end_matches('.').to_string());
@@ -277,12 +283,33 @@ fn require(tree: &Node) -> std::result::Result<(), Fault> {
     Ok(())
 }
 
-/// Says that a parameter set would give the joints, which serde's own message cannot know.
+fn is_planar(tree: &Node) -> bool {
+    tree.get("model").and_then(Node::text) == Some("planar")
+}
+
+/// What the starter file of this model has at `joint.bed` or `joint.head`; none for other keys.
+fn springs_of_starter(tree: &Node, key: &str) -> Option<&'static str> {
+    let kind = key.strip_prefix("joint.").filter(|kind| ["bed", "head"].contains(kind))?;
+    let model = if is_planar(tree) { ModelKind::Planar } else { ModelKind::Shear };
+    let line = super::starter(model).lines().find(|line| line.starts_with(&format!("{kind} = ")))?;
+    line.find('}').map(|end| &line[..=end])
+}
+
+/// Sets are of the shear model's mortar.
+fn where_joints_are(tree: &Node) -> &'static str {
+    match is_planar(tree) {
+        true => "`concio new --model planar` writes a file with all that joints need",
+        false => "a parameter set such as `set = \"report\"` has all that joints need",
+    }
+}
+
+/// Says where the joints may come from, which serde's own message cannot know.
 fn missing_joint(tree: &Node) -> std::result::Result<(), Fault> {
     match tree.value {
         Value::Table(_) if tree.has("panel") => {
             let error = InputError::new("the key is missing").key("joint");
-            Err(Fault::new(error.help("give a [joint] table, or a parameter set such as `set = \"report\"`"), tree.at))
+            let error = error.allowed("a table `[joint]` with the laws of bed and head joints");
+            Err(Fault::new(error.help(where_joints_are(tree)), tree.at))
         }
         _ => Ok(()),
     }

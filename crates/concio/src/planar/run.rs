@@ -37,6 +37,9 @@ pub(crate) struct Run {
     origin: Vec<Place>,
     /// Relative velocity of every joint before the step [m/s].
     before: Vec<f64>,
+    /// Joints that the wall stands on, and those that can be crushed.
+    base: Vec<usize>,
+    crushable: Vec<usize>,
     /// Whether each joint has been crushed.
     crushed: Vec<bool>,
     ties: Vec<Borne>,
@@ -94,23 +97,22 @@ pub(crate) fn turned(kind: JointKind) -> f64 {
     if kind == JointKind::Base { -1.0 } else { 1.0 }
 }
 
-/// The wall at rest under its loads. What falls under them alone does so in the run, from where it was laid.
-pub(super) fn standing(planar: &Planar) -> Motion {
+/// The wall at rest under its loads, and how far its blocks have settled at most [m]. What falls under them alone does so in the run, from where
+/// it was laid, where it is then: none has settled.
+pub(super) fn standing(planar: &Planar) -> (Motion, Option<f64>) {
     let setting = Setting { still: planar.still, ..Setting::new(planar.step) };
     let mut motion = Motion::new(&planar.system, setting.clone());
     let least = planar.system.bodies.iter().map(Body::height).fold(f64::INFINITY, f64::min);
     let most = if motion.stand(STANDS, SETTLING) { FELL } else { FALLING };
+    let settled = motion.strayed_by(&planar.system);
     // What is no number has not stood.
-    if !(motion.strayed_by(&planar.system) <= most * least) {
-        motion = Motion::new(&planar.system, setting);
-    }
-    motion
+    if settled <= most * least { (motion, Some(settled)) } else { (Motion::new(&planar.system, setting), None) }
 }
 
 impl Run {
     /// At rest under its loads.
     pub fn new(model: &Model, planar: &Planar, longest: f64) -> Self {
-        let motion = standing(planar);
+        let (motion, _) = standing(planar);
         let n = motion.places.len();
         let zeros = vec![0.0; n];
         let sample = Sample {
@@ -123,6 +125,8 @@ impl Run {
         };
         let mut run = Run {
             origin: motion.places.clone(),
+            base: (0..model.joints.len()).filter(|e| model.joints[*e].kind == JointKind::Base).collect(),
+            crushable: (0..model.joints.len()).filter(|e| planar.system.links[*e].law.crushing.is_finite()).collect(),
             step: planar.step.min(longest),
             still: planar.still,
             before: vec![0.0; model.joints.len()],
@@ -257,7 +261,7 @@ impl Run {
         let pull = self.pull(model, state, h);
         let totals = &mut state.totals;
         if totals.collapse.is_none() {
-            totals.base_shear_peak = totals.base_shear_peak.max(base_shear(model, &self.motion).abs());
+            totals.base_shear_peak = totals.base_shear_peak.max(self.base_shear().abs());
             totals.top_force_peak = totals.top_force_peak.max(pull.abs());
             self.raise(model, state, h);
             self.strain(state.t);
@@ -268,10 +272,13 @@ impl Run {
         totals.peak_input = totals.peak_input.max(state.energies.input().abs());
         totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
         self.cracks(model, state, tell);
-        for (e, crushed) in self.crushed.iter_mut().enumerate().filter(|(_, crushed)| !**crushed) {
+        for &e in &self.crushable {
+            if self.crushed[e] {
+                continue;
+            }
             let depth = self.motion.points(e).map_or(0.0, |p| p.iter().map(|p| p.crushed).fold(0.0, f64::max));
             if depth > 0.0 {
-                *crushed = true;
+                self.crushed[e] = true;
                 tell(Event { time: state.t, joint: e as u32, kind: EventKind::Crush, value: depth });
             }
         }
@@ -281,6 +288,13 @@ impl Run {
             state.totals.collapse = Some(collapse);
             tell(event);
         }
+    }
+
+    /// Horizontal force of the base on the wall in the last step, that of ties to it included [N].
+    fn base_shear(&self) -> f64 {
+        let borne = 0.0 - self.base.iter().map(|&e| self.motion.seen[e].shear).sum::<f64>();
+        let anchored = self.motion.ties().filter(|(tie, _)| tie.a.is_none()).map(|(_, strain)| strain.pull[0]);
+        anchored.fold(borne, |sum, pull| sum + pull)
     }
 
     /// Peaks of blocks and joints, of a wall that has not collapsed.
@@ -388,7 +402,7 @@ impl Run {
             &self.at.start
         };
         recording.time.push(t);
-        let (seen, shear) = (&self.motion.seen, base_shear(model, &self.motion));
+        let (seen, shear) = (&self.motion.seen, self.base_shear());
         let row = Row { t, z, v, a: &state.a, vertical, rotation, seen, state, shear };
         channels.sample_planar(model, row, &mut recording.values);
         if layout.frame_every == 0 || !k.is_multiple_of(layout.frame_every as u64) {
@@ -409,14 +423,6 @@ impl Run {
             recording.frame_friction.push(-sign * seen.shear);
         }
     }
-}
-
-/// Horizontal force of the base on the wall in the last step, that of ties to it included [N].
-fn base_shear(model: &Model, motion: &Motion) -> f64 {
-    let joints = motion.seen.iter().zip(&model.joints).filter(|(_, j)| j.kind == JointKind::Base);
-    let borne = 0.0 - joints.map(|(s, _)| s.shear).sum::<f64>();
-    let anchored = motion.ties().filter(|(tie, _)| tie.a.is_none()).map(|(_, strain)| strain.pull[0]);
-    anchored.fold(borne, |sum, pull| sum + pull)
 }
 
 #[derive(Debug, Clone, Copy)]

@@ -11,13 +11,20 @@ use crate::draw::wall::kind_name;
 use crate::failure::Failure;
 use crate::format::{plain, si, significant};
 
+/// What rigid joints settle by: rounding [m].
+const ROUNDED: f64 = 1e-12;
+
 /// Stiffnesses of pressed joints across, of sticking ones along, and friction, kind by kind.
 pub fn joint_rows(model: &Model, planar: &Planar) -> Vec<Vec<String>> {
     let mut rows =
         vec![["joints", "number", "pressed", "sheared", "friction", "crushed by"].map(String::from).to_vec()];
+    let devices = model.device_of_joint();
     for kind in KINDS {
-        let links = model.joints.iter().zip(&planar.system.links).filter(|(joint, _)| joint.kind == kind);
-        let laws: Vec<&Law> = links.map(|(_, link)| &link.law).collect();
+        let joints = model.joints.iter().zip(&devices).zip(&planar.system.links);
+        let laws: Vec<&Law> = joints
+            .filter(|((joint, device), _)| joint.kind == kind && device.is_none())
+            .map(|(_, link)| &link.law)
+            .collect();
         if laws.is_empty() {
             continue;
         }
@@ -30,10 +37,6 @@ pub fn joint_rows(model: &Model, planar: &Planar) -> Vec<Vec<String>> {
             range(laws.iter().filter_map(|l| l.friction).map(|f| f.static_), |v| significant(v, 3)),
             range(laws.iter().filter_map(finite), |v| si(v, "N")),
         ]);
-    }
-    rows.push(vec!["all".into(), model.joints.len().to_string()]);
-    if !model.devices.is_empty() {
-        rows.push(vec!["  with devices".into(), model.devices.len().to_string()]);
     }
     rows
 }
@@ -83,6 +86,15 @@ pub fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure
     }
     rows.push(vec!["all".into(), model.bonds.len().to_string()]);
     Ok(rows)
+}
+
+/// Whether the wall stands before anything moves.
+pub fn rest(planar: &Planar) -> String {
+    match planar.settlement() {
+        Some(way) if way < ROUNDED => "stands".into(),
+        Some(way) => format!("stands, settled by {} at most", si(way, "m")),
+        None => "does not stand: it falls before anything moves".into(),
+    }
 }
 
 /// The tie rods; nothing where there are none.
