@@ -53,6 +53,29 @@ fn an_ordinary_wall_raises_none() {
     }
 }
 
+/// Of devices: forces and ways of another unit, and a key that does nothing.
+#[test]
+fn doubtful_devices_are_told() {
+    let of = |device: &str| {
+        let change = format!("[[joint.change]]\nat = {{ kind = [\"bed\"] }}\ndevice = {{ {device} }}\n[load]");
+        doubts(&case(&WALL.replace("[load]", &change)))
+    };
+    for (device, told) in [
+        (
+            r#"law = "viscous", damping = 1000, reference_velocity = 0.1"#,
+            Some("joint.change[0].device.reference_velocity does nothing where `exponent` is 1: the dashpot is linear"),
+        ),
+        (r#"law = "viscous", damping = 1000, reference_velocity = 0.1, exponent = 0.5"#, None),
+        (
+            r#"law = "bouc-wen", yield_force = 2000, yield_displacement = 0.2"#,
+            Some("joint.change[0].device.yield_displacement is 0.2 m, more than 0.05 m; did you mean \"0.2 mm\"?"),
+        ),
+        (r#"law = "friction-damper", slip_force = 2000"#, None),
+    ] {
+        assert_eq!(of(device), told.into_iter().collect::<Vec<_>>(), "{device}");
+    }
+}
+
 /// Each number is one that engineers write when they forget that a bare number is in SI.
 #[test]
 fn each_mistake_of_unit_is_told_with_a_guess() {
