@@ -498,8 +498,6 @@ impl Law {
             works.friction -= pressed * mean;
         }
         let pressed = if self.slip[0] > 0.0 { 0.0 } else { pressed };
-        let acts = self.damps_both(point.damage) || pressed != 0.0;
-        let damping = if acts { dashpot * mean * mean * h } else { 0.0 };
         let stored = |g: f64, crushed: f64| 0.5 * both * g * g + 0.5 * press * (g + crushed).min(0.0).powi(2);
         let before = stored(start, point.crushed);
         let mut after = stored(gap, point.crushed);
@@ -515,9 +513,18 @@ impl Law {
                 point.cracked = point.cracked.min(time);
             }
         }
+        // What springs do not keep and breaking does not take. A dashpot in compression only acts in the part of a step in which the sides
+        // touch, and within the strength.
+        let lost = -(pressed + linear) * mean - (after - before) - works.bond;
+        let full = dashpot * mean * mean * h;
+        let damping = match self.damps_both(point.damage) {
+            true => full,
+            false if pressed != 0.0 => full.min(lost.max(0.0)),
+            false => 0.0,
+        };
         works.elastic += after;
         works.damping += damping;
-        works.impact += -(pressed + linear) * mean - (after - before) - damping - works.bond;
+        works.impact += lost - damping;
     }
 
     fn end_shear(

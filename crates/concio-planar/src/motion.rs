@@ -586,11 +586,16 @@ impl Motion {
         contact.drift = lever.map(|lever| lever * held[1]);
         let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
         let mut gap = touch.gap - 0.5 * h * before[0];
-        let followed = state.gap.min(0.0);
         if law.follows {
             gap = state.gap;
-        } else if law.only_presses(state.damage) && gap < followed - JUMP * self.reach[pair.b] {
-            gap = followed;
+        } else if law.is_compliant() {
+            // What pulls too is stretched by other edges as it is pressed in by them.
+            let presses = law.only_presses(state.damage);
+            let followed = if presses { state.gap.min(0.0) } else { state.gap };
+            let beyond = if presses { followed - gap } else { (followed - gap).abs() };
+            if beyond > JUMP * self.reach[pair.b] {
+                gap = followed;
+            }
         }
         let start = law.begin(state, share, h, self.setting.still, (gap, before), &mut contact);
         (contact, Owner { pair: seat.pair, point, share, start, lever })

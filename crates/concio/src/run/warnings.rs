@@ -16,6 +16,9 @@ const UNSOLVED: f64 = 1e-3;
 /// Residual of the energy account over the largest work beyond which a result should not be used.
 const LARGE_RESIDUAL: f64 = 1e-3;
 
+/// Energy that contacts gave back, over the largest work, beyond which a result should not be used.
+const GIVEN_BACK: f64 = 0.01;
+
 /// One sentence each, the gravest first.
 pub(super) fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<String> {
     let told = [
@@ -23,7 +26,7 @@ pub(super) fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<S
             None => unbalanced(outcome, "solver.tolerance"),
             // Without inertia the account has what stands for it.
             Some(planar) if planar.still => None,
-            Some(_) => unbalanced(outcome, "solver.step"),
+            Some(_) => unbalanced(outcome, "solver.step").or_else(|| given_back(outcome)),
         },
         unsolved(outcome),
         collapsed(model, outcome),
@@ -40,6 +43,19 @@ fn unbalanced(outcome: &Outcome, key: &str) -> Option<String> {
         format!(
             "the energy account is off by {:.2} % of the largest work, more than 0.1 %: do not use the result, lower {key}",
             100.0 * residual
+        )
+    })
+}
+
+/// Impacts only take energy. Where slides turn round faster than steps resolve, friction pushes along them, and more comes back than they took.
+fn given_back(outcome: &Outcome) -> Option<String> {
+    let most = outcome.totals.peak_input.max(outcome.energies.initial.abs());
+    let back = -outcome.energies.impact;
+    (back > GIVEN_BACK * most).then(|| {
+        format!(
+            "contacts gave back {:.1} % of the largest work, which nothing had put into them: do not use the result, lower \
+             solver.step",
+            100.0 * back / most
         )
     })
 }
@@ -149,6 +165,13 @@ mod tests {
         outcome.layout.touching = joints.len();
         (outcome.counters.steps, outcome.counters.unsolved) = (10_000, 10);
         assert!(of(&model, &joints, &outcome).is_empty(), "{:?}", of(&model, &joints, &outcome));
+        // Impacts may give back a hundredth of the largest work.
+        outcome.totals.peak_input = 100.0;
+        for (impact, told) in [(5.0, false), (-0.9, false), (-1.1, true)] {
+            outcome.energies.impact = impact;
+            assert_eq!(given_back(&outcome).is_some_and(|t| t.contains("1.1 %")), told, "{impact} J");
+        }
+        outcome.energies.impact = 0.0;
         outcome.counters.unsolved = 11;
         outcome.totals.collapse = Some(Collapse { time: 0.25, block: 1, way: 0.1, turned: true });
         let told = of(&model, &joints, &outcome);
