@@ -297,6 +297,8 @@ pub struct Start {
     pub velocity: [f64; 2],
     /// Whether inertia is left out.
     pub still: bool,
+    /// Whether the distance is greater than that of the end of the last step, because other edges face each other: what springs kept is lost.
+    pub slipped: bool,
 }
 
 /// The normal direction of a point over a step that ends at `time`: its mean velocity, distances at the ends, impulses of (P4) and of springs.
@@ -305,6 +307,7 @@ struct Across {
     time: f64,
     mean: f64,
     gaps: [f64; 2],
+    slipped: bool,
     pressed: f64,
     linear: f64,
 }
@@ -405,7 +408,7 @@ impl Law {
             // Without springs the bond is rigid too.
             (contact.friction, contact.hold) = (bond.tan_angle, share * bond.cohesion * h);
         }
-        Start { gap, velocity, still }
+        Start { gap, velocity, still, slipped: false }
     }
 
     /// What a device bears at a point over a step of `h` [s] where the velocity at its end is `after` [m/s].
@@ -440,8 +443,15 @@ impl Law {
         let mut works = Works::default();
         let linear = [0, 1].map(|k| contact.spring[k].offset - contact.spring[k].rho * after[k]);
         let compressed = (contact.impulse[0] + linear[0]) / h;
-        let normal =
-            Across { h, time, mean: mean[0], gaps: [start.gap, gap], pressed: contact.impulse[0], linear: linear[0] };
+        let normal = Across {
+            h,
+            time,
+            mean: mean[0],
+            gaps: [start.gap, gap],
+            slipped: start.slipped,
+            pressed: contact.impulse[0],
+            linear: linear[0],
+        };
         if let Some(device) = &self.device {
             let from = stretch(device, point, start);
             let way = mean[device.direction];
@@ -479,7 +489,7 @@ impl Law {
         &self,
         point: &mut Point,
         share: f64,
-        Across { h, time, mean, gaps: [start, gap], pressed, linear }: Across,
+        Across { h, time, mean, gaps: [start, gap], slipped, pressed, linear }: Across,
         works: &mut Works,
     ) {
         let most = share * self.crushing;
@@ -500,6 +510,9 @@ impl Law {
         let pressed = if self.slip[0] > 0.0 { 0.0 } else { pressed };
         let stored = |g: f64, crushed: f64| 0.5 * both * g * g + 0.5 * press * (g + crushed).min(0.0).powi(2);
         let before = stored(start, point.crushed);
+        if slipped {
+            works.impact += stored(point.gap, point.crushed) - before;
+        }
         let mut after = stored(gap, point.crushed);
         let all = both + press;
         if all > 0.0 && -all * (gap + point.crushed) > most {

@@ -41,8 +41,8 @@ const ACCURACY: f64 = 1e-6;
 /// What is left at most, over the tolerance, of a step that is not taken again in two halves.
 const ENOUGH: f64 = 100.0;
 /// How much deeper than their velocities took them the sides of a joint may overlap, over `REACH`: where a stone that falls comes upon another edge
-/// of its neighbour there would be a spring pressed in by nothing, and energy of nothing.
-const JUMP: f64 = 3e-3;
+/// of its neighbour there would be a spring pressed in by nothing, and energy of nothing. Where they overlap so much less, what the spring had is lost.
+const JUMP: f64 = 3e-6;
 /// Contact points of a pair.
 const POINTS: usize = 3;
 
@@ -588,16 +588,20 @@ impl Motion {
         let mut gap = touch.gap - 0.5 * h * before[0];
         if law.follows {
             gap = state.gap;
-        } else if law.is_compliant() {
+        }
+        let jump = JUMP * self.reach[pair.b];
+        let mut slipped = false;
+        if law.is_compliant() && !law.follows {
             // What pulls too is stretched by other edges as it is pressed in by them.
             let presses = law.only_presses(state.damage);
             let followed = if presses { state.gap.min(0.0) } else { state.gap };
-            let beyond = if presses { followed - gap } else { (followed - gap).abs() };
-            if beyond > JUMP * self.reach[pair.b] {
+            if followed - gap > jump || !presses && gap - followed > jump {
                 gap = followed;
             }
+            slipped = pair.link.is_some() && gap - state.gap > jump;
         }
         let start = law.begin(state, share, h, self.setting.still, (gap, before), &mut contact);
+        let start = Start { slipped, ..start };
         (contact, Owner { pair: seat.pair, point, share, start, lever })
     }
 

@@ -1,5 +1,6 @@
 //! What a user should know of a run that has ended before believing it.
 
+use crate::G;
 use crate::case::JointKind;
 use crate::graph;
 use crate::model::Model;
@@ -18,6 +19,8 @@ const LARGE_RESIDUAL: f64 = 1e-3;
 
 /// Energy that contacts gave back, over the largest work, beyond which a result should not be used.
 const GIVEN_BACK: f64 = 0.01;
+/// Way of the wall's weight whose work is nothing [m]: what a wall at rest does.
+const NOTHING: f64 = 1e-8;
 
 /// One sentence each, the gravest first.
 pub(super) fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<String> {
@@ -26,7 +29,7 @@ pub(super) fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<S
             None => unbalanced(outcome, "solver.tolerance"),
             // Without inertia the account has what stands for it.
             Some(planar) if planar.still => None,
-            Some(_) => unbalanced(outcome, "solver.step").or_else(|| given_back(outcome)),
+            Some(_) => unbalanced(outcome, "solver.step").or_else(|| given_back(model, outcome)),
         },
         unsolved(outcome),
         collapsed(model, outcome),
@@ -48,8 +51,9 @@ fn unbalanced(outcome: &Outcome, key: &str) -> Option<String> {
 }
 
 /// Impacts only take energy. Where slides turn round faster than steps resolve, friction pushes along them, and more comes back than they took.
-fn given_back(outcome: &Outcome) -> Option<String> {
-    let most = outcome.totals.peak_input.max(outcome.energies.initial.abs());
+fn given_back(model: &Model, outcome: &Outcome) -> Option<String> {
+    let weight = G * model.mass.iter().sum::<f64>();
+    let most = outcome.totals.peak_input.max(outcome.energies.initial.abs()).max(NOTHING * weight);
     let back = -outcome.energies.impact;
     (back > GIVEN_BACK * most).then(|| {
         format!(
@@ -169,7 +173,7 @@ mod tests {
         outcome.totals.peak_input = 100.0;
         for (impact, told) in [(5.0, false), (-0.9, false), (-1.1, true)] {
             outcome.energies.impact = impact;
-            assert_eq!(given_back(&outcome).is_some_and(|t| t.contains("1.1 %")), told, "{impact} J");
+            assert_eq!(given_back(&model, &outcome).is_some_and(|t| t.contains("1.1 %")), told, "{impact} J");
         }
         outcome.energies.impact = 0.0;
         outcome.counters.unsolved = 11;
