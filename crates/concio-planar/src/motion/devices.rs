@@ -71,16 +71,24 @@ impl Motion {
         let contact = &mut self.contacts[contact];
         let spring = &mut contact.spring[device.direction];
         let line = Linear { offset: spring.offset - beside.offset, rho: spring.rho - beside.rho };
-        let borne = law.borne(&device, (&pair.points[owner.point], owner.share), h, &owner.start, after);
+        let of = |after: f64| law.borne(&device, (&pair.points[owner.point], owner.share), h, &owner.start, after);
+        let borne = of(after);
+        let missed = (borne.impulse - line.at(after)).abs() / contact.moved[device.direction];
+        // The force of a dashpot with a power of the velocity is concave on either side of rest: tangents come nearer from rest, and never from
+        // beyond. Where one has led through rest, the next is that at rest.
+        let from = owner.start.velocity[device.direction];
+        let viscous = device.law.is_viscous();
+        let turned = viscous && round > 0 && (from + after) * (from + at[0]) < 0.0;
+        let (after, borne) = if turned { (-from, of(-from)) } else { (after, borne) };
         let rho = match round {
             0..TANGENTS => borne.rho,
+            TANGENTS..CHORDS if viscous => borne.rho,
             TANGENTS..CHORDS if after != at[0] => {
                 ((at[1] - borne.impulse) / (after - at[0])).max(borne.rho).min(borne.steepest)
             }
             _ => borne.steepest,
         };
         self.bent[k].at = [after, borne.impulse];
-        let missed = (borne.impulse - line.at(after)).abs() / contact.moved[device.direction];
         *spring = Linear { offset: beside.offset + borne.impulse + rho * after, rho: beside.rho + rho };
         missed
     }
