@@ -357,6 +357,19 @@ fn columns_point_at_the_value_or_key() {
     assert!(check(&text).is_err());
 }
 
+/// A wrong key of a device is answered with those of its law.
+#[test]
+fn unknown_keys_of_devices_name_those_of_the_law() {
+    let text = edit(
+        "[load]",
+        "[[joint.change]]\nat = { kind = [\"bed\"] }\ndevice = { law = \"friction-damper\", force = 1200 }\n[load]",
+    );
+    let e = input_error(check(&text), "force");
+    assert_eq!(e.key.as_deref(), Some("joint.change[0].device.force"), "{e}");
+    let allowed = "`law`, and of law `friction-damper` `slip_force`, `slip_velocity`, `sticks`";
+    assert_eq!(e.allowed.as_deref(), Some(allowed), "{e}");
+}
+
 /// Where the laws of bed or head joints are missing, those of the model's starter file are shown.
 #[test]
 fn missing_laws_are_shown_as_they_may_be() {

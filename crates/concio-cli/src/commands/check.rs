@@ -4,7 +4,7 @@ use concio::bond;
 use concio::case::{Case, DeviceLaw, JointKind};
 use concio::device;
 use concio::model::Model;
-use concio_study::shaking::first_mode;
+use concio_study::shaking::{Mode, first_mode};
 
 mod planar;
 
@@ -43,8 +43,15 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     ];
     if model.wall.blocks.len() <= TRIED {
         general.extend(model.planar.as_ref().map(|own| ("under its loads", planar::rest(own))));
-        let mode = first_mode(model).map(|m| format!("{}, {}", si(m.period, "s"), si(1.0 / m.period, "Hz")));
-        general.extend(mode.map(|mode| ("first period", mode)));
+        let mode = first_mode(model);
+        let told = |m: Mode| {
+            let damping = significant(100.0 * m.damping, 3);
+            format!("{}, {}, damped by {damping} %", si(m.period, "s"), si(1.0 / m.period, "Hz"))
+        };
+        general.push((
+            "first period",
+            mode.map_or_else(|| "none: joints are rigid, or nothing holds a block".into(), told),
+        ));
     }
     general.push(("duration", format!("{}, {samples} samples kept", seconds(duration))));
     let case = &prepared.case;
@@ -194,6 +201,8 @@ fn joint_list(model: &Model) -> Vec<Vec<String>> {
     }
     let rubs = model.rub_of_joint();
     for (((joint, name), rub), device) in model.joints.iter().zip(model.joint_names()).zip(rubs).zip(devices) {
+        // A friction damper slips at a force of its own, whatever presses it.
+        let rub = rub.filter(|_| device.is_none());
         let normal = rub.map_or("–".into(), |r| range(model.rubs[r].normal.into_iter(), |v| si(v, "N")));
         let course = joint.course(&model.wall).to_string();
         let mut row = vec![name, kind_name(joint.kind).into(), course, significant(joint.weight, 4), normal];

@@ -13,6 +13,8 @@ pub(crate) const ALLOWED: &str = "; allowed: ";
 
 /// Said of a key that must be there and is not.
 pub(crate) const MISSING: &str = "the key is missing";
+/// What is wrong with one that nothing has.
+pub(crate) const UNKNOWN: &str = "unknown key";
 
 /// Builds a `T` from a tree. The error comes with the byte it belongs to.
 pub(crate) fn from_node<'de, T: Deserialize<'de>>(node: &'de Node) -> Result<T, Fault> {
@@ -160,7 +162,7 @@ impl de::Error for Failure {
         })
     }
     fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
-        let error = InputError::new("unknown key").allowed(list(expected));
+        let error = InputError::new(UNKNOWN).allowed(list(expected));
         Failure::keyed(
             match suggestion(field, expected.iter().copied()) {
                 Some(near) => error.help(format!("did you mean `{near}`?")),

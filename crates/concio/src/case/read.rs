@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::document::{self, Document};
 use super::node::{Fault, Node, Value};
-use super::{Case, ModelKind, ParameterSet, change, de, plausible, sets, validate};
+use super::{Case, DeviceLaw, ModelKind, ParameterSet, change, de, plausible, sets, validate};
 use crate::wall::Wall;
 use crate::{Error, InputError, Result};
 
@@ -198,6 +198,14 @@ fn described(mut fault: Fault, tree: &Node) -> Fault {
     if e.help.is_none() && e.what.starts_with("the number") && e.key.as_ref().is_some_and(|k| k.ends_with("].course")) {
         e.help = Some("did you mean `courses`?".into());
     }
+    if e.what == de::UNKNOWN
+        && let Some((device, _)) = e.key.as_deref().and_then(|key| key.rsplit_once('.'))
+        && device.ends_with(".device")
+        && let Some(law) = below(tree, device).and_then(|d| d.get("law")).and_then(Node::text)
+        && let Some(law) = DeviceLaw::named(law)
+    {
+        e.allowed = Some(format!("`law`, and of law `{}` {}", law.name(), validate::device_keys(law)));
+    }
     if e.what == de::MISSING && e.help.is_none() {
         e.help = e.key.as_deref().and_then(|key| misspelt(tree, key));
     }
@@ -220,14 +228,20 @@ fn described(mut fault: Fault, tree: &Node) -> Fault {
     fault
 }
 
+/// The part of the tree that a path such as `joint.change[0].device` leads to.
+fn below<'t>(tree: &'t Node, path: &str) -> Option<&'t Node> {
+    path.split(['.', '[']).filter(|s| !s.is_empty()).try_fold(tree, |node, step| {
+        match (&node.value, step.strip_suffix(']')) {
+            (Value::List(items), Some(index)) => items.get(index.parse::<usize>().ok()?),
+            _ => node.get(step),
+        }
+    })
+}
+
 /// Asks whether a key beside the missing one, unknown itself, is that key with a typing error.
 fn misspelt(tree: &Node, missing: &str) -> Option<String> {
     let (above, name) = missing.rsplit_once('.').map_or(("", missing), |(above, name)| (above, name));
-    let step = |node: &'_ Node, step: &str| match (&node.value, step.strip_suffix(']')) {
-        (Value::List(items), Some(index)) => items.get(index.parse::<usize>().ok()?).cloned(),
-        _ => node.get(step).cloned(),
-    };
-    let table = above.split(['.', '[']).filter(|s| !s.is_empty()).try_fold(tree.clone(), |n, s| step(&n, s))?;
+    let table = below(tree, above)?;
     let Value::Table(entries) = &table.value else { return None };
     let path = |key: &str| if above.is_empty() { key.to_string() } else { format!("{above}.{key}") };
     let unknown = entries.iter().map(|e| e.key.as_str()).filter(|k| super::describe(&path(k)).is_none());

@@ -14,6 +14,7 @@ mod motion;
 mod ties;
 mod walls;
 
+pub(super) use devices::keys_of as device_keys;
 pub(crate) use walls::tidy;
 pub use walls::{LARGEST_WALL, block_bound};
 

@@ -215,7 +215,7 @@ impl Frame {
             }
             for x in [[x0, zone[0]], [zone[1], x1]] {
                 let length = x[1] - x[0];
-                if length <= self.head.max(self.tolerance) {
+                if length <= self.head + self.tolerance {
                     continue;
                 }
                 if length < SLIVER * self.length {

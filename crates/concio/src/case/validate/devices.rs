@@ -79,10 +79,8 @@ fn takes(f: &mut Findings, key: &str, d: &Device) {
         match (of_law, given(d, name)) {
             (None, true) => {
                 let names = laws.iter().map(|(law, _)| format!("`{}`", law.name())).collect::<Vec<_>>().join(", ");
-                let own = KEYS.iter().filter(|(_, laws)| laws.iter().any(|(law, _)| *law == d.law));
-                let own = own.map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
                 let what = format!("law `{}` has no such key: it is for {names}", d.law.name());
-                f.push(format_args!("{key}.{name}"), what, own);
+                f.push(format_args!("{key}.{name}"), what, keys_of(d.law));
             }
             (Some(Needed), false) => {
                 let what = format!("the key is missing: law `{}` needs it", d.law.name());
@@ -91,6 +89,12 @@ fn takes(f: &mut Findings, key: &str, d: &Device) {
             _ => {}
         }
     }
+}
+
+/// The keys that a law takes.
+pub fn keys_of(law: DeviceLaw) -> String {
+    let own = KEYS.iter().filter(|(_, laws)| laws.iter().any(|(of, _)| *of == law));
+    own.map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// Whether a key of [`KEYS`] is given.
