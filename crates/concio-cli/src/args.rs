@@ -91,8 +91,8 @@ pub struct Run {
 ///
 /// Lists everything that is wrong with the file, each with its line and the allowed range. If nothing is, prints
 /// what the wall consists of: panels, joints of each kind, mass, normal forces, and what moves it: record, scale, peak
-/// acceleration, how much of it is used. Nothing is simulated. Walls of up to 2,000 blocks tell their first period, joints
-/// intact, and planar ones whether they stand under their loads before anything moves.
+/// acceleration, how much of it is used. No motion is simulated. Walls of up to 2,000 blocks tell their first period, with
+/// joints intact, of planar walls with joints as they bear, and planar walls whether they stand under their loads.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

@@ -22,8 +22,6 @@
 
 mod finish;
 
-use pulp::Arch;
-
 use crate::blocks::{Blocks, Triple};
 use crate::contact::{Contact, Effort, Rows, Status, unbalance, worse};
 
@@ -364,13 +362,7 @@ impl<const N: usize> Group<N> {
         }
     }
 
-    /// As all that goes through the contacts in every iteration compiled for the widest registers: the bits are the same in all.
     fn look(&mut self, contacts: &[Contact], v: &[Triple], method: Method, sums: &mut Sums) {
-        Arch::new().dispatch(|| self.look_at_each(contacts, v, method, sums));
-    }
-
-    #[inline(always)]
-    fn look_at_each(&mut self, contacts: &[Contact], v: &[Triple], method: Method, sums: &mut Sums) {
         for (point, which) in self.points.iter_mut().zip(&self.which) {
             let contact = &contacts[*which as usize];
             let u = contact.velocity(v);
@@ -391,11 +383,6 @@ impl<const N: usize> Group<N> {
 
     /// Takes what the last direction leaves out of the products into account; impulses where velocities stay, onto the bodies.
     fn correct(&mut self, target: f64, step: &mut [Triple]) {
-        Arch::new().dispatch(|| self.correct_each(target, step));
-    }
-
-    #[inline(always)]
-    fn correct_each(&mut self, target: f64, step: &mut [Triple]) {
         for (point, rows) in self.points.iter_mut().zip(&self.rows) {
             point.second = std::array::from_fn(|i| point.way.s[i] * point.way.lambda[i]);
             point.aim(target);
@@ -404,11 +391,6 @@ impl<const N: usize> Group<N> {
     }
 
     fn turn(&mut self, step: &[Triple], target: f64, keep: f64, course: &mut Course) {
-        Arch::new().dispatch(|| self.turn_each(step, target, keep, course));
-    }
-
-    #[inline(always)]
-    fn turn_each(&mut self, step: &[Triple], target: f64, keep: f64, course: &mut Course) {
         for (point, rows) in self.points.iter_mut().zip(&self.rows) {
             point.turn(rows.change(step), target, keep, course);
         }

@@ -189,6 +189,19 @@ impl Law {
         self.is_compliant() && self.springs(damage).0 == 0.0 && self.device.is_none()
     }
 
+    /// Lets go what a point keeps in springs that act only where its sides face each other, which they do no more; returns that [J].
+    pub(crate) fn let_go(&self, point: &mut Point, share: f64) -> f64 {
+        if !self.only_presses(point.damage) || self.follows {
+            return 0.0;
+        }
+        let (_, press) = self.springs(point.damage);
+        let pressed = 0.5 * share * press * (point.gap + point.crushed).min(0.0).powi(2);
+        let k = share * self.shear.stiffness;
+        let sheared = if self.in_line(point.damage) { 0.5 * point.bearing * point.bearing / k } else { 0.0 };
+        (point.gap, point.bearing) = (0.0, 0.0);
+        pressed + sheared
+    }
+
     fn normal_damping(&self) -> f64 {
         if let Normal::Springs { damping, .. } = self.normal { damping } else { 0.0 }
     }
@@ -321,7 +334,7 @@ pub struct Works {
     pub damping: f64,
     /// To friction.
     pub friction: f64,
-    /// To impacts, and to joints that close or ring faster than the step resolves.
+    /// To impacts, to joints that close or ring faster than the step resolves, and what springs lose where their sides slip off each other.
     pub impact: f64,
     /// To the breaking of bonds and to crushing.
     pub bond: f64,

@@ -142,7 +142,7 @@ pub struct Account {
     pub held: f64,
     /// Taken by friction.
     pub friction: f64,
-    /// Taken by impacts, and by joints that close or ring faster than steps resolve.
+    /// Taken by impacts, by joints that close or ring faster than steps resolve, and where pressed sides slip off each other.
     pub impact: f64,
     /// Taken by dashpots.
     pub damping: f64,
@@ -353,7 +353,7 @@ impl Motion {
         motion
     }
 
-    /// Puts a body elsewhere, at rest; to be called before the first step.
+    /// Puts a body elsewhere, at rest, with springs that pull as far stretched as before; to be called before the first step.
     pub fn put(&mut self, body: usize, place: Place) {
         self.places[body] = place;
         self.velocities[body] = [0.0; 3];
@@ -664,6 +664,13 @@ impl Motion {
             seen.taken += works.damping + works.friction + works.impact + works.bond + works.device;
             seen.broken += works.bond;
             seen.touches = true;
+        }
+        for pair in &mut self.pairs {
+            let Some(link) = pair.link.filter(|k| !self.seen[*k].touches) else { continue };
+            let law = &self.links[link].law;
+            for (point, share) in pair.points.iter_mut().zip(law.shares()) {
+                self.account.impact += law.let_go(point, *share);
+            }
         }
         self.settle_ties((h, time));
         self.account.held += self.pull * held;

@@ -51,10 +51,21 @@ impl Planar {
         run::standing(self).0.slowest()
     }
 
-    /// How far blocks and beam settle at most under their loads before anything moves [m]; none where the wall does not stand under them.
-    pub fn settlement(&self) -> Option<f64> {
+    /// How the wall takes its loads before anything moves.
+    pub fn rest(&self) -> Rest {
         run::standing(self).1
     }
+}
+
+/// How a wall takes its loads before anything moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rest {
+    /// It stands; how far blocks and beam have settled at most [m].
+    Stands(f64),
+    /// It has not come to rest in the steps that it is given, and how far it was then [m]: its joints are soft, or it falls slowly.
+    Settles(f64),
+    /// It falls, or has come to rest as something else.
+    Falls,
 }
 
 /// The top beam as a body: its level is that of the highest panel.

@@ -12,8 +12,8 @@ use crate::excitation::Excitation;
 use crate::ground::signal::GroundMotion;
 use crate::model::Model;
 use crate::outcome::{Collapse, TieRow};
-use crate::planar::Planar;
 use crate::planar::collapse::is_down;
+use crate::planar::{Planar, Rest};
 use crate::record::{Event, EventKind, Layout, Recording, StopReason};
 use crate::state::{BondState, State};
 use crate::wall::End;
@@ -97,16 +97,19 @@ pub(crate) fn turned(kind: JointKind) -> f64 {
     if kind == JointKind::Base { -1.0 } else { 1.0 }
 }
 
-/// The wall at rest under its loads, and how far its blocks have settled at most [m]. What falls under them alone does so in the run, from where
-/// it was laid, where it is then: none has settled.
-pub(super) fn standing(planar: &Planar) -> (Motion, Option<f64>) {
+/// The wall at rest under its loads, and how it takes them. What does not come to rest moves on in the run, from where it was laid.
+pub(super) fn standing(planar: &Planar) -> (Motion, Rest) {
     let setting = Setting { still: planar.still, ..Setting::new(planar.step) };
     let mut motion = Motion::new(&planar.system, setting.clone());
     let least = planar.system.bodies.iter().map(Body::height).fold(f64::INFINITY, f64::min);
     let most = if motion.stand(STANDS, SETTLING) { FELL } else { FALLING };
     let settled = motion.strayed_by(&planar.system);
     // What is no number has not stood.
-    if settled <= most * least { (motion, Some(settled)) } else { (Motion::new(&planar.system, setting), None) }
+    if settled <= most * least {
+        return (motion, Rest::Stands(settled));
+    }
+    let rest = if settled <= FELL * least { Rest::Settles(settled) } else { Rest::Falls };
+    (Motion::new(&planar.system, setting), rest)
 }
 
 impl Run {

@@ -3,7 +3,7 @@
 use concio::bond;
 use concio::case::Case;
 use concio::model::Model;
-use concio::planar::Planar;
+use concio::planar::{Planar, Rest};
 use concio_planar::joint::{Law, Normal};
 
 use super::{KINDS, range};
@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::format::{plain, si, significant};
 
 /// What rigid joints settle by: rounding [m].
-const ROUNDED: f64 = 1e-12;
+const ROUNDED: f64 = 1e-10;
 
 /// Stiffnesses of pressed joints across, of sticking ones along, and friction, kind by kind.
 pub fn joint_rows(model: &Model, planar: &Planar) -> Vec<Vec<String>> {
@@ -90,10 +90,13 @@ pub fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure
 
 /// Whether the wall stands before anything moves.
 pub fn rest(planar: &Planar) -> String {
-    match planar.settlement() {
-        Some(way) if way < ROUNDED => "stands".into(),
-        Some(way) => format!("stands, settled by {} at most", si(way, "m")),
-        None => "does not stand: it falls before anything moves".into(),
+    match planar.rest() {
+        Rest::Stands(way) if way < ROUNDED => "stands".into(),
+        Rest::Stands(way) => format!("stands, settled by {} at most", si(way, "m")),
+        Rest::Settles(way) => {
+            format!("not at rest after {} at most, and laid unsettled: soft joints, or a slow fall", si(way, "m"))
+        }
+        Rest::Falls => "does not stand: it falls before anything moves".into(),
     }
 }
 

@@ -1,0 +1,109 @@
+//! The energy account where sides of joints come upon other edges, slip off each other or shut.
+
+use std::f64::consts::PI;
+
+use concio_planar::G;
+use concio_planar::body::Body;
+use concio_planar::joint::{Friction, Law, Normal, Shear};
+use concio_planar::motion::{Forcing, Link, Motion, Setting, System};
+use concio_planar::shape::Place;
+
+fn stone(x: [f64; 2], y: [f64; 2]) -> Body {
+    Body::rectangle("stone", x, y, 20e3 / G * (x[1] - x[0]) * (y[1] - y[0]) * 0.3)
+}
+
+fn springs(both: f64, press: f64, damping: f64) -> Law {
+    Law { normal: Normal::Springs { both, press, damping }, ..Law::dry(Some(Friction::coulomb(0.6))) }
+}
+
+/// What is missing from the account of a motion that began with `initial` in its springs [J].
+fn missing(motion: &Motion, initial: f64) -> f64 {
+    let a = &motion.account;
+    initial + a.input - motion.kinetic() - a.elastic - a.friction - a.damping - a.impact - a.bond - a.device
+}
+
+/// Eight courses of stones that rock, open and slide under 1 g and more: dry, and with joints that pull.
+#[test]
+fn the_account_of_a_shaken_wall_closes() {
+    let [length, height] = [0.4, 0.2];
+    let (mut bodies, mut rows): (Vec<Body>, Vec<Vec<([f64; 2], usize)>>) = (Vec::new(), Vec::new());
+    let mut pairs = Vec::new();
+    for course in 0..8 {
+        let cuts = if course % 2 == 0 { vec![0.0, 1.0, 2.0, 3.0] } else { vec![0.0, 0.5, 1.5, 2.5, 3.0] };
+        let y = [course as f64 * height, (course + 1) as f64 * height];
+        let mut row: Vec<([f64; 2], usize)> = Vec::new();
+        for ends in cuts.windows(2) {
+            let (x, own) = ([ends[0] * length, ends[1] * length], bodies.len());
+            bodies.push(stone(x, y));
+            pairs.extend(row.last().map(|(_, left)| (Some(*left), own)));
+            match rows.last() {
+                None => pairs.push((None, own)),
+                Some(below) => pairs.extend(
+                    below.iter().filter(|(o, _)| x[1].min(o[1]) - x[0].max(o[0]) > 1e-6).map(|(_, o)| (Some(*o), own)),
+                ),
+            }
+            row.push((x, own));
+        }
+        rows.push(row);
+    }
+    for (law, g) in [(springs(0.0, 1.2e9, 0.0), 1.0), (springs(0.0, 1.2e9, 0.0), 1.6), (springs(1.2e9, 0.0, 0.0), 1.6)]
+    {
+        let law = Law { shear: Shear { stiffness: 4e8, damping: 0.0, series: true }, ..law };
+        let links = pairs.iter().map(|&(a, b)| Link { a, b, law }).collect();
+        let mut motion = Motion::new(&System { links, ..System::dry(&bodies, 0.6) }, Setting::new(1e-3));
+        motion.stand(1e-10, 400);
+        let initial = motion.account.elastic;
+        let base = |t: f64| g * G / (6.0 * PI) * (1.0 - (6.0 * PI * t).cos());
+        let (mut most, mut off): (f64, f64) = (0.0, 0.0);
+        for _ in 0..2_000 {
+            motion.go(1e-3, &|from, to| Forcing { base: [base(to) - base(from), 0.0], held: 0.0 });
+            most = most.max(motion.account.input.abs());
+            off = off.max(missing(&motion, initial).abs());
+        }
+        assert!(motion.account.impact > 0.0 || matches!(law.normal, Normal::Springs { press: 0.0, .. }));
+        assert!(off < 5e-5 * most, "{g} g, {law:?}: {off} of {most} J");
+    }
+}
+
+/// A loaded stone is pushed off the one under it: what their joint had stored is lost, and told as that in the step in which they part.
+#[test]
+fn what_slips_off_an_edge_is_lost() {
+    for (press, speed) in [(1e7, 5.0), (1e8, 5.0), (1e7, 1.0)] {
+        let bodies = [stone([0.0, 0.4], [0.5, 0.7]), stone([0.0, 0.4], [0.7, 0.9])];
+        let law = Law { friction: None, ..springs(0.0, press, 0.0) };
+        let mut system = System { links: vec![Link { a: Some(0), b: 1, law }], ..System::dry(&bodies, 0.0) };
+        (system.held[0], system.held[1][2]) = ([true; 3], true);
+        system.load[1][1] = -5e4;
+        let mut motion = Motion::new(&system, Setting::new(1e-3));
+        motion.stand(1e-10, 400);
+        let initial = motion.account.elastic;
+        assert!((initial / (0.5 * 5e4 * 5e4 / press) - 1.0).abs() < 1e-6, "{initial}");
+        motion.step(Forcing { base: [-speed, 0.0], held: 0.0 });
+        let mut parted = false;
+        for _ in 0..600 {
+            motion.step(Forcing::default());
+            parted |= motion.places[1].centre[0] > 0.62;
+            assert!(missing(&motion, initial).abs() < 1e-3 * initial, "{speed} m/s: {}", missing(&motion, initial));
+        }
+        assert!(parted && motion.account.impact > 0.5 * initial, "{} of {initial} J", motion.account.impact);
+    }
+}
+
+/// A stone that falls shut within a step onto a strong dashpot: it takes what the stone has, and impacts give nothing back.
+#[test]
+fn a_dashpot_takes_no_more_than_there_is() {
+    let bodies = [stone([0.0, 0.4], [0.0, 0.2])];
+    let law = springs(0.0, 1e8, 1e5);
+    let system = System { links: vec![Link { a: None, b: 0, law }], ..System::dry(&bodies, 0.6) };
+    let mut motion = Motion::new(&system, Setting::new(1e-2));
+    motion.put(0, Place { centre: [0.2, 0.106], angle: 0.0 });
+    motion.velocities[0] = [0.0, -0.6, 0.0];
+    let (before, weight) = (motion.kinetic(), 20e3 * 0.4 * 0.2 * 0.3);
+    for _ in 0..50 {
+        motion.step(Forcing::default());
+        let a = &motion.account;
+        assert!(a.impact >= -1e-9 && a.damping >= 0.0, "{a:?}");
+        assert!(a.impact + a.damping <= before + weight * 0.007, "{a:?} of {before} J");
+    }
+    assert!(motion.kinetic() < 1e-2 * before);
+}
