@@ -26,8 +26,7 @@ fn missing(motion: &Motion, initial: f64) -> f64 {
 #[test]
 fn the_account_of_a_shaken_wall_closes() {
     let [length, height] = [0.4, 0.2];
-    let (mut bodies, mut rows): (Vec<Body>, Vec<Vec<([f64; 2], usize)>>) = (Vec::new(), Vec::new());
-    let mut pairs = Vec::new();
+    let (mut bodies, mut rows, mut pairs) = (Vec::new(), Vec::<Vec<([f64; 2], usize)>>::new(), Vec::new());
     for course in 0..8 {
         let cuts = if course % 2 == 0 { vec![0.0, 1.0, 2.0, 3.0] } else { vec![0.0, 0.5, 1.5, 2.5, 3.0] };
         let y = [course as f64 * height, (course + 1) as f64 * height];
