@@ -22,6 +22,8 @@
 
 mod finish;
 
+use pulp::{Arch, Simd, WithSimd};
+
 use crate::blocks::{Blocks, Triple};
 use crate::contact::{Contact, Effort, Rows, Status, unbalance, worse};
 
@@ -363,6 +365,11 @@ impl<const N: usize> Group<N> {
     }
 
     fn look(&mut self, contacts: &[Contact], v: &[Triple], method: Method, sums: &mut Sums) {
+        Arch::new().dispatch(Look { group: self, contacts, v, method, sums });
+    }
+
+    #[inline(always)]
+    fn look_at_each(&mut self, contacts: &[Contact], v: &[Triple], method: Method, sums: &mut Sums) {
         for (point, which) in self.points.iter_mut().zip(&self.which) {
             let contact = &contacts[*which as usize];
             let u = contact.velocity(v);
@@ -383,6 +390,11 @@ impl<const N: usize> Group<N> {
 
     /// Takes what the last direction leaves out of the products into account; impulses where velocities stay, onto the bodies.
     fn correct(&mut self, target: f64, step: &mut [Triple]) {
+        Arch::new().dispatch(Correct { group: self, target, step });
+    }
+
+    #[inline(always)]
+    fn correct_each(&mut self, target: f64, step: &mut [Triple]) {
         for (point, rows) in self.points.iter_mut().zip(&self.rows) {
             point.second = std::array::from_fn(|i| point.way.s[i] * point.way.lambda[i]);
             point.aim(target);
@@ -391,6 +403,11 @@ impl<const N: usize> Group<N> {
     }
 
     fn turn(&mut self, step: &[Triple], target: f64, keep: f64, course: &mut Course) {
+        Arch::new().dispatch(Turn { group: self, step, target, keep, course });
+    }
+
+    #[inline(always)]
+    fn turn_each(&mut self, step: &[Triple], target: f64, keep: f64, course: &mut Course) {
         for (point, rows) in self.points.iter_mut().zip(&self.rows) {
             point.turn(rows.change(step), target, keep, course);
         }
@@ -408,6 +425,58 @@ impl<const N: usize> Group<N> {
         for (point, which) in self.points.iter().zip(&self.which) {
             point.tell(&mut contacts[*which as usize], v);
         }
+    }
+}
+
+/// [`Group::look`] compiled for some registers, as all that goes through the contacts in every iteration: the bits are the same in all.
+struct Look<'a, 'b, const N: usize> {
+    group: &'a mut Group<N>,
+    contacts: &'a [Contact],
+    v: &'a [Triple],
+    method: Method,
+    sums: &'a mut Sums<'b>,
+}
+
+impl<const N: usize> WithSimd for Look<'_, '_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.group.look_at_each(self.contacts, self.v, self.method, self.sums);
+    }
+}
+
+/// [`Group::correct`].
+struct Correct<'a, const N: usize> {
+    group: &'a mut Group<N>,
+    target: f64,
+    step: &'a mut [Triple],
+}
+
+impl<const N: usize> WithSimd for Correct<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.group.correct_each(self.target, self.step);
+    }
+}
+
+/// [`Group::turn`].
+struct Turn<'a, const N: usize> {
+    group: &'a mut Group<N>,
+    step: &'a [Triple],
+    target: f64,
+    keep: f64,
+    course: &'a mut Course,
+}
+
+impl<const N: usize> WithSimd for Turn<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.group.turn_each(self.step, self.target, self.keep, self.course);
     }
 }
 
