@@ -203,6 +203,23 @@ fn the_heights_in_a_message_are_allowed() {
     balance(&wall(&text));
 }
 
+/// Wherever a lintel ends, bricks of both its courses lie beside it at a head joint; none is shorter than a rest may be, or longer than a brick by more
+/// than two joints.
+#[test]
+fn a_lintel_has_its_head_joints_wherever_it_ends() {
+    for step in 0..=270 {
+        let x = 0.4 + 1e-3 * step as f64;
+        let text = DOOR.replace("x = 0.5\n", &format!("x = {x:.3}\n"));
+        let wall = wall(&text);
+        let beside: Vec<_> = graph::joints(&wall, true)
+            .into_iter()
+            .filter(|j| j.kind == JointKind::Head && graph::name(&wall, j).contains("p1o1"))
+            .collect();
+        assert_eq!(beside.len(), 4, "x = {x:.3}");
+        assert!(wall.blocks.iter().all(|b| b.name == "p1o1" || b.length() <= 0.25 + 2.0 * 0.01 + 1e-9), "x = {x:.3}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 128, ..ProptestConfig::default() })]
 

@@ -44,6 +44,9 @@ pub(super) fn cut(panel: &Panel, index: usize, courses: &mut Courses) -> Result<
             }
         }
     }
+    for (zone, rows) in holes.iter().filter_map(|hole| hole.over(frame.head)) {
+        rows.for_each(|r| frame.reach(&mut courses[r], zone));
+    }
     for (k, hole) in holes.iter().enumerate() {
         let Some(lintel) = &hole.lintel else { continue };
         let place = courses[lintel.top - 1].partition_point(|b| b.x[0] < lintel.x[0]);
@@ -77,11 +80,19 @@ struct Slab {
     top: usize,
 }
 
+/// From left to right [m], and in which courses.
+type Zone = ([f64; 2], std::ops::Range<usize>);
+
 impl Hole {
     /// What is cleared of blocks, and in which courses; a lintel has head joints of `mortar`.
-    fn zones(&self, mortar: f64) -> Vec<([f64; 2], std::ops::Range<usize>)> {
-        let over = |l: &Slab| ([l.x[0] - mortar, l.x[1] + mortar], self.beds[1]..l.top);
-        std::iter::once((self.x, self.beds[0]..self.beds[1])).chain(self.lintel.as_ref().map(over)).collect()
+    fn zones(&self, mortar: f64) -> impl Iterator<Item = Zone> {
+        std::iter::once((self.x, self.beds[0]..self.beds[1])).chain(self.over(mortar))
+    }
+
+    /// That of the lintel.
+    fn over(&self, mortar: f64) -> Option<Zone> {
+        let lintel = self.lintel.as_ref()?;
+        Some(([lintel.x[0] - mortar, lintel.x[1] + mortar], self.beds[1]..lintel.top))
     }
 
     fn meets(&self, other: &Hole, tolerance: f64) -> bool {
@@ -169,24 +180,32 @@ impl Frame {
             };
             return Err((".width", InputError::new(what).allowed(allowed)));
         }
-        let (low, bottom) = self.bed(o.y.si(), 0.0, 0).map_err(|e| (".y", e))?;
-        let (high, top) = self.bed(o.y.si() + o.height.si(), o.y.si(), low + 1).map_err(|e| (".height", e))?;
+        let (low, bottom) = self.bed(o.y.si(), 0.0, 0, 0.0).map_err(|e| (".y", e))?;
+        let over = o.lintel.map_or(0.0, |l| l.height.si());
+        let (high, top) = self.bed(o.y.si() + o.height.si(), o.y.si(), low + 1, over).map_err(|e| (".height", e))?;
         let lintel = |l: crate::case::Lintel| {
-            let (bed, end) = self.bed(top + l.height.si(), top, high + 1).map_err(|e| (".lintel.height", e))?;
+            let (bed, end) = self.bed(top + l.height.si(), top, high + 1, 0.0).map_err(|e| (".lintel.height", e))?;
             Ok(Slab { x: [x[0] - reach, x[1] + reach], y: [top, end], top: bed })
         };
         Ok(Hole { x, y: [bottom, top], beds: [low, high], lintel: o.lintel.map(lintel).transpose()? })
     }
 
-    /// The bed joint at the height `y`, no lower than number `least`, and the height within it; messages count from `zero`.
-    fn bed(&self, y: f64, zero: f64, least: usize) -> std::result::Result<(usize, f64), InputError> {
+    /// The bed joint at the height `y`, no lower than number `least`, and the height within it; messages count from `zero` and name
+    /// heights with room for a lintel of `over`.
+    fn bed(&self, y: f64, zero: f64, least: usize, over: f64) -> std::result::Result<(usize, f64), InputError> {
         let within = |[low, high]: &[f64; 2]| (low - self.near..=high + self.near).contains(&y);
         if let Some(bed) = self.beds.iter().position(within).filter(|bed| *bed >= least) {
             // Of a dry wall both are one height, but for rounding.
             let [low, high] = self.beds[bed];
             return Ok((bed, y.max(low).min(high)));
         }
+        let most = self.beds.last().map_or(0.0, |bed| bed[1]) + self.near - over;
         let possible = &self.beds[least.min(self.beds.len())..];
+        // Where no place has room for the lintel, it is the lintel that is too high.
+        let possible = match possible.partition_point(|bed| bed[0] <= most) {
+            0 => possible,
+            roomy => &possible[..roomy],
+        };
         let above = possible.iter().position(|bed| bed[0] > y).unwrap_or(possible.len());
         let near: Vec<String> = possible[above.saturating_sub(1)..(above + 1).min(possible.len())]
             .iter()
@@ -231,6 +250,19 @@ impl Frame {
             }
         }
         Ok(rest)
+    }
+
+    /// Blocks beside a lintel reach to the mortar of its ends: where a rest has gone, or a head joint lay across an end, they are longer by up
+    /// to two joints.
+    fn reach(&self, course: &mut [Rect], zone: [f64; 2]) {
+        let wide = |gap: f64| gap > 0.0 && gap <= 2.0 * self.head + self.tolerance;
+        for block in course {
+            if wide(zone[0] - block.x[1]) {
+                block.x[1] = zone[0];
+            } else if wide(block.x[0] - zone[1]) {
+                block.x[0] = zone[1];
+            }
+        }
     }
 
     /// A lintel lies on the wall at both ends.
