@@ -131,6 +131,12 @@ impl EventKind {
 }
 
 impl Event {
+    /// Puts what happened within a step into the order of time, at one instant into that of joints.
+    pub(crate) fn sort(events: &mut [Event]) {
+        let rank = |event: &Event| (event.joint, event.kind as u8);
+        events.sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then_with(|| rank(a).cmp(&rank(b))));
+    }
+
     /// Time, joint, kind, value as a journal keeps them.
     pub(crate) fn row(&self) -> [f64; 4] {
         let kind = EventKind::ALL.iter().position(|k| *k == self.kind).unwrap_or(usize::MAX);
@@ -153,6 +159,11 @@ impl Recording {
     pub fn standing(&self, times: &[f64]) -> usize {
         // Times of samples and of steps differ by rounding.
         self.collapse().map_or(times.len(), |event| times.partition_point(|t| *t <= event.time * (1.0 + 1e-9)))
+    }
+
+    /// Whether there is nothing in it, events included.
+    pub fn is_empty(&self) -> bool {
+        self.time.is_empty() && self.frame_time.is_empty() && self.events.is_empty()
     }
 
     /// Adds the rows of `other` at the end.

@@ -229,16 +229,21 @@ pub fn forget(out: &Path) -> Result<()> {
     store::journal::discard(out)
 }
 
-fn open_journal(prepared: &Prepared, simulation: &mut Simulation<'_>, out: &Path) -> Result<(Journal, Option<f64>)> {
+fn open_journal<'p>(
+    prepared: &'p Prepared,
+    simulation: &mut Simulation<'p>,
+    out: &Path,
+) -> Result<(Journal, Option<f64>)> {
     let header = JournalHeader {
         inputs_hash: prepared.inputs_hash.clone(),
         version: env!("CARGO_PKG_VERSION").into(),
         layout: simulation.layout().clone(),
     };
-    if let Some((journal, state)) = Journal::resume(out, &header)?
-        && simulation.restore(&state)
-    {
-        return Ok((journal, Some(simulation.time())));
+    if let Some((journal, state)) = Journal::resume(out, &header)? {
+        if simulation.restore(&state) {
+            return Ok((journal, Some(simulation.time())));
+        }
+        *simulation = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling)?;
     }
     Ok((Journal::create(out, &header)?, None))
 }
@@ -262,7 +267,7 @@ fn integrate(
         };
         let due = kept.elapsed() >= BETWEEN_CHECKPOINTS;
         if due || stop.is_some() || simulation.buffer_is_full() {
-            if !simulation.recording().time.is_empty() {
+            if !simulation.recording().is_empty() {
                 journal.append(simulation.recording())?;
                 simulation.clear_recording();
             }

@@ -242,7 +242,10 @@ impl<'m> Simulation<'m> {
     fn step(&mut self) -> std::result::Result<(), StopReason> {
         let Simulation { model, state, recording, planar, .. } = self;
         if let Some(bodies) = planar {
-            bodies.step(model, state, |event| recording.events.push(event))?;
+            let heard = &mut recording.events;
+            let from = heard.len();
+            bodies.step(model, state, |event| heard.push(event))?;
+            Event::sort(&mut heard[from..]);
             while self.sample_is_due() {
                 self.sample();
             }
@@ -374,9 +377,7 @@ impl<'m> Simulation<'m> {
         let from = heard.len();
         let broke =
             cracks::grow(self.model, &mut self.state, &self.work.z, self.work.v(), h, |event| heard.push(event));
-        heard[from..].sort_unstable_by(|a, b| {
-            a.time.total_cmp(&b.time).then((a.joint, a.kind as u8).cmp(&(b.joint, b.kind as u8)))
-        });
+        Event::sort(&mut heard[from..]);
         self.work.accept(self.model, &mut self.state, t, h);
         self.state.counters.steps += 1;
         self.state.counters.iterations += std::mem::take(&mut self.work.stage.iterations);
@@ -506,7 +507,7 @@ impl<'m> Simulation<'m> {
         let bodies = self.planar.as_ref().map(|bodies| bodies.keep());
         postcard::to_stdvec(&(&self.state, bodies)).unwrap_or_default()
     }
-    /// Goes back to a saved state; false when the bytes are not one of this model's.
+    /// Goes back to a saved state; false when the bytes are not one of this model's, and the simulation is then to be made anew.
     pub fn restore(&mut self, bytes: &[u8]) -> bool {
         let Ok((state, kept)) = postcard::from_bytes::<(State, Option<planar::Kept>)>(bytes) else { return false };
         let bodies = match (&mut self.planar, kept) {

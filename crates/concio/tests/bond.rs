@@ -28,6 +28,23 @@ const M: f64 = 10.0;
 const K: f64 = 1e7;
 const F0: f64 = 2000.0;
 
+/// Events between two samples, more than fit into the buffer, and after the last sample: a run into a folder keeps all that one in memory does.
+#[test]
+fn no_event_is_lost_between_samples() {
+    let text = "model = \"shear\"\nset = \"report\"\n[[panel]]\nbond = \"running\"\ncourses = 24\nbricks = 20\n\
+                [joint]\nbond = { cohesion = \"2 kPa\", tensile_strength = \"2 kPa\" }\n[load]\nbeam = \"free\"\n[motion]\nduration = \"1.5 s\"\n\
+                base = { sine = { acceleration = \"1 g\", frequency = 3, ramp = \"1 s\" } }\n[output]\ninterval = \"1 s\"\n";
+    let case = from_str(text, Syntax::Toml, None).unwrap().case;
+    let prepared = prepare(case, Path::new("")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let kept = concio::run::run(&prepared, folder.path(), &mut |_| concio::run::Control::Continue).unwrap();
+    let expected = run_in_memory(&prepared).unwrap().recording.events;
+    let after = |t: f64| expected.iter().filter(|e| e.time > t).count();
+    assert!(expected.len() - after(1.0) > 1024 && after(1.0) > 0, "{} {}", expected.len(), after(1.0));
+    assert!(expected.is_sorted_by_key(|e| e.time));
+    assert_eq!(kept.outcome.recording.events, expected);
+}
+
 fn fine(tolerance: f64) -> Solver {
     solver(Scheme::TrBdf2, tolerance)
 }

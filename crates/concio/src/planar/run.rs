@@ -183,6 +183,7 @@ impl Run {
         let Kept { motion, origin, before, crushed, ties } = kept;
         let fits = origin.len() == self.origin.len()
             && before.len() == self.before.len()
+            && crushed.len() == self.crushed.len()
             && ties.len() == self.ties.len()
             && self.motion.take_up(motion);
         if fits {
