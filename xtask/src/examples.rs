@@ -24,6 +24,8 @@ pub fn run_all(root: &Path) -> Outcome {
     for file in files {
         one(root, &file)?;
     }
+    // Too large to be run each time.
+    read(Command::new(concio(root)).arg("check").arg("examples/large/facade.toml").current_dir(root))?;
     studies(root)
 }
 

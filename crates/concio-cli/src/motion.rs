@@ -19,7 +19,7 @@ pub fn describe(prepared: &Prepared, folder: &Path) -> Result<Rows, Failure> {
     let (motion, duration) = (&prepared.case.motion, prepared.model.excitation.duration);
     let driven = prepared.case.load.beam == Beam::Driven;
     let mut found = Rows::new();
-    for (name, signal) in [("base", &motion.base), ("top", &motion.top), ("vertical", &motion.vertical)] {
+    for (name, signal) in motion.signals() {
         if (name == "top" && !driven) || (name == "vertical" && *signal == Signal::None) {
             continue;
         }

@@ -4,6 +4,7 @@ use concio::Result;
 use serde_json::{Number, Value};
 use statrs::distribution::{ContinuousCDF, LogNormal, Normal};
 
+use crate::design::MOST_RUNS;
 use crate::file::{Distribution, DistributionLaw, Follower, Spacing, StudyFile, Vary};
 use crate::motions;
 
@@ -272,16 +273,21 @@ fn motion_factor(file: &StudyFile) -> Result<Factor> {
         if levels.iter().any(|l| l.label == label) {
             return Err(file.wrong(&format!("{key}.name"), "two motions have this name", "names that differ"));
         }
-        if let concio::case::Signal::Record(record) = &motion.base {
-            let path = folder.join(&record.record);
-            if !path.is_file() {
-                let what = format!("there is no file {}", path.display());
-                return Err(file.wrong(&format!("{key}.base.record"), what, "a record, relative to the study file"));
-            }
-        }
-        let base = motions::rooted(&motion.base, &folder);
         let json = |v: serde_json::Result<Value>| v.map_err(|e| file.wrong(&key, e.to_string(), ""));
-        let mut changes = vec![("motion.base".to_string(), json(serde_json::to_value(&base))?)];
+        let mut changes = Vec::new();
+        let given = [("base", Some(&motion.base)), ("vertical", motion.vertical.as_ref())];
+        for (name, signal) in given.into_iter().filter_map(|(name, signal)| Some((name, signal?))) {
+            if let concio::case::Signal::Record(record) = signal {
+                let path = folder.join(&record.record);
+                if !path.is_file() {
+                    let what = format!("there is no file {}", path.display());
+                    let allowed = "a record, relative to the study file";
+                    return Err(file.wrong(&format!("{key}.{name}.record"), what, allowed));
+                }
+            }
+            let value = json(serde_json::to_value(motions::rooted(signal, &folder)))?;
+            changes.push((format!("motion.{name}"), value));
+        }
         if let Some(duration) = motion.duration {
             changes.push(("motion.duration".into(), json(serde_json::to_value(duration))?));
         }
@@ -441,6 +447,9 @@ impl Reader<'_> {
         let continuous = self.continuous(unit, law)?;
         match v.count {
             None => Ok(Over::Values(continuous)),
+            Some(count) if count > MOST_RUNS => {
+                Err(self.wrong("count", format!("{count} is out of range"), &format!("from 2 to {MOST_RUNS}")))
+            }
             Some(count) if count >= 2 => {
                 let share = |i: usize| i as f64 / (count - 1) as f64;
                 Ok(Over::Levels((0..count).map(|i| continuous.level(share(i))).collect()))

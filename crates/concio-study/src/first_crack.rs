@@ -262,7 +262,7 @@ pub fn search(question: &Question, subjects: &[Subject], runner: &mut Runner) ->
         for (number, seek) in seeks.iter_mut().enumerate() {
             for scale in seek.proposals() {
                 let mut case = seek.case.clone();
-                case.motion.base = motions::scaled(&case.motion.base, scale);
+                motions::strengthen(&mut case.motion, scale);
                 asked.push((number, scale));
                 cases.push(case);
             }

@@ -43,7 +43,7 @@ pub const MEASURES: [Measure; 33] = [
     measure("deepest_closing", "m", "deepest closure of a head joint or connection"),
     measure("peak_elastic_force", "N", "largest |elastic force| in a joint"),
     measure("peak_friction_force", "N", "largest |friction force| that a joint bears"),
-    measure("peak_viscous_force", "N", "largest |viscous force| in a joint"),
+    measure("peak_viscous_force", "N", "largest |viscous force| in a joint; of shear walls"),
     measure("peak_inertia_force", "N", "largest |mass times relative acceleration| of a block"),
     measure("top_force_peak", "N", "largest |force| of the top beam"),
     measure("top_force_rms", "N", "root mean square of the force of the top beam"),
@@ -172,7 +172,11 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
     let moved = blocks.iter().zip(&envelopes.block_displacement).filter(|(b, _)| tops[b.panel] == Some(b.course));
     let drift = moved.fold(0.0f64, |m, (b, u)| m.max(u / b.y[1]));
     let joints = joint_rows(model);
-    let viscous = joints.iter().zip(&envelopes.joint_velocity).map(|(j, v)| j.damping * v);
+    // Dashpots of planar walls act while their joint is pressed, which envelopes do not tell.
+    let viscous = match model.planar {
+        Some(_) => f64::NAN,
+        None => joints.iter().zip(&envelopes.joint_velocity).fold(0.0f64, |most, (j, v)| most.max(j.damping * v)),
+    };
     let inertia = model.mass.iter().zip(&envelopes.block_acceleration).map(|(m, a)| m * a);
     let max = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, f64::max);
     let cracked = |test: &dyn Fn(&BondRow) -> bool| outcome.bonds.iter().filter(|b| test(b)).count() as f64;
@@ -190,7 +194,7 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
         most(&envelopes.joint_closing),
         most(&envelopes.joint_force),
         totals.peak_friction_force,
-        max(&mut { viscous }),
+        viscous,
         max(&mut { inertia }),
         totals.top_force_peak,
         top_force_rms(outcome),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use concio::case::Signal;
+use concio::case::{Motion, Signal};
 use concio::quantity::{Acceleration, Length, Velocity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,6 +15,9 @@ pub struct MotionInput {
     pub name: String,
     /// The motion, as `motion.base` of a wall file; record files are relative to the study file.
     pub base: Signal,
+    /// Vertical motion of the base, as `motion.vertical`: of the same record. Planar walls alone; default that of the wall file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub vertical: Option<Signal>,
     /// Length of the run [s], above 0; default that of the wall file if it gives one, or of the record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration: Option<concio::quantity::Time>,
@@ -50,6 +53,12 @@ pub fn scaled(signal: &Signal, factor: f64) -> Signal {
         Signal::Synthetic(synthetic) => synthetic.pga = acceleration(synthetic.pga),
     }
     scaled
+}
+
+/// Makes what shakes the base `factor` times as strong: its horizontal motion, and the vertical one with it.
+pub fn strengthen(motion: &mut Motion, factor: f64) {
+    motion.base = scaled(&motion.base, factor);
+    motion.vertical = scaled(&motion.vertical, factor);
 }
 
 /// The motion with its record file relative to the working directory instead of to `folder`.

@@ -228,13 +228,14 @@ impl Plan {
         let folder = file.folder().to_path_buf();
         let motion = &mut file.case.motion;
         // Motions of the study file are rooted already; all others start from the wall's folder.
-        if !changes.iter().rev().find(|(path, _)| path == "motion.base").is_some_and(|change| self.is_motion(change)) {
-            motion.base = motions::rooted(&motion.base, &folder);
+        let last = |key: &str| changes.iter().rev().find(|(path, _)| path == key);
+        let rooted = |key: &str| last(key).is_some_and(|change| self.is_motion(change));
+        let rooted = ["motion.base", "motion.top", "motion.vertical"].map(rooted);
+        for (signal, _) in motion.signals_mut().into_iter().zip(rooted).filter(|(_, rooted)| !rooted) {
+            *signal = motions::rooted(signal, &folder);
         }
-        motion.top = motions::rooted(&motion.top, &folder);
-        motion.vertical = motions::rooted(&motion.vertical, &folder);
         if scale != 1.0 {
-            motion.base = motions::scaled(&motion.base, scale);
+            motions::strengthen(motion, scale);
         }
         if !self.file.study.keep.results {
             quiet(&mut file);
@@ -277,7 +278,7 @@ impl Records {
     /// A record that cannot be read.
     pub fn id(&self, case: &Case) -> Result<String> {
         let mut case = case.clone();
-        for signal in [&mut case.motion.base, &mut case.motion.top, &mut case.motion.vertical] {
+        for signal in case.motion.signals_mut() {
             if let Signal::Record(input) = signal {
                 input.record = PathBuf::from(self.hash(&input.record)?);
             }

@@ -359,7 +359,8 @@ impl Tally {
 
 /// Samples of the motions that a model holds.
 fn samples(model: &Model) -> usize {
-    [&model.excitation.base, &model.excitation.top].into_iter().map(GroundMotion::samples).sum()
+    let motions = &model.excitation;
+    [&motions.base, &motions.top, &motions.vertical].into_iter().map(GroundMotion::samples).sum()
 }
 
 /// Makes a case ready; a panic on the way is a cause like any other.

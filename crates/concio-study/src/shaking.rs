@@ -49,7 +49,7 @@ impl Shaking {
 }
 
 /// First mode of a wall all of whose joints are intact: bonds have their stiffness in both directions, elastic
-/// joints theirs; head joints without tension or bond are left out. None when nothing holds the wall. Of a planar wall its slowest
+/// joints theirs, devices that of rest; head joints without tension or bond are left out. None when nothing holds the wall. Of a planar wall its slowest
 /// vibration about where it stands ([`concio::planar::Planar::slowest`]).
 ///
 /// Inverse iteration with the Rayleigh quotient; the systems are solved by conjugate gradients, preconditioned by the
@@ -63,6 +63,9 @@ pub fn first_mode(model: &Model) -> Option<Mode> {
     let mut stiffness: Vec<f64> = model.elastic.iter().map(|e| if e.unilateral { 0.0 } else { e.stiffness }).collect();
     for bond in &model.bonds {
         stiffness[bond.joint as usize] = bond.law.stiffness;
+    }
+    for device in &model.nonlinear {
+        stiffness[device.joint as usize] += device.law.initial_stiffness();
     }
     let springs = Springs { model, stiffness };
     let mut x = vec![1.0; n];
@@ -160,6 +163,7 @@ impl Springs<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use concio::device::{Law, ReCentring};
     use concio::ground::GroundMotion;
     use concio::samples::{Link, lumped};
     use concio::wall::End;
@@ -177,6 +181,12 @@ mod tests {
         let found = first_mode(&model).expect("the chain is held");
         assert!((found.period * omega / (2.0 * std::f64::consts::PI) - 1.0).abs() < 1e-9, "{found:?}");
         assert!((found.damping * 2.0 * k / (omega * c) - 1.0).abs() < 1e-6, "{found:?}");
+        // A device has the stiffness that it has at rest.
+        let law = Law::ReCentring(ReCentring { stiffness: k, activation: 1e-3, flag: 0.5 });
+        let device = Link::device(0, End::Base, law, 0.0, 0.0);
+        let held = lumped(&[m], &[device], Excitation::of_base(GroundMotion::AtRest, 1.0));
+        let found = first_mode(&held).expect("the device holds it");
+        assert!((found.period / (2.0 * std::f64::consts::PI * f64::sqrt(m / k)) - 1.0).abs() < 1e-9, "{found:?}");
         let loose = lumped(&[m], &[], Excitation::of_base(GroundMotion::AtRest, 1.0));
         assert_eq!(first_mode(&loose), None);
     }

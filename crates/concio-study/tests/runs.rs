@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use concio::case::Case;
+use concio::case::{Case, Signal};
 use concio::many::{Job, Standing, simulate_each};
 use concio::outcome::Outcome;
 use concio::run::Control;
@@ -224,6 +224,41 @@ fn an_id_knows_the_content_of_records_and_not_their_place() -> Anyhow {
     Ok(())
 }
 
+/// A vertical record goes with its motion, from the study's folder, and scales as the horizontal one does; without one the wall keeps its own, from
+/// the wall's folder.
+#[test]
+fn a_motion_brings_its_vertical_record() -> Anyhow {
+    let planar = "model = \"planar\"\n[[panel]]\nbond = \"running\"\ncourses = 3\nbricks = 2\nmortar = { bed = 0, head = 0 }\n\
+                  brick = { length = 0.25, height = 0.12, thickness = 0.25, specific_weight = 18e3 }\n[joint]\n\
+                  bed = { law = \"rigid\" }\nhead = { law = \"rigid\" }\n[joint.friction]\nlaw = \"coulomb\"\nstatic = 0.6\n\
+                  dynamic = 0.6\n[motion]\n";
+    let own = "vertical = { record = \"own.txt\", units = \"m/s2\", dt = 0.01 }\n";
+    let desk = Desk::new("");
+    fs::create_dir(desk.path("walls"))?;
+    fs::write(desk.path("walls/wall.toml"), format!("{planar}{own}"))?;
+    for name in ["walls/own.txt", "x.txt", "up.txt"] {
+        fs::write(desk.path(name), "0\n1\n2\n-1\n0\n")?;
+    }
+    let record = |name: &str| format!("{{ record = \"{name}\", units = \"m/s2\", dt = 0.01 }}");
+    let plan = desk.plan(&format!(
+        "wall = \"walls/wall.toml\"\nscales = [3.0]\n[[motion]]\nname = \"a\"\nbase = {}\nvertical = {}\n\
+         [[motion]]\nname = \"b\"\nbase = {}\n",
+        record("x.txt"),
+        record("up.txt"),
+        record("x.txt")
+    ))?;
+    for (run, file) in ["up.txt", "walls/own.txt"].into_iter().enumerate() {
+        let motion = plan.case(run)?.motion;
+        let of = |signal: Signal| match signal {
+            Signal::Record(record) => (record.record, record.scale),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(of(motion.base), (desk.path("x.txt"), Some(3.0)));
+        assert_eq!(of(motion.vertical), (desk.path(file), Some(3.0)), "run {run}");
+    }
+    Ok(())
+}
+
 #[test]
 fn every_factor_reaches_the_wall() -> Anyhow {
     let desk = Desk::new(WALL);
@@ -339,6 +374,16 @@ fn wrong_study_files() {
             7,
         ),
         ("wall = \"wall.toml\"\n[[motion]]\nname = \"x\"\nbase = { record = \"gone.at2\" }", "there is no file", 4),
+        (
+            "wall = \"wall.toml\"\n[[motion]]\nname = \"x\"\nbase = \"none\"\nvertical = { record = \"gone.at2\" }",
+            "there is no file",
+            5,
+        ),
+        (
+            "wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nfrom = 1\nto = 2\ncount = 18446744073709551615",
+            "from 2 to 1000000",
+            6,
+        ),
         ("wall = \"wall.toml\"\nscales = [1, 0]", "out of range", 2),
         (
             "wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\ndistribution = { law = \"normal\", mean = 1, deviation = 0 }\n[design]\nkind = \"random\"\nruns = 3",

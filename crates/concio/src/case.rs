@@ -853,6 +853,18 @@ pub struct Motion {
     pub quasi_static: bool,
 }
 
+impl Motion {
+    /// The three motions, each with its key.
+    pub fn signals(&self) -> [(&'static str, &Signal); 3] {
+        [("base", &self.base), ("top", &self.top), ("vertical", &self.vertical)]
+    }
+
+    /// The three motions.
+    pub fn signals_mut(&mut self) -> [&mut Signal; 3] {
+        [&mut self.base, &mut self.top, &mut self.vertical]
+    }
+}
+
 /// A motion: `"none"`, or a table with exactly one of `record`, `sine`, `ramp`, `tilt`, `path`, `pulse`, `sweep`,
 /// `synthetic` (and beside `record` the keys of [`RecordInput`]).
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -1060,7 +1072,7 @@ pub struct Synthetic {
     pub pga: Acceleration,
     /// Duration [s], above 2.
     pub duration: Time,
-    /// Sample interval [s], above 0 and up to 0.02; default 0.005. Below 200,000 samples.
+    /// Sample interval [s], above 0 and up to 0.02; default 0.005. Fewer than 200,000 samples.
     #[serde(default = "default_synthetic_dt")]
     pub dt: Time,
     /// Corner periods T_B, T_C, T_D of the target [s], above 0 and rising; default EN 1998-1 type 1, ground B: 0.15, 0.5, 2.
@@ -1089,7 +1101,7 @@ pub struct Solver {
     /// Longest step [s], above 0; default none but the sample interval of the records.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_step: Option<Time>,
-    /// Step of a planar wall [s], above 0; default 1 ms. Planar walls alone.
+    /// Step of a planar wall [s], above 0; default 1 ms, without inertia 20 ms. Planar walls alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<Time>,
 }
@@ -1115,7 +1127,7 @@ pub enum Scheme {
 #[serde(default, deny_unknown_fields)]
 pub struct Output {
     /// Interval of the histories [s], above 0; default the record's sample interval, or duration/2000; without inertia
-    /// so many whole steps that there are no more than 2000. Up to 100,000,000 samples.
+    /// so many whole steps that there are no more than 2000. Up to 10,000,000 samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interval: Option<Time>,
     /// Interval of the full frames (displacement and velocity of every block) [s], from 0 (no frames);

@@ -24,8 +24,9 @@ pub enum Heads {
 /// `heads` says. All else stays, damping included.
 ///
 /// # Errors
-/// No joint of the wall has one of these laws, or head joints are bonded.
+/// The wall is planar, no joint of it has one of these laws, or head joints are bonded.
 pub fn with_heads(prepared: &Prepared, heads: Heads) -> Result<Prepared> {
+    prepared.model.shear_only("the comparison of free and constrained head joints")?;
     if prepared.model.bonds.iter().any(|bond| bond.law.opens) {
         let what = "head joints of this wall are bonded: free and rigid ones have no bond to compare with";
         let error = InputError::new(what).key("joint.bond.tensile_strength").allowed("0");

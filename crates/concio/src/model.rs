@@ -6,7 +6,7 @@ use crate::assign::{JointLaw, friction_choice, resolve};
 use crate::bond::{self, Bonded};
 use crate::case::{Beam, Case, DeviceLaw, ModelKind, SpringLaw};
 use crate::device::{self, Device, Nonlinear};
-use crate::error::Result;
+use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::graph;
 use crate::law::Stribeck;
@@ -271,6 +271,19 @@ impl Model {
             law[device.joint as usize] = Some(device.law);
         }
         law
+    }
+
+    /// Refuses a planar wall for `what`, which knows horizontal displacements alone.
+    ///
+    /// # Errors
+    /// The wall is planar.
+    pub fn shear_only(&self, what: &str) -> Result<()> {
+        match self.planar {
+            None => Ok(()),
+            Some(_) => {
+                Err(InputError::new(format!("{what} knows no planar walls")).key("model").allowed("shear").into())
+            }
+        }
     }
 
     /// Index in [`Model::nonlinear`] of every joint with such a device.

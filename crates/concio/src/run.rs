@@ -84,7 +84,7 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(40);
 /// Time by the clock between two checkpoints: what a killed run can lose.
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(1);
 /// Samples that a run may keep.
-const MOST_SAMPLES: f64 = 1e7;
+pub(crate) const MOST_SAMPLES: f64 = 1e7;
 /// Lays the wall, compiles motion and model; numbers that are hardly meant and records that the run cuts or outlasts join
 /// the model's warnings. `folder` is where relative record paths start. The case must be valid
 /// ([`crate::case::CaseFile::validate`]).
@@ -167,7 +167,7 @@ fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
 /// Hash of everything that the result depends on.
 fn inputs_hash(case: &Case, folder: &Path) -> Result<String> {
     let mut parts = vec![canonical_json(case).into_bytes()];
-    for signal in [&case.motion.base, &case.motion.top, &case.motion.vertical] {
+    for (_, signal) in case.motion.signals() {
         if let Signal::Record(input) = signal {
             let path = folder.join(&input.record);
             parts.push(std::fs::read(&path).map_err(|e| Error::io(&path, e))?);

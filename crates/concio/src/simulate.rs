@@ -1,7 +1,7 @@
 //! The only time loop.
 //!
 //! [`Simulation::advance`] takes steps until its budget is spent, its record buffer is full or the run ends; it
-//! does no I/O and allocates nothing. The caller empties the buffer, shows progress, saves the state.
+//! does no I/O and allocates nothing, but for pairs of a planar wall that are looked up anew. The caller empties the buffer, shows progress, saves the state.
 
 use crate::case::Solver;
 use crate::dynamics::{Channels, accelerate, book_impact, kick, observe, settle, stored_energy};

@@ -8,9 +8,15 @@ use crate::model::Model;
 /// The system (1) in coordinates relative to the base: masses, joints, motion (the format is fixed in docs/system.md).
 ///
 /// # Errors
-/// A driven top on a moving base: the format has one motion for the top and it is relative to the base. Set-valued
-/// friction, bonds and devices with laws of their own, which the format cannot express.
+/// A driven top on a moving base: the format has one motion for the top and it is relative to the base. Planar walls, set-valued
+/// friction, rigid joints, bonds and devices with laws of their own, which the format cannot express.
 pub fn system(model: &Model) -> Result<Value> {
+    model.shear_only("the system for other solvers")?;
+    if let Some(contact) = model.contacts.first() {
+        let name = crate::graph::name(&model.wall, &model.joints[contact.joint as usize]);
+        let error = InputError::new(format!("the rigid joint {name} has no place in the system for other solvers"));
+        return Err(error.key("joint.head.law").allowed("`no-tension`, `elastic`").into());
+    }
     if model.sticks() {
         let error = InputError::new("set-valued friction has no place in the system for other solvers");
         return Err(error.key("joint.friction.law").allowed("`stribeck`, `none`").into());

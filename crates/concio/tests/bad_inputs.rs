@@ -205,6 +205,7 @@ fn table() -> Vec<Bad> {
         "opening in listed blocks", panel("bond = \"explicit\"\nopening = [{ x = 0, y = 0, width = 1, height = 1 }]\n[[panel.block]]\ncourse = 1\nx = 0\ny = 0\nlength = 1\nheight = 1"), "opening =", "panel[0].opening", "does not go with bond `explicit`", "`running`, `stack` or `irregular`";
         "opening of no width", opening("x = 0.3, y = 0, width = 0, height = 0.13"), "opening =", "panel[0].opening[0].width", "0 m is out of range", "above 0 m";
         "block of two corners", shaped("[[0, 0], [1, 0]]", ""), "corners =", "panel[0].block[0].corners", "the block has 2 corners", "3 to 16";
+        "block called base", shaped("[[0, 0], [1, 0], [1, 1], [0, 1]]", "id = \"base\""), "id =", "panel[0].block[0].id", "`base` cannot be the name of a block", "mean something else";
         "block with a dent", shaped("[[0, 0], [1, 0], [0.4, 0.4], [0, 1]]", ""), "corners =", "panel[0].block[0].corners[2]", "the block is not convex", "corners in their order";
         "corner below the base", shaped("[[0, -0.1], [1, 0], [0, 1]]", ""), "corners =", "panel[0].block[0].corners[0]", "-0.1 m is out of range", "from 0 m";
         "block by corners and sides", shaped("[[0, 0], [1, 0], [0, 1]]", "length = 1"), "length =", "panel[0].block[0].length", "the block has `corners`", "`corners`, or `x`, `y`, `length` and `height`";

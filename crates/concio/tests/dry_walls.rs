@@ -19,7 +19,7 @@ fn reference() -> Option<Vec<Value>> {
         println!("skipped: laboratory walls (shared/ not found)");
         return None;
     };
-    serde_json::from_str(&text).ok()
+    Some(serde_json::from_str(&text).expect("JSON"))
 }
 
 /// Peak force under a load on top [N], and how the wall fails.

@@ -47,4 +47,39 @@ fn memory_per_block() {
     assert!(per_block <= 2000, "{per_block} bytes per block");
     // The time loop asks for nothing.
     assert!(MEMORY.peak_usage() <= ready, "{} bytes more while stepping", MEMORY.peak_usage() - ready);
+    drop(run);
+    planar();
+}
+
+const DRY: &str = r#"
+model = "planar"
+[[panel]]
+bond = "running"
+courses = 10
+bricks = 10
+brick = { length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18e3 }
+mortar = { bed = 0, head = 0 }
+[joint]
+bed = { law = "rigid" }
+head = { law = "rigid" }
+friction = { law = "coulomb", static = 0.6, dynamic = 0.6, on = "all" }
+[motion]
+duration = "2 s"
+base = { sine = { acceleration = "0.8 g", frequency = 3, ramp = "0.1 s" } }
+[output]
+interval = "0.1 s"
+frames = "0 s"
+"#;
+
+/// A planar wall whose bodies stay near their neighbours asks for nothing either, once it has slid for the first time.
+fn planar() {
+    let file = from_str(DRY, Syntax::Toml, None).unwrap();
+    file.validate().unwrap();
+    let p = prepare(file.case.clone(), Path::new("")).unwrap();
+    let mut run = Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
+    assert_eq!(run.advance(100), Progress::Running);
+    let ready = MEMORY.current_usage();
+    MEMORY.reset_peak_usage();
+    assert_eq!(run.advance(100), Progress::Running);
+    assert!(MEMORY.peak_usage() <= ready, "{} bytes more while stepping", MEMORY.peak_usage() - ready);
 }

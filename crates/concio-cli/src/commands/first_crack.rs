@@ -76,8 +76,7 @@ fn question(args: &FirstCrack) -> Result<Question, InputError> {
 fn subjects(args: &FirstCrack, wall: &CaseFile) -> Result<Vec<Subject>, Failure> {
     let mut wall = wall.clone();
     let folder = wall.folder().to_path_buf();
-    let own = &mut wall.case.motion;
-    for signal in [&mut own.base, &mut own.top] {
+    for signal in wall.case.motion.signals_mut() {
         *signal = concio_study::motions::rooted(signal, &folder);
     }
     let mut case = wall.case;

@@ -82,14 +82,12 @@ pub fn motion(file: &CaseFile, prepared: &Prepared) -> Result<Vec<(&'static str,
 /// Adds to an error in a record where the wall file names that record.
 fn named(file: &CaseFile, error: Error) -> Error {
     let Error::Input(mut error) = error else { return error };
-    let motion = &file.case.motion;
-    let motions = [("motion.base", &motion.base), ("motion.top", &motion.top), ("motion.vertical", &motion.vertical)];
-    let found = motions.into_iter().find(|(_, signal)| {
+    let found = file.case.motion.signals().into_iter().find(|(_, signal)| {
         let Signal::Record(input) = signal else { return false };
         error.file.as_deref() == Some(file.folder().join(&input.record).as_path())
     });
     if let Some((key, _)) = found {
-        let key = format!("{key}.record");
+        let key = format!("motion.{key}.record");
         let place = match file.locate(InputError::new("").key(&*key).into()) {
             Error::Input(at) => at.file.zip(at.line).map(|(path, line)| format!("{}:{line}", path.display())),
             _ => None,

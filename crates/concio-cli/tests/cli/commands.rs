@@ -325,6 +325,22 @@ fn system_is_the_wall_in_numbers() {
     assert_eq!(system["duration"].as_f64(), Some(0.05));
 }
 
+/// What the format cannot say is not said wrongly.
+#[test]
+fn system_refuses_what_it_cannot_say() {
+    let desk = Desk::new();
+    desk.put("rigid.toml", WALL.replace("\"no-tension\"", "\"rigid\""));
+    desk.put("planar.toml", WALL.replace("\"shear\"", "\"planar\""));
+    for (line, part) in [
+        ("system rigid.toml", "the rigid joint p1c1b1|p1c1b2 has no place"),
+        ("system planar.toml", "knows no planar walls"),
+    ] {
+        let refused = desk.concio(line).assert().code(2).stdout_eq(str![""]);
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(message.contains(part), "{line}: {message}");
+    }
+}
+
 #[test]
 fn results_are_exported() {
     let desk = Desk::new();

@@ -57,9 +57,11 @@ fn constrained_chooses_pairs_and_a_folder() {
 fn constrained_refuses_what_it_cannot_compare() {
     let desk = Desk::new();
     desk.put("elastic.toml", WALL.replace("\"no-tension\"", "\"elastic\""));
+    desk.put("planar.toml", WALL.replace("\"shear\"", "\"planar\""));
     desk.put("bonded.toml", WALL.replace("[load]", "[joint.bond]\ntensile_strength = \"5 kPa\"\n[load]"));
     for (command, parts) in [
         ("compare constrained elastic.toml", &["joint.head.law", "no-tension", "rigid"][..]),
+        ("compare constrained planar.toml", &["model", "knows no planar walls", "allowed: shear"]),
         ("compare constrained bonded.toml", &["joint.bond.tensile_strength", "head joints of this wall are bonded"]),
         (
             "compare constrained wall.toml --pairs base|p1c1b1",
@@ -75,6 +77,10 @@ fn constrained_refuses_what_it_cannot_compare() {
         for part in parts {
             assert!(message.contains(part), "{command}: {part}\n{message}");
         }
-        assert_eq!(desk.list(), ["bonded.toml", "elastic.toml", "wall.toml"], "{command}: something was written");
+        assert_eq!(
+            desk.list(),
+            ["bonded.toml", "elastic.toml", "planar.toml", "wall.toml"],
+            "{command}: something was written"
+        );
     }
 }

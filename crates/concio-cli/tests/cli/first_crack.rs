@@ -204,6 +204,11 @@ fn planar_walls_have_limits_of_their_own_and_cracks_at_rest_are_told() {
     desk.concio("first-crack wall.toml --interval 0.2 --out out").assert().success();
     let report = desk.get("out/report.html");
     assert!(report.contains("Limits of the planar model") && !report.contains("Blocks do not rock"));
+    // Records are looked for where the wall file is, the vertical one too.
+    let record = "{ record = \"up.txt\", units = \"m/s2\", dt = 0.01 }";
+    desk.put("sub/up.txt", "0\n0.1\n0.2\n-0.1\n0\n");
+    desk.put("sub/wall.toml", format!("{PLANAR}vertical = {record}\n"));
+    desk.concio("first-crack sub/wall.toml --interval 0.2 --out up").assert().success();
     desk.put("weak.toml", PLANAR.replace("tensile_strength = \"0.1 MPa\", ", ""));
     let told = desk.concio("first-crack weak.toml --out weak").assert().code(1);
     let told = String::from_utf8_lossy(&told.get_output().stderr).into_owned()

@@ -47,7 +47,9 @@ impl Desk {
         self.folder.path().join(name)
     }
     pub fn put(&self, name: &str, text: impl AsRef<[u8]>) {
-        std::fs::write(self.path(name), text).expect("a file in the temporary folder");
+        let path = self.path(name);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder in the temporary folder");
+        std::fs::write(path, text).expect("a file in the temporary folder");
     }
     pub fn get(&self, name: &str) -> String {
         std::fs::read_to_string(self.path(name)).expect("a text file in the temporary folder")

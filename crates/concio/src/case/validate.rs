@@ -181,19 +181,16 @@ fn solver(f: &mut Findings, case: &Case) {
     }
 }
 
-/// Most samples of a history.
-const MOST_SAMPLES: f64 = 1e8;
-
 fn output(f: &mut Findings, case: &Case) {
     let o = &case.output;
     if let Some(interval) = o.interval {
         f.quantity("output.interval", interval, Bound::Above0);
         if let Some(duration) = case.motion.duration
             && interval.si() > 0.0
-            && duration.si() / interval.si() > MOST_SAMPLES
+            && duration.si() / interval.si() > crate::run::MOST_SAMPLES
         {
-            let allowed = format!("at least {:e} s for this duration", duration.si() / MOST_SAMPLES);
-            f.push("output.interval", format!("{interval} gives more than 100,000,000 samples"), allowed);
+            let allowed = format!("at least {:e} s for this duration", duration.si() / crate::run::MOST_SAMPLES);
+            f.push("output.interval", format!("{interval} gives more than 10,000,000 samples"), allowed);
         }
     }
     if let Some(frames) = o.frames {

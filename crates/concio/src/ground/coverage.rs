@@ -46,10 +46,8 @@ pub fn coverage(record: &Record, duration: f64) -> Coverage {
 /// Records that cannot be read.
 pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) -> Result<Vec<String>> {
     let driven = case.load.beam == Beam::Driven;
-    let motion = &case.motion;
-    let motions = [("base", &motion.base, true), ("top", &motion.top, driven), ("vertical", &motion.vertical, true)];
     let mut found = Vec::new();
-    for (name, signal, _) in motions.into_iter().filter(|m| m.2) {
+    for (name, signal) in case.motion.signals().into_iter().filter(|(name, _)| *name != "top" || driven) {
         let place = if name == "vertical" { "vertical direction" } else { name };
         match signal {
             Signal::Record(input) => {

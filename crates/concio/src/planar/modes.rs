@@ -157,10 +157,19 @@ fn slid(wall: &Wall, joints: &[Joint], slip: &impl Fn(usize) -> f64) -> f64 {
 
 /// Whether cracked joints hang together over at least half of the courses, through head joints and pieces of bed joints.
 fn steps(wall: &Wall, joints: &[Joint], cracked: &impl Fn(&usize) -> bool) -> bool {
+    let reach = 0.6 * wall.panels.iter().map(|p| p.mortar[0].max(p.mortar[1])).fold(0.0, f64::max) + 1e-6;
+    let heights = |e: usize| [joints[e].line[1].min(joints[e].line[3]), joints[e].line[1].max(joints[e].line[3])];
+    // From the lowest up, so that those that may touch one are found at its height.
+    let mut list: Vec<usize> = (0..joints.len()).filter(cracked).collect();
+    list.sort_by(|a, b| heights(*a)[0].total_cmp(&heights(*b)[0]));
+    let tallest = list.iter().map(|e| heights(*e)[1] - heights(*e)[0]).fold(0.0, f64::max);
+    let around = |e: usize| {
+        let [low, high] = heights(e);
+        let from = list.partition_point(|other| heights(*other)[0] < low - tallest - reach);
+        from..list.partition_point(|other| heights(*other)[0] <= high + reach)
+    };
     // Joints meet where they share a block and an end.
-    let list: Vec<usize> = (0..joints.len()).filter(cracked).collect();
     let touch = |a: &Joint, b: &Joint| {
-        let reach = 0.6 * wall.panels.iter().map(|p| p.mortar[0].max(p.mortar[1])).fold(0.0, f64::max) + 1e-6;
         let ends = |j: &Joint| [[j.line[0], j.line[1]], [j.line[2], j.line[3]]];
         ends(a).iter().any(|p| {
             let [x0, y0, x1, y1] = b.line;
@@ -187,7 +196,7 @@ fn steps(wall: &Wall, joints: &[Joint], cracked: &impl Fn(&usize) -> bool) -> bo
             if joint.kind.is_upright() {
                 heads.insert(wall.blocks[joint.a].course);
             }
-            for other in 0..list.len() {
+            for other in around(list[k]) {
                 if !seen[other] && touch(joint, &joints[list[other]]) {
                     seen[other] = true;
                     stack.push(other);

@@ -287,7 +287,7 @@ fn write_events(sink: &mut Sink, events: &[Event]) -> Result<()> {
     sink.texts("events/kind", &kinds, "What happened.")?;
     let value = label(
         "SI",
-        "Impulse of an impact [N s]; stretch of a bond that cracks or is broken, displacement of a block in a collapse [m].",
+        "Impulse of an impact [N s]; stretch of a bond that cracks or is broken, depth of the first crushing, displacement of a block in a collapse [m].",
     );
     sink.list("events/value", &numbers(|e| e.value), value)
 }

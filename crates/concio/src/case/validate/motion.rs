@@ -2,20 +2,21 @@
 
 use super::{Bound, Findings};
 use crate::case::{Baseline, Case, DisplacementPath, Pulse, Ramp, RecordInput, Signal, Sine, Sweep, Synthetic, Tilt};
+use crate::ground::synthetic::{LONGEST, MOST_SAMPLES};
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
     let m = &case.motion;
     match m.duration {
         Some(duration) => f.quantity("motion.duration", duration, Bound::Above0),
-        None if ![&m.base, &m.top, &m.vertical].iter().any(|s| has_length(s)) => {
+        None if !m.signals().iter().any(|(_, s)| has_length(s)) => {
             let what = "the key is missing, and no record says how long the run is";
             f.push("motion.duration", what, "above 0 s");
         }
         None => {}
     }
-    signal(f, "motion.base", &m.base);
-    signal(f, "motion.top", &m.top);
-    signal(f, "motion.vertical", &m.vertical);
+    for (key, s) in m.signals() {
+        signal(f, &format!("motion.{key}"), s);
+    }
 }
 
 /// Whether a run without `duration` ends with the motion: after the others a wall still has something to do.
@@ -143,9 +144,6 @@ fn sweep(f: &mut Findings, key: &str, s: &Sweep) {
     f.quantity(format_args!("{key}.sweep.duration"), s.duration, Bound::Above0);
 }
 
-/// Most samples of a synthetic record.
-const MOST_SYNTHETIC: f64 = 1e7;
-
 fn synthetic(f: &mut Findings, key: &str, s: &Synthetic) {
     f.quantity(format_args!("{key}.synthetic.pga"), s.pga, Bound::Above0);
     f.quantity(format_args!("{key}.synthetic.dt"), s.dt, Bound::Above0);
@@ -153,9 +151,12 @@ fn synthetic(f: &mut Findings, key: &str, s: &Synthetic) {
     if s.duration.si() <= 2.0 {
         f.push(format_args!("{key}.synthetic.duration"), format!("{} is out of range", s.duration), "above 2 s");
     }
-    if s.dt.si() > 0.0 && s.duration.si() / s.dt.si() > MOST_SYNTHETIC {
-        let allowed = format!("at least {:e} s for this duration", s.duration.si() / MOST_SYNTHETIC);
-        f.push(format_args!("{key}.synthetic.dt"), format!("{} gives more than 10,000,000 samples", s.dt), allowed);
+    let least = s.duration.si() / MOST_SAMPLES;
+    if s.dt.si() > LONGEST {
+        f.push(format_args!("{key}.synthetic.dt"), format!("{} is out of range", s.dt), format!("up to {LONGEST} s"));
+    } else if s.dt.si() > 0.0 && s.dt.si() <= least {
+        let allowed = format!("above {least:e} s for this duration");
+        f.push(format_args!("{key}.synthetic.dt"), format!("{} gives 200,000 samples or more", s.dt), allowed);
     }
     for (k, v) in s.corners.into_iter().enumerate() {
         f.quantity(format_args!("{key}.synthetic.corners[{k}]"), v, Bound::Above0);

@@ -283,6 +283,9 @@ fn arch(f: &mut Findings, i: usize, panel: &Panel) {
     }
 }
 
+/// Names in joints, ties and outputs that are not those of blocks.
+const MEANT_OTHERWISE: [&str; 3] = ["base", "top", "all"];
+
 fn explicit(f: &mut Findings, i: usize, panel: &Panel) {
     if panel.blocks.is_empty() {
         f.push(format_args!("panel[{i}].block"), "the panel has no block", "at least one [[panel.block]]");
@@ -299,10 +302,13 @@ fn explicit(f: &mut Findings, i: usize, panel: &Panel) {
         if let Some(weight) = block.specific_weight {
             f.quantity(format_args!("panel[{i}].block[{k}].specific_weight"), weight, Bound::Above0);
         }
-        if let Some(id) = &block.id
-            && (id.is_empty() || id.contains(|c: char| c.is_whitespace() || c == '|' || c == ','))
-        {
-            f.push(key("id"), format!("`{id}` cannot be the name of a block"), "a text without blanks, `|` and commas");
+        if let Some(id) = &block.id {
+            let what = || format!("`{id}` cannot be the name of a block");
+            if id.is_empty() || id.contains(|c: char| c.is_whitespace() || c == '|' || c == ',') {
+                f.push(key("id"), what(), "a text without blanks, `|` and commas");
+            } else if MEANT_OTHERWISE.contains(&id.as_str()) {
+                f.push(key("id"), what(), "another name: `base`, `top` and `all` mean something else");
+            }
         }
     }
     courses_in_use(f, i, panel);
