@@ -5,10 +5,11 @@
 //! corner at the edge. Over a step the stretch g of a spring goes on with the mean of the velocities at its ends, and its
 //! force is that of g_0 + θ (g_1 − g_0):
 //!
-//! (P6)  θ = ½ (1 + x²/(1 + x²)),   x = h ω/4,   ω² = k/m
+//! (P6)  θ = ½ + min(½ x²/(1 + x²), ζ/(2 x)),   x = h ω/4,   ω² = k/m,   ζ = ⅛
 //!
 //! where a spring lets go, in compression only or in line with friction, m being the mass that the point moves: a stiff
-//! joint that rings faster than the step resolves is damped. A spring that closes during the step takes θ = 1: any
+//! joint that rings faster than the step resolves is damped, at a ratio of ζ at most: more would damp the wall's own modes, which are slower,
+//! with it. A spring that closes during the step takes θ = 1: any
 //! less would make energy. What θ takes counts as lost in impacts. Springs in both directions take the midpoint, θ = ½, which keeps energy
 //! whatever the step: the modes of a mortared wall are slower than its joints alone, and would be damped with them.
 
@@ -138,6 +139,8 @@ pub struct Bond {
     pub residual: f64,
 }
 
+/// ζ of (P6): ratio at which a joint that rings faster than the step resolves is damped at most.
+const RINGING: f64 = 0.125;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
 /// Part of its strength below which a softening bond counts as broken.
@@ -358,8 +361,8 @@ impl Law {
     ) -> Start {
         let [u_n, u_t] = velocity;
         let theta = |k: f64, m: f64| {
-            let x = 0.0625 * h * h * k / m;
-            if still { 1.0 } else { 0.5 * (1.0 + x / (1.0 + x)) }
+            let square = 0.0625 * h * h * k / m;
+            if still { 1.0 } else { 0.5 + (0.5 * square / (1.0 + square)).min(0.5 * RINGING / square.sqrt()) }
         };
         let (both, press) = self.springs(point.damage);
         let (both, press, dashpot) = (share * both, share * press, share * self.normal_damping());

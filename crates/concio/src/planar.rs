@@ -3,6 +3,8 @@
 //! Geometry, joints, laws, motions, results and studies are those of the shear model; only what a block can do differs.
 //! The mechanics are those of `concio_planar`.
 
+use std::collections::{BTreeMap, HashSet};
+
 use concio_planar::body::Body;
 use concio_planar::joint::{self, Bond as PointBond, Friction, Law, Normal, Shear};
 use concio_planar::motion::{Link, System};
@@ -235,6 +237,7 @@ fn bodies(wall: &Wall, joints: &[Joint]) -> Vec<Body> {
             _ => {}
         }
     }
+    part(wall, joints, &mut faces);
     let body = |(block, [left, right, low, high]): (&crate::wall::Block, [f64; 4])| {
         if !block.is_rectangle() {
             return polygon(block);
@@ -245,6 +248,42 @@ fn bodies(wall: &Wall, joints: &[Joint]) -> Vec<Body> {
         body
     };
     wall.blocks.iter().zip(faces).map(body).collect()
+}
+
+/// Part of a block's length over which another may lie above it, or not, by rounding.
+const ALIGNED: f64 = 1e-6;
+
+/// Blocks one above the other that face each other over less than the mortar between them have no joint: they keep their own sides, or they would touch there.
+fn part(wall: &Wall, joints: &[Joint], faces: &mut [[f64; 4]]) {
+    let mut rows: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
+    for (i, block) in wall.blocks.iter().enumerate() {
+        rows.entry((block.panel, block.course)).or_default().push(i);
+    }
+    rows.values_mut().for_each(|row| row.sort_by(|a, b| wall.blocks[*a].x[0].total_cmp(&wall.blocks[*b].x[0])));
+    let joined: HashSet<(usize, usize)> = joints
+        .iter()
+        .filter_map(|j| if let End::Block(b) = j.b { Some((j.a.min(b), j.a.max(b))) } else { None })
+        .collect();
+    for (upper, block) in wall.blocks.iter().enumerate() {
+        let below = block.lowest_course().checked_sub(1).and_then(|course| rows.get(&(block.panel, course)));
+        let Some(below) = below else { continue };
+        // Those that end right of where it begins, up to the first that begins right of where it ends.
+        let first = below.partition_point(|i| wall.blocks[*i].x[1] < block.x[0]).saturating_sub(1);
+        for &lower in &below[first..] {
+            let beside = &wall.blocks[lower];
+            if faces[lower][0] > faces[upper][1] {
+                break;
+            }
+            if joined.contains(&(lower.min(upper), lower.max(upper))) {
+                continue;
+            }
+            let (left, right) = if beside.x[0] < block.x[0] { (lower, upper) } else { (upper, lower) };
+            let shorter = wall.blocks[left].length().min(wall.blocks[right].length());
+            if faces[left][1] - faces[right][0] > ALIGNED * shorter {
+                (faces[left][1], faces[right][0]) = (wall.blocks[left].x[1], wall.blocks[right].x[0]);
+            }
+        }
+    }
 }
 
 /// The bonded joints, for their rows in results: the strength of a bed joint without the pressure of the moment, that of a

@@ -163,7 +163,7 @@ fn table() -> Vec<Bad> {
         "two motions", motion("{ record = \"a\", sine = { amplitude = 1, frequency = 1 } }"), "base =", "motion.base", "more than one motion", "exactly one of";
         "a path for a motion", motion("\"quake.at2\""), "base =", "motion.base", "`quake.at2` is not a motion; a file is given as { record", "\"none\"";
         "no duration", edit("duration = \"0.5 s\"\n", ""), "[motion]", "motion.duration", "no record says how long", "above 0 s";
-        "output without end", format!("{GOOD}[output]\ninterval = 1e-12\n"), "interval", "output.interval", "more than 100,000,000 samples", "at least 5e-9 s";
+        "output without end", format!("{GOOD}[output]\ninterval = 1e-12\n"), "interval", "output.interval", "more than 10,000,000 samples", "at least 5e-8 s";
         "unknown block kept", format!("{GOOD}[output]\nblocks = [\"p1c1b1\", \"p1c9b1\"]\n"), "blocks =", "output.blocks[1]", "no block is called `p1c9b1`", "did you mean `p1c";
         "tolerance", format!("{GOOD}[solver]\ntolerance = 0\n"), "tolerance", "solver.tolerance", "0 is out of range", "1e-12 … 0.1";
         "unknown panel chosen", change("at = { panel = [\"tower\"] }\nspring = { stiffness = 0 }"), "at =", "joint.change[0].at.panel[0]", "no panel is called `tower`", "`p1`";

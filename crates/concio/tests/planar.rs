@@ -6,6 +6,7 @@ use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
 use concio::record::EventKind;
 use concio::run::{Prepared, prepare, run_in_memory};
+use concio::wall::End;
 
 fn prepared(text: &str) -> Prepared {
     let file = from_str(text, Syntax::Toml, None).expect("a wall file");
@@ -771,6 +772,98 @@ base = { synthetic = { seed = 28, pga = "1.5 g", duration = "4 s" } }
 step = "2 ms"
 "#);
     let residual = outcome.totals.peak_residual / outcome.totals.peak_input;
-    assert!(outcome.totals.collapse.is_some() && outcome.energies.bond > 100.0, "{:?}", outcome.energies);
+    assert!(outcome.totals.collapse.is_some() && outcome.energies.bond > 30.0, "{:?}", outcome.energies);
     assert!(residual < 1e-4, "{residual:e}");
+}
+
+/// Steps of a millisecond leave a tower on stiff joints its own period of 24 ms: after twenty of them a third of what a push gave it is there. Damped as the
+/// joints alone were for their ringing it would stand still after three.
+#[test]
+fn a_tower_rings_at_steps_that_do_not_resolve_its_joints() {
+    let (_, outcome) = ran(r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 10
+bricks = 1
+brick = { length = "800 mm", height = "200 mm", thickness = "300 mm", specific_weight = "20 kN/m3" }
+mortar = { bed = 0, head = 0 }
+[joint]
+damping_ratio = 0
+bed = { law = "no-tension", stiffness = "10 N/mm3", rigidity = 1 }
+head = { law = "no-tension", stiffness = "10 N/mm3", rigidity = 1 }
+friction = { law = "coulomb", static = 0.6, dynamic = 0.6 }
+[load]
+top = "20 kN/m"
+[motion]
+duration = "0.5 s"
+base = { pulse = { shape = "half-sine", acceleration = "0.05 g", duration = "0.05 s" } }
+[solver]
+step = "1 ms"
+"#);
+    let e = &outcome.energies;
+    let left = 1.0 - (e.impact + e.friction) / e.input_base;
+    assert!(left > 0.25 && e.impact > 0.0, "{left} {e:?}");
+}
+
+/// Bricks of adjacent courses that face each other over less than a head joint's mortar have no joint, and do not touch: every block is in
+/// balance by its joints alone. At overlaps that are one brick carries the other.
+#[test]
+fn blocks_without_a_joint_do_not_bear_on_each_other() {
+    for shift in [-15, -12, -8, -5, -1, 2, 5, 9, 12, 20] {
+        let (p, outcome) = ran(&format!(
+            r#"
+model = "planar"
+[[panel]]
+bond = "irregular"
+brick = {{ length = "250 mm", height = "120 mm", thickness = "250 mm", specific_weight = "18 kN/m3" }}
+mortar = {{ bed = "10 mm", head = "10 mm" }}
+[[panel.course]]
+height = "120 mm"
+bricks = ["250 mm", "250 mm"]
+[[panel.course]]
+height = "120 mm"
+bricks = ["{} mm", "{} mm"]
+[[panel.course]]
+height = "120 mm"
+bricks = ["250 mm", "250 mm"]
+[joint]
+damping_ratio = 0.2
+bed = {{ law = "elastic", stiffness = "15 N/mm3" }}
+head = {{ law = "elastic", stiffness = "36 N/mm3" }}
+friction = {{ law = "coulomb", static = 0.6, dynamic = 0.6, on = "all" }}
+bond = {{ tensile_strength = "1 MPa", cohesion = "1.5 MPa", friction_angle = "31 deg" }}
+[load]
+top = "100 kN/m"
+[motion]
+duration = "20 ms"
+base = "none"
+"#,
+            250 + shift,
+            250 - shift
+        ));
+        let (recording, joints) = (&outcome.recording, &p.model.joints);
+        let at = recording.frame_pressure.len() - joints.len();
+        let mut lift = vec![0.0; p.model.wall.blocks.len()];
+        for (e, joint) in joints.iter().enumerate() {
+            let (pressure, shear) = (recording.frame_pressure[at + e], recording.frame_friction[at + e]);
+            match (joint.kind.is_upright(), joint.b) {
+                (_, End::Base) => lift[joint.a] += pressure,
+                (_, End::Top) => {}
+                (false, End::Block(b)) => {
+                    lift[joint.a] -= pressure;
+                    lift[b] += pressure;
+                }
+                (true, End::Block(b)) => {
+                    lift[joint.a] += shear;
+                    lift[b] -= shear;
+                }
+            }
+        }
+        for (block, lift) in p.model.wall.blocks.iter().zip(&lift) {
+            let load = if block.course == 2 { 100e3 * block.length() } else { 0.0 };
+            let off = lift - load - block.weight();
+            assert!(off.abs() < 60.0, "{} is off by {off} N at {shift} mm", block.name);
+        }
+    }
 }

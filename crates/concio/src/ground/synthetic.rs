@@ -39,8 +39,6 @@ const GOOD: f64 = 0.07;
 const ATTEMPTS: u64 = 4;
 /// Parts of the duration: end of the rise, end of the plateau; height left at the end.
 const ENVELOPE: [f64; 3] = [0.15, 0.6, 0.02];
-/// Longest sample interval [s].
-pub(crate) const LONGEST: f64 = 0.02;
 /// No motion below this frequency, all of it from twice the frequency on [Hz].
 const LOW_CUT: f64 = 0.1;
 /// Samples are fewer than this.
@@ -125,7 +123,7 @@ pub(super) fn check(input: &Synthetic) -> Result<()> {
     if let Some(error) = interval_error(dt) {
         return Err(error.key("synthetic.dt").into());
     }
-    range("synthetic.dt", dt, dt <= LONGEST, "up to 0.02 s")?;
+    range("synthetic.dt", dt, dt <= 0.02, "up to 0.02 s")?;
     range("synthetic.duration", duration, duration / dt < MOST_SAMPLES, "fewer than 200,000 samples")?;
     let ordered = corners[0] > 0.0 && corners.windows(2).all(|pair| pair[0] < pair[1]);
     range("synthetic.corners", corners[0], ordered && corners[2].is_finite(), "0 < T_B < T_C < T_D")

@@ -2,7 +2,7 @@
 
 use super::{Bound, Findings};
 use crate::case::{Baseline, Case, DisplacementPath, Pulse, Ramp, RecordInput, Signal, Sine, Sweep, Synthetic, Tilt};
-use crate::ground::synthetic::{LONGEST, MOST_SAMPLES};
+use crate::ground::synthetic::MOST_SAMPLES;
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
     let m = &case.motion;
@@ -152,9 +152,7 @@ fn synthetic(f: &mut Findings, key: &str, s: &Synthetic) {
         f.push(format_args!("{key}.synthetic.duration"), format!("{} is out of range", s.duration), "above 2 s");
     }
     let least = s.duration.si() / MOST_SAMPLES;
-    if s.dt.si() > LONGEST {
-        f.push(format_args!("{key}.synthetic.dt"), format!("{} is out of range", s.dt), format!("up to {LONGEST} s"));
-    } else if s.dt.si() > 0.0 && s.dt.si() <= least {
+    if s.dt.si() > 0.0 && s.dt.si() <= least {
         let allowed = format!("above {least:e} s for this duration");
         f.push(format_args!("{key}.synthetic.dt"), format!("{} gives 200,000 samples or more", s.dt), allowed);
     }
