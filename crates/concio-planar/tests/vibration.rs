@@ -41,5 +41,16 @@ fn a_block_on_springs_sways_as_two_unknowns_do() {
         assert!((found.frequency / expected() - 1.0).abs() < 5e-5, "{found:?} instead of {}", expected());
         assert!(found.damping > 0.0, "{found:?}");
     }
-    assert_eq!(block(Normal::Rigid { restitution: 0.0 }, false).slowest(), None);
+}
+
+/// On a rigid joint that gives way along alone, as on an isolator, it only sways; where nothing gives way it does not.
+#[test]
+fn a_rigid_joint_holds_what_it_bears() {
+    let found = block(Normal::Rigid { restitution: 0.0 }, false).slowest().expect("it sways");
+    assert!((found.frequency / (ALONG / MASS).sqrt() - 1.0).abs() < 1e-5, "{found:?}");
+    assert!((found.damping / (300.0 / (2.0 * (ALONG * MASS).sqrt())) - 1.0).abs() < 1e-4, "{found:?}");
+    let body = Body::rectangle("b", [0.0, LENGTH], [0.0, HEIGHT], MASS);
+    let mut motion = Motion::new(&System::dry(&[body], 0.6), Setting::new(1e-4));
+    assert!(motion.stand(1e-10, 400));
+    assert_eq!(motion.slowest(), None);
 }

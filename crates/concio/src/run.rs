@@ -11,7 +11,7 @@ use crate::error::{Error, InputError, Result};
 use crate::excitation::Excitation;
 use crate::ground::signal::compile_with;
 use crate::ground::{Library, coverage};
-use crate::model::Model;
+use crate::model::{Model, Rub};
 use crate::outcome::Outcome;
 use crate::pattern;
 use crate::planar;
@@ -309,6 +309,30 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
         let law = model.planar.as_ref().map(|planar| planar.system.links[e].law.normal);
         matches!(law, Some(Normal::Springs { both: 0.0, press, .. }) if press > 0.0)
     };
+    let rubbing = |r: &Rub| store::FrictionRow {
+        law: match r.law.sticks() {
+            false => FrictionLaw::Stribeck,
+            true if r.law.slip_velocity == 0.0 => FrictionLaw::Coulomb,
+            true => FrictionLaw::StribeckStick,
+        },
+        static_: r.law.static_,
+        dynamic: r.law.dynamic,
+        slip_velocity: r.law.slip_velocity,
+        beta: if r.law.sticks() { 0.0 } else { r.law.beta },
+        alpha: r.law.alpha,
+    };
+    // In planar walls upright joints rub under the pressure of the moment, which the shear model's friction has no place for.
+    let of_planar = |e: usize| {
+        let rubs = model.planar.as_ref()?.system.links[e].law.friction?;
+        Some(store::FrictionRow {
+            law: if rubs.slip_velocity == 0.0 { FrictionLaw::Coulomb } else { FrictionLaw::StribeckStick },
+            static_: rubs.static_,
+            dynamic: rubs.dynamic,
+            slip_velocity: rubs.slip_velocity,
+            beta: 0.0,
+            alpha: rubs.alpha,
+        })
+    };
     let row = |(e, rub): (usize, Option<usize>)| {
         let rub = rub.map(|r| &model.rubs[r]);
         let (joint, law) = (&model.joints[e], &model.elastic[e]);
@@ -326,18 +350,7 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
             restitution: contact[e].map_or(0.0, |c| model.contacts[c].restitution),
             device: device[e],
             normal_force: rub.map_or([0.0; 2], |r| r.normal),
-            friction: rub.map(|r| store::FrictionRow {
-                law: match r.law.sticks() {
-                    false => FrictionLaw::Stribeck,
-                    true if r.law.slip_velocity == 0.0 => FrictionLaw::Coulomb,
-                    true => FrictionLaw::StribeckStick,
-                },
-                static_: r.law.static_,
-                dynamic: r.law.dynamic,
-                slip_velocity: r.law.slip_velocity,
-                beta: if r.law.sticks() { 0.0 } else { r.law.beta },
-                alpha: r.law.alpha,
-            }),
+            friction: rub.map(rubbing).or_else(|| of_planar(e)),
         }
     };
     model.rub_of_joint().into_iter().enumerate().map(row).collect()

@@ -1,7 +1,7 @@
 //! `concio check`.
 
 use concio::bond;
-use concio::case::{Case, DeviceLaw, JointKind};
+use concio::case::{Beam, Case, DeviceLaw, JointKind};
 use concio::device;
 use concio::model::Model;
 use concio_study::shaking::{Mode, first_mode};
@@ -39,7 +39,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let samples = (duration / prepared.sampling.interval).floor() as u64 + 1;
     let mut general = vec![
         ("unknowns", (model.unknowns() * if model.planar.is_some() { 3 } else { 1 }).to_string()),
-        ("mass", mass(model.mass.iter().sum())),
+        ("mass", mass(total(model))),
     ];
     if model.wall.blocks.len() <= TRIED {
         general.extend(model.planar.as_ref().map(|own| ("under its loads", planar::rest(own))));
@@ -192,17 +192,25 @@ fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
     Ok(rows)
 }
 
+/// Mass of the blocks, and of a beam that has one [kg]: what a planar wall is led by has a body too.
+fn total(model: &Model) -> f64 {
+    let of_beam = if let Beam::Mass(m) = model.beam { m.si() } else { 0.0 };
+    model.wall.blocks.iter().map(|b| b.mass()).sum::<f64>() + of_beam
+}
+
 fn joint_list(model: &Model) -> Vec<Vec<String>> {
-    let mut rows = vec![["joint", "kind", "course", "weight", "normal force"].map(String::from).to_vec()];
+    let mut rows = vec![["joint", "kind", "course", "overlap", "normal force"].map(String::from).to_vec()];
     // A column of its own only where there is something to tell.
     let devices = model.device_of_joint();
     if !model.devices.is_empty() {
         rows[0].push("device".into());
     }
     let rubs = model.rub_of_joint();
+    // Statics by columns knows upright sides alone.
+    let upright = model.wall.blocks.iter().all(concio::wall::Block::is_rectangle);
     for (((joint, name), rub), device) in model.joints.iter().zip(model.joint_names()).zip(rubs).zip(devices) {
         // A friction damper slips at a force of its own, whatever presses it.
-        let rub = rub.filter(|_| device.is_none());
+        let rub = rub.filter(|_| device.is_none() && upright);
         let normal = rub.map_or("–".into(), |r| range(model.rubs[r].normal.into_iter(), |v| si(v, "N")));
         let course = joint.course(&model.wall).to_string();
         let mut row = vec![name, kind_name(joint.kind).into(), course, significant(joint.weight, 4), normal];

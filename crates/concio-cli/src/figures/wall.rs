@@ -205,7 +205,11 @@ pub fn cracks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
 fn openings(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let peaks = &data.run.outcome.envelopes.joint_opening;
     let (values, text) = if options.at == Instant::Peak {
-        (peaks.clone(), "widest over the whole history".into())
+        let collapse = data.run.outcome.totals.collapse.map(|c| crate::format::seconds(rounded(c.time)));
+        (
+            peaks.clone(),
+            collapse.map_or("widest over the whole history".into(), |t| format!("widest until the collapse at {t}")),
+        )
     } else {
         let moment = data.moment(options.at, |_, _| 0.0)?;
         let values = (0..data.run.joints.len()).map(|e| moment.joint(e).opening).collect();

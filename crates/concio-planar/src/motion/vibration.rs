@@ -8,6 +8,9 @@ use crate::joint::Normal;
 /// Relative change of ω² at which the iteration ends, and its rounds.
 const SETTLED: f64 = 1e-12;
 const ROUNDS: usize = 1000;
+/// What stands for a rigid contact, over the stiffest spring, and the part of a vibration's energy in such contacts from which nothing else swings.
+const RIGID: f64 = 1e6;
+const ALL: f64 = 1e-3;
 
 /// A small vibration.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,31 +24,35 @@ pub struct Vibration {
 /// A spring and a dashpot along a row of the two bodies.
 struct Holds {
     rows: [Triple; 2],
+    /// Whether nothing gives way, and the stiffness is to be that of the rigid.
+    rigid: bool,
     stiffness: f64,
     damping: f64,
 }
 
 impl Motion {
     /// The slowest vibration about where the bodies are after the last step, with the joints that bear there as they bear: springs in
-    /// compression only where they are pressed, in line with friction where they stick. The weight's own stiffness is left out. None
-    /// where a rigid joint bears, or nothing holds a body.
+    /// compression only where they are pressed, in line with friction where they stick; rigid contacts that bear hold, along too where they rub. The
+    /// weight's own stiffness is left out. None where nothing but rigid contacts would swing, or nothing holds a body.
     ///
     /// Inverse iteration with the Rayleigh quotient.
     pub fn slowest(&self) -> Option<Vibration> {
-        let rigid = |(contact, owner): (&Contact, &Owner)| {
-            let law = self.pairs[owner.pair].link.map_or(&self.other, |k| &self.links[k].law);
-            matches!(law.normal, Normal::Rigid { .. }) && contact.impulse[0] != 0.0
-        };
-        if self.contacts.iter().zip(&self.owners).any(rigid) {
-            return None;
-        }
         let mut matrix = Blocks::new(self.places.len(), &self.coupled);
         // What is held stays: any stiffness of its own does.
         let stays = |held: &[bool; 3]| [0, 1, 2].map(|k| if held[k] { 1.0 } else { 0.0 });
         matrix.reset(&self.held.iter().map(stays).collect::<Vec<_>>());
+        let held =
+            || self.contacts.iter().zip(&self.owners).map(|(contact, owner)| (contact, self.holding(contact, owner)));
+        let stiffest = held().flat_map(|(_, both)| both).fold(0.0, |most: f64, h| most.max(h.stiffness));
         let mut springs = Vec::new();
-        for (contact, owner) in self.contacts.iter().zip(&self.owners) {
-            for holds in self.holding(contact, owner).into_iter().filter(|h| h.stiffness > 0.0 || h.damping > 0.0) {
+        for (contact, both) in held() {
+            for mut holds in both {
+                if holds.rigid {
+                    holds.stiffness = RIGID * stiffest;
+                }
+                if holds.stiffness == 0.0 && holds.damping == 0.0 {
+                    continue;
+                }
                 matrix.add(contact.rows.second(), holds.stiffness, holds.rows[1]);
                 if let (Some(a), Some(slot)) = (contact.rows.first(), contact.slot) {
                     matrix.add(a, holds.stiffness, holds.rows[0]);
@@ -78,14 +85,15 @@ impl Motion {
                 return None;
             }
             if (square - before).abs() <= SETTLED * square {
-                let taken = |(a, b, holds): &(Option<usize>, usize, Holds)| {
+                let stretch = |(a, b, holds): &(Option<usize>, usize, Holds)| {
                     let along = |body: usize, row: &Triple| (0..3).map(|k| row[k] * x[body][k]).sum::<f64>();
-                    let stretch = a.map_or(0.0, |a| along(a, &holds.rows[0])) + along(*b, &holds.rows[1]);
-                    holds.damping * stretch * stretch
+                    a.map_or(0.0, |a| along(a, &holds.rows[0])) + along(*b, &holds.rows[1])
                 };
                 let frequency = square.sqrt();
-                let taken: f64 = springs.iter().map(taken).sum();
-                return Some(Vibration { frequency, damping: taken / (2.0 * frequency * bottom) });
+                let taken: f64 = springs.iter().map(|s| s.2.damping * stretch(s).powi(2)).sum();
+                let rigid: f64 = springs.iter().filter(|s| s.2.rigid).map(|s| s.2.stiffness * stretch(s).powi(2)).sum();
+                return (rigid <= ALL * square * bottom)
+                    .then_some(Vibration { frequency, damping: taken / (2.0 * frequency * bottom) });
             }
             before = square;
             let scale = 1.0 / bottom.sqrt();
@@ -100,11 +108,14 @@ impl Motion {
         let point = &self.pairs[owner.pair].points[owner.point];
         let pressed = contact.impulse[0] > 0.0;
         let [across, along] = law.tangent(point.damage, pressed);
-        let holds = |rows, [stiffness, damping]: [f64; 2]| Holds {
+        let bears = matches!(law.normal, Normal::Rigid { .. }) && contact.impulse[0] != 0.0;
+        let holds = |rows, [stiffness, damping]: [f64; 2], rigid: bool| Holds {
             rows,
+            rigid: rigid && stiffness == 0.0,
             stiffness: owner.share * stiffness,
             damping: owner.share * damping,
         };
-        [holds(contact.rows.normal, across), holds(contact.rows.tangent, along)]
+        let sticks = contact.friction > 0.0 || contact.hold > 0.0;
+        [holds(contact.rows.normal, across, bears), holds(contact.rows.tangent, along, bears && sticks)]
     }
 }
