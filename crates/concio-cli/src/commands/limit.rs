@@ -56,6 +56,18 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
         let written = args.out.as_deref().map(names).unwrap_or_default();
         files::print(&format!("{title}{}{written}", pairs(&rows(args, &weaker, other.as_ref()))))?;
     }
+    let estimates = [Some(&weaker), other.as_ref()].map(|p| {
+        let found = &p?.found.non_associative;
+        (found.stop == Stop::Converged).then_some(found.multiplier)
+    });
+    if let ([Some(this), Some(that)], Some(other)) = (estimates, &other)
+        && that < this * (1.0 - EQUAL)
+    {
+        let (way, that, this) = (side(other.towards), significant(that, 4), significant(this, 4));
+        files::note(&format!(
+            "warning: without dilation the wall is weaker to the {way}, by the estimates: {that} instead of {this}; real friction does not dilate"
+        ));
+    }
     // A way that is not certified may be the weaker.
     let open: Vec<&Pushed> =
         [Some(&weaker), other.as_ref()].into_iter().flatten().filter(|p| !p.found.is_certified()).collect();
@@ -144,7 +156,12 @@ fn rows(
     ];
     if let Some(other) = other {
         let value = significant(other.found.multiplier(), 6);
-        rows.insert(3, ("the other way", format!("λ = {value} to the {}", side(other.towards))));
+        let estimate = &other.found.non_associative;
+        let without = match estimate.stop {
+            Stop::Converged => format!("; without dilation {}", significant(estimate.multiplier, 4)),
+            _ => String::new(),
+        };
+        rows.insert(3, ("the other way", format!("λ = {value} to the {}{without}", side(other.towards))));
     }
     if mechanism.joints.iter().any(|j| j.slides) {
         rows.push(("joints that slide", named(|j| j.slides)));
@@ -185,8 +202,19 @@ fn result(args: &Limit, Pushed { towards, problem, found }: &Pushed, other: Opti
     let forces: Vec<Value> = points
         .map(|(p, f)| json!({ "joint": problem.joints[p.joint], "at": p.at, "normal": f[0], "tangential": f[1] }))
         .collect();
-    let estimate = &found.non_associative;
-    let converged = estimate.stop == Stop::Converged;
+    let without_dilation = |found: &NonAssociative| {
+        let converged = found.stop == Stop::Converged;
+        json!({
+            "multiplier": converged.then_some(found.multiplier),
+            "converged": converged, "rounds": found.rounds, "excess": found.excess,
+        })
+    };
+    let other = other.map(|o| {
+        json!({
+            "towards": side(o.towards), "multiplier": o.found.multiplier(), "bounds": o.found.bounds,
+            "non_associative": without_dilation(&o.found.non_associative),
+        })
+    });
     json!({
         "version": env!("CARGO_PKG_VERSION"),
         "load": match args.load { LimitLoad::Body => "body", LimitLoad::Top => "top" },
@@ -195,14 +223,11 @@ fn result(args: &Limit, Pushed { towards, problem, found }: &Pushed, other: Opti
         "live_load": problem.live.iter().map(|f| f[0]).sum::<f64>(),
         "multiplier": found.multiplier(),
         "bounds": found.bounds,
-        "other_way": other.map(|o| json!({ "towards": side(o.towards), "multiplier": o.found.multiplier(), "bounds": o.found.bounds })),
+        "other_way": other,
         "gap": found.gap(),
         "certified": found.is_certified(),
         "unbalanced": found.unbalanced,
-        "non_associative": {
-            "multiplier": converged.then_some(estimate.multiplier),
-            "converged": converged, "rounds": estimate.rounds, "excess": estimate.excess,
-        },
+        "non_associative": without_dilation(&found.non_associative),
         "mechanism": {
             "kind": found.mechanism.kind.name(),
             "blocks": blocks,

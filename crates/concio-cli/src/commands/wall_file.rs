@@ -69,7 +69,9 @@ fn of_record(error: Error) -> Error {
 
 /// Lays the wall, compiles the system, reads the records.
 pub fn prepare(file: &CaseFile) -> Result<Prepared, Failure> {
-    let mut prepared = run::prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)))?;
+    let prepared = run::prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)));
+    // A length in the wrong unit makes walls that cannot be laid.
+    let mut prepared = prepared.inspect_err(|_| warn(file, &file.unit_doubts()))?;
     prepared.model.warnings.splice(0..0, file.unit_doubts());
     Ok(prepared)
 }

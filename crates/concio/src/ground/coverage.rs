@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::G;
 use crate::case::{Beam, Case, RecordInput, Signal};
 use crate::error::Result;
 use crate::ground::record::Record;
@@ -14,6 +15,9 @@ const SLACK: f64 = 1e-6;
 pub const DRIFT: f64 = 0.5;
 
 /// Displacement [m] at the end of a motion below which nobody minds.
+/// Peak accelerations of records beyond which units are doubted [m/s²].
+const SMALLEST_PEAK: f64 = 0.01;
+const LARGEST_PEAK: f64 = 60.0;
 const SMALLEST_DRIFT: f64 = 0.01;
 
 /// How a run of `duration` [s] covers a record.
@@ -55,6 +59,7 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                 let record = library.record(input, folder)?;
                 found.extend(uncovered(place, "record", &record, duration));
                 found.extend(drifting(place, &record));
+                found.extend(implausible(name, &record));
             }
             Signal::Synthetic(input) => {
                 found.extend(uncovered(place, "accelerogram", &library.synthetic(input)?, duration));
@@ -92,6 +97,20 @@ fn drifting(name: &str, record: &Record) -> Option<String> {
              `baseline = {{ high_pass = \"0.1 Hz\" }}` takes that away (the acceleration is hardly touched)",
             1e3 * end,
             1e3 * peak
+        )
+    })
+}
+
+/// Peaks that no earthquake has, or that no wall feels, come from units.
+fn implausible(name: &str, record: &Record) -> Option<String> {
+    let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+    let how = if peak > LARGEST_PEAK { "more" } else { "less" };
+    let bound = if peak > LARGEST_PEAK { LARGEST_PEAK } else { SMALLEST_PEAK };
+    (peak > 0.0 && !(SMALLEST_PEAK..=LARGEST_PEAK).contains(&peak)).then(|| {
+        format!(
+            "motion.{name}: the record's peak acceleration is {:.2e} g as it moves the wall, {how} than {:.2e} g: look at `units`, `scale` and `pga`",
+            peak / G,
+            bound / G
         )
     })
 }
