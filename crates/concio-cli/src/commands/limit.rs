@@ -22,6 +22,8 @@ const DRAWING: &str = "mechanism.svg";
 const NAMED: usize = 8;
 /// Relative difference of two multipliers that are equal.
 const EQUAL: f64 = 1e-6;
+/// Part by which estimates without dilation have to differ for one to be called the lower.
+const TELLING: f64 = 0.01;
 
 /// Finds the collapse multiplier of a wall.
 pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
@@ -61,7 +63,7 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
         (found.stop == Stop::Converged).then_some(found.multiplier)
     });
     if let ([Some(this), Some(that)], Some(other)) = (estimates, &other)
-        && that < this * (1.0 - EQUAL)
+        && that < this * (1.0 - TELLING)
     {
         let (way, that, this) = (side(other.towards), significant(that, 4), significant(this, 4));
         files::note(&format!(

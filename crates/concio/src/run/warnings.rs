@@ -20,6 +20,8 @@ const LARGE_RESIDUAL: f64 = 1e-3;
 
 /// Energy that contacts gave back, over the largest work, beyond which a result should not be used.
 const GIVEN_BACK: f64 = 0.01;
+/// Part of what was lost that may go to joints closing or ringing faster than steps resolve, before peaks should be doubted for it.
+const UNRESOLVED: f64 = 0.2;
 /// Way of the wall's weight whose work is nothing [m]: what a wall at rest does.
 const NOTHING: f64 = 1e-8;
 
@@ -34,6 +36,7 @@ pub(super) fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<S
         },
         unsolved(outcome),
         collapsed(model, outcome),
+        unresolved(model, outcome),
         large_slips(model, outcome),
         creep(joints, outcome),
     ];
@@ -87,6 +90,23 @@ fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
     let what = "peaks and slips are those of the time before, cracks and energies those of the whole run; another step \
                 moves time and block";
     Some(format!("{alone}the wall counts as collapsed from t = {time:.4} s on, when block {name} {did}: {what}"))
+}
+
+/// Springs keep what they take: where all joints have some, what impacts take is what steps leave out.
+fn unresolved(model: &Model, outcome: &Outcome) -> Option<String> {
+    let planar = model.planar.as_ref().filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
+    if !planar.system.links.iter().all(|link| link.law.is_compliant()) {
+        return None;
+    }
+    let (lost, impact) = (outcome.energies.dissipated(), outcome.energies.impact);
+    let weight = G * model.mass.iter().sum::<f64>();
+    (impact > UNRESOLVED * lost && impact > NOTHING * weight).then(|| {
+        format!(
+            "{:.0} % of the energy lost went to joints that close or ring faster than a step resolves: see whether peaks stay at half of \
+             solver.step",
+            100.0 * impact / lost
+        )
+    })
 }
 
 /// The shear model keeps its joints as they were laid: says where that ceases to be a fair picture.
