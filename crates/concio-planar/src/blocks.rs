@@ -1,9 +1,9 @@
 //! Matrices of 3 × 3 blocks with a pattern that is symmetric and stays: ordered and laid out once, factorised again and again.
 
-use std::collections::BTreeSet;
-
 use pulp::{Arch, Simd, WithSimd};
 use serde::{Deserialize, Serialize};
+
+use crate::order::Orders;
 
 /// A block, by rows of four for the sake of registers; the last column is 0.
 pub type Block = [[f64; 4]; 3];
@@ -145,9 +145,9 @@ impl Pivot {
 }
 
 /// [`Blocks::factorise`] compiled for some registers.
-struct Elimination<'a, 'b>(&'a mut Blocks, &'b mut [Triple]);
+struct Factorising<'a, 'b>(&'a mut Blocks, &'b mut [Triple]);
 
-impl WithSimd for Elimination<'_, '_> {
+impl WithSimd for Factorising<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -175,22 +175,18 @@ pub struct Slot {
 
 impl Blocks {
     /// With a block for each body and each of `pairs`, all zero.
-    pub fn new(bodies: usize, pairs: &[(usize, usize)]) -> Self {
-        let mut near: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); bodies];
-        for &(a, b) in pairs {
-            near[a].insert(b);
-            near[b].insert(a);
-        }
-        let (order, rows) = grouped(eliminated(near.clone()));
-        let mut place = vec![0; bodies];
-        order.iter().enumerate().for_each(|(k, &body)| place[body] = k);
+    pub fn new(bodies: usize, pairs: &[(usize, usize)], orders: &Orders) -> Self {
+        let elimination = orders.elimination(bodies, pairs);
+        let place: Vec<usize> = elimination.places().iter().map(|k| *k as usize).collect();
         let (mut start, mut columns) = (vec![0], Vec::new());
-        for row in &rows {
-            let mut row: Vec<usize> = row.iter().map(|&b| place[b]).collect();
-            row.sort_unstable();
-            columns.extend(row);
+        for row in &elimination.rows {
+            columns.extend(row.iter().map(|k| *k as usize));
             start.push(columns.len());
         }
+        let mut entries: Vec<(usize, usize)> =
+            pairs.iter().map(|&(a, b)| (place[a].min(place[b]), place[a].max(place[b]))).collect();
+        entries.sort_unstable();
+        entries.dedup();
         let mut blocks = Blocks {
             place,
             start,
@@ -199,20 +195,21 @@ impl Blocks {
             targets: Vec::new(),
             diagonal: vec![ZERO; bodies],
             paired: Vec::new(),
-            first: vec![0],
+            first: Vec::with_capacity(bodies + 1),
             given: Vec::new(),
             beside: vec![Both::ZERO; columns.len()],
             columns,
             is_symmetric: true,
             pivots: vec![Pivot::default(); bodies],
         };
-        for (own, body) in order.iter().enumerate() {
-            let mut columns: Vec<usize> = near[*body].iter().map(|b| blocks.place[*b]).filter(|j| *j > own).collect();
-            columns.sort_unstable();
-            let places: Vec<u32> = columns.iter().map(|j| (blocks.find(own, *j) - blocks.start[own]) as u32).collect();
+        for own in entries.chunk_by(|one, other| one.0 == other.0) {
+            let row = own[0].0;
+            blocks.first.resize(row + 1, blocks.paired.len());
+            let places = own.iter().map(|(_, column)| (blocks.find(row, *column) - blocks.start[row]) as u32);
+            let places: Vec<u32> = places.collect();
             blocks.paired.extend(places);
-            blocks.first.push(blocks.paired.len());
         }
+        blocks.first.resize(bodies + 1, blocks.paired.len());
         blocks.given = vec![Both::ZERO; blocks.paired.len()];
         blocks.link();
         blocks
@@ -337,7 +334,7 @@ impl Blocks {
     fn factorise_with(&mut self, sides: &mut [Triple]) {
         // In the widest registers there are. Products of blocks are added without rounding in between on every machine, where need be one by one, so
         // that bits do not tell them apart.
-        Arch::new().dispatch(Elimination(self, sides));
+        Arch::new().dispatch(Factorising(self, sides));
     }
 
     /// Every row takes what those before it change: it stays near while they pass by.
@@ -443,52 +440,6 @@ impl Blocks {
     pub fn fill(&self) -> usize {
         self.columns.len()
     }
-}
-
-/// The order in which bodies are eliminated, and the neighbours that each has left then.
-type Order = (Vec<usize>, Vec<Vec<usize>>);
-
-/// Minimum degree.
-fn eliminated(mut near: Vec<BTreeSet<usize>>) -> Order {
-    let mut queue: BTreeSet<(usize, usize)> = near.iter().enumerate().map(|(b, n)| (n.len(), b)).collect();
-    let (mut order, mut rows) = (Vec::new(), Vec::new());
-    while let Some((_, body)) = queue.pop_first() {
-        let row: Vec<usize> = std::mem::take(&mut near[body]).into_iter().collect();
-        for &i in &row {
-            queue.remove(&(near[i].len(), i));
-            near[i].remove(&body);
-            near[i].extend(row.iter().filter(|j| **j != i));
-        }
-        for &i in &row {
-            queue.insert((near[i].len(), i));
-        }
-        order.push(body);
-        rows.push(row);
-    }
-    (order, rows)
-}
-
-/// The same elimination with what feeds a row right before it, by the tree of who feeds whom first.
-fn grouped((order, rows): Order) -> Order {
-    let n = order.len();
-    let mut place = vec![0; n];
-    order.iter().enumerate().for_each(|(k, &body)| place[body] = k);
-    let mut feeders: Vec<Vec<usize>> = vec![Vec::new(); n];
-    let mut open = Vec::new();
-    for (k, row) in rows.iter().enumerate() {
-        match row.iter().map(|b| place[*b]).min() {
-            Some(next) => feeders[next].push(k),
-            None => open.push(k),
-        }
-    }
-    // Every one before those that feed it, and then backwards.
-    let mut last_first = Vec::with_capacity(n);
-    while let Some(k) = open.pop() {
-        last_first.push(k);
-        open.extend(&feeders[k]);
-    }
-    last_first.reverse();
-    last_first.iter().map(|&k| (order[k], rows[k].clone())).unzip()
 }
 
 fn add_outer(block: &mut Block, times: f64, column: Triple, row: Triple) {
@@ -600,7 +551,7 @@ mod tests {
             seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (seed >> 33) as f64 / (1u64 << 31) as f64 - 0.5
         };
-        let mut blocks = Blocks::new(n, &pairs);
+        let mut blocks = Blocks::new(n, &pairs, &Orders::anywhere());
         assert!(blocks.fill() < 4 * pairs.len());
         for symmetric in [true, false, true] {
             let mut dense = vec![vec![0.0; 3 * n]; 3 * n];

@@ -29,6 +29,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::blocks::{Blocks, Factors, Slot, Triple};
 use crate::interior::{self, Interior, inertia};
+use crate::order::Orders;
 
 /// ρ over the mass that a contact moves: large for few repetitions, small enough for 16 digits.
 const STIFFENING: f64 = 1e4;
@@ -369,10 +370,10 @@ pub struct Solver {
 
 impl Solver {
     /// For so many bodies, of which these pairs may touch.
-    pub fn new(bodies: usize, pairs: &[(usize, usize)]) -> Self {
+    pub fn new(bodies: usize, pairs: &[(usize, usize)], orders: &Orders) -> Self {
         let zero = vec![[0.0; 3]; bodies];
         Solver {
-            matrix: Blocks::new(bodies, pairs),
+            matrix: Blocks::new(bodies, pairs, orders),
             known: Vec::new(),
             residual: zero.clone(),
             work: zero.clone(),

@@ -772,6 +772,7 @@ pub(crate) fn inertia(residual: &mut [Triple], mass: &[Triple], free: &[Triple],
 mod tests {
     use super::*;
     use crate::contact::Linear;
+    use crate::order::Orders;
 
     /// Numbers from −1 to 1.
     struct Draw(u64);
@@ -875,7 +876,7 @@ mod tests {
     #[test]
     fn every_kind_of_contact_obeys_its_laws() {
         let pairs: Vec<_> = (1..6).map(|b| (b - 1, b)).collect();
-        let mut matrix = Blocks::new(6, &pairs);
+        let mut matrix = Blocks::new(6, &pairs, &Orders::anywhere());
         let mut interior = Interior::default();
         for springs in [0.4, 0.97, 1.0] {
             let (mut solved, mut to_rounding) = (0, 0);

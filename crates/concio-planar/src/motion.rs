@@ -14,6 +14,7 @@ use crate::blocks::{Slot, Triple};
 use crate::body::Body;
 use crate::contact::{Contact, Effort, Known, Solver, worse};
 use crate::joint::{Friction, Law, Point, Start};
+use crate::order::Orders;
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
 use crate::tie::{Strain, Tie};
 use devices::Bent;
@@ -284,6 +285,7 @@ pub struct Motion {
     /// Bodies of the links, the one of the lower number first, sorted.
     linked: Vec<(Option<usize>, usize)>,
     solver: Solver,
+    orders: Orders,
     /// Where the bodies were when pairs were looked for, twice as far as each may go until that is done again [m], and how far its
     /// corners are from its centre [m].
     looked: Vec<Place>,
@@ -330,7 +332,8 @@ impl Motion {
             strains: vec![Strain::default(); system.ties.len()],
             pairs: Vec::new(),
             linked,
-            solver: Solver::new(0, &[]),
+            solver: Solver::new(0, &[], &Orders::anywhere()),
+            orders: Orders::anywhere(),
             looked: places.clone(),
             coupled: Vec::new(),
             seats: Vec::new(),
@@ -755,8 +758,11 @@ impl Motion {
     fn couple(&mut self) {
         let pairs = self.pairs.iter().map(|p| (p.a, p.b)).chain(self.rods.iter().map(|r| (r.tie.a, r.tie.b)));
         let coupled: Vec<(usize, usize)> = pairs.filter_map(|(a, b)| Some((a?, b))).collect();
+        if self.solver.is_empty() {
+            self.orders = Orders::new(self.places.iter().map(|p| p.centre).collect(), &coupled);
+        }
         if coupled != self.coupled || self.solver.is_empty() {
-            self.solver = Solver::new(self.places.len(), &coupled);
+            self.solver = Solver::new(self.places.len(), &coupled, &self.orders);
             self.coupled = coupled;
         }
         let matrix = self.solver.matrix();

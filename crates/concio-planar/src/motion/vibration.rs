@@ -1,7 +1,7 @@
 //! The slowest small vibration of bodies about where they stand.
 
 use super::{Motion, Owner};
-use crate::blocks::{Blocks, Triple};
+use crate::blocks::Triple;
 use crate::contact::Contact;
 use crate::joint::Normal;
 
@@ -37,7 +37,7 @@ impl Motion {
     ///
     /// Inverse iteration with the Rayleigh quotient.
     pub fn slowest(&self) -> Option<Vibration> {
-        let mut matrix = Blocks::new(self.places.len(), &self.coupled);
+        let mut matrix = self.solver.matrix().clone();
         // What is held stays: any stiffness of its own does.
         let stays = |held: &[bool; 3]| [0, 1, 2].map(|k| if held[k] { 1.0 } else { 0.0 });
         matrix.reset(&self.held.iter().map(stays).collect::<Vec<_>>());
