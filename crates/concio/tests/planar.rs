@@ -444,6 +444,38 @@ base = { sine = { acceleration = "0.8 g", frequency = "3 Hz" } }
 }
 
 /// Without inertia, a block that sticks to a driven beam goes where the beam goes, and the beam does the work of the friction below.
+/// Stones of a course only just touch: what rounding presses them by tells nothing of how the wall swings.
+#[test]
+fn stones_that_only_just_touch_do_not_hold_each_other() {
+    let frequency = |head: &str| {
+        let text = format!(
+            r#"
+model = "planar"
+[[panel]]
+bond = "running"
+courses = 8
+bricks = 4
+brick = {{ length = 0.4, height = 0.2, thickness = 0.3, specific_weight = 20e3 }}
+mortar = {{ bed = 0, head = 0 }}
+[joint]
+bed = {{ law = "no-tension", stiffness = "10 N/mm3", rigidity = 1 }}
+head = {{ {head} }}
+friction = {{ law = "coulomb", static = 0.6, dynamic = 0.6, on = "all" }}
+[motion]
+duration = "1 s"
+base = "none"
+"#
+        );
+        let planar = prepared(&text).model.planar.expect("a planar wall");
+        planar.slowest().expect("it swings").frequency
+    };
+    let without = frequency(r#"law = "none""#);
+    for stiffness in [15, 24, 30] {
+        let head = format!(r#"law = "no-tension", stiffness = "{stiffness} N/mm3", rigidity = 1"#);
+        close(frequency(&head), without, 1e-9);
+    }
+}
+
 #[test]
 fn a_slow_beam_takes_the_wall_along() {
     let (prepared, outcome) = ran(&stack(

@@ -11,6 +11,8 @@ const ROUNDS: usize = 1000;
 /// What stands for a rigid contact, over the stiffest spring, and the part of a vibration's energy in such contacts from which nothing else swings.
 const RIGID: f64 = 1e6;
 const ALL: f64 = 1e-3;
+/// Part of what the contact that bears most does up to which one bears nothing but rounding.
+const NOTHING: f64 = 1e-9;
 
 /// A small vibration.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,8 +43,13 @@ impl Motion {
         // What is held stays: any stiffness of its own does.
         let stays = |held: &[bool; 3]| [0, 1, 2].map(|k| if held[k] { 1.0 } else { 0.0 });
         matrix.reset(&self.held.iter().map(stays).collect::<Vec<_>>());
-        let held =
-            || self.contacts.iter().zip(&self.owners).map(|(contact, owner)| (contact, self.holding(contact, owner)));
+        let least = NOTHING * self.contacts.iter().fold(0.0, |most: f64, c| most.max(c.impulse[0].abs()));
+        let held = || {
+            self.contacts
+                .iter()
+                .zip(&self.owners)
+                .map(|(contact, owner)| (contact, self.holding(contact, owner, least)))
+        };
         let stiffest = held().flat_map(|(_, both)| both).fold(0.0, |most: f64, h| most.max(h.stiffness));
         let mut springs = Vec::new();
         for (contact, both) in held() {
@@ -102,13 +109,13 @@ impl Motion {
         None
     }
 
-    /// What a point is held by, across and along.
-    fn holding(&self, contact: &Contact, owner: &Owner) -> [Holds; 2] {
+    /// What a point is held by, across and along, if it bears more than `least` [N s].
+    fn holding(&self, contact: &Contact, owner: &Owner, least: f64) -> [Holds; 2] {
         let law = self.pairs[owner.pair].link.map_or(&self.other, |k| &self.links[k].law);
         let point = &self.pairs[owner.pair].points[owner.point];
-        let pressed = contact.impulse[0] > 0.0;
+        let pressed = contact.impulse[0] > least;
         let [across, along] = law.tangent(point.damage, pressed);
-        let bears = matches!(law.normal, Normal::Rigid { .. }) && contact.impulse[0] != 0.0;
+        let bears = matches!(law.normal, Normal::Rigid { .. }) && contact.impulse[0].abs() > least;
         let holds = |rows, [stiffness, damping]: [f64; 2], rigid: bool| Holds {
             rows,
             rigid: rigid && stiffness == 0.0,
