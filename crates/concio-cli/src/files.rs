@@ -3,7 +3,7 @@
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
-use concio::{Error, InputError};
+use concio::{InputError, files};
 
 use crate::failure::Failure;
 
@@ -22,10 +22,9 @@ pub fn note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
-/// Writes a file under a temporary name and renames it: a reader never sees half of it.
+/// Writes a file whole or not at all.
 pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<(), Failure> {
-    let written = temporary(path, content.as_ref()).and_then(|file| file.persist(path).map_err(|e| e.error));
-    written.map(drop).map_err(|e| Error::io(path, e).into())
+    Ok(files::replace_bytes(path, content.as_ref())?)
 }
 
 /// Refuses an output that would replace one of the user's own files: an input of the same command, or any file that
@@ -54,28 +53,9 @@ pub fn guard(out: &Path, ending: &str, inputs: &[&Path]) -> Result<(), Failure> 
 
 /// As [`write`], but a file of that name is an error.
 pub fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
-    let written = temporary(path, text.as_bytes()).and_then(|file| file.persist_noclobber(path).map_err(|e| e.error));
-    match written {
-        Ok(_) => Ok(()),
-        Err(e) if e.kind() == ErrorKind::AlreadyExists => {
-            let error = InputError::new("the file exists and is not overwritten").in_file(path);
-            Err(error.help("give another name, or remove it first").into())
-        }
-        Err(e) => Err(Error::io(path, e).into()),
+    if files::create_bytes(path, text.as_bytes())? {
+        return Ok(());
     }
-}
-
-fn temporary(path: &Path, content: &[u8]) -> io::Result<tempfile::NamedTempFile> {
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".concio-").suffix(".tmp");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(content)?;
-    file.as_file().sync_all()?;
-    Ok(file)
+    let error = InputError::new("the file exists and is not overwritten").in_file(path);
+    Err(error.help("give another name, or remove it first").into())
 }

@@ -15,7 +15,6 @@ pub mod crack_lines;
 pub mod design;
 pub mod factors;
 pub mod file;
-mod files;
 pub mod first_crack;
 pub mod groups;
 pub mod ida;

@@ -11,6 +11,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use concio::case::Case;
+use concio::files;
 use concio::ground::{GroundMotion, Library};
 use concio::many::{Job, Standing, simulate_each};
 use concio::model::Model;
@@ -22,7 +23,6 @@ use concio::{Error, Result};
 use rayon::prelude::*;
 
 use crate::file::{Keep, PerJoint};
-use crate::files;
 use crate::limits::Rule;
 use crate::measures::{End, Row, row};
 use crate::plan::Records;

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use concio::files;
 use concio::{Error, Result};
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType};
@@ -16,7 +17,6 @@ use serde_json::Value;
 
 use crate::factors::amount;
 use crate::file::PerJoint;
-use crate::files;
 use crate::measures::{End, MEASURES, Row};
 use crate::plan::Plan;
 

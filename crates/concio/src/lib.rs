@@ -12,6 +12,7 @@ mod dynamics;
 mod elementary;
 pub mod error;
 pub mod excitation;
+pub mod files;
 pub mod graph;
 pub mod ground;
 mod integrate;

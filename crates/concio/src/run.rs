@@ -9,6 +9,7 @@ use serde_json::Value;
 use crate::case::{Beam, Case, Signal, canonical_json, plausible};
 use crate::error::{Error, InputError, Result};
 use crate::excitation::Excitation;
+use crate::files;
 use crate::ground::signal::compile_with;
 use crate::ground::{Library, coverage};
 use crate::model::{Model, Rub};
@@ -214,6 +215,9 @@ pub fn run(prepared: &Prepared, out: &Path, monitor: &mut dyn FnMut(&Status) -> 
     let solve_seconds = start.elapsed().as_secs_f64();
     let rows = journal.read_all()?;
     let outcome = simulation.outcome(rows, reason);
+    for name in [RESULT, SUMMARY] {
+        files::remove_leftovers(&out.join(name))?;
+    }
     let summary = write(prepared, &outcome, solve_seconds, resumed_from, out)?;
     if reason != StopReason::Interrupted {
         journal.remove()?;

@@ -252,7 +252,7 @@ fn a_journal_resumes_at_its_checkpoint() {
     assert!(journal.read_all().unwrap() == rows(&header.layout, 0..90));
     go_on(&mut journal, &header, 90..200);
     assert!(journal.read_all().unwrap() == rows(&header.layout, 0..200));
-    fs::write(at.join("checkpoint.bin.tmp"), "left behind by a kill").unwrap();
+    fs::write(at.join(".checkpoint.bin.x7.tmp"), "left behind by a kill").unwrap();
     journal.remove().unwrap();
     assert_eq!(fs::read_dir(&at).unwrap().count(), 0, "the folder is empty again");
 }

@@ -6,12 +6,13 @@ use serde::Serialize;
 
 use crate::case::DeviceLaw;
 use crate::error::{Error, Result};
+use crate::files;
 use crate::outcome::{Collapse, Outcome, TieRow};
 use crate::record::{Event, Layout, Recording};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::{Sink, label};
 use crate::store::outlines::{self, Outlines};
-use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, atomic, vtkhdf};
+use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, vtkhdf};
 use crate::wall::{Block, End, PanelInfo, Wall};
 
 pub use crate::store::read::read;
@@ -40,7 +41,7 @@ pub(super) const NO_FRICTION: FrictionRow = FrictionRow {
 /// [`Error::Store`] when lengths in `outcome` contradict each other or `wall`; [`Error::Io`] when the disk fails.
 pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointRow], outcome: &Outcome) -> Result<()> {
     check_lengths(path, wall, joints, outcome)?;
-    atomic::replace(path, |temporary| {
+    files::replace(path, |temporary| {
         let mut sink = Sink::create(temporary, path)?;
         write_head(&mut sink, provenance, outcome)?;
         write_wall(&mut sink, wall)?;

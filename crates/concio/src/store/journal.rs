@@ -19,8 +19,8 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::error::{Error, Result};
+use crate::files::{self, remove_if_there};
 use crate::record::{Layout, Recording};
-use crate::store::atomic;
 
 mod lock;
 mod rows;
@@ -104,7 +104,7 @@ impl Journal {
             payload.extend_from_slice(&header);
             Ok(())
         })?;
-        atomic::sync_folder_of(&path)?;
+        files::sync_folder_of(&path)?;
         Ok(journal)
     }
 
@@ -159,7 +159,7 @@ impl Journal {
         })?;
         let mut bytes = CHECKPOINT_MAGIC.to_vec();
         bytes.extend_from_slice(&made);
-        atomic::replace_bytes(&checkpoint_path(&self.folder), &bytes)
+        files::replace_bytes(&checkpoint_path(&self.folder), &bytes)
     }
 
     /// Reads back every row appended so far, block by block.
@@ -187,7 +187,7 @@ impl Journal {
         let Journal { folder, file, _lock: lock, .. } = self;
         drop(file);
         remove_if_there(&checkpoint_path(&folder))?;
-        atomic::remove_leftover(&checkpoint_path(&folder))?;
+        files::remove_leftovers(&checkpoint_path(&folder))?;
         remove_if_there(&journal_path(&folder))?;
         lock.remove()
     }
@@ -354,13 +354,6 @@ fn open_options() -> OpenOptions {
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(true);
     options
-}
-
-fn remove_if_there(path: &Path) -> Result<()> {
-    match fs::remove_file(path) {
-        Err(e) if e.kind() != ErrorKind::NotFound => Err(Error::io(path, e)),
-        _ => Ok(()),
-    }
 }
 
 fn journal_path(folder: &Path) -> PathBuf {

@@ -1,7 +1,6 @@
 //! What a run leaves on disk: one HDF5 file when it is over ([`hdf5`], with a [`vtkhdf`] group in it), a [`journal`]
 //! while it goes on, a [`summary()`] in JSON, and copies in other formats ([`export`]). docs/results.md describes them all.
 
-mod atomic;
 pub mod export;
 mod fields;
 mod h5;

@@ -5,10 +5,11 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::error::{Error, Result};
+use crate::files;
 use crate::outcome::{Outcome, TieRow};
 use crate::planar;
 use crate::record::Energies;
-use crate::store::{JointRow, Provenance, atomic};
+use crate::store::{JointRow, Provenance};
 use crate::wall::Wall;
 
 /// What a run knows beside its outcome.
@@ -78,7 +79,7 @@ pub fn write_summary(path: &Path, summary: &Value) -> Result<()> {
     let text = serde_json::to_string_pretty(summary);
     let mut text = text.map_err(|e| Error::Store { path: path.to_path_buf(), what: e.to_string() })?;
     text.push('\n');
-    atomic::replace_bytes(path, text.as_bytes())
+    files::replace_bytes(path, text.as_bytes())
 }
 
 /// Largest residual of the energy account over the largest energy in play, the work done on the wall or what it had at

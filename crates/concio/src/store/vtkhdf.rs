@@ -7,12 +7,13 @@
 use std::path::Path;
 
 use crate::error::Result;
+use crate::files;
 use crate::moment::Motion;
 use crate::outcome::Outcome;
 use crate::store::fields;
 use crate::store::h5::{Label, Sink, label};
 use crate::store::outlines::Outlines;
-use crate::store::{StoredRun, atomic, hdf5};
+use crate::store::{StoredRun, hdf5};
 use crate::wall::{Block, Wall};
 
 /// VTK's numbers of the cell with four corners, and of that with any number of them.
@@ -26,7 +27,7 @@ const VTK_POLYGON: u8 = 7;
 /// [`Error::Io`](crate::Error::Io) or [`Error::Store`](crate::Error::Store) when it cannot be written.
 pub fn write(path: &Path, run: &StoredRun) -> Result<()> {
     hdf5::check_lengths(path, &run.wall, &run.joints, &run.outcome)?;
-    atomic::replace(path, |temporary| {
+    files::replace(path, |temporary| {
         let mut sink = Sink::create(temporary, path)?;
         write_group(&mut sink, &run.wall, &run.outcome)?;
         sink.close()

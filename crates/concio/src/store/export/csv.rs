@@ -7,10 +7,11 @@ use std::path::Path;
 use csv::Writer;
 
 use crate::error::{Error, Result};
+use crate::files;
 use crate::record::Envelopes;
 use crate::store::fields::{self, Field};
 use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword};
-use crate::store::{FrictionRow, StoredRun, atomic};
+use crate::store::{FrictionRow, StoredRun};
 use crate::wall::{Block, End};
 
 /// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv`, `corners.csv` where a
@@ -82,7 +83,7 @@ impl Table {
 }
 
 fn table(path: &Path, fill: impl FnOnce(&mut Table) -> csv::Result<()>) -> Result<()> {
-    atomic::replace(path, |temporary| {
+    files::replace(path, |temporary| {
         let file = File::create(temporary).map_err(|e| Error::io(path, e))?;
         let writer = csv::WriterBuilder::new().buffer_capacity(1 << 16).from_writer(file);
         let mut table = Table { writer, cell: String::new() };

@@ -9,11 +9,12 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::error::{Error, Result};
+use crate::files;
 use crate::outcome::Collapse;
 use crate::store::fields::{self, Field, Frames};
 use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword, other_side};
 use crate::store::outlines::{self, Outlines};
-use crate::store::{FrictionRow, StoredRun, atomic};
+use crate::store::{FrictionRow, StoredRun};
 use crate::wall::Block;
 
 /// Writes the whole run to `path`: `numpy.load(path)["history/top/displacement"]`.
@@ -23,7 +24,7 @@ use crate::wall::Block;
 /// [`Error::Io`] when the disk fails, [`Error::Store`] when the run contradicts itself.
 pub fn npz(run: &StoredRun, path: &Path) -> Result<()> {
     check_lengths(path, &run.wall, &run.joints, &run.outcome)?;
-    atomic::replace(path, |temporary| {
+    files::replace(path, |temporary| {
         let file = File::create(temporary).map_err(|e| Error::io(path, e))?;
         let mut archive = Archive { zip: ZipWriter::new(BufWriter::new(file)) };
         let filled = fill(&mut archive, run).and_then(|()| archive.zip.finish()?.flush());
