@@ -19,7 +19,8 @@ pub const RECORD: &str = "docs/guide/quake.at2";
 
 /// Documents with wall files and commands, from the root.
 fn documents(root: &Path) -> Result<Vec<PathBuf>, String> {
-    let mut documents = vec![root.join("README.md"), root.join("docs/wall-file.md"), root.join("docs/constrained.md")];
+    let own = ["README.md", "docs/wall-file.md", "docs/constrained.md", "docs/planar.md", "docs/limit-analysis.md"];
+    let mut documents = own.map(|name| root.join(name)).to_vec();
     for folder in ["docs/guide", "docs/howto"] {
         let folder = root.join(folder);
         let entries = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -124,9 +125,11 @@ fn expected(status: Option<i32>, fails: bool) -> bool {
     status.is_some_and(|s| (s != 0) == fails)
 }
 
+/// Runs a command in the folder of the document; examples are those of the project.
 fn type_in(root: &Path, desk: &Path, arguments: &str) -> Result<(String, Option<i32>), String> {
     let mut command = Command::new(concio(root));
-    let output = command.args(arguments.split_whitespace()).current_dir(desk).env("NO_COLOR", "1").output();
+    let typed = |word: &str| if word.starts_with("examples/") { root.join(word) } else { PathBuf::from(word) };
+    let output = command.args(arguments.split_whitespace().map(typed)).current_dir(desk).env("NO_COLOR", "1").output();
     let output = output.map_err(|e| format!("{}: {e}", concio(root).display()))?;
     let said = String::from_utf8_lossy(&output.stderr) + String::from_utf8_lossy(&output.stdout);
     Ok((said.into_owned(), output.status.code()))
