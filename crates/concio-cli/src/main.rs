@@ -28,12 +28,31 @@ fn main() -> ExitCode {
     }
 }
 
+/// Adds what was meant to an error about arguments.
+fn suggesting(error: clap::Error) -> clap::Error {
+    match error.kind() {
+        ErrorKind::UnknownArgument if error.get(ContextKind::SuggestedArg).is_none() => suggesting_option(error),
+        ErrorKind::InvalidSubcommand => suggesting_run(error),
+        _ => error,
+    }
+}
+
+/// A file in the place of a command is to be run.
+fn suggesting_run(mut error: clap::Error) -> clap::Error {
+    let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidSubcommand) else { return error };
+    let file = given.ends_with(".toml").then(|| given.clone());
+    let before = std::env::args().skip(1).take_while(|a| Some(a) != file.as_ref());
+    let command = before.fold(String::from("concio"), |line, a| line + " " + &a);
+    if let Some(file) = file {
+        let tip = format!("to run a file: `{command} run {file}`").into();
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+    }
+    error
+}
+
 /// Adds the option that was meant to an error about an unknown one. The parser's own measure finds none for letters
 /// that changed places in a short word.
-fn suggesting(mut error: clap::Error) -> clap::Error {
-    if error.kind() != ErrorKind::UnknownArgument || error.get(ContextKind::SuggestedArg).is_some() {
-        return error;
-    }
+fn suggesting_option(mut error: clap::Error) -> clap::Error {
     let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidArg) else { return error };
     let word = given.trim_start_matches('-').to_string();
     let command = args::Cli::command();

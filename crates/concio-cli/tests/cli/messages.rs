@@ -229,6 +229,18 @@ fn an_option_that_was_meant() {
 }
 
 #[test]
+fn a_file_in_the_place_of_a_command() {
+    let desk = Desk::new();
+    for (typed, meant) in
+        [("wall.toml", "`concio run wall.toml`"), ("study studies/x.toml", "`concio study run studies/x.toml`")]
+    {
+        let refused = desk.concio(typed).assert().code(2);
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(message.contains(meant), "{message}");
+    }
+}
+
+#[test]
 fn files_that_are_no_records() {
     let desk = Desk::new();
     for (name, content, part) in [
