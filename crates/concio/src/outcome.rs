@@ -103,11 +103,12 @@ pub struct Totals {
     /// Largest |friction force| in a joint [N], on the side that it is larger on; of a bonded joint that of its cracked
     /// part, none while it is intact; of one that sticks what it holds. 0 where nothing rubs.
     pub peak_friction_force: f64,
-    /// Largest |horizontal force of the base on the wall| [N]; of a planar wall the mean over a step, impacts among it.
+    /// Largest |horizontal force of the base on the wall| [N]; of a planar wall the mean over a step, impacts among it, until a collapse,
+    /// and without inertia the largest against the load.
     pub base_shear_peak: f64,
     /// Largest |force| that the top beam exerts on the wall [N]; 0 without a beam.
     pub top_force_peak: f64,
-    /// ∫ F² dt of that force [N² s]; its rms is √(this / time reached).
+    /// ∫ F² dt of that force [N² s], until a collapse; its rms is √(this / that time).
     pub top_force_square: f64,
     /// Most negative gap of a head joint or connection [m], from 0 down.
     pub minimum_gap: f64,

@@ -155,7 +155,7 @@ fn bonds_that_snap_back_are_refused() {
 /// far it went until then.
 #[test]
 fn a_block_tilts_until_it_slides_or_turns() {
-    let tilted = |mu: f64, height: f64| {
+    let tilted = |mu: f64, height: f64, duration: f64| {
         let text = block(&format!(
             r#"
 [joint]
@@ -163,9 +163,9 @@ bed = {{ law = "rigid" }}
 head = {{ law = "rigid" }}
 friction = {{ law = "coulomb", static = {mu}, dynamic = {mu} }}
 [motion]
-duration = "10 s"
+duration = "{duration} s"
 quasi_static = true
-base = {{ tilt = {{ acceleration = "-1 g", rise = "10 s" }} }}
+base = {{ tilt = {{ acceleration = "-1 g", rise = "{duration} s" }} }}
 [output]
 interval = 0.02
 "#
@@ -177,11 +177,11 @@ interval = 0.02
         let first = x.iter().position(|x| x.abs() > 1e-7).expect("it moves");
         outcome.recording.time[first]
     };
-    let slides = tilted(0.4, 0.5);
+    let slides = tilted(0.4, 0.5, 10.0);
     assert!((starts(&slides) - 4.0).abs() < 0.041, "{}", starts(&slides));
     assert!(slides.recording.collapse().is_none());
     close(slides.totals.base_shear_peak, 0.4 * 5e3, 1e-7);
-    let turns = tilted(0.7, 1.25);
+    let turns = tilted(0.7, 1.25, 10.0);
     assert!((starts(&turns) - 4.0).abs() < 0.041, "{}", starts(&turns));
     let gone = channel(&turns, "peak/displacement");
     let standing = turns.recording.standing(&turns.recording.time);
@@ -190,6 +190,12 @@ interval = 0.02
     );
     close(turns.totals.peak_relative_displacement, gone[standing - 1], 1e-9);
     assert!(gone[standing..].iter().any(|x| *x > 1.2 * gone[standing - 1]));
+    // As it turns over it pulls at the base the other way, by more than the tenth of its weight that it bore.
+    let thin = tilted(0.7, 5.0, 100.0);
+    let standing = thin.recording.standing(&thin.recording.time);
+    let away = channel(&thin, "base/shear")[..standing].iter().fold(0.0, |most: f64, x| most.max(*x));
+    assert!(away > 0.2 * 5e4, "{away}");
+    close(thin.totals.base_shear_peak, 0.1 * 5e4, 0.02);
 }
 
 /// The first crack of a bonded joint in tension comes at the strength: N/A − 6 M/(b ℓ²) = −f_t at the edge.

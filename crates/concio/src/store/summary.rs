@@ -90,9 +90,11 @@ pub fn residual_relative(outcome: &Outcome) -> f64 {
     if scale == 0.0 { 0.0 } else { totals.peak_residual / scale }
 }
 
-/// Root mean square of the force of the top beam over the time reached [N].
+/// Root mean square of the force of the top beam over the time reached, until a collapse at the longest [N].
 pub fn top_force_rms(outcome: &Outcome) -> f64 {
-    if outcome.time_reached > 0.0 { (outcome.totals.top_force_square / outcome.time_reached).sqrt() } else { 0.0 }
+    let totals = &outcome.totals;
+    let time = totals.collapse.map_or(outcome.time_reached, |collapse| collapse.time);
+    if time > 0.0 { (totals.top_force_square / time).sqrt() } else { 0.0 }
 }
 
 /// How many bonds cracked and broke, and which was the first; null where no joint is bonded.
