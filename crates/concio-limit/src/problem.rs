@@ -1,7 +1,8 @@
 //! From a wall file to blocks, contact points, friction and loads.
 
 use concio::case::{Beam, Case, JointKind, Motion, NormalForce};
-use concio::model::Model;
+use concio::model::{self, Model};
+use concio::planar;
 use concio::quantity::Time;
 use concio::wall::Wall;
 use concio::{G, InputError, Result, run};
@@ -73,12 +74,12 @@ impl Problem {
     /// Of a valid case.
     ///
     /// A beam with mass is one more rigid body on the top course: the load on the wall is its weight, its mass what the body
-    /// load takes hold of, at its underside.
+    /// load takes hold of, at the middle of its height, as in a run.
     ///
     /// # Errors
     /// Beams that something else holds, devices in joints, walls that cannot be laid.
-    pub fn of(case: &Case, options: Options) -> Result<Problem> {
-        let case = at_rest(case)?;
+    pub fn of(given: &Case, options: Options) -> Result<Problem> {
+        let case = at_rest(given)?;
         let model = run::prepare(case.clone(), std::path::Path::new("."))?.model;
         let mut assembly = Assembly::of(&model.wall, &model.joints);
         let mut dead: Vec<f64> = model.wall.blocks.iter().map(|b| b.weight()).collect();
@@ -89,7 +90,7 @@ impl Problem {
         let loaded = model.wall.loaded();
         let load = case.load.top.si();
         if let Beam::Mass(mass) = case.load.beam {
-            let (beam, length) = beam(&model, mass.si());
+            let (beam, length) = beam(&case, &model, mass.si());
             assembly.bodies.push(beam);
             dead.push(load * length);
             live.push(if options.push == Push::Body { mass.si() * G } else { load * length });
@@ -109,7 +110,7 @@ impl Problem {
             assembly,
             dead: dead.iter().map(|w| [0.0, -w]).collect(),
             live: live.iter().map(|w| [sign * w, 0.0]).collect(),
-            warnings: warnings(&case),
+            warnings: warnings(given).into_iter().chain(model::wide_joint(&model.wall, &model.joints)).collect(),
             wall: model.wall,
         })
     }
@@ -131,6 +132,9 @@ fn at_rest(case: &Case) -> Result<Case> {
     case.output = Default::default();
     // A model has the friction of those joints alone that carry load by its own account; by this one all do.
     case.joint.friction.normal_force = NormalForce::Overburden;
+    // Nor does it matter here whether a bond would snap back.
+    case.joint.bond = None;
+    case.joint.changes.iter_mut().for_each(|change| change.bond = None);
     Ok(case)
 }
 
@@ -147,16 +151,18 @@ fn warnings(case: &Case) -> Vec<String> {
 }
 
 /// The beam and the length on which it lies [m].
-fn beam(model: &Model, mass: f64) -> (Body, f64) {
+fn beam(case: &Case, model: &Model, mass: f64) -> (Body, f64) {
     let tops: Vec<_> = model.joints.iter().filter(|j| j.kind == JointKind::Top).collect();
     let length: f64 = tops.iter().map(|j| j.overlap).sum();
+    // It lies so that it presses alike everywhere, wherever its ends are.
     let x = tops.iter().map(|j| 0.5 * (j.line[0] + j.line[2]) * j.overlap).sum::<f64>() / length;
     let [left, right, y] = tops.iter().fold([f64::INFINITY, f64::NEG_INFINITY, 0.0], |e, j| {
         [e[0].min(j.line[0]), e[1].max(j.line[2]), f64::max(e[2], j.line[1])]
     });
-    let height = 0.5 * model.wall.panels.iter().map(|p| p.reference_height).fold(0.0, f64::max);
-    let corners = vec![[left - x, 0.0], [right - x, 0.0], [right - x, height], [left - x, height]];
-    (Body { name: "beam".into(), centre: [x, y], corners, mass, inertia: mass * (right - left).powi(2) / 12.0 }, length)
+    let half = 0.5 * planar::beam_height(case, &model.wall);
+    let corners = vec![[left - x, -half], [right - x, -half], [right - x, half], [left - x, half]];
+    let inertia = mass * (right - left).powi(2) / 12.0;
+    (Body { name: "beam".into(), centre: [x, y + half], corners, mass, inertia }, length)
 }
 
 fn friction(model: &Model, assembly: &Assembly, heads: Heads) -> Vec<f64> {

@@ -4,14 +4,14 @@
 use crate::G;
 use crate::assign::{JointLaw, friction_choice, resolve};
 use crate::bond::{self, Bonded};
-use crate::case::{Beam, Case, DeviceLaw, ModelKind, SpringLaw};
+use crate::case::{Beam, Case, DeviceLaw, JointKind, ModelKind, SpringLaw};
 use crate::device::{self, Device, Nonlinear};
 use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::graph;
 use crate::law::Stribeck;
 use crate::planar::{self, Planar};
-use crate::wall::{Block, End, Joint, Wall};
+use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 
 /// Everything a run needs and nothing it changes.
 #[derive(Debug, Clone)]
@@ -204,6 +204,7 @@ impl Model {
         let stiffest = stiffest(&mass, &sides, &device::at_rest(&elastic, &nonlinear), excitation.duration);
         let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
         let mut warnings = warnings(case, &wall, rubs.len(), if turns { 0 } else { idle }, reciprocal);
+        warnings.extend(wide_joint(&wall, &joints));
         warnings.extend(planar::detached(case, &wall));
         let planar = turns.then(|| planar::compile(case, &wall, &joints, &laws)).transpose()?;
         let rigid = |(e, law): (usize, &JointLaw)| {
@@ -346,6 +347,29 @@ fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
         damping: joint.weight * 2.0 * damping * (nominal * reference).sqrt(),
         unilateral,
     }
+}
+
+/// Says of blocks given by hand that they hang in the air, as by a wrong `y`: joints follow from courses, whatever lies between.
+pub fn wide_joint(wall: &Wall, joints: &[Joint]) -> Option<String> {
+    let thickness = |joint: &Joint| match (joint.kind, joint.b) {
+        (JointKind::Bed, End::Block(b)) => wall.blocks[b].y[0] - wall.blocks[joint.a].y[1],
+        (JointKind::Base, _) => wall.blocks[joint.a].y[0],
+        _ => 0.0,
+    };
+    let panel = |joint: &Joint| &wall.panels[wall.blocks[joint.a].panel];
+    let wide = joints.iter().filter(|joint| {
+        let PanelInfo { mortar, reference_height, .. } = panel(joint);
+        wall.blocks[joint.a].is_rectangle() && thickness(joint) > 2.0 * mortar[0] + 0.1 * reference_height
+    });
+    let all: Vec<&Joint> = wide.collect();
+    let widest = all.iter().max_by(|a, b| thickness(a).total_cmp(&thickness(b)))?;
+    let others = if all.len() > 1 { format!(", and {} more are as doubtful", all.len() - 1) } else { String::new() };
+    Some(format!(
+        "joint {} is {:.1} mm thick, its mortar {:.1} mm{others}: it is taken for a joint all the same; look at `y` of the block above it",
+        graph::name(wall, widest),
+        1e3 * thickness(widest),
+        1e3 * panel(widest).mortar[0],
+    ))
 }
 
 /// Says what becomes of a panel whose top does not reach the beam's bed joint.

@@ -88,14 +88,19 @@ pub(crate) fn beam(case: &Case, wall: &Wall, joints: &[Joint]) -> Option<BeamBod
     let [left, right] =
         tops.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |e, j| [e[0].min(j.line[0]), e[1].max(j.line[2])]);
     let level = top_level(wall);
-    let usual = 0.5 * wall.panels.iter().map(|p| p.reference_height).fold(0.0, f64::max);
-    let height = case.load.beam_height.map_or(usual, |h| h.si());
+    let height = beam_height(case, wall);
     let mass = match case.load.beam {
         Beam::Mass(mass) => mass.si(),
         // Held from side to side, it needs a mass for its rise and turn alone; its load is a dead one.
         _ => tops.iter().map(|j| wall.blocks[j.a].mass()).sum(),
     };
     Some(BeamBody { body: Body::rectangle("beam", [left, right], [level, level + height], mass), length })
+}
+
+/// Height of the beam [m]: half of the highest reference brick unless given.
+pub fn beam_height(case: &Case, wall: &Wall) -> f64 {
+    let usual = 0.5 * wall.panels.iter().map(|p| p.reference_height).fold(0.0, f64::max);
+    case.load.beam_height.map_or(usual, |h| h.si())
 }
 
 /// A convex block as it is: where its joints have mortar, its sides keep the distance that they were laid with.
