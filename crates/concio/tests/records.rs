@@ -145,6 +145,16 @@ fn read_text(text: &str) -> concio::Result<Vec<Record>> {
     parse(text.as_bytes(), Path::new("file"), &TextOptions::default())
 }
 
+/// The title of the time column may name its unit.
+#[test]
+fn times_in_milliseconds() {
+    for title in ["Time [ms],a [m/s2]", "# t (msec), a (m/s2)", "t [s],a [m/s2]", "t,a [m/s2]"] {
+        let read = read_text(&format!("{title}\n0,1\n5,2\n10,3\n")).expect("a record");
+        let expected = if title.contains("ms") { 0.005 } else { 5.0 };
+        assert!((read[0].dt - expected).abs() < 1e-15, "{title}: {}", read[0].dt);
+    }
+}
+
 fn refused(text: &str, options: &TextOptions) -> InputError {
     match parse(text.as_bytes(), Path::new("file"), options) {
         Err(concio::Error::Input(error)) => *error,

@@ -1,7 +1,7 @@
 //! `concio record`.
 
 use concio::case::HistoryQuantity;
-use concio::ground::coverage::DRIFT;
+use concio::ground::coverage::{self, DRIFT};
 use concio::ground::process::integrate;
 use concio::ground::record::{self, Format, Record as History, TextOptions};
 use concio::ground::{Measures, Spectrum, measure, response_spectrum};
@@ -64,6 +64,9 @@ fn notes(args: &Record, history: &History, channels: usize) {
     }
     if channels > 1 && args.channel.is_none() {
         files::note(&format!("note: the file has {channels} channels; --channel chooses another than the first"));
+    }
+    for odd in [coverage::odd_peak(history), coverage::odd_interval(history)].into_iter().flatten() {
+        files::note(&format!("warning: {odd}"));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use concio::case::{self, CaseFile, Document, Signal};
+use concio::case::{self, CaseFile, Document, Signal, plausible};
 use concio::ground::record::{self, TextOptions};
 use concio::run::{self, Prepared};
 use concio::{Error, InputError};
@@ -71,7 +71,8 @@ fn of_record(error: Error) -> Error {
 pub fn prepare(file: &CaseFile) -> Result<Prepared, Failure> {
     let prepared = run::prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)));
     // A length in the wrong unit makes walls that cannot be laid.
-    let mut prepared = prepared.inspect_err(|_| warn(file, &file.unit_doubts()))?;
+    let doubts = || [file.unit_doubts(), plausible::doubts(&file.case)].concat();
+    let mut prepared = prepared.inspect_err(|_| warn(file, &doubts()))?;
     prepared.model.warnings.splice(0..0, file.unit_doubts());
     Ok(prepared)
 }

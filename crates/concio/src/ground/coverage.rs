@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use crate::G;
 use crate::case::{Beam, Case, RecordInput, Signal};
 use crate::error::Result;
 use crate::ground::record::Record;
@@ -15,10 +14,12 @@ const SLACK: f64 = 1e-6;
 pub const DRIFT: f64 = 0.5;
 
 /// Displacement [m] at the end of a motion below which nobody minds.
+const SMALLEST_DRIFT: f64 = 0.01;
 /// Peak accelerations of records beyond which units are doubted [m/s²].
 const SMALLEST_PEAK: f64 = 0.01;
 const LARGEST_PEAK: f64 = 60.0;
-const SMALLEST_DRIFT: f64 = 0.01;
+/// Time between samples beyond which its unit is doubted [s]: earthquakes shake at 5 Hz and more.
+const LARGEST_INTERVAL: f64 = 0.1;
 
 /// How a run of `duration` [s] covers a record.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,7 +60,9 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                 let record = library.record(input, folder)?;
                 found.extend(uncovered(place, "record", &record, duration));
                 found.extend(drifting(place, &record));
-                found.extend(implausible(name, &record));
+                let look = ": look at `units`, `scale` and `pga`";
+                found.extend(odd_peak(&record).map(|odd| format!("motion.{name}: {odd} as it moves the wall{look}")));
+                found.extend(odd_interval(&record).map(|odd| format!("motion.{name}: {odd}")));
             }
             Signal::Synthetic(input) => {
                 found.extend(uncovered(place, "accelerogram", &library.synthetic(input)?, duration));
@@ -101,18 +104,25 @@ fn drifting(name: &str, record: &Record) -> Option<String> {
     })
 }
 
-/// Peaks that no earthquake has, or that no wall feels, come from units.
-fn implausible(name: &str, record: &Record) -> Option<String> {
+/// Says of a peak that no earthquake has, or that no wall feels, that it is: it comes from units.
+pub fn odd_peak(record: &Record) -> Option<String> {
     let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
-    let how = if peak > LARGEST_PEAK { "more" } else { "less" };
-    let bound = if peak > LARGEST_PEAK { LARGEST_PEAK } else { SMALLEST_PEAK };
-    (peak > 0.0 && !(SMALLEST_PEAK..=LARGEST_PEAK).contains(&peak)).then(|| {
-        format!(
-            "motion.{name}: the record's peak acceleration is {:.2e} g as it moves the wall, {how} than {:.2e} g: look at `units`, `scale` and `pga`",
-            peak / G,
-            bound / G
-        )
+    let (how, bound) = if peak > LARGEST_PEAK { ("more", LARGEST_PEAK) } else { ("less", SMALLEST_PEAK) };
+    (peak > 0.0 && !(SMALLEST_PEAK..=LARGEST_PEAK).contains(&peak))
+        .then(|| format!("the record's peak acceleration is {} m/s², {how} than {bound} m/s²", rounded(peak)))
+}
+
+/// Says of samples of an acceleration that are too far apart for an earthquake that they are: times are in another unit.
+pub fn odd_interval(record: &Record) -> Option<String> {
+    (record.dt > LARGEST_INTERVAL && record.displacement.is_none()).then(|| {
+        let (dt, most) = (rounded(record.dt), LARGEST_INTERVAL);
+        format!("the record's samples are {dt} s apart, more than {most} s: are its times in milliseconds? (`Time [ms]` heads them)")
     })
+}
+
+/// Four significant digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 fn uncovered(name: &str, what: &str, record: &Record, duration: f64) -> Option<String> {
@@ -192,6 +202,19 @@ mod tests {
         assert_eq!(drifting("base", &back), None);
         there.displacement = Some(vec![0.0; 201]);
         assert_eq!(drifting("base", &there), None);
+    }
+
+    #[test]
+    fn peaks_and_intervals_of_other_units_are_told() {
+        let usual = record(101);
+        assert_eq!((odd_peak(&usual), odd_interval(&usual)), (None, None));
+        let mut other = record(101);
+        other.acceleration.iter_mut().for_each(|a| *a *= 981.0);
+        other.dt = 5.0;
+        let peak = odd_peak(&other).expect("a doubt");
+        assert!(peak.contains("981 m/s², more than 60 m/s²"), "{peak}");
+        let interval = odd_interval(&other).expect("a doubt");
+        assert!(interval.contains("5 s apart, more than 0.1 s"), "{interval}");
     }
 
     #[test]

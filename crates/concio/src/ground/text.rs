@@ -2,7 +2,7 @@
 //! and one value column per channel. Columns are parted by comma, semicolon, tab or blanks; with semicolons a comma
 //! is a decimal point. Lines that start with `#`, `%` or `//`, and lines that start with a word before the first
 //! sample, are header. From the header come the interval (`dt = 0.01 s`, `sampling rate: 200 Hz`) and the unit
-//! (`acceleration [cm/s2]`, `units: g`).
+//! (`acceleration [cm/s2]`, `units: g`); times are in seconds, or in milliseconds where their title says so (`time [ms]`).
 
 use crate::case::HistoryQuantity;
 use crate::ground::record::{Format, Raw, Record, TextOptions, finish, name};
@@ -166,9 +166,18 @@ fn keyed_number<'a>(line: &'a str, key: &str) -> Option<(f64, &'a str)> {
     None
 }
 
+/// Seconds in the unit that the title of the time column names, 1 where it names none.
+fn time_unit(source: &Source, table: &Table) -> f64 {
+    let names = column_names(source, table.lines[0], table.columns.len());
+    let title = names.first().copied().unwrap_or("").to_lowercase();
+    let milli = bracketed(&title).any(|unit| ["ms", "msec", "milliseconds"].contains(&unit));
+    if milli { 1e-3 } else { 1.0 }
+}
+
 /// A time column: the interval comes from it; the values start at column 1.
 fn timed(source: &Source, table: &Table, options: &TextOptions) -> Result<(Interval, usize)> {
-    let time = &table.columns[0];
+    let unit = time_unit(source, table);
+    let time: Vec<f64> = table.columns[0].iter().map(|t| unit * t).collect();
     let n = time.len();
     let first_line = table.lines[0];
     if n < 2 {
@@ -179,7 +188,7 @@ fn timed(source: &Source, table: &Table, options: &TextOptions) -> Result<(Inter
     }
     let steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let typical = median(&steps);
-    let rounding = table.first.iter().map(|field| resolution(field)).fold(0.0, f64::max);
+    let rounding = table.first.iter().map(|field| unit * resolution(field)).fold(0.0, f64::max);
     // A column so coarsely rounded that a missing sample would pass for rounding must be even as it is.
     let rounding = if rounding <= 0.5 * typical { rounding } else { 0.0 };
     let hint = "the first of two columns is time; with decimal commas, part the columns by semicolons";
