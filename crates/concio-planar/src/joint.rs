@@ -2,7 +2,8 @@
 //!
 //! A rigid joint has two points, its ends. A compliant one has three, its ends and its middle, with a sixth, two thirds and a
 //! sixth of its length: they give a layer of springs its stiffness against parting and against turning exactly, and have the
-//! corner at the edge. Over a step the stretch g of a spring goes on with the mean of the velocities at its ends, and its
+//! corner at the edge. A joint of either kind whose pressure is bounded has nine, of the same
+//! stiffness. Over a step the stretch g of a spring goes on with the mean of the velocities at its ends, and its
 //! force is that of g_0 + θ (g_1 − g_0):
 //!
 //! (P6)  θ = ½ + min(½ x²/(1 + x²), ζ/(2 x)),   x = h ω/4,   ω² = k/m,   ζ = ⅛
@@ -17,6 +18,13 @@ use concio_device as device;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{Contact, Linear, Status};
+
+/// Parts that the points of a joint stand for that may be crushed: where its middle is crushed decides what it bears, and three points do not tell.
+/// Gregory's rule to third order, which turns as a layer of springs does, as that of three points.
+const CRUSHABLE: [f64; 9] = {
+    let [end, next, third, inner] = [3.0 / 64.0, 7.0 / 48.0, 23.0 / 192.0, 0.125];
+    [end, next, third, inner, inner, inner, third, next, end]
+};
 
 /// Law of a joint. Stiffnesses, dashpots and strengths are those of its whole length.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -169,14 +177,18 @@ impl Law {
         no_springs && [stiffness, damping] == [0.0; 2] && no_device && self.bond.is_none()
     }
 
-    /// Whether it has a spring, and so three points.
+    /// Whether it has a spring, and so more points than its ends.
     pub fn is_compliant(&self) -> bool {
         matches!(self.normal, Normal::Springs { .. })
     }
 
-    /// Parts of the joint that its points stand for.
+    /// Parts of the joint that its points stand for, which are equally far from each other.
     pub fn shares(&self) -> &'static [f64] {
-        if self.is_compliant() { &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0] } else { &[0.5, 0.5] }
+        match (self.crushing.is_finite(), self.is_compliant()) {
+            (true, _) => &CRUSHABLE,
+            (false, true) => &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
+            (false, false) => &[0.5, 0.5],
+        }
     }
 
     /// Springs at a point whose bond is damaged by `damage`: in both directions, and in compression only.

@@ -8,6 +8,7 @@
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree, RTreeObject};
 use serde::{Deserialize, Serialize};
+use smallvec::SmallVec;
 
 use crate::G;
 use crate::blocks::{Slot, Triple};
@@ -44,7 +45,7 @@ const ENOUGH: f64 = 100.0;
 /// How much deeper than their velocities took them the sides of a joint may overlap, over `REACH`: where a stone that falls comes upon another edge
 /// of its neighbour there would be a spring pressed in by nothing, and energy of nothing. Where they overlap so much less, what the spring had is lost.
 const JUMP: f64 = 3e-6;
-/// Contact points of a pair.
+/// Contact points of a pair that are kept in place: joints that may be crushed have more.
 const POINTS: usize = 3;
 
 /// How contact is solved.
@@ -202,12 +203,12 @@ pub struct Seen {
 }
 
 /// A pair that may touch; none is the base.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Pair {
     a: Option<usize>,
     b: usize,
     link: Option<usize>,
-    points: [Point; POINTS],
+    points: SmallVec<[Point; POINTS]>,
     /// Distance as the wall was laid [m]; 0 for those that have come together.
     laid: f64,
 }
@@ -721,7 +722,10 @@ impl Motion {
         }
         let tree = RTree::bulk_load(boxes.clone());
         let known = std::mem::take(&mut self.pairs);
-        let fresh = |a, b, link| Pair { a, b, link, points: [Point::default(); POINTS], laid: 0.0 };
+        let fresh = |a, b, link: Option<usize>| {
+            let law = link.map_or(&self.other, |k| &self.links[k].law);
+            Pair { a, b, link, points: SmallVec::from_elem(Point::default(), law.shares().len()), laid: 0.0 }
+        };
         // Joints stay whatever becomes of them: what has gone apart may come together again.
         let mut pairs: Vec<Pair> =
             self.links.iter().enumerate().map(|(k, link)| fresh(link.a, link.b, Some(k))).collect();
@@ -781,9 +785,9 @@ impl Motion {
 
     /// What has become of the points of a joint; none where its bodies have never been near each other.
     pub fn points(&self, link: usize) -> Option<&[Point]> {
-        let Link { a, b, law } = &self.links[link];
+        let Link { a, b, .. } = &self.links[link];
         let at = self.pairs.binary_search_by_key(&(*a, *b), |p| (p.a, p.b)).ok()?;
-        Some(&self.pairs[at].points[..law.shares().len()])
+        Some(&self.pairs[at].points)
     }
 
     /// Parts of a joint that its points stand for.
@@ -815,7 +819,10 @@ impl Motion {
             && kept.seen.len() == self.seen.len()
             && kept.strains.len() == self.strains.len()
             && kept.pairs.iter().all(|p| p.b < n && p.a.is_none_or(|a| a < n))
-            && kept.pairs.iter().all(|p| p.link.is_none_or(|k| k < self.links.len()));
+            && kept.pairs.iter().all(|p| {
+                let law = p.link.map_or(Some(&self.other), |k| self.links.get(k).map(|link| &link.law));
+                law.is_some_and(|law| law.shares().len() == p.points.len())
+            });
         if fits {
             let Kept { places, velocities, time, account, counters, pairs, looked, seen, pull, strains, known } = kept;
             (self.places, self.velocities, self.time) = (places, velocities, time);

@@ -601,6 +601,38 @@ duration = "0.1 s"
     }
 }
 
+/// A stone that turns over on a toe that crushes leans on a block of stress f_c as long as its weight needs: λ = (ℓ/2 − N/(2 f_c b))/h_c.
+#[test]
+fn a_toe_that_crushes_is_a_block_of_stress() {
+    let springs = r#"law = "no-tension", stiffness = "100 N/mm3", rigidity = 1"#;
+    let rigid = r#"law = "rigid""#;
+    for (law, strength) in [(springs, 0.1), (springs, 0.3), (rigid, 0.1), (rigid, 0.3)] {
+        let (length, height, thickness, weight) = (0.5, 2.0, 0.4, 8.8e3);
+        let (_, outcome) = ran(&format!(
+            r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = {{ length = {length}, height = {height}, thickness = {thickness}, specific_weight = "22 kN/m3" }}
+[joint]
+bed = {{ {law}, compressive_strength = "{strength} MPa" }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.7, dynamic = 0.7 }}
+[motion]
+quasi_static = true
+base = {{ tilt = {{ acceleration = "0.5 g", rise = "60 s" }} }}
+duration = "60 s"
+"#
+        ));
+        let leans_on = weight / (strength * 1e6 * thickness);
+        let expected = 0.5 * (length - leans_on) / (0.5 * height);
+        close(outcome.totals.base_shear_peak / weight, expected, 0.04);
+        assert!(outcome.recording.events.iter().any(|e| e.kind == EventKind::Crush));
+    }
+}
+
 /// A wall stands under its weight before it moves, however short its steps are.
 #[test]
 fn a_wall_has_settled_when_it_begins() {

@@ -18,6 +18,9 @@ use crate::record::{Event, EventKind, Layout, Recording, StopReason};
 use crate::state::{BondState, State};
 use crate::wall::End;
 
+/// Depth from which a point counts as crushed [m]: less is rounding of a rigid point that bears all it may.
+const CRUSHED: f64 = 1e-9;
+
 /// Largest way of a body in a step without inertia at which the wall stands under its loads [m].
 const STANDS: f64 = 1e-10;
 /// Steps in which it has to come to that.
@@ -282,7 +285,7 @@ impl Run {
                 continue;
             }
             let depth = self.motion.points(e).map_or(0.0, |p| p.iter().map(|p| p.crushed).fold(0.0, f64::max));
-            if depth > 0.0 {
+            if depth > CRUSHED {
                 self.crushed[e] = true;
                 tell(Event { time: state.t, joint: e as u32, kind: EventKind::Crush, value: depth });
             }
