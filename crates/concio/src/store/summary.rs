@@ -93,7 +93,7 @@ pub fn residual_relative(outcome: &Outcome) -> f64 {
 /// Root mean square of the force of the top beam over the time reached, until a collapse at the longest [N].
 pub fn top_force_rms(outcome: &Outcome) -> f64 {
     let totals = &outcome.totals;
-    let time = totals.collapse.map_or(outcome.time_reached, |collapse| collapse.time);
+    let time = totals.collapse.map_or(f64::INFINITY, |collapse| collapse.time).min(outcome.time_reached);
     if time > 0.0 { (totals.top_force_square / time).sqrt() } else { 0.0 }
 }
 
