@@ -937,3 +937,35 @@ base = "none"
         }
     }
 }
+
+/// Joints follow from courses, whatever lies between: a stone that hangs over the one below is told.
+#[test]
+fn blocks_that_hang_are_doubted() {
+    let doubts = |base: f64, above: f64| {
+        let stone =
+            |course: usize, y: f64| format!("{{ course = {course}, x = 0, y = {y}, length = 0.5, height = 0.3 }}");
+        let text = block("")
+            .replace("\"stack\"", "\"explicit\"")
+            .replace("courses = 1\nbricks = 1\n", "")
+            .replace("height = 0.5, thickness", "height = 0.3, thickness");
+        let (stones, joint) = (
+            [stone(1, base), stone(2, above)].join(", "),
+            "[joint]\nbed = { law = \"rigid\" }\nhead = { law = \"rigid\" }\n[motion]\nduration = 0.01",
+        );
+        let (prepared, _) =
+            ran(&format!("{text}\nmortar = {{ bed = \"10 mm\", head = 0 }}\nblock = [{stones}]\n{joint}"));
+        prepared.model.warnings.iter().filter(|w| w.contains("thick")).cloned().collect::<Vec<_>>()
+    };
+    assert_eq!(doubts(0.0, 0.31), [""; 0]);
+    assert_eq!(doubts(0.0, 0.349), [""; 0]);
+    let told = doubts(0.0, 0.36);
+    assert!(
+        told.len() == 1 && told[0].contains("joint p1c1b1|p1c2b1 is 60.0 mm thick, its mortar 10.0 mm"),
+        "{told:?}"
+    );
+    let told = doubts(0.2, 0.6);
+    assert!(
+        told.len() == 1 && told[0].contains("base|p1c1b1 is 200.0 mm thick, its mortar 10.0 mm, and 1 more"),
+        "{told:?}"
+    );
+}
