@@ -34,8 +34,15 @@ pub fn significant(value: f64, digits: i32) -> String {
         return value.to_string();
     }
     let decimals = (digits - 1 - value.abs().log10().floor() as i32).max(0) as usize;
+    if decimals > MOST_DECIMALS {
+        let digits = (digits - 1).max(0) as usize;
+        return format!("{value:.digits$e}");
+    }
     format!("{value:.decimals$}")
 }
+
+/// Decimals from which a number is written with an exponent.
+const MOST_DECIMALS: usize = 15;
 
 /// A time in seconds as it is, without the digits that rounding leaves behind: `12.325 s`, `39.99 s`, `65 s`.
 pub fn seconds(value: f64) -> String {
@@ -45,7 +52,11 @@ pub fn seconds(value: f64) -> String {
 /// At most nine significant digits, no zeros behind the last.
 pub fn plain(value: f64) -> String {
     let text = significant(value, 9);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').into()
+    } else {
+        text
+    }
 }
 
 /// A time by the clock: `0.42 s`, `3 min 12 s`.

@@ -71,7 +71,7 @@ fn body(block: &Block) -> Body {
 }
 
 fn points(wall: &Wall, number: usize, joint: &Joint) -> [ContactPoint; 2] {
-    let [x0, y0, x1, y1] = joint.line;
+    let [x0, y0, x1, y1] = place(wall, joint);
     let b = match joint.b {
         End::Block(b) => Other::Body(b),
         End::Base => Other::Base,
@@ -92,6 +92,19 @@ fn points(wall: &Wall, number: usize, joint: &Joint) -> [ContactPoint; 2] {
         normal,
         length: 0.5 * joint.overlap,
     })
+}
+
+/// Where the sides of a joint touch: rectangular blocks reach through their mortar to base and beam, as in a run.
+fn place(wall: &Wall, joint: &Joint) -> [f64; 4] {
+    let [x0, y0, x1, y1] = joint.line;
+    match joint.kind {
+        JointKind::Base if wall.blocks[joint.a].is_rectangle() => [x0, 0.0, x1, 0.0],
+        JointKind::Top if wall.blocks[joint.a].is_rectangle() => {
+            let level = wall.blocks.iter().map(|b| b.y[1]).fold(f64::NEG_INFINITY, f64::max);
+            [x0, level, x1, level]
+        }
+        _ => [x0, y0, x1, y1],
+    }
 }
 
 /// Unit normal of a sloping joint, out of its first block.

@@ -83,6 +83,35 @@ fn a_beam_with_mass_is_one_more_body() {
     assert!(error.contains("load.beam") && error.contains("allowed"), "{error}");
 }
 
+/// A stone on mortar turns about the foot of the mortar, as in a run: λ = (ℓ/2)/(t_b + h/2).
+#[test]
+fn mortar_on_the_base_lifts_the_stone() {
+    let text = |bed: f64| {
+        format!(
+            r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = {{ length = 0.2, height = 0.4, thickness = 0.2, specific_weight = 20e3 }}
+mortar = {{ bed = {bed}, head = 0 }}
+[joint]
+bed = {{ law = "rigid" }}
+head = {{ law = "rigid" }}
+friction = {{ law = "coulomb", static = 2, dynamic = 2 }}
+[motion]
+duration = 1
+"#
+        )
+    };
+    for bed in [0.0, 0.01, 0.1] {
+        let file = concio::case::from_str(&text(bed), concio::case::Syntax::Toml, None).expect("a wall file");
+        let problem = Problem::of(&file.case, Options::default()).expect("a problem");
+        close("λ", certified(&analyse(&problem).expect("a limit")), 0.1 / (bed + 0.2), 1e-9);
+    }
+}
+
 #[test]
 fn a_wall_that_falls_by_itself_has_no_multiplier() {
     let wall = DryWall::new(vec![vec![[0.0, 1.0]], vec![[0.6, 1.2]]], 0.5, 0.7);

@@ -11,7 +11,6 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use concio::case::Case;
-use concio::files;
 use concio::ground::{GroundMotion, Library};
 use concio::many::{Job, Standing, simulate_each};
 use concio::model::Model;
@@ -317,7 +316,7 @@ impl Desk<'_> {
             std::fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
         }
         let (model, provenance) = (&prepared.model, prepared.provenance());
-        files::replace(&path, |own| hdf5::write(own, &provenance, &model.wall, &joint_rows(model), outcome))
+        hdf5::write(&path, &provenance, &model.wall, &joint_rows(model), outcome)
     }
 }
 

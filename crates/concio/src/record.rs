@@ -271,6 +271,31 @@ pub struct Envelopes {
     pub joint_impacts: Vec<f64>,
 }
 
+impl Envelopes {
+    /// Takes the sign from what is 0: which of two zeros is the larger is the processor's choice.
+    pub(crate) fn drop_signs_of_zero(&mut self) {
+        let Envelopes {
+            block_displacement,
+            block_velocity,
+            block_acceleration,
+            joint_displacement,
+            joint_velocity,
+            joint_acceleration,
+            joint_slip,
+            joint_opening,
+            joint_closing,
+            joint_force,
+            joint_dissipation,
+            joint_impulse,
+            joint_impacts,
+        } = self;
+        let blocks = [block_displacement, block_velocity, block_acceleration];
+        let joints = [joint_displacement, joint_velocity, joint_acceleration, joint_slip, joint_opening, joint_closing];
+        let forces = [joint_force, joint_dissipation, joint_impulse, joint_impacts];
+        blocks.into_iter().chain(joints).chain(forces).flatten().for_each(|x| *x += 0.0);
+    }
+}
+
 /// The energy account (7) at one instant [J]; all work is done in coordinates relative to the base.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energies {

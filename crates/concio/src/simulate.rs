@@ -544,6 +544,7 @@ impl<'m> Simulation<'m> {
         // Runs without rigid joints count no impacts, results do.
         envelopes.joint_impulse.resize(self.model.joints.len(), 0.0);
         envelopes.joint_impacts.resize(self.model.joints.len(), 0.0);
+        envelopes.drop_signs_of_zero();
         Outcome {
             bonds,
             ties: self.planar.map_or_else(Vec::new, |bodies| bodies.ties(self.model)),
