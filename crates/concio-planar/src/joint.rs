@@ -9,9 +9,10 @@
 //! (P6)  θ = ½ + min(½ x²/(1 + x²), ζ/(2 x)),   x = h ω/4,   ω² = k/m,   ζ = ⅛
 //!
 //! where a spring lets go, in compression only or in line with friction, m being the mass that the point moves: a stiff
-//! joint that rings faster than the step resolves is damped, at a ratio of ζ at most: more would damp the wall's own modes, which are slower,
+//! joint that rings faster than the step resolves is damped, each point at a ratio of ζ at most, the whole joint by what its points add up to (a sixth with three points, 0.29 with
+//! nine): more would damp the wall's own modes, which are slower,
 //! with it. A spring that closes during the step takes θ = 1: any
-//! less would make energy. What θ takes counts as lost in impacts. Springs in both directions take the midpoint, θ = ½, which keeps energy
+//! less would make energy. What θ takes counts as lost in impacts across, and as friction along. Springs in both directions take the midpoint, θ = ½, which keeps energy
 //! whatever the step: the modes of a mortared wall are slower than its joints alone, and would be damped with them.
 
 use concio_device as device;
@@ -147,7 +148,7 @@ pub struct Bond {
     pub residual: f64,
 }
 
-/// ζ of (P6): ratio at which a joint that rings faster than the step resolves is damped at most.
+/// ζ of (P6): ratio at which a point that rings faster than the step resolves is damped at most.
 const RINGING: f64 = 0.125;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;

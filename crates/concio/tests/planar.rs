@@ -449,7 +449,6 @@ base = { sine = { acceleration = "0.8 g", frequency = "3 Hz" } }
     assert!(outcome.totals.contact_residual < 1e-7, "{:e}", outcome.totals.contact_residual);
 }
 
-/// Without inertia, a block that sticks to a driven beam goes where the beam goes, and the beam does the work of the friction below.
 /// Stones of a course only just touch: what rounding presses them by tells nothing of how the wall swings.
 #[test]
 fn stones_that_only_just_touch_do_not_hold_each_other() {
@@ -482,6 +481,7 @@ base = "none"
     }
 }
 
+/// Without inertia, a block that sticks to a driven beam goes where the beam goes, and the beam does the work of the friction below.
 #[test]
 fn a_slow_beam_takes_the_wall_along() {
     let (prepared, outcome) = ran(&stack(
