@@ -100,7 +100,7 @@ fn place(wall: &Wall, joint: &Joint) -> [f64; 4] {
     match joint.kind {
         JointKind::Base if wall.blocks[joint.a].is_rectangle() => [x0, 0.0, x1, 0.0],
         JointKind::Top if wall.blocks[joint.a].is_rectangle() => {
-            let level = wall.blocks.iter().map(|b| b.y[1]).fold(f64::NEG_INFINITY, f64::max);
+            let level = concio::planar::top_level(wall);
             [x0, level, x1, level]
         }
         _ => [x0, y0, x1, y1],

@@ -1,5 +1,6 @@
 //! Collapse multipliers against closed forms, and what a mechanism and its forces have to obey.
 
+use concio::quantity::Length;
 use concio_limit::assembly::Other;
 use concio_limit::{Heads, LimitError, MechanismKind, Options, Problem, Push, Stop, Towards, analyse};
 use proptest::prelude::*;
@@ -86,28 +87,11 @@ fn a_beam_with_mass_is_one_more_body() {
 /// A stone on mortar turns about the foot of the mortar, as in a run: λ = (ℓ/2)/(t_b + h/2).
 #[test]
 fn mortar_on_the_base_lifts_the_stone() {
-    let text = |bed: f64| {
-        format!(
-            r#"
-model = "planar"
-[[panel]]
-bond = "stack"
-courses = 1
-bricks = 1
-brick = {{ length = 0.2, height = 0.4, thickness = 0.2, specific_weight = 20e3 }}
-mortar = {{ bed = {bed}, head = 0 }}
-[joint]
-bed = {{ law = "rigid" }}
-head = {{ law = "rigid" }}
-friction = {{ law = "coulomb", static = 2, dynamic = 2 }}
-[motion]
-duration = 1
-"#
-        )
-    };
     for bed in [0.0, 0.01, 0.1] {
-        let file = concio::case::from_str(&text(bed), concio::case::Syntax::Toml, None).expect("a wall file");
-        let problem = Problem::of(&file.case, Options::default()).expect("a problem");
+        let mut case = DryWall::stack(1, [0.2, 0.4], 2.0).case();
+        case.panels[0].mortar.bed = Length::from_si(bed);
+        case.panels[0].blocks[0].y = Some(Length::from_si(bed));
+        let problem = Problem::of(&case, Options::default()).expect("a problem");
         close("λ", certified(&analyse(&problem).expect("a limit")), 0.1 / (bed + 0.2), 1e-9);
     }
 }

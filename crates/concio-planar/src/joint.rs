@@ -8,12 +8,12 @@
 //!
 //! (P6)  θ = ½ + min(½ x²/(1 + x²), ζ/(2 x)),   x = h ω/4,   ω² = k/m,   ζ = ⅛
 //!
-//! where a spring lets go, in compression only or in line with friction, m being the mass that the point moves: a stiff
-//! joint that rings faster than the step resolves is damped, each point at a ratio of ζ at most, the whole joint by what its points add up to (a sixth with three points, 0.29 with
-//! nine): more would damp the wall's own modes, which are slower,
-//! with it. A spring that closes during the step takes θ = 1: any
-//! less would make energy. What θ takes counts as lost in impacts across, and as friction along. Springs in both directions take the midpoint, θ = ½, which keeps energy
-//! whatever the step: the modes of a mortared wall are slower than its joints alone, and would be damped with them.
+//! where a spring lets go, in compression only or in line with friction, k being the stiffness of the whole joint and m the mass that the
+//! point moves. A stiff joint that rings faster than the step resolves is damped at a ratio of ζ at most, however many points it has:
+//! more would damp the wall's own modes, which are slower, with it. A spring that closes during the step takes θ = 1: any
+//! less would make energy. What θ takes counts as lost in impacts, of a point that slides as friction. Springs in both directions take
+//! the midpoint, θ = ½, which keeps energy whatever the step: the modes of a mortared wall are slower than its joints alone, and
+//! would be damped with them.
 
 use concio_device as device;
 use serde::{Deserialize, Serialize};
@@ -148,7 +148,7 @@ pub struct Bond {
     pub residual: f64,
 }
 
-/// ζ of (P6): ratio at which a point that rings faster than the step resolves is damped at most.
+/// ζ of (P6): ratio at which a joint that rings faster than the step resolves is damped at most.
 const RINGING: f64 = 0.125;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
@@ -373,14 +373,15 @@ impl Law {
         contact: &mut Contact,
     ) -> Start {
         let [u_n, u_t] = velocity;
+        // `k` of the whole joint: points that each took their own would add up to more than ζ.
         let theta = |k: f64, m: f64| {
             let square = 0.0625 * h * h * k / m;
             if still { 1.0 } else { 0.5 + (0.5 * square / (1.0 + square)).min(0.5 * RINGING / square.sqrt()) }
         };
         let (both, press) = self.springs(point.damage);
+        let resolved = theta(both + press, contact.moved[0]);
         let (both, press, dashpot) = (share * both, share * press, share * self.normal_damping());
         let midpoint = if still { 1.0 } else { 0.5 };
-        let resolved = theta(both + press, contact.moved[0]);
         let theta_press = if gap + point.crushed > TOUCHING { 1.0 } else { resolved };
         // A spring of `k` stretched by `g` with a dashpot of `c`.
         let over = |k: f64, c: f64, g: f64, u: f64, theta: f64| Linear {
@@ -421,7 +422,7 @@ impl Law {
         }
         let shear = share * self.shear.stiffness;
         if self.in_line(point.damage) {
-            let line = over(shear, share * self.shear.damping, 0.0, u_t, theta(shear, contact.moved[1]));
+            let line = over(shear, share * self.shear.damping, 0.0, u_t, theta(self.shear.stiffness, contact.moved[1]));
             contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
             contact.compliant[1] = true;
         } else {
@@ -591,7 +592,8 @@ impl Law {
             let stored = 0.5 * point.bearing * point.bearing / k;
             works.elastic += stored;
             works.damping += damping;
-            works.friction += -borne * mean - (stored - 0.5 * before * before / k) - damping;
+            let lost = -borne * mean - (stored - 0.5 * before * before / k) - damping;
+            *if slides { &mut works.friction } else { &mut works.impact } += lost;
         } else {
             works.friction -= borne * mean;
         }

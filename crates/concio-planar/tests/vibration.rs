@@ -1,8 +1,8 @@
-//! Small vibrations against the closed form of two unknowns.
+//! Small vibrations against the closed form of two unknowns, and what a step takes from those that it does not resolve.
 
 use concio_planar::body::Body;
 use concio_planar::joint::{Law, Normal, Shear};
-use concio_planar::motion::{Link, Motion, Setting, System};
+use concio_planar::motion::{Forcing, Link, Motion, Setting, System};
 
 const LENGTH: f64 = 0.4;
 const HEIGHT: f64 = 1.1;
@@ -53,4 +53,53 @@ fn a_rigid_joint_holds_what_it_bears() {
     let mut motion = Motion::new(&System::dry(&[body], 0.6), Setting::new(1e-4));
     assert!(motion.stand(1e-10, 400));
     assert_eq!(motion.slowest(), None);
+}
+
+/// Ratio at which a block that rings on its joint is damped by steps of `h`, whose circular frequency is `omega`: across and along.
+///
+/// Its mass lies in its foot and far out, so that it neither tips nor turns and every point moves all of it. Differences of its place
+/// obey d_(n+1) = t d_n − q d_(n−1); a dashpot c instead would make q = (1 + z/4 − y)/(1 + z/4 + y), y = ½ h c/m, z = (h ω)².
+fn ringing(h: f64, omega: f64, crushing: f64) -> [f64; 2] {
+    let stiffness = MASS * omega * omega;
+    let body = Body {
+        name: "b".into(),
+        centre: [0.0; 2],
+        corners: vec![[-0.2, 0.0], [0.2, 0.0], [0.2, 1.0], [-0.2, 1.0]],
+        mass: MASS,
+        inertia: 1e9 * MASS,
+    };
+    let law = Law {
+        normal: Normal::Springs { both: 0.0, press: stiffness, damping: 0.0 },
+        shear: Shear { stiffness, damping: 0.0, series: true },
+        crushing,
+        ..Law::dry(Some(concio_planar::joint::Friction::coulomb(0.6)))
+    };
+    let system = System { links: vec![Link { a: None, b: 0, law }], ..System::dry(&[body], 0.6) };
+    [1, 0].map(|k| {
+        let mut motion = Motion::new(&system, Setting { tolerance: 1e-14, ..Setting::new(h) });
+        assert!(motion.stand(1e-12, 400));
+        motion.velocities[0][k] = 0.1 * concio_planar::G / omega;
+        let places = [0, 1, 2, 3, 4].map(|_| {
+            motion.step(Forcing::default());
+            motion.places[0].centre[k]
+        });
+        let d = [0, 1, 2, 3].map(|n| places[n + 1] - places[n]);
+        let q = (d[2] * d[2] - d[1] * d[3]) / (d[1] * d[1] - d[0] * d[2]);
+        let y = (1.0 + 0.25 * (h * omega).powi(2)) * (1.0 - q) / (1.0 + q);
+        y / (h * omega)
+    })
+}
+
+/// (P6): x³/(1 + x²) at x = h ω/4, and an eighth at most, with three points and with the nine of a joint that can be crushed.
+#[test]
+fn what_rings_is_damped_by_an_eighth_at_most() {
+    for crushing in [f64::INFINITY, 1e9] {
+        for x in [0.1_f64, 0.3, 0.5, 1.0, 3.0, 20.0] {
+            let h = 1e-3;
+            let expected = (x * x * x / (1.0 + x * x)).min(0.125);
+            for found in ringing(h, 4.0 * x / h, crushing) {
+                assert!((found / expected - 1.0).abs() < 1e-5, "x = {x}: {found} instead of {expected}");
+            }
+        }
+    }
 }

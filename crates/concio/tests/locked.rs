@@ -84,7 +84,7 @@ fn sheared(model: &Model, steps: usize) -> (Vec<Vec<f64>>, usize) {
             let light = sides.iter().filter_map(|i| model.mass.get(*i)).map(|m| 1.0 / m).sum::<f64>();
             for share in [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0] {
                 let stiffness = share * law.stiffness;
-                let x = STEP * STEP * stiffness * light / 16.0;
+                let x = STEP * STEP * law.stiffness * light / 16.0;
                 let theta = if gap > 1e-12 { 1.0 } else { 0.5 + (0.5 * x / (1.0 + x)).min(0.0625 / x.sqrt()) };
                 let offset = -STEP * stiffness * (gap + 0.5 * theta * STEP * u);
                 springs.push(Spring { sides, offset, rho: 0.5 * STEP * STEP * stiffness * theta, lets_go: true });

@@ -9,9 +9,6 @@ use crate::format::seconds;
 /// Residual of the energy account beyond which a run is not to be trusted.
 pub const LARGEST_RESIDUAL: f64 = 1e-3;
 
-/// Part of what was lost beyond which that in impacts is told of where joints have springs.
-const MUCH: f64 = 0.1;
-
 /// One sentence or two each; those of this run come first.
 pub fn list(content: &Content) -> Vec<String> {
     let mut doubts = of_this_run(content);
@@ -84,15 +81,6 @@ fn of_this_run(content: &Content) -> Vec<String> {
              and when blocks fall, mean nothing."
                 .into(),
         );
-    }
-    let (impact, lost) = (outcome.energies.impact, outcome.energies.dissipated());
-    if planar && impact > MUCH * lost && content.joints.iter().any(|joint| joint.stiffness > 0.0) {
-        doubts.push(format!(
-            "{:.0} % of what was lost went into impacts, and into springs of joints that close or ring faster than a step resolves. \
-             Run it again with half of solver.step: what falls with the step is not the wall's, and friction and damping \
-             take it over.",
-            100.0 * impact / lost
-        ));
     }
     if slips {
         let sure = if planar { "envelopes and forces" } else { "energies, envelopes and forces" };

@@ -141,10 +141,14 @@ impl Doubts {
         let within = |v: f64| (expected.usual[0]..=expected.usual[1]).contains(&v);
         let guess = expected.slips.iter().find(|(factor, ..)| within(size * factor));
         let meant = guess.map_or(String::new(), |&(factor, unit, si)| {
-            format!("; did you mean \"{} {unit}\"?", shown(rounded(value * factor / si)))
+            format!("; did you mean \"{} {unit}\"?", shown(rounded(value * factor / si, 6)))
         });
         let unit = expected.unit;
-        self.0.push(format!("{key} is {} {unit}, {than} than {} {unit}{meant}", shown(rounded(value)), shown(limit)));
+        self.0.push(format!(
+            "{key} is {} {unit}, {than} than {} {unit}{meant}",
+            shown(rounded(value, 6)),
+            shown(limit)
+        ));
     }
 
     fn look_at_stiffness(&mut self, key: &str, stiffness: Stiffness) {
@@ -192,9 +196,9 @@ pub(super) fn bare_accelerations(tree: &Node) -> Vec<String> {
     keys.filter_map(doubt).collect()
 }
 
-/// Six significant digits: conversions leave traces in the last ones.
-fn rounded(v: f64) -> f64 {
-    format!("{v:.5e}").parse().unwrap_or(v)
+/// Significant digits, for conversions leave traces in the last ones.
+pub(crate) fn rounded(v: f64, digits: usize) -> f64 {
+    format!("{v:.*e}", digits - 1).parse().unwrap_or(v)
 }
 
 fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {

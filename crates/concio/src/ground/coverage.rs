@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::case::plausible::rounded;
 use crate::case::{Beam, Case, RecordInput, Signal};
 use crate::error::Result;
 use crate::ground::record::Record;
@@ -109,20 +110,15 @@ pub fn odd_peak(record: &Record) -> Option<String> {
     let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
     let (how, bound) = if peak > LARGEST_PEAK { ("more", LARGEST_PEAK) } else { ("less", SMALLEST_PEAK) };
     (peak > 0.0 && !(SMALLEST_PEAK..=LARGEST_PEAK).contains(&peak))
-        .then(|| format!("the record's peak acceleration is {} m/s², {how} than {bound} m/s²", rounded(peak)))
+        .then(|| format!("the record's peak acceleration is {} m/s², {how} than {bound} m/s²", rounded(peak, 4)))
 }
 
 /// Says of samples of an acceleration that are too far apart for an earthquake that they are: times are in another unit.
 pub fn odd_interval(record: &Record) -> Option<String> {
     (record.dt > LARGEST_INTERVAL && record.displacement.is_none()).then(|| {
-        let (dt, most) = (rounded(record.dt), LARGEST_INTERVAL);
+        let (dt, most) = (rounded(record.dt, 4), LARGEST_INTERVAL);
         format!("the record's samples are {dt} s apart, more than {most} s: are its times in milliseconds? (`Time [ms]` heads them)")
     })
-}
-
-/// Four significant digits.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 fn uncovered(name: &str, what: &str, record: &Record, duration: f64) -> Option<String> {
