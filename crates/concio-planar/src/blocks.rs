@@ -175,7 +175,7 @@ pub struct Slot {
 
 impl Blocks {
     /// With a block for each body and each of `pairs`, all zero.
-    pub fn new(bodies: usize, pairs: &[(usize, usize)], orders: &Orders) -> Self {
+    pub(crate) fn new(bodies: usize, pairs: &[(usize, usize)], orders: &Orders) -> Self {
         let elimination = orders.elimination(bodies, pairs);
         let place: Vec<usize> = elimination.places().iter().map(|k| *k as usize).collect();
         let (mut start, mut columns) = (vec![0], Vec::new());

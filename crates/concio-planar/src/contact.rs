@@ -370,7 +370,7 @@ pub struct Solver {
 
 impl Solver {
     /// For so many bodies, of which these pairs may touch.
-    pub fn new(bodies: usize, pairs: &[(usize, usize)], orders: &Orders) -> Self {
+    pub(crate) fn new(bodies: usize, pairs: &[(usize, usize)], orders: &Orders) -> Self {
         let zero = vec![[0.0; 3]; bodies];
         Solver {
             matrix: Blocks::new(bodies, pairs, orders),

@@ -87,9 +87,9 @@ impl Elimination {
 fn found(graph: &Graph, at: &[[f64; 2]]) -> Part {
     let n = graph.len();
     let mut scratch = Scratch { mark: vec![0; n], stamp: 0, local: vec![0; n] };
-    let set = (0..n as u32).collect();
+    let set: Vec<u32> = (0..n as u32).collect();
     match at {
-        [] => least_fill(graph, set, &mut scratch),
+        [] => least_fill::order(graph, &set, &mut scratch),
         _ => whole(graph, at, set, &mut scratch),
     }
 }
@@ -120,30 +120,24 @@ impl Scratch {
     }
 }
 
-/// Without a cut.
-fn least_fill(graph: &Graph, set: Vec<u32>, scratch: &mut Scratch) -> Part {
-    let found = least_fill::order(graph, &set, u64::MAX, u64::MAX, scratch);
-    found.unwrap_or(Part { order: set, products: u64::MAX })
-}
-
 /// All of them.
 fn whole(graph: &Graph, at: &[[f64; 2]], set: Vec<u32>, scratch: &mut Scratch) -> Part {
     let n = set.len();
-    let Some(cut) = to_be_cut(graph, at, &set, scratch) else { return least_fill(graph, set, scratch) };
+    let Some(cut) = to_be_cut(graph, at, &set, scratch) else { return least_fill::order(graph, &set, scratch) };
     let is_long = (cut.through.len() as f64) < LONG * (n as f64).sqrt();
     let parts = in_parts(graph, at, cut, scratch);
     let better = match is_long {
-        true => least_fill::order(graph, &set, parts.products, PATIENCE * n as u64, scratch),
+        true => least_fill::within(graph, &set, parts.products, PATIENCE * n as u64, scratch),
         false => None,
     };
     better.unwrap_or(parts)
 }
 
 fn part(graph: &Graph, at: &[[f64; 2]], set: Vec<u32>, scratch: &mut Scratch) -> Part {
-    let Some(cut) = to_be_cut(graph, at, &set, scratch) else { return least_fill(graph, set, scratch) };
+    let Some(cut) = to_be_cut(graph, at, &set, scratch) else { return least_fill::order(graph, &set, scratch) };
     let parts = in_parts(graph, at, cut, scratch);
     let better = match set.len() <= BOTH {
-        true => least_fill::order(graph, &set, parts.products, u64::MAX, scratch),
+        true => least_fill::within(graph, &set, parts.products, u64::MAX, scratch),
         false => None,
     };
     better.unwrap_or(parts)

@@ -55,6 +55,46 @@ fn a_rigid_joint_holds_what_it_bears() {
     assert_eq!(motion.slowest(), None);
 }
 
+/// Rigid blocks on each other, the lowest on a bearing that gives way along, sway as one however many they are.
+#[test]
+fn a_tall_stack_of_rigid_joints_sways_on_what_gives_way_below() {
+    for courses in [10, 60, 200] {
+        let level = |k: usize| k as f64 * 0.2;
+        let bodies: Vec<Body> =
+            (0..courses).map(|k| Body::rectangle("b", [0.0, LENGTH], [level(k), level(k + 1)], MASS)).collect();
+        let mut bearing = Law::dry(None);
+        bearing.shear = Shear { stiffness: ALONG, damping: 0.0, series: false };
+        let mut links = vec![Link { a: None, b: 0, law: bearing }];
+        let dry = Law::dry(Some(concio_planar::joint::Friction::coulomb(0.6)));
+        links.extend((1..courses).map(|b| Link { a: Some(b - 1), b, law: dry }));
+        let mut motion = Motion::new(&System { links, ..System::dry(&bodies, 0.6) }, Setting::new(1e-3));
+        assert!(motion.stand(1e-10, 400));
+        let expected = (ALONG / (MASS * courses as f64)).sqrt();
+        let found = motion.slowest().unwrap_or_else(|| panic!("{courses} courses sway"));
+        assert!((found.frequency / expected - 1.0).abs() < 1e-3, "{courses}: {found:?} instead of {expected}");
+    }
+}
+
+/// Two blocks beside each other of which one is heavier by as little as told: the slower counts.
+#[test]
+fn blocks_nearly_alike_sway_nearly_alike() {
+    for more in [0.0, 1e-5, 1e-4, 1e-3, 1e-2] {
+        let bodies =
+            [0.0, 3.0].map(|x| Body::rectangle("b", [x, x + LENGTH], [0.0, HEIGHT], MASS * (1.0 + x / 3.0 * more)));
+        let law = Law {
+            normal: Normal::Springs { both: ACROSS, press: 0.0, damping: 0.0 },
+            shear: Shear { stiffness: ALONG, damping: 0.0, series: false },
+            ..Law::dry(Some(concio_planar::joint::Friction::coulomb(0.6)))
+        };
+        let links = [0, 1].map(|b| Link { a: None, b, law }).to_vec();
+        let mut motion = Motion::new(&System { links, ..System::dry(&bodies, 0.6) }, Setting::new(1e-4));
+        assert!(motion.stand(1e-10, 400));
+        let found = motion.slowest().unwrap_or_else(|| panic!("{more} heavier"));
+        let slower = expected() / (1.0 + more).sqrt();
+        assert!((found.frequency / slower - 1.0).abs() < 2e-4, "{more}: {found:?} instead of {slower}");
+    }
+}
+
 /// Ratio at which a block that rings on its joint is damped by steps of `h`, whose circular frequency is `omega`: across and along.
 ///
 /// Its mass lies in its foot and far out, so that it neither tips nor turns and every point moves all of it. Differences of its place

@@ -5,11 +5,14 @@ use crate::blocks::Triple;
 use crate::contact::Contact;
 use crate::joint::Normal;
 
-/// Relative change of ω² at which the iteration ends, and its rounds.
-const SETTLED: f64 = 1e-12;
+/// Relative change of ω² at which the iteration ends, its rounds, and the change that will do after them: two modes nearly as slow as each other are
+/// told apart by and by, and what is found lies between them.
+const SETTLED: f64 = 1e-11;
 const ROUNDS: usize = 1000;
-/// What stands for a rigid contact, over the stiffest spring, and the part of a vibration's energy in such contacts from which nothing else swings.
-const RIGID: f64 = 1e6;
+const NEAR: f64 = 1e-6;
+/// What stands for a rigid contact, over the stiffest spring: many in a row give way by more, as do those of a tall stack, and are tried again stiffer.
+const RIGID: [f64; 2] = [1e6, 1e9];
+/// The part of a vibration's energy in rigid contacts above which they are not stiff enough, or nothing else swings.
 const ALL: f64 = 1e-3;
 /// Part of what the contact that bears most does up to which one bears nothing but rounding.
 const NOTHING: f64 = 1e-9;
@@ -33,12 +36,21 @@ struct Holds {
 }
 
 impl Motion {
-    /// The slowest vibration about where the bodies are after the last step, with the joints that bear there as they bear: springs in
-    /// compression only where they are pressed, in line with friction where they stick; rigid contacts that bear hold, along too where they rub. The
+    /// The slowest vibration about where the bodies stand after the last step, with the joints that bear there as they bear: springs in
+    /// compression only where they are pressed, and friction holds, as it does at rest; rigid contacts that bear hold, along too where they rub. The
     /// weight's own stiffness is left out. None where nothing but rigid contacts would swing, or nothing holds a body.
     ///
     /// Inverse iteration with the Rayleigh quotient.
     pub fn slowest(&self) -> Option<Vibration> {
+        let swings = |rigid: &f64| {
+            let (found, inside) = self.swing(*rigid)?;
+            (inside <= ALL).then_some(found)
+        };
+        RIGID.iter().find_map(swings)
+    }
+
+    /// The same with rigid contacts that are so many times as stiff as the stiffest spring, and the part of its energy that they have.
+    fn swing(&self, stiffer: f64) -> Option<(Vibration, f64)> {
         let mut matrix = self.solver.matrix().clone();
         // What is held stays: any stiffness of its own does.
         let stays = |held: &[bool; 3]| [0, 1, 2].map(|k| if held[k] { 1.0 } else { 0.0 });
@@ -55,7 +67,7 @@ impl Motion {
         for (contact, both) in held() {
             for mut holds in both {
                 if holds.rigid {
-                    holds.stiffness = RIGID * stiffest;
+                    holds.stiffness = stiffer * stiffest;
                 }
                 if holds.stiffness == 0.0 && holds.damping == 0.0 {
                     continue;
@@ -77,7 +89,7 @@ impl Motion {
         let mut x: Vec<Triple> = self.held.iter().enumerate().map(start).collect();
         let mut work = vec![[0.0; 3]; x.len()];
         let mut before = f64::INFINITY;
-        for _ in 0..ROUNDS {
+        for round in 1..=ROUNDS {
             let push = |(body, x): (usize, &Triple)| {
                 [0, 1, 2].map(|k| if free(body, k) { self.mass[body][k] * x[k] } else { 0.0 })
             };
@@ -91,7 +103,7 @@ impl Motion {
             if !(square.is_finite() && square > 0.0) {
                 return None;
             }
-            if (square - before).abs() <= SETTLED * square {
+            if (square - before).abs() <= if round < ROUNDS { SETTLED } else { NEAR } * square {
                 let stretch = |(a, b, holds): &(Option<usize>, usize, Holds)| {
                     let along = |body: usize, row: &Triple| (0..3).map(|k| row[k] * x[body][k]).sum::<f64>();
                     a.map_or(0.0, |a| along(a, &holds.rows[0])) + along(*b, &holds.rows[1])
@@ -99,8 +111,8 @@ impl Motion {
                 let frequency = square.sqrt();
                 let taken: f64 = springs.iter().map(|s| s.2.damping * stretch(s).powi(2)).sum();
                 let rigid: f64 = springs.iter().filter(|s| s.2.rigid).map(|s| s.2.stiffness * stretch(s).powi(2)).sum();
-                return (rigid <= ALL * square * bottom)
-                    .then_some(Vibration { frequency, damping: taken / (2.0 * frequency * bottom) });
+                let damping = taken / (2.0 * frequency * bottom);
+                return Some((Vibration { frequency, damping }, rigid / (square * bottom)));
             }
             before = square;
             let scale = 1.0 / bottom.sqrt();

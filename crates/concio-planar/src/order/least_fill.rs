@@ -6,17 +6,22 @@ use std::collections::BinaryHeap;
 use super::graph::Graph;
 use super::{Part, Scratch, products};
 
-/// Eliminates a set while its neighbours outside stay. None where that takes `most` products or finding it `patience` neighbours looked at.
-pub fn order(graph: &Graph, set: &[u32], most: u64, patience: u64, scratch: &mut Scratch) -> Option<Part> {
+/// Eliminates a set while its neighbours outside stay.
+pub fn order(graph: &Graph, set: &[u32], scratch: &mut Scratch) -> Part {
     let mut search = Search::new(graph, set, scratch);
     let mut part = Part { order: Vec::with_capacity(set.len()), products: 0 };
-    while let Some(own) = search.next() {
-        part.order.push(set[own]);
-        part.products = part.products.saturating_add(products(search.near[own].len()));
+    while search.advance(set, &mut part) {}
+    part
+}
+
+/// The same. None where that takes `most` products or finding it `patience` neighbours looked at.
+pub fn within(graph: &Graph, set: &[u32], most: u64, patience: u64, scratch: &mut Scratch) -> Option<Part> {
+    let mut search = Search::new(graph, set, scratch);
+    let mut part = Part { order: Vec::with_capacity(set.len()), products: 0 };
+    while search.advance(set, &mut part) {
         if part.products >= most || search.seen > patience {
             return None;
         }
-        search.eliminate(own);
     }
     Some(part)
 }
@@ -73,6 +78,15 @@ impl Search {
         };
         (0..set.len()).for_each(|k| search.count(k));
         search
+    }
+
+    /// Takes the next into `part`; whether there was one.
+    fn advance(&mut self, set: &[u32], part: &mut Part) -> bool {
+        let Some(own) = self.next() else { return false };
+        part.order.push(set[own]);
+        part.products = part.products.saturating_add(products(self.near[own].len()));
+        self.eliminate(own);
+        true
     }
 
     fn next(&mut self) -> Option<usize> {
