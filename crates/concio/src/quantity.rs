@@ -55,7 +55,7 @@ impl<D: Dimension> Quantity<D> {
             .find(|(name, _)| *name == unit)
             .map(|(_, factor)| *factor)
             .ok_or_else(|| format!("`{unit}` is not a unit of {}; allowed: {}", D::NAME, Self::units()))?;
-        Ok(Self::from_si(value * factor))
+        Ok(Self::from_si(in_si(value, factor)))
     }
     fn units() -> String {
         D::UNITS.iter().map(|(u, _)| *u).collect::<Vec<_>>().join(", ")
@@ -63,6 +63,12 @@ impl<D: Dimension> Quantity<D> {
     fn example() -> String {
         format!("\"1.5 {}\"", D::UNITS[0].0)
     }
+}
+
+/// Divides by a thousand where a thousandth, which no binary number is, would be multiplied with: 350 mm is 0.35 m to the last bit.
+fn in_si(value: f64, factor: f64) -> f64 {
+    let parts = 1.0 / factor;
+    if factor < 1.0 && parts.fract() == 0.0 { value / parts } else { value * factor }
 }
 
 /// Length of the number that `text` starts with.
@@ -431,6 +437,17 @@ mod tests {
         assert_eq!(Force::parse("2.5 kN").map(Quantity::si), Ok(2500.0));
         assert_eq!(DampingConstant::parse("3 kN s/m").map(Quantity::si), Ok(3e3));
         assert_eq!(Angle::parse("45 °").map(Quantity::si), Ok(std::f64::consts::FRAC_PI_4));
+    }
+
+    #[test]
+    fn parts_of_a_unit_are_what_the_decimal_says() {
+        for k in 1..2000 {
+            for (unit, power) in [("cm", -2), ("mm", -3), ("um", -6)] {
+                let expected: f64 = format!("{k}e{power}").parse().unwrap();
+                assert_eq!(Length::parse(&format!("{k} {unit}")).map(Quantity::si), Ok(expected), "{k} {unit}");
+            }
+            assert_eq!(Time::parse(&format!("{k} ms")).map(Quantity::si), Ok(k as f64 / 1e3));
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use concio::InputError;
+use concio::{Error, InputError};
 use concio::store::{StoredRun, export, hdf5};
 
 use crate::args::Export;
@@ -49,5 +49,14 @@ pub fn stored(folder: &Path) -> Result<StoredRun, Failure> {
         let error = InputError::new("there is no result.h5 in this folder").in_file(folder);
         return Err(error.allowed("the folder that `concio run` wrote to").into());
     }
-    Ok(hdf5::read(&path)?)
+    hdf5::read(&path).map_err(|error| match error {
+        Error::Store { path, what } => unusable(&path, &what),
+        other => other.into(),
+    })
+}
+
+/// A file of a result that was cut off, changed or written by another version.
+pub fn unusable(path: &Path, what: &str) -> Failure {
+    let error = InputError::new(format!("this file of a result cannot be used: {what}")).in_file(path);
+    error.help("`concio run` with the wall file writes it again").into()
 }

@@ -354,7 +354,7 @@ fn results_are_exported() {
     desk.concio("export r").assert().code(2);
     desk.concio("export nothing --csv").assert().code(2);
     desk.put("r/result.h5", "not a result");
-    desk.concio("export r --csv --out other").assert().code(1);
+    desk.concio("export r --csv --out other").assert().code(2);
     assert!(!desk.path("other").exists());
 }
 

@@ -73,6 +73,31 @@ fn the_report_is_made_without_a_figure() {
 }
 
 #[test]
+fn a_damaged_result_is_told_with_what_mends_it() {
+    let desk = drawn_from(WALL);
+    let refused = |what: &str, file: &str, because: &str| {
+        let [_, error] = told(&desk.concio(what).assert().code(2));
+        for part in [file, "cannot be used", because, "`concio run` with the wall file writes it again"] {
+            assert!(error.contains(part), "{what}: {part}\n{error}");
+        }
+    };
+    let summary = desk.get("r/summary.json");
+    desk.put("r/summary.json", &summary[..summary.len() / 2]);
+    refused("plot r", "summary.json", "EOF");
+    desk.put("r/summary.json", &summary.replace("\"inputs_hash\": \"", "\"inputs_hash\": \"0"));
+    refused("plot r", "summary.json", "belongs to another run");
+    fs::remove_file(desk.path("r/summary.json")).expect("the summary");
+    refused("plot r", "summary.json", "No such file");
+    desk.concio("plot r --figure energies").assert().success();
+    let whole = fs::read(desk.path("r/result.h5")).expect("the result");
+    fs::write(desk.path("r/result.h5"), &whole[..whole.len() / 2]).expect("half of it");
+    refused("plot r --figure energies", "result.h5", "");
+    refused("export r --csv", "result.h5", "");
+    fs::remove_file(desk.path("r/result.h5")).expect("the result");
+    told(&desk.concio("export r --csv").assert().code(2));
+}
+
+#[test]
 fn instant_and_scale_are_printed_in_the_figure() {
     let desk = drawn_from(WALL);
     let plot = |more: &[&str]| {
