@@ -263,6 +263,29 @@ vertical = { sine = { acceleration = "0.2 g", frequency = "7 Hz" } }
     assert!(residual < 1e-3, "{residual:e}");
 }
 
+/// Times of steps add up with rounding: what is left at the end is no step of its own, in which accelerations would be what rounding makes of velocities.
+#[test]
+fn a_run_ends_with_a_whole_step() {
+    for (duration, step, steps) in [(1.5, 1e-4, 15_000), (3.0, 1e-3, 3_000), (0.7, 7e-5, 10_000), (0.1005, 1e-3, 101)] {
+        let (_, outcome) = ran(&block(&format!(
+            r#"
+[joint]
+bed = {{ law = "no-tension", stiffness = "10 N/mm3", rigidity = 1 }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.6, dynamic = 0.6 }}
+[motion]
+duration = {duration}
+base = {{ sine = {{ acceleration = "0.05 g", frequency = "3 Hz" }} }}
+[solver]
+step = {step}
+"#
+        )));
+        assert_eq!(outcome.counters.steps, steps);
+        let most = outcome.envelopes.joint_acceleration.iter().fold(0.0, |most: f64, a| most.max(*a));
+        assert!(most < 0.5, "{most} m/s² between blocks that stick");
+    }
+}
+
 /// A dashpot c in the place of the bed joint and nothing else: a pulse a of length T moves the block by a T m/c and no farther.
 #[test]
 fn a_dashpot_damps_without_a_spring() {

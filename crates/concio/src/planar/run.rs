@@ -60,6 +60,9 @@ pub(crate) struct Kept {
     ties: Vec<Borne>,
 }
 
+/// Part of a step that the last one may be longer by: times add up with rounding, and of what that leaves no acceleration can be told.
+const SLIVER: f64 = 1e-3;
+
 /// What a tie has borne so far, as in [`TieRow`].
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Borne {
@@ -200,7 +203,7 @@ impl Run {
     pub fn step(&mut self, model: &Model, state: &mut State, mut tell: impl FnMut(Event)) -> Result<(), StopReason> {
         let excitation = &model.excitation;
         let remaining = excitation.duration - state.t;
-        let lands = self.step >= remaining * (1.0 - 1e-9);
+        let lands = remaining <= self.step * (1.0 + SLIVER);
         let h = if lands { remaining } else { self.step };
         self.at.from = state.t;
         self.copy(Side::Start);
