@@ -16,6 +16,7 @@ use crate::model::{Model, Rub};
 use crate::outcome::Outcome;
 use crate::pattern;
 use crate::planar;
+use crate::quantity::shown;
 use crate::record::StopReason;
 use crate::simulate::{Progress, Sampling, Simulation};
 use crate::store::{self, JointRow, Journal, JournalHeader, Provenance, RunFacts};
@@ -86,6 +87,9 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(40);
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(1);
 /// Samples that a run may keep.
 pub(crate) const MOST_SAMPLES: f64 = 1e7;
+/// Steps of which there are hardly meant to be more: of a hundred blocks hours, of a thousand days.
+const ENDLESS: f64 = 1e8;
+
 /// Lays the wall, compiles motion and model; numbers that are hardly meant and records that the run cuts or outlasts join
 /// the model's warnings. `folder` is where relative record paths start. The case must be valid
 /// ([`crate::case::CaseFile::validate`]).
@@ -109,8 +113,25 @@ pub fn prepare_with(case: Case, folder: &Path, library: &Library) -> Result<Prep
     let mut model = Model::compile(&case, wall, excitation)?;
     model.warnings.splice(0..0, plausible::doubts(&case));
     model.warnings.extend(of_records);
+    model.warnings.extend(endless(&case, &model));
     Simulation::check(&model, &sampling)?;
     Ok(Prepared { case, model, sampling, inputs_hash })
+}
+
+/// Says of a run that takes days at least that it does, and why.
+fn endless(case: &Case, model: &Model) -> Option<String> {
+    let asked = case.solver.max_step.map_or(f64::INFINITY, |h| h.si());
+    let resolves = model.excitation.longest_step();
+    let (step, why) = match &model.planar {
+        Some(planar) => (planar.step, "solver.step"),
+        None if asked < resolves => (asked, "solver.max_step"),
+        None => (resolves, "what the motion changes within"),
+    };
+    let steps = model.excitation.duration / step;
+    (steps > ENDLESS).then(|| {
+        let [step, duration] = [step, model.excitation.duration].map(|t| shown(plausible::rounded(t, 3)));
+        format!("motion.duration: {duration} s takes {steps:.0e} steps at least, none longer than {step} s ({why})")
+    })
 }
 
 fn excitation(case: &Case, folder: &Path, library: &Library) -> Result<Excitation> {

@@ -122,6 +122,31 @@ fn the_doubts_are_warnings_of_a_prepared_run() {
     assert!(prepared.model.warnings.iter().any(|w| w.starts_with("load.beam.mass is 4 kg")));
 }
 
+/// Runs that would take days are told with what keeps their steps short.
+#[test]
+fn runs_without_end_are_told() {
+    let told = |wall: &str| {
+        let prepared = concio::run::prepare(case(wall), Path::new(".")).expect("a wall");
+        prepared.model.warnings.iter().find(|w| w.starts_with("motion.duration: ")).cloned()
+    };
+    assert_eq!(told(WALL), None);
+    let (head, _) = WALL.split_once("[motion]").expect("a motion");
+    let with = |rest: &str| told(&format!("{head}[motion]\n{rest}"));
+    let pulse = |length: &str, duration: &str| {
+        with(&format!(
+            "duration = {duration}\nbase = {{ pulse = {{ shape = \"half-sine\", acceleration = 1, duration = {length} }} }}"
+        ))
+    };
+    assert_eq!(pulse("1e-3", "10"), None);
+    let short = pulse("1e-8", "10").expect("a doubt");
+    assert!(short.contains("10 s takes") && short.ends_with("(what the motion changes within)"), "{short}");
+    let small = with("duration = 10\n[solver]\nmax_step = 1e-9").expect("a doubt");
+    assert_eq!(small, "motion.duration: 10 s takes 1e10 steps at least, none longer than 1e-9 s (solver.max_step)");
+    let planar =
+        told(&format!("{head}[motion]\nduration = 1e9\n").replace("\"shear\"", "\"planar\"")).expect("a doubt");
+    assert!(planar.contains("1e9 s takes 1e12 steps") && planar.ends_with("0.001 s (solver.step)"), "{planar}");
+}
+
 /// Joints of planar walls open: what holds without limit there, or not at all, is told.
 #[test]
 fn joints_that_hold_without_limit_are_told() {

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use concio::{Error, InputError};
 use concio::store::{StoredRun, export, hdf5};
+use concio::{Error, InputError};
 
 use crate::args::Export;
 use crate::failure::Failure;
