@@ -449,6 +449,11 @@ fn files_that_cannot_be_read() {
     let e = input_error(read(&binary).map(|_| ()), "binary");
     assert!(e.what.contains("not UTF-8") && e.line == Some(2), "{e}");
 
+    let utf16 = dir.path().join("utf16.toml");
+    std::fs::write(&utf16, b"\xff\xfem\0o\0").expect("written");
+    let e = input_error(read(&utf16).map(|_| ()), "UTF-16");
+    assert!(e.what.contains("UTF-16") && e.help.as_deref() == Some("save it as UTF-8"), "{e}");
+
     let empty = dir.path().join("empty.json");
     std::fs::write(&empty, b"").expect("written");
     let e = input_error(read(&empty).map(|_| ()), "empty");

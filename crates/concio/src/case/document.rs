@@ -40,6 +40,9 @@ impl Document {
         if bytes.len() as u64 > LARGEST_FILE {
             return Err(refuse(format!("is too large for {kind}")).into());
         }
+        if [[0xff, 0xfe], [0xfe, 0xff]].iter().any(|mark| bytes.starts_with(mark)) {
+            return Err(refuse("is UTF-16 text".into()).help("save it as UTF-8").into());
+        }
         let text = String::from_utf8(bytes).map_err(|e| {
             let good = &e.as_bytes()[..e.utf8_error().valid_up_to()];
             let line = 1 + good.iter().filter(|b| **b == b'\n').count();
