@@ -84,7 +84,7 @@ fn a_damaged_result_is_told_with_what_mends_it() {
     let summary = desk.get("r/summary.json");
     desk.put("r/summary.json", &summary[..summary.len() / 2]);
     refused("plot r", "summary.json", "EOF");
-    desk.put("r/summary.json", &summary.replace("\"inputs_hash\": \"", "\"inputs_hash\": \"0"));
+    desk.put("r/summary.json", summary.replace("\"inputs_hash\": \"", "\"inputs_hash\": \"0"));
     refused("plot r", "summary.json", "belongs to another run");
     fs::remove_file(desk.path("r/summary.json")).expect("the summary");
     refused("plot r", "summary.json", "No such file");
