@@ -150,6 +150,8 @@ pub struct Bond {
 
 /// ζ of (P6): ratio at which a joint that rings faster than the step resolves is damped at most.
 const RINGING: f64 = 0.125;
+/// h ω up to which (P6) damps what rings by less than ζ: 4 x where x³ = ζ (1 + x²).
+pub const RESOLVED: f64 = 2.18;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
 /// Part of its strength below which a softening bond counts as broken.

@@ -58,8 +58,8 @@ impl Planar {
         run::standing(self).1
     }
 
-    /// Longest step that resolves the joints whose springs let go, as they ring between the blocks beside them [s]: h = 2.2 √(m/k) of the
-    /// stiffest, where (P6) takes less than ζ of longer ones. Infinite where springs act in both directions alone.
+    /// Longest step that resolves the joints whose springs let go, as they ring between the blocks beside them [s]: that of the
+    /// stiffest by [`joint::RESOLVED`]. Infinite where springs act in both directions alone.
     pub fn resolving_step(&self) -> f64 {
         let light = |body: Option<usize>| body.map_or(0.0, |b| 1.0 / self.system.bodies[b].mass);
         let square = |link: &Link| {
@@ -69,12 +69,9 @@ impl Planar {
                 Normal::Rigid { .. } => 0.0,
             }
         };
-        RESOLVED / self.system.links.iter().map(square).fold(0.0, f64::max).sqrt()
+        joint::RESOLVED / self.system.links.iter().map(square).fold(0.0, f64::max).sqrt()
     }
 }
-
-/// h ω from which on (P6) damps by all of its ζ: 4 x, where x³ = ζ (1 + x²) at ζ = ⅛.
-const RESOLVED: f64 = 2.18;
 
 /// How a wall takes its loads before anything moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
