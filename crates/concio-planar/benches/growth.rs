@@ -1,8 +1,9 @@
 //! How the cost of a step grows with the wall: `cargo bench -p concio-planar --bench growth [-- SECONDS]`.
 //!
 //! Dry running bond of stones 0.4 m × 0.2 m × 0.12 m with soft joints (24 GPa/m, shear 0.4 of it, μ = 0.6) under 3 Hz and 0.5 g in
-//! steps of 4 ms, for 0.4 s unless said: square walls, and walls of 16 courses that grow in length. Printed are iterations per step, and time
-//! per block and step over that of the smallest wall, which goes again beside each of the others.
+//! steps of 4 ms, for 0.4 s unless said: square walls, walls of 16 courses that grow in length, and as many of the smallest as make such a
+//! wall, one step of each in turn, which is what memory alone costs. Printed are iterations per step, and time per block and step over
+//! that of the smallest wall, which goes again beside each of the others.
 
 use std::f64::consts::PI;
 use std::time::Instant;
@@ -19,6 +20,8 @@ const STIFFNESS: f64 = 24e9;
 /// Courses and stones per course.
 const SQUARE: [[usize; 2]; 4] = [[16, 16], [32, 32], [48, 48], [70, 70]];
 const LONG: [[usize; 2]; 4] = [[16, 16], [16, 64], [16, 144], [16, 300]];
+/// Walls in turn.
+const MANY: [usize; 4] = [1, 4, 9, 19];
 
 fn law(length: f64) -> Law {
     let press = STIFFNESS * length * STONE[2];
@@ -66,7 +69,7 @@ fn wall([courses, stones]: [usize; 2]) -> System {
 
 struct Cost {
     blocks: usize,
-    /// Per step.
+    /// Per step and wall.
     iterations: f64,
     /// Per block and step [s].
     time: f64,
@@ -74,32 +77,43 @@ struct Cost {
     unsolved: u64,
 }
 
-fn shaken(size: [usize; 2], seconds: f64) -> Cost {
+/// This many walls of a size, one step of each in turn.
+fn shaken(size: [usize; 2], walls: usize, seconds: f64) -> Cost {
     let system = wall(size);
-    let blocks = system.bodies.len();
+    let blocks = walls * system.bodies.len();
     let mut motion = Motion::new(&system, Setting::new(STEP));
     motion.stand(1e-9, 400);
+    let mut motions = vec![motion; walls];
     let base = |t: f64| 0.5 * G / (6.0 * PI) * (1.0 - (6.0 * PI * t).cos());
     let steps = (seconds / STEP).round();
     let begun = Instant::now();
     for _ in 0..steps as usize {
-        motion.go(STEP, &|from, to| Forcing { base: [base(to) - base(from), 0.0], held: 0.0 });
+        for motion in &mut motions {
+            motion.go(STEP, &|from, to| Forcing { base: [base(to) - base(from), 0.0], held: 0.0 });
+        }
     }
-    let (time, counters) = (begun.elapsed().as_secs_f64(), motion.counters);
+    let time = begun.elapsed().as_secs_f64();
+    let sum = |count: fn(&Motion) -> u64| motions.iter().map(count).sum::<u64>();
     Cost {
         blocks,
-        iterations: counters.iterations as f64 / steps,
+        iterations: sum(|m| m.counters.iterations) as f64 / (steps * walls as f64),
         time: time / (steps * blocks as f64),
-        halved: counters.halved,
-        unsolved: counters.unsolved,
+        halved: sum(|m| m.counters.halved),
+        unsolved: sum(|m| m.counters.unsolved),
     }
 }
 
 fn main() {
     let seconds = std::env::args().find_map(|a| a.parse().ok()).unwrap_or(0.4);
-    for (what, sizes) in [("square", SQUARE), ("16 courses", LONG)] {
-        for size in sizes {
-            let (cost, least) = (shaken(size, seconds), shaken(sizes[0], seconds));
+    let one = |size| (size, 1);
+    let smallest = SQUARE[0];
+    for (what, walls) in [
+        ("square", SQUARE.map(one)),
+        ("16 courses", LONG.map(one)),
+        ("many in turn", MANY.map(|walls| (smallest, walls))),
+    ] {
+        for (size, number) in walls {
+            let (cost, least) = (shaken(size, number, seconds), shaken(smallest, 1, seconds));
             println!(
                 "{what}, {} blocks: {:.1} iterations per step, {} halved, {} unsolved, time per block and step {:.2}",
                 cost.blocks,
