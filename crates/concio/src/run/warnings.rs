@@ -106,7 +106,7 @@ fn unresolved(model: &Model, outcome: &Outcome) -> Option<String> {
         format!(
             "peaks come out too small by a part of it. A solver.step of {} ms resolves joints that ring; all longer ones take as much, so \
              that half of it tells nothing. A damping_ratio of joints makes it matter less",
-            rounded(1e3 * resolving, 2)
+            cut(1e3 * resolving)
         )
     } else {
         "see whether peaks stay at half of solver.step".into()
@@ -154,6 +154,12 @@ fn creep(joints: &[JointRow], outcome: &Outcome) -> Option<String> {
             100.0 * friction / most
         )
     })
+}
+
+/// Two significant digits, not more than `v` is: a step of as much has to resolve what a step of `v` does.
+fn cut(v: f64) -> f64 {
+    let unit = 10f64.powf(v.log10().floor() - 1.0);
+    rounded((v / unit * (1.0 + 1e-12)).floor() * unit, 2)
 }
 
 #[cfg(test)]
@@ -218,6 +224,13 @@ mod tests {
             told[0].contains("11 of 10000 steps") && told[1].contains("t = 0.2500 s on, when block m2 turned by 45°"),
             "{told:?}"
         );
+    }
+
+    #[test]
+    fn steps_are_told_in_digits_that_do_not_round_them_up() {
+        for (v, told) in [(0.438, 0.43), (0.4402, 0.44), (2.18, 2.1), (0.0999, 0.099), (0.43, 0.43), (35.9, 35.0), (1.0, 1.0)] {
+            assert_eq!(cut(v), told);
+        }
     }
 
     /// A stone that rings on its joint after a jerk, told of by steps that do not resolve it and not by those that do, nor where a dashpot takes
