@@ -118,9 +118,6 @@ fn suits_morris(file: &StudyFile, factors: &[Factor]) -> Result<()> {
                 what,
                 "two values or more; what does not vary stands in the wall file",
             ));
-        } else if places.windows(2).any(|pair| pair[0] == pair[1]) {
-            let what = format!("`{}` has a value twice, and design `morris` moves from each to another", factor.name);
-            return Err(file.wrong(&factor.key, what, "values that differ"));
         }
     }
     Ok(())

@@ -386,6 +386,11 @@ impl Reader<'_> {
 
     fn values(&self) -> Result<Vec<Level>> {
         let values = &self.vary.values;
+        let same = |a: &Value, b: &Value| a == b || amount(a).is_some_and(|a| amount(b) == Some(a));
+        if let Some(i) = (1..values.len()).find(|i| values[..*i].iter().any(|v| same(v, &values[*i]))) {
+            let what = format!("{} stands here twice", values[i]);
+            return Err(self.wrong(&format!("values[{i}]"), what, "values that differ"));
+        }
         let mut unit = None;
         if values.iter().all(|v| amount(v).is_some()) {
             // Numbers have an order, which differing units would hide.

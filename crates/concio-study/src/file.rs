@@ -289,6 +289,9 @@ impl Study {
     }
 }
 
+/// What stands at `wall`.
+const WALL: &str = "a wall file, relative to the study file";
+
 impl StudyFile {
     /// Reads a study file and the wall file that it names.
     ///
@@ -303,13 +306,21 @@ impl StudyFile {
     /// # Errors
     /// As [`StudyFile::read`].
     pub fn of(document: Document) -> Result<Self> {
-        let mut study: Study = document.to()?;
+        let named = |mut error| {
+            if let Error::Input(e) = &mut error
+                && e.key.as_deref() == Some("wall")
+            {
+                e.allowed.get_or_insert_with(|| WALL.into());
+            }
+            error
+        };
+        let mut study: Study = document.to().map_err(named)?;
         let given = study.keep.clone();
         study.keep_what_is_asked();
         let path = document.folder().join(&study.wall);
         if !path.is_file() {
             let error = InputError::new(format!("there is no file {}", path.display())).key("wall");
-            return Err(document.locate(error.allowed("a wall file, relative to the study file")).into());
+            return Err(document.locate(error.allowed(WALL)).into());
         }
         let wall = case::read(&path)?;
         wall.validate()?;

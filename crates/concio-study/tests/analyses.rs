@@ -39,7 +39,6 @@ fn trajectories_that_cannot_be() {
     let load = |rest: &str| format!("{morris}{VARY}[[vary]]\npath = \"load.top\"\n{rest}\n");
     let bell = |law: &str| load(&format!("distribution = {{ law = {law} }}"));
     says(&load("values = [\"10 kN/m\"]"), 8, &["`load.top` has one value", "two values or more"]);
-    says(&load("values = [1e4, 2e4, 1e4]"), 8, &["a value twice", "values that differ"]);
     says(&format!("{morris}{VARY}{MOTION}"), 8, &["`motion` has one value"]);
     for law in [
         "\"normal\", mean = 1e4, deviation = 1e3",

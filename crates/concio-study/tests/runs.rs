@@ -310,7 +310,10 @@ duration = "30 ms"
 fn wrong_study_files() {
     let cases: &[(&str, &str, usize)] = &[
         ("wall = \"none.toml\"", "there is no file", 1),
+        ("title = \"none\"", "the key is missing", 1),
         ("wall = \"wall.toml\"\ncolour = 1", "unknown key", 2),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = [1, 2,\n 1.0]", "stands here twice", 5),
+        ("wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = [\"1 kN/m\", \"1.0 kN/m\"]", "twice", 4),
         ("wall = \"wall.toml\"\n[[vary]]\npath = \"joint.frction.static\"\nvalues = [1]", "unknown key", 3),
         ("wall = \"wall.toml\"\n[[vary]]\npath = \"panel[7].bricks\"\nvalues = [1]", "1 elements", 3),
         ("wall = \"wall.toml\"\n[[vary]]\npath = \"load.top\"\nvalues = []", "it is empty", 2),
