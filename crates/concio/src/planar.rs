@@ -76,8 +76,13 @@ impl Planar {
 /// How a wall takes its loads before anything moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rest {
-    /// It stands; how far blocks and beam have settled at most [m].
-    Stands(f64),
+    /// It stands.
+    Stands {
+        /// How far blocks and beam have settled at most [m].
+        settled: f64,
+        /// Joints whose bond its loads have cracked.
+        cracked: usize,
+    },
     /// It has not come to rest in the steps that it is given, and how far it was then [m]: its joints are soft, or it falls slowly.
     Settles(f64),
     /// It falls, or has come to rest as something else.

@@ -42,7 +42,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
         ("mass", mass(total(model))),
     ];
     if model.wall.blocks.len() <= TRIED {
-        general.extend(model.planar.as_ref().map(|own| ("under its loads", planar::rest(own))));
+        general.extend(model.planar.as_ref().map(|own| ("under its loads", planar::rest(own, model.bonds.len()))));
         let mode = first_mode(model);
         let told = |m: Mode| {
             let damping = significant(100.0 * m.damping, 3);

@@ -230,11 +230,22 @@ fn check_tells_whether_a_planar_wall_stands() {
              friction = {{ law = \"coulomb\", static = 0.6, dynamic = 0.6 }}\n[motion]\nduration = \"1 s\"\n"
         )
     };
-    for (x, told) in [(0.4, "under its loads  stands"), (0.6, "under its loads  does not stand")] {
-        desk.put("wall.toml", wall(x));
+    // 4 kN stand 0.2 m beside the middle of 0.6 m × 0.4 m: the edge is pulled by N/A (6 e/b − 1) = 16.7 kPa.
+    let weak = "[joint.bond]\ntensile_strength = \"1 kPa\"\ncohesion = \"1 kPa\"\non = [\"bed\"]\n";
+    let bonded = |x: f64, strength: &str| {
+        wall(x).replace("\"rigid\" }\nhead", "\"elastic\", stiffness = \"1 N/mm3\" }\nhead")
+            + &weak.replace("1 kPa", strength)
+    };
+    for (text, told) in [
+        (wall(0.4), "under its loads  stands\n"),
+        (wall(0.6), "under its loads  does not stand"),
+        (bonded(0.4, "1 kPa"), "at most, 1 of 1 bonds cracked\n"),
+        (bonded(0.4, "1 MPa"), "at most\n"),
+    ] {
+        desk.put("wall.toml", &text);
         let done = desk.concio("check wall.toml").assert().success();
         let out = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
-        assert!(out.contains(told), "{x}: {out}");
+        assert!(out.contains(told), "{text}: {out}");
     }
 }
 

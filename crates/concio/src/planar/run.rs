@@ -112,7 +112,9 @@ pub(super) fn standing(planar: &Planar) -> (Motion, Rest) {
     let settled = motion.strayed_by(&planar.system);
     // What is no number has not stood.
     if settled <= most * least {
-        return (motion, Rest::Stands(settled));
+        let has_cracked = |e: &usize| motion.points(*e).is_some_and(|p| p.iter().any(|p| p.cracked.is_finite()));
+        let cracked = (0..planar.system.links.len()).filter(has_cracked).count();
+        return (motion, Rest::Stands { settled, cracked });
     }
     let rest = if settled <= FELL * least { Rest::Settles(settled) } else { Rest::Falls };
     (Motion::new(&planar.system, setting), rest)

@@ -88,11 +88,20 @@ pub fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure
     Ok(rows)
 }
 
-/// Whether the wall stands before anything moves.
-pub fn rest(planar: &Planar) -> String {
+/// Whether the wall stands before anything moves, and whole.
+pub fn rest(planar: &Planar, bonds: usize) -> String {
     match planar.rest() {
-        Rest::Stands(way) if way < ROUNDED => "stands".into(),
-        Rest::Stands(way) => format!("stands, settled by {} at most", si(way, "m")),
+        Rest::Stands { settled, cracked } => {
+            let settled = match settled < ROUNDED {
+                true => String::new(),
+                false => format!(", settled by {} at most", si(settled, "m")),
+            };
+            let cracked = match cracked {
+                0 => String::new(),
+                cracked => format!(", {cracked} of {bonds} bonds cracked"),
+            };
+            format!("stands{settled}{cracked}")
+        }
         Rest::Settles(way) => {
             format!("not at rest after {} at most, and laid unsettled: soft joints, or a slow fall", si(way, "m"))
         }
