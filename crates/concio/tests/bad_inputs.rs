@@ -257,6 +257,7 @@ fn keys_and_values() -> Vec<Bad> {
         "wrong unit", edit("\"55 mm\"", "\"55 kg\""), "brick =", "panel[0].brick.height", "`kg` is not a unit of length", "m, cm, mm";
         "no unit in a text", edit("\"55 mm\"", "\"55\""), "brick =", "panel[0].brick.height", "`55` has no unit", "m, cm, mm";
         "a text where a number belongs", edit("static = 0.6", "static = \"0.6\""), "friction", "joint.friction.static", "the text \"0.6\" cannot stand here", "a number without a unit";
+        "a word where a list belongs", edit("[motion]", "[joint.bond]\ntensile_strength = 1\ncohesion = 1\non = \"bed\"\n[motion]"), "on = \"bed\"", "joint.bond.on", "the text \"bed\" cannot stand here", "a list of `bed`, `head`";
         "a list where a length belongs", edit("\"55 mm\"", "[55]"), "brick =", "panel[0].brick.height", "a list cannot stand here", "a text with its unit";
         "unknown word", edit("\"running\"", "\"runing\""), "bond", "panel[0].bond", "`runing` is not known here", "did you mean `running`?";
         "unknown beam", edit("\"driven\"", "\"drive\""), "beam", "load.beam", "`drive` is not known here", "did you mean `driven`?";

@@ -15,6 +15,8 @@ pub(crate) const ALLOWED: &str = "; allowed: ";
 pub(crate) const MISSING: &str = "the key is missing";
 /// What is wrong with one that nothing has.
 pub(crate) const UNKNOWN: &str = "unknown key";
+/// What is allowed where a list belongs.
+pub(crate) const LIST: &str = "a list";
 
 /// Builds a `T` from a tree. The error comes with the byte it belongs to.
 pub(crate) fn from_node<'de, T: Deserialize<'de>>(node: &'de Node) -> Result<T, Fault> {
@@ -278,7 +280,7 @@ impl<'de> Deserializer<'de> for Cursor<'de> {
         match self.node.value {
             Value::List(_) => self.deserialize_any(visitor),
             Value::Table(_) => Err(self.refuse("a list; in TOML, tables in a list stand under [[two brackets]]")),
-            _ => Err(self.refuse("a list")),
+            _ => Err(self.refuse(LIST)),
         }
     }
     fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Failure> {

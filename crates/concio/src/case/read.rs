@@ -206,6 +206,11 @@ fn described(mut fault: Fault, tree: &Node) -> Fault {
     {
         e.allowed = Some(format!("`law`, and of law `{}` {}", law.name(), validate::device_keys(law)));
     }
+    if e.allowed.as_deref() == Some(de::LIST)
+        && let Some(words) = e.key.as_ref().and_then(|key| super::templates::choices(&format!("{key}[0]")))
+    {
+        e.allowed = Some(format!("{} of {}", de::LIST, de::list(&words)));
+    }
     if e.what == de::MISSING && e.help.is_none() {
         e.help = e.key.as_deref().and_then(|key| misspelt(tree, key));
     }

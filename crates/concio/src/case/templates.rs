@@ -86,6 +86,7 @@ pub fn describe(key: &str) -> Option<String> {
 pub(crate) fn choices(key: &str) -> Option<Vec<String>> {
     let schema = schema();
     let found = follow(&schema, &schema, &steps(key))?;
+    let found = found.get("items").filter(|_| key.ends_with(']')).unwrap_or(found);
     let found = referred(&schema, found).unwrap_or(found);
     let word = |option: &Value| option.as_str().map(str::to_string);
     match (found.get("enum"), found.get("oneOf")) {
