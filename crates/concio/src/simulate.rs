@@ -11,7 +11,7 @@ use crate::integrate::cracks;
 use crate::integrate::devices;
 use crate::integrate::events;
 use crate::integrate::impact::{COLLISIONS, Impacts};
-use crate::integrate::stage::Failure;
+use crate::integrate::stage::{self, Failure};
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
 use crate::outcome::Outcome;
@@ -505,17 +505,20 @@ impl<'m> Simulation<'m> {
     pub fn save(&self) -> Vec<u8> {
         // Plain vectors of numbers into memory: nothing that could fail.
         let bodies = self.planar.as_ref().map(|bodies| bodies.keep());
-        postcard::to_stdvec(&(&self.state, bodies)).unwrap_or_default()
+        postcard::to_stdvec(&(&self.state, bodies, self.work.stage.keep())).unwrap_or_default()
     }
     /// Goes back to a saved state; false when the bytes are not one of this model's, and the simulation is then to be made anew.
     pub fn restore(&mut self, bytes: &[u8]) -> bool {
-        let Ok((state, kept)) = postcard::from_bytes::<(State, Option<planar::Kept>)>(bytes) else { return false };
+        let Ok((state, kept, factors)) = postcard::from_bytes::<(State, Option<planar::Kept>, Option<stage::Kept>)>(bytes)
+        else {
+            return false;
+        };
         let bodies = match (&mut self.planar, kept) {
             (Some(bodies), Some(kept)) => bodies.take_up(kept),
             (None, None) => true,
             _ => false,
         };
-        if !bodies || !state.fits(self.model) {
+        if !bodies || !state.fits(self.model) || !self.work.stage.take_up(factors) {
             return false;
         }
         self.drive = self.model.excitation.drive(state.t);

@@ -5,6 +5,9 @@
 //! roots, and no pass over the column waits for its pivot. Every number is the result of the same operations in the same
 //! order whatever the vectors of the machine.
 
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, Sub, SubAssign};
+
 use crate::integrate::linear::NotPositive;
 
 /// Numbers that loops go through at a time: rows start and end at multiples of it.
@@ -14,7 +17,58 @@ const BLOCK: usize = 32;
 /// Columns that are brought up to date at a time.
 const QUAD: usize = 4;
 
-type Lanes = [f64; LANES];
+/// What factors are kept in: `f64`, or `f32` where they only lead to a solution.
+pub trait Real:
+    Copy
+    + Debug
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + AddAssign
+    + SubAssign
+{
+    const ZERO: Self;
+    const ONE: Self;
+
+    /// The nearest number of this kind.
+    fn near(x: f64) -> Self;
+
+    fn wide(self) -> f64;
+}
+
+impl Real for f64 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+
+    #[inline(always)]
+    fn near(x: f64) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn wide(self) -> f64 {
+        self
+    }
+}
+
+impl Real for f32 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+
+    #[inline(always)]
+    fn near(x: f64) -> Self {
+        x as f32
+    }
+
+    #[inline(always)]
+    fn wide(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+type Lanes<R> = [R; LANES];
 
 /// `n` rounded up to whole vectors.
 pub const fn padded(n: usize) -> usize {
@@ -32,17 +86,17 @@ pub const fn scratch(rows: usize) -> usize {
 }
 
 #[inline(always)]
-fn lanes(column: &[f64], row: usize) -> &Lanes {
+fn lanes<R>(column: &[R], row: usize) -> &Lanes<R> {
     column[row..].first_chunk().expect("rows end at whole vectors")
 }
 
 #[inline(always)]
-fn lanes_mut(column: &mut [f64], row: usize) -> &mut Lanes {
+fn lanes_mut<R>(column: &mut [R], row: usize) -> &mut Lanes<R> {
     column[row..].first_chunk_mut().expect("rows end at whole vectors")
 }
 
 #[inline(always)]
-fn less(target: &mut Lanes, factor: f64, x: &Lanes) {
+fn less<R: Real>(target: &mut Lanes<R>, factor: R, x: &Lanes<R>) {
     for i in 0..LANES {
         target[i] -= factor * x[i];
     }
@@ -51,12 +105,12 @@ fn less(target: &mut Lanes, factor: f64, x: &Lanes) {
 /// The columns of a front: the first `width` of them, `lead` long, and what lies behind, columns `width` to `rows` with
 /// the rows from [`aligned`]`(width)` on.
 #[derive(Debug)]
-pub struct Dense<'a> {
-    pub panel: &'a mut [f64],
-    pub rest: &'a mut [f64],
+pub struct Dense<'a, R> {
+    pub panel: &'a mut [R],
+    pub rest: &'a mut [R],
     /// D⁻¹ of the first columns.
-    pub inverse: &'a mut [f64],
-    pub multipliers: &'a mut [f64],
+    pub inverse: &'a mut [R],
+    pub multipliers: &'a mut [R],
     pub width: usize,
     pub rows: usize,
     pub lead: usize,
@@ -64,18 +118,18 @@ pub struct Dense<'a> {
 
 /// What a front left over: the rest of its columns, `long` each, of which the first `skip` numbers are of no account.
 #[derive(Debug, Clone, Copy)]
-pub struct Left<'a> {
-    pub columns: &'a [f64],
+pub struct Left<'a, R> {
+    pub columns: &'a [R],
     pub long: usize,
     pub skip: usize,
     /// Its rows in the front that takes it over.
     pub into: &'a [u32],
 }
 
-impl Dense<'_> {
+impl<R: Real> Dense<'_, R> {
     /// Adds what another front left over.
     #[inline(always)]
-    pub fn take_over(&mut self, left: Left) {
+    pub fn take_over(&mut self, left: Left<R>) {
         let (lead, above, into) = (self.lead, aligned(self.width), left.into);
         for (j, (column, &at)) in left.columns.chunks_exact(left.long).zip(into).enumerate() {
             let at = at as usize;
@@ -83,12 +137,12 @@ impl Dense<'_> {
             if at < self.width {
                 let target = &mut self.panel[at * lead..][..lead];
                 for (&p, value) in into[j..].iter().zip(values) {
-                    target[p as usize] += value;
+                    target[p as usize] += *value;
                 }
             } else {
                 let target = &mut self.rest[(at - self.width) * (lead - above)..][..lead - above];
                 for (&p, value) in into[j..].iter().zip(values) {
-                    target[p as usize - above] += value;
+                    target[p as usize - above] += *value;
                 }
             }
         }
@@ -121,7 +175,7 @@ impl Dense<'_> {
         }
         // The diagonal and what became of the rows above it: solutions go through them as zeros.
         for k in 0..self.width {
-            self.panel[k * self.lead + aligned(k)..=k * self.lead + k].fill(0.0);
+            self.panel[k * self.lead + aligned(k)..=k * self.lead + k].fill(R::ZERO);
         }
         Ok(())
     }
@@ -131,16 +185,16 @@ impl Dense<'_> {
     fn pivots<const K: usize>(&mut self, from: usize) -> Result<(), NotPositive> {
         let lead = self.lead;
         let columns = &mut self.panel[from * lead..(from + K) * lead];
-        let (mut c, mut m) = ([[0.0; K]; K], [[0.0; K]; K]);
+        let (mut c, mut m) = ([[R::ZERO; K]; K], [[R::ZERO; K]; K]);
         for k in 0..K {
             c[k][k..].copy_from_slice(&columns[k * lead + from + k..][..K - k]);
         }
         for k in 0..K {
             let pivot = c[k][k];
-            if !(pivot > 0.0) {
+            if !(pivot > R::ZERO) {
                 return Err(NotPositive);
             }
-            let inverse = 1.0 / pivot;
+            let inverse = R::ONE / pivot;
             self.inverse[from + k] = inverse;
             for j in k + 1..K {
                 m[k][j] = c[k][j] * inverse;
@@ -150,7 +204,7 @@ impl Dense<'_> {
             }
         }
         for row in (aligned(from)..lead).step_by(LANES) {
-            let mut x = [[0.0; LANES]; K];
+            let mut x = [[R::ZERO; LANES]; K];
             for k in 0..K {
                 x[k] = *lanes(&columns[k * lead..], row);
             }
@@ -207,7 +261,7 @@ impl Dense<'_> {
             }
             if let Some(into) = quads.next().filter(|_| !part.is_empty()) {
                 for i in 0..QUAD {
-                    into[i] = part.get(i).map_or(0.0, |value| value * inverse);
+                    into[i] = part.get(i).map_or(R::ZERO, |value| *value * inverse);
                 }
             }
         }
@@ -215,25 +269,25 @@ impl Dense<'_> {
 }
 
 /// Columns that have been eliminated, `lead` long, with the multipliers of the rows that are brought up to date.
-struct Done<'a> {
-    columns: &'a [f64],
+struct Done<'a, R> {
+    columns: &'a [R],
     lead: usize,
     depth: usize,
-    multipliers: &'a [f64],
+    multipliers: &'a [R],
 }
 
 /// Columns `first`, … behind them, `long` each, from row `above` on.
-struct Behind<'a> {
-    columns: &'a mut [f64],
+struct Behind<'a, R> {
+    columns: &'a mut [R],
     long: usize,
     first: usize,
     above: usize,
 }
 
-impl Done<'_> {
+impl<R: Real> Done<'_, R> {
     /// The columns behind less these times their multipliers.
     #[inline(always)]
-    fn update(&self, behind: Behind) {
+    fn update(&self, behind: Behind<R>) {
         let Behind { columns, long, first, above } = behind;
         let quads = columns.chunks_mut(QUAD * long).zip(self.multipliers.chunks_exact(QUAD * self.depth));
         for (q, (columns, multipliers)) in quads.enumerate() {
@@ -249,10 +303,10 @@ impl Done<'_> {
 
     /// `N` columns from row `row` on, vector by vector.
     #[inline(always)]
-    fn tiles<const N: usize>(&self, multipliers: &[f64], behind: &mut [f64], long: usize, row: usize, above: usize) {
+    fn tiles<const N: usize>(&self, multipliers: &[R], behind: &mut [R], long: usize, row: usize, above: usize) {
         let (multipliers, _) = multipliers.as_chunks::<QUAD>();
         for row in (row..self.lead).step_by(LANES) {
-            let mut sums = [[0.0; LANES]; N];
+            let mut sums = [[R::ZERO; LANES]; N];
             for j in 0..N {
                 sums[j] = *lanes(&behind[j * long..], row - above);
             }
@@ -272,7 +326,7 @@ impl Done<'_> {
 /// C D⁻¹ y = b for one front: `x` holds b in the rows of the panel, and then what the columns leave of it in the rows
 /// below; y D⁻¹ goes into `own`.
 #[inline(always)]
-pub fn forward(panel: &[f64], lead: usize, inverse: &[f64], x: &mut [f64], own: &mut [f64]) {
+pub fn forward<R: Real>(panel: &[R], lead: usize, inverse: &[R], x: &mut [R], own: &mut [R]) {
     let width = inverse.len();
     let mut from = 0;
     while from < width {
@@ -280,28 +334,28 @@ pub fn forward(panel: &[f64], lead: usize, inverse: &[f64], x: &mut [f64], own: 
         let columns = &panel[from * lead..(from + count) * lead];
         let (inverse, own) = (&inverse[from..], &mut own[from..]);
         match count {
-            1 => forward_block::<1>(columns, lead, from, inverse, x, own),
-            2 => forward_block::<2>(columns, lead, from, inverse, x, own),
-            3 => forward_block::<3>(columns, lead, from, inverse, x, own),
-            _ => forward_block::<4>(columns, lead, from, inverse, x, own),
+            1 => forward_block::<R, 1>(columns, lead, from, inverse, x, own),
+            2 => forward_block::<R, 2>(columns, lead, from, inverse, x, own),
+            3 => forward_block::<R, 3>(columns, lead, from, inverse, x, own),
+            _ => forward_block::<R, 4>(columns, lead, from, inverse, x, own),
         }
         from += count;
     }
 }
 
 #[inline(always)]
-fn forward_block<const K: usize>(
-    columns: &[f64],
+fn forward_block<R: Real, const K: usize>(
+    columns: &[R],
     lead: usize,
     from: usize,
-    inverse: &[f64],
-    x: &mut [f64],
-    own: &mut [f64],
+    inverse: &[R],
+    x: &mut [R],
+    own: &mut [R],
 ) {
-    let mut y = [0.0; K];
+    let mut y = [R::ZERO; K];
     y.copy_from_slice(&x[from..from + K]);
     for k in 0..K {
-        y[k] *= inverse[k];
+        y[k] = y[k] * inverse[k];
         for j in k + 1..K {
             y[j] -= columns[k * lead + from + j] * y[k];
         }
@@ -319,9 +373,9 @@ fn forward_block<const K: usize>(
 
 /// D⁻¹ Cᵀ x = y for one front: `x` holds x in the rows below and is scratch above, y and then x is in `own`.
 #[inline(always)]
-pub fn backward(panel: &[f64], lead: usize, inverse: &[f64], x: &mut [f64], own: &mut [f64]) {
+pub fn backward<R: Real>(panel: &[R], lead: usize, inverse: &[R], x: &mut [R], own: &mut [R]) {
     let width = inverse.len();
-    x[..width].fill(0.0);
+    x[..width].fill(R::ZERO);
     let mut to = width;
     while to > 0 {
         let count = (to - 1) % QUAD + 1;
@@ -329,27 +383,28 @@ pub fn backward(panel: &[f64], lead: usize, inverse: &[f64], x: &mut [f64], own:
         let columns = &panel[from * lead..to * lead];
         let (inverse, own) = (&inverse[from..], &mut own[from..]);
         match count {
-            1 => backward_block::<1>(columns, lead, from, inverse, x, own),
-            2 => backward_block::<2>(columns, lead, from, inverse, x, own),
-            3 => backward_block::<3>(columns, lead, from, inverse, x, own),
-            _ => backward_block::<4>(columns, lead, from, inverse, x, own),
+            1 => backward_block::<R, 1>(columns, lead, from, inverse, x, own),
+            2 => backward_block::<R, 2>(columns, lead, from, inverse, x, own),
+            3 => backward_block::<R, 3>(columns, lead, from, inverse, x, own),
+            _ => backward_block::<R, 4>(columns, lead, from, inverse, x, own),
         }
         to = from;
     }
 }
 
 #[inline(always)]
-fn backward_block<const K: usize>(
-    columns: &[f64],
+fn backward_block<R: Real, const K: usize>(
+    columns: &[R],
     lead: usize,
     from: usize,
-    inverse: &[f64],
-    x: &mut [f64],
-    own: &mut [f64],
+    inverse: &[R],
+    x: &mut [R],
+    own: &mut [R],
 ) {
     // The block's own rows of x are still zero.
-    let mut sums = [[0.0; LANES]; K];
-    for row in (aligned(from + 1)..lead).step_by(LANES) {
+    let mut sums = [[R::ZERO; LANES]; K];
+    // Downwards, as the fronts are gone through: what comes next is then fetched in time.
+    for row in (aligned(from + 1)..lead).step_by(LANES).rev() {
         let x = lanes(x, row);
         for k in 0..K {
             let l = lanes(&columns[k * lead..], row);
@@ -370,8 +425,8 @@ fn backward_block<const K: usize>(
 
 /// The sum of all lanes, by halves.
 #[inline(always)]
-fn whole(x: &Lanes) -> f64 {
-    let four: [f64; 4] = std::array::from_fn(|i| x[i] + x[i + 4]);
-    let two: [f64; 2] = std::array::from_fn(|i| four[i] + four[i + 2]);
+fn whole<R: Real>(x: &Lanes<R>) -> R {
+    let four: [R; 4] = std::array::from_fn(|i| x[i] + x[i + 4]);
+    let two: [R; 2] = std::array::from_fn(|i| four[i] + four[i + 2]);
     two[0] + two[1]
 }

@@ -201,6 +201,7 @@ fn subtract(x: &mut [f64], factor: f64, column: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::integrate::linear::Factoring;
 
     /// Springs of a row of blocks come and go: solutions are those of the matrix factorised anew.
     #[test]
@@ -209,7 +210,7 @@ mod tests {
         let pairs: Vec<(usize, usize)> = (0..n - 1).map(|i| (i, i + 1)).chain((0..n - 7).map(|i| (i, i + 7))).collect();
         let base = |e: usize| [3.0, 50.0, 1e5][e % 3];
         let row = |turned: &[usize]| {
-            let (mut matrix, slots) = Matrix::new(n, &pairs, &[], true);
+            let (mut matrix, slots) = Matrix::new(n, &pairs, &[], Factoring::Symmetric);
             let place = matrix.places().to_vec();
             matrix.diagonal.fill(1.0);
             for (e, (&(i, j), &slot)) in pairs.iter().zip(&slots).enumerate() {

@@ -11,7 +11,7 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SymbolicSupernodalParams;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 
-use crate::integrate::dense_columns::{Dense, Left, aligned, backward, forward, padded, scratch};
+use crate::integrate::dense_columns::{Dense, Left, Real, aligned, backward, forward, padded, scratch};
 use crate::integrate::linear::NotPositive;
 
 /// Groups are joined as long as they have at most so many columns and less than this part of zeros.
@@ -72,7 +72,7 @@ impl Front {
 
 /// Indices and factors.
 #[derive(Debug, Clone)]
-pub struct Fronts {
+pub struct Fronts<R> {
     fronts: Vec<Front>,
     children: Vec<u32>,
     /// Rows below the columns of every group, and their places in the front above.
@@ -81,15 +81,15 @@ pub struct Fronts {
     /// Place of every entry of A in the panel of its front.
     entry: Vec<u32>,
     /// C by groups, whole columns, and D⁻¹.
-    factor: Vec<f64>,
-    inverse: Vec<f64>,
-    stack: Vec<f64>,
+    factor: Vec<R>,
+    inverse: Vec<R>,
+    stack: Vec<R>,
     /// A column of a front, and its multipliers.
-    column: Vec<f64>,
-    multipliers: Vec<f64>,
+    column: Vec<R>,
+    multipliers: Vec<R>,
 }
 
-impl Fronts {
+impl<R: Real> Fronts<R> {
     /// For a matrix of order `n` with entries below the diagonal at `entries` (row, column): each once, column by
     /// column, rows and columns numbered in postorder. None where there is no memory to find the pattern of the factors.
     pub fn new(n: usize, entries: &[(u32, u32)]) -> Option<Self> {
@@ -134,11 +134,11 @@ impl Fronts {
         Some(Fronts {
             into: places_above(&fronts, &rows, &group_of),
             entry: entries.iter().map(place).collect(),
-            factor: vec![0.0; panel],
-            stack: vec![0.0; stack],
-            inverse: vec![0.0; n],
-            column: vec![0.0; longest],
-            multipliers: vec![0.0; scratch(longest)],
+            factor: vec![R::ZERO; panel],
+            stack: vec![R::ZERO; stack],
+            inverse: vec![R::ZERO; n],
+            column: vec![R::ZERO; longest],
+            multipliers: vec![R::ZERO; scratch(longest)],
             fronts,
             children,
             rows,
@@ -154,17 +154,17 @@ impl Fronts {
         for f in &self.fronts {
             let (width, (rows, lead), (long, _)) = (f.width as usize, f.rows(), f.rest());
             let panel = &mut self.factor[f.panel()];
-            panel.fill(0.0);
+            panel.fill(R::ZERO);
             for (k, value) in diagonal[f.first as usize..][..width].iter().enumerate() {
-                panel[k * (lead + 1)] = *value;
+                panel[k * (lead + 1)] = R::near(*value);
             }
             let [from, to] = f.entries.map(|e| e as usize);
             for (&at, value) in self.entry[from..to].iter().zip(&lower[from..to]) {
-                panel[at as usize] = *value;
+                panel[at as usize] = R::near(*value);
             }
             let (waiting, free) = self.stack.split_at_mut(f.made);
             let rest = &mut free[..f.height as usize * long];
-            rest.fill(0.0);
+            rest.fill(R::ZERO);
             let inverse = &mut self.inverse[f.first as usize..][..width];
             let mut front = Dense { panel, rest, inverse, multipliers: &mut self.multipliers, width, rows, lead };
             for &c in &self.children[f.children[0] as usize..f.children[1] as usize] {
@@ -179,27 +179,42 @@ impl Fronts {
         Ok(())
     }
 
+    /// The factors: C, and D⁻¹.
+    pub fn numbers(&self) -> [&[R]; 2] {
+        [&self.factor, &self.inverse]
+    }
+
+    /// Takes them up; false where they are not as long as those that are there.
+    pub fn take_up(&mut self, [factor, inverse]: &[Vec<R>; 2]) -> bool {
+        let fit = factor.len() == self.factor.len() && inverse.len() == self.inverse.len();
+        if fit {
+            self.factor.copy_from_slice(factor);
+            self.inverse.copy_from_slice(inverse);
+        }
+        fit
+    }
+
     /// Solves A x = b in place.
     #[inline(always)]
-    pub fn solve(&mut self, x: &mut [f64]) {
+    pub fn solve(&mut self, x: &mut [R]) {
         for f in &self.fronts {
             let (width, (rows, lead)) = (f.width as usize, f.rows());
             let own = &mut x[f.first as usize..][..width];
-            if own.iter().all(|b| *b == 0.0) {
+            if own.iter().all(|b| *b == R::ZERO) {
                 continue;
             }
             let column = &mut self.column[..lead];
             column[..width].copy_from_slice(own);
-            column[width..].fill(0.0);
+            column[width..].fill(R::ZERO);
             forward(&self.factor[f.panel()], lead, &self.inverse[f.first as usize..][..width], column, own);
             for (&r, s) in f.below(&self.rows).iter().zip(&column[width..rows]) {
-                x[r as usize] += s;
+                x[r as usize] += *s;
             }
         }
         for f in self.fronts.iter().rev() {
             let (width, (rows, lead)) = (f.width as usize, f.rows());
             let column = &mut self.column[..lead];
-            column[rows..].fill(0.0);
+            column[rows..].fill(R::ZERO);
             for (&r, value) in f.below(&self.rows).iter().zip(&mut column[width..rows]) {
                 *value = x[r as usize];
             }
@@ -357,7 +372,7 @@ mod tests {
             diagonal[r as usize] -= v;
             diagonal[c as usize] -= v;
         }
-        let mut fronts = Fronts::new(n, &entries).expect("memory");
+        let mut fronts = Fronts::<f64>::new(n, &entries).expect("memory");
         assert!(fronts.fronts.iter().any(|f| f.width > 16 && f.height > 16), "loops over long columns are tried too");
         // Twice: nothing of the first time may be left.
         for _ in 0..2 {

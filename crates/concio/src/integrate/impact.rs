@@ -14,7 +14,7 @@
 
 use crate::integrate::events::TOUCHING;
 use crate::integrate::groups::Groups;
-use crate::integrate::linear::Matrix;
+use crate::integrate::linear::{Factoring, Matrix};
 use crate::model::Model;
 use crate::state::State;
 
@@ -61,7 +61,7 @@ impl Impacts {
         let sides = || model.contacts.iter().map(|c| model.sides[c.joint as usize].map(|s| s as usize));
         let pairs: Vec<(usize, usize)> = sides().filter(|s| s[1] < n).map(|[a, b]| (a, b)).collect();
         let n = if model.contacts.is_empty() { 0 } else { n };
-        let (matrix, among) = Matrix::new(n, if n > 0 { &pairs } else { &[] }, &[], true);
+        let (matrix, among) = Matrix::new(n, if n > 0 { &pairs } else { &[] }, &[], Factoring::Symmetric);
         let mut among = among.into_iter();
         let slots = sides().map(|s| if s[1] < n { among.next().unwrap_or(u32::MAX) } else { u32::MAX }).collect();
         let inverse = |i: usize| model.mass.get(i).map_or(0.0, |m| m.recip());

@@ -7,6 +7,7 @@
 //! 4.7–4.8. No pivoting: the stage matrix is symmetric positive definite for any step that makes sense, and
 //! a pivot that is not positive is reported instead of divided by. Nothing is allocated after [`Matrix::new`].
 
+use crate::integrate::conjugate::Conjugate;
 use crate::integrate::fronts::Fronts;
 use crate::integrate::order::{elimination_order, postordered};
 
@@ -44,8 +45,28 @@ pub struct Matrix {
     x: Vec<f64>,
     y: Vec<f64>,
     /// What large symmetric systems have instead of `start` to `y`, `lower` excepted; that holds the entries of A alone.
-    fronts: Option<Fronts>,
+    fronts: Option<Fronts<f64>>,
+    /// The same where factors lead a search.
+    led: Option<Led>,
     symmetric: bool,
+}
+
+/// Which systems a matrix is made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Factoring {
+    /// Factorised whenever it changes.
+    Symmetric,
+    /// Factorised now and then, in single precision: its factors lead a search ([`Matrix::begin`]) and solve nothing.
+    Led,
+    /// Factorised whenever it changes.
+    Unsymmetric,
+}
+
+/// Factors that lead a search, and the search.
+#[derive(Debug, Clone)]
+struct Led {
+    factors: Fronts<f32>,
+    search: Conjugate,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -60,15 +81,17 @@ pub struct NotPositive;
 
 impl Matrix {
     /// A matrix of order `n` with a diagonal and the pairs (i, j), i ≠ j, on both sides of it; `at` is where the first
-    /// unknowns lie. Returns too where each pair stands in `lower` and `upper`; a `symmetric` matrix has no `upper`.
-    pub fn new(n: usize, pairs: &[(usize, usize)], at: &[[f64; 2]], symmetric: bool) -> (Self, Vec<u32>) {
+    /// unknowns lie. Returns too where each pair stands in `lower` and `upper`; only an unsymmetric matrix has an `upper`.
+    pub fn new(n: usize, pairs: &[(usize, usize)], at: &[[f64; 2]], kind: Factoring) -> (Self, Vec<u32>) {
         let place = elimination_order(n, pairs, at);
-        let by_fronts = if symmetric && n > MOST_LISTED { Self::by_fronts(n, &place, pairs) } else { None };
+        let symmetric = kind != Factoring::Unsymmetric;
+        let leads = kind == Factoring::Led;
+        let by_fronts = if symmetric && n > MOST_LISTED { Self::by_fronts(n, &place, pairs, leads) } else { None };
         by_fronts.unwrap_or_else(|| Self::by_entries(n, place, pairs, symmetric))
     }
 
     /// None where memory is too short.
-    fn by_fronts(n: usize, place: &[u32], pairs: &[(usize, usize)]) -> Option<(Self, Vec<u32>)> {
+    fn by_fronts(n: usize, place: &[u32], pairs: &[(usize, usize)], leads: bool) -> Option<(Self, Vec<u32>)> {
         let mut place = place.to_vec();
         let mut entries = below_diagonal(&place, pairs);
         postordered(&mut place, &mut entries);
@@ -79,9 +102,13 @@ impl Matrix {
         let slot = |&(r, c): &(u32, u32)| entries.partition_point(|&(s, d)| (d, s) < (c, r)) as u32;
         let slots = all.iter().map(slot).collect();
         let lower = vec![0.0; entries.len()];
-        let fronts = Fronts::new(n, &entries)?;
         let mut matrix = Self::empty(n, place, true);
-        (matrix.lower, matrix.fronts) = (lower, Some(fronts));
+        matrix.lower = lower;
+        if leads {
+            matrix.led = Some(Led { factors: Fronts::new(n, &entries)?, search: Conjugate::new(n, &entries) });
+        } else {
+            matrix.fronts = Some(Fronts::new(n, &entries)?);
+        }
         Some((matrix, slots))
     }
 
@@ -104,6 +131,7 @@ impl Matrix {
             x: Vec::new(),
             y: Vec::new(),
             fronts: None,
+            led: None,
             symmetric,
         }
     }
@@ -156,6 +184,11 @@ impl Matrix {
         (matrix, slots)
     }
 
+    /// Whether it is of [`Factoring::Led`]: memory may have been too short.
+    pub fn is_led(&self) -> bool {
+        self.led.is_some()
+    }
+
     /// Place of each unknown in the elimination order: the number it has in `diagonal` and in [`Matrix::solve`].
     pub fn places(&self) -> &[u32] {
         &self.place
@@ -174,6 +207,9 @@ impl Matrix {
     pub fn factorise(&mut self) -> Result<(), NotPositive> {
         if let Some(fronts) = &mut self.fronts {
             return fronts.factorise(&self.diagonal, &self.lower);
+        }
+        if let Some(led) = &mut self.led {
+            return led.factors.factorise(&self.diagonal, &self.lower);
         }
         if self.symmetric {
             self.columns_symmetric()
@@ -271,6 +307,74 @@ impl Matrix {
             self.diagonal[i] = 1.0 / d;
         }
         Ok(())
+    }
+
+    /// Begins to seek x of A x = b at `x`, with the factors of another matrix: [`Factoring::Led`] alone.
+    #[inline(always)]
+    pub fn begin(&mut self, b: &[f64], x: &[f64]) {
+        if let Some(led) = &mut self.led {
+            led.search.begin([&self.diagonal, &self.lower], b, x);
+        }
+    }
+
+    /// The next iteration of that.
+    ///
+    /// # Errors
+    /// [`NotPositive`] where the matrix is not.
+    #[inline(always)]
+    pub fn advance(&mut self, x: &mut [f64]) -> Result<(), NotPositive> {
+        let led = self.led.as_mut().ok_or(NotPositive)?;
+        led.search.advance([&self.diagonal, &self.lower], x, &mut led.factors)
+    }
+
+    /// The matrix, b or the factors have changed.
+    #[inline(always)]
+    pub fn turn(&mut self) {
+        if let Some(led) = &mut self.led {
+            led.search.turn();
+        }
+    }
+
+    /// One iteration from nothing for A x = b, in place: what the factors make of b, as long as fits A best. Not a number
+    /// where A is not positive.
+    #[inline(always)]
+    pub fn solve_roughly(&mut self, b: &mut [f64]) {
+        let Some(led) = &mut self.led else { return };
+        led.search.residual.copy_from_slice(b);
+        b.fill(0.0);
+        led.search.turn();
+        if self.advance(b).is_err() {
+            b.fill(f64::NAN);
+        }
+    }
+
+    /// The factors and the inverse pivots of [`Factoring::Led`].
+    pub fn rough_factors(&self) -> Option<[&[f32]; 2]> {
+        self.led.as_ref().map(|led| led.factors.numbers())
+    }
+
+    /// Takes them up; false where they are not as long as those that are there.
+    pub fn take_up(&mut self, factors: &[Vec<f32>; 2]) -> bool {
+        self.led.as_mut().is_some_and(|led| led.factors.take_up(factors))
+    }
+
+    /// b − A x of that.
+    #[inline(always)]
+    pub fn residual(&self) -> &[f64] {
+        self.led.as_ref().map_or(&[], |led| &led.search.residual)
+    }
+
+    /// Adds a spring between the unknowns `sides`, whose entry is at `slot`, and what it bears at x.
+    #[inline(always)]
+    pub fn stiffen(&mut self, slot: Option<usize>, [a, b]: [usize; 2], spring: f64, bears: f64) {
+        let Some(led) = &mut self.led else { return };
+        self.diagonal[a] += spring;
+        led.search.residual[a] -= bears;
+        if let Some(slot) = slot {
+            self.diagonal[b] += spring;
+            self.lower[slot] -= spring;
+            led.search.residual[b] += bears;
+        }
     }
 
     /// Solves A x = b in place with the last factors; b by place.
@@ -377,7 +481,7 @@ mod tests {
         for (symmetric, listed) in [(true, true), (false, true), (true, false), (false, false)] {
             let place = elimination_order(n, &pairs, &[]);
             let (mut m, slots) = match (symmetric, listed) {
-                (true, false) => Matrix::by_fronts(n, &place, &pairs).expect("memory"),
+                (true, false) => Matrix::by_fronts(n, &place, &pairs, false).expect("memory"),
                 _ => Matrix::by_entries(n, place, &pairs, symmetric),
             };
             assert!(m.fronts.is_some() || !m.updates.is_empty());
@@ -429,7 +533,7 @@ mod tests {
             let (mut m, slots) = if listed {
                 Matrix::by_entries(3, place, &pairs, true)
             } else {
-                Matrix::by_fronts(3, &place, &pairs).expect("memory")
+                Matrix::by_fronts(3, &place, &pairs, false).expect("memory")
             };
             m.diagonal.fill(1.0);
             m.lower[slots[0] as usize] = coupling;

@@ -1,6 +1,7 @@
 //! One step of a scheme, its error estimate, and the linear algebra behind it.
 
 pub(crate) mod bonds;
+mod conjugate;
 pub(crate) mod cracks;
 pub(crate) mod dense;
 mod dense_columns;

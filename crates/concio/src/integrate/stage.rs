@@ -26,15 +26,18 @@ use crate::integrate::devices::Devices;
 use crate::integrate::flips::Flips;
 use crate::integrate::groups::Groups;
 use crate::integrate::joints::{Contacts, Joints, Rubs};
-use crate::integrate::linear::{MOST_LISTED, Matrix};
+use crate::integrate::linear::{Factoring, MOST_LISTED, Matrix};
 use crate::law::Stribeck;
 use crate::model::Model;
 use crate::state::{BondState, DeviceState, Tangents};
 use crate::wall::Block;
 
 mod contacts;
+mod large;
 mod parts;
 
+pub use large::Kept;
+use large::Wear;
 pub use parts::{Part, Parts};
 
 /// Iterations after which a stage is given up and the step shortened. Of the stages that converge, 99 in 100 take
@@ -61,6 +64,8 @@ const AT_REST: f64 = 1e-150;
 /// Unknowns for which few flips are followed through the factors: smaller matrices are factorised as fast, in larger
 /// walls too many joints change at a time.
 const FOLLOWED: std::ops::RangeInclusive<usize> = MOST_LISTED + 1..=20_000;
+/// Unknowns up to which matrices are factorised whenever they change.
+const FACTORISED: usize = 4_000;
 /// Friction by which a sticking joint may exceed μ_s, as a fraction of it: what holds it is known to about this.
 const EXCESS: f64 = 1e-7;
 
@@ -88,6 +93,15 @@ pub struct Stage {
     closed: Vec<bool>,
     /// Whether the factors hold for `tau` and `closed`, no joint rubbing.
     factors_hold: bool,
+    /// Of large walls alone, see `large`: how the factors have served, if there are any, and whether the last try of a step
+    /// was solved; acceleration to begin with in the order of the model [m/s²], V_p by place, room, and work that is allowed to
+    /// what is out of balance [J].
+    wear: Option<Wear>,
+    pub solved: bool,
+    pub guess: Vec<f64>,
+    speed: Vec<f64>,
+    trial: Vec<f64>,
+    pub work: f64,
     /// Right side without friction, with and for V_p.
     load: Vec<f64>,
     /// V − V_p, and the correction, with base and top at the end.
@@ -144,7 +158,12 @@ impl WithSimd for Iteration<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Self::Output {
-        self.stage.iterate(self.model, self.tangents, self.tau, self.ground, self.accuracy)
+        let Iteration { stage, model, tangents, tau, ground, accuracy } = self;
+        if stage.matrix.is_led() {
+            stage.iterate_large(model, tangents, tau, ground, accuracy)
+        } else {
+            stage.iterate(model, tangents, tau, ground, accuracy)
+        }
     }
 }
 
@@ -161,6 +180,10 @@ impl WithSimd for Linear<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let n = self.b.len() - 2;
+        if self.matrix.is_led() {
+            self.matrix.solve_roughly(&mut self.b[..n]);
+            return;
+        }
         self.matrix.solve(&mut self.b[..n]);
         self.flips.correct(self.b);
     }
@@ -173,7 +196,7 @@ impl Stage {
         let coupled = |s: &&[u32; 2]| (s[1] as usize) < n;
         let pairs: Vec<(usize, usize)> =
             model.sides.iter().filter(coupled).map(|s| (s[0] as usize, s[1] as usize)).collect();
-        let (matrix, slots) = Matrix::new(n, &pairs, &centres(model), model.reciprocal);
+        let (matrix, slots) = Matrix::new(n, &pairs, &centres(model), factoring(model));
         let joints = Joints::new(model, matrix.places(), &slots);
         let rubs = Rubs::new(model, &joints);
         let contacts = Contacts::new(model, &joints);
@@ -181,6 +204,7 @@ impl Stage {
         for (m, &place) in model.mass.iter().zip(matrix.places()) {
             mass[place as usize] = *m;
         }
+        let led = matrix.is_led();
         let (fill, zeros) = (matrix.lower.len(), |len: usize| vec![0.0; len]);
         Stage {
             arch: Arch::new(),
@@ -207,8 +231,14 @@ impl Stage {
             closing: zeros(contacts.len()),
             contact_residual: 0.0,
             groups: Groups::new(if contacts.len() > 0 || !rubs.sticking.is_empty() { n } else { 0 }),
-            flips: Flips::new(if FOLLOWED.contains(&n) && model.bonds.is_empty() { n } else { 0 }),
+            flips: Flips::new(if !led && FOLLOWED.contains(&n) && model.bonds.is_empty() { n } else { 0 }),
             factors_hold: false,
+            wear: None,
+            solved: false,
+            guess: zeros(if led { n } else { 0 }),
+            speed: zeros(if led { n } else { 0 }),
+            trial: zeros(if led { n + 2 } else { 0 }),
+            work: f64::INFINITY,
             iterations: 0,
             factorisations: 0,
             matrix,
@@ -225,6 +255,7 @@ impl Stage {
     /// over the damage of the bonds and the state of the devices.
     pub fn begin(&mut self, model: &Model, bonds: &[BondState], devices: &[DeviceState]) {
         self.tau = 0.0;
+        self.begin_try();
         self.devices.hold(devices);
         self.bonds.hold(model, bonds, &mut self.joints, &mut self.rubs);
     }
@@ -418,6 +449,22 @@ impl Stage {
         if self.factors_hold && self.rubs.len() == 0 && self.contacts.len() == 0 {
             return Ok(());
         }
+        self.make(model, tangents);
+        self.factorise()
+    }
+
+    #[inline(always)]
+    fn factorise(&mut self) -> Result<(), Failure> {
+        self.factorisations += 1;
+        self.factors_hold = false;
+        self.matrix.factorise().map_err(|_| Failure::TooLong)?;
+        self.factors_hold = true;
+        Ok(())
+    }
+
+    /// J, not factorised.
+    #[inline(always)]
+    fn make(&mut self, model: &Model, tangents: &Tangents) {
         self.matrix.diagonal.copy_from_slice(&self.diagonal);
         self.matrix.lower.copy_from_slice(&self.lower);
         let (j, matrix, tau, square) = (&self.joints, &mut self.matrix, self.tau, self.tau * self.tau);
@@ -464,11 +511,6 @@ impl Stage {
             }
         }
         self.assemble_contacts(model, tangents);
-        self.factorisations += 1;
-        self.factors_hold = false;
-        self.matrix.factorise().map_err(|_| Failure::TooLong)?;
-        self.factors_hold = true;
-        Ok(())
     }
 
     /// Right side of J (V − V_p) = …, with the tangents in place of (6), into `change`.
@@ -709,6 +751,17 @@ impl Stage {
             tangents.mu[r] = mu;
             tangents.slope[r] = slope;
         }
+    }
+}
+
+/// Factors lead a search in large walls whose joints are springs, dashpots and friction that is a function of velocity; where
+/// joints are held, cracked or bridged by devices with laws of their own, matrices differ by too much.
+fn factoring(model: &Model) -> Factoring {
+    let smooth = !model.set_valued() && model.bonds.is_empty() && model.nonlinear.is_empty();
+    match model.reciprocal {
+        false => Factoring::Unsymmetric,
+        true if smooth && model.unknowns() > FACTORISED => Factoring::Led,
+        true => Factoring::Symmetric,
     }
 }
 

@@ -67,6 +67,9 @@ pub struct Tolerance {
 pub const BEGINNING: f64 = 2.0;
 /// Allowed error of the stage iteration as a fraction of the tolerance of the step.
 pub const STAGE_ACCURACY: f64 = 0.02;
+/// Part of the energy that a step may add to the residual that is left to what its stages leave out of balance, in large
+/// walls.
+const UNBALANCED: f64 = 0.05;
 /// Way of a joint in a step from one impact to the next below which it has not bounced [m].
 const LOW: f64 = 10.0 * TOUCHING;
 /// Step in which nothing moves, over the shortest time scale of the model.
@@ -132,6 +135,9 @@ impl Step {
         self.tangents.copy_from(&state.tangents);
         self.stage.contact_residual = 0.0;
         self.stage.begin(model, &state.bonds, &state.devices);
+        let known = state.totals.peak_input + state.energies.initial;
+        let judged = known > 0.0 && tolerance.energy > 0.0;
+        self.stage.work = if judged { UNBALANCED * tolerance.energy } else { f64::INFINITY };
         self.find_touching(model, state);
         for i in 1..self.tableau.stages {
             let t = state.t + self.tableau.c[i] * h;
@@ -142,6 +148,9 @@ impl Step {
             self.stage.z[n + 1] = top.u - tau * top.v;
             self.stage.solution[n + 1] = top.v;
             self.top_acceleration = top.a;
+            if !self.stage.guess.is_empty() {
+                self.guess(i);
+            }
             self.stage.solve(model, &mut self.tangents, tau, ground, STAGE_ACCURACY * tolerance.v)?;
             self.stage_v[i].copy_from_slice(&self.stage.solution);
             self.follow(i, tau);
@@ -154,6 +163,7 @@ impl Step {
             #[inline(always)]
             || self.error(model, h, tau, tolerance),
         );
+        self.stage.solved = true;
         let unbalanced = self.account(model, state, h);
         let known = state.totals.peak_input + state.energies.initial;
         let judged = self.account.input().abs() <= BEGINNING * known && tolerance.energy > 0.0;
@@ -206,6 +216,21 @@ impl Step {
             state.tangents.slope.copy_from_slice(&self.tangents.slope);
             state.tangents.contact.copy_from_slice(&self.tangents.contact);
             state.tangents.reaction.copy_from_slice(&self.tangents.reaction);
+        }
+    }
+
+    /// Accelerations that stage `i` begins with: those of the two stages before, drawn on.
+    fn guess(&mut self, i: usize) {
+        let c = &self.tableau.c;
+        let guess = &mut self.stage.guess;
+        if i < 2 {
+            let n = guess.len();
+            guess.copy_from_slice(&self.stage_a[0][..n]);
+            return;
+        }
+        let on = (c[i] - c[i - 1]) / (c[i - 1] - c[i - 2]);
+        for ((g, a), b) in guess.iter_mut().zip(&self.stage_a[i - 1]).zip(&self.stage_a[i - 2]) {
+            *g = a + on * (a - b);
         }
     }
 

@@ -1,7 +1,7 @@
 //! What runs must have in common to advance side by side, and the lists that follow from it.
 
 use crate::case::Scheme;
-use crate::integrate::linear::{MOST_LISTED, Matrix};
+use crate::integrate::linear::{Factoring, MOST_LISTED, Matrix};
 use crate::integrate::stage::centres;
 use crate::model::Model;
 
@@ -142,7 +142,7 @@ impl Topology {
         let coupled = |s: &&[u32; 2]| (s[1] as usize) < n;
         let pairs: Vec<(usize, usize)> =
             model.sides.iter().filter(coupled).map(|s| (s[0] as usize, s[1] as usize)).collect();
-        let (matrix, slots) = Matrix::new(n, &pairs, &centres(model), true);
+        let (matrix, slots) = Matrix::new(n, &pairs, &centres(model), Factoring::Symmetric);
         let mut place = matrix.places().to_vec();
         place.extend([n as u32, n as u32 + 1]);
         let mut slots = slots.into_iter();

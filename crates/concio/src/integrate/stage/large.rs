@@ -1,0 +1,287 @@
+//! The iteration of large walls, (T1) as `iterate` solves it, without a factorisation per iteration.
+//!
+//! A wall of a hundred thousand blocks has hundreds of head joints that open or close in every stage, and the tangent of
+//! every joint that rubs moves a little. Both are small changes of the matrix that was factorised as the step began, so its
+//! factors lead conjugate gradients (`conjugate`) instead. What differs from `iterate`:
+//!
+//! * It begins at velocities that go on as the stages before did, and joints that are open or closed there.
+//! * Joints open and close where the search has come to, and the search goes on from there: each costs its two blocks and
+//!   nothing else.
+//! * The iteration ends by forces: what is out of balance at any block is below [`PART_OF_GROUND`] of the force that the
+//!   ground brings or [`PART_OF_MOTION`] of the largest acceleration times its mass, would move it by less than the
+//!   accuracy if its neighbours were held, and works less than a part of what the energy account allows.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Failure, MOST_ITERATIONS, Stage};
+use crate::model::Model;
+use crate::state::Tangents;
+
+/// Iterations with the factors of another matrix after which that matrix is factorised.
+const MOST_LED: usize = 12;
+/// Force that may be out of balance: part of the mass times the acceleration of the ground, and of the largest in the stage.
+const PART_OF_GROUND: f64 = 1e-4;
+const PART_OF_MOTION: f64 = 1e-2;
+/// Part of that up to which a joint stays open or closed as it was.
+const FELT: f64 = 0.25;
+
+/// What a factorisation costs, in iterations.
+const FACTORISATION: u32 = 4;
+/// Length of a step over that of the factors, within which they serve.
+const ALIKE: std::ops::RangeInclusive<f64> = 0.6..=1.7;
+
+/// How long factors have served, and how well: they are made anew when a further try with them costs more than all tries
+/// with new ones did on average.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Wear {
+    /// τ of their matrix [s].
+    tau: f64,
+    /// Tries of a step with them, iterations of the first, of the last, and of all beyond as many as the first took each.
+    tries: u32,
+    first: u32,
+    last: u32,
+    beyond: u32,
+}
+
+impl Wear {
+    /// Of new factors.
+    fn new(tau: f64) -> Self {
+        Wear { tau, tries: 0, first: 0, last: 0, beyond: 0 }
+    }
+
+    /// Another try begins; whether they serve for it.
+    fn begin(&mut self) -> bool {
+        if self.tries == 1 {
+            self.first = self.last;
+        }
+        let beyond = self.last.saturating_sub(self.first);
+        self.beyond += beyond;
+        let worn = beyond * self.tries > FACTORISATION + self.beyond;
+        (self.tries, self.last) = (self.tries + 1, 0);
+        !worn
+    }
+}
+
+/// What may be left of the equations.
+#[derive(Debug, Clone, Copy)]
+pub struct Enough {
+    /// Impulse over mass that the ground brings [m/s].
+    ground: f64,
+    /// Error of V that is allowed [m/s].
+    accuracy: f64,
+    /// Work that is allowed, over what the impulses out of balance do [J].
+    work: f64,
+}
+
+/// What is left.
+#[derive(Debug, Clone, Copy)]
+struct Left {
+    /// Largest excess over what is allowed [N s]; none where it is not positive.
+    excess: f64,
+    /// Work of what is out of balance [J].
+    work: f64,
+}
+
+impl Stage {
+    #[inline(always)]
+    pub(super) fn iterate_large(
+        &mut self,
+        model: &Model,
+        tangents: &mut Tangents,
+        tau: f64,
+        ground: f64,
+        accuracy: f64,
+    ) -> Result<(), Failure> {
+        let n = self.mass.len();
+        self.v[n + 1] = self.solution[n + 1];
+        let enough = Enough { ground: PART_OF_GROUND * tau * ground.abs(), accuracy, work: self.work };
+        let first = self.tau != tau;
+        self.tau = tau;
+        self.begin_large();
+        self.start(model, tangents);
+        let most = enough.impulse(&self.change[..n]);
+        if first {
+            self.choose(tangents, FELT * most);
+            self.assemble_elastic(model, tangents);
+        } else {
+            self.flip_large(tangents, FELT * most);
+        }
+        self.load_elastic(model, ground);
+        for _ in 0..MOST_ITERATIONS {
+            self.iterations += 1;
+            self.make(model, tangents);
+            if !self.wear.is_some_and(|wear| ALIKE.contains(&(tau / wear.tau))) {
+                self.factorise_large()?;
+            }
+            self.search(tangents, enough)?;
+            self.mismatch(model, tangents);
+            let most = enough.impulse(&self.change[..n]);
+            if !self.rhs[..n].iter().zip(&self.mass).any(|(missed, m)| !(missed.abs() <= most * m)) {
+                self.finish_large(tangents);
+                return Ok(());
+            }
+            self.move_tangents(model, tangents);
+        }
+        Err(Failure::TooLong)
+    }
+
+    #[inline(always)]
+    fn factorise_large(&mut self) -> Result<(), Failure> {
+        self.wear = None;
+        self.factorise()?;
+        self.wear = Some(Wear { tries: 1, ..Wear::new(self.tau) });
+        Ok(())
+    }
+
+    /// Takes the guess, and V_p, to the places of the unknowns.
+    #[inline(always)]
+    fn begin_large(&mut self) {
+        let n = self.mass.len();
+        for ((a, v), &place) in self.guess.iter().zip(&self.v).zip(self.matrix.places()) {
+            self.change[place as usize] = self.tau * a;
+            self.speed[place as usize] = *v;
+        }
+        self.change[n..].fill(0.0);
+    }
+
+    /// Solves J x = b for the tangents as they are, joints opening and closing on the way.
+    #[inline(always)]
+    fn search(&mut self, tangents: &mut Tangents, enough: Enough) -> Result<(), Failure> {
+        let n = self.mass.len();
+        self.trial.copy_from_slice(&self.change);
+        self.right_side(tangents);
+        std::mem::swap(&mut self.trial, &mut self.change);
+        self.matrix.begin(&self.trial[..n], &self.change[..n]);
+        let (mut led, mut most) = (0, enough.impulse(&self.change[..n]));
+        for _ in 0..MOST_ITERATIONS {
+            while !self.left(most, enough.accuracy).is_enough(enough.work) {
+                if led == MOST_LED {
+                    self.factorise_large()?;
+                    self.matrix.turn();
+                }
+                if led == 2 * MOST_LED {
+                    return Err(Failure::TooLong);
+                }
+                led += 1;
+                self.wear.iter_mut().for_each(|wear| wear.last += 1);
+                self.matrix.advance(&mut self.change[..n]).map_err(|_| Failure::TooLong)?;
+                most = enough.impulse(&self.change[..n]);
+            }
+            if !self.flip_large(tangents, FELT * most) {
+                return Ok(());
+            }
+            self.matrix.turn();
+        }
+        Err(Failure::TooLong)
+    }
+
+    /// What is left where at most `most` times the mass may be out of balance [m/s].
+    #[inline(always)]
+    fn left(&self, most: f64, accuracy: f64) -> Left {
+        let (mut excess, mut work) = (f64::NEG_INFINITY, 0.0);
+        let matrix = self.matrix.residual().iter().zip(&self.matrix.diagonal);
+        for (((r, d), m), (x, v)) in matrix.zip(&self.mass).zip(self.change.iter().zip(&self.speed)) {
+            excess = excess.max(r.abs() - (most * m).min(accuracy * d));
+            work += r * (v + x);
+        }
+        Left { excess, work }
+    }
+
+    /// Which one-sided joints are closed at the guess.
+    #[inline(always)]
+    fn choose(&self, tangents: &mut Tangents, felt: f64) {
+        for (gap, &e) in self.gap.iter().zip(&self.joints.one_sided) {
+            let e = e as usize;
+            let [a, b] = self.joints.sides[e].map(|s| s as usize);
+            let d = gap + self.tau * (self.change[a] - self.change[b]);
+            let is_felt = self.tau * self.joints.stiffness[e] * d.abs() > felt * self.mass[a];
+            tangents.closed[e] = if is_felt { d > 0.0 } else { tangents.closed[e] };
+        }
+    }
+
+    /// Opens and closes joints, and brings matrix, load and residual up to date with each; whether there was any. A joint
+    /// whose force moves its block by less than `felt` [m/s] stays as it is.
+    #[inline(always)]
+    fn flip_large(&mut self, tangents: &mut Tangents, felt: f64) -> bool {
+        let Stage { joints, gap, mass, change, closed, matrix, diagonal, lower, load, tau, .. } = self;
+        let tau = *tau;
+        let mut any = false;
+        for (gap, &e) in gap.iter().zip(&joints.one_sided) {
+            let e = e as usize;
+            let [a, b] = joints.sides[e].map(|s| s as usize);
+            let d = gap + tau * (change[a] - change[b]);
+            let impulse = tau * joints.stiffness[e];
+            if (d > 0.0) == closed[e] || impulse * d.abs() <= felt * mass[a] {
+                continue;
+            }
+            any = true;
+            closed[e] = d > 0.0;
+            tangents.closed[e] = closed[e];
+            let impulse = if closed[e] { impulse } else { -impulse };
+            let (spring, push) = (tau * impulse, impulse * gap);
+            load[a] -= push;
+            load[b] += push;
+            diagonal[a] += spring;
+            matrix.stiffen(joints.slot[e].at(), [a, b], spring, impulse * d);
+            if let Some(slot) = joints.slot[e].at() {
+                diagonal[b] += spring;
+                lower[slot] -= spring;
+            }
+        }
+        any
+    }
+
+    /// Another try of a step begins: worn factors are forgotten. Those of a try that failed are no good.
+    pub(super) fn begin_try(&mut self) {
+        self.wear = self.wear.filter(|_| self.solved).and_then(|mut wear| wear.begin().then_some(wear));
+        self.solved = false;
+    }
+
+    /// What the factors of large walls are, for a run that is taken up again: they may be those of a step before.
+    pub fn keep(&self) -> Option<Kept> {
+        let wear = self.wear.filter(|_| self.solved)?;
+        let factors = self.matrix.rough_factors()?.map(<[f32]>::to_vec);
+        Some(Kept { wear, factors })
+    }
+
+    /// Takes them up; false where they are none of this wall's.
+    pub fn take_up(&mut self, kept: Option<Kept>) -> bool {
+        self.wear = kept.as_ref().map(|kept| kept.wear);
+        self.solved = kept.is_some();
+        kept.is_none_or(|kept| self.matrix.take_up(&kept.factors))
+    }
+
+    /// Leaves the tangents at the solution, where the laws are.
+    #[inline(always)]
+    fn finish_large(&mut self, tangents: &mut Tangents) {
+        for (i, &place) in self.matrix.places().iter().enumerate() {
+            self.solution[i] = self.v[i] + self.change[place as usize];
+        }
+        tangents.mu.copy_from_slice(&self.mu);
+        tangents.slope.copy_from_slice(&self.slope);
+        tangents.velocity.copy_from_slice(&self.velocity);
+    }
+}
+
+/// Factors and their wear.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Kept {
+    wear: Wear,
+    factors: [Vec<f32>; 2],
+}
+
+impl Enough {
+    /// Impulse over mass that may be left where velocities change by `x` [m/s].
+    #[inline(always)]
+    fn impulse(self, x: &[f64]) -> f64 {
+        let most = x.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        self.ground.max(PART_OF_MOTION * most)
+    }
+}
+
+impl Left {
+    #[inline(always)]
+    fn is_enough(self, work: f64) -> bool {
+        self.excess <= 0.0 && self.work.abs() <= work
+    }
+}
