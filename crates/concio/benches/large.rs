@@ -3,8 +3,11 @@
 //!     cargo bench --bench large [-- STEPS]
 //!
 //! A panel under a synthetic earthquake, from rest: STEPS steps (60 unless said) after the first 20, in which the step
-//! size finds itself. Panels grow to all sides first, then in length alone, at 25 courses. Laying the wall and finding
-//! the order of elimination are timed apart. Bytes are those that model and run ask for, without output.
+//! size finds itself. Panels grow to all sides first, then in length alone, at 25 courses. The three sizes of a series go
+//! in turn, five rounds of the same steps, small walls as often as it takes to time them; medians of the costs and of their
+//! ratios to the smallest wall's in the same round. Laying the wall and finding the order of elimination are timed
+//! apart. Iterations and factorisations are those of all steps, the first ones too. Bytes are those that model and run ask
+//! for, without output.
 //!
 //! Part of the growth has nothing to do with the solver: small walls live in the caches. The last lines tell it: as many
 //! small walls as make up the largest, one step of each in turn.
@@ -14,7 +17,7 @@ use std::time::Instant;
 
 use concio::Result;
 use concio::case::{Syntax, from_str};
-use concio::run::prepare;
+use concio::run::{Prepared, prepare};
 use concio::simulate::Simulation;
 use peak_alloc::PeakAlloc;
 
@@ -22,6 +25,9 @@ use peak_alloc::PeakAlloc;
 static MEMORY: PeakAlloc = PeakAlloc;
 
 const FIRST: u64 = 20;
+const ROUNDS: usize = 5;
+/// Least time of a measurement [s].
+const LEAST: f64 = 1.0;
 
 fn wall(courses: usize, bricks: usize, friction: &str) -> String {
     format!(
@@ -46,34 +52,96 @@ frames = "0 s"
     )
 }
 
-/// Prints a line; returns µs per block and step.
-fn measure(courses: usize, bricks: usize, friction: &str, steps: u64, smallest: Option<f64>) -> Result<f64> {
-    let before = MEMORY.current_usage();
-    let start = Instant::now();
-    let file = from_str(&wall(courses, bricks, friction), Syntax::Toml, None)?;
-    file.validate()?;
-    let prepared = prepare(file.case, Path::new(""))?;
-    let laid = start.elapsed().as_secs_f64();
-    let mut run = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling)?;
-    let ready = start.elapsed().as_secs_f64() - laid;
-    let bytes = MEMORY.current_usage() - before;
-    run.advance(FIRST);
-    let counted = run.state().counters;
-    let start = Instant::now();
-    run.advance(steps);
-    let seconds = start.elapsed().as_secs_f64();
-    let blocks = prepared.model.wall.blocks.len();
-    let now = run.state().counters;
-    let taken = (now.steps - counted.steps) as f64;
-    let cost = 1e6 * seconds / taken / blocks as f64;
-    println!(
-        "{friction:>9} {blocks:>8} {laid:>8.2} {ready:>8.2} {cost:>10.3} {:>8.2} {:>8.1} {:>8.1} {:>8.0}",
-        cost / smallest.unwrap_or(cost),
-        (now.iterations - counted.iterations) as f64 / taken,
-        (now.factorisations - counted.factorisations) as f64 / taken,
-        bytes as f64 / blocks as f64,
-    );
-    Ok(cost)
+/// A wall that has made its first steps.
+struct Wall<'a> {
+    blocks: usize,
+    laid: f64,
+    ready: f64,
+    bytes: usize,
+    run: Simulation<'a>,
+    begin: Vec<u8>,
+    /// µs per block and step, round by round.
+    costs: Vec<f64>,
+}
+
+/// A wall that is laid, with the seconds and bytes that it took.
+struct Laid {
+    prepared: Prepared,
+    seconds: f64,
+    bytes: usize,
+}
+
+impl Laid {
+    fn new(courses: usize, bricks: usize, friction: &str) -> Result<Self> {
+        let before = MEMORY.current_usage();
+        let start = Instant::now();
+        let file = from_str(&wall(courses, bricks, friction), Syntax::Toml, None)?;
+        file.validate()?;
+        let prepared = prepare(file.case, Path::new(""))?;
+        Ok(Laid { prepared, seconds: start.elapsed().as_secs_f64(), bytes: MEMORY.current_usage() - before })
+    }
+}
+
+impl<'a> Wall<'a> {
+    fn new(of: &'a Laid) -> Result<Self> {
+        let Laid { prepared, .. } = of;
+        let before = MEMORY.current_usage();
+        let start = Instant::now();
+        let mut run = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling)?;
+        let ready = start.elapsed().as_secs_f64();
+        let bytes = of.bytes + MEMORY.current_usage() - before;
+        run.advance(FIRST);
+        let begin = run.save();
+        let blocks = prepared.model.wall.blocks.len();
+        Ok(Wall { blocks, laid: of.seconds, ready, bytes, run, begin, costs: Vec::new() })
+    }
+
+    /// The same steps once more, and again until they have taken long enough to tell.
+    fn measure(&mut self, steps: u64) {
+        let (mut seconds, mut times) = (0.0, 0);
+        while seconds < LEAST {
+            assert!(self.run.restore(&self.begin), "its own state");
+            let start = Instant::now();
+            self.run.advance(steps);
+            seconds += start.elapsed().as_secs_f64();
+            times += 1;
+        }
+        self.costs.push(1e6 * seconds / (times * steps) as f64 / self.blocks as f64);
+    }
+}
+
+fn median(of: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = of.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// Walls of three sizes in turn; a line for each.
+fn measure(sizes: [(usize, usize); 3], friction: &str, steps: u64) -> Result<()> {
+    let mut laid = Vec::new();
+    for (courses, bricks) in sizes {
+        laid.push(Laid::new(courses, bricks, friction)?);
+    }
+    let mut walls = laid.iter().map(Wall::new).collect::<Result<Vec<_>>>()?;
+    for _ in 0..ROUNDS {
+        walls.iter_mut().for_each(|wall| wall.measure(steps));
+    }
+    for wall in &walls {
+        let counted = wall.run.state().counters;
+        let ratios = wall.costs.iter().zip(&walls[0].costs).map(|(a, b)| a / b);
+        println!(
+            "{friction:>9} {:>8} {:>8.2} {:>8.2} {:>10.3} {:>8.2} {:>8.1} {:>8.2} {:>8.0}",
+            wall.blocks,
+            wall.laid,
+            wall.ready,
+            median(wall.costs.iter().copied()),
+            median(ratios),
+            counted.iterations as f64 / counted.steps as f64,
+            counted.factorisations as f64 / counted.steps as f64,
+            wall.bytes as f64 / wall.blocks as f64,
+        );
+    }
+    Ok(())
 }
 
 /// Small walls, `count` of them, one step of each in turn: prints a line. Each is from another seed, so that they do not
@@ -109,13 +177,8 @@ fn main() -> Result<()> {
     let steps = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(60);
     println!(" friction   blocks  lay [s] make [s] us/blk/stp    ratio  its/stp fact/stp  B/block");
     for friction in ["stribeck", "none"] {
-        for sizes in [[(25, 40), (80, 125), (250, 400)], [(25, 40), (25, 400), (25, 4000)]] {
-            let mut smallest = None;
-            for (courses, bricks) in sizes {
-                let cost = measure(courses, bricks, friction, steps, smallest)?;
-                smallest = smallest.or(Some(cost));
-            }
-        }
+        measure([(25, 40), (80, 125), (250, 400)], friction, steps)?;
+        measure([(25, 40), (25, 400), (25, 4000)], friction, steps)?;
         let one = in_turn(1, friction, steps, None)?;
         in_turn(99, friction, steps, Some(one))?;
     }

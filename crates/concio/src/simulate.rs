@@ -509,7 +509,8 @@ impl<'m> Simulation<'m> {
     }
     /// Goes back to a saved state; false when the bytes are not one of this model's, and the simulation is then to be made anew.
     pub fn restore(&mut self, bytes: &[u8]) -> bool {
-        let Ok((state, kept, factors)) = postcard::from_bytes::<(State, Option<planar::Kept>, Option<stage::Kept>)>(bytes)
+        let Ok((state, kept, factors)) =
+            postcard::from_bytes::<(State, Option<planar::Kept>, Option<stage::Kept>)>(bytes)
         else {
             return false;
         };

@@ -1,4 +1,4 @@
-//! Walls of hundreds of blocks, whose matrices are factorised front by front.
+//! Walls of hundreds of blocks, whose matrices are factorised front by front, and of thousands, where factors lead a search.
 
 use concio::outcome::Outcome;
 use concio::run::Prepared;
@@ -67,4 +67,63 @@ fn a_large_run_is_restored_to_the_same_bits() {
     let p = ready(&wall());
     let whole = run(&p, p.case.solver.tolerance);
     assert_eq!(restarted(&p, 3, |_| 3), whole);
+}
+
+const PANEL: &str = r#"
+[[panel]]
+bond = "running"
+courses = 41
+bricks = 50
+"#;
+
+/// `count` panels side by side that do not touch.
+fn panels(count: usize, friction: &str) -> Prepared {
+    ready(&format!(
+        r#"
+model = "shear"
+set = "report"
+{}
+[joint]
+friction = {{ law = "{friction}", static = 0.6, dynamic = 0.42 }}
+connection = {{ law = "none" }}
+[load]
+top = "2 kN/m"
+{SHAKEN}"#,
+        PANEL.repeat(count)
+    ))
+}
+
+/// Two panels have too many blocks for a factorisation per iteration, one alone does not; each moves as it does alone.
+#[test]
+fn a_search_finds_what_factors_find() {
+    for friction in ["stribeck", "none"] {
+        let [one, two] = [1, 2].map(|count| panels(count, friction));
+        let blocks = one.model.wall.blocks.len();
+        assert!(blocks <= 4_000 && two.model.wall.blocks.len() == 2 * blocks && 2 * blocks > 4_000);
+        let [a, b] = [(&one, 1e-2), (&two, 1e-2)].map(|(p, tolerance)| run(p, tolerance));
+        let frames = a.recording.frame_displacement.len() / blocks;
+        let peak = a.recording.frame_displacement.iter().fold(0.0f64, |m, z| m.max(z.abs()));
+        assert!(frames > 20 && peak > 1e-8, "{frames} frames, {peak:e} m");
+        let rows = a.recording.frame_displacement.chunks(blocks).zip(b.recording.frame_displacement.chunks(2 * blocks));
+        let mut worst = 0.0f64;
+        for (alone, both) in rows {
+            for (z, pair) in alone.iter().zip(both.chunks(blocks).next().unwrap().iter().zip(&both[blocks..])) {
+                worst = worst.max((z - pair.0).abs()).max((z - pair.1).abs());
+            }
+        }
+        println!("{friction}: {worst:e} of {peak:e}; {:?}", b.counters);
+        assert!(worst < 2e-3 * peak, "{friction}: {worst:e} of {peak:e}");
+        assert!(b.energies.residual().abs() < 1e-4 * b.totals.peak_input, "{friction}: {:?}", b.energies);
+        // Where friction holds blocks beside head joints, factors serve for more than a step.
+        let most = if friction == "none" { b.counters.iterations } else { b.counters.steps };
+        assert!(b.counters.factorisations < most, "{friction}: {:?}", b.counters);
+    }
+}
+
+/// The factors of a step may be those of steps before: a state saved after any step knows them.
+#[test]
+fn a_search_is_restored_to_the_same_bits() {
+    let p = panels(2, "stribeck");
+    let whole = run(&p, p.case.solver.tolerance);
+    assert_eq!(restarted(&p, 7, |_| 7), whole);
 }

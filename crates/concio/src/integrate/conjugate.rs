@@ -154,8 +154,8 @@ fn dot<T: Copy>(a: &[f64], b: &[T], wide: impl Fn(T) -> f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// A chain with springs of which some are no longer those of the factors: as many iterations as there are kinds of
-    /// change, and one more for what single precision leaves.
+    /// A chain of 600 with twelve springs that are no longer those of the factors: a few more iterations do, and
+    /// single precision leaves nothing of its own.
     #[test]
     fn a_few_iterations_do() {
         let n = 600;
@@ -180,12 +180,12 @@ mod tests {
         multiply(&search.start, &search.row, a, &exact, &mut b);
         let mut x = vec![0.0; n];
         search.begin(a, &b, &x);
-        for _ in 0..8 {
+        for _ in 0..16 {
             search.advance(a, &mut x, &mut factors).expect("positive");
         }
         let off = x.iter().zip(&exact).fold(0.0f64, |m, (x, y)| m.max((x - y).abs()));
-        assert!(off < 1e-6, "{off:e}");
-        assert!(search.residual.iter().all(|r| r.abs() < 1e-3));
+        let left = search.residual.iter().fold(0.0f64, |m, r| m.max(r.abs()));
+        assert!(off < 1e-8 && left < 1e-6, "{off:e} {left:e}");
         // A spring that pushes apart: somewhere the curvature is negative.
         let [diagonal, lower] = matrix(&|i| if i == 300 { -1e3 } else { 1e3 });
         let a = [&diagonal[..], &lower[..]];

@@ -34,8 +34,6 @@ pub trait Real:
 
     /// The nearest number of this kind.
     fn near(x: f64) -> Self;
-
-    fn wide(self) -> f64;
 }
 
 impl Real for f64 {
@@ -46,11 +44,6 @@ impl Real for f64 {
     fn near(x: f64) -> Self {
         x
     }
-
-    #[inline(always)]
-    fn wide(self) -> f64 {
-        self
-    }
 }
 
 impl Real for f32 {
@@ -60,11 +53,6 @@ impl Real for f32 {
     #[inline(always)]
     fn near(x: f64) -> Self {
         x as f32
-    }
-
-    #[inline(always)]
-    fn wide(self) -> f64 {
-        f64::from(self)
     }
 }
 

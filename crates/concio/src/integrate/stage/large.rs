@@ -17,14 +17,20 @@ use super::{Failure, MOST_ITERATIONS, Stage};
 use crate::model::Model;
 use crate::state::Tangents;
 
-/// Iterations with the factors of another matrix after which that matrix is factorised.
-const MOST_LED: usize = 12;
+/// Iterations after which the matrix is factorised as it is now.
+const MOST_LED: usize = 8;
+/// Times that joints may open and close in one search.
+const MOST_ROUNDS: usize = 30;
 /// Force that may be out of balance: part of the mass times the acceleration of the ground, and of the largest in the stage.
 const PART_OF_GROUND: f64 = 1e-4;
 const PART_OF_MOTION: f64 = 1e-2;
 /// Part of that up to which a joint stays open or closed as it was.
 const FELT: f64 = 0.25;
 
+/// Spring of a joint over all else that holds one of its blocks from which on its opening or closing is no small change, and how
+/// many of these are left to the search.
+const STRONG: f64 = 10.0;
+const MOST_STRONG: u32 = 4;
 /// What a factorisation costs, in iterations.
 const FACTORISATION: u32 = 4;
 /// Length of a step over that of the factors, within which they serve.
@@ -41,12 +47,14 @@ pub struct Wear {
     first: u32,
     last: u32,
     beyond: u32,
+    /// Joints that have opened or closed since and hold their blocks more than all else does.
+    strong: u32,
 }
 
 impl Wear {
     /// Of new factors.
     fn new(tau: f64) -> Self {
-        Wear { tau, tries: 0, first: 0, last: 0, beyond: 0 }
+        Wear { tau, tries: 0, first: 0, last: 0, beyond: 0, strong: 0 }
     }
 
     /// Another try begins; whether they serve for it.
@@ -101,15 +109,16 @@ impl Stage {
         self.start(model, tangents);
         let most = enough.impulse(&self.change[..n]);
         if first {
-            self.choose(tangents, FELT * most);
+            // From the state and nothing else: what was tried before is not part of a checkpoint.
             self.assemble_elastic(model, tangents);
-        } else {
-            self.flip_large(tangents, FELT * most);
-        }
-        self.load_elastic(model, ground);
-        for _ in 0..MOST_ITERATIONS {
-            self.iterations += 1;
             self.make(model, tangents);
+        }
+        self.flip_large(tangents, FELT * most);
+        self.load_elastic(model, ground);
+        for iteration in 0..MOST_ITERATIONS {
+            if !first || iteration > 0 {
+                self.make(model, tangents);
+            }
             if !self.wear.is_some_and(|wear| ALIKE.contains(&(tau / wear.tau))) {
                 self.factorise_large()?;
             }
@@ -152,17 +161,20 @@ impl Stage {
         self.right_side(tangents);
         std::mem::swap(&mut self.trial, &mut self.change);
         self.matrix.begin(&self.trial[..n], &self.change[..n]);
-        let (mut led, mut most) = (0, enough.impulse(&self.change[..n]));
-        for _ in 0..MOST_ITERATIONS {
+        let (mut led, mut factorised, mut most) = (0, 0, enough.impulse(&self.change[..n]));
+        for _ in 0..MOST_ROUNDS {
             while !self.left(most, enough.accuracy).is_enough(enough.work) {
-                if led == MOST_LED {
+                let changed = self.wear.is_none_or(|wear| wear.strong > MOST_STRONG);
+                if led == MOST_LED || changed {
+                    if factorised == MOST_ITERATIONS {
+                        return Err(Failure::TooLong);
+                    }
                     self.factorise_large()?;
                     self.matrix.turn();
-                }
-                if led == 2 * MOST_LED {
-                    return Err(Failure::TooLong);
+                    (led, factorised) = (0, factorised + 1);
                 }
                 led += 1;
+                self.iterations += 1;
                 self.wear.iter_mut().for_each(|wear| wear.last += 1);
                 self.matrix.advance(&mut self.change[..n]).map_err(|_| Failure::TooLong)?;
                 most = enough.impulse(&self.change[..n]);
@@ -187,25 +199,13 @@ impl Stage {
         Left { excess, work }
     }
 
-    /// Which one-sided joints are closed at the guess.
-    #[inline(always)]
-    fn choose(&self, tangents: &mut Tangents, felt: f64) {
-        for (gap, &e) in self.gap.iter().zip(&self.joints.one_sided) {
-            let e = e as usize;
-            let [a, b] = self.joints.sides[e].map(|s| s as usize);
-            let d = gap + self.tau * (self.change[a] - self.change[b]);
-            let is_felt = self.tau * self.joints.stiffness[e] * d.abs() > felt * self.mass[a];
-            tangents.closed[e] = if is_felt { d > 0.0 } else { tangents.closed[e] };
-        }
-    }
-
     /// Opens and closes joints, and brings matrix, load and residual up to date with each; whether there was any. A joint
     /// whose force moves its block by less than `felt` [m/s] stays as it is.
     #[inline(always)]
     fn flip_large(&mut self, tangents: &mut Tangents, felt: f64) -> bool {
-        let Stage { joints, gap, mass, change, closed, matrix, diagonal, lower, load, tau, .. } = self;
+        let Stage { joints, gap, mass, change, closed, matrix, diagonal, lower, load, tau, wear, .. } = self;
         let tau = *tau;
-        let mut any = false;
+        let (mut any, mut strong) = (false, 0);
         for (gap, &e) in gap.iter().zip(&joints.one_sided) {
             let e = e as usize;
             let [a, b] = joints.sides[e].map(|s| s as usize);
@@ -219,6 +219,7 @@ impl Stage {
             tangents.closed[e] = closed[e];
             let impulse = if closed[e] { impulse } else { -impulse };
             let (spring, push) = (tau * impulse, impulse * gap);
+            strong += u32::from(is_strong(spring.abs(), !closed[e], [a, b], &matrix.diagonal));
             load[a] -= push;
             load[b] += push;
             diagonal[a] += spring;
@@ -228,6 +229,7 @@ impl Stage {
                 lower[slot] -= spring;
             }
         }
+        wear.iter_mut().for_each(|wear| wear.strong += strong);
         any
     }
 
@@ -261,6 +263,13 @@ impl Stage {
         tangents.slope.copy_from_slice(&self.slope);
         tangents.velocity.copy_from_slice(&self.velocity);
     }
+}
+
+/// Whether a joint's spring outweighs all else that holds one of its sides; `acts` says whether it is part of `diagonal`.
+#[inline(always)]
+fn is_strong(spring: f64, acts: bool, sides: [usize; 2], diagonal: &[f64]) -> bool {
+    let own = if acts { spring } else { 0.0 };
+    sides.iter().any(|&side| diagonal.get(side).is_some_and(|d| spring > STRONG * (d - own)))
 }
 
 /// Factors and their wear.
