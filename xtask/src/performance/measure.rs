@@ -36,8 +36,10 @@ pub struct Performance {
 /// What a benchmark printed.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Printed {
-    /// Day of the measurement.
+    /// Day of the measurement, and the processor that it was made on where that is not the machine of the others.
     pub date: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub processor: String,
     pub text: String,
 }
 

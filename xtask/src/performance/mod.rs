@@ -55,7 +55,10 @@ pub fn run(root: &Path, arguments: &[String]) -> Outcome {
             chosen(cases::all(options.quick), &named)?
         };
         let programs = programs::ready(root, &folder, &options.programs)?;
-        all.machine = machine::describe(root, &programs);
+        let here = machine::describe(root, &programs);
+        if !cases.is_empty() {
+            all.machine = here.clone();
+        }
         for case in &cases {
             match measure::case(root, &folder, case, &programs) {
                 Ok(Some(measured)) => {
@@ -70,7 +73,8 @@ pub fn run(root: &Path, arguments: &[String]) -> Outcome {
         let wanted = |name: &str| printed.iter().any(|p| bench_of(p) == Some(name));
         for (name, _) in PRINTED {
             if wanted(name) || options.cases.is_empty() && !options.quick {
-                all.printed.extend(bench(root, name)?);
+                let elsewhere = here.processor != all.machine.processor;
+                all.printed.extend(bench(root, name, if elsewhere { &here.processor } else { "" })?);
                 measure::save(&all, &data)?;
             }
         }
@@ -89,8 +93,8 @@ fn bench_of(name: &str) -> Option<&str> {
     PRINTED.iter().any(|p| p.0 == bench).then_some(bench)
 }
 
-/// Runs a benchmark; what it printed.
-fn bench(root: &Path, name: &str) -> Result<Option<(String, measure::Printed)>, String> {
+/// Runs a benchmark on `processor`; what it printed.
+fn bench(root: &Path, name: &str, processor: &str) -> Result<Option<(String, measure::Printed)>, String> {
     if !root.join("crates/concio/benches").join(format!("{name}.rs")).is_file() {
         println!("skipped: benchmark {name} (it is not there)");
         return Ok(None);
@@ -99,7 +103,7 @@ fn bench(root: &Path, name: &str) -> Result<Option<(String, measure::Printed)>, 
     let text = read(cargo(root).args(["bench", "--quiet", "--locked", "--package", "concio", "--bench", name]))?;
     print!("{text}");
     let text = text.trim_end().to_string();
-    Ok(Some((name.into(), measure::Printed { date: machine::today(), text })))
+    Ok(Some((name.into(), measure::Printed { date: machine::today(), processor: processor.into(), text })))
 }
 
 /// The file of the measurements and the folder of the diagrams.

@@ -25,7 +25,8 @@ pub fn all(all: &Performance) -> String {
     }
     for (name, title) in PRINTED {
         if let Some(printed) = all.printed.get(name) {
-            let source = format!("`crates/concio/benches/{name}.rs`, {}", printed.date);
+            let on = if printed.processor.is_empty() { String::new() } else { format!(", {}", printed.processor) };
+            let source = format!("`crates/concio/benches/{name}.rs`, {}{on}", printed.date);
             let _ = write!(text, "\n## {title}\n\n{source}:\n\n```text\n{}\n```\n", printed.text);
         }
     }
