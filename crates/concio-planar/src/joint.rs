@@ -74,6 +74,9 @@ pub enum Normal {
     Rigid {
         /// e of impacts, 0 … 1.
         restitution: f64,
+        /// η of (P8), 0 … 1: what is left at most of the velocity with which it turns as it rocks from one end to the other; 1 where
+        /// that is what the impact itself leaves.
+        rocking: f64,
     },
     /// Springs and a dashpot.
     Springs {
@@ -161,7 +164,7 @@ impl Law {
     /// Dry and rigid, plastic in impacts.
     pub fn dry(friction: Option<Friction>) -> Self {
         Law {
-            normal: Normal::Rigid { restitution: 0.0 },
+            normal: Normal::Rigid { restitution: 0.0, rocking: 1.0 },
             shear: Shear { stiffness: 0.0, damping: 0.0, series: false },
             friction,
             bond: None,
@@ -183,6 +186,11 @@ impl Law {
     /// Whether it has a spring, and so more points than its ends.
     pub fn is_compliant(&self) -> bool {
         matches!(self.normal, Normal::Springs { .. })
+    }
+
+    /// Whether it loses more than an impact takes as it rocks.
+    pub(crate) fn loses_rocking(&self) -> bool {
+        matches!(self.normal, Normal::Rigid { rocking, .. } if rocking < 1.0)
     }
 
     /// Parts of the joint that its points stand for, which are equally far from each other.
@@ -392,7 +400,7 @@ impl Law {
         };
         let intact = self.bond.is_some() && point.damage < 1.0;
         match self.normal {
-            Normal::Rigid { restitution } => {
+            Normal::Rigid { restitution, .. } => {
                 // Open: what is left of the gap may be closed by the end of the step.
                 let left = gap + 0.5 * h * u_n;
                 contact.bias = if left > 0.0 { 2.0 * left / h } else { restitution * u_n.min(0.0) };

@@ -19,9 +19,11 @@ use crate::order::Orders;
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
 use crate::tie::{Strain, Tie};
 use devices::Bent;
+use rocking::Hold;
 use ties::{Pull, Rod};
 
 mod devices;
+mod rocking;
 mod ties;
 mod vibration;
 
@@ -300,6 +302,9 @@ pub struct Motion {
     owners: Vec<Owner>,
     /// Where the contacts that follow those of the pairs come from.
     pulls: Vec<Pull>,
+    /// Ends held back in rocking impacts, whose contacts follow those; whether a joint has any.
+    holds: Vec<Hold>,
+    rocks: bool,
     /// Contacts of devices with a law of their own.
     bent: Vec<Bent>,
     free: Vec<Triple>,
@@ -341,6 +346,8 @@ impl Motion {
             contacts: Vec::new(),
             owners: Vec::new(),
             pulls: Vec::with_capacity(system.ties.len()),
+            holds: Vec::new(),
+            rocks: system.links.iter().map(|link| &link.law).chain([&system.other]).any(Law::loses_rocking),
             bent: Vec::new(),
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
@@ -463,6 +470,7 @@ impl Motion {
         self.release(h, &forcing, held);
         self.meet(h, held);
         self.fasten(h, held);
+        self.hold_back(h);
         self.guess();
         let effort = self.solve();
         let effort = self.follow_devices(h, effort);
@@ -677,6 +685,7 @@ impl Motion {
             }
         }
         self.settle_ties((h, time));
+        self.settle_holds(h);
         self.account.held += self.pull * held;
         for (body, m) in self.mass.iter().enumerate() {
             let (v, w, f, held) = (self.velocities[body], self.after[body], self.free[body], self.held[body]);

@@ -119,6 +119,7 @@ pub fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLa
                 law.spring.stiffness = c.stiffness.unwrap_or(law.spring.stiffness);
                 law.spring.rigidity = c.rigidity.unwrap_or(law.spring.rigidity);
                 law.spring.restitution = c.restitution.or(law.spring.restitution);
+                law.spring.rocking_restitution = c.rocking_restitution.or(law.spring.rocking_restitution);
                 law.spring.stiffness_factor = c.stiffness_factor.unwrap_or(law.spring.stiffness_factor);
                 law.damping_ratio = c.damping_ratio.unwrap_or(law.damping_ratio);
                 law.spring.normal_to_shear = c.normal_to_shear.unwrap_or(law.spring.normal_to_shear);

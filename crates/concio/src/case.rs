@@ -446,6 +446,11 @@ pub struct Spring {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: Option<f64>,
+    /// η of equation (P8), 0 … 1: what is left at most of the velocity with which a rigid joint turns as it rocks from one of its ends
+    /// to the other. For law `rigid` of planar walls alone; default what the impact itself leaves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub rocking_restitution: Option<f64>,
     /// ζ of this kind of joint, 0 … 2; default the common one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 2.0))]
@@ -724,6 +729,10 @@ pub struct SpringChange {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: Option<f64>,
+    /// η, 0 … 1, of a rigid joint. Planar walls alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub rocking_restitution: Option<f64>,
     /// Factor on the elastic force alone, from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_factor: Option<f64>,

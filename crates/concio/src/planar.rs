@@ -360,7 +360,11 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Resul
         }
     });
     let (normal, series) = match spring.law {
-        SpringLaw::Rigid => (Normal::Rigid { restitution: spring.restitution.unwrap_or(0.0) }, false),
+        SpringLaw::Rigid => {
+            let [restitution, rocking] =
+                [(spring.restitution, 0.0), (spring.rocking_restitution, 1.0)].map(|(e, or)| e.unwrap_or(or));
+            (Normal::Rigid { restitution, rocking }, false)
+        }
         SpringLaw::None => (Normal::Springs { both: 0.0, press: 0.0, damping: 0.0 }, false),
         SpringLaw::Elastic => {
             (Normal::Springs { both: across * stiffness, press: 0.0, damping: dashpot(across * given) }, false)

@@ -134,6 +134,10 @@ fn table() -> Vec<Bad> {
         "level beam of a shear wall", edit("beam = \"driven\"", "beam = \"driven\"\nbeam_rotation = \"fixed\""), "beam_rotation", "load.beam_rotation", "the key is for planar walls", "leave it out";
         "normal stiffness of a shear wall", edit("rigidity = 1000", "normal_to_shear = 3"), "head = { law", "joint.head.normal_to_shear", "the key is for planar walls", "leave it out";
         "crushing in a shear wall", change("at = { kind = [\"head\"] }\nspring = { compressive_strength = \"5 MPa\" }"), "spring =", "joint.change[0].spring.compressive_strength", "the key is for planar walls", "leave it out";
+        "rocking of a shear wall", edit("law = \"no-tension\"", "law = \"rigid\", rocking_restitution = 0.9"), "head = { law", "joint.head.rocking_restitution", "the key is for planar walls", "leave it out";
+        "rocking changed in a shear wall", change("at = { kind = [\"head\"] }\nspring = { law = \"rigid\", rocking_restitution = 0.9 }"), "spring =", "joint.change[0].spring.rocking_restitution", "the key is for planar walls", "leave it out";
+        "rocking of a spring", planar("rigidity = 1000", "rocking_restitution = 0.9"), "head = { law", "joint.head.rocking_restitution", "for law `rigid` alone", "no `rocking_restitution`";
+        "rocking that grows", planar("law = \"no-tension\"", "law = \"rigid\", rocking_restitution = 1.1"), "head = { law", "joint.head.rocking_restitution", "1.1 is out of range", "0 … 1";
         "pressure by overburden in a planar wall", planar("slip_velocity =", "normal_force = \"overburden\", slip_velocity ="), "friction", "joint.friction.normal_force", "follows from the motion of its blocks", "`transmitted`";
         "preset of the report in a planar wall", planar("slip_velocity =", "preset = \"report\", slip_velocity ="), "friction", "joint.friction.preset", "follows from the motion of its blocks", "no preset";
         "level beam where there is none", planar("beam = \"driven\"", "beam_rotation = \"fixed\"").replace("top = { sine", "base = { sine").replace("base = \"none\"\n", ""), "beam_rotation", "load.beam_rotation", "there is no beam", "`driven`, `tied`";
@@ -294,7 +298,7 @@ fn the_good_file_is_good() {
 fn what_only_planar_walls_have_is_taken_there() {
     let text = planar(
         "law = \"elastic\"",
-        "law = \"rigid\", restitution = 0.2, normal_to_shear = 3, compressive_strength = 5e6",
+        "law = \"rigid\", restitution = 0.2, rocking_restitution = 0.9, normal_to_shear = 3, compressive_strength = 5e6",
     )
     .replace("beam = \"driven\"", "beam = \"driven\"\nbeam_rotation = \"fixed\"")
     .replace("duration = \"0.5 s\"\n", "quasi_static = true\nvertical = { tilt = { acceleration = 1, rise = 1 } }\n")

@@ -652,6 +652,48 @@ duration = "60 s"
     }
 }
 
+/// What a stone of 0.5 m × 2 m that rocks keeps of its angular velocity from impact to impact: what the wall file says (P8), or what
+/// the impact leaves (Housner 1963) where that is less.
+#[test]
+fn a_stone_rocks_with_the_restitution_of_its_joint() {
+    let (b, h) = (0.25f64, 1.0f64);
+    let (radius, housner) = (b.hypot(h), 1.0 - 1.5 * (b / b.hypot(h)).powi(2));
+    let (bed, change) = ("", "[[joint.change]]\nat = { kind = [\"base\"] }\nspring = { rocking_restitution = 0.8 }");
+    for (given, change, expected) in [
+        (bed, "", housner),
+        (", rocking_restitution = 0.99", "", housner),
+        (", rocking_restitution = 0.8", "", 0.8),
+        (bed, change, 0.8),
+    ] {
+        let stone = block(&format!(
+            r#"
+[joint]
+bed = {{ law = "rigid"{given} }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.7, dynamic = 0.7 }}
+{change}
+[motion]
+base = {{ pulse = {{ shape = "half-sine", acceleration = "0.45 g", duration = "0.4 s" }} }}
+duration = "4 s"
+[solver]
+step = 2e-4
+"#
+        ));
+        let (_, outcome) = ran(&stone.replace("height = 0.5", "height = 2"));
+        assert!(outcome.totals.peak_residual < 1e-4 * outcome.totals.peak_input);
+        // Energy above that at rest over the weight, at the ends of the swings after the pulse.
+        let depth = |x: f64| (radius * radius - (b - x.abs()).powi(2)).sqrt() - h;
+        let x = channel(&outcome, "top/displacement");
+        let first = outcome.recording.time.iter().position(|t| *t > 0.4).expect("time");
+        let ends = x[first..].windows(3).filter(|w| w[1].abs() > w[0].abs() && w[1].abs() >= w[2].abs());
+        let depths: Vec<f64> = ends.map(|w| depth(w[1])).filter(|d| *d > 1e-4).collect();
+        assert!(depths.len() > 3, "{given}{change}: {depths:?}");
+        for pair in depths.windows(2) {
+            close((pair[1] / pair[0]).sqrt(), expected, 1e-2);
+        }
+    }
+}
+
 /// A wall stands under its weight before it moves, however short its steps are.
 #[test]
 fn a_wall_has_settled_when_it_begins() {

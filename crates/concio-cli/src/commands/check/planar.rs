@@ -47,16 +47,20 @@ fn pressed(laws: &[&Law]) -> String {
         Normal::Springs { both, press, .. } => Some(both + press).filter(|k| *k > 0.0),
         Normal::Rigid { .. } => None,
     });
-    let restitution = laws.iter().filter_map(|law| match law.normal {
-        Normal::Rigid { restitution } => Some(restitution),
-        Normal::Springs { .. } => None,
-    });
+    let given = |which: usize| {
+        let of = move |law: &&Law| match law.normal {
+            Normal::Rigid { restitution, rocking } => Some([restitution, rocking][which]),
+            Normal::Springs { .. } => None,
+        };
+        range(laws.iter().filter_map(of), plain)
+    };
     let springs = range(stiffness, |v| si(v, "N/m"));
-    let rigid = range(restitution, plain);
+    let [rigid, rocking] = [0, 1].map(given);
+    let rocking = if rocking == "1" { String::new() } else { format!(", η ≤ {rocking}") };
     match (springs.as_str(), rigid.as_str()) {
         (_, "–") => springs,
-        ("–", _) => format!("rigid, e = {rigid}"),
-        _ => format!("{springs} or rigid, e = {rigid}"),
+        ("–", _) => format!("rigid, e = {rigid}{rocking}"),
+        _ => format!("{springs} or rigid, e = {rigid}{rocking}"),
     }
 }
 

@@ -52,7 +52,9 @@ fn spring(f: &mut Findings, kind: &str, s: &Spring) {
     f.stiffness(format_args!("joint.{kind}.stiffness"), s.stiffness);
     f.number(format_args!("joint.{kind}.rigidity"), s.rigidity, Bound::Above0);
     f.number(format_args!("joint.{kind}.stiffness_factor"), s.stiffness_factor, Bound::From0);
-    restitution(f, format!("joint.{kind}.restitution"), s.restitution, Some(s.law));
+    for (name, given) in [RESTITUTION, ROCKING].into_iter().zip([s.restitution, s.rocking_restitution]) {
+        restitution(f, (&format!("joint.{kind}"), name), given, Some(s.law));
+    }
     if let Some(ratio) = s.damping_ratio {
         f.number(format_args!("joint.{kind}.damping_ratio"), ratio, DAMPING);
     }
@@ -62,11 +64,15 @@ fn spring(f: &mut Findings, kind: &str, s: &Spring) {
     }
 }
 
-/// Restitution of a joint whose law is `law`, if it is known here.
-fn restitution(f: &mut Findings, key: String, restitution: Option<f64>, law: Option<SpringLaw>) {
-    let Some(e) = restitution else { return };
+const RESTITUTION: &str = "restitution";
+const ROCKING: &str = "rocking_restitution";
+
+/// What a joint gives back, by its table and name, where the law of it is `law`, if that is known here.
+fn restitution(f: &mut Findings, (table, name): (&str, &str), given: Option<f64>, law: Option<SpringLaw>) {
+    let Some(e) = given else { return };
+    let key = format!("{table}.{name}");
     if law.is_some_and(|law| law != SpringLaw::Rigid) {
-        f.push(key, "is for law `rigid` alone", "law = \"rigid\", or no `restitution`");
+        f.push(key, "is for law `rigid` alone", format!("law = \"rigid\", or no `{name}`"));
     } else {
         f.number(key, e, Bound::Between(0.0, 1.0));
     }
@@ -143,7 +149,9 @@ fn change(f: &mut Findings, i: usize, change: &JointChange) {
     }
     if let Some(s) = &change.spring {
         // Without a law the joint keeps its own, which is not known here: a restitution of no rigid joint has no effect.
-        restitution(f, format!("joint.change[{i}].spring.restitution"), s.restitution, s.law);
+        for (name, given) in [RESTITUTION, ROCKING].into_iter().zip([s.restitution, s.rocking_restitution]) {
+            restitution(f, (&format!("joint.change[{i}].spring"), name), given, s.law);
+        }
         if let Some(v) = s.stiffness {
             f.stiffness(format_args!("joint.change[{i}].spring.stiffness"), v);
         }

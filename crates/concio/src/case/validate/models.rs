@@ -52,12 +52,15 @@ fn of_planar(case: &Case) -> Vec<String> {
     for (kind, spring) in kinds.into_iter().filter_map(|(kind, spring)| Some((kind, spring?))) {
         let ratio = (!crate::case::is_isotropic(&spring.normal_to_shear)).then_some("normal_to_shear");
         let strength = spring.compressive_strength.map(|_| "compressive_strength");
-        keys.extend(ratio.into_iter().chain(strength).map(|key| format!("joint.{kind}.{key}")));
+        let rocking = spring.rocking_restitution.map(|_| "rocking_restitution");
+        keys.extend([ratio, strength, rocking].into_iter().flatten().map(|key| format!("joint.{kind}.{key}")));
     }
     for (i, spring) in j.changes.iter().enumerate().filter_map(|(i, change)| Some((i, change.spring?))) {
         let ratio = spring.normal_to_shear.map(|_| "normal_to_shear");
         let strength = spring.compressive_strength.map(|_| "compressive_strength");
-        keys.extend(ratio.into_iter().chain(strength).map(|key| format!("joint.change[{i}].spring.{key}")));
+        let rocking = spring.rocking_restitution.map(|_| "rocking_restitution");
+        let given = [ratio, strength, rocking].into_iter().flatten();
+        keys.extend(given.map(|key| format!("joint.change[{i}].spring.{key}")));
     }
     let others = [
         ("load.beam_rotation", case.load.beam_rotation != BeamRotation::Free),
