@@ -407,7 +407,8 @@ impl Blocks {
         for k in (0..work.len()).rev() {
             let mut value = work[k];
             let own = self.start[k]..self.start[k + 1];
-            for (column, both) in self.columns[own.clone()].iter().zip(&self.beside[own]) {
+            // Downwards in each row too: memory is read ahead in one direction.
+            for (column, both) in self.columns[own.clone()].iter().zip(&self.beside[own]).rev() {
                 subtract_times(&mut value, both, work[*column]);
             }
             work[k] = self.pivots[k].back(value);

@@ -63,35 +63,57 @@ struct Point<const N: usize> {
     /// How far each bound is away, and its multiplier: friction forth and back, least and most p_n.
     s: [f64; N],
     lambda: [f64; N],
-    /// One over the distance, 0 where there is no such bound.
-    near: [f64; N],
-    /// By how much (P5) and (P5a) are off.
-    astray: [f64; N],
-    off: [f64; 2],
-    /// μ where the contact is pressed, 0 where it is pulled.
-    mu: f64,
-    /// Diagonal of E.
-    soft: [f64; 2],
-    /// Second-order part of the products.
-    second: [f64; N],
-    /// By how much impulses fall as velocities rise, across and along, and the impulse along as the pressure across rises.
-    response: [f64; 3],
-    /// Impulses where velocities stay.
-    right: [f64; 2],
-    /// Mass that a push moves, and spring across [kg].
-    mass: f64,
-    rho: f64,
-    /// Changes along the direction.
-    way: Way<N>,
     /// Impulses, and those that it is drawn to, p⁰.
     p: [f64; 2],
     anchor: [f64; 2],
+    /// Diagonal of E.
+    soft: [f64; 2],
+    /// Mass that a push moves, and spring across [kg].
+    mass: f64,
+    rho: f64,
     /// Whether the impulse across and along may change, whether there is friction, whether it follows from pressure alone, and which
     /// bounds there are.
     moves: [bool; 2],
     rubs: bool,
     dry: bool,
     on: [bool; N],
+}
+
+/// What a look at a point makes of it, for the directions from there.
+#[derive(Debug, Clone, Copy)]
+struct View<const N: usize> {
+    /// One over the distance from each bound, 0 where there is no such bound.
+    near: [f64; N],
+    /// By how much (P5) and (P5a) are off.
+    astray: [f64; N],
+    off: [f64; 2],
+    /// μ where the contact is pressed, 0 where it is pulled.
+    mu: f64,
+    /// By how much impulses fall as velocities rise, across and along, and the impulse along as the pressure across rises.
+    response: [f64; 3],
+    /// Impulses where velocities stay, to products of 0.
+    right: [f64; 2],
+}
+
+impl<const N: usize> View<N> {
+    const NONE: Self =
+        View { near: [0.0; N], astray: [0.0; N], off: [0.0; 2], mu: 0.0, response: [0.0; 3], right: [0.0; 2] };
+
+    /// Impulses by what (P5a) is off.
+    #[inline(always)]
+    fn answer(&self, off: [f64; 2]) -> [f64; 2] {
+        let [across, along, tilt] = self.response;
+        let p_n = across * off[0];
+        [p_n, along * off[1] - tilt * p_n]
+    }
+
+    /// What a contact and the springs beside answer to velocities: across and along to the same, and along to across.
+    #[inline(always)]
+    fn answers(&self, contact: &Contact) -> [f64; 3] {
+        let [across, along, tilt] = self.response;
+        let [beside, along_beside] = contact.spring.map(|s| s.rho);
+        [across + beside, along + along_beside, -tilt * (across + beside)]
+    }
 }
 
 /// A direction of impulses, distances and multipliers.
@@ -106,7 +128,8 @@ impl<const N: usize> Way<N> {
     const NONE: Self = Way { p: [0.0; 2], s: [0.0; N], lambda: [0.0; N] };
 }
 
-/// Contacts with as many bounds.
+/// Contacts with as many bounds. What is fetched and what is written in each go through them lies apart: in walls of thousands of
+/// blocks a step takes as long as that.
 #[derive(Debug, Clone)]
 struct Group<const N: usize> {
     /// Their numbers.
@@ -114,13 +137,26 @@ struct Group<const N: usize> {
     /// Theirs again, close together: most goes through the contacts need no more of them.
     rows: Vec<Rows>,
     points: Vec<Point<N>>,
+    views: Vec<View<N>>,
+    /// Second-order part of the products.
+    second: Vec<[f64; N]>,
+    /// Changes along the last direction.
+    ways: Vec<Way<N>>,
     /// Impulses, what they are drawn to and E, before an attempt to end.
     before: Vec<[[f64; 2]; 3]>,
 }
 
 impl<const N: usize> Default for Group<N> {
     fn default() -> Self {
-        Group { which: Vec::new(), rows: Vec::new(), points: Vec::new(), before: Vec::new() }
+        Group {
+            which: Vec::new(),
+            rows: Vec::new(),
+            points: Vec::new(),
+            views: Vec::new(),
+            second: Vec::new(),
+            ways: Vec::new(),
+            before: Vec::new(),
+        }
     }
 }
 
@@ -133,6 +169,9 @@ pub(crate) struct Interior {
     residual: Vec<Triple>,
     step: Vec<Triple>,
     work: Vec<Triple>,
+    /// What contacts push with where velocities stay and second-order parts of the products are taken off: to products of 0, and
+    /// what each unit of the products adds.
+    pushes: [Vec<Triple>; 2],
     /// Velocities before an attempt to end.
     before: Vec<Triple>,
 }
@@ -174,6 +213,25 @@ struct Course {
 
 impl Course {
     const BEGIN: Course = Course { share: 1.0, growth: [0.0; 2] };
+
+    /// Takes a point's part of the direction up, which is gone `keep` of the way to the boundary at most.
+    #[inline(always)]
+    fn meet<const N: usize>(&mut self, point: &Point<N>, way: &Way<N>, keep: f64) {
+        for i in 0..N {
+            if point.on[i] {
+                let (s, l, ds, dl) = (point.s[i], point.lambda[i], way.s[i], way.lambda[i]);
+                // Most bounds are farther off than the nearest so far: only those that are not are divided by.
+                if ds * self.share < -keep * s {
+                    self.share = -keep * s / ds;
+                }
+                if dl * self.share < -keep * l {
+                    self.share = -keep * l / dl;
+                }
+                self.growth[0] += s * dl + l * ds;
+                self.growth[1] += ds * dl;
+            }
+        }
+    }
 }
 
 /// Whether [`Interior::solve`] knows what a contact does.
@@ -258,7 +316,8 @@ impl Interior {
 
     /// Within the bounds, near what was borne before: as far from them as that is off balance.
     fn start(&mut self, mass: &[Triple], free: &[Triple], contacts: &[Contact], v: &[Triple], tolerance: f64) {
-        for room in [&mut self.residual, &mut self.step, &mut self.work] {
+        let [push, rise] = &mut self.pushes;
+        for room in [&mut self.residual, &mut self.step, &mut self.work, push, rise] {
             room.resize(v.len(), [0.0; 3]);
         }
         self.usual.clear();
@@ -303,26 +362,25 @@ impl Interior {
         let mean = left.mean();
         self.begin_right_side();
         matrix.factorise_and_solve(&mut self.step, &mut self.work);
-        let first = self.turn(0.0, 1.0);
+        let mut first = Course::BEGIN;
+        self.pushes.iter_mut().for_each(|push| push.fill([0.0; 3]));
+        self.usual.predict(&self.step, &mut self.pushes, &mut first);
+        self.limited.predict(&self.step, &mut self.pushes, &mut first);
         let after = left.products + first.share * (first.growth[0] + first.share * first.growth[1]);
         let after = after / left.number.max(1) as f64;
         // Rounding takes products of nothing below 0.
         let falls = if mean > 0.0 { (mean * (after / mean).powi(3)).max(0.0) } else { 0.0 };
         let target = if stuck { mean } else { falls };
-        self.step.fill([0.0; 3]);
-        self.usual.correct(target, &mut self.step);
-        self.limited.correct(target, &mut self.step);
+        let [push, rise] = &self.pushes;
+        for (step, (push, rise)) in self.step.iter_mut().zip(push.iter().zip(rise)) {
+            *step = std::array::from_fn(|k| push[k] + target * rise[k]);
+        }
         self.begin_right_side();
         matrix.solve(&mut self.step, &mut self.work);
-        self.turn(target, INSIDE).share
-    }
-
-    /// The direction of the velocities in `self.step`, to products of `target`; how far it may be gone, `keep` of the way to the boundary.
-    fn turn(&mut self, target: f64, keep: f64) -> Course {
         let mut course = Course::BEGIN;
-        self.usual.turn(&self.step, target, keep, &mut course);
-        self.limited.turn(&self.step, target, keep, &mut course);
-        course
+        self.usual.turn(&self.step, target, &mut course);
+        self.limited.turn(&self.step, target, &mut course);
+        course.share
     }
 
     /// Takes what is out of balance from what the contacts push, `self.step`: the right side for the change of the velocities.
@@ -346,6 +404,9 @@ impl<const N: usize> Group<N> {
         self.which.clear();
         self.rows.clear();
         self.points.clear();
+        self.views.clear();
+        self.second.clear();
+        self.ways.clear();
     }
 
     /// Another contact; what it is taken to bear.
@@ -354,6 +415,9 @@ impl<const N: usize> Group<N> {
         self.which.push(number as u32);
         self.rows.push(contact.rows);
         self.points.push(point);
+        self.views.push(View::NONE);
+        self.second.push([0.0; N]);
+        self.ways.push(Way::NONE);
         point.p
     }
 
@@ -370,46 +434,54 @@ impl<const N: usize> Group<N> {
 
     #[inline(always)]
     fn look_at_each(&mut self, contacts: &[Contact], v: &[Triple], method: Method, sums: &mut Sums) {
-        for (point, which) in self.points.iter_mut().zip(&self.which) {
+        let each = self.points.iter_mut().zip(&mut self.views).zip(&mut self.ways).zip(&self.which);
+        for (((point, view), way), which) in each {
             let contact = &contacts[*which as usize];
             let u = contact.velocity(v);
             match method {
                 Method::Inside { share } => {
-                    point.go(share);
-                    point.look(contact, u, &mut sums.left);
-                    point.invert();
-                    point.aim(0.0);
+                    point.go(share, way);
+                    point.look(contact, u, (view, way), &mut sums.left);
+                    point.invert(view);
+                    view.right = point.aim(view, 0.0, &[0.0; N]);
                 }
-                Method::AtBounds { led } => point.choose(contact, u, led, &mut sums.left),
+                Method::AtBounds { led } => point.choose(contact, u, led.then_some(way), view, &mut sums.left),
             }
             contact.push(sums.residual, contact.whole(point.p, u));
-            contact.couple(sums.matrix, point.answers(contact));
-            contact.rows.push(sums.step, point.right);
+            contact.couple(sums.matrix, view.answers(contact));
+            contact.rows.push(sums.step, view.right);
         }
     }
 
-    /// Takes what the last direction leaves out of the products into account; impulses where velocities stay, onto the bodies.
-    fn correct(&mut self, target: f64, step: &mut [Triple]) {
-        Arch::new().dispatch(Correct { group: self, target, step });
+    /// Where a direction of velocities to products of 0 would lead, and what the contacts push with in the next direction.
+    fn predict(&mut self, step: &[Triple], pushes: &mut [Vec<Triple>; 2], course: &mut Course) {
+        Arch::new().dispatch(Predict { group: self, step, pushes, course });
     }
 
     #[inline(always)]
-    fn correct_each(&mut self, target: f64, step: &mut [Triple]) {
-        for (point, rows) in self.points.iter_mut().zip(&self.rows) {
-            point.second = std::array::from_fn(|i| point.way.s[i] * point.way.lambda[i]);
-            point.aim(target);
-            rows.push(step, point.right);
+    fn predict_each(&mut self, step: &[Triple], [push, rise]: &mut [Vec<Triple>; 2], course: &mut Course) {
+        let each = self.points.iter().zip(&self.views).zip(&mut self.second).zip(&self.rows);
+        for (((point, view), second), rows) in each {
+            let way = point.way(view, rows.change(step), view.right, 0.0, &[0.0; N]);
+            course.meet(point, &way, 1.0);
+            *second = std::array::from_fn(|i| way.s[i] * way.lambda[i]);
+            rows.push(push, point.aim(view, 0.0, second));
+            rows.push(rise, point.rise(view));
         }
     }
 
-    fn turn(&mut self, step: &[Triple], target: f64, keep: f64, course: &mut Course) {
-        Arch::new().dispatch(Turn { group: self, step, target, keep, course });
+    /// The direction of velocities `step`, to products of `target`, and how far it may be gone.
+    fn turn(&mut self, step: &[Triple], target: f64, course: &mut Course) {
+        Arch::new().dispatch(Turn { group: self, step, target, course });
     }
 
     #[inline(always)]
-    fn turn_each(&mut self, step: &[Triple], target: f64, keep: f64, course: &mut Course) {
-        for (point, rows) in self.points.iter_mut().zip(&self.rows) {
-            point.turn(rows.change(step), target, keep, course);
+    fn turn_each(&mut self, step: &[Triple], target: f64, course: &mut Course) {
+        let each = self.points.iter().zip(&self.views).zip(&self.second).zip(&mut self.ways).zip(&self.rows);
+        for ((((point, view), second), way), rows) in each {
+            let right = point.aim(view, target, second);
+            *way = point.way(view, rows.change(step), right, target, second);
+            course.meet(point, way, INSIDE);
         }
     }
 
@@ -446,19 +518,20 @@ impl<const N: usize> WithSimd for Look<'_, '_, N> {
     }
 }
 
-/// [`Group::correct`].
-struct Correct<'a, const N: usize> {
+/// [`Group::predict`].
+struct Predict<'a, const N: usize> {
     group: &'a mut Group<N>,
-    target: f64,
-    step: &'a mut [Triple],
+    step: &'a [Triple],
+    pushes: &'a mut [Vec<Triple>; 2],
+    course: &'a mut Course,
 }
 
-impl<const N: usize> WithSimd for Correct<'_, N> {
+impl<const N: usize> WithSimd for Predict<'_, N> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.group.correct_each(self.target, self.step);
+        self.group.predict_each(self.step, self.pushes, self.course);
     }
 }
 
@@ -467,7 +540,6 @@ struct Turn<'a, const N: usize> {
     group: &'a mut Group<N>,
     step: &'a [Triple],
     target: f64,
-    keep: f64,
     course: &'a mut Course,
 }
 
@@ -476,7 +548,7 @@ impl<const N: usize> WithSimd for Turn<'_, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.group.turn_each(self.step, self.target, self.keep, self.course);
+        self.group.turn_each(self.step, self.target, self.course);
     }
 }
 
@@ -510,17 +582,9 @@ impl<const N: usize> Point<N> {
         Point {
             s: [0.0; N],
             lambda: [0.0; N],
-            near: [0.0; N],
-            astray: [0.0; N],
-            off: [0.0; 2],
-            mu: contact.friction,
             soft: [0, 1].map(|k| if moves[k] { soft(contact, k) } else { 0.0 }),
-            second: [0.0; N],
-            response: [0.0; 3],
-            right: [0.0; 2],
             mass: contact.moved[0],
             rho: contact.spring[0].rho,
-            way: Way::NONE,
             p,
             anchor: [0, 1].map(|k| if contact.compliant[k] { contact.law[k].offset } else { p[k] }),
             moves,
@@ -567,11 +631,11 @@ impl<const N: usize> Point<N> {
     }
 
     #[inline(always)]
-    fn go(&mut self, share: f64) {
-        (0..2).for_each(|k| self.p[k] += share * self.way.p[k]);
+    fn go(&mut self, share: f64, way: &Way<N>) {
+        (0..2).for_each(|k| self.p[k] += share * way.p[k]);
         for i in 0..N {
-            self.s[i] += share * self.way.s[i];
-            self.lambda[i] += share * self.way.lambda[i];
+            self.s[i] += share * way.s[i];
+            self.lambda[i] += share * way.lambda[i];
         }
     }
 
@@ -583,42 +647,41 @@ impl<const N: usize> Point<N> {
 
     /// By how much it is off at the velocity `u`.
     #[inline(always)]
-    fn look(&mut self, contact: &Contact, u: [f64; 2], left: &mut Left) {
+    fn look(&mut self, contact: &Contact, u: [f64; 2], (view, way): (&mut View<N>, &mut Way<N>), left: &mut Left) {
         let beside = contact.spring[0].at(u[0]);
-        self.mu = if self.dry || self.tends(contact, u[0]) + beside > 0.0 { contact.friction } else { 0.0 };
-        let bound = (self.mu * (self.p[0] + beside)).max(0.0) + contact.hold;
+        view.mu = if self.dry || self.tends(contact, u[0]) + beside > 0.0 { contact.friction } else { 0.0 };
+        let bound = (view.mu * (self.p[0] + beside)).max(0.0) + contact.hold;
         if !self.dry && self.rubs {
-            self.grip(bound, contact);
-            self.mu = if self.moves[1] { self.mu } else { 0.0 };
+            self.grip(bound, contact, way);
+            view.mu = if self.moves[1] { view.mu } else { 0.0 };
         }
         let shift = [self.shift(0), self.shift(1)];
         let far = self.far(contact, bound);
         let rounded = ROUNDED * (self.p[0].abs() + self.p[1].abs() + bound.abs());
-        self.off = [u[0] + contact.bias + shift[0], u[1] + shift[1]];
+        view.off = [u[0] + contact.bias + shift[0], u[1] + shift[1]];
         for i in 0..N {
             if !self.on[i] {
-                self.astray[i] = 0.0;
+                view.astray[i] = 0.0;
                 continue;
             }
             let (s, l) = (self.s[i], self.lambda[i]);
             let astray = far[i] - s;
             // What is no number stays one, to be seen.
-            self.astray[i] = if astray.abs() <= rounded { 0.0 } else { astray };
-            self.off[DIRECTION[i]] -= SENSE[i] * l;
-            left.residual = worse(worse(left.residual, self.astray[i].abs() / self.mass), (s / self.mass).min(l));
+            view.astray[i] = if astray.abs() <= rounded { 0.0 } else { astray };
+            view.off[DIRECTION[i]] -= SENSE[i] * l;
+            left.residual = worse(worse(left.residual, view.astray[i].abs() / self.mass), (s / self.mass).min(l));
             left.products += s * l;
             left.number += 1;
         }
         for k in 0..2 {
             if !self.moves[k] {
-                self.off[k] = 0.0;
+                view.off[k] = 0.0;
             }
-            left.residual = worse(left.residual, self.off[k].abs());
+            left.residual = worse(left.residual, view.off[k].abs());
             if !contact.compliant[k] {
                 left.drawn = left.drawn.max(shift[k].abs());
             }
         }
-        self.second = [0.0; N];
     }
 
     /// What p_n would be without friction, whose bounds would not let the whole pass from pressure to tension.
@@ -633,7 +696,7 @@ impl<const N: usize> Point<N> {
     }
 
     /// Friction that may bear nothing is left out until it may bear something again.
-    fn grip(&mut self, bound: f64, contact: &Contact) {
+    fn grip(&mut self, bound: f64, contact: &Contact, way: &mut Way<N>) {
         let grips = bound > 0.0;
         if self.moves[1] && !grips {
             self.p[1] = 0.0;
@@ -641,7 +704,7 @@ impl<const N: usize> Point<N> {
             for i in 0..2 {
                 self.s[i] = bound;
                 self.lambda[i] = GRIP * bound / contact.moved[1];
-                (self.way.s[i], self.way.lambda[i]) = (0.0, 0.0);
+                (way.s[i], way.lambda[i]) = (0.0, 0.0);
             }
             self.anchor[1] = if contact.compliant[1] { contact.law[1].offset } else { 0.0 };
             self.soft[1] = soft(contact, 1);
@@ -650,64 +713,63 @@ impl<const N: usize> Point<N> {
     }
 
     #[inline(always)]
-    fn invert(&mut self) {
-        self.near = std::array::from_fn(|i| if self.on[i] { 1.0 / self.s[i] } else { 0.0 });
-        let d: [f64; N] = std::array::from_fn(|i| self.lambda[i] * self.near[i]);
+    fn invert(&self, view: &mut View<N>) {
+        view.near = std::array::from_fn(|i| if self.on[i] { 1.0 / self.s[i] } else { 0.0 });
+        let d: [f64; N] = std::array::from_fn(|i| self.lambda[i] * view.near[i]);
         let across = self.soft[0] + d[2] + if N > 3 { d[3] } else { 0.0 };
         let along = self.soft[1] + d[0] + d[1];
         let [across, along] = [across, along].map(|k| 1.0 / k);
         let across = if self.moves[0] { across } else { 0.0 };
         let along = if self.moves[1] { along } else { 0.0 };
-        self.response = [across, along, self.mu * (d[1] - d[0]) * along];
+        view.response = [across, along, view.mu * (d[1] - d[0]) * along];
     }
 
     /// Impulses for products of `target` where velocities stay.
     #[inline(always)]
-    fn aim(&mut self, target: f64) {
-        let mut off = self.off.map(|o| -o);
+    fn aim(&self, view: &View<N>, target: f64, second: &[f64; N]) -> [f64; 2] {
+        let mut off = view.off.map(|o| -o);
         for i in 0..N {
             if self.on[i] {
                 let l = self.lambda[i];
-                off[DIRECTION[i]] += SENSE[i] * ((target - self.second[i] - l * self.astray[i]) * self.near[i] - l);
+                off[DIRECTION[i]] += SENSE[i] * ((target - second[i] - l * view.astray[i]) * view.near[i] - l);
             }
         }
-        let [across, along, tilt] = self.response;
-        let p_n = across * off[0];
-        self.right = [p_n, along * off[1] - tilt * p_n];
+        view.answer(off)
     }
 
-    /// What it and the springs beside answer to velocities: across and along to the same, and along to across.
+    /// What each unit of the products adds to them.
     #[inline(always)]
-    fn answers(&self, contact: &Contact) -> [f64; 3] {
-        let [across, along, tilt] = self.response;
-        let [beside, along_beside] = contact.spring.map(|s| s.rho);
-        [across + beside, along + along_beside, -tilt * (across + beside)]
+    fn rise(&self, view: &View<N>) -> [f64; 2] {
+        let mut off = [0.0; 2];
+        for i in 0..N {
+            off[DIRECTION[i]] += SENSE[i] * view.near[i];
+        }
+        view.answer(off)
     }
 
-    /// Change of the impulses where velocities change by `du`.
+    /// Change of the impulses where velocities change by `du`, and otherwise by `right`.
     #[inline(always)]
-    fn follows(&self, du: [f64; 2]) -> [f64; 2] {
-        let [across, along, tilt] = self.response;
+    fn follows(&self, view: &View<N>, du: [f64; 2], right: [f64; 2]) -> [f64; 2] {
+        let [across, along, tilt] = view.response;
         let (d_n, d_t) = (-across * du[0], -along * du[1]);
-        [self.right[0] + d_n, self.right[1] + d_t - tilt * (d_n - self.rho * du[0])]
+        [right[0] + d_n, right[1] + d_t - tilt * (d_n - self.rho * du[0])]
     }
 
-    /// The direction where velocities change by `du`, and what it comes to.
+    /// The direction where velocities change by `du`, to products of `target` that have a second-order part.
     #[inline(always)]
-    fn turn(&mut self, du: [f64; 2], target: f64, keep: f64, course: &mut Course) {
-        let d_p = self.follows(du);
-        self.way.p = d_p;
-        let bound = self.mu * (d_p[0] - self.rho * du[0]);
+    fn way(&self, view: &View<N>, du: [f64; 2], right: [f64; 2], target: f64, second: &[f64; N]) -> Way<N> {
+        let d_p = self.follows(view, du, right);
+        let bound = view.mu * (d_p[0] - self.rho * du[0]);
         let far = [bound - d_p[1], bound + d_p[1], d_p[0], -d_p[0]];
-        let far: [f64; N] = std::array::from_fn(|i| far[i] + self.astray[i]);
+        let far: [f64; N] = std::array::from_fn(|i| far[i] + view.astray[i]);
         let mut dl: [f64; N] = std::array::from_fn(|i| match self.on[i] {
-            true => (target - self.second[i] - self.lambda[i] * far[i]) * self.near[i] - self.lambda[i],
+            true => (target - second[i] - self.lambda[i] * far[i]) * view.near[i] - self.lambda[i],
             false => 0.0,
         });
         // (P5a) is linear: what rounding leaves of it goes to the multipliers, most to the largest.
         for k in 0..2 {
             let own = (0..N).filter(|i| DIRECTION[*i] == k && self.on[*i]);
-            let mut left = du[k] + self.soft[k] * d_p[k] + self.off[k];
+            let mut left = du[k] + self.soft[k] * d_p[k] + view.off[k];
             let mut weight = 0.0;
             for i in own.clone() {
                 left -= SENSE[i] * dl[i];
@@ -717,24 +779,16 @@ impl<const N: usize> Point<N> {
                 own.for_each(|i| dl[i] += SENSE[i] * left * self.lambda[i].powi(2) / weight);
             }
         }
-        self.way.lambda = dl;
         // What bears at a bound lies at it to rounding: distances follow from the products there.
-        for i in 0..N {
-            if self.on[i] {
-                let (s, l, dl) = (self.s[i], self.lambda[i], dl[i]);
-                let ds = if s < self.mass * l { (target - self.second[i] - s * dl) / l - s } else { far[i] };
-                self.way.s[i] = ds;
-                // Most bounds are farther off than the nearest so far: only those that are not are divided by.
-                if ds * course.share < -keep * s {
-                    course.share = -keep * s / ds;
-                }
-                if dl * course.share < -keep * l {
-                    course.share = -keep * l / dl;
-                }
-                course.growth[0] += s * dl + l * ds;
-                course.growth[1] += ds * dl;
+        let ds = std::array::from_fn(|i| {
+            let (s, l) = (self.s[i], self.lambda[i]);
+            match self.on[i] {
+                true if s < self.mass * l => (target - second[i] - s * dl[i]) / l - s,
+                true => far[i],
+                false => 0.0,
             }
-        }
+        });
+        Way { p: d_p, s: ds, lambda: dl }
     }
 
     /// Impulses and what they mean.

@@ -5,7 +5,7 @@
 //! is about to slide, costs the interior point method half a digit in each iteration, and here nothing. From afar this goes in circles, and
 //! rigid contacts, which share impulses out among them, hold more bounds than there are velocities.
 
-use super::{Group, Interior, Left, Method, Point, soft};
+use super::{Group, Interior, Left, Method, Point, View, Way, soft};
 use crate::blocks::{Blocks, Triple};
 use crate::contact::{Contact, Effort, worse};
 
@@ -95,8 +95,8 @@ impl<const N: usize> Group<N> {
     }
 
     fn jump(&mut self, step: &[Triple]) {
-        for (point, rows) in self.points.iter_mut().zip(&self.rows) {
-            let change = point.follows(rows.change(step));
+        for ((point, view), rows) in self.points.iter_mut().zip(&self.views).zip(&self.rows) {
+            let change = point.follows(view, rows.change(step), view.right);
             (0..2).for_each(|k| point.p[k] += change[k]);
         }
     }
@@ -112,18 +112,26 @@ impl<const N: usize> Group<N> {
 
 impl<const N: usize> Point<N> {
     /// Which bounds hold by the last direction: those whose distance falls faster than the multiplier (El-Bakry, Tapia and Zhang 1994).
-    fn led(&self) -> [bool; N] {
-        std::array::from_fn(|i| self.on[i] && self.lambda[i] * self.way.s[i] < self.s[i] * self.way.lambda[i])
+    fn led(&self, way: &Way<N>) -> [bool; N] {
+        std::array::from_fn(|i| self.on[i] && self.lambda[i] * way.s[i] < self.s[i] * way.lambda[i])
     }
 
     /// What it leaves of (P2) and (P3) at the velocity `u`, and what impulses do where the bounds hold that hold by impulses and velocities now,
     /// or by the last direction.
-    pub(super) fn choose(&mut self, contact: &Contact, u: [f64; 2], by_way: bool, left: &mut Left) {
+    pub(super) fn choose(
+        &mut self,
+        contact: &Contact,
+        u: [f64; 2],
+        way: Option<&mut Way<N>>,
+        view: &mut View<N>,
+        left: &mut Left,
+    ) {
         let [least, most] = contact.pressure;
         let pressed = self.p[0] + contact.spring[0].at(u[0]);
         let mu = if self.dry || pressed > 0.0 { contact.friction } else { 0.0 };
-        let led = if by_way { self.led() } else { [false; N] };
-        (self.response, self.right) = ([0.0; 3], [0.0; 2]);
+        let by_way = way.is_some();
+        let led = way.map_or([false; N], |way| self.led(way));
+        (view.response, view.right) = ([0.0; 3], [0.0; 2]);
         if self.moves[0] {
             let off = u[0] + contact.bias + self.shift(0);
             let tends = self.p[0] - self.mass * off;
@@ -133,11 +141,11 @@ impl<const N: usize> Point<N> {
                 false => [tends <= least, tends >= most],
             };
             match held {
-                [true, _] => self.right[0] = least - self.p[0],
-                [_, true] => self.right[0] = most - self.p[0],
+                [true, _] => view.right[0] = least - self.p[0],
+                [_, true] => view.right[0] = most - self.p[0],
                 _ => {
-                    self.response[0] = 1.0 / self.soft[0];
-                    self.right[0] = -off / self.soft[0];
+                    view.response[0] = 1.0 / self.soft[0];
+                    view.right[0] = -off / self.soft[0];
                 }
             }
             if !contact.compliant[0] {
@@ -157,13 +165,13 @@ impl<const N: usize> Point<N> {
                 (true, false) => [led[0], led[1]],
                 _ => [tends >= bound, tends <= -bound],
             };
-            let to = |sign: f64| sign * (mu * pressed + contact.hold) - self.p[1] + sign * mu * self.right[0];
+            let to = |sign: f64| sign * (mu * pressed + contact.hold) - self.p[1] + sign * mu * view.right[0];
             match slides {
-                [true, _] => (self.response[2], self.right[1]) = (-mu, to(1.0)),
-                [_, true] => (self.response[2], self.right[1]) = (mu, to(-1.0)),
+                [true, _] => (view.response[2], view.right[1]) = (-mu, to(1.0)),
+                [_, true] => (view.response[2], view.right[1]) = (mu, to(-1.0)),
                 _ => {
-                    self.response[1] = 1.0 / self.soft[1];
-                    self.right[1] = -off / self.soft[1];
+                    view.response[1] = 1.0 / self.soft[1];
+                    view.right[1] = -off / self.soft[1];
                 }
             }
             if !contact.compliant[1] {
