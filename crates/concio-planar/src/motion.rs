@@ -778,6 +778,9 @@ impl Motion {
             self.solver = Solver::new(self.places.len(), &coupled, &self.orders);
             self.coupled = coupled;
         }
+        // Two ends of each joint at most are held back.
+        let most = if self.rocks { 2 * self.pairs.len() } else { 0 };
+        self.holds.reserve(most);
         let matrix = self.solver.matrix();
         let seat = |(k, pair): (usize, &Pair)| Seat { pair: k, slot: pair.a.map(|a| matrix.slot(a, pair.b)) };
         self.seats = self.pairs.iter().enumerate().map(seat).collect();

@@ -54,6 +54,11 @@ impl Rocker {
 
     /// On its right corner, turned by `share` of α, on a base that it does not slip on.
     fn tilted(self, share: f64, step: f64) -> Motion {
+        self.rebounding(0.0, share, step)
+    }
+
+    /// The same on a joint that gives back `restitution` of a fall.
+    fn rebounding(self, restitution: f64, share: f64, step: f64) -> Motion {
         let Rocker { b, h, i, joint } = self;
         let mass = 1000.0;
         let body = Body {
@@ -64,7 +69,7 @@ impl Rocker {
             inertia: i * mass * (b * b + h * h),
         };
         let mut system = System::dry(&[body], 1e3);
-        system.other.normal = Normal::Rigid { restitution: 0.0, rocking: joint };
+        system.other.normal = Normal::Rigid { restitution, rocking: joint };
         let mut motion = Motion::new(&system, Setting::new(step));
         let angle = -share * self.alpha();
         let (s, c) = angle.sin_cos();
@@ -205,6 +210,29 @@ fn a_joint_takes_more_than_the_impact() {
         for ratio in left(joint) {
             close(&format!("left by {joint}"), ratio, expected, 5e-3);
         }
+    }
+}
+
+/// With a rebound e the end that lands parts again, and the turn still keeps η of what it was; nothing less than nothing is left.
+#[test]
+fn a_joint_that_rebounds_keeps_its_turn() {
+    let step = 1e-5;
+    for (restitution, eta) in [(0.0, 0.6), (0.3, 0.6), (0.0, 0.0)] {
+        let mut motion = Rocker { joint: eta, ..Rocker::homogeneous(0.2, 0.8) }.rebounding(restitution, 0.5, step);
+        let mut before = motion.velocities[0][2];
+        let kept = loop {
+            motion.step(Forcing::default());
+            let now = motion.velocities[0][2];
+            // From one step to the next gravity alone changes little.
+            if (now / before - 1.0).abs() > 0.05 && motion.time > 0.2 {
+                motion.step(Forcing::default());
+                break motion.velocities[0][2] / before;
+            }
+            before = now;
+            assert!(motion.time < 2.0, "it falls");
+        };
+        assert!((kept - eta).abs() < 5e-3, "{kept} of {eta} with e = {restitution}");
+        assert!(unbalanced(&motion) < 1e-6 * motion.account.impact);
     }
 }
 

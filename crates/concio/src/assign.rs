@@ -112,6 +112,16 @@ pub fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLa
     let mut laws: Vec<JointLaw> = joints.iter().map(|j| common_law(settings, j.kind)).collect();
     for (number, change) in settings.changes.iter().enumerate() {
         let chosen = select(&change.at, wall, joints).map_err(|e| e.key(format!("joint.change[{number}].at")))?;
+        let rocks = change.spring.is_some_and(|c| c.rocking_restitution.is_some());
+        let rigid = |e: &usize| match change.spring.and_then(|c| c.law) {
+            Some(law) => law == SpringLaw::Rigid,
+            None => laws[*e].spring.law == SpringLaw::Rigid,
+        };
+        if rocks && !chosen.iter().any(rigid) {
+            let error = InputError::new("none of the joints that this changes is `rigid`");
+            let key = format!("joint.change[{number}].spring.rocking_restitution");
+            return Err(error.key(key).allowed("law = \"rigid\", or no `rocking_restitution`").into());
+        }
         for e in chosen {
             let law = &mut laws[e];
             if let Some(c) = &change.spring {

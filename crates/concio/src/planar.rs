@@ -361,9 +361,8 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Resul
     });
     let (normal, series) = match spring.law {
         SpringLaw::Rigid => {
-            let [restitution, rocking] =
-                [(spring.restitution, 0.0), (spring.rocking_restitution, 1.0)].map(|(e, or)| e.unwrap_or(or));
-            (Normal::Rigid { restitution, rocking }, false)
+            let (restitution, rocking) = (spring.restitution, spring.rocking_restitution);
+            (Normal::Rigid { restitution: restitution.unwrap_or(0.0), rocking: rocking.unwrap_or(1.0) }, false)
         }
         SpringLaw::None => (Normal::Springs { both: 0.0, press: 0.0, damping: 0.0 }, false),
         SpringLaw::Elastic => {

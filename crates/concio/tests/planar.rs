@@ -681,6 +681,9 @@ step = 2e-4
         ));
         let (_, outcome) = ran(&stone.replace("height = 0.5", "height = 2"));
         assert!(outcome.totals.peak_residual < 1e-4 * outcome.totals.peak_input);
+        // Joints tell all that impacts took.
+        let (told, energies) = (&outcome.envelopes.joint_dissipation, &outcome.energies);
+        close(told.iter().sum(), energies.impact + energies.friction, 1e-9);
         // Energy above that at rest over the weight, at the ends of the swings after the pulse.
         let depth = |x: f64| (radius * radius - (b - x.abs()).powi(2)).sqrt() - h;
         let x = channel(&outcome, "top/displacement");
@@ -692,6 +695,26 @@ step = 2e-4
             close((pair[1] / pair[0]).sqrt(), expected, 1e-2);
         }
     }
+}
+
+/// What a change of joints that are not rigid says of their rocking is refused.
+#[test]
+fn only_rigid_joints_rock() {
+    let stone = block(
+        r#"
+[joint]
+bed = { law = "no-tension", stiffness = "1 N/mm3" }
+head = { law = "none" }
+[[joint.change]]
+at = { kind = ["base"] }
+spring = { rocking_restitution = 0.8 }
+[motion]
+duration = "0.1 s"
+"#,
+    );
+    let file = from_str(&stone, Syntax::Toml, None).expect("a wall file");
+    let error = prepare(file.case, Path::new(".")).expect_err("no joint rocks").to_string();
+    assert!(error.contains("joint.change[0].spring.rocking_restitution") && error.contains("rigid"), "{error}");
 }
 
 /// A wall stands under its weight before it moves, however short its steps are.

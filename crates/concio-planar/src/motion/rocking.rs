@@ -1,13 +1,13 @@
 //! Impacts of joints that rock from one end to the other, and lose more than a push at the end that lands can take.
 //!
 //! Where no end rebounds and none slides, an impact leaves (i + cos 2α)/(1 + i) of the angular velocity of a block (Housner
-//! 1963), because the push acts at the end that lands. Tests find less, from what no rigid plane joint has. With ℓ the
-//! approach that the landing end loses in a step, the other one parts by no more than
+//! 1963), because the push acts at the end that lands. Where less is known to be left, the end that opens is held back: with
+//! ℓ the approach that the laws take from the landing end in a step, and r ≥ 0 the velocity with which it rebounds,
 //!
-//! (P8)  u_n ≤ max(u_n⁻, 0) + η ℓ
+//! (P8)  u_n ≤ max(u_n⁻, 0) + η ℓ + r
 //!
-//! and bears in the impact the pull that this takes, which works against the motion. For a block on its base η is what is
-//! left of its angular velocity, unless the impact itself leaves less.
+//! at the other one, which bears in the impact the pull that this takes, against the motion. For a block on its base η is what
+//! is left of its angular velocity, unless the impact itself leaves less; more it cannot leave.
 
 use super::Motion;
 use crate::G;
@@ -20,6 +20,8 @@ const STANDING: f64 = 1e-3;
 /// What holds an end of a joint back during one step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hold {
+    /// Its contact among the others.
+    opens: usize,
     /// Its velocity along the line of the hold at the start of the step [m/s].
     before: f64,
     /// As of [`super::Owner`].
@@ -54,9 +56,10 @@ impl Motion {
 
     /// None where this is no rocking impact: the one end does not land, or the other does too or was far off.
     fn hold_of(&self, lands: usize, opens: usize, rocking: f64, h: f64) -> Option<(Contact, Hold)> {
+        // A bias above 0 is what a gap still allows, one below 0 a rebound.
         let approach = |k: usize| {
             let u = self.owners[k].start.velocity[0];
-            if u < 0.0 { -self.contacts[k].bias - u } else { 0.0 }
+            if u < 0.0 { -u - self.contacts[k].bias.max(0.0) } else { 0.0 }
         };
         let lost = approach(lands);
         let slow = STANDING * G * h;
@@ -70,17 +73,22 @@ impl Motion {
         let line = of.rows.normal.map(|row| row.map(|x| 0.0 - x));
         let mut contact = Contact::along((of.rows.first(), of.rows.second()), of.slot, line, &self.inverse, 0.0);
         contact.drift[0] = -of.drift[0];
-        contact.bias = parting + rocking * lost;
-        Some((contact, Hold { before: -end.start.velocity[0], lever: -end.lever[0] }))
+        contact.bias = parting + rocking * lost - self.contacts[lands].bias.min(0.0);
+        Some((contact, Hold { opens, before: -end.start.velocity[0], lever: -end.lever[0] }))
     }
 
-    /// Accounts for what holds take.
+    /// Accounts for what holds take, and tells it of their joints.
     pub(super) fn settle_holds(&mut self, h: f64) {
         let own = self.owners.len() + self.pulls.len();
         for (contact, hold) in self.contacts[own..].iter().zip(&self.holds) {
             let after = contact.velocity(&self.after)[0];
-            self.account.impact -= contact.impulse[0] * 0.5 * (hold.before + after);
+            let taken = -contact.impulse[0] * 0.5 * (hold.before + after);
+            self.account.impact += taken;
             self.pull -= contact.impulse[0] * hold.lever / h;
+            if let Some(link) = self.pairs[self.owners[hold.opens].pair].link {
+                self.seen[link].taken += taken;
+                self.seen[link].pressure -= contact.impulse[0] / h;
+            }
         }
     }
 }

@@ -66,7 +66,7 @@ impl Conjugate {
         self.before = 0.0;
     }
 
-    /// One iteration, which moves `x`.
+    /// One iteration, which moves `x`; nowhere where nothing is left.
     ///
     /// # Errors
     /// A or the matrix of the factors is not positive.
@@ -78,12 +78,18 @@ impl Conjugate {
         factors: &mut Fronts<f32>,
     ) -> Result<(), NotPositive> {
         let scale = self.lead(factors);
+        if scale == 0.0 {
+            // Or nothing of it is a number.
+            return if self.residual.iter().all(|r| *r == 0.0) { Ok(()) } else { Err(NotPositive) };
+        }
         let Conjugate { start, row, residual, direction, image, led, before } = self;
         let now = scale * dot(residual, led, f64::from);
-        let share = if *before == 0.0 { 0.0 } else { now / *before };
+        let begins = *before == 0.0;
+        let share = now / *before;
         *before = now;
         for (p, z) in direction.iter_mut().zip(&led[..]) {
-            *p = scale * f64::from(*z) + share * *p;
+            let own = scale * f64::from(*z);
+            *p = if begins { own } else { own + share * *p };
         }
         multiply(start, row, [diagonal, lower], direction, image);
         let curvature = dot(direction, image, |x| x);
@@ -171,7 +177,7 @@ mod tests {
         };
         let mut factors = Fronts::<f32>::new(n, &entries).expect("memory");
         let [diagonal, lower] = matrix(&|_| 1e3);
-        factors.factorise(&diagonal, &lower).expect("diagonally dominant");
+        factors.factorise(&diagonal, &lower, 1.0).expect("diagonally dominant");
         let [diagonal, lower] = matrix(&|i| if i % 50 == 7 { 1.0 } else { 1e3 });
         let a = [&diagonal[..], &lower[..]];
         let exact: Vec<f64> = (0..n).map(|i| (0.1 * i as f64).sin()).collect();
@@ -186,6 +192,18 @@ mod tests {
         let off = x.iter().zip(&exact).fold(0.0f64, |m, (x, y)| m.max((x - y).abs()));
         let left = search.residual.iter().fold(0.0f64, |m, r| m.max(r.abs()));
         assert!(off < 1e-8 && left < 1e-6, "{off:e} {left:e}");
+        // Where nothing is left it stays, and what was no number before is forgotten.
+        search.begin(a, &vec![0.0; n], &vec![0.0; n]);
+        let mut still = vec![0.0; n];
+        assert_eq!((search.advance(a, &mut still, &mut factors), still), (Ok(()), vec![0.0; n]));
+        search.begin(a, &vec![f64::NAN; n], &x);
+        assert!(search.advance(a, &mut vec![0.0; n], &mut factors).is_err());
+        let mut again = vec![0.0; n];
+        search.begin(a, &b, &again);
+        for _ in 0..16 {
+            search.advance(a, &mut again, &mut factors).expect("positive");
+        }
+        assert!(again.iter().zip(&exact).all(|(x, y)| (x - y).abs() < 1e-8));
         // A spring that pushes apart: somewhere the curvature is negative.
         let [diagonal, lower] = matrix(&|i| if i == 300 { -1e3 } else { 1e3 });
         let a = [&diagonal[..], &lower[..]];

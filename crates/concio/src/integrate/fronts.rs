@@ -145,18 +145,18 @@ impl<R: Real> Fronts<R> {
         })
     }
 
-    /// Factorises A given by its diagonal and the entries below it, in the order of [`Fronts::new`].
+    /// Factorises A given by its diagonal, times `lift`, and the entries below it, in the order of [`Fronts::new`].
     ///
     /// # Errors
     /// [`NotPositive`] when a pivot is not above zero.
     #[inline(always)]
-    pub fn factorise(&mut self, diagonal: &[f64], lower: &[f64]) -> Result<(), NotPositive> {
+    pub fn factorise(&mut self, diagonal: &[f64], lower: &[f64], lift: f64) -> Result<(), NotPositive> {
         for f in &self.fronts {
             let (width, (rows, lead), (long, _)) = (f.width as usize, f.rows(), f.rest());
             let panel = &mut self.factor[f.panel()];
             panel.fill(R::ZERO);
             for (k, value) in diagonal[f.first as usize..][..width].iter().enumerate() {
-                panel[k * (lead + 1)] = R::near(*value);
+                panel[k * (lead + 1)] = R::near(lift * value);
             }
             let [from, to] = f.entries.map(|e| e as usize);
             for (&at, value) in self.entry[from..to].iter().zip(&lower[from..to]) {
@@ -376,7 +376,7 @@ mod tests {
         assert!(fronts.fronts.iter().any(|f| f.width > 16 && f.height > 16), "loops over long columns are tried too");
         // Twice: nothing of the first time may be left.
         for _ in 0..2 {
-            fronts.factorise(&diagonal, &lower).expect("diagonally dominant");
+            fronts.factorise(&diagonal, &lower, 1.0).expect("diagonally dominant");
         }
         let exact: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
         let mut b: Vec<f64> = exact.iter().zip(&diagonal).map(|(x, d)| x * d).collect();
@@ -389,6 +389,6 @@ mod tests {
             assert!((x - exact).abs() < 1e-8, "unknown {i}: {x} against {exact}");
         }
         diagonal[n / 2] = -1.0;
-        assert_eq!(fronts.factorise(&diagonal, &lower), Err(NotPositive));
+        assert_eq!(fronts.factorise(&diagonal, &lower, 1.0), Err(NotPositive));
     }
 }

@@ -62,7 +62,7 @@ pub const STILL: f64 = 1e-3;
 /// Speed that is none [m/s]: below it a set-valued law in slip has no slope of its own.
 const AT_REST: f64 = 1e-150;
 /// Unknowns for which few flips are followed through the factors: smaller matrices are factorised as fast, in larger
-/// walls too many joints change at a time.
+/// walls too many joints change at a time, and those whose factors lead a search flip in it.
 const FOLLOWED: std::ops::RangeInclusive<usize> = MOST_LISTED + 1..=20_000;
 /// Unknowns up to which matrices are factorised whenever they change.
 const FACTORISED: usize = 4_000;
@@ -93,14 +93,17 @@ pub struct Stage {
     closed: Vec<bool>,
     /// Whether the factors hold for `tau` and `closed`, no joint rubbing.
     factors_hold: bool,
-    /// Of large walls alone, see `large`: how the factors have served, if there are any, and whether the last try of a step
-    /// was solved; acceleration to begin with in the order of the model [m/s²], V_p by place, room, and work that is allowed to
-    /// what is out of balance [J].
+    /// Of large walls alone, see `large`: how the factors have served, if there are any.
     wear: Option<Wear>,
+    /// Whether the last try of a step was solved: only then do its factors serve on.
     pub solved: bool,
+    /// Acceleration that a stage begins with, in the order of the model [m/s²].
     pub guess: Vec<f64>,
+    /// V_p by place [m/s].
     speed: Vec<f64>,
+    /// Room for the right side b or for x.
     trial: Vec<f64>,
+    /// Work that a stage's impulses out of balance may do [J].
     pub work: f64,
     /// Right side without friction, with and for V_p.
     load: Vec<f64>,

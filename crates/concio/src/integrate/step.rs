@@ -67,9 +67,9 @@ pub struct Tolerance {
 pub const BEGINNING: f64 = 2.0;
 /// Allowed error of the stage iteration as a fraction of the tolerance of the step.
 pub const STAGE_ACCURACY: f64 = 0.02;
-/// Part of the energy that a step may add to the residual that is left to what its stages leave out of balance, in large
-/// walls.
-const UNBALANCED: f64 = 0.05;
+/// Part of the energy that a step may add to the residual which is left to what its stages leave out of balance, all together,
+/// in large walls.
+const UNBALANCED: f64 = 0.1;
 /// Way of a joint in a step from one impact to the next below which it has not bounced [m].
 const LOW: f64 = 10.0 * TOUCHING;
 /// Step in which nothing moves, over the shortest time scale of the model.
@@ -137,7 +137,10 @@ impl Step {
         self.stage.begin(model, &state.bonds, &state.devices);
         let known = state.totals.peak_input + state.energies.initial;
         let judged = known > 0.0 && tolerance.energy > 0.0;
-        self.stage.work = if judged { UNBALANCED * tolerance.energy } else { f64::INFINITY };
+        // An impulse p at a block of velocity v in stage i brings b_i/γ p v to the account.
+        let implicit = &self.tableau.b[1..self.tableau.stages];
+        let share = self.tableau.diagonal / implicit.iter().map(|b| b.abs()).sum::<f64>();
+        self.stage.work = if judged { UNBALANCED * tolerance.energy * share } else { f64::INFINITY };
         self.find_touching(model, state);
         for i in 1..self.tableau.stages {
             let t = state.t + self.tableau.c[i] * h;
@@ -165,7 +168,6 @@ impl Step {
         );
         self.stage.solved = true;
         let unbalanced = self.account(model, state, h);
-        let known = state.totals.peak_input + state.energies.initial;
         let judged = self.account.input().abs() <= BEGINNING * known && tolerance.energy > 0.0;
         Ok(if judged { error.max(unbalanced.abs() / tolerance.energy) } else { error })
     }

@@ -7,9 +7,10 @@
 //! * It begins at velocities that go on as the stages before did, and joints that are open or closed there.
 //! * Joints open and close where the search has come to, and the search goes on from there: each costs its two blocks and
 //!   nothing else.
-//! * The iteration ends by forces: what is out of balance at any block is below [`PART_OF_GROUND`] of the force that the
+//! * The iteration ends by forces, (T3): what is out of balance at any block is below [`PART_OF_GROUND`] of the force that the
 //!   ground brings or [`PART_OF_MOTION`] of the largest acceleration times its mass, would move it by less than the
-//!   accuracy if its neighbours were held, and works less than a part of what the energy account allows.
+//!   accuracy if its neighbours were held, and works less than a part of what the energy account allows; with the tangents
+//!   up to [`SEARCHED`] of that, with the laws to all of it.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,17 +23,20 @@ const MOST_LED: usize = 8;
 /// Times that joints may open and close in one search.
 const MOST_ROUNDS: usize = 30;
 /// Force that may be out of balance: part of the mass times the acceleration of the ground, and of the largest in the stage.
-const PART_OF_GROUND: f64 = 1e-4;
-const PART_OF_MOTION: f64 = 1e-2;
-/// Part of that up to which a joint stays open or closed as it was.
+const PART_OF_GROUND: f64 = 2e-4;
+const PART_OF_MOTION: f64 = 2e-2;
+/// Part of that at which the search with the tangents ends, and part of it up to which a joint stays open or closed as it was.
+const SEARCHED: f64 = 0.8;
 const FELT: f64 = 0.25;
+/// Least acceleration that counts, over the accuracy of the velocity in a stage.
+const FAINT: f64 = 1e-3;
 
 /// Spring of a joint over all else that holds one of its blocks from which on its opening or closing is no small change, and how
 /// many of these are left to the search.
 const STRONG: f64 = 10.0;
 const MOST_STRONG: u32 = 4;
 /// What a factorisation costs, in iterations.
-const FACTORISATION: u32 = 4;
+const FACTORISATION: u64 = 4;
 /// Length of a step over that of the factors, within which they serve.
 const ALIKE: std::ops::RangeInclusive<f64> = 0.6..=1.7;
 
@@ -43,21 +47,21 @@ pub struct Wear {
     /// τ of their matrix [s].
     tau: f64,
     /// Tries of a step with them, iterations of the first, of the last, and of all beyond as many as the first took each.
-    tries: u32,
-    first: u32,
-    last: u32,
-    beyond: u32,
+    tries: u64,
+    first: u64,
+    last: u64,
+    beyond: u64,
     /// Joints that have opened or closed since and hold their blocks more than all else does.
     strong: u32,
 }
 
 impl Wear {
-    /// Of new factors.
+    /// Of factors made in the try at hand.
     fn new(tau: f64) -> Self {
-        Wear { tau, tries: 0, first: 0, last: 0, beyond: 0, strong: 0 }
+        Wear { tau, tries: 1, first: 0, last: 0, beyond: 0, strong: 0 }
     }
 
-    /// Another try begins; whether they serve for it.
+    /// Another try of a step begins; whether they serve for it.
     fn begin(&mut self) -> bool {
         if self.tries == 1 {
             self.first = self.last;
@@ -84,7 +88,7 @@ pub struct Enough {
 /// What is left.
 #[derive(Debug, Clone, Copy)]
 struct Left {
-    /// Largest excess over what is allowed [N s]; none where it is not positive.
+    /// Largest excess over what is allowed [N s]; none where it is not above 0.
     excess: f64,
     /// Work of what is out of balance [J].
     work: f64,
@@ -113,7 +117,7 @@ impl Stage {
             self.assemble_elastic(model, tangents);
             self.make(model, tangents);
         }
-        self.flip_large(tangents, FELT * most);
+        self.flip_large(tangents, most, accuracy);
         self.load_elastic(model, ground);
         for iteration in 0..MOST_ITERATIONS {
             if !first || iteration > 0 {
@@ -125,7 +129,7 @@ impl Stage {
             self.search(tangents, enough)?;
             self.mismatch(model, tangents);
             let most = enough.impulse(&self.change[..n]);
-            if !self.rhs[..n].iter().zip(&self.mass).any(|(missed, m)| !(missed.abs() <= most * m)) {
+            if self.left(most, accuracy, &self.rhs[..n]).is_enough(enough.work) {
                 self.finish_large(tangents);
                 return Ok(());
             }
@@ -138,7 +142,7 @@ impl Stage {
     fn factorise_large(&mut self) -> Result<(), Failure> {
         self.wear = None;
         self.factorise()?;
-        self.wear = Some(Wear { tries: 1, ..Wear::new(self.tau) });
+        self.wear = Some(Wear::new(self.tau));
         Ok(())
     }
 
@@ -163,7 +167,7 @@ impl Stage {
         self.matrix.begin(&self.trial[..n], &self.change[..n]);
         let (mut led, mut factorised, mut most) = (0, 0, enough.impulse(&self.change[..n]));
         for _ in 0..MOST_ROUNDS {
-            while !self.left(most, enough.accuracy).is_enough(enough.work) {
+            while !self.left(SEARCHED * most, SEARCHED * enough.accuracy, &[]).is_enough(SEARCHED * enough.work) {
                 let changed = self.wear.is_none_or(|wear| wear.strong > MOST_STRONG);
                 if led == MOST_LED || changed {
                     if factorised == MOST_ITERATIONS {
@@ -179,7 +183,7 @@ impl Stage {
                 self.matrix.advance(&mut self.change[..n]).map_err(|_| Failure::TooLong)?;
                 most = enough.impulse(&self.change[..n]);
             }
-            if !self.flip_large(tangents, FELT * most) {
+            if !self.flip_large(tangents, most, enough.accuracy) {
                 return Ok(());
             }
             self.matrix.turn();
@@ -187,22 +191,29 @@ impl Stage {
         Err(Failure::TooLong)
     }
 
-    /// What is left where at most `most` times the mass may be out of balance [m/s].
+    /// What is left where at most `most` times the mass [m/s] and `accuracy` times the diagonal [m/s] may be out of balance,
+    /// with the tangents, or with the laws that miss them by `missed` [N s].
     #[inline(always)]
-    fn left(&self, most: f64, accuracy: f64) -> Left {
-        let (mut excess, mut work) = (f64::NEG_INFINITY, 0.0);
-        let matrix = self.matrix.residual().iter().zip(&self.matrix.diagonal);
-        for (((r, d), m), (x, v)) in matrix.zip(&self.mass).zip(self.change.iter().zip(&self.speed)) {
-            excess = excess.max(r.abs() - (most * m).min(accuracy * d));
-            work += r * (v + x);
+    fn left(&self, most: f64, accuracy: f64, missed: &[f64]) -> Left {
+        let mut left = Left { excess: f64::NEG_INFINITY, work: 0.0 };
+        let residual = self.matrix.residual();
+        let blocks = self.matrix.diagonal.iter().zip(&self.mass).zip(self.change.iter().zip(&self.speed));
+        if missed.is_empty() {
+            residual
+                .iter()
+                .zip(blocks)
+                .for_each(|(r, ((d, m), (x, v)))| left.add(*r, (most * m).min(accuracy * d), v + x));
+        } else {
+            let residual = residual.iter().zip(missed).map(|(r, missed)| r - missed);
+            residual.zip(blocks).for_each(|(r, ((d, m), (x, v)))| left.add(r, (most * m).min(accuracy * d), v + x));
         }
-        Left { excess, work }
+        left
     }
 
     /// Opens and closes joints, and brings matrix, load and residual up to date with each; whether there was any. A joint
-    /// whose force moves its block by less than `felt` [m/s] stays as it is.
+    /// whose force is a small part of what may be out of balance, as in `left`, stays as it is.
     #[inline(always)]
-    fn flip_large(&mut self, tangents: &mut Tangents, felt: f64) -> bool {
+    fn flip_large(&mut self, tangents: &mut Tangents, most: f64, accuracy: f64) -> bool {
         let Stage { joints, gap, mass, change, closed, matrix, diagonal, lower, load, tau, wear, .. } = self;
         let tau = *tau;
         let (mut any, mut strong) = (false, 0);
@@ -211,7 +222,8 @@ impl Stage {
             let [a, b] = joints.sides[e].map(|s| s as usize);
             let d = gap + tau * (change[a] - change[b]);
             let impulse = tau * joints.stiffness[e];
-            if (d > 0.0) == closed[e] || impulse * d.abs() <= felt * mass[a] {
+            if (d > 0.0) == closed[e] || impulse * d.abs() <= FELT * (most * mass[a]).min(accuracy * matrix.diagonal[a])
+            {
                 continue;
             }
             any = true;
@@ -284,11 +296,19 @@ impl Enough {
     #[inline(always)]
     fn impulse(self, x: &[f64]) -> f64 {
         let most = x.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-        self.ground.max(PART_OF_MOTION * most)
+        self.ground.max(PART_OF_MOTION * most).max(FAINT * self.accuracy)
     }
 }
 
 impl Left {
+    /// `r` [N s] out of balance at a block that moves at `v` [m/s], where `most` may be.
+    #[inline(always)]
+    fn add(&mut self, r: f64, most: f64, v: f64) {
+        self.excess = self.excess.max(r.abs() - most);
+        // What is no number stays one here.
+        self.work += r * v;
+    }
+
     #[inline(always)]
     fn is_enough(self, work: f64) -> bool {
         self.excess <= 0.0 && self.work.abs() <= work
