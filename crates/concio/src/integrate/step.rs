@@ -69,7 +69,7 @@ pub const BEGINNING: f64 = 2.0;
 pub const STAGE_ACCURACY: f64 = 0.02;
 /// Part of the energy that a step may add to the residual which is left to what its stages leave out of balance, all together,
 /// in large walls.
-const UNBALANCED: f64 = 0.1;
+const UNBALANCED: f64 = 0.2;
 /// Way of a joint in a step from one impact to the next below which it has not bounced [m].
 const LOW: f64 = 10.0 * TOUCHING;
 /// Step in which nothing moves, over the shortest time scale of the model.

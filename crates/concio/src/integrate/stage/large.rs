@@ -23,10 +23,10 @@ const MOST_LED: usize = 8;
 /// Times that joints may open and close in one search.
 const MOST_ROUNDS: usize = 30;
 /// Force that may be out of balance: part of the mass times the acceleration of the ground, and of the largest in the stage.
-const PART_OF_GROUND: f64 = 2e-4;
-const PART_OF_MOTION: f64 = 2e-2;
-/// Part of that at which the search with the tangents ends, and part of it up to which a joint stays open or closed as it was.
-const SEARCHED: f64 = 0.8;
+const PART_OF_GROUND: f64 = 1e-4;
+const PART_OF_MOTION: f64 = 1e-2;
+/// Part of that at which the search with the tangents ends where laws may miss them, and part of it up to which a joint stays open or closed as it was.
+const SEARCHED: f64 = 0.9;
 const FELT: f64 = 0.25;
 /// Least acceleration that counts, over the accuracy of the velocity in a stage.
 const FAINT: f64 = 1e-3;
@@ -165,9 +165,10 @@ impl Stage {
         self.right_side(tangents);
         std::mem::swap(&mut self.trial, &mut self.change);
         self.matrix.begin(&self.trial[..n], &self.change[..n]);
+        let share = if self.rubs.len() == 0 { 1.0 } else { SEARCHED };
         let (mut led, mut factorised, mut most) = (0, 0, enough.impulse(&self.change[..n]));
         for _ in 0..MOST_ROUNDS {
-            while !self.left(SEARCHED * most, SEARCHED * enough.accuracy, &[]).is_enough(SEARCHED * enough.work) {
+            while !self.left(share * most, share * enough.accuracy, &[]).is_enough(share * enough.work) {
                 let changed = self.wear.is_none_or(|wear| wear.strong > MOST_STRONG);
                 if led == MOST_LED || changed {
                     if factorised == MOST_ITERATIONS {
