@@ -446,7 +446,7 @@ pub struct Spring {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: Option<f64>,
-    /// η of equation (P8), 0 … 1: what is left at most of the velocity with which a rigid joint turns as it rocks from one of its ends
+    /// η of docs/planar.md, 0 … 1: what is left at most of the velocity with which a rigid joint turns as it rocks from one of its ends
     /// to the other. For law `rigid` of planar walls alone; default what the impact itself leaves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]

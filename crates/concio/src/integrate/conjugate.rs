@@ -1,4 +1,4 @@
-//! Conjugate gradients for large systems, led by the factors of a matrix that A hardly differs from.
+//! Conjugate gradients for large systems, (T2), led by the factors of a matrix that A hardly differs from.
 //!
 //! Within a step the matrix of a stage changes where head joints open and close and where friction's slope does. None of
 //! that is far from what the factors were made of: a joint that opens or closes changes one eigenvalue of their quotient,
