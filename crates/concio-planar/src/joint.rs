@@ -188,9 +188,10 @@ impl Law {
         matches!(self.normal, Normal::Springs { .. })
     }
 
-    /// Whether it loses more than an impact takes as it rocks.
-    pub(crate) fn loses_rocking(&self) -> bool {
-        matches!(self.normal, Normal::Rigid { rocking, .. } if rocking < 1.0)
+    /// η of (P8) where it loses more than an impact takes as it rocks.
+    pub(crate) fn rocking(&self) -> Option<f64> {
+        let Normal::Rigid { rocking, .. } = self.normal else { return None };
+        (rocking < 1.0).then_some(rocking)
     }
 
     /// Parts of the joint that its points stand for, which are equally far from each other.

@@ -347,7 +347,7 @@ impl Motion {
             owners: Vec::new(),
             pulls: Vec::with_capacity(system.ties.len()),
             holds: Vec::new(),
-            rocks: system.links.iter().map(|link| &link.law).chain([&system.other]).any(Law::loses_rocking),
+            rocks: system.links.iter().map(|link| &link.law).chain([&system.other]).any(|law| law.rocking().is_some()),
             bent: Vec::new(),
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
@@ -781,6 +781,7 @@ impl Motion {
         // Two ends of each joint at most are held back.
         let most = if self.rocks { 2 * self.pairs.len() } else { 0 };
         self.holds.reserve(most);
+        self.contacts.reserve(most);
         let matrix = self.solver.matrix();
         let seat = |(k, pair): (usize, &Pair)| Seat { pair: k, slot: pair.a.map(|a| matrix.slot(a, pair.b)) };
         self.seats = self.pairs.iter().enumerate().map(seat).collect();

@@ -12,7 +12,6 @@
 use super::Motion;
 use crate::G;
 use crate::contact::Contact;
-use crate::joint::Normal;
 
 /// Approach of an end that stands, over the velocity that gravity gives in a step: far above what contact may be violated by.
 const STANDING: f64 = 1e-3;
@@ -40,10 +39,7 @@ impl Motion {
                 continue;
             }
             let law = self.pairs[self.owners[first].pair].link.map_or(&self.other, |k| &self.links[k].law);
-            let Normal::Rigid { rocking, .. } = law.normal else { continue };
-            if !(rocking < 1.0) {
-                continue;
-            }
+            let Some(rocking) = law.rocking() else { continue };
             let last = first + law.shares().len() - 1;
             for (lands, opens) in [(first, last), (last, first)] {
                 if let Some((contact, hold)) = self.hold_of(lands, opens, rocking, h) {

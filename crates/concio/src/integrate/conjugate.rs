@@ -114,10 +114,16 @@ impl Conjugate {
     }
 }
 
+/// The largest size among numbers; what is none is passed over.
+#[inline(always)]
+pub fn largest(of: &[f64]) -> f64 {
+    of.iter().fold(0.0f64, |most, x| most.max(x.abs()))
+}
+
 /// `from` over its scale, which is returned: single precision has the digits, not the range.
 #[inline(always)]
 fn rounded(from: &[f64], to: &mut [f32]) -> f64 {
-    let scale = from.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    let scale = largest(from);
     let inverse = if scale > 0.0 { 1.0 / scale } else { 0.0 };
     for (to, x) in to.iter_mut().zip(from) {
         *to = (x * inverse) as f32;

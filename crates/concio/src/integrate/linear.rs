@@ -7,7 +7,7 @@
 //! 4.7–4.8. No pivoting: the stage matrix is symmetric positive definite for any step that makes sense, and
 //! a pivot that is not positive is reported instead of divided by. Nothing is allocated after [`Matrix::new`].
 
-use crate::integrate::conjugate::Conjugate;
+use crate::integrate::conjugate::{Conjugate, largest};
 use crate::integrate::fronts::Fronts;
 use crate::integrate::order::{elimination_order, postordered};
 
@@ -352,7 +352,6 @@ impl Matrix {
         led.search.residual.copy_from_slice(b);
         led.search.turn();
         b.fill(0.0);
-        let largest = |r: &[f64]| r.iter().fold(0.0f64, |most, r| most.max(r.abs()));
         let enough = ROUGH * largest(self.residual());
         for _ in 0..MOST_ROUGH {
             if self.advance(b).is_err() {

@@ -41,7 +41,7 @@ pub fn joint_rows(model: &Model, planar: &Planar) -> Vec<Vec<String>> {
     rows
 }
 
-/// Stiffnesses of the joints that have one, restitution of the rigid ones.
+/// Stiffnesses of the joints that have one, restitution of the rigid ones, and of their rocking where it is given.
 fn pressed(laws: &[&Law]) -> String {
     let stiffness = laws.iter().filter_map(|law| match law.normal {
         Normal::Springs { both, press, .. } => Some(both + press).filter(|k| *k > 0.0),

@@ -15,6 +15,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Failure, MOST_ITERATIONS, Stage};
+use crate::integrate::conjugate::largest;
 use crate::model::Model;
 use crate::state::Tangents;
 
@@ -25,7 +26,8 @@ const MOST_ROUNDS: usize = 30;
 /// Force that may be out of balance: part of the mass times the acceleration of the ground, and of the largest in the stage.
 const PART_OF_GROUND: f64 = 1e-4;
 const PART_OF_MOTION: f64 = 1e-2;
-/// Part of that at which the search with the tangents ends where laws may miss them, and part of it up to which a joint stays open or closed as it was.
+/// Part of that at which the search with the tangents ends where laws may miss them, and part of it up to which a joint stays
+/// open or closed as it was.
 const SEARCHED: f64 = 0.9;
 const FELT: f64 = 0.25;
 /// Least acceleration that counts, over the accuracy of the velocity in a stage.
@@ -115,25 +117,23 @@ impl Stage {
         if first {
             // From the state and nothing else: what was tried before is not part of a checkpoint.
             self.assemble_elastic(model, tangents);
-            self.make(model, tangents);
         }
+        self.make(model, tangents);
         self.flip_large(tangents, most, accuracy);
         self.load_elastic(model, ground);
-        for iteration in 0..MOST_ITERATIONS {
-            if !first || iteration > 0 {
-                self.make(model, tangents);
-            }
+        for _ in 0..MOST_ITERATIONS {
             if !self.wear.is_some_and(|wear| ALIKE.contains(&(tau / wear.tau))) {
                 self.factorise_large()?;
             }
             self.search(tangents, enough)?;
             self.mismatch(model, tangents);
             let most = enough.impulse(&self.change[..n]);
-            if self.left(most, accuracy, &self.rhs[..n]).is_enough(enough.work) {
+            if self.left(most, accuracy, |i| self.rhs[i]).is_enough(enough.work) {
                 self.finish_large(tangents);
                 return Ok(());
             }
             self.move_tangents(model, tangents);
+            self.make(model, tangents);
         }
         Err(Failure::TooLong)
     }
@@ -168,7 +168,7 @@ impl Stage {
         let share = if self.rubs.len() == 0 { 1.0 } else { SEARCHED };
         let (mut led, mut factorised, mut most) = (0, 0, enough.impulse(&self.change[..n]));
         for _ in 0..MOST_ROUNDS {
-            while !self.left(share * most, share * enough.accuracy, &[]).is_enough(share * enough.work) {
+            while !self.left(share * most, share * enough.accuracy, |_| 0.0).is_enough(share * enough.work) {
                 let changed = self.wear.is_none_or(|wear| wear.strong > MOST_STRONG);
                 if led == MOST_LED || changed {
                     if factorised == MOST_ITERATIONS {
@@ -195,20 +195,17 @@ impl Stage {
     /// What is left where at most `most` times the mass [m/s] and `accuracy` times the diagonal [m/s] may be out of balance,
     /// with the tangents, or with the laws that miss them by `missed` [N s].
     #[inline(always)]
-    fn left(&self, most: f64, accuracy: f64, missed: &[f64]) -> Left {
-        let mut left = Left { excess: f64::NEG_INFINITY, work: 0.0 };
-        let residual = self.matrix.residual();
-        let blocks = self.matrix.diagonal.iter().zip(&self.mass).zip(self.change.iter().zip(&self.speed));
-        if missed.is_empty() {
-            residual
-                .iter()
-                .zip(blocks)
-                .for_each(|(r, ((d, m), (x, v)))| left.add(*r, (most * m).min(accuracy * d), v + x));
-        } else {
-            let residual = residual.iter().zip(missed).map(|(r, missed)| r - missed);
-            residual.zip(blocks).for_each(|(r, ((d, m), (x, v)))| left.add(r, (most * m).min(accuracy * d), v + x));
+    fn left(&self, most: f64, accuracy: f64, missed: impl Fn(usize) -> f64) -> Left {
+        let (mut excess, mut work) = (f64::NEG_INFINITY, 0.0);
+        let matrix = self.matrix.residual().iter().zip(&self.matrix.diagonal);
+        let blocks = matrix.zip(&self.mass).zip(self.change.iter().zip(&self.speed));
+        for (i, (((r, d), m), (x, v))) in blocks.enumerate() {
+            let r = r - missed(i);
+            excess = excess.max(r.abs() - (most * m).min(accuracy * d));
+            // What is no number stays one here.
+            work += r * (v + x);
         }
-        left
+        Left { excess, work }
     }
 
     /// Opens and closes joints, and brings matrix, load and residual up to date with each; whether there was any. A joint
@@ -296,20 +293,11 @@ impl Enough {
     /// Impulse over mass that may be left where velocities change by `x` [m/s].
     #[inline(always)]
     fn impulse(self, x: &[f64]) -> f64 {
-        let most = x.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-        self.ground.max(PART_OF_MOTION * most).max(FAINT * self.accuracy)
+        self.ground.max(PART_OF_MOTION * largest(x)).max(FAINT * self.accuracy)
     }
 }
 
 impl Left {
-    /// `r` [N s] out of balance at a block that moves at `v` [m/s], where `most` may be.
-    #[inline(always)]
-    fn add(&mut self, r: f64, most: f64, v: f64) {
-        self.excess = self.excess.max(r.abs() - most);
-        // What is no number stays one here.
-        self.work += r * v;
-    }
-
     #[inline(always)]
     fn is_enough(self, work: f64) -> bool {
         self.excess <= 0.0 && self.work.abs() <= work
