@@ -21,10 +21,10 @@ pub struct State {
     pub power: Power,
     /// Step that the error control would take next [s].
     pub step: f64,
-    /// The same for a step that begins at a break of the motion, as the last one there has shown it [s].
-    pub opening: f64,
+    /// How long the last step from a break of the motion might have been [s]; +∞ before any.
+    pub step_from_break: f64,
     /// Whether the next step begins at one.
-    pub at_break: bool,
+    pub from_break: bool,
     /// Largest |z| and |v| so far: the scale of the tolerances.
     pub scale: [f64; 2],
     /// Force of the top beam on the wall after the last step, its sign turned [N].
@@ -275,8 +275,8 @@ impl State {
             a: zeros(n + 2),
             power: Power::default(),
             step: 0.0,
-            opening: f64::INFINITY,
-            at_break: false,
+            step_from_break: f64::INFINITY,
+            from_break: false,
             scale: [0.0; 2],
             pull: 0.0,
             joint_power: zeros(e),

@@ -46,6 +46,14 @@ fn run(p: &Prepared, tolerance: f64) -> Outcome {
     run.outcome(rows, reason)
 }
 
+/// The error is largest where the record has a kink. The first step there is as long as the last one there has shown it may be:
+/// without that every twelfth step is refused here.
+#[test]
+fn few_steps_are_refused_where_the_record_has_kinks() {
+    let counters = run(&ready(&wall()), 1e-4).counters;
+    assert!(20 * counters.rejected < counters.steps, "{counters:?}");
+}
+
 /// Without friction and with elastic heads, stages share factors; displacements are those of a finer run.
 #[test]
 fn factors_used_again_keep_the_accuracy() {
