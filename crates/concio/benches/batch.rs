@@ -19,7 +19,7 @@ fn main() {
     let (runs, alone) = (numbers.next().unwrap_or(64), numbers.next().unwrap_or(8));
     println!("| tolerance | alone [s per run] | in lanes | alone / lanes | one thread / two | mean work [J] |");
     println!("|---|---|---|---|---|---|");
-    for tolerance in [1e-3, 1e-2, 3e-2] {
+    for tolerance in [1e-3, 1e-2, 3e-2, 1e-1] {
         let prepared: Vec<Prepared> = (0..runs).filter_map(|k| panel(k, runs, tolerance)).collect();
         let jobs: Vec<Job> = prepared.iter().map(Job::from).collect();
         let some = prepared.iter().step_by(runs.div_ceil(alone.max(1)).max(1));
