@@ -43,8 +43,8 @@ impl Progress {
     /// unfinished run in the folder.
     pub fn show(&mut self, status: &Status) {
         if self.first.is_none() && self.unfinished {
-            files::note(&match taken_up(status) {
-                Some(time) => format!("taken up at t = {} of {}", time, seconds(status.duration)),
+            files::note(&match status.resumed_from {
+                Some(time) => format!("taken up at t = {} s of {}", significant(time, 4), seconds(status.duration)),
                 None => "An unfinished run lies in the folder, but of other inputs or damaged: it is discarded.".into(),
             });
         }
@@ -78,11 +78,6 @@ impl Progress {
         }
         self.unfinished && self.first.is_some()
     }
-}
-
-/// Where an unfinished run was taken up; none when this one began at t = 0: the first look comes after one step.
-fn taken_up(status: &Status) -> Option<String> {
-    (status.steps > 1).then(|| format!("{} s", significant(status.time, 4)))
 }
 
 /// How far the run is, and the time left as this process's own progress from `first` lets expect.
@@ -155,17 +150,11 @@ mod tests {
 
     #[test]
     fn the_time_left_is_reckoned_from_this_session() {
-        let status = Status { time: 5.0, duration: 6.0, steps: 1000 };
+        let status = Status { time: 5.0, duration: 6.0, steps: 1000, resumed_from: Some(4.0) };
         // One second of motion in two minutes, one second to go; a run taken up at 4 s did not make the other four.
         let text = line(&status, 4.0, Duration::from_secs(120));
         assert_eq!(text, "t = 5.000 of 6 s, 1000 steps, 2 min 0 s left");
         assert_eq!(line(&status, 5.0, Duration::from_secs(120)), "t = 5.000 of 6 s, 1000 steps");
         assert_eq!(line(&status, 4.999, Duration::from_secs(120)), "t = 5.000 of 6 s, 1000 steps");
-    }
-
-    #[test]
-    fn a_run_from_the_start_is_not_taken_up() {
-        assert_eq!(taken_up(&Status { time: 1e-5, duration: 1.0, steps: 1 }), None);
-        assert_eq!(taken_up(&Status { time: 0.25, duration: 1.0, steps: 900 }), Some("0.2500 s".into()));
     }
 }

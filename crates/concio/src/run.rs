@@ -47,6 +47,8 @@ pub struct Status {
     pub duration: f64,
     /// Steps taken, those before a resume included.
     pub steps: u64,
+    /// Time from which an unfinished run was taken up [s]; none of one that began at 0, or that was not taken up by [`run`].
+    pub resumed_from: Option<f64>,
 }
 
 impl Status {
@@ -232,7 +234,8 @@ pub fn run(prepared: &Prepared, out: &Path, monitor: &mut dyn FnMut(&Status) -> 
     let mut simulation = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling)?;
     let (mut journal, resumed_from) = open_journal(prepared, &mut simulation, out)?;
     let start = Instant::now();
-    let reason = integrate(&mut simulation, &mut journal, monitor)?;
+    let mut look = |status: Status| monitor(&Status { resumed_from, ..status });
+    let reason = integrate(&mut simulation, &mut journal, &mut look)?;
     let solve_seconds = start.elapsed().as_secs_f64();
     let rows = journal.read_all()?;
     let outcome = simulation.outcome(rows, reason);
@@ -277,7 +280,7 @@ fn open_journal<'p>(
 fn integrate(
     simulation: &mut Simulation<'_>,
     journal: &mut Journal,
-    monitor: &mut dyn FnMut(&Status) -> Control,
+    monitor: &mut dyn FnMut(Status) -> Control,
 ) -> Result<StopReason> {
     let mut kept = Instant::now();
     let mut stride = 1;
@@ -288,7 +291,7 @@ fn integrate(
         stride = if looked.elapsed() < BETWEEN_LOOKS { (2 * stride).min(1 << 14) } else { (stride / 2).max(1) };
         let stop = match progress {
             Progress::Ended(reason) => Some(reason),
-            Progress::Running => (monitor(&simulation.status()) == Control::Stop).then_some(StopReason::Interrupted),
+            Progress::Running => (monitor(simulation.status()) == Control::Stop).then_some(StopReason::Interrupted),
         };
         let due = kept.elapsed() >= BETWEEN_CHECKPOINTS;
         if due || stop.is_some() || simulation.buffer_is_full() {

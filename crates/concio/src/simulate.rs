@@ -489,7 +489,8 @@ impl<'m> Simulation<'m> {
     }
     /// How far the run is.
     pub fn status(&self) -> Status {
-        Status { time: self.state.t, duration: self.model.excitation.duration, steps: self.state.counters.steps }
+        let steps = self.state.counters.steps;
+        Status { time: self.state.t, duration: self.model.excitation.duration, steps, resumed_from: None }
     }
     /// Samples since the buffer was last cleared.
     pub fn recording(&self) -> &Recording {
