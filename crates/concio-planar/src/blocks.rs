@@ -166,11 +166,18 @@ pub struct Factors {
     pivots: Vec<Pivot>,
 }
 
-/// Where the block of a pair of bodies stands, and whether the second of them comes first there.
+/// Where the block of a pair of bodies stands, and whether the second of them is eliminated first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Slot {
     at: usize,
     turned: bool,
+}
+
+impl Slot {
+    /// Of the pair in the order of elimination, and the two sides of `pair` in that order.
+    pub(crate) fn straighten<T>(self, [a, b]: [T; 2]) -> (Self, [T; 2]) {
+        (Slot { turned: false, ..self }, if self.turned { [b, a] } else { [a, b] })
+    }
 }
 
 impl Blocks {
@@ -288,23 +295,22 @@ impl Blocks {
         }
     }
 
-    /// Adds `times` the product of the rows of a pair's two bodies, to a symmetric matrix.
-    pub fn add_pair(&mut self, slot: Slot, times: f64, [a, b]: [Triple; 2]) {
-        debug_assert!(self.is_symmetric);
-        let (first, second) = if slot.turned { (b, a) } else { (a, b) };
+    /// Adds `times` the product of the rows of a pair's two bodies, the first that is eliminated first, to a symmetric matrix.
+    pub fn add_pair(&mut self, slot: Slot, times: f64, [first, second]: [Triple; 2]) {
+        debug_assert!(self.is_symmetric && !slot.turned);
         self.given[slot.at].add(0, times, first, second);
     }
 
-    /// Adds twice the columns of a pair's two bodies times the rows of the other, to a matrix that need not be symmetric.
+    /// Adds twice the columns of a pair's two bodies, the first that is eliminated first, times the rows of the other, to a matrix that need not be
+    /// symmetric.
     #[inline(always)]
     pub fn add_pairs_of_products(&mut self, slot: Slot, columns: [[Triple; 2]; 2], rows: [[Triple; 2]; 2]) {
-        debug_assert!(!self.is_symmetric);
-        let (first, second) = if slot.turned { (1, 0) } else { (0, 1) };
+        debug_assert!(!self.is_symmetric && !slot.turned);
         // What is right of the diagonal, and behind it what is below, turned over.
         let ends = |start: Triple, end: Triple| [start[0], start[1], start[2], 0.0, end[0], end[1], end[2], 0.0];
-        let across = [0, 1].map(|k| ends(rows[k][second], columns[k][second]));
+        let across = [0, 1].map(|k| ends(rows[k][1], columns[k][1]));
         let down = |k: usize, i: usize| {
-            let (a, b) = (columns[k][first][i], rows[k][first][i]);
+            let (a, b) = (columns[k][0][i], rows[k][0][i]);
             [a, a, a, a, b, b, b, b]
         };
         for (i, sum) in self.given[slot.at].0.iter_mut().enumerate() {
@@ -564,6 +570,8 @@ mod tests {
             }
             (0..3 * n).for_each(|k| dense[k][k] = own[k % 3]);
             for &(a, b) in &pairs {
+                let (slot, both) = blocks.slot(a, b).straighten([a, b]);
+                let [a, b] = both;
                 let mut rows = || [[draw(), draw(), draw()], [draw(), draw(), draw()]];
                 let rows = [rows(), rows()];
                 // Towards the rows turned by a bit: more than half of the product stays symmetric.
@@ -571,17 +579,16 @@ mod tests {
                 let columns = rows.map(|pair| pair.map(|row| row.map(|x| x + bent * draw())));
                 if symmetric {
                     for rows in rows {
-                        blocks.add_pair(blocks.slot(a, b), 1.0, rows);
+                        blocks.add_pair(slot, 1.0, rows);
                         blocks.add(a, 1.0, rows[0]);
                         blocks.add(b, 1.0, rows[1]);
                     }
                 } else {
                     let of = |two: [[Triple; 2]; 2], body: usize| two.map(|pair| pair[body]);
-                    blocks.add_pairs_of_products(blocks.slot(a, b), columns, rows);
+                    blocks.add_pairs_of_products(slot, columns, rows);
                     blocks.add_products(a, of(columns, 0), of(rows, 0));
                     blocks.add_products(b, of(columns, 1), of(rows, 1));
                 }
-                let both = [a, b];
                 for (columns, rows) in columns.iter().zip(&rows) {
                     for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))) {
                         dense[3 * both[i / 3] + i % 3][3 * both[j / 3] + j % 3] +=

@@ -139,7 +139,7 @@ impl Rows {
 pub struct Contact {
     /// Its bodies and directions.
     pub(crate) rows: Rows,
-    /// Where the pair stands in the matrix, for two bodies.
+    /// Where the pair stands in the matrix, for two bodies; the first is eliminated first.
     pub slot: Option<Slot>,
     /// Parting and sliding velocity that prescribed motion brings [m/s].
     pub drift: [f64; 2],
@@ -176,14 +176,20 @@ struct Answer {
 
 impl Contact {
     /// Of a rigid contact of a body with another, or with the base, that bore `impulse` [N s] before. Derivatives of the parting and
-    /// of the sliding velocity by the velocities of both, those that are prescribed left out; masses say what a push moves.
+    /// of the sliding velocity by the velocities of both, those that are prescribed left out; masses say what a push moves. It has its bodies in
+    /// the order of elimination, with their derivatives, so that no go through the contacts has to look.
     pub fn rigid(
-        (a, b): (Option<usize>, usize),
-        slot: Option<Slot>,
-        [normal, tangent]: [[Triple; 2]; 2],
+        (mut a, mut b): (Option<usize>, usize),
+        mut slot: Option<Slot>,
+        [mut normal, mut tangent]: [[Triple; 2]; 2],
         inverse_mass: &[Triple],
         impulse: [f64; 2],
     ) -> Self {
+        if let (Some(first), Some(given)) = (a, slot) {
+            let (straight, sides) = given.straighten([0, 1].map(|k| ([first, b][k], normal[k], tangent[k])));
+            (slot, a, b) = (Some(straight), Some(sides[0].0), sides[1].0);
+            (normal, tangent) = (sides.map(|side| side.1), sides.map(|side| side.2));
+        }
         let of = |rows: [Triple; 2]| {
             let one = |row: Triple, body: usize| (0..3).map(|k| row[k] * row[k] * inverse_mass[body][k]).sum::<f64>();
             1.0 / (a.map_or(0.0, |a| one(rows[0], a)) + one(rows[1], b))
