@@ -17,14 +17,14 @@
 //!
 //! Every iteration solves (P1), (P5) and (P5a), linear about the iterate and with products λ s that fall, for v: a matrix like that
 //! of [`crate::contact`] with what friction answers to pressure in each contact. It is factorised once per iteration and used for a
-//! prediction and a correction (Mehrotra 1992). However many contacts open and close, that takes about a dozen iterations, the last few of them by
+//! prediction and a correction (Mehrotra 1992), in 32 bits where no contact is too stiff for that. However many contacts open and close, that takes about a dozen iterations, the last few of them by
 //! Newton's method on the laws themselves where nearly all contacts have springs (`interior/finish.rs`).
 
 mod finish;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::blocks::{Blocks, Triple};
+use crate::blocks::{Blocks, Digits, Triple};
 use crate::contact::{Contact, Effort, Rows, Status, unbalance, worse};
 
 /// Iterations after which a step is given up.
@@ -40,6 +40,8 @@ const STALLED: usize = 25;
 /// ends otherwise.
 const ANEW: usize = 4;
 const NEARER: f64 = 0.01;
+/// Least E times the mass that a contact moves where half of the digits tell directions, which are off by some 6·10⁻⁸ over that.
+const YIELDING: f64 = 1e-5;
 /// Least distance from the bounds at the start, over what is out of balance, and over what was borne before.
 const FLOOR: f64 = 1.0;
 const SHARE: f64 = 0.02;
@@ -255,6 +257,8 @@ impl Interior {
         // Share of the last direction that is gone.
         let (mut share, mut stuck) = (0.0, false);
         let mut near = if finish::may_end(contacts) { finish::NEAR * tolerance } else { 0.0 };
+        // Half of the digits do for directions while they lead on: what is off by them is seen in the next look. Newton's method ends with all.
+        let mut digits = if near > 0.0 && is_yielding(contacts) { Digits::Half } else { Digits::All };
         // What was left at the start, until it began anew.
         let mut begun = None;
         loop {
@@ -275,6 +279,9 @@ impl Interior {
             if effort.iterations == 0 {
                 begun = Some(left.residual);
             }
+            if since >= ANEW {
+                digits = Digits::All;
+            }
             let stays = since >= if effort.residual <= enough { PATIENCE } else { STALLED };
             if effort.iterations >= MOST || stays || !left.residual.is_finite() {
                 break;
@@ -294,15 +301,21 @@ impl Interior {
                     (effort.residual, effort.converged) = (end.residual, true);
                     break;
                 }
-                near = finish::AGAIN * left.residual;
+                (near, digits) = (finish::AGAIN * left.residual, Digits::All);
                 left = self.look(matrix, (mass, free), contacts, v, Method::Inside { share: 0.0 });
             }
             effort.iterations += 1;
-            share = self.direct(matrix, &left, stuck);
+            share = self.direct(matrix, digits, &left, stuck);
             stuck = share < STUCK;
             // Where products vanish before the conditions hold, rounding ends in nothing over nothing.
             if !self.step.iter().flatten().all(|x| x.is_finite()) {
-                break;
+                if digits == Digits::All {
+                    break;
+                }
+                self.usual.ways.fill(Way::NONE);
+                self.limited.ways.fill(Way::NONE);
+                (share, stuck, digits) = (0.0, false, Digits::All);
+                continue;
             }
             for (v, step) in v.iter_mut().zip(&self.step) {
                 (0..3).for_each(|k| v[k] += share * step[k]);
@@ -358,10 +371,10 @@ impl Interior {
     }
 
     /// The direction, into `self.step` and the points, and how far it is gone; `stuck` where the last was hardly gone at all.
-    fn direct(&mut self, matrix: &mut Blocks, left: &Left, stuck: bool) -> f64 {
+    fn direct(&mut self, matrix: &mut Blocks, digits: Digits, left: &Left, stuck: bool) -> f64 {
         let mean = left.mean();
         self.begin_right_side();
-        matrix.factorise_and_solve(&mut self.step, &mut self.work);
+        matrix.factorise_and_solve(&mut self.step, &mut self.work, digits);
         let mut first = Course::BEGIN;
         self.pushes.iter_mut().for_each(|push| push.fill([0.0; 3]));
         self.usual.predict(&self.step, &mut self.pushes, &mut first);
@@ -550,6 +563,12 @@ impl<const N: usize> WithSimd for Turn<'_, N> {
     fn with_simd<S: Simd>(self, _: S) {
         self.group.turn_each(self.step, self.target, self.course);
     }
+}
+
+/// Whether each contact is so soft beside the mass that it moves that half of the digits tell a direction.
+fn is_yielding(contacts: &[Contact]) -> bool {
+    let stiff = |c: &Contact, k: usize| c.moved[k].is_finite() && soft(c, k) * c.moved[k] < YIELDING;
+    !contacts.iter().any(|c| stiff(c, 0) || (stiff(c, 1) && (c.friction > 0.0 || c.hold > 0.0)))
 }
 
 /// Whether friction follows from pressure alone.

@@ -6,7 +6,7 @@
 //! rigid contacts, which share impulses out among them, hold more bounds than there are velocities.
 
 use super::{Group, Interior, Left, Method, Point, View, Way, soft};
-use crate::blocks::{Blocks, Triple};
+use crate::blocks::{Blocks, Digits, Triple};
 use crate::contact::{Contact, Effort, worse};
 
 /// What may be left where it begins, over the tolerance.
@@ -68,7 +68,7 @@ impl Interior {
             last = left;
             effort.iterations += 1;
             self.begin_right_side();
-            matrix.factorise_and_solve(&mut self.step, &mut self.work);
+            matrix.factorise_and_solve(&mut self.step, &mut self.work, Digits::All);
             self.usual.jump(&self.step);
             self.limited.jump(&self.step);
             for (v, step) in v.iter_mut().zip(&self.step) {
