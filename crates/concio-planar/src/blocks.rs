@@ -1,5 +1,7 @@
 //! Matrices of 3 × 3 blocks with a pattern that is symmetric and stays: ordered and laid out once, factorised again and again.
 
+use std::ops::{Mul, Neg};
+
 use pulp::{Arch, Simd, WithSimd};
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +24,7 @@ pub enum Digits {
 }
 
 /// What the factors off the diagonal are kept in.
-trait Number: Copy + std::fmt::Debug {
+trait Number: Copy + std::fmt::Debug + Mul<Output = Self> + Neg<Output = Self> {
     const ZERO: Self;
     /// As wide as a row of [`Both`].
     type Row: Copy + std::fmt::Debug;
@@ -30,13 +32,14 @@ trait Number: Copy + std::fmt::Debug {
     fn wide(self) -> f64;
     /// self a + b, rounded once.
     fn mul_add(self, a: Self, b: Self) -> Self;
-    fn times(self, a: Self) -> Self;
-    fn negative(self) -> Self;
+    /// 0 for what is so small that products of two would have fewer digits, which takes processors long: between bodies far apart, through
+    /// joints that are open, factors get that small.
+    fn flushed(self) -> Self;
 }
 
-/// [`Number`] of a type, whose rows are aligned to so many bytes.
+/// [`Number`] of a type, whose rows are aligned to so many bytes, and which is 0 below some value.
 macro_rules! number {
-    ($number:ty, $row:ident, $bytes:literal) => {
+    ($number:ty, $row:ident, $bytes:literal, $least:literal) => {
         #[derive(Debug, Clone, Copy)]
         #[repr(align($bytes))]
         struct $row;
@@ -61,20 +64,15 @@ macro_rules! number {
             }
 
             #[inline(always)]
-            fn times(self, a: Self) -> Self {
-                self * a
-            }
-
-            #[inline(always)]
-            fn negative(self) -> Self {
-                -self
+            fn flushed(self) -> Self {
+                if self.abs() < $least { 0.0 } else { self }
             }
         }
     };
 }
 
-number!(f64, Row64, 64);
-number!(f32, Row32, 32);
+number!(f64, Row64, 64, 1e-150);
+number!(f32, Row32, 32, 1e-18);
 
 /// A block right of the diagonal and, behind each of its rows, that of the block below the diagonal turned over, which is not looked at in a
 /// symmetric matrix: what is eliminated changes both alike, and so a row of both is changed at once. The empty end aligns it to its rows.
@@ -123,8 +121,8 @@ impl<T: Number> Both<T> {
         let (right, below) = (swept(right, &l), swept(below, &u));
         for i in 0..3 {
             for j in 0..4 {
-                self.0[i][j] = right[i][j].times(d[i]);
-                self.0[i][4 + j] = below[i][j];
+                self.0[i][j] = (right[i][j] * d[i]).flushed();
+                self.0[i][4 + j] = below[i][j].flushed();
             }
         }
     }
@@ -441,7 +439,7 @@ impl Blocks {
     }
 
     /// Adds `times` the product of the rows of a pair's two bodies, the first that is eliminated first, to a symmetric matrix.
-    pub fn add_pair(&mut self, slot: Slot, times: f64, [first, second]: [Triple; 2]) {
+    pub(crate) fn add_pair(&mut self, slot: Slot, times: f64, [first, second]: [Triple; 2]) {
         debug_assert!(self.is_symmetric && !slot.turned);
         self.given[slot.at].add(0, times, first, second);
     }
@@ -449,7 +447,7 @@ impl Blocks {
     /// Adds twice the columns of a pair's two bodies, the first that is eliminated first, times the rows of the other, to a matrix that need not be
     /// symmetric.
     #[inline(always)]
-    pub fn add_pairs_of_products(&mut self, slot: Slot, columns: [[Triple; 2]; 2], rows: [[Triple; 2]; 2]) {
+    pub(crate) fn add_pairs_of_products(&mut self, slot: Slot, columns: [[Triple; 2]; 2], rows: [[Triple; 2]; 2]) {
         debug_assert!(!self.is_symmetric && !slot.turned);
         // What is right of the diagonal, and behind it what is below, turned over.
         let ends = |start: Triple, end: Triple| [start[0], start[1], start[2], 0.0, end[0], end[1], end[2], 0.0];
@@ -470,15 +468,11 @@ impl Blocks {
         self.factorise_with(&mut []);
     }
 
-    /// Eliminates, and solves in place, as [`Blocks::solve`] does then, what goes forth with the elimination that has each block at hand. A
-    /// symmetric matrix always has all digits.
+    /// Eliminates a matrix that need not be symmetric, and solves in place, as [`Blocks::solve`] does then, what goes forth with the elimination that
+    /// has each block at hand.
     pub fn factorise_and_solve(&mut self, x: &mut [Triple], work: &mut [Triple], digits: Digits) {
+        debug_assert!(!self.is_symmetric);
         self.digits = digits;
-        if self.is_symmetric {
-            self.factorise();
-            self.solve(x, work);
-            return;
-        }
         self.sort(x, work);
         self.factorise_with(work);
         self.back(x, work);
@@ -588,7 +582,7 @@ impl<T: Number> Factor<T> {
     #[inline(always)]
     fn of(own: &Both<T>) -> Self {
         let turned = |i: usize, k: usize| {
-            let (a, b) = (own.0[k][4 + i].negative(), own.0[k][i].negative());
+            let (a, b) = (-own.0[k][4 + i], -own.0[k][i]);
             [a, a, a, a, b, b, b, b]
         };
         // Written out: loops over these go through memory.
@@ -615,7 +609,7 @@ impl<T: Number> Factor<T> {
 /// L⁻¹ of the columns of a block.
 #[inline(always)]
 fn swept<T: Number>(y: [[T; 4]; 3], l: &[T; 3]) -> [[T; 4]; 3] {
-    let less = |y: [T; 4], l: T, x: [T; 4]| -> [T; 4] { std::array::from_fn(|j| l.negative().mul_add(x[j], y[j])) };
+    let less = |y: [T; 4], l: T, x: [T; 4]| -> [T; 4] { std::array::from_fn(|j| (-l).mul_add(x[j], y[j])) };
     let y1 = less(y[1], l[0], y[0]);
     [y[0], y1, less(less(y[2], l[1], y[0]), l[2], y1)]
 }
@@ -725,8 +719,10 @@ mod tests {
             let mut x: Vec<Triple> = (0..n).map(|k| [0, 1, 2].map(|i| product(&dense[3 * k + i]))).collect();
             let (right, mut work) = (x.clone(), vec![[0.0; 3]; n]);
             let off = |x: &[Triple]| x.iter().flatten().zip(&flat).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            let least = if symmetric { 0.0 } else { 1e-9 };
-            for (digits, errors) in [(Digits::Half, least..1e-4), (Digits::All, 0.0..1e-12)] {
+            for (digits, errors) in [(Digits::Half, 1e-9..1e-4), (Digits::All, 0.0..1e-12)] {
+                if symmetric {
+                    continue;
+                }
                 x.copy_from_slice(&right);
                 blocks.factorise_and_solve(&mut x, &mut work, digits);
                 let together = x.clone();
@@ -735,11 +731,10 @@ mod tests {
                 assert_eq!(x, together);
                 assert!(errors.contains(&off(&x)), "{digits:?}: {:e}", off(&x));
             }
-            let together = x.clone();
             x.copy_from_slice(&right);
             blocks.factorise();
             blocks.solve(&mut x, &mut work);
-            assert_eq!(x, together);
+            assert!(off(&x) < 1e-12, "{:e}", off(&x));
         }
     }
 }

@@ -16,9 +16,10 @@
 //! contact bore before, and both choose among impulses that give the same motion those nearest to p⁰.
 //!
 //! Every iteration solves (P1), (P5) and (P5a), linear about the iterate and with products λ s that fall, for v: a matrix like that
-//! of [`crate::contact`] with what friction answers to pressure in each contact. It is factorised once per iteration and used for a
-//! prediction and a correction (Mehrotra 1992), in 32 bits where no contact is too stiff for that. However many contacts open and close, that takes about a dozen iterations, the last few of them by
-//! Newton's method on the laws themselves where nearly all contacts have springs (`interior/finish.rs`).
+//! of [`crate::contact`] with what friction answers to pressure in each contact. It is factorised once per iteration, in 32 bits where no
+//! contact is too stiff for that, and used for a prediction and a correction (Mehrotra 1992). However many contacts open and close, that takes
+//! about a dozen iterations, the last few of them by Newton's method on the laws themselves where nearly all contacts have springs
+//! (`interior/finish.rs`).
 
 mod finish;
 
@@ -40,8 +41,9 @@ const STALLED: usize = 25;
 /// ends otherwise.
 const ANEW: usize = 4;
 const NEARER: f64 = 0.01;
-/// Least E times the mass that a contact moves where half of the digits tell directions, which are off by some 6·10⁻⁸ over that.
-const YIELDING: f64 = 1e-5;
+/// Largest 1/E, with springs beside, over the mass that a contact moves where half of the digits tell directions, which are off by some 6·10⁻⁸
+/// of that.
+const YIELDING: f64 = 1e5;
 /// Least distance from the bounds at the start, over what is out of balance, and over what was borne before.
 const FLOOR: f64 = 1.0;
 const SHARE: f64 = 0.02;
@@ -306,7 +308,6 @@ impl Interior {
             }
             effort.iterations += 1;
             share = self.direct(matrix, digits, &left, stuck);
-            stuck = share < STUCK;
             // Where products vanish before the conditions hold, rounding ends in nothing over nothing.
             if !self.step.iter().flatten().all(|x| x.is_finite()) {
                 if digits == Digits::All {
@@ -314,9 +315,10 @@ impl Interior {
                 }
                 self.usual.ways.fill(Way::NONE);
                 self.limited.ways.fill(Way::NONE);
-                (share, stuck, digits) = (0.0, false, Digits::All);
+                (share, digits) = (0.0, Digits::All);
                 continue;
             }
+            stuck = share < STUCK;
             for (v, step) in v.iter_mut().zip(&self.step) {
                 (0..3).for_each(|k| v[k] += share * step[k]);
             }
@@ -565,10 +567,14 @@ impl<const N: usize> WithSimd for Turn<'_, N> {
     }
 }
 
-/// Whether each contact is so soft beside the mass that it moves that half of the digits tell a direction.
+/// Whether each contact, with what acts beside it, is so soft beside the mass that it moves that half of the digits tell a direction.
 fn is_yielding(contacts: &[Contact]) -> bool {
-    let stiff = |c: &Contact, k: usize| c.moved[k].is_finite() && soft(c, k) * c.moved[k] < YIELDING;
-    !contacts.iter().any(|c| stiff(c, 0) || (stiff(c, 1) && (c.friction > 0.0 || c.hold > 0.0)))
+    let stiffest = |c: &Contact, k: usize| {
+        let bears = k == 0 || c.friction > 0.0 || c.hold > 0.0;
+        c.spring[k].rho + if bears { 1.0 / soft(c, k) } else { 0.0 }
+    };
+    let yields = |c: &Contact, k: usize| !c.moved[k].is_finite() || stiffest(c, k) <= YIELDING * c.moved[k];
+    contacts.iter().all(|c| yields(c, 0) && yields(c, 1))
 }
 
 /// Whether friction follows from pressure alone.
@@ -862,6 +868,25 @@ mod tests {
     }
 
     const MASS: Triple = [2.0, 2.0, 0.3];
+
+    /// Half of the digits are for springs that are not too stiff, wherever they stand.
+    #[test]
+    fn stiff_contacts_take_all_digits() {
+        let matrix = Blocks::new(6, &(1..6).map(|b| (b - 1, b)).collect::<Vec<_>>(), &Orders::anywhere());
+        let contacts = contacts(&mut Draw(1), &matrix, 1.0);
+        assert!(is_yielding(&contacts));
+        let stiffer: [fn(&mut Contact); 4] = [
+            |c| c.compliant[0] = false,
+            |c| (c.compliant[1], c.friction) = (false, 0.5),
+            |c| c.law[0].rho = 1e6 * c.moved[0],
+            |c| c.spring[1].rho = 1e6 * c.moved[1],
+        ];
+        for stiffen in stiffer {
+            let mut contacts = contacts.clone();
+            stiffen(&mut contacts[3]);
+            assert!(!is_yielding(&contacts));
+        }
+    }
 
     /// Contacts of six bodies in a row and of each with the base, of every kind: rigid and springs, with bounds of tension and crushing,
     /// what friction bears beside pressure, springs and dashpots beside, none across, none along; this share of them with springs.
