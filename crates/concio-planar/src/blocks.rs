@@ -71,7 +71,7 @@ macro_rules! number {
     };
 }
 
-number!(f64, Row64, 64, 1e-150);
+number!(f64, Row64, 64, 0.0);
 number!(f32, Row32, 32, 1e-18);
 
 /// A block right of the diagonal and, behind each of its rows, that of the block below the diagonal turned over, which is not looked at in a
