@@ -14,7 +14,7 @@ pub type Triple = [f64; 3];
 
 const ZERO: Block = [[0.0; 4]; 3];
 
-/// How many digits factors have: all, or half of them in half the room and half the time.
+/// How many digits factors have: all, or half of them in half the room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Digits {
     /// 64 bits.
@@ -719,10 +719,8 @@ mod tests {
             let mut x: Vec<Triple> = (0..n).map(|k| [0, 1, 2].map(|i| product(&dense[3 * k + i]))).collect();
             let (right, mut work) = (x.clone(), vec![[0.0; 3]; n]);
             let off = |x: &[Triple]| x.iter().flatten().zip(&flat).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            for (digits, errors) in [(Digits::Half, 1e-9..1e-4), (Digits::All, 0.0..1e-12)] {
-                if symmetric {
-                    continue;
-                }
+            let whole = [(Digits::Half, 1e-9..1e-4), (Digits::All, 0.0..1e-12)];
+            for (digits, errors) in whole.into_iter().filter(|_| !symmetric) {
                 x.copy_from_slice(&right);
                 blocks.factorise_and_solve(&mut x, &mut work, digits);
                 let together = x.clone();
