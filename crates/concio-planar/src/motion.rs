@@ -461,6 +461,10 @@ impl Motion {
 
     /// A step, whether its contact is solved or not if `come_what_may`; otherwise nothing has happened where it is not.
     fn take(&mut self, h: f64, forcing: Forcing, come_what_may: bool) -> bool {
+        // At the beginning: what is asked after a step is asked of the pairs that its contacts know.
+        if self.strayed() {
+            self.look();
+        }
         if self.setting.still {
             self.velocities.fill([0.0; 3]);
         }
@@ -486,9 +490,6 @@ impl Motion {
         self.advance(h, forcing.held);
         std::mem::swap(&mut self.velocities, &mut self.after);
         self.time += h;
-        if self.strayed() {
-            self.look();
-        }
         true
     }
 
