@@ -28,7 +28,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::blocks::{Blocks, Factors, Slot, Triple};
-use crate::interior::{self, Interior, inertia};
+use crate::interior::{Interior, Survey, inertia};
 use crate::order::Orders;
 
 /// ρ over the mass that a contact moves: large for few repetitions, small enough for 16 digits.
@@ -38,6 +38,10 @@ const MOST: usize = 200;
 /// Newton iterations before the interior point method takes over where it can, and what each may leave out of balance.
 const FEW: usize = 4;
 const QUICKLY: f64 = 0.1;
+/// Times in a row that the first of these fails after which it is left out for so many steps, where the second ends by Newton's method: a wall
+/// that slides goes on sliding.
+const FAILING: u32 = 4;
+const LEFT_OUT: u32 = 8;
 /// Share of its bound by which an impulse may miss it and was held by it all the same: pressure rises with friction bounded by that of the
 /// iterate before, until what is out of balance counts as solved.
 const HELD: f64 = 1e-5;
@@ -91,7 +95,19 @@ pub(crate) struct Rows {
     pub tangent: [Triple; 2],
 }
 
-const BASE: u32 = u32::MAX;
+pub(crate) const BASE: u32 = u32::MAX;
+
+/// The same in fewer numbers.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Levers {
+    /// [`BASE`] first for what moves with the base.
+    pub bodies: [u32; 2],
+    /// That on the second body.
+    pub normal: [f64; 2],
+    /// Arms of the normal and of the tangent on the first and on the second body.
+    pub across: [f64; 2],
+    pub along: [f64; 2],
+}
 
 impl Rows {
     /// First body; none for what moves with the base.
@@ -102,6 +118,18 @@ impl Rows {
     /// Second body.
     pub fn second(&self) -> usize {
         self.b as usize
+    }
+
+    /// Where no velocity is prescribed: the tangent is the normal turned then, and the first body is pushed as the second, the other way.
+    pub fn levers(&self) -> Option<Levers> {
+        let [first, second] = [0, 1].map(|side| [self.normal[side], self.tangent[side]]);
+        let normal = [second[0][0], second[0][1]];
+        let tangent = [-normal[1], normal[0]];
+        let directions = |of: &[Triple; 2]| of.map(|row| [row[0], row[1]]);
+        let opposite = [normal, tangent].map(|direction| direction.map(|x| -x));
+        let fits = directions(&second) == [normal, tangent] && (self.a == BASE || directions(&first) == opposite);
+        let arms = |k: usize| [if self.a == BASE { 0.0 } else { first[k][2] }, second[k][2]];
+        fits.then(|| Levers { bodies: [self.a, self.b], normal, across: arms(0), along: arms(1) })
     }
 
     /// By how much the parting and the sliding velocity change with velocities that change by `v`.
@@ -121,6 +149,21 @@ impl Rows {
     #[inline(always)]
     pub fn push(&self, balance: &mut [Triple], p: [f64; 2]) {
         self.each(p, |body, push| (0..3).for_each(|k| balance[body][k] += push[k]));
+    }
+
+    /// Adds what resists to a matrix that is not symmetric: across and along to the same, and along to across.
+    #[inline(always)]
+    pub fn couple(&self, slot: Option<Slot>, matrix: &mut Blocks, [nn, tt, tn]: [f64; 3]) {
+        let Rows { normal, tangent, .. } = *self;
+        let along = |side: usize| [0, 1, 2].map(|k| tn * normal[side][k] + tt * tangent[side][k]);
+        let across = |side: usize| normal[side].map(|x| nn * x);
+        let (b, second) = (self.second(), [across(1), along(1)]);
+        matrix.add_products(b, [normal[1], tangent[1]], second);
+        if let (Some(a), Some(slot)) = (self.first(), slot) {
+            let first = [across(0), along(0)];
+            matrix.add_products(a, [normal[0], tangent[0]], first);
+            matrix.add_pairs_of_products(slot, [normal, tangent], [[first[0], second[0]], [first[1], second[1]]]);
+        }
     }
 
     /// What impulses do to each body.
@@ -302,21 +345,6 @@ impl Contact {
             self.rows.push(balance, p.map(|p| -p));
         }
     }
-
-    /// Adds what resists to a matrix that is not symmetric: across and along to the same, and along to across.
-    #[inline(always)]
-    pub(crate) fn couple(&self, matrix: &mut Blocks, [nn, tt, tn]: [f64; 3]) {
-        let Rows { normal, tangent, .. } = self.rows;
-        let along = |side: usize| [0, 1, 2].map(|k| tn * normal[side][k] + tt * tangent[side][k]);
-        let across = |side: usize| normal[side].map(|x| nn * x);
-        let (b, second) = (self.rows.second(), [across(1), along(1)]);
-        matrix.add_products(b, [normal[1], tangent[1]], second);
-        if let (Some(a), Some(slot)) = (self.rows.first(), self.slot) {
-            let first = [across(0), along(0)];
-            matrix.add_products(a, [normal[0], tangent[0]], first);
-            matrix.add_pairs_of_products(slot, [normal, tangent], [[first[0], second[0]], [first[1], second[1]]]);
-        }
-    }
 }
 
 /// How a step was solved.
@@ -346,11 +374,14 @@ impl Effort {
     }
 }
 
-/// What a solver takes from step to step: the next begins with the factors of the last, and ends at other bits without them.
+/// What a solver takes from step to step: the next begins with the factors of the last, and with what failed before, and ends at other bits
+/// without them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Known {
     known: Vec<(bool, bool)>,
     factors: Factors,
+    failures: u32,
+    left_out: u32,
 }
 
 /// Solves steps of bodies whose pairs stay the same.
@@ -369,6 +400,9 @@ pub struct Solver {
     /// What bounds friction [N s].
     bound: Vec<f64>,
     interior: Interior,
+    /// Times in a row that the augmented Lagrangian failed, and steps that it has been left out since.
+    failures: u32,
+    left_out: u32,
     /// Velocities, and of each contact offsets, impulses and what they mean, before an attempt.
     start: Vec<Triple>,
     kept: Vec<([f64; 2], [f64; 2], Status)>,
@@ -389,6 +423,8 @@ impl Solver {
             change: Vec::new(),
             bound: Vec::new(),
             interior: Interior::default(),
+            failures: 0,
+            left_out: 0,
             start: Vec::new(),
             kept: Vec::new(),
         }
@@ -406,22 +442,25 @@ impl Solver {
 
     /// What the next step begins with.
     pub fn known(&self) -> Known {
+        let (failures, left_out) = (self.failures, self.left_out);
         match self.known.is_empty() {
-            true => Known::default(),
-            false => Known { known: self.known.clone(), factors: self.matrix.keep() },
+            true => Known { failures, left_out, ..Known::default() },
+            false => Known { known: self.known.clone(), factors: self.matrix.keep(), failures, left_out },
         }
     }
 
     /// Goes on with what a solver of the same bodies and pairs knew; false where it is not of these.
-    pub fn take_up(&mut self, Known { known, factors }: Known) -> bool {
+    pub fn take_up(&mut self, Known { known, factors, failures, left_out }: Known) -> bool {
         let fits = known.is_empty() || self.matrix.take_up(factors);
+        (self.failures, self.left_out) = (failures, left_out);
         self.known = if fits { known } else { Vec::new() };
         fits
     }
 
     /// Solves a step to `tolerance` [m/s]: the augmented Lagrangian, for as long as it falls quickly, as it does where
     /// contacts go on doing what they did; then, unless a contact moves nothing, an interior point method, which may leave
-    /// `enough` [m/s] where it does not come nearer. `v` holds a guess on entry.
+    /// `enough` [m/s] where it does not come nearer. `v` holds a guess on entry. Where the first failed several times in a row it is left out
+    /// for some steps.
     pub fn newton(
         &mut self,
         mass: &[Triple],
@@ -430,26 +469,44 @@ impl Solver {
         v: &mut [Triple],
         (tolerance, enough): (f64, f64),
     ) -> Effort {
-        if !contacts.iter().all(interior::fits) {
+        // All that is asked of each, in one go: where there are many they are far away.
+        let mut survey = Survey::default();
+        self.begin_keeping(v);
+        for contact in contacts.iter() {
+            survey.see(contact);
+            self.keep_one(contact);
+        }
+        if !survey.fits {
             return self.lagrangian((mass, free), contacts, v, tolerance, (MOST, f64::INFINITY));
         }
         // From nothing the first presses blocks against each other no more than they have to be.
-        let new = contacts.iter().all(|c| c.impulse == [0.0; 2]);
-        let limit = if new { (MOST, f64::INFINITY) } else { (FEW, QUICKLY) };
-        self.keep(contacts, v);
-        let first = self.lagrangian((mass, free), contacts, v, tolerance, limit);
-        if first.converged {
-            return first;
-        }
-        self.restore(contacts, v);
+        let limit = if survey.new { (MOST, f64::INFINITY) } else { (FEW, QUICKLY) };
+        let left_out = !survey.new && self.failures >= FAILING && self.left_out < LEFT_OUT && survey.may_end();
+        let first = if left_out {
+            self.left_out += 1;
+            Effort { residual: f64::INFINITY, ..Effort::default() }
+        } else {
+            let first = self.lagrangian((mass, free), contacts, v, tolerance, limit);
+            self.left_out = 0;
+            if first.converged {
+                self.failures = 0;
+                return first;
+            }
+            self.failures = FAILING.min(self.failures + 1);
+            self.restore(contacts, v);
+            first
+        };
         // Its factors overwrite those that are known.
         self.known.clear();
-        let second = self.interior.solve(&mut self.matrix, (mass, free), contacts, v, (tolerance, enough));
+        let second = self.interior.solve(&mut self.matrix, (mass, free), (contacts, &survey), v, (tolerance, enough));
         if second.residual <= enough {
             return first.then(second);
         }
         // An interior point method that went astray says nothing.
-        let nearer = second.residual <= first.residual;
+        let nearer = !left_out && second.residual <= first.residual;
+        if left_out {
+            self.left_out = LEFT_OUT;
+        }
         if nearer {
             self.keep(contacts, v);
         } else {
@@ -465,10 +522,18 @@ impl Solver {
     }
 
     fn keep(&mut self, contacts: &[Contact], v: &[Triple]) {
+        self.begin_keeping(v);
+        contacts.iter().for_each(|contact| self.keep_one(contact));
+    }
+
+    fn begin_keeping(&mut self, v: &[Triple]) {
         self.kept.clear();
-        self.kept.extend(contacts.iter().map(|c| (c.law.map(|l| l.offset), c.impulse, c.status)));
         self.start.clear();
         self.start.extend_from_slice(v);
+    }
+
+    fn keep_one(&mut self, contact: &Contact) {
+        self.kept.push((contact.law.map(|l| l.offset), contact.impulse, contact.status));
     }
 
     fn restore(&self, contacts: &mut [Contact], v: &mut [Triple]) {
