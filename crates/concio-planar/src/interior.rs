@@ -123,12 +123,11 @@ impl Method {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Survey {
     number: usize,
-    /// Whether [`Interior::solve`] knows what all of them do, whether none bore anything, and whether all are soft enough for half of the digits.
+    /// Whether [`Interior::solve`] knows what all of them do, and whether none bore anything.
     pub fits: bool,
     pub new: bool,
-    yields: bool,
-    /// Whether half of the digits also keep a matrix that changes by differences.
-    keeps: bool,
+    /// The largest of [`stiffness`].
+    stiffest: f64,
     /// How many are rigid, and how many are of the most frequent kind.
     rigid: usize,
     plain: usize,
@@ -136,7 +135,7 @@ pub(crate) struct Survey {
 
 impl Default for Survey {
     fn default() -> Self {
-        Survey { number: 0, fits: true, new: true, yields: true, keeps: true, rigid: 0, plain: 0 }
+        Survey { number: 0, fits: true, new: true, stiffest: 0.0, rigid: 0, plain: 0 }
     }
 }
 
@@ -146,8 +145,7 @@ impl Survey {
         self.number += 1;
         self.fits &= contact.moved[0].is_finite();
         self.new &= contact.impulse == [0.0; 2];
-        self.yields &= [0, 1].iter().all(|k| yields(contact, *k, YIELDING));
-        self.keeps &= [0, 1].iter().all(|k| yields(contact, *k, KEEPING));
+        self.stiffest = worse(self.stiffest, worse(stiffness(contact, 0), stiffness(contact, 1)));
         let rubs = contact.friction > 0.0 || contact.hold > 0.0;
         self.rigid += usize::from(!contact.compliant[0] || (!contact.compliant[1] && rubs));
         self.plain += usize::from(is_plain(contact));
@@ -156,6 +154,16 @@ impl Survey {
     /// Whether so few contacts are rigid that impulses follow from velocities, and Newton's method ends a step.
     pub fn may_end(&self) -> bool {
         (self.rigid as f64) < RIGID * self.number as f64
+    }
+
+    /// Whether half of the digits tell directions.
+    fn yields(&self) -> bool {
+        self.stiffest <= YIELDING
+    }
+
+    /// Whether they also keep what is left of a matrix that changes by differences.
+    fn keeps(&self) -> bool {
+        self.stiffest <= KEEPING
     }
 }
 
@@ -176,7 +184,7 @@ impl Interior {
         let (mut share, mut stuck) = (0.0, false);
         let mut near = if survey.may_end() { finish::NEAR * tolerance } else { 0.0 };
         // Half of the digits do for directions while they lead on: what is off by them is seen in the next look.
-        let mut digits = if near > 0.0 && survey.yields { Digits::Half } else { Digits::All };
+        let mut digits = if near > 0.0 && survey.yields() { Digits::Half } else { Digits::All };
         // What was left at the start, until it began anew.
         let mut begun = None;
         loop {
@@ -212,7 +220,7 @@ impl Interior {
             }
             if left.residual <= near {
                 let end =
-                    self.finish(matrix, (mass, free), contacts, v, (tolerance, digits), (share > 0.0, survey.keeps));
+                    self.finish(matrix, (mass, free), contacts, v, (tolerance, digits), (share > 0.0, survey.keeps()));
                 effort.iterations += end.iterations;
                 effort.rounds += end.rounds;
                 if end.converged {
@@ -366,11 +374,13 @@ struct Sums<'a> {
     matrix: &'a mut Blocks,
 }
 
-/// Whether a contact, with what acts beside it, is at most so stiff beside the mass that it moves.
-fn yields(contact: &Contact, k: usize, most: f64) -> bool {
+/// What a contact answers across or along, with what acts beside it, over the mass that it moves.
+fn stiffness(contact: &Contact, k: usize) -> f64 {
+    if !contact.moved[k].is_finite() {
+        return 0.0;
+    }
     let bears = k == 0 || contact.friction > 0.0 || contact.hold > 0.0;
-    let stiffness = contact.spring[k].rho + if bears { 1.0 / soft(contact, k) } else { 0.0 };
-    !contact.moved[k].is_finite() || stiffness <= most * contact.moved[k]
+    (contact.spring[k].rho + if bears { 1.0 / soft(contact, k) } else { 0.0 }) / contact.moved[k]
 }
 
 pub(crate) fn inertia(residual: &mut [Triple], mass: &[Triple], free: &[Triple], v: &[Triple]) {
@@ -412,7 +422,7 @@ mod tests {
     fn stiff_contacts_take_all_digits() {
         let matrix = Blocks::new(6, &(1..6).map(|b| (b - 1, b)).collect::<Vec<_>>(), &Orders::anywhere());
         let contacts = contacts(&mut Draw(1), &matrix, 1.0);
-        assert!(survey(&contacts).yields);
+        assert!(survey(&contacts).yields());
         let stiffer: [fn(&mut Contact); 4] = [
             |c| c.compliant[0] = false,
             |c| (c.compliant[1], c.friction) = (false, 0.5),
@@ -422,7 +432,7 @@ mod tests {
         for stiffen in stiffer {
             let mut contacts = contacts.clone();
             stiffen(&mut contacts[3]);
-            assert!(!survey(&contacts).yields);
+            assert!(!survey(&contacts).yields());
         }
     }
 
