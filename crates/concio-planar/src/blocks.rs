@@ -13,6 +13,8 @@ pub type Block = [[f64; 4]; 3];
 pub type Triple = [f64; 3];
 
 const ZERO: Block = [[0.0; 4]; 3];
+/// One in so many rows that changed, and more, takes all rows to be eliminated anew, right sides with them.
+const FEW: usize = 8;
 
 /// How many digits factors have: all, or half of them in half the room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -139,8 +141,12 @@ pub struct Blocks {
     feeds: Vec<Feed>,
     fed: Vec<usize>,
     /// Per feed, for each block of the feeding row right of the one named there: which block of the fed row it changes.
-    targets: Vec<u32>,
+    targets: Vec<u16>,
+    /// Where each row's begin among them.
+    aimed: Vec<usize>,
     diagonal: Vec<Block>,
+    /// Whether the rows that begin with the diagonal block have changed since they were last eliminated.
+    changed: Vec<bool>,
     /// Blocks of the pairs, row by row: where each is among those of its row, where each row's begin, and what is in them.
     paired: Vec<u32>,
     first: Vec<usize>,
@@ -215,7 +221,7 @@ impl Pivot {
     }
 
     /// U⁻¹ of a triple.
-    #[inline]
+    #[inline(always)]
     fn back(&self, [y0, y1, y2]: Triple) -> Triple {
         let y1 = y1 - self.u[2] * y2;
         [y0 - self.u[0] * y1 - self.u[1] * y2, y1, y2]
@@ -236,18 +242,52 @@ impl WithSimd for Factorising<'_, '_> {
             start: &blocks.start,
             feeds: &blocks.feeds,
             fed: &blocks.fed,
+            columns: &blocks.columns,
             targets: &blocks.targets,
+            aimed: &blocks.aimed,
             diagonal: &blocks.diagonal,
             paired: &blocks.paired,
             first: &blocks.first,
             stamps: &blocks.stamps,
             stamp: blocks.stamp,
         };
-        let pivots = &mut blocks.pivots[..];
+        let rows = (&mut blocks.pivots[..], &mut blocks.changed[..]);
         match (blocks.is_symmetric, blocks.digits) {
-            (true, _) => pattern.eliminate::<f64, true>(given, &mut blocks.beside, pivots, sides),
-            (false, Digits::All) => pattern.eliminate::<f64, false>(given, &mut blocks.beside, pivots, sides),
-            (false, Digits::Half) => pattern.eliminate::<f32, false>(roughly, &mut blocks.roughly, pivots, sides),
+            (true, _) => pattern.eliminate::<f64, true>(given, &mut blocks.beside, rows, sides),
+            (false, Digits::All) => pattern.eliminate::<f64, false>(given, &mut blocks.beside, rows, sides),
+            (false, Digits::Half) => pattern.eliminate::<f32, false>(roughly, &mut blocks.roughly, rows, sides),
+        }
+    }
+}
+
+/// Right sides in the order of elimination, through the factors forth.
+struct Forth<'a, 'b>(&'a Blocks, &'b mut [Triple]);
+
+impl WithSimd for Forth<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Forth(blocks, work) = self;
+        match blocks.digits {
+            Digits::All => blocks.forth(&blocks.beside, work),
+            Digits::Half => blocks.forth(&blocks.roughly, work),
+        }
+    }
+}
+
+/// And back.
+struct Back<'a, 'b>(&'a Blocks, &'b mut [Triple]);
+
+impl WithSimd for Back<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Back(blocks, work) = self;
+        match blocks.digits {
+            Digits::All => blocks.go_back(&blocks.beside, work),
+            Digits::Half => blocks.go_back(&blocks.roughly, work),
         }
     }
 }
@@ -257,7 +297,9 @@ struct Pattern<'a> {
     start: &'a [usize],
     feeds: &'a [Feed],
     fed: &'a [usize],
-    targets: &'a [u32],
+    columns: &'a [usize],
+    targets: &'a [u16],
+    aimed: &'a [usize],
     diagonal: &'a [Block],
     paired: &'a [u32],
     first: &'a [usize],
@@ -266,18 +308,27 @@ struct Pattern<'a> {
 }
 
 impl Pattern<'_> {
-    /// Every row takes what those before it change: it stays near while they pass by.
+    /// Every row takes what those before it change: it stays near while they pass by. Rows that have not changed, nor any of those, are left as
+    /// they are; right sides go with all rows or with none.
     #[inline(always)]
     fn eliminate<T: Number, const SYMMETRIC: bool>(
         &self,
         given: &[Both<T>],
         beside: &mut [Both<T>],
-        pivots: &mut [Pivot],
+        (pivots, changed): (&mut [Pivot], &mut [bool]),
         sides: &mut [Triple],
     ) {
+        debug_assert!(sides.is_empty() || changed.iter().all(|changed| *changed));
         let Pattern { start, feeds, fed, diagonal, paired, first, .. } = self;
-        let mut targets = self.targets;
         for own in 0..pivots.len() {
+            if !std::mem::take(&mut changed[own]) {
+                continue;
+            }
+            // All that it changes are changed by those in between as well.
+            if let Some(next) = self.columns[start[own]..start[own + 1]].first() {
+                changed[*next] = true;
+            }
+            let mut targets = &self.targets[self.aimed[own]..self.aimed[own + 1]];
             let (before, after) = beside.split_at_mut(start[own]);
             let row = &mut after[..start[own + 1] - start[own]];
             row.fill(Both::ZERO);
@@ -288,15 +339,17 @@ impl Pattern<'_> {
                     row[*at as usize] = *given;
                 }
             }
+            // The right side stands behind the diagonal block, and is changed with it.
             let mut square = diagonal[own];
-            let mut side = sides.get(own).copied().unwrap_or_default();
+            let behind = sides.get(own).copied().unwrap_or_default();
+            for (row, side) in square.iter_mut().zip(behind) {
+                row[3] = side;
+            }
             for feed in &feeds[fed[own]..fed[own + 1]] {
                 let (at, end) = (feed.at as usize, start[feed.row as usize + 1]);
                 let factor = Factor::of(&before[at]);
-                if !SYMMETRIC && let Some(above) = sides.get(feed.row as usize) {
-                    subtract_transposed(&mut side, &before[at], 4, *above);
-                }
-                subtract_square(&mut square, &before[at].wide());
+                let above = sides.get(feed.row as usize).copied().unwrap_or_default();
+                subtract_square(&mut square, &before[at].wide(), above);
                 let (own_targets, others) = targets.split_at(end - at - 1);
                 targets = others;
                 for (source, target) in before[at + 1..end].iter().zip(own_targets) {
@@ -309,7 +362,7 @@ impl Pattern<'_> {
                 both.eliminate::<SYMMETRIC>(&pivot);
             }
             if let Some(place) = sides.get_mut(own) {
-                let reduced = pivot.forth(side);
+                let reduced = pivot.forth([square[0][3], square[1][3], square[2][3]]);
                 *place = [0, 1, 2].map(|i| reduced[i] * pivot.d[i]);
             }
             pivots[own] = pivot;
@@ -358,7 +411,9 @@ impl Blocks {
             feeds: Vec::with_capacity(columns.len()),
             fed: vec![0],
             targets: Vec::new(),
+            aimed: vec![0],
             diagonal: vec![ZERO; bodies],
+            changed: vec![true; bodies],
             paired: Vec::new(),
             first: Vec::with_capacity(bodies + 1),
             given: Vec::new(),
@@ -399,9 +454,13 @@ impl Blocks {
         for (own, feeds) in feeds.iter().enumerate() {
             for feed in feeds {
                 let others = &self.columns[feed.at as usize + 1..self.start[feed.row as usize + 1]];
-                let places = others.iter().map(|&j| (self.find(own, j) - self.start[own]) as u32);
+                let places = others.iter().map(|&j| {
+                    let place = self.find(own, j) - self.start[own];
+                    u16::try_from(place).expect("rows of less than 65,536 blocks")
+                });
                 targets.extend(places);
             }
+            self.aimed.push(targets.len());
             self.feeds.extend(feeds);
             self.fed.push(self.feeds.len());
         }
@@ -432,6 +491,7 @@ impl Blocks {
     pub fn reset(&mut self, diagonal: &[Triple]) {
         (self.is_symmetric, self.digits) = (true, Digits::All);
         self.stamp += 1;
+        self.changed.fill(true);
         for (body, values) in diagonal.iter().enumerate() {
             let block = &mut self.diagonal[self.place[body]];
             *block = ZERO;
@@ -445,15 +505,23 @@ impl Blocks {
         (self.is_symmetric, self.digits) = (false, digits);
     }
 
+    /// The diagonal block of a body, and with it those of its pairs, which are given with those of their bodies.
+    #[inline(always)]
+    fn changing(&mut self, body: usize) -> &mut Block {
+        let place = self.place[body];
+        self.changed[place] = true;
+        &mut self.diagonal[place]
+    }
+
     /// Adds `times` the square of a row of one body.
     pub fn add(&mut self, body: usize, times: f64, row: Triple) {
-        add_outer(&mut self.diagonal[self.place[body]], times, row, row);
+        add_outer(self.changing(body), times, row, row);
     }
 
     /// Adds two columns times two rows to the block of one body; the sum of what is added to a symmetric matrix has to be symmetric.
     #[inline(always)]
     pub fn add_products(&mut self, body: usize, columns: [Triple; 2], rows: [Triple; 2]) {
-        let block = &mut self.diagonal[self.place[body]];
+        let block = self.changing(body);
         let rows = rows.map(|[x, y, z]| [x, y, z, 0.0]);
         for (i, sum) in block.iter_mut().enumerate() {
             *sum = std::array::from_fn(|j| sum[j] + columns[0][i] * rows[0][j] + columns[1][i] * rows[1][j]);
@@ -490,7 +558,7 @@ impl Blocks {
     /// Adds a block to that of one body.
     #[inline(always)]
     pub(crate) fn add_block(&mut self, body: usize, block: Block) {
-        for (sum, row) in self.diagonal[self.place[body]].iter_mut().zip(block) {
+        for (sum, row) in self.changing(body).iter_mut().zip(block) {
             *sum = std::array::from_fn(|j| sum[j] + row[j]);
         }
     }
@@ -503,6 +571,7 @@ impl Blocks {
         self.give(slot, blocks);
     }
 
+    /// A pair is given with the blocks of its bodies, which say that rows change.
     #[inline(always)]
     fn give(&mut self, slot: Slot, blocks: [[f64; 8]; 3]) {
         let fresh = std::mem::replace(&mut self.stamps[slot.at], self.stamp) != self.stamp;
@@ -512,17 +581,24 @@ impl Blocks {
         }
     }
 
-    /// Eliminates row by row.
+    /// Eliminates row by row what has changed since that was done last.
     pub fn factorise(&mut self) {
         self.factorise_with(&mut []);
     }
 
-    /// Eliminates a matrix that need not be symmetric, and solves in place, as [`Blocks::solve`] does then, what goes forth with the elimination that
-    /// has each block at hand.
+    /// Eliminates a matrix that need not be symmetric, and solves in place, as [`Blocks::solve`] does then. Where more than a few rows have changed
+    /// right sides go forth with the elimination, which has each block at hand.
     pub fn factorise_and_solve(&mut self, x: &mut [Triple], work: &mut [Triple]) {
         debug_assert!(!self.is_symmetric);
         self.sort(x, work);
-        self.factorise_with(work);
+        let changed = self.changed.iter().filter(|changed| **changed).count();
+        if changed * FEW < self.changed.len() {
+            self.factorise_with(&mut []);
+            Arch::new().dispatch(Forth(self, work));
+        } else {
+            self.changed.fill(true);
+            self.factorise_with(work);
+        }
         self.back(x, work);
     }
 
@@ -536,13 +612,11 @@ impl Blocks {
     /// Solves with the factors, in place; `work` has as many triples as there are bodies.
     pub fn solve(&self, x: &mut [Triple], work: &mut [Triple]) {
         self.sort(x, work);
-        match self.digits {
-            Digits::All => self.forth(&self.beside, work),
-            Digits::Half => self.forth(&self.roughly, work),
-        }
+        Arch::new().dispatch(Forth(self, work));
         self.back(x, work);
     }
 
+    #[inline(always)]
     fn forth<T: Number>(&self, factors: &[Both<T>], work: &mut [Triple]) {
         let half = if self.is_symmetric { 0 } else { 4 };
         for k in 0..work.len() {
@@ -567,23 +641,26 @@ impl Blocks {
 
     /// From what has gone forth to the solution by body.
     fn back(&self, x: &mut [Triple], work: &mut [Triple]) {
-        match self.digits {
-            Digits::All => self.go_back(&self.beside, work),
-            Digits::Half => self.go_back(&self.roughly, work),
-        }
+        Arch::new().dispatch(Back(self, work));
         for (body, value) in x.iter_mut().enumerate() {
             *value = work[self.place[body]];
         }
     }
 
+    #[inline(always)]
     fn go_back<T: Number>(&self, factors: &[Both<T>], work: &mut [Triple]) {
         for k in (0..work.len()).rev() {
-            let mut value = work[k];
+            let mut sums = [[0.0; 4]; 3];
             let own = self.start[k]..self.start[k + 1];
             // Downwards in each row too: memory is read ahead in one direction.
             for (column, both) in self.columns[own.clone()].iter().zip(&factors[own]).rev() {
-                subtract_times(&mut value, both, work[*column]);
+                let [x, y, z] = work[*column];
+                let x = [x, y, z, 0.0];
+                for (sum, row) in sums.iter_mut().zip(&both.0) {
+                    *sum = std::array::from_fn(|j| row[j].wide().mul_add(x[j], sum[j]));
+                }
             }
+            let value = [0, 1, 2].map(|i| work[k][i] - (sums[i][0] + sums[i][1] + sums[i][2]));
             work[k] = self.pivots[k].back(value);
         }
     }
@@ -603,6 +680,8 @@ impl Blocks {
                 both.0.iter_mut().zip(right).for_each(|(both, row)| both[..4].copy_from_slice(row));
             }
             (self.pivots, self.is_symmetric, self.digits) = (pivots, true, Digits::All);
+            // They are of another matrix than what is given.
+            self.changed.fill(true);
         }
         fits
     }
@@ -644,14 +723,22 @@ impl<T: Number> Factor<T> {
     /// Takes the product with the first so many columns of the source from those of the target.
     #[inline(always)]
     fn subtract<const COLUMNS: usize>(&self, target: &mut Both<T>, source: &Both<T>) {
-        for (row, factors) in target.0.iter_mut().zip(&self.0) {
-            let mut sum: [T; COLUMNS] = std::array::from_fn(|j| row[j]);
-            for (factor, source) in factors.iter().zip(&source.0) {
-                sum = std::array::from_fn(|j| factor[j].mul_add(source[j], sum[j]));
-            }
-            row[..COLUMNS].copy_from_slice(&sum);
-        }
+        // All is read before anything is written: what is written might be what is read, for all that a compiler knows, which would read it
+        // again.
+        let ([s0, s1, s2], [t0, t1, t2]) = (&source.0.map(first::<T, COLUMNS>), &target.0.map(first::<T, COLUMNS>));
+        let row = |[f0, f1, f2]: &[[T; 8]; 3], t: &[T; COLUMNS]| -> [T; COLUMNS] {
+            std::array::from_fn(|j| f2[j].mul_add(s2[j], f1[j].mul_add(s1[j], f0[j].mul_add(s0[j], t[j]))))
+        };
+        let rows = [row(&self.0[0], t0), row(&self.0[1], t1), row(&self.0[2], t2)];
+        target.0[0][..COLUMNS].copy_from_slice(&rows[0]);
+        target.0[1][..COLUMNS].copy_from_slice(&rows[1]);
+        target.0[2][..COLUMNS].copy_from_slice(&rows[2]);
     }
+}
+
+#[inline(always)]
+fn first<T: Number, const COLUMNS: usize>(row: [T; 8]) -> [T; COLUMNS] {
+    std::array::from_fn(|j| row[j])
 }
 
 /// L⁻¹ of the columns of a block.
@@ -662,10 +749,11 @@ fn swept<T: Number>(y: [[T; 4]; 3], l: &[T; 3]) -> [[T; 4]; 3] {
     [y[0], y1, less(less(y[2], l[1], y[0]), l[2], y1)]
 }
 
-/// What a row takes from the diagonal block of another.
+/// What a row takes from the diagonal block of another, and from what is `above` of its right side.
 #[inline(always)]
-fn subtract_square(target: &mut Block, own: &Both<f64>) {
-    let source: [[f64; 4]; 3] = own.right();
+fn subtract_square(target: &mut Block, own: &Both<f64>, above: Triple) {
+    let mut source: [[f64; 4]; 3] = own.right();
+    (0..3).for_each(|k| source[k][3] = above[k]);
     for i in 0..3 {
         for k in 0..3 {
             let factor = -own.0[k][4 + i];
@@ -674,19 +762,14 @@ fn subtract_square(target: &mut Block, own: &Both<f64>) {
     }
 }
 
-#[inline]
-fn subtract_times<T: Number>(y: &mut Triple, a: &Both<T>, x: Triple) {
-    for i in 0..3 {
-        y[i] -= a.0[i][0].wide() * x[0] + a.0[i][1].wide() * x[1] + a.0[i][2].wide() * x[2];
-    }
-}
-
+/// The same of a right side alone, with what is below or, where the matrix is symmetric, with what is right of the diagonal.
 #[inline(always)]
 fn subtract_transposed<T: Number>(y: &mut Triple, a: &Both<T>, from: usize, x: Triple) {
-    let part = |k: usize, i: usize| a.0[k][from + i].wide() * x[k];
-    for i in 0..3 {
-        y[i] -= part(0, i) + part(1, i) + part(2, i);
+    let mut sum = [y[0], y[1], y[2], 0.0];
+    for k in 0..3 {
+        sum = std::array::from_fn(|i| (-a.0[k][from + i].wide()).mul_add(x[k], sum[i]));
     }
+    *y = [sum[0], sum[1], sum[2]];
 }
 
 #[cfg(test)]
@@ -779,9 +862,50 @@ mod tests {
                 assert!(errors.contains(&off(&x)), "{digits:?}: {:e}", off(&x));
             }
             x.copy_from_slice(&right);
+            blocks.changed.fill(true);
             blocks.factorise();
             blocks.solve(&mut x, &mut work);
             assert!(off(&x) < errors.end, "{:e}", off(&x));
+        }
+    }
+
+    /// What is eliminated after a few pairs have changed is, to the bit, what all of it would come to.
+    #[test]
+    fn eliminates_what_changed() {
+        let (n, pairs) = (400, grid(20, 20));
+        let mut blocks = Blocks::new(n, &pairs, &Orders::anywhere());
+        let own = |k: usize| [9.0 + (k % 7) as f64, 8.0 + (k % 5) as f64, 7.0 + (k % 3) as f64];
+        let bent = |k: usize| {
+            let x = ((7 * k) % 11) as f64 / 11.0 - 0.4;
+            [[x, 0.3, -x, 0.0, 0.2, x, 0.1, 0.0]; 3]
+        };
+        let give = |blocks: &mut Blocks, k: usize| {
+            let (slot, both) = blocks.slot(pairs[k].0, pairs[k].1).straighten([pairs[k].0, pairs[k].1]);
+            let block = [[0.5, 0.1, 0.0, 0.0], [-0.1, 0.4, 0.0, 0.0], [0.0, 0.2, 0.3, 0.0]];
+            both.iter().for_each(|body| blocks.add_block(*body, block));
+            blocks.add_pair_of_blocks(slot, bent(k));
+        };
+        let right: Vec<Triple> = (0..n).map(|k| [k as f64, 1.0, -2.0]).collect();
+        let solve = |blocks: &mut Blocks| {
+            let (mut x, mut work) = (right.clone(), vec![[0.0; 3]; n]);
+            blocks.factorise_and_solve(&mut x, &mut work);
+            x
+        };
+        for digits in [Digits::Half, Digits::All] {
+            blocks.reset_whole(&(0..n).map(own).collect::<Vec<_>>(), digits);
+            (0..pairs.len()).for_each(|k| give(&mut blocks, k));
+            let mut last = solve(&mut blocks);
+            for some in
+                [vec![], vec![5], vec![pairs.len() - 1], vec![40, 300, 301], (0..pairs.len()).step_by(3).collect()]
+            {
+                some.iter().for_each(|k| give(&mut blocks, *k));
+                let mut whole = blocks.clone();
+                whole.changed.fill(true);
+                let x = solve(&mut blocks);
+                assert_eq!(x, solve(&mut whole), "{some:?}");
+                assert_eq!(x == last, some.is_empty());
+                last = x;
+            }
         }
     }
 }
