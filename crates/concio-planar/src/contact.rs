@@ -39,9 +39,10 @@ const MOST: usize = 200;
 const FEW: usize = 4;
 const QUICKLY: f64 = 0.1;
 /// Times in a row that the first of these fails after which it is left out for so many steps, where the second ends by Newton's method: a wall
-/// that slides goes on sliding.
+/// that slides goes on sliding. Twice as many each time that it fails again, so many times at most.
 const FAILING: u32 = 4;
 const LEFT_OUT: u32 = 8;
+const DOUBLED: u32 = 3;
 /// Share of its bound by which an impulse may miss it and was held by it all the same: pressure rises with friction bounded by that of the
 /// iterate before, until what is out of balance counts as solved.
 const HELD: f64 = 1e-5;
@@ -481,7 +482,7 @@ impl Solver {
         }
         // From nothing the first presses blocks against each other no more than they have to be.
         let limit = if survey.new { (MOST, f64::INFINITY) } else { (FEW, QUICKLY) };
-        let left_out = !survey.new && self.failures >= FAILING && self.left_out < LEFT_OUT && survey.may_end();
+        let left_out = !survey.new && self.left_out < self.pause() && survey.may_end();
         let first = if left_out {
             self.left_out += 1;
             Effort { residual: f64::INFINITY, ..Effort::default() }
@@ -492,7 +493,8 @@ impl Solver {
                 self.failures = 0;
                 return first;
             }
-            self.failures = FAILING.min(self.failures + 1);
+            let most = if survey.may_end() { FAILING + DOUBLED } else { FAILING };
+            self.failures = most.min(self.failures + 1);
             self.restore(contacts, v);
             first
         };
@@ -505,7 +507,7 @@ impl Solver {
         // An interior point method that went astray says nothing.
         let nearer = !left_out && second.residual <= first.residual;
         if left_out {
-            self.left_out = LEFT_OUT;
+            self.left_out = self.pause();
         }
         if nearer {
             self.keep(contacts, v);
@@ -519,6 +521,11 @@ impl Solver {
             return Effort { residual: second.residual, ..effort };
         }
         effort
+    }
+
+    /// Steps for which the augmented Lagrangian is left out.
+    fn pause(&self) -> u32 {
+        self.failures.checked_sub(FAILING).map_or(0, |more| LEFT_OUT << more.min(DOUBLED))
     }
 
     fn keep(&mut self, contacts: &[Contact], v: &[Triple]) {
@@ -833,4 +840,20 @@ fn thrust(contact: &Contact, p: [f64; 2], inverse: &[Triple], v: &mut [Triple]) 
 #[inline(always)]
 fn dot(a: &Triple, b: &Triple) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// After four failures in a row the augmented Lagrangian is left out, for longer with each that follows, up to 64 steps.
+    #[test]
+    fn what_goes_on_failing_is_left_out_for_longer() {
+        let mut solver = Solver::new(0, &[], &Orders::anywhere());
+        let pauses = [0, 3, 4, 5, 6, 7, u32::MAX].map(|failures| {
+            solver.failures = failures;
+            solver.pause()
+        });
+        assert_eq!(pauses, [0, 0, 8, 16, 32, 64, 64]);
+    }
 }

@@ -92,7 +92,7 @@ struct Whole {
     drawn: f64,
     products: f64,
     number: usize,
-    /// Contacts whose part of the matrix is new.
+    /// Contacts that do something else than in the last look by Newton's method, in such a look.
     changed: usize,
 }
 
@@ -366,7 +366,7 @@ impl Interior {
 /// What a look at the contacts adds up.
 struct Sums<'a> {
     left: Left,
-    /// Number of the products, and of contacts whose part of the matrix is new.
+    /// Number of the products, and of contacts that do something else than in the last look.
     number: usize,
     changed: usize,
     residual: &'a mut [Triple],

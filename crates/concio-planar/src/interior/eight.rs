@@ -337,7 +337,7 @@ impl Eights {
         {
             let u = lever.gather(v);
             let mut numbers = [[0.0; EIGHT]; ALL];
-            let before = if whole { [[0.0; EIGHT]; 3] } else { answers.0 };
+            let before = answers.0;
             for part in 0..Lanes::<S>::PARTS {
                 let (mut point, laws) = (points.part(simd, part), rule.part(asks.then_some(rest), simd, part));
                 let arms = lever.part(simd, part);
@@ -362,7 +362,9 @@ impl Eights {
                     Method::AtBounds { .. } | Method::Onwards { .. } => {
                         let by_way = matches!(method, Method::AtBounds { led: true });
                         let led = if by_way { Some(point.led(&ways.part(simd, part))) } else { None };
-                        was = parts(simd, &before, part);
+                        if !whole {
+                            was = parts(simd, &before, part);
+                        }
                         point.choose_across(&laws, u[0], led, &mut view, left);
                         point.choose_along(&laws, (laws.friction, u[1]), led, &mut view, left);
                         put(&mut answers.0, view.response, part);
@@ -382,9 +384,9 @@ impl Eights {
                     joined.end_look(sums);
                     joined.begin(bodies, slots[k]);
                 }
-                let changes = whole || (0..3).any(|i| before[i][k] != answers.0[i][k]);
+                let changes = !inside && (0..3).any(|i| before[i][k] != answers.0[i][k]);
                 sums.changed += usize::from(changes);
-                joined.add(&numbers, k, if changes { ALL } else { PUSHES });
+                joined.add(&numbers, k, if whole || changes { ALL } else { PUSHES });
             }
         }
         joined.end_look(sums);

@@ -13,7 +13,8 @@ use crate::contact::{Contact, Effort, worse};
 pub(super) const NEAR: f64 = 1e4;
 /// What is left then, over that, before it begins again.
 pub(super) const AGAIN: f64 = 0.1;
-/// Iterations at most, and those after which each has to leave less than the last.
+/// Iterations at most, and those after which each has to leave less than the last, or let fewer contacts do something else than all before: in
+/// a large wall what is left is that of one place, and rises there while the others settle.
 const MOST: usize = 12;
 const FREELY: usize = 3;
 /// What half of the digits may leave, over the tolerance, without another solution with the same factors.
@@ -40,7 +41,7 @@ impl Interior {
         self.plain.keep();
         self.usual.keep();
         self.limited.keep();
-        let mut last = f64::INFINITY;
+        let (mut last, mut fewest) = (f64::INFINITY, usize::MAX);
         for k in 0..=MOST {
             let method = match k {
                 0 => Method::AtBounds { led },
@@ -56,12 +57,8 @@ impl Interior {
                         refined = true;
                         last = f64::INFINITY;
                         self.begin_right_side();
-                        if differs && changed == 0 {
-                            matrix.solve(&mut self.step, &mut self.work);
-                        } else {
-                            effort.iterations += 1;
-                            matrix.factorise_and_solve(&mut self.step, &mut self.work);
-                        }
+                        effort.iterations += usize::from(!differs || changed > 0);
+                        matrix.factorise_and_solve(&mut self.step, &mut self.work);
                         self.leap(v);
                         continue;
                     }
@@ -78,7 +75,10 @@ impl Interior {
                 last = f64::INFINITY;
                 continue;
             }
-            let falls = k <= FREELY || left < last;
+            let falls = k <= FREELY || left < last || changed < fewest;
+            if k > 0 {
+                fewest = fewest.min(changed);
+            }
             if k == MOST || !left.is_finite() || !falls {
                 break;
             }

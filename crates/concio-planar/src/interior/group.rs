@@ -98,11 +98,11 @@ impl<const N: usize> Group<N> {
             }
             contact.push(sums.residual, contact.whole(point.p, u));
             contact.rows.push(sums.step, view.right);
+            let changes = before.response != view.response;
+            sums.changed += usize::from(changes);
             if method.begins_matrix() {
                 contact.rows.couple(contact.slot, sums.matrix, view.answers(contact));
-                sums.changed += 1;
-            } else if before.response != view.response {
-                sums.changed += 1;
+            } else if changes {
                 let [now, was] = [&*view, &before].map(|view| view.answers(contact));
                 contact.rows.couple(contact.slot, sums.matrix, std::array::from_fn(|k| now[k] - was[k]));
             }
