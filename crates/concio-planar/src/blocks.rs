@@ -260,34 +260,32 @@ impl WithSimd for Factorising<'_, '_> {
     }
 }
 
-/// Right sides in the order of elimination, through the factors forth.
-struct Forth<'a, 'b>(&'a Blocks, &'b mut [Triple]);
+/// Right sides in the order of elimination through the factors: forth, where they have not gone with the elimination, and back.
+struct Solving<'a, 'b> {
+    blocks: &'a Blocks,
+    work: &'b mut [Triple],
+    forth: bool,
+}
 
-impl WithSimd for Forth<'_, '_> {
-    type Output = ();
-
+impl Solving<'_, '_> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Forth(blocks, work) = self;
-        match blocks.digits {
-            Digits::All => blocks.forth(&blocks.beside, work),
-            Digits::Half => blocks.forth(&blocks.roughly, work),
+    fn with<T: Number>(self, factors: &[Both<T>]) {
+        if self.forth {
+            self.blocks.forth(factors, self.work);
         }
+        self.blocks.back(factors, self.work);
     }
 }
 
-/// And back.
-struct Back<'a, 'b>(&'a Blocks, &'b mut [Triple]);
-
-impl WithSimd for Back<'_, '_> {
+impl WithSimd for Solving<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Back(blocks, work) = self;
-        match blocks.digits {
-            Digits::All => blocks.go_back(&blocks.beside, work),
-            Digits::Half => blocks.go_back(&blocks.roughly, work),
+        let Blocks { beside, roughly, digits, .. } = self.blocks;
+        match digits {
+            Digits::All => self.with(beside),
+            Digits::Half => self.with(roughly),
         }
     }
 }
@@ -592,14 +590,14 @@ impl Blocks {
         debug_assert!(!self.is_symmetric);
         self.sort(x, work);
         let changed = self.changed.iter().filter(|changed| **changed).count();
-        if changed * FEW < self.changed.len() {
+        let few = changed * FEW < self.changed.len();
+        if few {
             self.factorise_with(&mut []);
-            Arch::new().dispatch(Forth(self, work));
         } else {
             self.changed.fill(true);
             self.factorise_with(work);
         }
-        self.back(x, work);
+        self.go_through(x, work, few);
     }
 
     /// With right sides in the order of elimination, or none, of a matrix that is not symmetric.
@@ -612,8 +610,7 @@ impl Blocks {
     /// Solves with the factors, in place; `work` has as many triples as there are bodies.
     pub fn solve(&self, x: &mut [Triple], work: &mut [Triple]) {
         self.sort(x, work);
-        Arch::new().dispatch(Forth(self, work));
-        self.back(x, work);
+        self.go_through(x, work, true);
     }
 
     #[inline(always)]
@@ -639,16 +636,16 @@ impl Blocks {
         }
     }
 
-    /// From what has gone forth to the solution by body.
-    fn back(&self, x: &mut [Triple], work: &mut [Triple]) {
-        Arch::new().dispatch(Back(self, work));
+    /// To the solution by body, of what is to go forth first or has gone.
+    fn go_through(&self, x: &mut [Triple], work: &mut [Triple], forth: bool) {
+        Arch::new().dispatch(Solving { blocks: self, work, forth });
         for (body, value) in x.iter_mut().enumerate() {
             *value = work[self.place[body]];
         }
     }
 
     #[inline(always)]
-    fn go_back<T: Number>(&self, factors: &[Both<T>], work: &mut [Triple]) {
+    fn back<T: Number>(&self, factors: &[Both<T>], work: &mut [Triple]) {
         for k in (0..work.len()).rev() {
             let mut sums = [[0.0; 4]; 3];
             let own = self.start[k]..self.start[k + 1];
