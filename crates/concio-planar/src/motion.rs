@@ -19,10 +19,12 @@ use crate::order::Orders;
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
 use crate::tie::{Strain, Tie};
 use devices::Bent;
+use laws::Laws;
 use rocking::Hold;
 use ties::{Pull, Rod};
 
 mod devices;
+mod laws;
 mod rocking;
 mod ties;
 mod vibration;
@@ -204,6 +206,14 @@ pub struct Seen {
     pub touches: bool,
 }
 
+impl Seen {
+    /// What stays of it where its sides do not touch.
+    fn apart(&self) -> Self {
+        let Seen { path, taken, broken, slide, gap, .. } = *self;
+        Seen { path, taken, broken, slide, gap, ..Seen::default() }
+    }
+}
+
 /// A pair that may touch; none is the base.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Pair {
@@ -260,9 +270,10 @@ struct Push {
 #[derive(Debug, Clone)]
 pub struct Motion {
     setting: Setting,
-    links: Vec<Link>,
+    /// Bodies of the joints, and laws.
+    joints: Vec<(Option<usize>, usize)>,
+    laws: Laws,
     rods: Vec<Rod>,
-    other: Law,
     load: Vec<[f64; 2]>,
     held: Vec<[bool; 3]>,
     mass: Vec<Triple>,
@@ -285,6 +296,8 @@ pub struct Motion {
     pub pull: f64,
     strains: Vec<Strain>,
     pairs: Vec<Pair>,
+    /// Which of them have contacts.
+    met: Vec<bool>,
     /// Bodies of the links, the one of the lower number first, sorted.
     linked: Vec<(Option<usize>, usize)>,
     solver: Solver,
@@ -337,6 +350,7 @@ impl Motion {
             pull: 0.0,
             strains: vec![Strain::default(); system.ties.len()],
             pairs: Vec::new(),
+            met: Vec::new(),
             linked,
             solver: Solver::new(0, &[], &Orders::anywhere()),
             orders: Orders::anywhere(),
@@ -353,8 +367,8 @@ impl Motion {
             after: vec![[0.0; 3]; bodies.len()],
             rods: system.ties.iter().map(|tie| Rod::new(tie, &places)).collect(),
             places,
-            links: system.links.clone(),
-            other: system.other,
+            joints: system.links.iter().map(|link| (link.a, link.b)).collect(),
+            laws: Laws::new(&system.links, system.other),
             load: system.load.clone(),
             held: system.held.clone(),
             setting,
@@ -551,7 +565,7 @@ impl Motion {
             let seat = self.seats[k];
             let pair = &self.pairs[seat.pair];
             let Some(ends) = ends(&self.polygons, pair, self.margin(pair)) else { continue };
-            let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
+            let law = self.laws.of(pair.link);
             if let (true, Some(link)) = (law.bears_nothing(), pair.link) {
                 let gaps = ends.map(|e| e.gap);
                 self.seen[link].gap = [gaps[0].min(gaps[1]), gaps[0].max(gaps[1])];
@@ -597,7 +611,7 @@ impl Motion {
         let state = &pair.points[point];
         let mut contact = Contact::rigid((pair.a, pair.b), seat.slot, rows, &self.inverse, state.force.map(|f| h * f));
         contact.drift = lever.map(|lever| lever * held[1]);
-        let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
+        let law = self.laws.of(pair.link);
         let mut gap = touch.gap - 0.5 * h * before[0];
         if law.follows {
             gap = state.gap;
@@ -642,16 +656,10 @@ impl Motion {
         let time = self.time + h;
         self.account.elastic = 0.0;
         self.pull = 0.0;
-        for pair in &mut self.pairs {
-            pair.points.iter_mut().for_each(|p| p.force = [0.0; 2]);
-        }
-        for seen in &mut self.seen {
-            let Seen { path, taken, broken, slide, gap, .. } = *seen;
-            *seen = Seen { path, taken, broken, slide, gap, ..Seen::default() };
-        }
+        self.met.fill(false);
         for (contact, owner) in self.contacts.iter().zip(&self.owners) {
             let pair = &mut self.pairs[owner.pair];
-            let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
+            let law = self.laws.of(pair.link);
             let after = contact.velocity(&self.after);
             let point = &mut pair.points[owner.point];
             let works = law.end(point, owner.share, (h, time), &owner.start, after, contact);
@@ -664,8 +672,12 @@ impl Motion {
             account.bond += works.bond;
             account.device += works.device;
             self.pull -= (whole[0] * owner.lever[0] + whole[1] * owner.lever[1]) / h;
+            self.met[owner.pair] = true;
             let Some(seen) = pair.link.map(|k| &mut self.seen[k]) else { continue };
             let first = owner.point == 0;
+            if first {
+                *seen = Seen { touches: true, ..seen.apart() };
+            }
             seen.gap = if first { [point.gap; 2] } else { [seen.gap[0].min(point.gap), seen.gap[1].max(point.gap)] };
             seen.slide = if first { 0.0 } else { seen.slide } + owner.share * point.slide;
             seen.speed += owner.share * after[1];
@@ -676,11 +688,14 @@ impl Motion {
             seen.path += owner.share * works.slip;
             seen.taken += works.damping + works.friction + works.impact + works.bond + works.device;
             seen.broken += works.bond;
-            seen.touches = true;
         }
-        for pair in &mut self.pairs {
-            let Some(link) = pair.link.filter(|k| !self.seen[*k].touches) else { continue };
-            let law = &self.links[link].law;
+        // Of pairs that touch nothing more has to be fetched.
+        for at in self.met.iter().enumerate().filter(|(_, met)| !**met).map(|(at, _)| at) {
+            let pair = &mut self.pairs[at];
+            pair.points.iter_mut().for_each(|point| point.force = [0.0; 2]);
+            let Some(link) = pair.link else { continue };
+            self.seen[link] = self.seen[link].apart();
+            let law = self.laws.of(Some(link));
             for (point, share) in pair.points.iter_mut().zip(law.shares()) {
                 self.account.impact += law.let_go(point, *share);
             }
@@ -733,12 +748,11 @@ impl Motion {
         let tree = RTree::bulk_load(boxes.clone());
         let known = std::mem::take(&mut self.pairs);
         let fresh = |a, b, link: Option<usize>| {
-            let law = link.map_or(&self.other, |k| &self.links[k].law);
+            let law = self.laws.of(link);
             Pair { a, b, link, points: SmallVec::from_elem(Point::default(), law.shares().len()), laid: 0.0 }
         };
         // Joints stay whatever becomes of them: what has gone apart may come together again.
-        let mut pairs: Vec<Pair> =
-            self.links.iter().enumerate().map(|(k, link)| fresh(link.a, link.b, Some(k))).collect();
+        let mut pairs: Vec<Pair> = self.joints.iter().enumerate().map(|(k, (a, b))| fresh(*a, *b, Some(k))).collect();
         let alone = |a, b| self.linked.binary_search(&(a, b)).is_err();
         for own in &boxes {
             let around: AABB<[f64; 2]> = own.geom().envelope();
@@ -783,6 +797,7 @@ impl Motion {
         let most = if self.rocks { 2 * self.pairs.len() } else { 0 };
         self.holds.reserve(most);
         self.contacts.reserve(most);
+        self.met.resize(self.pairs.len(), false);
         let matrix = self.solver.matrix();
         let seat = |(k, pair): (usize, &Pair)| Seat { pair: k, slot: pair.a.map(|a| matrix.slot(a, pair.b)) };
         self.seats = self.pairs.iter().enumerate().map(seat).collect();
@@ -799,14 +814,14 @@ impl Motion {
 
     /// What has become of the points of a joint; none where its bodies have never been near each other.
     pub fn points(&self, link: usize) -> Option<&[Point]> {
-        let Link { a, b, .. } = &self.links[link];
+        let (a, b) = &self.joints[link];
         let at = self.pairs.binary_search_by_key(&(*a, *b), |p| (p.a, p.b)).ok()?;
         Some(&self.pairs[at].points)
     }
 
     /// Parts of a joint that its points stand for.
     pub fn shares(&self, link: usize) -> &'static [f64] {
-        self.links[link].law.shares()
+        self.laws.of(Some(link)).shares()
     }
 
     /// All that changes.
@@ -834,8 +849,7 @@ impl Motion {
             && kept.strains.len() == self.strains.len()
             && kept.pairs.iter().all(|p| p.b < n && p.a.is_none_or(|a| a < n))
             && kept.pairs.iter().all(|p| {
-                let law = p.link.map_or(Some(&self.other), |k| self.links.get(k).map(|link| &link.law));
-                law.is_some_and(|law| law.shares().len() == p.points.len())
+                p.link.is_none_or(|k| k < self.joints.len()) && self.laws.of(p.link).shares().len() == p.points.len()
             });
         if fits {
             let Kept { places, velocities, time, account, counters, pairs, looked, seen, pull, strains, known } = kept;

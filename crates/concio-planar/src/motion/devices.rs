@@ -67,7 +67,7 @@ impl Motion {
         let Bent { contact, device, beside, at } = self.bent[k];
         let owner = &self.owners[contact];
         let pair = &self.pairs[owner.pair];
-        let law = pair.link.map_or(&self.other, |k| &self.links[k].law);
+        let law = self.laws.of(pair.link);
         let contact = &mut self.contacts[contact];
         let spring = &mut contact.spring[device.direction];
         let line = Linear { offset: spring.offset - beside.offset, rho: spring.rho - beside.rho };

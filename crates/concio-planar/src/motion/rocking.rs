@@ -38,7 +38,7 @@ impl Motion {
             if self.owners[first].point > 0 {
                 continue;
             }
-            let law = self.pairs[self.owners[first].pair].link.map_or(&self.other, |k| &self.links[k].law);
+            let law = self.laws.of(self.pairs[self.owners[first].pair].link);
             let Some(rocking) = law.rocking() else { continue };
             let last = first + law.shares().len() - 1;
             for (lands, opens) in [(first, last), (last, first)] {

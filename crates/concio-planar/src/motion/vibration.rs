@@ -123,7 +123,7 @@ impl Motion {
 
     /// What a point is held by, across and along, if it bears more than `least` [N s].
     fn holding(&self, contact: &Contact, owner: &Owner, least: f64) -> [Holds; 2] {
-        let law = self.pairs[owner.pair].link.map_or(&self.other, |k| &self.links[k].law);
+        let law = self.laws.of(self.pairs[owner.pair].link);
         let point = &self.pairs[owner.pair].points[owner.point];
         let pressed = contact.impulse[0] > least;
         let [across, along] = law.tangent(point.damage, pressed);
