@@ -21,18 +21,19 @@
 //! about a dozen iterations, the last few of them by Newton's method on the laws themselves where nearly all contacts have springs
 //! (`interior/finish.rs`).
 
-mod eight;
 mod finish;
 mod group;
+mod inside;
 mod lanes;
 mod lever;
+mod packs;
 mod point;
 
 use crate::blocks::{Blocks, Digits, Triple};
 use crate::contact::{Contact, Effort, unbalance, worse};
-use eight::{Eights, is_plain};
 use group::Group;
-use lanes::EIGHT;
+use lanes::PACK;
+use packs::{Packs, is_plain};
 use point::{Course, Left, soft};
 
 /// Iterations after which a step is given up.
@@ -65,18 +66,17 @@ const RIGID: f64 = 0.1;
 const INSIDE: f64 = 0.995;
 /// Share of the way after which products are evened out instead of reduced.
 const STUCK: f64 = 0.03;
-/// What distances from bounds are rounded by, over the impulses: to mend it would keep the way short where a bound is met.
-const ROUNDED: f64 = 1e-13;
-
 /// Room for the solution.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Interior {
-    /// Most contacts, in groups of eight; others without and with a largest p_n.
-    plain: Eights,
+    /// Most contacts, in packs; others without and with a largest p_n.
+    plain: Packs,
     usual: Group<3>,
     limited: Group<4>,
     residual: Vec<Triple>,
     step: Vec<Triple>,
+    /// The last direction of Newton's method.
+    gone: Vec<Triple>,
     work: Vec<Triple>,
     /// What contacts push with where velocities stay and second-order parts of the products are taken off: to products of 0, and
     /// what each unit of the products adds.
@@ -177,20 +177,21 @@ impl Interior {
         v: &mut [Triple],
         (tolerance, enough): (f64, f64),
     ) -> Effort {
-        self.start((mass, free), (contacts, survey), v, tolerance);
+        let mut near = if survey.may_end() { finish::NEAR * tolerance } else { 0.0 };
+        // Half of the digits do for directions while they lead on: what is off by them is seen in the next look.
+        let mut digits = if near > 0.0 && survey.yields() { Digits::Half } else { Digits::All };
+        self.start((mass, free), (contacts, survey), v, (tolerance, digits));
         let mut effort = Effort { rounds: 1, ..Effort::default() };
         let (mut least, mut since) = (f64::INFINITY, 0);
         // Share of the last direction that is gone.
         let (mut share, mut stuck) = (0.0, false);
-        let mut near = if survey.may_end() { finish::NEAR * tolerance } else { 0.0 };
-        // Half of the digits do for directions while they lead on: what is off by them is seen in the next look.
-        let mut digits = if near > 0.0 && survey.yields() { Digits::Half } else { Digits::All };
         // What was left at the start, until it began anew.
         let mut begun = None;
         loop {
             let mut left = self.look((matrix, digits), (mass, free), contacts, v, Method::Inside { share });
             effort.residual = worse(left.residual, left.drawn);
-            if left.residual <= tolerance {
+            // With half of the digits it is left to Newton's method to say so.
+            if left.residual <= tolerance && digits == Digits::All {
                 if left.drawn <= tolerance {
                     effort.converged = true;
                     break;
@@ -211,6 +212,7 @@ impl Interior {
                 break;
             }
             if let Some(begun) = begun.take_if(|_| since >= ANEW && effort.residual > enough) {
+                self.plain.refine();
                 self.plain.enter(v, NEARER * begun);
                 self.usual.enter(contacts, v, NEARER * begun);
                 self.limited.enter(contacts, v, NEARER * begun);
@@ -228,6 +230,7 @@ impl Interior {
                     break;
                 }
                 (near, digits) = (finish::AGAIN * left.residual, Digits::All);
+                self.plain.refine();
                 left = self.look((matrix, digits), (mass, free), contacts, v, Method::Inside { share: 0.0 });
             }
             effort.iterations += 1;
@@ -237,7 +240,7 @@ impl Interior {
                 if digits == Digits::All {
                     break;
                 }
-                self.plain.forget_directions();
+                self.plain.refine();
                 self.usual.forget_directions();
                 self.limited.forget_directions();
                 (share, digits) = (0.0, Digits::All);
@@ -245,6 +248,7 @@ impl Interior {
             }
             if since >= ANEW {
                 digits = Digits::All;
+                self.plain.refine();
             }
             stuck = share < STUCK;
             for (v, step) in v.iter_mut().zip(&self.step) {
@@ -264,26 +268,26 @@ impl Interior {
         (mass, free): (&[Triple], &[Triple]),
         (contacts, survey): (&[Contact], &Survey),
         v: &[Triple],
-        tolerance: f64,
+        (tolerance, digits): (f64, Digits),
     ) {
         let [push, rise] = &mut self.pushes;
-        for room in [&mut self.residual, &mut self.step, &mut self.work, push, rise] {
+        for room in [&mut self.residual, &mut self.step, &mut self.gone, &mut self.work, push, rise] {
             room.resize(v.len(), [0.0; 3]);
         }
-        self.plain.clear();
+        self.plain.begin(digits);
         self.usual.clear();
         self.limited.clear();
         inertia(&mut self.residual, mass, free, v);
-        // What is left over of groups of eight are the last.
-        let mut eights = survey.plain / EIGHT;
-        let (mut numbers, mut waiting) = ([0; EIGHT], 0);
+        // What is left over of packs are the last.
+        let mut packs = survey.plain / PACK;
+        let (mut numbers, mut waiting) = ([0; PACK], 0);
         for (number, contact) in contacts.iter().enumerate() {
             let u = contact.velocity(v);
-            if eights > 0 && is_plain(contact) {
+            if packs > 0 && is_plain(contact) {
                 numbers[waiting] = number as u32;
                 waiting += 1;
-                if waiting == EIGHT {
-                    (eights, waiting) = (eights - 1, 0);
+                if waiting == PACK {
+                    (packs, waiting) = (packs - 1, 0);
                     for (number, p) in numbers.iter().zip(self.plain.add(numbers, contacts, v)) {
                         contacts[*number as usize].push(&mut self.residual, p);
                     }
@@ -296,7 +300,7 @@ impl Interior {
             };
             contact.push(&mut self.residual, contact.whole(p, u));
         }
-        debug_assert!(waiting == 0 && eights == 0);
+        debug_assert!(waiting == 0 && packs == 0);
         let scale = unbalance(&self.residual, mass).max(tolerance);
         self.plain.enter(v, scale);
         self.usual.enter(contacts, v, scale);
@@ -320,7 +324,7 @@ impl Interior {
         }
         let (residual, step) = (&mut self.residual[..], &mut self.step[..]);
         let mut sums = Sums { left: Left::default(), number: 0, changed: 0, residual, step, matrix };
-        self.plain.look(v, method, &mut sums);
+        self.plain.look(v, &self.gone, method, &mut sums);
         self.usual.look(contacts, v, method, &mut sums);
         self.limited.look(contacts, v, method, &mut sums);
         let Sums { left: Left { residual, drawn, products }, number, changed, .. } = sums;
@@ -547,9 +551,9 @@ mod tests {
         }
     }
 
-    /// Contacts that are taken eight at a time do what they would do one by one, and some are left over of eight.
+    /// Contacts that are taken in packs do what they would do one by one, and some are left over of packs.
     #[test]
-    fn eight_at_a_time_do_what_each_does_alone() {
+    fn packs_do_what_each_does_alone() {
         let pairs: Vec<_> = (1..6).map(|b| (b - 1, b)).collect();
         let mut matrix = Blocks::new(6, &pairs, &Orders::anywhere());
         let mut interior = Interior::default();
@@ -567,8 +571,8 @@ mod tests {
             }
             let free: Vec<Triple> = (0..6).map(|_| [draw.next(), draw.next(), draw.next()]).collect();
             let survey = survey(&own);
-            assert!(survey.plain == own.len() && own.len() > EIGHT);
-            left_over += usize::from(!own.len().is_multiple_of(EIGHT));
+            assert!(survey.plain == own.len() && own.len() > PACK);
+            left_over += usize::from(!own.len().is_multiple_of(PACK));
             let [together, alone] = [survey, Survey { plain: 0, ..survey }].map(|survey| {
                 let (mut contacts, mut v) = (own.clone(), vec![[0.0; 3]; 6]);
                 let bodies = (&[MASS; 6][..], &free[..]);

@@ -97,11 +97,13 @@ impl Interior {
 
     /// Goes all of the direction.
     fn leap(&mut self, v: &mut [Triple]) {
-        self.plain.jump(&self.step);
+        self.plain.leap();
         self.usual.jump(&self.step);
         self.limited.jump(&self.step);
         for (v, step) in v.iter_mut().zip(&self.step) {
             (0..3).for_each(|k| v[k] += step[k]);
         }
+        // Looks write where directions are.
+        std::mem::swap(&mut self.step, &mut self.gone);
     }
 }

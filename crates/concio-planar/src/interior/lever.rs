@@ -1,11 +1,11 @@
-//! Where the bodies of eight contacts are pushed, and what contacts of one pair add up to.
+//! Where the bodies of contacts that are taken together are pushed, and what contacts of one pair add up to.
 
 use std::array::from_fn;
 
 use pulp::Simd;
 
 use super::Sums;
-use super::lanes::{EIGHT, Eight, Lanes, Real};
+use super::lanes::{Element, Lanes, PACK, Pack, Real};
 use crate::blocks::{Slot, Triple};
 use crate::contact::{BASE, Rows};
 
@@ -13,12 +13,11 @@ use crate::contact::{BASE, Rows};
 pub(super) const PUSHES: usize = 8;
 pub(super) const ALL: usize = PUSHES + 16;
 
-/// The bodies of eight contacts, and their arms.
+/// The bodies of contacts that are taken together.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lever {
-    first: [u32; EIGHT],
-    second: [u32; EIGHT],
-    arms: Arms<Eight>,
+pub(super) struct Bodies {
+    first: Pack<u32>,
+    second: Pack<u32>,
 }
 
 /// The normal on the second body, and the arms of normal and tangent on the first and on the second: the tangent is the normal turned, and
@@ -30,9 +29,9 @@ pub(super) struct Arms<T> {
     along: [T; 2],
 }
 
-impl Lever {
-    /// Of rows that have levers.
-    pub fn of(rows: [&Rows; EIGHT]) -> Self {
+impl Bodies {
+    /// Of rows that have levers, with their arms.
+    pub fn of(rows: [&Rows; PACK]) -> (Self, Arms<Pack<f64>>) {
         let each = rows.map(|rows| rows.levers().expect("rows that have levers"));
         let [first, second] = [0, 1].map(|i| each.map(|lever| lever.bodies[i]));
         let arms = Arms {
@@ -40,34 +39,44 @@ impl Lever {
             across: from_fn(|i| each.map(|lever| lever.across[i])),
             along: from_fn(|i| each.map(|lever| lever.along[i])),
         };
-        Lever { first, second, arms }
+        (Bodies { first, second }, arms)
     }
 
     #[inline(always)]
-    pub fn bodies(&self, k: usize) -> [u32; 2] {
+    pub fn each(&self, k: usize) -> [u32; 2] {
         [self.first[k], self.second[k]]
     }
 
     /// By how much the second body of each moves away from the first, and how both turn.
     #[inline(always)]
-    pub fn gather(&self, v: &[Triple]) -> [Eight; 4] {
-        let mut all = [[0.0; EIGHT]; 4];
-        for k in 0..EIGHT {
-            let second = &v[self.second[k] as usize];
-            (all[0][k], all[1][k], all[3][k]) = (second[0], second[1], second[2]);
+    pub fn gather<F: Element>(&self, v: &[Triple]) -> [Pack<F>; 4] {
+        let mut all = [[F::default(); PACK]; 4];
+        for k in 0..PACK {
+            let [mut x, mut y, turn] = v[self.second[k] as usize];
+            let mut before = 0.0;
             if self.first[k] != BASE {
                 let first = &v[self.first[k] as usize];
-                all[0][k] -= first[0];
-                all[1][k] -= first[1];
-                all[2][k] = first[2];
+                x -= first[0];
+                y -= first[1];
+                before = first[2];
             }
+            (all[0][k], all[1][k], all[2][k], all[3][k]) = (F::of(x), F::of(y), F::of(before), F::of(turn));
         }
         all
     }
+}
+
+impl<F: Element> Arms<Pack<F>> {
+    /// With other digits.
+    pub fn with<G: Element>(&self) -> Arms<Pack<G>> {
+        let [n, across, along] =
+            [self.n, self.across, self.along].map(|two| two.map(|pack| pack.map(|x| G::of(x.wide()))));
+        Arms { n, across, along }
+    }
 
     #[inline(always)]
-    pub fn part<S: Simd>(&self, simd: S, part: usize) -> Arms<Lanes<S>> {
-        let Arms { n, across, along } = &self.arms;
+    pub fn part<S: Simd>(&self, simd: S, part: usize) -> Arms<Lanes<S, F>> {
+        let Arms { n, across, along } = self;
         Arms {
             n: [Lanes::of(simd, &n[0], part), Lanes::of(simd, &n[1], part)],
             across: [Lanes::of(simd, &across[0], part), Lanes::of(simd, &across[1], part)],
@@ -116,33 +125,33 @@ impl<T: Real> Arms<T> {
 }
 
 /// What contacts of one pair that follow each other add to its bodies, and to the matrix: each is gone to once for all.
-pub(super) struct Joined<const NUMBERS: usize> {
+pub(super) struct Joined<F, const NUMBERS: usize> {
     pub bodies: [u32; 2],
     slot: Option<Slot>,
-    sums: [f64; NUMBERS],
+    sums: [F; NUMBERS],
     resists: bool,
 }
 
-impl<const NUMBERS: usize> Joined<NUMBERS> {
+impl<F: Element, const NUMBERS: usize> Joined<F, NUMBERS> {
     pub fn none() -> Self {
-        Joined { bodies: [BASE; 2], slot: None, sums: [0.0; NUMBERS], resists: false }
+        Joined { bodies: [BASE; 2], slot: None, sums: [F::default(); NUMBERS], resists: false }
     }
 
     #[inline(always)]
     pub fn begin(&mut self, bodies: [u32; 2], slot: Option<Slot>) {
-        *self = Joined { bodies, slot, sums: [0.0; NUMBERS], resists: false };
+        *self = Joined { bodies, slot, ..Joined::none() };
     }
 
     /// The first so many numbers of a contact.
     #[inline(always)]
-    pub fn add(&mut self, numbers: &[Eight; NUMBERS], k: usize, many: usize) {
-        for (sum, eight) in self.sums[..PUSHES].iter_mut().zip(numbers) {
-            *sum += eight[k];
+    pub fn add(&mut self, numbers: &[Pack<F>; NUMBERS], k: usize, many: usize) {
+        for (sum, pack) in self.sums[..PUSHES].iter_mut().zip(numbers) {
+            *sum += pack[k];
         }
         if many > PUSHES {
             self.resists = true;
-            for (sum, eight) in self.sums[PUSHES..].iter_mut().zip(&numbers[PUSHES..]) {
-                *sum += eight[k];
+            for (sum, pack) in self.sums[PUSHES..].iter_mut().zip(&numbers[PUSHES..]) {
+                *sum += pack[k];
             }
         }
     }
@@ -154,7 +163,7 @@ impl<const NUMBERS: usize> Joined<NUMBERS> {
         if second == BASE {
             return;
         }
-        let push: [f64; 4] = [self.sums[from], self.sums[from + 1], self.sums[from + 2], self.sums[from + 3]];
+        let push: [f64; 4] = from_fn(|k| self.sums[from + k].wide());
         let body = &mut balance[second as usize];
         *body = [body[0] + push[0], body[1] + push[1], body[2] + push[3]];
         if first != BASE {
@@ -164,7 +173,7 @@ impl<const NUMBERS: usize> Joined<NUMBERS> {
     }
 }
 
-impl Joined<ALL> {
+impl<F: Element> Joined<F, ALL> {
     /// All to where it belongs.
     #[inline(always)]
     pub fn end_look(&self, sums: &mut Sums) {
@@ -174,7 +183,7 @@ impl Joined<ALL> {
             return;
         }
         // By what moves and what that pushes: x, y, turns of the first and of the second.
-        let at = |by: usize, on: usize| self.sums[PUSHES + 4 * by + on];
+        let at = |by: usize, on: usize| self.sums[PUSHES + 4 * by + on].wide();
         let [xx, xy, yx, yy] = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
         let own = |k: usize, sign: f64| {
             [
