@@ -86,7 +86,7 @@ impl<F: Element> Arms<Pack<F>> {
 }
 
 impl<T: Real> Arms<T> {
-    /// By how much the parting and the sliding velocity change, by [`Lever::gather`].
+    /// By how much the parting and the sliding velocity change, by [`Bodies::gather`].
     #[inline(always)]
     pub fn change(&self, [x, y, first, second]: [T; 4]) -> [T; 2] {
         let ([n_x, n_y], across, along) = (self.n, self.across, self.along);
