@@ -16,8 +16,8 @@
 //! contact bore before, and both choose among impulses that give the same motion those nearest to p⁰.
 //!
 //! Every iteration solves (P1), (P5) and (P5a), linear about the iterate and with products λ s that fall, for v: a matrix like that
-//! of [`crate::contact`] with what friction answers to pressure in each contact. It is factorised once per iteration, in 32 bits where no
-//! contact is too stiff for that, and used for a prediction and a correction (Mehrotra 1992). However many contacts open and close, that takes
+//! of [`crate::contact`] with what friction answers to pressure in each contact. It is factorised once per iteration, in 32 bits, as most contacts are
+//! kept too, where none is too stiff for that, and used for a prediction and a correction (Mehrotra 1992). However many contacts open and close, that takes
 //! about a dozen iterations, the last few of them by Newton's method on the laws themselves where nearly all contacts have springs
 //! (`interior/finish.rs`).
 
@@ -66,6 +66,7 @@ const RIGID: f64 = 0.1;
 const INSIDE: f64 = 0.995;
 /// Share of the way after which products are evened out instead of reduced.
 const STUCK: f64 = 0.03;
+
 /// Room for the solution.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Interior {
@@ -81,7 +82,8 @@ pub(crate) struct Interior {
     /// What contacts push with where velocities stay and second-order parts of the products are taken off: to products of 0, and
     /// what each unit of the products adds.
     pushes: [Vec<Triple>; 2],
-    /// Velocities before an attempt to end.
+    /// Velocities at the start, and before an attempt to end.
+    guess: Vec<Triple>,
     before: Vec<Triple>,
 }
 
@@ -180,6 +182,8 @@ impl Interior {
         let mut near = if survey.may_end() { finish::NEAR * tolerance } else { 0.0 };
         // Half of the digits do for directions while they lead on: what is off by them is seen in the next look.
         let mut digits = if near > 0.0 && survey.yields() { Digits::Half } else { Digits::All };
+        self.guess.clear();
+        self.guess.extend_from_slice(v);
         self.start((mass, free), (contacts, survey), v, (tolerance, digits));
         let mut effort = Effort { rounds: 1, ..Effort::default() };
         let (mut least, mut since) = (f64::INFINITY, 0);
@@ -207,8 +211,16 @@ impl Interior {
             if effort.iterations == 0 {
                 begun = Some(left.residual);
             }
+            if !left.residual.is_finite() && self.begins_anew(digits, (mass, free), (contacts, survey), v, tolerance) {
+                (share, least, since, digits) = (0.0, f64::INFINITY, 0, Digits::All);
+                continue;
+            }
             let stays = since >= if effort.residual <= enough { PATIENCE } else { STALLED };
             if effort.iterations >= MOST || stays || !left.residual.is_finite() {
+                // Half of the digits do not tell how near it is.
+                if digits == Digits::Half {
+                    effort.residual = f64::INFINITY;
+                }
                 break;
             }
             if let Some(begun) = begun.take_if(|_| since >= ANEW && effort.residual > enough) {
@@ -237,13 +249,10 @@ impl Interior {
             share = self.direct(matrix, &left, stuck);
             // Where products vanish before the conditions hold, rounding ends in nothing over nothing.
             if !self.step.iter().flatten().all(|x| x.is_finite()) {
-                if digits == Digits::All {
+                if !self.begins_anew(digits, (mass, free), (contacts, survey), v, tolerance) {
                     break;
                 }
-                self.plain.refine();
-                self.usual.forget_directions();
-                self.limited.forget_directions();
-                (share, digits) = (0.0, Digits::All);
+                (share, least, since, digits) = (0.0, f64::INFINITY, 0, Digits::All);
                 continue;
             }
             if since >= ANEW {
@@ -260,6 +269,23 @@ impl Interior {
         self.usual.tell(contacts, v);
         self.limited.tell(contacts, v);
         effort
+    }
+
+    /// Where half of the digits ended in what is no number, from the guess with all of them; false where it has all.
+    fn begins_anew(
+        &mut self,
+        digits: Digits,
+        bodies: (&[Triple], &[Triple]),
+        contacts: (&[Contact], &Survey),
+        v: &mut [Triple],
+        tolerance: f64,
+    ) -> bool {
+        let half = digits == Digits::Half;
+        if half {
+            v.copy_from_slice(&self.guess);
+            self.start(bodies, contacts, v, (tolerance, Digits::All));
+        }
+        half
     }
 
     /// Within the bounds, near what was borne before: as far from them as that is off balance.
@@ -551,6 +577,59 @@ mod tests {
         }
     }
 
+    /// Contacts of seed `seed` that may all be taken in packs, and velocities without contact.
+    fn plain_contacts(seed: u64, matrix: &Blocks) -> (Vec<Contact>, Vec<Triple>) {
+        let mut draw = Draw(seed);
+        let mut own: Vec<Contact> = (0..3).flat_map(|_| contacts(&mut draw, matrix, 1.0)).collect();
+        for contact in &mut own {
+            (contact.hold, contact.pressure) = (0.0, [0.0, f64::INFINITY]);
+            contact.spring = Default::default();
+            contact.friction = contact.friction.clamp(0.1, 0.8);
+            for k in 0..2 {
+                contact.law[k].rho = contact.law[k].rho.max(0.1 * contact.moved[k]);
+            }
+        }
+        let free = (0..6).map(|_| [draw.next(), draw.next(), draw.next()]).collect();
+        (own, free)
+    }
+
+    /// Masses and impulses that 32 bits do not hold, or whose factors they do not, are solved with 64.
+    #[test]
+    fn what_half_of_the_digits_do_not_hold_is_solved_with_all() {
+        let pairs: Vec<_> = (1..6).map(|b| (b - 1, b)).collect();
+        let mut matrix = Blocks::new(6, &pairs, &Orders::anywhere());
+        let mut interior = Interior::default();
+        for scale in [1e-25, 1e-37, 1e25, 1e36] {
+            let (mut solved, mut alike) = (0, 0);
+            for seed in 0..100 {
+                let (own, free) = plain_contacts(seed, &matrix);
+                let [as_is, scaled] = [1.0, scale].map(|scale| {
+                    let (mut contacts, mut v) = (own.clone(), vec![[0.0; 3]; 6]);
+                    for contact in &mut contacts {
+                        for k in 0..2 {
+                            contact.law[k].offset *= scale;
+                            contact.law[k].rho *= scale;
+                            contact.moved[k] *= scale;
+                            contact.impulse[k] *= scale;
+                        }
+                    }
+                    let survey = survey(&contacts);
+                    assert!(survey.yields() && survey.may_end() && survey.plain == contacts.len());
+                    let mass = [MASS.map(|m| scale * m); 6];
+                    let bodies = (&mass[..], &free[..]);
+                    let effort = interior.solve(&mut matrix, bodies, (&mut contacts, &survey), &mut v, (1e-6, 1e-6));
+                    (v, effort.converged)
+                });
+                if as_is.1 {
+                    solved += usize::from(scaled.1);
+                    let off = as_is.0.iter().flatten().zip(scaled.0.iter().flatten()).map(|(a, b)| (a - b).abs());
+                    alike += usize::from(scaled.1 && off.fold(0.0, worse) < 1e-9);
+                }
+            }
+            assert!(solved > 90 && alike * 20 > solved * 19, "{scale:e}: {solved}, {alike}");
+        }
+    }
+
     /// Contacts that are taken in packs do what they would do one by one, and some are left over of packs.
     #[test]
     fn packs_do_what_each_does_alone() {
@@ -559,17 +638,7 @@ mod tests {
         let mut interior = Interior::default();
         let (mut solved, mut alike, mut left_over) = (0, 0, 0);
         for seed in 0..300 {
-            let mut draw = Draw(seed);
-            let mut own: Vec<Contact> = (0..3).flat_map(|_| contacts(&mut draw, &matrix, 1.0)).collect();
-            for contact in &mut own {
-                (contact.hold, contact.pressure) = (0.0, [0.0, f64::INFINITY]);
-                contact.spring = Default::default();
-                contact.friction = contact.friction.clamp(0.1, 0.8);
-                for k in 0..2 {
-                    contact.law[k].rho = contact.law[k].rho.max(0.1 * contact.moved[k]);
-                }
-            }
-            let free: Vec<Triple> = (0..6).map(|_| [draw.next(), draw.next(), draw.next()]).collect();
+            let (own, free) = plain_contacts(seed, &matrix);
             let survey = survey(&own);
             assert!(survey.plain == own.len() && own.len() > PACK);
             left_over += usize::from(!own.len().is_multiple_of(PACK));

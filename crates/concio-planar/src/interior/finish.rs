@@ -23,7 +23,7 @@ const ROUNDED: f64 = 1e-6;
 impl Interior {
     /// Solves a step to `tolerance` [m/s] from where it is, with the bounds at first that the last direction tells (`led`), and a matrix that changes
     /// by differences if it `keeps` what it was. Where it does not
-    /// converge, `v` and the points are as they were, but not what a look makes of them.
+    /// converge, `v` and the points are as they were, but not what a look makes of them, nor impulses with all digits of packs that have half.
     pub(super) fn finish(
         &mut self,
         matrix: &mut Blocks,

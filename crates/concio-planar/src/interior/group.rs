@@ -141,11 +141,6 @@ impl<const N: usize> Group<N> {
         }
     }
 
-    /// Nothing is gone of the last.
-    pub fn forget_directions(&mut self) {
-        self.ways.fill(Way::none(0.0));
-    }
-
     /// Goes all of what Newton's method says.
     pub fn jump(&mut self, step: &[Triple]) {
         for ((point, view), rows) in self.points.iter_mut().zip(&self.views).zip(&self.rows) {

@@ -12,7 +12,7 @@ use super::{INSIDE, Sums};
 use crate::blocks::Triple;
 use crate::contact::Contact;
 
-/// What is small beside what it is added to, or soon to be, and takes half of the room: a direction, and what is off. What rounding
+/// What is small beside what it is added to, or soon to be, and has half of the digits whatever the rest has: a direction, and what is off. What rounding
 /// leaves of either is off in the next iteration, and 10⁻⁷ of it.
 type Brief = Pack<f32>;
 
@@ -118,15 +118,14 @@ impl Given<f64> {
     }
 
     /// With half of the digits.
-    pub fn with(&self) -> Given<f32> {
-        let brief = |pack: Pack<f64>| pack.map(|x| x as f32);
+    pub fn brief(&self) -> Given<f32> {
         Given {
             anchor: self.anchor.map(brief),
             soft: self.soft.map(brief),
             mass: brief(self.mass),
             friction: brief(self.friction),
             bias: brief(self.bias),
-            arms: self.arms.with(),
+            arms: self.arms.brief(),
         }
     }
 }
@@ -291,6 +290,11 @@ fn each<S: Simd, F: Element>(of: &[Lanes<S, F>; PACK]) -> Pack<f64> {
 }
 
 #[inline(always)]
+pub(super) fn brief(pack: Pack<f64>) -> Pack<f32> {
+    pack.map(|x| x as f32)
+}
+
+#[inline(always)]
 pub(super) fn wide<F: Element>(pack: Pack<F>) -> Pack<f64> {
     pack.map(F::wide)
 }
@@ -307,7 +311,7 @@ impl<F: Element> Inside<F> {
         self.p.push(p);
     }
 
-    /// What goes on from given impulses.
+    /// For all that changes, also where it only settles: no later step has to ask for more.
     fn make_room(&mut self) {
         let (packs, none, brief) = (self.given.len(), [F::default(); PACK], [0.0; PACK]);
         self.bounds.resize(packs, Bounds { s: [none; N], lambda: [none; N] });
@@ -349,7 +353,7 @@ impl<F: Element> Inside<F> {
         joints: &Joints,
         v: &[Triple],
         share: f64,
-        rests: Option<&mut Vec<Rest>>,
+        rests: Option<&[Rest]>,
         sums: &mut Sums,
     ) {
         let zero = Lanes::<S, F>::all(simd, 0.0);
@@ -359,13 +363,13 @@ impl<F: Element> Inside<F> {
         let each = points.zip(joints.bodies.iter().zip(&joints.slots)).enumerate();
         for (at, (((((given, p), bounds), strays), ways), (bodies, slots))) in each {
             let u = bodies.gather::<F>(v);
-            let rest = rests.as_ref().map(|rests| &rests[at]);
+            let rest = rests.map(|rests| &rests[at]);
             let mut numbers = [[F::default(); PACK]; ALL];
             for part in 0..Lanes::<S, F>::PARTS {
                 let laws = given.laws(rest, (simd, part));
                 let (mut point, arms) = (given.point(p, Some(bounds), (simd, part)), given.arms.part(simd, part));
                 let (u, left) = (arms.change(parts(simd, &u, part)), &mut left[part]);
-                // The last direction may be of no number, and then is not gone.
+                // Before the first of a step, that of another is there.
                 if share != 0.0 {
                     point.go(zero.alike(share), &ways.part(simd, part));
                 }

@@ -5,6 +5,7 @@ use std::array::from_fn;
 use pulp::Simd;
 
 use super::Sums;
+use super::inside::brief;
 use super::lanes::{Element, Lanes, PACK, Pack, Real};
 use crate::blocks::{Slot, Triple};
 use crate::contact::{BASE, Rows};
@@ -66,14 +67,15 @@ impl Bodies {
     }
 }
 
-impl<F: Element> Arms<Pack<F>> {
-    /// With other digits.
-    pub fn with<G: Element>(&self) -> Arms<Pack<G>> {
-        let [n, across, along] =
-            [self.n, self.across, self.along].map(|two| two.map(|pack| pack.map(|x| G::of(x.wide()))));
+impl Arms<Pack<f64>> {
+    /// With half of the digits.
+    pub fn brief(&self) -> Arms<Pack<f32>> {
+        let [n, across, along] = [self.n, self.across, self.along].map(|two| two.map(brief));
         Arms { n, across, along }
     }
+}
 
+impl<F: Element> Arms<Pack<F>> {
     #[inline(always)]
     pub fn part<S: Simd>(&self, simd: S, part: usize) -> Arms<Lanes<S, F>> {
         let Arms { n, across, along } = self;

@@ -3,7 +3,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::inside::{Does, Given, Inside, Rest, parts, put, put_at, wide};
+use super::inside::{Does, Given, Inside, Rest, brief, parts, put, put_at, wide};
 use super::lanes::{Lanes, PACK, Pack, Real};
 use super::lever::{ALL, Bodies, Joined, PUSHES};
 use super::point::{Course, Kind, Left, Point, View, is_dry};
@@ -91,7 +91,8 @@ impl Packs {
         self.rests.push(rest);
         let p = [0, 1].map(|k| points.map(|point| point.p[k]));
         if self.digits == Digits::Half {
-            self.rough.add(given.with(), p.map(|pack| pack.map(|x| x as f32)));
+            debug_assert!(!self.any_firm, "half of the digits are for springs alone");
+            self.rough.add(given.brief(), p.map(brief));
         }
         self.fine.add(given, p);
         points.map(|p| p.p)
@@ -211,7 +212,7 @@ impl Packs {
         self.leaps = true;
     }
 
-    /// Draws rigid contacts to what they bear now, where they have all digits.
+    /// Draws rigid contacts to what they bear now; none is where half of the digits do.
     pub fn anchor(&mut self) {
         for ((given, p), rest) in self.fine.given.iter_mut().zip(&self.fine.p).zip(&self.rests) {
             for (k, lane) in (0..2).flat_map(|k| (0..PACK).map(move |lane| (k, lane))) {
@@ -222,8 +223,12 @@ impl Packs {
         }
     }
 
+    /// What goes back to half of the digits need not be kept: they stay.
     pub fn keep(&mut self) {
         self.before.clear();
+        if self.digits == Digits::Half {
+            return;
+        }
         self.before.extend(self.fine.given.iter().zip(&self.fine.p).map(|(given, p)| [*p, given.anchor]));
     }
 
@@ -266,7 +271,7 @@ impl WithSimd for Look<'_, '_> {
                 let Packs { joints, rough, fine, rests, any_firm, .. } = packs;
                 match packs.digits {
                     Digits::Half => rough.look(simd, joints, v, share, None, sums),
-                    Digits::All => fine.look(simd, joints, v, share, any_firm.then_some(rests), sums),
+                    Digits::All => fine.look(simd, joints, v, share, any_firm.then_some(&rests[..]), sums),
                 }
             }
             Method::AtBounds { led } => packs.choose(simd, (v, gone), (led, true, true), sums),
