@@ -461,7 +461,8 @@ impl Solver {
     /// Solves a step to `tolerance` [m/s]: the augmented Lagrangian, for as long as it falls quickly, as it does where
     /// contacts go on doing what they did; then, unless a contact moves nothing, an interior point method, which may leave
     /// `enough` [m/s] where it does not come nearer. `v` holds a guess on entry. Where the first failed several times in a row it is left out
-    /// for some steps.
+    /// for some steps. Where neither solves it the former goes on for as long as it takes, unless the step is rather taken in two (`halves`) and
+    /// nearly all contacts have springs: an interior point method solves halves then.
     pub fn newton(
         &mut self,
         mass: &[Triple],
@@ -469,6 +470,7 @@ impl Solver {
         contacts: &mut [Contact],
         v: &mut [Triple],
         (tolerance, enough): (f64, f64),
+        halves: bool,
     ) -> Effort {
         // All that is asked of each, in one go: where there are many they are far away.
         let mut survey = Survey::default();
@@ -504,11 +506,14 @@ impl Solver {
         if second.residual <= enough {
             return first.then(second);
         }
-        // An interior point method that went astray says nothing.
-        let nearer = !left_out && second.residual <= first.residual;
         if left_out {
             self.left_out = self.pause();
         }
+        if halves && survey.may_end() {
+            return first.then(second);
+        }
+        // An interior point method that went astray says nothing.
+        let nearer = !left_out && second.residual <= first.residual;
         if nearer {
             self.keep(contacts, v);
         } else {

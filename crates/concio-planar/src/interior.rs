@@ -41,13 +41,16 @@ const MOST: usize = 60;
 /// 1/E over ρ of a rigid contact: more leaves what head joints bear to chance instead of to what they bore before, less
 /// gives way by more than the tolerance.
 const FIRM: f64 = 1e4;
-/// Iterations in which what is left has to be halved: once it is small enough, and before.
+/// Iterations in which what is left has to be halved: once it is small enough, and before; fewer where nearly all contacts have springs, and a
+/// step that stalls is soon solved in two halves.
 const PATIENCE: usize = 8;
 const STALLED: usize = 25;
-/// Iterations that have not halved what is left after which it begins anew, once, from where it came to, and for what is out of balance
-/// then the share of what was left at first: bounds it came too near to on its way keep the way short, and there are steps that it never
-/// ends otherwise.
+const STALLED_SOFT: usize = 12;
+/// Iterations that have not halved what is left after which it begins anew, from where it came to, and for what is out of balance then the
+/// share of what was left at first: bounds it came too near to on its way keep the way short, and there are steps that it never ends otherwise.
+/// So many times where nearly all contacts have springs; once elsewhere, where more of it costs more than it solves.
 const ANEW: usize = 4;
+const TIMES: usize = 2;
 const NEARER: f64 = 0.01;
 /// Largest 1/E, with springs beside, over the mass that a contact moves where half of the digits tell directions, which are off by some 6·10⁻⁸
 /// of that.
@@ -189,8 +192,9 @@ impl Interior {
         let (mut least, mut since) = (f64::INFINITY, 0);
         // Share of the last direction that is gone.
         let (mut share, mut stuck) = (0.0, false);
-        // What was left at the start, until it began anew.
-        let mut begun = None;
+        // What was left at the start, and times that it began anew.
+        let (mut begun, mut times) = (0.0, 0);
+        let (most_times, stalled) = if survey.may_end() { (TIMES, STALLED_SOFT) } else { (1, STALLED) };
         loop {
             let mut left = self.look((matrix, digits), (mass, free), contacts, v, Method::Inside { share });
             effort.residual = worse(left.residual, left.drawn);
@@ -209,13 +213,13 @@ impl Interior {
             }
             (least, since) = if effort.residual <= 0.5 * least { (effort.residual, 0) } else { (least, since + 1) };
             if effort.iterations == 0 {
-                begun = Some(left.residual);
+                begun = left.residual;
             }
             if !left.residual.is_finite() && self.begins_anew(digits, (mass, free), (contacts, survey), v, tolerance) {
                 (share, least, since, digits) = (0.0, f64::INFINITY, 0, Digits::All);
                 continue;
             }
-            let stays = since >= if effort.residual <= enough { PATIENCE } else { STALLED };
+            let stays = since >= if effort.residual <= enough { PATIENCE } else { stalled };
             if effort.iterations >= MOST || stays || !left.residual.is_finite() {
                 // Half of the digits do not tell how near it is.
                 if digits == Digits::Half {
@@ -223,7 +227,8 @@ impl Interior {
                 }
                 break;
             }
-            if let Some(begun) = begun.take_if(|_| since >= ANEW && effort.residual > enough) {
+            if times < most_times && since >= ANEW && effort.residual > enough {
+                times += 1;
                 self.plain.refine();
                 self.plain.enter(v, NEARER * begun);
                 self.usual.enter(contacts, v, NEARER * begun);

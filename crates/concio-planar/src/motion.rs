@@ -490,8 +490,10 @@ impl Motion {
         self.fasten(h, held);
         self.hold_back(h);
         self.guess();
-        let effort = self.solve();
-        let effort = self.follow_devices(h, effort);
+        // Without inertia halves of a step are other steps, of loads that come to bear.
+        let halves = !come_what_may && !self.setting.still;
+        let effort = self.solve(halves);
+        let effort = self.follow_devices(h, halves, effort);
         self.count(effort);
         let enough = effort.residual <= self.setting.enough();
         if !enough && !come_what_may {
@@ -536,10 +538,13 @@ impl Motion {
         }
     }
 
-    fn solve(&mut self) -> Effort {
+    fn solve(&mut self, halves: bool) -> Effort {
         let Motion { solver, mass, inverse, free, contacts, after, setting, .. } = self;
         match setting.method {
-            Method::Newton => solver.newton(mass, free, contacts, after, (setting.tolerance, setting.enough())),
+            Method::Newton => {
+                let ends = (setting.tolerance, setting.enough());
+                solver.newton(mass, free, contacts, after, ends, halves)
+            }
             Method::GaussSeidel(rounds) => {
                 solver.gauss_seidel(inverse, free, contacts, after, setting.tolerance, rounds)
             }

@@ -42,7 +42,7 @@ impl Motion {
     }
 
     /// Solves again until the lines are those of the solution, after a first one that took `effort`; no longer where contact stays unsolved.
-    pub(super) fn follow_devices(&mut self, h: f64, effort: Effort) -> Effort {
+    pub(super) fn follow_devices(&mut self, h: f64, halves: bool, effort: Effort) -> Effort {
         let mut effort = effort;
         for round in 0.. {
             let mut missed = 0.0;
@@ -56,7 +56,7 @@ impl Motion {
                 effort.residual = worse(effort.residual, missed);
                 break;
             }
-            effort = effort.then(self.solve());
+            effort = effort.then(self.solve(halves));
         }
         effort
     }
