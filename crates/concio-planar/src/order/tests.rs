@@ -105,6 +105,50 @@ fn walls_take_no_more_products_than_they_did() {
     }
 }
 
+/// A façade of 36 courses, so many times 33 bricks long, each time with a door and five windows.
+fn facade(times: usize) -> (Vec<(usize, usize)>, Vec<[f64; 2]>) {
+    let openings = [
+        [14.5, 18.5, -0.5, 12.0],
+        [4.5, 8.0, 5.0, 12.0],
+        [25.0, 28.5, 5.0, 12.0],
+        [4.5, 8.0, 21.0, 29.0],
+        [14.75, 18.25, 21.0, 29.0],
+        [25.0, 28.5, 21.0, 29.0],
+    ];
+    let (pairs, at) = wall(36, 33 * times);
+    let is_wall = |[x, y]: &[f64; 2]| {
+        !openings.iter().any(|[x0, x1, y0, y1]| (*x0..*x1).contains(&(x % 33.0)) && (*y0..*y1).contains(y))
+    };
+    let mut kept = vec![None; at.len()];
+    let mut number = 0;
+    for (own, at) in kept.iter_mut().zip(&at) {
+        if is_wall(at) {
+            *own = Some(number);
+            number += 1;
+        }
+    }
+    let pairs = pairs.iter().filter_map(|(a, b)| Some((kept[*a]?, kept[*b]?))).collect();
+    (pairs, at.into_iter().filter(is_wall).collect())
+}
+
+/// Every length that a façade is made longer by takes as many products and factors as the one before: what elimination costs is linear in the
+/// number of blocks. Only the ends of a wall take less, which the shortest consists of.
+#[test]
+fn longer_facades_take_as_much_more_as_they_are_longer() {
+    let (mut blocks, mut work) = (Vec::new(), Vec::new());
+    for times in (2..=10).step_by(2) {
+        let (pairs, at) = facade(times);
+        let found = elimination(at.len(), &pairs, &at);
+        blocks.push(at.len());
+        work.push([found.products(), found.rows.iter().map(|row| row.len() as u64).sum()]);
+    }
+    assert!((2_000..2_100).contains(&blocks[0]) && blocks[4] > 10_000);
+    for kind in 0..2 {
+        let more: Vec<f64> = work.windows(2).map(|two| (two[1][kind] - two[0][kind]) as f64).collect();
+        assert!(more.iter().all(|more_of| (more_of / more[0] - 1.0).abs() < 0.01), "{more:?}");
+    }
+}
+
 /// Square walls are cut, and a quarter is gained by that at least; long ones are not.
 #[test]
 fn what_is_better_is_kept() {
