@@ -461,8 +461,8 @@ impl Solver {
     /// Solves a step to `tolerance` [m/s]: the augmented Lagrangian, for as long as it falls quickly, as it does where
     /// contacts go on doing what they did; then, unless a contact moves nothing, an interior point method, which may leave
     /// `enough` [m/s] where it does not come nearer. `v` holds a guess on entry. Where the first failed several times in a row it is left out
-    /// for some steps. Where neither solves it the former goes on for as long as it takes, unless the step is rather taken in two (`halves`) and
-    /// nearly all contacts have springs: an interior point method solves halves then.
+    /// for some steps. Where neither solves it the former goes on, for a few hundred iterations at most; a step that is rather taken in two
+    /// (`halves`) is left unsolved instead where nearly all contacts have springs.
     pub fn newton(
         &mut self,
         mass: &[Triple],
@@ -502,14 +502,16 @@ impl Solver {
         };
         // Its factors overwrite those that are known.
         self.known.clear();
-        let second = self.interior.solve(&mut self.matrix, (mass, free), (contacts, &survey), v, (tolerance, enough));
+        let halves = halves && survey.may_end();
+        let bodies = (mass, free);
+        let second = self.interior.solve(&mut self.matrix, bodies, (contacts, &survey), v, (tolerance, enough), halves);
         if second.residual <= enough {
             return first.then(second);
         }
         if left_out {
             self.left_out = self.pause();
         }
-        if halves && survey.may_end() {
+        if halves {
             return first.then(second);
         }
         // An interior point method that went astray says nothing.

@@ -41,17 +41,18 @@ const MOST: usize = 60;
 /// 1/E over ρ of a rigid contact: more leaves what head joints bear to chance instead of to what they bore before, less
 /// gives way by more than the tolerance.
 const FIRM: f64 = 1e4;
-/// Iterations in which what is left has to be halved: once it is small enough, and before; fewer where nearly all contacts have springs, and a
-/// step that stalls is soon solved in two halves.
+/// Iterations in which what is left has to be halved: once it is small enough, and before, and before where the step is taken in two halves if it
+/// is not solved.
 const PATIENCE: usize = 8;
 const STALLED: usize = 25;
-const STALLED_SOFT: usize = 12;
+const STALLED_SHORT: usize = 12;
 /// Iterations that have not halved what is left after which it begins anew, from where it came to, and for what is out of balance then the
 /// share of what was left at first: bounds it came too near to on its way keep the way short, and there are steps that it never ends otherwise.
-/// So many times where nearly all contacts have springs; once elsewhere, where more of it costs more than it solves.
 const ANEW: usize = 4;
-const TIMES: usize = 2;
 const NEARER: f64 = 0.01;
+/// How often it does so where nearly all contacts have springs, and elsewhere, where more costs more than it solves.
+const TIMES: usize = 2;
+const TIMES_RIGID: usize = 1;
 /// Largest 1/E, with springs beside, over the mass that a contact moves where half of the digits tell directions, which are off by some 6·10⁻⁸
 /// of that.
 const YIELDING: f64 = 1e5;
@@ -173,7 +174,8 @@ impl Survey {
 }
 
 impl Interior {
-    /// Solves a step to `tolerance` [m/s], or for as long as that gets nearer to it from `enough` [m/s] on; `v` holds a guess on entry.
+    /// Solves a step to `tolerance` [m/s], or for as long as that gets nearer to it from `enough` [m/s] on; `v` holds a guess on entry. What `halves`
+    /// is left sooner where it stalls.
     pub(crate) fn solve(
         &mut self,
         matrix: &mut Blocks,
@@ -181,6 +183,7 @@ impl Interior {
         (contacts, survey): (&mut [Contact], &Survey),
         v: &mut [Triple],
         (tolerance, enough): (f64, f64),
+        halves: bool,
     ) -> Effort {
         let mut near = if survey.may_end() { finish::NEAR * tolerance } else { 0.0 };
         // Half of the digits do for directions while they lead on: what is off by them is seen in the next look.
@@ -194,7 +197,8 @@ impl Interior {
         let (mut share, mut stuck) = (0.0, false);
         // What was left at the start, and times that it began anew.
         let (mut begun, mut times) = (0.0, 0);
-        let (most_times, stalled) = if survey.may_end() { (TIMES, STALLED_SOFT) } else { (1, STALLED) };
+        let most_times = if survey.may_end() { TIMES } else { TIMES_RIGID };
+        let stalled = if halves { STALLED_SHORT } else { STALLED };
         loop {
             let mut left = self.look((matrix, digits), (mass, free), contacts, v, Method::Inside { share });
             effort.residual = worse(left.residual, left.drawn);
@@ -427,7 +431,7 @@ pub(crate) fn inertia(residual: &mut [Triple], mass: &[Triple], free: &[Triple],
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::Linear;
+    use crate::contact::{Linear, Solver};
     use crate::order::Orders;
 
     /// Numbers from −1 to 1.
@@ -568,7 +572,7 @@ mod tests {
                 let mut v = vec![[0.0; 3]; 6];
                 let survey = survey(&contacts);
                 let bodies = (&[MASS; 6][..], &free[..]);
-                let effort = interior.solve(&mut matrix, bodies, (&mut contacts, &survey), &mut v, (1e-6, 1e-6));
+                let effort = interior.solve(&mut matrix, bodies, (&mut contacts, &survey), &mut v, (1e-6, 1e-6), false);
                 let left = left(&contacts, &v, &free);
                 if effort.converged {
                     solved += 1;
@@ -580,6 +584,33 @@ mod tests {
             assert!(solved > 475, "{solved}");
             assert!(springs < 1.0 || to_rounding > 450, "{to_rounding}");
         }
+    }
+
+    /// What may be halved is left unsolved, and says so, where the augmented Lagrangian goes on otherwise, if nearly all contacts have springs. What
+    /// is solved is the same to the bit either way.
+    #[test]
+    fn what_halves_is_left_sooner() {
+        let pairs: Vec<_> = (1..6).map(|b| (b - 1, b)).collect();
+        let (new, mut left_sooner) = (Solver::new(6, &pairs, &Orders::anywhere()), 0);
+        for (springs, seed) in (0..3000).map(|seed| (1.0, seed)).chain((0..300).map(|seed| (0.4, seed))) {
+            let mut draw = Draw(seed);
+            let contacts = contacts(&mut draw, new.matrix(), springs);
+            let free: Vec<Triple> = (0..6).map(|_| [draw.next(), draw.next(), draw.next()]).collect();
+            let may_end = survey(&contacts).may_end();
+            let [goes_on, halves] = [false, true].map(|halves| {
+                let (mut own, mut v) = (contacts.clone(), vec![[0.0; 3]; 6]);
+                let mut solver = new.clone();
+                let effort = solver.newton(&[MASS; 6], &free, &mut own, &mut v, (1e-6, 1e-6), halves);
+                (effort, v, own)
+            });
+            if goes_on == halves {
+                continue;
+            }
+            left_sooner += 1;
+            assert!(may_end && !halves.0.converged && !(halves.0.residual <= 1e-6), "{seed}: {:?}", halves.0);
+            assert!(halves.0.iterations < goes_on.0.iterations, "{seed}: {:?} {:?}", halves.0, goes_on.0);
+        }
+        assert!(left_sooner > 5, "{left_sooner}");
     }
 
     /// Contacts of seed `seed` that may all be taken in packs, and velocities without contact.
@@ -622,7 +653,8 @@ mod tests {
                     assert!(survey.yields() && survey.may_end() && survey.plain == contacts.len());
                     let mass = [MASS.map(|m| scale * m); 6];
                     let bodies = (&mass[..], &free[..]);
-                    let effort = interior.solve(&mut matrix, bodies, (&mut contacts, &survey), &mut v, (1e-6, 1e-6));
+                    let effort =
+                        interior.solve(&mut matrix, bodies, (&mut contacts, &survey), &mut v, (1e-6, 1e-6), false);
                     (v, effort.converged)
                 });
                 if as_is.1 {
@@ -650,7 +682,7 @@ mod tests {
             let [together, alone] = [survey, Survey { plain: 0, ..survey }].map(|survey| {
                 let (mut contacts, mut v) = (own.clone(), vec![[0.0; 3]; 6]);
                 let bodies = (&[MASS; 6][..], &free[..]);
-                let effort = interior.solve(&mut matrix, bodies, (&mut contacts, &survey), &mut v, (1e-6, 1e-6));
+                let effort = interior.solve(&mut matrix, bodies, (&mut contacts, &survey), &mut v, (1e-6, 1e-6), false);
                 assert!(!effort.converged || left(&contacts, &v, &free) < 1e-5, "seed {seed}: {effort:?}");
                 (contacts, v, effort.converged)
             });

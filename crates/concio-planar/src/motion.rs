@@ -34,8 +34,9 @@ pub use vibration::Vibration;
 /// How far bodies without a joint may be apart to be looked at, over the shortest edge: half as far they may move before all are
 /// looked at again.
 const REACH: f64 = 0.1;
-/// Times that a step is halved.
+/// Times that a step is halved, and of these the first ones, before which no more is tried than an interior point method.
 const HALVINGS: u32 = 4;
+const SOON: u32 = 2;
 /// Least step in which loads come to bear [s], and after how many it is doubled: the slowest modes take the longest steps.
 const SETTLING: f64 = 2e-2;
 const DOUBLED: usize = 40;
@@ -439,7 +440,7 @@ impl Motion {
 
     /// One step of the setting's length.
     pub fn step(&mut self, forcing: Forcing) {
-        self.take(self.setting.step, forcing, true);
+        self.take(self.setting.step, forcing, 0);
     }
 
     /// From here over `h` [s]; `forcing` says what acts between two instants. Without inertia, steps under what acts then
@@ -466,15 +467,16 @@ impl Motion {
 
     fn part(&mut self, from: f64, h: f64, halvings: u32, forcing: &impl Fn(f64, f64) -> Forcing) {
         self.time = from;
-        if !self.take(h, forcing(from, from + h), halvings == 0) {
+        if !self.take(h, forcing(from, from + h), halvings) {
             self.counters.halved += 1;
             self.part(from, 0.5 * h, halvings - 1, forcing);
             self.part(from + 0.5 * h, 0.5 * h, halvings - 1, forcing);
         }
     }
 
-    /// A step, whether its contact is solved or not if `come_what_may`; otherwise nothing has happened where it is not.
-    fn take(&mut self, h: f64, forcing: Forcing, come_what_may: bool) -> bool {
+    /// A step that may be halved so many times, and is taken whether its contact is solved or not where that is none; otherwise nothing has happened
+    /// where it is not solved.
+    fn take(&mut self, h: f64, forcing: Forcing, halvings: u32) -> bool {
         // At the beginning: what is asked after a step is asked of the pairs that its contacts know.
         if self.strayed() {
             self.look();
@@ -490,13 +492,13 @@ impl Motion {
         self.fasten(h, held);
         self.hold_back(h);
         self.guess();
-        // Without inertia halves of a step are other steps, of loads that come to bear.
-        let halves = !come_what_may && !self.setting.still;
+        // Without inertia halves of a step are other steps, of loads that come to bear: all is tried first.
+        let halves = halvings > HALVINGS - SOON && !self.setting.still;
         let effort = self.solve(halves);
         let effort = self.follow_devices(h, halves, effort);
         self.count(effort);
         let enough = effort.residual <= self.setting.enough();
-        if !enough && !come_what_may {
+        if !enough && halvings > 0 {
             return false;
         }
         self.counters.steps += 1;

@@ -47,17 +47,18 @@ fn facade(times: usize) -> Result<Prepared> {
     prepare(file.case, Path::new(""))
 }
 
-/// Seconds per block and step, and iterations per step.
+/// Seconds per block and step, and iterations per step; halves of a step are part of it.
 fn shaken(prepared: &Prepared, seconds: f64) -> Result<(f64, f64)> {
     let mut run = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling)?;
     let begun = Instant::now();
+    let mut steps = 0.0;
     while run.time() < seconds {
         assert!(matches!(run.advance(1), Progress::Running), "a façade is shaken for less than its three seconds");
         run.clear_recording();
+        steps += 1.0;
     }
     let time = begun.elapsed().as_secs_f64();
     let counters = run.state().counters;
-    let steps = counters.steps as f64;
     Ok((time / steps / prepared.model.wall.blocks.len() as f64, counters.iterations as f64 / steps))
 }
 

@@ -105,7 +105,7 @@ fn walls_take_no_more_products_than_they_did() {
     }
 }
 
-/// A façade of 36 courses, so many times 33 bricks long, each time with a door and five windows.
+/// The façade of `examples/large` so many times as long, 33 bricks and a door and five windows each time, without its lintels.
 fn facade(times: usize) -> (Vec<(usize, usize)>, Vec<[f64; 2]>) {
     let openings = [
         [14.5, 18.5, -0.5, 12.0],
@@ -132,7 +132,7 @@ fn facade(times: usize) -> (Vec<(usize, usize)>, Vec<[f64; 2]>) {
 }
 
 /// Every length that a façade is made longer by takes as many products and factors as the one before: what elimination costs is linear in the
-/// number of blocks. Only the ends of a wall take less, which the shortest consists of.
+/// number of blocks. Only near the ends of a wall does a block take less, and the shortest is nothing but ends.
 #[test]
 fn longer_facades_take_as_much_more_as_they_are_longer() {
     let (mut blocks, mut work) = (Vec::new(), Vec::new());
