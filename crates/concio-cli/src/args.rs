@@ -64,8 +64,8 @@ pub enum Command {
 /// Simulate a wall and write its results and report.
 ///
 /// Writes result.h5 (histories, frames, envelopes), summary.json (the numbers of the run) and report.html
-/// (figures, energies, input). Each appears whole or not at all. A run that was killed is taken up where its
-/// journal ends when the same command is given again.
+/// (figures, energies, input). Each appears whole or not at all. A run that was stopped or killed is taken
+/// up where its journal ends when the same command is given again.
 ///
 /// Ctrl-C stops the run and writes what was computed so far; a second Ctrl-C ends the program at once.
 #[derive(Debug, Args)]

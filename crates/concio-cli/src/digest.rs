@@ -59,10 +59,10 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
     if let Some(collapse) = collapse(summary) {
         rows.push(("collapse", collapse));
     }
-    let (shear, weight) = (number("/base_shear_peak"), number("/weight"));
+    let (shear, load) = (number("/base_shear_peak"), number("/base_load"));
     if shear > 0.0 {
-        let share = significant(shear / weight, 4);
-        rows.push(("largest base shear", format!("{}, {share} of the weight", si(shear, "N"))));
+        let share = significant(shear / load, 4);
+        rows.push(("largest base shear", format!("{}, {share} of the vertical force at rest", si(shear, "N"))));
     }
     if totals.top_force_peak > 0.0 {
         let rms = si(number("/top_force_rms"), "N");

@@ -68,7 +68,7 @@ fn main() -> Result<()> {
     let mut ratios = vec![Vec::new(); LONGEST];
     // Blocks, and seconds per step.
     let mut least: Vec<[f64; 2]> = facades.iter().map(|f| [f.model.wall.blocks.len() as f64, f64::INFINITY]).collect();
-    let mut iterations = vec![0.0; LONGEST];
+    let mut iterations = [0.0; LONGEST];
     for _ in 0..ROUNDS {
         let mut shortest = 0.0;
         for (k, facade) in facades.iter().enumerate() {

@@ -22,6 +22,8 @@ pub struct Model {
     pub joints: Vec<Joint>,
     /// What the top beam does.
     pub beam: Beam,
+    /// What `load.top` brings to the wall, the weight of a beam with it [N].
+    pub top_load: f64,
     /// Mass of every unknown [kg]: blocks, then the beam if it has mass.
     pub mass: Vec<f64>,
     /// Both sides of each joint as indices of unknowns; [`Model::base`] and [`Model::top`] stand for the supports.
@@ -142,6 +144,10 @@ impl Model {
         let blocks: f64 = self.wall.blocks.iter().map(Block::weight).sum();
         blocks + if let Beam::Mass(mass) = self.beam { mass.si() * G } else { 0.0 }
     }
+    /// Vertical force on the base at rest: blocks, and what `load.top` brings [N].
+    pub fn base_load(&self) -> f64 {
+        self.wall.blocks.iter().map(Block::weight).sum::<f64>() + self.top_load
+    }
     /// Index that stands for the base in [`Model::sides`].
     pub fn base(&self) -> usize {
         self.mass.len()
@@ -164,6 +170,8 @@ impl Model {
         let normal = graph::normal_forces(&wall, &joints, case.load.top.si(), has_beam, from);
         let mut mass: Vec<f64> = wall.blocks.iter().map(|b| b.mass()).collect();
         let turns = case.model == ModelKind::Planar;
+        let lies = if turns { planar::beam(case, &wall, &joints).map(|b| b.length) } else { None };
+        let top_load = case.load.top.si() * lies.unwrap_or_else(|| wall.loaded().iter().sum());
         let floating = match beam {
             Beam::Mass(m) => Some(m.si()),
             // It rises and turns, if it does not slide.
@@ -219,6 +227,7 @@ impl Model {
             wall,
             joints,
             beam,
+            top_load,
             mass,
             sides,
             elastic,

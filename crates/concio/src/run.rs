@@ -320,8 +320,14 @@ fn write(
     let (model, provenance, joints) = (&prepared.model, prepared.provenance(), joint_rows(&prepared.model));
     let mut warnings = model.warnings.clone();
     warnings.extend(warnings::of(model, &joints, outcome));
-    let facts =
-        RunFacts { duration: model.excitation.duration, weight: model.weight(), solve_seconds, resumed_from, warnings };
+    let facts = RunFacts {
+        duration: model.excitation.duration,
+        weight: model.weight(),
+        base_load: model.base_load(),
+        solve_seconds,
+        resumed_from,
+        warnings,
+    };
     let summary = store::summary(&provenance, &model.wall, &joints, outcome, &facts);
     store::hdf5::write(&out.join(RESULT), &provenance, &model.wall, &joints, outcome)?;
     store::write_summary(&out.join(SUMMARY), &summary)?;

@@ -151,6 +151,7 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         wall: Wall { panels: vec![panel], blocks: (0..n).map(block).collect() },
         joints: links.iter().map(joint).collect(),
         beam: if excitation.driven { Beam::Driven } else { Beam::Free },
+        top_load: 0.0,
         mass: masses.to_vec(),
         sides,
         elastic,

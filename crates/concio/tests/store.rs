@@ -523,14 +523,21 @@ fn a_full_disk_keeps_the_former_result() {
 #[test]
 fn summary_has_the_keys_that_other_programs_read() {
     let s = sample(SMALL);
-    let facts =
-        RunFacts { duration: 0.1, weight: 3e4, solve_seconds: 0.5, resumed_from: None, warnings: vec!["One.".into()] };
+    let facts = RunFacts {
+        duration: 0.1,
+        weight: 3e4,
+        base_load: 5e4,
+        solve_seconds: 0.5,
+        resumed_from: None,
+        warnings: vec!["One.".into()],
+    };
     let summary = store::summary(&s.provenance, &s.wall, &s.joints, &s.outcome, &facts);
     let number = |key: &str| summary.pointer(key).and_then(|v| v.as_f64()).unwrap_or_else(|| panic!("no {key}"));
     assert_eq!(number("/blocks"), 12.0);
     assert_eq!(number("/joints"), s.joints.len() as f64);
     assert_eq!(number("/unknowns"), 13.0);
     assert_eq!(number("/steps"), 10.0);
+    assert_eq!((number("/weight"), number("/base_load")), (3e4, 5e4));
     assert_eq!(number("/solve_seconds"), 0.5);
     assert_eq!(number("/peak_relative_displacement"), 1.1e-3);
     assert_eq!(number("/peak_slip_velocity"), 2.2e-2);

@@ -46,7 +46,11 @@ fn guard(args: &Export, out: &Path) -> Result<(), Failure> {
 pub fn stored(folder: &Path) -> Result<StoredRun, Failure> {
     let path: PathBuf = folder.join("result.h5");
     if !path.is_file() {
-        let error = InputError::new("there is no result.h5 in this folder").in_file(folder);
+        let mut error = InputError::new("there is no result.h5 in this folder").in_file(folder);
+        if folder.join("journal.bin").is_file() {
+            error =
+                error.help("a run was cut off here: `concio run` with the same wall file and --out goes on with it");
+        }
         return Err(error.allowed("the folder that `concio run` wrote to").into());
     }
     hdf5::read(&path).map_err(|error| match error {

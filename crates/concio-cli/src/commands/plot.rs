@@ -83,7 +83,8 @@ fn draw(args: &Plot, run: &StoredRun) -> Result<(), Failure> {
 
 fn told(figure: Figure, error: InputError) -> InputError {
     let what = format!("figure {}: {}", figure.name(), error.what);
-    InputError { what, ..error }
+    // Of figures that were not asked for by name no option is to blame.
+    InputError { what, key: None, ..error }
 }
 
 /// Each figure once, and whether it is asked for by its name.

@@ -23,6 +23,8 @@ const LARGE_RESIDUAL: f64 = 1e-3;
 const GIVEN_BACK: f64 = 0.01;
 /// Part of what was lost that may go to joints closing or ringing faster than steps resolve, before peaks should be doubted for it.
 const UNRESOLVED: f64 = 0.2;
+/// Part of the largest work that may be motion at the end before a run should be doubted for its end.
+const UNDER_WAY: f64 = 0.5;
 /// Way of the wall's weight whose work is nothing [m]: what a wall at rest does.
 const NOTHING: f64 = 1e-8;
 
@@ -37,6 +39,7 @@ pub(super) fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<S
         },
         unsolved(outcome),
         collapsed(model, outcome),
+        moves_on(model, outcome),
         unresolved(model, outcome),
         large_slips(model, outcome),
         creep(joints, outcome),
@@ -91,6 +94,20 @@ fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
     let what = "peaks and slips are those of the time before, cracks and energies those of the whole run; another step \
                 moves time and block";
     Some(format!("{alone}the wall counts as collapsed from t = {time:.4} s on, when block {name} {did}: {what}"))
+}
+
+/// What becomes of a wall that has yet to come to rest or to fall is not seen.
+fn moves_on(model: &Model, outcome: &Outcome) -> Option<String> {
+    model.planar.as_ref().filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
+    let weight = G * model.mass.iter().sum::<f64>();
+    let (kinetic, work) = (outcome.energies.kinetic, outcome.totals.peak_input.max(outcome.energies.initial.abs()));
+    (kinetic > UNDER_WAY * work && kinetic > NOTHING * weight).then(|| {
+        format!(
+            "the run ends while the wall is under way: {:.0} % of the largest work is motion then. Whether it comes to rest or falls, \
+             and how it fails, a longer motion.duration tells",
+            100.0 * kinetic / work
+        )
+    })
 }
 
 /// Springs keep what they take: where all joints have some, what impacts take is what steps leave out.
@@ -216,6 +233,9 @@ mod tests {
             assert_eq!(given_back(&model, &outcome).is_some_and(|t| t.contains("1.1 %")), told, "{impact} J");
         }
         outcome.energies.impact = 0.0;
+        outcome.energies.kinetic = 90.0;
+        assert_eq!(moves_on(&model, &outcome), None, "the shear model does not fall");
+        outcome.energies.kinetic = 0.0;
         outcome.counters.unsolved = 11;
         outcome.totals.collapse = Some(Collapse { time: 0.25, block: 1, way: 0.1, turned: true });
         let told = of(&model, &joints, &outcome);
@@ -233,6 +253,41 @@ mod tests {
         {
             assert_eq!(cut(v), told);
         }
+    }
+
+    /// A slender stone that turns over is told of while it does, and no more when it has come to lie; one that stands is not.
+    #[test]
+    fn a_run_that_ends_while_the_wall_falls_says_so() {
+        let told = |acceleration: f64, duration: f64| {
+            let text = format!(
+                r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = {{ length = 0.2, height = 1.0, thickness = 0.5, specific_weight = 20e3 }}
+mortar = {{ bed = 0, head = 0 }}
+[joint]
+bed = {{ law = "rigid" }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.8, dynamic = 0.8 }}
+[motion]
+duration = {duration}
+base = {{ tilt = {{ acceleration = {acceleration}, rise = 0.01 }} }}
+"#
+            );
+            let file = crate::case::from_str(&text, crate::case::Syntax::Toml, None).unwrap();
+            let prepared = crate::run::prepare(file.case, std::path::Path::new(".")).unwrap();
+            let outcome = crate::run::run_in_memory(&prepared).unwrap();
+            moves_on(&prepared.model, &outcome)
+        };
+        // It turns over from 0.2 g on.
+        assert_eq!(told(0.19 * G, 0.4), None);
+        assert!(
+            told(0.3 * G, 0.4).is_some_and(|what| what.contains("under way: 9") || what.contains("under way: 100"))
+        );
+        assert_eq!(told(0.3 * G, 2.5), None);
     }
 
     /// A stone that rings on its joint after a jerk, told of by steps that do not resolve it and not by those that do, nor where a dashpot takes

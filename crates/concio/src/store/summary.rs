@@ -19,6 +19,8 @@ pub struct RunFacts {
     pub duration: f64,
     /// Weight of all that has mass: blocks, and the top beam where it has one [N].
     pub weight: f64,
+    /// Vertical force on the base at rest: weight of the blocks, and `load.top` [N].
+    pub base_load: f64,
     /// Time by the clock that solving took [s], since the resume if there was one.
     pub solve_seconds: f64,
     /// Time from which a run that had been cut off was taken up [s].
@@ -43,6 +45,7 @@ pub fn summary(
         "joints": joints.len(),
         "unknowns": outcome.layout.unknowns + 2 * outcome.layout.turned,
         "weight": facts.weight,
+        "base_load": facts.base_load,
         "model": provenance.model,
         "duration": facts.duration,
         "time_reached": outcome.time_reached,
