@@ -186,6 +186,7 @@ mod tests {
     use crate::excitation::Excitation;
     use crate::ground::signal::GroundMotion;
     use crate::outcome::Collapse;
+    use crate::run::{Prepared, prepare, run_in_memory};
     use crate::samples::{Link, lumped, solver};
     use crate::simulate::{Sampling, Simulation};
     use crate::wall::End;
@@ -255,6 +256,13 @@ mod tests {
         }
     }
 
+    fn ran(text: &str) -> (Prepared, Outcome) {
+        let file = crate::case::from_str(text, crate::case::Syntax::Toml, None).unwrap();
+        let prepared = prepare(file.case, std::path::Path::new(".")).unwrap();
+        let outcome = run_in_memory(&prepared).unwrap();
+        (prepared, outcome)
+    }
+
     /// A slender stone that turns over is told of while it does, and no more when it has come to lie; one that stands is not.
     #[test]
     fn a_run_that_ends_while_the_wall_falls_says_so() {
@@ -277,9 +285,7 @@ duration = {duration}
 base = {{ tilt = {{ acceleration = {acceleration}, rise = 0.01 }} }}
 "#
             );
-            let file = crate::case::from_str(&text, crate::case::Syntax::Toml, None).unwrap();
-            let prepared = crate::run::prepare(file.case, std::path::Path::new(".")).unwrap();
-            let outcome = crate::run::run_in_memory(&prepared).unwrap();
+            let (prepared, outcome) = ran(&text);
             moves_on(&prepared.model, &outcome)
         };
         // It turns over from 0.2 g on.
@@ -316,9 +322,7 @@ base = {{ pulse = {{ shape = "rectangular", acceleration = "0.2 g", duration = "
 step = {step}
 "#
             );
-            let file = crate::case::from_str(&text, crate::case::Syntax::Toml, None).unwrap();
-            let prepared = crate::run::prepare(file.case, std::path::Path::new(".")).unwrap();
-            let outcome = crate::run::run_in_memory(&prepared).unwrap();
+            let (prepared, outcome) = ran(&text);
             (prepared.model.planar.as_ref().unwrap().resolving_step(), unresolved(&prepared.model, &outcome))
         };
         // √(k/m) of 10 N/mm³ below 20 kN/m³ × 0.2 m.
