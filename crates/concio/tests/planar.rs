@@ -441,11 +441,43 @@ fn an_arch_stands_and_bears_the_same_on_either_side() {
         let [left, right] = ["base|p1c1b1", "base|p1c1b15"].map(of);
         close(left + right, weight + 2.6 * load, 1e-6);
         close(left, right, 1e-6);
+        close(prepared.model.base_load(), left + right, 1e-6);
         let joints = prepared.model.joints.iter().zip(&names).filter(|(j, _)| j.b != concio::wall::End::Base);
         assert!(
             joints.clone().count() == 14 && joints.clone().all(|(_, name)| of(name) > 1e3),
             "{names:?} {pressures:?}"
         );
+    }
+}
+
+/// What presses on the base at rest is the load of the base, with a beam and without; that of the shear model is the same.
+#[test]
+fn the_base_bears_its_load() {
+    for beam in [r#""free""#, r#""tied""#, r#"{ mass = "1 t" }"#] {
+        let text = stack(
+            3,
+            &format!(
+                r#"mortar = {{ bed = 0.01, head = 0.01 }}
+[joint]
+damping_ratio = 0.5
+bed = {{ law = "no-tension", stiffness = "10 N/mm3", rigidity = 1 }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.6, dynamic = 0.6 }}
+[load]
+top = "20 kN/m"
+beam = {beam}
+[motion]
+duration = "0.1 s"
+"#
+            ),
+        );
+        let (planar, pressures) = pressures(&text);
+        let base = planar.model.joints.iter().position(|joint| joint.b == End::Base).expect("a joint with the base");
+        close(pressures[base], 3.0 * 2e3 + 20e3 * 0.5, 1e-6);
+        close(planar.model.base_load(), pressures[base], 1e-6);
+        let shear = text.replace("planar", "shear").replace("no-tension", "elastic").replace(", rigidity = 1", "");
+        let shear = shear.replace("10 N/mm3", "1e7 N/m");
+        close(prepared(&shear).model.base_load(), planar.model.base_load(), 1e-12);
     }
 }
 

@@ -57,7 +57,8 @@ fn draw(args: &Plot, run: &StoredRun) -> Result<(), Failure> {
         match figures::draw(figure, &data, &options) {
             Ok(drawing) => drawings.push((figure, drawing)),
             Err(error) if by_name => return Err(told(figure, error).into()),
-            Err(error) => left_out.push(told(figure, error)),
+            // No option is to blame where all figures are asked for.
+            Err(error) => left_out.push(InputError { key: None, ..told(figure, error) }),
         }
     }
     let contents: Result<Vec<_>, _> = drawings.iter().map(|(figure, d)| content(args, *figure, d)).collect();
@@ -83,8 +84,7 @@ fn draw(args: &Plot, run: &StoredRun) -> Result<(), Failure> {
 
 fn told(figure: Figure, error: InputError) -> InputError {
     let what = format!("figure {}: {}", figure.name(), error.what);
-    // Of figures that were not asked for by name no option is to blame.
-    InputError { what, key: None, ..error }
+    InputError { what, ..error }
 }
 
 /// Each figure once, and whether it is asked for by its name.
