@@ -49,25 +49,28 @@ impl ContactPoint {
 pub struct Assembly {
     /// Bodies, in the order of the wall's blocks.
     pub bodies: Vec<Body>,
-    /// Contact points, two for each joint in the order of the wall's joints.
+    /// Contact points, two for each joint whose sides touch, in the order of the wall's joints.
     pub points: Vec<ContactPoint>,
 }
 
 impl Assembly {
-    /// Of a wall and its joints ([`concio::graph::joints`]).
-    pub fn of(wall: &Wall, joints: &[Joint]) -> Self {
-        let bodies = wall.blocks.iter().map(body).collect();
-        let points = joints.iter().enumerate().flat_map(|(number, joint)| points(wall, number, joint)).collect();
+    /// Of a wall, those of its joints ([`concio::graph::joints`]) whose sides touch, and the mass of the load on its blocks [kg].
+    pub fn of(wall: &Wall, joints: &[Joint], touch: impl Fn(usize) -> bool, laden: &[f64]) -> Self {
+        let bodies = wall.blocks.iter().zip(laden).map(|(block, load)| body(block, *load)).collect();
+        let closed = joints.iter().enumerate().filter(|(number, _)| touch(*number));
+        let points = closed.flat_map(|(number, joint)| points(wall, number, joint)).collect();
         Assembly { bodies, points }
     }
 }
 
-/// A brick as a rigid body: m and m (L² + H²)/12 (model notes, section 7); a polygon with its own moment.
-fn body(block: &Block) -> Body {
-    match block.is_rectangle() {
+/// A brick as a rigid body: m and m (L² + H²)/12 (model notes, section 7); a polygon with its own moment; with the load that lies on it.
+fn body(block: &Block, load: f64) -> Body {
+    let mut body = match block.is_rectangle() {
         true => Body::rectangle(&block.name, block.x, block.y, block.mass()),
         false => concio::planar::polygon(block),
-    }
+    };
+    concio::planar::bear(&mut body, block, load);
+    body
 }
 
 fn points(wall: &Wall, number: usize, joint: &Joint) -> [ContactPoint; 2] {

@@ -1,14 +1,18 @@
 //! From a wall file to blocks, contact points, friction and loads.
 
-use concio::case::{Beam, Case, JointKind, Motion, NormalForce};
+use concio::assign::{self, JointLaw};
+use concio::case::{Beam, Case, FrictionLaw, JointKind, ModelKind, Motion, NormalForce};
 use concio::model::{self, Model};
 use concio::planar;
 use concio::quantity::Time;
-use concio::wall::Wall;
+use concio::wall::{Joint, Wall};
 use concio::{G, InputError, Result, run};
 use concio_planar::body::Body;
 
 use crate::assembly::{Assembly, Other};
+
+/// Distance of the sides of a joint over its length up to which they touch: rounding.
+const TOUCHING: f64 = 1e-9;
 
 /// What the live load is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -81,10 +85,12 @@ impl Problem {
     pub fn of(given: &Case, options: Options) -> Result<Problem> {
         let case = at_rest(given)?;
         let model = run::prepare(case.clone(), std::path::Path::new("."))?.model;
-        let mut assembly = Assembly::of(&model.wall, &model.joints);
+        let sides = sides(&case, &model)?;
+        let laden = model::load_masses(&case, &model.wall);
+        let mut assembly = Assembly::of(&model.wall, &model.joints, |e| sides[e] != Sides::Apart, &laden);
         let mut dead: Vec<f64> = model.wall.blocks.iter().map(|b| b.weight()).collect();
         let mut live = match options.push {
-            Push::Body => dead.clone(),
+            Push::Body => dead.iter().zip(&laden).map(|(weight, load)| weight + load * G).collect(),
             Push::Top => vec![0.0; dead.len()],
         };
         let loaded = model.wall.loaded();
@@ -106,11 +112,11 @@ impl Problem {
         let sign = if options.towards == Towards::Right { 1.0 } else { -1.0 };
         Ok(Problem {
             joints: model.joint_names(),
-            friction: friction(&model, &assembly, options.heads),
+            friction: friction(&case, &model, &assembly, &sides, options.heads),
             assembly,
             dead: dead.iter().map(|w| [0.0, -w]).collect(),
             live: live.iter().map(|w| [sign * w, 0.0]).collect(),
-            warnings: warnings(given).into_iter().chain(model::wide_joint(&model.wall, &model.joints)).collect(),
+            warnings: warnings(given),
             wall: model.wall,
         })
     }
@@ -165,10 +171,38 @@ fn beam(case: &Case, model: &Model, mass: f64) -> (Body, f64) {
     (Body { name: "beam".into(), centre: [x, y + half], corners, mass, inertia }, length)
 }
 
-fn friction(model: &Model, assembly: &Assembly, heads: Heads) -> Vec<f64> {
+/// How the sides of a joint lie.
+#[derive(Clone, Copy, PartialEq)]
+enum Sides {
+    /// On mortar, or one on the other.
+    Joined,
+    /// With nothing between them, touching as they are laid.
+    Touching,
+    /// With air between them.
+    Apart,
+}
+
+/// The sides of every joint. In shear walls a bed joint of law `none` bears the weight all the same, and rubs.
+fn sides(case: &Case, model: &Model) -> Result<Vec<Sides>> {
+    let laws = assign::resolve(case, &model.wall, &model.joints)?;
+    let of = |(joint, law): (&Joint, &JointLaw)| match law.is_open() {
+        true if case.model == ModelKind::Shear && !joint.kind.is_upright() => Sides::Joined,
+        true if planar::apart(&model.wall, joint) > TOUCHING * joint.overlap => Sides::Apart,
+        true => Sides::Touching,
+        false => Sides::Joined,
+    };
+    Ok(model.joints.iter().zip(&laws).map(of).collect())
+}
+
+fn friction(case: &Case, model: &Model, assembly: &Assembly, sides: &[Sides], heads: Heads) -> Vec<f64> {
     let mut of_joint = vec![0.0; model.joints.len()];
     for rub in &model.rubs {
         of_joint[rub.joint as usize] = rub.law.static_;
+    }
+    // What comes to touch rubs as the wall does, in a run too.
+    let common = if case.joint.friction.law == FrictionLaw::None { 0.0 } else { case.joint.friction.static_ };
+    for e in (0..sides.len()).filter(|e| sides[*e] == Sides::Touching) {
+        of_joint[e] = common;
     }
     let frictionless = |joint: usize| heads == Heads::Frictionless && model.joints[joint].kind.is_upright();
     assembly.points.iter().map(|p| if frictionless(p.joint) { 0.0 } else { of_joint[p.joint] }).collect()

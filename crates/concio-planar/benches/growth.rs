@@ -49,15 +49,15 @@ fn wall([courses, stones]: [usize; 2]) -> System {
             let (x, own) = ([cut[0], cut[1]], bodies.len());
             bodies.push(Body::rectangle("stone", x, y, DENSITY * (x[1] - x[0]) * height * thickness));
             if let Some((_, left)) = row.last() {
-                links.push(Link { a: Some(*left), b: own, law: law(height) });
+                links.push(Link::closed(Some(*left), own, law(height)));
             }
             if course == 0 {
-                links.push(Link { a: None, b: own, law: law(x[1] - x[0]) });
+                links.push(Link::closed(None, own, law(x[1] - x[0])));
             }
             for (other, under) in &below {
                 let overlap = x[1].min(other[1]) - x[0].max(other[0]);
                 if overlap > 1e-9 {
-                    links.push(Link { a: Some(*under), b: own, law: law(overlap) });
+                    links.push(Link::closed(Some(*under), own, law(overlap)));
                 }
             }
             row.push((x, own));

@@ -175,14 +175,6 @@ impl Law {
         }
     }
 
-    /// Whether there is nothing between the sides, not even contact.
-    pub fn bears_nothing(&self) -> bool {
-        let no_springs = self.normal == Normal::Springs { both: 0.0, press: 0.0, damping: 0.0 };
-        let Shear { stiffness, damping, .. } = self.shear;
-        let no_device = self.slip == [0.0; 2] && self.device.is_none();
-        no_springs && [stiffness, damping] == [0.0; 2] && no_device && self.bond.is_none()
-    }
-
     /// Whether it has a spring, and so more points than its ends.
     pub fn is_compliant(&self) -> bool {
         matches!(self.normal, Normal::Springs { .. })

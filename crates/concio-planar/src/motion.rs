@@ -63,7 +63,7 @@ pub enum Method {
     GaussSeidel(usize),
 }
 
-/// A joint: two bodies that touch as the wall is laid, and the law between them.
+/// A joint: two bodies that face each other as the wall is laid, and the law between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     /// First body, on the left or below; none for the base.
@@ -72,6 +72,15 @@ pub struct Link {
     pub b: usize,
     /// Its law.
     pub law: Law,
+    /// How far apart its sides are laid [m]: 0 where mortar fills the joint or they touch. Nothing acts across what is above 0 until it is closed.
+    pub apart: f64,
+}
+
+impl Link {
+    /// A joint whose sides touch as they are laid, through their mortar if there is any.
+    pub fn closed(a: Option<usize>, b: usize, law: Law) -> Self {
+        Link { a, b, law, apart: 0.0 }
+    }
 }
 
 /// Bodies, their joints and their loads.
@@ -375,7 +384,7 @@ impl Motion {
             setting,
         };
         motion.look();
-        motion.lay();
+        motion.lay(&system.links);
         motion
     }
 
@@ -573,11 +582,6 @@ impl Motion {
             let pair = &self.pairs[seat.pair];
             let Some(ends) = ends(&self.polygons, pair, self.margin(pair)) else { continue };
             let law = self.laws.of(pair.link);
-            if let (true, Some(link)) = (law.bears_nothing(), pair.link) {
-                let gaps = ends.map(|e| e.gap);
-                self.seen[link].gap = [gaps[0].min(gaps[1]), gaps[0].max(gaps[1])];
-                continue;
-            }
             let shares = law.shares();
             let along = |share: f64| Touch {
                 at: [0, 1].map(|k| ends[0].at[k] + share * (ends[1].at[k] - ends[0].at[k])),
@@ -812,10 +816,11 @@ impl Motion {
     }
 
     /// Takes the distances of the joints as they are for those of the laid wall.
-    fn lay(&mut self) {
-        for pair in self.pairs.iter_mut().filter(|p| p.link.is_some()) {
+    fn lay(&mut self, links: &[Link]) {
+        for pair in &mut self.pairs {
+            let Some(link) = pair.link else { continue };
             let ends = ends(&self.polygons, pair, f64::INFINITY);
-            pair.laid += ends.map_or(0.0, |e| e[0].gap.min(e[1].gap));
+            pair.laid += ends.map_or(0.0, |e| e[0].gap.min(e[1].gap)) - links[link].apart;
         }
     }
 

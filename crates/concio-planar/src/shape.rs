@@ -23,6 +23,14 @@ pub struct Place {
     pub angle: f64,
 }
 
+impl Place {
+    /// A vector of the body as it was laid, turned with it.
+    pub fn turned(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let (s, c) = self.angle.sin_cos();
+        [c * x - s * y, s * x + c * y]
+    }
+}
+
 /// A polygon where it is now.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Polygon {

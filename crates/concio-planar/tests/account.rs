@@ -60,7 +60,7 @@ fn shake(motion: &mut Motion, g: f64) {
 fn a_wall_that_slides_goes_on_from_where_it_was_kept() {
     let (bodies, pairs) = courses();
     let law = Law { shear: SHEAR, ..springs(0.0, 1.2e9, 0.0) };
-    let links: Vec<Link> = pairs.iter().map(|&(a, b)| Link { a, b, law }).collect();
+    let links: Vec<Link> = pairs.iter().map(|&(a, b)| Link::closed(a, b, law)).collect();
     let new = || Motion::new(&System { links: links.clone(), ..System::dry(&bodies, 0.6) }, Setting::new(1e-3));
     let mut whole = new();
     whole.stand(1e-10, 400);
@@ -86,7 +86,7 @@ fn the_account_of_a_shaken_wall_closes() {
     for (law, g) in [(springs(0.0, 1.2e9, 0.0), 1.0), (springs(0.0, 1.2e9, 0.0), 1.6), (springs(1.2e9, 0.0, 0.0), 1.6)]
     {
         let law = Law { shear: SHEAR, ..law };
-        let links = pairs.iter().map(|&(a, b)| Link { a, b, law }).collect();
+        let links = pairs.iter().map(|&(a, b)| Link::closed(a, b, law)).collect();
         let mut motion = Motion::new(&System { links, ..System::dry(&bodies, 0.6) }, Setting::new(1e-3));
         motion.stand(1e-10, 400);
         let initial = motion.account.elastic;
@@ -107,7 +107,7 @@ fn what_slips_off_an_edge_is_lost() {
     for (press, speed) in [(1e7, 5.0), (1e8, 5.0), (1e7, 1.0)] {
         let bodies = [stone([0.0, 0.4], [0.5, 0.7]), stone([0.0, 0.4], [0.7, 0.9])];
         let law = Law { friction: None, ..springs(0.0, press, 0.0) };
-        let mut system = System { links: vec![Link { a: Some(0), b: 1, law }], ..System::dry(&bodies, 0.0) };
+        let mut system = System { links: vec![Link::closed(Some(0), 1, law)], ..System::dry(&bodies, 0.0) };
         (system.held[0], system.held[1][2]) = ([true; 3], true);
         system.load[1][1] = -5e4;
         let mut motion = Motion::new(&system, Setting::new(1e-3));
@@ -130,7 +130,7 @@ fn what_slips_off_an_edge_is_lost() {
 fn a_dashpot_takes_no_more_than_there_is() {
     let bodies = [stone([0.0, 0.4], [0.0, 0.2])];
     let law = springs(0.0, 1e8, 1e5);
-    let system = System { links: vec![Link { a: None, b: 0, law }], ..System::dry(&bodies, 0.6) };
+    let system = System { links: vec![Link::closed(None, 0, law)], ..System::dry(&bodies, 0.6) };
     let mut motion = Motion::new(&system, Setting::new(1e-2));
     motion.put(0, Place { centre: [0.2, 0.106], angle: 0.0 });
     motion.velocities[0] = [0.0, -0.6, 0.0];

@@ -19,11 +19,7 @@ fn pair(law: DeviceLaw) -> System {
         follows: true,
         ..Law::dry(None)
     };
-    let links = vec![
-        Link { a: None, b: 0, law: dry },
-        Link { a: None, b: 1, law: dry },
-        Link { a: Some(0), b: 1, law: between },
-    ];
+    let links = vec![Link::closed(None, 0, dry), Link::closed(None, 1, dry), Link::closed(Some(0), 1, between)];
     System { links, ..System::dry(&bodies, 0.7) }
 }
 

@@ -154,7 +154,7 @@ fn what_nothing_has_pressed_in_stores_nothing() {
     let press = 1e9;
     let springs =
         Law { normal: Normal::Springs { both: 0.0, press, damping: 0.0 }, ..Law::dry(Some(Friction::coulomb(0.6))) };
-    let links = [(None, 0), (Some(0), 1)].map(|(a, b)| Link { a, b, law: springs });
+    let links = [(None, 0), (Some(0), 1)].map(|(a, b)| Link::closed(a, b, springs));
     let system = System { links: links.to_vec(), ..System::dry(&bodies, 0.6) };
     let mut motion = Motion::new(&system, Setting::new(1e-3));
     let place = motion.places[1];

@@ -16,7 +16,7 @@ fn block(normal: Normal, lets_go: bool) -> Motion {
     let mut law = Law::dry(Some(concio_planar::joint::Friction::coulomb(0.6)));
     law.normal = normal;
     law.shear = Shear { stiffness: ALONG, damping: 300.0, series: lets_go };
-    let system = System { links: vec![Link { a: None, b: 0, law }], ..System::dry(&[body], 0.6) };
+    let system = System { links: vec![Link::closed(None, 0, law)], ..System::dry(&[body], 0.6) };
     let mut motion = Motion::new(&system, Setting::new(1e-4));
     assert!(motion.stand(1e-10, 400));
     motion
@@ -64,9 +64,9 @@ fn a_tall_stack_of_rigid_joints_sways_on_what_gives_way_below() {
             (0..courses).map(|k| Body::rectangle("b", [0.0, LENGTH], [level(k), level(k + 1)], MASS)).collect();
         let mut bearing = Law::dry(None);
         bearing.shear = Shear { stiffness: ALONG, damping: 0.0, series: false };
-        let mut links = vec![Link { a: None, b: 0, law: bearing }];
+        let mut links = vec![Link::closed(None, 0, bearing)];
         let dry = Law::dry(Some(concio_planar::joint::Friction::coulomb(0.6)));
-        links.extend((1..courses).map(|b| Link { a: Some(b - 1), b, law: dry }));
+        links.extend((1..courses).map(|b| Link::closed(Some(b - 1), b, dry)));
         let mut motion = Motion::new(&System { links, ..System::dry(&bodies, 0.6) }, Setting::new(1e-3));
         assert!(motion.stand(1e-10, 400));
         let expected = (ALONG / (MASS * courses as f64)).sqrt();
@@ -86,7 +86,7 @@ fn blocks_nearly_alike_sway_nearly_alike() {
             shear: Shear { stiffness: ALONG, damping: 0.0, series: false },
             ..Law::dry(Some(concio_planar::joint::Friction::coulomb(0.6)))
         };
-        let links = [0, 1].map(|b| Link { a: None, b, law }).to_vec();
+        let links = [0, 1].map(|b| Link::closed(None, b, law)).to_vec();
         let mut motion = Motion::new(&System { links, ..System::dry(&bodies, 0.6) }, Setting::new(1e-4));
         assert!(motion.stand(1e-10, 400));
         let found = motion.slowest().unwrap_or_else(|| panic!("{more} heavier"));
@@ -114,7 +114,7 @@ fn ringing(h: f64, omega: f64, crushing: f64) -> [f64; 2] {
         crushing,
         ..Law::dry(Some(concio_planar::joint::Friction::coulomb(0.6)))
     };
-    let system = System { links: vec![Link { a: None, b: 0, law }], ..System::dry(&[body], 0.6) };
+    let system = System { links: vec![Link::closed(None, 0, law)], ..System::dry(&[body], 0.6) };
     [1, 0].map(|k| {
         let mut motion = Motion::new(&system, Setting { tolerance: 1e-14, ..Setting::new(h) });
         assert!(motion.stand(1e-12, 400));

@@ -3,8 +3,8 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::case::{
-    Case, Device, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointKind, Joints, ModelKind,
-    NormalForce, Selector, Spring, SpringLaw,
+    Case, Device, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointChange, JointKind, Joints,
+    ModelKind, NormalForce, Selector, Spring, SpringLaw,
 };
 use crate::error::{InputError, Result};
 use crate::graph;
@@ -65,6 +65,11 @@ impl BondValues {
 }
 
 impl JointLaw {
+    /// Whether there is nothing between the sides: neither mortar nor a device.
+    pub fn is_open(&self) -> bool {
+        self.spring.law == SpringLaw::None && self.device.is_none()
+    }
+
     /// Stiffness of the whole joint [N/m], overlap weight or area taken into account: neither is to be multiplied to it
     /// again. Without [`Spring::rigidity`] and [`Spring::stiffness_factor`].
     pub fn stiffness(&self, joint: &Joint, wall: &Wall) -> f64 {
@@ -164,7 +169,45 @@ pub fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLa
     for law in laws.iter_mut().filter(|law| law.device.is_some()) {
         (law.bond, law.spring.law) = (None, SpringLaw::None);
     }
+    if case.model == ModelKind::Planar {
+        for law in laws.iter_mut().filter(|law| law.is_open()) {
+            (law.bond, law.friction) = (None, FrictionLaw::None);
+        }
+        bears(case, wall, joints, &laws)?;
+    }
     Ok(laws)
+}
+
+/// Refuses springs without stiffness in planar walls, whose blocks would pass through each other.
+fn bears(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Result<()> {
+    let weak = |law: &JointLaw| {
+        let Spring { law: kind, stiffness, stiffness_factor, .. } = law.spring;
+        let springs = matches!(kind, SpringLaw::Elastic | SpringLaw::NoTension);
+        springs && law.device.is_none() && stiffness.amount() * stiffness_factor == 0.0
+    };
+    let Some(e) = laws.iter().position(weak) else { return Ok(()) };
+    let changes = |change: &JointChange| {
+        change.spring.is_some() && select(&change.at, wall, joints).is_ok_and(|chosen| chosen.contains(&e))
+    };
+    let key = match case.joint.changes.iter().rposition(changes) {
+        Some(number) => format!("joint.change[{number}].spring"),
+        None => format!("joint.{}", given_at(&case.joint, joints[e].kind)),
+    };
+    let error =
+        InputError::new("a joint without stiffness would let the blocks of a planar wall pass through each other");
+    let allowed = "`stiffness` and `stiffness_factor` above 0; `law = \"none\"` where there is nothing between them";
+    Err(error.key(key).allowed(allowed).into())
+}
+
+/// The table of `[joint]` that a kind of joint takes its spring from.
+fn given_at(settings: &Joints, kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Base if settings.base.is_some() => "base",
+        JointKind::Top if settings.top.is_some() => "top",
+        JointKind::Connection if settings.connection.is_some() => "connection",
+        JointKind::Bed | JointKind::Base | JointKind::Top => "bed",
+        JointKind::Head | JointKind::Connection => "head",
+    }
 }
 
 /// Bed and support joints of shear walls slide both ways and do nothing else: a law for one direction has no meaning

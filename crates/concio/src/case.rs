@@ -801,6 +801,10 @@ pub struct BondChange {
 pub struct Load {
     /// q [N/m], from 0: vertical load per length of brick. Default 0.
     pub top: ForcePerLength,
+    /// Mass of what bears down on a wall without a beam [kg], from 0: the ground shakes it with the blocks that it lies on, spread over them as
+    /// the load is. Default the load over g; 0 for a load that moves with nothing, such as that of a jack. A beam has a mass of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass: Option<Mass>,
     /// The top beam.
     pub beam: Beam,
     /// Whether the beam may turn. Planar walls with a beam alone; default free.

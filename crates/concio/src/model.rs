@@ -4,14 +4,14 @@
 use crate::G;
 use crate::assign::{JointLaw, friction_choice, resolve};
 use crate::bond::{self, Bonded};
-use crate::case::{Beam, Case, DeviceLaw, JointKind, ModelKind, SpringLaw};
+use crate::case::{Beam, Case, DeviceLaw, ModelKind, Signal, SpringLaw};
 use crate::device::{self, Device, Nonlinear};
 use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::graph;
 use crate::law::Stribeck;
 use crate::planar::{self, Planar};
-use crate::wall::{Block, End, Joint, PanelInfo, Wall};
+use crate::wall::{Block, End, Joint, Wall};
 
 /// Everything a run needs and nothing it changes.
 #[derive(Debug, Clone)]
@@ -24,6 +24,8 @@ pub struct Model {
     pub beam: Beam,
     /// What `load.top` brings to the wall, the weight of a beam with it [N].
     pub top_load: f64,
+    /// Mass of that load on the blocks of a wall without a beam, which is in `mass` too [kg].
+    pub load_mass: f64,
     /// Mass of every unknown [kg]: blocks, then the beam if it has mass.
     pub mass: Vec<f64>,
     /// Both sides of each joint as indices of unknowns; [`Model::base`] and [`Model::top`] stand for the supports.
@@ -139,10 +141,11 @@ impl Model {
     pub fn unknowns(&self) -> usize {
         self.mass.len()
     }
-    /// Weight of all that has mass: blocks, and the top beam where it has one [N].
+    /// Weight of all that has mass: blocks, the load on them, and the top beam where it has one [N].
     pub fn weight(&self) -> f64 {
         let blocks: f64 = self.wall.blocks.iter().map(Block::weight).sum();
-        blocks + if let Beam::Mass(mass) = self.beam { mass.si() * G } else { 0.0 }
+        let of_load = if let Beam::Mass(mass) = self.beam { mass.si() } else { self.load_mass };
+        blocks + of_load * G
     }
     /// Vertical force on the base at rest: blocks, and what `load.top` brings [N].
     pub fn base_load(&self) -> f64 {
@@ -168,7 +171,8 @@ impl Model {
         let laws = resolve(case, &wall, &joints)?;
         let (_, from) = friction_choice(&case.joint.friction);
         let normal = graph::normal_forces(&wall, &joints, case.load.top.si(), has_beam, from);
-        let mut mass: Vec<f64> = wall.blocks.iter().map(|b| b.mass()).collect();
+        let laden = load_masses(case, &wall);
+        let mut mass: Vec<f64> = wall.blocks.iter().zip(&laden).map(|(b, load)| b.mass() + load).collect();
         let turns = case.model == ModelKind::Planar;
         let lies = if turns { planar::beam(case, &wall, &joints).map(|b| b.length) } else { None };
         let top_load = case.load.top.si() * lies.unwrap_or_else(|| wall.loaded().iter().sum());
@@ -212,7 +216,7 @@ impl Model {
         let stiffest = stiffest(&mass, &sides, &device::at_rest(&elastic, &nonlinear), excitation.duration);
         let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
         let mut warnings = warnings(case, &wall, rubs.len(), if turns { 0 } else { idle }, reciprocal);
-        warnings.extend(wide_joint(&wall, &joints));
+        warnings.extend(massless(case, top_load, &mass[..wall.blocks.len()]));
         warnings.extend(planar::detached(case, &wall));
         let planar = turns.then(|| planar::compile(case, &wall, &joints, &laws)).transpose()?;
         let rigid = |(e, law): (usize, &JointLaw)| {
@@ -228,6 +232,7 @@ impl Model {
             joints,
             beam,
             top_load,
+            load_mass: laden.iter().sum(),
             mass,
             sides,
             elastic,
@@ -340,6 +345,17 @@ pub(crate) fn stiffest(mass: &[f64], sides: &[[u32; 2]], elastic: &[Elastic], du
     largest.max((std::f64::consts::TAU / duration).powi(2))
 }
 
+/// Mass of what bears down on each block of a wall without a beam [kg]: in proportion to the load on it.
+pub fn load_masses(case: &Case, wall: &Wall) -> Vec<f64> {
+    if case.load.beam != Beam::Free {
+        return vec![0.0; wall.blocks.len()];
+    }
+    let lengths = wall.loaded();
+    let whole: f64 = lengths.iter().sum();
+    let per_length = case.load.mass.map_or(case.load.top.si() / G, |mass| mass.si() / whole);
+    lengths.into_iter().map(|length| per_length * length).collect()
+}
+
 fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
     let (spring, nominal) = (&law.spring, law.nominal_stiffness(joint, wall));
     let upright = joint.kind.is_upright();
@@ -358,29 +374,6 @@ fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
     }
 }
 
-/// Says of blocks given by hand that they hang in the air, as by a wrong `y`: joints follow from courses, whatever lies between.
-pub fn wide_joint(wall: &Wall, joints: &[Joint]) -> Option<String> {
-    let thickness = |joint: &Joint| match (joint.kind, joint.b) {
-        (JointKind::Bed, End::Block(b)) => wall.blocks[b].y[0] - wall.blocks[joint.a].y[1],
-        (JointKind::Base, _) => wall.blocks[joint.a].y[0],
-        _ => 0.0,
-    };
-    let panel = |joint: &Joint| &wall.panels[wall.blocks[joint.a].panel];
-    let wide = joints.iter().filter(|joint| {
-        let PanelInfo { mortar, reference_height, .. } = panel(joint);
-        wall.blocks[joint.a].is_rectangle() && thickness(joint) > 2.0 * mortar[0] + 0.1 * reference_height
-    });
-    let all: Vec<&Joint> = wide.collect();
-    let widest = all.iter().max_by(|a, b| thickness(a).total_cmp(&thickness(b)))?;
-    let others = if all.len() > 1 { format!(", and {} more are as doubtful", all.len() - 1) } else { String::new() };
-    Some(format!(
-        "joint {} is {:.1} mm thick, its mortar {:.1} mm{others}: it is taken for a joint all the same; look at `y` of the block above it",
-        graph::name(wall, widest),
-        1e3 * thickness(widest),
-        1e3 * panel(widest).mortar[0],
-    ))
-}
-
 /// Says what becomes of a panel whose top does not reach the beam's bed joint.
 fn under_beam(wall: &Wall, panel: usize) -> Option<String> {
     let (gap, info) = (graph::below_beam(wall, panel), &wall.panels[panel]);
@@ -392,6 +385,37 @@ fn under_beam(wall: &Wall, panel: usize) -> Option<String> {
         return None;
     };
     Some(format!("panel {} ends {:.0} mm below the highest one under the beam; {consequence}", info.name, 1e3 * gap))
+}
+
+/// Part of the mass of all that is shaken which a load may lack without a word.
+const LACKING: f64 = 0.05;
+
+/// Says of a load that it has no mass, or too little, where the base moves: what it presses with is not what shakes the wall. `blocks` are the masses
+/// of the blocks with what lies on them [kg].
+fn massless(case: &Case, top_load: f64, blocks: &[f64]) -> Option<String> {
+    let upright = case.motion.vertical != Signal::None;
+    let sideways = case.motion.base != Signal::None;
+    let of_blocks: f64 = blocks.iter().sum();
+    let (shaken, has, remedy) = match case.load.beam {
+        Beam::Free => {
+            let has = case.load.mass.map_or(top_load / G, |mass| mass.si());
+            (sideways || upright, has, "leave load.mass out, and the load has the mass of its weight")
+        }
+        Beam::Mass(mass) => (sideways || upright, mass.si(), "raise load.beam.mass"),
+        Beam::Driven | Beam::Tied => {
+            (upright, 0.0, "a beam that is held from side to side has none: give it a mass instead")
+        }
+    };
+    let missing = top_load / G - has;
+    let beside = if case.load.beam == Beam::Free { 0.0 } else { has };
+    (shaken && missing > LACKING * (of_blocks + beside)).then(|| {
+        format!(
+            "load.top brings {:.2} kN to the wall, {:.0} kg in all, and {has:.0} kg have mass: the ground does not shake the {missing:.0} kg that \
+             are missing, so forces and displacements come out too small; {remedy}",
+            1e-3 * top_load,
+            top_load / G
+        )
+    })
 }
 
 /// `rubs` joints rub, `idle` ones have a friction law but no normal force.

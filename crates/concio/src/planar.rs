@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, HashSet};
 use concio_planar::body::Body;
 use concio_planar::joint::{self, Bond as PointBond, Friction, Law, Normal, Shear};
 use concio_planar::motion::{Link, System};
+use concio_planar::shape::{Place, Polygon, touches};
 use concio_planar::tie::Tie as Rod;
 
 use crate::assign::JointLaw;
@@ -16,7 +17,7 @@ use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, Spring
 use crate::device;
 use crate::error::{InputError, Result};
 use crate::law::Stribeck;
-use crate::model::Elastic;
+use crate::model::{Elastic, load_masses};
 use crate::wall::{End, Joint, Wall};
 
 mod collapse;
@@ -41,6 +42,10 @@ const BESIDE: f64 = 1e-6;
 pub struct Planar {
     /// Bodies, blocks first and the beam last, their joints in the order of the wall's, their loads.
     pub system: System,
+    /// Centre of each block from that of its body [m], which has the load on the block too.
+    pub offset: Vec<[f64; 2]>,
+    /// Whether there is nothing in each joint: its sides meet where they come to touch.
+    pub open: Vec<bool>,
     /// Step h [s].
     pub step: f64,
     /// Whether inertia is left out.
@@ -135,6 +140,19 @@ pub fn polygon(block: &crate::wall::Block) -> Body {
     }
 }
 
+/// Puts a load of this mass [kg] on a block, along the whole of its top: both move as one, about their common centre.
+pub fn bear(body: &mut Body, block: &crate::wall::Block, mass: f64) {
+    if mass == 0.0 {
+        return;
+    }
+    let up = block.y[1] - body.centre[1];
+    let rise = up * mass / (body.mass + mass);
+    body.inertia += body.mass * rise * rise + mass * ((up - rise).powi(2) + block.length().powi(2) / 12.0);
+    body.mass += mass;
+    body.centre[1] += rise;
+    body.corners.iter_mut().for_each(|corner| corner[1] -= rise);
+}
+
 /// Level that the blocks under a beam reach to, that of the highest block [m].
 pub fn top_level(wall: &Wall) -> f64 {
     wall.blocks.iter().map(|b| b.y[1]).fold(f64::NEG_INFINITY, f64::max)
@@ -145,10 +163,15 @@ pub fn top_level(wall: &Wall) -> f64 {
 /// # Errors
 /// Devices that planar walls do not have, ties without length.
 pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Result<Planar> {
-    let mut bodies = bodies(wall, joints);
+    let mut bodies = bodies(wall, joints, laws);
     let n = bodies.len();
     let load = case.load.top.si();
     let mut loads: Vec<[f64; 2]> = wall.blocks.iter().map(|b| [0.0, -b.weight()]).collect();
+    for ((body, block), mass) in bodies.iter_mut().zip(&wall.blocks).zip(load_masses(case, wall)) {
+        bear(body, block, mass);
+    }
+    let from = |(block, body): (&crate::wall::Block, &Body)| [0, 1].map(|k| block.centre()[k] - body.centre[k]);
+    let offset: Vec<[f64; 2]> = wall.blocks.iter().zip(&bodies).map(from).collect();
     let mut held = vec![[false; 3]; n];
     match beam(case, wall, joints) {
         Some(beam) => {
@@ -163,20 +186,24 @@ pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointL
             }
         }
     }
+    let other = Law::dry(common_friction(case));
     let link = |(joint, law): (&Joint, &JointLaw)| {
         let (a, b) = match joint.b {
             End::Block(b) => (Some(joint.a), b),
             End::Base => (None, joint.a),
             End::Top => (Some(joint.a), n),
         };
-        Ok(Link { a, b, law: compile_law(case, wall, joint, law)? })
+        match law.is_open() {
+            true => Link { a, b, law: other, apart: apart(wall, joint) },
+            false => Link::closed(a, b, compile_law(case, wall, joint, law)),
+        }
     };
     softening(wall, joints, laws)?;
-    let links = joints.iter().zip(laws).map(link).collect::<Result<Vec<Link>>>()?;
-    let other = Law::dry(common_friction(case));
-    let ties = ties(case, wall)?;
+    let links = joints.iter().zip(laws).map(link).collect();
+    let ties = ties(case, wall, &offset)?;
     let system = System { bodies, links, ties, other, load: loads, held };
-    Ok(Planar { system, step: step(case), still: case.motion.quasi_static })
+    let open = laws.iter().map(JointLaw::is_open).collect();
+    Ok(Planar { system, offset, open, step: step(case), still: case.motion.quasi_static })
 }
 
 /// Step of a wall [s].
@@ -186,7 +213,7 @@ pub(crate) fn step(case: &Case) -> f64 {
 }
 
 /// Ties as rods between bodies; the base is the first of the two.
-fn ties(case: &Case, wall: &Wall) -> Result<Vec<Rod>> {
+fn ties(case: &Case, wall: &Wall, offset: &[[f64; 2]]) -> Result<Vec<Rod>> {
     let rod = |(i, tie): (usize, &Tie)| {
         let wrong = |end: &str, what: String, allowed: &str| {
             InputError::new(what).key(format!("tie[{i}].{end}")).allowed(allowed)
@@ -215,7 +242,16 @@ fn ties(case: &Case, wall: &Wall) -> Result<Vec<Rod>> {
             );
         }
         let yield_force = tie.yield_force.map_or(f64::INFINITY, |f| f.si());
-        Ok(Rod { a, b, at: [at_a, at_b], stiffness: tie.stiffness.si(), yield_force, slack: tie.slack.si() })
+        // Of a body, from its own centre.
+        let of_body = |body: Option<usize>, at: [f64; 2]| body.map_or(at, |b| [0, 1].map(|k| at[k] + offset[b][k]));
+        Ok(Rod {
+            a,
+            b,
+            at: [of_body(a, at_a), of_body(Some(b), at_b)],
+            stiffness: tie.stiffness.si(),
+            yield_force,
+            slack: tie.slack.si(),
+        })
     };
     case.ties.iter().enumerate().map(rod).collect()
 }
@@ -242,11 +278,31 @@ pub(crate) fn detached(case: &Case, wall: &Wall) -> Vec<String> {
     case.ties.iter().enumerate().flat_map(both).flatten().collect()
 }
 
-/// Blocks reach to the middle of their mortar joints, to the base and to the beam.
-fn bodies(wall: &Wall, joints: &[Joint]) -> Vec<Body> {
+/// How far the sides of a joint are apart as the blocks are laid, without mortar [m].
+pub fn apart(wall: &Wall, joint: &Joint) -> f64 {
+    let block = &wall.blocks[joint.a];
+    let between = match joint.b {
+        End::Base => block.y[0],
+        End::Top => top_level(wall) - block.y[1],
+        End::Block(b) => {
+            let placed = |block| {
+                let body = polygon(block);
+                let mut placed = Polygon::of(&body);
+                placed.put(&Polygon::of(&body), &Place { centre: body.centre, angle: 0.0 });
+                placed
+            };
+            let ends = touches(&placed(block), &placed(&wall.blocks[b]), f64::INFINITY);
+            ends.map_or(0.0, |ends| ends[0].gap.min(ends[1].gap))
+        }
+    };
+    between.max(0.0)
+}
+
+/// Blocks reach to the middle of their mortar joints, to the base and to the beam. Across a joint in which there is nothing they keep their own sides.
+fn bodies(wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Vec<Body> {
     let mut faces: Vec<[f64; 4]> = wall.blocks.iter().map(|b| [b.x[0], b.x[1], b.y[0], b.y[1]]).collect();
     let level = top_level(wall);
-    for joint in joints {
+    for (joint, _) in joints.iter().zip(laws).filter(|(_, law)| !law.is_open()) {
         let [x, y, ..] = joint.line;
         match (joint.kind, joint.b) {
             (JointKind::Head | JointKind::Connection, End::Block(b)) => {
@@ -333,9 +389,9 @@ fn bond_of(law: &JointLaw) -> Option<&BondValues> {
     law.bond.as_ref().filter(|b| b.tensile_strength > 0.0 || b.cohesion > 0.0 || b.tan_angle > 0.0)
 }
 
-fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Result<Law> {
+fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
     if let Some(device) = law.device(case) {
-        return Ok(device_law(joint, device));
+        return device_law(joint, device);
     }
     let spring = &law.spring;
     let ways = ways(joint, law);
@@ -364,8 +420,7 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Resul
             let (restitution, rocking) = (spring.restitution, spring.rocking_restitution);
             (Normal::Rigid { restitution: restitution.unwrap_or(0.0), rocking: rocking.unwrap_or(1.0) }, false)
         }
-        SpringLaw::None => (Normal::Springs { both: 0.0, press: 0.0, damping: 0.0 }, false),
-        SpringLaw::Elastic => {
+        SpringLaw::Elastic | SpringLaw::None => {
             (Normal::Springs { both: across * stiffness, press: 0.0, damping: dashpot(across * given) }, false)
         }
         SpringLaw::NoTension => {
@@ -375,11 +430,11 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Resul
         }
     };
     let shear = match spring.law {
-        SpringLaw::Rigid | SpringLaw::None => Shear { stiffness: 0.0, damping: 0.0, series: false },
+        SpringLaw::Rigid => Shear { stiffness: 0.0, damping: 0.0, series: false },
         _ => Shear { stiffness: along * stiffness, damping: dashpot(along * given), series },
     };
     let crushing = spring.compressive_strength.map_or(f64::INFINITY, |f| f.si() * area);
-    Ok(Law {
+    Law {
         normal,
         shear,
         friction: law.rubs().map(friction),
@@ -388,7 +443,7 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Resul
         slip: [0.0; 2],
         device: None,
         follows: false,
-    })
+    }
 }
 
 /// Energy of a spring at its strength [J].

@@ -343,7 +343,7 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
         let law = model.planar.as_ref().map(|planar| planar.system.links[e].law.normal);
         matches!(law, Some(Normal::Springs { both: 0.0, press, .. }) if press > 0.0)
     };
-    let rubbing = |r: &Rub| store::FrictionRow {
+    let of_shear = |r: &Rub| store::FrictionRow {
         law: match r.law.sticks() {
             false => FrictionLaw::Stribeck,
             true if r.law.slip_velocity == 0.0 => FrictionLaw::Coulomb,
@@ -355,9 +355,9 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
         beta: if r.law.sticks() { 0.0 } else { r.law.beta },
         alpha: r.law.alpha,
     };
-    // In planar walls upright joints rub under the pressure of the moment, which the shear model's friction has no place for.
+    // Friction of planar walls sticks truly, that of upright joints too, under the pressure of the moment.
     let of_planar = |e: usize| {
-        let rubs = model.planar.as_ref()?.system.links[e].law.friction?;
+        let rubs = model.planar.as_ref().filter(|planar| !planar.open[e])?.system.links[e].law.friction?;
         Some(store::FrictionRow {
             law: if rubs.slip_velocity == 0.0 { FrictionLaw::Coulomb } else { FrictionLaw::StribeckStick },
             static_: rubs.static_,
@@ -384,7 +384,7 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
             restitution: contact[e].map_or(0.0, |c| model.contacts[c].restitution),
             device: device[e],
             normal_force: rub.map_or([0.0; 2], |r| r.normal),
-            friction: rub.map(rubbing).or_else(|| of_planar(e)),
+            friction: if model.planar.is_some() { of_planar(e) } else { rub.map(of_shear) },
         }
     };
     model.rub_of_joint().into_iter().enumerate().map(row).collect()

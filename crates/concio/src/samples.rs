@@ -152,6 +152,7 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         joints: links.iter().map(joint).collect(),
         beam: if excitation.driven { Beam::Driven } else { Beam::Free },
         top_load: 0.0,
+        load_mass: 0.0,
         mass: masses.to_vec(),
         sides,
         elastic,

@@ -47,7 +47,7 @@ mod tests {
     fn joints_have_their_laws() {
         let law = |k: usize| Law::dry(Some(Friction::coulomb(0.1 + 0.001 * (k % 100) as f64)));
         for distinct in [3, 1000] {
-            let links: Vec<Link> = (0..1000).map(|k| Link { a: None, b: k, law: law(k % distinct) }).collect();
+            let links: Vec<Link> = (0..1000).map(|k| Link::closed(None, k, law(k % distinct))).collect();
             let laws = Laws::new(&links, law(7));
             assert!((0..1000).all(|k| *laws.of(Some(k)) == links[k].law));
             assert_eq!(*laws.of(None), law(7));

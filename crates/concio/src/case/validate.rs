@@ -156,6 +156,18 @@ fn load(f: &mut Findings, case: &Case) {
     if let Beam::Mass(mass) = case.load.beam {
         f.quantity("load.beam.mass", mass, Bound::Above0);
     }
+    if let Some(mass) = case.load.mass {
+        f.quantity("load.mass", mass, Bound::From0);
+        match case.load.beam {
+            Beam::Free => {}
+            Beam::Mass(_) => f.push("load.mass", "the beam has the mass", "beam = { mass = … } alone"),
+            Beam::Driven | Beam::Tied => f.push(
+                "load.mass",
+                "the beam is held from side to side: no mass on it is shaken",
+                "with `beam = \"free\"`; else leave it out",
+            ),
+        }
+    }
     match (case.load.beam, &case.motion.top) {
         (Beam::Driven, Signal::None) => {
             f.push("motion.top", "the beam is `driven` but has no motion", "a motion such as { sine = { … } }");

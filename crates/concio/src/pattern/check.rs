@@ -4,8 +4,9 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::{CONTACT_TOLERANCE, Courses, Rect};
-use crate::case::{Bond, Case, Panel};
-use crate::wall::{Block, End, Wall};
+use crate::case::{Bond, Case, JointKind, Panel};
+use crate::quantity::Length;
+use crate::wall::{Block, End, Joint, Wall};
 use crate::{InputError, Result, graph, polygon};
 
 /// Smallest block and largest coordinate, as parts and multiples of the panel's brick: between them rounding stays
@@ -61,14 +62,20 @@ pub(super) fn polygons(panel: &Panel, index: usize, courses: &Courses, blocks: &
     Ok(())
 }
 
-/// In a panel of blocks that are not all rectangles, every block hangs together with the base by joints.
+/// Of blocks given one by one, none hangs in the air: each lies on what is under it, and in a panel of blocks that are not all rectangles
+/// hangs together with the base by joints.
 pub(super) fn stands(case: &Case, wall: &Wall) -> Result<()> {
+    if !case.panels.iter().any(|panel| matches!(panel.bond, Bond::Explicit | Bond::Arch)) {
+        return Ok(());
+    }
+    let joints = graph::joints(wall, false);
+    hangs(case, wall, &joints)?;
     if wall.blocks.iter().all(Block::is_rectangle) {
         return Ok(());
     }
     let mut beside = vec![Vec::new(); wall.blocks.len()];
     let mut reached: Vec<usize> = Vec::new();
-    for joint in graph::joints(wall, false) {
+    for joint in &joints {
         match joint.b {
             End::Block(b) => {
                 beside[joint.a].push(b);
@@ -89,6 +96,42 @@ pub(super) fn stands(case: &Case, wall: &Wall) -> Result<()> {
     let error = InputError::new(what).key(key_of(case, block));
     let allowed = "sides that face those of other blocks, or the base at y = 0, over no more than the mortar";
     Err(error.allowed(allowed).into())
+}
+
+/// Thickest bed joint of blocks given one by one: twice the mortar and so much of the brick's height, by which stones differ.
+const UNEVEN: f64 = 0.1;
+
+/// Refuses blocks that lie higher above what is under them than mortar reaches, as by a wrong `y`.
+fn hangs(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<()> {
+    let over = |joint: &Joint| -> Option<(f64, usize)> {
+        let (block, from) = match (joint.kind, joint.b) {
+            (JointKind::Bed, End::Block(b)) => (b, wall.blocks[joint.a].y[1]),
+            (JointKind::Base, _) => (joint.a, 0.0),
+            _ => return None,
+        };
+        let panel = &wall.panels[wall.blocks[block].panel];
+        let explicit = case.panels[wall.blocks[block].panel].bond == Bond::Explicit;
+        // Sides of polygons are joined over no more than mortar as it is.
+        let upright = wall.blocks[joint.a].is_rectangle() && wall.blocks[block].is_rectangle();
+        let gap = wall.blocks[block].y[0] - from;
+        let most = 2.0 * panel.mortar[0] + UNEVEN * panel.reference_height;
+        (explicit && (upright || joint.kind == JointKind::Base) && gap > most).then_some((gap, block))
+    };
+    let mut hanging: Vec<(f64, usize)> = joints.iter().filter_map(over).collect();
+    let Some(&(gap, lost)) = hanging.first() else { return Ok(()) };
+    hanging.sort_unstable_by_key(|found| found.1);
+    hanging.dedup_by_key(|found| found.1);
+    let block = &wall.blocks[lost];
+    let under = if block.lowest_course() == 0 { "the base" } else { "what is under it" };
+    let others = match hanging.len() {
+        1 => String::new(),
+        n => format!("; {} more hang too", n - 1),
+    };
+    let what = format!("block {} hangs in the air, {} above {under}{others}", block.name, Length::from_si(gap));
+    let bed = Length::from_si(wall.panels[block.panel].mortar[0]);
+    let allowed =
+        format!("a bottom edge on the base at y = 0 or on a block, with the mortar ({bed}) or less between them");
+    Err(InputError::new(what).key(key_of(case, block)).allowed(allowed).into())
 }
 
 /// The key of a block that is given by hand.

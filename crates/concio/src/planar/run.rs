@@ -38,6 +38,10 @@ pub(crate) struct Run {
     still: bool,
     /// Where the bodies stand under their loads.
     origin: Vec<Place>,
+    /// Blocks whose centre is not that of their body, and where it is from there [m].
+    aside: Vec<(usize, [f64; 2])>,
+    /// How far the sides of each joint are laid apart with nothing between them [m].
+    apart: Vec<f64>,
     /// Relative velocity of every joint before the step [m/s].
     before: Vec<f64>,
     /// Joints that the wall stands on, and those that can be crushed.
@@ -136,8 +140,10 @@ impl Run {
         };
         let mut run = Run {
             origin: motion.places.clone(),
+            aside: planar.offset.iter().copied().enumerate().filter(|(_, offset)| *offset != [0.0; 2]).collect(),
             base: (0..model.joints.len()).filter(|e| model.joints[*e].kind == JointKind::Base).collect(),
             crushable: (0..model.joints.len()).filter(|e| planar.system.links[*e].law.crushing.is_finite()).collect(),
+            apart: planar.system.links.iter().map(|link| link.apart).collect(),
             step: planar.step.min(longest),
             still: planar.still,
             before: vec![0.0; model.joints.len()],
@@ -246,6 +252,12 @@ impl Run {
             rotation[i] = now.angle - then.angle;
             v[i] = self.motion.velocities[i][0];
         }
+        for &(i, offset) in &self.aside {
+            let [now, then] = [&self.motion.places[i], &self.origin[i]].map(|place| place.turned(offset));
+            z[i] += now[0] - then[0];
+            vertical[i] += now[1] - then[1];
+            v[i] -= self.motion.velocities[i][2] * now[1];
+        }
     }
 
     /// State, envelopes and totals after a step.
@@ -331,7 +343,7 @@ impl Run {
         totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
         for (e, (seen, joint)) in self.motion.seen.iter().zip(&model.joints).enumerate() {
             let upright = joint.kind.is_upright();
-            let opening = seen.gap[1].max(0.0);
+            let opening = (seen.gap[1] - self.apart[e]).max(0.0);
             let (moved, speed) = if upright { (opening, seen.parting) } else { (seen.slide.abs(), seen.speed) };
             envelopes.joint_displacement[e] = envelopes.joint_displacement[e].max(moved);
             envelopes.joint_velocity[e] = envelopes.joint_velocity[e].max(speed.abs());
@@ -435,10 +447,10 @@ impl Run {
         recording.frame_vertical.extend_from_slice(vertical);
         recording.frame_rotation.extend_from_slice(rotation);
         recording.frame_damage.extend(state.bonds.iter().map(|bond| bond.damage));
-        for (seen, joint) in self.motion.seen.iter().zip(&model.joints) {
+        for ((seen, joint), apart) in self.motion.seen.iter().zip(&model.joints).zip(&self.apart) {
             let sign = turned(joint.kind);
             recording.frame_slip.push(sign * seen.slide);
-            recording.frame_opening.push(seen.gap[1].max(0.0));
+            recording.frame_opening.push((seen.gap[1] - apart).max(0.0));
             recording.frame_pressure.push(seen.pressure);
             recording.frame_friction.push(-sign * seen.shear);
         }

@@ -19,6 +19,8 @@ const UNSOLVED: f64 = 1e-3;
 /// Residual of the energy account over the largest work beyond which a result should not be used.
 const LARGE_RESIDUAL: f64 = 1e-3;
 
+/// Base shear over what friction and bond bear up to which it is rounding.
+const BEYOND: f64 = 1.001;
 /// Energy that contacts gave back, over the largest work, beyond which a result should not be used.
 const GIVEN_BACK: f64 = 0.01;
 /// Part of what was lost that may go to joints closing or ringing faster than steps resolve, before peaks should be doubted for it.
@@ -38,6 +40,7 @@ pub(super) fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<S
             Some(_) => unbalanced(outcome, "solver.step").or_else(|| given_back(model, outcome)),
         },
         unsolved(outcome),
+        beyond_friction(model, outcome),
         collapsed(model, outcome),
         moves_on(model, outcome),
         unresolved(model, outcome),
@@ -84,6 +87,47 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
     })
 }
 
+/// What springs in no need of friction bear beyond it. Joints of planar walls that slide, and bonded ones, bear no more than they can.
+fn beyond_friction(model: &Model, outcome: &Outcome) -> Option<String> {
+    let base = |e: &usize| model.joints[*e].kind == JointKind::Base;
+    let joints: Vec<usize> = (0..model.joints.len()).filter(base).collect();
+    if joints.iter().any(|&e| model.device_of_joint()[e].is_some()) {
+        return None;
+    }
+    if let Some(planar) = &model.planar {
+        let slides = |e: &usize| {
+            let law = &planar.system.links[*e].law;
+            law.bond.is_some() || law.shear.series || law.shear.stiffness == 0.0
+        };
+        if joints.iter().all(slides) {
+            return None;
+        }
+    }
+    let (rubs, bonds) = (model.rub_of_joint(), model.bond_of_joint());
+    let bears = |&e: &usize| {
+        let friction = rubs[e].map_or(0.0, |r| model.rubs[r].law.static_ * model.rubs[r].normal[0]);
+        let bond = bonds[e].map_or(0.0, |b| model.bonds[b].law.strength);
+        [friction, bond]
+    };
+    let [friction, bond] = joints.iter().map(bears).fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
+    // What it is that the joints bear without either is for the user to know: more than the load is more than any friction.
+    let bare = friction + bond == 0.0;
+    let borne = if bare { model.base_load() } else { joints.iter().map(bears).map(|[f, b]| f.max(b)).sum() };
+    let shear = outcome.totals.base_shear_peak;
+    (shear > BEYOND * borne).then(|| {
+        let [shear, borne] = [shear, borne].map(|force| format!("{:.2} kN", 1e-3 * force));
+        let bears = match (bare, bond > 0.0) {
+            (true, _) => format!("the vertical force of {borne}, of which friction bears a part at most"),
+            (false, false) => format!("the {borne} that friction bears (μ_s N)"),
+            (false, true) => format!("the {borne} that bond and friction bear (c A + N tan φ, or μ_s N)"),
+        };
+        format!(
+            "the largest base shear, {shear}, is above {bears}: the springs of joints without bond bear any slip, and no wall does. Forces and \
+             displacements are not those of masonry; take `model = \"planar\"`, whose joints slide, or give the joints a [joint.bond], after which they do"
+        )
+    })
+}
+
 /// A wall that fell is no result of the forces that it bore before.
 fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
     let collapse = outcome.totals.collapse?;
@@ -113,7 +157,8 @@ fn moves_on(model: &Model, outcome: &Outcome) -> Option<String> {
 /// Springs keep what they take: where all joints have some, what impacts take is what steps leave out.
 fn unresolved(model: &Model, outcome: &Outcome) -> Option<String> {
     let planar = model.planar.as_ref().filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
-    if !planar.system.links.iter().all(|link| link.law.is_compliant()) {
+    let mut joints = planar.system.links.iter().zip(&planar.open);
+    if !joints.all(|(link, open)| *open || link.law.is_compliant()) {
         return None;
     }
     let (lost, impact) = (outcome.energies.dissipated(), outcome.energies.impact);
@@ -154,11 +199,13 @@ fn large_slips(model: &Model, outcome: &Outcome) -> Option<String> {
     })
 }
 
-/// Whether friction did work although no joint with friction ever passed its slip velocity: creep of the regularised law.
+/// Whether friction did work although no joint with friction ever passed its slip velocity: creep of the regularised law. Laws that stick truly
+/// do not creep.
 pub fn only_creeps(joints: &[JointRow], outcome: &Outcome) -> bool {
-    let mut laws =
-        joints.iter().zip(&outcome.envelopes.joint_velocity).filter_map(|(j, v)| j.friction.map(|f| (f, *v)));
-    outcome.energies.friction > 0.0 && laws.all(|(law, velocity)| velocity <= law.creeps_below())
+    let laws = || joints.iter().zip(&outcome.envelopes.joint_velocity).filter_map(|(j, v)| j.friction.map(|f| (f, *v)));
+    outcome.energies.friction > 0.0
+        && laws().any(|(law, _)| law.creeps_below() > 0.0)
+        && laws().all(|(law, velocity)| velocity <= law.creeps_below())
 }
 
 /// Says that friction work is no sign of damage, where there is enough of it to be taken for one.

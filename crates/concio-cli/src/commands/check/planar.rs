@@ -20,19 +20,18 @@ pub fn joint_rows(model: &Model, planar: &Planar) -> Vec<Vec<String>> {
         vec![["joints", "number", "pressed", "sheared", "friction", "crushed by"].map(String::from).to_vec()];
     let devices = model.device_of_joint();
     for kind in KINDS {
-        let joints = model.joints.iter().zip(&devices).zip(&planar.system.links);
-        let laws: Vec<&Law> = joints
-            .filter(|((joint, device), _)| joint.kind == kind && device.is_none())
-            .map(|(_, link)| &link.law)
-            .collect();
-        if laws.is_empty() {
+        let joints = model.joints.iter().zip(&devices).zip(&planar.system.links).zip(&planar.open);
+        let joints = joints.filter(|(((joint, device), _), _)| joint.kind == kind && device.is_none());
+        let (open, closed): (Vec<_>, Vec<_>) = joints.map(|((_, link), open)| (link, *open)).partition(|of| of.1);
+        if open.is_empty() && closed.is_empty() {
             continue;
         }
+        let laws: Vec<&Law> = closed.iter().map(|(link, _)| &link.law).collect();
         let finite = |law: &&Law| Some(law.crushing).filter(|f| f.is_finite());
         rows.push(vec![
             kind_name(kind).into(),
-            laws.len().to_string(),
-            pressed(&laws),
+            (open.len() + closed.len()).to_string(),
+            pressed(&laws, &open.iter().map(|(link, _)| link.apart).collect::<Vec<_>>()),
             range(laws.iter().map(|l| l.shear.stiffness).filter(|k| *k > 0.0), |v| si(v, "N/m")),
             range(laws.iter().filter_map(|l| l.friction).map(|f| f.static_), |v| significant(v, 3)),
             range(laws.iter().filter_map(finite), |v| si(v, "N")),
@@ -41,8 +40,9 @@ pub fn joint_rows(model: &Model, planar: &Planar) -> Vec<Vec<String>> {
     rows
 }
 
-/// Stiffnesses of the joints that have one, restitution of the rigid ones, and of their rocking where it is given.
-fn pressed(laws: &[&Law]) -> String {
+/// Stiffnesses of the joints that have one, restitution of the rigid ones, and of their rocking where it is given; how far the sides of open ones
+/// are apart [m].
+fn pressed(laws: &[&Law], open: &[f64]) -> String {
     let stiffness = laws.iter().filter_map(|law| match law.normal {
         Normal::Springs { both, press, .. } => Some(both + press).filter(|k| *k > 0.0),
         Normal::Rigid { .. } => None,
@@ -57,10 +57,19 @@ fn pressed(laws: &[&Law]) -> String {
     let springs = range(stiffness, |v| si(v, "N/m"));
     let [rigid, rocking] = [0, 1].map(given);
     let rocking = if rocking == "1" { String::new() } else { format!(", η ≤ {rocking}") };
-    match (springs.as_str(), rigid.as_str()) {
+    let filled = match (springs.as_str(), rigid.as_str()) {
         (_, "–") => springs,
         ("–", _) => format!("rigid, e = {rigid}{rocking}"),
         _ => format!("{springs} or rigid, e = {rigid}{rocking}"),
+    };
+    let gaps = match open.iter().all(|gap| *gap == 0.0) {
+        true => "open, sides touch".into(),
+        false => format!("open, {} apart", range(open.iter().copied(), |v| si(v, "m"))),
+    };
+    match (open.is_empty(), laws.is_empty()) {
+        (true, _) => filled,
+        (false, true) => gaps,
+        (false, false) => format!("{filled} or {gaps}"),
     }
 }
 
