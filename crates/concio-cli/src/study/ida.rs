@@ -68,7 +68,7 @@ pub fn run(
     }
     bar.clear();
     // Other shards may have ended meanwhile.
-    let analysis = known(plan, &Store::open(out)?)?;
+    let analysis = self::known(plan, &Store::open(out)?)?;
     tell(plan, &analysis, known)?;
     let missing = missing(&analysis);
     if missing > 0 {
