@@ -70,7 +70,9 @@ pub struct Problem {
     pub dead: Vec<[f64; 2]>,
     /// Live load at the centre of every body at λ = 1 [N].
     pub live: Vec<[f64; 2]>,
-    /// What the analysis leaves out of the wall file.
+    /// Whether a load on the blocks has mass, and pushes with them.
+    pub laden: bool,
+    /// What the analysis leaves out of the wall file, or takes otherwise than it may be meant.
     pub warnings: Vec<String>,
 }
 
@@ -116,7 +118,8 @@ impl Problem {
             assembly,
             dead: dead.iter().map(|w| [0.0, -w]).collect(),
             live: live.iter().map(|w| [sign * w, 0.0]).collect(),
-            warnings: warnings(given),
+            laden: model.load_mass > 0.0,
+            warnings: warnings(given, &model, &sides),
             wall: model.wall,
         })
     }
@@ -144,7 +147,7 @@ fn at_rest(case: &Case) -> Result<Case> {
     Ok(case)
 }
 
-fn warnings(case: &Case) -> Vec<String> {
+fn warnings(case: &Case, model: &Model, sides: &[Sides]) -> Vec<String> {
     let bonded = case.joint.bond.is_some() || case.joint.changes.iter().any(|c| c.bond.is_some());
     let bonded = bonded.then(|| "the bond of the joints is left out: they count as dry".to_string());
     let tied = (!case.ties.is_empty())
@@ -153,8 +156,22 @@ fn warnings(case: &Case) -> Vec<String> {
     let laid = case.panels.iter().any(mortar).then(|| {
         "mortar counts as a dry joint, a line in its middle: it bears no tension, and blocks touch there".to_string()
     });
-    bonded.into_iter().chain(laid).chain(tied).collect()
+    let weight = model.load_mass * G;
+    let presses = (case.load.beam == Beam::Free && weight < (1.0 - LACKING) * model.top_load).then(|| {
+        let [all, has] = [model.top_load, weight].map(|force| 1e-3 * force);
+        format!(
+            "of the {all:.2} kN that load.top brings, {has:.2} kN push: the rest has no mass, and presses alone. Leave load.mass out, and all of it pushes"
+        )
+    });
+    let touching = sides.iter().filter(|sides| **sides == Sides::Touching).count();
+    let touching = (touching > 0).then(|| {
+        format!("the sides of {touching} joints of law `none` touch as they are laid: blocks press and rub there. A gap between them keeps them apart")
+    });
+    bonded.into_iter().chain(laid).chain(tied).chain(presses).chain(touching).collect()
 }
+
+/// Part of a load that may have no mass without a word.
+const LACKING: f64 = 0.01;
 
 /// The beam and the length on which it lies [m].
 fn beam(case: &Case, model: &Model, mass: f64) -> (Body, f64) {

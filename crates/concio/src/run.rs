@@ -133,8 +133,9 @@ fn endless(case: &Case, model: &Model) -> Option<Warning> {
     let steps = model.excitation.duration / step;
     (steps > ENDLESS).then(|| {
         let [step, duration] = [step, model.excitation.duration].map(|t| shown(plausible::rounded(t, 3)));
-        let text =
-            format!("motion.duration: {duration} s takes {steps:.0e} steps at least, none longer than {step} s ({why})");
+        let text = format!(
+            "motion.duration: {duration} s takes {steps:.0e} steps at least, none longer than {step} s ({why})"
+        );
         Warning::new(WarningKind::LongRun, text)
     })
 }

@@ -131,6 +131,7 @@ fn rows(
 ) -> Vec<(&'static str, String)> {
     let load = match args.load {
         LimitLoad::Body if problem.live.len() > problem.wall.blocks.len() => "weight of every block and of the beam",
+        LimitLoad::Body if problem.laden => "weight of every block and of the load on them",
         LimitLoad::Body => "weight of every block",
         LimitLoad::Top => "dead load of the top course",
     };

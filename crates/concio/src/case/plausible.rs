@@ -149,8 +149,7 @@ impl Doubts {
             format!("; did you mean \"{} {unit}\"?", shown(rounded(value * factor / si, 6)))
         });
         let unit = expected.unit;
-        let text =
-            format!("{key} is {} {unit}, {than} than {} {unit}{meant}", shown(rounded(value, 6)), shown(limit));
+        let text = format!("{key} is {} {unit}, {than} than {} {unit}{meant}", shown(rounded(value, 6)), shown(limit));
         self.add(WarningKind::UnlikelyNumber, text);
     }
 
@@ -367,7 +366,10 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
             }
             if device.reference_velocity.is_some() && device.exponent.unwrap_or(1.0) == 1.0 {
                 let key = format!("{at}.device.reference_velocity");
-                doubts.add(WarningKind::IdleKey, format!("{key} does nothing where `exponent` is 1: the dashpot is linear"));
+                doubts.add(
+                    WarningKind::IdleKey,
+                    format!("{key} does nothing where `exponent` is 1: the dashpot is linear"),
+                );
             }
             let way = device.yield_displacement.map_or(0.0, |d| d.si());
             doubts.look(&format!("{at}.device.yield_displacement"), way, &DEVICE_YIELD);

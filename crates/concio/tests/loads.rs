@@ -1,0 +1,183 @@
+//! Mass of what stands on a wall, against closed forms.
+
+use std::path::Path;
+
+use concio::G;
+use concio::case::{Syntax, from_str};
+use concio::outcome::Outcome;
+use concio::run::{Prepared, prepare, run_in_memory};
+use concio::warning::WarningKind;
+
+fn prepared(text: &str) -> Prepared {
+    let file = from_str(text, Syntax::Toml, None).expect("a wall file");
+    file.validate().expect("a valid wall");
+    prepare(file.case, Path::new(".")).expect("a wall that stands")
+}
+
+fn ran(text: &str) -> (Prepared, Outcome) {
+    let prepared = prepared(text);
+    let outcome = run_in_memory(&prepared).expect("a run");
+    (prepared, outcome)
+}
+
+fn close(found: f64, expected: f64, relative: f64) {
+    assert!((found / expected - 1.0).abs() <= relative, "{found} instead of {expected}");
+}
+
+/// Width and height [m] and weight [N] of the block, and the load on it [N].
+const BLOCK: [f64; 4] = [0.5, 1.0, 5e3, 10e3];
+
+fn block(model: &str, joint: &str, load: &str, motion: &str) -> String {
+    let [width, height, weight, _] = BLOCK;
+    format!(
+        r#"
+model = "{model}"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = {{ length = {width}, height = {height}, thickness = 1, specific_weight = {} }}
+[joint]
+damping_ratio = 0
+{joint}
+[load]
+{load}
+[motion]
+{motion}
+"#,
+        weight / (width * height)
+    )
+}
+
+const RIGID: &str =
+    "bed = { law = \"rigid\" }\nhead = { law = \"none\" }\nfriction = { law = \"coulomb\", static = 3, dynamic = 3 }";
+const TILT: &str =
+    "duration = \"20 s\"\nquasi_static = true\nbase = { tilt = { acceleration = \"-2 g\", rise = \"20 s\" } }";
+
+/// A load Q on a stone W of b × h turns it over at a = (W + Q) b/2 / (W h/2 + Q h), and one without mass at (W + Q) b/2 / (W h/2).
+#[test]
+fn a_load_with_mass_pushes_from_the_top() {
+    let [b, h, w, q] = BLOCK;
+    for (mass, pushes) in [("", q), ("mass = 0", 0.0), ("mass = \"500 kg\"", 500.0 * G)] {
+        let load = format!("top = {}\n{mass}", q / b);
+        let (prepared, outcome) = ran(&block("planar", RIGID, &load, TILT));
+        let multiplier = (w + q) * b / 2.0 / (w * h / 2.0 + pushes * h);
+        let time = outcome.totals.collapse.map_or(20.0, |c| c.time);
+        // It leaves its foot when its turn is more than what rounding makes of it.
+        let turns = &outcome.recording.frame_rotation;
+        let first = turns.iter().position(|turn| turn.abs() > 1e-6).expect("it turns");
+        let tilt = outcome.recording.frame_time[first].min(time) / 10.0;
+        assert!((tilt - multiplier).abs() < 0.015, "{mass}: {tilt} instead of {multiplier}");
+        close(prepared.model.weight(), w + pushes, 1e-12);
+        close(prepared.model.base_load(), w + q, 1e-12);
+    }
+}
+
+/// √(k/(m + Q/g)) of a block on springs, in both models.
+#[test]
+fn a_load_with_mass_slows_the_wall_down() {
+    let [b, _, w, q] = BLOCK;
+    let joint = "bed = { law = \"elastic\", stiffness = \"1 MN/m\" }\nhead = { law = \"none\" }";
+    let motion =
+        "duration = \"1 s\"\nbase = { pulse = { shape = \"rectangular\", acceleration = 1, duration = \"5 ms\" } }";
+    // Two half bricks lie on the base; high springs across hold the block upright.
+    for model in ["shear", "planar"] {
+        let joint = if model == "planar" {
+            joint.replace("\"1 MN/m\"", "\"1 MN/m\", normal_to_shear = 1e5")
+        } else {
+            joint.into()
+        };
+        let (_, outcome) = ran(&block(model, &joint, &format!("top = {}", q / b), motion));
+        let x = outcome.history("top/displacement").expect("a history");
+        let crossings = x.windows(2).filter(|w| w[0] < 0.0 && w[1] >= 0.0).count();
+        let frequency = (2e6 / ((w + q) / G)).sqrt() / std::f64::consts::TAU;
+        assert!((crossings as f64 - frequency).abs() <= 1.0, "{model}: {crossings} swings, {frequency} Hz");
+    }
+}
+
+/// A stone that rocks about its foot: what is told of it is the way of its own middle, not of the middle of stone and load.
+#[test]
+fn displacements_are_those_of_the_block() {
+    let [b, h, ..] = BLOCK;
+    let motion = "duration = \"0.3 s\"\nbase = { pulse = { shape = \"rectangular\", acceleration = \"-0.5 g\", duration = \"0.2 s\" } }";
+    let (_, outcome) = ran(&block("planar", RIGID, "top = \"20 kN/m\"", motion));
+    let rows = &outcome.recording;
+    let mut largest: f64 = 0.0;
+    for ((turn, x), y) in rows.frame_rotation.iter().zip(&rows.frame_displacement).zip(&rows.frame_vertical) {
+        // To the right about the foot at b/2, −h/2.
+        let theta = -turn;
+        let [across, up] = [
+            b / 2.0 * (1.0 - theta.cos()) + h / 2.0 * theta.sin(),
+            b / 2.0 * theta.sin() - h / 2.0 * (1.0 - theta.cos()),
+        ];
+        assert!((x - across).abs() < 1e-4 && (y - up).abs() < 1e-4, "{theta}: {x}, {y} instead of {across}, {up}");
+        largest = largest.max(theta);
+    }
+    assert!(largest > 0.01, "{largest}");
+}
+
+/// A tie that is fixed to the middle of a stone is as long as it is laid, whatever stands on the stone.
+#[test]
+fn ties_hold_the_block_where_it_is() {
+    let tie = "[[tie]]\nfrom = \"p1c1b1\"\nto = \"base\"\nto_at = [2, 0.5]\nstiffness = \"1 MN/m\"\n";
+    let text = block("planar", RIGID, "top = \"20 kN/m\"", "duration = 0.1");
+    let (_, outcome) = ran(&format!("{tie}{text}").replace("model = \"planar\"", "").replacen(
+        "[[tie]]",
+        "model = \"planar\"\n[[tie]]",
+        1,
+    ));
+    assert!(outcome.ties[0].force < 1e-3, "{} N at rest", outcome.ties[0].force);
+}
+
+#[test]
+fn a_load_that_lacks_mass_is_told_with_what_it_lacks() {
+    let shaken = "duration = 1\nbase = { sine = { acceleration = \"0.1 g\", frequency = \"2 Hz\" } }";
+    let told = |model: &str, load: &str, motion: &str| {
+        let prepared = prepared(&block(
+            model,
+            RIGID.replace("rigid", if model == "shear" { "none" } else { "rigid" }).as_str(),
+            load,
+            motion,
+        ));
+        let found = prepared.model.warnings.iter().filter(|w| w.kind == WarningKind::MasslessLoad);
+        found.map(|w| w.text.clone()).collect::<Vec<_>>()
+    };
+    for model in ["shear", "planar"] {
+        let all = told(model, "top = \"20 kN/m\"\nmass = 0", shaken);
+        // 10 kN without a mass.
+        assert!(
+            all.len() == 1 && all[0].contains("10.00 kN") && all[0].contains("1019 kg that are missing"),
+            "{all:?}"
+        );
+        let some = told(model, "top = \"20 kN/m\"\nbeam = { mass = \"0.5 t\" }", shaken);
+        assert!(some.len() == 1 && some[0].contains("519 kg that are missing"), "{some:?}");
+        for (load, motion) in [
+            ("top = \"20 kN/m\"", shaken),
+            ("top = \"20 kN/m\"\nmass = 0", "duration = 1"),
+            ("top = \"20 kN/m\"\nbeam = { mass = \"1 t\" }", shaken),
+            ("top = \"20 kN/m\"\nbeam = \"tied\"", shaken),
+        ] {
+            assert_eq!(told(model, load, motion), [""; 0], "{model}: {load}, {motion}");
+        }
+    }
+    let up = format!("{shaken}\nvertical = {{ sine = {{ acceleration = \"0.1 g\", frequency = \"2 Hz\" }} }}");
+    let held = told("planar", "top = \"20 kN/m\"\nbeam = \"tied\"", &up);
+    assert!(held.len() == 1 && held[0].contains("held from side to side"), "{held:?}");
+}
+
+#[test]
+fn a_mass_where_it_could_not_act_is_refused() {
+    for (beam, told) in [("{ mass = \"1 t\" }", "the beam has the mass"), ("\"driven\"", "held from side to side")] {
+        let motion = if beam.contains("driven") {
+            "duration = 1\ntop = { sine = { amplitude = 1e-3, frequency = 1 } }"
+        } else {
+            "duration = 1"
+        };
+        let text = block("planar", RIGID, &format!("top = 1e3\nmass = 10\nbeam = {beam}"), motion);
+        let error = from_str(&text, Syntax::Toml, None)
+            .and_then(|file| file.validate())
+            .expect_err("a mass too many")
+            .to_string();
+        assert!(error.contains("load.mass") && error.contains(told), "{error}");
+    }
+}
