@@ -12,6 +12,9 @@ use crate::concio;
 /// Largest residual of the energy account over the largest work.
 const LARGEST_RESIDUAL: f64 = 1e-3;
 
+/// Examples whose runs warn, and the kind of it: what they show is what is warned of.
+const WARNED: [(&str, &str); 1] = [("17-arch", "collapsed")];
+
 /// The results of an example.
 pub fn folder(root: &Path, name: &str) -> PathBuf {
     root.join("target").join("examples-out").join(name)
@@ -81,6 +84,12 @@ fn one(root: &Path, file: &Path) -> Outcome {
         if !out.join(file).is_file() {
             return Err(format!("{name}: {file} is missing"));
         }
+    }
+    let warnings = summary["warnings"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let expected = WARNED.iter().find(|(example, _)| *example == name).map(|(_, word)| *word);
+    let told = |warning: &Value| warning.as_str().is_some_and(|text| expected.is_some_and(|word| text.contains(word)));
+    if let Some(warning) = warnings.iter().find(|warning| !told(warning)) {
+        return Err(format!("{name}: its run warns, which no example should: {warning}"));
     }
     // Written so that a residual that is not a number fails too.
     if residual <= LARGEST_RESIDUAL {

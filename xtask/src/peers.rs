@@ -64,7 +64,7 @@ pub fn compare(root: &Path) -> Outcome {
         },
         Case {
             name: "slipping",
-            wall: file("examples/02-driven-top.toml")?,
+            wall: file("xtask/walls/driven-top.toml")?,
             tolerances: ["1e-4", "1e-10"],
             agree: vec![("top_work", 1e-2), ("top_force_peak", 1e-2), ("peak_relative_displacement", 1e-2)],
             histories: None,

@@ -42,10 +42,10 @@ pub fn compare(root: &Path) -> Outcome {
     let bench = Bench { program, cvode, folder };
     println!("Smooth system (xtask/walls/smooth.toml), largest error of the histories over the peak:\n");
     smooth(&bench, &bench.system(root, "xtask/walls/smooth.toml", None)?)?;
-    println!("\nSlipping system (examples/02-driven-top.toml, 0.5 s):\n");
-    slipping(&bench, &bench.system(root, "examples/02-driven-top.toml", None)?, &SLIPPING)?;
+    println!("\nSlipping system (xtask/walls/driven-top.toml, 0.5 s):\n");
+    slipping(&bench, &bench.system(root, "xtask/walls/driven-top.toml", None)?, &SLIPPING)?;
     println!("\nIts first 20 ms:\n");
-    slipping(&bench, &bench.system(root, "examples/02-driven-top.toml", Some(0.02))?, &START)
+    slipping(&bench, &bench.system(root, "xtask/walls/driven-top.toml", Some(0.02))?, &START)
 }
 
 /// Where the programs are.

@@ -119,24 +119,24 @@ pub struct Check {
 Examples:
   concio new                 writes wall.toml
   concio new abbey/nave.toml
-  concio new --model planar  blocks that rock, slide and fall
+  concio new --model shear   blocks that move to the side alone, as in the research report
   concio new -               prints it")]
 pub struct New {
     /// File to write; `-` for standard output.
     #[arg(default_value = "wall.toml", value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
     /// How its blocks move.
-    #[arg(long, value_enum, default_value_t = Model::Shear)]
+    #[arg(long, value_enum, default_value_t = Model::Planar)]
     pub model: Model,
 }
 
 /// The models of a wall file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Model {
-    /// To the side alone, as in the research report.
-    Shear,
     /// To the side, up and down, and turning: walls open, rock, slide and fall.
     Planar,
+    /// To the side alone, as in the research report: for walls whose joints slide or crack and do nothing else.
+    Shear,
 }
 
 /// Print the JSON Schema of the wall file.

@@ -19,7 +19,7 @@ use concio_study::{Plan, StudyFile};
 
 /// Panels of a piece.
 const PIECE: usize = 250;
-const WALL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/02-driven-top.toml");
+const WALL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../xtask/walls/driven-top.toml");
 
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);

@@ -10,7 +10,7 @@ const VARY: &str = "[[vary]]\npath = \"joint.friction.static\"\nvalues = [0.5, 0
 
 /// The message about a study file with these lines below `wall = …`.
 fn refused(text: &str) -> String {
-    let desk = Desk::new(include_str!("../../../examples/01-first-wall.toml"));
+    let desk = Desk::new(include_str!("../../concio/tests/data/shear-panel.toml"));
     match desk.plan(&format!("wall = \"wall.toml\"\n{text}")) {
         Ok(_) => "was taken".into(),
         Err(e) => e.to_string(),
@@ -91,7 +91,7 @@ fn analyses_that_have_no_answer() {
 /// Joints can be counted together where they lie the same; weight and thickness of bricks move none.
 #[test]
 fn cracks_are_counted_where_joints_are_the_same() -> concio::Result<()> {
-    let desk = Desk::new(include_str!("../../../examples/01-first-wall.toml"));
+    let desk = Desk::new(include_str!("../../concio/tests/data/shear-panel.toml"));
     let check = |path: &str, values: &str| {
         let vary = format!("[[vary]]\npath = \"panel[*].brick.{path}\"\nvalues = {values}\n");
         let plan = desk.plan(&format!("wall = \"wall.toml\"\n{vary}[cracks]\ncriterion = \"slip\"\n"))?;

@@ -40,7 +40,7 @@ fn points(kind: &str, runs: usize, k: usize) -> Vec<Vec<f64>> {
 fn plan(kind: &str, runs: usize, rest: &str) -> Plan {
     let runs = if runs > 0 { format!("runs = {runs}\n") } else { String::new() };
     let text = format!("wall = \"wall.toml\"\n[design]\nkind = \"{kind}\"\n{runs}seed = 5\n{rest}");
-    Desk::new(include_str!("../../../examples/01-first-wall.toml")).plan(&text).expect("a study")
+    Desk::new(include_str!("../../concio/tests/data/shear-panel.toml")).plan(&text).expect("a study")
 }
 
 /// What a study finds whose runs have `measured` for their largest slip, given the labels of their factors.

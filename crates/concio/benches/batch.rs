@@ -10,7 +10,7 @@ use concio::many::{Job, simulate_many};
 use concio::outcome::Outcome;
 use concio::run::{Prepared, prepare, run_in_memory};
 
-const PANEL: &str = include_str!("../../../examples/02-driven-top.toml");
+const PANEL: &str = include_str!("../../../xtask/walls/driven-top.toml");
 /// Rounds in which the ways take turns; the median counts.
 const ROUNDS: usize = 3;
 

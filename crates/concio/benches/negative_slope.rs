@@ -8,7 +8,7 @@ use concio::record::StopReason;
 use concio::run::{prepare, run_in_memory};
 
 /// The panel of examples/02, and how it is run.
-const PANEL: &str = include_str!("../../../examples/02-driven-top.toml");
+const PANEL: &str = include_str!("../../../xtask/walls/driven-top.toml");
 /// Runs of one setting: the top's amplitude off by millionths, which in a chaotic regime makes other histories.
 const MEMBERS: usize = 5;
 

@@ -1,6 +1,6 @@
 //! Micro-benchmarks of the inner loop: friction law, assembly, factorisation, solution, a step. By hand:
 //! `cargo bench --package concio --bench parts`. Each is at a state in the middle of a run: the 27 blocks of
-//! examples/02-driven-top.toml in stick-slip, and 410 shaken ones.
+//! xtask/walls/driven-top.toml in stick-slip, and 410 shaken ones.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -18,7 +18,7 @@ fn main() {
     divan::main();
 }
 
-const SLIPPING: &str = include_str!("../../../examples/02-driven-top.toml");
+const SLIPPING: &str = include_str!("../../../xtask/walls/driven-top.toml");
 const SHAKEN: &str = "
 model = \"shear\"
 set = \"report\"

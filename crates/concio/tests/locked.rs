@@ -155,9 +155,9 @@ fn locked_walls_are_those_of_the_shear_model() {
         case.joint.connection.iter_mut().for_each(|spring| spring.law = SpringLaw::Elastic);
         case
     };
-    let first = case(include_str!("../../../examples/01-first-wall.toml"));
-    let irregular = case(include_str!("../../../examples/03-irregular-texture.toml"));
-    let two = case(include_str!("../../../examples/04-two-panels.toml"));
+    let first = case(include_str!("data/shear-panel.toml"));
+    let irregular = case(include_str!("data/irregular.toml"));
+    let two = case(include_str!("../../../examples/studies/two-panels.toml"));
     let opening = |mut case: Case| {
         case.joint.head.damping_ratio = Some(0.0);
         case.joint.connection.iter_mut().for_each(|spring| spring.damping_ratio = Some(0.0));

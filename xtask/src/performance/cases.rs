@@ -72,7 +72,7 @@ fn slipping() -> Case {
     Case {
         name: "slipping",
         title: "6 × 4 panel (27 blocks), driven top, stick-slip at kilohertz, 0.5 s",
-        wall: "examples/02-driven-top.toml",
+        wall: "xtask/walls/driven-top.toml",
         changes: Vec::new(),
         record: false,
         duration: 0.5,
@@ -96,7 +96,7 @@ fn slip_start() -> Case {
     Case {
         name: "slip-start",
         title: "the first 20 ms of *slipping*: joints let go one after another",
-        wall: "examples/02-driven-top.toml",
+        wall: "xtask/walls/driven-top.toml",
         changes: Vec::new(),
         record: false,
         duration: 0.02,

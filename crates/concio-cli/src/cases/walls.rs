@@ -2,7 +2,7 @@
 //! with a change too small to mean anything, because its trajectories are chaotic.
 
 use concio::case::{self, Beam, CaseFile, FrictionOn, NormalForce, Signal, Sine, Syntax};
-use concio::quantity::{Acceleration, ForcePerLength, Frequency, Length, Time};
+use concio::quantity::{Acceleration, ForcePerLength, Frequency, Length, Mass, Time};
 
 /// A case of section 4.2, or the control to case 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -141,6 +141,8 @@ pub fn file(which: Which, setting: Setting, member: usize) -> concio::Result<Cas
         Setting::BaseToo => case.motion.base = sine(Some(2e-3), None, 3.0, 0.2),
         Setting::GroundAlone => {
             case.load.beam = Beam::Free;
+            // What presses is the test rig's.
+            case.load.mass = Some(Mass::from_si(0.0));
             case.motion.top = Signal::None;
             case.motion.base = sine(None, Some(0.8 * concio::G), 5.0, 0.2);
         }

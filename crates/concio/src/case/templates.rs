@@ -67,7 +67,7 @@ pub fn starter(model: ModelKind) -> &'static str {
     }
 }
 
-/// The built-in wall: a brick panel of six courses under a heavy floor, shaken by a synthetic record.
+/// The built-in wall: a dry brick panel of six courses under a heavy floor, shaken by a synthetic record.
 ///
 /// # Errors
 /// None in a released version: a test reads it.
