@@ -459,6 +459,8 @@ fn a_cracking_wall_keeps_its_energy_and_its_bits() {
         for law in ["stribeck", "coulomb"] {
             let p = {
                 let mut case = prepared(&bond).case;
+                // With the mass of the load all of it cracks.
+                case.load.mass = Some(concio::quantity::Mass::from_si(0.0));
                 if law == "coulomb" {
                     case.joint.friction.law = concio::case::FrictionLaw::Coulomb;
                 }

@@ -485,7 +485,7 @@ fn a_moment_of_a_stored_run_is_what_was_sampled() {
                 let motion = moment.block(i);
                 assert_eq!([motion.displacement, motion.velocity], [of("displacement"), of("velocity")]);
                 assert_eq!(motion.acceleration, of("acceleration"));
-                let expected = force[i] / block.mass() - value("base/acceleration".into());
+                let expected = force[i] / p.model.mass[i] - value("base/acceleration".into());
                 let scale = out.envelopes.block_acceleration[i];
                 // The iteration on the laws leaves a mismatch of forces, below the tolerance of the step.
                 let error = (motion.acceleration - expected).abs() / scale;
