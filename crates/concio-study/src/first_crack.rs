@@ -10,6 +10,7 @@ use std::path::Path;
 use concio::case::{Case, JointKind, Signal};
 use concio::quantity::{Length, Time};
 use concio::run::prepare;
+use concio::warning::Warning;
 use concio::{InputError, Result};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -147,6 +148,9 @@ pub struct Trial {
     /// When it cracked [s].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
+    /// What a user should know before believing it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Warning>,
 }
 
 /// What is known of one wall under one motion.
@@ -335,7 +339,8 @@ impl<'a> Seek<'a> {
         if time == Some(0.0) {
             self.cause.get_or_insert(format!("joint {name} cracks under the loads at rest, whatever the motion"));
         }
-        let trial = Trial { scale, cracked: time.is_some(), utilisation, joint: name, kind, time };
+        let warnings = row.warnings.clone();
+        let trial = Trial { scale, cracked: time.is_some(), utilisation, joint: name, kind, time, warnings };
         let place = self.trials.partition_point(|t| t.scale < scale);
         self.trials.insert(place, trial);
     }

@@ -34,6 +34,7 @@ pub mod shaking;
 pub mod store;
 pub mod table;
 pub mod until;
+pub mod warned;
 
 pub use file::StudyFile;
 pub use plan::Plan;

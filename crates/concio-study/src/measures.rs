@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 
 use concio::outcome::{BondRow, Outcome};
 use concio::record::StopReason;
-use concio::run::{Prepared, joint_rows};
-use concio::store::{residual_relative, top_force_rms};
+use concio::run::{Prepared, joint_rows, warnings_of};
+use concio::store::{JointRow, residual_relative, top_force_rms};
+use concio::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 use crate::file::PerJoint;
 
 /// Raised when a measure means something else than before: it stands in every row, and runs measured earlier are done again.
-pub const VERSION: u32 = 5;
+pub const VERSION: u32 = 6;
 
 /// A number of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -102,6 +103,9 @@ pub struct Row {
     /// Joint that cracked first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_joint: Option<String>,
+    /// What a user should know before believing it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Warning>,
     /// Values per joint, in the order of the joints; none where there is none.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub joints: BTreeMap<PerJoint, Vec<Option<f64>>>,
@@ -118,6 +122,7 @@ impl Row {
             numbers: Vec::new(),
             peak_joint: None,
             first_joint: None,
+            warnings: Vec::new(),
             joints: BTreeMap::new(),
         }
     }
@@ -143,7 +148,8 @@ pub fn row(id: &str, prepared: &Prepared, outcome: &Outcome, keep: &[PerJoint]) 
     let model = &prepared.model;
     let name = |e: usize| concio::graph::name(&model.wall, &model.joints[e]);
     let most = largest(&outcome.envelopes.joint_displacement);
-    let numbers = numbers(prepared, outcome);
+    let rows = joint_rows(model);
+    let numbers = numbers(prepared, outcome, &rows);
     Row {
         id: id.into(),
         version: VERSION,
@@ -152,6 +158,7 @@ pub fn row(id: &str, prepared: &Prepared, outcome: &Outcome, keep: &[PerJoint]) 
         numbers: numbers.into_iter().map(|v| v.is_finite().then_some(v)).collect(),
         peak_joint: most.map(name),
         first_joint: outcome.first_crack().map(|b| name(b.joint)),
+        warnings: warnings_of(model, &rows, outcome),
         joints: keep.iter().map(|k| (*k, per_joint(*k, model.joints.len(), outcome))).collect(),
     }
 }
@@ -162,7 +169,7 @@ fn largest(values: &[f64]) -> Option<usize> {
     above.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(i, _)| i)
 }
 
-fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
+fn numbers(prepared: &Prepared, outcome: &Outcome, joints: &[JointRow]) -> [f64; MEASURES.len()] {
     let (model, envelopes, totals, energies) =
         (&prepared.model, &outcome.envelopes, &outcome.totals, &outcome.energies);
     let most = |values: &[f64]| values.iter().fold(0.0f64, |m, v| m.max(*v));
@@ -171,7 +178,6 @@ fn numbers(prepared: &Prepared, outcome: &Outcome) -> [f64; MEASURES.len()] {
     let tops: Vec<Option<usize>> = (0..model.wall.panels.len()).map(highest).collect();
     let moved = blocks.iter().zip(&envelopes.block_displacement).filter(|(b, _)| tops[b.panel] == Some(b.course));
     let drift = moved.fold(0.0f64, |m, (b, u)| m.max(u / b.y[1]));
-    let joints = joint_rows(model);
     // Dashpots of planar walls act while their joint is pressed, which envelopes do not tell.
     let viscous = match model.planar {
         Some(_) => f64::NAN,

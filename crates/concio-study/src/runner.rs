@@ -18,6 +18,7 @@ use concio::outcome::Outcome;
 use concio::record::StopReason;
 use concio::run::{Control, Prepared, joint_rows, prepare_with};
 use concio::store::hdf5;
+use concio::warning::WarningKind;
 use concio::{Error, Result};
 use rayon::prelude::*;
 
@@ -27,6 +28,7 @@ use crate::measures::{End, Row, row};
 use crate::plan::Records;
 use crate::store::Store;
 use crate::until::simulate_until;
+use crate::warned::Warned;
 
 /// Threads wait for each other where one set of runs ends and the next begins, so sets are large; but no larger than this
 /// in runs and in memory, about [bytes], and no longer in the making: what is being made is lost when a study is killed.
@@ -75,6 +77,9 @@ pub struct Runner<'a> {
     watch: &'a (dyn Fn(&Progress) -> Control + Sync),
     solve: Solve,
     until: Option<Rule>,
+    /// What the runs that were asked for warn of, each counted once.
+    pub warned: Warned,
+    counted: HashSet<String>,
     /// Time by the clock spent inside the solver.
     pub solving: Duration,
 }
@@ -104,6 +109,8 @@ impl<'a> Runner<'a> {
             watch,
             solve: simulate_each,
             until: None,
+            warned: Warned::default(),
+            counted: HashSet::new(),
             solving: Duration::ZERO,
         })
     }
@@ -180,6 +187,13 @@ impl<'a> Runner<'a> {
         }
         self.store.sync()?;
         (self.watch)(&tally.progress(0.0));
+        for id in &ids {
+            if let Some(row) = self.store.get(id)
+                && self.counted.insert(id.clone())
+            {
+                self.warned.add(|| format!("run {id}"), &row.warnings);
+            }
+        }
         let row = |id: &String| self.store.get(id).cloned();
         Ok(Some(ids.iter().filter_map(row).collect()))
     }
@@ -225,6 +239,7 @@ impl<'a> Runner<'a> {
             store: Mutex::new(&mut self.store),
             joints: &self.joints,
             results: self.results,
+            cut: self.until.is_some(),
             error: Mutex::new(None),
             done: Mutex::new(HashSet::new()),
             stopped: AtomicUsize::new(0),
@@ -263,6 +278,8 @@ struct Desk<'s> {
     store: Mutex<&'s mut Store>,
     joints: &'s [PerJoint],
     results: bool,
+    /// Whether runs end before their time.
+    cut: bool,
     error: Mutex<Option<Error>>,
     done: Mutex<HashSet<String>>,
     stopped: AtomicUsize,
@@ -295,7 +312,12 @@ impl Desk<'_> {
                     locked(&self.error).get_or_insert(error);
                     return;
                 }
-                row(id, prepared, &outcome, self.joints)
+                let mut row = row(id, prepared, &outcome, self.joints);
+                if self.cut {
+                    // That the wall moves where its run was cut off says nothing of it.
+                    row.warnings.retain(|w| w.kind != WarningKind::UnderWay);
+                }
+                row
             }
             Err(error) => Row::failed(id, error.to_string()),
         };

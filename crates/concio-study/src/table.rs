@@ -21,7 +21,7 @@ use crate::measures::{End, MEASURES, Row};
 use crate::plan::Plan;
 
 /// Columns of the table of runs beside factors and measures.
-const OWN: [&str; 6] = ["run", "end", "peak_joint", "first_joint", "cause", "id"];
+const OWN: [&str; 8] = ["run", "end", "peak_joint", "first_joint", "cause", "warnings", "warning_kinds", "id"];
 
 /// A column.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,7 +87,7 @@ impl Table {
 /// where a run is not done.
 pub fn of_plan(plan: &Plan, rows: &[Option<&Row>]) -> Table {
     let mut table = Table::default();
-    let [run, end_of, peak_joint, first_joint, cause, id] = OWN;
+    let [run, end_of, peak_joint, first_joint, cause, warned, kinds, id] = OWN;
     table.numbers(run, "", (0..rows.len()).map(|i| Some((i + 1) as f64)).collect());
     let labels: Vec<Vec<Value>> = (0..rows.len()).map(|i| plan.labels(i)).collect();
     for (k, factor) in plan.factors.iter().enumerate() {
@@ -117,6 +117,9 @@ pub fn of_plan(plan: &Plan, rows: &[Option<&Row>]) -> Table {
     table.texts(peak_joint, text(|r| r.peak_joint.clone()));
     table.texts(first_joint, text(|r| r.first_joint.clone()));
     table.texts(cause, text(|r| r.cause.clone()));
+    let count = |r: &&Row| (r.end != End::Failed).then_some(r.warnings.len() as f64);
+    table.numbers(warned, "", rows.iter().map(|r| r.as_ref().and_then(count)).collect());
+    table.texts(kinds, text(|r| crate::warned::kinds(&r.warnings)));
     table.texts(id, text(|r| Some(r.id.clone())));
     table
 }

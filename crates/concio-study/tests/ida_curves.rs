@@ -5,7 +5,7 @@ use concio_study::ida::hunt::Way;
 use concio_study::ida::likelihood::Evidence;
 
 fn point(intensity: f64, collapsed: bool) -> Point {
-    Point { intensity, scale: intensity, damage: Some(intensity), collapsed, id: String::new() }
+    Point { intensity, scale: intensity, damage: Some(intensity), collapsed, id: String::new(), warnings: Vec::new() }
 }
 
 /// Steps of 0.1, 0.15, 0.2, … up to the collapse at 0.97, thirds until the gap is 10 %, then the widest gaps.
@@ -49,6 +49,7 @@ fn curve(points: &[(f64, f64, bool)]) -> Curve {
         damage: Some(damage),
         collapsed,
         id: String::new(),
+        warnings: Vec::new(),
     };
     let points = points.iter().map(point).collect();
     Curve { name: "a".into(), number: 0, unit: 1.0, points, failed: None }

@@ -34,6 +34,7 @@ pub mod state;
 pub mod store;
 pub mod system;
 pub mod wall;
+pub mod warning;
 mod wide;
 
 pub use error::{Error, InputError, Result};

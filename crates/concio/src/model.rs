@@ -12,6 +12,7 @@ use crate::graph;
 use crate::law::Stribeck;
 use crate::planar::{self, Planar};
 use crate::wall::{Block, End, Joint, PanelInfo, Wall};
+use crate::warning::{Warning, WarningKind};
 
 /// Everything a run needs and nothing it changes.
 #[derive(Debug, Clone)]
@@ -54,7 +55,7 @@ pub struct Model {
     /// What the blocks of a planar wall are and do; none in the shear model, which the arrays above are of.
     pub planar: Option<Planar>,
     /// Things a user should know before believing the result.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 /// Elastic and viscous part of a joint, (2)–(4).
@@ -212,8 +213,9 @@ impl Model {
         let stiffest = stiffest(&mass, &sides, &device::at_rest(&elastic, &nonlinear), excitation.duration);
         let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
         let mut warnings = warnings(case, &wall, rubs.len(), if turns { 0 } else { idle }, reciprocal);
-        warnings.extend(wide_joint(&wall, &joints));
-        warnings.extend(planar::detached(case, &wall));
+        warnings.extend(wide_joint(&wall, &joints).map(|text| Warning::new(WarningKind::WideJoint, text)));
+        let detached = planar::detached(case, &wall).into_iter();
+        warnings.extend(detached.map(|text| Warning::new(WarningKind::DetachedTie, text)));
         let planar = turns.then(|| planar::compile(case, &wall, &joints, &laws)).transpose()?;
         let rigid = |(e, law): (usize, &JointLaw)| {
             let spring = &law.spring;
@@ -395,24 +397,28 @@ fn under_beam(wall: &Wall, panel: usize) -> Option<String> {
 }
 
 /// `rubs` joints rub, `idle` ones have a friction law but no normal force.
-fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool) -> Vec<String> {
+fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool) -> Vec<Warning> {
     let mut warnings = Vec::new();
+    let mut add = |kind, text: String| warnings.push(Warning::new(kind, text));
     if idle > 0 && rubs > 0 {
-        warnings.push(format!(
+        let text = format!(
             "{idle} joints have a friction law but carry no weight and do not rub (head joints, with transmitted loads)"
-        ));
+        );
+        add(WarningKind::IdleFriction, text);
     }
     if !reciprocal {
-        warnings.push(
+        add(
+            WarningKind::Overburden,
             "overburden loads: action and reaction of friction differ, energy is not conserved (see energy/nonreciprocal)"
                 .into(),
         );
     }
     if rubs == 0 && idle > 0 {
-        warnings.push("friction is given but no joint carries a normal force".into());
+        add(WarningKind::IdleFriction, "friction is given but no joint carries a normal force".into());
     }
     if case.load.beam != Beam::Free {
-        warnings.extend((0..wall.panels.len()).filter_map(|panel| under_beam(wall, panel)));
+        let below = (0..wall.panels.len()).filter_map(|panel| under_beam(wall, panel));
+        below.for_each(|text| add(WarningKind::BelowBeam, text));
     }
     if let Beam::Mass(m) = case.load.beam {
         let carries: Vec<bool> =
@@ -421,10 +427,11 @@ fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool
         let length: f64 = wall.blocks.iter().filter(under).map(Block::length).sum();
         let load = case.load.top.si() * length;
         if m.si() * crate::G > 1.001 * load {
-            warnings.push(format!(
+            let text = format!(
                 "the beam weighs {:.0} N but load.top brings only {load:.0} N to the wall; its weight acts through load.top alone",
                 m.si() * crate::G
-            ));
+            );
+            add(WarningKind::HeavyBeam, text);
         }
     }
     warnings

@@ -20,10 +20,11 @@ use crate::quantity::shown;
 use crate::record::StopReason;
 use crate::simulate::{Progress, Sampling, Simulation};
 use crate::store::{self, JointRow, Journal, JournalHeader, Provenance, RunFacts};
+use crate::warning::{Warning, WarningKind};
 
 mod warnings;
 
-pub use warnings::only_creeps;
+pub use warnings::{all as warnings_of, only_creeps};
 
 /// A case made ready to run.
 #[derive(Debug, Clone)]
@@ -121,7 +122,7 @@ pub fn prepare_with(case: Case, folder: &Path, library: &Library) -> Result<Prep
 }
 
 /// Says of a run that takes days at least that it does, and why.
-fn endless(case: &Case, model: &Model) -> Option<String> {
+fn endless(case: &Case, model: &Model) -> Option<Warning> {
     let asked = case.solver.max_step.map_or(f64::INFINITY, |h| h.si());
     let resolves = model.excitation.longest_step();
     let (step, why) = match &model.planar {
@@ -132,7 +133,9 @@ fn endless(case: &Case, model: &Model) -> Option<String> {
     let steps = model.excitation.duration / step;
     (steps > ENDLESS).then(|| {
         let [step, duration] = [step, model.excitation.duration].map(|t| shown(plausible::rounded(t, 3)));
-        format!("motion.duration: {duration} s takes {steps:.0e} steps at least, none longer than {step} s ({why})")
+        let text =
+            format!("motion.duration: {duration} s takes {steps:.0e} steps at least, none longer than {step} s ({why})");
+        Warning::new(WarningKind::LongRun, text)
     })
 }
 
@@ -318,8 +321,7 @@ fn write(
     out: &Path,
 ) -> Result<Value> {
     let (model, provenance, joints) = (&prepared.model, prepared.provenance(), joint_rows(&prepared.model));
-    let mut warnings = model.warnings.clone();
-    warnings.extend(warnings::of(model, &joints, outcome));
+    let warnings = warnings::all(model, &joints, outcome);
     let facts = RunFacts {
         duration: model.excitation.duration,
         weight: model.weight(),

@@ -529,7 +529,7 @@ fn summary_has_the_keys_that_other_programs_read() {
         base_load: 5e4,
         solve_seconds: 0.5,
         resumed_from: None,
-        warnings: vec!["One.".into()],
+        warnings: vec![concio::warning::Warning::new(concio::warning::WarningKind::Collapse, "One.")],
     };
     let summary = store::summary(&s.provenance, &s.wall, &s.joints, &s.outcome, &facts);
     let number = |key: &str| summary.pointer(key).and_then(|v| v.as_f64()).unwrap_or_else(|| panic!("no {key}"));
@@ -557,7 +557,7 @@ fn summary_has_the_keys_that_other_programs_read() {
     assert_eq!(summary["stop_reason"], "completed");
     assert_eq!(summary["inputs_hash"], "0123456789abcdef");
     assert_eq!(summary["version"], "0.1.0");
-    assert_eq!(summary["warnings"][0], "One.");
+    assert_eq!((&summary["warnings"][0], &summary["warning_kinds"][0]), (&"One.".into(), &"collapse".into()));
     for key in ["kinetic", "elastic", "damping", "bond"] {
         number(&format!("/energy/{key}"));
     }

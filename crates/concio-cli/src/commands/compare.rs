@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use concio::constrained::{self, Heads, Variant};
 use concio::record::StopReason;
-use concio::run::Prepared;
+use concio::run::{Prepared, joint_rows, warnings_of};
 use concio::store::residual_relative;
 use concio::{Error, InputError};
+use concio_study::warned::Warned;
 use serde_json::{Value, json};
 
 use super::{run::refuse_a_file, wall_file};
@@ -49,6 +50,7 @@ fn constrained(args: &Constrained) -> Result<(), Failure> {
     let stem = args.file.file_stem().unwrap_or(args.file.as_os_str()).to_string_lossy();
     let out = args.out.clone().unwrap_or_else(|| Path::new("concio-run").join(format!("{stem}-constrained")));
     refuse_a_file(&out)?;
+    wall_file::warn(&file, &prepared.model.warnings);
     // Wrong names are told before anything is run.
     let named = (!args.pairs.is_empty()).then(|| chosen(&prepared, &args.pairs)).transpose()?;
     let rigid = Heads::Rigid(args.restitution);
@@ -72,6 +74,9 @@ fn constrained(args: &Constrained) -> Result<(), Failure> {
     if convergence.iter().filter(|(_, d)| *d > 0.0).count() >= 2 {
         drawings.push(("convergence".into(), converging(&convergence)));
     }
+    let mut known = Warned::default();
+    known.add(String::new, &prepared.model.warnings);
+    wall_file::warn_of_runs(&file, &warned(&runs).sentences(&known));
     write(args, &out, &drawings, &summary(&runs, &pairs, &convergence, rate))?;
     files::print(&told(&runs, &pairs, &convergence, rate))
 }
@@ -129,6 +134,16 @@ fn deepest(free: &Variant) -> Vec<Pair> {
     pairs.sort_by(|a, b| closing[b.index].total_cmp(&closing[a.index]).then(a.index.cmp(&b.index)));
     pairs.truncate(PAIRS);
     pairs
+}
+
+/// What the three runs warn of.
+fn warned(runs: &[Variant]) -> Warned {
+    let mut warned = Warned::default();
+    for (name, run) in NAMES.iter().zip(runs) {
+        let model = &run.prepared.model;
+        warned.add(|| (*name).into(), &warnings_of(model, &joint_rows(model), &run.outcome));
+    }
+    warned
 }
 
 fn history(run: &Variant, name: &str) -> Vec<f64> {

@@ -6,8 +6,10 @@ use std::process::ExitCode;
 use concio::InputError;
 use concio::case::{self, Case, CaseFile, RecordInput, Signal};
 use concio::quantity::{Length, Time};
+use concio::warning::Warning;
 use concio_study::first_crack::{FirstCrackInput, Question, Subject, objection};
 use concio_study::limits::Criterion;
+use concio_study::warned::Told;
 
 use super::run::refuse_a_file;
 use super::wall_file;
@@ -31,6 +33,14 @@ pub fn first_crack(args: &FirstCrack) -> Result<ExitCode, Failure> {
     let name = args.file.file_stem().unwrap_or(args.file.as_os_str());
     let out = args.out.clone().unwrap_or_else(|| Path::new("concio-first-crack").join(name));
     refuse_a_file(&out)?;
+    let name = |n: usize| subjects[n].name.clone();
+    let mut before = concio_study::warned::before(subjects.len(), |n| Some(subjects[n].case.clone()), name);
+    let runs = before.warned.of;
+    let replaced = |w: &Warning| !args.records.is_empty() && w.starts_with("motion.base.");
+    let doubts = wall.unit_doubts().into_iter().filter(|w| !replaced(w));
+    let of_file = |first: Warning| Told { first, name: String::new(), runs, same: true };
+    before.warned.told.splice(0..0, doubts.map(of_file));
+    wall_file::warn_of_runs(&wall, &before.sentences());
     stop::listen()?;
     let title = if wall.case.title.is_empty() {
         "First cracking".into()
@@ -40,7 +50,7 @@ pub fn first_crack(args: &FirstCrack) -> Result<ExitCode, Failure> {
     let facts = vec![("wall file", args.file.display().to_string()), ("motions", subjects.len().to_string())];
     let threads = args.threads.map_or(0, usize::from);
     let first = first(&subjects, &wall.case)?;
-    let request = Request { title: &title, facts, first, question: &question, subjects: &subjects, out: &out, threads };
+    let request = Request { title: &title, facts, first, question: &question, subjects: &subjects, out: &out, threads, wall: &wall, known: before.warned };
     answer(&request, Do::Share([1, 1]))
 }
 

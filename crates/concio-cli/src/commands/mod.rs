@@ -22,7 +22,7 @@ mod scale;
 mod schema;
 mod study;
 mod system;
-mod wall_file;
+pub mod wall_file;
 
 /// Runs a command. Errors are shown by the caller.
 pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {

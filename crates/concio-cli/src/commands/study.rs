@@ -10,6 +10,7 @@ use concio_study::file::Keep;
 use concio_study::measures::{End, Row};
 use concio_study::runner::{Progress, Runner};
 use concio_study::store::Store;
+use concio_study::warned::Warned;
 use concio_study::{Plan, answer, file, first_crack, interfaces, table};
 use rayon::prelude::*;
 
@@ -19,7 +20,7 @@ use crate::args::{StudyCheck, StudyCommand, StudyPlace, StudyRun};
 use crate::failure::{Failure, STOPPED};
 use crate::format::{columns, counted, pairs};
 use crate::progress::Runs;
-use crate::study::asked::{self, Shaking, Trouble};
+use crate::study::asked::{self, Trouble};
 use crate::study::first_crack::{Do, Request};
 use crate::{files, stop, study};
 
@@ -27,7 +28,7 @@ use crate::{files, stop, study};
 const MOST_NAMED: usize = 5;
 
 /// A question and its answer.
-type Answered = (interfaces::Question, answer::Answer);
+type Answered = (interfaces::Question, answer::Answer, Warned);
 
 /// Dispatches.
 pub fn run_command(command: &StudyCommand) -> std::result::Result<ExitCode, Failure> {
@@ -96,9 +97,11 @@ fn cases(plan: &Plan) -> Result<Vec<(String, Case)>> {
     Ok(cases)
 }
 
-/// Tells what `concio check` would warn of.
-fn warn(plan: &Plan, shaking: &Shaking) {
-    wall_file::warn(&plan.file.wall, &shaking.warnings);
+/// Tells what the runs will warn of, as far as that is known before; what was told.
+fn warn(plan: &Plan) -> Warned {
+    let before = asked::before(plan);
+    wall_file::warn_of_runs(&plan.file.wall, &before.sentences());
+    before.warned
 }
 
 fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
@@ -109,7 +112,7 @@ fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
         first_crack::of_study(&plan)?;
     }
     let shaking = asked::shaking(&plan)?;
-    warn(&plan, &shaking);
+    warn(&plan);
     let store = Store::open(&folder(&args.place))?;
     tell_outdated(&store);
     let mut rows = asked::lines(&plan, point(&plan), &shaking);
@@ -148,10 +151,11 @@ fn run(plan: &Plan, args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     let cases = cases(plan)?;
     let out = folder(&args.place);
     refuse_a_file(&out)?;
-    warn(plan, &asked::shaking(plan)?);
+    asked::shaking(plan)?;
+    let known = warn(plan);
     let [share, of] = args.shard.unwrap_or([1, 1]);
     if plan.file.study.ida.is_some() {
-        return study::ida::run(plan, &out, args.threads.map_or(0, usize::from), [share, of]);
+        return study::ida::run(plan, &out, args.threads.map_or(0, usize::from), [share, of], &known);
     }
     stop::listen()?;
     let mine: Vec<Case> = cases.iter().skip(share - 1).step_by(of).map(|(_, case)| case.clone()).collect();
@@ -173,7 +177,7 @@ fn run(plan: &Plan, args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     let store = Store::open(&out)?;
     let found = found(plan, &store, &cases);
     let missing = found.iter().filter(|r| r.is_none()).count();
-    tell(plan, &found)?;
+    tell(plan, &found, &known)?;
     if missing > 0 {
         files::note(&format!("{missing} of {} are left to other shards", counted(cases.len(), "run")));
         return Ok(ExitCode::SUCCESS);
@@ -200,9 +204,11 @@ fn first_cracks(
     let (question, subjects) = first_crack::of_study(plan)?;
     let out = folder(place);
     refuse_a_file(&out)?;
+    let mut known = Warned::default();
     if matches!(what, Do::Share(_)) {
         cases(plan)?;
-        warn(plan, &asked::shaking(plan)?);
+        asked::shaking(plan)?;
+        known = warn(plan);
         stop::listen()?;
     }
     let file = &plan.file;
@@ -217,7 +223,8 @@ fn first_cracks(
     let case = subjects.first().map(|s| &s.case);
     let first = asked::section(plan, point(plan), case, Trouble::default())?;
     let (question, subjects) = (&question, &subjects[..]);
-    study::first_crack::answer(&Request { title, facts, first, question, subjects, out: &out, threads }, what)
+    let wall = &file.wall;
+    study::first_crack::answer(&Request { title, facts, first, question, subjects, out: &out, threads, wall, known }, what)
 }
 
 /// The rows of the study's runs that hold all that it keeps.
@@ -236,8 +243,8 @@ fn tell_outdated(store: &Store) {
     }
 }
 
-/// How many runs there are and what became of them.
-fn tell(plan: &Plan, found: &[Option<&Row>]) -> std::result::Result<(), Failure> {
+/// How many runs there are, what became of them and what they warn of, but for what is known already.
+fn tell(plan: &Plan, found: &[Option<&Row>], known: &Warned) -> std::result::Result<(), Failure> {
     let count = |end: End| found.iter().flatten().filter(|r| r.end == end).count();
     let mut rows = vec![("runs", found.len().to_string()), ("completed", count(End::Completed).to_string())];
     for (name, end) in [("stopped early", End::Stopped), ("failed", End::Failed)] {
@@ -249,6 +256,9 @@ fn tell(plan: &Plan, found: &[Option<&Row>]) -> std::result::Result<(), Failure>
     if left > 0 {
         rows.push(("not run", left.to_string()));
     }
+    let warned = asked::warned(plan, found);
+    rows.extend(asked::counted_warnings(&warned).map(|told| ("warnings", told)));
+    wall_file::warn_of_runs(&plan.file.wall, &warned.sentences(known));
     let bad = found.iter().enumerate().filter_map(|(i, r)| r.as_ref().map(|r| (i, r)));
     for (number, row) in bad.filter(|(_, r)| r.end != End::Completed).take(MOST_NAMED) {
         let cause = row.cause.as_deref().unwrap_or("no cause is known");
@@ -268,7 +278,7 @@ fn status(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     let cases = cases(&plan)?;
     let store = Store::open(&folder(place))?;
     tell_outdated(&store);
-    tell(&plan, &found(&plan, &store, &cases))?;
+    tell(&plan, &found(&plan, &store, &cases), &Warned::default())?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -326,7 +336,7 @@ fn ask(
     let mut runner = Runner::open(out, &Keep::default(), threads, watch)?;
     runner.reading = reading;
     match answer::answer(plan, &question, rows, &mut runner)? {
-        Some(answer) => Ok(Some((question, answer))),
+        Some(answer) => Ok(Some((question, answer, runner.warned))),
         None => Ok(None),
     }
 }
@@ -359,10 +369,19 @@ fn write(
         ("study file", name(file.document.path())),
         ("wall file", name(file.wall.path())),
         ("runs", found.len().to_string()),
+        ("with warnings", asked::warned(plan, found).runs.to_string()),
         ("without a result", found.iter().filter(|r| r.is_none_or(|r| r.end == End::Failed)).count().to_string()),
     ];
-    if let Some((question, answer)) = &answered {
-        sections.push(study::interfaces::section(question, answer, out)?);
+    if let Some((question, answer, warned)) = &answered {
+        let mut section = study::interfaces::section(question, answer, out)?;
+        if let Some(told) = asked::counted_warnings(warned) {
+            section.brief += &format!("  warnings {told}\n");
+        }
+        if let Some((text, table)) = asked::warning_table(warned) {
+            section.text.insert(0, text);
+            section.tables.insert(0, table);
+        }
+        sections.push(section);
     }
     if let Some((_, case)) = cases.first() {
         sections.extend(study::ranking::section(plan, case, found, out)?);

@@ -7,12 +7,14 @@ use concio::case::{Baseline, Case, ModelKind, Signal};
 use concio::ground::Library;
 use concio::ground::coverage::{Coverage, coverage};
 use concio::run::prepare_with;
+use concio::warning::Warning;
 use concio_study::Plan;
 use concio_study::file::{Choice, Design, DesignKind, Distribution, DistributionLaw, Follower, Spacing, Study, Vary};
 use concio_study::interfaces::{DeviceInput, ObjectiveInput, Over, Target};
 use concio_study::measures::{End, Row};
 use concio_study::ranking;
 use concio_study::table::Table;
+use concio_study::warned::{Before, Told, Warned};
 use serde_json::Value;
 
 use super::page::Section;
@@ -151,31 +153,18 @@ fn distributed(d: &Distribution) -> String {
     [name.to_string()].into_iter().chain(given).collect::<Vec<_>>().join(", ")
 }
 
-/// What moves the base, and what is to be known of it and of the wall.
-#[derive(Debug, Default)]
-pub struct Shaking {
-    /// The motions: name, motion, what becomes of it.
-    pub motions: Vec<[String; 3]>,
-    /// What `concio check` would warn of, one sentence each: of the wall as it is, under each motion of the study.
-    pub warnings: Vec<String>,
-}
-
-/// The motions of a study, each made ready once.
+/// The motions of a study, each made ready once: name, motion, what becomes of it.
 ///
 /// # Errors
 /// A wall or a motion that cannot be made ready.
-pub fn shaking(plan: &Plan) -> concio::Result<Shaking> {
+pub fn shaking(plan: &Plan) -> concio::Result<Vec<[String; 3]>> {
     let (study, wall) = (&plan.file.study, &plan.file.wall);
     let varied = varied_of_motion(study);
     let mut motions = Vec::new();
-    let mut by_motion: Vec<(String, Vec<String>)> = Vec::new();
     for place in 0..study.motions.len().max(1) {
         let input = study.motions.get(place);
         let run = (0..plan.points.len()).find(|&n| plan.motion(n).is_none_or(|m| m == place));
-        let ready = run.map(|number| ready(plan, number, place)).transpose()?;
-        let (warnings, cut) = ready.map_or((None, None), |(warnings, cut)| (Some(warnings), cut));
-        let prefix = input.map_or(String::new(), |m| format!("motion {}: ", m.name));
-        by_motion.extend(warnings.map(|warnings| (prefix, warnings)));
+        let cut = run.map(|number| cut(plan, number, place)).transpose()?.flatten();
         let usage = match (varied.is_empty(), cut) {
             (false, _) => Some(format!("{} varied", varied.join(", "))),
             (true, Some(cut)) => Some(cut),
@@ -193,18 +182,11 @@ pub fn shaking(plan: &Plan) -> concio::Result<Shaking> {
             },
         });
     }
-    let everywhere = |warning: &String| by_motion.iter().all(|(_, warnings)| warnings.contains(warning));
-    let of_wall = by_motion.first().into_iter().flat_map(|(_, w)| w).filter(|w| everywhere(w)).cloned();
-    let mut warnings: Vec<String> = wall.unit_doubts().into_iter().chain(of_wall).collect();
-    for (motion, found) in &by_motion {
-        warnings.extend(found.iter().filter(|w| !everywhere(w)).map(|w| format!("{motion}{w}")));
-    }
-    Ok(Shaking { motions, warnings })
+    Ok(motions)
 }
 
-/// Warnings of the wall under the motion of run `number`, which stands at `place` in the study file; how much of a record
-/// is used, where that is a part.
-fn ready(plan: &Plan, number: usize, place: usize) -> concio::Result<(Vec<String>, Option<String>)> {
+/// How much is used, where that is a part, of the record of run `number`, whose motion stands at `place` in the study file.
+fn cut(plan: &Plan, number: usize, place: usize) -> concio::Result<Option<String>> {
     let case = plan.case(number)?;
     let wall = &plan.file.wall;
     let of_study = !plan.file.study.motions.is_empty();
@@ -227,8 +209,41 @@ fn ready(plan: &Plan, number: usize, place: usize) -> concio::Result<(Vec<String
     };
     let duration = prepared.model.excitation.duration;
     let cut = record.filter(|record| coverage(record, duration) == Coverage::Cut);
-    let cut = cut.map(|record| format!("{} of {} used", seconds(duration), seconds(record.duration())));
-    Ok((prepared.model.warnings, cut))
+    Ok(cut.map(|record| format!("{} of {} used", seconds(duration), seconds(record.duration()))))
+}
+
+/// What the runs of a plan warn of as far as it is known before they are done, of some of them.
+pub fn before(plan: &Plan) -> Before {
+    let mut before = concio_study::warned::before(plan.points.len(), |n| plan.case(n).ok(), |n| run_name(plan, n));
+    let runs = before.warned.of;
+    let of_file = |first: Warning| Told { first, name: String::new(), runs, same: true };
+    before.warned.told.splice(0..0, unit_doubts(plan).into_iter().map(of_file));
+    before
+}
+
+/// Accelerations of the wall file without a unit, of those that the study does not replace.
+fn unit_doubts(plan: &Plan) -> Vec<Warning> {
+    let replaced = |w: &Warning| !plan.file.study.motions.is_empty() && w.starts_with("motion.base.");
+    plan.file.wall.unit_doubts().into_iter().filter(|w| !replaced(w)).collect()
+}
+
+/// What the runs that are known warn of.
+pub fn warned(plan: &Plan, found: &[Option<&Row>]) -> Warned {
+    let mut warned = Warned::default();
+    let doubts = unit_doubts(plan);
+    for (number, row) in found.iter().enumerate().filter_map(|(number, row)| Some((number, (*row)?))) {
+        let all: Vec<Warning> = doubts.iter().chain(&row.warnings).cloned().collect();
+        warned.add(|| run_name(plan, number), &all);
+    }
+    warned
+}
+
+/// What a run is called: its number and its values.
+fn run_name(plan: &Plan, number: usize) -> String {
+    match values(plan, number) {
+        values if values.is_empty() => format!("run {}", number + 1),
+        values => format!("run {} ({values})", number + 1),
+    }
 }
 
 /// A motion in a line, with what is taken off a record.
@@ -308,7 +323,7 @@ fn listed(values: impl ExactSizeIterator<Item = String>) -> String {
 }
 
 /// What was run, as `concio study check` prints it.
-pub fn lines(plan: &Plan, one: &str, shaking: &Shaking) -> Vec<(&'static str, String)> {
+pub fn lines(plan: &Plan, one: &str, motions: &[[String; 3]]) -> Vec<(&'static str, String)> {
     let study = &plan.file.study;
     let mut rows: Vec<(&'static str, String)> = questions(plan).into_iter().map(|q| ("asks", q)).collect();
     rows.push(("wall", plan.file.wall.path().map_or(String::new(), |p| p.display().to_string())));
@@ -318,7 +333,7 @@ pub fn lines(plan: &Plan, one: &str, shaking: &Shaking) -> Vec<(&'static str, St
         true => ("varies", format!("{name}: {over}")),
         false => ("varies", format!("{name} ({keys}): {over}")),
     }));
-    for [name, motion, more] in &shaking.motions {
+    for [name, motion, more] in motions {
         let more = if more.is_empty() { String::new() } else { format!(", {more}") };
         rows.push(("motion", format!("{name}: {motion}{more}")));
     }
@@ -333,9 +348,11 @@ pub fn lines(plan: &Plan, one: &str, shaking: &Shaking) -> Vec<(&'static str, St
     rows
 }
 
-/// Runs that did not end as they should, for [`section`].
+/// Runs that did not end as they should, or are to be doubted, for [`section`].
 #[derive(Debug, Default)]
 pub struct Trouble {
+    /// What runs warn of.
+    pub warned: Warned,
     /// Sentences: how many runs there are and what became of them.
     pub told: Vec<String>,
     /// Those that have no complete result.
@@ -368,8 +385,25 @@ impl Trouble {
         let end = |row: &Row| if row.end == End::Failed { "failed" } else { "stopped early" };
         runs.texts("ended", bad.iter().map(|(_, r)| Some(end(r).into())).collect());
         runs.texts("cause", bad.iter().map(|(_, r)| r.cause.clone()).collect());
-        Trouble { told: vec![told], runs: (!bad.is_empty()).then_some(runs) }
+        Trouble { warned: warned(plan, found), told: vec![told], runs: (!bad.is_empty()).then_some(runs) }
     }
+}
+
+/// How many runs warn, and of what: `12 of 12 (heavy-beam 12)`; none where none does.
+pub fn counted_warnings(warned: &Warned) -> Option<String> {
+    (warned.runs > 0).then(|| format!("in {} of {} ({})", warned.runs, counted(warned.of, "run"), warned.counts()))
+}
+
+/// What runs warn of, for the head of a report: a sentence and a table; none where there are none.
+pub fn warning_table(warned: &Warned) -> Option<(String, (String, Table))> {
+    let told = counted_warnings(warned)?;
+    let mut table = Table::default();
+    let all = &warned.told;
+    table.texts("kind", all.iter().map(|t| Some(t.first.kind.name().into())).collect());
+    table.numbers("runs", "", all.iter().map(|t| Some(t.runs as f64)).collect());
+    table.texts("first in", all.iter().map(|t| Some(t.name.clone())).collect());
+    table.texts("what it says there", all.iter().map(|t| Some(t.first.text.clone())).collect());
+    Some((format!("Warnings {told}: read them before the results."), ("Warnings of the runs".into(), table)))
 }
 
 /// What no result of the model tells.
@@ -394,7 +428,8 @@ fn models(plan: &Plan, case: Option<&Case>) -> Vec<&'static str> {
 /// A wall that cannot be laid; as [`shaking`].
 pub fn section(plan: &Plan, one: &str, case: Option<&Case>, trouble: Trouble) -> concio::Result<Section> {
     let study = &plan.file.study;
-    let mut text: Vec<String> = Vec::new();
+    let (doubts, doubted) = warning_table(&trouble.warned).unzip();
+    let mut text: Vec<String> = doubts.into_iter().collect();
     let asked = questions(plan);
     if !asked.is_empty() {
         text.push(format!("Asked: {}.", asked.join("; ")));
@@ -403,17 +438,12 @@ pub fn section(plan: &Plan, one: &str, case: Option<&Case>, trouble: Trouble) ->
     text.extend(case.map(wall).transpose()?);
     text.extend(trouble.told);
     text.extend(models(plan, case).into_iter().map(String::from));
-    let mut tables = Vec::new();
+    let mut tables: Vec<(String, Table)> = doubted.into_iter().collect();
     let factors = factors(study);
     if !factors.is_empty() {
         tables.push(("What varied".to_string(), words(["factor", "keys of the wall file", "over"], &factors)));
     }
-    let Shaking { motions, warnings } = shaking(plan)?;
-    tables.push(("Motions of the base".into(), words(["motion", "what it is", "use"], &motions)));
-    if !warnings.is_empty() {
-        let warnings: Vec<[String; 1]> = warnings.into_iter().map(|warning| [warning]).collect();
-        tables.push(("Warnings".into(), words(["warning"], &warnings)));
-    }
+    tables.push(("Motions of the base".into(), words(["motion", "what it is", "use"], &shaking(plan)?)));
     if let Some(interfaces) = &study.interfaces {
         let objectives: Vec<[String; 1]> = interfaces.objectives.iter().map(|o| [objective(o)]).collect();
         tables.push(("Objectives".into(), words(["objective"], &objectives)));

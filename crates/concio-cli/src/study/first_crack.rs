@@ -3,16 +3,20 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use concio::case::CaseFile;
 use concio::run::Control;
 use concio_study::Runner;
 use concio_study::first_crack::{Answer, Question, Subject, Trial, keep, search};
 use concio_study::limits::counts_deformation;
 use concio_study::runner::Progress;
 use concio_study::table::{self, Table};
+use concio_study::warned::{self, Warned};
 use serde_json::{Value, json};
 
+use super::asked;
 use super::bars::{Bar, Bars, bars};
 use super::page::{Figure, Section, shown};
+use crate::commands::wall_file::warn_of_runs;
 use crate::draw::output::Drawing;
 use crate::failure::{Failure, STOPPED};
 use crate::format::{columns, counted, si, significant};
@@ -46,6 +50,10 @@ pub struct Request<'a> {
     pub out: &'a Path,
     /// Threads; 0 for one per core.
     pub threads: usize,
+    /// The wall file.
+    pub wall: &'a CaseFile,
+    /// What was warned of before.
+    pub known: Warned,
 }
 
 /// Searches, writes tables and report, prints the answers.
@@ -62,6 +70,9 @@ pub fn answer(request: &Request, what: Do) -> Result<ExitCode, Failure> {
         }
         Do::Report | Do::Tell => found(request, subjects, true)?,
     };
+    if let Some(answers) = &complete {
+        warn_of_runs(request.wall, &warned(answers).sentences(&request.known));
+    }
     let Some(answers) = complete else {
         let shared = matches!(what, Do::Share(_));
         files::note(if shared {
@@ -82,6 +93,17 @@ pub fn answer(request: &Request, what: Do) -> Result<ExitCode, Failure> {
     }
     let whole = answers.iter().all(|a| a.crack().is_some() && a.cause.is_none());
     Ok(if whole { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
+}
+
+/// What the runs of all motions warn of.
+fn warned(answers: &[Answer]) -> Warned {
+    let mut warned = Warned::default();
+    for answer in answers {
+        for trial in &answer.trials {
+            warned.add(|| format!("{} at scale {}", answer.name, shown(trial.scale)), &trial.warnings);
+        }
+    }
+    warned
 }
 
 /// The answers; none when the user, or `known_only` where runs are missing, stopped the search.
@@ -130,6 +152,10 @@ fn write(request: &Request, answers: &[Answer], elastic: bool) -> Result<PathBuf
     if elastic {
         text.push(format!("Note: {DEFORMATION}."));
     }
+    let (doubts, doubted) = asked::warning_table(&warned(answers)).unzip();
+    text.splice(0..0, doubts);
+    facts.push(("runs with warnings", warned(answers).runs.to_string()));
+    let tables = vec![("First cracks".into(), summary), ("All runs".into(), runs)];
     let section = Section {
         title: "First cracking".into(),
         text,
@@ -139,7 +165,7 @@ fn write(request: &Request, answers: &[Answer], elastic: bool) -> Result<PathBuf
                       wall's first mode. The dark end of a bar is the interval between two runs.".into(),
             drawing,
         }).collect(),
-        tables: vec![("First cracks".into(), summary), ("All runs".into(), runs)],
+        tables: doubted.into_iter().chain(tables).collect(),
         ..Section::default()
     };
     super::write(out, request.title, &facts, &[&request.first, &section])
@@ -196,6 +222,8 @@ fn all_runs(answers: &[Answer]) -> Table {
     table.texts("joint", text(&|_, t| t.joint.clone()));
     table.texts("kind", text(&|_, t| t.kind.to_string()));
     table.numbers("time", "s", all.iter().map(|(_, t)| t.time).collect());
+    table.numbers("warnings", "", all.iter().map(|(_, t)| Some(t.warnings.len() as f64)).collect());
+    table.texts("warning_kinds", all.iter().map(|(_, t)| warned::kinds(&t.warnings)).collect());
     table
 }
 
@@ -260,6 +288,9 @@ fn lines(question: &Question, answers: &[Answer]) -> String {
         }
     };
     let mut text = columns(&[heading].into_iter().chain(answers.iter().map(line)).collect::<Vec<_>>());
+    if let Some(told) = asked::counted_warnings(&warned(answers)) {
+        text.push_str(&format!("  warnings {told}\n"));
+    }
     if let Some(mode) = answers.iter().find_map(|a| a.mode) {
         let damping = significant(100.0 * mode.damping, 2);
         let period = si(mode.period, "s");

@@ -13,10 +13,12 @@ use concio_study::ida::{Analysis, Settings, tables};
 use concio_study::runner::{Progress, Runner};
 use concio_study::store::Store;
 use concio_study::table::{self, Table};
+use concio_study::warned::Warned;
 
 use super::asked;
 use super::page::{Figure, Section, shown};
 use super::sections::label;
+use crate::commands::wall_file::warn_of_runs;
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::failure::{Failure, STOPPED};
 use crate::files;
@@ -31,8 +33,15 @@ const ONE: usize = 5;
 const MIDDLE: usize = 0;
 const OUTER: usize = 1;
 
-/// Does the runs of one share of the curves; writes tables and report when all curves are done.
-pub fn run(plan: &Plan, out: &Path, threads: usize, [share, of]: [usize; 2]) -> std::result::Result<ExitCode, Failure> {
+/// Does the runs of one share of the curves; writes tables and report when all curves are done. `known` is what was warned of
+/// before.
+pub fn run(
+    plan: &Plan,
+    out: &Path,
+    threads: usize,
+    [share, of]: [usize; 2],
+    known: &Warned,
+) -> std::result::Result<ExitCode, Failure> {
     let Some(mut analysis) = Analysis::new(plan)? else { return Ok(ExitCode::SUCCESS) };
     stop::listen()?;
     let bar = Runs::new();
@@ -60,7 +69,7 @@ pub fn run(plan: &Plan, out: &Path, threads: usize, [share, of]: [usize; 2]) -> 
     bar.clear();
     // Other shards may have ended meanwhile.
     let analysis = known(plan, &Store::open(out)?)?;
-    tell(&analysis)?;
+    tell(plan, &analysis, known)?;
     let missing = missing(&analysis);
     if missing > 0 {
         let all = counted(analysis.curves.len(), "curve");
@@ -75,7 +84,7 @@ pub fn run(plan: &Plan, out: &Path, threads: usize, [share, of]: [usize; 2]) -> 
 /// Tells how far the curves are.
 pub fn status(plan: &Plan, out: &Path) -> std::result::Result<ExitCode, Failure> {
     let analysis = known(plan, &Store::open(out)?)?;
-    tell(&analysis)?;
+    tell(plan, &analysis, &Warned::default())?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -137,7 +146,20 @@ fn missing(analysis: &Analysis) -> usize {
     curves.len()
 }
 
-fn tell(analysis: &Analysis) -> std::result::Result<(), Failure> {
+/// What the runs of all curves warn of.
+fn warned(analysis: &Analysis) -> Warned {
+    let mut warned = Warned::default();
+    let unit = analysis.settings.intensity.unit();
+    for curve in &analysis.curves {
+        for point in &curve.points {
+            let name = || format!("{} at {} {unit}", curve.name, shown(point.intensity)).trim_end().to_string();
+            warned.add(name, &point.warnings);
+        }
+    }
+    warned
+}
+
+fn tell(plan: &Plan, analysis: &Analysis, known: &Warned) -> std::result::Result<(), Failure> {
     let runs = analysis.curves.iter().map(|c| c.points.len()).sum::<usize>();
     let collapsed = analysis.curves.iter().filter(|c| c.points.iter().any(|p| p.collapsed)).count();
     let mut rows = vec![
@@ -146,6 +168,9 @@ fn tell(analysis: &Analysis) -> std::result::Result<(), Failure> {
         ("runs", runs.to_string()),
         ("collapse", counted(collapsed, "curve")),
     ];
+    let warned = warned(analysis);
+    rows.extend(asked::counted_warnings(&warned).map(|told| ("warnings", told)));
+    warn_of_runs(&plan.file.wall, &warned.sentences(known));
     let failed = analysis.curves.iter().filter(|c| c.failed.is_some()).count();
     if failed > 0 {
         rows.push(("failed", failed.to_string()));
@@ -241,6 +266,7 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
         ("wall file", name(plan.file.wall.path())),
         ("curves", analysis.curves.len().to_string()),
         ("runs", analysis.curves.iter().map(|c| c.points.len()).sum::<usize>().to_string()),
+        ("runs with warnings", warned(analysis).runs.to_string()),
         ("failed curves", analysis.curves.iter().filter(|c| c.failed.is_some()).count().to_string()),
     ];
     super::write(out, title, &facts, &[first, fragility, incremental])
@@ -291,7 +317,7 @@ fn trouble(analysis: &Analysis) -> asked::Trouble {
     let mut table = Table::default();
     table.texts("curve", failed.iter().map(|c| Some(c.name.clone())).collect());
     table.texts("cause", failed.iter().map(|c| c.failed.clone()).collect());
-    asked::Trouble { told: vec![told], runs: (!failed.is_empty()).then_some(table) }
+    asked::Trouble { warned: warned(analysis), told: vec![told], runs: (!failed.is_empty()).then_some(table) }
 }
 
 fn intensity(s: &Settings) -> Axis {

@@ -1,5 +1,7 @@
 //! What a motion does at rising intensity, and what all of them do together.
 
+use concio::warning::Warning;
+
 use super::Settings;
 use super::fragility::{Fragility, fit};
 use super::hunt::Way;
@@ -19,6 +21,8 @@ pub struct Point {
     pub collapsed: bool,
     /// Id of the run.
     pub id: String,
+    /// What a user should know before believing it.
+    pub warnings: Vec<Warning>,
 }
 
 impl Point {
@@ -36,7 +40,7 @@ impl Point {
             (End::Completed, None) => return Err(format!("{}: the run has no {}", at(), settings.damage)),
             (End::Completed, Some(damage)) => fell || damage >= settings.collapse,
         };
-        Ok(Point { intensity, scale, damage, collapsed, id: row.id.clone() })
+        Ok(Point { intensity, scale, damage, collapsed, id: row.id.clone(), warnings: row.warnings.clone() })
     }
 
     /// Whether damage of that value is reached.

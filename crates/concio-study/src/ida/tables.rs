@@ -3,6 +3,7 @@
 use super::curve::{Curve, Found, SHARES, grid};
 use super::{Settings, likelihood::Evidence};
 use crate::table::Table;
+use crate::warned::kinds;
 
 /// All runs: one line per curve and intensity.
 pub fn runs(settings: &Settings, curves: &[Curve]) -> Table {
@@ -18,6 +19,8 @@ pub fn runs(settings: &Settings, curves: &[Curve]) -> Table {
     table.numbers(&settings.damage, settings.unit, all.iter().map(|(_, p)| p.damage).collect());
     let yes = |b: bool| Some(if b { "yes" } else { "no" }.to_string());
     table.texts("collapsed", all.iter().map(|(_, p)| yes(p.collapsed)).collect());
+    table.numbers("warnings", "", all.iter().map(|(_, p)| Some(p.warnings.len() as f64)).collect());
+    table.texts("warning_kinds", all.iter().map(|(_, p)| kinds(&p.warnings)).collect());
     table.texts("id", all.iter().map(|(_, p)| Some(p.id.clone())).collect());
     table
 }

@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use super::node::{Node, Value};
 use super::{Beam, Case, FrictionChange, FrictionLaw, ModelKind, Panel, Signal, Solver, SpringChange, SpringLaw};
 use crate::quantity::{Stiffness, shown};
+use crate::warning::{Warning, WarningKind};
 
 /// What a quantity is expected to be, in SI.
 struct Expected {
@@ -102,7 +103,7 @@ const STIFFER: f64 = 10.0;
 const LARGEST_FRICTION: f64 = 2.0;
 
 /// One sentence for each number of a valid case that is allowed but unlikely, in the order of the wall file.
-pub fn doubts(case: &Case) -> Vec<String> {
+pub fn doubts(case: &Case) -> Vec<Warning> {
     let mut doubts = Doubts(Vec::new());
     for (index, panel) in case.panels.iter().enumerate() {
         of_panel(&mut doubts, &format!("panel[{index}]"), panel);
@@ -127,9 +128,13 @@ pub fn doubts(case: &Case) -> Vec<String> {
     doubts.0
 }
 
-struct Doubts(Vec<String>);
+struct Doubts(Vec<Warning>);
 
 impl Doubts {
+    fn add(&mut self, kind: WarningKind, text: impl Into<String>) {
+        self.0.push(Warning::new(kind, text));
+    }
+
     /// Zero is always meant.
     fn look(&mut self, key: &str, value: f64, expected: &Expected) {
         let [low, high] = expected.limits;
@@ -144,11 +149,9 @@ impl Doubts {
             format!("; did you mean \"{} {unit}\"?", shown(rounded(value * factor / si, 6)))
         });
         let unit = expected.unit;
-        self.0.push(format!(
-            "{key} is {} {unit}, {than} than {} {unit}{meant}",
-            shown(rounded(value, 6)),
-            shown(limit)
-        ));
+        let text =
+            format!("{key} is {} {unit}, {than} than {} {unit}{meant}", shown(rounded(value, 6)), shown(limit));
+        self.add(WarningKind::UnlikelyNumber, text);
     }
 
     fn look_at_stiffness(&mut self, key: &str, stiffness: Stiffness) {
@@ -165,7 +168,8 @@ impl Doubts {
             let meant = tangent.map_or(String::new(), |t| {
                 format!("; did you mean {:.2}, the tangent of {} degrees?", t, shown(coefficient))
             });
-            self.0.push(format!("{key} is {}, more than {LARGEST_FRICTION}{meant}", shown(coefficient)));
+            let text = format!("{key} is {}, more than {LARGEST_FRICTION}{meant}", shown(coefficient));
+            self.add(WarningKind::UnlikelyNumber, text);
         }
     }
 }
@@ -177,7 +181,7 @@ const ACCELERATIONS: [&str; 6] =
 const SMALL_SHAKING: f64 = 1.5;
 
 /// One sentence for each peak acceleration written without a unit that reads like a multiple of g.
-pub(super) fn bare_accelerations(tree: &Node) -> Vec<String> {
+pub(super) fn bare_accelerations(tree: &Node) -> Vec<Warning> {
     let keys =
         ["base", "top", "vertical"].into_iter().flat_map(|end| ACCELERATIONS.map(|key| format!("motion.{end}.{key}")));
     let doubt = |key: String| {
@@ -190,7 +194,8 @@ pub(super) fn bare_accelerations(tree: &Node) -> Vec<String> {
         let small = value.abs() >= SHAKING.limits[0] && value.abs() < SMALL_SHAKING;
         small.then(|| {
             let value = shown(value);
-            format!("{key} is {value} m/s2, a number without a unit; did you mean \"{value} g\"?")
+            let text = format!("{key} is {value} m/s2, a number without a unit; did you mean \"{value} g\"?");
+            Warning::new(WarningKind::UnlikelyNumber, text)
         })
     };
     keys.filter_map(doubt).collect()
@@ -269,47 +274,49 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
         ("max_step", given.max_step.is_some()),
         ("floor", given.floor != own.floor),
     ];
-    let told = |(key, _): (&str, bool)| {
-        format!("solver.{key} does nothing in a planar wall, whose steps have one length: `solver.step`")
-    };
-    doubts.0.extend(idle.into_iter().filter(|(_, given)| *given).map(told));
+    for (key, _) in idle.into_iter().filter(|(_, given)| *given) {
+        let text = format!("solver.{key} does nothing in a planar wall, whose steps have one length: `solver.step`");
+        doubts.add(WarningKind::IdleKey, text);
+    }
     let joint = &case.joint;
     if joint.bed.law == SpringLaw::NoTension && joint.bed.rigidity > STIFFER {
-        doubts.0.push(format!(
+        let text = format!(
             "joint.bed is `no-tension`: pressed bed joints of this planar wall are rigidity = {} times as stiff as `stiffness` \
              says; `rigidity = 1` makes them as stiff as that",
             shown(joint.bed.rigidity)
-        ));
+        );
+        doubts.add(WarningKind::UnlikelyJoint, text);
     }
     if case.motion.quasi_static {
         let signals = [("base", &case.motion.base), ("vertical", &case.motion.vertical)];
         let shakes = |signal: &Signal| !matches!(signal, Signal::None | Signal::Tilt(_));
         for (key, _) in signals.into_iter().filter(|(_, signal)| shakes(signal)) {
-            doubts.0.push(format!(
+            let text = format!(
                 "motion.{key} is a motion, and `quasi_static` leaves inertia out: its accelerations act as forces that change slowly, which is \
                  no earthquake analysis; a load that grows is `base = {{ tilt = … }}`"
-            ));
+            );
+            doubts.add(WarningKind::StillMotion, text);
         }
     }
     let changed = joint.changes.iter().any(|change| change.bond.is_some());
     let dry = joint.bond.is_none() && joint.bed.law != SpringLaw::Elastic && !changed;
     let rubs = joint.changes.iter().any(|change| change.friction.is_some());
     if dry && joint.friction.law == FrictionLaw::None && joint.friction.preset.is_none() && !rubs {
-        doubts.0.push(
-            "joint.friction is missing: dry joints of this planar wall slide at the least push; stones have a `static` of 0.4 to 0.8".into(),
-        );
+        let text = "joint.friction is missing: dry joints of this planar wall slide at the least push; stones have a `static` of 0.4 to 0.8";
+        doubts.add(WarningKind::UnlikelyJoint, text);
     }
     match &joint.bond {
-        None if joint.bed.law == SpringLaw::Elastic && !changed => doubts.0.push(
+        None if joint.bed.law == SpringLaw::Elastic && !changed => doubts.add(
+            WarningKind::UnlikelyJoint,
             "joint.bed is `elastic` without a bond: in a planar wall such joints pull without limit, and bear shear without limit beside \
-             friction; dry joints are `no-tension` with `rigidity = 1`, or `rigid`"
-                .into(),
+             friction; dry joints are `no-tension` with `rigidity = 1`, or `rigid`",
         ),
         Some(bond) if (bond.tensile_strength.si() > 0.0) != (bond.cohesion.si() > 0.0) => {
             let missing = if bond.cohesion.si() > 0.0 { "tensile_strength" } else { "cohesion" };
-            doubts.0.push(format!(
+            let text = format!(
                 "joint.bond.{missing} is 0: joints of a planar wall are pulled and sheared, and those without it crack almost at once"
-            ));
+            );
+            doubts.add(WarningKind::UnlikelyJoint, text);
         }
         _ => {}
     }
@@ -360,7 +367,7 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
             }
             if device.reference_velocity.is_some() && device.exponent.unwrap_or(1.0) == 1.0 {
                 let key = format!("{at}.device.reference_velocity");
-                doubts.0.push(format!("{key} does nothing where `exponent` is 1: the dashpot is linear"));
+                doubts.add(WarningKind::IdleKey, format!("{key} does nothing where `exponent` is 1: the dashpot is linear"));
             }
             let way = device.yield_displacement.map_or(0.0, |d| d.si());
             doubts.look(&format!("{at}.device.yield_displacement"), way, &DEVICE_YIELD);

@@ -6,6 +6,7 @@ use super::document::{self, Document};
 use super::node::{Fault, Node, Value};
 use super::{Case, DeviceLaw, ModelKind, ParameterSet, change, de, plausible, sets, validate};
 use crate::wall::Wall;
+use crate::warning::Warning;
 use crate::{Error, InputError, Result};
 
 /// Longest wall file that is read [bytes].
@@ -89,7 +90,7 @@ impl CaseFile {
     /// One sentence for each peak acceleration that is written without a unit and so small that it was hardly meant in
     /// m/s²: `pga = 0.3`. Beside the doubts that [`crate::run::prepare`] has of the values alone, which do not know
     /// whether there was a unit.
-    pub fn unit_doubts(&self) -> Vec<String> {
+    pub fn unit_doubts(&self) -> Vec<Warning> {
         plausible::bare_accelerations(&self.document.tree)
     }
     /// Line from 1 of what a doubt begins with the key of ([`plausible::doubts`]); none for other sentences.

@@ -7,6 +7,7 @@ use crate::case::{Beam, Case, RecordInput, Signal};
 use crate::error::Result;
 use crate::ground::record::Record;
 use crate::ground::{Library, measure};
+use crate::warning::{Warning, WarningKind};
 
 /// Difference of run and record that does not count, over the length of the record.
 const SLACK: f64 = 1e-6;
@@ -50,20 +51,22 @@ pub fn coverage(record: &Record, duration: f64) -> Coverage {
 ///
 /// # Errors
 /// Records that cannot be read.
-pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) -> Result<Vec<String>> {
+pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) -> Result<Vec<Warning>> {
     let driven = case.load.beam == Beam::Driven;
     let mut found = Vec::new();
     for (name, signal) in case.motion.signals().into_iter().filter(|(name, _)| *name != "top" || driven) {
         let place = if name == "vertical" { "vertical direction" } else { name };
         match signal {
             Signal::Record(input) => {
-                found.extend(unchosen(name, input, folder, library)?);
+                found.extend(unchosen(name, input, folder, library)?.map(|t| Warning::new(WarningKind::UnchosenChannel, t)));
                 let record = library.record(input, folder)?;
                 found.extend(uncovered(place, "record", &record, duration));
-                found.extend(drifting(place, &record));
+                found.extend(drifting(place, &record).map(|text| Warning::new(WarningKind::Drift, text)));
                 let look = ": look at `units`, `scale` and `pga`";
-                found.extend(odd_peak(&record).map(|odd| format!("motion.{name}: {odd} as it moves the wall{look}")));
-                found.extend(odd_interval(&record).map(|odd| format!("motion.{name}: {odd}")));
+                let peak = odd_peak(&record).map(|odd| format!("motion.{name}: {odd} as it moves the wall{look}"));
+                let interval = odd_interval(&record).map(|odd| format!("motion.{name}: {odd}"));
+                let odd = peak.into_iter().chain(interval);
+                found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
             }
             Signal::Synthetic(input) => {
                 found.extend(uncovered(place, "accelerogram", &library.synthetic(input)?, duration));
@@ -121,7 +124,7 @@ pub fn odd_interval(record: &Record) -> Option<String> {
     })
 }
 
-fn uncovered(name: &str, what: &str, record: &Record, duration: f64) -> Option<String> {
+fn uncovered(name: &str, what: &str, record: &Record, duration: f64) -> Option<Warning> {
     let whole = seconds(record.duration());
     match coverage(record, duration) {
         Coverage::Whole => None,
@@ -134,15 +137,17 @@ fn uncovered(name: &str, what: &str, record: &Record, duration: f64) -> Option<S
             } else {
                 String::new()
             };
-            Some(format!(
+            let text = format!(
                 "motion.duration cuts the {what} of the {name}: {} of {whole} is used{strong}; without `duration` the \
                  run takes it whole",
                 seconds(duration)
-            ))
+            );
+            Some(Warning::new(WarningKind::RecordCut, text))
         }
         Coverage::Silence(_) => {
             let end = seconds(duration);
-            Some(format!("the {what} of the {name} ends at {whole}, the run at {end}: silence follows it"))
+            let text = format!("the {what} of the {name} ends at {whole}, the run at {end}: silence follows it");
+            Some(Warning::new(WarningKind::RecordOutlasted, text))
         }
     }
 }

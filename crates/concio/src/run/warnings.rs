@@ -8,6 +8,7 @@ use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::planar::Rest;
 use crate::store::{JointRow, residual_relative};
+use crate::warning::{Warning, WarningKind};
 
 /// Relative displacement of a joint, as a fraction of its overlap, from which its geometry should not be taken as
 /// unchanged any more.
@@ -28,23 +29,29 @@ const UNDER_WAY: f64 = 0.5;
 /// Way of the wall's weight whose work is nothing [m]: what a wall at rest does.
 const NOTHING: f64 = 1e-8;
 
-/// One sentence each, the gravest first.
-pub(super) fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<String> {
+/// All of a run that has ended: those of its model, known before, and those of its result. `joints` are the rows of the model.
+pub fn all(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
+    model.warnings.iter().cloned().chain(of(model, joints, outcome)).collect()
+}
+
+/// Those of the result, the gravest first.
+fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
+    let balance = match &model.planar {
+        None => unbalanced(outcome, "solver.tolerance"),
+        // Without inertia the account has what stands for it.
+        Some(planar) if planar.still => None,
+        Some(_) => unbalanced(outcome, "solver.step").or_else(|| given_back(model, outcome)),
+    };
     let told = [
-        match &model.planar {
-            None => unbalanced(outcome, "solver.tolerance"),
-            // Without inertia the account has what stands for it.
-            Some(planar) if planar.still => None,
-            Some(_) => unbalanced(outcome, "solver.step").or_else(|| given_back(model, outcome)),
-        },
-        unsolved(outcome),
-        collapsed(model, outcome),
-        moves_on(model, outcome),
-        unresolved(model, outcome),
-        large_slips(model, outcome),
-        creep(joints, outcome),
+        (WarningKind::Energy, balance),
+        (WarningKind::Unsolved, unsolved(outcome)),
+        (WarningKind::Collapse, collapsed(model, outcome)),
+        (WarningKind::UnderWay, moves_on(model, outcome)),
+        (WarningKind::Unresolved, unresolved(model, outcome)),
+        (WarningKind::LargeSlip, large_slips(model, outcome)),
+        (WarningKind::Creep, creep(joints, outcome)),
     ];
-    told.into_iter().flatten().collect()
+    told.into_iter().filter_map(|(kind, text)| Some(Warning::new(kind, text?))).collect()
 }
 
 /// A residual that is not a number is the stop reason's to tell.

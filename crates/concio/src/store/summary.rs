@@ -11,6 +11,7 @@ use crate::planar;
 use crate::record::Energies;
 use crate::store::{JointRow, Provenance};
 use crate::wall::Wall;
+use crate::warning::Warning;
 
 /// What a run knows beside its outcome.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -25,8 +26,8 @@ pub struct RunFacts {
     pub solve_seconds: f64,
     /// Time from which a run that had been cut off was taken up [s].
     pub resumed_from: Option<f64>,
-    /// What the user should know, one sentence each.
-    pub warnings: Vec<String>,
+    /// What the user should know.
+    pub warnings: Vec<Warning>,
 }
 
 /// The content of summary.json; keys and units in docs/results.md. A value that is not finite becomes `null`, because
@@ -70,7 +71,8 @@ pub fn summary(
         "counters": outcome.counters,
         "inputs_hash": provenance.inputs_hash,
         "version": provenance.version,
-        "warnings": facts.warnings,
+        "warnings": facts.warnings.iter().map(|w| &w.text).collect::<Vec<_>>(),
+        "warning_kinds": facts.warnings.iter().map(|w| w.kind).collect::<Vec<_>>(),
     })
 }
 
