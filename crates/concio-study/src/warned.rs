@@ -73,7 +73,11 @@ impl Warned {
 
     /// The sentences that another list does not have.
     pub fn sentences(&self, but: &Warned) -> Vec<Sentence> {
-        self.told.iter().filter(|t| !but.told.iter().any(|o| o.is_like(&t.first))).map(|t| t.sentence(self.of)).collect()
+        self.told
+            .iter()
+            .filter(|t| !but.told.iter().any(|o| o.is_like(&t.first)))
+            .map(|t| t.sentence(self.of))
+            .collect()
     }
 }
 
@@ -156,11 +160,8 @@ impl Before {
         let lost = self.lost.iter().map(lost);
         let sampled = |mut told: Sentence| {
             if looked < self.all {
-                told.of = told.of.replacen(
-                    "in every run",
-                    &format!("in all of {looked} runs looked at, of {}", self.all),
-                    1,
-                );
+                told.of =
+                    told.of.replacen("in every run", &format!("in all of {looked} runs looked at, of {}", self.all), 1);
             }
             told
         };
@@ -208,7 +209,8 @@ mod tests {
     #[test]
     fn runs_are_counted_by_kind_and_sentences_told_once() {
         let mut warned = Warned::default();
-        let heavy = |load: &str| warning(WarningKind::HeavyBeam, &format!("the beam weighs 49050 N, load.top {load} N"));
+        let heavy =
+            |load: &str| warning(WarningKind::HeavyBeam, &format!("the beam weighs 49050 N, load.top {load} N"));
         let slid = |joint: &str| warning(WarningKind::LargeSlip, &format!("joint {joint} slid by 12 %"));
         warned.add(|| "run 1".into(), &[heavy("12400"), slid("p1c1b1|p1c2b1"), slid("p1c3b1|p1c4b1")]);
         warned.add(|| "run 2".into(), &[heavy("-1.5e+4")]);
@@ -242,7 +244,8 @@ mod tests {
     fn of_many_runs_a_part_is_looked_at() {
         let mut case = concio::case::example().expect("a wall").case;
         case.load.beam = concio::case::Beam::Mass(concio::quantity::Mass::from_si(1e6));
-        let told = |all| before(all, |_| Some(case.clone()), |number| format!("run {number}")).sentences()[0].to_string();
+        let told =
+            |all| before(all, |_| Some(case.clone()), |number| format!("run {number}")).sentences()[0].to_string();
         assert!(told(2).starts_with("in every run: the beam weighs 9810000 N"), "{:?}", told(2));
         assert!(told(100).starts_with("in all of 16 runs looked at, of 100: the beam"), "{:?}", told(100));
         case.motion.base = concio::case::Signal::None;

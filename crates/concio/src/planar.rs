@@ -12,7 +12,7 @@ use concio_planar::tie::Tie as Rod;
 
 use crate::assign::JointLaw;
 use crate::bond::{Bond, BondValues, Bonded, Snap, Snaps};
-use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw, Tie};
+use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw, StopAt, Tie};
 use crate::device;
 use crate::error::{InputError, Result};
 use crate::law::Stribeck;
@@ -45,6 +45,8 @@ pub struct Planar {
     pub step: f64,
     /// Whether inertia is left out.
     pub still: bool,
+    /// How long after a collapse the run ends [s]; none where it goes on to the end of the motion.
+    pub after_collapse: Option<f64>,
 }
 
 impl Planar {
@@ -176,7 +178,8 @@ pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointL
     let other = Law::dry(common_friction(case));
     let ties = ties(case, wall)?;
     let system = System { bodies, links, ties, other, load: loads, held };
-    Ok(Planar { system, step: step(case), still: case.motion.quasi_static })
+    let after_collapse = case.motion.stop_at.map(|StopAt::Collapse(after)| after.si());
+    Ok(Planar { system, step: step(case), still: case.motion.quasi_static, after_collapse })
 }
 
 /// Step of a wall [s].

@@ -50,7 +50,17 @@ pub fn first_crack(args: &FirstCrack) -> Result<ExitCode, Failure> {
     let facts = vec![("wall file", args.file.display().to_string()), ("motions", subjects.len().to_string())];
     let threads = args.threads.map_or(0, usize::from);
     let first = first(&subjects, &wall.case)?;
-    let request = Request { title: &title, facts, first, question: &question, subjects: &subjects, out: &out, threads, wall: &wall, known: before.warned };
+    let request = Request {
+        title: &title,
+        facts,
+        first,
+        question: &question,
+        subjects: &subjects,
+        out: &out,
+        threads,
+        wall: &wall,
+        known: before.warned,
+    };
     answer(&request, Do::Share([1, 1]))
 }
 

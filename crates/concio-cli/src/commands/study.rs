@@ -224,7 +224,10 @@ fn first_cracks(
     let first = asked::section(plan, point(plan), case, Trouble::default())?;
     let (question, subjects) = (&question, &subjects[..]);
     let wall = &file.wall;
-    study::first_crack::answer(&Request { title, facts, first, question, subjects, out: &out, threads, wall, known }, what)
+    study::first_crack::answer(
+        &Request { title, facts, first, question, subjects, out: &out, threads, wall, known },
+        what,
+    )
 }
 
 /// The rows of the study's runs that hold all that it keeps.

@@ -58,7 +58,9 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
         let place = if name == "vertical" { "vertical direction" } else { name };
         match signal {
             Signal::Record(input) => {
-                found.extend(unchosen(name, input, folder, library)?.map(|t| Warning::new(WarningKind::UnchosenChannel, t)));
+                found.extend(
+                    unchosen(name, input, folder, library)?.map(|t| Warning::new(WarningKind::UnchosenChannel, t)),
+                );
                 let record = library.record(input, folder)?;
                 found.extend(uncovered(place, "record", &record, duration));
                 found.extend(drifting(place, &record).map(|text| Warning::new(WarningKind::Drift, text)));
