@@ -939,7 +939,7 @@ pub struct RecordInput {
     /// Factor on the values, of either sign; default 1. Not together with `pga`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
-    /// Scale to this peak acceleration, above 0, instead of `scale`.
+    /// Scale to this peak acceleration [m/s²], above 0, instead of `scale`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pga: Option<Acceleration>,
     /// Keep this interval of the record [s]: `[from, to]`, from 0, in this order; it starts at t = 0 then.

@@ -200,8 +200,8 @@ pub(super) fn bare_accelerations(tree: &Node) -> Vec<Warning> {
     keys.filter_map(doubt).collect()
 }
 
-/// Significant digits, for conversions leave traces in the last ones.
-pub(crate) fn rounded(v: f64, digits: usize) -> f64 {
+/// With so many significant digits: conversions leave traces in the last ones.
+pub fn rounded(v: f64, digits: usize) -> f64 {
     format!("{v:.*e}", digits - 1).parse().unwrap_or(v)
 }
 

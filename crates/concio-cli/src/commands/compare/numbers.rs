@@ -5,7 +5,7 @@ use concio_study::table::Table;
 use serde_json::{Value, json};
 
 use super::runs::Side;
-use crate::format::{columns, si, significant};
+use crate::format::{columns, si};
 use crate::study::page::shown;
 
 /// What is less than this fraction of the larger of two values is rounding, and no difference.
@@ -136,8 +136,7 @@ pub fn told(names: [&str; 2], words: &[(&'static str, [String; 2])], pairs: &[Pa
     };
     for pair in pairs {
         let [a, b] = pair.values.map(|v| shown(v, pair.unit));
-        let ratio = pair.ratio().map_or("–".into(), |r| significant(r, 4));
-        rows.push(vec![pair.name.into(), a, b, shown(pair.difference(), pair.unit), ratio]);
+        rows.push(vec![pair.name.into(), a, b, shown(pair.difference(), pair.unit), shown(pair.ratio(), "")]);
     }
     columns(&rows)
 }
