@@ -470,12 +470,32 @@ pub struct Cases {
     pub tables: Option<PathBuf>,
 }
 
-/// Set runs of one wall against each other.
+/// Set two runs side by side.
+///
+/// Prints which keys of their wall files differ, the numbers of both with difference and ratio, and what either warns of. Writes
+/// report.html with these and histories over each other (base acceleration, top displacement, base shear, loop, energies), the
+/// figures as SVG and PDF, and compare.json into the folder. Both runs have ended and are of one model; what the second has more
+/// than the first is a positive difference.
 #[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(after_help = "\
+Examples:
+  concio compare concio-run/before concio-run/after
+  concio compare night/a1 night/a2 --out a1-a2
+  concio compare constrained wall.toml               one wall with free, no-tension and rigid head joints")]
 pub struct Compare {
-    /// What is compared.
+    /// Other comparisons.
     #[command(subcommand)]
-    pub what: Comparison,
+    pub what: Option<Comparison>,
+    /// Folder of the first run.
+    #[arg(required = true, value_name = "A", value_hint = ValueHint::DirPath)]
+    pub a: Option<PathBuf>,
+    /// Folder of the second run.
+    #[arg(required = true, value_name = "B", value_hint = ValueHint::DirPath)]
+    pub b: Option<PathBuf>,
+    /// Folder of the comparison; default concio-compare/A-B, A and B being the names of the folders.
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
 }
 
 /// What `compare` compares.

@@ -176,6 +176,7 @@ pub fn warnings(summary: &Value) -> impl Iterator<Item = &str> {
 pub fn why(reason: StopReason) -> &'static str {
     match reason {
         StopReason::Completed => "the end was reached",
+        StopReason::Collapsed => "the wall collapsed, which `motion.stop_at` makes the end of the run",
         StopReason::Interrupted => "interrupted; what was computed is written, and the same command goes on from here",
         StopReason::StepTooShort => {
             "the step became too short for the tolerance; raise solver.tolerance or check the stiffnesses and masses"

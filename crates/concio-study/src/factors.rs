@@ -1,6 +1,7 @@
 //! From the study file to factors: what varies, over which values, with errors that name the line.
 
 use concio::Result;
+use concio::quantity::shown;
 use serde_json::{Number, Value};
 use statrs::distribution::{ContinuousCDF, LogNormal, Normal};
 
@@ -201,7 +202,11 @@ pub fn factors(file: &StudyFile) -> Result<Vec<Factor>> {
     }
     if !study.scales.is_empty() {
         if let Some(i) = study.scales.iter().position(|s| !(*s > 0.0 && s.is_finite())) {
-            return Err(file.wrong(&format!("scales[{i}]"), format!("{} is out of range", study.scales[i]), "above 0"));
+            return Err(file.wrong(
+                &format!("scales[{i}]"),
+                format!("{} is out of range", shown(study.scales[i])),
+                "above 0",
+            ));
         }
         if factors.iter().any(|f| f.paths().contains(&"group.acceleration")) {
             let what = "`scales` and `group.acceleration` contradict each other: both set the strength of the motion";
@@ -442,12 +447,16 @@ impl Reader<'_> {
         let low = self.amount("from", v.from.as_ref(), &mut unit)?;
         let high = self.amount("to", v.to.as_ref(), &mut unit)?;
         if !(low < high) {
-            return Err(self.wrong("to", format!("{high} does not lie above `from`, {low}"), "above `from`"));
+            return Err(self.wrong(
+                "to",
+                format!("{} does not lie above `from`, {}", shown(high), shown(low)),
+                "above `from`",
+            ));
         }
         let law = match v.spacing {
             Spacing::Linear => Law::Uniform([low, high]),
             Spacing::Log if low > 0.0 => Law::LogUniform([low, high]),
-            Spacing::Log => return Err(self.wrong("from", format!("{low} has no logarithm"), "above 0")),
+            Spacing::Log => return Err(self.wrong("from", format!("{} has no logarithm", shown(low)), "above 0")),
         };
         let continuous = self.continuous(unit, law)?;
         match v.count {

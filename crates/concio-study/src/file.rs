@@ -68,10 +68,12 @@ pub struct Design {
     pub kind: DesignKind,
     /// `latin-hypercube`, `random`: number of runs; `morris`: of trajectories; `sobol`: of base points. From 1.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
     pub runs: Option<usize>,
     /// Seed of everything that is drawn; default 1.
     pub seed: u64,
     /// `morris`: levels of each factor, even, from 4; default 4.
+    #[schemars(range(min = 4))]
     pub levels: usize,
 }
 
@@ -121,6 +123,7 @@ pub struct Vary {
     pub to: Option<Value>,
     /// How many values of the range a grid or list takes, ends included; from 2.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 2))]
     pub count: Option<usize>,
     /// How they lie in the range; default `linear`.
     pub spacing: Spacing,

@@ -8,7 +8,7 @@
 use std::path::Path;
 
 use concio::case::{Case, JointKind, Signal};
-use concio::quantity::{Length, Time};
+use concio::quantity::{Length, Time, shown};
 use concio::run::prepare;
 use concio::warning::Warning;
 use concio::{InputError, Result};
@@ -53,6 +53,7 @@ pub struct FirstCrackInput {
     pub interval: f64,
     /// How many lower scales are tried besides, 0 … 100; default 3. They lie evenly between 0 and the answer; a run of the
     /// search within a tenth of their distance counts for one.
+    #[schemars(range(min = 0, max = 100))]
     pub checks: usize,
     /// Periods of the spectral accelerations that are told beside those at the wall's own first period [s], above 0;
     /// default 0.1, 0.2 and 0.5 s.
@@ -79,7 +80,7 @@ impl FirstCrackInput {
         check_limit(self.criterion, limit, "first-crack")?;
         let [low, high] = INTERVAL;
         if !(low..=high).contains(&self.interval) {
-            return wrong("interval", format!("{} is out of range", self.interval), "1e-5 to 1");
+            return wrong("interval", format!("{} is out of range", shown(self.interval)), "1e-5 to 1");
         }
         if self.checks > MOST_CHECKS {
             return wrong("checks", format!("{} is out of range", self.checks), "0 to 100");
@@ -104,7 +105,7 @@ pub fn check_limit(criterion: Criterion, limit: Option<f64>, table: &str) -> std
             .key(key)
             .allowed("no `limit`, or criterion `opening` or `slip`")),
         (_, Some(limit)) if !(limit > 0.0 && limit.is_finite()) => {
-            Err(InputError::new(format!("{limit} m is out of range")).key(key).allowed("above 0 m"))
+            Err(InputError::new(format!("{} m is out of range", shown(limit))).key(key).allowed("above 0 m"))
         }
         _ => Ok(()),
     }
@@ -321,7 +322,7 @@ impl<'a> Seek<'a> {
         let Some(limits) = &self.limits else { return };
         if row.end != End::Completed {
             let cause = row.cause.as_deref().unwrap_or("no cause is known");
-            self.cause.get_or_insert(format!("the run at scale {scale} failed: {cause}"));
+            self.cause.get_or_insert(format!("the run at scale {} failed: {cause}", shown(scale)));
             return;
         }
         let value = |kind: PerJoint, e: usize| row.joints.get(&kind).and_then(|v| v.get(e).copied().flatten());

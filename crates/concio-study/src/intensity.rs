@@ -7,6 +7,7 @@ use std::path::Path;
 use concio::case::Case;
 use concio::ground::signal::{GroundMotion, compile};
 use concio::ground::{measures, response_spectrum};
+use concio::quantity::shown;
 use concio::{Error, InputError, Result};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -73,7 +74,7 @@ impl Intensity {
         if value > 0.0 && value.is_finite() {
             return Ok(value);
         }
-        let error = InputError::new(format!("the motion has a {} of {value}", self.name())).key("motion.base");
+        let error = InputError::new(format!("the motion has a {} of {}", self.name(), shown(value))).key("motion.base");
         Err(error.allowed("a motion that shakes").into())
     }
 }

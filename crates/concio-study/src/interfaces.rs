@@ -4,6 +4,7 @@ use std::path::Path;
 
 use concio::assign::select;
 use concio::case::{Beam, Selector};
+use concio::quantity::shown;
 use concio::wall::{End, Joint, Wall};
 use concio::{Error, Result, graph, pattern};
 use schemars::JsonSchema;
@@ -39,6 +40,7 @@ pub struct Interfaces {
     pub devices: Vec<DeviceInput>,
     /// Runs that the search may ask for; the greedy placement is tuned with a quarter of it on top. At least one
     /// generation: `population` designs of every device under every motion of the search.
+    #[schemars(range(min = 1))]
     pub runs: usize,
     /// Designs of a generation of each device, 4 … 1000. Default 16.
     #[serde(default = "population")]
@@ -456,15 +458,15 @@ fn ranges(file: &StudyFile, input: &Interfaces) -> Result<()> {
         }
     }
     if !(input.perturbation > 0.0 && input.perturbation <= 0.01) {
-        return wrong("perturbation", &input.perturbation, "above 0 and up to 0.01");
+        return wrong("perturbation", &shown(input.perturbation), "above 0 and up to 0.01");
     }
     let [low, high] = input.crack_scales;
     if !(low > 0.0 && low < high && high.is_finite()) {
-        let what = format!("[{low}, {high}] is no range of scales");
+        let what = format!("[{}, {}] is no range of scales", shown(low), shown(high));
         return Err(file.wrong("interfaces.crack_scales", what, "two numbers above 0, rising"));
     }
     if !(input.crack_within > 0.0 && input.crack_within < 1.0) {
-        return wrong("crack_within", &input.crack_within, "above 0 and below 1");
+        return wrong("crack_within", &shown(input.crack_within), "above 0 and below 1");
     }
     Ok(())
 }
@@ -475,10 +477,14 @@ fn most(file: &StudyFile, input: &Interfaces, joints: usize, eligible: usize) ->
         (None, Some(share)) if share > 0.0 && share <= 1.0 => {
             // 0.29 of 100 is 29, whatever its binary digits say.
             let count = (share * joints as f64 + 1e-9) as usize;
-            ("interfaces.share", count, format!("{share} of {joints} joints, which is {count},"))
+            ("interfaces.share", count, format!("{} of {joints} joints, which is {count},", shown(share)))
         }
         (None, Some(share)) => {
-            return Err(file.wrong("interfaces.share", format!("{share} is out of range"), "above 0 and up to 1"));
+            return Err(file.wrong(
+                "interfaces.share",
+                format!("{} is out of range", shown(share)),
+                "above 0 and up to 1",
+            ));
         }
         (None, None) => {
             let what = "nothing says how many joints may be replaced";
@@ -571,12 +577,13 @@ fn parameter(file: &StudyFile, key: &str, given: &ParameterInput) -> Result<Para
         return Err(file.wrong(&format!("{key}.to"), "its unit is not that of `from`", "one unit"));
     }
     if !(low < high) {
-        let what = format!("the bounds are reversed or equal: {high} does not lie above `from`, {low}");
+        let what =
+            format!("the bounds are reversed or equal: {} does not lie above `from`, {}", shown(high), shown(low));
         return Err(file.wrong(&format!("{key}.to"), what, "above `from`"));
     }
     let log = given.spacing == Spacing::Log;
     if log && low <= 0.0 {
-        return Err(file.wrong(&format!("{key}.from"), format!("{low} has no logarithm"), "above 0"));
+        return Err(file.wrong(&format!("{key}.from"), format!("{} has no logarithm", shown(low)), "above 0"));
     }
     let also = given.also.iter().map(|f| (f.path.clone(), f.times)).collect();
     Ok(Parameter { path: given.path.clone(), unit, ends: [low, high], log, also })

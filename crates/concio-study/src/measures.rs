@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use concio::outcome::{BondRow, Outcome};
-use concio::record::StopReason;
+use concio::quantity::shown;
 use concio::run::{Prepared, joint_rows, warnings_of};
 use concio::store::{JointRow, residual_relative, top_force_rms};
 use concio::warning::Warning;
@@ -70,11 +70,36 @@ pub const MEASURES: [Measure; 33] = [
     measure("collapse", "s", "time at which a block of a planar wall had fallen or turned over"),
 ];
 
+/// Numbers of [`MEASURES`] that go on after a collapse; all others are those of the time before.
+const GO_ON: [&str; 16] = [
+    "time_reached",
+    "top_work",
+    "base_work",
+    "kinetic_energy",
+    "elastic_energy",
+    "damping_energy",
+    "friction_energy",
+    "bond_energy",
+    "impact_energy",
+    "energy_residual",
+    "joints_cracked",
+    "joints_broken",
+    "first_crack",
+    "steps",
+    "device_energy",
+    "dissipated_energy",
+];
+
+/// Whether a measure of a planar run is that of the time before a collapse.
+pub fn ends_with_collapse(name: &str) -> bool {
+    !GO_ON.contains(&name)
+}
+
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum End {
-    /// It reached its end.
+    /// It reached its end, or that which a collapse was to make.
     Completed,
     /// The solver stopped early; the numbers hold up to there.
     Stopped,
@@ -142,8 +167,8 @@ impl Row {
 /// Reads off a run what is kept of it.
 pub fn row(id: &str, prepared: &Prepared, outcome: &Outcome, keep: &[PerJoint]) -> Row {
     let (end, cause) = match outcome.stop_reason {
-        StopReason::Completed => (End::Completed, None),
-        other => (End::Stopped, Some(format!("{other:?} at t = {} s", outcome.time_reached))),
+        reason if reason.is_end() => (End::Completed, None),
+        other => (End::Stopped, Some(format!("{other:?} at t = {} s", shown(outcome.time_reached)))),
     };
     let model = &prepared.model;
     let name = |e: usize| concio::graph::name(&model.wall, &model.joints[e]);

@@ -22,6 +22,7 @@ pub struct Ranking {
     /// By what; default the report's relative acceleration, then relative displacement and dissipated energy.
     pub by: Vec<PerJoint>,
     /// Joints that the report of the study lists and draws as critical, from 1.
+    #[schemars(range(min = 1))]
     pub listed: usize,
 }
 

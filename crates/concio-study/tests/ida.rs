@@ -199,3 +199,60 @@ fn curves_are_the_runs_of_the_design() -> concio::Result<()> {
     assert_eq!(analysis.curves.iter().filter(|c| c.name.ends_with("rectangle")).count(), 3);
     Ok(())
 }
+
+/// A slender stone that turns over from 0.2 g on: its runs end when it has, and every number that is asked for is that of runs
+/// that go on.
+#[test]
+fn runs_of_planar_walls_end_with_their_collapse_where_nothing_later_is_asked() -> concio::Result<()> {
+    let stone = r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = { length = 0.2, height = 1.0, thickness = 0.5, specific_weight = 20e3 }
+mortar = { bed = 0, head = 0 }
+[joint]
+bed = { law = "rigid" }
+head = { law = "none" }
+friction = { law = "coulomb", static = 0.8 }
+[motion]
+duration = "6 s"
+base = "none"
+"#;
+    let study = |damage: &str, keep: &str| {
+        format!(
+            "wall = \"wall.toml\"\n{keep}[[motion]]\nname = \"a\"\nbase = {{ tilt = {{ acceleration = 1, rise = \"10 ms\" }} }}\n\
+             [ida]\ndamage = \"{damage}\"\nlimits = [{{ name = \"rocks\", value = \"{}\" }}]\nintensities = [\"0.15 g\", \"0.3 g\", \"0.5 g\"]\n",
+            if damage == "peak_displacement" { "1 mm" } else { "1" }
+        )
+        .replace("\"1\"", "1")
+    };
+    let desk = Desk::new(stone);
+    let plan = desk.plan(&study("peak_displacement", ""))?;
+    let (mut stops, mut goes) =
+        (Analysis::new(&plan)?.expect("an analysis"), Analysis::new(&plan)?.expect("an analysis"));
+    assert!(stops.stops, "the peaks of a planar run are those before a collapse");
+    goes.stops = false;
+    let _ = [run(&mut stops, &desk.path("a"))?, run(&mut goes, &desk.path("b"))?];
+    let told = |analysis: &Analysis| -> Vec<(f64, Option<u64>, bool)> {
+        let points = analysis.curves.iter().flat_map(|curve| &curve.points);
+        points.map(|p| (p.intensity, p.damage.map(f64::to_bits), p.collapsed)).collect()
+    };
+    assert_eq!(told(&stops), told(&goes));
+    assert_eq!(told(&stops).iter().map(|p| p.2).collect::<Vec<_>>(), [false, true, true]);
+    let steps = |folder: &str| -> concio::Result<f64> {
+        let store = concio_study::store::Store::open(&desk.path(folder))?;
+        let analysis = if folder == "a" { &stops } else { &goes };
+        let ids = analysis.curves.iter().flat_map(|curve| &curve.points).map(|p| p.id.clone());
+        Ok(ids.filter_map(|id| store.get(&id)?.number("steps")).sum())
+    };
+    let (fewer, all) = (steps("a")?, steps("b")?);
+    assert!(fewer < 0.7 * all && fewer > 0.0, "{fewer} of {all} steps");
+    // Energies go on after it, and whole results are asked for.
+    for (damage, keep) in [("friction_energy", ""), ("peak_displacement", "[keep]\nresults = true\n")] {
+        let plan = desk.plan(&study(damage, keep))?;
+        assert!(!Analysis::new(&plan)?.expect("an analysis").stops, "{damage} {keep}");
+    }
+    Ok(())
+}

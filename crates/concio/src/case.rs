@@ -10,6 +10,7 @@ mod change;
 pub(crate) mod de;
 mod devices;
 mod document;
+mod extent;
 mod forms;
 mod node;
 pub mod plausible;
@@ -20,6 +21,7 @@ pub mod validate;
 
 pub use devices::{Device, DeviceLaw};
 pub use document::Document;
+pub use extent::Extent;
 pub use read::{CaseFile, LARGEST_FILE, Syntax, canonical_json, from_str, read};
 pub use templates::{describe, example, schema, starter};
 pub use validate::validate;
@@ -182,18 +184,24 @@ pub struct Arch {
 }
 
 /// A door or a window: blocks inside are left out, those that its sides cut are cut there. A rest no longer than the head
-/// mortar is left out too.
+/// mortar is left out too, so that a jamb may be ragged by up to two head joints; `concio check` tells. In courses and bricks
+/// (`"4 courses"`, `"2.5 bricks"`; bricks in running and stack bond) an opening takes the place of so many of them, and its
+/// jambs are straight where bricks are counted in halves, in stack bond in wholes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Opening {
-    /// Left side [m], from 0: from the panel's leftmost edge.
-    pub x: Length,
-    /// Bottom [m], from 0: from the base. It lies on a bed joint; a door has 0.
-    pub y: Length,
-    /// Width [m], above 0; the opening lies within the panel.
-    pub width: Length,
-    /// Height [m], above 0; the top lies on a bed joint.
-    pub height: Length,
+    /// Left side [m], from 0: from the panel's leftmost edge; or how many bricks stand to its left, from 0.
+    pub x: Extent,
+    /// Bottom [m], from 0: from the base; or how many whole courses lie below, from 0. It lies on a bed joint; a door has 0.
+    pub y: Extent,
+    /// Width [m], or bricks that are taken out, above 0; the opening lies within the panel.
+    pub width: Extent,
+    /// Height [m], or whole courses that are taken out, above 0; the top lies on a bed joint.
+    pub height: Extent,
+    /// Move edges that are given as lengths to the nearest joints, and tell by how much: heights to bed joints; sides and
+    /// bearings to where jambs come out straight, in running and stack bond. Default false.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub snap: bool,
     /// One block over the opening; default none: then the blocks over it have to bridge it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lintel: Option<Lintel>,
@@ -203,10 +211,10 @@ pub struct Opening {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Lintel {
-    /// Height [m], above 0; the lintel's top lies on a bed joint.
-    pub height: Length,
-    /// How far it reaches onto the wall on either side [m], above 0.
-    pub bearing: Length,
+    /// Height [m], or whole courses that it takes the place of, above 0; the lintel's top lies on a bed joint.
+    pub height: Extent,
+    /// How far it reaches onto the wall on either side [m], or over how many bricks, above 0.
+    pub bearing: Extent,
     /// Specific weight [N/m³], above 0; default the brick's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub specific_weight: Option<SpecificWeight>,
@@ -260,7 +268,7 @@ pub struct Brick {
     pub height: Length,
     /// B [m], above 0: out of plane.
     pub thickness: Length,
-    /// γ [N/m³], above 0.
+    /// γ [N/m³], above 0; or a density with its unit (`"1800 kg/m3"`), which is taken times g = 9.81 m/s².
     pub specific_weight: SpecificWeight,
 }
 
@@ -507,7 +515,7 @@ pub struct Friction {
     #[serde(rename = "static", default)]
     #[schemars(range(min = 0.0))]
     pub static_: f64,
-    /// μ_d, from 0 to μ_s; every law but `none` needs it.
+    /// μ_d, from 0 to μ_s; `stribeck` and `stribeck-stick` need it. Default of `coulomb`: μ_s.
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub dynamic: f64,
@@ -681,6 +689,7 @@ pub struct Selector {
     pub panel: Vec<String>,
     /// Courses from 1 at the bottom; a bed joint belongs to the course that lies on it, the top support to none
     /// but the beam's (courses + 1).
+    #[schemars(inner(range(min = 1)))]
     pub course: Vec<usize>,
     /// Names of joints, as `concio check` draws them (`p1c1b1|p1c2b1`).
     pub joints: Vec<String>,
@@ -757,7 +766,7 @@ pub struct FrictionChange {
     /// μ_s, from 0.
     #[serde(rename = "static", skip_serializing_if = "Option::is_none")]
     pub static_: Option<f64>,
-    /// μ_d, from 0 to μ_s.
+    /// μ_d, from 0 to μ_s; follows a `static` of law `coulomb` where nothing gives it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dynamic: Option<f64>,
     /// δ_v [m/s], above 0.
@@ -853,6 +862,10 @@ pub struct Motion {
     /// the key is needed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<Time>,
+    /// What ends the run before: `"collapse"`, 2 s after a block has fallen or turned over, or so long after it,
+    /// `{ collapse = "0.5 s" }`, from 0. Planar walls alone; default nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stop_at: Option<StopAt>,
     /// U0: motion of the base.
     pub base: Signal,
     /// U1: motion of the top beam; given exactly when `load.beam` is `driven`.
@@ -864,6 +877,18 @@ pub struct Motion {
     /// false.
     #[serde(skip_serializing_if = "is_default")]
     pub quasi_static: bool,
+}
+
+/// What ends a run before its motion does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StopAt {
+    /// So long after the wall counts as collapsed, from 0 [s].
+    Collapse(Time),
+}
+
+impl StopAt {
+    /// Time after a collapse unless one is given [s]: what falls has come down, from up to 20 m.
+    pub const AFTER_COLLAPSE: f64 = 2.0;
 }
 
 impl Motion {
@@ -918,7 +943,7 @@ pub struct RecordInput {
     /// Factor on the values, of either sign; default 1. Not together with `pga`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
-    /// Scale to this peak acceleration, above 0, instead of `scale`.
+    /// Scale to this peak acceleration [m/s²], above 0, instead of `scale`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pga: Option<Acceleration>,
     /// Keep this interval of the record [s]: `[from, to]`, from 0, in this order; it starts at t = 0 then.

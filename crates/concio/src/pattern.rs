@@ -15,7 +15,10 @@ use crate::{InputError, Result};
 mod arch;
 mod check;
 mod openings;
+mod place;
 mod random;
+
+pub use openings::{Jamb, Laid};
 
 /// Contacts and overlaps shorter than this part of L_ref count as none: they come from rounding.
 pub const CONTACT_TOLERANCE: f64 = 1e-6;
@@ -49,6 +52,45 @@ impl Rect {
 /// The courses of a panel from the bottom, each from left to right; a lintel stands in the topmost that it takes up.
 type Courses = Vec<Vec<Rect>>;
 
+/// Mistakes of a geometry; the first of them are kept.
+#[derive(Debug, Default)]
+struct Found {
+    list: Vec<InputError>,
+    more: usize,
+}
+
+/// Mistakes that are told one by one: more are mostly of one cause.
+const MOST_FOUND: usize = 20;
+
+impl Found {
+    fn add(&mut self, error: InputError) {
+        if self.list.len() < MOST_FOUND {
+            self.list.push(error);
+        } else {
+            self.more += 1;
+        }
+    }
+
+    /// How many there are.
+    fn number(&self) -> usize {
+        self.list.len() + self.more
+    }
+}
+
+/// All mistakes of a geometry that [`lay`] refuses, the first of them one by one and how many more there are; none where it
+/// lays the wall.
+pub fn findings(case: &Case) -> Vec<InputError> {
+    let mut found = Found::default();
+    if let Err(error) = validate::panels(case) {
+        return if let crate::Error::Input(error) = error { vec![*error] } else { Vec::new() };
+    }
+    laid(case, &mut found);
+    if found.more > 0 {
+        found.list.push(InputError::new(format!("and {} more mistakes like these", found.more)));
+    }
+    found.list
+}
+
 /// Lays the blocks of the wall, panel by panel, course by course from the bottom, left to right. Equal cases give
 /// equal bits on every machine: only sums, products and quotients are taken, but for the angles of arches.
 ///
@@ -57,25 +99,67 @@ type Courses = Vec<Vec<Rect>>;
 /// or share a name; when no random texture holds the stagger; when `output.blocks` names a block that does not exist.
 pub fn lay(case: &Case) -> Result<Wall> {
     validate::panels(case)?;
+    let mut found = Found::default();
+    let wall = laid(case, &mut found);
+    found.list.into_iter().next().map_or(Ok(wall), |error| Err(error.into()))
+}
+
+/// The wall, if nothing is found against it.
+fn laid(case: &Case, found: &mut Found) -> Wall {
     let mut wall = Wall { panels: Vec::with_capacity(case.panels.len()), blocks: Vec::new() };
     let mut right = None;
     for (index, panel) in case.panels.iter().enumerate() {
         let info = panel_info(case, index);
-        let mut courses = courses(panel, index)?;
-        openings::cut(panel, index, &mut courses)?;
+        let mut courses = match courses(panel, index) {
+            Ok(courses) => courses,
+            Err(error) => {
+                add(found, error);
+                continue;
+            }
+        };
+        let before = found.number();
+        let mut holes = openings::cut(panel, index, &mut courses, found);
         if let Some(right) = right {
-            shift(&mut courses, right + info.connection);
+            let by = shift(&mut courses, right + info.connection);
+            holes.iter_mut().for_each(|hole| hole.x = hole.x.map(|x| x + by));
         }
-        check::panel(panel, index, &courses)?;
         right = Some(edge(&courses, f64::NEG_INFINITY, |r| r.x[1], f64::max));
+        if found.number() > before {
+            // What lies on a bad opening is no mistake of its own.
+            continue;
+        }
+        check::panel(panel, index, &courses, &holes, found);
         let first = wall.blocks.len();
         append(&mut wall.blocks, panel, index, &courses);
-        check::polygons(panel, index, &courses, &wall.blocks[first..])?;
+        check::polygons(panel, index, &courses, &wall.blocks[first..], found);
         wall.panels.push(PanelInfo { courses: courses.len(), ..info });
     }
-    check::stands(case, &wall)?;
-    names(case, &wall)?;
-    Ok(wall)
+    if found.number() == 0 {
+        let whole = check::stands(case, &wall).and_then(|()| names(case, &wall));
+        whole.err().into_iter().for_each(|error| add(found, error));
+    }
+    wall
+}
+
+fn add(found: &mut Found, error: crate::Error) {
+    if let crate::Error::Input(error) = error {
+        found.add(*error);
+    }
+}
+
+/// The openings of a wall that can be laid as they come to lie, panel by panel in the order of the file.
+///
+/// # Errors
+/// As [`lay`] of courses that cannot be made.
+pub fn openings(case: &Case) -> Result<Vec<Laid>> {
+    let mut all = Vec::new();
+    for (index, panel) in case.panels.iter().enumerate().filter(|(_, panel)| !panel.openings.is_empty()) {
+        let before = courses(panel, index)?;
+        let mut after = before.clone();
+        let holes = openings::cut(panel, index, &mut after, &mut Found::default());
+        all.extend(openings::laid(panel, index, [&before, &after], &holes));
+    }
+    Ok(all)
 }
 
 fn panel_info(case: &Case, index: usize) -> PanelInfo {
@@ -200,12 +284,13 @@ fn edge(courses: &Courses, start: f64, of: impl Fn(&Rect) -> f64, pick: impl Fn(
     courses.iter().flatten().map(of).fold(start, pick)
 }
 
-/// Moves a panel so that its leftmost edge is at `left`.
-fn shift(courses: &mut Courses, left: f64) {
+/// Moves a panel so that its leftmost edge is at `left`; by how much [m].
+fn shift(courses: &mut Courses, left: f64) -> f64 {
     let by = left - edge(courses, f64::INFINITY, |r| r.x[0], f64::min);
     for rect in courses.iter_mut().flatten() {
         rect.x = rect.x.map(|x| x + by);
     }
+    by
 }
 
 fn append(blocks: &mut Vec<Block>, panel: &Panel, index: usize, courses: &Courses) {

@@ -13,7 +13,7 @@ use concio_planar::tie::Tie as Rod;
 
 use crate::assign::JointLaw;
 use crate::bond::{Bond, BondValues, Bonded, Snap, Snaps};
-use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw, Tie};
+use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw, StopAt, Tie};
 use crate::device;
 use crate::error::{InputError, Result};
 use crate::law::Stribeck;
@@ -50,6 +50,8 @@ pub struct Planar {
     pub step: f64,
     /// Whether inertia is left out.
     pub still: bool,
+    /// How long after a collapse the run ends [s]; none where it goes on to the end of the motion.
+    pub after_collapse: Option<f64>,
 }
 
 impl Planar {
@@ -203,7 +205,8 @@ pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointL
     let ties = ties(case, wall, &offset)?;
     let system = System { bodies, links, ties, other, load: loads, held };
     let open = laws.iter().map(JointLaw::is_open).collect();
-    Ok(Planar { system, offset, open, step: step(case), still: case.motion.quasi_static })
+    let after_collapse = case.motion.stop_at.map(|StopAt::Collapse(after)| after.si());
+    Ok(Planar { system, offset, open, step: step(case), still: case.motion.quasi_static, after_collapse })
 }
 
 /// Step of a wall [s].

@@ -37,9 +37,8 @@ impl<D: Dimension> Quantity<D> {
     /// # Errors
     /// What is wrong and, after `; allowed: `, the units that are allowed.
     pub fn parse(text: &str) -> Result<Self, String> {
+        let (number, unit) = parts(text);
         let text = text.trim();
-        let split = number_end(text);
-        let (number, unit) = (&text[..split], text[split..].trim());
         let value: f64 = number.parse().map_err(|_| {
             format!("`{text}` does not start with a number; allowed: a text such as {}", Self::example())
         })?;
@@ -50,11 +49,9 @@ impl<D: Dimension> Quantity<D> {
                 Self::units()
             ));
         }
-        let factor = D::UNITS
-            .iter()
-            .find(|(name, _)| *name == unit)
-            .map(|(_, factor)| *factor)
-            .ok_or_else(|| format!("`{unit}` is not a unit of {}; allowed: {}", D::NAME, Self::units()))?;
+        let factor = factor(D::UNITS, unit).map_err(|near| {
+            format!("`{unit}` is not a unit of {}{}; allowed: {}", D::NAME, meant(near), Self::units())
+        })?;
         Ok(Self::from_si(in_si(value, factor)))
     }
     fn units() -> String {
@@ -63,6 +60,48 @@ impl<D: Dimension> Quantity<D> {
     fn example() -> String {
         format!("\"1.5 {}\"", D::UNITS[0].0)
     }
+}
+
+/// A text as its number and its unit.
+pub(crate) fn parts(text: &str) -> (&str, &str) {
+    let text = text.trim();
+    let split = number_end(text);
+    (&text[..split], text[split..].trim())
+}
+
+/// The factor of a unit, however its powers, its product and its micro are written, and in capitals or small letters where that
+/// tells nothing else; else the unit that comes near it in all but its letters' size.
+fn factor(units: &[(&'static str, f64)], unit: &str) -> Result<f64, Option<&'static str>> {
+    let written = normal(unit);
+    if let Some((_, factor)) = units.iter().find(|(name, _)| normal(name) == written) {
+        return Ok(*factor);
+    }
+    let found = units.iter().find(|(name, _)| normal(name).eq_ignore_ascii_case(&written));
+    let (name, factor) = found.ok_or(None)?;
+    // All in capitals M is m: nobody builds in megametres. Else M is mega and m a thousandth, which are never taken for each other.
+    let capitals = !written.bytes().any(|b| b.is_ascii_lowercase());
+    let mistakable = |(a, b): (char, char)| match (a, b) {
+        ('m', 'M') => true,
+        ('M', 'm') => !capitals,
+        _ => false,
+    };
+    if written.chars().zip(normal(name).chars()).any(mistakable) { Err(Some(name)) } else { Ok(*factor) }
+}
+
+/// A unit with plain figures for powers, a blank for a product and `u` for micro.
+fn normal(unit: &str) -> String {
+    let plain = |c: char| match c {
+        '²' => '2',
+        '³' => '3',
+        'µ' | 'μ' => 'u',
+        '·' | '⋅' | '*' => ' ',
+        other => other,
+    };
+    unit.chars().filter(|c| *c != '^').map(plain).collect()
+}
+
+fn meant(near: Option<&'static str>) -> String {
+    near.map_or(String::new(), |name| format!(", did you mean `{name}`? (M is a million, m a thousandth)"))
 }
 
 /// Divides by a thousand where a thousandth, which no binary number is, would be multiplied with: 350 mm is 0.35 m to the last bit.
@@ -109,9 +148,17 @@ impl<D: Dimension> fmt::Display for Quantity<D> {
     }
 }
 
-/// A number as a message shows it: with an exponent where zeros would have to be counted.
-pub(crate) fn shown(v: f64) -> String {
-    if v == 0.0 || !v.is_finite() || (1e-4..1e7).contains(&v.abs()) { v.to_string() } else { format!("{v:e}") }
+/// Digits beyond which a number in a message shows nothing but rounding.
+const DIGITS: usize = 12;
+
+/// A number as a message shows it: without the digits that rounding leaves behind, with an exponent where zeros would have to be
+/// counted.
+pub fn shown(v: f64) -> String {
+    if v == 0.0 || !v.is_finite() {
+        return v.abs().to_string();
+    }
+    let v: f64 = format!("{v:.*e}", DIGITS - 1).parse().unwrap_or(v);
+    if (1e-4..1e7).contains(&v.abs()) { v.to_string() } else { format!("{v:e}") }
 }
 
 impl<D: Dimension> Serialize for Quantity<D> {
@@ -255,7 +302,9 @@ dimension!(
     "N/m3" = 1.0,
     "N/m³" = 1.0,
     "kN/m3" = 1e3,
-    "kN/m³" = 1e3
+    "kN/m³" = 1e3,
+    "kg/m3" = crate::G,
+    "t/m3" = 1e3 * crate::G
 );
 dimension!(
     Stress,
@@ -307,8 +356,10 @@ impl Stiffness {
     /// # Errors
     /// As [`Quantity::parse`].
     pub fn parse(text: &str) -> Result<Self, String> {
-        let unit = text.trim()[number_end(text.trim())..].trim();
-        if ForcePerVolumeTag::UNITS.iter().any(|(name, _)| *name == unit) {
+        let unit = parts(text).1;
+        let [per_joint, per_area] =
+            [ForcePerLengthTag::UNITS, ForcePerVolumeTag::UNITS].map(|units| factor(units, unit));
+        if per_area.is_ok() || (per_joint == Err(None) && per_area != Err(None)) {
             return Quantity::parse(text).map(Stiffness::PerArea);
         }
         let per_joint = Quantity::parse(text).map(Stiffness::PerJoint);
@@ -346,7 +397,8 @@ impl Serialize for Stiffness {
     fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
         match self {
             Stiffness::PerJoint(k) => k.serialize(s),
-            Stiffness::PerArea(k) => s.collect_str(k),
+            // All digits, which a message leaves out.
+            Stiffness::PerArea(k) => s.collect_str(&format_args!("{} {}", k.si(), ForcePerVolumeTag::UNITS[0].0)),
         }
     }
 }
@@ -393,7 +445,7 @@ impl JsonSchema for Stiffness {
 }
 
 /// What a number with a unit looks like.
-const TEXT_PATTERN: &str = "^\\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\\s*\\S+( \\S+)?\\s*$";
+pub(crate) const TEXT_PATTERN: &str = "^\\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\\s*\\S+( \\S+)?\\s*$";
 
 #[cfg(test)]
 mod tests {
@@ -439,6 +491,84 @@ mod tests {
         assert_eq!(Angle::parse("45 °").map(Quantity::si), Ok(std::f64::consts::FRAC_PI_4));
     }
 
+    /// Weights from densities, powers and micro as people write them, units in capitals.
+    #[test]
+    fn units_are_read_as_they_are_written() {
+        let weight = |text| SpecificWeight::parse(text).map(Quantity::si);
+        // 1 kg has a weight of g.
+        assert_eq!((weight("1800 kg/m3"), weight("1.8 t/m^3")), (Ok(1800.0 * crate::G), Ok(1.8 * (1e3 * crate::G))));
+        assert_eq!((weight("18 kN/m^3"), weight("18 KN/M3"), weight("18 kn/m³")), (Ok(18e3), Ok(18e3), Ok(18e3)));
+        let length = |text| Length::parse(text).map(Quantity::si);
+        assert_eq!((length("250 MM"), length("25 CM"), length("10 μm")), (Ok(0.25), Ok(0.25), Ok(1e-5)));
+        let stiff = |text| Stiffness::parse(text).map(|k| k.over(1.0));
+        assert_eq!((stiff("54 MN/m^3"), stiff("36 N/MM3"), stiff("54 MN/M")), (Ok(54e6), Ok(36e9), Ok(54e6)));
+        assert_eq!(DampingConstant::parse("3 kN·s/m").map(Quantity::si), Ok(3e3));
+        assert_eq!(Stress::parse("2 Mpa").map(Quantity::si), Ok(2e6));
+        for (wrong, meant) in [
+            (Force::parse("3 mN").err(), "`MN`"),
+            (Stress::parse("2 mPa").err(), "`MPa`"),
+            (Stress::parse("2 mpa").err(), "`MPa`"),
+        ] {
+            assert!(wrong.as_ref().is_some_and(|w| w.contains(&format!("did you mean {meant}?"))), "{wrong:?}");
+        }
+        assert!(stiff("3 mN/m3").expect_err("a thousandth").contains("`MN/m3`"));
+    }
+
+    /// However the letters of a unit are turned, what is read is what it means, and a small m never stands for a million.
+    fn turned<D: Dimension>() {
+        for (name, factor) in D::UNITS {
+            let letters: Vec<usize> =
+                name.char_indices().filter(|(_, c)| c.is_ascii_alphabetic()).map(|(i, _)| i).collect();
+            for turn in 0..1usize << letters.len() {
+                let mut text: Vec<u8> = name.bytes().collect();
+                for (k, i) in letters.iter().enumerate() {
+                    let c = text[*i];
+                    text[*i] = if turn >> k & 1 == 1 { c ^ 0x20 } else { c };
+                }
+                let text = String::from_utf8(text).expect("letters turned");
+                let Ok(read) = Quantity::<D>::parse(&format!("1 {text}")) else { continue };
+                assert_eq!(read.si(), in_si(1.0, *factor), "{text} for {name}");
+                let million = name.bytes().zip(text.bytes()).any(|(a, b)| a == b'M' && b == b'm');
+                assert!(!million, "{text} for {name}");
+            }
+        }
+    }
+
+    #[test]
+    fn units_with_letters_of_any_size_mean_what_they_mean_or_nothing() {
+        turned::<LengthTag>();
+        turned::<MassTag>();
+        turned::<TimeTag>();
+        turned::<FrequencyTag>();
+        turned::<VelocityTag>();
+        turned::<AccelerationTag>();
+        turned::<ForceTag>();
+        turned::<DampingConstantTag>();
+        turned::<ForcePerLengthTag>();
+        turned::<ForcePerVolumeTag>();
+        turned::<SpecificWeightTag>();
+        turned::<StressTag>();
+        turned::<EnergyPerAreaTag>();
+        turned::<AngleTag>();
+    }
+
+    /// A sum of tenths, and numbers at the ends of what a message writes out.
+    #[test]
+    fn messages_show_no_digits_of_rounding() {
+        for (v, text) in [
+            (0.1 + 0.2, "0.3"),
+            (-0.0, "0"),
+            (1.0 / 3.0, "0.333333333333"),
+            (123_456.789, "123456.789"),
+            (1e-5, "1e-5"),
+            (3.0 * 1.1e7, "3.3e7"),
+            (9_999_999.999_999_9, "1e7"),
+        ] {
+            assert_eq!(shown(v), text);
+        }
+        assert_eq!(Length::from_si(0.1 + 0.2).to_string(), "0.3 m");
+    }
+
     #[test]
     fn parts_of_a_unit_are_what_the_decimal_says() {
         for k in 1..2000 {
@@ -463,7 +593,7 @@ mod tests {
             ("mm", "does not start"),
             ("1", "no unit"),
             ("1 kg", "not a unit of length"),
-            ("1 MM", "not a unit"),
+            ("1 Mm", "did you mean `mm`?"),
             ("1.2.3 m", "does not start"),
             ("- m", "does not start"),
             ("nan m", "does not start"),

@@ -379,10 +379,19 @@ pub struct Counters {
 pub enum StopReason {
     /// The end of the motion was reached.
     Completed,
+    /// The wall collapsed, and the run was to end then.
+    Collapsed,
     /// The user stopped it.
     Interrupted,
     /// The step became too short: the tolerance cannot be held.
     StepTooShort,
     /// A value became infinite or not a number.
     NotFinite,
+}
+
+impl StopReason {
+    /// Whether the run went as far as it was to go.
+    pub fn is_end(self) -> bool {
+        matches!(self, StopReason::Completed | StopReason::Collapsed)
+    }
 }

@@ -183,8 +183,9 @@ fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
         None => of_steps.or(of_record.reduce(f64::min)).unwrap_or(duration / 2000.0).min(duration),
     };
     if !(interval <= duration && duration / interval <= MOST_SAMPLES) {
-        let what = format!("{interval} s for a run of {duration} s");
-        let allowed = format!("{} s to {duration} s, for at most {MOST_SAMPLES:.0} samples", duration / MOST_SAMPLES);
+        let [least, asked, most] = [duration / MOST_SAMPLES, interval, duration].map(shown);
+        let what = format!("{asked} s for a run of {most} s");
+        let allowed = format!("{least} s to {most} s, for at most {MOST_SAMPLES:.0} samples");
         return Err(InputError::new(what).key("output.interval").allowed(allowed).into());
     }
     let frames = output.frames.map_or(duration / 400.0, |f| f.si());

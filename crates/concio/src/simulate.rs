@@ -228,10 +228,9 @@ impl<'m> Simulation<'m> {
 
     /// Takes at most `steps` steps, fewer when the buffer is full or the run ends.
     pub fn advance(&mut self, steps: u64) -> Progress {
-        let end = self.model.excitation.duration;
         for _ in 0..steps {
-            if self.state.t >= end {
-                return Progress::Ended(StopReason::Completed);
+            if let Some(reason) = self.over() {
+                return Progress::Ended(reason);
             }
             if self.buffer_is_full() {
                 return Progress::Running;
@@ -240,7 +239,18 @@ impl<'m> Simulation<'m> {
                 return Progress::Ended(reason);
             }
         }
-        if self.state.t >= end { Progress::Ended(StopReason::Completed) } else { Progress::Running }
+        self.over().map_or(Progress::Running, Progress::Ended)
+    }
+
+    /// Why the run goes no further, where it has come to its end. No step is shortened for an end after a collapse: until then the run
+    /// has the bits of one that goes on.
+    fn over(&self) -> Option<StopReason> {
+        if self.state.t >= self.model.excitation.duration {
+            return Some(StopReason::Completed);
+        }
+        let after = self.planar.as_ref().and(self.model.planar.as_ref())?.after_collapse?;
+        let collapse = self.state.totals.collapse?;
+        (self.state.t >= collapse.time + after).then_some(StopReason::Collapsed)
     }
 
     /// One accepted step, to the next break of the motion or frame at the farthest.

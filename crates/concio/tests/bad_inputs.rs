@@ -103,11 +103,25 @@ fn table() -> Vec<Bad> {
     rows.extend(bad! {
         "negative brick length", edit("\"250 mm\"", "\"-250 mm\""), "brick =", "panel[0].brick.length", "-0.25 m is out of range", "above 0 m";
         "negative mass of the beam", edit("beam = \"driven\"", "beam = { mass = \"-1 t\" }"), "beam =", "load.beam.mass", "-1000 kg is out of range", "above 0 kg";
+        "no course of a listed block", explicit(&[block(1, 0.0, 0.0, "").replace("course = 1", "course = -1")]), "course = -1", "panel[0].block[0].course", "the number -1 cannot stand here", "a whole number from 1";
+        "two voussoirs and a half", arch("rise = 1, voussoirs = 2.5"), "arch =", "panel[0].arch.voussoirs", "the number 2.5 cannot stand here", "a whole number, 3 … 1,000";
+        "opening of half a course", opening("x = 0.3, y = 0, width = 0.3, height = \"1.5 courses\""), "opening =", "panel[0].opening[0].height", "1.5 courses end within a course", "whole courses";
+        "opening as wide as courses", opening("x = 0.3, y = 0, width = \"2 courses\", height = 0.13"), "opening =", "panel[0].opening[0].width", "2 courses: widths are counted in bricks", "a length, or bricks";
+        "opening as high as bricks", opening("x = 0.3, y = 0, width = 0.3, height = \"1 brick\""), "opening =", "panel[0].opening[0].height", "1 brick: heights are counted in courses", "a length, or courses";
+        "opening over more courses than there are", opening("x = 0.3, y = \"4 courses\", width = 0.3, height = \"3 courses\""), "opening =", "panel[0].opening[0].height", "the edge over course 7 is above the panel", "up to the panel's 6 courses";
+        "opening in bricks of no length", random("width = 2, length = [0.2, 0.25], stagger = 0").replace("courses = 4", "courses = 4\nopening = [{ x = \"1 brick\", y = 0, width = 0.3, height = 0.2 }]"), "opening =", "panel[0].opening[0].x", "bricks of bond `irregular` have no one length", "a length; bricks in bond `running` or `stack`";
+        "lintel on a joint", opening("x = 0.3, y = 0, width = 0.3, height = \"2 courses\", lintel = { height = \"1 course\", bearing = \"0.02 bricks\" }"), "opening =", "panel[0].opening[0].lintel.bearing", "0.02 bricks leave nothing to lie on", "more than a head joint";
+        "rows for courses", opening("x = 0.3, y = 0, width = 0.3, height = \"2 rows\""), "opening =", "panel[0].opening[0].height", "`rows` is not a unit of length", "courses, bricks";
+        "curly quotes", edit("\"250 mm\"", "“250 mm”"), "brick =", "", "not valid TOML", "texts stand in straight ones: brick = { length = \"250 mm\"";
+        "a thousandth of a newton", edit("\"5.4e7 N/m\" }\nhead", "\"54 mN/m\" }\nhead"), "bed = { law", "joint.bed.stiffness", "`mN/m` is not a unit of stiffness, did you mean `MN/m`? (M is a million, m a thousandth)", "MN/m";
+        "shear wall that is to stop", edit("duration =", "stop_at = \"collapse\"\nduration ="), "stop_at", "motion.stop_at", "the key is for planar walls", "leave it out";
+        "stop before a collapse", planar("duration =", "stop_at = { collapse = -1 }\nduration ="), "stop_at", "motion.stop_at.collapse", "-1 s is out of range", "from 0 s";
+        "stop at what there is not", planar("duration =", "stop_at = \"collaps\"\nduration ="), "stop_at", "motion.stop_at", "`collaps` is not known here", "did you mean `collapse`?";
         "zero thickness", edit("\"120 mm\"", "0"), "brick =", "panel[0].brick.thickness", "0 m is out of range", "above 0 m";
         "weight that is no number", edit("\"18 kN/m3\"", "nan"), "brick =", "panel[0].brick.specific_weight", "NaN N/m3 is out of range", "above 0 N/m3";
         "infinite load", edit("\"10 kN/m\"", "inf"), "top = inf", "load.top", "inf N/m is too large", "from 0 N/m";
         "no courses", edit("courses = 6", "courses = 0"), "courses = 0", "panel[0].courses", "0 is out of range", "from 1";
-        "negative number of bricks", edit("bricks = 4", "bricks = -4"), "bricks =", "panel[0].bricks", "the number -4 cannot stand here", "a whole number from 0";
+        "negative number of bricks", edit("bricks = 4", "bricks = -4"), "bricks =", "panel[0].bricks", "the number -4 cannot stand here", "a whole number from 1";
         "bricks left out", edit("bricks = 4\n", ""), "[[panel]]", "panel[0].bricks", "bond `running` needs it", "from 1";
         "a wall beyond all bounds", edit("courses = 6", "courses = 6000000000"), "[[panel]]", "panel[0]", "the wall would have up to 27000000000 blocks", "up to 4000000 blocks";
         "mortar as long as the brick", edit("head = \"10 mm\"", "head = \"25 cm\""), "mortar", "panel[0].mortar.head", "leave no half brick", "below the brick's length, 0.25 m";

@@ -461,3 +461,39 @@ proptest! {
         }
     }
 }
+
+/// Coulomb's own law has one coefficient: what is not given follows it, in a change too, unless the wall gives the other.
+#[test]
+fn coulomb_friction_has_one_coefficient_unless_two_are_given() {
+    let read = |friction: &str, change: &str| {
+        let text = format!(
+            "model = \"shear\"\n[[panel]]\nbond = \"stack\"\ncourses = 2\nbricks = 1\n\
+             brick = {{ length = 1, height = 1, thickness = 1, specific_weight = \"1800 kg/m3\" }}\n[joint]\n\
+             bed = {{ law = \"elastic\", stiffness = 1e8 }}\nhead = {{ law = \"none\" }}\nfriction = {{ {friction} }}\n\
+             [[joint.change]]\nat = {{ kind = [\"bed\"] }}\nfriction = {{ {change} }}\n[motion]\nduration = 1\n"
+        );
+        from_str(&text, Syntax::Toml, None).map(|file| {
+            assert!(file.findings().is_empty(), "{:?}", file.findings());
+            let [change] = &file.case.joint.changes[..] else { panic!("one change") };
+            let change = change.friction.expect("a change of friction");
+            (file.case.joint.friction.dynamic, change.dynamic)
+        })
+    };
+    let coulomb = "law = \"coulomb\", static = 0.6";
+    assert_eq!(read(coulomb, "static = 0.4").expect("a wall"), (0.6, Some(0.4)));
+    assert_eq!(read(coulomb, "static = 0.7, dynamic = 0.5").expect("a wall"), (0.6, Some(0.5)));
+    assert_eq!(read(&format!("{coulomb}, dynamic = 0.3"), "static = 0.4").expect("a wall"), (0.3, None));
+    assert_eq!(read("law = \"none\"", "law = \"coulomb\", static = 0.4").expect("a wall"), (0.0, Some(0.4)));
+    // What varies in a study is followed as well.
+    let file = from_str(
+        "model = \"shear\"\nset = \"report\"\n[[panel]]\nbond = \"stack\"\ncourses = 2\nbricks = 1\n[joint]\n\
+         friction = { law = \"none\" }\n[motion]\nduration = 1\n",
+        Syntax::Toml,
+        None,
+    );
+    let change =
+        [("joint.friction".to_string(), serde_json::json!({ "law": "coulomb", "static": 0.5, "dynamic": 0.2 }))];
+    assert_eq!(file.expect("a wall").changed(&change).expect("a wall").case.joint.friction.dynamic, 0.2);
+    let e = read("law = \"stribeck\", static = 0.6", "static = 0.7").expect_err("no coefficient of slip");
+    assert!(e.to_string().contains("joint.friction.dynamic: the key is missing: law `stribeck` needs it"), "{e}");
+}

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use concio::case::{Case, JointKind, NormalForce, Syntax, from_str};
 use concio::graph;
-use concio::pattern::lay;
+use concio::pattern::{self, Jamb, lay};
 use concio::wall::{End, Wall};
 use proptest::prelude::*;
 
@@ -281,4 +281,140 @@ fn openings_lie_on_any_dry_bed() {
         let wall = lay(&file.case).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(named(&wall, "p1o1").lowest_course(), bottom + 3);
     }
+}
+
+const WALL: &str =
+    "bond = \"running\"\ncourses = 8\nbricks = 6\nmortar = { bed = 0.01, head = 0.01 }\n[[panel.opening]]\n";
+
+fn close(a: [f64; 2], b: [f64; 2]) {
+    assert!((0..2).all(|k| (a[k] - b[k]).abs() < 1e-12), "{a:?} is not {b:?}");
+}
+
+/// Two bricks to the left of a door that takes the place of two bricks in four courses, under a lintel of two courses that lies on
+/// half a brick: with a pitch of 0.26 m from 0.51 m to 1.04 m. Course by course, counted by hand: of a course of whole bricks the
+/// third and fourth go, of one that begins with a half brick the fourth of seven goes and its neighbours are cut to half bricks; beside the
+/// lintel, of which whole bricks are cut to halves and the others end at it, five go.
+#[test]
+fn an_opening_in_courses_and_bricks() {
+    let text = format!(
+        "{WALL}x = \"2 bricks\"\ny = \"0 courses\"\nwidth = \"2 bricks\"\nheight = \"4 courses\"\n\
+         lintel = {{ height = \"2 courses\", bearing = \"0.5 bricks\" }}\n"
+    );
+    let case = case(&text);
+    let wall = lay(&case).unwrap_or_else(|e| panic!("{e}"));
+    let lintel = named(&wall, "p1o1");
+    close(lintel.x, [0.39, 1.16]);
+    // It begins where the bricks of the fifth course do and ends where those of the sixth do.
+    close(lintel.y, [0.27, 0.38 + 0.01]);
+    assert_eq!(
+        wall.blocks.iter().map(|b| b.course).fold([0; 8], |mut n, c| (n[c] += 1, n).1),
+        [4, 6, 4, 6, 4, 5, 6, 7]
+    );
+    for (course, faces) in [(0, [0.51, 1.04]), (1, [0.51, 1.04]), (4, [0.38, 1.17]), (5, [0.38, 1.17])] {
+        let of = || wall.blocks.iter().filter(move |b| b.course == course && b.name != "p1o1");
+        let left = of().map(|b| b.x[1]).filter(|x| *x < 0.7).fold(0.0, f64::max);
+        let right = of().map(|b| b.x[0]).filter(|x| *x > 0.7).fold(f64::INFINITY, f64::min);
+        close([left, right], faces);
+    }
+    let [laid] = pattern::openings(&case).expect("a wall").try_into().expect("one opening");
+    close(laid.x, [0.51, 1.04]);
+    close(laid.y, [0.0, 0.27]);
+    assert_eq!((laid.removed, laid.cut), (2 * (2 + 1) + 5, 2 * 2 + 2));
+    let straight = Some(Jamb { courses: 4, short: 0, by: 0.0 });
+    assert_eq!((laid.jambs, laid.moved.len()), ([straight, straight], 0));
+    balance(&wall);
+    // What the file says is kept, and reads back as it was.
+    let json = concio::case::canonical_json(&case);
+    assert!(json.contains("\"0.5 bricks\"") && json.contains("\"4 courses\""), "{json}");
+    assert_eq!(from_str(&json, Syntax::Json, None).expect("a case").case, case);
+}
+
+/// Whatever the number of half bricks, jambs in running bond come out straight and no block is shorter than half a brick.
+#[test]
+fn openings_in_half_bricks_have_straight_jambs() {
+    for (first, bond) in [("full", "running"), ("half", "running"), ("full", "stack")] {
+        let step = if bond == "running" { 1 } else { 2 };
+        for from in (0..10).step_by(step) {
+            for width in (step..12 - from).step_by(step) {
+                let text = WALL.replace("\"running\"", &format!("\"{bond}\"")).replace(
+                    "bricks = 6\n",
+                    &if bond == "running" {
+                        format!("bricks = 6\nfirst = \"{first}\"\n")
+                    } else {
+                        "bricks = 6\n".into()
+                    },
+                );
+                let [x, wide] = [from, width].map(|halves| 0.5 * halves as f64);
+                let text = format!(
+                    "{text}x = \"{x} bricks\"\ny = \"2 courses\"\nwidth = \"{wide} bricks\"\nheight = \"3 courses\"\n\
+                     lintel = {{ height = \"1 course\", bearing = 0.05 }}\n"
+                );
+                let case = case(&text);
+                let wall = match lay(&case) {
+                    // At the panel's ends there is nothing for a lintel to lie on.
+                    Err(e) if e.to_string().contains("beyond the panel") => continue,
+                    other => other.unwrap_or_else(|e| panic!("{e}\n{text}")),
+                };
+                let [laid] = pattern::openings(&case).expect("a wall").try_into().expect("one opening");
+                for jamb in laid.jambs {
+                    assert_eq!(
+                        jamb.map(|j| (j.short, j.courses)),
+                        Some((0, 3)),
+                        "{bond} {first} {x} + {wide}: {laid:?}"
+                    );
+                }
+                let beside = wall.blocks.iter().filter(|b| (2..5).contains(&b.course));
+                let shortest = beside.map(|b| b.length()).fold(f64::INFINITY, f64::min);
+                assert!(shortest > 0.12 - 1e-9, "{bond} {first} {x} + {wide}: {shortest} m");
+            }
+        }
+    }
+}
+
+/// A side in a head joint of every second course: those end before it, by hand at 0.51 m; `snap` moves the side there, the other to
+/// the next head joint, and a bottom within a course to the bed below it.
+#[test]
+fn ragged_jambs_are_told_and_snap_mends_them() {
+    let keys = "x = 0.515\ny = 0.08\nwidth = 0.5\nheight = 0.2\nlintel = { height = 0.12, bearing = 0.1 }\n";
+    let off =
+        case(&format!("{WALL}{}", keys.replace("y = 0.08", "y = 0.065").replace("height = 0.12", "height = 0.125")));
+    let [laid] = pattern::openings(&off).expect("a wall").try_into().expect("one opening");
+    let [Some(left), Some(right)] = laid.jambs else { panic!("{laid:?}") };
+    // Courses 2 to 4 beside it: the third has whole bricks.
+    assert!((left.courses, left.short) == (3, 1) && (left.by - 0.005).abs() < 1e-12, "{left:?}");
+    assert_eq!((right.short, laid.moved.len()), (0, 0));
+    let snapped = case(&format!("{WALL}snap = true\n{keys}"));
+    let [laid] = pattern::openings(&snapped).expect("a wall").try_into().expect("one opening");
+    close(laid.x, [0.51, 1.04]);
+    close(laid.y, [0.065, 0.27]);
+    assert!(laid.jambs.iter().flatten().all(|jamb| jamb.short == 0), "{laid:?}");
+    let lintel = laid.lintel.expect("a lintel");
+    // Half a brick of bearing on either side; up to the top of the sixth course.
+    close(lintel, [1.04 - 0.51 + 2.0 * 0.12, 0.39 - 0.27]);
+    let moved: Vec<(&str, i64)> = laid.moved.iter().map(|(what, by)| (*what, (1e6 * by).round() as i64)).collect();
+    let expected = [
+        ("the bearing", 20_000),
+        ("the left side", -5_000),
+        ("the right side", 25_000),
+        ("the bottom", -15_000),
+        ("the top", -10_000),
+    ];
+    assert_eq!(moved, expected);
+    balance(&lay(&snapped).expect("a wall"));
+}
+
+/// All that is wrong with the edges of all openings stands in one list.
+#[test]
+fn all_bad_edges_are_listed_at_once() {
+    let text = format!(
+        "{WALL}x = 1.5\ny = 0.1\nwidth = 0.3\nheight = 0.13\n[[panel.opening]]\nx = 0.3\ny = 0.065\nwidth = 0.3\nheight = 0.1\n\
+         lintel = {{ height = 0.13, bearing = 400 }}\n[[panel.opening]]\nx = 0.3\ny = 0\nwidth = \"1 brick\"\nheight = \"9 courses\"\n"
+    );
+    let case = case(&text);
+    let keys: Vec<String> = pattern::findings(&case).into_iter().filter_map(|e| e.key).collect();
+    let expected =
+        ["opening[0].width", "opening[0].y", "opening[0].height", "opening[1].lintel.bearing", "opening[2].height"];
+    assert_eq!(keys, expected.map(|key| format!("panel[0].{key}")));
+    // The first of them is what `lay` says.
+    assert!(lay(&case).expect_err("wrong").to_string().starts_with("panel[0].opening[0].width"));
 }

@@ -6,6 +6,7 @@ use concio::device;
 use concio::model::Model;
 use concio_study::shaking::{Mode, first_mode};
 
+mod openings;
 mod planar;
 
 use super::wall_file;
@@ -68,8 +69,9 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let title = &case.title;
     let title = if title.is_empty() { String::new() } else { format!("{title}\n\n") };
     let text = format!(
-        "{title}{}\n{}\n{}{}{}{}\n{}{list}\n{} is a valid wall file.\n",
+        "{title}{}\n{}{}\n{}{}{}{}\n{}{list}\n{} is a valid wall file.\n",
         columns(&panel_rows(model)),
+        openings::told(case)?,
         columns(&joints),
         table(&devices),
         table(&bonds),

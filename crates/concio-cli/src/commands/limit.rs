@@ -34,7 +34,8 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
     let sides = args.towards.map_or(vec![Side::Right, Side::Left], |side| vec![side]);
     let mut pushed = Vec::with_capacity(sides.len());
     for towards in sides {
-        let problem = Problem::of(&file.case, options(args, towards)).map_err(|e| file.locate(e))?;
+        let problem = Problem::of(&file.case, options(args, towards));
+        let problem = problem.map_err(|e| wall_file::all(&file, file.locate(e)))?;
         if pushed.is_empty() {
             problem.warnings.iter().for_each(|warning| files::note(&format!("warning: {warning}")));
         }

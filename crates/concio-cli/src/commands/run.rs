@@ -38,7 +38,7 @@ pub fn run(args: &Run) -> Result<ExitCode, Failure> {
     let mut content = report::Content::of_run(&out, &prepared, &joints, &finished, file.text());
     content.command = Some(report::command(args.file.as_deref(), &out));
     let report = report::write(&out, &content)?;
-    let stopped = finished.outcome.stop_reason != StopReason::Completed;
+    let stopped = !finished.outcome.stop_reason.is_end();
     tell(&finished, &prepared, &joints, &report)?;
     Ok(if stopped { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS })
 }
@@ -83,7 +83,8 @@ fn tell(finished: &Finished, prepared: &Prepared, joints: &[JointRow], report: &
     let reason = finished.outcome.stop_reason;
     if reason != StopReason::Completed {
         let [at, end] = [finished.outcome.time_reached, prepared.model.excitation.duration].map(seconds);
-        files::note(&format!("stopped early at t = {at} of {end}: {}", digest::why(reason)));
+        let early = if reason.is_end() { "ended" } else { "stopped early" };
+        files::note(&format!("{early} at t = {at} of {end}: {}", digest::why(reason)));
     }
     let rows = digest::rows(&prepared.model.wall, joints, &finished.outcome, &finished.summary);
     files::print(&format!("{}\nopen {}\n", pairs(&rows), report.display()))

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use concio::case::{self, CaseFile, Document, Signal, plausible};
 use concio::ground::record::{self, TextOptions};
+use concio::pattern;
 use concio::run::{self, Prepared};
 use concio::warning::Warning;
 use concio::{Error, InputError};
@@ -94,9 +95,23 @@ pub fn prepare(file: &CaseFile) -> Result<Prepared, Failure> {
     let prepared = run::prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)));
     // A length in the wrong unit makes walls that cannot be laid.
     let doubts = || [file.unit_doubts(), plausible::doubts(&file.case)].concat();
-    let mut prepared = prepared.inspect_err(|_| warn(file, &doubts()))?;
+    let mut prepared = prepared.map_err(|error| {
+        warn(file, &doubts());
+        all(file, error)
+    })?;
     prepared.model.warnings.splice(0..0, file.unit_doubts());
     Ok(prepared)
+}
+
+/// All that is wrong with the geometry of a wall that cannot be laid; else what is wrong.
+pub fn all(file: &CaseFile, error: Error) -> Failure {
+    let found = pattern::findings(&file.case).into_iter();
+    let located = |e: InputError| match file.locate(e.into()) {
+        Error::Input(e) => *e,
+        other => InputError::new(other.to_string()),
+    };
+    let found: Vec<InputError> = found.map(located).collect();
+    if found.is_empty() { error.into() } else { Failure::Input(found) }
 }
 
 /// What moves the wall: names and values.

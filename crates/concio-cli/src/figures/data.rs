@@ -9,7 +9,7 @@ use concio::moment::{JointMotion, Moment};
 use concio::store::StoredRun;
 
 use crate::failure::Failure;
-use crate::format::short;
+use crate::format::{seconds, short};
 
 /// A run and the part of it that is shown.
 #[derive(Debug)]
@@ -66,9 +66,10 @@ impl<'a> Data<'a> {
         let data = Data { run, case, window };
         let shown = data.shown(&run.outcome.recording.time);
         if shown.len() < 2 {
-            let what = format!("there are {} samples from {} s to {} s", shown.len(), window[0], window[1]);
+            let what =
+                format!("there are {} samples from {} to {}", shown.len(), seconds(window[0]), seconds(window[1]));
             let error = InputError::new(what).key("--from, --to");
-            return Err(error.allowed(format!("a part of 0 s to {end} s with two samples or more")).into());
+            return Err(error.allowed(format!("a part of 0 s to {} with two samples or more", seconds(end))).into());
         }
         Ok(data)
     }
@@ -112,7 +113,7 @@ impl<'a> Data<'a> {
         }
         let shown = self.shown(&self.run.outcome.recording.frame_time);
         if shown.is_empty() {
-            let what = format!("there is no frame from {} s to {} s", self.window[0], self.window[1]);
+            let what = format!("there is no frame from {} to {}", seconds(self.window[0]), seconds(self.window[1]));
             return Err(InputError::new(what).key("--from, --to").allowed(self.frame_span()));
         }
         Ok(shown)
@@ -149,7 +150,7 @@ impl<'a> Data<'a> {
                 // An instant up to half an interval beyond the last frame is still nearest to it.
                 let slack = if times.len() > 1 { 0.5 * (times[1] - times[0]) } else { 1e-9 };
                 if !(t >= first && t <= last + slack) {
-                    let error = InputError::new(format!("{t} s is outside of the run")).key("--at");
+                    let error = InputError::new(format!("{} is outside of the run", seconds(t))).key("--at");
                     return Err(error.allowed(self.frame_span()));
                 }
                 let after = times.partition_point(|f| *f < t).min(times.len() - 1);

@@ -84,7 +84,11 @@ fn head(page: &mut String, content: &Content) {
     if outcome.stop_reason != StopReason::Completed {
         let [at, duration] = [outcome.time_reached, duration].map(seconds);
         let why = escape(digest::why(outcome.stop_reason));
-        let _ = writeln!(page, "<p class=\"note bad\"><b>Stopped early at t = {at} of {duration}:</b> {why}.</p>");
+        let (class, early) = match outcome.stop_reason.is_end() {
+            true => ("note", "Ended"),
+            false => ("note bad", "Stopped early"),
+        };
+        let _ = writeln!(page, "<p class=\"{class}\"><b>{early} at t = {at} of {duration}:</b> {why}.</p>");
     }
     for warning in digest::warnings(content.summary) {
         let _ = writeln!(page, "<p class=\"note\"><b>Warning:</b> {}</p>", escape(warning));

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use concio::case::plausible::rounded;
 use concio::case::{Baseline, Case, ModelKind, Signal};
 use concio::ground::Library;
 use concio::ground::coverage::{Coverage, coverage};
@@ -307,11 +308,24 @@ pub fn text(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_string)
 }
 
-/// The factors of a run with their values: `friction = 0.5, motion = Ricker`.
+/// The factors of a run with their values: `friction = 0.5, motion = Ricker`. Numbers that were drawn have six digits; the tables
+/// have all.
 pub fn values(plan: &Plan, number: usize) -> String {
     let labels = plan.factors.iter().zip(plan.labels(number));
-    labels.map(|(f, l)| format!("{} = {}", f.name, text(&l))).collect::<Vec<_>>().join(", ")
+    labels.map(|(f, l)| format!("{} = {}", f.name, brief(&text(&l)))).collect::<Vec<_>>().join(", ")
 }
+
+/// A number, with its unit if it has one, in six digits; any other text as it is.
+fn brief(text: &str) -> String {
+    let (number, unit) = text.split_once(' ').map_or((text, ""), |(number, unit)| (number, unit));
+    match number.parse::<f64>() {
+        Ok(v) if v.is_finite() => format!("{} {unit}", rounded(v, DIGITS)).trim_end().into(),
+        _ => text.into(),
+    }
+}
+
+/// Digits of a value where it tells runs apart.
+const DIGITS: usize = 6;
 
 fn listed(values: impl ExactSizeIterator<Item = String>) -> String {
     let all = values.len();
@@ -502,6 +516,20 @@ mod tests {
     fn vary(text: &str) -> [String; 3] {
         let vary: Vary = serde_json::from_str(text).expect("an entry of `vary`");
         factor(&vary)
+    }
+
+    #[test]
+    fn values_are_told_in_six_digits() {
+        for (value, told) in [
+            ("0.7073111615231241", "0.707311"),
+            ("8.674290262018376 kN/m", "8.67429 kN/m"),
+            ("0.6", "0.6"),
+            ("250 mm", "250 mm"),
+            ("1 of 2 records", "1 of 2 records"),
+            ("quake.at2", "quake.at2"),
+        ] {
+            assert_eq!(brief(value), told);
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use concio::case::ModelKind;
 use concio::run::Control;
 use concio::{InputError, Result};
 use concio_study::Plan;
@@ -33,14 +34,14 @@ const ONE: usize = 5;
 const MIDDLE: usize = 0;
 const OUTER: usize = 1;
 
-/// Does the runs of one share of the curves; writes tables and report when all curves are done. `known` is what was warned of
+/// Does the runs of one share of the curves; writes tables and report when all curves are done. `told` is what was warned of
 /// before.
 pub fn run(
     plan: &Plan,
     out: &Path,
     threads: usize,
     [share, of]: [usize; 2],
-    known: &Warned,
+    told: &Warned,
 ) -> std::result::Result<ExitCode, Failure> {
     let Some(mut analysis) = Analysis::new(plan)? else { return Ok(ExitCode::SUCCESS) };
     stop::listen()?;
@@ -68,8 +69,8 @@ pub fn run(
     }
     bar.clear();
     // Other shards may have ended meanwhile.
-    let analysis = self::known(plan, &Store::open(out)?)?;
-    tell(plan, &analysis, known)?;
+    let analysis = known(plan, &Store::open(out)?)?;
+    tell(plan, &analysis, told)?;
     let missing = missing(&analysis);
     if missing > 0 {
         let all = counted(analysis.curves.len(), "curve");
@@ -159,7 +160,7 @@ fn warned(analysis: &Analysis) -> Warned {
     warned
 }
 
-fn tell(plan: &Plan, analysis: &Analysis, known: &Warned) -> std::result::Result<(), Failure> {
+fn tell(plan: &Plan, analysis: &Analysis, told: &Warned) -> std::result::Result<(), Failure> {
     let runs = analysis.curves.iter().map(|c| c.points.len()).sum::<usize>();
     let collapsed = analysis.curves.iter().filter(|c| c.points.iter().any(|p| p.collapsed)).count();
     let mut rows = vec![
@@ -169,8 +170,8 @@ fn tell(plan: &Plan, analysis: &Analysis, known: &Warned) -> std::result::Result
         ("collapse", counted(collapsed, "curve")),
     ];
     let warned = warned(analysis);
-    rows.extend(asked::counted_warnings(&warned).map(|told| ("warnings", told)));
-    warn_of_runs(&plan.file.wall, &warned.sentences(known));
+    rows.extend(asked::counted_warnings(&warned).map(|counts| ("warnings", counts)));
+    warn_of_runs(&plan.file.wall, &warned.sentences(told));
     let failed = analysis.curves.iter().filter(|c| c.failed.is_some()).count();
     if failed > 0 {
         rows.push(("failed", failed.to_string()));
@@ -258,7 +259,11 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
     };
     let case = plan.case(0)?;
     let mut first = asked::section(plan, "curve", Some(&case), trouble(analysis))?;
-    first.text.insert(1, ways(s));
+    let stops = analysis.stops && case.model == ModelKind::Planar;
+    let stops =
+        if stops { " A run ends when the wall has collapsed: its damage is that of the time before." } else { "" };
+    let asked = first.text.iter().position(|text| text.starts_with("Asked")).map_or(0, |place| place + 1);
+    first.text.insert(asked, ways(s) + stops);
     let name = |path: Option<&Path>| path.map_or(String::new(), |p| p.display().to_string());
     let title = if plan.file.study.title.is_empty() { "Incremental dynamic analysis" } else { &plan.file.study.title };
     let facts = [

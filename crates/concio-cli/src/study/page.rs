@@ -20,6 +20,8 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
 const STYLE: &str = include_str!("page.css");
 /// Sorts a table by the column whose heading is clicked.
 const SCRIPT: &str = include_str!("page.js");
+/// Letters from which a cell of a table is broken into lines: sentences.
+const LONG: usize = 60;
 /// Lines of a table that the page shows; the files have all.
 const MOST_LINES: usize = 2000;
 
@@ -150,7 +152,11 @@ fn cell(page: &mut String, column: &Column, line: usize) {
             Some(v) => write!(page, "<td class=\"number\" data-value=\"{v}\">{}</td>", shown(v)),
             None => write!(page, "<td class=\"number\"></td>"),
         },
-        Cells::Texts(cells) => write!(page, "<td>{}</td>", escape(cells[line].as_deref().unwrap_or_default())),
+        Cells::Texts(cells) => {
+            let text = cells[line].as_deref().unwrap_or_default();
+            let class = if text.chars().count() > LONG { " class=\"long\"" } else { "" };
+            write!(page, "<td{class}>{}</td>", escape(text))
+        }
     };
 }
 
@@ -171,7 +177,7 @@ mod tests {
     fn the_page_holds_what_it_is_given_and_nothing_can_break_out() -> Result<(), String> {
         let mut table = Table::default();
         table.numbers("a", "m", vec![Some(0.5), None]);
-        table.texts("b", vec![Some("<script>".into()), None]);
+        table.texts("b", vec![Some("<script>".into()), Some("a sentence ".repeat(9))]);
         let section = Section {
             title: "T & U".into(),
             text: vec!["less < more".into()],
@@ -181,7 +187,7 @@ mod tests {
         };
         let page = html("x", &[("runs", "2".into())], &[section]).map_err(|_| "no page".to_string())?;
         assert!(page.contains("T &amp; U") && page.contains("less &lt; more") && page.contains("&lt;script&gt;"));
-        assert!(page.contains("data-value=\"0.5\">0.5000<"));
+        assert!(page.contains("data-value=\"0.5\">0.5000<") && page.contains("<td class=\"long\">a sentence a "));
         assert_eq!(page.matches("<script>").count(), 1);
         assert!(!page.contains("http://") && !page.contains("https://"));
         Ok(())

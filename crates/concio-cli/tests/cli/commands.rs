@@ -527,3 +527,61 @@ fn the_first_wall_is_the_same_everywhere() {
         assert_eq!(case, built_in);
     }
 }
+
+/// Doors and windows by their places, sizes, blocks and jambs; by hand: of the pitch of 0.26 m two bricks end at 0.51 m, a side at
+/// 0.515 m lies in the head joint behind them.
+#[test]
+fn check_tells_openings() {
+    let desk = Desk::new();
+    let wall = |opening: &str| {
+        WALL.replace("bricks = 2\n", "bricks = 6\n")
+            .replace("courses = 4\n", "courses = 8\n")
+            .replace("\n[joint]", &format!("\n[[panel.opening]]\n{opening}\n[joint]"))
+    };
+    let said = |opening: &str| {
+        desk.put("wall.toml", wall(opening));
+        let done = desk.concio("check wall.toml").assert().success();
+        let text = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+        text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect::<Vec<_>>()
+    };
+    let counted = "x = \"2 bricks\"\ny = \"0 courses\"\nwidth = \"2 bricks\"\nheight = \"4 courses\"\nlintel = { height = \"2 courses\", bearing = \"0.5 bricks\" }";
+    let lines = said(counted);
+    for line in [
+        "openings from left, base size lintel blocks jambs",
+        "p1o1 510 mm, 0 m 530 mm × 270 mm 770 mm × 120 mm 11 left out, 6 cut straight",
+    ] {
+        assert!(lines.iter().any(|l| l == line), "{line}: {lines:#?}");
+    }
+    let lengths = "x = 0.515\ny = 0.065\nwidth = 0.5\nheight = 0.2\nlintel = { height = 0.125, bearing = 0.1 }";
+    let lines = said(lengths);
+    assert!(lines.iter().any(|l| l.ends_with("cut left ragged by 5 mm")), "{lines:#?}");
+    let why = "p1o1: in 1 of 3 courses its left side lies in a head joint, or leaves a rest no longer than the mortar, which goes; widths in half bricks";
+    assert!(lines.iter().any(|l| l.starts_with(why)), "{lines:#?}");
+    let lines = said(&format!("snap = true\n{lengths}"));
+    assert!(lines.iter().any(|l| l.ends_with("cut straight")), "{lines:#?}");
+    assert!(lines.contains(&"p1o1: `snap` moved the left side by 5 mm to the left".to_string()), "{lines:#?}");
+    // Without openings there is no such table.
+    desk.put("wall.toml", WALL);
+    let done = desk.concio("check wall.toml").assert().success();
+    assert!(!String::from_utf8_lossy(&done.get_output().stdout).contains("openings"));
+}
+
+/// All that is wrong with a geometry at once, with the lines.
+#[test]
+fn check_lists_all_mistakes_of_a_geometry() {
+    let desk = Desk::new();
+    let openings = "\n[[panel.opening]]\nx = 0.1\ny = 0.03\nwidth = 0.1\nheight = 0.065\n[[panel.opening]]\nx = 0.1\ny = 0.13\nwidth = 3\nheight = 0.065\n[joint]";
+    desk.put("wall.toml", WALL.replace("\n[joint]", openings));
+    for command in ["check", "run", "limit", "system"] {
+        let refused = desk.concio(&format!("{command} wall.toml")).assert().code(2);
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        for part in [
+            "wall.toml:13:1: panel[0].opening[0].y",
+            "wall.toml:15:1: panel[0].opening[0].height",
+            "wall.toml:19:1: panel[0].opening[1].width",
+        ] {
+            assert!(message.contains(part), "{command}: {part}\n{message}");
+        }
+        assert_eq!(message.matches("error: ").count(), 3, "{command}: {message}");
+    }
+}

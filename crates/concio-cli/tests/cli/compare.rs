@@ -84,3 +84,127 @@ fn constrained_refuses_what_it_cannot_compare() {
         );
     }
 }
+
+/// Two runs of one wall with other friction, in folders `a` and `b`.
+fn two_runs() -> Desk {
+    let desk = Desk::new();
+    desk.put("other.toml", WALL.replace("static = 0.6, dynamic = 0.42", "static = 0.5, dynamic = 0.35"));
+    desk.concio("run wall.toml --out a").assert().success();
+    desk.concio("run other.toml --out b").assert().success();
+    desk
+}
+
+/// What differs in the input, the numbers of both with difference and ratio, figures and page.
+#[test]
+fn two_runs_are_set_side_by_side() {
+    let desk = two_runs();
+    let done = desk.concio("compare a b").assert().success();
+    let stdout = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    let lines: Vec<Vec<&str>> = stdout.lines().map(|line| line.split_whitespace().collect()).collect();
+    for line in [
+        &["input", "a", "b"][..],
+        &["joint.friction.dynamic", "0.42", "0.35"],
+        &["joint.friction.static", "0.6", "0.5"],
+        &["ended", "completed", "completed"],
+        &["open", "concio-compare/a-b/report.html"],
+    ] {
+        assert!(lines.iter().any(|l| l == line), "{line:?}:\n{stdout}");
+    }
+    let (json, sides) =
+        (desk.json("concio-compare/a-b/compare.json"), ["a", "b"].map(|k| desk.json(&format!("{k}/summary.json"))));
+    assert_eq!(json["inputs"].as_array().map(Vec::len), Some(2), "{}", json["inputs"]);
+    for (name, at) in [
+        ("peak displacement", "/peak_relative_displacement"),
+        ("friction", "/energy/friction"),
+        ("peak base shear", "/base_shear_peak"),
+    ] {
+        let pair = json["numbers"]
+            .as_array()
+            .expect("numbers")
+            .iter()
+            .find(|p| p["name"] == name)
+            .unwrap_or_else(|| panic!("no {name}"));
+        let [a, b] = [0, 1].map(|k| number(sides[k].pointer(at).expect("a number")));
+        assert_eq!((number(&pair["values"][0]), number(&pair["values"][1])), (a, b), "{name}");
+        assert!(
+            (number(&pair["difference"]) - (b - a)).abs() <= 1e-12 * a.abs() && number(&pair["ratio"]) == b / a,
+            "{name}"
+        );
+    }
+    let page = desk.get("concio-compare/a-b/report.html");
+    for part in ["<h1>a beside b</h1>", "What differs", "joint.friction.static", "Numbers", "Histories", "<svg"] {
+        assert!(page.contains(part), "{part}");
+    }
+    // Friction works less where it holds less: neither run is told as the other.
+    for (figure, curves) in [("histories", "top"), ("loop", "base shear"), ("energies", "friction")] {
+        let svg = desk.get(&format!("concio-compare/a-b/figures/{figure}.svg"));
+        assert!(svg.contains("<svg") && svg.matches("<path").count() > 4, "{figure}: {curves}");
+    }
+    // The folder of the comparison may be chosen, and that of a run may not.
+    desk.concio("compare a b --out c").assert().success();
+    assert!(desk.path("c/report.html").is_file());
+}
+
+/// A run beside the same run, and beside one whose record has other values under the same name.
+#[test]
+fn runs_of_equal_input_say_so() {
+    let desk = Desk::new();
+    let (head, _) = WALL.split_once("duration = \"0.05 s\"").expect("the motion");
+    let wall =
+        head.replace("beam = \"driven\"", "beam = { mass = \"400 kg\" }") + "base = { record = \"quake.txt\" }\n";
+    desk.put("wall.toml", wall);
+    let quake = |g: &str| format!("# dt = 0.01 s, units: g\n0.0\n{g}\n-{g}\n0.0\n");
+    desk.put("quake.txt", quake("0.1"));
+    for out in ["a", "b"] {
+        desk.concio(&format!("run wall.toml --out {out}")).assert().success();
+    }
+    let said =
+        |line: &str| String::from_utf8_lossy(&desk.concio(line).assert().success().get_output().stdout).into_owned();
+    assert!(said("compare a b").starts_with("  the input is the same\n"));
+    let numbers = desk.json("concio-compare/a-b/compare.json")["numbers"].clone();
+    assert!(numbers.as_array().expect("numbers").iter().all(|pair| number(&pair["difference"]) == 0.0), "{numbers}");
+    desk.put("quake.txt", quake("0.2"));
+    desk.concio("run wall.toml --out b").assert().success();
+    assert!(said("compare a b").contains("the content of their records differs"));
+}
+
+/// A planar stone under its own weight.
+const STONE: &str = "model = \"planar\"\n[[panel]]\nbond = \"stack\"\ncourses = 1\nbricks = 1\n\
+    brick = { length = 0.5, height = 0.5, thickness = 0.5, specific_weight = 20e3 }\nmortar = { bed = 0, head = 0 }\n\
+    [joint]\nbed = { law = \"rigid\" }\nhead = { law = \"none\" }\nfriction = { law = \"coulomb\", static = 0.6 }\n[motion]\nduration = 0.05\n";
+
+#[test]
+fn what_cannot_be_set_side_by_side_is_refused() {
+    let desk = two_runs();
+    desk.put("stone.toml", STONE);
+    desk.concio("run stone.toml --out stone").assert().success();
+    desk.put("empty/note.txt", "nothing");
+    desk.put("cut/journal.bin", "rows");
+    desk.concio("run wall.toml --out going").assert().success();
+    desk.put("going/journal.bin", "rows");
+    desk.concio("run wall.toml --out mixed").assert().success();
+    desk.put("mixed/summary.json", desk.get("b/summary.json"));
+    for (command, parts) in [
+        ("compare a", &["required", "<B>"][..]),
+        ("compare", &["required"]),
+        ("compare a nothing", &["nothing: there is no such folder", "two folders are compared"]),
+        ("compare a wall.toml", &["wall.toml: is no folder", "`concio run` wrote to"]),
+        ("compare empty b", &["empty: there is no result.h5"]),
+        ("compare a cut", &["cut: there is no result.h5", "goes on with it"]),
+        ("compare a going", &["going: a run in this folder has not ended", "goes on with it"]),
+        ("compare a mixed", &["mixed/summary.json", "belongs to another run"]),
+        ("compare a a", &["a: is compared with itself", "two runs"]),
+        ("compare a ./a/../a", &["is compared with itself"]),
+        ("compare a stone", &["is a run of a shear wall, and stone one of a planar wall", "one model"]),
+        ("compare a b --out b", &["is that of a run, whose report it would replace"]),
+        ("compare a b --out wall.toml", &["the folder for the results is a file"]),
+        ("compare a b c", &["'c' cannot be used with", "concio compare [OPTIONS] <A> <B>"]),
+    ] {
+        let refused = desk.concio(command).assert().code(2);
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        for part in parts {
+            assert!(message.contains(part), "{command}: {part}\n{message}");
+        }
+        assert!(!desk.path("concio-compare").exists(), "{command}: something was written");
+    }
+}

@@ -13,3 +13,4 @@ mod studies;
 mod study_runs;
 mod support;
 mod ties;
+mod warned;

@@ -134,7 +134,7 @@ fn first_cracking_says_what_was_run_and_that_springs_count() {
     holds(&desk.get("one/report.html"), &["<h2>What was run</h2>", "0.6000 g", "10 blocks", "Blocks do not rock"]);
     let [_, noted] =
         said(&desk, "first-crack wall.toml --criterion opening --limit 1um --checks 0 --interval 0.5 --out two");
-    assert_eq!(noted, "");
+    assert!(!noted.contains("elastically counts"), "{noted}");
 }
 
 /// Numbers that are hardly meant, and motions that a run cuts: a study warns of them as `concio check` does.
@@ -144,9 +144,12 @@ fn the_warnings_of_the_wall_are_those_of_its_studies() {
     desk.put("wall.toml", shaken().replace("specific_weight = \"18 kN/m3\"", "specific_weight = \"1.8 kN/m3\""));
     let [_, of_wall] = said(&desk, "check wall.toml");
     holds(&of_wall, &["warning: panel[0].brick.specific_weight is 1800 N/m3"]);
+    // That of the wall file stands in every run; what a run itself is warned of comes behind it.
+    let in_every = of_wall.replace("warning: ", "warning: in every run: ");
     for command in ["check", "run"] {
         let [_, warned] = said(&desk, &format!("study {command} study.toml --out out"));
-        assert_eq!(warned, of_wall, "{command}");
+        assert!(warned.starts_with(&in_every), "{command}: {warned}");
+        assert_eq!(warned.matches("specific_weight").count(), 1, "{command}: {warned}");
     }
     // A record of which a run sees a part alone.
     let record = format!("# dt = 0.01 s, units: g\n{}", "0.1\n-0.1\n".repeat(50));
@@ -157,7 +160,7 @@ fn the_warnings_of_the_wall_are_those_of_its_studies() {
     );
     let [_, warned] = said(&desk, "study check study.toml --out out");
     assert_eq!(warned.matches("specific_weight").count(), 1, "{warned}");
-    holds(&warned, &["warning: motion long: "]);
+    holds(&warned, &["warning: in 1 of 3 runs, run 3 (motion = long): motion.duration cuts the record of the base"]);
 }
 
 /// Questions that would be passed over in silence, and lists that choose nothing: text below `wall = …`, the place, parts

@@ -2,6 +2,8 @@
 
 use concio::warning::Warning;
 
+use concio::quantity::shown;
+
 use super::Settings;
 use super::fragility::{Fragility, fit};
 use super::hunt::Way;
@@ -32,7 +34,7 @@ impl Point {
     /// Why the run has no number.
     pub fn of(intensity: f64, scale: f64, row: &Row, settings: &Settings) -> Result<Self, String> {
         let damage = row.number(&settings.damage);
-        let at = || format!("at {intensity} {}", settings.intensity.unit());
+        let at = || format!("at {} {}", shown(intensity), settings.intensity.unit()).trim_end().to_string();
         let fell = row.number("collapse").is_some();
         let collapsed = match (row.end, damage) {
             (End::Failed, _) => return Err(format!("{}: {}", at(), row.cause.as_deref().unwrap_or("failed"))),

@@ -15,8 +15,8 @@ pub mod tables;
 use std::collections::HashMap;
 
 use concio::Result;
-use concio::case::Case;
-use concio::quantity::{Acceleration, Length, Time, Velocity};
+use concio::case::{Case, ModelKind, StopAt};
+use concio::quantity::{Acceleration, Length, Time, Velocity, shown};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -24,7 +24,7 @@ use serde_json::Value;
 use crate::Plan;
 use crate::file::StudyFile;
 use crate::intensity::Intensity;
-use crate::measures::{MEASURES, Row};
+use crate::measures::{MEASURES, Row, ends_with_collapse};
 use curve::{Curve, Point};
 use hunt::Way;
 
@@ -91,8 +91,9 @@ pub struct Hunt {
     pub growth: Option<Value>,
     /// Intensity that is not exceeded, above `first`.
     pub most: Value,
-    /// Runs per motion, from 4; default 12.
+    /// Runs per motion, 4 … 1,000; default 12.
     #[serde(default = "runs")]
+    #[schemars(range(min = 4, max = 1000))]
     pub runs: usize,
     /// Gap below the collapse, over the intensity below it, that is small enough; above 0, default 0.1.
     #[serde(default = "resolution")]
@@ -166,7 +167,7 @@ pub fn settings(file: &StudyFile) -> Result<Option<Settings>> {
         (_, None) => 0.0,
     };
     if !(ida.confidence > 0.0 && ida.confidence < 1.0) {
-        let what = format!("{} is out of range", ida.confidence);
+        let what = format!("{} is out of range", shown(ida.confidence));
         return Err(file.wrong("ida.confidence", what, "between 0 and 1"));
     }
     let collapse = ida.collapse.as_ref().map(|v| above(file, "ida.collapse", v, measure.unit)).transpose()?;
@@ -240,7 +241,7 @@ fn way(file: &StudyFile, ida: &Ida) -> Result<Way> {
                 return Err(file.wrong("ida.hunt.runs", format!("{} is out of range", hunt.runs), "4 … 1000"));
             }
             if !(hunt.resolution > 0.0 && hunt.resolution.is_finite()) {
-                let what = format!("{} is out of range", hunt.resolution);
+                let what = format!("{} is out of range", shown(hunt.resolution));
                 return Err(file.wrong("ida.hunt.resolution", what, "above 0"));
             }
             Ok(Way::Hunt { first, step, growth, most, runs: hunt.runs, resolution: hunt.resolution })
@@ -276,6 +277,8 @@ pub struct Analysis<'a> {
     pub settings: Settings,
     /// One curve per run of the design.
     pub curves: Vec<Curve>,
+    /// Whether runs of planar walls end with their collapse: nothing that is asked of them comes later.
+    pub stops: bool,
     plan: &'a Plan,
 }
 
@@ -306,7 +309,8 @@ impl<'a> Analysis<'a> {
                 ));
             }
         }
-        Ok(Some(Analysis { settings, curves, plan }))
+        let stops = ends_with_collapse(&settings.damage) && !plan.file.study.keep.results;
+        Ok(Some(Analysis { settings, curves, stops, plan }))
     }
 
     /// The case of a curve at an intensity.
@@ -315,7 +319,11 @@ impl<'a> Analysis<'a> {
     /// Values that make no wall.
     pub fn case(&self, curve: usize, intensity: f64) -> Result<Case> {
         let curve = &self.curves[curve];
-        self.plan.scaled_case(curve.number, intensity / curve.unit)
+        let mut case = self.plan.scaled_case(curve.number, intensity / curve.unit)?;
+        if self.stops && case.model == ModelKind::Planar {
+            case.motion.stop_at = Some(StopAt::Collapse(Time::from_si(0.0)));
+        }
+        Ok(case)
     }
 
     /// What is asked next of the curves in `share`: numbers of curves and intensities. Empty when they are done.

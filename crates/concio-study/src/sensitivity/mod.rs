@@ -11,6 +11,7 @@ pub mod tables;
 
 use concio::Result;
 use concio::dice::Dice;
+use concio::quantity::shown;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -136,7 +137,7 @@ pub fn measures(plan: &Plan) -> Result<Vec<&'static Measure>> {
         return Err(file.wrong("sensitivity", "nothing varies", "at least one [[vary]], [[motion]] or `scales`"));
     }
     if !(asked.confidence > 0.0 && asked.confidence < 1.0) {
-        let what = format!("{} is out of range", asked.confidence);
+        let what = format!("{} is out of range", shown(asked.confidence));
         return Err(file.wrong("sensitivity.confidence", what, "between 0 and 1"));
     }
     if !(100..=100_000).contains(&asked.resamples) {

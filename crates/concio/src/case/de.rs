@@ -15,6 +15,8 @@ pub(crate) const ALLOWED: &str = "; allowed: ";
 pub(crate) const MISSING: &str = "the key is missing";
 /// What is wrong with one that nothing has.
 pub(crate) const UNKNOWN: &str = "unknown key";
+/// What is allowed where a whole number belongs, as far as its type tells.
+pub(crate) const WHOLE: &str = "a whole number from 0";
 /// What is allowed where a list belongs.
 pub(crate) const LIST: &str = "a list";
 
@@ -132,7 +134,7 @@ fn found(unexpected: Unexpected<'_>) -> String {
         Unexpected::Bool(b) => format!("`{b}`"),
         Unexpected::Unsigned(i) => format!("the number {i}"),
         Unexpected::Signed(i) => format!("the number {i}"),
-        Unexpected::Float(v) => format!("the number {v}"),
+        Unexpected::Float(v) => format!("the number {}", crate::quantity::shown(v)),
         Unexpected::Str(s) => format!("the text \"{s}\""),
         Unexpected::Unit => "null".into(),
         other => other.to_string(),
@@ -247,7 +249,7 @@ impl<'de> Deserializer<'de> for Cursor<'de> {
     fn deserialize_u64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
         match self.whole().map(u64::try_from) {
             Some(Ok(v)) => visitor.visit_u64(v).map_err(|e: Failure| e.at(self.node.at)),
-            _ => Err(self.refuse("a whole number from 0")),
+            _ => Err(self.refuse(WHOLE)),
         }
     }
     fn deserialize_u32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {

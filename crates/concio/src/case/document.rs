@@ -3,11 +3,13 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use super::de;
 use super::node::{Node, Source, parse_json, parse_toml};
 use super::read::{LARGEST_FILE, Syntax, hinted};
+use super::templates::whole;
 use crate::{InputError, Result};
 
 /// Said of a file without content.
@@ -62,9 +64,10 @@ impl Document {
             return Err(source.locate(InputError::new(EMPTY), 0).into());
         }
         let tree = match syntax {
-            Syntax::Toml => parse_toml(&source).map_err(|e| hinted(e, &source.text))?,
-            Syntax::Json => parse_json(&source)?,
+            Syntax::Toml => parse_toml(&source),
+            Syntax::Json => parse_json(&source),
         };
+        let tree = tree.map_err(|e| hinted(e, &source.text, syntax))?;
         Ok(Document { source, tree })
     }
 
@@ -87,8 +90,17 @@ impl Document {
     ///
     /// # Errors
     /// [`crate::Error::Input`] with line, key and what is allowed there.
-    pub fn to<T: DeserializeOwned>(&self) -> Result<T> {
-        de::from_node(&self.tree).map_err(|fault| self.source.place_fault(fault))
+    pub fn to<T: DeserializeOwned + JsonSchema>(&self) -> Result<T> {
+        de::from_node(&self.tree).map_err(|mut fault| {
+            let e = &mut fault.error;
+            if e.allowed.as_deref() == Some(de::WHOLE)
+                && let Some(key) = &e.key
+                && let Some(range) = whole(&schemars::schema_for!(T).to_value(), key)
+            {
+                e.allowed = Some(range);
+            }
+            self.source.place_fault(fault)
+        })
     }
 
     /// Whether the file gives a key: `scales`, `interfaces.at.kind`.

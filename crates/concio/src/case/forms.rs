@@ -45,7 +45,7 @@ macro_rules! read_as_form {
         }
     )+};
 }
-read_as_form!(ParameterSet, Beam, Signal, Baseline);
+read_as_form!(ParameterSet, Beam, Signal, Baseline, StopAt);
 
 /// The schema of a form: one of some words, or the table `T`.
 fn word_or_table<T: JsonSchema>(generator: &mut SchemaGenerator, about: &str, words: &[&str]) -> Schema {
@@ -140,6 +140,45 @@ impl JsonSchema for Beam {
         let about = "The top beam: `free` (the load only), `driven` (by motion.top), `tied` (moves with the base), \
                      or a rigid beam with mass.";
         word_or_table::<BeamTable>(generator, about, &["free", "driven", "tied"])
+    }
+}
+
+/// What ends a run.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct StopTable {
+    /// How long after a collapse [s], from 0.
+    collapse: Time,
+}
+
+impl Form for StopAt {
+    type Table = StopTable;
+    const WANTED: &'static str = "\"collapse\" or { collapse = \"0.5 s\" }";
+    fn from_word<E: de::Error>(word: &str) -> Result<Self, E> {
+        match word {
+            "collapse" => Ok(StopAt::Collapse(Time::from_si(StopAt::AFTER_COLLAPSE))),
+            _ => Err(E::unknown_variant(word, &["collapse", "{ collapse = \"0.5 s\" }"])),
+        }
+    }
+    fn from_table<E: de::Error>(table: StopTable) -> Result<Self, E> {
+        Ok(StopAt::Collapse(table.collapse))
+    }
+}
+
+impl Serialize for StopAt {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        let StopAt::Collapse(collapse) = *self;
+        StopTable { collapse }.serialize(s)
+    }
+}
+
+impl JsonSchema for StopAt {
+    fn schema_name() -> Cow<'static, str> {
+        "StopAt".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let about = "What ends a run before its motion does: a collapse, at once or some time after it.";
+        word_or_table::<StopTable>(generator, about, &["collapse"])
     }
 }
 

@@ -41,7 +41,7 @@ const WEIGHT: Expected = Expected {
     limits: [2.5e3, 1e5],
     usual: [5e3, 3.5e4],
     unit: "N/m3",
-    slips: &[(1e3, "kN/m3", 1e3), (crate::G, "kN/m3", 1e3), (1e-3, "kN/m3", 1e3)],
+    slips: &[(1e3, "kN/m3", 1e3), (crate::G, "kg/m3", crate::G), (1e-3, "kN/m3", 1e3)],
 };
 /// Rubber of 1 MPa, 10 mm thick, under half a brick has 5e5 N/m; steel of 1 mm over a metre has some 1e13 N/m.
 const STIFFNESS: Expected = Expected {
@@ -200,8 +200,8 @@ pub(super) fn bare_accelerations(tree: &Node) -> Vec<Warning> {
     keys.filter_map(doubt).collect()
 }
 
-/// Significant digits, for conversions leave traces in the last ones.
-pub(crate) fn rounded(v: f64, digits: usize) -> f64 {
+/// With so many significant digits: conversions leave traces in the last ones.
+pub fn rounded(v: f64, digits: usize) -> f64 {
     format!("{v:.*e}", digits - 1).parse().unwrap_or(v)
 }
 
@@ -238,11 +238,12 @@ fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {
     for (o, opening) in panel.openings.iter().enumerate() {
         let at = format!("{at}.opening[{o}]");
         for (key, value) in [("x", opening.x), ("y", opening.y), ("width", opening.width), ("height", opening.height)] {
-            doubts.look(&format!("{at}.{key}"), value.si(), &OPENING);
+            doubts.look(&format!("{at}.{key}"), value.length().unwrap_or(0.0), &OPENING);
         }
         if let Some(lintel) = opening.lintel {
-            doubts.look(&format!("{at}.lintel.height"), lintel.height.si(), &BRICK);
-            doubts.look(&format!("{at}.lintel.bearing"), lintel.bearing.si(), &BRICK);
+            for (key, extent) in [("height", lintel.height), ("bearing", lintel.bearing)] {
+                doubts.look(&format!("{at}.lintel.{key}"), extent.length().unwrap_or(0.0), &BRICK);
+            }
             if let Some(weight) = lintel.specific_weight {
                 doubts.look(&format!("{at}.lintel.specific_weight"), weight.si(), &WEIGHT);
             }

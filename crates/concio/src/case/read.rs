@@ -131,11 +131,15 @@ fn starter(error: Error) -> Error {
     }
 }
 
-/// Adds to an error of the TOML parser what it is often owed to.
-pub(super) fn hinted(error: Error, text: &str) -> Error {
+/// Adds to an error of a parser what it is often owed to.
+pub(super) fn hinted(error: Error, text: &str, syntax: Syntax) -> Error {
     let Error::Input(mut error) = error else { return error };
     if let (None, Some(number)) = (&error.help, error.line) {
         let line = text.lines().nth(number - 1).unwrap_or("");
+        error.help = curly(line);
+        if error.help.is_some() || syntax == Syntax::Json {
+            return Error::Input(error);
+        }
         let values = line.split(['=', '{']).skip(1);
         error.help = values.map(str::trim).find_map(de::decimal_comma).or_else(|| {
             if line.trim_start().starts_with("[panel]") {
@@ -146,6 +150,26 @@ pub(super) fn hinted(error: Error, text: &str) -> Error {
         });
     }
     Error::Input(error)
+}
+
+/// What to write instead of a line with quotes that word processors make, where they stand outside of a text.
+fn curly(line: &str) -> Option<String> {
+    let straight = |c: char| match c {
+        '“' | '”' | '„' | '‟' | '«' | '»' | '″' => Some('"'),
+        '‘' | '’' | '‚' | '‛' => Some('\''),
+        _ => None,
+    };
+    let mut quote = None;
+    let outside = line.chars().any(|c| {
+        match (quote, c) {
+            (Some(q), _) => quote = (q != c).then_some(q),
+            (None, '"' | '\'') => quote = Some(c),
+            _ => {}
+        }
+        quote.is_none() && straight(c).is_some()
+    });
+    let line: String = line.trim().chars().map(|c| straight(c).unwrap_or(c)).collect();
+    outside.then(|| format!("the line has curly quotes; texts stand in straight ones: {line}"))
 }
 
 /// Line of the innermost bracket that is opened before line `end` (from 1) and not closed by then. Texts and comments
@@ -188,6 +212,7 @@ fn resolve(document: Document) -> Result<CaseFile> {
         sets::fill(&mut tree, &set).map_err(placed)?;
     }
     preset(&mut tree).map_err(placed)?;
+    follow(&mut tree);
     require(&tree).map_err(placed)?;
     let case = de::from_node(&tree).map_err(|fault| placed(described(fault, &tree)))?;
     Ok(CaseFile { case, document })
@@ -206,6 +231,11 @@ fn described(mut fault: Fault, tree: &Node) -> Fault {
         && let Some(law) = DeviceLaw::named(law)
     {
         e.allowed = Some(format!("`law`, and of law `{}` {}", law.name(), validate::device_keys(law)));
+    }
+    if e.allowed.as_deref() == Some(de::WHOLE)
+        && let Some(range) = e.key.as_ref().and_then(|key| super::templates::whole(&super::schema(), key))
+    {
+        e.allowed = Some(range);
     }
     if e.allowed.as_deref() == Some(de::LIST)
         && let Some(words) = e.key.as_ref().and_then(|key| super::templates::choices(&format!("{key}[0]")))
@@ -275,6 +305,34 @@ fn preset(tree: &mut Node) -> std::result::Result<(), Fault> {
     Ok(())
 }
 
+/// Coulomb's own law has one coefficient: writes out the other, where a file gives it nowhere.
+fn follow(tree: &mut Node) {
+    let Some(joint) = tree.get_mut("joint") else { return };
+    let law = |friction: &Node| friction.get("law").and_then(Node::text).map(str::to_string);
+    let common = joint.get("friction");
+    let (usual, given) = (common.and_then(law), common.is_some_and(|f| f.has("dynamic")));
+    let fill = |friction: &mut Node, usual: Option<&str>| {
+        let of = law(friction);
+        if of.as_deref().or(usual) == Some("coulomb")
+            && let Some(value) = friction.get("static").map(|node| node.value.clone())
+        {
+            friction.fill("dynamic", value);
+        }
+    };
+    if let Some(friction) = joint.get_mut("friction") {
+        fill(friction, None);
+    }
+    // Elsewhere, keys that a change does not give stay as they are.
+    if given {
+        return;
+    }
+    if let Some(Value::List(changes)) = joint.get_mut("change").map(|node| &mut node.value) {
+        for friction in changes.iter_mut().filter_map(|change| change.get_mut("friction")) {
+            fill(friction, usual.as_deref());
+        }
+    }
+}
+
 /// Keys that a law needs. Left to their defaults, a stiffness or a friction coefficient would silently be 0.
 fn require(tree: &Node) -> std::result::Result<(), Fault> {
     let Some(joint) = tree.get("joint") else { return missing_joint(tree) };
@@ -292,7 +350,7 @@ fn require(tree: &Node) -> std::result::Result<(), Fault> {
     let law = friction.get("law").and_then(Node::text).unwrap_or_default();
     if ["stribeck", "stribeck-stick", "coulomb"].contains(&law) {
         for key in ["static", "dynamic"] {
-            if !friction.has(key) {
+            if !friction.has(key) && (key, law) != ("dynamic", "coulomb") {
                 let error = InputError::new(format!("the key is missing: law `{law}` needs it"));
                 let mut error = error.key(format!("joint.friction.{key}")).allowed("from 0");
                 error.help = misspelt(tree, &format!("joint.friction.{key}"));

@@ -96,6 +96,26 @@ pub(crate) fn choices(key: &str) -> Option<Vec<String>> {
     }
 }
 
+/// What a schema says of the whole number at a key; none of keys that are none.
+pub(crate) fn whole(schema: &Value, key: &str) -> Option<String> {
+    let found = follow(schema, schema, &steps(key))?;
+    // The list of a list of numbers speaks for its items.
+    let found = found.get("items").filter(|_| key.ends_with(']')).unwrap_or(found);
+    let bound = |name: &str| found.get(name).and_then(Value::as_f64);
+    let low = bound("minimum")?;
+    Some(match bound("maximum") {
+        Some(high) => format!("a whole number, {} … {}", grouped(low), grouped(high)),
+        None => format!("a whole number from {low}"),
+    })
+}
+
+/// A whole number with commas between its thousands.
+fn grouped(number: f64) -> String {
+    let digits = number.to_string();
+    let groups: Vec<&[u8]> = digits.as_bytes().rchunks(3).rev().collect();
+    groups.iter().map(|group| String::from_utf8_lossy(group)).collect::<Vec<_>>().join(",")
+}
+
 /// How a table of the wall file begins in TOML: `[motion]`, `[[panel]]`; none where a key is none.
 pub(crate) fn table(key: &str) -> Option<String> {
     let schema = schema();

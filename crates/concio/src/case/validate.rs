@@ -201,7 +201,7 @@ fn output(f: &mut Findings, case: &Case) {
             && interval.si() > 0.0
             && duration.si() / interval.si() > crate::run::MOST_SAMPLES
         {
-            let allowed = format!("at least {:e} s for this duration", duration.si() / crate::run::MOST_SAMPLES);
+            let allowed = format!("at least {} s for this duration", shown(duration.si() / crate::run::MOST_SAMPLES));
             f.push("output.interval", format!("{interval} gives more than 10,000,000 samples"), allowed);
         }
     }

@@ -13,6 +13,7 @@ use crate::case::{Baseline, RecordInput};
 use crate::ground::Library;
 use crate::ground::record::{Record, interval_error};
 use crate::ground::spline::{self, Ends};
+use crate::quantity::shown;
 use crate::{InputError, Result};
 
 /// Most samples that resampling makes.
@@ -91,7 +92,10 @@ pub fn trim(record: &mut Record, from: f64, to: f64) -> Result<()> {
     let last = (to / record.dt + SLACK).floor();
     if !(range.contains(&from) && range.contains(&to) && last >= first + 1.0) {
         let allowed = format!("0 ≤ from < to ≤ {} s, two samples or more", tidy(record.duration()));
-        return Err(InputError::new(format!("from {from} s to {to} s")).key("trim").allowed(allowed).into());
+        return Err(InputError::new(format!("from {} s to {} s", shown(from), shown(to)))
+            .key("trim")
+            .allowed(allowed)
+            .into());
     }
     let last = (last as usize).min(record.npts() - 1);
     let kept = first as usize..=last;
@@ -171,7 +175,7 @@ pub fn subtract_polynomial(values: &mut [f64], degree: usize) -> Result<()> {
 fn high_pass(record: &mut Record, corner: f64, order: usize) -> Result<()> {
     let nyquist = 0.5 / record.dt;
     if !(corner > 0.0 && corner < nyquist) {
-        let error = InputError::new(format!("corner {corner} Hz")).key("baseline.high_pass");
+        let error = InputError::new(format!("corner {} Hz", shown(corner))).key("baseline.high_pass");
         return Err(error.allowed(format!("above 0, below the Nyquist frequency {} Hz", tidy(nyquist))).into());
     }
     if !(1..=8).contains(&order) {
@@ -221,7 +225,8 @@ fn butterworth(values: &[f64], dt: f64, corner: f64, order: usize, band: FilterB
         DigitalFilter::Ba(_) | DigitalFilter::Zpk(_) => Vec::new(),
     };
     if filtered.len() != values.len() || filtered.iter().any(|value| !value.is_finite()) {
-        let error = InputError::new(format!("the filter of order {order} with corner {corner} Hz is not stable"));
+        let error =
+            InputError::new(format!("the filter of order {order} with corner {} Hz is not stable", shown(corner)));
         return Err(error.key("baseline").help("raise the corner or lower the order").into());
     }
     Ok(filtered)
@@ -242,7 +247,8 @@ pub fn resample(record: &mut Record, dt: f64) -> Result<()> {
     }
     let last = (record.duration() / dt + SLACK).floor();
     if !(1.0..MOST_SAMPLES).contains(&last) {
-        let error = InputError::new(format!("interval {dt} s makes {} samples", last + 1.0)).key("resample");
+        let error =
+            InputError::new(format!("interval {} s makes {} samples", shown(dt), shown(last + 1.0))).key("resample");
         return Err(error.allowed(format!("2 … {MOST_SAMPLES:e} samples")).into());
     }
     if record.displacement.is_none() && dt > record.dt * (1.0 + SLACK) {
@@ -283,7 +289,7 @@ fn interpolate(record: &Record, t: f64) -> (f64, f64) {
 /// [`InputError`] when the factor is not finite.
 pub fn scale(record: &mut Record, factor: f64) -> Result<()> {
     if !factor.is_finite() {
-        return Err(InputError::new(format!("factor {factor}")).key("scale").allowed("finite").into());
+        return Err(InputError::new(format!("factor {}", shown(factor))).key("scale").allowed("finite").into());
     }
     record.acceleration.iter_mut().for_each(|a| *a *= factor);
     record.displacement.iter_mut().flatten().for_each(|u| *u *= factor);
@@ -297,7 +303,10 @@ pub fn scale(record: &mut Record, factor: f64) -> Result<()> {
 pub fn scale_to_pga(record: &mut Record, pga: f64) -> Result<()> {
     let peak = record.acceleration.iter().fold(0.0_f64, |peak, a| peak.max(a.abs()));
     if !(pga > 0.0 && pga.is_finite()) {
-        return Err(InputError::new(format!("peak acceleration {pga} m/s2")).key("pga").allowed("above 0").into());
+        return Err(InputError::new(format!("peak acceleration {} m/s2", shown(pga)))
+            .key("pga")
+            .allowed("above 0")
+            .into());
     }
     if peak == 0.0 {
         let error = InputError::new("the record is zero throughout and cannot be scaled to a peak").key("pga");

@@ -269,7 +269,11 @@ pub(super) fn finish(source: &Source, raw: Raw) -> Result<Record> {
 /// The error of an interval that no record has.
 pub(super) fn interval_error(dt: f64) -> Option<InputError> {
     let [low, high] = INTERVAL_RANGE;
-    let error = || InputError::new(format!("sample interval {dt} s")).key("dt").allowed(format!("{low} … {high} s"));
+    let error = || {
+        InputError::new(format!("sample interval {} s", crate::quantity::shown(dt)))
+            .key("dt")
+            .allowed(format!("{low} … {high} s"))
+    };
     (!(low..=high).contains(&dt)).then(error)
 }
 

@@ -26,6 +26,7 @@ pub use crate::ground::pieces::{Kinematics, Segment};
 use crate::ground::process::integrate;
 use crate::ground::record::Record;
 use crate::ground::spline;
+use crate::quantity::shown;
 use crate::{InputError, Result};
 
 /// Longest step of a sine, as a fraction of its period.
@@ -349,9 +350,5 @@ fn not_negative(key: &'static str, value: f64, unit: &str) -> Result<f64> {
 }
 
 fn finite(key: &'static str, value: f64) -> Result<f64> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(InputError::new(format!("{value}")).key(key).allowed("finite").into())
-    }
+    if value.is_finite() { Ok(value) } else { Err(InputError::new(shown(value)).key(key).allowed("finite").into()) }
 }

@@ -24,6 +24,7 @@ use crate::case::Synthetic;
 use crate::ground::process::integrate;
 use crate::ground::record::{Format, Record, interval_error};
 use crate::ground::spectrum::response_spectrum;
+use crate::quantity::shown;
 use crate::{Error, InputError, Result};
 
 /// Damping ratio of the spectrum that is matched.
@@ -114,7 +115,7 @@ pub(super) fn check(input: &Synthetic) -> Result<()> {
         if ok && value.is_finite() {
             return Ok(());
         }
-        Err(Error::from(InputError::new(format!("{value}")).key(key).allowed(allowed)))
+        Err(Error::from(InputError::new(shown(value)).key(key).allowed(allowed)))
     };
     let (dt, duration, pga) = (input.dt.si(), input.duration.si(), input.pga.si());
     let corners = input.corners.map(|corner| corner.si());

@@ -1,11 +1,12 @@
 //! Geometry that no wall may have: blocks that overlap, rest on nothing or vanish beside the others.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
-use super::{CONTACT_TOLERANCE, Courses, Rect};
+use super::place::Place;
+use super::{CONTACT_TOLERANCE, Courses, Found, Rect};
 use crate::case::{Bond, Case, JointKind, Panel};
-use crate::quantity::Length;
+use crate::quantity::{Length, shown};
 use crate::wall::{Block, End, Joint, Wall};
 use crate::{InputError, Result, graph, polygon};
 
@@ -14,21 +15,27 @@ use crate::{InputError, Result, graph, polygon};
 const SMALLEST: f64 = 1e-5;
 const FARTHEST: f64 = 1e7;
 
-pub(super) fn panel(panel: &Panel, index: usize, courses: &Courses) -> Result<()> {
-    let left = super::edge(courses, f64::INFINITY, |r| r.x[0], f64::min);
-    let site = Site { panel, index, tolerance: CONTACT_TOLERANCE * panel.brick.length.si(), left };
-    site.sizes(courses)?;
-    if panel.bond == Bond::Arch || panel.blocks.iter().any(|b| !b.is_rectangle()) {
-        return Ok(());
+/// Adds what is wrong with a panel to `found`; `holes` are its openings.
+pub(super) fn panel(panel: &Panel, index: usize, courses: &Courses, holes: &[Place], found: &mut Found) {
+    let site = Site { panel, index, tolerance: CONTACT_TOLERANCE * panel.brick.length.si(), holes };
+    let before = found.number();
+    site.sizes(courses, found);
+    let plain = panel.bond != Bond::Arch && panel.blocks.iter().all(|b| b.is_rectangle());
+    if !plain || found.number() > before {
+        return;
     }
     if panel.bond == Bond::Explicit {
-        site.side_by_side(courses)?;
-        site.overlaps(courses)?;
+        let beside = site.side_by_side(courses, found);
+        site.overlaps(courses, &beside, found);
+        if found.number() > before {
+            // Whatever lies in another block also begins below its top.
+            return;
+        }
     }
     if panel.openings.is_empty() {
-        courses.windows(2).enumerate().try_for_each(|(r, pair)| site.rests(r, &pair[0], &pair[1]))
+        courses.windows(2).enumerate().for_each(|(r, pair)| site.rests(r, &pair[0], &pair[1], found));
     } else {
-        (1..courses.len()).try_for_each(|r| site.rests(r - 1, &courses[r - 1], &beginning(courses, r)))
+        (1..courses.len()).for_each(|r| site.rests(r - 1, &courses[r - 1], &beginning(courses, r), found));
     }
 }
 
@@ -37,9 +44,9 @@ pub(super) fn panel(panel: &Panel, index: usize, courses: &Courses) -> Result<()
 const ROUGH: f64 = 4e-3;
 
 /// Overlaps in a panel of blocks that are not all rectangles; `blocks` are those of `courses`, in their order.
-pub(super) fn polygons(panel: &Panel, index: usize, courses: &Courses, blocks: &[Block]) -> Result<()> {
+pub(super) fn polygons(panel: &Panel, index: usize, courses: &Courses, blocks: &[Block], found: &mut Found) {
     if blocks.iter().all(Block::is_rectangle) {
-        return Ok(());
+        return;
     }
     let tolerance = ROUGH * panel.brick.length.si();
     let mut order: Vec<usize> = (0..blocks.len()).collect();
@@ -55,11 +62,10 @@ pub(super) fn polygons(panel: &Panel, index: usize, courses: &Courses, blocks: &
                     Bond::Arch => format!("panel[{index}].arch"),
                     _ => format!("panel[{index}].block[{}]", sources[b]),
                 };
-                return Err(InputError::new(what).key(key).allowed("blocks that share edges at most").into());
+                found.add(InputError::new(what).key(key).allowed("blocks that share edges at most"));
             }
         }
     }
-    Ok(())
 }
 
 /// Of blocks given one by one, none hangs in the air: each lies on what is under it, and in a panel of blocks that are not all rectangles
@@ -162,21 +168,20 @@ struct Site<'a> {
     index: usize,
     /// Overlaps up to this are rounding [m].
     tolerance: f64,
-    /// The panel's leftmost edge [m].
-    left: f64,
+    /// Its openings.
+    holes: &'a [Place],
 }
 
 impl Site<'_> {
     /// The key that a block comes from.
     fn key(&self, course: usize, rect: &Rect) -> String {
         let i = self.index;
-        let below = |o: &crate::case::Opening| o.y.si() + o.height.si() <= rect.y[0] + self.tolerance;
-        let [x0, x1] = rect.x.map(|x| x - self.left);
-        let beside = |o: &crate::case::Opening| x0 < o.x.si() + o.width.si() && x1 > o.x.si();
+        let below = |hole: &Place| hole.y[1] <= rect.y[0] + self.tolerance;
+        let beside = |hole: &Place| rect.x[0] < hole.x[1] && rect.x[1] > hole.x[0];
         if rect.lintel > 0 {
             return format!("panel[{i}].opening[{}].lintel", rect.source);
         }
-        if let Some(k) = self.panel.openings.iter().rposition(|o| below(o) && beside(o)) {
+        if let Some(k) = self.holes.iter().rposition(|hole| below(hole) && beside(hole)) {
             return format!("panel[{i}].opening[{k}]");
         }
         match (self.panel.bond, &self.panel.random) {
@@ -191,7 +196,7 @@ impl Site<'_> {
     fn name(&self, course: usize, place: usize, rect: &Rect) -> String {
         super::name(self.panel, self.index, course, place, rect)
     }
-    fn sizes(&self, courses: &Courses) -> Result<()> {
+    fn sizes(&self, courses: &Courses, found: &mut Found) {
         let (length, height) = (self.panel.brick.length.si(), self.panel.brick.height.si());
         for (r, k, rect) in each(courses) {
             let [dx, dy] = [rect.x, rect.y].map(|[a, b]| b - a);
@@ -201,16 +206,18 @@ impl Site<'_> {
             let large = dx >= SMALLEST * length && dy >= SMALLEST * height;
             if !large || far {
                 let what = if far { "lies too far from the origin" } else { "is too small" };
+                let [dx, dy] = [dx, dy].map(shown);
                 let what =
                     format!("block {} ({dx} m by {dy} m) {what} to be told from rounding", self.name(r, k, rect));
                 let allowed = "sizes from 1e-5 of the panel's brick, coordinates up to 1e7 of it";
-                return Err(InputError::new(what).key(self.key(r, rect)).allowed(allowed).into());
+                found.add(InputError::new(what).key(self.key(r, rect)).allowed(allowed));
             }
         }
-        Ok(())
     }
-    /// Blocks of one course stand beside each other, else neighbours and supports could not be told.
-    fn side_by_side(&self, courses: &Courses) -> Result<()> {
+    /// Blocks of one course stand beside each other, else neighbours and supports could not be told. Those that do not, by
+    /// their sources.
+    fn side_by_side(&self, courses: &Courses, found: &mut Found) -> HashSet<[usize; 2]> {
+        let mut told = HashSet::new();
         for (r, course) in courses.iter().enumerate() {
             for (k, pair) in course.windows(2).enumerate() {
                 if pair[1].x[0] >= pair[0].x[1] - self.tolerance {
@@ -224,14 +231,15 @@ impl Site<'_> {
                     format!("blocks {a} and {b} overlap")
                 };
                 let allowed = "blocks of one course side by side";
-                return Err(InputError::new(what).key(self.key(r, &pair[1])).allowed(allowed).into());
+                found.add(InputError::new(what).key(self.key(r, &pair[1])).allowed(allowed));
+                told.insert(sources(&pair[0], &pair[1]));
             }
         }
-        Ok(())
+        told
     }
-    /// Overlaps between any two blocks, by a line sweeping from left to right. The blocks it cuts do not overlap (else
-    /// it had stopped), so a new one need be compared with its neighbours above and below only.
-    fn overlaps(&self, courses: &Courses) -> Result<()> {
+    /// Overlaps between any two blocks but those `told`, by a line sweeping from left to right. While the blocks it cuts do not
+    /// overlap, a new one need be compared with its neighbours above and below only; from the first overlap on with all.
+    fn overlaps(&self, courses: &Courses, told: &HashSet<[usize; 2]>, found: &mut Found) {
         let all: Vec<_> = each(courses).collect();
         let mut events = Vec::with_capacity(2 * all.len());
         for (i, (.., rect)) in all.iter().enumerate() {
@@ -240,24 +248,36 @@ impl Site<'_> {
         }
         // At one place blocks end before others begin.
         events.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
-        let mut cut: BTreeMap<Height, usize> = BTreeMap::new();
+        let mut cut: BTreeMap<(Height, usize), usize> = BTreeMap::new();
+        let (mut clean, mut looks) = (told.is_empty(), 0usize);
         for (_, ends, i) in events {
             let rect = all[i].2;
+            let place = |height: f64, i: usize| (Height(height), i);
             if ends {
-                cut.remove(&Height(rect.y[0]));
+                cut.remove(&place(rect.y[0], i));
                 continue;
             }
-            let below = cut.range(..=Height(rect.y[0])).next_back();
-            let above = cut.range(Height(rect.y[0])..).next();
-            for (_, &other) in below.into_iter().chain(above) {
-                let y = all[other].2.y;
-                if y[1].min(rect.y[1]) - y[0].max(rect.y[0]) > self.tolerance {
-                    return Err(self.overlap(all[other], all[i]).into());
-                }
+            let deep = |other: &usize| {
+                let y = all[*other].2.y;
+                y[1].min(rect.y[1]) - y[0].max(rect.y[0]) > self.tolerance
+            };
+            let below = cut.range(..place(rect.y[0], i)).next_back();
+            let above = cut.range(place(rect.y[0], i)..).next();
+            let mut hits: Vec<usize> = below.into_iter().chain(above).map(|(_, o)| *o).filter(deep).collect();
+            if !clean || !hits.is_empty() {
+                clean = false;
+                looks += cut.len();
+                hits = cut.range(..place(rect.y[1], 0)).map(|(_, o)| *o).filter(deep).collect();
+                hits.sort_unstable();
             }
-            cut.insert(Height(rect.y[0]), i);
+            for other in hits.into_iter().filter(|o| !told.contains(&sources(all[*o].2, rect))) {
+                found.add(self.overlap(all[other], all[i]));
+            }
+            if looks > MOST_LOOKS {
+                return;
+            }
+            cut.insert(place(rect.y[0], i), i);
         }
-        Ok(())
     }
     fn overlap(&self, a: (usize, usize, &Rect), b: (usize, usize, &Rect)) -> InputError {
         // The later one in the file is the one complained about.
@@ -266,7 +286,7 @@ impl Site<'_> {
         InputError::new(what).key(self.key(b.0, b.2)).allowed("blocks that share edges at most")
     }
     /// Every block of the course `upper` (number r + 1 from 0) lies on a block of the course below.
-    fn rests(&self, r: usize, lower: &[Rect], upper: &[Rect]) -> Result<()> {
+    fn rests(&self, r: usize, lower: &[Rect], upper: &[Rect], found: &mut Found) {
         let mut first = 0;
         for (k, rect) in upper.iter().enumerate() {
             while lower.get(first).is_some_and(|b| b.x[1] <= rect.x[0] + self.tolerance) {
@@ -283,19 +303,27 @@ impl Site<'_> {
                 let error = InputError::new(what).allowed(allowed);
                 let over_opening = key.contains(".opening[") && !key.ends_with("lintel");
                 let error = if over_opening { error.help("a `lintel` bears what lies over an opening") } else { error };
-                return Err(error.key(key).into());
+                found.add(error.key(key));
+                continue;
             }
             if let Some(over) = carriers.find(|b| b.y[1] > rect.y[0] + self.tolerance) {
                 let what = format!(
                     "block {name} of course {} begins at {} m, below the top of a block under it",
                     r + 2,
-                    rect.y[0]
+                    shown(rect.y[0])
                 );
-                return Err(InputError::new(what).key(key).allowed(format!("from {} m", over.y[1])).into());
+                found.add(InputError::new(what).key(key).allowed(format!("from {} m", shown(over.y[1]))));
             }
         }
-        Ok(())
     }
+}
+
+/// Comparisons of blocks, all that overlap sought among all, after which the others are left untold.
+const MOST_LOOKS: usize = 100_000_000;
+
+/// The places of two blocks in the file, the earlier first.
+fn sources(a: &Rect, b: &Rect) -> [usize; 2] {
+    [a.source.min(b.source), a.source.max(b.source)]
 }
 
 /// Course, place and block.

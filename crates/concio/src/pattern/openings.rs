@@ -3,48 +3,36 @@
 //! Bottom and top of an opening and the top of its lintel lie on bed joints, so that blocks are cut upright alone and stay
 //! rectangles. A bed joint reaches from the tops of one course to the bottoms of the next.
 
-use super::{CONTACT_TOLERANCE, Courses, Rect, block_name, edge};
+use super::place::{Frame, Place};
+use super::{Courses, Found, Rect, block_name};
+use crate::InputError;
+use crate::case::Panel;
 use crate::case::validate::tidy;
-use crate::case::{Opening, Panel};
-use crate::{InputError, Result};
-
-/// How far off a bed joint a height may be, as a part of the brick's height: numbers copied from a message have been
-/// rounded.
-const NEAR: f64 = 1e-3;
-/// Length over the panel's larger side from which a bare number was meant in millimetres.
-const BARE: f64 = 20.0;
 
 /// Shortest rest of a cut block, as a part of the brick's length.
 const SLIVER: f64 = 0.02;
 
-/// Cuts the openings of a panel out of its courses.
-///
-/// # Errors
-/// Openings beyond the panel, over each other or off the bed joints; cuts that leave a sliver; lintels without bearing.
-pub(super) fn cut(panel: &Panel, index: usize, courses: &mut Courses) -> Result<()> {
+/// Cuts the openings of a panel out of its courses, unless `found` grows: by openings beyond the panel, over each other or off
+/// the bed joints; cuts that leave a sliver; lintels without bearing. Where they lie.
+pub(super) fn cut(panel: &Panel, index: usize, courses: &mut Courses, found: &mut Found) -> Vec<Place> {
     if panel.openings.is_empty() {
-        return Ok(());
+        return Vec::new();
     }
+    let before = found.number();
     let frame = Frame::new(panel, index, courses);
-    let mut holes: Vec<Hole> = Vec::with_capacity(panel.openings.len());
-    for (k, opening) in panel.openings.iter().enumerate() {
-        let at = |key: &str, e: InputError| e.key(format!("panel[{index}].opening[{k}]{key}"));
-        let hole = frame.hole(opening).map_err(|(key, e)| at(key, e))?;
-        if let Some(other) = holes.iter().position(|h| h.meets(&hole, frame.tolerance)) {
-            let what = format!("the opening or its lintel lies over opening[{other}] or its lintel");
-            return Err(at("", InputError::new(what).allowed("openings and lintels beside each other")).into());
-        }
-        holes.push(hole);
+    let holes = placed(panel, &frame, found);
+    if found.number() > before {
+        return Vec::new();
     }
+    let key = |k: usize| format!("panel[{index}].opening[{k}]");
     for (k, hole) in holes.iter().enumerate() {
-        for (zone, rows) in hole.zones(frame.head) {
+        for (zone, rows) in zones(hole, frame.head) {
             for r in rows {
-                let error = |e: InputError| e.key(format!("panel[{index}].opening[{k}]"));
-                courses[r] = frame.cleared(&courses[r], r, zone).map_err(error)?;
+                courses[r] = frame.cleared(&courses[r], r, zone, &mut |e| found.add(e.key(key(k))));
             }
         }
     }
-    for (zone, rows) in holes.iter().filter_map(|hole| hole.over(frame.head)) {
+    for (zone, rows) in holes.iter().filter_map(|hole| over(hole, frame.head)) {
         rows.for_each(|r| frame.reach(&mut courses[r], zone));
     }
     for (k, hole) in holes.iter().enumerate() {
@@ -54,181 +42,66 @@ pub(super) fn cut(panel: &Panel, index: usize, courses: &mut Courses) -> Result<
         courses[lintel.top - 1].insert(place, rect);
     }
     for (k, hole) in holes.iter().enumerate() {
-        let error = |e: InputError| e.key(format!("panel[{index}].opening[{k}]"));
-        frame.bears(hole, courses).map_err(|e| error(e).allowed("a block below it on either side"))?;
-        frame.left_over(hole, &holes, courses).map_err(error)?;
+        frame.bears(hole, courses, &mut |e| found.add(e.key(key(k)).allowed("a block below it on either side")));
+        frame.left_over(hole, &holes, courses, &mut |e| found.add(e.key(key(k))));
     }
     for course in courses {
         course.iter_mut().filter(|b| b.lintel == 0).enumerate().for_each(|(place, block)| block.source = place);
     }
-    Ok(())
+    holes
 }
 
-/// What is taken out of the wall, in its coordinates.
-struct Hole {
-    x: [f64; 2],
-    y: [f64; 2],
-    /// The bed joints at bottom and top, from 0 at the base: by the course that lies on them.
-    beds: [usize; 2],
-    lintel: Option<Slab>,
-}
-
-struct Slab {
-    x: [f64; 2],
-    y: [f64; 2],
-    /// Bed joint at its top.
-    top: usize,
+/// Where all openings lie, none over another.
+fn placed(panel: &Panel, frame: &Frame, found: &mut Found) -> Vec<Place> {
+    let mut holes: Vec<(usize, Place)> = Vec::with_capacity(panel.openings.len());
+    for (k, opening) in panel.openings.iter().enumerate() {
+        let key = |below: &str| format!("panel[{}].opening[{k}]{below}", frame.index);
+        match frame.place(opening) {
+            Err(faults) => faults.into_iter().for_each(|(below, e)| found.add(e.key(key(below)))),
+            Ok(hole) => {
+                for (other, _) in holes.iter().filter(|(_, h)| meet(h, &hole, frame.tolerance)) {
+                    let what = format!("the opening or its lintel lies over opening[{other}] or its lintel");
+                    found.add(InputError::new(what).key(key("")).allowed("openings and lintels beside each other"));
+                }
+                holes.push((k, hole));
+            }
+        }
+    }
+    holes.into_iter().map(|(_, hole)| hole).collect()
 }
 
 /// From left to right [m], and in which courses.
 type Zone = ([f64; 2], std::ops::Range<usize>);
 
-impl Hole {
-    /// What is cleared of blocks, and in which courses; a lintel has head joints of `mortar`.
-    fn zones(&self, mortar: f64) -> impl Iterator<Item = Zone> {
-        std::iter::once((self.x, self.beds[0]..self.beds[1])).chain(self.over(mortar))
-    }
-
-    /// That of the lintel.
-    fn over(&self, mortar: f64) -> Option<Zone> {
-        let lintel = self.lintel.as_ref()?;
-        Some(([lintel.x[0] - mortar, lintel.x[1] + mortar], self.beds[1]..lintel.top))
-    }
-
-    fn meets(&self, other: &Hole, tolerance: f64) -> bool {
-        let parts = |h: &Hole| [Some((h.x, h.y)), h.lintel.as_ref().map(|l| (l.x, l.y))];
-        let common = |a: [f64; 2], b: [f64; 2]| a[1].min(b[1]) - a[0].max(b[0]) > tolerance;
-        let theirs = parts(other);
-        let meet = |(x, y): ([f64; 2], [f64; 2])| {
-            theirs.iter().flatten().any(|(other_x, other_y)| common(x, *other_x) && common(y, *other_y))
-        };
-        parts(self).into_iter().flatten().any(meet)
-    }
+/// What is cleared of blocks, and in which courses; a lintel has head joints of `mortar`.
+fn zones(hole: &Place, mortar: f64) -> impl Iterator<Item = Zone> {
+    std::iter::once((hole.x, hole.beds[0]..hole.beds[1])).chain(over(hole, mortar))
 }
 
-/// A panel before anything is cut.
-struct Frame {
-    index: usize,
-    /// Leftmost and rightmost edge [m].
-    x: [f64; 2],
-    /// Bed joints from the base to the panel's top, each from its lower to its upper face [m].
-    beds: Vec<[f64; 2]>,
-    /// Head mortar [m].
-    head: f64,
-    length: f64,
-    near: f64,
-    tolerance: f64,
+/// That of the lintel.
+fn over(hole: &Place, mortar: f64) -> Option<Zone> {
+    let lintel = hole.lintel.as_ref()?;
+    Some(([lintel.x[0] - mortar, lintel.x[1] + mortar], hole.beds[1]..lintel.top))
 }
 
-/// The key below the opening, and the error.
-type Fault = (&'static str, InputError);
+/// Whether two openings or their lintels lie over each other.
+fn meet(a: &Place, b: &Place, tolerance: f64) -> bool {
+    let parts = |h: &Place| [Some((h.x, h.y)), h.lintel.as_ref().map(|l| (l.x, l.y))];
+    let common = |a: [f64; 2], b: [f64; 2]| a[1].min(b[1]) - a[0].max(b[0]) > tolerance;
+    let theirs = parts(b);
+    let meets = |(x, y): ([f64; 2], [f64; 2])| {
+        theirs.iter().flatten().any(|(other_x, other_y)| common(x, *other_x) && common(y, *other_y))
+    };
+    parts(a).into_iter().flatten().any(meets)
+}
 
 impl Frame {
-    fn new(panel: &Panel, index: usize, courses: &Courses) -> Self {
-        let mut beds = Vec::with_capacity(courses.len() + 1);
-        let mut below = 0.0;
-        for block in courses.iter().filter_map(|course| course.first()) {
-            beds.push([below, block.y[0]]);
-            below = block.y[1];
-        }
-        beds.push([below, below + panel.mortar.bed.si()]);
-        let (length, height) = (panel.brick.length.si(), panel.brick.height.si());
-        Frame {
-            index,
-            x: [
-                edge(courses, f64::INFINITY, |r| r.x[0], f64::min),
-                edge(courses, f64::NEG_INFINITY, |r| r.x[1], f64::max),
-            ],
-            beds,
-            head: panel.mortar.head.si(),
-            length,
-            near: NEAR * height,
-            tolerance: CONTACT_TOLERANCE * length,
-        }
-    }
-
-    /// Says of lengths that no panel has what they were meant to be.
-    fn plausible(&self, o: &Opening) -> std::result::Result<(), Fault> {
-        let [wide, high] = [self.x[1] - self.x[0], self.beds.last().map_or(0.0, |bed| bed[1])];
-        let slab = o.lintel.map_or([0.0; 2], |l| [l.height.si(), l.bearing.si()]);
-        let lengths = [(".x", o.x.si()), (".y", o.y.si()), (".width", o.width.si()), (".height", o.height.si())];
-        for (key, length) in lengths.into_iter().chain([(".lintel.height", slab[0]), (".lintel.bearing", slab[1])]) {
-            if length > BARE * wide.max(high) {
-                let what = format!("{} m in a panel of {} m × {} m", tidy(length), tidy(wide), tidy(high));
-                let help = format!("did you mean \"{} mm\"?", tidy(length));
-                return Err((key, InputError::new(what).allowed("a length within the panel").help(help)));
-            }
-        }
-        Ok(())
-    }
-
-    fn hole(&self, o: &Opening) -> std::result::Result<Hole, Fault> {
-        self.plausible(o)?;
-        let reach = o.lintel.map_or(0.0, |l| l.bearing.si());
-        let with = if reach > 0.0 { "with the lintel's bearing it " } else { "it " };
-        let x = [self.x[0] + o.x.si(), self.x[0] + o.x.si() + o.width.si()];
-        if o.x.si() < reach - self.tolerance {
-            let what = format!("{with}reaches beyond the panel's left edge");
-            return Err((".x", InputError::new(what).allowed(format!("from {} m, the bearing", tidy(reach)))));
-        }
-        if x[1] + reach > self.x[1] + self.tolerance {
-            let what = format!("{with}ends at {} m, beyond the panel", tidy(x[1] + reach - self.x[0]));
-            let most = self.x[1] - x[0] - reach;
-            let allowed = match most > 0.0 {
-                true => format!("up to {} m at this `x`", tidy(most)),
-                false => format!("a smaller `x`: the panel is {} m long", tidy(self.x[1] - self.x[0])),
-            };
-            return Err((".width", InputError::new(what).allowed(allowed)));
-        }
-        let (low, bottom) = self.bed(o.y.si(), 0.0, 0, 0.0).map_err(|e| (".y", e))?;
-        let over = o.lintel.map_or(0.0, |l| l.height.si());
-        let (high, top) = self.bed(o.y.si() + o.height.si(), o.y.si(), low + 1, over).map_err(|e| (".height", e))?;
-        let lintel = |l: crate::case::Lintel| {
-            let (bed, end) = self.bed(top + l.height.si(), top, high + 1, 0.0).map_err(|e| (".lintel.height", e))?;
-            Ok(Slab { x: [x[0] - reach, x[1] + reach], y: [top, end], top: bed })
-        };
-        Ok(Hole { x, y: [bottom, top], beds: [low, high], lintel: o.lintel.map(lintel).transpose()? })
-    }
-
-    /// The bed joint at the height `y`, no lower than number `least`, and the height within it; messages count from `zero` and name
-    /// heights with room for a lintel of `over`.
-    fn bed(&self, y: f64, zero: f64, least: usize, over: f64) -> std::result::Result<(usize, f64), InputError> {
-        let within = |[low, high]: &[f64; 2]| (low - self.near..=high + self.near).contains(&y);
-        if let Some(bed) = self.beds.iter().position(within).filter(|bed| *bed >= least) {
-            // Of a dry wall both are one height, but for rounding.
-            let [low, high] = self.beds[bed];
-            return Ok((bed, y.max(low).min(high)));
-        }
-        let most = self.beds.last().map_or(0.0, |bed| bed[1]) + self.near - over;
-        let possible = &self.beds[least.min(self.beds.len())..];
-        // Where no place has room for the lintel, it is the lintel that is too high.
-        let possible = match possible.partition_point(|bed| bed[0] <= most) {
-            0 => possible,
-            roomy => &possible[..roomy],
-        };
-        let above = possible.iter().position(|bed| bed[0] > y).unwrap_or(possible.len());
-        let near: Vec<String> = possible[above.saturating_sub(1)..(above + 1).min(possible.len())]
-            .iter()
-            .map(|bed| bed.map(|v| tidy(v - zero)))
-            .map(|[low, high]| if low == high { format!("{low} m") } else { format!("{low} … {high} m") })
-            .collect();
-        let top = self.beds.last().map_or(0.0, |bed| bed[0]);
-        let what = match y > top + self.near {
-            true => {
-                format!("the edge at a height of {} m is above the panel, whose top is at {} m", tidy(y), tidy(top))
-            }
-            false => format!("the edge at a height of {} m is not on a bed joint", tidy(y)),
-        };
-        let allowed = if near.is_empty() { "a lower place: no course is left above".into() } else { near.join(" or ") };
-        Err(InputError::new(what).allowed(allowed))
-    }
-
     /// A course without what lies in `zone`.
-    fn cleared(&self, course: &[Rect], r: usize, zone: [f64; 2]) -> std::result::Result<Vec<Rect>, InputError> {
+    fn cleared(&self, course: &[Rect], r: usize, zone: [f64; 2], wrong: &mut dyn FnMut(InputError)) -> Vec<Rect> {
         let mut rest = Vec::with_capacity(course.len() + 1);
         for block in course {
             let [x0, x1] = block.x;
-            if x1 <= zone[0] + self.tolerance || x0 >= zone[1] - self.tolerance {
+            if !self.is_in(block, zone) {
                 rest.push(*block);
                 continue;
             }
@@ -244,12 +117,17 @@ impl Frame {
                     let none = tidy(self.head);
                     let error =
                         InputError::new(what).allowed(format!("rests from {least} m, or up to {none} m, which go"));
-                    return Err(error.help("move the opening, or make it wider"));
+                    wrong(error.help("move the opening, make it wider, or let `snap = true` move it"));
                 }
                 rest.push(Rect { x, ..*block });
             }
         }
-        Ok(rest)
+        rest
+    }
+
+    /// Whether a block reaches into a zone.
+    fn is_in(&self, block: &Rect, zone: [f64; 2]) -> bool {
+        !(block.x[1] <= zone[0] + self.tolerance || block.x[0] >= zone[1] - self.tolerance)
     }
 
     /// Blocks beside a lintel reach to the mortar of its ends: where a rest has gone, or a head joint lay across an end, they are longer by up
@@ -266,27 +144,103 @@ impl Frame {
     }
 
     /// A lintel lies on the wall at both ends.
-    fn bears(&self, hole: &Hole, courses: &Courses) -> std::result::Result<(), InputError> {
-        let Some(lintel) = &hole.lintel else { return Ok(()) };
+    fn bears(&self, hole: &Place, courses: &Courses, wrong: &mut dyn FnMut(InputError)) {
+        let Some(lintel) = &hole.lintel else { return };
         for (side, x) in [("left", [lintel.x[0], hole.x[0]]), ("right", [hole.x[1], lintel.x[1]])] {
             let carries = |b: &Rect| b.x[1].min(x[1]) - b.x[0].max(x[0]) > self.tolerance;
             if !courses[hole.beds[1] - 1].iter().any(carries) {
-                return Err(InputError::new(format!("the lintel has no block under its {side} end")));
+                wrong(InputError::new(format!("the lintel has no block under its {side} end")));
             }
         }
-        Ok(())
     }
 
     /// Every course keeps a block.
-    fn left_over(&self, hole: &Hole, holes: &[Hole], courses: &Courses) -> std::result::Result<(), InputError> {
+    fn left_over(&self, hole: &Place, holes: &[Place], courses: &Courses, wrong: &mut dyn FnMut(InputError)) {
         let spanned =
             |r: usize| holes.iter().any(|h| h.lintel.as_ref().is_some_and(|l| (h.beds[1]..l.top).contains(&r)));
-        match (hole.beds[0]..hole.beds[1]).find(|&r| courses[r].is_empty() && !spanned(r)) {
-            Some(r) => {
-                let what = format!("nothing is left of course {}", r + 1);
-                Err(InputError::new(what).allowed("a block in every course beside the opening"))
-            }
-            None => Ok(()),
+        if let Some(r) = (hole.beds[0]..hole.beds[1]).find(|&r| courses[r].is_empty() && !spanned(r)) {
+            let what = format!("nothing is left of course {}", r + 1);
+            wrong(InputError::new(what).allowed("a block in every course beside the opening"));
         }
     }
+}
+
+/// An opening as it comes to lie in its panel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Laid {
+    /// Panel and place in its list, from 0.
+    pub panel: usize,
+    /// See above.
+    pub number: usize,
+    /// Left and right side, from the panel's leftmost edge [m].
+    pub x: [f64; 2],
+    /// Bottom and top, from the base [m].
+    pub y: [f64; 2],
+    /// Length and height of its lintel [m].
+    pub lintel: Option<[f64; 2]>,
+    /// Blocks that were left out for it and its lintel.
+    pub removed: usize,
+    /// Blocks that were cut.
+    pub cut: usize,
+    /// The left and the right jamb; none where the opening begins at the panel's edge.
+    pub jambs: [Option<Jamb>; 2],
+    /// What `snap` moved, and by how much [m].
+    pub moved: Vec<(&'static str, f64)>,
+}
+
+/// The blocks beside an opening.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jamb {
+    /// Courses beside it.
+    pub courses: usize,
+    /// Courses that end before the side of the opening: at a head joint, or with a rest no longer than the head mortar left out.
+    pub short: usize,
+    /// By how much at most [m].
+    pub by: f64,
+}
+
+/// What became of the openings of a panel whose courses were `before` they were cut, and are now `after`.
+pub(super) fn laid(panel: &Panel, index: usize, [before, after]: [&Courses; 2], holes: &[Place]) -> Vec<Laid> {
+    if holes.is_empty() {
+        return Vec::new();
+    }
+    let frame = Frame::new(panel, index, before);
+    let of = |(number, hole): (usize, &Place)| {
+        let (mut removed, mut cut) = (0, 0);
+        for (zone, rows) in zones(hole, frame.head) {
+            for block in rows.flat_map(|r| &before[r]).filter(|b| frame.is_in(b, zone)) {
+                let stays = [zone[0] - block.x[0], block.x[1] - zone[1]];
+                let stays = stays.into_iter().any(|rest| rest > frame.head + frame.tolerance);
+                *(if stays { &mut cut } else { &mut removed }) += 1;
+            }
+        }
+        Laid {
+            panel: index,
+            number,
+            x: hole.x.map(|x| x - frame.x[0]),
+            y: hole.y,
+            lintel: hole.lintel.as_ref().map(|l| [l.x[1] - l.x[0], l.y[1] - l.y[0]]),
+            removed,
+            cut,
+            jambs: [jamb(&frame, hole, after, 0), jamb(&frame, hole, after, 1)],
+            moved: hole.moved.clone(),
+        }
+    };
+    holes.iter().enumerate().map(of).collect()
+}
+
+/// The jamb at a side of a hole.
+fn jamb(frame: &Frame, hole: &Place, courses: &Courses, side: usize) -> Option<Jamb> {
+    let short_of = |block: &Rect| match side {
+        0 => hole.x[0] - block.x[1],
+        _ => block.x[0] - hole.x[1],
+    };
+    let nearest = |r: usize| {
+        let gaps = courses[r].iter().map(short_of).filter(|gap| *gap >= -frame.tolerance);
+        gaps.reduce(f64::min).filter(|gap| *gap <= 2.0 * frame.head + frame.tolerance)
+    };
+    let gaps: Vec<f64> = (hole.beds[0]..hole.beds[1]).filter_map(nearest).collect();
+    let short = gaps.iter().filter(|gap| **gap > frame.tolerance).count();
+    let by = gaps.iter().fold(0.0, |most: f64, gap| most.max(*gap));
+    (!gaps.is_empty()).then_some(Jamb { courses: gaps.len(), short, by: if short > 0 { by } else { 0.0 } })
 }

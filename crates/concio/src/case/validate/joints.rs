@@ -5,6 +5,7 @@ use crate::case::{
     Bond, BondChange, Case, Friction, FrictionChange, FrictionLaw, JointBond, JointChange, Panel, Selector, Spring,
     SpringLaw,
 };
+use crate::quantity::shown;
 use crate::{InputError, case::de::suggestion};
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
@@ -117,7 +118,7 @@ fn bond_values(f: &mut Findings, key: &str, b: &BondChange) {
         }
     }
     if let Some(v) = b.friction_angle.filter(|v| !(0.0..=STEEPEST).contains(&v.si())) {
-        let what = format!("{} deg is out of range", crate::quantity::shown(v.si().to_degrees()));
+        let what = format!("{} deg is out of range", shown(v.si().to_degrees()));
         f.push(format_args!("{key}.friction_angle"), what, "0 … 80 deg (a number without unit is in rad)");
     }
     for (name, value) in [("mode_1_energy", b.mode_1_energy), ("mode_2_energy", b.mode_2_energy)] {
@@ -133,8 +134,8 @@ fn bond_values(f: &mut Findings, key: &str, b: &BondChange) {
 fn below_static(f: &mut Findings, key: impl std::fmt::Display, dynamic: f64, static_: f64) {
     // Of a static one that is wrong itself nothing follows.
     if dynamic > static_ && static_ >= 0.0 {
-        let what = format!("{dynamic} is above the static coefficient");
-        f.push(key, what, format!("0 … {static_}, the static coefficient"));
+        let what = format!("{} is above the static coefficient", shown(dynamic));
+        f.push(key, what, format!("0 … {}, the static coefficient", shown(static_)));
     }
 }
 
@@ -207,8 +208,8 @@ fn friction_change(f: &mut Findings, i: usize, r: &FrictionChange, common: &Fric
     };
     match pair {
         Some((s, d, "static")) if s < d => {
-            let what = format!("{s} is below the dynamic coefficient of [joint.friction]");
-            f.push(format_args!("joint.change[{i}].friction.static"), what, format!("from {d}"));
+            let what = format!("{} is below the dynamic coefficient of [joint.friction]", shown(s));
+            f.push(format_args!("joint.change[{i}].friction.static"), what, format!("from {}", shown(d)));
         }
         Some((s, d, "dynamic")) => below_static(f, format_args!("joint.change[{i}].friction.dynamic"), d, s),
         _ => {}

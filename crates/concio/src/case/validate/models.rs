@@ -2,7 +2,7 @@
 
 use super::{Bound, Findings};
 use crate::InputError;
-use crate::case::{Beam, BeamRotation, Bond, Case, FrictionPreset, ModelKind, NormalForce, Signal};
+use crate::case::{Beam, BeamRotation, Bond, Case, FrictionPreset, ModelKind, NormalForce, Signal, StopAt};
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
     match case.model {
@@ -67,6 +67,7 @@ fn of_planar(case: &Case) -> Vec<String> {
         ("load.beam_height", case.load.beam_height.is_some()),
         ("motion.vertical", case.motion.vertical != Signal::None),
         ("motion.quasi_static", case.motion.quasi_static),
+        ("motion.stop_at", case.motion.stop_at.is_some()),
         ("solver.step", case.solver.step.is_some()),
     ];
     keys.extend(others.into_iter().filter(|(_, given)| *given).map(|(key, _)| key.to_string()));
@@ -74,6 +75,9 @@ fn of_planar(case: &Case) -> Vec<String> {
 }
 
 fn planar(f: &mut Findings, case: &Case) {
+    if let Some(StopAt::Collapse(after)) = case.motion.stop_at {
+        f.quantity("motion.stop_at.collapse", after, Bound::From0);
+    }
     let friction = &case.joint.friction;
     let what = "in planar walls the pressure of a joint follows from the motion of its blocks";
     if friction.preset == Some(FrictionPreset::Report) {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::{Bound, Findings};
 use crate::InputError;
-use crate::case::{Bond, Case, Ends, ExplicitBlock, First, Panel, RandomTexture};
+use crate::case::{Bond, Case, Ends, ExplicitBlock, Extent, First, Panel, RandomTexture};
 
 /// Most blocks of a wall.
 pub const LARGEST_WALL: usize = 4_000_000;
@@ -100,17 +100,48 @@ fn common(f: &mut Findings, i: usize, panel: &Panel) {
 fn openings(f: &mut Findings, i: usize, panel: &Panel) {
     for (k, o) in panel.openings.iter().enumerate() {
         let key = format!("panel[{i}].opening[{k}]");
-        f.quantity(format_args!("{key}.x"), o.x, Bound::From0);
-        f.quantity(format_args!("{key}.y"), o.y, Bound::From0);
-        f.quantity(format_args!("{key}.width"), o.width, Bound::Above0);
-        f.quantity(format_args!("{key}.height"), o.height, Bound::Above0);
+        extent(f, &format!("{key}.x"), o.x, Bound::From0, Counted::Bricks, panel.bond);
+        extent(f, &format!("{key}.y"), o.y, Bound::From0, Counted::Courses, panel.bond);
+        extent(f, &format!("{key}.width"), o.width, Bound::Above0, Counted::Bricks, panel.bond);
+        extent(f, &format!("{key}.height"), o.height, Bound::Above0, Counted::Courses, panel.bond);
         if let Some(lintel) = &o.lintel {
-            f.quantity(format_args!("{key}.lintel.height"), lintel.height, Bound::Above0);
-            f.quantity(format_args!("{key}.lintel.bearing"), lintel.bearing, Bound::Above0);
+            extent(f, &format!("{key}.lintel.height"), lintel.height, Bound::Above0, Counted::Courses, panel.bond);
+            extent(f, &format!("{key}.lintel.bearing"), lintel.bearing, Bound::Above0, Counted::Bricks, panel.bond);
             if let Some(weight) = lintel.specific_weight {
                 f.quantity(format_args!("{key}.lintel.specific_weight"), weight, Bound::Above0);
             }
         }
+    }
+}
+
+/// What an extent is counted in besides lengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Counted {
+    Courses,
+    Bricks,
+}
+
+/// A length, or a number of what its direction is counted in.
+fn extent(f: &mut Findings, key: &str, extent: Extent, bound: Bound, counted: Counted, bond: Bond) {
+    match (extent, counted) {
+        (Extent::Length(length), _) => f.quantity(key, length, bound),
+        (Extent::Courses(number), Counted::Courses) => {
+            f.value(key, number, " courses", bound);
+            if number.fract() != 0.0 {
+                f.push(key, format!("{extent} end within a course"), "whole courses");
+            }
+        }
+        (Extent::Bricks(number), Counted::Bricks) if matches!(bond, Bond::Running | Bond::Stack) => {
+            f.value(key, number, " bricks", bound);
+        }
+        (Extent::Bricks(_), Counted::Bricks) => {
+            let what = format!("{extent}: bricks of bond `{}` have no one length", bond_name(bond));
+            f.push(key, what, "a length; bricks in bond `running` or `stack`");
+        }
+        (_, Counted::Courses) => {
+            f.push(key, format!("{extent}: heights are counted in courses"), "a length, or courses")
+        }
+        (_, Counted::Bricks) => f.push(key, format!("{extent}: widths are counted in bricks"), "a length, or bricks"),
     }
 }
 

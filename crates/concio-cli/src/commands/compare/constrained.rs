@@ -1,4 +1,4 @@
-//! `concio compare`.
+//! `concio compare constrained`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,8 +11,8 @@ use concio::{Error, InputError};
 use concio_study::warned::Warned;
 use serde_json::{Value, json};
 
-use super::{run::refuse_a_file, wall_file};
-use crate::args::{Compare, Comparison, Constrained, Format};
+use super::super::{run::refuse_a_file, wall_file};
+use crate::args::{Constrained, Format};
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::draw::output::Drawing;
 use crate::failure::Failure;
@@ -30,13 +30,6 @@ const DPI: f64 = 300.0;
 /// Names of the three runs.
 const NAMES: [&str; 3] = ["free", "no-tension", "rigid"];
 
-/// Compares what is asked for.
-pub fn compare(args: &Compare) -> Result<(), Failure> {
-    match &args.what {
-        Comparison::Constrained(args) => constrained(args),
-    }
-}
-
 /// A head joint or connection and the names of its blocks.
 struct Pair {
     joint: String,
@@ -44,7 +37,8 @@ struct Pair {
     blocks: [String; 2],
 }
 
-fn constrained(args: &Constrained) -> Result<(), Failure> {
+/// Runs the wall of a file with free, no-tension and rigid head joints.
+pub fn constrained(args: &Constrained) -> Result<(), Failure> {
     let file = wall_file::read(&args.file)?;
     let prepared = wall_file::prepare(&file)?;
     let stem = args.file.file_stem().unwrap_or(args.file.as_os_str()).to_string_lossy();
