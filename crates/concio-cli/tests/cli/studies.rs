@@ -205,7 +205,7 @@ const WRONG: [(&str, &[&str], &str, &[&str]); 18] = [
             MOTIONS,
             "[ida]\ndamage = \"largest_slip\"\nlimits = []\nhunt = { first = 1, step = 1, most = 9, runs = 4.5 }\n",
         ],
-        "study.toml:11:",
+        "study.toml:12:",
         &["ida.hunt.runs", "a whole number, 4 … 1,000"],
     ),
     ("no scale", &["scales = []\n"], "study.toml:2:", &["scales", "is empty", "above 0"]),
