@@ -8,6 +8,7 @@ use concio::ground::Library;
 use concio::run::prepare_with;
 use concio::warning::{Warning, WarningKind};
 use rayon::prelude::*;
+use serde_json::Value;
 
 /// Runs of which one says what runs like it warn of before they are done: laying and compiling large walls takes its time.
 const LOOKED_AT: usize = 16;
@@ -115,6 +116,14 @@ impl Told {
         };
         Sentence { of, text: first.text.clone(), everywhere: *runs == all && *same }
     }
+}
+
+/// The warnings that a summary.json holds.
+pub fn of_summary(summary: &Value) -> Vec<Warning> {
+    let list = |key: &str| summary.get(key).and_then(Value::as_array).into_iter().flatten();
+    let one =
+        |(text, kind): (&Value, &Value)| Some(Warning::new(serde_json::from_value(kind.clone()).ok()?, text.as_str()?));
+    list("warnings").zip(list("warning_kinds")).filter_map(one).collect()
 }
 
 /// The kinds of some warnings, each once, parted by blanks: a cell of a table; none where there are none.
@@ -228,6 +237,13 @@ mod tests {
         assert_eq!(warned.sentences(&known).len(), 2);
         assert_eq!(kinds(&[slid("a"), heavy("1"), slid("b")]).as_deref(), Some("heavy-beam large-slip"));
         assert_eq!(kinds(&[]), None);
+    }
+
+    #[test]
+    fn warnings_are_read_off_a_summary() {
+        let summary = serde_json::json!({ "warnings": ["It fell.", "It is new."], "warning_kinds": ["collapse", "of-a-later-version"] });
+        assert_eq!(of_summary(&summary), [warning(WarningKind::Collapse, "It fell.")]);
+        assert!(of_summary(&Value::Null).is_empty());
     }
 
     #[test]

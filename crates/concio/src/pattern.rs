@@ -57,6 +57,8 @@ type Courses = Vec<Vec<Rect>>;
 struct Found {
     list: Vec<InputError>,
     more: usize,
+    /// Whether not all were looked for.
+    cut: bool,
 }
 
 /// Mistakes that are told one by one: more are mostly of one cause.
@@ -64,8 +66,13 @@ const MOST_FOUND: usize = 20;
 
 impl Found {
     fn add(&mut self, error: InputError) {
+        self.add_one(|| error);
+    }
+
+    /// The same of one that is put into words only if it is told.
+    fn add_one(&mut self, error: impl FnOnce() -> InputError) {
         if self.list.len() < MOST_FOUND {
-            self.list.push(error);
+            self.list.push(error());
         } else {
             self.more += 1;
         }
@@ -86,7 +93,8 @@ pub fn findings(case: &Case) -> Vec<InputError> {
     }
     laid(case, &mut found);
     if found.more > 0 {
-        found.list.push(InputError::new(format!("and {} more mistakes like these", found.more)));
+        let least = if found.cut { "at least " } else { "" };
+        found.list.push(InputError::new(format!("and {least}{} more mistakes like these", found.more)));
     }
     found.list
 }

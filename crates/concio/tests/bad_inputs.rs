@@ -438,6 +438,22 @@ fn json_errors_have_places_too() {
     }
 }
 
+/// Quotes of word processors, in TOML and JSON, get the line with straight ones; those inside of a text are no mistake.
+#[test]
+fn curly_quotes_are_answered_with_straight_ones() {
+    for (text, syntax, line) in [
+        ("title = “South wall”\n", Syntax::Toml, "title = \"South wall\""),
+        ("title = \"a\"\nmodel = ‘shear’\n", Syntax::Toml, "model = 'shear'"),
+        ("{ \"model\": „shear“ }", Syntax::Json, "{ \"model\": \"shear\" }"),
+    ] {
+        let e = input_error(from_str(text, syntax, None).map(|_| ()), text);
+        let help = e.help.clone().unwrap_or_default();
+        assert!(help.contains("curly quotes") && help.ends_with(line), "{e}");
+    }
+    let e = input_error(from_str("title = \"the “old” wall\" x\n", Syntax::Toml, None).map(|_| ()), "x");
+    assert!(!e.help.unwrap_or_default().contains("curly"));
+}
+
 #[test]
 fn deep_nesting_is_refused() {
     for (text, syntax) in [

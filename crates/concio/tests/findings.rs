@@ -31,6 +31,17 @@ fn all_overlaps_are_counted_and_the_first_told() {
     assert_eq!(told, ["blocks p1c1b1 and p1c1b2 overlap", "blocks p1c1b2 and p1c1b3 overlap"]);
 }
 
+/// Ten thousand blocks in one place are 5·10⁷ pairs: not all are compared, and that is said.
+#[test]
+fn a_heap_of_blocks_is_answered_without_comparing_all() {
+    let all = findings(&case(&vec![(1, 0.0, 0.0, 0.25, 0.05); 10_000]));
+    assert_eq!(all.len(), 21);
+    let last = &all[20].what;
+    let more: usize =
+        last.strip_prefix("and at least ").and_then(|rest| rest.split(' ').next()?.parse().ok()).expect(last);
+    assert!((10_000..50_000_000).contains(&more), "{last}");
+}
+
 /// Blocks in the air too, and those whose bottom is in the block below them.
 #[test]
 fn all_blocks_that_rest_on_nothing_are_told() {

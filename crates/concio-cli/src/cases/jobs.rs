@@ -12,6 +12,7 @@ use concio::Error;
 use concio::record::StopReason;
 use concio::run::{self, Control, Prepared};
 use concio::store::{SCHEMA_VERSION, StoredRun, hdf5};
+use concio_study::warned::{Warned, of_summary};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -88,6 +89,18 @@ pub fn run_all(out: &Path, done: &(dyn Fn(usize) + Sync)) -> Result<Option<BTree
         found.extend(part?);
     }
     Ok((found.len() == jobs.len()).then_some(found))
+}
+
+/// What the runs warn of that left a folder in `out`.
+pub fn warned(out: &Path) -> Warned {
+    let mut warned = Warned::default();
+    for job in all() {
+        let Some(folder) = job.folder(out) else { continue };
+        let summary = fs::read_to_string(folder.join(run::SUMMARY)).unwrap_or_default();
+        let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
+        warned.add(|| job.which.name().into(), &of_summary(&summary));
+    }
+    warned
 }
 
 /// None when the user asked to stop.

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use concio::{Error, InputError};
+use concio_study::warned::Warned;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
 
@@ -38,6 +39,9 @@ pub fn cases(args: &Cases) -> Result<ExitCode, Failure> {
     files::write(&page_path, &page::markdown(&findings))?;
     if args.figures {
         pictures::draw(&args.out)?;
+    }
+    for sentence in jobs::warned(&args.out).sentences(&Warned::default()) {
+        files::note(&format!("warning: {sentence}"));
     }
     files::print(&format!("{}\nopen {}\n", page::text(&findings), page_path.display()))?;
     Ok(ExitCode::SUCCESS)

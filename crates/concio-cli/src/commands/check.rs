@@ -1,7 +1,7 @@
 //! `concio check`.
 
 use concio::bond;
-use concio::case::{Beam, Case, DeviceLaw, JointKind};
+use concio::case::{Beam, Case, DeviceLaw, JointKind, StopAt};
 use concio::device;
 use concio::model::Model;
 use concio_study::shaking::{Mode, first_mode};
@@ -54,8 +54,12 @@ pub fn check(args: &Check) -> Result<(), Failure> {
             mode.map_or_else(|| "none: joints are rigid, or nothing holds a block".into(), told),
         ));
     }
-    general.push(("duration", format!("{}, {samples} samples kept", seconds(duration))));
     let case = &prepared.case;
+    let stops = case
+        .motion
+        .stop_at
+        .map_or(String::new(), |StopAt::Collapse(after)| format!("; ends {} after a collapse", seconds(after.si())));
+    general.push(("duration", format!("{}, {samples} samples kept{stops}", seconds(duration))));
     let (mut joints, bonds, ties) = match &model.planar {
         None => (joint_rows(model), bond_rows(case, model)?, Vec::new()),
         Some(own) => (planar::joint_rows(model, own), planar::bond_rows(case, model)?, planar::tie_rows(case, own)),

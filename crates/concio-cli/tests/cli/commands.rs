@@ -585,3 +585,30 @@ fn check_lists_all_mistakes_of_a_geometry() {
         assert_eq!(message.matches("error: ").count(), 3, "{command}: {message}");
     }
 }
+
+/// A stone that turns over under 0.3 g ends its run when it was asked to: with status 0, and the reason is told everywhere.
+#[test]
+fn a_run_that_stops_at_a_collapse_has_done_what_it_was_to() {
+    let desk = Desk::new();
+    desk.put(
+        "stone.toml",
+        "model = \"planar\"\n[[panel]]\nbond = \"stack\"\ncourses = 1\nbricks = 1\n\
+         brick = { length = 0.2, height = 1.0, thickness = 0.5, specific_weight = \"2000 kg/m3\" }\nmortar = { bed = 0, head = 0 }\n\
+         [joint]\nbed = { law = \"rigid\" }\nhead = { law = \"none\" }\nfriction = { law = \"coulomb\", static = 0.8 }\n\
+         [motion]\nduration = \"8 s\"\nstop_at = { collapse = \"0.5 s\" }\nbase = { tilt = { acceleration = \"0.3 g\", rise = \"10 ms\" } }\n",
+    );
+    let check = desk.concio("check stone.toml").assert().success();
+    assert!(String::from_utf8_lossy(&check.get_output().stdout).contains("; ends 0.5 s after a collapse"));
+    let run = desk.concio("run stone.toml --out out").assert().success();
+    let noted = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+    assert!(noted.contains(" of 8 s: the wall collapsed, which `motion.stop_at`"), "{noted}");
+    let summary = desk.json("out/summary.json");
+    assert_eq!(summary["stop_reason"], "collapsed");
+    let [reached, fell] =
+        ["/time_reached", "/collapse/time"].map(|at| summary.pointer(at).and_then(Value::as_f64).expect("a time"));
+    assert!((0.0..1e-3 + 1e-9).contains(&(reached - fell - 0.5)), "{reached} s, collapsed at {fell} s");
+    assert!(desk.get("out/report.html").contains("Ended at t = "));
+    // Figures and tables are made of it as of any run.
+    desk.concio("plot out --figure all").assert().success();
+    desk.concio("export out --csv").assert().success();
+}

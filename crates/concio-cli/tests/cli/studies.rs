@@ -165,7 +165,7 @@ fn the_warnings_of_the_wall_are_those_of_its_studies() {
 
 /// Questions that would be passed over in silence, and lists that choose nothing: text below `wall = …`, the place, parts
 /// of the message.
-const WRONG: [(&str, &[&str], &str, &[&str]); 16] = [
+const WRONG: [(&str, &[&str], &str, &[&str]); 18] = [
     ("ranking beside a search of its own", &[CRACK, "[ranking]\n"], "study.toml:4:", &["ranking", "`[first-crack]`"]),
     ("keep beside it", &[CRACK, "[keep]\njoints = [\"slip\"]\n"], "study.toml:5:", &["keep.joints", "`[first-crack]`"]),
     ("whole results beside it", &[CRACK, "[keep]\nresults = true\n"], "study.toml:5:", &["keep.results"]),
@@ -192,6 +192,21 @@ const WRONG: [(&str, &[&str], &str, &[&str]); 16] = [
         &["[ranking]\n[[vary]]\npath = \"panel[0].bricks\"\nvalues = [2, 3]\n"],
         "study.toml:2:",
         &["different joints", "leave blocks"],
+    ),
+    (
+        "fewer runs than one",
+        &["[design]\nkind = \"random\"\nruns = -1\n"],
+        "study.toml:4:",
+        &["design.runs", "the number -1 cannot stand here", "a whole number from 1"],
+    ),
+    (
+        "runs of a hunt",
+        &[
+            MOTIONS,
+            "[ida]\ndamage = \"largest_slip\"\nlimits = []\nhunt = { first = 1, step = 1, most = 9, runs = 4.5 }\n",
+        ],
+        "study.toml:12:",
+        &["ida.hunt.runs", "a whole number, 4 … 1,000"],
     ),
     ("no scale", &["scales = []\n"], "study.toml:2:", &["scales", "is empty", "above 0"]),
     ("a scale twice", &["scales = [1.0, 2.0, 1]\n"], "study.toml:2:", &["scales[2]", "1 stands there twice", "once"]),

@@ -52,17 +52,25 @@ pub(super) fn polygons(panel: &Panel, index: usize, courses: &Courses, blocks: &
     let mut order: Vec<usize> = (0..blocks.len()).collect();
     order.sort_by(|&i, &j| blocks[i].x[0].total_cmp(&blocks[j].x[0]));
     let sources: Vec<usize> = courses.iter().flatten().map(|rect| rect.source).collect();
+    let (before, mut looks) = (found.number(), 0usize);
     for (k, &i) in order.iter().enumerate() {
         let beside = order[k + 1..].iter().take_while(|&&j| blocks[j].x[0] < blocks[i].x[1]);
         for &j in beside {
+            looks += usize::from(found.number() > before);
+            if looks > MOST_DEPTHS {
+                found.cut = true;
+                return;
+            }
             if polygon::depth(&blocks[i].corners(), &blocks[j].corners()) > tolerance {
                 let (a, b) = if sources[i] < sources[j] { (i, j) } else { (j, i) };
-                let what = format!("blocks {} and {} overlap", blocks[a].name, blocks[b].name);
-                let key = match panel.bond {
-                    Bond::Arch => format!("panel[{index}].arch"),
-                    _ => format!("panel[{index}].block[{}]", sources[b]),
-                };
-                found.add(InputError::new(what).key(key).allowed("blocks that share edges at most"));
+                found.add_one(|| {
+                    let what = format!("blocks {} and {} overlap", blocks[a].name, blocks[b].name);
+                    let key = match panel.bond {
+                        Bond::Arch => format!("panel[{index}].arch"),
+                        _ => format!("panel[{index}].block[{}]", sources[b]),
+                    };
+                    InputError::new(what).key(key).allowed("blocks that share edges at most")
+                });
             }
         }
     }
@@ -223,15 +231,17 @@ impl Site<'_> {
                 if pair[1].x[0] >= pair[0].x[1] - self.tolerance {
                     continue;
                 }
-                let (a, b) = (self.name(r, k, &pair[0]), self.name(r, k + 1, &pair[1]));
-                let beside = pair[0].y[1] <= pair[1].y[0] || pair[1].y[1] <= pair[0].y[0];
-                let what = if beside {
-                    format!("blocks {a} and {b} of course {} stand one above the other", r + 1)
-                } else {
-                    format!("blocks {a} and {b} overlap")
-                };
-                let allowed = "blocks of one course side by side";
-                found.add(InputError::new(what).key(self.key(r, &pair[1])).allowed(allowed));
+                found.add_one(|| {
+                    let (a, b) = (self.name(r, k, &pair[0]), self.name(r, k + 1, &pair[1]));
+                    let beside = pair[0].y[1] <= pair[1].y[0] || pair[1].y[1] <= pair[0].y[0];
+                    let what = if beside {
+                        format!("blocks {a} and {b} of course {} stand one above the other", r + 1)
+                    } else {
+                        format!("blocks {a} and {b} overlap")
+                    };
+                    let allowed = "blocks of one course side by side";
+                    InputError::new(what).key(self.key(r, &pair[1])).allowed(allowed)
+                });
                 told.insert(sources(&pair[0], &pair[1]));
             }
         }
@@ -271,9 +281,10 @@ impl Site<'_> {
                 hits.sort_unstable();
             }
             for other in hits.into_iter().filter(|o| !told.contains(&sources(all[*o].2, rect))) {
-                found.add(self.overlap(all[other], all[i]));
+                found.add_one(|| self.overlap(all[other], all[i]));
             }
             if looks > MOST_LOOKS {
+                found.cut = true;
                 return;
             }
             cut.insert(place(rect.y[0], i), i);
@@ -318,8 +329,10 @@ impl Site<'_> {
     }
 }
 
-/// Comparisons of blocks, all that overlap sought among all, after which the others are left untold.
-const MOST_LOOKS: usize = 100_000_000;
+/// Comparisons of polygons from the first overlap on after which the others are left untold: each takes a microsecond.
+const MOST_DEPTHS: usize = 1_000_000;
+/// The same of rectangles.
+const MOST_LOOKS: usize = 20_000_000;
 
 /// The places of two blocks in the file, the earlier first.
 fn sources(a: &Rect, b: &Rect) -> [usize; 2] {

@@ -316,7 +316,7 @@ impl Frame {
         Err(if near.is_empty() {
             error
         } else {
-            error.help("`snap = true` moves it there; courses count it: \"2 courses\"")
+            error.help("count it in courses (\"2 courses\"), or let `snap = true` move it")
         })
     }
 }
