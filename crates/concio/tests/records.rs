@@ -60,7 +60,11 @@ fn cut_files_are_refused_whatever_part_was_cut() {
         for percent in 1..100 {
             let cut = &file.text[..file.text.len() * percent / 100];
             // What ends with the mark of a channel's end is a whole file of fewer channels.
-            assert!(read_text(cut).is_err() || cut.trim_end().ends_with("----------"), "{} cut at {percent} %", file.name);
+            assert!(
+                read_text(cut).is_err() || cut.trim_end().ends_with("----------"),
+                "{} cut at {percent} %",
+                file.name
+            );
         }
     }
 }

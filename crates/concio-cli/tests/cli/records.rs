@@ -103,9 +103,9 @@ fn rows_of_one_component() {
     assert!(error.contains("give --layout rows") && !error.contains("to the input"), "{error}");
 }
 
-/// The base is shaken by a record of a second, 0.01 s apart, on an offset of 1 m/s².
+/// The base is shaken by 100 samples of 5 m/s² and -3 m/s² in turn, 0.01 s apart: 4 m/s² about an offset of 1 m/s².
 fn shaken(desk: &Desk, keys: &str) -> String {
-    let rows: String = (0..101).map(|k| format!("{:.5}\n", 1.0 + 4.0 * (0.5 * f64::from(k)).sin())).collect();
+    let rows: String = (0..100).map(|k| if k % 2 == 0 { "5\n" } else { "-3\n" }).collect();
     desk.put("quake.txt", format!("# dt = 0.01 s, units: m/s2\n{rows}"));
     let wall = desk.get("wall.toml");
     let (head, _) = wall.split_once("[load]").expect("the wall has loads");
@@ -114,6 +114,7 @@ fn shaken(desk: &Desk, keys: &str) -> String {
     wall
 }
 
+/// From 0.2 s to 0.8 s there are 31 samples of 5 m/s² and 30 of -3 m/s²: their mean is 65/61 m/s², the peak without it 3 + 65/61 m/s².
 #[test]
 fn check_tells_each_step_of_processing_with_its_numbers() {
     let desk = Desk::new();
@@ -123,11 +124,11 @@ fn check_tells_each_step_of_processing_with_its_numbers() {
     );
     let [out, _] = told(desk.concio("check shaken.toml"), 0);
     for part in [
-        "in the file 101 samples every 0.01 s, 1 s, PGA 4.9",
-        "trimmed from 0.2 s to 0.8 s: 101 → 61 samples, PGA ",
-        "played backwards: 61 samples, PGA ",
-        "polynomial of degree 0 taken off: 61 samples, PGA ",
-        "resampled every 0.005 s: 61 → 121 samples, PGA ",
+        "in the file 100 samples every 0.01 s, 0.99 s, PGA 5.000 m/s² = 0.5097 g at 0 s",
+        "trimmed from 0.2 s to 0.8 s: 100 → 61 samples, PGA 5.000 m/s²",
+        "played backwards: 61 samples, PGA 5.000 m/s²",
+        "polynomial of degree 0 taken off: 61 samples, PGA 5.000 → 4.066 m/s²",
+        "resampled every 0.005 s: 61 → 121 samples, PGA 4.066 m/s²",
         "121 samples every 0.005 s, 0.6 s",
         "scale factor ",
         "2.943 m/s² = 0.3000 g",
@@ -136,7 +137,7 @@ fn check_tells_each_step_of_processing_with_its_numbers() {
     }
     shaken(&desk, ", baseline = { high_pass = \"1 Hz\", order = 2 }");
     let [out, _] = told(desk.concio("check shaken.toml"), 0);
-    assert!(out.contains("high-passed at 1 Hz, order 2, both ways: 101 samples, PGA ") && out.contains(" → "), "{out}");
+    assert!(out.contains("high-passed at 1 Hz, order 2, both ways: 100 samples, PGA 5.000 → "), "{out}");
     shaken(&desk, "");
     assert!(!told(desk.concio("check shaken.toml"), 0)[0].contains("in the file"));
 }
@@ -147,7 +148,12 @@ fn a_record_with_an_offset_says_what_it_does_to_the_acceleration() {
     let desk = Desk::new();
     shaken(&desk, "");
     let [_, warned] = told(desk.concio("check shaken.toml"), 0);
-    assert!(warned.contains("stands on an offset, a mean of 1.0") && warned.contains("polynomial = 0"), "{warned}");
+    assert!(
+        warned.contains("stands on an offset, a mean of 1 m/s² (0.102 g, 20 % of its peak)")
+            && warned.contains("of 5 m/s² (without it 4 m/s²)")
+            && warned.contains("polynomial = 0"),
+        "{warned}"
+    );
     assert!(!warned.contains("hardly touches"), "{warned}");
     shaken(&desk, ", baseline = { polynomial = 0 }");
     assert!(!told(desk.concio("check shaken.toml"), 0)[1].contains("offset"));

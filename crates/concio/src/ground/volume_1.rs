@@ -274,7 +274,8 @@ fn equal_steps(source: &Source, samples: &mut Samples, times: &[f64], rounding: 
         while k + 2 < ticks.len() && ticks[k + 1] <= at {
             k += 1;
         }
-        let part = (at - ticks[k]) as f64 / (ticks[k + 1] - ticks[k]) as f64;
+        // Times printed finer than the coarsest of them may share a tick.
+        let part = (at - ticks[k]) as f64 / (ticks[k + 1] - ticks[k]).max(1) as f64;
         made.push(samples.values[k] + part * (samples.values[k + 1] - samples.values[k]));
     }
     source.room(samples.dt_line, made.len())?;
