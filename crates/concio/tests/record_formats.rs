@@ -85,7 +85,7 @@ fn modern_csmip_files_name_unit_and_format_on_the_line_of_the_count() {
 #[test]
 fn csmip_blocks_that_are_promised_must_be_there() {
     let values = decaying_sine(DT, 16);
-    let whole = csmip_v2(&[values.clone()], DT, Announced::InBrackets);
+    let whole = csmip_v2(std::slice::from_ref(&values), DT, Announced::InBrackets);
     let displacement = whole.find("   16 POINTS OF DISPL").unwrap();
     let velocity = whole.find("   16 POINTS OF VELOC").unwrap();
     for cut in [velocity, displacement] {
@@ -300,6 +300,8 @@ fn decimal_commas_are_read_or_asked_about() {
     let values = "0,5\n-0,25\n0,125\n";
     let error = refused(values, &given(DT, "g", None));
     assert!(error.what.contains("one with decimal commas"), "{error}");
+    let unknown = refused(values, &TextOptions { units: Some("g".into()), ..TextOptions::default() });
+    assert!(unknown.help.is_some_and(|help| help.starts_with("of decimal commas make points")));
     assert_eq!(read_with(&values.replace('\n', ";\n"), &given(DT, "g", None)).unwrap()[0].acceleration[2], 0.125 * G);
     let tabs = "t\ta [m/s2]\n0,00\t0,5\n0,01\t-1,25e-1\n0,02\t3\n";
     assert_eq!(read_text(tabs).unwrap()[0].acceleration, [0.5, -0.125, 3.0]);

@@ -46,7 +46,7 @@ pub fn names(records: &[Record]) -> String {
     match records {
         [one] if one.channel.is_empty() => "1, the only one".into(),
         [one] => format!("1, the only one, `{}`", one.channel),
-        [few @ ..] if few.len() <= MOST_NAMED => few.iter().enumerate().map(name).collect::<Vec<_>>().join(", "),
+        few if few.len() <= MOST_NAMED => few.iter().enumerate().map(name).collect::<Vec<_>>().join(", "),
         many => {
             let first: Vec<String> = many.iter().enumerate().take(MOST_NAMED).map(name).collect();
             format!("{}, … {}", first.join(", "), many.len())

@@ -63,6 +63,8 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
             Signal::Record(input) => {
                 found.extend(unchosen(name, input, folder, library)?);
                 let record = library.record(input, folder)?;
+                let doubtful = record.remarks.iter().filter(|remark| remark.is_doubtful());
+                found.extend(doubtful.map(|remark| format!("motion.{name}, of the record: {remark}")));
                 found.extend(uncovered(place, "record", &record, duration));
                 found.extend(drifting(place, &record));
                 let look = ": look at `units`, `scale` and `pga`";

@@ -1,10 +1,8 @@
 //! Reading of accelerograms. The format is found from the content of the file; its name says nothing.
 
 use std::borrow::Cow;
-use std::fmt;
 use std::path::Path;
 
-use crate::case::plausible::rounded;
 use crate::case::{HistoryLayout, HistoryQuantity, RecordInput};
 use crate::files::read_input;
 use crate::ground::source::{Source, line_end};
@@ -13,6 +11,8 @@ use crate::ground::{
     units, usgs_smc, volume_1,
 };
 use crate::{Error, InputError, Result};
+
+pub use crate::ground::remark::Remark;
 
 /// Shortest and longest sample interval that is believed [s].
 pub const INTERVAL_RANGE: [f64; 2] = [1e-6, 100.0];
@@ -138,76 +138,6 @@ pub(super) fn all_formats() -> String {
     let mut names: Vec<&str> = Format::KNOWN.iter().map(|format| format.name()).collect();
     names.sort_unstable();
     format!("{}, columns of numbers", names.join(", "))
-}
-
-/// What a reader did to a file or found in it that the samples do not show any more.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Remark {
-    /// The mean of the samples was taken off, as the archive does before it tells a peak.
-    Offset {
-        /// The mean [m/s²].
-        mean: f64,
-    },
-    /// The samples of the file stand at unequal steps; those of the record lie on the straight lines between them.
-    Resampled {
-        /// Samples in the file.
-        samples: usize,
-        /// Shortest and longest step in the file [s].
-        steps: [f64; 2],
-        /// Interval of the record [s].
-        dt: f64,
-        /// Whether every sample of the file is one of the record.
-        exact: bool,
-    },
-    /// The time column of the file starts there [s]; the record starts at 0.
-    Start {
-        /// Time of the first sample [s], not 0.
-        time: f64,
-    },
-    /// The file holds more samples than its header declares; they are left away.
-    Surplus {
-        /// How many.
-        samples: u64,
-    },
-    /// The header names two units; the code counts.
-    UnitByCode {
-        /// The code of COSMOS.
-        code: u32,
-    },
-}
-
-impl fmt::Display for Remark {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Remark::Offset { mean } => write!(
-                f,
-                "its samples stand on an offset of {} m/s² ({} gal), which is taken off, as the archive does before it tells a peak",
-                rounded(*mean, 4),
-                rounded(1e2 * mean, 4)
-            ),
-            Remark::Resampled { samples, steps: [shortest, longest], dt, exact } => {
-                let [shortest, longest, dt] = [shortest, longest, dt].map(|t| rounded(*t, 6));
-                write!(
-                    f,
-                    "its {samples} samples stand at unequal steps of {shortest} s to {longest} s: it is resampled every {dt} s, "
-                )?;
-                f.write_str(if *exact {
-                    "and every sample is kept"
-                } else {
-                    "along straight lines, which cuts peaks short"
-                })
-            }
-            Remark::Start { time } => {
-                write!(f, "its time starts at {} s, which is t = 0 here", rounded(*time, 9))
-            }
-            Remark::Surplus { samples } => {
-                write!(f, "it holds {samples} sample(s) more than its header declares, which are left away")
-            }
-            Remark::UnitByCode { code } => {
-                write!(f, "its header names one unit in words and another by the code {code:02}: the code counts")
-            }
-        }
-    }
 }
 
 /// One history at equal intervals. Between samples the acceleration is linear.

@@ -6,19 +6,21 @@
 
 use crate::case::{HistoryLayout, HistoryQuantity};
 use crate::ground::record::{Format, Raw, Record, Remark, TextOptions, finish, name};
-use crate::ground::resemblance;
-use crate::ground::source::{Source, leading_number, not_a_number, number};
+use crate::ground::source::Source;
 use crate::ground::units;
 use crate::{InputError, Result};
 
-/// Lines whose header words are listened to.
-const HEADER: usize = 200;
+mod header;
+mod table;
+
+pub(super) use header::unit_words;
+use header::{HEADER, bracketed, column_names, named_interval};
+use table::{Table, is_comment, is_title, table};
+
 /// How far a time step may be from the others, as a fraction of the interval, beyond what rounding in print explains.
 const STEP_TOLERANCE: f64 = 0.01;
 /// How far a time may be from an even grid beyond that, over the interval: steps that all pass may add up to an uneven column.
 const GRID_TOLERANCE: f64 = 0.5;
-/// Most columns of a file: a line of more is no table.
-const MOST_COLUMNS: usize = 1000;
 /// Most columns without titles that are believed to be components.
 const MOST_UNTITLED: usize = 3;
 /// Part of the steps that grow in a column that is time, damaged or not: no acceleration does that.
@@ -82,129 +84,6 @@ fn layout(source: &Source, options: &TextOptions) -> Result<Option<HistoryLayout
         (Some((.., found)), _) => Ok(Some(found)),
         (None, given) => Ok(given),
     }
-}
-
-/// The numbers of the file, column by column, and the line of each row; row by row one column, and the line where it begins.
-struct Table {
-    columns: Vec<Vec<f64>>,
-    lines: Vec<usize>,
-    /// A unit of the last digit of the numbers in the first column as they are written, the coarsest.
-    rounding: f64,
-    /// Whether every line is two whole numbers with a comma between them and nothing else, like one number with a decimal comma.
-    like_decimal_commas: bool,
-}
-
-fn table(source: &Source, by_rows: bool) -> Result<Table> {
-    let mut table = Table { columns: Vec::new(), lines: Vec::new(), rounding: 0.0, like_decimal_commas: true };
-    let mut found = 0;
-    for (index, line) in source.lines.iter().copied().enumerate() {
-        if line.trim().is_empty() || is_comment(line) || (table.lines.is_empty() && is_title(line)) {
-            continue;
-        }
-        let (fields, decimal_commas) = fields(line);
-        let read = |field: &str| {
-            let value = if decimal_commas { number(&field.replace(',', ".")) } else { number(field) };
-            value.ok_or_else(|| bad_field(source, index, field))
-        };
-        if by_rows {
-            if table.columns.is_empty() {
-                (table.columns, table.lines) = (vec![Vec::new()], vec![index]);
-            }
-            for field in fields {
-                table.columns[0].push(read(field)?);
-                source.room(index, table.columns[0].len())?;
-            }
-            continue;
-        }
-        let fields: Vec<&str> = fields.take(MOST_COLUMNS + 1).collect();
-        if fields.len() > MOST_COLUMNS {
-            let error = source.error_at(index, format!("a line of more than {MOST_COLUMNS} numbers"));
-            let help = format!("if they are one component: {AS_ROWS}");
-            return Err(error.allowed(format!("up to {MOST_COLUMNS} columns")).help(help).into());
-        }
-        if table.columns.is_empty() {
-            table.columns = vec![Vec::new(); fields.len()];
-        }
-        if fields.len() != table.columns.len() {
-            let what = format!("{} column(s) here, {} in the lines before", fields.len(), table.columns.len());
-            let error = source.error_at(index, what).allowed("the same number of columns in every line");
-            let rows = table.columns.len() > 2;
-            return Err(if rows {
-                error.help(format!("if they are one component row by row: {AS_ROWS}"))
-            } else {
-                error
-            }
-            .into());
-        }
-        for (column, field) in table.columns.iter_mut().zip(&fields) {
-            column.push(read(field)?);
-        }
-        table.lines.push(index);
-        table.like_decimal_commas &= fields.len() == 2 && is_decimal_comma(line.trim());
-        table.rounding = table.rounding.max(fields.first().map_or(0.0, |field| resolution(field)));
-        found += fields.len();
-        source.room(index, found)?;
-    }
-    if table.lines.is_empty() { Err(resemblance::nothing(source).into()) } else { Ok(table) }
-}
-
-fn bad_field(source: &Source, line: usize, field: &str) -> InputError {
-    let error = not_a_number(source, line, field);
-    // `0,5 1,5 2.5`: what a comma parts still holds a blank.
-    let commas = source.line(line).contains(',') && !source.line(line).contains(';');
-    if commas && field.trim().contains(char::is_whitespace) {
-        error.help("with decimal commas, part the columns by semicolons")
-    } else {
-        error
-    }
-}
-
-fn is_comment(line: &str) -> bool {
-    let line = line.trim_start();
-    line.starts_with(['#', '%']) || line.starts_with("//")
-}
-
-/// A line that starts with a word. A word for an infinite or undefined value is a bad sample instead.
-fn is_title(line: &str) -> bool {
-    let line = line.trim_start().trim_start_matches(['"', '\'', '[', '(']);
-    let word: String = line.chars().take_while(|c| c.is_alphabetic()).take(20).collect::<String>().to_lowercase();
-    !word.is_empty() && !matches!(word.as_str(), "nan" | "inf" | "infinity")
-}
-
-/// Fields of a line, and whether a comma in them is a decimal point; a separator at the end of the line makes no field.
-fn fields(line: &str) -> (Box<dyn Iterator<Item = &str> + '_>, bool) {
-    let line = line.trim();
-    let parted = |separator: char| line.strip_suffix(separator).unwrap_or(line).split(separator).map(str::trim);
-    if line.contains(';') {
-        (Box::new(parted(';')), true)
-    } else if !line.contains(',') {
-        (Box::new(line.split_whitespace()), false)
-    } else if has_decimal_commas(line) {
-        (Box::new(line.split_whitespace()), true)
-    } else {
-        (Box::new(parted(',')), false)
-    }
-}
-
-/// Whether blanks or tabs part two or more numbers with commas in them: `0,01 -0,25`. A comma that parts numbers has a blank behind it
-/// or none anywhere.
-fn has_decimal_commas(line: &str) -> bool {
-    let is_number = |token: &str| {
-        let digits = |part: &str| part.bytes().all(|b| b.is_ascii_digit());
-        let mantissa = token.split(['e', 'E']).next().unwrap_or("").trim_start_matches(['+', '-']);
-        match mantissa.split_once(',') {
-            Some((whole, decimals)) => digits(whole) && !decimals.is_empty() && digits(decimals),
-            None => !mantissa.is_empty() && digits(mantissa),
-        }
-    };
-    line.split_whitespace().nth(1).is_some() && line.split_whitespace().all(is_number)
-}
-
-/// `-0,25`
-fn is_decimal_comma(text: &str) -> bool {
-    let digits = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
-    text.split_once(',')
-        .is_some_and(|(whole, decimals)| digits(whole.trim_start_matches(['+', '-'])) && digits(decimals))
 }
 
 struct Interval {
@@ -301,39 +180,6 @@ fn untimed(source: &Source, table: &Table, options: &TextOptions) -> Result<Inte
     Ok(Interval { dt, line, start: None })
 }
 
-/// The interval that a header line names.
-fn named_interval(source: &Source, data_line: usize) -> Option<(usize, f64)> {
-    const PERIOD: [&str; 5] = ["dt", "time step", "timestep", "sampling interval", "sample interval"];
-    const RATE: [&str; 4] = ["sampling rate", "sample rate", "sampling frequency", "fs"];
-    source.head(data_line.min(HEADER)).find_map(|(index, line)| {
-        let lower = line.to_lowercase();
-        let period = PERIOD.iter().find_map(|key| keyed_number(&lower, key));
-        let period = period.map(|(value, unit)| if unit.starts_with("ms") { value * 1e-3 } else { value });
-        let rate = || {
-            let (value, unit) = RATE.iter().find_map(|key| keyed_number(&lower, key))?;
-            Some(if unit.starts_with("khz") { 1e-3 / value } else { 1.0 / value })
-        };
-        period.or_else(rate).map(|dt| (index, dt))
-    })
-}
-
-/// The number and the text behind it in `key = 0.01 s`; the key must be a word of its own.
-fn keyed_number<'a>(line: &'a str, key: &str) -> Option<(f64, &'a str)> {
-    let mut from = 0;
-    while let Some(at) = line.get(from..)?.find(key).map(|at| at + from) {
-        from = at + key.len();
-        let before = line[..at].chars().next_back();
-        let rest = line[from..].trim_start();
-        let Some(value) = rest.strip_prefix(['=', ':']).filter(|_| before.is_none_or(|c| !c.is_alphanumeric())) else {
-            continue;
-        };
-        let unit =
-            value.trim_start().trim_start_matches(|c: char| c.is_ascii_digit() || "+-.e".contains(c)).trim_start();
-        return leading_number(value).map(|number| (number, unit));
-    }
-    None
-}
-
 /// Seconds in the unit that the title of the time column names, 1 where it names none.
 fn time_unit(source: &Source, table: &Table) -> f64 {
     let names = column_names(source, table.lines[0], table.columns.len());
@@ -359,8 +205,10 @@ fn timed(source: &Source, table: &Table, options: &TextOptions) -> Result<Interv
     let printed = unit * table.rounding;
     // A column so coarsely rounded that a missing sample would pass for rounding must be even as it is.
     let rounding = if printed <= 0.5 * typical { printed } else { 0.0 };
+    let commas = if table.like_decimal_commas { "of decimal commas make points; " } else { "" };
     let hint = format!(
-        "the first of several columns is time; if there is none, give the interval (`dt`); for one component row by row: {AS_ROWS}"
+        "{commas}the first of several columns is time; if there is none, give the interval (`dt`); for one component row by \
+         row: {AS_ROWS}"
     );
     if !(typical > 0.0 && typical.is_finite()) {
         let error = source.error_at(table.lines[1], format!("the time column does not grow: step {typical} s"));
@@ -392,29 +240,6 @@ fn median(values: &[f64]) -> f64 {
     let mut values = values.to_vec();
     let middle = values.len() / 2;
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
-/// A unit of the last digit of a number as it is written: 0.01 for `1.25`, 1 for `3`, 1e-5 for `1.25e-3`.
-fn resolution(field: &str) -> f64 {
-    let (mantissa, exponent) = field.split_once(['e', 'E', 'd', 'D']).unwrap_or((field, "0"));
-    let decimals = mantissa.split_once(['.', ',']).map_or(0, |(_, decimals)| decimals.len());
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    10f64.powi(exponent.saturating_sub(decimals.min(400) as i32))
-}
-
-/// Titles of the columns: the last header line, when it has as many fields as there are columns.
-fn column_names<'a>(source: &Source<'a>, data_line: usize, columns: usize) -> Vec<&'a str> {
-    let above = (0..data_line).rev().map(|index| source.line(index));
-    let Some(title) = above.into_iter().find(|line| !line.trim().is_empty()) else { return Vec::new() };
-    let title = title.trim_start().trim_start_matches(['#', '%', '/']).trim();
-    let separator = [';', ',', '\t'].into_iter().find(|c| title.contains(*c));
-    let fields: Vec<&str> = match separator {
-        Some(c) => title.split(c).map(|field| field.trim().trim_matches('"')).collect(),
-        None if columns == 1 => vec![title],
-        None => title.split_whitespace().collect(),
-    };
-    let keyed = title.contains(['=', ':']);
-    if fields.len() == columns && !keyed { fields } else { Vec::new() }
 }
 
 /// The unit that the header names, and its line.
@@ -461,45 +286,5 @@ fn no_unit(source: &Source, data_line: usize, quantity: HistoryQuantity) -> Inpu
     match words.find(|word| units::factor(word, other).is_some()) {
         Some(word) => error.help(format!("`{word}` is a unit of {0}: set `quantity = \"{0}\"`", name(other))),
         None => error.help("add `units = \"cm/s2\"` to the input, or a line `# units: cm/s2` to the file"),
-    }
-}
-
-/// Words of a header line that may be a unit: in brackets, behind `units:`, behind `units of`.
-pub(super) fn unit_words(line: &str) -> Vec<&str> {
-    let mut words: Vec<&str> = bracketed(line).collect();
-    let lower = line.to_ascii_lowercase();
-    let key = ["units of", "units", "unit"].into_iter().find_map(|key| lower.find(key).map(|at| at + key.len()));
-    if let Some(end_of_key) = key {
-        let rest = line[end_of_key..].trim_start().trim_start_matches(['=', ':']).trim_start();
-        let end = rest.find(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"')).unwrap_or(rest.len());
-        words.push(rest[..end].trim_end_matches('.'));
-    }
-    words
-}
-
-/// What stands in square or round brackets.
-fn bracketed(line: &str) -> impl Iterator<Item = &str> {
-    line.split(['[', '(']).skip(1).filter_map(|part| part.split([']', ')']).next()).map(str::trim)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rounding_of_printed_numbers() {
-        for (field, unit) in [("1.25", 0.01), ("3", 1.0), ("1.25e-3", 1e-5), ("1.5E+02", 10.0), ("0,005", 0.001)] {
-            assert!((resolution(field) / unit - 1.0).abs() < 1e-12, "{field}");
-        }
-        assert_eq!(resolution("1e99999999999"), 1.0);
-    }
-
-    #[test]
-    fn words_of_a_header() {
-        assert_eq!(keyed_number("npts = 5, dt= .005 sec", "dt").map(|n| n.0), Some(0.005));
-        assert_eq!(keyed_number("width = 5", "dt"), None);
-        assert_eq!(unit_words("# Units: cm/s2, corrected"), ["cm/s2"]);
-        assert_eq!(unit_words("# acceleration in units of g."), ["g"]);
-        assert_eq!(bracketed("time [s], acc [m/s2]").collect::<Vec<_>>(), ["s", "m/s2"]);
     }
 }

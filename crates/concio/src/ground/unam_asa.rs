@@ -76,8 +76,8 @@ pub(super) fn read(source: &Source) -> Result<Vec<Record>> {
 fn data_line(source: &Source) -> Result<usize> {
     let start = source.head(HEADER).find(|(_, line)| line.starts_with(DATA)).map(|(line, _)| line);
     let start = start.ok_or_else(|| missing(source, HEADER, DATA))?;
-    let rules = (start..source.lines.len().min(start + 10)).filter(|line| source.line(*line).starts_with("---"));
-    rules.last().map(|line| line + 1).ok_or_else(|| source.error_at(start, "no titles of columns follow").into())
+    let mut rules = (start..source.lines.len().min(start + 10)).filter(|line| source.line(*line).starts_with("---"));
+    rules.next_back().map(|line| line + 1).ok_or_else(|| source.error_at(start, "no titles of columns follow").into())
 }
 
 /// The entries of a list of channels 1 to 6 and of the one of channels 7 to 12 that follows it.
