@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
+use concio::case::RecordChannel;
 use concio::quantity::{Length, Time};
 
 use crate::figures::{DOUBLE, Instant, SINGLE};
@@ -153,16 +154,19 @@ pub struct Schema {}
 
 /// Measure and draw an accelerogram.
 ///
-/// The format is found from the content: PEER AT2, ITACA/ESM ASC, COSMOS V2, CSMIP V2, USGS SMC, or text in columns
-/// (one column with its interval, or time and values). Prints peak acceleration, velocity and displacement, Arias
-/// intensity, significant duration and Housner intensity of the record as it is: no baseline is taken off, nothing
-/// is filtered.
+/// The format is found from the content: PEER AT2, ITACA/ESM/AFAD ASC, COSMOS V1 and V2, CSMIP V2, USGS SMC, K-NET and KiK-net
+/// in ASCII and CSV, GeoNet V1A and V2A, text of Turkey's NSMN and of Taiwan's CWB, UNAM ASA, uncorrected Volume 1 (RENADIC, USC, CSMIP,
+/// BHRC), or text: columns, after a time column or with --dt, or one component row by row. Prints peak acceleration, velocity and
+/// displacement, Arias intensity, significant duration and Housner intensity of the record as it is: no baseline is taken off,
+/// nothing is filtered. Only the offset of K-NET and KiK-net is taken off, as the archive does before it tells a peak.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   concio record quake.AT2
   concio record station.V2 --channel 3 --svg ch3.svg
+  concio record station.V2A --channel N00E
   concio record shaking.txt --dt 0.005 --units cm/s2
+  concio record shaking.txt --dt 5ms --units gal --layout rows
   concio record quake.AT2 --json                        also the 5 % response spectrum")]
 pub struct Record {
     /// Record file.
@@ -174,15 +178,18 @@ pub struct Record {
     /// Draw histories and spectrum into this file.
     #[arg(long, value_name = "OUT", value_hint = ValueHint::FilePath)]
     pub svg: Option<PathBuf>,
-    /// Channel of a file with several, from 1; default 1.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub channel: Option<u32>,
+    /// Component of a file with several: its number from 1, or a word of its name; default the first horizontal one.
+    #[arg(long, value_name = "N|NAME", value_parser = channel)]
+    pub channel: Option<RecordChannel>,
     /// Unit of a text file that names none (g, m/s2, cm/s2, …).
     #[arg(long, value_name = "UNIT")]
     pub units: Option<String>,
-    /// Sample interval [s] of a one-column text file that names none.
-    #[arg(long, value_name = "SECONDS")]
+    /// Sample interval of a text file without a time column that names none, in seconds or with a unit (5ms).
+    #[arg(long, value_name = "TIME", value_parser = interval)]
     pub dt: Option<f64>,
+    /// How the values of a text file stand: a column for each component, or one component row by row.
+    #[arg(long, value_enum)]
+    pub layout: Option<Layout>,
     /// What the values of a text file are.
     #[arg(long, value_enum, default_value = "acceleration")]
     pub quantity: Quantity,
@@ -195,6 +202,15 @@ pub enum Quantity {
     Acceleration,
     /// Displacement.
     Displacement,
+}
+
+/// How the values of a text file stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Layout {
+    /// A column for each component.
+    Columns,
+    /// One component, row by row.
+    Rows,
 }
 
 /// Print the assembled system as JSON, for other solvers.
@@ -384,6 +400,19 @@ fn with_unit(text: &str, unit: &str) -> Result<(), String> {
     match text.trim().parse::<f64>() {
         Ok(_) => Err(format!("the unit is missing: write {}{unit}", text.trim())),
         Err(_) => Ok(()),
+    }
+}
+
+/// A number alone is in seconds.
+fn interval(text: &str) -> Result<f64, String> {
+    text.trim().parse::<f64>().or_else(|_| Time::parse(text).map(Time::si))
+}
+
+/// A number beyond the components of the file may be a name: `360` of `360 deg`.
+fn channel(text: &str) -> Result<RecordChannel, String> {
+    match text.trim() {
+        "" | "0" => Err("allowed: a number from 1, or a name".into()),
+        name => Ok(RecordChannel::Name(name.into())),
     }
 }
 

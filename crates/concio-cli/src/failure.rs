@@ -115,7 +115,7 @@ fn render(error: &InputError) -> String {
 /// The line at fault. None when it cannot be shown; the message stands without it.
 fn excerpt(error: &InputError) -> Option<String> {
     let number = error.line?;
-    let bytes = std::fs::read(error.file.as_ref()?).ok()?;
+    let bytes = concio::files::read_input(error.file.as_ref()?).ok()?;
     let line = bytes.split(|b| *b == b'\n').nth(number.checked_sub(1)?)?;
     let line: Vec<char> = String::from_utf8_lossy(line).trim_end().chars().map(plain).collect();
     let column = error.column.unwrap_or(1).saturating_sub(1).min(line.len());

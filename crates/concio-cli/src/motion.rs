@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use concio::case::{Beam, PulseShape, RecordInput, Signal};
+use concio::Error;
+use concio::case::{Baseline, Beam, PulseShape, RecordInput, Signal};
 use concio::ground::coverage::{Coverage, coverage};
 use concio::ground::record::{self, Record, TextOptions};
-use concio::ground::{measure, process, synthetic};
+use concio::ground::{Measures, channel, measure, process, synthetic};
 use concio::run::Prepared;
 
 use crate::failure::Failure;
-use crate::format::{plain, seconds, significant};
+use crate::format::{plain, seconds, si, significant};
 
 /// Lines that say what moves the wall: names and values.
 type Rows = Vec<(&'static str, String)>;
@@ -46,23 +47,83 @@ fn of_record(
     duration: f64,
 ) -> Result<(), Failure> {
     let path = folder.join(&input.record);
-    let channels = record::read(&path, &TextOptions::from(input))?;
-    let prepared = process::load(input, folder)?;
-    let number = input.channel.unwrap_or(1);
-    let (format, label) = channels.get(number - 1).map_or(("", ""), |r| (r.format.name(), r.channel.as_str()));
-    let channel = format!("channel {number} of {} {label}", channels.len());
-    found.push((name, format!("{}, {format}, {}", path.display(), channel.trim_end())));
-    found.push(("", samples(&prepared)));
-    found.push(("", format!("scale factor {}, {}", significant(factor(input, folder)?, 5), peak(&prepared))));
-    used(found, &prepared, duration);
+    let mut channels = record::read(&path, &TextOptions::from(input))?;
+    let place = channel::choose(&channels, input.channel.as_ref()).map_err(Error::from)?;
+    let count = channels.len();
+    let mut record = channels.swap_remove(place);
+    let label = format!("channel {} of {count} {}", place + 1, record.channel);
+    found.push((name, format!("{}, {}, {}", path.display(), record.format.name(), label.trim_end())));
+    found.extend(record.remarks.iter().map(|remark| ("", remark.to_string())));
+    let steps = steps(input);
+    if !steps.is_empty() {
+        found.push(("", format!("in the file {}, {}", samples(&record), peak(&record))));
+    }
+    for (what, step) in steps {
+        let done = process::prepare(record.clone(), &step)?;
+        found.push(("", format!("{what}: {}", changes(&record, &done))));
+        record = done;
+    }
+    let factor = match input.pga {
+        Some(pga) => pga.si() / measure(&record).pga.value.abs(),
+        None => input.scale.unwrap_or(1.0),
+    };
+    let record = process::prepare(record, &RecordInput { scale: input.scale, pga: input.pga, ..untouched(input) })?;
+    found.push(("", samples(&record)));
+    found.push(("", format!("scale factor {}, {}", significant(factor, 5), peak(&record))));
+    used(found, &record, duration);
     Ok(())
 }
 
-/// What the values are multiplied by.
-fn factor(input: &RecordInput, folder: &Path) -> Result<f64, Failure> {
-    let Some(pga) = input.pga else { return Ok(input.scale.unwrap_or(1.0)) };
-    let unscaled = process::load(&RecordInput { pga: None, scale: None, ..input.clone() }, folder)?;
-    Ok(pga.si() / measure(&unscaled).pga.value.abs())
+/// The record as the file has it.
+fn untouched(input: &RecordInput) -> RecordInput {
+    RecordInput {
+        scale: None,
+        pga: None,
+        trim: None,
+        reverse: false,
+        resample: None,
+        baseline: Baseline::None,
+        ..input.clone()
+    }
+}
+
+/// What is done to the record before it is scaled, in this order, each in words and alone.
+fn steps(input: &RecordInput) -> Vec<(String, RecordInput)> {
+    let mut steps = Vec::new();
+    if let Some([from, to]) = input.trim {
+        let what = format!("trimmed from {} to {}", seconds(from.si()), seconds(to.si()));
+        steps.push((what, RecordInput { trim: input.trim, ..untouched(input) }));
+    }
+    if input.reverse {
+        steps.push(("played backwards".into(), RecordInput { reverse: true, ..untouched(input) }));
+    }
+    let corrected = || RecordInput { baseline: input.baseline, ..untouched(input) };
+    match input.baseline {
+        Baseline::None => {}
+        Baseline::Polynomial(degree) => steps.push((format!("polynomial of degree {degree} taken off"), corrected())),
+        Baseline::HighPass { corner, order } => {
+            steps.push((format!("high-passed at {} Hz, order {order}, both ways", plain(corner.si())), corrected()));
+        }
+    }
+    if let Some(interval) = input.resample {
+        let what = format!("resampled every {}", seconds(interval.si()));
+        steps.push((what, RecordInput { resample: input.resample, ..untouched(input) }));
+    }
+    steps
+}
+
+/// What a step changed: number of samples, peak and end displacement, before and after.
+fn changes(before: &Record, after: &Record) -> String {
+    let (from, to) = (measure(before), measure(after));
+    let arrow = |from: String, to: String| if from == to { from } else { format!("{from} → {to}") };
+    let count = arrow(before.npts().to_string(), after.npts().to_string());
+    let peak = |m: &Measures| significant(m.pga.value.abs(), 4);
+    let end = |m: &Measures| si(m.final_displacement, "m");
+    format!(
+        "{count} samples, PGA {} m/s², end displacement {}",
+        arrow(peak(&from), peak(&to)),
+        arrow(end(&from), end(&to))
+    )
 }
 
 fn samples(record: &Record) -> String {
@@ -90,7 +151,7 @@ pub fn short(signal: &Signal) -> String {
     match signal {
         Signal::Record(input) => {
             let mut text = format!("record {}", input.record.display());
-            if let Some(channel) = input.channel {
+            if let Some(channel) = &input.channel {
                 text += &format!(", channel {channel}");
             }
             text += &match (input.pga, input.scale) {
@@ -118,7 +179,7 @@ fn closed_form(signal: &Signal) -> String {
         Signal::None | Signal::Record(_) | Signal::Synthetic(_) => "at rest".into(),
         Signal::Sine(s) => {
             let size = match (s.amplitude, s.acceleration) {
-                (Some(u), _) => format!("displacement {}", crate::format::si(u.si(), "m")),
+                (Some(u), _) => format!("displacement {}", si(u.si(), "m")),
                 (None, Some(a)) => acceleration(a.si()),
                 (None, None) => String::new(),
             };
@@ -128,7 +189,7 @@ fn closed_form(signal: &Signal) -> String {
         }
         Signal::Ramp(r) => format!(
             "ramp to {} from {} within {}",
-            crate::format::si(r.amplitude.si(), "m"),
+            si(r.amplitude.si(), "m"),
             seconds(r.start.si()),
             seconds(r.rise.si())
         ),
@@ -139,12 +200,12 @@ fn closed_form(signal: &Signal) -> String {
             seconds(t.rise.si())
         ),
         Signal::Path(p) => {
-            let places = p.displacements.iter().map(|u| crate::format::si(u.si(), "m"));
+            let places = p.displacements.iter().map(|u| si(u.si(), "m"));
             let shown: Vec<String> = match p.displacements.len() {
                 0..=6 => places.collect(),
                 many => places.take(5).chain([format!("… ({many} in all)")]).collect(),
             };
-            format!("path to {} at {}", shown.join(", "), crate::format::si(p.speed.si(), "m/s"))
+            format!("path to {} at {}", shown.join(", "), si(p.speed.si(), "m/s"))
         }
         Signal::Pulse(p) => {
             let shape = match p.shape {

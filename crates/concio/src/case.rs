@@ -936,10 +936,9 @@ pub struct RecordInput {
     /// The file, relative to the wall file; its format is found from its content.
     #[serde(serialize_with = "forms::path_as_text")]
     pub record: PathBuf,
-    /// Channel in a file with several, from 1; default 1.
-    #[schemars(range(min = 1))]
+    /// Which component of a file with several; default the first horizontal one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub channel: Option<usize>,
+    pub channel: Option<RecordChannel>,
     /// Factor on the values, of either sign; default 1. Not together with `pga`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
@@ -964,9 +963,31 @@ pub struct RecordInput {
     /// Unit of the values of a CSV/TXT file that does not name one (`"g"`, `"cm/s2"`, `"mm"`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub units: Option<String>,
-    /// Sample interval of a one-column CSV/TXT file that does not name one [s], above 0.
+    /// Sample interval of a CSV/TXT file without a time column that does not name one [s], above 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dt: Option<Time>,
+    /// How the values stand in a CSV/TXT file; default `columns`, unless the file says otherwise (`# layout: rows`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layout: Option<HistoryLayout>,
+}
+
+/// A component of a record: its place in the file from 1, or its name there, of which a word is enough (`"N-S"`, `"Up"`, `"HNE"`).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum RecordChannel {
+    /// Place in the file, from 1.
+    Number(usize),
+    /// The name, or a word of it; upper and lower case are one.
+    Name(String),
+}
+
+/// How the values stand in a text file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum HistoryLayout {
+    /// One column for each component, after a time column or without one.
+    Columns,
+    /// One component without time, row by row: every line goes on where the line before it ends.
+    Rows,
 }
 
 /// What the values of a text history are.

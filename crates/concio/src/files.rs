@@ -1,8 +1,9 @@
 //! Files that are there whole or not at all: written under a temporary name in the same folder, synced, renamed. Names are of their
 //! own, `.NAME.….tmp`, so that any number of programs may write the same file at once; the last one stands.
 
+use std::fmt;
 use std::fs::{self, File};
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 use tempfile::TempPath;
@@ -10,6 +11,54 @@ use tempfile::TempPath;
 use crate::error::{Error, Result};
 
 const ENDING: &str = ".tmp";
+
+/// Longest input file that is read [bytes]: wall files, study files and records alike. A record of ten million samples, as many as a
+/// run keeps, takes half of it at thirteen characters a sample.
+pub const LARGEST_INPUT: u64 = 256 << 20;
+
+/// Why an input file was not read.
+#[derive(Debug)]
+pub enum Unread {
+    /// It is no regular file: reading a pipe or a device may never end.
+    Irregular(&'static str),
+    /// It is longer than [`LARGEST_INPUT`].
+    Large,
+    /// The system's reason.
+    Io(io::Error),
+}
+
+impl fmt::Display for Unread {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unread::Irregular(what) => write!(f, "it is {what}, not a file"),
+            Unread::Large => write!(f, "it is larger than {} MiB", LARGEST_INPUT >> 20),
+            Unread::Io(reason) => write!(f, "{reason}"),
+        }
+    }
+}
+
+/// The bytes of an input file.
+///
+/// # Errors
+/// [`Unread`] for what is no regular file, which is not even opened, for files longer than [`LARGEST_INPUT`], and for those that
+/// the system does not give.
+pub fn read_input(path: &Path) -> std::result::Result<Vec<u8>, Unread> {
+    let kind = fs::metadata(path).map_err(Unread::Io)?;
+    if kind.is_dir() {
+        return Err(Unread::Irregular("a folder"));
+    }
+    if !kind.is_file() {
+        return Err(Unread::Irregular("a pipe or a device"));
+    }
+    if kind.len() > LARGEST_INPUT {
+        return Err(Unread::Large);
+    }
+    let mut bytes = Vec::new();
+    // A file may grow while it is read.
+    let file = File::open(path).map_err(Unread::Io)?;
+    file.take(LARGEST_INPUT + 1).read_to_end(&mut bytes).map_err(Unread::Io)?;
+    if bytes.len() as u64 > LARGEST_INPUT { Err(Unread::Large) } else { Ok(bytes) }
+}
 
 /// Calls `write` with a temporary name and gives the file its name `path` once everything has reached the disk.
 /// A file of that name is replaced.

@@ -199,7 +199,8 @@ fn inputs_hash(case: &Case, folder: &Path) -> Result<String> {
     for (_, signal) in case.motion.signals() {
         if let Signal::Record(input) = signal {
             let path = folder.join(&input.record);
-            parts.push(std::fs::read(&path).map_err(|e| Error::io(&path, e))?);
+            let bytes = files::read_input(&path);
+            parts.push(bytes.map_err(|e| InputError::new(format!("the record cannot be read: {e}")).in_file(&path))?);
         }
     }
     Ok(hash(&parts))

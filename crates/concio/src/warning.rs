@@ -55,6 +55,8 @@ kinds! {
     Drift = "drift",
     /// A record whose unit or interval is hardly that of an earthquake.
     UnlikelyRecord = "unlikely-record",
+    /// A record whose file is at odds with itself.
+    DoubtfulRecord = "doubtful-record",
     /// A run of very many steps.
     LongRun = "long-run",
     /// An energy account that does not close, or contacts that give energy back.

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 use concio::case::{
-    Baseline, DisplacementPath, HistoryQuantity, Pulse, PulseShape, Ramp, RecordInput, Signal, Sine, Sweep, Synthetic,
-    Tilt,
+    Baseline, DisplacementPath, HistoryQuantity, Pulse, PulseShape, Ramp, RecordChannel, RecordInput, Signal, Sine,
+    Sweep, Synthetic, Tilt,
 };
 use concio::ground::process::{self, integrate, prepare};
 use concio::ground::record::{Format, Record, TextOptions, parse};
@@ -24,6 +24,7 @@ fn record(dt: f64, npts: usize, a: impl Fn(f64) -> f64) -> Record {
         station: String::new(),
         event: String::new(),
         channel: String::new(),
+        remarks: Vec::new(),
     }
 }
 
@@ -40,6 +41,7 @@ fn input() -> RecordInput {
         quantity: HistoryQuantity::Acceleration,
         units: None,
         dt: None,
+        layout: None,
     }
 }
 
@@ -693,10 +695,15 @@ fn signals_out_of_range_are_refused() {
     let missing = RecordInput { record: "no such file".into(), ..input() };
     assert!(refused(Signal::Record(missing)).contains("no such file"));
     let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/records");
-    let third = RecordInput { record: "csmip.v2".into(), channel: Some(3), ..input() };
+    let third = RecordInput { record: "csmip.v2".into(), channel: Some(RecordChannel::Number(3)), ..input() };
     assert_eq!(process::load(&third, &base).unwrap().npts(), 150);
-    for channel in [0, 4] {
+    let up = RecordInput { channel: Some(RecordChannel::Name("360 deg".into())), ..third.clone() };
+    assert_eq!(process::load(&up, &base).unwrap(), process::load(&third, &base).unwrap());
+    for channel in [RecordChannel::Number(0), RecordChannel::Number(4), RecordChannel::Name("U-D".into())] {
         let error = process::load(&RecordInput { channel: Some(channel), ..third.clone() }, &base).unwrap_err();
-        assert!(error.to_string().contains("1 … 3"), "{error}");
+        assert!(
+            error.to_string().contains("no channel") && error.to_string().contains("3 `CHAN 3: 360 DEG`"),
+            "{error}"
+        );
     }
 }

@@ -76,6 +76,7 @@ fn a_single_spike_of_a_record_is_not_stepped_over() {
         station: String::new(),
         event: String::new(),
         channel: String::new(),
+        remarks: Vec::new(),
     };
     let model = spring_alone(from_record(&record), 2.0);
     let slope = peak / dt;

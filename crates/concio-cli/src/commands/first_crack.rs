@@ -150,6 +150,7 @@ fn whole(path: &Path) -> RecordInput {
         quantity: case::HistoryQuantity::Acceleration,
         units: None,
         dt: None,
+        layout: None,
     }
 }
 

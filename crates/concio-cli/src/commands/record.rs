@@ -1,14 +1,15 @@
 //! `concio record`.
 
-use concio::case::HistoryQuantity;
-use concio::ground::coverage::{self, DRIFT};
+use concio::Error;
+use concio::case::{HistoryLayout, HistoryQuantity};
+use concio::ground::channel;
+use concio::ground::coverage::{self, DRIFT, OFFSET};
 use concio::ground::process::integrate;
 use concio::ground::record::{self, Format, Record as History, TextOptions};
 use concio::ground::{Measures, Spectrum, measure, response_spectrum};
-use concio::{Error, InputError};
 use serde_json::json;
 
-use crate::args::{Quantity, Record};
+use crate::args::{Layout, Quantity, Record};
 use crate::draw::curves::{self, Curve, Figure};
 use crate::failure::Failure;
 use crate::files;
@@ -31,39 +32,48 @@ pub fn record(args: &Record) -> Result<(), Failure> {
         },
         units: args.units.clone(),
         dt: args.dt,
+        layout: args.layout.map(|layout| match layout {
+            Layout::Columns => HistoryLayout::Columns,
+            Layout::Rows => HistoryLayout::Rows,
+        }),
     };
     let channels = record::read(&args.file, &options).map_err(as_options)?;
-    let number = args.channel.unwrap_or(1) as usize;
-    let Some(history) = channels.get(number - 1) else {
-        let error = InputError::new(format!("the file has no channel {number}")).in_file(&args.file);
-        return Err(error.key("--channel").allowed(format!("1 … {}", channels.len())).into());
-    };
+    let place = channel::choose(&channels, args.channel.as_ref());
+    let place = place.map_err(|error| Error::from(error.in_file(&args.file).key("--channel")))?;
+    let history = &channels[place];
     let (measures, spectrum) = (measure(history), spectrum(history));
     if let Some(path) = &args.svg {
         files::write(path, &drawing(history, &measures, &spectrum))?;
     }
     if args.json {
-        return files::print(&json(history, number, channels.len(), &measures, &spectrum));
+        return files::print(&json(&channels, place, &measures, &spectrum));
     }
-    files::print(&table(history, number, channels.len(), &measures))?;
-    notes(args, history, channels.len());
+    files::print(&table(history, place + 1, channels.len(), &measures))?;
+    notes(args, &channels, place);
     Ok(())
 }
 
 /// What the user may have overlooked.
-fn notes(args: &Record, history: &History, channels: usize) {
+fn notes(args: &Record, channels: &[History], place: usize) {
+    let history = &channels[place];
     if history.format != Format::Text {
-        for (option, given) in [("--units", args.units.is_some()), ("--dt", args.dt.is_some())] {
-            if given {
-                let format = history.format.name();
-                files::note(&format!("note: {option} is not used: {format} files say it themselves"));
-            }
+        let given =
+            [("--units", args.units.is_some()), ("--dt", args.dt.is_some()), ("--layout", args.layout.is_some())];
+        for (option, _) in given.into_iter().filter(|(_, given)| *given) {
+            let format = history.format.name();
+            files::note(&format!("note: {option} is not used: {format} files say it themselves"));
         }
     } else if args.units.as_ref().is_some_and(|units| *units != history.units) {
         files::note(&format!("note: the file names its unit itself: {}", history.units));
     }
-    if channels > 1 && args.channel.is_none() {
-        files::note(&format!("note: the file has {channels} channels; --channel chooses another than the first"));
+    if channels.len() > 1 && args.channel.is_none() {
+        let which =
+            if channel::is_vertical(&history.channel) { "none is horizontal" } else { "the first horizontal one" };
+        let names = channel::names(channels);
+        files::note(&format!("note: channel {} is taken, {which}; --channel chooses of {names}", place + 1));
+    }
+    for remark in &history.remarks {
+        files::note(&format!("note: {remark}"));
     }
     for odd in [coverage::odd_peak(history), coverage::odd_interval(history)].into_iter().flatten() {
         files::note(&format!("warning: {odd}"));
@@ -75,10 +85,15 @@ fn as_options(error: Error) -> Error {
     let Error::Input(mut error) = error else { return error };
     error.help = error.help.take().filter(|help| !help.contains("wall file")).map(|help| {
         help.replace("add `dt = \"0.005 s\"` to the input", "give --dt 0.005")
+            .replace("give the interval (`dt`)", "give --dt")
             .replace("add `units = \"cm/s2\"` to the input", "give --units cm/s2")
+            .replace("add `layout = \"rows\"` to the input", "give --layout rows")
+            .replace("`layout = \"columns\"` in the input", "--layout columns")
+            .replace("`layout = \"columns\"` in the same way", "--layout columns")
             .replace("set `quantity = \"acceleration\"`", "give --quantity acceleration")
             .replace("set `quantity = \"displacement\"`", "give --quantity displacement")
             .replace("leave `dt` out", "leave --dt out")
+            .replace("leave `layout` out", "leave --layout out")
             .replace("leave `units` out", "leave --units out")
     });
     error.what = error.what.replace("s, the input ", "s, --dt ").replace("`, the input `", "`, --units `");
@@ -91,13 +106,31 @@ fn spectrum(history: &History) -> Spectrum {
     response_spectrum(history.dt, &history.acceleration, DAMPING, &periods)
 }
 
-fn json(history: &History, channel: usize, channels: usize, m: &Measures, spectrum: &Spectrum) -> String {
+/// `npts` and `dt` are those of the file; where its steps are unequal, `dt` is their mean and `resampled` what is measured. What is measured
+/// is without the `offset` that the archive's own peak is without.
+fn json(channels: &[History], place: usize, m: &Measures, spectrum: &Spectrum) -> String {
+    let history = &channels[place];
+    let (npts, dt) = history.in_file();
+    let resampled = (npts != history.npts()).then(|| json!({ "npts": history.npts(), "dt": history.dt }));
+    let remarks: Vec<String> = history.remarks.iter().map(ToString::to_string).collect();
+    let names: Vec<&str> = channels.iter().map(|channel| channel.channel.as_str()).collect();
     let value = json!({
-        "npts": history.npts(),
-        "dt": history.dt,
+        "npts": npts,
+        "dt": dt,
+        "duration": history.duration(),
+        "resampled": resampled,
         "pga": m.pga.value.abs(),
+        "pga_signed": m.pga.value,
+        "pga_time": m.pga.time,
+        "mean": m.mean,
+        "pga_without_mean": m.pga_without_mean.value.abs(),
+        "pga_without_mean_signed": m.pga_without_mean.value,
+        "pga_without_mean_time": m.pga_without_mean.time,
+        "offset": history.offset(),
         "pgv": m.pgv.value.abs(),
+        "pgv_time": m.pgv.time,
         "pgd": m.pgd.value.abs(),
+        "pgd_time": m.pgd.time,
         "arias": m.arias,
         "d5_95": m.d5_95,
         "housner": m.housner,
@@ -106,8 +139,10 @@ fn json(history: &History, channel: usize, channels: usize, m: &Measures, spectr
         "station": history.station,
         "event": history.event,
         "component": history.channel,
-        "channel": channel,
-        "channels": channels,
+        "channel": place + 1,
+        "channels": channels.len(),
+        "components": names,
+        "remarks": remarks,
         "final_velocity": m.final_velocity,
         "final_displacement": m.final_displacement,
         "spectrum": {
@@ -124,7 +159,10 @@ fn json(history: &History, channel: usize, channels: usize, m: &Measures, spectr
 fn table(history: &History, channel: usize, channels: usize, m: &Measures) -> String {
     let at = |time: f64| format!("at {}", seconds(time));
     let named = |text: &str| if text.is_empty() { "–".to_string() } else { text.into() };
-    let g = m.pga.value.abs() / concio::ground::STANDARD_GRAVITY;
+    let peak = |peak: concio::ground::Peak| {
+        let g = peak.value.abs() / concio::ground::STANDARD_GRAVITY;
+        format!("{} m/s² = {} g {}", significant(peak.value, 5), significant(g, 4), at(peak.time))
+    };
     let mut text = pairs(&[
         ("format", history.format.name().into()),
         ("event", named(&history.event)),
@@ -134,21 +172,33 @@ fn table(history: &History, channel: usize, channels: usize, m: &Measures) -> St
         ("unit in the file", named(&history.units)),
     ]);
     text.push('\n');
-    text.push_str(&pairs(&[
-        ("PGA", format!("{} m/s² = {} g {}", significant(m.pga.value, 5), significant(g, 4), at(m.pga.time))),
+    let mut rows = vec![("PGA", peak(m.pga))];
+    // Of a displacement history the mean acceleration is none of its own.
+    let has_offset = history.displacement.is_none() && m.mean.abs() > OFFSET * m.pga.value.abs();
+    if has_offset {
+        rows.push(("mean", format!("{} m/s²", significant(m.mean, 4))));
+        rows.push(("PGA without it", peak(m.pga_without_mean)));
+    }
+    rows.extend([
         ("PGV", format!("{} {}", si(m.pgv.value, "m/s"), at(m.pgv.time))),
         ("PGD", format!("{} {}", si(m.pgd.value, "m"), at(m.pgd.time))),
         ("end displacement", si(m.final_displacement, "m")),
         ("Arias intensity", format!("{} m/s", significant(m.arias, 5))),
         ("D5–95", format!("{} s from {} s", significant(m.d5_95, 4), significant(m.t5, 4))),
         ("Housner intensity", format!("{} m", significant(m.housner, 4))),
-    ]));
+    ]);
+    text.push_str(&pairs(&rows));
+    let end = si(m.final_displacement, "m");
     // A displacement that ends far from where it was is drift: the record wants a baseline correction.
-    if m.final_displacement.abs() > DRIFT * m.pgd.value.abs() && m.pgd.value != 0.0 {
+    if let Some(offset) = coverage::offset(history) {
         text.push_str(&format!(
-            "\nThe displacement ends at {}: the record drifts. A baseline correction in the wall file takes it away:\n\
-             baseline = {{ high_pass = \"0.1 Hz\" }}\n",
-            si(m.final_displacement, "m")
+            "\nThe displacement ends at {end}: {offset}.\nA baseline correction in the wall file takes it off: baseline = {{ polynomial = 0 }},\n\
+             and what drift is left as well: baseline = {{ high_pass = \"0.1 Hz\" }}\n"
+        ));
+    } else if m.final_displacement.abs() > DRIFT * m.pgd.value.abs() && m.pgd.value != 0.0 {
+        text.push_str(&format!(
+            "\nThe displacement ends at {end}: the record drifts. A baseline correction in the wall file takes it away:\n\
+             baseline = {{ high_pass = \"0.1 Hz\" }}\n"
         ));
     }
     text

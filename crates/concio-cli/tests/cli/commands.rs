@@ -319,7 +319,7 @@ fn record_asks_for_what_a_column_leaves_unsaid() {
     assert_eq!(json["pga"].as_f64(), Some(0.02));
     desk.put("test.AT2", AT2);
     let refused = desk.concio("record test.AT2 --channel 2").assert().code(2);
-    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("allowed: 1 … 1"));
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("allowed: 1, the only one"));
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod first_crack;
 mod kill;
 mod limit;
 mod messages;
+mod records;
 mod smart;
 mod studies;
 mod study_runs;

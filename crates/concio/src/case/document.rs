@@ -1,6 +1,5 @@
 //! A TOML or JSON file that knows where each of its values stands. Wall files are read from one; so are study files.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
@@ -10,6 +9,7 @@ use super::de;
 use super::node::{Node, Source, parse_json, parse_toml};
 use super::read::{LARGEST_FILE, Syntax, hinted};
 use super::templates::whole;
+use crate::files::{Unread, read_input};
 use crate::{InputError, Result};
 
 /// Said of a file without content.
@@ -30,18 +30,14 @@ impl Document {
     /// nor JSON.
     pub fn open(path: &Path, kind: &str) -> Result<Self> {
         let refuse = |what: String| {
-            let allowed = format!("{kind} in TOML or JSON, UTF-8, up to 256 MiB");
+            let allowed = format!("{kind} in TOML or JSON, UTF-8, up to {} MiB", LARGEST_FILE >> 20);
             InputError::new(what).in_file(path).allowed(allowed)
         };
-        if path.is_dir() {
-            return Err(refuse(format!("is a folder, not {kind}")).into());
-        }
-        let mut bytes = Vec::new();
-        let file = std::fs::File::open(path).map_err(|e| refuse(format!("cannot be read: {e}")))?;
-        file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|e| refuse(format!("cannot be read: {e}")))?;
-        if bytes.len() as u64 > LARGEST_FILE {
-            return Err(refuse(format!("is too large for {kind}")).into());
-        }
+        let bytes = read_input(path).map_err(|e| match e {
+            Unread::Irregular(what) => refuse(format!("is {what}, not {kind}")),
+            Unread::Large => refuse(format!("is too large for {kind}")),
+            Unread::Io(reason) => refuse(format!("cannot be read: {reason}")),
+        })?;
         if [[0xff, 0xfe], [0xfe, 0xff]].iter().any(|mark| bytes.starts_with(mark)) {
             return Err(refuse("is UTF-16 text".into()).help("save it as UTF-8").into());
         }

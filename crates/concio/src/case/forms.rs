@@ -1,4 +1,4 @@
-//! Keys that take a word or a table: `set`, `load.beam`, `motion.base`, `motion.top`, `baseline`.
+//! Keys that take a word or a table: `set`, `load.beam`, `motion.base`, `motion.top`, `baseline`; and `channel`, a number or a name.
 //! Serde's own enum forms would read differently from the documented ones, hence by hand; each writes what it reads.
 
 use std::borrow::Cow;
@@ -255,9 +255,8 @@ struct SignalTable {
     /// its content.
     #[serde(skip_serializing_if = "Option::is_none")]
     record: Option<PathBuf>,
-    /// With `record`: channel in a file with several, from 1; default 1.
-    #[schemars(range(min = 1))]
-    channel: Option<usize>,
+    /// With `record`: which component of a file with several; default the first horizontal one.
+    channel: Option<RecordChannel>,
     /// With `record`: factor on the values; default 1.
     scale: Option<f64>,
     /// With `record`: scale to this peak acceleration, above 0, instead of `scale`.
@@ -274,8 +273,10 @@ struct SignalTable {
     quantity: Option<HistoryQuantity>,
     /// With `record`: unit of the values of a CSV/TXT file that does not name one.
     units: Option<String>,
-    /// With `record`: sample interval of a one-column CSV/TXT file that does not name one [s], above 0.
+    /// With `record`: sample interval of a CSV/TXT file without a time column that does not name one [s], above 0.
     dt: Option<Time>,
+    /// With `record`: how the values stand in a CSV/TXT file, `columns` or `rows`; default columns.
+    layout: Option<HistoryLayout>,
     /// A sine.
     #[serde(skip_serializing_if = "Option::is_none")]
     sine: Option<Sine>,
@@ -313,6 +314,7 @@ impl SignalTable {
             ("quantity", self.quantity.is_some()),
             ("units", self.units.is_some()),
             ("dt", self.dt.is_some()),
+            ("layout", self.layout.is_some()),
         ];
         given.into_iter().find(|(_, given)| *given).map(|(key, _)| key)
     }
@@ -354,6 +356,7 @@ impl Form for Signal {
                     quantity: table.quantity.unwrap_or_default(),
                     units: table.units,
                     dt: table.dt,
+                    layout: table.layout,
                 })
             }),
         ];
@@ -393,6 +396,75 @@ impl JsonSchema for Signal {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let about = "A motion: `none` (at rest), a record from a file, or an analytic signal.";
         word_or_table::<SignalTable>(generator, about, &["none"])
+    }
+}
+
+/// A number from 1 or a name.
+struct ChannelVisitor;
+
+impl Visitor<'_> for ChannelVisitor {
+    type Value = RecordChannel;
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the number of a component, from 1, or its name in quotes")
+    }
+    fn visit_u64<E: de::Error>(self, number: u64) -> Result<RecordChannel, E> {
+        usize::try_from(number)
+            .map(RecordChannel::Number)
+            .map_err(|_| E::invalid_value(de::Unexpected::Unsigned(number), &self))
+    }
+    fn visit_i64<E: de::Error>(self, number: i64) -> Result<RecordChannel, E> {
+        match u64::try_from(number) {
+            Ok(number) => self.visit_u64(number),
+            Err(_) => Err(E::invalid_value(de::Unexpected::Signed(number), &self)),
+        }
+    }
+    /// `2.0` is a whole number too, as it is in JSON Schema.
+    fn visit_f64<E: de::Error>(self, number: f64) -> Result<RecordChannel, E> {
+        if number.fract() == 0.0 && (0.0..9e15).contains(&number) {
+            self.visit_u64(number as u64)
+        } else {
+            Err(E::invalid_value(de::Unexpected::Float(number), &self))
+        }
+    }
+    fn visit_str<E: de::Error>(self, name: &str) -> Result<RecordChannel, E> {
+        Ok(RecordChannel::Name(name.into()))
+    }
+}
+
+impl<'de> Deserialize<'de> for RecordChannel {
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        d.deserialize_any(ChannelVisitor)
+    }
+}
+
+impl Serialize for RecordChannel {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        match self {
+            RecordChannel::Number(number) => number.serialize(s),
+            RecordChannel::Name(name) => name.serialize(s),
+        }
+    }
+}
+
+impl JsonSchema for RecordChannel {
+    fn schema_name() -> Cow<'static, str> {
+        "RecordChannel".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let about =
+            "A component of a record: its place in the file from 1, or its name there, of which a word is enough.";
+        let kinds =
+            [json_schema!({ "type": "integer", "minimum": 1 }), json_schema!({ "type": "string", "minLength": 1 })];
+        json_schema!({ "description": about, "anyOf": kinds })
+    }
+}
+
+impl fmt::Display for RecordChannel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RecordChannel::Number(number) => write!(f, "{number}"),
+            RecordChannel::Name(name) => write!(f, "`{name}`"),
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use crate::warning::Warning;
 use crate::{Error, InputError, Result};
 
 /// Longest wall file that is read [bytes].
-pub const LARGEST_FILE: u64 = 256 << 20;
+pub const LARGEST_FILE: u64 = crate::files::LARGEST_INPUT;
 
 /// Syntax of a wall file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,8 +5,9 @@ use std::path::Path;
 use crate::case::plausible::rounded;
 use crate::case::{Beam, Case, RecordInput, Signal};
 use crate::error::Result;
+use crate::ground::library::Component;
 use crate::ground::record::Record;
-use crate::ground::{Library, measure};
+use crate::ground::{Library, STANDARD_GRAVITY, channel, measure};
 use crate::warning::{Warning, WarningKind};
 
 /// Difference of run and record that does not count, over the length of the record.
@@ -14,6 +15,9 @@ const SLACK: f64 = 1e-6;
 
 /// Displacement at the end of a motion, over its largest, from which it is called drift; `concio record` uses the same.
 pub const DRIFT: f64 = 0.5;
+
+/// Mean of an acceleration over its largest magnitude from which it counts as an offset; `concio record` uses the same.
+pub const OFFSET: f64 = 0.01;
 
 /// Displacement [m] at the end of a motion below which nobody minds.
 const SMALLEST_DRIFT: f64 = 0.01;
@@ -62,6 +66,9 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                     unchosen(name, input, folder, library)?.map(|t| Warning::new(WarningKind::UnchosenChannel, t)),
                 );
                 let record = library.record(input, folder)?;
+                let doubtful = record.remarks.iter().filter(|remark| remark.is_doubtful());
+                let doubtful = doubtful.map(|remark| format!("motion.{name}, of the record: {remark}"));
+                found.extend(doubtful.map(|text| Warning::new(WarningKind::DoubtfulRecord, text)));
                 found.extend(uncovered(place, "record", &record, duration));
                 found.extend(drifting(place, &record).map(|text| Warning::new(WarningKind::Drift, text)));
                 let look = ": look at `units`, `scale` and `pga`";
@@ -79,17 +86,28 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
     Ok(found)
 }
 
+/// Says which component is taken where none is chosen of several, and whether one of the other direction is taken.
 fn unchosen(name: &str, input: &RecordInput, folder: &Path, library: &Library) -> Result<Option<String>> {
-    if input.channel.is_some() {
-        return Ok(None);
-    }
-    let channels = library.channels(input, folder)?;
-    let warning = || {
-        format!(
-            "motion.{name}: the record has {channels} channels and none is chosen: the first is taken (`channel = 1`)"
-        )
+    let Component { number, names } = library.component(input, folder)?;
+    let label = |number: usize| match names[number - 1].as_str() {
+        "" => format!("channel {number}"),
+        label => format!("channel {number} `{label}`"),
     };
-    Ok((channels > 1).then(warning))
+    let is_vertical = channel::is_vertical(&names[number - 1]);
+    let upright = name == "vertical";
+    if input.channel.is_none() && names.len() > 1 {
+        let which = if is_vertical { "none of them horizontal" } else { "the first horizontal one" };
+        let other = (1..=names.len()).find(|k| upright && channel::is_vertical(&names[k - 1]));
+        let advice = other.map_or(String::new(), |k| format!("; the vertical one is {} (`channel = {k}`)", label(k)));
+        let taken = label(number);
+        return Ok(Some(format!(
+            "motion.{name}: the record has {} channels and none is chosen: {taken} is taken, {which} (`channel = {number}`){advice}",
+            names.len()
+        )));
+    }
+    // What is chosen of several is chosen; a file of one component may be the wrong one.
+    Ok((is_vertical && !upright && names.len() == 1)
+        .then(|| format!("motion.{name}: the record's only component is a vertical one by its name, `{}`", names[0])))
 }
 
 /// A motion is judged as it moves the wall, after `trim`, `baseline` and scaling: `concio record` sees only the file. A
@@ -100,12 +118,37 @@ fn drifting(name: &str, record: &Record) -> Option<String> {
     }
     let m = measure(record);
     let (end, peak) = (m.final_displacement, m.pgd.value.abs());
-    (end.abs() > DRIFT * peak && end.abs() > SMALLEST_DRIFT).then(|| {
+    if !(end.abs() > DRIFT * peak && end.abs() > SMALLEST_DRIFT) {
+        return None;
+    }
+    let (end, peak) = (1e3 * end, 1e3 * peak);
+    let why = match offset(record) {
+        Some(offset) => format!(
+            "{offset}; `baseline = {{ polynomial = 0 }}` takes it off, `{{ high_pass = \"0.1 Hz\" }}` what drift is left as well"
+        ),
+        None => format!(
+            "`baseline = {{ high_pass = \"0.1 Hz\" }}` takes that away and hardly touches the acceleration, whose mean is {} m/s²",
+            rounded(m.mean, 2)
+        ),
+    };
+    Some(format!(
+        "the motion of the {name} as processed drifts: its displacement ends at {end:.0} mm, its largest is {peak:.0} mm; {why}"
+    ))
+}
+
+/// Says of an acceleration whose mean is no rounding that it has an offset, and what that does: a constant push for as long as the record
+/// lasts, which the peak holds too. None for displacement histories.
+pub fn offset(record: &Record) -> Option<String> {
+    let m = measure(record);
+    let (mean, peak) = (m.mean, m.pga.value.abs());
+    (record.displacement.is_none() && mean.abs() > OFFSET * peak).then(|| {
+        let [mean_g, without] = [mean.abs() / STANDARD_GRAVITY, m.pga_without_mean.value.abs()].map(|v| rounded(v, 3));
         format!(
-            "the motion of the {name} as processed drifts: its displacement ends at {:.0} mm, its largest is {:.0} mm; \
-             `baseline = {{ high_pass = \"0.1 Hz\" }}` takes that away (the acceleration is hardly touched)",
-            1e3 * end,
-            1e3 * peak
+            "its acceleration stands on an offset, a mean of {} m/s² ({mean_g} g, {} % of its peak), which pushes one way throughout and is \
+             part of the peak of {} m/s² (without it {without} m/s²)",
+            rounded(mean, 3),
+            rounded(100.0 * mean.abs() / peak, 2),
+            rounded(peak, 4),
         )
     })
 }
@@ -175,6 +218,7 @@ mod tests {
             station: String::new(),
             event: String::new(),
             channel: String::new(),
+            remarks: Vec::new(),
         }
     }
 

@@ -1,79 +1,142 @@
-//! CSMIP volume 2: per channel 25 text lines, 100 integers (16I5), 100 reals (8F10.3), then acceleration, velocity
-//! and displacement, each announced by a line such as
-//! ` 3251 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)`.
+//! CSMIP volume 2: per channel 25 text lines, 100 integers (16I5), 100 reals (8F10.3), then acceleration, velocity and displacement, each
+//! announced by a line such as
+//!
+//! - ` 3251 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)` (1980s and 1990s),
+//! - `  7500 points of accel data equally spaced at  .010 sec, in cm/sec2. (8f10.6)` (since 2012),
+//! - `  1887 POINTS OF ACC DATA EQUALLY SPACED AT   .020 SEC.  IN UNITS CM/SEC/SEC` (Caltech and USC).
+//!
 //! Fields are ten characters wide and need not be separated. Velocity and displacement are passed over: the engine
-//! integrates the acceleration itself, so that the three agree.
+//! integrates the acceleration itself, so that the three agree. Where the header says that they follow, they must be there.
 
 use crate::Result;
-use crate::case::HistoryQuantity;
 use crate::ground::record::{Format as FileFormat, Raw, Record, finish};
-use crate::ground::source::{Format, Source, count, fixed_block, leading_number};
+use crate::ground::source::{
+    CUT, Format, Source, after, count, fixed_block, fixed_fields, fortran_format, leading_number, refuse_cut_mark,
+    refuse_more, unreadable, words,
+};
 
 const SAMPLES: Format = Format { per_line: 8, width: 10 };
-/// Lines in which the first announcement is looked for: 25 + 7 + 13 and some to spare.
+/// Lines in which the announcement of a channel is looked for: 25 + 7 + 13 and some to spare.
 const HEADER: usize = 80;
+const TEXT_LINES: usize = 25;
+/// The blocks, and the places of the counts of velocity and displacement among the integers, from 0.
+const BLOCKS: [(&str, usize); 2] = [("VEL", 63), ("DIS", 65)];
 
+/// An announcement, or the titles of both volumes where that is damaged.
 pub(super) fn is_format(source: &Source) -> bool {
-    source.head(HEADER).any(|(_, line)| is_announcement(line))
+    let title = |line: usize, mark: &str| source.line(line).trim_start().to_ascii_uppercase().starts_with(mark);
+    let titles = title(0, "CORRECTED ACCELEROGRAM") && (title(1, "UNCORRECTED ACCELEROGRAM") || title(1, "FILE"));
+    let uncorrected = source.line(0).to_ascii_uppercase().contains("UNCORRECTED");
+    titles || (!uncorrected && source.head(HEADER).any(|(_, line)| is_announcement(line, "ACC")))
 }
 
 pub(super) fn read(source: &Source) -> Result<Vec<Record>> {
-    let announcements = source.lines.iter().enumerate().filter(|(_, line)| is_announcement(line));
-    announcements.map(|(index, line)| channel(source, index, line)).collect()
-}
-
-fn is_announcement(line: &str) -> bool {
-    line.to_ascii_uppercase().contains("POINTS OF ACCEL DATA")
-}
-
-fn channel(source: &Source, index: usize, line: &str) -> Result<Record> {
-    let upper = line.to_ascii_uppercase();
-    let bad = |key: &'static str, allowed: &'static str| {
-        source.error_at(index, "the announcement of the samples is incomplete").key(key).allowed(allowed)
-    };
-    let declared = upper.split_whitespace().next().and_then(count);
-    let declared = declared.ok_or_else(|| bad("POINTS", "a whole number from 2"))?;
-    let dt = after(&upper, "SPACED AT").and_then(leading_number);
-    let dt = dt.ok_or_else(|| bad("SPACED AT", "a time in seconds"))?;
-    let units = after(&upper, "UNITS:").unwrap_or("").split(')').next().unwrap_or("").trim().to_owned();
-    let (values, end) = fixed_block(source, index + 1, declared, SAMPLES, "POINTS OF ACCEL DATA")?;
-    let next = source.line(end);
-    if !next.trim().is_empty() && !next.bytes().any(|b| b.is_ascii_alphabetic()) {
-        return Err(source
-            .error_at(end, format!("more samples than the {declared} that the header declares"))
-            .key("POINTS OF ACCEL DATA")
-            .into());
+    let (mut records, mut line) = (Vec::new(), 0);
+    while let Some(start) = source.next_channel(line) {
+        let (record, end) = channel(source, start, records.len() + 1)?;
+        refuse_cut_mark(source, end)?;
+        records.push(record);
+        line = end;
     }
-    let start = title(source, index);
-    finish(
+    Ok(records)
+}
+
+fn is_announcement(line: &str, block: &str) -> bool {
+    let upper = line.to_ascii_uppercase();
+    let of = upper.find("POINTS OF ").map(|at| &upper[at + "POINTS OF ".len()..]);
+    of.is_some_and(|rest| rest.starts_with(block) && rest.contains(" DATA EQUALLY SPACED"))
+}
+
+/// The channel whose header begins at line `start`, and the line behind it.
+fn channel(source: &Source, start: usize, place: usize) -> Result<(Record, usize)> {
+    let end_of_header = source.lines.len().min(start + HEADER);
+    let index = (start..end_of_header).find(|line| is_announcement(source.line(*line), "ACC"));
+    let index = index.ok_or_else(|| {
+        let what = format!("the header of channel {place} is not followed by `POINTS OF ACCEL DATA`");
+        source.error_at(end_of_header - 1, what).key("POINTS OF ACCEL DATA").help(CUT)
+    })?;
+    let line = source.line(index);
+    let dt = after(line, "spaced at").and_then(leading_number);
+    let dt = dt.ok_or_else(|| unreadable(source, index, "SPACED AT", "a time in seconds"))?;
+    let (values, mut end) = block(source, index)?;
+    for (name, place) in BLOCKS {
+        if is_announcement(source.line(end), name) {
+            (_, end) = block(source, end)?;
+        } else if is_promised(source, start, index, place) {
+            let what =
+                format!("the header promises velocity and displacement, and no `POINTS OF {name}… DATA` follows");
+            return Err(source.error_at(end.min(source.lines.len() - 1), what).help(CUT).into());
+        }
+    }
+    let record = finish(
         source,
         Raw {
-            format: FileFormat::CsmipV2,
-            quantity: HistoryQuantity::Acceleration,
             dt,
             values,
-            units,
+            units: units(line),
             station: words(source.line(start + 6)),
             event: words(source.line(start + 8)),
             channel: words(source.line(start + 7)),
             dt_line: index,
             units_line: index,
             data_line: index + 1,
+            ..Raw::of(FileFormat::CsmipV2)
         },
-    )
+    )?;
+    Ok((record, end))
 }
 
-/// The first line of the channel's header: the last `CORRECTED ACCELEROGRAM` before its samples.
-fn title(source: &Source, announcement: usize) -> usize {
-    let is_title = |line: &str| line.trim_start().to_ascii_uppercase().starts_with("CORRECTED ACCEL");
-    let range = announcement.saturating_sub(HEADER)..announcement;
-    range.rev().find(|index| is_title(source.line(*index))).unwrap_or(announcement.saturating_sub(45))
+/// The numbers that line `index` announces, and the line behind them.
+fn block(source: &Source, index: usize) -> Result<(Vec<f64>, usize)> {
+    const KEY: &str = "POINTS OF … DATA";
+    let line = source.line(index);
+    let declared = line.split_whitespace().next().and_then(count);
+    let declared = declared.ok_or_else(|| unreadable(source, index, KEY, "a whole number from 2"))?;
+    let format = line.rsplit_once('(').and_then(|(_, format)| fortran_format(format)).unwrap_or(SAMPLES);
+    let (values, end) = fixed_block(source, index + 1, declared, format, KEY)?;
+    refuse_more(source, end, declared, KEY)?;
+    Ok((values, end))
 }
 
-fn after<'a>(line: &'a str, key: &str) -> Option<&'a str> {
-    line.find(key).map(|at| &line[at + key.len()..])
+/// Whether the header says that velocity and displacement follow: by their counts, or in words.
+fn is_promised(source: &Source, start: usize, announcement: usize, place: usize) -> bool {
+    let integers =
+        (start + TEXT_LINES..announcement).flat_map(|line| fixed_fields(source.line(line), 5).unwrap_or_default());
+    let counted = integers.take(100).nth(place).and_then(count).is_some_and(|count| count > 1);
+    let said = (start..announcement.min(start + TEXT_LINES)).any(|line| {
+        let upper = source.line(line).to_ascii_uppercase();
+        upper.contains("VELOC") && upper.contains("DISPL") && upper.contains("DATA")
+    });
+    counted || said
 }
 
-fn words(line: &str) -> String {
-    line.split_whitespace().collect::<Vec<_>>().join(" ")
+/// The unit that an announcement names: in brackets, behind `IN UNITS`, or behind `, in`.
+fn units(line: &str) -> String {
+    let in_brackets = after(line, "units:").and_then(|rest| rest.split(')').next());
+    let in_words =
+        || after(line, "in units").or_else(|| after(line, ", in ")).and_then(|rest| rest.split(['(']).next());
+    let unit = in_brackets.or_else(in_words).unwrap_or("");
+    unit.trim().trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_of_all_times() {
+        for (line, unit) in [
+            (" 3251 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)", "CM/SEC/SEC"),
+            ("  7500 points of accel data equally spaced at  .010 sec, in cm/sec2. (8f10.6)    ", "cm/sec2"),
+            (" 12000 points of accel data equally spaced at  .005 sec, in cm/sec2.", "cm/sec2"),
+            ("  1887 POINTS OF ACC DATA EQUALLY SPACED AT   .020 SEC.  IN UNITS CM/SEC/SEC", "CM/SEC/SEC"),
+        ] {
+            assert_eq!(units(line), unit, "{line}");
+            assert!(is_announcement(line, "ACC") && !is_announcement(line, "VEL"));
+        }
+        assert!(!is_announcement(
+            "  7500 points of instrument- and baseline-corrected accel, veloc and displ data ",
+            "ACC"
+        ));
+    }
 }

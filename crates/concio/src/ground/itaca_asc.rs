@@ -1,9 +1,9 @@
-//! ITACA and ESM (`.ASC`): `KEY: value` lines (64 of them in DYNA 1.2), then one sample a line.
+//! ITACA, ESM and AFAD (`.ASC`): `KEY: value` lines (64 of them in DYNA 1.2), then one sample a line.
 
+use crate::Result;
 use crate::case::HistoryQuantity;
 use crate::ground::record::{Format, Raw, Record, finish};
-use crate::ground::source::{Source, count, not_a_number, number};
-use crate::{InputError, Result};
+use crate::ground::source::{Source, count, missing, not_a_number, number, unreadable};
 
 /// Lines in which the header is looked for.
 const HEADER: usize = 200;
@@ -14,9 +14,9 @@ pub(super) fn is_format(source: &Source) -> bool {
 
 pub(super) fn read(source: &Source) -> Result<Record> {
     let (npts_line, npts) = required(source, "NDATA")?;
-    let declared = count(npts).ok_or_else(|| bad(source, npts_line, "NDATA", "a whole number from 2"))?;
+    let declared = count(npts).ok_or_else(|| unreadable(source, npts_line, "NDATA", "a whole number from 2"))?;
     let (dt_line, dt) = required(source, "SAMPLING_INTERVAL_S")?;
-    let dt = number(dt).ok_or_else(|| bad(source, dt_line, "SAMPLING_INTERVAL_S", "a time in seconds"))?;
+    let dt = number(dt).ok_or_else(|| unreadable(source, dt_line, "SAMPLING_INTERVAL_S", "a time in seconds"))?;
     let (units_line, units) = required(source, "UNITS")?;
     let quantity = quantity(source)?;
     let data_line = header_end(source);
@@ -27,7 +27,6 @@ pub(super) fn read(source: &Source) -> Result<Record> {
     finish(
         source,
         Raw {
-            format: Format::ItacaAsc,
             quantity,
             dt,
             values,
@@ -38,6 +37,7 @@ pub(super) fn read(source: &Source) -> Result<Record> {
             dt_line,
             units_line,
             data_line,
+            ..Raw::of(Format::ItacaAsc)
         },
     )
 }
@@ -51,7 +51,7 @@ fn find<'a>(source: &Source<'a>, key: &str) -> Option<(usize, &'a str)> {
 }
 
 fn required<'a>(source: &Source<'a>, key: &'static str) -> Result<(usize, &'a str)> {
-    find(source, key).ok_or_else(|| source.error(format!("the header has no {key}")).key(key).into())
+    find(source, key).ok_or_else(|| missing(source, header_end(source), key).into())
 }
 
 fn text<'a>(source: &Source<'a>, key: &str) -> &'a str {
@@ -64,15 +64,12 @@ fn joined(source: &Source, keys: [&str; 2], between: &str) -> String {
     named.join(between)
 }
 
-fn bad(source: &Source, line: usize, key: &'static str, allowed: &'static str) -> InputError {
-    let shown: String = source.line(line).trim().chars().take(60).collect();
-    source.error_at(line, format!("`{shown}` gives no such number")).key(key).allowed(allowed)
-}
-
 fn quantity(source: &Source) -> Result<HistoryQuantity> {
     match find(source, "DATA_TYPE") {
-        None | Some((_, "ACCELERATION" | "")) => Ok(HistoryQuantity::Acceleration),
-        Some((_, "DISPLACEMENT")) => Ok(HistoryQuantity::Displacement),
+        None | Some((_, "")) => Ok(HistoryQuantity::Acceleration),
+        // `UNPROCESSED ACCELERATION` too.
+        Some((_, kind)) if kind.ends_with("ACCELERATION") => Ok(HistoryQuantity::Acceleration),
+        Some((_, kind)) if kind.ends_with("DISPLACEMENT") => Ok(HistoryQuantity::Displacement),
         Some((line, other)) => {
             let shown: String = other.chars().take(40).collect();
             let error = source.error_at(line, format!("a history of `{shown}` is not read")).key("DATA_TYPE");
@@ -94,6 +91,7 @@ fn samples(source: &Source, start: usize) -> Result<Vec<f64>> {
         for field in line.split_whitespace() {
             values.push(number(field).ok_or_else(|| not_a_number(source, index, field))?);
         }
+        source.room(index, values.len())?;
     }
     Ok(values)
 }

@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use crate::Result;
 use crate::case::{RecordInput, Synthetic};
 use crate::ground::record::{Record, TextOptions, read};
-use crate::ground::{process, synthetic};
+use crate::ground::{channel, process, synthetic};
 use crate::quantity::Acceleration;
-use crate::{InputError, Result};
 
 /// Samples that are kept at most, 8 bytes each; what comes later is made anew for every run.
 const MOST_SAMPLES: usize = 50_000_000;
@@ -37,8 +37,18 @@ enum Key {
 struct Shelved {
     /// Before it is scaled.
     record: Record,
-    /// In its file.
-    channels: usize,
+    /// The names of the components in its file, and the place of this one among them, from 0.
+    channels: Vec<String>,
+    place: usize,
+}
+
+/// What a file holds beside the component that is taken of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Component {
+    /// Its number, from 1.
+    pub number: usize,
+    /// The names of all components in the file; empty where it names none.
+    pub names: Vec<String>,
 }
 
 impl Library {
@@ -52,12 +62,13 @@ impl Library {
         Ok(record)
     }
 
-    /// Number of channels in the file that `input` names.
+    /// Which component of its file `input` takes.
     ///
     /// # Errors
     /// As [`Library::record`].
-    pub fn channels(&self, input: &RecordInput, folder: &Path) -> Result<usize> {
-        Ok(self.of_file(input, folder)?.channels)
+    pub fn component(&self, input: &RecordInput, folder: &Path) -> Result<Component> {
+        let shelved = self.of_file(input, folder)?;
+        Ok(Component { number: shelved.place + 1, names: shelved.channels.clone() })
     }
 
     /// The accelerogram of `input` ([`synthetic::generate`]).
@@ -69,7 +80,8 @@ impl Library {
         // A shape fits every PGA: spectrum and motion are proportional to it.
         let shape = Synthetic { pga: Acceleration::from_si(1.0), ..*input };
         let key = Key::Synthetic(format!("{shape:?}"));
-        let shelved = self.shelved(key, || Ok(Shelved { record: synthetic::generate(&shape)?, channels: 1 }))?;
+        let shelved =
+            self.shelved(key, || Ok(Shelved { record: synthetic::generate(&shape)?, channels: Vec::new(), place: 0 }))?;
         let mut record = shelved.record.clone();
         record.acceleration.iter_mut().for_each(|a| *a *= input.pga.si());
         Ok(record)
@@ -81,15 +93,15 @@ impl Library {
         let key = Key::Record(path.clone(), format!("{plain:?}"));
         self.shelved(key, || {
             let mut records = read(&path, &TextOptions::from(input))?;
-            let (channel, channels) = (input.channel.unwrap_or(1), records.len());
-            if !(1..=channels).contains(&channel) {
-                let what = format!("{} has no channel {channel}", path.display());
-                let allowed = if channels == 1 { "1, the only one".into() } else { format!("1 … {channels}") };
-                return Err(InputError::new(what).key("channel").allowed(allowed).into());
-            }
-            let mut record = records.swap_remove(channel - 1);
+            // The file is in order: what is wrong is the key of the wall file.
+            let place = channel::choose(&records, input.channel.as_ref()).map_err(|mut error| {
+                error.what = error.what.replace("the file", &path.display().to_string());
+                error
+            })?;
+            let channels = records.iter().map(|record| record.channel.clone()).collect();
+            let mut record = records.swap_remove(place);
             process::correct(&mut record, input).map_err(|e| in_file(e, &path))?;
-            Ok(Shelved { record, channels })
+            Ok(Shelved { record, channels, place })
         })
     }
 
@@ -169,7 +181,8 @@ mod tests {
         write("nothing")?;
         let scaled = library.record(&read(", \"scale\": -3"), folder.path())?;
         assert_eq!(scaled.acceleration, plain.acceleration.iter().map(|a| -3.0 * a).collect::<Vec<_>>());
-        assert_eq!(library.channels(&read(""), folder.path())?, 1);
+        let component = Component { number: 1, names: vec!["a".into()] };
+        assert_eq!(library.component(&read(""), folder.path())?, component);
         // What differs by more than a scale is another record, and this file has none.
         assert!(library.record(&read(", \"reverse\": true"), folder.path()).is_err());
         Ok(())

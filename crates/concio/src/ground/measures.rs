@@ -31,6 +31,10 @@ pub struct Peak {
 pub struct Measures {
     /// Peak ground acceleration [m/s²].
     pub pga: Peak,
+    /// Mean of the acceleration over the samples [m/s²].
+    pub mean: f64,
+    /// Peak of the acceleration without its mean [m/s²].
+    pub pga_without_mean: Peak,
     /// Peak ground velocity at the samples [m/s].
     pub pgv: Peak,
     /// Peak ground displacement at the samples [m], counted from where the motion starts.
@@ -60,8 +64,11 @@ pub fn measure(record: &Record) -> Measures {
         }),
     };
     let (arias, [t5, t95]) = arias(dt, a);
+    let mean = a.iter().sum::<f64>() / a.len().max(1) as f64;
     Measures {
         pga: peak(dt, a),
+        mean,
+        pga_without_mean: peak_about(mean, dt, a),
         pgv: peak(dt, &v),
         pgd: peak(dt, &u),
         arias,
@@ -75,8 +82,14 @@ pub fn measure(record: &Record) -> Measures {
 
 /// The sample of largest magnitude, the first of equals.
 pub fn peak(dt: f64, values: &[f64]) -> Peak {
+    peak_about(0.0, dt, values)
+}
+
+/// The sample farthest from `middle`, counted from there.
+fn peak_about(middle: f64, dt: f64, values: &[f64]) -> Peak {
     let mut peak = Peak::default();
     for (k, &value) in values.iter().enumerate() {
+        let value = value - middle;
         if value.abs() > peak.value.abs() {
             peak = Peak { value, time: k as f64 * dt };
         }

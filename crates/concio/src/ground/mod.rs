@@ -4,6 +4,7 @@
 //! Path of a record: [`record::read`] → [`process::prepare`] → [`measures`], or → [`signal::compile`]. Runs that share
 //! records get them from a [`Library`].
 
+pub mod channel;
 pub mod coverage;
 pub mod library;
 pub mod measures;
@@ -12,21 +13,30 @@ pub mod record;
 pub mod signal;
 pub mod synthetic;
 
-mod cosmos_v2;
+mod cosmos;
 mod csmip_v2;
+mod cwb;
+mod geonet;
 mod itaca_asc;
+mod knet;
+mod knet_csv;
+mod nsmn;
 mod peer_at2;
 mod pieces;
+mod remark;
+mod resemblance;
 mod source;
 mod spectrum;
 mod spline;
 mod text;
+mod unam_asa;
 mod units;
 mod usgs_smc;
+mod volume_1;
 
 pub use library::Library;
 pub use measures::{Measures, Peak, measure};
-pub use record::{Format, Record, TextOptions};
+pub use record::{Format, Record, Remark, TextOptions};
 pub use signal::{GroundMotion, Kinematics, Segment, compile};
 pub use spectrum::{Spectrum, response_spectrum};
 pub use units::STANDARD_GRAVITY;

@@ -30,6 +30,7 @@ pub(super) fn read(source: &Source) -> Result<Record> {
         for field in free_fields(line) {
             values.push(number(field).ok_or_else(|| not_a_number(source, index, field))?);
         }
+        source.room(index, values.len())?;
     }
     if header.npts != values.len() as u64 {
         return Err(source.count_error(header.npts_line, "NPTS", header.npts, values.len()).into());
@@ -37,17 +38,14 @@ pub(super) fn read(source: &Source) -> Result<Record> {
     finish(
         source,
         Raw {
-            format: Format::PeerAt2,
-            quantity: HistoryQuantity::Acceleration,
             dt: header.dt,
             values,
             units,
-            station: String::new(),
             event: source.line(1).trim().to_owned(),
-            channel: String::new(),
             dt_line: header.dt_line,
             units_line,
             data_line: header.end,
+            ..Raw::of(Format::PeerAt2)
         },
     )
 }

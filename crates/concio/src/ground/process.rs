@@ -11,13 +11,11 @@ use sci_rs::signal::filter::sosfiltfilt_dyn;
 
 use crate::case::{Baseline, RecordInput};
 use crate::ground::Library;
-use crate::ground::record::{Record, interval_error};
+use crate::ground::record::{MOST_SAMPLES, Record, interval_error};
 use crate::ground::spline::{self, Ends};
 use crate::quantity::shown;
 use crate::{InputError, Result};
 
-/// Most samples that resampling makes.
-const MOST_SAMPLES: f64 = 1e8;
 /// Order of the low-pass before coarsening, and its corner over the new Nyquist frequency.
 const ANTI_ALIAS: (usize, f64) = (8, 0.8);
 /// Zeros before and behind a record while it is high-passed, over order/corner; Boore (2005) asks for half of it.
@@ -240,16 +238,16 @@ fn butterworth(values: &[f64], dt: f64, corner: f64, order: usize, band: FilterB
 /// A displacement history is interpolated by its spline.
 ///
 /// # Errors
-/// [`InputError`] when the interval is out of range or leaves fewer than two or more than 1e8 samples.
+/// [`InputError`] when the interval is out of range or leaves fewer than two or more than [`MOST_SAMPLES`] samples.
 pub fn resample(record: &mut Record, dt: f64) -> Result<()> {
     if let Some(error) = interval_error(dt) {
         return Err(error.key("resample").into());
     }
     let last = (record.duration() / dt + SLACK).floor();
-    if !(1.0..MOST_SAMPLES).contains(&last) {
+    if !(1.0..MOST_SAMPLES as f64).contains(&last) {
         let error =
             InputError::new(format!("interval {} s makes {} samples", shown(dt), shown(last + 1.0))).key("resample");
-        return Err(error.allowed(format!("2 … {MOST_SAMPLES:e} samples")).into());
+        return Err(error.allowed(format!("2 … {MOST_SAMPLES} samples")).into());
     }
     if record.displacement.is_none() && dt > record.dt * (1.0 + SLACK) {
         let corner = ANTI_ALIAS.1 * 0.5 / dt;

@@ -2,21 +2,32 @@
 
 use std::path::Path;
 
+use crate::ground::record::MOST_SAMPLES;
 use crate::{InputError, Result};
+
+/// The end of a file under DOS and CP/M, which fill the rest of it with the same, or with anything.
+const END_OF_FILE: char = '\u{1a}';
+/// Longest part of a header line that is looked at [bytes]: what follows is no header, and a file may be one line.
+const LONGEST_HEADER_LINE: usize = 1 << 14;
 
 /// A file in memory. Lines are counted from 0 here and from 1 in messages.
 pub(super) struct Source<'a> {
     pub path: &'a Path,
     pub lines: Vec<&'a str>,
+    /// Line in which text goes on behind the end-of-file mark; where there is one, what stands before it is the file.
+    pub behind_mark: Option<usize>,
 }
 
 impl<'a> Source<'a> {
     /// Cuts the text at line feeds; carriage returns before them (one, or two as in some archives) are dropped.
     /// A file without any line feed is cut at carriage returns.
     pub fn new(path: &'a Path, text: &'a str) -> Self {
-        let end = if text.contains('\n') { '\n' } else { '\r' };
-        let lines = text.split(end).map(|line| line.trim_end_matches('\r')).collect();
-        Source { path, lines }
+        let (text, rest) = text.split_once(END_OF_FILE).unwrap_or((text, ""));
+        let end = line_end(text);
+        let lines: Vec<&str> = text.split(end).map(|line| line.trim_end_matches('\r')).collect();
+        let is_padding = |c: char| c == END_OF_FILE || c == '\0' || c.is_whitespace();
+        let behind_mark = (!rest.chars().all(is_padding)).then(|| lines.len() - 1);
+        Source { path, lines, behind_mark }
     }
 
     /// A line, empty beyond the end of the file.
@@ -24,9 +35,19 @@ impl<'a> Source<'a> {
         self.lines.get(index).copied().unwrap_or("")
     }
 
-    /// The first lines.
+    /// The first lines, none longer than a header line.
     pub fn head(&self, count: usize) -> impl Iterator<Item = (usize, &'a str)> {
-        self.lines.iter().copied().enumerate().take(count)
+        self.lines.iter().copied().map(header_part).enumerate().take(count)
+    }
+
+    /// The first line from `line` on that is neither blank nor the mark of an end of channel: where the next channel begins.
+    pub fn next_channel(&self, line: usize) -> Option<usize> {
+        let is_end = |text: &str| text.starts_with("/&") || text.to_ascii_lowercase().starts_with("end-of-data");
+        let starts = |text: &&str| {
+            let text = header_part(text.trim_start());
+            !text.is_empty() && !is_end(text)
+        };
+        self.lines.iter().skip(line).position(starts).map(|k| line + k)
     }
 
     /// An error in this file.
@@ -46,11 +67,47 @@ impl<'a> Source<'a> {
             .key(key)
             .allowed("equal counts");
         if declared > found as u64 {
-            error.help("the file was cut off: fetch it again")
+            error.help(CUT)
         } else {
             error.help("the file was changed after it was written: fetch it again")
         }
     }
+
+    /// The error of a file with more samples than are read, if `found` are; `line` is the last one.
+    pub fn room(&self, line: usize, found: usize) -> Result<()> {
+        if found <= MOST_SAMPLES {
+            return Ok(());
+        }
+        let error = self.error_at(line, format!("the file holds more than {MOST_SAMPLES} samples"));
+        Err(error.allowed(format!("up to {MOST_SAMPLES} samples, as many as a run keeps")).into())
+    }
+}
+
+/// Said of a file whose end is missing.
+pub(super) const CUT: &str = "the file was cut off: fetch it again";
+
+/// What parts the lines of a text.
+pub(super) fn line_end(text: &str) -> char {
+    if text.contains('\n') { '\n' } else { '\r' }
+}
+
+/// The beginning of a line, as long as headers are.
+fn header_part(line: &str) -> &str {
+    let mut end = line.len().min(LONGEST_HEADER_LINE);
+    while !line.is_char_boundary(end) {
+        end -= 1;
+    }
+    &line[..end]
+}
+
+/// Words with one blank between them.
+pub(super) fn words(line: &str) -> String {
+    line.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// What follows `key`, in upper or lower case; the key is given in lower case.
+pub(super) fn after<'a>(line: &'a str, key: &str) -> Option<&'a str> {
+    line.to_ascii_lowercase().find(key).map(|at| &line[at + key.len()..])
 }
 
 /// A finite number, in the notation of C or Fortran (`1.5`, `.5E-02`, `-1.D+3`).
@@ -133,8 +190,9 @@ pub(super) fn fortran_format(text: &str) -> Option<Format> {
     ((1..=1000).contains(&per_line) && (1..=200).contains(&width)).then_some(Format { per_line, width })
 }
 
-/// `count` numbers in lines of fixed-width fields from line `start`; the line after them comes back too.
-/// Blank lines end the block, as does a line that is not numbers.
+/// `declared` numbers in lines of fixed-width fields from line `start`; the line after them comes back too.
+/// Blank lines end the block, as does a line that is not numbers. Fields stand flush right: a last one that is narrower than the others
+/// has lost its end.
 pub(super) fn fixed_block(
     source: &Source,
     start: usize,
@@ -162,18 +220,123 @@ pub(super) fn fixed_block(
             }
             values.push(value);
         }
+        source.room(line, values.len())?;
         line += 1;
     }
     if values.len() as u64 > declared {
         return Err(source.count_error(start.saturating_sub(1), key, declared, values.len()).into());
     }
+    if line > start && !source.line(line - 1).trim_end().len().is_multiple_of(format.width) {
+        let what = format!("the last field is narrower than {} characters", format.width);
+        return Err(source.error_at(line - 1, what).key(key).help(CUT).into());
+    }
     Ok((values, line))
 }
 
-/// Whether a line reads like text: two letters side by side that no number contains.
+/// Refuses numbers behind a block that ends before line `end`.
+pub(super) fn refuse_more(source: &Source, end: usize, declared: u64, key: &str) -> Result<()> {
+    let next = source.line(end).trim();
+    // `E` may be an exponent; other letters make a title or the mark of an end.
+    if next.is_empty() || next.bytes().any(|b| b.is_ascii_alphabetic() && !matches!(b, b'e' | b'E')) {
+        return Ok(());
+    }
+    if next.starts_with(['/', '|']) {
+        return Ok(());
+    }
+    let error = source.error_at(end, format!("more samples than the {declared} that the header declares"));
+    Err(error.key(key).into())
+}
+
+/// Refuses the mark of an end of channel that is not whole: `/&  ----------  END OF DATA FOR CHANNEL  1  ----------`, or `/&` alone.
+pub(super) fn refuse_cut_mark(source: &Source, line: usize) -> Result<()> {
+    let text = source.line(line).trim();
+    let Some(mark) = text.strip_prefix("/&").filter(|mark| !mark.is_empty()) else { return Ok(()) };
+    if mark.ends_with('-') && after(mark, "channel").is_some() {
+        return Ok(());
+    }
+    Err(source.error_at(line, format!("`{text}` is no whole mark of the end of a channel")).help(CUT).into())
+}
+
+/// The header line of a `NAME : value` file whose name contains `key`, and its value.
+pub(super) fn named<'a>(source: &Source<'a>, lines: usize, key: &str) -> Option<(usize, &'a str)> {
+    source.head(lines).find_map(|(index, line)| {
+        let (name, value) = line.split_once(':')?;
+        name.contains(key).then(|| (index, value.trim()))
+    })
+}
+
+/// [`named`], which must be there.
+pub(super) fn required<'a>(source: &Source<'a>, lines: usize, key: &'static str) -> Result<(usize, &'a str)> {
+    named(source, lines, key).ok_or_else(|| missing(source, lines, key).into())
+}
+
+/// The error of a header that lacks `key`; it stands at the end of the header.
+pub(super) fn missing(source: &Source, lines: usize, key: &str) -> InputError {
+    let last = lines.min(source.lines.len()).saturating_sub(1);
+    source.error_at(last, format!("the header has no `{key}`")).key(key)
+}
+
+/// The error of a header line that does not give what it should.
+pub(super) fn unreadable(source: &Source, line: usize, key: &str, allowed: &str) -> InputError {
+    let shown: String = source.line(line).trim().chars().take(60).collect();
+    source.error_at(line, format!("`{shown}` gives no such number")).key(key).allowed(allowed)
+}
+
+/// Rows of `columns` numbers each from line `start` to the end of the file, column by column; `fields` parts a row. With `flush` all rows
+/// are as wide as the first: one that is narrower has lost its end.
+pub(super) fn rows<'a>(
+    source: &Source<'a>,
+    start: usize,
+    columns: usize,
+    flush: bool,
+    fields: impl Fn(&'a str) -> Option<Vec<&'a str>>,
+) -> Result<Rows> {
+    let mut found = Rows { columns: vec![Vec::new(); columns], lines: Vec::new() };
+    let width = source.line(start).trim_end().len();
+    for (index, line) in source.lines.iter().copied().enumerate().skip(start) {
+        if line.trim().is_empty() {
+            continue;
+        }
+        let row = fields(line).unwrap_or_else(|| vec![line]);
+        if row.len() != columns {
+            let what = format!("{} number(s) here, {columns} are expected", row.len());
+            let error = source.error_at(index, what).allowed("the same number of values in every line");
+            return Err(if index + 1 >= source.lines.len() { error.help(CUT) } else { error }.into());
+        }
+        if flush && line.trim_end().len() != width {
+            let what = format!("a row of {} characters, the first has {width}", line.trim_end().len());
+            return Err(source.error_at(index, what).allowed("rows of one width").help(CUT).into());
+        }
+        for (column, field) in found.columns.iter_mut().zip(&row) {
+            column.push(number(field).ok_or_else(|| not_a_number(source, index, field))?);
+        }
+        found.lines.push(index);
+        source.room(index, columns * found.lines.len())?;
+    }
+    Ok(found)
+}
+
+/// What [`rows`] finds.
+pub(super) struct Rows {
+    pub columns: Vec<Vec<f64>>,
+    /// Line of each row.
+    pub lines: Vec<usize>,
+}
+
+/// Refuses a time column that is not k · dt, within `rounding` [s] and half a step.
+pub(super) fn refuse_other_times(source: &Source, rows: &Rows, column: usize, dt: f64, rounding: f64) -> Result<()> {
+    let times = &rows.columns[column];
+    let start = times.first().copied().unwrap_or(0.0);
+    let off = |(k, t): (usize, &f64)| !((t - start - k as f64 * dt).abs() <= rounding + 0.5 * dt);
+    let Some(k) = times.iter().enumerate().position(off) else { return Ok(()) };
+    let what = format!("the time is {} s where {} s is due", times[k], start + k as f64 * dt);
+    Err(source.error_at(rows.lines[k], what).allowed(format!("steps of {dt} s, as the header says")).into())
+}
+
+/// Whether a line reads like text: three letters side by side, which no number contains, damaged or not.
 fn is_prose(line: &str) -> bool {
-    let letters = line.as_bytes().windows(2);
-    let mut letters = letters.filter(|pair| pair.iter().all(u8::is_ascii_alphabetic));
+    let letters = line.as_bytes().windows(3);
+    let mut letters = letters.filter(|three| three.iter().all(u8::is_ascii_alphabetic));
     letters.next().is_some() && !is_not_finite(line)
 }
 

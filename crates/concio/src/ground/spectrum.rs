@@ -18,6 +18,8 @@ const STEPS_PER_PERIOD: f64 = 20.0;
 /// Periods below this fraction of the sample interval are taken as rigid: the free part of the response is below
 /// this fraction of the peak there.
 const RIGID: f64 = 1e-3;
+/// Oscillators that are followed side by side: each waits for its own last step only, and they fill the lanes of vector instructions.
+const LANES: usize = 8;
 
 /// Peaks of oscillators.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -42,39 +44,59 @@ pub struct Spectrum {
 /// A period that is not above 0 counts as 0.
 pub fn response_spectrum(dt: f64, acceleration: &[f64], damping: f64, periods: &[f64]) -> Spectrum {
     let pga = acceleration.iter().fold(0.0_f64, |peak, a| peak.max(a.abs()));
-    let mut spectrum =
-        Spectrum { damping, periods: periods.to_vec(), sd: Vec::new(), psv: Vec::new(), psa: Vec::new() };
-    for &period in periods {
-        let (sd, psv, psa) = if period > RIGID * dt {
-            let omega = 2.0 * PI / period;
-            let sd = peak_displacement(dt, acceleration, damping, period);
-            (sd, omega * sd, omega * omega * sd)
+    let peaks = peak_displacements(dt, acceleration, damping, periods);
+    let mut spectrum = Spectrum { damping, periods: periods.to_vec(), sd: peaks, psv: Vec::new(), psa: Vec::new() };
+    for (&period, sd) in periods.iter().zip(&mut spectrum.sd) {
+        let omega = 2.0 * PI / period;
+        let (found, psv, psa) = if period > RIGID * dt {
+            (*sd, omega * *sd, omega * omega * *sd)
         } else if period > 0.0 {
-            let omega = 2.0 * PI / period;
             (pga / (omega * omega), pga / omega, pga)
         } else {
             (0.0, 0.0, pga)
         };
-        spectrum.sd.push(sd);
+        *sd = found;
         spectrum.psv.push(psv);
         spectrum.psa.push(psa);
     }
     spectrum
 }
 
-/// Sd of one oscillator.
-fn peak_displacement(dt: f64, acceleration: &[f64], damping: f64, period: f64) -> f64 {
-    let parts = (STEPS_PER_PERIOD * dt / period).ceil().max(1.0);
-    let h = dt / parts;
-    let step = Step::new(h, 2.0 * PI / period, damping);
-    let (mut u, mut v, mut peak) = (0.0_f64, 0.0_f64, 0.0_f64);
+/// Sd of oscillators, 0 for those that are rigid.
+fn peak_displacements(dt: f64, acceleration: &[f64], damping: f64, periods: &[f64]) -> Vec<f64> {
+    let parts = |period: f64| (STEPS_PER_PERIOD * dt / period).ceil().max(1.0);
+    let mut peaks = vec![0.0; periods.len()];
+    let soft: Vec<usize> = (0..periods.len()).filter(|&k| periods[k] > RIGID * dt).collect();
+    // Neighbours are mostly divided into the same parts.
+    for alike in soft.chunk_by(|&a, &b| parts(periods[a]) == parts(periods[b])) {
+        for some in alike.chunks(LANES) {
+            let divided = parts(periods[some[0]]);
+            let step =
+                |lane: usize| Step::new(dt / divided, 2.0 * PI / periods[some[lane.min(some.len() - 1)]], damping);
+            let found = follow(acceleration, divided, &std::array::from_fn(step));
+            some.iter().zip(found).for_each(|(&k, peak)| peaks[k] = peak);
+        }
+    }
+    peaks
+}
+
+/// Largest |displacement| of oscillators that start at rest, each step of the record in that many parts.
+fn follow(acceleration: &[f64], parts: f64, steps: &[Step; LANES]) -> [f64; LANES] {
+    let lanes = |of: fn(&Step) -> f64| -> [f64; LANES] { std::array::from_fn(|lane| of(&steps[lane])) };
+    let [uu, uv, ua, ub] = [lanes(|s| s.a[0][0]), lanes(|s| s.a[0][1]), lanes(|s| s.b[0][0]), lanes(|s| s.b[0][1])];
+    let [vu, vv, va, vb] = [lanes(|s| s.a[1][0]), lanes(|s| s.a[1][1]), lanes(|s| s.b[1][0]), lanes(|s| s.b[1][1])];
+    let (mut u, mut v, mut peak) = ([0.0_f64; LANES], [0.0_f64; LANES], [0.0_f64; LANES]);
     for pair in acceleration.windows(2) {
         let slope = (pair[1] - pair[0]) / parts;
         for part in 0..parts as usize {
             let a0 = pair[0] + slope * part as f64;
-            let (u1, v1) = step.advance(u, v, a0, a0 + slope);
-            peak = peak.max(u1.abs());
-            (u, v) = (u1, v1);
+            let a1 = a0 + slope;
+            for k in 0..LANES {
+                let next = uu[k] * u[k] + uv[k] * v[k] + ua[k] * a0 + ub[k] * a1;
+                v[k] = vu[k] * u[k] + vv[k] * v[k] + va[k] * a0 + vb[k] * a1;
+                u[k] = next;
+                peak[k] = peak[k].max(next.abs());
+            }
         }
     }
     peak
@@ -101,7 +123,7 @@ impl Step {
         }
     }
 
-    #[inline]
+    #[cfg(test)]
     fn advance(&self, u: f64, v: f64, a0: f64, a1: f64) -> (f64, f64) {
         let row = |a: &[f64; 2], b: &[f64; 2]| a[0] * u + a[1] * v + b[0] * a0 + b[1] * a1;
         (row(&self.a[0], &self.b[0]), row(&self.a[1], &self.b[1]))
@@ -152,6 +174,28 @@ mod tests {
             for (found, expected) in found.iter().zip(closed_form(h, omega, damping)) {
                 assert!((found - expected).abs() < 1e-12 * expected.abs().max(h * h), "{found} {expected}");
             }
+        }
+    }
+
+    /// Side by side or alone, to the last bit; the periods are divided into different parts, and one group is not full.
+    #[test]
+    fn oscillators_side_by_side_are_those_alone() {
+        let motion: Vec<f64> = (0..400).map(|k| (0.37 * k as f64).sin() * (-0.01 * k as f64).exp()).collect();
+        let periods: Vec<f64> = (1..40).map(|k| 0.015 * k as f64).collect();
+        let together = response_spectrum(0.01, &motion, 0.05, &periods);
+        for (k, &period) in periods.iter().enumerate() {
+            let parts = (STEPS_PER_PERIOD * 0.01 / period).ceil().max(1.0);
+            let step = Step::new(0.01 / parts, 2.0 * PI / period, 0.05);
+            let (mut u, mut v, mut peak) = (0.0, 0.0, 0.0_f64);
+            for pair in motion.windows(2) {
+                let slope = (pair[1] - pair[0]) / parts;
+                for part in 0..parts as usize {
+                    let a0 = pair[0] + slope * part as f64;
+                    (u, v) = step.advance(u, v, a0, a0 + slope);
+                    peak = peak.max(u.abs());
+                }
+            }
+            assert_eq!(together.sd[k], peak, "{period}");
         }
     }
 

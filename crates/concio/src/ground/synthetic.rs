@@ -97,6 +97,7 @@ pub fn generate(input: &Synthetic) -> Result<Record> {
         station: String::new(),
         event: format!("EN 1998-1 spectrum, seed {}", input.seed),
         channel: String::new(),
+        remarks: Vec::new(),
     })
 }
 

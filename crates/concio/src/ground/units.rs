@@ -7,7 +7,8 @@ use crate::case::HistoryQuantity;
 pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// Units of acceleration that are read, for messages.
-pub(super) const ACCELERATION_UNITS: &str = "g, mg, m/s2, cm/s2, mm/s2, gal, in/s2, ft/s2 (s^2, s², s/s, sec2 too)";
+pub(super) const ACCELERATION_UNITS: &str =
+    "g, g/10, mg, m/s2, cm/s2, mm/s2, gal, in/s2, ft/s2 (s^2, s², s/s, sec2 too)";
 /// Units of displacement that are read, for messages.
 pub(super) const DISPLACEMENT_UNITS: &str = "m, cm, mm, um, in, ft";
 
@@ -32,6 +33,8 @@ fn acceleration(unit: &str) -> Option<f64> {
     match unit {
         "g" => Some(STANDARD_GRAVITY),
         "mg" => Some(STANDARD_GRAVITY * 1e-3),
+        "ug" | "µg" | "μg" | "microg" => Some(STANDARD_GRAVITY * 1e-6),
+        "g/10" => Some(STANDARD_GRAVITY * 0.1),
         "gal" | "gals" => Some(1e-2),
         _ => {
             let (numerator, denominator) = unit.split_once('/')?;

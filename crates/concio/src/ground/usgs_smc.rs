@@ -41,7 +41,6 @@ pub(super) fn read(source: &Source) -> Result<Record> {
     finish(
         source,
         Raw {
-            format: FileFormat::UsgsSmc,
             quantity,
             dt: 1.0 / rate,
             values,
@@ -52,6 +51,7 @@ pub(super) fn read(source: &Source) -> Result<Record> {
             dt_line: reals_start,
             units_line: 0,
             data_line,
+            ..Raw::of(FileFormat::UsgsSmc)
         },
     )
 }

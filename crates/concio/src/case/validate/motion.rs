@@ -1,7 +1,9 @@
 //! Motions of base and top.
 
 use super::{Bound, Findings};
-use crate::case::{Baseline, Case, DisplacementPath, Pulse, Ramp, RecordInput, Signal, Sine, Sweep, Synthetic, Tilt};
+use crate::case::{
+    Baseline, Case, DisplacementPath, Pulse, Ramp, RecordChannel, RecordInput, Signal, Sine, Sweep, Synthetic, Tilt,
+};
 use crate::ground::synthetic::MOST_SAMPLES;
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
@@ -42,8 +44,12 @@ fn record(f: &mut Findings, key: &str, r: &RecordInput) {
     if r.record.as_os_str().is_empty() {
         f.push(format_args!("{key}.record"), "the path is empty", "the path of a record, relative to the wall file");
     }
-    if r.channel == Some(0) {
-        f.push(format_args!("{key}.channel"), "0 is out of range", "from 1");
+    match &r.channel {
+        Some(RecordChannel::Number(0)) => f.push(format_args!("{key}.channel"), "0 is out of range", "from 1"),
+        Some(RecordChannel::Name(name)) if name.trim().is_empty() => {
+            f.push(format_args!("{key}.channel"), "the name is empty", "the name of a component, or its number from 1");
+        }
+        _ => {}
     }
     if let Some(scale) = r.scale {
         f.number(format_args!("{key}.scale"), scale, Bound::Finite);
