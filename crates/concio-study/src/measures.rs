@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::file::PerJoint;
 
 /// Raised when a measure means something else than before: it stands in every row, and runs measured earlier are done again.
-pub const VERSION: u32 = 5;
+pub const VERSION: u32 = 6;
 
 /// A number of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -102,6 +102,9 @@ pub struct Row {
     /// Joint that cracked first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_joint: Option<String>,
+    /// Digest of the whole result, where that is kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub result: Option<String>,
     /// Values per joint, in the order of the joints; none where there is none.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub joints: BTreeMap<PerJoint, Vec<Option<f64>>>,
@@ -118,6 +121,7 @@ impl Row {
             numbers: Vec::new(),
             peak_joint: None,
             first_joint: None,
+            result: None,
             joints: BTreeMap::new(),
         }
     }
@@ -152,6 +156,7 @@ pub fn row(id: &str, prepared: &Prepared, outcome: &Outcome, keep: &[PerJoint]) 
         numbers: numbers.into_iter().map(|v| v.is_finite().then_some(v)).collect(),
         peak_joint: most.map(name),
         first_joint: outcome.first_crack().map(|b| name(b.joint)),
+        result: None,
         joints: keep.iter().map(|k| (*k, per_joint(*k, model.joints.len(), outcome))).collect(),
     }
 }

@@ -15,6 +15,7 @@ mod node;
 pub mod plausible;
 mod read;
 mod sets;
+mod size;
 mod templates;
 pub mod validate;
 

@@ -64,6 +64,47 @@ pub(crate) fn remove_if_there(path: &Path) -> Result<()> {
     }
 }
 
+/// A file that was made for reading and writing; whatever bore its name is gone, and what that led to, if it was a link, is as it
+/// was.
+pub(crate) fn make_anew(path: &Path) -> Result<File> {
+    remove_if_there(path)?;
+    File::options().read(true).write(true).create_new(true).open(path).map_err(|e| Error::io(path, e))
+}
+
+/// Opens a file for reading and writing where there is one of that name itself: not where it is a link, a pipe or a device, for
+/// others may write to a folder of results.
+pub(crate) fn open_itself(path: &Path) -> Result<Option<File>> {
+    let io = |e| Error::io(path, e);
+    match fs::symlink_metadata(path) {
+        Ok(named) if named.is_file() => {}
+        Ok(_) => return Ok(None),
+        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(e) => return Err(io(e)),
+    }
+    match File::options().read(true).write(true).open(path) {
+        // A link may have come in between.
+        Ok(file) => Ok(is_named(&file, path).then_some(file)),
+        Err(e) if e.kind() == ErrorKind::NotFound => Ok(None),
+        Err(e) => Err(io(e)),
+    }
+}
+
+/// Whether an open file has that name itself, and no link that leads to it.
+#[cfg(unix)]
+pub(crate) fn is_named(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    match (file.metadata(), fs::symlink_metadata(path)) {
+        (Ok(ours), Ok(named)) => ours.ino() == named.ino() && ours.dev() == named.dev(),
+        _ => false,
+    }
+}
+
+/// Whether there is such a file, which is as much as these systems tell.
+#[cfg(not(unix))]
+pub(crate) fn is_named(_file: &File, path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|named| named.is_file())
+}
+
 /// Makes the names in a folder durable. Systems that cannot open a folder keep names durable by themselves.
 pub(crate) fn sync_folder_of(path: &Path) -> Result<()> {
     if cfg!(unix) {

@@ -51,7 +51,7 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
         files::write(&out.join(DRAWING), &drawing)?;
     }
     if args.json {
-        files::print(&format!("{result:#}\n"))?;
+        files::print_json(&format!("{result:#}\n"))?;
     } else {
         let title = if file.case.title.is_empty() { String::new() } else { format!("{}\n\n", file.case.title) };
         let names = |out: &Path| format!("\nopen {}\n", out.join(DRAWING).display());

@@ -43,7 +43,7 @@ pub fn record(args: &Record) -> Result<(), Failure> {
         files::write(path, &drawing(history, &measures, &spectrum))?;
     }
     if args.json {
-        return files::print(&json(history, number, channels.len(), &measures, &spectrum));
+        return files::print_json(&json(history, number, channels.len(), &measures, &spectrum));
     }
     files::print(&table(history, number, channels.len(), &measures))?;
     notes(args, history, channels.len());

@@ -54,13 +54,13 @@ pub fn answer(request: &Request, what: Do) -> Result<ExitCode, Failure> {
     let complete = match what {
         Do::Share([share, of]) => {
             let mine: Vec<Subject> = subjects.iter().skip(share - 1).step_by(of).cloned().collect();
-            let Some(answers) = found(request, &mine, false)? else {
+            let Some(answers) = found(request, &mine, false, true)? else {
                 files::note("stopped early; the same command goes on from here");
                 return Ok(ExitCode::from(STOPPED));
             };
-            if mine.len() == subjects.len() { Some(answers) } else { found(request, subjects, true)? }
+            if mine.len() == subjects.len() { Some(answers) } else { found(request, subjects, true, false)? }
         }
-        Do::Report | Do::Tell => found(request, subjects, true)?,
+        Do::Report | Do::Tell => found(request, subjects, true, what == Do::Tell)?,
     };
     let Some(answers) = complete else {
         let shared = matches!(what, Do::Share(_));
@@ -84,8 +84,14 @@ pub fn answer(request: &Request, what: Do) -> Result<ExitCode, Failure> {
     Ok(if whole { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
 }
 
-/// The answers; none when the user, or `known_only` where runs are missing, stopped the search.
-fn found(request: &Request, subjects: &[Subject], known_only: bool) -> Result<Option<Vec<Answer>>, Failure> {
+/// The answers; none when the user, or `known_only` where runs are missing, stopped the search. What the folder holds that does
+/// not count is told with `tell`.
+fn found(
+    request: &Request,
+    subjects: &[Subject],
+    known_only: bool,
+    tell: bool,
+) -> Result<Option<Vec<Answer>>, Failure> {
     let bar = Runs::new();
     let watch = |progress: &Progress| {
         if stop::asked() {
@@ -96,6 +102,9 @@ fn found(request: &Request, subjects: &[Subject], known_only: bool) -> Result<Op
     };
     let mut runner = Runner::open(request.out, &keep(), request.threads, &watch)?;
     runner.reading = known_only;
+    if tell {
+        super::tell_passed_over(runner.store(), 0);
+    }
     let answers = search(request.question, subjects, &mut runner.until(request.question.rule));
     bar.clear();
     Ok(answers?)

@@ -41,6 +41,7 @@ pub fn run(plan: &Plan, out: &Path, threads: usize, [share, of]: [usize; 2]) -> 
         if stop::asked() { Control::Stop } else { Control::Continue }
     };
     let mut runner = Runner::open(out, &plan.file.study.keep, threads, &watch)?;
+    let told = super::tell_passed_over(runner.store(), 0);
     loop {
         let questions = analysis.questions(&|curve| curve % of == share - 1);
         if questions.is_empty() {
@@ -58,6 +59,7 @@ pub fn run(plan: &Plan, out: &Path, threads: usize, [share, of]: [usize; 2]) -> 
         }
     }
     bar.clear();
+    super::tell_passed_over(runner.store(), told);
     // Other shards may have ended meanwhile.
     let analysis = known(plan, &Store::open(out)?)?;
     tell(&analysis)?;
@@ -74,7 +76,9 @@ pub fn run(plan: &Plan, out: &Path, threads: usize, [share, of]: [usize; 2]) -> 
 
 /// Tells how far the curves are.
 pub fn status(plan: &Plan, out: &Path) -> std::result::Result<ExitCode, Failure> {
-    let analysis = known(plan, &Store::open(out)?)?;
+    let store = Store::open(out)?;
+    super::tell_passed_over(&store, 0);
+    let analysis = known(plan, &store)?;
     tell(&analysis)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use super::de;
 use super::node::{Node, Source, parse_json, parse_toml};
 use super::read::{LARGEST_FILE, Syntax, hinted};
+use super::size;
 use crate::{InputError, Result};
 
 /// Said of a file without content.
@@ -28,7 +29,7 @@ impl Document {
     /// nor JSON.
     pub fn open(path: &Path, kind: &str) -> Result<Self> {
         let refuse = |what: String| {
-            let allowed = format!("{kind} in TOML or JSON, UTF-8, up to 256 MiB");
+            let allowed = format!("{kind} in TOML or JSON, UTF-8, up to {} MiB", LARGEST_FILE >> 20);
             InputError::new(what).in_file(path).allowed(allowed)
         };
         if path.is_dir() {
@@ -54,13 +55,14 @@ impl Document {
     /// Reads a text; `file` is named in errors and is what paths in it are relative to.
     ///
     /// # Errors
-    /// [`crate::Error::Input`] when it is empty or not of this syntax.
+    /// [`crate::Error::Input`] when it is empty, not of this syntax, or takes too much memory.
     pub fn parse(text: &str, syntax: Syntax, file: Option<&Path>) -> Result<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
         let source = Source { path: file.map(Path::to_path_buf), text };
         if source.text.trim().is_empty() {
             return Err(source.locate(InputError::new(EMPTY), 0).into());
         }
+        size::check(&source.text, syntax).map_err(|e| source.named(e))?;
         let tree = match syntax {
             Syntax::Toml => parse_toml(&source).map_err(|e| hinted(e, &source.text))?,
             Syntax::Json => parse_json(&source)?,

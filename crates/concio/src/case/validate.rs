@@ -109,8 +109,12 @@ struct Findings {
 }
 
 impl Findings {
+    /// Whether there is room: what takes time to find out need not be then.
+    fn takes_more(&self) -> bool {
+        self.list.len() < MOST_FINDINGS
+    }
     fn add(&mut self, error: InputError) {
-        if self.list.len() < MOST_FINDINGS {
+        if self.takes_more() {
             self.list.push(error);
         }
     }

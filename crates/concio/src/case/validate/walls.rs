@@ -1,6 +1,7 @@
 //! Panels: bricks, mortar, and the keys that each bond takes.
 
 use std::collections::HashMap;
+use std::fmt::Display;
 
 use super::{Bound, Findings};
 use crate::InputError;
@@ -8,6 +9,10 @@ use crate::case::{Bond, Case, Ends, ExplicitBlock, First, Panel, RandomTexture};
 
 /// Most blocks of a wall.
 pub const LARGEST_WALL: usize = 4_000_000;
+/// Most panels of a wall.
+const MOST_PANELS: usize = 1000;
+/// Longest name of a panel or block [bytes]: joints bear two of them, tables and drawings many.
+const LONGEST_NAME: usize = 200;
 
 /// No fewer blocks than the panel will have (for a random texture an upper bound, else the number).
 pub fn block_bound(panel: &Panel) -> usize {
@@ -41,6 +46,10 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
     if case.panels.is_empty() {
         f.push("panel", "the wall has no panel", "at least one [[panel]]");
     }
+    if case.panels.len() > MOST_PANELS {
+        f.push("panel", format!("{} panels are too many", case.panels.len()), format!("up to {MOST_PANELS}"));
+        return;
+    }
     names(f, case);
     let mut total = 0usize;
     for (i, panel) in case.panels.iter().enumerate() {
@@ -69,6 +78,7 @@ fn names(f: &mut Findings, case: &Case) {
         if panel.name.as_deref().is_some_and(|n| n.trim().is_empty()) {
             f.push(format_args!("panel[{i}].name"), "the name is empty", "a name that is not blank");
         }
+        too_long(f, format_args!("panel[{i}].name"), panel.name.as_deref());
         if let Some(first) = seen.insert(name.clone(), i) {
             let what = format!("panel[{first}] is called `{name}` too");
             f.push(
@@ -77,6 +87,12 @@ fn names(f: &mut Findings, case: &Case) {
                 "names that differ (`p1`, `p2`, … are the names of unnamed panels)",
             );
         }
+    }
+}
+
+fn too_long(f: &mut Findings, key: impl Display, name: Option<&str>) {
+    if let Some(name) = name.filter(|name| name.len() > LONGEST_NAME) {
+        f.push(key, format!("a name of {} bytes is too long", name.len()), format!("up to {LONGEST_NAME} bytes"));
     }
 }
 
@@ -302,6 +318,7 @@ fn explicit(f: &mut Findings, i: usize, panel: &Panel) {
         if let Some(weight) = block.specific_weight {
             f.quantity(format_args!("panel[{i}].block[{k}].specific_weight"), weight, Bound::Above0);
         }
+        too_long(f, key("id"), block.id.as_deref());
         if let Some(id) = &block.id {
             let what = || format!("`{id}` cannot be the name of a block");
             if id.is_empty() || id.contains(|c: char| c.is_whitespace() || c == '|' || c == ',') {
