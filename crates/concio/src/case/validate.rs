@@ -174,6 +174,10 @@ fn load(f: &mut Findings, case: &Case) {
     }
 }
 
+/// Shortest step of planar walls [s]: contact is solved to a millionth of what gravity gives in a step, and below this rounding
+/// is more than that.
+const SHORTEST_STEP: f64 = 1e-8;
+
 fn solver(f: &mut Findings, case: &Case) {
     let s = &case.solver;
     f.number("solver.tolerance", s.tolerance, Bound::Between(1e-12, 0.1));
@@ -182,6 +186,10 @@ fn solver(f: &mut Findings, case: &Case) {
         if let Some(step) = step {
             f.quantity(key, step, Bound::Above0);
         }
+    }
+    if let Some(step) = s.step.filter(|step| (MAGNITUDE[0]..SHORTEST_STEP).contains(&step.si())) {
+        let what = format!("{step} is too short for contact to be told from rounding");
+        f.push("solver.step", what, format!("from {SHORTEST_STEP:e} s"));
     }
 }
 

@@ -46,7 +46,9 @@ pub(super) fn polygons(panel: &Panel, index: usize, courses: &Courses, blocks: &
     let sources: Vec<usize> = courses.iter().flatten().map(|rect| rect.source).collect();
     for (k, &i) in order.iter().enumerate() {
         let beside = order[k + 1..].iter().take_while(|&&j| blocks[j].x[0] < blocks[i].x[1]);
-        for &j in beside {
+        // Boxes that do not meet need no closer look: a tower has all of its blocks beside each other.
+        let level = |j: &&usize| blocks[**j].y[0] < blocks[i].y[1] && blocks[i].y[0] < blocks[**j].y[1];
+        for &j in beside.filter(level) {
             if polygon::depth(&blocks[i].corners(), &blocks[j].corners()) > tolerance {
                 let (a, b) = if sources[i] < sources[j] { (i, j) } else { (j, i) };
                 let what = format!("blocks {} and {} overlap", blocks[a].name, blocks[b].name);

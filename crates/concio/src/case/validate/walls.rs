@@ -7,10 +7,12 @@ use super::{Bound, Findings};
 use crate::InputError;
 use crate::case::{Bond, Case, Ends, ExplicitBlock, First, Panel, RandomTexture};
 
-/// Most blocks of a wall.
-pub const LARGEST_WALL: usize = 4_000_000;
+/// Most blocks of a wall: 1.4 GB where they rise and turn.
+pub const LARGEST_WALL: usize = 500_000;
 /// Most panels of a wall.
 const MOST_PANELS: usize = 1000;
+/// Most openings of a panel: each is compared with all others.
+const MOST_OPENINGS: usize = 1000;
 /// Longest name of a panel or block [bytes]: joints bear two of them, tables and drawings many.
 const LONGEST_NAME: usize = 200;
 
@@ -114,6 +116,11 @@ fn common(f: &mut Findings, i: usize, panel: &Panel) {
 }
 
 fn openings(f: &mut Findings, i: usize, panel: &Panel) {
+    if panel.openings.len() > MOST_OPENINGS {
+        let what = format!("{} openings are too many", panel.openings.len());
+        f.push(format_args!("panel[{i}].opening"), what, format!("up to {MOST_OPENINGS}"));
+        return;
+    }
     for (k, o) in panel.openings.iter().enumerate() {
         let key = format!("panel[{i}].opening[{k}]");
         f.quantity(format_args!("{key}.x"), o.x, Bound::From0);
