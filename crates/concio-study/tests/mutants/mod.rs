@@ -39,6 +39,9 @@ const VALUES: [&str; 30] = [
     "1979-05-27",
 ];
 
+/// How many of them are numbers.
+const NUMBERS: usize = 17;
+
 /// Files of a folder of examples, in the order of their names; paths in them lead where they did.
 pub fn examples(folder: &str) -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(folder);
@@ -53,10 +56,10 @@ pub fn examples(folder: &str) -> Vec<String> {
     paths.iter().map(|path| rooted(fs::read_to_string(path).expect("an example"))).collect()
 }
 
-/// One to four things that may happen to a file.
+/// One to three things that may happen to a file.
 pub fn mutant(text: &str, dice: &mut Dice) -> Vec<u8> {
     let mut bytes = text.as_bytes().to_vec();
-    for _ in 0..=dice.below(4) {
+    for _ in 0..=dice.below(3) {
         bytes = match String::from_utf8(bytes) {
             Ok(text) => changed(&text, dice),
             Err(broken) => broken.into_bytes(),
@@ -74,7 +77,7 @@ fn changed(text: &str, dice: &mut Dice) -> Vec<u8> {
         return text.into();
     }
     let [a, b] = [(); 2].map(|()| said[dice.below(said.len())]);
-    match dice.below(10) {
+    match dice.below(16) {
         0 => drop(lines.remove(a)),
         1 => lines.insert(b, lines[a].clone()),
         2 => lines.swap(a, b),
@@ -92,14 +95,14 @@ fn changed(text: &str, dice: &mut Dice) -> Vec<u8> {
                 lines[a] = format!("{key}= {}", VALUES[dice.below(VALUES.len())]);
             }
         }
-        6 | 7 => lines[a] = with_another_number(&lines[a], dice),
-        8 => {
+        6 => {
             let mut bytes = text.as_bytes().to_vec();
             let at = dice.below(bytes.len());
             bytes[at] ^= 1 << dice.below(8);
             return bytes;
         }
-        _ => return text.as_bytes()[..dice.below(text.len())].to_vec(),
+        7 => return text.as_bytes()[..dice.below(text.len())].to_vec(),
+        _ => lines[a] = with_another_number(&lines[a], dice),
     }
     (lines.join("\n") + "\n").into_bytes()
 }
@@ -114,7 +117,16 @@ fn with_another_number(line: &str, dice: &mut Dice) -> String {
         }
     }
     match numbers.get(dice.below(numbers.len())) {
-        Some(place) => format!("{}{}{}", &line[..place.start], VALUES[dice.below(17)], &line[place.end..]),
+        Some(place) => {
+            let number = line[place.clone()].parse::<f64>().unwrap_or(1.0);
+            let another = match dice.below(3) {
+                // Some that a wall may have.
+                0 => (number * [0.1, 0.5, 2.0, 10.0][dice.below(4)]).to_string(),
+                1 => (1 + dice.below(3000)).to_string(),
+                _ => VALUES[dice.below(NUMBERS)].to_string(),
+            };
+            format!("{}{another}{}", &line[..place.start], &line[place.end..])
+        }
         None => line.into(),
     }
 }

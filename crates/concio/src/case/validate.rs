@@ -79,6 +79,8 @@ enum Bound {
     From0,
     /// Above 0.
     Above0,
+    /// From there, above 0.
+    From(f64),
     /// Both ends included.
     Between(f64, f64),
 }
@@ -89,6 +91,7 @@ impl Bound {
             Bound::Finite => v.is_finite(),
             Bound::From0 => v >= 0.0,
             Bound::Above0 => v > 0.0,
+            Bound::From(low) => v >= low,
             Bound::Between(low, high) => (low..=high).contains(&v),
         }
     }
@@ -97,6 +100,7 @@ impl Bound {
             Bound::Finite => format!("a finite number{}", if unit.is_empty() { "" } else { " of either sign" }),
             Bound::From0 => format!("from 0{unit}"),
             Bound::Above0 => format!("above 0{unit}"),
+            Bound::From(low) => format!("from {}{unit}", shown(low)),
             Bound::Between(low, high) => format!("{} … {}{unit}", shown(low), shown(high)),
         }
     }
@@ -182,14 +186,12 @@ fn solver(f: &mut Findings, case: &Case) {
     let s = &case.solver;
     f.number("solver.tolerance", s.tolerance, Bound::Between(1e-12, 0.1));
     f.quantity("solver.floor", s.floor, Bound::Above0);
-    for (key, step) in [("solver.max_step", s.max_step), ("solver.step", s.step)] {
+    for (key, step, bound) in
+        [("solver.max_step", s.max_step, Bound::Above0), ("solver.step", s.step, Bound::From(SHORTEST_STEP))]
+    {
         if let Some(step) = step {
-            f.quantity(key, step, Bound::Above0);
+            f.quantity(key, step, bound);
         }
-    }
-    if let Some(step) = s.step.filter(|step| (MAGNITUDE[0]..SHORTEST_STEP).contains(&step.si())) {
-        let what = format!("{step} is too short for contact to be told from rounding");
-        f.push("solver.step", what, format!("from {SHORTEST_STEP:e} s"));
     }
 }
 

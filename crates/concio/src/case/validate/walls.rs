@@ -80,7 +80,7 @@ fn names(f: &mut Findings, case: &Case) {
         if panel.name.as_deref().is_some_and(|n| n.trim().is_empty()) {
             f.push(format_args!("panel[{i}].name"), "the name is empty", "a name that is not blank");
         }
-        too_long(f, format_args!("panel[{i}].name"), panel.name.as_deref());
+        a_name(f, format_args!("panel[{i}].name"), panel.name.as_deref());
         if let Some(first) = seen.insert(name.clone(), i) {
             let what = format!("panel[{first}] is called `{name}` too");
             f.push(
@@ -92,9 +92,13 @@ fn names(f: &mut Findings, case: &Case) {
     }
 }
 
-fn too_long(f: &mut Findings, key: impl Display, name: Option<&str>) {
+/// What a result can hold: in HDF5 a text ends at U+0000.
+fn a_name(f: &mut Findings, key: impl Display, name: Option<&str>) {
     if let Some(name) = name.filter(|name| name.len() > LONGEST_NAME) {
-        f.push(key, format!("a name of {} bytes is too long", name.len()), format!("up to {LONGEST_NAME} bytes"));
+        f.push(&key, format!("a name of {} bytes is too long", name.len()), format!("up to {LONGEST_NAME} bytes"));
+    }
+    if name.is_some_and(|name| name.contains('\0')) {
+        f.push(key, "a name holds U+0000", "all other characters");
     }
 }
 
@@ -325,7 +329,7 @@ fn explicit(f: &mut Findings, i: usize, panel: &Panel) {
         if let Some(weight) = block.specific_weight {
             f.quantity(format_args!("panel[{i}].block[{k}].specific_weight"), weight, Bound::Above0);
         }
-        too_long(f, key("id"), block.id.as_deref());
+        a_name(f, key("id"), block.id.as_deref());
         if let Some(id) = &block.id {
             let what = || format!("`{id}` cannot be the name of a block");
             if id.is_empty() || id.contains(|c: char| c.is_whitespace() || c == '|' || c == ',') {
