@@ -66,7 +66,7 @@ fn nothing_in_a_file_commands_a_terminal() {
     said(&desk, &["system", "wall.toml"]);
     let asked = desk.get("wall.toml") + &format!("[output]\njoints = [\"{}\"]\n", quoted(HOSTILE));
     desk.put("asked.toml", asked);
-    assert!(said(&desk, &["check", "asked.toml"]).contains("output.joints[0]"));
+    assert!(said(&desk, &["check", "asked.toml"]).contains("output.joints"));
     desk.put("raw.toml", format!("title = \"{HOSTILE}\"\n"));
     said(&desk, &["check", "raw.toml"]);
     desk.put("key.toml", format!("\"{}\" = 1\n", quoted(HOSTILE)));
@@ -81,7 +81,8 @@ fn nothing_in_a_file_commands_a_terminal() {
     );
     desk.put("study.toml", study.clone());
     for what in ["check", "run", "status", "export"] {
-        assert!(said(&desk, &["study", what, "study.toml", "--out", "s"]).contains("]0;owned") || what == "export");
+        let said = said(&desk, &["study", what, "study.toml", "--out", "s"]);
+        assert_eq!(said.contains("]0;owned"), what == "check", "{what}: {said}");
     }
     desk.put("lost.toml", study.replace("joint.friction.static", &quoted(HOSTILE)));
     said(&desk, &["study", "check", "lost.toml"]);
