@@ -5,7 +5,10 @@ use std::io;
 use std::process::ExitCode;
 
 use anstyle::{AnsiColor, Style};
+use concio::files::{LARGEST_INPUT, read_input};
 use concio::{Error, InputError};
+
+use crate::files;
 
 /// Exit status of a run that stopped early or a file that could not be written.
 pub const STOPPED: u8 = 1;
@@ -18,6 +21,8 @@ const BOLD: Style = Style::new().bold();
 
 /// Longest part of a line that an excerpt shows [characters].
 const EXCERPT: usize = 100;
+/// Longest part of a message [characters]: names of files may be of any length.
+const MOST_SHOWN: usize = 4000;
 
 /// Why a command ends without having done its work.
 #[derive(Debug)]
@@ -66,6 +71,7 @@ impl Failure {
                 ExitCode::from(WRONG_INPUT)
             }
             Failure::Other(what, help) => {
+                let what = shown(what);
                 let help = help.map_or(String::new(), |help| format!("{BLUE}help{BLUE:#}: {help}\n"));
                 print(&format!("{RED}error{RED:#}: {what}\n{help}"));
                 ExitCode::from(STOPPED)
@@ -88,26 +94,36 @@ fn remedy(kind: io::ErrorKind) -> Option<&'static str> {
     }
 }
 
-/// `error: FILE:LINE:COLUMN: key: what`, the line of the file with a caret, the allowed range, a hint.
+/// A part of a message: one line that a terminal shows as it is, and no more of it than somebody reads.
+fn shown(text: &str) -> String {
+    let text = files::line(text);
+    match text.char_indices().nth(MOST_SHOWN) {
+        None => text.into_owned(),
+        Some((end, _)) => format!("{}… ({} characters more)", &text[..end], text[end..].chars().count()),
+    }
+}
+
+/// `error: FILE:LINE:COLUMN: key: what`, the line of the file with a caret, the allowed range, a hint. Colours are ours: what is
+/// quoted of files must bring none.
 fn render(error: &InputError) -> String {
     let mut text = format!("{RED}error{RED:#}: {BOLD}");
     if let Some(file) = &error.file {
-        let _ = write!(text, "{}:", file.display());
+        let _ = write!(text, "{}:", shown(&file.display().to_string()));
         for place in [error.line, error.column].into_iter().map_while(|n| n) {
             let _ = write!(text, "{place}:");
         }
         text.push(' ');
     }
     if let Some(key) = &error.key {
-        let _ = write!(text, "{key}: ");
+        let _ = write!(text, "{}: ", shown(key));
     }
-    let _ = writeln!(text, "{}{BOLD:#}", error.what);
+    let _ = writeln!(text, "{}{BOLD:#}", shown(&error.what));
     text.push_str(&excerpt(error).unwrap_or_default());
     if let Some(allowed) = &error.allowed {
-        let _ = writeln!(text, "{BLUE}allowed{BLUE:#}: {allowed}");
+        let _ = writeln!(text, "{BLUE}allowed{BLUE:#}: {}", shown(allowed));
     }
     if let Some(help) = &error.help {
-        let _ = writeln!(text, "{BLUE}help{BLUE:#}: {help}");
+        let _ = writeln!(text, "{BLUE}help{BLUE:#}: {}", shown(help));
     }
     text
 }
@@ -115,9 +131,10 @@ fn render(error: &InputError) -> String {
 /// The line at fault. None when it cannot be shown; the message stands without it.
 fn excerpt(error: &InputError) -> Option<String> {
     let number = error.line?;
-    let bytes = concio::files::read_input(error.file.as_ref()?).ok()?;
+    let bytes = read_input(error.file.as_ref()?, LARGEST_INPUT).ok()?;
     let line = bytes.split(|b| *b == b'\n').nth(number.checked_sub(1)?)?;
-    let line: Vec<char> = String::from_utf8_lossy(line).trim_end().chars().map(plain).collect();
+    // Tabs would shift the caret.
+    let line: Vec<char> = files::line(String::from_utf8_lossy(line).trim_end()).chars().collect();
     let column = error.column.unwrap_or(1).saturating_sub(1).min(line.len());
     // Records have lines of thousands of characters: show the neighbourhood of the column.
     let from = column.saturating_sub(EXCERPT / 2).min(line.len().saturating_sub(EXCERPT));
@@ -128,13 +145,4 @@ fn excerpt(error: &InputError) -> Option<String> {
         let _ = writeln!(text, "{BLUE}{:>width$} |{BLUE:#} {}{RED}^{RED:#}", "", " ".repeat(column - from));
     }
     Some(text)
-}
-
-/// Control characters must not reach the terminal, and tabs would shift the caret.
-fn plain(c: char) -> char {
-    match c {
-        '\t' => ' ',
-        c if c.is_control() => '\u{fffd}',
-        c => c,
-    }
 }

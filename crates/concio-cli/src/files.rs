@@ -1,5 +1,8 @@
-//! Files and streams that are written whole or not at all.
+//! Files and streams that are written whole or not at all. All that goes to a terminal goes through here or
+//! [`crate::failure`]: text of files (titles, names, lines of records) must not command it.
 
+use std::borrow::Cow;
+use std::fmt::Write as _;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
@@ -7,8 +10,48 @@ use concio::{InputError, files};
 
 use crate::failure::Failure;
 
+/// Whether a terminal obeys a character instead of showing it: control characters, and marks that turn the order of what is
+/// read (Unicode Bidirectional Algorithm, 2.1 to 2.6), which make a text read as another.
+fn commands(c: char) -> bool {
+    let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    turns || (c.is_control() && !matches!(c, '\n' | '\t'))
+}
+
+/// A text that a terminal shows as it is; what it would obey is replaced by U+FFFD.
+pub fn plain(text: &str) -> Cow<'_, str> {
+    match text.contains(commands) {
+        false => text.into(),
+        true => text.replace(commands, "\u{fffd}").into(),
+    }
+}
+
+/// [`plain`] text of one line: ends of lines in a name must not make lines of our own.
+pub fn line(text: &str) -> Cow<'_, str> {
+    match text.contains(['\n', '\t']) {
+        false => plain(text),
+        true => plain(text).replace(['\n', '\t'], " ").into(),
+    }
+}
+
 /// Prints to standard output.
 pub fn print(text: &str) -> Result<(), Failure> {
+    write_out(&plain(text))
+}
+
+/// Prints a text of JSON: characters that a terminal would obey are escaped, so that programs read what files say.
+pub fn print_json(json: &str) -> Result<(), Failure> {
+    let mut text = String::with_capacity(json.len());
+    for c in json.chars() {
+        match commands(c) {
+            // None of them needs a surrogate, and JSON has them in texts alone.
+            true => drop(write!(text, "\\u{:04x}", u32::from(c))),
+            false => text.push(c),
+        }
+    }
+    write_out(&text)
+}
+
+fn write_out(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => Ok(()),
@@ -17,9 +60,9 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Tells the user something on standard error, which may be closed.
+/// Tells the user something in one line on standard error, which may be closed.
 pub fn note(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{text}");
+    let _ = writeln!(io::stderr().lock(), "{}", line(text));
 }
 
 /// Writes a file whole or not at all.

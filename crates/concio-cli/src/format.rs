@@ -1,5 +1,9 @@
 //! Numbers and tables for people.
 
+use std::borrow::Cow;
+
+use crate::files::line;
+
 /// A value with its unit and a decimal prefix, four significant digits: `1.198 µm`, `53.40 kN`.
 pub fn si(value: f64, unit: &str) -> String {
     const PREFIXES: [(&str, f64); 8] =
@@ -71,22 +75,23 @@ pub fn clock(seconds: f64) -> String {
     }
 }
 
-/// Rows with aligned columns: the first to the left, the others to the right.
+/// Rows with aligned columns: the first to the left, the others to the right. A cell is one line, whatever a name in it holds.
 pub fn columns(rows: &[Vec<String>]) -> String {
+    let rows: Vec<Vec<Cow<str>>> = rows.iter().map(|row| row.iter().map(|cell| line(cell)).collect()).collect();
     let width = |k: usize| rows.iter().filter_map(|r| r.get(k)).map(|c| c.chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..rows.iter().map(Vec::len).max().unwrap_or(0)).map(width).collect();
-    let line = |row: &Vec<String>| {
+    let text = |row: &Vec<Cow<str>>| {
         let cells = row.iter().zip(&widths).enumerate();
         let cells = cells.map(|(k, (c, &w))| if k == 0 { format!("{c:<w$}") } else { format!("{c:>w$}") });
         format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
     };
-    rows.iter().map(line).collect()
+    rows.iter().map(text).collect()
 }
 
 /// Names and values in two columns.
 pub fn pairs(rows: &[(&str, String)]) -> String {
     let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
-    rows.iter().map(|(name, value)| format!("  {name:<width$}  {value}\n")).collect()
+    rows.iter().map(|(name, value)| format!("  {name:<width$}  {}\n", line(value))).collect()
 }
 
 #[cfg(test)]

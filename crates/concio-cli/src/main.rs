@@ -21,28 +21,44 @@ mod stop;
 mod study;
 
 fn main() -> ExitCode {
-    let cli = args::Cli::try_parse().unwrap_or_else(|error| suggesting(error).exit());
+    let cli = args::Cli::try_parse().unwrap_or_else(|_| misused().exit());
     match commands::dispatch(cli.command) {
         Ok(code) => code,
         Err(failure) => failure.show(),
     }
 }
 
+/// What is told of the arguments: help, or what is wrong with them. They are quoted there, so that it is told of them as a
+/// terminal can show them.
+fn misused() -> clap::Error {
+    let shown = |argument: std::ffi::OsString| files::line(&argument.to_string_lossy()).into_owned();
+    let arguments: Vec<String> = std::env::args_os().map(shown).collect();
+    match args::Cli::try_parse_from(&arguments) {
+        Err(error) => suggesting(error, arguments.get(1..).unwrap_or_default()),
+        Ok(_) => {
+            let what = "an argument is no text, or holds characters that cannot be shown";
+            args::Cli::command().error(ErrorKind::InvalidValue, what)
+        }
+    }
+}
+
 /// Adds what was meant to an error about arguments.
-fn suggesting(error: clap::Error) -> clap::Error {
+fn suggesting(error: clap::Error, arguments: &[String]) -> clap::Error {
     match error.kind() {
-        ErrorKind::UnknownArgument if error.get(ContextKind::SuggestedArg).is_none() => suggesting_option(error),
-        ErrorKind::InvalidSubcommand => suggesting_run(error),
+        ErrorKind::UnknownArgument if error.get(ContextKind::SuggestedArg).is_none() => {
+            suggesting_option(error, arguments)
+        }
+        ErrorKind::InvalidSubcommand => suggesting_run(error, arguments),
         _ => error,
     }
 }
 
 /// A file in the place of a command is to be run.
-fn suggesting_run(mut error: clap::Error) -> clap::Error {
+fn suggesting_run(mut error: clap::Error, arguments: &[String]) -> clap::Error {
     let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidSubcommand) else { return error };
     let file = given.ends_with(".toml").then(|| given.clone());
-    let before = std::env::args().skip(1).take_while(|a| Some(a) != file.as_ref());
-    let command = before.fold(String::from("concio"), |line, a| line + " " + &a);
+    let before = arguments.iter().take_while(|a| Some(*a) != file.as_ref());
+    let command = before.fold(String::from("concio"), |line, a| line + " " + a);
     if let Some(file) = file {
         let tip = format!("to run a file: `{command} run {file}`").into();
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
@@ -52,11 +68,11 @@ fn suggesting_run(mut error: clap::Error) -> clap::Error {
 
 /// Adds the option that was meant to an error about an unknown one. The parser's own measure finds none for letters
 /// that changed places in a short word.
-fn suggesting_option(mut error: clap::Error) -> clap::Error {
+fn suggesting_option(mut error: clap::Error, arguments: &[String]) -> clap::Error {
     let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidArg) else { return error };
     let word = given.trim_start_matches('-').to_string();
     let command = args::Cli::command();
-    let used = std::env::args().skip(1).find_map(|a| command.find_subcommand(a).cloned());
+    let used = arguments.iter().find_map(|a| command.find_subcommand(a).cloned());
     let options = used.iter().flat_map(|c| c.get_arguments()).filter_map(|a| a.get_long());
     let near = options.map(|o| (strsim::damerau_levenshtein(&word, o), o)).min();
     if let Some((_, option)) = near.filter(|(mistyped, _)| *mistyped <= 1 && word.len() > 1) {

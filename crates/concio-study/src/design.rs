@@ -12,8 +12,10 @@ use concio::dice::Dice;
 use crate::factors::{Factor, Over};
 use crate::file::{DesignKind, StudyFile};
 
-/// Runs that a study may have.
-pub const MOST_RUNS: usize = 1_000_000;
+/// Runs that a study may have: each takes some 2 kB before it is done.
+pub const MOST_RUNS: usize = 500_000;
+/// Values of factors that it may have over all runs.
+const MOST_PLACES: usize = 20_000_000;
 /// Factors that the Sobol sequence at hand has dimensions for, two each.
 const MOST_SOBOL: usize = 128;
 
@@ -67,7 +69,11 @@ pub fn points(file: &StudyFile, factors: &[Factor]) -> Result<Vec<Vec<At>>> {
         DesignKind::Sobol => runs.saturating_mul(k + 2),
     };
     if total > MOST_RUNS {
-        return wrong(format!("{total} runs are too many for one study"), "up to 1,000,000");
+        return wrong(format!("{total} runs are too many for one study"), "up to 500,000");
+    }
+    if total.saturating_mul(k) > MOST_PLACES {
+        let what = format!("{total} runs of {k} factors are too many for one study");
+        return wrong(what, &format!("up to {} runs of so many factors", MOST_PLACES / k));
     }
     let shares = match design.kind {
         DesignKind::Grid => return Ok(grid(factors)),

@@ -1,13 +1,22 @@
 //! From the study file to factors: what varies, over which values, with errors that name the line.
 
+use std::collections::{BTreeSet, HashSet};
+
 use concio::Result;
 use concio::quantity::shown;
 use serde_json::{Number, Value};
 use statrs::distribution::{ContinuousCDF, LogNormal, Normal};
 
-use crate::design::MOST_RUNS;
 use crate::file::{Distribution, DistributionLaw, Follower, Spacing, StudyFile, Vary};
 use crate::motions;
+
+/// Factors that a study may have.
+const MOST_FACTORS: usize = 1000;
+/// Values, choices, motions or scales of one factor: each is tried alone.
+const MOST_LEVELS: usize = 10_000;
+/// Keys that one level changes, and keys that all factors change: each is compared with all others.
+const MOST_CHANGES: usize = 1000;
+const MOST_PATHS: usize = 10_000;
 
 /// What varies.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,11 +135,12 @@ impl Continuous {
 }
 
 impl Factor {
-    /// Key paths that it changes.
+    /// Key paths that it changes, each once.
     fn paths(&self) -> Vec<&str> {
         match &self.over {
             Over::Levels(levels) => {
-                levels.iter().flat_map(|l| l.changes.iter().map(|(path, _)| path.as_str())).collect()
+                let all = levels.iter().flat_map(|l| l.changes.iter().map(|(path, _)| path.as_str()));
+                all.collect::<BTreeSet<_>>().into_iter().collect()
             }
             Over::Values(values) => {
                 [values.path.as_str()].into_iter().chain(values.also.iter().map(|f| f.path.as_str())).collect()
@@ -139,11 +149,14 @@ impl Factor {
         }
     }
 
-    /// The paths that are changed at once, level by level.
+    /// The paths that are changed at once, level by level, but for levels that change the same as the one before.
     fn together(&self) -> Vec<Vec<&str>> {
         match &self.over {
             Over::Levels(levels) => {
-                levels.iter().map(|l| l.changes.iter().map(|(path, _)| path.as_str()).collect()).collect()
+                let of = levels.iter().map(|l| l.changes.iter().map(|(path, _)| path.as_str()).collect());
+                let mut all: Vec<Vec<&str>> = of.collect();
+                all.dedup();
+                all
             }
             Over::Values(_) => vec![self.paths()],
             Over::Scales(_) => Vec::new(),
@@ -193,6 +206,13 @@ pub fn factors(file: &StudyFile) -> Result<Vec<Factor>> {
             return Err(file.wrong(key, "is empty: nothing varies by it", &format!("`[[{key}]]`, or no `{key}`")));
         }
     }
+    if study.factors.len() > MOST_FACTORS {
+        let what = format!("{} factors are too many", study.factors.len());
+        return Err(file.wrong("vary", what, &format!("up to {MOST_FACTORS}")));
+    }
+    for (key, levels) in [("motion", study.motions.len()), ("scales", study.scales.len())] {
+        few(levels, MOST_LEVELS, |what, allowed| file.wrong(key, what, allowed))?;
+    }
     let mut factors = Vec::new();
     for (index, vary) in study.factors.iter().enumerate() {
         factors.push(Reader { file, vary, key: format!("vary[{index}]") }.factor()?);
@@ -237,16 +257,23 @@ fn names(file: &StudyFile, factors: &[Factor]) -> Result<()> {
 
 /// Two factors that change one key: the later would silently win.
 fn contradictions(file: &StudyFile, factors: &[Factor]) -> Result<()> {
+    // Of all factors before, with the place of each.
+    let mut before: Vec<(Steps, usize)> = Vec::new();
     for (index, factor) in factors.iter().enumerate() {
-        for path in factor.paths() {
-            let meets = |f: &&Factor| f.paths().iter().any(|other| meet(other, path));
-            if let Some(other) = factors[..index].iter().find(meets) {
-                let what = format!("`{}` and `{}` both change {path}", other.name, factor.name);
+        let paths = factor.paths();
+        few(before.len() + paths.len(), MOST_PATHS, |what, allowed| file.wrong(&factor.key, what, allowed))?;
+        let own: Vec<Steps> = paths.iter().map(|path| steps(path)).collect();
+        for (path, own) in paths.iter().zip(&own) {
+            if let Some((_, other)) = before.iter().find(|(other, _)| meet(other, own)) {
+                let what = format!("`{}` and `{}` both change {path}", factors[*other].name, factor.name);
                 return Err(file.wrong(&factor.key, what, "each key changed by one factor"));
             }
         }
+        before.extend(own.into_iter().map(|own| (own, index)));
         for paths in factor.together() {
-            let twice = |i: &usize| paths[..*i].iter().any(|other| meet(other, paths[*i]));
+            few(paths.len(), MOST_CHANGES, |what, allowed| file.wrong(&factor.key, what, allowed))?;
+            let all: Vec<Steps> = paths.iter().map(|path| steps(path)).collect();
+            let twice = |i: &usize| all[..*i].iter().any(|other| meet(other, &all[*i]));
             if let Some(i) = (1..paths.len()).find(twice) {
                 let what = format!("`{}` changes {} twice", factor.name, paths[i]);
                 return Err(file.wrong(&factor.key, what, "each key changed once"));
@@ -256,26 +283,40 @@ fn contradictions(file: &StudyFile, factors: &[Factor]) -> Result<()> {
     Ok(())
 }
 
-/// Whether two paths change one key: they are the same, or one leads to a part of the other. A group is the key that realises
-/// it; those of the base are set by scaling what its motion is.
-fn meet(a: &str, b: &str) -> bool {
-    let key = |path: &str| match path.strip_prefix("group.") {
-        Some("acceleration" | "frequency") => path.to_string(),
-        Some(name) => crate::groups::realised_by(name).unwrap_or(path).to_string(),
-        None => path.to_string(),
+/// The error that `wrong` makes of it where there are more than `most` of what is said at a key.
+pub(crate) fn few(number: usize, most: usize, wrong: impl Fn(String, &str) -> concio::Error) -> Result<()> {
+    match number > most {
+        true => Err(wrong(format!("{number} of them are too many"), &format!("up to {most}"))),
+        false => Ok(()),
+    }
+}
+
+/// A key path in its parts.
+type Steps = Vec<String>;
+
+/// Those of a path. A group is the key that realises it; those of the base are set by scaling what its motion is.
+fn steps(path: &str) -> Steps {
+    let key = match path.strip_prefix("group.") {
+        Some("acceleration" | "frequency") | None => path,
+        Some(name) => crate::groups::realised_by(name).unwrap_or(path),
     };
-    let steps = |path: &str| key(path).split(['.', '[']).map(str::to_string).collect::<Vec<_>>();
+    key.split(['.', '[']).map(str::to_string).collect()
+}
+
+/// Whether two paths change one key: they are the same, or one leads to a part of the other.
+fn meet(a: &Steps, b: &Steps) -> bool {
     let same = |a: &String, b: &String| a == b || (a.ends_with(']') && b.ends_with(']') && (a == "*]" || b == "*]"));
-    steps(a).iter().zip(&steps(b)).all(|(a, b)| same(a, b))
+    a.iter().zip(b).all(|(a, b)| same(a, b))
 }
 
 fn motion_factor(file: &StudyFile) -> Result<Factor> {
     let folder = file.document.folder();
     let mut levels: Vec<Level> = Vec::new();
+    let mut names = HashSet::new();
     for (index, motion) in file.study.motions.iter().enumerate() {
         let key = format!("motion[{index}]");
         let label = Value::String(motion.name.clone());
-        if levels.iter().any(|l| l.label == label) {
+        if !names.insert(&motion.name) {
             return Err(file.wrong(&format!("{key}.name"), "two motions have this name", "names that differ"));
         }
         let json = |v: serde_json::Result<Value>| v.map_err(|e| file.wrong(&key, e.to_string(), ""));
@@ -357,6 +398,10 @@ impl Reader<'_> {
         self.file.wrong(&key, what, allowed)
     }
 
+    fn few(&self, key: &str, levels: usize) -> Result<()> {
+        few(levels, MOST_LEVELS, |what, allowed| self.wrong(key, what, allowed))
+    }
+
     fn path(&self) -> Result<String> {
         self.vary.path.clone().ok_or_else(|| self.wrong("path", "the key is missing", "a key path of the wall file"))
     }
@@ -377,8 +422,10 @@ impl Reader<'_> {
             changes: choice.set.iter().map(|(k, v)| (k.clone(), v.clone())).collect(),
             place: None,
         };
+        self.few("choices", v.choices.len())?;
+        let mut names = HashSet::new();
         for (i, choice) in v.choices.iter().enumerate() {
-            if v.choices[..i].iter().any(|c| c.name == choice.name) {
+            if !names.insert(&choice.name) {
                 return Err(self.wrong(
                     &format!("choices[{i}].name"),
                     "two choices have this name",
@@ -391,8 +438,11 @@ impl Reader<'_> {
 
     fn values(&self) -> Result<Vec<Level>> {
         let values = &self.vary.values;
-        let same = |a: &Value, b: &Value| a == b || amount(a).is_some_and(|a| amount(b) == Some(a));
-        if let Some(i) = (1..values.len()).find(|i| values[..*i].iter().any(|v| same(v, &values[*i]))) {
+        self.few("values", values.len())?;
+        // 0 and -0 are one number.
+        let of = |v: &Value| amount(v).map_or_else(|| (v.to_string(), 0), |(v, unit)| (unit, (v + 0.0).to_bits() + 1));
+        let mut seen = HashSet::new();
+        if let Some(i) = (0..values.len()).find(|&i| !seen.insert(of(&values[i]))) {
             let what = format!("{} stands here twice", values[i]);
             return Err(self.wrong(&format!("values[{i}]"), what, "values that differ"));
         }
@@ -461,8 +511,8 @@ impl Reader<'_> {
         let continuous = self.continuous(unit, law)?;
         match v.count {
             None => Ok(Over::Values(continuous)),
-            Some(count) if count > MOST_RUNS => {
-                Err(self.wrong("count", format!("{count} is out of range"), &format!("from 2 to {MOST_RUNS}")))
+            Some(count) if count > MOST_LEVELS => {
+                Err(self.wrong("count", format!("{count} is out of range"), &format!("from 2 to {MOST_LEVELS}")))
             }
             Some(count) if count >= 2 => {
                 let share = |i: usize| i as f64 / (count - 1) as f64;
@@ -578,12 +628,18 @@ fn one_unit<'v>(values: impl Iterator<Item = &'v Value>) -> Option<String> {
     units.all(|unit| unit.as_ref() == Some(&first)).then_some(first)
 }
 
+/// Longest text that is looked at for a number [bytes].
+const LONGEST_AMOUNT: usize = 1000;
+
 /// A number and its unit, of a number or a text such as "10 mm".
 pub fn amount(value: &Value) -> Option<(f64, String)> {
     match value {
         Value::Number(n) => n.as_f64().map(|v| (v, String::new())),
         Value::String(text) => {
             let text = text.trim();
+            if text.len() > LONGEST_AMOUNT {
+                return None;
+            }
             // The longest start that is a number: "1e3 m" and "2 e/s" differ in where the unit begins.
             let cuts = text.char_indices().map(|(i, _)| i).chain([text.len()]).skip(1);
             let end = cuts.filter(|&i| text[..i].trim().parse::<f64>().is_ok()).last()?;

@@ -1,5 +1,6 @@
 //! The study file: TOML (or JSON) with the keys of [`Study`]. Values stand in it as a wall file would say them.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use concio::case::{self, CaseFile, Document};
@@ -112,7 +113,7 @@ pub struct Vary {
     /// Key path in the wall file: `joint.friction.static`, `panel[0].courses`, `panel[*].brick.height`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
-    /// Values that stand there one after the other, at least one.
+    /// Values that stand there one after the other, from 1 to 10,000.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<Value>,
     /// Lower end of a range: a number, or a text with a unit.
@@ -121,7 +122,7 @@ pub struct Vary {
     /// Upper end, in the same unit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<Value>,
-    /// How many values of the range a grid or list takes, ends included; from 2.
+    /// How many values of the range a grid or list takes, ends included; 2 … 10,000.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 2))]
     pub count: Option<usize>,
@@ -357,8 +358,9 @@ impl StudyFile {
             let what = "a design that draws has nothing to draw: nothing varies";
             return Err(self.wrong("design", what, "at least one `[[vary]]`, `[[motion]]` or `scales`"));
         }
+        let mut seen = HashSet::new();
         for (i, scale) in study.scales.iter().enumerate() {
-            if study.scales[..i].contains(scale) {
+            if !seen.insert(scale.to_bits()) {
                 let what = format!("{scale} stands there twice");
                 return Err(self.wrong(&format!("scales[{i}]"), what, "each scale once"));
             }

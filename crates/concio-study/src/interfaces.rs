@@ -11,12 +11,15 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::factors::{Changes, amount, written};
+use crate::factors::{Changes, amount, few, written};
 use crate::file::{Spacing, StudyFile};
 use crate::measures::Row;
 use crate::placement::Places;
 use crate::plan::Plan;
 use crate::search::Design;
+
+/// Devices to choose from, and parameters of one.
+const MOST_DEVICES: usize = 100;
 
 /// Asks which joints to replace by which devices.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -545,6 +548,7 @@ fn devices(file: &StudyFile, input: &Interfaces) -> Result<Vec<Device>> {
     if input.devices.is_empty() {
         return Err(file.wrong("interfaces.device", "there is none", "one or more `[[interfaces.device]]`"));
     }
+    few(input.devices.len(), MOST_DEVICES, |what, allowed| file.wrong("interfaces.device", what, allowed))?;
     let mut devices: Vec<Device> = Vec::new();
     for (i, given) in input.devices.iter().enumerate() {
         let key = format!("interfaces.device[{i}]");
@@ -555,6 +559,8 @@ fn devices(file: &StudyFile, input: &Interfaces) -> Result<Vec<Device>> {
             let what = "`at` is what the search chooses";
             return Err(file.wrong(&format!("{key}.change.at"), what, "the eligible joints in `interfaces.at`"));
         }
+        let key_of = format!("{key}.parameter");
+        few(given.parameters.len(), MOST_DEVICES, |what, allowed| file.wrong(&key_of, what, allowed))?;
         let parameter = |(k, p): (usize, &ParameterInput)| parameter(file, &format!("{key}.parameter[{k}]"), p);
         let parameters = given.parameters.iter().enumerate().map(parameter).collect::<Result<Vec<_>>>()?;
         if let Some(k) = (1..parameters.len()).find(|&k| parameters[..k].iter().any(|p| p.path == parameters[k].path)) {

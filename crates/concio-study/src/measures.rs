@@ -128,6 +128,9 @@ pub struct Row {
     /// Joint that cracked first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first_joint: Option<String>,
+    /// Digest of the whole result, where that is kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub result: Option<String>,
     /// What a user should know before believing it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Warning>,
@@ -147,6 +150,7 @@ impl Row {
             numbers: Vec::new(),
             peak_joint: None,
             first_joint: None,
+            result: None,
             warnings: Vec::new(),
             joints: BTreeMap::new(),
         }
@@ -183,6 +187,7 @@ pub fn row(id: &str, prepared: &Prepared, outcome: &Outcome, keep: &[PerJoint]) 
         numbers: numbers.into_iter().map(|v| v.is_finite().then_some(v)).collect(),
         peak_joint: most.map(name),
         first_joint: outcome.first_crack().map(|b| name(b.joint)),
+        result: None,
         warnings: warnings_of(model, &rows, outcome),
         joints: keep.iter().map(|k| (*k, per_joint(*k, model.joints.len(), outcome))).collect(),
     }

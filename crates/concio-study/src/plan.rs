@@ -294,7 +294,7 @@ impl Records {
         if let Some(hash) = known(&map) {
             return Ok(hash);
         }
-        let bytes = concio::files::read_input(path).map_err(|e| {
+        let bytes = concio::files::read_input(path, concio::files::LARGEST_INPUT).map_err(|e| {
             InputError::new(format!("cannot be read: {e}")).in_file(path).allowed("an accelerogram that can be read")
         })?;
         let hash = blake3::hash(&bytes).to_hex().to_string();

@@ -17,7 +17,7 @@ use concio::model::Model;
 use concio::outcome::Outcome;
 use concio::record::StopReason;
 use concio::run::{Control, Prepared, joint_rows, prepare_with};
-use concio::store::hdf5;
+use concio::store::{digest, hdf5};
 use concio::warning::WarningKind;
 use concio::{Error, Result};
 use rayon::prelude::*;
@@ -167,6 +167,10 @@ impl<'a> Runner<'a> {
     /// The store cannot be written, a record cannot be read. Cases that fail have rows that say so.
     pub fn rows(&mut self, cases: &[Case]) -> Result<Option<Vec<Row>>> {
         let ids = cases.iter().map(|c| self.id(c)).collect::<Result<Vec<_>>>()?;
+        if self.results {
+            let store = &mut self.store;
+            self.pool.install(|| store.look_at_results(ids.iter().map(String::as_str), true));
+        }
         let mut seen = HashSet::new();
         let todo: Vec<usize> =
             (0..cases.len()).filter(|&i| self.known(&ids[i]).is_none() && seen.insert(&ids[i])).collect();
@@ -306,13 +310,16 @@ impl Desk<'_> {
             // Stopped on the way: to be done again.
             Ok(outcome) if outcome.stop_reason == StopReason::Interrupted => return,
             Ok(outcome) => {
-                if self.results
-                    && let Err(error) = self.write_result(id, prepared, &outcome)
-                {
-                    locked(&self.error).get_or_insert(error);
-                    return;
-                }
                 let mut row = row(id, prepared, &outcome, self.joints);
+                if self.results {
+                    match self.write_result(id, prepared, &outcome) {
+                        Ok(digest) => row.result = digest,
+                        Err(error) => {
+                            locked(&self.error).get_or_insert(error);
+                            return;
+                        }
+                    }
+                }
                 if self.cut {
                     // That the wall moves where its run was cut off says nothing of it.
                     row.warnings.retain(|w| w.kind != WarningKind::UnderWay);
@@ -332,13 +339,15 @@ impl Desk<'_> {
         }
     }
 
-    fn write_result(&self, id: &str, prepared: &Prepared, outcome: &Outcome) -> Result<()> {
+    /// Its digest.
+    fn write_result(&self, id: &str, prepared: &Prepared, outcome: &Outcome) -> Result<Option<String>> {
         let path = locked(&self.store).result_path(id);
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
         }
         let (model, provenance) = (&prepared.model, prepared.provenance());
-        hdf5::write(&path, &provenance, &model.wall, &joint_rows(model), outcome)
+        hdf5::write(&path, &provenance, &model.wall, &joint_rows(model), outcome)?;
+        digest::noted(&path)
     }
 }
 

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use concio::files;
+use concio::store::export::cell as text_cell;
 use concio::{Error, Result};
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType};
@@ -198,7 +199,7 @@ impl Lines {
             self.runs.push(Some(run));
             self.joints.push(Some(ByteArray::from(name.as_str())));
             cell(&mut self.csv, &mut self.cell, Some(run))?;
-            self.csv.write_field(name)?;
+            self.csv.write_field(&*text_cell(name))?;
             for (kind, column) in self.kinds.iter().zip(&mut self.values) {
                 let value = row.joints.get(kind).and_then(|v| v.get(e).copied().flatten());
                 column.push(value);
@@ -247,7 +248,8 @@ fn cell(csv: &mut csv::Writer<fs::File>, text: &mut String, value: Option<f64>) 
 }
 
 fn heading(name: &str, unit: &str) -> String {
-    if unit.is_empty() { name.to_string() } else { format!("{name} [{unit}]") }
+    let name = text_cell(name);
+    if unit.is_empty() { name.into_owned() } else { format!("{name} [{unit}]") }
 }
 
 /// Writes CSV: headings with their units in brackets, numbers that read back to the same bits. Whole or not at all.
@@ -261,7 +263,7 @@ pub fn write_csv(table: &Table, path: &Path) -> Result<()> {
     for line in 0..table.len() {
         let cell = |c: &Column| match &c.cells {
             Cells::Numbers(v) => v[line].map_or_else(String::new, |v| format!("{v}")),
-            Cells::Texts(v) => v[line].clone().unwrap_or_default(),
+            Cells::Texts(v) => v[line].as_deref().map_or_else(String::new, |v| text_cell(v).into_owned()),
         };
         writer.write_record(table.columns.iter().map(cell)).map_err(wrong)?;
     }

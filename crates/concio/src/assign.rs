@@ -1,6 +1,7 @@
 //! Which law each joint gets: the common ones of its kind, then the changes of the wall file in their order.
 
-use std::collections::{BTreeSet, HashMap};
+use std::cell::OnceCell;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use crate::case::{
     Case, Device, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointChange, JointKind, Joints,
@@ -115,8 +116,10 @@ pub fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLa
         check_spring(case.model, kind, law).map_err(|e| e.key(format!("joint.{key}.law")))?;
     }
     let mut laws: Vec<JointLaw> = joints.iter().map(|j| common_law(settings, j.kind)).collect();
+    looks(settings, joints.len())?;
+    let choice = Choice { wall, joints, names: OnceCell::new() };
     for (number, change) in settings.changes.iter().enumerate() {
-        let chosen = select(&change.at, wall, joints).map_err(|e| e.key(format!("joint.change[{number}].at")))?;
+        let chosen = choice.of(&change.at).map_err(|e| e.key(format!("joint.change[{number}].at")))?;
         let rocks = change.spring.is_some_and(|c| c.rocking_restitution.is_some());
         let rigid = |e: &usize| match change.spring.and_then(|c| c.law) {
             Some(law) => law == SpringLaw::Rigid,
@@ -210,6 +213,21 @@ fn given_at(settings: &Joints, kind: JointKind) -> &'static str {
     }
 }
 
+/// Joints that may be looked at for all changes together: some seconds.
+const MOST_LOOKS: usize = 1_000_000_000;
+
+/// A change that names no joints looks at all of them.
+fn looks(settings: &Joints, joints: usize) -> Result<()> {
+    let changes = settings.changes.iter().filter(|change| change.at.joints.is_empty()).count();
+    if changes.saturating_mul(joints) <= MOST_LOOKS {
+        return Ok(());
+    }
+    let what = format!("{changes} changes that choose among {joints} joints are too many");
+    let allowed =
+        format!("up to {} of them in this wall; those that name their joints do not count", MOST_LOOKS / joints);
+    Err(InputError::new(what).key("joint.change").allowed(allowed).into())
+}
+
 /// Bed and support joints of shear walls slide both ways and do nothing else: a law for one direction has no meaning
 /// there.
 fn check_spring(model: ModelKind, kind: JointKind, law: SpringLaw) -> std::result::Result<(), InputError> {
@@ -258,11 +276,48 @@ fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {
 /// # Errors
 /// A name that no joint or panel bears, or conditions that hold for no joint.
 pub fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Result<Vec<usize>, InputError> {
-    let mut listed = None;
-    if !at.joints.is_empty() {
-        let names: HashMap<String, usize> = joints.iter().enumerate().map(|(e, j)| (graph::name(wall, j), e)).collect();
+    Choice { wall, joints, names: OnceCell::new() }.of(at)
+}
+
+/// Joints to choose from, with their names once somebody asks for one: a wall may have thousands of changes.
+struct Choice<'w> {
+    wall: &'w Wall,
+    joints: &'w [Joint],
+    names: OnceCell<HashMap<String, usize>>,
+}
+
+impl Choice<'_> {
+    /// As [`select`].
+    fn of(&self, at: &Selector) -> std::result::Result<Vec<usize>, InputError> {
+        let listed = if at.joints.is_empty() { None } else { Some(self.listed(&at.joints)?) };
+        let panels = self.panels(&at.panel)?;
+        let courses: HashSet<usize> = at.course.iter().copied().collect();
+        let holds = |e: &usize| {
+            let joint = &self.joints[*e];
+            let middle = [0.5 * (joint.line[0] + joint.line[2]), 0.5 * (joint.line[1] + joint.line[3])];
+            (at.kind.is_empty() || at.kind.contains(&joint.kind))
+                && (panels.is_empty() || panels.contains(&self.wall.blocks[joint.a].panel))
+                && (courses.is_empty() || courses.contains(&joint.course(self.wall)))
+                && at.region.is_none_or(|[x0, y0, x1, y1]| {
+                    (x0.si()..=x1.si()).contains(&middle[0]) && (y0.si()..=y1.si()).contains(&middle[1])
+                })
+        };
+        let chosen: Vec<usize> = match listed {
+            Some(set) => set.into_iter().filter(holds).collect(),
+            None => (0..self.joints.len()).filter(holds).collect(),
+        };
+        if chosen.is_empty() {
+            return Err(InputError::new("no joint meets these conditions")
+                .allowed("conditions that hold together for at least one joint; `concio check` lists all joints"));
+        }
+        Ok(chosen)
+    }
+
+    fn listed(&self, wanted: &[String]) -> std::result::Result<BTreeSet<usize>, InputError> {
+        let named = || self.joints.iter().enumerate().map(|(e, j)| (graph::name(self.wall, j), e)).collect();
+        let names = self.names.get_or_init(named);
         let mut set = BTreeSet::new();
-        for name in &at.joints {
+        for name in wanted {
             let e = names.get(name).ok_or_else(|| {
                 let error = InputError::new(format!("no joint is named `{name}`"));
                 match name.split_once('|').map(|(a, b)| format!("{b}|{a}")).filter(|turned| names.contains_key(turned))
@@ -277,31 +332,18 @@ pub fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Resu
                 return Err(InputError::new(format!("joint `{name}` is listed twice")).allowed("each joint once"));
             }
         }
-        listed = Some(set);
+        Ok(set)
     }
-    for name in &at.panel {
-        if !wall.panels.iter().any(|p| p.name == *name) {
-            let all = wall.panels.iter().map(|p| p.name.as_str()).collect::<Vec<_>>().join(", ");
-            return Err(InputError::new(format!("no panel is named `{name}`")).allowed(all));
-        }
-    }
-    let holds = |joint: &Joint| {
-        let (block, course) = (&wall.blocks[joint.a], joint.course(wall));
-        let middle = [0.5 * (joint.line[0] + joint.line[2]), 0.5 * (joint.line[1] + joint.line[3])];
-        (at.kind.is_empty() || at.kind.contains(&joint.kind))
-            && (at.panel.is_empty() || at.panel.contains(&wall.panels[block.panel].name))
-            && (at.course.is_empty() || at.course.contains(&course))
-            && at.region.is_none_or(|[x0, y0, x1, y1]| {
-                (x0.si()..=x1.si()).contains(&middle[0]) && (y0.si()..=y1.si()).contains(&middle[1])
+
+    /// Panels by their names.
+    fn panels(&self, wanted: &[String]) -> std::result::Result<HashSet<usize>, InputError> {
+        let place = |name: &String| {
+            let found = self.wall.panels.iter().position(|p| p.name == *name);
+            found.ok_or_else(|| {
+                let all = self.wall.panels.iter().map(|p| p.name.as_str()).collect::<Vec<_>>().join(", ");
+                InputError::new(format!("no panel is named `{name}`")).allowed(all)
             })
-    };
-    let chosen: Vec<usize> = match listed {
-        Some(set) => set.into_iter().filter(|&e| holds(&joints[e])).collect(),
-        None => (0..joints.len()).filter(|&e| holds(&joints[e])).collect(),
-    };
-    if chosen.is_empty() {
-        return Err(InputError::new("no joint meets these conditions")
-            .allowed("conditions that hold together for at least one joint; `concio check` lists all joints"));
+        };
+        wanted.iter().map(place).collect()
     }
-    Ok(chosen)
 }

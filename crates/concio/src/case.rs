@@ -16,6 +16,7 @@ mod node;
 pub mod plausible;
 mod read;
 mod sets;
+mod size;
 mod templates;
 pub mod validate;
 
@@ -48,10 +49,10 @@ pub struct Case {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub set: Option<ParameterSet>,
     /// Panels from left to right, at least one; two and more stand in series in one plane. A wall may have up to
-    /// 4,000,000 blocks.
+    /// 1,000 panels and 500,000 blocks.
     #[serde(rename = "panel")]
     pub panels: Vec<Panel>,
-    /// Tie rods. Planar walls alone.
+    /// Tie rods, up to 1,000. Planar walls alone.
     #[serde(default, rename = "tie", skip_serializing_if = "Vec::is_empty")]
     pub ties: Vec<Tie>,
     /// Laws of the joints.
@@ -118,7 +119,7 @@ pub enum SetName {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Panel {
-    /// Name used in selectors, unique in the wall; default `p1`, `p2`, … from left to right.
+    /// Name used in selectors, unique in the wall, up to 200 bytes; default `p1`, `p2`, … from left to right.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// How the blocks are laid.
@@ -154,7 +155,7 @@ pub struct Panel {
     /// The arch (`bond = "arch"`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arch: Option<Arch>,
-    /// Doors and windows (`running`, `stack`, `irregular`).
+    /// Doors and windows (`running`, `stack`, `irregular`), up to 1,000.
     #[serde(default, rename = "opening", skip_serializing_if = "Vec::is_empty")]
     pub openings: Vec<Opening>,
     /// Thickness of the connection to the panel on the left [m], from 0; default the head mortar of this panel. Not
@@ -316,7 +317,7 @@ pub struct RandomTexture {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExplicitBlock {
-    /// Name, unique in the wall and without blanks, `|` or commas; default from panel, course and place (`p1c2b3`).
+    /// Name, unique in the wall and without blanks, `|` or commas, up to 200 bytes; default from panel, course and place (`p1c2b3`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
     /// Course, from 1 at the bottom; every course up to the highest has a block. Only courses one apart share joints.
@@ -420,7 +421,7 @@ pub struct Joints {
     /// Mortar that holds until it cracks, equations (B1) to (B4); default none: dry joints.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bond: Option<JointBond>,
-    /// Joints with laws of their own, applied in the order of the file: later ones win.
+    /// Joints with laws of their own, applied in the order of the file: later ones win. Up to 100,000.
     #[serde(default, rename = "change", skip_serializing_if = "Vec::is_empty")]
     pub changes: Vec<JointChange>,
 }
@@ -1160,7 +1161,7 @@ pub struct Solver {
     /// Longest step [s], above 0; default none but the sample interval of the records.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_step: Option<Time>,
-    /// Step of a planar wall [s], above 0; default 1 ms, without inertia 20 ms. Planar walls alone.
+    /// Step of a planar wall [s], from 1e-8; default 1 ms, without inertia 20 ms. Planar walls alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<Time>,
 }

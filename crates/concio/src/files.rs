@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 
 const ENDING: &str = ".tmp";
 
-/// Longest input file that is read [bytes]: wall files, study files and records alike. A record of ten million samples, as many as a
+/// Longest record that is read [bytes]. One of ten million samples, as many as a
 /// run keeps, takes half of it at thirteen characters a sample.
 pub const LARGEST_INPUT: u64 = 256 << 20;
 
@@ -21,8 +21,8 @@ pub const LARGEST_INPUT: u64 = 256 << 20;
 pub enum Unread {
     /// It is no regular file: reading a pipe or a device may never end.
     Irregular(&'static str),
-    /// It is longer than [`LARGEST_INPUT`].
-    Large,
+    /// It is longer than that [bytes].
+    Large(u64),
     /// The system's reason.
     Io(io::Error),
 }
@@ -31,18 +31,18 @@ impl fmt::Display for Unread {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Unread::Irregular(what) => write!(f, "it is {what}, not a file"),
-            Unread::Large => write!(f, "it is larger than {} MiB", LARGEST_INPUT >> 20),
+            Unread::Large(most) => write!(f, "it is larger than {} MiB", most >> 20),
             Unread::Io(reason) => write!(f, "{reason}"),
         }
     }
 }
 
-/// The bytes of an input file.
+/// The bytes of an input file of up to `most` of them.
 ///
 /// # Errors
-/// [`Unread`] for what is no regular file, which is not even opened, for files longer than [`LARGEST_INPUT`], and for those that
+/// [`Unread`] for what is no regular file, which is not even opened, for longer files, and for those that
 /// the system does not give.
-pub fn read_input(path: &Path) -> std::result::Result<Vec<u8>, Unread> {
+pub fn read_input(path: &Path, most: u64) -> std::result::Result<Vec<u8>, Unread> {
     let kind = fs::metadata(path).map_err(Unread::Io)?;
     if kind.is_dir() {
         return Err(Unread::Irregular("a folder"));
@@ -50,14 +50,14 @@ pub fn read_input(path: &Path) -> std::result::Result<Vec<u8>, Unread> {
     if !kind.is_file() {
         return Err(Unread::Irregular("a pipe or a device"));
     }
-    if kind.len() > LARGEST_INPUT {
-        return Err(Unread::Large);
+    if kind.len() > most {
+        return Err(Unread::Large(most));
     }
     let mut bytes = Vec::new();
     // A file may grow while it is read.
     let file = File::open(path).map_err(Unread::Io)?;
-    file.take(LARGEST_INPUT + 1).read_to_end(&mut bytes).map_err(Unread::Io)?;
-    if bytes.len() as u64 > LARGEST_INPUT { Err(Unread::Large) } else { Ok(bytes) }
+    file.take(most + 1).read_to_end(&mut bytes).map_err(Unread::Io)?;
+    if bytes.len() as u64 > most { Err(Unread::Large(most)) } else { Ok(bytes) }
 }
 
 /// Calls `write` with a temporary name and gives the file its name `path` once everything has reached the disk.
@@ -111,6 +111,47 @@ pub(crate) fn remove_if_there(path: &Path) -> Result<()> {
         Err(e) if e.kind() != ErrorKind::NotFound => Err(Error::io(path, e)),
         _ => Ok(()),
     }
+}
+
+/// A file that was made for reading and writing; whatever bore its name is gone, and what that led to, if it was a link, is as it
+/// was.
+pub(crate) fn make_anew(path: &Path) -> Result<File> {
+    remove_if_there(path)?;
+    File::options().read(true).write(true).create_new(true).open(path).map_err(|e| Error::io(path, e))
+}
+
+/// Opens a file for reading and writing where there is one of that name itself: not where it is a link, a pipe or a device, for
+/// others may write to a folder of results.
+pub(crate) fn open_itself(path: &Path) -> Result<Option<File>> {
+    let io = |e| Error::io(path, e);
+    match fs::symlink_metadata(path) {
+        Ok(named) if named.is_file() => {}
+        Ok(_) => return Ok(None),
+        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(e) => return Err(io(e)),
+    }
+    match File::options().read(true).write(true).open(path) {
+        // A link may have come in between.
+        Ok(file) => Ok(is_named(&file, path).then_some(file)),
+        Err(e) if e.kind() == ErrorKind::NotFound => Ok(None),
+        Err(e) => Err(io(e)),
+    }
+}
+
+/// Whether an open file has that name itself, and no link that leads to it.
+#[cfg(unix)]
+pub(crate) fn is_named(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    match (file.metadata(), fs::symlink_metadata(path)) {
+        (Ok(ours), Ok(named)) => ours.ino() == named.ino() && ours.dev() == named.dev(),
+        _ => false,
+    }
+}
+
+/// Whether there is such a file, which is as much as these systems tell.
+#[cfg(not(unix))]
+pub(crate) fn is_named(_file: &File, path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|named| named.is_file())
 }
 
 /// Makes the names in a folder durable. Systems that cannot open a folder keep names durable by themselves.

@@ -87,8 +87,9 @@ fn polygons(wall: &Wall, panel: usize, joints: &mut Vec<Joint>) {
 
 fn polygon_connections(wall: &Wall, left: usize, joints: &mut Vec<Joint>) {
     let of = |panel: usize| (0..wall.blocks.len()).filter(move |&i| wall.blocks[i].panel == panel);
+    let right: Vec<usize> = of(left + 1).collect();
     for i in of(left) {
-        joints.extend(of(left + 1).filter_map(|j| between(wall, i, j, Some(wall.panels[left + 1].connection))));
+        joints.extend(right.iter().filter_map(|&j| between(wall, i, j, Some(wall.panels[left + 1].connection))));
     }
 }
 
@@ -102,6 +103,12 @@ fn between(wall: &Wall, i: usize, j: usize, connection: Option<f64>) -> Option<J
     let (a, b) = (&wall.blocks[i], &wall.blocks[j]);
     let info = &wall.panels[a.panel];
     let rough = ROUGH * info.reference_length;
+    // Of the many pairs of a large wall most are told apart by their boxes.
+    let most = connection.unwrap_or(info.mortar[0].max(info.mortar[1])) + 2.0 * rough;
+    let apart = |a: [f64; 2], b: [f64; 2]| a[0].max(b[0]) - a[1].min(b[1]) > most;
+    if apart(a.x, b.x) || apart(a.y, b.y) {
+        return None;
+    }
     let widest = |normal: [f64; 2]| connection.unwrap_or(info.mortar[usize::from(normal[0].abs() > normal[1].abs())]);
     let allows = |normal: [f64; 2], gap: f64| (-rough..=widest(normal) + rough).contains(&gap);
     let found = facing(&a.corners(), &b.corners(), CONTACT_TOLERANCE * info.reference_length, allows)?;

@@ -83,6 +83,8 @@ pub struct Finished {
 pub const RESULT: &str = "result.h5";
 /// Name of the summary in its folder.
 pub const SUMMARY: &str = "summary.json";
+/// Name of the page that is made of both, by whoever makes one.
+pub const REPORT: &str = "report.html";
 
 /// Time by the clock between two looks at it and at the monitor, about: the steps in between are chosen for it.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(40);
@@ -199,7 +201,7 @@ fn inputs_hash(case: &Case, folder: &Path) -> Result<String> {
     for (_, signal) in case.motion.signals() {
         if let Signal::Record(input) = signal {
             let path = folder.join(&input.record);
-            let bytes = files::read_input(&path);
+            let bytes = files::read_input(&path, files::LARGEST_INPUT);
             parts.push(bytes.map_err(|e| InputError::new(format!("the record cannot be read: {e}")).in_file(&path))?);
         }
     }
@@ -232,7 +234,8 @@ impl Prepared {
 }
 
 /// Runs `prepared` into the folder `out`; `monitor` is called now and then. `result.h5` and `summary.json` appear
-/// there whole or not at all. A run that was killed or interrupted is taken up where its journal ends.
+/// there whole or not at all. A run that was killed or interrupted is taken up where its journal ends. Results of other inputs
+/// that the folder holds are removed before a journal stands beside them.
 ///
 /// # Errors
 /// The folder cannot be written, or belongs to another run that is under way.
@@ -273,13 +276,26 @@ fn open_journal<'p>(
         version: env!("CARGO_PKG_VERSION").into(),
         layout: simulation.layout().clone(),
     };
+    let clear = || remove_results_of_others(out, &prepared.inputs_hash);
     if let Some((journal, state)) = Journal::resume(out, &header)? {
         if simulation.restore(&state) {
+            clear()?;
             return Ok((journal, Some(simulation.time())));
         }
         *simulation = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling)?;
     }
-    Ok((Journal::create(out, &header)?, None))
+    Ok((Journal::create(out, &header, clear)?, None))
+}
+
+/// A result beside the journal of another run would be taken for that run's, if it were killed: by whoever draws it, exports it
+/// or opens its page. The result goes last: without it the others are nothing.
+fn remove_results_of_others(out: &Path, inputs_hash: &str) -> Result<()> {
+    let result = out.join(RESULT);
+    if store::hdf5::inputs_hash(&result).as_deref() == Some(inputs_hash) {
+        return Ok(());
+    }
+    [REPORT, SUMMARY].iter().try_for_each(|name| files::remove_if_there(&out.join(name)))?;
+    files::remove_if_there(&result)
 }
 
 /// The loop around the time loop: moves rows to the journal, keeps checkpoints, asks the monitor.

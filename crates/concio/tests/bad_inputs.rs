@@ -32,6 +32,14 @@ base = "none"
 top = { sine = { amplitude = "5 mm", frequency = "2 Hz" } }
 "#;
 
+/// A panel more.
+const PANEL: &str = r#"[[panel]]
+bond = "stack"
+courses = 6
+bricks = 1
+brick = { length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18e3 }
+"#;
+
 /// A wrong file and what its error says.
 struct Bad {
     title: &'static str,
@@ -123,7 +131,14 @@ fn table() -> Vec<Bad> {
         "no courses", edit("courses = 6", "courses = 0"), "courses = 0", "panel[0].courses", "0 is out of range", "from 1";
         "negative number of bricks", edit("bricks = 4", "bricks = -4"), "bricks =", "panel[0].bricks", "the number -4 cannot stand here", "a whole number from 1";
         "bricks left out", edit("bricks = 4\n", ""), "[[panel]]", "panel[0].bricks", "bond `running` needs it", "from 1";
-        "a wall beyond all bounds", edit("courses = 6", "courses = 6000000000"), "[[panel]]", "panel[0]", "the wall would have up to 27000000000 blocks", "up to 4000000 blocks";
+        "a wall beyond all bounds", edit("courses = 6", "courses = 6000000000"), "[[panel]]", "panel[0]", "the wall would have up to 27000000000 blocks", "up to 500000 blocks";
+        "panels beyond all bounds", edit("[joint]\n", &format!("{}[joint]\n", PANEL.repeat(1000))), "[[panel]]", "panel", "1001 panels are too many", "up to 1000";
+        "ties beyond all bounds", tie(&vec!["from = \"base\", to = \"p1c1b1\", stiffness = 1e6"; 1001].join(" }, { ")), "tie =", "tie", "1001 ties are too many", "up to 1000";
+        "openings beyond all bounds", opening(&vec!["x = 0.1, y = 0.1, width = 0.1, height = 0.1"; 1001].join(" }, { ")), "opening =", "panel[0].opening", "1001 openings are too many", "up to 1000";
+        "name of a panel that is a book", edit("courses = 6", &format!("name = \"{}\"\ncourses = 6", "n".repeat(201))), "name =", "panel[0].name", "a name of 201 bytes is too long", "up to 200 bytes";
+        "name with an end in it", edit("courses = 6", "name = \"a\\u0000b\"\ncourses = 6"), "name =", "panel[0].name", "a name holds U+0000", "all other characters";
+        "name of a block that is a book", explicit(&[block(1, 0.0, 0.0, &format!("id = \"{}\"", "n".repeat(201)))]), "id =", "panel[0].block[0].id", "a name of 201 bytes is too long", "up to 200 bytes";
+        "step below rounding", format!("{}[solver]\nstep = 1e-9\n", planar("0.5 s", "0.5 s")), "step", "solver.step", "1e-9 s is out of range", "from 1e-8 s";
         "mortar as long as the brick", edit("head = \"10 mm\"", "head = \"25 cm\""), "mortar", "panel[0].mortar.head", "leave no half brick", "below the brick's length, 0.25 m";
         "zero slip velocity", edit("\"1 mm/s\"", "0"), "friction", "joint.friction.slip_velocity", "0 m/s is out of range", "above 0 m/s";
         "dynamic friction above static", edit("dynamic = 0.42", "dynamic = 0.7"), "friction", "joint.friction.dynamic", "0.7 is above the static coefficient", "0 … 0.6";
@@ -157,7 +172,7 @@ fn table() -> Vec<Bad> {
         "level beam where there is none", planar("beam = \"driven\"", "beam_rotation = \"fixed\"").replace("top = { sine", "base = { sine").replace("base = \"none\"\n", ""), "beam_rotation", "load.beam_rotation", "there is no beam", "`driven`, `tied`";
         "joint softer when pressed", planar("rigidity = 1000", "normal_to_shear = 0"), "head = { law", "joint.head.normal_to_shear", "0 is out of range", "above 0";
         "joint without strength", planar("rigidity = 1000", "compressive_strength = \"0 MPa\""), "head = { law", "joint.head.compressive_strength", "0 Pa is out of range", "above 0 Pa";
-        "step of no length", format!("{}[solver]\nstep = 0\n", planar("0.5 s", "0.5 s")), "step", "solver.step", "0 s is out of range", "above 0 s";
+        "step of no length", format!("{}[solver]\nstep = 0\n", planar("0.5 s", "0.5 s")), "step", "solver.step", "0 s is out of range", "from 1e-8 s";
         "tilt at once", motion("{ tilt = { acceleration = \"0.5 g\", rise = 0 } }"), "base =", "motion.base.tilt.rise", "0 s is out of range", "above 0 s";
         "path without places", motion("{ path = { displacements = [], speed = 1 } }"), "base =", "motion.base.path.displacements", "0 displacements are given", "at least one";
         "path that stands", motion("{ path = { displacements = [0.1, 0.1], speed = 1 } }"), "base =", "motion.base.path.displacements[1]", "0.1 m stands before it", "other than the one before it";

@@ -78,7 +78,7 @@ fn a_planar_run_resumes_from_its_journal() {
     let folder = tempfile::tempdir().unwrap();
     let (inputs_hash, version) = (s.provenance.inputs_hash.clone(), s.provenance.version.clone());
     let header = JournalHeader { inputs_hash, version, layout: s.outcome.layout.clone() };
-    let mut journal = Journal::create(folder.path(), &header).unwrap();
+    let mut journal = Journal::create(folder.path(), &header, || Ok(())).unwrap();
     journal.append(&rows(&header.layout, 0..150)).unwrap();
     journal.checkpoint(b"state").unwrap();
     journal.append(&rows(&header.layout, 150..170)).unwrap();

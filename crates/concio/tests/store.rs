@@ -10,13 +10,20 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use concio::Error;
+use concio::dice::Dice;
 use concio::record::{Channel, Recording};
-use concio::store::{self, Journal, JournalHeader, RunFacts, StoredRun, export, hdf5};
+use concio::store::{self, Journal, JournalHeader, RunFacts, StoredRun, digest, export, hdf5};
+use concio::warning::{Warning, WarningKind};
 use proptest::prelude::*;
 use store_sample::{SMALL, Sample, Size, reshape, rows, sample};
 
 fn write(path: &Path, s: &Sample) {
     hdf5::write(path, &s.provenance, &s.wall, &s.joints, &s.outcome).unwrap();
+}
+
+/// A journal in a folder that has no results.
+fn create(folder: &Path, header: &JournalHeader) -> concio::Result<Journal> {
+    Journal::create(folder, header, || Ok(()))
 }
 
 fn stored(s: Sample) -> StoredRun {
@@ -193,7 +200,8 @@ fn a_truncated_file_is_an_error() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
-    /// A damaged file may still be readable where the damage hits a value; it must never panic or eat the memory.
+    /// A file that was damaged before it got its digest may still be readable where the damage hits a value; it must never panic
+    /// or eat the memory. So it is with one that bears a digest made for it.
     #[test]
     fn a_damaged_file_does_not_panic(places in prop::collection::vec((0.0..1.0f64, any::<u8>()), 1..20)) {
         static WHOLE: OnceLock<Vec<u8>> = OnceLock::new();
@@ -204,16 +212,90 @@ proptest! {
             write(&path, &sample(size));
             fs::read(&path).unwrap()
         });
-        let mut bytes = whole.clone();
+        let mut bytes = whole[..whole.len() - LINE].to_vec();
         for (place, value) in places {
             let at = (place * bytes.len() as f64) as usize;
             bytes[at] = value;
         }
+        bytes.extend(line(&bytes));
         fs::write(&path, bytes).unwrap();
         if let Err(error) = hdf5::read(&path) {
             prop_assert!(matches!(error, Error::Store { .. }), "{error}");
         }
     }
+}
+
+/// Length of the line with the digest, as docs/results.md has it.
+const LINE: usize = 73;
+
+/// The line with the digest of a result, as docs/results.md has it.
+fn line(bytes: &[u8]) -> Vec<u8> {
+    format!("\nBLAKE3 {}\n", blake3::hash(bytes).to_hex()).into_bytes()
+}
+
+/// Number `n` of single bits of a file, flipped: seeded, so that they are the same at every run.
+fn flipped(whole: &[u8], n: u64) -> Vec<u8> {
+    let mut dice = Dice::new(n);
+    let (at, bit) = (dice.below(whole.len()), dice.below(8));
+    let mut bytes = whole.to_vec();
+    bytes[at] ^= 1 << bit;
+    bytes
+}
+
+#[test]
+fn a_result_ends_with_its_digest() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    write(&path, &sample(SMALL));
+    let bytes = fs::read(&path).unwrap();
+    let (before, end) = bytes.split_at(bytes.len() - LINE);
+    assert!(end == line(before), "{}", String::from_utf8_lossy(end));
+    let noted = digest::noted(&path).unwrap();
+    assert_eq!(noted.as_deref(), Some(blake3::hash(before).to_hex().as_str()));
+    assert_eq!(digest::check(&path).unwrap(), noted);
+}
+
+/// HDF5 itself tells of some: of what it does not, most changed numbers that somebody may believe.
+#[test]
+fn a_bit_flipped_in_a_result_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    write(&path, &sample(SMALL));
+    let whole = fs::read(&path).unwrap();
+    for n in 0..200 {
+        fs::write(&path, flipped(&whole, n)).unwrap();
+        let error = hdf5::read(&path).expect_err("a bit is not what it was");
+        assert!(matches!(&error, Error::Store { what, .. } if *what == digest::CHANGED), "{n}: {error}");
+    }
+    // Nor is one believed that lost its digest with a part of its own end.
+    fs::write(&path, &whole[..whole.len() - LINE]).unwrap();
+    assert!(hdf5::read(&path).unwrap_err().to_string().contains(digest::CHANGED));
+}
+
+/// Blanks and the order of keys are no content.
+#[test]
+fn a_bit_flipped_in_a_summary_is_told_or_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("summary.json");
+    let s = sample(SMALL);
+    let facts = RunFacts { duration: 0.1, warnings: vec![Warning::new(WarningKind::Creep, "One.")], ..RunFacts::default() };
+    let summary = store::summary(&s.provenance, &s.wall, &s.joints, &s.outcome, &facts);
+    store::write_summary(&path, &summary).unwrap();
+    assert_eq!(store::read_summary(&path).unwrap(), summary);
+    let whole = fs::read(&path).unwrap();
+    let mut told = 0;
+    for n in 0..200 {
+        fs::write(&path, flipped(&whole, n)).unwrap();
+        match store::read_summary(&path) {
+            Ok(read) => assert_eq!(read, summary, "{n}"),
+            Err(Error::Store { .. }) => told += 1,
+            Err(other) => panic!("{other}"),
+        }
+    }
+    assert!(told > 100, "{told} of 200 were told");
+    let compact = serde_json::from_slice::<serde_json::Value>(&whole).unwrap().to_string();
+    fs::write(&path, compact).unwrap();
+    assert_eq!(store::read_summary(&path).unwrap(), summary);
 }
 
 fn header(s: &Sample) -> JournalHeader {
@@ -242,7 +324,7 @@ fn a_journal_resumes_at_its_checkpoint() {
     let at = folder.path().join("new/run");
     let header = header(&s);
     assert!(Journal::resume(&at, &header).unwrap().is_none());
-    let mut journal = Journal::create(&at, &header).unwrap();
+    let mut journal = create(&at, &header).unwrap();
     go_on(&mut journal, &header, 0..110);
     assert!(journal.read_all().unwrap() == rows(&header.layout, 0..110));
     drop(journal);
@@ -262,7 +344,7 @@ fn a_journal_of_other_inputs_is_not_resumed() {
     let s = sample(SMALL);
     let folder = tempfile::tempdir().unwrap();
     let header = header(&s);
-    let mut journal = Journal::create(folder.path(), &header).unwrap();
+    let mut journal = create(folder.path(), &header).unwrap();
     go_on(&mut journal, &header, 0..30);
     drop(journal);
     let mut others = [header.clone(), header.clone(), header.clone()];
@@ -274,7 +356,7 @@ fn a_journal_of_other_inputs_is_not_resumed() {
     }
     assert!(Journal::resume(folder.path(), &header).unwrap().is_some());
     // A new journal takes the old state away before anything else.
-    drop(Journal::create(folder.path(), &others[0]).unwrap());
+    drop(create(folder.path(), &others[0]).unwrap());
     assert!(Journal::resume(folder.path(), &header).unwrap().is_none());
     assert!(Journal::resume(folder.path(), &others[0]).unwrap().is_none());
 }
@@ -284,14 +366,51 @@ fn two_runs_do_not_write_to_one_folder() {
     let s = sample(SMALL);
     let folder = tempfile::tempdir().unwrap();
     let header = header(&s);
-    let mut first = Journal::create(folder.path(), &header).unwrap();
+    let mut first = create(folder.path(), &header).unwrap();
     go_on(&mut first, &header, 0..30);
-    let error = Journal::create(folder.path(), &header).unwrap_err().to_string();
+    let error = create(folder.path(), &header).unwrap_err().to_string();
     assert!(error.contains("another run"), "{error}");
     assert!(Journal::resume(folder.path(), &header).is_err());
     assert!(first.read_all().unwrap() == rows(&header.layout, 0..30), "the first is unharmed");
     first.remove().unwrap();
-    Journal::create(folder.path(), &header).unwrap();
+    create(folder.path(), &header).unwrap();
+}
+
+/// What a link leads to is not written to, nor read as if it were the journal: a folder of results may be open to others.
+#[cfg(unix)]
+#[test]
+fn a_journal_follows_no_links() {
+    let folder = tempfile::tempdir().unwrap();
+    let (run, theirs) = (folder.path().join("run"), folder.path().join("theirs"));
+    let header = header(&sample(SMALL));
+    fs::create_dir(&run).unwrap();
+    // A whole journal of these inputs, at another place.
+    let mut journal = create(&theirs, &header).unwrap();
+    go_on(&mut journal, &header, 0..60);
+    drop(journal);
+    let names = ["journal.bin", "checkpoint.bin", "journal.lock"];
+    let bytes = || names.map(|name| fs::read(theirs.join(name)).unwrap());
+    let before = bytes();
+    for name in names {
+        std::os::unix::fs::symlink(theirs.join(name), run.join(name)).unwrap();
+    }
+    assert!(Journal::resume(&run, &header).unwrap().is_none(), "a journal that is a link is no journal");
+    let mut journal = create(&run, &header).unwrap();
+    go_on(&mut journal, &header, 0..30);
+    drop(journal);
+    assert!(bytes() == before, "what a link leads to was changed");
+    for name in names {
+        assert!(fs::symlink_metadata(run.join(name)).unwrap().is_file(), "{name} is a link still");
+    }
+    assert!(Journal::resume(&run, &header).unwrap().is_some());
+    // A link that leads nowhere makes no file where it points.
+    for name in names {
+        fs::remove_file(run.join(name)).unwrap();
+        std::os::unix::fs::symlink(folder.path().join("nothing"), run.join(name)).unwrap();
+    }
+    create(&run, &header).unwrap().remove().unwrap();
+    assert!(!folder.path().join("nothing").exists());
+    assert_eq!(fs::read_dir(&run).unwrap().count(), 0);
 }
 
 #[test]
@@ -299,7 +418,7 @@ fn rows_that_do_not_fit_are_refused_and_leave_the_journal_as_it_was() {
     let s = sample(SMALL);
     let folder = tempfile::tempdir().unwrap();
     let header = header(&s);
-    let mut journal = Journal::create(folder.path(), &header).unwrap();
+    let mut journal = create(folder.path(), &header).unwrap();
     go_on(&mut journal, &header, 0..20);
     let mut odd = rows(&header.layout, 20..30);
     odd.values.pop();
@@ -359,7 +478,7 @@ fn unharmed() -> &'static [[Vec<u8>; 2]; 2] {
         let header = header(&sample(HARMED));
         let folder = tempfile::tempdir().unwrap();
         let content = || FILES.map(|name| fs::read(folder.path().join(name)).unwrap());
-        let mut journal = Journal::create(folder.path(), &header).unwrap();
+        let mut journal = create(folder.path(), &header).unwrap();
         go_on(&mut journal, &header, 0..70);
         let [older_journal, older_state] = content();
         go_on(&mut journal, &header, 70..110);
@@ -397,7 +516,7 @@ proptest! {
             prop_assert!(journal.read_all().unwrap() == rows(&header.layout, 0..samples + 20));
         }
         // Starting anew works whatever is left in the folder.
-        let mut journal = Journal::create(folder.path(), &header).unwrap();
+        let mut journal = create(folder.path(), &header).unwrap();
         go_on(&mut journal, &header, 0..20);
         prop_assert!(journal.read_all().unwrap() == rows(&header.layout, 0..20));
     }
@@ -409,7 +528,7 @@ fn every_prefix_of_a_journal_resumes_or_starts_anew() {
     let folder = tempfile::tempdir().unwrap();
     let header = header(&s);
     let path = folder.path().join("journal.bin");
-    let mut journal = Journal::create(folder.path(), &header).unwrap();
+    let mut journal = create(folder.path(), &header).unwrap();
     go_on(&mut journal, &header, 0..30);
     let checkpoint_at = fs::metadata(&path).unwrap().len();
     go_on(&mut journal, &header, 30..40);
@@ -437,7 +556,7 @@ fn journal_child() {
     let header = header(&sample(LONG));
     let (mut journal, first) = match Journal::resume(&folder, &header).unwrap() {
         Some((journal, state)) => (journal, state.len() - 200),
-        None => (Journal::create(&folder, &header).unwrap(), 0),
+        None => (create(&folder, &header).unwrap(), 0),
     };
     go_on(&mut journal, &header, first..LONG.samples - 1);
 }
@@ -564,7 +683,9 @@ fn summary_has_the_keys_that_other_programs_read() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("summary.json");
     store::write_summary(&path, &summary).unwrap();
-    let read: serde_json::Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+    let mut read: serde_json::Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+    assert_eq!(read["digest"], blake3::hash(summary.to_string().as_bytes()).to_hex().as_str());
+    read.as_object_mut().unwrap().remove("digest");
     assert_eq!(read, summary);
 }
 
@@ -712,7 +833,7 @@ fn large_runs() {
         println!("{name}: {written:.2?} written, {bytes} bytes, {:.2?} read", start.elapsed());
         let header = header(&s);
         let start = Instant::now();
-        let mut journal = Journal::create(&folder.path().join("run"), &header).unwrap();
+        let mut journal = create(&folder.path().join("run"), &header).unwrap();
         for first in (0..size.samples - size.samples % 100).step_by(100) {
             journal.append(&rows(&header.layout, first..first + 100)).unwrap();
         }

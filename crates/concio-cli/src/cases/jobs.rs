@@ -8,18 +8,16 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use concio::Error;
-use concio::record::StopReason;
-use concio::run::{self, Control, Prepared};
-use concio::store::{SCHEMA_VERSION, StoredRun, hdf5};
-use concio_study::warned::{Warned, of_summary};
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
-
 use super::measures::{self, Measures};
 use super::walls::{self, MEMBERS, Setting, Which};
 use crate::failure::Failure;
 use crate::{files, report, stop};
+use concio::Error;
+use concio::record::StopReason;
+use concio::run::{self, Control, Prepared};
+use concio::store::{SCHEMA_VERSION, StoredRun, digest, hdf5, read_summary};
+use concio_study::warned::{Warned, of_summary};
+use serde::{Deserialize, Serialize};
 
 /// Name of the file of [`Kept`] in the folder of results.
 const KEPT: &str = "measures.json";
@@ -96,8 +94,7 @@ pub fn warned(out: &Path) -> Warned {
     let mut warned = Warned::default();
     for job in all() {
         let Some(folder) = job.folder(out) else { continue };
-        let summary = fs::read_to_string(folder.join(run::SUMMARY)).unwrap_or_default();
-        let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
+        let summary = read_summary(&folder.join(run::SUMMARY)).unwrap_or_default();
         warned.add(|| job.which.name().into(), &of_summary(&summary));
     }
     warned
@@ -133,12 +130,12 @@ fn one(job: Job, out: &Path, kept: &Mutex<Kept>) -> Result<Option<Measures>, Fai
     Ok(Some(measures))
 }
 
-/// Whether `folder` holds the whole run with these inputs.
+/// Whether `folder` holds the whole run with these inputs, as it was written.
 fn is_done(folder: &Path, hash: &str) -> bool {
-    let summary = fs::read_to_string(folder.join(run::SUMMARY)).unwrap_or_default();
-    let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
+    let summary = read_summary(&folder.join(run::SUMMARY)).unwrap_or_default();
     let whole = summary["stop_reason"] == "completed" && summary["inputs_hash"] == hash;
-    whole && folder.join(run::RESULT).is_file() && folder.join("report.html").is_file()
+    let result = || matches!(digest::check(&folder.join(run::RESULT)), Ok(Some(_)));
+    whole && folder.join(run::REPORT).is_file() && result()
 }
 
 /// As `concio run` does it; none when it was stopped.
@@ -172,18 +169,20 @@ fn locked(kept: &Mutex<Kept>) -> std::sync::MutexGuard<'_, Kept> {
     kept.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-/// Nothing when there is no such file or it is of another version: then all is run again.
+/// Nothing when there is no such file, it is of another version or not what was written: then all is run again.
 fn read_kept(out: &Path) -> Kept {
     let text = fs::read_to_string(out.join(KEPT)).unwrap_or_default();
-    let kept: Kept = serde_json::from_str(&text).unwrap_or_default();
+    let kept = serde_json::from_str(&text).ok().and_then(digest::opened);
+    let kept: Kept = kept.and_then(|kept| serde_json::from_value(kept).ok()).unwrap_or_default();
     if kept.meaning == MEANING { kept } else { Kept { meaning: MEANING, measures: Vec::new() } }
 }
 
 /// In an order that does not depend on which run was over first.
 fn write_kept(out: &Path, kept: &mut Kept) -> Result<(), Failure> {
     kept.measures.sort_by(|a, b| a.inputs_hash.cmp(&b.inputs_hash));
-    let text = serde_json::to_string(kept).map_err(|e| Failure::Other(e.to_string(), None))?;
-    files::write(&out.join(KEPT), &text)
+    let mut value = serde_json::to_value(kept).map_err(|e| Failure::Other(e.to_string(), None))?;
+    digest::seal(&mut value);
+    files::write(&out.join(KEPT), &value.to_string())
 }
 
 #[cfg(test)]

@@ -71,7 +71,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let table = |rows: &[Vec<String>]| if rows.is_empty() { String::new() } else { format!("{}\n", columns(rows)) };
     let list = if args.joints { format!("\n{}", columns(&joint_list(model))) } else { String::new() };
     let title = &case.title;
-    let title = if title.is_empty() { String::new() } else { format!("{title}\n\n") };
+    let title = if title.is_empty() { String::new() } else { format!("{}\n\n", files::line(title)) };
     let text = format!(
         "{title}{}\n{}{}\n{}{}{}{}\n{}{list}\n{} is a valid wall file.\n",
         columns(&panel_rows(model)),

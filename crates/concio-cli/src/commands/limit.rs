@@ -52,9 +52,10 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
         files::write(&out.join(DRAWING), &drawing)?;
     }
     if args.json {
-        files::print(&format!("{result:#}\n"))?;
+        files::print_json(&format!("{result:#}\n"))?;
     } else {
-        let title = if file.case.title.is_empty() { String::new() } else { format!("{}\n\n", file.case.title) };
+        let title =
+            if file.case.title.is_empty() { String::new() } else { format!("{}\n\n", files::line(&file.case.title)) };
         let names = |out: &Path| format!("\nopen {}\n", out.join(DRAWING).display());
         let written = args.out.as_deref().map(names).unwrap_or_default();
         files::print(&format!("{title}{}{written}", pairs(&rows(args, &weaker, other.as_ref()))))?;

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::PathBuf;
 
-use concio::store::StoredRun;
+use concio::run::SUMMARY;
+use concio::store::{StoredRun, read_summary};
 use concio::{Error, InputError};
 use serde_json::Value;
 
@@ -21,9 +22,12 @@ pub fn plot(args: &Plot) -> Result<(), Failure> {
 }
 
 fn report(args: &Plot, run: &StoredRun) -> Result<(), Failure> {
-    let path = args.dir.join("summary.json");
-    let text = fs::read_to_string(&path).map_err(|e| unusable(&path, &e.to_string()))?;
-    let summary: Value = serde_json::from_str(&text).map_err(|e| unusable(&path, &e.to_string()))?;
+    let path = args.dir.join(SUMMARY);
+    let summary = read_summary(&path).map_err(|error| match error {
+        Error::Store { path, what } => unusable(&path, &what),
+        Error::Io { path, source } => unusable(&path, &source.to_string()),
+        other => other.into(),
+    })?;
     let hash = summary.get("inputs_hash").and_then(Value::as_str);
     let reached = summary.get("time_reached").and_then(Value::as_f64);
     if hash != Some(&run.provenance.inputs_hash) || reached != Some(run.outcome.time_reached) {

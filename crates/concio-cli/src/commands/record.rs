@@ -46,7 +46,7 @@ pub fn record(args: &Record) -> Result<(), Failure> {
         files::write(path, &drawing(history, &measures, &spectrum))?;
     }
     if args.json {
-        return files::print(&json(&channels, place, &measures, &spectrum));
+        return files::print_json(&json(&channels, place, &measures, &spectrum));
     }
     files::print(&table(history, place + 1, channels.len(), &measures))?;
     notes(args, &channels, place);

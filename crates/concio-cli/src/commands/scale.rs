@@ -17,7 +17,7 @@ pub fn scale(args: &Scale) -> Result<(), Failure> {
     let found = groups(&prepared.case, &prepared.model, file.folder(), &reference).map_err(|e| file.locate(e))?;
     if args.json {
         let value = json!({ "reference": reference, "groups": found });
-        return files::print(&format!("{value:#}\n"));
+        return files::print_json(&format!("{value:#}\n"));
     }
     let general = pairs(&[
         ("M", format!("{}, the first panel's reference brick", short(reference.mass, "kg"))),

@@ -5,5 +5,5 @@ use crate::files;
 
 /// Prints the JSON Schema of the wall file.
 pub fn schema() -> Result<(), Failure> {
-    files::print(&format!("{:#}\n", concio::case::schema()))
+    files::print_json(&format!("{:#}\n", concio::case::schema()))
 }

@@ -39,7 +39,8 @@ pub fn run_command(command: &StudyCommand) -> std::result::Result<ExitCode, Fail
             // A mistake in the file is told before a folder that it could not have made.
             let plan = read(&args.place.file)?;
             let folder = folder(&args.place);
-            if Store::open(&folder)?.is_empty() {
+            let store = Store::open(&folder)?;
+            if store.is_empty() && store.faults().is_empty() {
                 let error = InputError::new("there is nothing to go on with: the folder has no runs").in_file(&folder);
                 return Err(error.help("`concio study run` begins a study").into());
             }
@@ -49,7 +50,8 @@ pub fn run_command(command: &StudyCommand) -> std::result::Result<ExitCode, Fail
         StudyCommand::Report(place) | StudyCommand::Export(place) => export(place),
         StudyCommand::Schema(_) => {
             let text = serde_json::to_string_pretty(&file::schema());
-            files::print(&(text.map_err(|e| Failure::Other(e.to_string(), None))? + "\n")).map(|()| ExitCode::SUCCESS)
+            files::print_json(&(text.map_err(|e| Failure::Other(e.to_string(), None))? + "\n"))
+                .map(|()| ExitCode::SUCCESS)
         }
     }
 }
@@ -113,8 +115,7 @@ fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
     }
     let shaking = asked::shaking(&plan)?;
     warn(&plan);
-    let store = Store::open(&folder(&args.place))?;
-    tell_outdated(&store);
+    let store = opened(&plan, &folder(&args.place), &cases)?;
     let mut rows = asked::lines(&plan, point(&plan), &shaking);
     rows.extend(study::ida::described(&plan)?);
     if study.first_crack.is_none() && study.ida.is_none() {
@@ -166,8 +167,10 @@ fn run(plan: &Plan, args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     };
     let threads = args.threads.map_or(0, usize::from);
     let mut runner = Runner::open(&out, &plan.file.study.keep, threads, &watch)?;
+    let told = study::tell_passed_over(runner.store(), 0);
     let rows = runner.rows(&mine);
     bar.clear();
+    study::tell_passed_over(runner.store(), told);
     let rows = rows?;
     if rows.is_none() {
         files::note("stopped early; the same command goes on from here");
@@ -236,14 +239,14 @@ fn found<'s>(plan: &Plan, store: &'s Store, cases: &[(String, Case)]) -> Vec<Opt
     cases.iter().map(|(id, _)| store.holding(id, &keep.joints, keep.results)).collect()
 }
 
-/// Says what a folder holds that does not count any more.
-fn tell_outdated(store: &Store) {
-    if store.outdated > 0 {
-        let many = counted(store.outdated, "run");
-        files::note(&format!(
-            "{many} of the folder were measured by another version and do not count: they are done anew"
-        ));
+/// What the folder knows of the runs of a plan; what does not count of it is told.
+fn opened(plan: &Plan, folder: &Path, cases: &[(String, Case)]) -> Result<Store> {
+    let mut store = Store::open(folder)?;
+    if plan.file.study.keep.results {
+        store.look_at_results(cases.iter().map(|(id, _)| id.as_str()), false);
     }
+    study::tell_passed_over(&store, 0);
+    Ok(store)
 }
 
 /// How many runs there are, what became of them and what they warn of, but for what is known already.
@@ -279,8 +282,7 @@ fn status(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
         return first_cracks(&plan, place, None, Do::Tell);
     }
     let cases = cases(&plan)?;
-    let store = Store::open(&folder(place))?;
-    tell_outdated(&store);
+    let store = opened(&plan, &folder(place), &cases)?;
     tell(&plan, &found(&plan, &store, &cases), &Warned::default())?;
     Ok(ExitCode::SUCCESS)
 }
@@ -289,8 +291,7 @@ fn export(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     let plan = read(&place.file)?;
     let cases = cases(&plan)?;
     let out = folder(place);
-    let store = Store::open(&out)?;
-    tell_outdated(&store);
+    let store = opened(&plan, &out, &cases)?;
     if store.is_empty() {
         let error = InputError::new("there is nothing to export: the folder has no runs").in_file(&out);
         return Err(error.help("`concio study run` begins a study").into());

@@ -10,5 +10,5 @@ pub fn system(args: &System) -> Result<(), Failure> {
     let file = wall_file::read(&args.file)?;
     let prepared = wall_file::prepare(&file)?;
     let system = concio::system::system(&prepared.model).map_err(|e| file.locate(e))?;
-    files::print(&format!("{system}\n"))
+    files::print_json(&format!("{system}\n"))
 }

@@ -19,7 +19,7 @@ use crate::motion;
 pub fn read(path: &Path) -> Result<CaseFile, Failure> {
     let file = case::read(path).map_err(|e| match Kind::of(path) {
         Some(Kind::Study) => of_study(path).into(),
-        _ if is_record(path) => of_record(e),
+        _ if path.is_file() && is_record(path) => of_record(e),
         _ => e,
     })?;
     let findings = file.findings();
@@ -66,6 +66,10 @@ pub enum Kind {
 impl Kind {
     /// None where a file cannot be read, or its keys do not tell.
     pub fn of(path: &Path) -> Option<Kind> {
+        // A pipe was read to its end already, and has no other.
+        if !path.is_file() {
+            return None;
+        }
         let keys: Map<String, Value> = Document::open(path, "a file").ok()?.to().ok()?;
         match (keys.contains_key("panel"), keys.get("wall").is_some_and(Value::is_string)) {
             (true, false) => Some(Kind::Wall),

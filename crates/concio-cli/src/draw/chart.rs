@@ -14,7 +14,7 @@ use kuva::render::render::render_multiple;
 use super::font;
 use super::output::Drawing;
 use super::scale::{Scale, around, logarithmic_label};
-use super::svg::{Anchor, Canvas, line, px};
+use super::svg::{Anchor, Canvas, line, mended, px};
 use super::thin;
 
 /// Sizes of letters [pt]: numbers at ticks, everything else.
@@ -266,7 +266,7 @@ fn library(panel: &Panel, axes: &Axes, [width, height]: [f64; 2]) -> String {
     }
     let mut scene = render_multiple(plots, layout);
     scene.background_color = None;
-    let svg = SvgBackend::new().render_scene(&scene);
+    let svg = mended(SvgBackend::new().render_scene(&scene));
     let inner = svg.split_once('>').map_or("", |(_, rest)| rest);
     inner.trim_end().trim_end_matches("</svg>").into()
 }

@@ -9,6 +9,7 @@ use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
 
 use super::scale::logarithmic_label;
+use super::svg::mended;
 use super::thin;
 
 /// Width of a figure [px].
@@ -120,7 +121,7 @@ pub fn draw(figure: &Figure) -> String {
         // A curve that is zero throughout has no range of its own.
         layout = layout.with_y_axis_min(-1.0).with_y_axis_max(1.0);
     }
-    with_view_box(SvgBackend::new().render_scene(&render_multiple(plots, layout)))
+    with_view_box(mended(SvgBackend::new().render_scene(&render_multiple(plots, layout))))
 }
 
 /// Puts figures one below the other into one drawing.

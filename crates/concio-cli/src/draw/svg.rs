@@ -11,12 +11,23 @@ pub fn escape(text: &str) -> String {
             '<' => safe.push_str("&lt;"),
             '>' => safe.push_str("&gt;"),
             '"' => safe.push_str("&quot;"),
-            // Control characters are not XML; names may come from any file.
-            c if c.is_control() && c != '\n' && c != '\t' => safe.push('\u{fffd}'),
-            c => safe.push(c),
+            c => safe.push(if is_xml(c) { c } else { '\u{fffd}' }),
         }
     }
     safe
+}
+
+/// Whether XML may have a character (XML 1.0, 2.2, without the control characters of C1): names may come from any file.
+fn is_xml(c: char) -> bool {
+    matches!(c, '\n' | '\t') || !(c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))
+}
+
+/// A drawing by a library that escapes what is markup and nothing else.
+pub fn mended(svg: String) -> String {
+    match svg.chars().all(is_xml) {
+        true => svg,
+        false => svg.chars().map(|c| if is_xml(c) { c } else { '\u{fffd}' }).collect(),
+    }
 }
 
 /// A coordinate in pixels, to a hundredth.

@@ -104,7 +104,7 @@ fn name(folder: &Path) -> String {
 
 /// Writes the report into the folder of the run; its path.
 pub fn write(folder: &Path, content: &Content) -> Result<PathBuf, Failure> {
-    let path = folder.join("report.html");
+    let path = folder.join(concio::run::REPORT);
     files::write(&path, &page::html(content))?;
     Ok(path)
 }

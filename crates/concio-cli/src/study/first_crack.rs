@@ -62,13 +62,13 @@ pub fn answer(request: &Request, what: Do) -> Result<ExitCode, Failure> {
     let complete = match what {
         Do::Share([share, of]) => {
             let mine: Vec<Subject> = subjects.iter().skip(share - 1).step_by(of).cloned().collect();
-            let Some(answers) = found(request, &mine, false)? else {
+            let Some(answers) = found(request, &mine, false, true)? else {
                 files::note("stopped early; the same command goes on from here");
                 return Ok(ExitCode::from(STOPPED));
             };
-            if mine.len() == subjects.len() { Some(answers) } else { found(request, subjects, true)? }
+            if mine.len() == subjects.len() { Some(answers) } else { found(request, subjects, true, false)? }
         }
-        Do::Report | Do::Tell => found(request, subjects, true)?,
+        Do::Report | Do::Tell => found(request, subjects, true, what == Do::Tell)?,
     };
     if let Some(answers) = &complete {
         warn_of_runs(request.wall, &warned(answers).sentences(&request.known));
@@ -106,8 +106,14 @@ fn warned(answers: &[Answer]) -> Warned {
     warned
 }
 
-/// The answers; none when the user, or `known_only` where runs are missing, stopped the search.
-fn found(request: &Request, subjects: &[Subject], known_only: bool) -> Result<Option<Vec<Answer>>, Failure> {
+/// The answers; none when the user, or `known_only` where runs are missing, stopped the search. What the folder holds that does
+/// not count is told with `tell`.
+fn found(
+    request: &Request,
+    subjects: &[Subject],
+    known_only: bool,
+    tell: bool,
+) -> Result<Option<Vec<Answer>>, Failure> {
     let bar = Runs::new();
     let watch = |progress: &Progress| {
         if stop::asked() {
@@ -118,6 +124,9 @@ fn found(request: &Request, subjects: &[Subject], known_only: bool) -> Result<Op
     };
     let mut runner = Runner::open(request.out, &keep(), request.threads, &watch)?;
     runner.reading = known_only;
+    if tell {
+        super::tell_passed_over(runner.store(), 0);
+    }
     let answers = search(request.question, subjects, &mut runner.until(request.question.rule));
     bar.clear();
     Ok(answers?)

@@ -51,6 +51,7 @@ pub fn run(
         if stop::asked() { Control::Stop } else { Control::Continue }
     };
     let mut runner = Runner::open(out, &plan.file.study.keep, threads, &watch)?;
+    let passed_over = super::tell_passed_over(runner.store(), 0);
     loop {
         let questions = analysis.questions(&|curve| curve % of == share - 1);
         if questions.is_empty() {
@@ -68,6 +69,7 @@ pub fn run(
         }
     }
     bar.clear();
+    super::tell_passed_over(runner.store(), passed_over);
     // Other shards may have ended meanwhile.
     let analysis = known(plan, &Store::open(out)?)?;
     tell(plan, &analysis, told)?;
@@ -84,7 +86,9 @@ pub fn run(
 
 /// Tells how far the curves are.
 pub fn status(plan: &Plan, out: &Path) -> std::result::Result<ExitCode, Failure> {
-    let analysis = known(plan, &Store::open(out)?)?;
+    let store = Store::open(out)?;
+    super::tell_passed_over(&store, 0);
+    let analysis = known(plan, &store)?;
     tell(plan, &analysis, &Warned::default())?;
     Ok(ExitCode::SUCCESS)
 }

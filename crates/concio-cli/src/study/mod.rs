@@ -16,3 +16,30 @@ pub mod sensitivity;
 pub mod wall_map;
 
 pub use page::write;
+
+use concio_study::store::Store;
+
+use crate::files;
+use crate::format::counted;
+
+/// Faults of a store that are named at most.
+const MOST_NAMED: usize = 5;
+
+/// Says what a folder holds that does not count: rows of another version, and from fault number `from` on what is not what was
+/// written; the number of faults.
+pub fn tell_passed_over(store: &Store, from: usize) -> usize {
+    if store.outdated > 0 && from == 0 {
+        let many = counted(store.outdated, "run");
+        files::note(&format!(
+            "{many} of the folder were measured by another version and do not count: they are done anew"
+        ));
+    }
+    let faults = &store.faults()[from..];
+    for fault in faults.iter().take(MOST_NAMED) {
+        files::note(&format!("warning: {fault}; it does not count, and `concio study run` does its run again"));
+    }
+    if faults.len() > MOST_NAMED {
+        files::note(&format!("warning: so it is with {} more", faults.len() - MOST_NAMED));
+    }
+    from + faults.len()
+}

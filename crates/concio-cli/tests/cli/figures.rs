@@ -85,6 +85,10 @@ fn a_damaged_result_is_told_with_what_mends_it() {
     desk.put("r/summary.json", &summary[..summary.len() / 2]);
     refused("plot r", "summary.json", "EOF");
     desk.put("r/summary.json", summary.replace("\"inputs_hash\": \"", "\"inputs_hash\": \"0"));
+    refused("plot r", "summary.json", "digest");
+    desk.put("other.toml", WALL.replace("2 mm", "1 mm"));
+    desk.concio("run other.toml -o q").assert().success();
+    desk.put("r/summary.json", desk.get("q/summary.json"));
     refused("plot r", "summary.json", "belongs to another run");
     fs::remove_file(desk.path("r/summary.json")).expect("the summary");
     refused("plot r", "summary.json", "No such file");
@@ -93,6 +97,14 @@ fn a_damaged_result_is_told_with_what_mends_it() {
     fs::write(desk.path("r/result.h5"), &whole[..whole.len() / 2]).expect("half of it");
     refused("plot r --figure energies", "result.h5", "");
     refused("export r --csv", "result.h5", "");
+    // HDF5 itself would not tell: a number in the middle of the file is another.
+    let mut flipped = whole.clone();
+    flipped[whole.len() / 2] ^= 1;
+    fs::write(desk.path("r/result.h5"), flipped).expect("a file");
+    for what in ["plot r", "plot r --figure energies", "export r --csv", "export r --npz", "export r --vtkhdf"] {
+        refused(what, "result.h5", "its digest is missing or does not match");
+    }
+    assert!(!desk.path("r/csv").exists() && !desk.path("r/result.npz").exists());
     fs::remove_file(desk.path("r/result.h5")).expect("the result");
     told(&desk.concio("export r --csv").assert().code(2));
 }

@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::Plan;
+use crate::factors::few;
 use crate::file::StudyFile;
 use crate::intensity::Intensity;
 use crate::measures::{MEASURES, Row, ends_with_collapse};
@@ -32,6 +33,8 @@ use hunt::Way;
 const NO_DAMAGE: [&str; 5] = ["time_reached", "first_crack", "energy_residual", "steps", "collapse"];
 /// Intensities of a list, and runs of a curve.
 const MOST_PER_CURVE: usize = 1000;
+/// Limit states.
+const MOST_LIMITS: usize = 100;
 
 /// `[ida]`: every motion of the study at rising intensity. Give `intensities` or `hunt`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -187,6 +190,7 @@ fn limits(file: &StudyFile, ida: &Ida, unit: &str, collapse: Option<f64>) -> Res
     if ida.limits.is_empty() {
         return Err(file.wrong("ida.limits", "there are no limit states", "at least one `{ name = …, value = … }`"));
     }
+    few(ida.limits.len(), MOST_LIMITS, |what, allowed| file.wrong("ida.limits", what, allowed))?;
     let mut limits: Vec<(String, f64)> = Vec::new();
     for (i, limit) in ida.limits.iter().enumerate() {
         let key = format!("ida.limits[{i}].value");

@@ -5,6 +5,9 @@ use serde_json::Value as Json;
 use super::node::{Entry, Fault, Node, Value};
 use crate::InputError;
 
+/// Most steps of a key path: wall files are nested less deeply, and every step is a level of the tree.
+const MOST_STEPS: usize = 64;
+
 /// A step of a key path.
 enum Step<'a> {
     Key(&'a str),
@@ -39,6 +42,9 @@ fn steps(path: &str) -> Result<Vec<Step<'_>>, InputError> {
         }
         if !rest.is_empty() {
             return Err(wrong());
+        }
+        if steps.len() > MOST_STEPS {
+            return Err(InputError::new("leads too deep").allowed(format!("a key path of up to {MOST_STEPS} steps")));
         }
     }
     Ok(steps)
@@ -158,6 +164,8 @@ base = { sine = { acceleration = \"0.3 g\", frequency = 3 } }
             ("", "is not a key path"),
             ("motion..base", "is not a key path"),
             ("motion.duration[0]", "this is none"),
+            (&vec!["a"; 55_000].join("."), "up to 64 steps"),
+            (&format!("a{}", "[0]".repeat(55_000)), "up to 64 steps"),
         ] {
             match changed(path, json!(1)) {
                 Err(e) => assert!(e.to_string().contains(says), "{path}: {e}"),

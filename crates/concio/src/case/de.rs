@@ -31,13 +31,20 @@ pub(crate) fn from_node<'de, T: Deserialize<'de>>(node: &'de Node) -> Result<T, 
     })
 }
 
+/// Longest word that another is suggested for [bytes].
+const LONGEST_WORD: usize = 100;
+
 /// The closest of `known` to `word`, if it is close: the fewest letters mistyped, then the longer word, since letters
 /// are left out more often than added (a plural), then the most alike from the start, then the nearest letters and
 /// digits, so that of numbered names the nearest number wins.
 pub(crate) fn suggestion<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // To compare two words takes the product of their lengths.
+    if word.len() > LONGEST_WORD {
+        return None;
+    }
     let plain = |text: &str| text.to_lowercase().replace('-', "_");
     let word = plain(word);
-    let ranked = known.into_iter().filter_map(|name| {
+    let ranked = known.into_iter().filter(|name| name.len() <= LONGEST_WORD).filter_map(|name| {
         let other = plain(name);
         let mistyped = strsim::damerau_levenshtein(&word, &other);
         let alike = strsim::jaro_winkler(&word, &other);

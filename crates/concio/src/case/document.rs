@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use super::de;
 use super::node::{Node, Source, parse_json, parse_toml};
 use super::read::{LARGEST_FILE, Syntax, hinted};
+use super::size;
 use super::templates::whole;
 use crate::files::{Unread, read_input};
 use crate::{InputError, Result};
@@ -33,9 +34,9 @@ impl Document {
             let allowed = format!("{kind} in TOML or JSON, UTF-8, up to {} MiB", LARGEST_FILE >> 20);
             InputError::new(what).in_file(path).allowed(allowed)
         };
-        let bytes = read_input(path).map_err(|e| match e {
+        let bytes = read_input(path, LARGEST_FILE).map_err(|e| match e {
             Unread::Irregular(what) => refuse(format!("is {what}, not {kind}")),
-            Unread::Large => refuse(format!("is too large for {kind}")),
+            Unread::Large(_) => refuse(format!("is too large for {kind}")),
             Unread::Io(reason) => refuse(format!("cannot be read: {reason}")),
         })?;
         if [[0xff, 0xfe], [0xfe, 0xff]].iter().any(|mark| bytes.starts_with(mark)) {
@@ -52,13 +53,14 @@ impl Document {
     /// Reads a text; `file` is named in errors and is what paths in it are relative to.
     ///
     /// # Errors
-    /// [`crate::Error::Input`] when it is empty or not of this syntax.
+    /// [`crate::Error::Input`] when it is empty, not of this syntax, or takes too much memory.
     pub fn parse(text: &str, syntax: Syntax, file: Option<&Path>) -> Result<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_string();
         let source = Source { path: file.map(Path::to_path_buf), text };
         if source.text.trim().is_empty() {
             return Err(source.locate(InputError::new(EMPTY), 0).into());
         }
+        size::check(&source.text, syntax).map_err(|e| source.named(e))?;
         let tree = match syntax {
             Syntax::Toml => parse_toml(&source),
             Syntax::Json => parse_json(&source),

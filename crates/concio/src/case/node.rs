@@ -146,29 +146,34 @@ pub(crate) fn parse_toml(source: &Source) -> crate::Result<Node> {
         source.locate(InputError::new(format!("not valid TOML: {message}")), e.span().map_or(0, |s| s.start))
     })?;
     let at = table.span().start;
-    from_toml(&DeValue::Table(table.into_inner()), at, DEPTH).map_err(|fault| source.place_fault(fault))
+    from_toml(DeValue::Table(table.into_inner()), at, DEPTH).map_err(|fault| source.place_fault(fault))
 }
 
-fn from_toml(value: &DeValue<'_>, at: usize, depth: usize) -> Result<Node, Fault> {
+/// Takes the parser's tables apart as it goes: they are the larger ones.
+fn from_toml(value: DeValue<'_>, at: usize, depth: usize) -> Result<Node, Fault> {
     let depth = deeper(depth, at)?;
     let value = match value {
-        DeValue::String(s) => Value::Text(s.to_string()),
+        DeValue::String(s) => Value::Text(s.into_owned()),
         DeValue::Integer(i) => i128::from_str_radix(i.as_str(), i.radix())
             .map(Value::Int)
             .map_err(|_| Fault::new(InputError::new(format!("`{i}` is too large for a whole number")), at))?,
         DeValue::Float(f) => number(f.as_str(), at)?,
-        DeValue::Boolean(b) => Value::Bool(*b),
+        DeValue::Boolean(b) => Value::Bool(b),
         DeValue::Datetime(d) => Value::Date(d.to_string()),
         DeValue::Array(items) => {
-            Value::List(items.iter().map(|v| from_toml(v.get_ref(), v.span().start, depth)).collect::<Result<_, _>>()?)
+            let item = |v: toml::Spanned<DeValue<'_>>| {
+                let at = v.span().start;
+                from_toml(v.into_inner(), at, depth)
+            };
+            Value::List(items.into_iter().map(item).collect::<Result<_, _>>()?)
         }
         DeValue::Table(table) => {
-            let entry = |(k, v): (&toml::Spanned<_>, &toml::Spanned<DeValue<'_>>)| {
-                let key: &std::borrow::Cow<'_, str> = k.get_ref();
-                let node = from_toml(v.get_ref(), v.span().start, depth)?;
-                Ok(Entry { key: key.to_string(), at: k.span().start, node })
+            let entry = |(k, v): (toml::Spanned<std::borrow::Cow<'_, str>>, toml::Spanned<DeValue<'_>>)| {
+                let (key_at, at) = (k.span().start, v.span().start);
+                let node = from_toml(v.into_inner(), at, depth)?;
+                Ok(Entry { key: k.into_inner().into_owned(), at: key_at, node })
             };
-            let mut entries = table.iter().map(entry).collect::<Result<Vec<_>, Fault>>()?;
+            let mut entries = table.into_iter().map(entry).collect::<Result<Vec<_>, Fault>>()?;
             // The parser sorts by name; the first error of a file should be the first in its text.
             entries.sort_by_key(|e| e.at);
             Value::Table(entries)

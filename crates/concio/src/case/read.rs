@@ -1,5 +1,6 @@
 //! From a wall file to a [`Case`]: text → tree → parameter set → structs.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use super::document::{self, Document};
@@ -9,8 +10,8 @@ use crate::wall::Wall;
 use crate::warning::Warning;
 use crate::{Error, InputError, Result};
 
-/// Longest wall file that is read [bytes].
-pub const LARGEST_FILE: u64 = crate::files::LARGEST_INPUT;
+/// Longest wall file that is read [bytes]: a hundred thousand blocks given by hand take a third of it.
+pub const LARGEST_FILE: u64 = 32 << 20;
 
 /// Syntax of a wall file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -200,7 +201,8 @@ fn unclosed(text: &str, end: usize) -> Option<usize> {
 
 fn resolve(document: Document) -> Result<CaseFile> {
     let placed = |fault: Fault| document.source.place_fault(fault);
-    let mut tree = document.tree.clone();
+    // Only what a parameter set or preset fills in takes a tree of its own: walls given block by block are large.
+    let mut tree = Cow::Borrowed(&document.tree);
     if let Some(node) = tree.get("set") {
         let set: ParameterSet = de::from_node(node).map_err(|mut fault| {
             fault.error.key = Some(fault.error.key.map_or("set".to_string(), |k| format!("set.{k}")));
@@ -209,7 +211,7 @@ fn resolve(document: Document) -> Result<CaseFile> {
         if let Some(error) = validate::parameter_set(&set) {
             return Err(placed(Fault::new(error, node.at)));
         }
-        sets::fill(&mut tree, &set).map_err(placed)?;
+        sets::fill(tree.to_mut(), &set).map_err(placed)?;
     }
     preset(&mut tree).map_err(placed)?;
     follow(&mut tree);
@@ -286,11 +288,12 @@ fn misspelt(tree: &Node, missing: &str) -> Option<String> {
 }
 
 /// Writes out what `friction.preset` stands for.
-fn preset(tree: &mut Node) -> std::result::Result<(), Fault> {
-    let Some(friction) = tree.get_mut("joint").and_then(|j| j.get_mut("friction")) else { return Ok(()) };
-    if friction.get("preset").and_then(Node::text) != Some("report") {
+fn preset(tree: &mut Cow<Node>) -> std::result::Result<(), Fault> {
+    let given = tree.get("joint").and_then(|j| j.get("friction")).and_then(|f| f.get("preset"));
+    if given.and_then(Node::text) != Some("report") {
         return Ok(());
     }
+    let Some(friction) = tree.to_mut().get_mut("joint").and_then(|j| j.get_mut("friction")) else { return Ok(()) };
     for (key, word) in [("on", "all"), ("normal_force", "overburden")] {
         friction.fill(key, Value::Text(word.to_string()));
         let Some(given) = friction.get(key) else { continue };
@@ -306,8 +309,17 @@ fn preset(tree: &mut Node) -> std::result::Result<(), Fault> {
 }
 
 /// Coulomb's own law has one coefficient: writes out the other, where a file gives it nowhere.
-fn follow(tree: &mut Node) {
-    let Some(joint) = tree.get_mut("joint") else { return };
+fn follow(tree: &mut Cow<Node>) {
+    let Some(joint) = tree.get("joint") else { return };
+    let lacks = |table: &Node| table.get("friction").is_some_and(|f| f.has("static") && !f.has("dynamic"));
+    let changes = match joint.get("change").map(|node| &node.value) {
+        Some(Value::List(changes)) => changes.as_slice(),
+        _ => &[],
+    };
+    if !lacks(joint) && !changes.iter().any(lacks) {
+        return;
+    }
+    let Some(joint) = tree.to_mut().get_mut("joint") else { return };
     let law = |friction: &Node| friction.get("law").and_then(Node::text).map(str::to_string);
     let common = joint.get("friction");
     let (usual, given) = (common.and_then(law), common.is_some_and(|f| f.has("dynamic")));

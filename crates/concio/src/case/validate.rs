@@ -79,6 +79,8 @@ enum Bound {
     From0,
     /// Above 0.
     Above0,
+    /// From there, above 0.
+    From(f64),
     /// Both ends included.
     Between(f64, f64),
 }
@@ -89,6 +91,7 @@ impl Bound {
             Bound::Finite => v.is_finite(),
             Bound::From0 => v >= 0.0,
             Bound::Above0 => v > 0.0,
+            Bound::From(low) => v >= low,
             Bound::Between(low, high) => (low..=high).contains(&v),
         }
     }
@@ -97,6 +100,7 @@ impl Bound {
             Bound::Finite => format!("a finite number{}", if unit.is_empty() { "" } else { " of either sign" }),
             Bound::From0 => format!("from 0{unit}"),
             Bound::Above0 => format!("above 0{unit}"),
+            Bound::From(low) => format!("from {}{unit}", shown(low)),
             Bound::Between(low, high) => format!("{} … {}{unit}", shown(low), shown(high)),
         }
     }
@@ -109,8 +113,12 @@ struct Findings {
 }
 
 impl Findings {
+    /// Whether there is room: what takes time to find out need not be then.
+    fn takes_more(&self) -> bool {
+        self.list.len() < MOST_FINDINGS
+    }
     fn add(&mut self, error: InputError) {
-        if self.list.len() < MOST_FINDINGS {
+        if self.takes_more() {
             self.list.push(error);
         }
     }
@@ -182,13 +190,19 @@ fn load(f: &mut Findings, case: &Case) {
     }
 }
 
+/// Shortest step of planar walls [s]: contact is solved to a millionth of what gravity gives in a step, and below this rounding
+/// is more than that.
+const SHORTEST_STEP: f64 = 1e-8;
+
 fn solver(f: &mut Findings, case: &Case) {
     let s = &case.solver;
     f.number("solver.tolerance", s.tolerance, Bound::Between(1e-12, 0.1));
     f.quantity("solver.floor", s.floor, Bound::Above0);
-    for (key, step) in [("solver.max_step", s.max_step), ("solver.step", s.step)] {
+    for (key, step, bound) in
+        [("solver.max_step", s.max_step, Bound::Above0), ("solver.step", s.step, Bound::From(SHORTEST_STEP))]
+    {
         if let Some(step) = step {
-            f.quantity(key, step, Bound::Above0);
+            f.quantity(key, step, bound);
         }
     }
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use crate::case::{HistoryLayout, HistoryQuantity, RecordInput};
-use crate::files::read_input;
+use crate::files::{LARGEST_INPUT, read_input};
 use crate::ground::source::{Source, line_end};
 use crate::ground::{
     cosmos, csmip_v2, cwb, geonet, itaca_asc, knet, knet_csv, nsmn, peer_at2, resemblance, spline, text, unam_asa,
@@ -213,7 +213,7 @@ impl From<&RecordInput> for TextOptions {
 /// # Errors
 /// [`crate::Error::Input`] when the file cannot be read or is not a record; it names file, line and cause.
 pub fn read(path: &Path, options: &TextOptions) -> Result<Vec<Record>> {
-    let bytes = read_input(path).map_err(|reason| {
+    let bytes = read_input(path, LARGEST_INPUT).map_err(|reason| {
         InputError::new(format!("the record cannot be read: {reason}"))
             .in_file(path)
             .help("a path in a wall file is relative to that file")

@@ -55,7 +55,9 @@ pub(super) fn polygons(panel: &Panel, index: usize, courses: &Courses, blocks: &
     let (before, mut looks) = (found.number(), 0usize);
     for (k, &i) in order.iter().enumerate() {
         let beside = order[k + 1..].iter().take_while(|&&j| blocks[j].x[0] < blocks[i].x[1]);
-        for &j in beside {
+        // Boxes that do not meet need no closer look: a tower has all of its blocks beside each other.
+        let level = |j: &&usize| blocks[**j].y[0] < blocks[i].y[1] && blocks[i].y[0] < blocks[**j].y[1];
+        for &j in beside.filter(level) {
             looks += usize::from(found.number() > before);
             if looks > MOST_DEPTHS {
                 found.cut = true;

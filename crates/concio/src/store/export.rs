@@ -8,7 +8,7 @@ use crate::store::{StoredRun, vtkhdf as vtk};
 mod csv;
 mod npz;
 
-pub use csv::csv;
+pub use csv::{cell, csv};
 pub use npz::npz;
 
 /// Writes the frames as a file that ParaView opens.

@@ -9,13 +9,14 @@ use crate::error::{Error, Result};
 use crate::files;
 use crate::outcome::{Collapse, Outcome, TieRow};
 use crate::record::{Event, Layout, Recording};
+use crate::store::digest;
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::{Sink, label};
 use crate::store::outlines::{self, Outlines};
 use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, vtkhdf};
 use crate::wall::{Block, End, PanelInfo, Wall};
 
-pub use crate::store::read::read;
+pub use crate::store::read::{inputs_hash, read};
 
 /// Value of the attribute `format` of a result file.
 pub(super) const FORMAT: &str = "concio-result";
@@ -35,7 +36,8 @@ pub(super) const NO_FRICTION: FrictionRow = FrictionRow {
     alpha: 0.0,
 };
 
-/// Writes a run to `path`: whole or not at all, replacing a file of that name. Equal arguments give equal bytes.
+/// Writes a run to `path`, its [`digest`] behind it: whole or not at all, replacing a file of that name. Equal arguments give
+/// equal bytes.
 ///
 /// # Errors
 /// [`Error::Store`] when lengths in `outcome` contradict each other or `wall`; [`Error::Io`] when the disk fails.
@@ -55,7 +57,8 @@ pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointR
         write_events(&mut sink, &outcome.recording.events)?;
         write_sums(&mut sink, outcome)?;
         vtkhdf::write_group(&mut sink, wall, outcome)?;
-        sink.close()
+        sink.close()?;
+        digest::append(temporary).map_err(|e| Error::io(path, e))
     })
 }
 

@@ -12,7 +12,7 @@
 //! changed, cut short or mixed with another one, the two do not match and the run starts anew.
 //! A journal is read by the version that wrote it only; it is no archive format.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File};
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -83,17 +83,20 @@ pub fn discard(folder: &Path) -> Result<()> {
 }
 
 impl Journal {
-    /// Starts a journal in `folder`, which is made if need be. A journal that was there is lost.
+    /// Starts a journal in `folder`, which is made if need be. A journal that was there is lost. `clear` is called when the folder
+    /// is this run's and has no journal: what must never stand beside one is to go there.
     ///
     /// # Errors
-    /// [`Error::Store`] when another run is writing to the folder, [`Error::Io`] when the disk fails.
-    pub fn create(folder: &Path, header: &JournalHeader) -> Result<Journal> {
+    /// [`Error::Store`] when another run is writing to the folder, [`Error::Io`] when the disk fails; those of `clear`.
+    pub fn create(folder: &Path, header: &JournalHeader, clear: impl FnOnce() -> Result<()>) -> Result<Journal> {
         fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
         let lock = lock::Lock::take(folder)?;
         // The old checkpoint goes first: it must never stand beside rows of this run.
-        remove_if_there(&checkpoint_path(folder))?;
         let path = journal_path(folder);
-        let mut file = open_options().truncate(true).open(&path).map_err(|e| Error::io(&path, e))?;
+        remove_if_there(&checkpoint_path(folder))?;
+        remove_if_there(&path)?;
+        clear()?;
+        let mut file = files::make_anew(&path)?;
         file.write_all(&JOURNAL_MAGIC).map_err(|e| Error::io(&path, e))?;
         let position = Position { length: JOURNAL_MAGIC.len() as u64, digest: [0; DIGEST] };
         let layout = header.layout.clone();
@@ -120,7 +123,7 @@ impl Journal {
         }
         let lock = lock::Lock::take(folder)?;
         let Some((position, state)) = read_checkpoint(&checkpoint_path(folder))? else { return Ok(None) };
-        let file = open_options().truncate(false).open(&path).map_err(|e| Error::io(&path, e))?;
+        let Some(file) = files::open_itself(&path)? else { return Ok(None) };
         let layout = header.layout.clone();
         let written = Vec::new();
         let mut journal = Journal { folder: folder.to_path_buf(), file, layout, position, written, _lock: lock };
@@ -319,7 +322,9 @@ fn chained(before: &[u8; DIGEST], lead: &[u8; LEAD], payload: &[u8]) -> [u8; DIG
 
 /// Position and state of a checkpoint; `None` when the file is not a whole one.
 fn read_checkpoint(path: &Path) -> Result<Option<(Position, Vec<u8>)>> {
-    let bytes = fs::read(path).map_err(|e| Error::io(path, e))?;
+    let Some(mut file) = files::open_itself(path)? else { return Ok(None) };
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(|e| Error::io(path, e))?;
     Ok(parse_checkpoint(&bytes))
 }
 
@@ -348,12 +353,6 @@ fn read_whole(reader: &mut impl Read, buffer: &mut [u8]) -> std::io::Result<bool
 fn header_bytes(folder: &Path, header: &JournalHeader) -> Result<Vec<u8>> {
     let failed = |e: serde_json::Error| Error::Store { path: journal_path(folder), what: e.to_string() };
     serde_json::to_vec(header).map_err(failed)
-}
-
-fn open_options() -> OpenOptions {
-    let mut options = OpenOptions::new();
-    options.read(true).write(true).create(true);
-    options
 }
 
 fn journal_path(folder: &Path) -> PathBuf {

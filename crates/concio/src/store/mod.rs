@@ -1,6 +1,8 @@
 //! What a run leaves on disk: one HDF5 file when it is over ([`hdf5`], with a [`vtkhdf`] group in it), a [`journal`]
-//! while it goes on, a [`summary()`] in JSON, and copies in other formats ([`export`]). docs/results.md describes them all.
+//! while it goes on, a [`summary()`] in JSON, and copies in other formats ([`export`]). What is read back has a [`digest`].
+//! docs/results.md describes them all.
 
+pub mod digest;
 pub mod export;
 mod fields;
 mod h5;
@@ -19,10 +21,10 @@ use crate::outcome::{BondRow, Outcome};
 use crate::wall::{Joint, Wall};
 
 pub use journal::{Journal, JournalHeader};
-pub use summary::{RunFacts, residual_relative, summary, top_force_rms, write_summary};
+pub use summary::{RunFacts, read_summary, residual_relative, summary, top_force_rms, write_summary};
 
 /// Version of the layout of result files; raised when a reader of the former version would misread a file.
-pub const SCHEMA_VERSION: u32 = 7;
+pub const SCHEMA_VERSION: u32 = 8;
 
 /// Where a result comes from. Nothing in it depends on clock, machine or folder: equal inputs give equal files.
 #[derive(Debug, Clone, PartialEq, Eq)]

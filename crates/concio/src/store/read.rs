@@ -7,24 +7,29 @@ use serde::de::IntoDeserializer;
 use serde::de::value::{Error as KeywordError, StrDeserializer};
 
 use crate::case::{DeviceLaw, JointKind};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::outcome::{BondRow, Collapse, Outcome, TieRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::Source;
 use crate::store::hdf5::{BASE, FORMAT, NO_DEVICE, NO_FRICTION, TOP, layout_against};
 use crate::store::outlines;
-use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, StoredRun};
+use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, StoredRun, digest};
 use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 
 /// Reads a run back from `path`, bit for bit what was written.
 ///
 /// # Errors
-/// [`Error::Store`](crate::Error::Store) when the file is not a whole result of this schema version;
-/// [`Error::Io`](crate::Error::Io) when it cannot be opened.
+/// [`Error::Store`] when the file is not a whole result of this schema version, or not what was written;
+/// [`Error::Io`] when it cannot be opened.
 pub fn read(path: &Path) -> Result<StoredRun> {
+    let digest = digest::check(path)?;
     let source = Source::open(path)?;
     let schema_version = check_format(&source)?;
+    if digest.is_none() {
+        // Said after the version: files of earlier ones have no digest.
+        return Err(Error::Store { path: path.to_path_buf(), what: digest::CHANGED.into() });
+    }
     let panels = read_panels(&source)?;
     let wall = Wall { blocks: read_blocks(&source, panels.len())?, panels };
     let joints = read_joints(&source, wall.blocks.len())?;
@@ -55,6 +60,13 @@ pub fn read(path: &Path) -> Result<StoredRun> {
         layout,
     };
     Ok(StoredRun { schema_version, provenance: read_provenance(&source)?, wall, joints, outcome })
+}
+
+/// Hash of the inputs of the run in `path`; none where that is no result of this version.
+pub fn inputs_hash(path: &Path) -> Option<String> {
+    let source = Source::open(path).ok()?;
+    check_format(&source).ok()?;
+    source.attribute("inputs_hash").ok()
 }
 
 fn check_format(source: &Source) -> Result<u32> {

@@ -1,5 +1,6 @@
 //! `summary.json`: the numbers of a run that other programs read.
 
+use std::fs;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -9,7 +10,7 @@ use crate::files;
 use crate::outcome::{Outcome, TieRow};
 use crate::planar;
 use crate::record::Energies;
-use crate::store::{JointRow, Provenance};
+use crate::store::{JointRow, Provenance, digest};
 use crate::wall::Wall;
 use crate::warning::Warning;
 
@@ -76,15 +77,28 @@ pub fn summary(
     })
 }
 
-/// Writes a summary: whole or not at all.
+/// Writes a summary, its digest in it ([`digest::seal`]): whole or not at all.
 ///
 /// # Errors
 /// [`Error::Io`] when the disk fails.
 pub fn write_summary(path: &Path, summary: &Value) -> Result<()> {
-    let text = serde_json::to_string_pretty(summary);
+    let mut summary = summary.clone();
+    digest::seal(&mut summary);
+    let text = serde_json::to_string_pretty(&summary);
     let mut text = text.map_err(|e| Error::Store { path: path.to_path_buf(), what: e.to_string() })?;
     text.push('\n');
     files::replace_bytes(path, text.as_bytes())
+}
+
+/// Reads a summary, without its digest.
+///
+/// # Errors
+/// [`Error::Store`] when it is no JSON, or not what was written; [`Error::Io`] when it cannot be read.
+pub fn read_summary(path: &Path) -> Result<Value> {
+    let wrong = |what: String| Error::Store { path: path.to_path_buf(), what };
+    let bytes = fs::read(path).map_err(|e| Error::io(path, e))?;
+    let summary: Value = serde_json::from_slice(&bytes).map_err(|e| wrong(format!("it is no JSON: {e}")))?;
+    digest::opened(summary).ok_or_else(|| wrong(digest::CHANGED.into()))
 }
 
 /// Largest residual of the energy account over the largest energy in play, the work done on the wall or what it had at

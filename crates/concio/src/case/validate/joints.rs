@@ -1,5 +1,7 @@
 //! Joint laws and the changes to some joints.
 
+use std::collections::HashMap;
+
 use super::{Bound, Findings, devices};
 use crate::case::{
     Bond, BondChange, Case, Friction, FrictionChange, FrictionLaw, JointBond, JointChange, Panel, Selector, Spring,
@@ -27,12 +29,16 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
     if let Some(b) = &j.bond {
         bond(f, b);
     }
-    let names: Vec<String> = (0..case.panels.len()).map(|p| crate::pattern::panel_name(case, p)).collect();
+    if j.changes.len() > MOST_CHANGES {
+        f.push("joint.change", format!("{} changes are too many", j.changes.len()), format!("up to {MOST_CHANGES}"));
+        return;
+    }
+    let panels = Panels::of(case);
     // What an earlier change gave the same joints is not known here: after one that sets coefficients only a pair
     // given together is compared.
     let mut settled = true;
     for (i, change) in j.changes.iter().enumerate() {
-        selector(f, i, &change.at, case, &names);
+        selector(f, i, &change.at, &panels);
         self::change(f, i, change);
         if let Some(r) = &change.friction {
             friction_change(f, i, r, &j.friction, settled);
@@ -44,6 +50,41 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
         if let Some(d) = &change.device {
             devices::check(f, &format!("joint.change[{i}].device"), d);
         }
+    }
+}
+
+/// Changes of the laws of some joints that a wall may have.
+const MOST_CHANGES: usize = 100_000;
+/// Names of panels that a message lists.
+const MOST_LISTED: usize = 20;
+
+/// What selectors ask of the panels.
+struct Panels {
+    names: Vec<String>,
+    courses: HashMap<String, usize>,
+    most_courses: usize,
+}
+
+impl Panels {
+    fn of(case: &Case) -> Self {
+        let names: Vec<String> = (0..case.panels.len()).map(|p| crate::pattern::panel_name(case, p)).collect();
+        let courses: HashMap<String, usize> = names.iter().cloned().zip(case.panels.iter().map(courses)).collect();
+        let most_courses = courses.values().copied().max().unwrap_or(0);
+        Panels { names, courses, most_courses }
+    }
+
+    /// Courses of the highest of some panels; of all where none is named.
+    fn courses(&self, names: &[String]) -> usize {
+        match names.is_empty() {
+            true => self.most_courses,
+            false => names.iter().filter_map(|name| self.courses.get(name)).copied().max().unwrap_or(0),
+        }
+    }
+
+    fn listed(&self) -> String {
+        let some: Vec<String> = self.names.iter().take(MOST_LISTED).map(|n| format!("`{n}`")).collect();
+        let more = self.names.len().saturating_sub(MOST_LISTED);
+        if more > 0 { format!("{} and {more} more", some.join(", ")) } else { some.join(", ") }
     }
 }
 
@@ -216,20 +257,19 @@ fn friction_change(f: &mut Findings, i: usize, r: &FrictionChange, common: &Fric
     }
 }
 
-fn selector(f: &mut Findings, i: usize, at: &Selector, case: &Case, names: &[String]) {
+fn selector(f: &mut Findings, i: usize, at: &Selector, panels: &Panels) {
     for (k, name) in at.panel.iter().enumerate() {
-        if !names.contains(name) {
+        if !panels.courses.contains_key(name) && f.takes_more() {
             let error = InputError::new(format!("no panel is called `{name}`"))
                 .key(format!("joint.change[{i}].at.panel[{k}]"))
-                .allowed(names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", "));
-            f.add(match suggestion(name, names.iter().map(String::as_str)) {
+                .allowed(panels.listed());
+            f.add(match suggestion(name, panels.names.iter().map(String::as_str)) {
                 Some(near) => error.help(format!("did you mean `{near}`?")),
                 None => error,
             });
         }
     }
-    let chosen = case.panels.iter().zip(names).filter(|(_, n)| at.panel.is_empty() || at.panel.contains(n));
-    let courses = chosen.map(|(p, _)| courses(p)).max().unwrap_or(0);
+    let courses = panels.courses(&at.panel);
     for (k, course) in at.course.iter().enumerate() {
         // The top support counts as the course above the last.
         if !(1..=courses.saturating_add(1)).contains(course) && courses > 0 {

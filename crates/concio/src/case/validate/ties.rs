@@ -3,10 +3,17 @@
 use super::{Bound, Findings};
 use crate::case::{Case, ModelKind, Tie};
 
+/// Most ties of a wall: each joins what lies far apart, and makes the equations of a step denser.
+const MOST_TIES: usize = 1000;
+
 pub(super) fn check(f: &mut Findings, case: &Case) {
     if case.model == ModelKind::Shear && !case.ties.is_empty() {
         let what = "ties are for planar walls: blocks of a shear wall move horizontally and nothing else";
         f.push("tie[0]", what, "with `model = \"planar\"`; else leave it out");
+    }
+    if case.ties.len() > MOST_TIES {
+        f.push("tie", format!("{} ties are too many", case.ties.len()), format!("up to {MOST_TIES}"));
+        return;
     }
     for (i, tie) in case.ties.iter().enumerate() {
         if tie.from == tie.to {

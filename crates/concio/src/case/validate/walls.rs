@@ -1,13 +1,20 @@
 //! Panels: bricks, mortar, and the keys that each bond takes.
 
 use std::collections::HashMap;
+use std::fmt::Display;
 
 use super::{Bound, Findings};
 use crate::InputError;
 use crate::case::{Bond, Case, Ends, ExplicitBlock, Extent, First, Panel, RandomTexture};
 
-/// Most blocks of a wall.
-pub const LARGEST_WALL: usize = 4_000_000;
+/// Most blocks of a wall: 1.4 GB where they rise and turn.
+pub const LARGEST_WALL: usize = 500_000;
+/// Most panels of a wall.
+const MOST_PANELS: usize = 1000;
+/// Most openings of a panel: each is compared with all others.
+const MOST_OPENINGS: usize = 1000;
+/// Longest name of a panel or block [bytes]: joints bear two of them, tables and drawings many.
+const LONGEST_NAME: usize = 200;
 
 /// No fewer blocks than the panel will have (for a random texture an upper bound, else the number).
 pub fn block_bound(panel: &Panel) -> usize {
@@ -41,6 +48,10 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
     if case.panels.is_empty() {
         f.push("panel", "the wall has no panel", "at least one [[panel]]");
     }
+    if case.panels.len() > MOST_PANELS {
+        f.push("panel", format!("{} panels are too many", case.panels.len()), format!("up to {MOST_PANELS}"));
+        return;
+    }
     names(f, case);
     let mut total = 0usize;
     for (i, panel) in case.panels.iter().enumerate() {
@@ -69,6 +80,7 @@ fn names(f: &mut Findings, case: &Case) {
         if panel.name.as_deref().is_some_and(|n| n.trim().is_empty()) {
             f.push(format_args!("panel[{i}].name"), "the name is empty", "a name that is not blank");
         }
+        a_name(f, format_args!("panel[{i}].name"), panel.name.as_deref());
         if let Some(first) = seen.insert(name.clone(), i) {
             let what = format!("panel[{first}] is called `{name}` too");
             f.push(
@@ -77,6 +89,16 @@ fn names(f: &mut Findings, case: &Case) {
                 "names that differ (`p1`, `p2`, … are the names of unnamed panels)",
             );
         }
+    }
+}
+
+/// What a result can hold: in HDF5 a text ends at U+0000.
+fn a_name(f: &mut Findings, key: impl Display, name: Option<&str>) {
+    if let Some(name) = name.filter(|name| name.len() > LONGEST_NAME) {
+        f.push(&key, format!("a name of {} bytes is too long", name.len()), format!("up to {LONGEST_NAME} bytes"));
+    }
+    if name.is_some_and(|name| name.contains('\0')) {
+        f.push(key, "a name holds U+0000", "all other characters");
     }
 }
 
@@ -98,6 +120,11 @@ fn common(f: &mut Findings, i: usize, panel: &Panel) {
 }
 
 fn openings(f: &mut Findings, i: usize, panel: &Panel) {
+    if panel.openings.len() > MOST_OPENINGS {
+        let what = format!("{} openings are too many", panel.openings.len());
+        f.push(format_args!("panel[{i}].opening"), what, format!("up to {MOST_OPENINGS}"));
+        return;
+    }
     for (k, o) in panel.openings.iter().enumerate() {
         let key = format!("panel[{i}].opening[{k}]");
         extent(f, &format!("{key}.x"), o.x, Bound::From0, Counted::Bricks, panel.bond);
@@ -333,6 +360,7 @@ fn explicit(f: &mut Findings, i: usize, panel: &Panel) {
         if let Some(weight) = block.specific_weight {
             f.quantity(format_args!("panel[{i}].block[{k}].specific_weight"), weight, Bound::Above0);
         }
+        a_name(f, key("id"), block.id.as_deref());
         if let Some(id) = &block.id {
             let what = || format!("`{id}` cannot be the name of a block");
             if id.is_empty() || id.contains(|c: char| c.is_whitespace() || c == '|' || c == ',') {

@@ -1,5 +1,6 @@
 //! Tables as comma-separated values: one header line whose entries carry the unit, `name [unit]`.
 
+use std::borrow::Cow;
 use std::fmt::{Display, Write as _};
 use std::fs::{self, File};
 use std::path::Path;
@@ -16,8 +17,8 @@ use crate::wall::{Block, End};
 
 /// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv`, `corners.csv` where a
 /// block is no rectangle, `bonds.csv` where joints are bonded, `ties.csv` where there are ties and `events.csv` where something
-/// happened, into `folder`, which is made if need be. Numbers read back to
-/// the same bits.
+/// happened, into `folder`, which is made if need be. A table that this run has not, left by another, is removed. Numbers read
+/// back to the same bits.
 ///
 /// # Errors
 /// [`Error::Io`] when the disk fails, [`Error::Store`] when the run contradicts itself.
@@ -26,22 +27,15 @@ pub fn csv(run: &StoredRun, folder: &Path) -> Result<()> {
     fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
     table(&folder.join("histories.csv"), |t| histories(t, run))?;
     table(&folder.join("blocks.csv"), |t| blocks(t, run))?;
-    if run.wall.blocks.iter().any(|b| !b.is_rectangle()) {
-        table(&folder.join("corners.csv"), |t| corners(t, run))?;
-    }
+    let shaped = run.wall.blocks.iter().any(|b| !b.is_rectangle());
+    table_if(shaped, &folder.join("corners.csv"), |t| corners(t, run))?;
     table(&folder.join("joints.csv"), |t| joints(t, run))?;
     table(&folder.join("block_envelopes.csv"), |t| {
         envelopes(t, "block", &fields::BLOCK_ENVELOPES, &unknown_names(run), &run.outcome.envelopes)
     })?;
-    if !run.outcome.bonds.is_empty() {
-        table(&folder.join("bonds.csv"), |t| bonds(t, run))?;
-    }
-    if !run.outcome.ties.is_empty() {
-        table(&folder.join("ties.csv"), |t| ties(t, run))?;
-    }
-    if !run.outcome.recording.events.is_empty() {
-        table(&folder.join("events.csv"), |t| events(t, run))?;
-    }
+    table_if(!run.outcome.bonds.is_empty(), &folder.join("bonds.csv"), |t| bonds(t, run))?;
+    table_if(!run.outcome.ties.is_empty(), &folder.join("ties.csv"), |t| ties(t, run))?;
+    table_if(!run.outcome.recording.events.is_empty(), &folder.join("events.csv"), |t| events(t, run))?;
     table(&folder.join("joint_envelopes.csv"), |t| {
         let names: Vec<&str> = run.joints.iter().map(|j| j.name.as_str()).collect();
         envelopes(t, "joint", &fields::JOINT_ENVELOPES, &names, &run.outcome.envelopes)
@@ -54,6 +48,17 @@ fn unknown_names(run: &StoredRun) -> Vec<&str> {
     blocks.chain(std::iter::repeat("beam")).take(run.outcome.layout.unknowns).collect()
 }
 
+/// A text as a cell: a program for tables takes one that begins like a formula for one and reckons it, and what stands in a file
+/// of somebody else's must not be reckoned; an apostrophe before it makes it a text.
+pub fn cell(text: &str) -> Cow<'_, str> {
+    let reckoned = match text.chars().next() {
+        Some('=' | '@' | '\t' | '\r') => true,
+        Some('+' | '-') => text.parse::<f64>().is_err(),
+        _ => false,
+    };
+    if reckoned { format!("'{text}").into() } else { text.into() }
+}
+
 /// A file being written row by row.
 struct Table {
     writer: Writer<File>,
@@ -61,6 +66,10 @@ struct Table {
 }
 
 impl Table {
+    fn text(&mut self, text: &str) -> csv::Result<()> {
+        self.writer.write_field(&*cell(text))
+    }
+
     fn cell(&mut self, value: impl Display) -> csv::Result<()> {
         self.cell.clear();
         // Writing to a string fails only if the value's own formatting does.
@@ -92,6 +101,10 @@ fn table(path: &Path, fill: impl FnOnce(&mut Table) -> csv::Result<()>) -> Resul
     })
 }
 
+fn table_if(has: bool, path: &Path, fill: impl FnOnce(&mut Table) -> csv::Result<()>) -> Result<()> {
+    if has { table(path, fill) } else { files::remove_if_there(path) }
+}
+
 fn histories(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     let (channels, recording) = (&run.outcome.layout.channels, &run.outcome.recording);
     table.head("time", "s")?;
@@ -117,8 +130,8 @@ fn blocks(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     table.head("mass", "kg")?;
     table.end_row()?;
     for block in &run.wall.blocks {
-        table.cell(&block.name)?;
-        table.cell(run.wall.panels.get(block.panel).map_or("", |p| &p.name))?;
+        table.text(&block.name)?;
+        table.text(run.wall.panels.get(block.panel).map_or("", |p| &p.name))?;
         table.cell(block.course)?;
         numbers(table, &fields::BLOCKS, block)?;
         table.number(Block::mass(block))?;
@@ -135,7 +148,7 @@ fn corners(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     table.end_row()?;
     for block in &run.wall.blocks {
         for [x, y] in block.corners() {
-            table.cell(&block.name)?;
+            table.text(&block.name)?;
             table.number(x)?;
             table.number(y)?;
             table.end_row()?;
@@ -154,10 +167,10 @@ fn joints(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     table.end_row()?;
     let block = |index: usize| run.wall.blocks.get(index).map_or("", |b| b.name.as_str());
     for row in &run.joints {
-        table.cell(&row.name)?;
+        table.text(&row.name)?;
         table.cell(keyword(&row.joint.kind))?;
-        table.cell(block(row.joint.a))?;
-        table.cell(match row.joint.b {
+        table.text(block(row.joint.a))?;
+        table.text(match row.joint.b {
             End::Block(index) => block(index),
             End::Base => "base",
             End::Top => "top",
@@ -178,7 +191,7 @@ fn bonds(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     heads(table, &fields::BONDS)?;
     table.end_row()?;
     for bond in &run.outcome.bonds {
-        table.cell(run.joints.get(bond.joint).map_or("", |j| &j.name))?;
+        table.text(run.joints.get(bond.joint).map_or("", |j| &j.name))?;
         numbers(table, &fields::BONDS, bond)?;
         table.end_row()?;
     }
@@ -191,8 +204,8 @@ fn ties(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     heads(table, &fields::TIES)?;
     table.end_row()?;
     for tie in &run.outcome.ties {
-        table.cell(&tie.from)?;
-        table.cell(&tie.to)?;
+        table.text(&tie.from)?;
+        table.text(&tie.to)?;
         numbers(table, &fields::TIES, tie)?;
         table.end_row()?;
     }
@@ -207,7 +220,7 @@ fn events(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     table.end_row()?;
     for event in &run.outcome.recording.events {
         table.number(event.time)?;
-        table.cell(run.joints.get(event.joint as usize).map_or("", |j| &j.name))?;
+        table.text(run.joints.get(event.joint as usize).map_or("", |j| &j.name))?;
         table.cell(keyword(&event.kind))?;
         table.number(event.value)?;
         table.cell(event.kind.unit())?;
@@ -227,7 +240,7 @@ fn envelopes(
     heads(table, columns)?;
     table.end_row()?;
     for (row, name) in names.iter().enumerate() {
-        table.cell(name)?;
+        table.text(name)?;
         for column in columns {
             table.number((column.get)(values)[row])?;
         }

@@ -1,10 +1,11 @@
 //! One run per folder: a lock on a file in it, which the system gives up when the process ends, however it ends.
 
-use std::fs::{File, TryLockError};
+use std::fs::{self, File, TryLockError};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
-use crate::store::journal::{open_options, remove_if_there};
+use crate::files::{self, remove_if_there};
 
 /// A locked folder.
 #[derive(Debug)]
@@ -18,7 +19,7 @@ impl Lock {
     pub fn take(folder: &Path) -> Result<Lock> {
         let path = folder.join("journal.lock");
         loop {
-            let file = open_options().truncate(false).open(&path).map_err(|e| Error::io(&path, e))?;
+            let Some(file) = made_or_opened(&path)? else { continue };
             match file.try_lock() {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {
@@ -31,7 +32,7 @@ impl Lock {
             }
             // Between opening and locking, a run that ended may have removed the file: a lock on a file without a
             // name keeps nobody out.
-            if still_named(&file, &path) {
+            if files::is_named(&file, &path) {
                 return Ok(Lock { path, file });
             }
         }
@@ -57,23 +58,23 @@ impl Drop for Lock {
     }
 }
 
+/// None where the file came or went meanwhile.
+fn made_or_opened(path: &Path) -> Result<Option<File>> {
+    match File::options().read(true).write(true).create_new(true).open(path) {
+        Ok(file) => return Ok(Some(file)),
+        Err(e) if e.kind() == ErrorKind::AlreadyExists => {}
+        Err(e) => return Err(Error::io(path, e)),
+    }
+    // A link or a pipe is nobody's lock. A file stays: another run may hold it.
+    if fs::symlink_metadata(path).is_ok_and(|named| !named.is_file()) {
+        remove_if_there(path)?;
+    }
+    files::open_itself(path)
+}
+
 /// Whether the file system says that it knows no locks (ENOLCK, ENOSYS, EOPNOTSUPP).
 fn no_locks_here(error: &std::io::Error) -> bool {
     const ENOLCK: i32 = 37;
     error.kind() == std::io::ErrorKind::Unsupported
         || (cfg!(target_os = "linux") && error.raw_os_error() == Some(ENOLCK))
-}
-
-#[cfg(unix)]
-fn still_named(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    match (file.metadata(), std::fs::metadata(path)) {
-        (Ok(ours), Ok(named)) => ours.ino() == named.ino() && ours.dev() == named.dev(),
-        _ => false,
-    }
-}
-
-#[cfg(not(unix))]
-fn still_named(_file: &File, path: &Path) -> bool {
-    path.exists()
 }
