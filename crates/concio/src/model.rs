@@ -6,6 +6,7 @@ use crate::assign::{JointLaw, friction_choice, resolve};
 use crate::bond::{self, Bonded};
 use crate::case::{Beam, Case, DeviceLaw, JointKind, ModelKind, SpringLaw};
 use crate::device::{self, Device, Nonlinear};
+use crate::drift::{self, Tops};
 use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::graph;
@@ -18,6 +19,8 @@ use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 pub struct Model {
     /// The blocks.
     pub wall: Wall,
+    /// The top courses of its panels.
+    pub tops: Tops,
     /// The joints, in the order of the arrays below.
     pub joints: Vec<Joint>,
     /// What the top beam does.
@@ -224,6 +227,7 @@ impl Model {
         let support = |side| Support::of(side, &sides, &rubs, &bonds, &contacts, &nonlinear);
         let (on_base, on_beam) = (support(n), support(floating.unwrap_or(n + 1)));
         Ok(Model {
+            tops: Tops::of(&wall),
             wall,
             joints,
             beam,
@@ -316,6 +320,10 @@ impl Model {
     /// Name of every joint.
     pub fn joint_names(&self) -> Vec<String> {
         self.joints.iter().map(|j| graph::name(&self.wall, j)).collect()
+    }
+    /// When the last part of a run begins, over which residual drifts are means [s].
+    pub fn settles(&self) -> f64 {
+        drift::settles(self.excitation.duration, self.planar.as_ref().is_some_and(|planar| planar.still))
     }
     /// Index of the beam's unknown.
     pub fn floating_beam(&self) -> Option<usize> {

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use concio::Error;
 use concio::record::{Channel, Recording};
-use concio::store::{self, Journal, JournalHeader, RunFacts, StoredRun, export, hdf5};
+use concio::store::{self, Journal, JournalHeader, Moving, RunFacts, StoredRun, export, hdf5};
 use proptest::prelude::*;
 use store_sample::{SMALL, Sample, Size, reshape, rows, sample};
 
@@ -529,6 +529,7 @@ fn summary_has_the_keys_that_other_programs_read() {
         base_load: 5e4,
         solve_seconds: 0.5,
         resumed_from: None,
+        at_first_crack: Some(Moving { acceleration: -2.5, beam: Some(1e-3) }),
         warnings: vec!["One.".into()],
     };
     let summary = store::summary(&s.provenance, &s.wall, &s.joints, &s.outcome, &facts);
@@ -543,6 +544,10 @@ fn summary_has_the_keys_that_other_programs_read() {
     assert_eq!(number("/peak_slip_velocity"), 2.2e-2);
     assert_eq!(number("/weight"), 3e4);
     assert_eq!(number("/base_shear_peak"), 1.9e5);
+    assert_eq!((number("/base_shear_time"), number("/base_shear_displacement")), (0.02, -1.25e-3));
+    assert_eq!((number("/drift/peak"), number("/drift/displacement"), number("/drift/time")), (-4e-3, -2e-3, 0.03));
+    assert!(summary["drift"]["panel"] == "p1" && summary["drift"]["residual"].is_null(), "{}", summary["drift"]);
+    assert_eq!((number("/bonds/first_acceleration"), number("/bonds/first_beam")), (-2.5, 1e-3));
     assert_eq!((number("/collapse/time"), number("/collapse/displacement")), (0.06, 0.25));
     assert_eq!(summary.pointer("/collapse/block").and_then(|v| v.as_str()), Some(s.wall.blocks[0].name.as_str()));
     assert_eq!(number("/top_work"), 2.5);

@@ -50,6 +50,7 @@ pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointR
         write_history(&mut sink, &outcome.layout, &outcome.recording)?;
         write_frames(&mut sink, &outcome.layout, &outcome.recording)?;
         write_bonds(&mut sink, outcome)?;
+        write_columns(&mut sink, "drift", &fields::DRIFTS, &outcome.drifts)?;
         write_ties(&mut sink, &outcome.ties)?;
         write_collapse(&mut sink, outcome.totals.collapse.as_ref())?;
         write_events(&mut sink, &outcome.recording.events)?;
@@ -89,6 +90,7 @@ pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outco
         expect(&format!("frames of {}", field.name), (field.get)(recording).len(), expected)?;
     }
     expect("list of bonds", outcome.bonds.len(), layout.bonded)?;
+    expect("list of drifts", outcome.drifts.len(), wall.panels.len())?;
     if let Some(bond) = outcome.bonds.iter().find(|b| b.joint >= joints.len()) {
         return refuse(format!("not written: a bond of joint {} of {}", bond.joint, joints.len()));
     }

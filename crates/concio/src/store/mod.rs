@@ -19,10 +19,10 @@ use crate::outcome::{BondRow, Outcome};
 use crate::wall::{Joint, Wall};
 
 pub use journal::{Journal, JournalHeader};
-pub use summary::{RunFacts, residual_relative, summary, top_force_rms, write_summary};
+pub use summary::{Moving, RunFacts, residual_relative, summary, top_force_rms, write_summary};
 
 /// Version of the layout of result files; raised when a reader of the former version would misread a file.
-pub const SCHEMA_VERSION: u32 = 7;
+pub const SCHEMA_VERSION: u32 = 8;
 
 /// Where a result comes from. Nothing in it depends on clock, machine or folder: equal inputs give equal files.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use serde::de::value::{Error as KeywordError, StrDeserializer};
 
 use crate::case::{DeviceLaw, JointKind};
 use crate::error::Result;
-use crate::outcome::{BondRow, Collapse, Outcome, TieRow, Totals};
+use crate::outcome::{BondRow, Collapse, DriftRow, Outcome, TieRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::Source;
@@ -43,6 +43,7 @@ pub fn read(path: &Path) -> Result<StoredRun> {
         recording,
         bonds,
         ties: read_ties(&source)?,
+        drifts: read_drifts(&source, wall.panels.len())?,
         envelopes,
         energies: read_numbers(&source, "energy", &fields::ENERGIES, Energies::default())?,
         totals: Totals {
@@ -210,6 +211,12 @@ fn read_ties(source: &Source) -> Result<Vec<TieRow>> {
         from.into_iter().zip(to).map(|(from, to)| TieRow { from, to, ..TieRow::default() }).collect();
     read_columns(source, "ties", &fields::TIES, &mut ties)?;
     Ok(ties)
+}
+
+fn read_drifts(source: &Source, panels: usize) -> Result<Vec<DriftRow>> {
+    let mut drifts = vec![DriftRow::default(); panels];
+    read_columns(source, "drift", &fields::DRIFTS, &mut drifts)?;
+    Ok(drifts)
 }
 
 /// None in a file without it.

@@ -14,7 +14,7 @@ use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword};
 use crate::store::{FrictionRow, StoredRun};
 use crate::wall::{Block, End};
 
-/// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv`, `corners.csv` where a
+/// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv`, `joint_envelopes.csv` and `drift.csv`, `corners.csv` where a
 /// block is no rectangle, `bonds.csv` where joints are bonded, `ties.csv` where there are ties and `events.csv` where something
 /// happened, into `folder`, which is made if need be. Numbers read back to
 /// the same bits.
@@ -36,6 +36,7 @@ pub fn csv(run: &StoredRun, folder: &Path) -> Result<()> {
     if !run.outcome.bonds.is_empty() {
         table(&folder.join("bonds.csv"), |t| bonds(t, run))?;
     }
+    table(&folder.join("drift.csv"), |t| drifts(t, run))?;
     if !run.outcome.ties.is_empty() {
         table(&folder.join("ties.csv"), |t| ties(t, run))?;
     }
@@ -180,6 +181,18 @@ fn bonds(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     for bond in &run.outcome.bonds {
         table.cell(run.joints.get(bond.joint).map_or("", |j| &j.name))?;
         numbers(table, &fields::BONDS, bond)?;
+        table.end_row()?;
+    }
+    Ok(())
+}
+
+fn drifts(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
+    table.head("panel", "1")?;
+    heads(table, &fields::DRIFTS)?;
+    table.end_row()?;
+    for (panel, drift) in run.wall.panels.iter().zip(&run.outcome.drifts) {
+        table.cell(&panel.name)?;
+        numbers(table, &fields::DRIFTS, drift)?;
         table.end_row()?;
     }
     Ok(())
