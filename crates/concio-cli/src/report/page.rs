@@ -7,9 +7,9 @@ use concio::record::StopReason;
 use serde_json::Value;
 
 use super::{Content, data, doubts, figures};
-use crate::digest;
+use crate::digest::{self, Answer};
 use crate::draw::escape;
-use crate::format::{seconds, si};
+use crate::format::{exponent, seconds, si};
 
 /// Largest input that the page quotes [bytes]; it is in result.h5 in any case.
 const LARGEST_INPUT: usize = 1_000_000;
@@ -22,8 +22,8 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
 /// The report as HTML.
 pub fn html(content: &Content) -> String {
     let title = escape(if content.case.title.is_empty() { &content.name } else { &content.case.title });
-    let (contents, numbers) = data::payload(content);
-    let mut page = String::with_capacity(numbers.len() + contents.len() + (1 << 20));
+    let numbers = data::payload(content);
+    let mut page = String::with_capacity(numbers.len() + (1 << 20));
     let _ = write!(
         page,
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -31,10 +31,12 @@ pub fn html(content: &Content) -> String {
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n\
          <style>\n{STYLE}\n</style>\n<noscript><style>\n{}</style></noscript>\n</head>\n<body>\n\
          <header>\n<h1>{title}</h1>\n",
-        view_rules()
+        view_rules(figures::views(content))
     );
     head(&mut page, content);
     page.push_str("</header>\n<main>\n");
+    answers(&mut page, content);
+    warnings(&mut page, content);
     tiles(&mut page, content);
     page.push_str("<div id=\"app\"></div>\n");
     without_script(&mut page, content);
@@ -50,8 +52,7 @@ pub fn html(content: &Content) -> String {
     input(&mut page, content);
     let _ = write!(
         page,
-        "</main>\n<script type=\"application/json\" id=\"concio-contents\">{contents}</script>\n\
-         <script type=\"text/plain\" id=\"concio-numbers\">{numbers}</script>\n\
+        "</main>\n<script type=\"text/plain\" id=\"concio-data\">{numbers}</script>\n\
          <script>\n{PROGRAM}</script>\n</body>\n</html>\n"
     );
     page
@@ -69,7 +70,7 @@ fn table(rows: &[(&str, String)]) -> String {
     format!("<table class=\"facts\">\n{}</table>\n", rows.iter().map(row).collect::<String>())
 }
 
-/// What the run is, whether it reached its end, and what the user was warned of.
+/// What the run is, and whether it reached its end.
 fn head(page: &mut String, content: &Content) {
     let outcome = content.outcome;
     let duration = content.summary.get("duration").and_then(Value::as_f64).unwrap_or(outcome.time_reached);
@@ -86,12 +87,29 @@ fn head(page: &mut String, content: &Content) {
         let why = escape(digest::why(outcome.stop_reason));
         let _ = writeln!(page, "<p class=\"note bad\"><b>Stopped early at t = {at} of {duration}:</b> {why}.</p>");
     }
+}
+
+/// What is asked first.
+fn answers(page: &mut String, content: &Content) {
+    page.push_str("<dl class=\"answers\">\n");
+    for Answer { name, value, note, grave } in
+        digest::head(content.wall, content.joints, content.outcome, content.summary)
+    {
+        let class = if grave { " class=\"grave\"" } else { "" };
+        let (value, note) = (escape(&value), escape(&note));
+        let _ = writeln!(page, "<div{class}><dt>{name}</dt><dd><b>{value}</b><span>{note}</span></dd></div>");
+    }
+    page.push_str("</dl>\n");
+}
+
+/// What the user was warned of, directly beneath.
+fn warnings(page: &mut String, content: &Content) {
     for warning in digest::warnings(content.summary) {
         let _ = writeln!(page, "<p class=\"note\"><b>Warning:</b> {}</p>", escape(warning));
     }
 }
 
-/// The numbers that are looked for first.
+/// Numbers that are looked for next.
 fn tiles(page: &mut String, content: &Content) {
     let (totals, energies) = (&content.outcome.totals, &content.outcome.energies);
     let residual = digest::residual(content.summary);
@@ -102,7 +120,7 @@ fn tiles(page: &mut String, content: &Content) {
         ("work done on the wall", si(energies.input(), "J"), "by base, top and weight, over the whole run"),
         (
             "energy residual",
-            format!("{residual:.1e}"),
+            exponent(residual, 1),
             if closes { "of the largest work: the account closes" } else { "of the largest work: too much" },
         ),
     ];
@@ -157,11 +175,9 @@ fn asked(page: &mut String, content: &Content) {
     section(page, "asked", "Blocks and joints asked for", &body);
 }
 
-const VIEWS: usize = 5;
-
-/// Shows the view whose button is chosen, without a script.
-fn view_rules() -> String {
-    let shown: Vec<String> = (0..VIEWS).map(|k| format!("#v{k}:checked~#w{k}")).collect();
+/// Shows the view whose button is chosen, of so many, without a script.
+fn view_rules(views: usize) -> String {
+    let shown: Vec<String> = (0..views).map(|k| format!("#v{k}:checked~#w{k}")).collect();
     format!(".views>div{{display:none}}\n{}{{display:block}}\n", shown.join(","))
 }
 
