@@ -14,8 +14,6 @@ use super::{Content, beam_label};
 
 /// Layout of the data; the page's program refuses another.
 const LAYOUT: u32 = 5;
-/// Bytes that the data may take once they are deflated; in base64, with program, drawings and input, the page of a façade stays below 8 MB.
-const MOST: usize = 4_400_000;
 /// Times that deflating makes data shorter at best: what is longer is not tried.
 const SHORTER: usize = 6;
 /// Bytes of a number on its way to be deflated, about.
@@ -40,7 +38,7 @@ const SHEAR: [Precision; 2] = [
 const PLANAR: [Precision; 3] = [
     Precision { blocks: Digits::Shared(40), joints: Digits::Float },
     Precision { blocks: Digits::Own(20), joints: Digits::Own(20) },
-    Precision { blocks: Digits::Own(16), joints: Digits::Own(16) },
+    Precision { blocks: Digits::Own(15), joints: Digits::Own(14) },
 ];
 /// Bits of the damage of bonds, from 0 to 1.
 const DAMAGE: Digits = Digits::Shared(20);
@@ -55,32 +53,35 @@ const DAMPING: f64 = 0.05;
 /// Periods of the spectrum [s]: that many from the shortest to the longest, at equal ratios.
 const PERIODS: (usize, f64, f64) = (180, 0.02, 4.0);
 
-/// The data in base64. Where they would be too long, numbers are rounded first, and then only every second, third, … frame is kept.
-pub fn payload(content: &Content) -> String {
+/// The data in base64, of `room` bytes at most. Where they would be longer, numbers are rounded first, and then only every second,
+/// third, … frame is kept.
+pub fn payload(content: &Content, room: usize) -> String {
+    // In base64 three bytes take four.
+    let most = room / 4 * 3;
     let levels: &[Precision] = if content.is_planar() { &PLANAR } else { &SHEAR };
     let recorded = content.outcome.recording.frame_time.len();
     let length = BYTES * numbers_of_frame(content) * recorded;
     let (mut level, mut every) = (0, 1);
     loop {
         // Finer than that it cannot fit.
-        if length / every > SHORTER * MOST && every < recorded {
-            if level + 1 < levels.len() { level += 1 } else { every = length.div_ceil(SHORTER * MOST) }
+        if length / every > SHORTER * most && every < recorded {
+            if level + 1 < levels.len() { level += 1 } else { every = length.div_ceil(SHORTER * most) }
             continue;
         }
-        let data = attempt(content, levels[level], every);
-        if data.len() <= MOST || every >= recorded.max(1) {
+        let data = attempt(content, levels[level], every, most);
+        if data.len() <= most || every >= recorded.max(1) {
             return STANDARD.encode(data);
         }
         if level + 1 < levels.len() {
             level += 1;
         } else {
-            every = (every + 1).max((every * data.len()).div_ceil(MOST));
+            every = (every + 1).max((every * data.len()).div_ceil(most));
         }
     }
 }
 
 /// The data with every so many frames.
-fn attempt(content: &Content, precision: Precision, every: usize) -> Vec<u8> {
+fn attempt(content: &Content, precision: Precision, every: usize, most: usize) -> Vec<u8> {
     let mut pack = Pack::default();
     let frames = frames(&mut pack, content, precision, every);
     let (channels, curve) = histories(&mut pack, content, &frames);
@@ -91,10 +92,6 @@ fn attempt(content: &Content, precision: Precision, every: usize) -> Vec<u8> {
     envelopes(&mut pack, content);
     let (arrays, numbers) = pack.finish();
     let names = |of: &dyn Fn(&JointRow) -> Value| content.joints.iter().map(of).collect::<Vec<Value>>();
-    let rounded = |digits: Digits| match digits {
-        Digits::Float => Value::Null,
-        Digits::Shared(bits) | Digits::Own(bits) => json!(0.5f64.powi(bits as i32 - 1)),
-    };
     let contents = json!({
         "layout": LAYOUT,
         "name": content.name,
@@ -116,10 +113,8 @@ fn attempt(content: &Content, precision: Precision, every: usize) -> Vec<u8> {
             "every": frames.every,
             "standing": frames.standing,
             // How many times as many would have room, where deflating halves them.
-            "room": 2.0 * MOST as f64 / (numbers.len().max(1) as f64),
-            "rounded": if precision.joints == Digits::Float { Value::Null } else {
-                json!([rounded(precision.blocks), rounded(precision.joints)])
-            },
+            "room": 2.0 * most as f64 / (numbers.len().max(1) as f64),
+            "rounded": precision.joints.rounding().map(|joints| [precision.blocks.rounding(), Some(joints)]),
         },
         "curve": curve,
         "loops": looped,
@@ -459,7 +454,7 @@ fn envelopes(pack: &mut Pack, content: &Content) {
         ("joint/force", &e.joint_force),
         ("joint/dissipation", &e.joint_dissipation),
     ] {
-        pack.reals(&format!("envelope/{name}"), values);
+        pack.table(&format!("envelope/{name}"), values.len(), values, Digits::Float);
     }
 }
 
@@ -554,7 +549,7 @@ mod tests {
             outcome: &outcome,
             summary: &json!({}),
         };
-        let (contents, numbers) = read_back(&payload(&content));
+        let (contents, numbers) = read_back(&payload(&content, 1 << 22));
         assert_eq!((&contents["planar"], &contents["beam"]["moves"]), (&json!(true), &json!(true)));
         assert_eq!((&contents["frames"]["every"], &contents["frames"]["standing"]), (&json!(1), &json!(3)));
         assert!(contents["frames"]["rounded"].is_null());
@@ -604,7 +599,7 @@ mod tests {
                 outcome: &outcome,
                 summary: &json!({}),
             };
-            let (contents, numbers) = read_back(&payload(&content));
+            let (contents, numbers) = read_back(&payload(&content, 1 << 22));
             (prepared.model.wall, contents, numbers)
         };
         let (wall, contents, numbers) = data_of(ARCH);

@@ -17,8 +17,35 @@ pub enum Digits {
     Float,
     /// Whole multiples, of that many bits with their sign, of one power of two for the whole table: differences are exact.
     Shared(u32),
-    /// The same of one for every column, so that what moves little is known as well as what moves far.
+    /// Whole multiples of a step of its own for every column, so that what moves little is known as well as what moves far.
     Own(u32),
+}
+
+impl Digits {
+    /// By how much a number is rounded at most, over the largest of the table or column; none of floats.
+    pub fn rounding(self) -> Option<f64> {
+        match self {
+            Digits::Float => None,
+            Digits::Shared(bits) => Some(0.5f64.powi(bits as i32 - 2)),
+            Digits::Own(bits) => Some(0.5 * 2f64.powf(1.0 / PARTS) / most(bits)),
+        }
+    }
+}
+
+/// Steps are powers of two, and so many between them.
+const PARTS: f64 = 8.0;
+/// Bits by which what moves little is known better than what moves farthest, at most: beyond that it is as good as at rest.
+const FINER: u32 = 6;
+
+/// The largest whole number of so many bits; the one below its opposite stands for what is not finite.
+fn most(bits: u32) -> f64 {
+    ((1u64 << (bits - 1)) - 1) as f64
+}
+
+/// What a step is worth.
+fn step(exponent: i32) -> f64 {
+    let whole = exponent.div_euclid(PARTS as i32);
+    2f64.powi(whole) * 2f64.powf(f64::from(exponent.rem_euclid(PARTS as i32)) / PARTS)
 }
 
 /// What a number is foretold by.
@@ -111,7 +138,7 @@ pub fn deflated(text: &str, bytes: &[u8]) -> Vec<u8> {
     written.and_then(|()| out.finish()).unwrap_or_default()
 }
 
-/// The numbers as whole ones, and the powers of two that those are multiples of: one for all, or one for each column.
+/// The numbers as whole ones, and the exponents of the steps that those are multiples of: of one for all, or of one for each column.
 fn whole(values: &[f64], columns: usize, digits: Digits) -> (Vec<i64>, Vec<i32>) {
     match digits {
         Digits::Float => (values.iter().map(|v| of_float(*v as f32)).collect(), Vec::new()),
@@ -121,7 +148,8 @@ fn whole(values: &[f64], columns: usize, digits: Digits) -> (Vec<i64>, Vec<i32>)
         }
         Digits::Own(bits) => {
             let column = |c: usize| values.iter().skip(c).step_by(columns);
-            let exponents: Vec<i32> = (0..columns).map(|c| exponent(column(c), bits)).collect();
+            let least = part(values.iter(), bits + FINER);
+            let exponents: Vec<i32> = (0..columns).map(|c| part(column(c), bits).max(least)).collect();
             let of = |(k, v): (usize, &f64)| steps(*v, exponents[k % columns], bits);
             (values.iter().enumerate().map(of).collect(), exponents)
         }
@@ -135,16 +163,33 @@ fn of_float(value: f32) -> i64 {
     if bits >> 31 == 0 { size } else { -size }
 }
 
-/// One step is worth 2 to this power: the largest number takes one bit less than there is room for.
+fn largest<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
+    values.filter(|v| v.is_finite()).fold(0.0, |m: f64, v| m.max(v.abs()))
+}
+
+/// Of a step that is a power of two: the largest number takes one bit less than there is room for.
 fn exponent<'a>(values: impl Iterator<Item = &'a f64>, bits: u32) -> i32 {
-    let largest = values.filter(|v| v.is_finite()).fold(0.0, |m: f64, v| m.max(v.abs()));
     // Powers below that are no normal numbers; motions so small are none.
-    if largest == 0.0 { 0 } else { (largest.log2().ceil() as i32).max(-900) - (bits as i32 - 2) }
+    match largest(values) {
+        0.0 => 0,
+        largest => ((largest.log2().ceil() as i32).max(-900) - (bits as i32 - 2)) * PARTS as i32,
+    }
+}
+
+/// Of the least step by which the largest number has room.
+fn part<'a>(values: impl Iterator<Item = &'a f64>, bits: u32) -> i32 {
+    match largest(values) {
+        0.0 => i32::MIN / 2,
+        largest => (PARTS * ((largest.log2().max(-900.0)) - most(bits).log2())).ceil() as i32,
+    }
 }
 
 fn steps(value: f64, exponent: i32, bits: u32) -> i64 {
     // The number that stands for a value that is not finite.
-    if value.is_finite() { (value / 2f64.powi(exponent)).round() as i64 } else { -(1 << (bits - 1)) }
+    if !value.is_finite() {
+        return -(1 << (bits - 1));
+    }
+    if value == 0.0 { 0 } else { (value / step(exponent)).round() as i64 }
 }
 
 /// How the numbers differ from what foretells them best, column by column: even where they are larger, odd where smaller.
@@ -207,7 +252,7 @@ pub mod tests {
         let from = place["at"].as_u64().expect("exponents") as usize;
         let exponent = |k: usize| i32::from_le_bytes(bytes[from + 4 * (k % count)..][..4].try_into().expect("four bytes"));
         let hole = -(1i64 << (number("bits") - 1));
-        let value = |(k, m): (usize, &i64)| if *m == hole { f64::NAN } else { *m as f64 * 2f64.powi(exponent(k % columns)) };
+        let value = |(k, m): (usize, &i64)| if *m == hole { f64::NAN } else { *m as f64 * step(exponent(k % columns)) };
         numbers.iter().enumerate().map(value).collect()
     }
 
@@ -239,8 +284,10 @@ pub mod tests {
         let values: Vec<f64> = (0..50).flat_map(|row| (0..4).map(move |column| at(row, column))).collect();
         let found = back(&values, 4, Digits::Own(16));
         for (k, (v, found)) in values.iter().zip(&found).enumerate() {
-            let size = 10f64.powi(-4 * (k % 4) as i32);
-            assert!((v - found).abs() <= size * 2f64.powi(-14), "{v} became {found}");
+            // What moves little has a few bits more than what moves farthest, and no more.
+            let size = 10f64.powi(-4 * (k % 4) as i32).max(0.5f64.powi(FINER as i32));
+            let rounding = Digits::Own(16).rounding().expect("bits");
+            assert!((v - found).abs() <= size * rounding * (1.0 + 1e-9), "{v} became {found}");
         }
         assert_eq!(back(&values, 4, Digits::Float), values.iter().map(|v| f64::from(*v as f32)).collect::<Vec<_>>());
     }

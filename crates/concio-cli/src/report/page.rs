@@ -13,6 +13,9 @@ use crate::format::{exponent, seconds, si};
 
 /// Largest input that the page quotes [bytes]; it is in result.h5 in any case.
 const LARGEST_INPUT: usize = 1_000_000;
+/// Bytes that a page may take: it is sent by mail; and those that its data have in any case.
+const LARGEST: usize = 7_900_000;
+const LEAST_DATA: usize = 2_000_000;
 /// The program of the page, built from `report-ui/`.
 const PROGRAM: &str = include_str!("app/app.js");
 const STYLE: &str = include_str!("app/app.css");
@@ -22,8 +25,7 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 
 /// The report as HTML.
 pub fn html(content: &Content) -> String {
     let title = escape(if content.case.title.is_empty() { &content.name } else { &content.case.title });
-    let numbers = data::payload(content);
-    let mut page = String::with_capacity(numbers.len() + (1 << 20));
+    let mut page = String::with_capacity(1 << 20);
     let _ = write!(
         page,
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -50,12 +52,10 @@ pub fn html(content: &Content) -> String {
     section(&mut page, "doubts", "When not to believe this result", &format!("<ul>\n{list}</ul>\n"));
     reproduction(&mut page, content);
     input(&mut page, content);
-    let _ = write!(
-        page,
-        "</main>\n<script type=\"text/plain\" id=\"concio-data\">{numbers}</script>\n\
-         <script>\n{PROGRAM}</script>\n</body>\n</html>\n"
-    );
-    page
+    page.push_str("</main>\n<script type=\"text/plain\" id=\"concio-data\">");
+    let end = format!("</script>\n<script>\n{PROGRAM}</script>\n</body>\n</html>\n");
+    let room = LARGEST.saturating_sub(page.len() + end.len()).max(LEAST_DATA);
+    page + &data::payload(content, room) + &end
 }
 
 fn section(page: &mut String, id: &str, title: &str, body: &str) {
