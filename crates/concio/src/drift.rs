@@ -1,33 +1,41 @@
-//! How far the panels of a wall lean: the displacement of their tops, at its largest and what is left of it.
+//! How far a wall leans: the displacement of its tops relative to the base, at its largest and what is left of it.
 //!
-//! The top of a panel is its top course: the mean horizontal displacement of the centres of its blocks relative to the base. Over
-//! their mean height above the base it is the drift, of a panel that turns as one piece its angle.
+//! Under a top beam that moves, driven or with a mass, the top is that beam, and its height that of the wall: what a laboratory
+//! measures. The top of a panel without such a beam is its top course: the mean displacement of the centres of its blocks, over
+//! their mean height above the base, so that of a panel that turns as one piece the drift is its angle.
 
 use serde::{Deserialize, Serialize};
 
 use crate::outcome::DriftRow;
-use crate::wall::Wall;
+use crate::wall::{End, Joint, Wall};
 
 /// Part of a run, at its end, over which the residual drift is a mean: swings cancel there.
 const SETTLED: f64 = 0.1;
 
-/// The top courses of a wall.
+/// The tops of a wall.
 #[derive(Debug, Clone, Default)]
 pub struct Tops {
-    /// Blocks of all of them, by their indices.
-    pub blocks: Vec<u32>,
-    /// Panel by panel.
-    panels: Vec<Top>,
+    /// Blocks of all top courses, by their indices.
+    courses: Vec<u32>,
+    /// What the displacement of the whole wall is read off: its beam, or all top courses.
+    whole: Vec<u32>,
+    /// The beam where it moves, and the panels that are not under it.
+    tops: Vec<Top>,
 }
 
 #[derive(Debug, Clone, Default)]
 struct Top {
-    blocks: Vec<u32>,
-    /// Mean height of their centres [m].
+    name: String,
+    /// Unknowns whose mean displacement is that of the top.
+    unknowns: Vec<u32>,
+    /// [m]
     height: f64,
 }
 
-/// How a panel has leaned so far.
+/// What a beam that moves is called.
+pub const BEAM: &str = "beam";
+
+/// How a top has gone so far.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Lean {
     /// Displacement of its top now, and where it was largest [m].
@@ -42,7 +50,7 @@ pub struct Lean {
 }
 
 impl Lean {
-    /// Of a panel at rest.
+    /// Of a top at rest.
     pub const NONE: Lean =
         Lean { now: 0.0, peak: 0.0, time: 0.0, sum: 0.0, low: f64::INFINITY, high: f64::NEG_INFINITY };
 
@@ -64,37 +72,54 @@ impl Lean {
 }
 
 impl Tops {
-    /// Of a wall.
-    pub fn of(wall: &Wall) -> Self {
-        let mut tops = Tops { blocks: Vec::new(), panels: vec![Top::default(); wall.panels.len()] };
+    /// Of a wall whose top beam, if it moves, has the place `beam` among displacements.
+    pub fn of(wall: &Wall, joints: &[Joint], beam: Option<usize>) -> Self {
+        let mut tops = Tops::default();
+        let mut panels: Vec<Top> = wall.panels.iter().map(|p| Top { name: p.name.clone(), ..Top::default() }).collect();
         for (i, block) in wall.blocks.iter().enumerate() {
             if block.course + 1 == wall.panels[block.panel].courses {
-                let top = &mut tops.panels[block.panel];
-                tops.blocks.push(i as u32);
-                top.blocks.push(i as u32);
+                let top = &mut panels[block.panel];
+                tops.courses.push(i as u32);
+                top.unknowns.push(i as u32);
                 top.height += block.centre()[1];
             }
         }
-        tops.panels.iter_mut().for_each(|top| top.height /= top.blocks.len().max(1) as f64);
+        panels.iter_mut().for_each(|top| top.height /= top.unknowns.len().max(1) as f64);
+        let under: Vec<usize> =
+            joints.iter().filter(|j| j.b == End::Top).map(|j| wall.blocks[j.a].panel).collect();
+        let Some(beam) = beam.filter(|_| !under.is_empty()) else {
+            (tops.whole, tops.tops) = (tops.courses.clone(), panels);
+            return tops;
+        };
+        let height = wall.blocks.iter().filter(|b| under.contains(&b.panel)).map(|b| b.y[1]).fold(0.0, f64::max);
+        tops.whole = vec![beam as u32];
+        tops.tops.push(Top { name: BEAM.into(), unknowns: vec![beam as u32], height });
+        tops.tops.extend(panels.into_iter().enumerate().filter(|(k, _)| !under.contains(k)).map(|(_, top)| top));
         tops
     }
 
     /// Mean of a quantity of blocks over all top courses.
     #[inline]
-    pub fn mean(&self, of: impl Fn(usize) -> f64) -> f64 {
-        mean(&self.blocks, of)
+    pub fn of_courses(&self, of: impl Fn(usize) -> f64) -> f64 {
+        mean(&self.courses, of)
     }
 
-    /// Panels that have yet to lean.
-    pub fn upright(&self) -> Vec<Lean> {
-        vec![Lean::NONE; self.panels.len()]
+    /// Displacement of the top of the whole wall: of a beam that moves, else the mean over all top courses.
+    #[inline]
+    pub fn of_wall(&self, z: impl Fn(usize) -> f64) -> f64 {
+        mean(&self.whole, z)
     }
 
-    /// Takes the step from `span[0]` to `span[1]` [s], at whose end block i is at `z(i)` [m], of a run whose residual counts from
+    /// Tops that have yet to move.
+    pub fn at_rest(&self) -> Vec<Lean> {
+        vec![Lean::NONE; self.tops.len()]
+    }
+
+    /// Takes the step from `span[0]` to `span[1]` [s], at whose end displacement i is `z(i)` [m], of a run whose residual counts from
     /// `settles` [s] on.
     pub fn follow(&self, leans: &mut [Lean], span: [f64; 2], settles: f64, z: impl Fn(usize) -> f64) {
-        for (top, lean) in self.panels.iter().zip(leans) {
-            lean.follow(span, settles, mean(&top.blocks, &z));
+        for (top, lean) in self.tops.iter().zip(leans) {
+            lean.follow(span, settles, mean(&top.unknowns, &z));
         }
     }
 
@@ -111,9 +136,9 @@ impl Tops {
             };
             // Of two zeros neither has a sign.
             let [peak, residual, swing] = [lean.peak, residual, swing].map(|value| value + 0.0);
-            DriftRow { height: top.height, peak, time: lean.time, residual, swing }
+            DriftRow { top: top.name.clone(), height: top.height, peak, time: lean.time, residual, swing }
         };
-        self.panels.iter().zip(leans).map(row).collect()
+        self.tops.iter().zip(leans).map(row).collect()
     }
 }
 
@@ -135,8 +160,9 @@ mod tests {
     #[test]
     fn what_is_left_of_a_swing_is_its_mean() {
         let at = |t: f64| 3e-3 + 2e-3 * (std::f64::consts::TAU * t).cos();
-        let tops = Tops { blocks: vec![0], panels: vec![Top { blocks: vec![0], height: 2.0 }] };
-        let mut leans = tops.upright();
+        let top = Top { name: "p1".into(), unknowns: vec![0], height: 2.0 };
+        let tops = Tops { tops: vec![top], ..Tops::default() };
+        let mut leans = tops.at_rest();
         let settles = settles(10.0, false);
         // Steps that do not meet the beginning of the last tenth.
         let ends: Vec<f64> = (0..=3700).map(|k| (k as f64 / 370.0).min(10.0)).collect();
@@ -144,7 +170,7 @@ mod tests {
         for step in ends.windows(2) {
             tops.follow(&mut leans, [step[0], step[1]], settles, |_| at(step[1]));
         }
-        let row = tops.rows(&leans, settles, 10.0, true)[0];
+        let row = &tops.rows(&leans, settles, 10.0, true)[0];
         assert_eq!((row.height, row.peak, row.time), (2.0, 5e-3, 0.0));
         assert!((row.residual - 3e-3).abs() < 1e-6 && (row.swing - 2e-3).abs() < 1e-6, "{row:?}");
         // Cut short there is no residual; without inertia it is the end.

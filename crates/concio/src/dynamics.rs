@@ -299,7 +299,7 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
         let e = contact.joint as usize;
         env.joint_force[e] = env.joint_force[e].max(*borne);
     }
-    state.raise_base_shear(shear.abs(), model.tops.mean(|i| state.z[i]));
+    state.raise_base_shear(shear.abs(), model.tops.of_wall(|i| state.z[i]));
     model.tops.follow(&mut state.leans, [state.t - h, state.t], model.settles(), |i| state.z[i]);
     let totals = &mut state.totals;
     totals.top_force_peak = totals.top_force_peak.max(pull.abs());
@@ -491,7 +491,7 @@ impl Channels {
 
     /// [`Channels::sample`] of a planar wall.
     pub(crate) fn sample_planar(&self, model: &Model, at: Row, row: &mut Vec<f64>) {
-        let mean = |values: &[f64]| model.tops.mean(|i| values[i]);
+        let mean = |values: &[f64]| model.tops.of_courses(|i| values[i]);
         let base = model.excitation.drive(at.t).base(at.t);
         row.extend([base.a, base.u, at.shear, mean(at.z), mean(at.v), at.state.pull]);
         row.extend(model.floating_beam().map_or([0.0; 3], |beam| [at.z[beam], at.v[beam], at.a[beam]]));
@@ -532,7 +532,7 @@ impl Channels {
         let beam = model.floating_beam().unwrap_or(model.top());
         let [shear, pull] =
             [&model.on_base, &model.on_beam].map(|support| 0.0 - borne_by(model, support, Acting::of(at)));
-        let mean = |values: &[f64]| model.tops.mean(|i| values[i]);
+        let mean = |values: &[f64]| model.tops.of_courses(|i| values[i]);
         let base = drive.base(at.t);
         let energies = at.energies;
         row.extend([base.a, base.u, shear, mean(at.z), mean(at.v), pull]);

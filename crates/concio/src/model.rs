@@ -19,7 +19,7 @@ use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 pub struct Model {
     /// The blocks.
     pub wall: Wall,
-    /// The top courses of its panels.
+    /// Where its tops are.
     pub tops: Tops,
     /// The joints, in the order of the arrays below.
     pub joints: Vec<Joint>,
@@ -226,8 +226,11 @@ impl Model {
         let contacts: Vec<Contact> = laws.iter().enumerate().filter_map(rigid).collect();
         let support = |side| Support::of(side, &sides, &rubs, &bonds, &contacts, &nonlinear);
         let (on_base, on_beam) = (support(n), support(floating.unwrap_or(n + 1)));
+        // A tied beam stays where the base is.
+        let moves = matches!(beam, Beam::Driven | Beam::Mass(_));
+        let tops = Tops::of(&wall, &joints, moves.then_some(floating.unwrap_or(n + 1)));
         Ok(Model {
-            tops: Tops::of(&wall),
+            tops,
             wall,
             joints,
             beam,

@@ -18,7 +18,7 @@ pub struct Outcome {
     pub bonds: Vec<BondRow>,
     /// The ties and what became of them, in the order of the wall file.
     pub ties: Vec<TieRow>,
-    /// How far the tops of the panels went, in the order of the panels.
+    /// How far its tops went: that of a beam that moves, then those of the panels that have none.
     pub drifts: Vec<DriftRow>,
     /// Energy account at the end.
     pub energies: Energies,
@@ -46,9 +46,9 @@ impl Outcome {
         cracked.min_by(|a, b| a.cracked.total_cmp(&b.cracked))
     }
 
-    /// The panel that leaned most, by its index, and how far.
-    pub fn worst_drift(&self) -> Option<(usize, &DriftRow)> {
-        self.drifts.iter().enumerate().max_by(|(_, a), (_, b)| a.ratio(a.peak).abs().total_cmp(&b.ratio(b.peak).abs()))
+    /// The top that went farthest over its height.
+    pub fn worst_drift(&self) -> Option<&DriftRow> {
+        self.drifts.iter().max_by(|a, b| a.ratio(a.peak).abs().total_cmp(&b.ratio(b.peak).abs()))
     }
 }
 
@@ -59,10 +59,12 @@ impl DriftRow {
     }
 }
 
-/// How far the top of a panel went: the mean displacement of the centres of its top course relative to the base, at the ends of steps.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// How far a top of the wall went relative to the base, at the ends of steps ([`crate::drift`]).
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct DriftRow {
-    /// Mean height of these centres above the base [m]: displacements over it are drifts.
+    /// Name of the panel, or `beam`.
+    pub top: String,
+    /// Its height above the base [m]: displacements over it are drifts.
     pub height: f64,
     /// Displacement of the top when it was farthest from its place [m], until a collapse.
     pub peak: f64,
@@ -138,7 +140,7 @@ pub struct Totals {
     pub base_shear_peak: f64,
     /// When it first came within 10⁻⁴ of that [s]: where a wall slides, its largest shear lasts, but for rounding.
     pub base_shear_time: f64,
-    /// Mean displacement of the top courses relative to the base then [m].
+    /// Displacement of the top relative to the base then [m]: of a beam that moves, else the mean of the top courses.
     pub base_shear_displacement: f64,
     /// Largest |force| that the top beam exerts on the wall [N]; 0 without a beam.
     pub top_force_peak: f64,

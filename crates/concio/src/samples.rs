@@ -149,10 +149,11 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
     let support = |side| Support::of(side, &sides, &rubs, &bonds, &contacts, &nonlinear);
     let (on_base, on_beam) = (support(n), support(n + 1));
     let wall = Wall { panels: vec![panel], blocks: (0..n).map(block).collect() };
+    let joints: Vec<Joint> = links.iter().map(joint).collect();
     Model {
-        tops: Tops::of(&wall),
+        tops: Tops::of(&wall, &joints, excitation.driven.then_some(n + 1)),
         wall,
-        joints: links.iter().map(joint).collect(),
+        joints,
         beam: if excitation.driven { Beam::Driven } else { Beam::Free },
         top_load: 0.0,
         mass: masses.to_vec(),

@@ -43,7 +43,7 @@ pub struct State {
     pub devices: Vec<DeviceState>,
     /// Base shear at `totals.base_shear_time` [N].
     pub marked_shear: f64,
-    /// How the panels have leaned.
+    /// How the tops have gone.
     pub leans: Vec<Lean>,
     /// Samples kept so far.
     pub samples: u64,
@@ -279,7 +279,7 @@ impl State {
             && self.tangents.stuck.len() == r
             && self.bonds.len() == model.bonds.len()
             && self.devices.len() == model.nonlinear.len()
-            && self.leans.len() == model.wall.panels.len()
+            && self.leans.len() == model.tops.at_rest().len()
             && self.tangents.contact.len() == model.contacts.len()
             && self.tangents.reaction.len() == model.contacts.len()
     }
@@ -304,7 +304,7 @@ impl State {
             bonds: vec![BondState::INTACT; model.bonds.len()],
             devices: vec![DeviceState::default(); model.nonlinear.len()],
             marked_shear: 0.0,
-            leans: model.tops.upright(),
+            leans: model.tops.at_rest(),
             samples: 0,
             energies: Energies::default(),
             envelopes: Envelopes {

@@ -546,7 +546,7 @@ fn summary_has_the_keys_that_other_programs_read() {
     assert_eq!(number("/base_shear_peak"), 1.9e5);
     assert_eq!((number("/base_shear_time"), number("/base_shear_displacement")), (0.02, -1.25e-3));
     assert_eq!((number("/drift/peak"), number("/drift/displacement"), number("/drift/time")), (-4e-3, -2e-3, 0.03));
-    assert!(summary["drift"]["panel"] == "p1" && summary["drift"]["residual"].is_null(), "{}", summary["drift"]);
+    assert!(summary["drift"]["top"] == "p1" && summary["drift"]["residual"].is_null(), "{}", summary["drift"]);
     assert_eq!((number("/bonds/first_acceleration"), number("/bonds/first_beam")), (-2.5, 1e-3));
     assert_eq!((number("/collapse/time"), number("/collapse/displacement")), (0.06, 0.25));
     assert_eq!(summary.pointer("/collapse/block").and_then(|v| v.as_str()), Some(s.wall.blocks[0].name.as_str()));

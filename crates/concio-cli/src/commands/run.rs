@@ -76,7 +76,7 @@ pub fn refuse_a_file(out: &Path) -> Result<(), Failure> {
 
 fn tell(finished: &Finished, prepared: &Prepared, joints: &[JointRow], report: &Path) -> Result<(), Failure> {
     let (wall, outcome, summary) = (&prepared.model.wall, &finished.outcome, &finished.summary);
-    let answers = digest::head(wall, joints, outcome, summary);
+    let answers = digest::head(joints, outcome, summary);
     let head: Vec<(&str, String)> = answers.iter().map(|answer| (answer.name, answer.line())).collect();
     let rows = digest::rows(wall, joints, outcome, summary);
     let width = width(head.iter().chain(&rows));

@@ -1,10 +1,10 @@
 //! What is asked first of a run: how it failed, when it cracked, whether it fell, how far it leaned, what it bore.
 
+use concio::drift::BEAM;
 use concio::outcome::{BondRow, Outcome};
 use concio::planar::{Collapsed, Failure};
 use concio::record::StopReason;
 use concio::store::JointRow;
-use concio::wall::Wall;
 use serde_json::Value;
 
 use super::{LARGE_SLIDE, ROUNDING, beside, number};
@@ -42,13 +42,13 @@ impl Answer {
 }
 
 /// The answers, in the order in which they are asked.
-pub fn head(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value) -> Vec<Answer> {
+pub fn head(joints: &[JointRow], outcome: &Outcome, summary: &Value) -> Vec<Answer> {
     let planar = outcome.layout.touching > 0;
     vec![
         if planar { failure(summary) } else { slide(outcome, summary) },
         first_crack(joints, outcome, summary),
-        if planar { collapse(outcome, summary) } else { Answer::new("collapse", "–", "a shear wall has none: its blocks move horizontally") },
-        peak_drift(wall, outcome),
+        if planar { collapse(outcome, summary) } else { Answer::new("collapse", "–", "a shear wall cannot: its blocks move horizontally alone") },
+        peak_drift(outcome),
         residual_drift(outcome),
         base_shear(outcome, summary),
     ]
@@ -80,9 +80,9 @@ fn slide(outcome: &Outcome, summary: &Value) -> Answer {
     let of = |key: &str| summary.pointer(&format!("/slide/{key}"));
     let share = of("of_overlap").and_then(Value::as_f64).unwrap_or(0.0);
     let (way, joint) = (of("displacement").and_then(Value::as_f64).unwrap_or(0.0), of("joint").and_then(Value::as_str));
-    let slid = format!("{} of the overlap of {}, {}", percent(share), joint.unwrap_or("–"), si(way, "m"));
+    let slid = format!("{}, {} of the overlap of {}", si(way, "m"), percent(share), joint.unwrap_or("–"));
     if share > LARGE_SLIDE {
-        return Answer::new("failure", "slid far", slid).grave(true);
+        return Answer::new("failure", "slid far", format!("by {slid}")).grave(true);
     }
     let bonds = &outcome.bonds;
     let count = |is: fn(&BondRow) -> bool| bonds.iter().filter(|bond| is(bond)).count();
@@ -92,7 +92,7 @@ fn slide(outcome: &Outcome, summary: &Value) -> Answer {
         return Answer::new("failure", "cracked", note).grave(true);
     }
     let slips = outcome.envelopes.joint_slip.iter().any(|slip| *slip > 0.0);
-    let note = if slips { format!("joints slid by {slid}, at most") } else { "no joint slid or cracked".into() };
+    let note = if slips { format!("bed joints slid by at most {slid}") } else { "no joint slid or cracked".into() };
     Answer::new("failure", "none", note)
 }
 
@@ -134,14 +134,18 @@ fn collapse(outcome: &Outcome, summary: &Value) -> Answer {
     Answer::new("collapse", at(collapse.time), note).grave(true)
 }
 
-/// How far the panel leaned that leaned most.
-fn peak_drift(wall: &Wall, outcome: &Outcome) -> Answer {
-    let Some((panel, row)) = outcome.worst_drift() else { return Answer::new("peak drift", "–", "") };
+/// How far the top went that went farthest over its height.
+fn peak_drift(outcome: &Outcome) -> Answer {
+    let Some(row) = outcome.worst_drift() else { return Answer::new("peak drift", "–", "") };
     let peak = moved(outcome, row.peak);
     if peak == 0.0 {
         return Answer::new("peak drift", "0", "the top did not move");
     }
-    let whose = if wall.panels.len() > 1 { format!("top of panel {}", wall.panels[panel].name) } else { "top".into() };
+    let whose = match row.top.as_str() {
+        BEAM => "top beam".into(),
+        _ if outcome.drifts.len() == 1 => "top".into(),
+        panel => format!("top of panel {panel}"),
+    };
     let note = format!("{}: {whose} at {} of {} height", at(row.time), si(peak, "m"), si(row.height, "m"));
     Answer::new("peak drift", percent(row.ratio(peak).abs()), note)
 }
@@ -149,7 +153,7 @@ fn peak_drift(wall: &Wall, outcome: &Outcome) -> Answer {
 /// What is left of it at the end.
 fn residual_drift(outcome: &Outcome) -> Answer {
     let name = "residual drift";
-    let Some((_, row)) = outcome.worst_drift() else { return Answer::new(name, "–", "") };
+    let Some(row) = outcome.worst_drift() else { return Answer::new(name, "–", "") };
     if !row.residual.is_finite() {
         let why = match outcome.stop_reason {
             StopReason::Completed => "the wall collapsed",

@@ -19,6 +19,9 @@ const LEAST_DATA: usize = 2_000_000;
 /// The program of the page, built from `report-ui/`.
 const PROGRAM: &str = include_str!("app/app.js");
 const STYLE: &str = include_str!("app/app.css");
+/// Puts on the colours that the reader has chosen before anything is drawn (`report-ui/src/theme.ts`).
+const THEME: &str = "try{const t=localStorage.getItem(\"concio-theme\");\
+     if(t===\"dark\"||t===\"light\")document.documentElement.dataset.theme=t}catch{}";
 /// A browser that obeys it fetches nothing, whatever a name in a wall file may contain.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
 
@@ -31,7 +34,7 @@ pub fn html(content: &Content) -> String {
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}\n</style>\n<noscript><style>\n{}</style></noscript>\n</head>\n<body>\n\
+         <script>{THEME}</script>\n<style>\n{STYLE}\n</style>\n<noscript><style>\n{}</style></noscript>\n</head>\n<body>\n\
          <header>\n<h1>{title}</h1>\n",
         view_rules(figures::views(content))
     );
@@ -93,13 +96,26 @@ fn head(page: &mut String, content: &Content) {
 fn answers(page: &mut String, content: &Content) {
     page.push_str("<dl class=\"answers\">\n");
     for Answer { name, value, note, grave } in
-        digest::head(content.wall, content.joints, content.outcome, content.summary)
+        digest::head(content.joints, content.outcome, content.summary)
     {
         let class = if grave { " class=\"grave\"" } else { "" };
-        let (value, note) = (escape(&value), escape(&note));
+        let [value, note] = [value, note].map(|text| unbroken(&escape(&text)));
         let _ = writeln!(page, "<div{class}><dt>{name}</dt><dd><b>{value}</b><span>{note}</span></dd></div>");
     }
     page.push_str("</dl>\n");
+}
+
+/// With numbers that keep their units on their line.
+fn unbroken(text: &str) -> String {
+    let mut whole = String::with_capacity(text.len());
+    let mut before = ' ';
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        let holds = before.is_ascii_digit() || matches!(before, '=' | '±') || rest.peek() == Some(&'=');
+        whole.push(if c == ' ' && holds { '\u{a0}' } else { c });
+        before = c;
+    }
+    whole
 }
 
 /// What the user was warned of, directly beneath.

@@ -305,7 +305,7 @@ impl<'m> Lane<'m> {
         state.totals.peak_residual = state.totals.peak_residual.max(state.energies.residual().abs());
         let place = &w.topology.place;
         let z = |k: usize| w.state.at(place[k] as usize, Z, i);
-        self.top_at = model.tops.mean(z);
+        self.top_at = model.tops.of_wall(z);
         let span = [state.t - self.plan.h, state.t];
         model.tops.follow(&mut state.leans, span, model.settles(), z);
         (self.waiting, self.pending) = (self.plan.h, true);

@@ -273,7 +273,7 @@ impl Run {
         let pull = self.pull(model, state, h);
         let shear = self.borne(model, state.t);
         if state.totals.collapse.is_none() {
-            state.raise_base_shear(shear, model.tops.mean(|i| state.z[i]));
+            state.raise_base_shear(shear, model.tops.of_wall(|i| state.z[i]));
             model.tops.follow(&mut state.leans, [state.t - h, state.t], model.settles(), |i| state.z[i]);
             let totals = &mut state.totals;
             totals.top_force_peak = totals.top_force_peak.max(pull.abs());

@@ -152,7 +152,7 @@ pub(super) const TOTALS: [Field<Totals, f64>; 12] = [
         "base_shear_displacement",
         "m",
         base_shear_displacement,
-        "Mean displacement of the top courses relative to the base then."
+        "Displacement of the top relative to the base then."
     ),
     field!("top_force_peak", "N", top_force_peak, "Largest force of the top beam on the wall, sign dropped."),
     field!("top_force_square", "N2 s", top_force_square, "Time integral of the square of that force."),
@@ -242,9 +242,9 @@ pub(super) const BONDS: [Field<BondRow, f64>; 9] = [
     field!("broken", "s", broken, "Time at which nothing was left of the bond; infinite when something is."),
 ];
 
-/// How far the top of a panel went.
+/// How far a top went.
 pub(super) const DRIFTS: [Field<DriftRow, f64>; 5] = [
-    field!("height", "m", height, "Mean height of the centres of the top course above the base."),
+    field!("height", "m", height, "Height of the top above the base."),
     field!("peak", "m", peak, "Displacement of the top relative to the base when it was farthest."),
     field!("time", "s", time, "When that was."),
     field!("residual", "m", residual, "Mean displacement of the top over the last tenth of the run; infinite when there is none."),

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::case::DeviceLaw;
 use crate::error::{Error, Result};
 use crate::files;
-use crate::outcome::{Collapse, Outcome, TieRow};
+use crate::outcome::{Collapse, DriftRow, Outcome, TieRow};
 use crate::record::{Event, Layout, Recording};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::{Sink, label};
@@ -50,7 +50,7 @@ pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointR
         write_history(&mut sink, &outcome.layout, &outcome.recording)?;
         write_frames(&mut sink, &outcome.layout, &outcome.recording)?;
         write_bonds(&mut sink, outcome)?;
-        write_columns(&mut sink, "drift", &fields::DRIFTS, &outcome.drifts)?;
+        write_drifts(&mut sink, &outcome.drifts)?;
         write_ties(&mut sink, &outcome.ties)?;
         write_collapse(&mut sink, outcome.totals.collapse.as_ref())?;
         write_events(&mut sink, &outcome.recording.events)?;
@@ -90,7 +90,6 @@ pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outco
         expect(&format!("frames of {}", field.name), (field.get)(recording).len(), expected)?;
     }
     expect("list of bonds", outcome.bonds.len(), layout.bonded)?;
-    expect("list of drifts", outcome.drifts.len(), wall.panels.len())?;
     if let Some(bond) = outcome.bonds.iter().find(|b| b.joint >= joints.len()) {
         return refuse(format!("not written: a bond of joint {} of {}", bond.joint, joints.len()));
     }
@@ -256,6 +255,11 @@ fn write_bonds(sink: &mut Sink, outcome: &Outcome) -> Result<()> {
     let joints: Vec<i64> = bonds.iter().map(|b| b.joint as i64).collect();
     sink.list("bonds/joint", &joints, label("1", "Index of the joint."))?;
     write_columns(sink, "bonds", &fields::BONDS, bonds)
+}
+
+fn write_drifts(sink: &mut Sink, drifts: &[DriftRow]) -> Result<()> {
+    sink.texts("drift/top", &names(drifts, |d| &d.top), "Name of the panel, or beam.")?;
+    write_columns(sink, "drift", &fields::DRIFTS, drifts)
 }
 
 /// Nothing where there are none.

@@ -43,7 +43,7 @@ pub fn read(path: &Path) -> Result<StoredRun> {
         recording,
         bonds,
         ties: read_ties(&source)?,
-        drifts: read_drifts(&source, wall.panels.len())?,
+        drifts: read_drifts(&source)?,
         envelopes,
         energies: read_numbers(&source, "energy", &fields::ENERGIES, Energies::default())?,
         totals: Totals {
@@ -213,8 +213,9 @@ fn read_ties(source: &Source) -> Result<Vec<TieRow>> {
     Ok(ties)
 }
 
-fn read_drifts(source: &Source, panels: usize) -> Result<Vec<DriftRow>> {
-    let mut drifts = vec![DriftRow::default(); panels];
+fn read_drifts(source: &Source) -> Result<Vec<DriftRow>> {
+    let tops = source.texts("drift/top")?;
+    let mut drifts: Vec<DriftRow> = tops.into_iter().map(|top| DriftRow { top, ..DriftRow::default() }).collect();
     read_columns(source, "drift", &fields::DRIFTS, &mut drifts)?;
     Ok(drifts)
 }

@@ -71,7 +71,7 @@ pub fn summary(
         "base_shear_peak": totals.base_shear_peak,
         "base_shear_time": totals.base_shear_time,
         "base_shear_displacement": totals.base_shear_displacement,
-        "drift": drift(outcome, wall),
+        "drift": drift(outcome),
         "slide": slide(outcome, joints),
         "top_force_peak": totals.top_force_peak,
         "top_force_rms": top_force_rms(outcome),
@@ -128,11 +128,11 @@ pub fn top_force_rms(outcome: &Outcome) -> f64 {
     if time > 0.0 { (totals.top_force_square / time).sqrt() } else { 0.0 }
 }
 
-/// How far the panel leaned that leaned most.
-fn drift(outcome: &Outcome, wall: &Wall) -> Value {
-    let Some((panel, row)) = outcome.worst_drift() else { return Value::Null };
+/// How far the top went that went farthest over its height.
+fn drift(outcome: &Outcome) -> Value {
+    let Some(row) = outcome.worst_drift() else { return Value::Null };
     json!({
-        "panel": wall.panels[panel].name,
+        "top": row.top,
         "height": row.height,
         "peak": row.ratio(row.peak),
         "displacement": row.peak,

@@ -191,7 +191,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
     Outcome {
         ties: if size.planar && wall.blocks.len() > 1 { (0..2).map(tie).collect() } else { Vec::new() },
         bonds: (0..layout.bonded).map(bond).collect(),
-        drifts: vec![DriftRow { height: 0.5, peak: -2e-3, time: 0.03, residual: f64::INFINITY, swing: f64::INFINITY }],
+        drifts: vec![DriftRow { top: "p1".into(), height: 0.5, peak: -2e-3, time: 0.03, residual: f64::INFINITY, swing: f64::INFINITY }],
         time_reached: layout.interval * (size.samples - 1) as f64,
         layout,
         recording,

@@ -187,11 +187,11 @@ fn bonds(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
 }
 
 fn drifts(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
-    table.head("panel", "1")?;
+    table.head("top", "1")?;
     heads(table, &fields::DRIFTS)?;
     table.end_row()?;
-    for (panel, drift) in run.wall.panels.iter().zip(&run.outcome.drifts) {
-        table.cell(&panel.name)?;
+    for drift in &run.outcome.drifts {
+        table.cell(&drift.top)?;
         numbers(table, &fields::DRIFTS, drift)?;
         table.end_row()?;
     }
