@@ -1,5 +1,7 @@
 /** Files that the reader saves: tables and pictures. A page from a folder may do that too, because nothing is fetched. */
 
+import { h } from "./dom";
+
 /** A column of a table: its name with the unit, `time [s]`. */
 export interface Column {
     head: string;
@@ -37,9 +39,7 @@ export function fileName(...parts: string[]): string {
 }
 
 export function save(name: string, content: Blob): void {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(content);
-    link.download = name;
+    const link = h("a", { href: URL.createObjectURL(content), download: name });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }

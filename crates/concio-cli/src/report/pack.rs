@@ -295,14 +295,12 @@ pub mod tests {
     /// However numbers are foretold, they come back.
     #[test]
     fn every_way_of_foretelling_comes_back() {
-        let made: [(&str, fn(i64, i64) -> i64); 4] = [
-            ("nothing", |r, c| (r * 7919 + c * 104_729) % 97 * if (r + c) % 2 == 0 { 1 } else { -1 }),
-            ("above", |_, c| c * c * 7919 % 1009 * 4096),
-            ("left", |r, _| r * r * 7919 % 1009 * 4096),
-            ("both", |r, c| r * r * 7919 % 1009 * 4096 + c * c * 104_729 % 997 * 4096),
-        ];
-        for (way, at) in made {
-            let values: Vec<f64> = (0..40).flat_map(|r| (0..30).map(move |c| at(r, c) as f64)).collect();
+        // What a row and a column have in common, beside what every number has for itself.
+        let common = |k: i64| k * k * 7919 % 1009 * 4096;
+        let own = |r: i64, c: i64| (r * r * 31 + c * c * 17 + r * c * 7919) % 97 - 48;
+        for (way, of_row, of_column) in [("nothing", 0, 0), ("above", 0, 1), ("left", 1, 0), ("both", 1, 1)] {
+            let at = |r: i64, c: i64| (own(r, c) + of_row * common(r) + of_column * common(c + 50)) as f64;
+            let values: Vec<f64> = (0..40).flat_map(|r| (0..30).map(move |c| at(r, c))).collect();
             let mut pack = Pack::default();
             pack.table("t", 30, &values, Digits::Shared(40));
             let (arrays, bytes) = pack.finish();
@@ -317,7 +315,9 @@ pub mod tests {
             assert_eq!(back(&[0.0, -0.0], 2, digits), [0.0, 0.0]);
             assert!(back(&[], 3, digits).is_empty() && back(&[], 0, digits).is_empty());
             let found = back(&[f64::NAN, 1.0, 0.5, -1.0], 2, digits);
-            assert!(found[0].is_nan() && found[1..] == [1.0, 0.5, -1.0], "{found:?}");
+            let expected = [1.0, 0.5, -1.0];
+            let off = found[1..].iter().zip(expected).map(|(v, e)| (v - e).abs()).fold(0.0, f64::max);
+            assert!(found[0].is_nan() && off <= digits.rounding().unwrap_or(0.0), "{found:?}");
         }
         assert_eq!(back(&[2f64.powi(-899)], 1, Digits::Shared(40)), [2f64.powi(-899)]);
         assert_eq!(back(&[1e-300], 1, Digits::Shared(40)), [0.0]);

@@ -126,7 +126,7 @@ mod tests {
         let group = Group { heading: "h".into(), unit: "m", rows };
         let factors = ["one", "two & more", "three"].map(String::from);
         let drawing = draw("t", &["a"], &factors, &[group], 300.0);
-        for text in [">one<", ">two &amp; more<", ">three<", ">h<", "[m]", "one: 2.0000e0", "two &amp; more: -1"] {
+        for text in [">one<", ">two &amp; more<", ">three<", ">h<", "[m]", "one: 2.0000e0", "two &amp; more: −1"] {
             assert!(drawing.body.contains(text), "{text}");
         }
         assert_eq!(drawing.body.matches("stroke=\"#c8553d\"").count(), 1);

@@ -202,7 +202,7 @@ fn cracks_are_drawn_and_told() {
     desk.concio("plot r --figure cracks").assert().success();
     let svg = desk.get("r/figures/cracks.svg");
     let described = svg.lines().find(|l| l.contains("<desc>")).expect("a description");
-    assert!(described.contains("damage of the bond [1]") && described.contains("of 23 bonds cracked"), "{described}");
+    assert!(described.contains("damage of the bond, 0 = intact") && described.contains("of 23 bonds cracked"), "{described}");
     assert!(!described.contains(" 0 of 23 bonds"), "{described}");
     desk.concio("plot r --figure cracks --at 0s").assert().success();
     let svg = desk.get("r/figures/cracks.svg");

@@ -4,6 +4,7 @@ mod analyses;
 mod commands;
 mod compare;
 mod figures;
+mod head;
 mod first_crack;
 mod kill;
 mod limit;
