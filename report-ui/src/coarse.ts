@@ -6,15 +6,13 @@ import { si } from "./format";
 /** A note under plots that join frames by straight lines. */
 export function coarseness(report: Report): string {
     const { time, count } = report.frames;
-    const { bytes, most } = report.contents.frames;
     if (count < 2) {
         return "";
     }
     const interval = time[1] - time[0];
     const drawn = `Drawn from frames ${si(interval, "s", 3)} apart, joined by straight lines: what happens between two frames is not shown, `
         + "and corners of the lines are no sign of stick-slip.";
-    const finest = (time[count - 1] * bytes) / most;
-    const finer = roundUp(Math.max(interval / 10, finest));
+    const finer = roundUp(interval / Math.min(10, Math.max(1, report.contents.frames.room)));
     if (finer > 0.6 * interval) {
         return `${drawn} The page holds no more frames of this run; [output] blocks = ["name"] and joints = ["name"] keep `
             + "histories at every sample in result.h5.";

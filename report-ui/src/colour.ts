@@ -4,6 +4,8 @@
  * colour-blind.
  */
 
+import { NOTHING, roundEnd } from "./format";
+
 type Triple = [number, number, number];
 
 const SIZES = ["#fffbe6", "#ffefb0", "#fed976", "#feb24c", "#fd8d3c", "#f4542d", "#dc1f23", "#b10026", "#700021"];
@@ -32,15 +34,23 @@ export interface Scale {
     stops: string[];
     low: number;
     high: number;
+    /** The largest size of what is shown, rounded up to the end of the scale. */
+    largest: number;
     /** Whether no value differs from zero: then the ends say nothing. */
     zero: boolean;
 }
 
 /** The scale for values up to `largest`, either sign if `signed`. */
 export function scale(largest: number, signed: boolean): Scale {
-    const high = largest > 0 ? largest : 1;
+    const zero = !(largest >= NOTHING);
+    const high = zero ? 1 : roundEnd(largest);
     const [colours, stops] = signed ? [SIGNED_TABLE, SIGNED] : [SIZES_TABLE, SIZES];
-    return { colours, stops, low: signed ? -high : 0, high, zero: !(largest > 0) };
+    return { colours, stops, low: signed ? -high : 0, high, largest, zero };
+}
+
+/** The scale of damage: from intact to broken, whatever there is. */
+export function damageScale(largest: number): Scale {
+    return { ...scale(largest, false), high: 1 };
 }
 
 const SIZES_TABLE = table(SIZES);
@@ -61,13 +71,5 @@ export function isDark(s: Scale, k: number): boolean {
     return 0.3 * r + 0.59 * g + 0.11 * b < 140;
 }
 
-/** Lines of selected things and of several curves in one plot; they differ in dash pattern and in brightness too. */
-export const LINES: { colour: string; dash: number[] }[] = [
-    { colour: "#0b3c6f", dash: [] },
-    { colour: "#c0390b", dash: [7, 3] },
-    { colour: "#2a8f4f", dash: [2, 3] },
-    { colour: "#8a5bb5", dash: [9, 3, 2, 3] },
-    { colour: "#b87900", dash: [4, 2] },
-    { colour: "#555555", dash: [12, 4] },
-    { colour: "#148a9c", dash: [1, 2] },
-];
+/** Lines of selected things and of several curves in one plot; they differ in dash pattern and in brightness too. Their colours are the palette's. */
+export const DASHES: number[][] = [[], [7, 3], [2, 3], [9, 3, 2, 3], [4, 2], [12, 4], [1, 2]];

@@ -1,6 +1,9 @@
-/** What the page brings along: a table of contents in JSON and the numbers in one block of bytes behind it. */
+/** What the page brings along, deflated: a table of contents in JSON and the numbers in one block of bytes behind it. */
 
 import { decode } from "./base64";
+import { inflate } from "./inflate";
+import { readTable } from "./tables";
+import type { Table } from "./tables";
 import { Frames } from "./frames";
 
 /** Friction of a joint, equation (6) of the theory. */
@@ -29,9 +32,9 @@ export interface Channel {
     description: string;
 }
 
-/** Where an array lies in the bytes. */
+/** Where an array of plain numbers lies in the bytes. */
 interface Place {
-    type: "f64" | "f32" | "u32" | "i32" | "i8";
+    type: "f64" | "f32" | "i32";
     at: number;
     count: number;
 }
@@ -52,20 +55,26 @@ export interface Contents {
     planar: boolean;
     /** `moves`: it is the last column of the frames. */
     beam: { kind: "free" | "driven" | "tied" | "mass"; label: string; moves: boolean };
-    /** Bytes of one frame, and of all that a page holds; `standing`: how many of its frames show the wall up to its collapse, that instant included. */
-    frames: { recorded: number; every: number; standing: number; bytes: number; most: number };
+    /**
+     * `standing`: how many of the page's frames show the wall up to its collapse, that instant included; `room`: for how many times
+     * as many there would be some; `rounded`: by how much numbers of blocks and of joints are rounded at most, over their
+     * largest, null where they are not.
+     */
+    frames: { recorded: number; every: number; standing: number; room: number; rounded: [number, number] | null };
     curve: { samples: number; points: number; interval: number; left_out: number };
+    /** Channels that are drawn over each other, where their curves are thinned. */
+    loops: string[];
     channels: Channel[];
     spectrum: { damping: number; interval: number } | null;
-    arrays: Record<string, Place>;
+    arrays: Record<string, Place | Table>;
 }
 
-type Numbers = Float64Array | Float32Array | Uint32Array | Int32Array | Int8Array;
+export type Numbers = Float64Array | Float32Array | Int32Array;
 
-const TYPES = { f64: Float64Array, f32: Float32Array, u32: Uint32Array, i32: Int32Array, i8: Int8Array };
+const TYPES = { f64: Float64Array, f32: Float32Array, i32: Int32Array };
 
 /** Layout of the data that this program reads. */
-export const LAYOUT = 4;
+export const LAYOUT = 5;
 
 /** The data of a report. Blocks, joints and unknowns are called by their indices. */
 export class Report {
@@ -116,8 +125,12 @@ export class Report {
     /** Column of the top beam in the frames, −1 without a beam. */
     readonly beam: number;
     readonly frames: Frames;
+    /** Places of the bonded joints in the frames' list of bonds, −1 for a joint that is not bonded. */
+    readonly bond: Int32Array;
+    private readonly known = new Map<string, Numbers>();
 
-    constructor(readonly contents: Contents, private readonly bytes: ArrayBuffer) {
+    /** `from`: where the numbers begin in the bytes, a multiple of 8. */
+    constructor(readonly contents: Contents, private readonly bytes: ArrayBuffer, private readonly from = 0) {
         if (contents.layout !== LAYOUT) {
             throw new Error(`the data have layout ${contents.layout}, this page reads ${LAYOUT}`);
         }
@@ -151,7 +164,15 @@ export class Report {
             unilateral: contents.joint_laws.map((law, k) => isUpright(contents.joint_kinds[k]) && ["no-tension", "rigid"].includes(law)),
             upright: contents.joint_kinds.map(isUpright),
         };
+        this.bond = new Int32Array(this.joints).fill(-1);
+        const bonded = Object.keys(contents.bonds).map(Number).sort((a, b) => a - b);
+        bonded.forEach((joint, k) => (this.bond[joint] = k));
         this.frames = new Frames(this);
+    }
+
+    /** Whether joints are bonded. */
+    get bonded(): boolean {
+        return Object.keys(this.contents.bonds).length > 0;
     }
 
     /** Outlines as the page brings them, where a block is no upright rectangle. */
@@ -173,11 +194,19 @@ export class Report {
 
     /** An array by its name. */
     array(name: string): Numbers {
+        const known = this.known.get(name);
+        if (known !== undefined) {
+            return known;
+        }
         const place = this.contents.arrays[name];
         if (place === undefined) {
             throw new Error(`the data of the report lack ${name}`);
         }
-        return new TYPES[place.type](this.bytes, place.at, place.count);
+        const array = "planes" in place
+            ? readTable(place, new Uint8Array(this.bytes, this.from + place.at), () => this.array(`${name}/exponent`) as Int32Array)
+            : new TYPES[place.type](this.bytes, this.from + place.at, place.count);
+        this.known.set(name, array);
+        return array;
     }
 
     /** Column of a channel, −1 when the run kept none of that name. */
@@ -187,8 +216,21 @@ export class Report {
 
     /** A channel's curve over `curve/time`. */
     curve(channel: number): Float32Array {
-        const points = this.contents.curve.points;
-        return (this.array("curve/values") as Float32Array).subarray(channel * points, (channel + 1) * points);
+        return row(this.array("curve/values") as Float32Array, channel, this.contents.curve.points);
+    }
+
+    /** Times [s] and values of channels that belong to each other sample by sample; none where the run kept one of them not. */
+    together(names: string[]): { time: Float64Array; values: Float32Array[] } | null {
+        const channels = names.map((name) => this.channel(name));
+        if (channels.includes(-1)) {
+            return null;
+        }
+        if (!this.has("loop/values")) {
+            return { time: this.array("curve/time") as Float64Array, values: channels.map((channel) => this.curve(channel)) };
+        }
+        const time = this.array("loop/time") as Float64Array;
+        const all = this.array("loop/values") as Float32Array;
+        return { time, values: names.map((name) => row(all, this.contents.loops.indexOf(name), time.length)) };
     }
 
     /** A channel's values at the frames. */
@@ -198,11 +240,21 @@ export class Report {
     }
 }
 
+function row(values: Float32Array, index: number, length: number): Float32Array {
+    return values.subarray(index * length, (index + 1) * length);
+}
+
 /** Reads the data out of the page. */
-export function readPage(page: Document): Report {
-    const text = (id: string) => page.getElementById(id)?.textContent ?? "";
-    const contents = JSON.parse(text("concio-contents")) as Contents;
-    return new Report(contents, decode(text("concio-numbers").trim()).buffer);
+export async function readPage(page: Document): Promise<Report> {
+    const text = page.getElementById("concio-data")?.textContent ?? "";
+    return open(await inflate(decode(text.trim())));
+}
+
+/** The data out of inflated bytes: the length of the table of contents, the table, the numbers from a multiple of 8 on. */
+export function open(bytes: ArrayBuffer): Report {
+    const length = Number(new DataView(bytes).getBigUint64(0, true));
+    const contents = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 8, length))) as Contents;
+    return new Report(contents, bytes, 8 + 8 * Math.ceil(length / 8));
 }
 
 /** Outlines of upright rectangles. */

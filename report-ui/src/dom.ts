@@ -1,5 +1,7 @@
 /** Elements in one line each. */
 
+import { DASHES } from "./colour";
+
 type Attributes = Record<string, string | number | boolean | ((event: Event) => void)>;
 
 /** An element: attributes as they are, `on…` functions as listeners, `text` as its content. */
@@ -24,8 +26,8 @@ export function h<K extends keyof HTMLElementTagNameMap>(
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** A piece of the line that a curve is drawn with. */
-export function swatch(colour: string, dash: number[], width = 2): SVGSVGElement {
+/** A piece of the line of that number, which a curve is drawn with. */
+export function swatch(number: number, width = 2): SVGSVGElement {
     const svg = document.createElementNS(SVG, "svg");
     svg.setAttribute("width", "26");
     svg.setAttribute("height", "10");
@@ -33,9 +35,9 @@ export function swatch(colour: string, dash: number[], width = 2): SVGSVGElement
     svg.setAttribute("class", "swatch");
     const line = document.createElementNS(SVG, "path");
     line.setAttribute("d", "M0 5H26");
-    line.setAttribute("stroke", colour);
+    line.setAttribute("style", `stroke:var(--line-${number % DASHES.length})`);
     line.setAttribute("stroke-width", String(width));
-    line.setAttribute("stroke-dasharray", dash.join(" "));
+    line.setAttribute("stroke-dasharray", DASHES[number % DASHES.length].join(" "));
     svg.append(line);
     return svg;
 }

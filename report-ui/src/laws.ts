@@ -43,7 +43,7 @@ export function jointValue(
     joint: number,
     key: JointKey,
     motion: (field: Field, unknown: number) => number,
-    kept?: Float32Array,
+    kept?: ArrayLike<number>,
     at = 0,
 ): number {
     const { a, b, upright, unilateral, stiffness, damping, normal, friction } = report.joint;

@@ -43,6 +43,8 @@ const JOINT_LABELS: Record<(typeof JOINT_KEYS)[number], [string, string]> = {
     damping: ["damping force", "N"],
     friction: ["friction force", "N"],
 };
+/** What has become of the bonds of joints, in runs of both kinds: at the moment, and at the end, where it is largest. */
+const DAMAGE = "damage";
 /** Envelopes of joints, by their names in result files. */
 const JOINT_PEAKS: [string, string, string][] = [
     ["displacement", "relative displacement", "m"],
@@ -68,7 +70,14 @@ export const QUANTITIES: Quantity[] = [
     ...TOUCH_KEYS.map((key) => quantity("planar", key, "joint", "moment", ...TOUCH_LABELS[key])),
     ...FIELDS.map((key) => quantity("planar", key, "block", "peak", ...BLOCK_LABELS[key])),
     ...JOINT_PEAKS.map(([key, label, unit]) => quantity("planar", key, "joint", "peak", PLANAR_PEAKS[key] ?? label, unit)),
+    ...(["shear", "planar"] as const).flatMap((model) =>
+        (["moment", "peak"] as const).map((when) => quantity(model, DAMAGE, "joint", when, "damage of the bond", "1"))),
 ];
+
+/** Whether a quantity is what has become of bonds, from 0, intact, to 1, broken. */
+export function isDamage(q: Quantity): boolean {
+    return q.key === DAMAGE;
+}
 
 function quantity(model: Quantity["model"], key: string, owner: Owner, when: Quantity["when"], label: string, unit: string): Quantity {
     return { key, owner, when, label, unit, model };
@@ -81,7 +90,7 @@ export function fullLabel(q: Quantity): string {
 
 export function quantitiesOf(report: Report, owner: Owner, when: Quantity["when"]): Quantity[] {
     const model = report.contents.planar ? "planar" : "shear";
-    return QUANTITIES.filter((q) => q.model === model && q.owner === owner && q.when === when);
+    return QUANTITIES.filter((q) => q.model === model && q.owner === owner && q.when === when && (!isDamage(q) || report.bonded));
 }
 
 /** The envelope that is the peak of a quantity at the moment, by its key; null for those that have none. */
@@ -90,13 +99,26 @@ export function peakKey(q: Quantity): string | null {
         return q.key;
     }
     // The force in the envelopes of a planar run is the one across upright joints and the one along the others.
-    const none = q.model === "planar" && q.key !== "opening";
+    const none = q.model === "planar" && q.key !== "opening" && !isDamage(q);
     return none ? null : q.key === "elastic" ? "force" : q.key;
 }
 
-/** The envelope behind a peak quantity. */
-export function envelope(report: Report, q: Quantity): Float64Array {
-    return report.array(`envelope/${q.owner}/${q.key}`) as Float64Array;
+/** Peaks of all blocks or joints: a number of the page that is rounded or not. */
+export type Values = Float64Array | Float32Array;
+
+/** The envelope behind a peak quantity; of damage what there is at the end, not a number where nothing is bonded. */
+export function envelope(report: Report, q: Quantity): Values {
+    if (isDamage(q)) {
+        return Float64Array.from({ length: report.joints }, (_, joint) => report.contents.bonds[String(joint)]?.damage ?? NaN);
+    }
+    return report.array(`envelope/${q.owner}/${q.key}`) as Values;
+}
+
+/** Damage of the bond of a joint at a frame; not a number where it is not bonded. */
+function damage(report: Report, frame: number, joint: number): number {
+    const bond = report.bond[joint];
+    const bonds = Object.keys(report.contents.bonds).length;
+    return bond < 0 ? NaN : (report.array("frame/bond/damage") as Float64Array)[frame * bonds + bond];
 }
 
 /** What the whole wall does at one frame; reads a frame when it is first asked for. */
@@ -130,18 +152,22 @@ export class Moment {
         if (q.owner === "block") {
             return this.field(q.key as Field)[index];
         }
-        return this.joint(q.key as JointKey, keptForce(this.report, q))(index);
+        return this.joint(q)(index);
     }
 
     /** A quantity of any joint at this frame. */
-    private joint(key: JointKey, kept: Float32Array | undefined): (index: number) => number {
+    private joint(q: Quantity): (index: number) => number {
         const { report, frame } = this;
+        if (isDamage(q)) {
+            return (index) => damage(report, frame, index);
+        }
+        const [key, kept] = [q.key as JointKey, keptForce(report, q)];
         const motion = (field: Field, unknown: number) => (unknown < 0 ? 0 : this.field(field)[unknown]);
         return (index) => jointValue(report, index, key, motion, kept, frame * report.joints);
     }
 
     /** One quantity of all blocks or joints. */
-    values(q: Quantity): Float64Array {
+    values(q: Quantity): Values {
         if (q.when === "peak") {
             return envelope(this.report, q);
         }
@@ -149,7 +175,7 @@ export class Moment {
         if (q.owner === "block") {
             return this.field(q.key as Field).subarray(0, blocks);
         }
-        const value = this.joint(q.key as JointKey, keptForce(this.report, q));
+        const value = this.joint(q);
         const values = new Float64Array(joints);
         for (let e = 0; e < joints; e++) {
             values[e] = value(e);
@@ -163,6 +189,9 @@ export function history(report: Report, q: Quantity, index: number): Float64Arra
     if (q.owner === "block") {
         return report.frames.history(q.key as Field, index);
     }
+    if (isDamage(q)) {
+        return Float64Array.from({ length: report.frames.count }, (_, frame) => damage(report, frame, index));
+    }
     const kept = keptForce(report, q);
     return Float64Array.from({ length: report.frames.count }, (_, frame) => {
         const motion = (field: Field, unknown: number) => report.frames.value(field, frame, unknown);
@@ -171,13 +200,16 @@ export function history(report: Report, q: Quantity, index: number): Float64Arra
 }
 
 /** Forces of all joints at all frames, where the page holds them: for laws that are no functions of the motion. */
-function keptForce(report: Report, q: Quantity): Float32Array | undefined {
+function keptForce(report: Report, q: Quantity): Values | undefined {
     const name = `frame/joint/${q.key}`;
-    return report.has(name) ? (report.array(name) as Float32Array) : undefined;
+    return report.has(name) ? (report.array(name) as Values) : undefined;
 }
 
 /** Largest size that a quantity has in the whole run, from the envelopes, or where there is none from the frames. */
 export function peak(report: Report, q: Quantity): number {
+    if (isDamage(q)) {
+        return largest(envelope(report, q));
+    }
     if (report.contents.planar && q.when === "moment") {
         if (q.key === "vertical" || q.key === "rotation") {
             return extent(report)[q.key];
@@ -190,11 +222,11 @@ export function peak(report: Report, q: Quantity): number {
     if (q.owner === "joint" && q.when === "moment" && q.key !== "elastic") {
         const speed = envelope(report, { ...q, when: "peak", key: "velocity" });
         if (q.key === "damping") {
-            return largest(speed.map((v, joint) => v * report.joint.damping[joint]));
+            return largest(Array.from(speed, (v, joint) => v * report.joint.damping[joint]));
         }
         if (q.key === "friction") {
             // Of devices with laws of their own, which count here, the frames alone say how much they bear.
-            const bound = largest(speed.map((v, joint) => frictionBound(report, joint, v)));
+            const bound = largest(Array.from(speed, (v, joint) => frictionBound(report, joint, v)));
             return Math.max(bound, largest(keptForce(report, q) ?? []));
         }
     }

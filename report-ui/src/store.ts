@@ -1,10 +1,10 @@
 /** What the user has chosen, and who wants to know. */
 
-import { scale } from "./colour";
+import { damageScale, scale } from "./colour";
 import type { Scale } from "./colour";
 import type { Report } from "./data";
 import { extent } from "./extent";
-import { largest, Moment, peak, quantitiesOf } from "./quantities";
+import { isDamage, largest, Moment, peak, quantitiesOf } from "./quantities";
 import type { Owner, Quantity } from "./quantities";
 
 /** A block or a joint. */
@@ -43,7 +43,9 @@ export class Store {
     constructor(readonly report: Report) {
         this.moment = new Moment(report);
         const when = report.frames.count > 0 ? "moment" : "peak";
-        [this.paint] = quantitiesOf(report, "block", when);
+        // Of a bonded wall the cracks at the end are asked for first, wherever the wall is shown.
+        const cracks = quantitiesOf(report, "joint", "peak").find(isDamage);
+        this.paint = cracks ?? quantitiesOf(report, "block", when)[0];
         const channel = report.channel("peak/displacement");
         const sizes = channel < 0 ? new Float64Array(1) : report.atFrames(channel);
         const largestAt = sizes.reduce((best, size, k) => (size > sizes[best] ? k : best), 0);
@@ -125,6 +127,9 @@ export class Store {
 
     /** Colours for values of what is painted. */
     scale(values: ArrayLike<number>): Scale {
+        if (isDamage(this.paint)) {
+            return damageScale(largest(values));
+        }
         const now = this.paint.when === "moment";
         // Joints open from nothing.
         const signed = now && this.paint.key !== "opening";

@@ -34,6 +34,6 @@ test("the note on frames tells their distance and what to write for smooth curve
     report.contents.curve.interval = 0.01;
     expect(coarseness(report)).toContain('set frames = "10 ms"');
     // As many frames as a page holds: finer ones would be left out again.
-    report.contents.frames.bytes = 75e6;
+    report.contents.frames.room = 1.2;
     expect(coarseness(report)).toContain("holds no more frames");
 });

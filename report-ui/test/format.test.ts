@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { isDark, scale, step, STEPS } from "../src/colour";
-import { count, prefixOf, seconds, si, significant, tick, unitText } from "../src/format";
+import { count, ordinal, power, prefixOf, roundEnd, seconds, short, si, significant, tick, unitText } from "../src/format";
 
 test("numbers as the command line writes them", () => {
     expect(si(1.198e-6, "m")).toBe("1.198 µm");
@@ -17,6 +17,27 @@ test("numbers as the command line writes them", () => {
     expect(significant(-0.0123456, 3)).toBe("−0.0123");
 });
 
+test("zeros have no sign, rounding is 0, and there is one minus", () => {
+    for (const nothing of [0, -0, 1e-23, -3e-17]) {
+        expect([si(nothing, "m"), significant(nothing, 3), short(nothing, "N"), tick(nothing, 1)]).toEqual(["0 m", "0", "0 N", "0"]);
+    }
+    expect([si(-1.25e-14, "m"), si(-2.5e13, "N")]).toEqual(["−1.250e−14 m", "−2.500e13 N"]);
+    expect(seconds(-0.0001, 0.01)).toBe("0.00 s");
+    expect([short(4e-3, "m"), short(1200, "N"), short(-0.25, ""), short(100, "J")]).toEqual(["4 mm", "1.2 kN", "−0.25", "100 J"]);
+});
+
+test("scales of colours end at round numbers", () => {
+    expect([3.47e-3, 1, 9.3, 0.0101, 250, 5.2e-9, 0, Infinity].map(roundEnd)).toEqual([4e-3, 1, 10, 0.012, 250, 6e-9, 0, Infinity]);
+    const { low, high, largest } = scale(3.47e-3, true);
+    expect([low, high, largest]).toEqual([-4e-3, 4e-3, 3.47e-3]);
+    expect(scale(1e-23, false).zero).toBe(true);
+});
+
+test("orders of size and of place", () => {
+    expect([6.66e-5, 2e-10].map(power)).toEqual(["7·10⁻⁵", "2·10⁻¹⁰"]);
+    expect([2, 3, 4, 11, 21, 22, 112].map(ordinal)).toEqual(["second", "third", "4th", "11th", "21st", "22nd", "112th"]);
+});
+
 test("times, ticks, counts, units", () => {
     expect(seconds(0.3, 0.00125)).toBe("0.30000 s");
     expect(seconds(0.015, 0.015)).toBe("0.015 s");
@@ -24,7 +45,7 @@ test("times, ticks, counts, units", () => {
     expect(seconds(1, 1 / 3)).toBe("1.000 s");
     expect(seconds(0.3, 0.1 * 3 - 0.2)).toBe("0.3 s");
     expect(seconds(12, 0.01)).toBe("12.00 s");
-    expect(tick(0.1 + 0.2)).toBe("0.3");
+    expect([0.1 + 0.2, -2.5, 1.7e-13].map((v) => tick(v, 5))).toEqual(["0.3", "−2.5", "0"]);
     expect(count(19600)).toBe("19\u202f600");
     expect([unitText("m/s2"), unitText("1"), unitText("N")]).toEqual(["m/s²", "", "N"]);
     expect(prefixOf(3e-3, "m")).toEqual(["m", 1e-3]);

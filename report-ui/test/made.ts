@@ -1,6 +1,6 @@
 /** A small made-up report: two blocks, a beam, joints of three kinds, three frames. */
 
-import type { Contents, FrictionLaw } from "../src/data";
+import type { Bond, Contents, FrictionLaw, Numbers } from "../src/data";
 import { LAYOUT, Report } from "../src/data";
 import { FIELDS } from "../src/frames";
 import type { Field } from "../src/frames";
@@ -14,10 +14,7 @@ export const MOTION = [
     [-1e-3, -2e-3, NaN],
 ];
 
-type Numbers = Float64Array | Float32Array | Uint32Array | Int32Array | Int8Array;
-const KINDS = new Map<Function, "f64" | "f32" | "u32" | "i32" | "i8">([
-    [Float64Array, "f64"], [Float32Array, "f32"], [Uint32Array, "u32"], [Int32Array, "i32"], [Int8Array, "i8"],
-]);
+const KINDS = new Map<Function, "f64" | "f32" | "i32">([[Float64Array, "f64"], [Float32Array, "f32"], [Int32Array, "i32"]]);
 
 /** Of a planar run: how far left block, right block and beam rise and turn at three frames. */
 export const RISE = [[0, 0, 0], [0, 0.1, 0], [0, 1e-3, 2e-3]];
@@ -28,7 +25,7 @@ export const TOUCH = { slip: 1e-3, opening: 2e-3, pressure: 700, friction: 300 }
 /** The same blocks as a planar run. */
 export function madePlanar(more: Record<string, Numbers> = {}): Report {
     const touch = Object.entries(TOUCH).map(([name, size]) => [`frame/joint/${name}`, Float32Array.from({ length: 9 }, (_, k) => size * (k - 3))]);
-    return made({ ...packed("vertical", RISE), ...packed("rotation", TURN), ...Object.fromEntries(touch), ...more }, true);
+    return made({ ...rows("vertical", RISE), ...rows("rotation", TURN), ...Object.fromEntries(touch), ...more }, true);
 }
 
 /** The same with a left block that is a trapezium, wider below, and a right one with a corner cut off. */
@@ -46,7 +43,13 @@ export function madePolygons(): Report {
 /** Centre of the right block: its rectangle less the triangle over half of its height and three fifths of its length. */
 export const CUT = [[0.385, 0.46], [0.025, 0.125 / 3]].map(([whole, part]) => (0.0125 * whole - 0.001875 * part) / 0.010625);
 
-export function made(more: Record<string, Numbers> = {}, planar = false): Report {
+/** A bond of the left block with the base that cracks and breaks, and of the head joint that holds. */
+export function madeBonded(): Report {
+    const bond = (damage: number, cracked: number | null): Bond => ({ strength: 1e3, damage, spent: 0, cracked, broken: damage === 1 ? 0.2 : null });
+    return made({ "frame/bond/damage": Float64Array.from([0, 0, 0.25, 0, 1, 0]) }, false, { "0": bond(1, 0.05), "1": bond(0, null) });
+}
+
+export function made(more: Record<string, Numbers> = {}, planar = false, bonds: Record<string, Bond> = {}): Report {
     const real = (...values: number[]) => Float64Array.from(values);
     const arrays: Record<string, Numbers> = {
         "block/x0": real(0, 0.26), "block/x1": real(0.25, 0.51), "block/y0": real(0, 0), "block/y1": real(0.05, 0.05),
@@ -64,8 +67,8 @@ export function made(more: Record<string, Numbers> = {}, planar = false): Report
     const contents: Contents = {
         layout: LAYOUT, name: "made", title: "", block_names: ["p1c1b1", "p1c1b2"],
         joint_names: ["base|p1c1b1", "p1c1b1|p1c1b2", "p1c1b2|top"], joint_kinds: ["base", "head", "top"],
-        joint_laws: ["elastic", "no-tension", "elastic"], frictions: [LAW], bonds: {}, planar, beam: { kind: "mass", label: "beam", moves: true },
-        frames: { recorded: 3, every: 1, standing: 3, bytes: 45, most: 2 ** 24 }, curve: { samples: 3, points: 3, interval: 0.1, left_out: 0 }, channels: [], spectrum: null,
+        joint_laws: ["elastic", "no-tension", "elastic"], frictions: [LAW], bonds, planar, beam: { kind: "mass", label: "beam", moves: true },
+        frames: { recorded: 3, every: 1, standing: 3, room: 1000, rounded: null }, curve: { samples: 3, points: 3, interval: 0.1, left_out: 0 }, loops: [], channels: [], spectrum: null,
         arrays: {},
     };
     let at = 0;
@@ -81,19 +84,9 @@ export function made(more: Record<string, Numbers> = {}, planar = false): Report
 }
 
 function frames(): Record<string, Numbers> {
-    return Object.assign({}, ...FIELDS.map((field, k) => packed(field, MOTION.map((row) => row.map((v) => v * 10 ** k)))));
+    return Object.assign({}, ...FIELDS.map((field, k) => rows(field, MOTION.map((row) => row.map((v) => v * 10 ** k)))));
 }
 
-/** Rows of a field as the page holds them. */
-function packed(field: Field, rows: number[][]): Record<string, Numbers> {
-    const quanta = rows.map((row) => {
-        const largest = Math.max(...row.filter(Number.isFinite).map(Math.abs));
-        return largest === 0 ? 1 : 2 ** (Math.ceil(Math.log2(largest)) - 38);
-    });
-    const steps = rows.flatMap((row, r) => row.map((v) => (Number.isFinite(v) ? Math.round(v / quanta[r]) : -(2 ** 39))));
-    return {
-        [`frame/${field}/quantum`]: Float64Array.from(quanta),
-        [`frame/${field}/low`]: Uint32Array.from(steps.map((s) => ((s % 2 ** 32) + 2 ** 32) % 2 ** 32)),
-        [`frame/${field}/high`]: Int8Array.from(steps.map((s) => Math.floor(s / 2 ** 32))),
-    };
+function rows(field: Field, values: number[][]): Record<string, Numbers> {
+    return { [`frame/${field}`]: Float64Array.from(values.flat()) };
 }

@@ -92,7 +92,8 @@ test("the frame of the largest way is none after a collapse", () => {
 test("blocks that turn are drawn as they are where that is seen, and enlarged where it is not", () => {
     const report = madePlanar();
     expect(automaticScale(report, new View(report))).toBe(1);
-    const still = ["vertical", "rotation", "displacement"].map((field) => [`frame/${field}/quantum`, Float64Array.from([1, 2 ** -60, 2 ** -60])]);
+    const still = Object.entries({ vertical: RISE, rotation: TURN, displacement: MOTION }).map(([field, rows]) =>
+        [`frame/${field}`, Float64Array.from(rows.flat(), (v) => v * 1e-6)]);
     const small = madePlanar(Object.fromEntries(still));
     const scale = automaticScale(small, new View(small));
     expect(scale).toBeGreaterThan(100);

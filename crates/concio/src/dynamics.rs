@@ -299,7 +299,9 @@ pub fn observe(model: &Model, state: &mut State, h: f64, start: [&[f64]; 2]) {
         let e = contact.joint as usize;
         env.joint_force[e] = env.joint_force[e].max(*borne);
     }
-    totals.base_shear_peak = totals.base_shear_peak.max(shear.abs());
+    state.raise_base_shear(shear.abs(), model.tops.of_wall(|i| state.z[i]));
+    model.tops.follow(&mut state.leans, [state.t - h, state.t], model.settles(), |i| state.z[i]);
+    let totals = &mut state.totals;
     totals.top_force_peak = totals.top_force_peak.max(pull.abs());
     totals.top_force_square += 0.5 * h * (state.pull * state.pull + pull * pull);
     state.pull = pull;
@@ -385,7 +387,6 @@ enum Watched {
 #[derive(Debug, Clone)]
 pub struct Channels {
     watched: Vec<Watched>,
-    top_course: Vec<usize>,
 }
 
 const ALWAYS: [(&str, &str, &str); 10] = [
@@ -485,17 +486,12 @@ impl Channels {
                 }
             }
         }
-        let blocks = &model.wall.blocks;
-        let is_top = |i: &usize| blocks[*i].course + 1 == model.wall.panels[blocks[*i].panel].courses;
-        let top_course = (0..blocks.len()).filter(is_top).collect();
-        Ok((Channels { watched, top_course }, list))
+        Ok((Channels { watched }, list))
     }
 
     /// [`Channels::sample`] of a planar wall.
     pub(crate) fn sample_planar(&self, model: &Model, at: Row, row: &mut Vec<f64>) {
-        let mean = |values: &[f64]| {
-            self.top_course.iter().map(|&i| values[i]).sum::<f64>() / self.top_course.len().max(1) as f64
-        };
+        let mean = |values: &[f64]| model.tops.of_courses(|i| values[i]);
         let base = model.excitation.drive(at.t).base(at.t);
         row.extend([base.a, base.u, at.shear, mean(at.z), mean(at.v), at.state.pull]);
         row.extend(model.floating_beam().map_or([0.0; 3], |beam| [at.z[beam], at.v[beam], at.a[beam]]));
@@ -536,9 +532,7 @@ impl Channels {
         let beam = model.floating_beam().unwrap_or(model.top());
         let [shear, pull] =
             [&model.on_base, &model.on_beam].map(|support| 0.0 - borne_by(model, support, Acting::of(at)));
-        let mean = |values: &[f64]| {
-            self.top_course.iter().map(|&i| values[i]).sum::<f64>() / self.top_course.len().max(1) as f64
-        };
+        let mean = |values: &[f64]| model.tops.of_courses(|i| values[i]);
         let base = drive.base(at.t);
         let energies = at.energies;
         row.extend([base.a, base.u, shear, mean(at.z), mean(at.v), pull]);

@@ -8,6 +8,7 @@ pub mod case;
 pub mod constrained;
 pub mod device;
 pub mod dice;
+pub mod drift;
 mod dynamics;
 mod elementary;
 pub mod error;

@@ -6,6 +6,7 @@ use crate::assign::{JointLaw, friction_choice, resolve};
 use crate::bond::{self, Bonded};
 use crate::case::{Beam, Case, DeviceLaw, ModelKind, Signal, SpringLaw};
 use crate::device::{self, Device, Nonlinear};
+use crate::drift::{self, Tops};
 use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::graph;
@@ -19,6 +20,8 @@ use crate::warning::{Warning, WarningKind};
 pub struct Model {
     /// The blocks.
     pub wall: Wall,
+    /// Where its tops are.
+    pub tops: Tops,
     /// The joints, in the order of the arrays below.
     pub joints: Vec<Joint>,
     /// What the top beam does.
@@ -230,7 +233,11 @@ impl Model {
         let contacts: Vec<Contact> = laws.iter().enumerate().filter_map(rigid).collect();
         let support = |side| Support::of(side, &sides, &rubs, &bonds, &contacts, &nonlinear);
         let (on_base, on_beam) = (support(n), support(floating.unwrap_or(n + 1)));
+        // A tied beam stays where the base is.
+        let moves = matches!(beam, Beam::Driven | Beam::Mass(_));
+        let tops = Tops::of(&wall, &joints, moves.then_some(floating.unwrap_or(n + 1)));
         Ok(Model {
+            tops,
             wall,
             joints,
             beam,
@@ -324,6 +331,10 @@ impl Model {
     /// Name of every joint.
     pub fn joint_names(&self) -> Vec<String> {
         self.joints.iter().map(|j| graph::name(&self.wall, j)).collect()
+    }
+    /// When the last part of a run begins, over which residual drifts are means [s].
+    pub fn settles(&self) -> f64 {
+        drift::settles(self.excitation.duration, self.planar.as_ref().is_some_and(|planar| planar.still))
     }
     /// Index of the beam's unknown.
     pub fn floating_beam(&self) -> Option<usize> {

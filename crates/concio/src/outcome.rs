@@ -18,6 +18,8 @@ pub struct Outcome {
     pub bonds: Vec<BondRow>,
     /// The ties and what became of them, in the order of the wall file.
     pub ties: Vec<TieRow>,
+    /// How far its tops went: that of a beam that moves, then those of the panels that have none.
+    pub drifts: Vec<DriftRow>,
     /// Energy account at the end.
     pub energies: Energies,
     /// Peaks over the run.
@@ -43,6 +45,36 @@ impl Outcome {
         let cracked = self.bonds.iter().filter(|b| b.cracked.is_finite());
         cracked.min_by(|a, b| a.cracked.total_cmp(&b.cracked))
     }
+
+    /// The top that went farthest over its height.
+    pub fn worst_drift(&self) -> Option<&DriftRow> {
+        self.drifts.iter().max_by(|a, b| a.ratio(a.peak).abs().total_cmp(&b.ratio(b.peak).abs()))
+    }
+}
+
+impl DriftRow {
+    /// A displacement of the top as a drift [1].
+    pub fn ratio(&self, displacement: f64) -> f64 {
+        if self.height > 0.0 { displacement / self.height } else { 0.0 }
+    }
+}
+
+/// How far a top of the wall went relative to the base, at the ends of steps ([`crate::drift`]).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DriftRow {
+    /// Name of the panel, or `beam`.
+    pub top: String,
+    /// Its height above the base [m]: displacements over it are drifts.
+    pub height: f64,
+    /// Displacement of the top when it was farthest from its place [m], until a collapse.
+    pub peak: f64,
+    /// When that was [s].
+    pub time: f64,
+    /// Mean over the last tenth of the run, without inertia at its end [m]; infinite of a run that stopped early and of a wall that
+    /// collapsed.
+    pub residual: f64,
+    /// By how much it left that mean there, at most [m].
+    pub swing: f64,
 }
 
 /// A bonded joint and what became of it.
@@ -106,6 +138,10 @@ pub struct Totals {
     /// Largest |horizontal force of the base on the wall| [N]; of a planar wall the mean over a step, impacts among it, until a collapse,
     /// and without inertia the largest against the load.
     pub base_shear_peak: f64,
+    /// When it first came within 10⁻⁴ of that [s]: where a wall slides, its largest shear lasts, but for rounding.
+    pub base_shear_time: f64,
+    /// Displacement of the top relative to the base then [m]: of a beam that moves, else the mean of the top courses.
+    pub base_shear_displacement: f64,
     /// Largest |force| that the top beam exerts on the wall [N]; 0 without a beam.
     pub top_force_peak: f64,
     /// ∫ F² dt of that force [N² s], until a collapse; its rms is √(this / that time).

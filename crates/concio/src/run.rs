@@ -347,12 +347,19 @@ fn write(
         base_load: model.base_load(),
         solve_seconds,
         resumed_from,
+        at_first_crack: outcome.first_crack().map(|bond| moving(model, bond.cracked)),
         warnings,
     };
     let summary = store::summary(&provenance, &model.wall, &joints, outcome, &facts);
     store::hdf5::write(&out.join(RESULT), &provenance, &model.wall, &joints, outcome)?;
     store::write_summary(&out.join(SUMMARY), &summary)?;
     Ok(summary)
+}
+
+/// What moves a wall at the time `t` [s].
+fn moving(model: &Model, t: f64) -> store::Moving {
+    let Excitation { base, top, driven, .. } = &model.excitation;
+    store::Moving { acceleration: base.acceleration(t), beam: driven.then(|| top.at(t).u - base.at(t).u) }
 }
 
 /// The joints of a model with their compiled numbers, as results keep them.

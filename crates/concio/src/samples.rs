@@ -4,6 +4,7 @@
 use crate::bond::{Bond, Bonded};
 use crate::case::{Beam, DeviceLaw, JointKind, Signal, Sine, Solver};
 use crate::device::{self, Device, Law, Nonlinear};
+use crate::drift::Tops;
 use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::ground::signal::{GroundMotion, compile};
@@ -147,9 +148,12 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
     let contacts: Vec<Contact> = links.iter().enumerate().filter_map(rigid).collect();
     let support = |side| Support::of(side, &sides, &rubs, &bonds, &contacts, &nonlinear);
     let (on_base, on_beam) = (support(n), support(n + 1));
+    let wall = Wall { panels: vec![panel], blocks: (0..n).map(block).collect() };
+    let joints: Vec<Joint> = links.iter().map(joint).collect();
     Model {
-        wall: Wall { panels: vec![panel], blocks: (0..n).map(block).collect() },
-        joints: links.iter().map(joint).collect(),
+        tops: Tops::of(&wall, &joints, excitation.driven.then_some(n + 1)),
+        wall,
+        joints,
         beam: if excitation.driven { Beam::Driven } else { Beam::Free },
         top_load: 0.0,
         load_mass: 0.0,

@@ -572,8 +572,13 @@ impl<'m> Simulation<'m> {
         envelopes.joint_impulse.resize(self.model.joints.len(), 0.0);
         envelopes.joint_impacts.resize(self.model.joints.len(), 0.0);
         envelopes.drop_signs_of_zero();
+        let settles = self.model.settles();
+        // What was cut short had yet to come to rest, and rubble leans no more.
+        let completes = stop_reason == StopReason::Completed && self.state.totals.collapse.is_none();
+        let drifts = self.model.tops.rows(&self.state.leans, settles, self.state.t, completes);
         Outcome {
             bonds,
+            drifts,
             ties: self.planar.map_or_else(Vec::new, |bodies| bodies.ties(self.model)),
             layout: self.layout,
             recording,

@@ -2,9 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::drift::Lean;
 use crate::model::Model;
 use crate::outcome::Totals;
 use crate::record::{Counters, Energies, Envelopes};
+
+/// Part by which a base shear has to exceed an earlier one to count as another: of one that lasts, the beginning is told.
+const LASTING: f64 = 1e-4;
 
 /// The state between two steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -37,6 +41,10 @@ pub struct State {
     pub bonds: Vec<BondState>,
     /// What has become of the devices with laws of their own, in the order of the model's.
     pub devices: Vec<DeviceState>,
+    /// Base shear at `totals.base_shear_time` [N].
+    pub marked_shear: f64,
+    /// How the tops have gone.
+    pub leans: Vec<Lean>,
     /// Samples kept so far.
     pub samples: u64,
     /// Energy account.
@@ -235,6 +243,17 @@ impl State {
         View { t: *t, z, v, a, mu: &self.tangents.mu, reaction: &self.tangents.reaction, bonds, devices, energies }
     }
 
+    /// Takes the size of the base shear at its instant [N], with the tops at `top` [m].
+    #[inline]
+    pub(crate) fn raise_base_shear(&mut self, shear: f64, top: f64) {
+        let totals = &mut self.totals;
+        totals.base_shear_peak = totals.base_shear_peak.max(shear);
+        if shear > self.marked_shear * (1.0 + LASTING) {
+            self.marked_shear = shear;
+            (totals.base_shear_time, totals.base_shear_displacement) = (self.t, top);
+        }
+    }
+
     /// Whether all arrays have the lengths that `model` needs.
     pub fn fits(&self, model: &Model) -> bool {
         let (n, e, r) = (model.unknowns(), model.joints.len(), model.rubs.len());
@@ -260,6 +279,7 @@ impl State {
             && self.tangents.stuck.len() == r
             && self.bonds.len() == model.bonds.len()
             && self.devices.len() == model.nonlinear.len()
+            && self.leans.len() == model.tops.at_rest().len()
             && self.tangents.contact.len() == model.contacts.len()
             && self.tangents.reaction.len() == model.contacts.len()
     }
@@ -283,6 +303,8 @@ impl State {
             tangents: Tangents::at_rest(model),
             bonds: vec![BondState::INTACT; model.bonds.len()],
             devices: vec![DeviceState::default(); model.nonlinear.len()],
+            marked_shear: 0.0,
+            leans: model.tops.at_rest(),
             samples: 0,
             energies: Energies::default(),
             envelopes: Envelopes {

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use concio::Error;
 use concio::dice::Dice;
 use concio::record::{Channel, Recording};
-use concio::store::{self, Journal, JournalHeader, RunFacts, StoredRun, digest, export, hdf5};
+use concio::store::{self, Journal, JournalHeader, Moving, RunFacts, StoredRun, digest, export, hdf5};
 use concio::warning::{Warning, WarningKind};
 use proptest::prelude::*;
 use store_sample::{SMALL, Sample, Size, reshape, rows, sample};
@@ -278,7 +278,8 @@ fn a_bit_flipped_in_a_summary_is_told_or_changes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("summary.json");
     let s = sample(SMALL);
-    let facts = RunFacts { duration: 0.1, warnings: vec![Warning::new(WarningKind::Creep, "One.")], ..RunFacts::default() };
+    let facts =
+        RunFacts { duration: 0.1, warnings: vec![Warning::new(WarningKind::Creep, "One.")], ..RunFacts::default() };
     let summary = store::summary(&s.provenance, &s.wall, &s.joints, &s.outcome, &facts);
     store::write_summary(&path, &summary).unwrap();
     assert_eq!(store::read_summary(&path).unwrap(), summary);
@@ -648,7 +649,8 @@ fn summary_has_the_keys_that_other_programs_read() {
         base_load: 5e4,
         solve_seconds: 0.5,
         resumed_from: None,
-        warnings: vec![concio::warning::Warning::new(concio::warning::WarningKind::Collapse, "One.")],
+        at_first_crack: Some(Moving { acceleration: -2.5, beam: Some(1e-3) }),
+        warnings: vec![Warning::new(WarningKind::Collapse, "One.")],
     };
     let summary = store::summary(&s.provenance, &s.wall, &s.joints, &s.outcome, &facts);
     let number = |key: &str| summary.pointer(key).and_then(|v| v.as_f64()).unwrap_or_else(|| panic!("no {key}"));
@@ -662,6 +664,10 @@ fn summary_has_the_keys_that_other_programs_read() {
     assert_eq!(number("/peak_slip_velocity"), 2.2e-2);
     assert_eq!(number("/weight"), 3e4);
     assert_eq!(number("/base_shear_peak"), 1.9e5);
+    assert_eq!((number("/base_shear_time"), number("/base_shear_displacement")), (0.02, -1.25e-3));
+    assert_eq!((number("/drift/peak"), number("/drift/displacement"), number("/drift/time")), (-4e-3, -2e-3, 0.03));
+    assert!(summary["drift"]["top"] == "p1" && summary["drift"]["residual"].is_null(), "{}", summary["drift"]);
+    assert_eq!((number("/bonds/first_acceleration"), number("/bonds/first_beam")), (-2.5, 1e-3));
     assert_eq!((number("/collapse/time"), number("/collapse/displacement")), (0.06, 0.25));
     assert_eq!(summary.pointer("/collapse/block").and_then(|v| v.as_str()), Some(s.wall.blocks[0].name.as_str()));
     assert_eq!(number("/top_work"), 2.5);

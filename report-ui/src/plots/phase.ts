@@ -3,14 +3,17 @@
 import uPlot from "uplot";
 import { h } from "../dom";
 import { largest } from "../quantities";
+import { headed } from "../save";
 import type { Store } from "../store";
-import { axis, Panel, UPRIGHT } from "./frame";
-import type { Curve } from "./frame";
+import { axis, colourOf, dashOf, LEVEL, Panel, UPRIGHT } from "./frame";
+import type { Curve, Options } from "./frame";
 import { range } from "./time";
 
 export interface PhaseCurve extends Curve {
-    x: Float64Array;
-    y: Float64Array;
+    x: ArrayLike<number>;
+    y: ArrayLike<number>;
+    /** Where it is at the frames, and the instants of its points [s], where these are others than the frames. */
+    at?: { x: ArrayLike<number>; y: ArrayLike<number>; time: ArrayLike<number> };
 }
 
 export class PhasePlot {
@@ -19,8 +22,8 @@ export class PhasePlot {
     private curves: PhaseCurve[] = [];
     private marks: HTMLElement[] = [];
 
-    constructor(private readonly store: Store, private readonly title: string, height: number) {
-        this.panel = new Panel(title, height);
+    constructor(private readonly store: Store, private readonly title: string, height: number, note = "") {
+        this.panel = new Panel(title, height, store.report.contents.name, note);
         this.panel.resized = () => this.place();
         store.on("frame", () => this.place());
     }
@@ -29,36 +32,44 @@ export class PhasePlot {
         this.curves = curves;
         const size = (of: "x" | "y") => Math.max(...curves.map((c) => largest(c[of])), 0);
         const [left, right, low, high] = [...ends(curves.map((c) => c.x)), ...ends(curves.map((c) => c.y))];
-        const options: Omit<uPlot.Options, "width" | "height"> = {
+        const options = (scale: number): Options => ({
             legend: { show: false },
-            padding: [8, 12, 0, 0],
+            padding: [8 * scale, 12 * scale, 0, 0],
             cursor: { points: { show: false }, drag: { x: false, y: false } },
             scales: { x: { time: false, range: () => range(left, right) }, y: { range: () => range(low, high) } },
-            axes: [axis(...x, size("x"), { size: 34 }), axis(...y, size("y"), UPRIGHT)],
+            axes: [axis(...x, size("x"), scale, LEVEL), axis(...y, size("y"), scale, UPRIGHT)],
             // The library draws functions of x; a trajectory returns, so it is drawn by hand over two points of frame.
             series: [{}, { stroke: "transparent", points: { show: false } }],
-            hooks: { draw: [(plot) => this.trace(plot), () => this.place()] },
-        };
-        this.plot = this.panel.show(options, [[left, right], [low, high]]);
+            hooks: { draw: [(plot) => this.trace(plot, curves, scale), () => this.place()] },
+        });
+        this.plot = this.panel.show((scale) => ({ options: options(scale), data: [[left, right], [low, high]] }));
         this.panel.name(curves, "");
+        const { time } = this.store.report.frames;
+        this.panel.table = () => [
+            { head: "time [s]", values: curves[0]?.at?.time ?? time },
+            ...curves.flatMap((c) => {
+                const of = ([label, unit]: [string, string]) => headed(c.name === "" ? label : `${c.name}: ${label}`, unit);
+                return [{ head: of(x), values: c.x }, { head: of(y), values: c.y }];
+            }),
+        ];
         this.panel.place.setAttribute("role", "img");
         this.panel.place.setAttribute("aria-label", `${this.title}: ${y[0]} over ${x[0]} of ${curves.map((c) => c.name).join(", ")}`);
-        this.marks = curves.map((c) => h("div", { class: "dot", style: `background:${c.colour}` }));
+        this.marks = curves.map((c) => h("div", { class: "dot", style: `background:var(--line-${c.line})` }));
         this.plot.over.append(...this.marks);
         this.plot.over.addEventListener("pointerdown", (event) => this.goToNearest(event));
     }
 
-    private trace(plot: uPlot): void {
+    private trace(plot: uPlot, curves: PhaseCurve[], scale: number): void {
         const { ctx, bbox } = plot;
         ctx.save();
         ctx.beginPath();
         ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
         ctx.clip();
-        const ratio = uPlot.pxRatio;
-        for (const { x, y, colour, dash } of this.curves) {
-            ctx.strokeStyle = colour;
+        const ratio = uPlot.pxRatio * scale;
+        for (const { x, y, line } of curves) {
+            ctx.strokeStyle = colourOf(line);
             ctx.lineWidth = 1.1 * ratio;
-            ctx.setLineDash(dash.map((d) => d * ratio));
+            ctx.setLineDash(dashOf(line).map((d) => d * ratio));
             ctx.beginPath();
             for (let k = 0; k < x.length; k++) {
                 ctx.lineTo(plot.valToPos(x[k], "x", true), plot.valToPos(y[k], "y", true));
@@ -69,45 +80,47 @@ export class PhasePlot {
     }
 
     private place(): void {
-        const plot = this.plot;
+        const { plot, store } = this;
         if (plot === null || this.marks.length !== this.curves.length) {
             return;
         }
         this.marks.forEach((mark, c) => {
-            const { x, y } = this.curves[c];
-            const [left, top] = [plot.valToPos(x[this.store.frame], "x"), plot.valToPos(y[this.store.frame], "y")];
+            const { x, y } = this.curves[c].at ?? this.curves[c];
+            const [left, top] = [plot.valToPos(x[store.frame], "x"), plot.valToPos(y[store.frame], "y")];
+            mark.hidden = !Number.isFinite(left + top);
             mark.style.transform = `translate(${left.toFixed(1)}px,${top.toFixed(1)}px)`;
         });
     }
 
     private goToNearest(event: PointerEvent): void {
-        const plot = this.plot;
+        const { plot, store } = this;
         if (plot === null) {
             return;
         }
         const area = plot.over.getBoundingClientRect();
         const [px, py] = [event.clientX - area.left, event.clientY - area.top];
-        let [nearest, found] = [Infinity, this.store.frame];
-        for (const { x, y } of this.curves) {
+        const { time } = store.report.frames;
+        let [nearest, found] = [Infinity, store.time];
+        for (const { x, y, at } of this.curves) {
             for (let k = 0; k < x.length; k++) {
                 const distance = Math.hypot(plot.valToPos(x[k], "x") - px, plot.valToPos(y[k], "y") - py);
                 if (distance < nearest) {
-                    [nearest, found] = [distance, k];
+                    [nearest, found] = [distance, (at?.time ?? time)[k]];
                 }
             }
         }
-        this.store.play(false);
-        this.store.go(found);
+        store.play(false);
+        store.goToTime(found);
     }
 }
 
-function ends(lists: Float64Array[]): [number, number] {
+function ends(lists: ArrayLike<number>[]): [number, number] {
     let [low, high] = [Infinity, -Infinity];
     for (const list of lists) {
-        for (const value of list) {
-            if (Number.isFinite(value)) {
-                low = Math.min(low, value);
-                high = Math.max(high, value);
+        for (let k = 0; k < list.length; k++) {
+            if (Number.isFinite(list[k])) {
+                low = Math.min(low, list[k]);
+                high = Math.max(high, list[k]);
             }
         }
     }

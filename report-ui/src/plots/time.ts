@@ -1,11 +1,12 @@
 /** Curves over time with a line at the moment; a click or a drag moves the moment, with Shift it enlarges a stretch. */
 
-import uPlot from "uplot";
+import type uPlot from "uplot";
 import { h } from "../dom";
 import { largest } from "../quantities";
+import { headed } from "../save";
 import type { Store } from "../store";
-import { axis, Panel, UPRIGHT } from "./frame";
-import type { Curve } from "./frame";
+import { axis, colourOf, dashOf, LEVEL, Panel, UPRIGHT } from "./frame";
+import type { Curve, Options } from "./frame";
 
 export interface TimeCurve extends Curve {
     values: ArrayLike<number>;
@@ -17,16 +18,17 @@ export class TimePlot {
     private plot: uPlot | null = null;
 
     constructor(private readonly store: Store, private readonly title: string, height: number, note = "") {
-        this.panel = new Panel(title, height, note);
+        this.panel = new Panel(title, height, store.report.contents.name, note);
         this.panel.resized = () => this.place();
         store.on("frame", () => this.update());
     }
 
     show(label: string, unit: string, time: ArrayLike<number>, curves: TimeCurve[]): void {
         const top = Math.max(...curves.map((c) => largest(c.values)), 0);
-        const options: Omit<uPlot.Options, "width" | "height"> = {
+        const data = [time, ...curves.map((c) => c.values)] as unknown as uPlot.AlignedData;
+        const options = (scale: number): Options => ({
             legend: { show: false },
-            padding: [8, 12, 0, 0],
+            padding: [8 * scale, 12 * scale, 0, 0],
             cursor: {
                 y: false,
                 points: { show: false },
@@ -34,13 +36,18 @@ export class TimePlot {
                 bind: { mousedown: (_, __, handler) => (event) => (event.shiftKey ? handler(event) : null) },
             },
             scales: { x: { time: false }, y: { range: (_, low, high) => range(low, high) } },
-            axes: [axis("time", "s", 1, { size: 34 }), axis(label, unit, top, UPRIGHT)],
+            axes: [axis("time", "s", 1, scale, LEVEL), axis(label, unit, top, scale, UPRIGHT)],
             // Scales are settled with the first drawing only.
             hooks: { draw: [() => this.place()] },
-            series: [{}, ...curves.map((c) => ({ stroke: c.colour, dash: c.dash, width: 1.4, points: { show: false } }))],
-        };
-        this.plot = this.panel.show(options, [time, ...curves.map((c) => c.values)] as unknown as uPlot.AlignedData);
+            series: [{}, ...curves.map(({ line }) => ({
+                stroke: () => colourOf(line), dash: dashOf(line).map((d) => d * scale), width: 1.4 * scale, points: { show: false },
+            }))],
+        });
+        this.plot = this.panel.show((scale) => ({ options: options(scale), data }));
         this.panel.name(curves, unit);
+        this.panel.table = () => [
+            { head: "time [s]", values: time }, ...curves.map((c) => ({ head: headed(`${c.name} ${label}`.trim(), unit), values: c.values })),
+        ];
         this.panel.place.setAttribute("role", "img");
         this.panel.place.setAttribute("aria-label", `${this.title} over time: ${curves.map((c) => c.name || label).join(", ")}`);
         this.plot.over.append(this.now);

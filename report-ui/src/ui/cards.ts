@@ -1,6 +1,5 @@
 /** What is selected: name, kind, numbers at the moment and peaks. */
 
-import { LINES } from "../colour";
 import { h, swatch } from "../dom";
 import type { Item, Store } from "../store";
 import { facts, fill, valueTable } from "./values";
@@ -25,12 +24,12 @@ export class Cards {
 
     private card(item: Item): HTMLElement {
         const { store } = this;
-        const line = LINES[store.of(item.owner).indexOf(item.index)];
+        const line = store.of(item.owner).indexOf(item.index);
         const { table, cells } = valueTable(store, item);
         this.cells.push(...cells);
         const name = store.name(item);
         const remove = h("button", { type: "button", class: "remove", "aria-label": `Remove ${name}`, title: "Remove", "onclick": () => store.toggle(item) }, "×");
-        const head = h("header", {}, swatch(line.colour, line.dash), h("strong", {}, name), remove);
+        const head = h("header", {}, swatch(line), h("strong", {}, name), remove);
         return h("article", { "data-item": `${item.owner}/${name}` }, head, h("p", { class: "small" }, facts(store, item)), table);
     }
 }

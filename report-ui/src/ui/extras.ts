@@ -1,6 +1,18 @@
-/** Buttons beside what can be copied or saved. */
+/** Buttons beside what can be copied or saved, and the choice between light and dark. */
 
 import { h } from "../dom";
+import { saveText } from "../save";
+import { choice, choose } from "../theme";
+import type { Choice } from "../theme";
+
+const THEMES: [Choice, string][] = [["automatic", "as the system"], ["light", "light"], ["dark", "dark"]];
+
+/** Light, dark, or what the system prefers, in the head of the page. */
+export function themeChoice(page: Document): void {
+    const options = THEMES.map(([value, text]) => h("option", { value, selected: value === choice() }, text));
+    const select = h("select", { id: "theme", "onchange": (event) => choose((event.target as HTMLSelectElement).value as Choice) }, ...options);
+    page.querySelector("header")?.prepend(h("label", { class: "field theme" }, h("span", {}, "appearance"), select));
+}
 
 /** Adds a button to copy to every quoted text, and one to save to the resolved input. */
 export function addButtons(page: Document): void {
@@ -25,9 +37,5 @@ function copyButton(quoted: HTMLElement): HTMLElement {
 }
 
 function saveButton(quoted: HTMLElement, name: string): HTMLElement {
-    return h("button", { type: "button", "onclick": () => {
-        const link = h("a", { href: URL.createObjectURL(new Blob([quoted.textContent ?? ""], { type: "application/json" })), download: name });
-        link.click();
-        setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-    } }, `save as ${name}`);
+    return h("button", { type: "button", "onclick": () => saveText(name, quoted.textContent ?? "", "application/json") }, `save as ${name}`);
 }

@@ -1,13 +1,13 @@
-/** The run as a whole: top of the wall, forces, energies, input motion and its spectrum. */
+/** The run as a whole: force over displacement, top of the wall, forces, energies, input motion and its spectrum. */
 
-import { LINES } from "../colour";
 import { h } from "../dom";
-import { count, unitText } from "../format";
+import { count, NOTHING, unitText } from "../format";
 import { onLayout } from "../layout";
-import { Panel, UPRIGHT, axis } from "../plots/frame";
+import { axis, colourOf, LEVEL, Panel, UPRIGHT } from "../plots/frame";
 import { TimePlot } from "../plots/time";
 import { largest } from "../quantities";
 import type { Store } from "../store";
+import { loopPlot } from "./loop";
 
 interface Figure {
     title: string;
@@ -46,8 +46,12 @@ export function overview(store: Store): HTMLElement[] {
         input.push({ title: "Motion of the driven beam, relative to the base", label: "displacement", curves: [["beam/displacement", "top beam"]] });
     }
     const spectrum = responseSpectrum(store);
+    const loop = loopPlot(store, 260);
+    if (loop !== null) {
+        later(loop.element, loop.show);
+    }
     return [
-        section("response", "The run over time", [...figures(store, RESPONSE)], thinned(store)),
+        section("response", "The run as a whole", [...(loop === null ? [] : [loop.element]), ...figures(store, RESPONSE)], thinned(store)),
         section("energy", "Energy", figures(store, ENERGY), ""),
         section("motion", "Input motion", [...figures(store, input), ...(spectrum === null ? [] : [spectrum])], "", "Nothing moves base or top."),
     ];
@@ -63,7 +67,8 @@ function thinned(store: Store): string {
     const { samples, points } = store.report.contents.curve;
     return samples > points
         ? `Curves of the run are drawn through the lowest and highest of every ${Math.round((2 * samples) / points)} of their `
-            + `${count(samples)} samples; all samples are in result.h5. The values beside the names are those at the frame shown.`
+            + `${count(samples)} samples, forces over displacements through as many as hold their extremes; all samples are in result.h5. `
+            + "The values beside the names are those at the frame shown."
         : "";
 }
 
@@ -73,7 +78,7 @@ function figures(store: Store, list: Figure[]): HTMLElement[] {
         const { report } = store;
         const found = figure.curves
             .map(([channel, name]) => ({ channel: report.channel(channel), name }))
-            .filter(({ channel }) => channel >= 0 && largest(report.curve(channel)) > 0);
+            .filter(({ channel }) => channel >= 0 && largest(report.curve(channel)) >= NOTHING);
         if (found.length === 0) {
             return [];
         }
@@ -81,7 +86,7 @@ function figures(store: Store, list: Figure[]): HTMLElement[] {
         const curves = found.map(({ channel, name }, k) => {
             const frames = report.atFrames(channel);
             const now = report.frames.count > 0 ? { now: () => frames[store.frame] } : {};
-            return { name, ...LINES[k], values: report.curve(channel), ...now };
+            return { name, line: k, values: report.curve(channel), ...now };
         });
         const plot = new TimePlot(store, figure.title, figure.height ?? 210);
         later(plot.panel.element, () => plot.show(figure.label, unit, report.array("curve/time"), curves));
@@ -112,20 +117,23 @@ function responseSpectrum(store: Store): HTMLElement | null {
     const { report } = store;
     const [period, psa] = [report.array("spectrum/period"), report.array("spectrum/psa")];
     const note = `Of the base acceleration as the run kept it, every ${spectrum.interval} s.`;
-    const panel = new Panel(`Response spectrum of the base, ${100 * spectrum.damping} % damping`, 210, note);
-    later(panel.element, () => {
-        panel.show({
+    const title = `Response spectrum of the base, ${100 * spectrum.damping} % damping`;
+    const panel = new Panel(title, 210, report.contents.name, note);
+    panel.table = () => [{ head: "period [s]", values: period }, { head: "pseudo-acceleration [m/s²]", values: psa }];
+    later(panel.element, () => panel.show((scale) => ({
+        options: {
             legend: { show: false },
-            padding: [8, 12, 0, 0],
+            padding: [8 * scale, 12 * scale, 0, 0],
             cursor: { show: false },
             scales: { x: { time: false, distr: 3, range: () => [period[0], period[period.length - 1]] }, y: { range: (_, __, high) => [0, high * 1.08 || 1] } },
             axes: [
-                axis("period", "s", 1, { size: 34, splits: () => [0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 4], filter: (_, splits) => splits }),
-                axis("pseudo-acceleration", "m/s²", largest(psa), UPRIGHT),
+                axis("period", "s", 1, scale, LEVEL, { splits: () => [0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 4], filter: (_, splits) => splits }),
+                axis("pseudo-acceleration", "m/s²", largest(psa), scale, UPRIGHT),
             ],
-            series: [{}, { stroke: LINES[0].colour, width: 1.5, points: { show: false } }],
-        }, [period, psa] as never);
-    });
+            series: [{}, { stroke: () => colourOf(0), width: 1.5 * scale, points: { show: false } }],
+        },
+        data: [period, psa] as never,
+    })));
     panel.place.setAttribute("role", "img");
     panel.place.setAttribute("aria-label", "Response spectrum: pseudo-acceleration over period");
     return panel.element;

@@ -1,6 +1,5 @@
 /** Histories and phase portraits of what is selected. */
 
-import { LINES } from "../colour";
 import { h } from "../dom";
 import { unitText } from "../format";
 import { coarseness } from "../coarse";
@@ -71,7 +70,7 @@ export class Response {
         }
         const { report } = store;
         const of = (q: Quantity) => members.map((index) => history(report, q, index));
-        const named = members.map((index, k) => ({ name: store.name({ owner, index }), ...LINES[k] }));
+        const named = members.map((index, k) => ({ name: store.name({ owner, index }), line: k }));
         const values = of(this.shown);
         const curves = named.map((line, k) => ({ ...line, values: values[k], now: () => values[k][store.frame] }));
         this.time.show(this.shown.label, unitText(this.shown.unit), report.frames.time, curves);

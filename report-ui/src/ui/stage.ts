@@ -3,9 +3,12 @@
 import { h } from "../dom";
 import { isPrinting, onLayout } from "../layout";
 import { largest } from "../quantities";
+import { fileName, savePicture } from "../save";
 import type { Store } from "../store";
+import { forPaper, onTheme } from "../theme";
 import { draw } from "../wall/draw";
 import { pick } from "../wall/pick";
+import { picture } from "../wall/picture";
 import { Places } from "../wall/places";
 import { automaticScale, baseScale, View } from "../wall/view";
 import { ColourBar } from "./bar";
@@ -54,11 +57,14 @@ export class Stage {
         this.tooltip = new Tooltip(store);
         this.wide = report.blocks >= MANY && this.view.width >= LONG * this.view.height;
         this.zoom = new Zoom(this.canvas, this.view, () => this.redraw());
+        const save = h("button", { type: "button", class: "save", "aria-label": "Save the picture of the wall", title: "Save the picture of the wall", "onclick": () => void this.save() }, "PNG");
+        this.zoom.element.append(save);
         this.bar.element.append(this.zoom.element);
         this.element.append(this.canvas, this.tooltip.element, this.bar.element);
         new ResizeObserver(() => this.resize()).observe(this.element);
         window.addEventListener("resize", () => this.resize());
         onLayout(() => this.resize());
+        onTheme(() => this.redraw());
         (["frame", "view", "hover", "selection"] as const).forEach((topic) => store.on(topic, () => this.redraw()));
         this.listen();
     }
@@ -72,6 +78,12 @@ export class Stage {
                 this.paint();
             });
         }
+    }
+
+    private async save(): Promise<void> {
+        const { store, view, at, size } = this;
+        const { name } = store.report.contents;
+        await savePicture(`${fileName(name, "wall")}.png`, await forPaper(() => picture(store, view, at, size)));
     }
 
     /** Draws at once. */

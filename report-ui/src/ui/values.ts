@@ -3,7 +3,7 @@
 import type { Bond } from "../data";
 import { h, setText } from "../dom";
 import { si, significant, unitText } from "../format";
-import { peakKey, quantitiesOf } from "../quantities";
+import { isDamage, peakKey, quantitiesOf } from "../quantities";
 import type { Quantity } from "../quantities";
 import type { Item, Store } from "../store";
 
@@ -36,7 +36,7 @@ export function valueTable(store: Store, item: Item): { table: HTMLTableElement;
     };
     const { report } = store;
     const peaks = quantitiesOf(report, item.owner, "peak").filter((q) => applies(store, item, q));
-    const now = report.frames.count > 0 ? quantitiesOf(report, item.owner, "moment") : [];
+    const now = report.frames.count > 0 ? quantitiesOf(report, item.owner, "moment").filter((q) => !isDamage(q) || applies(store, item, q)) : [];
     const peakOf = (q: Quantity) => peaks.find((p) => p.key === peakKey(q));
     const paired = now.map((q) => [q, peakOf(q)] as const);
     const single = peaks.filter((p) => !paired.some(([, peak]) => peak === p)).map((p) => [undefined, p] as const);
@@ -53,6 +53,9 @@ export function valueTable(store: Store, item: Item): { table: HTMLTableElement;
 /** Opening and closing are of head joints and connections, but where blocks rise and turn; slip of joints that rub. */
 function applies(store: Store, item: Item, q: Quantity): boolean {
     const { upright, friction } = store.report.joint;
+    if (isDamage(q)) {
+        return store.report.bond[item.index] >= 0;
+    }
     if (item.owner === "joint" && (q.key === "opening" || q.key === "closing")) {
         return upright[item.index] || store.report.contents.planar;
     }

@@ -1,16 +1,16 @@
 /** The wall at the moment: base, blocks, joints, beam, marks of what is selected and pointed at. */
 
-import { isDark, LINES, step, STEPS } from "../colour";
+import { isDark, step, STEPS } from "../colour";
 import type { Scale } from "../colour";
 import type { Report } from "../data";
 import type { Item, Store } from "../store";
+import { palette } from "../theme";
 import { grown, rest } from "./outline";
 import type { Point } from "./outline";
 import type { Places } from "./places";
 import type { View } from "./view";
 
-const BRICK = "#ecd9c6";
-const MORTAR = "#e6e1d8";
+/** Letters on bricks and on the beam, which are light whatever the page is. */
 const INK = "#222";
 /** Lower and upper side of the beam above the wall [px]. */
 const BEAM = [5, 25];
@@ -39,17 +39,17 @@ export function draw(context: CanvasRenderingContext2D, size: [number, number], 
     beam(context, view, report, at);
     names(context, view, store, at, values, colours);
     (["block", "joint"] as const).forEach((owner) =>
-        store.of(owner).forEach((index, place) => mark(context, view, report, at, { owner, index }, LINES[place].colour, 2.5)),
+        store.of(owner).forEach((index, place) => mark(context, view, report, at, { owner, index }, palette().lines[place], 2.5)),
     );
     if (store.hover !== null) {
-        mark(context, view, report, at, store.hover, "#000", 1.5);
+        mark(context, view, report, at, store.hover, palette().ground, 1.5);
     }
     return colours;
 }
 
 /** Outline at rest, to see the motion against. */
 function ghost(context: CanvasRenderingContext2D, view: View, report: Report, shift: number): void {
-    context.strokeStyle = "#c9ccd1";
+    context.strokeStyle = palette().rest;
     context.setLineDash([4, 4]);
     context.lineWidth = 1;
     context.beginPath();
@@ -64,7 +64,7 @@ function ghost(context: CanvasRenderingContext2D, view: View, report: Report, sh
 function base(context: CanvasRenderingContext2D, view: View, shift: number): void {
     const [left, right] = [view.x(view.bounds.left) + shift - 10, view.x(view.bounds.right) + shift + 10];
     const y = view.y(view.bounds.bottom) + 2;
-    context.strokeStyle = INK;
+    context.strokeStyle = palette().ground;
     context.lineWidth = 1.2;
     context.beginPath();
     context.moveTo(left, y);
@@ -83,7 +83,7 @@ function mortar(context: CanvasRenderingContext2D, view: View, report: Report, a
     if (view.zoom * Math.max(bed[0], head[0]) < 0.7) {
         return;
     }
-    context.fillStyle = MORTAR;
+    context.fillStyle = palette().mortar;
     const around = rest(report).mortar;
     for (let i = 0; i < report.blocks; i++) {
         const outline = around[i];
@@ -128,7 +128,7 @@ function blocks(
     for (let i = 0; i < report.blocks; i++) {
         const k = stepOf === null ? -1 : stepOf(i);
         if (k !== last) {
-            context.fillStyle = k < 0 ? (stepOf === null ? BRICK : "#fff") : colours.colours[k];
+            context.fillStyle = k < 0 ? (stepOf === null ? palette().brick : palette().none) : colours.colours[k];
             last = k;
         }
         at.fill(context, i);
@@ -176,7 +176,7 @@ function colouredJoints(
         }
         context.stroke();
     };
-    stroke(members[0], "#fff", thin);
+    stroke(members[0], palette().none, thin);
     order.forEach((k) => stroke(members[k + 1], colours.colours[k], thin * (1.3 + (THICKEST - 1.3) * size(k))));
 }
 
@@ -191,8 +191,8 @@ function beam(context: CanvasRenderingContext2D, view: View, report: Report, at:
     }
     const [low, high] = BEAM.map((height) => view.bounds.top + height / view.zoom);
     const [left, right] = view.beam;
-    context.fillStyle = "#d6dae0";
-    context.strokeStyle = INK;
+    context.fillStyle = palette().beam;
+    context.strokeStyle = palette().ground;
     context.lineWidth = 1;
     context.beginPath();
     context.moveTo(...at.point(report.beam, left, low));
@@ -272,8 +272,8 @@ function mark(
     const outline = new Path2D();
     corners.forEach(([x, y], k) => (k === 0 ? outline.moveTo(x, y) : outline.lineTo(x, y)));
     outline.closePath();
-    // A light edge around the mark keeps it plain on dark colours.
-    context.strokeStyle = "#fff";
+    // An edge around the mark keeps it plain on any colour.
+    context.strokeStyle = palette().halo;
     context.lineWidth = width + 2 * edge;
     context.stroke(outline);
     context.strokeStyle = colour;

@@ -13,7 +13,7 @@ use crate::args::{HeadFriction, Limit, LimitLoad, Side};
 use crate::draw::mechanism;
 use crate::failure::{Failure, STOPPED};
 use crate::files;
-use crate::format::{pairs, si, significant};
+use crate::format::{fixed, pairs, si, significant};
 
 /// Names of the results in their folder.
 const RESULT: &str = "limit.json";
@@ -141,7 +141,7 @@ fn rows(
         HeadFriction::AsGiven => "",
         HeadFriction::Frictionless => ", head joints without friction",
     };
-    let [lower, upper] = found.bounds.map(|b| format!("{b:.8}"));
+    let [lower, upper] = found.bounds.map(|b| fixed(b, 8));
     let total: f64 = problem.live.iter().map(|f| f[0].abs()).sum();
     let mechanism = &found.mechanism;
     let named = |chosen: fn(&JointMotion) -> bool| {

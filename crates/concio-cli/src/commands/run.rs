@@ -10,7 +10,7 @@ use concio::store::JointRow;
 use super::wall_file;
 use crate::args::Run;
 use crate::failure::{Failure, STOPPED};
-use crate::format::{pairs, seconds, significant};
+use crate::format::{padded, seconds, significant, width};
 use crate::progress::Progress;
 use crate::{digest, files, report, stop};
 
@@ -75,6 +75,12 @@ pub fn refuse_a_file(out: &Path) -> Result<(), Failure> {
 }
 
 fn tell(finished: &Finished, prepared: &Prepared, joints: &[JointRow], report: &Path) -> Result<(), Failure> {
+    let (wall, outcome, summary) = (&prepared.model.wall, &finished.outcome, &finished.summary);
+    let answers = digest::head(joints, outcome, summary);
+    let head: Vec<(&str, String)> = answers.iter().map(|answer| (answer.name, answer.line())).collect();
+    let rows = digest::rows(wall, joints, outcome, summary);
+    let width = width(head.iter().chain(&rows));
+    files::print(&padded(&head, width))?;
     // Those of the model were told before the run.
     let known = &prepared.model.warnings;
     for warning in digest::warnings(&finished.summary).filter(|w| !known.iter().any(|k| k == w)) {
@@ -86,8 +92,7 @@ fn tell(finished: &Finished, prepared: &Prepared, joints: &[JointRow], report: &
         let early = if reason.is_end() { "ended" } else { "stopped early" };
         files::note(&format!("{early} at t = {at} of {end}: {}", digest::why(reason)));
     }
-    let rows = digest::rows(&prepared.model.wall, joints, &finished.outcome, &finished.summary);
-    files::print(&format!("{}\nopen {}\n", pairs(&rows), report.display()))
+    files::print(&format!("\n{}\nopen {}\n", padded(&rows, width), report.display()))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use super::wall_file;
 use crate::args::Scale;
 use crate::failure::Failure;
 use crate::files;
-use crate::format::{columns, pairs, short, significant};
+use crate::format::{columns, exponent, pairs, short, significant};
 
 /// Prints the dimensionless groups of a wall.
 pub fn scale(args: &Scale) -> Result<(), Failure> {
@@ -47,5 +47,5 @@ fn range(values: Option<[f64; 2]>) -> String {
 }
 
 fn number(v: f64) -> String {
-    if v == 0.0 || (1e-3..1e5).contains(&v.abs()) { significant(v, 4) } else { format!("{v:.3e}") }
+    if v == 0.0 || (1e-3..1e5).contains(&v.abs()) { significant(v, 4) } else { exponent(v, 3) }
 }

@@ -11,6 +11,7 @@ use kuva::render::render::render_multiple;
 use super::scale::logarithmic_label;
 use super::svg::mended;
 use super::thin;
+use crate::format::tick;
 
 /// Width of a figure [px].
 const WIDTH: f64 = 900.0;
@@ -117,6 +118,8 @@ pub fn draw(figure: &Figure) -> String {
         let format = move |v: f64| logarithmic_label(v, [low, high]);
         layout = layout.with_log_x().with_x_tick_format(TickFormat::Custom(Arc::new(format)));
     }
+    let top = largest / factor;
+    layout = layout.with_y_tick_format(TickFormat::Custom(Arc::new(move |v: f64| tick(v, top))));
     if largest == 0.0 {
         // A curve that is zero throughout has no range of its own.
         layout = layout.with_y_axis_min(-1.0).with_y_axis_max(1.0);

@@ -1,6 +1,7 @@
 //! Axes: prefix, range, ticks and their labels.
 
 use super::curves::prefix;
+use crate::format::fixed;
 
 /// Ticks of one axis in the unit it shows.
 #[derive(Debug, Clone)]
@@ -23,6 +24,18 @@ pub fn step(range: [f64; 2], most: usize) -> f64 {
     let steps = [1.0, 10.0, 100.0, 1000.0].into_iter().flat_map(|p| [1.0, 2.0, 2.5, 5.0].map(|m| m * p * power));
     let number = |s: f64| (range[1] / s + 1e-9).floor() - (range[0] / s - 1e-9).ceil() + 1.0;
     steps.into_iter().find(|s| number(*s) <= most as f64).unwrap_or(range[1] - range[0])
+}
+
+/// The least round number that is not below a size: where a scale of colours ends.
+pub fn round_end(largest: f64) -> f64 {
+    const ROUND: [f64; 11] = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    if !(largest > 0.0 && largest.is_finite()) {
+        return largest;
+    }
+    let power = largest.log10().floor() as i32;
+    // Through decimals, so that 3 · 10⁻³ is the number that is written so.
+    let of = |m: f64| format!("{m}e{power}").parse().unwrap_or(largest);
+    ROUND.map(of).into_iter().find(|end| *end >= largest * (1.0 - 1e-9)).unwrap_or(largest)
 }
 
 /// Decimals in which multiples of a step are exact.
@@ -67,14 +80,9 @@ impl Scale {
     }
 }
 
-/// As many decimals as the step needs, a minus sign and not a hyphen, no signed zero.
+/// As many decimals as the step needs.
 fn linear_label(value: f64, step: f64) -> String {
-    let text = format!("{value:.0$}", decimals(step));
-    match text.strip_prefix('-') {
-        Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.into(),
-        Some(digits) => format!("−{digits}"),
-        None => text,
-    }
+    fixed(value, decimals(step))
 }
 
 /// Plain decimals at 1, 2, 5 times a power of ten; at powers of ten alone when the axis is long.
@@ -121,6 +129,16 @@ mod tests {
             assert!((step(range, most) / expected - 1.0).abs() < 1e-9, "{range:?} {most}: {}", step(range, most));
         }
         assert_eq!([0.25, 2.5, 25.0, 0.1, 0.002, 3e3].map(decimals), [2, 1, 0, 1, 3, 0]);
+    }
+
+    #[test]
+    fn scales_of_colours_end_at_round_numbers() {
+        for (largest, end) in
+            [(3.47e-3, 4e-3), (1.0, 1.0), (9.3, 10.0), (0.0101, 0.012), (250.0, 250.0), (5.2e-9, 6e-9)]
+        {
+            assert_eq!(round_end(largest), end, "{largest}");
+        }
+        assert_eq!((round_end(0.0), round_end(f64::INFINITY)), (0.0, f64::INFINITY));
     }
 
     #[test]

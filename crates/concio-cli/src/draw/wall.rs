@@ -4,8 +4,9 @@
 use concio::case::JointKind;
 use concio::wall::{Block, Joint, Wall};
 
+use super::scale::round_end;
 use super::svg::{Anchor, Canvas, closed, line, px, rectangle};
-use crate::format::si;
+use crate::format::{NOTHING, short, si};
 
 /// Colour of bricks.
 pub const BRICK: &str = "#f4d9c0";
@@ -250,7 +251,7 @@ fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
     let wall = subject.wall;
     let stroke = px((0.004 * view.scale).clamp(0.15, 0.8));
     let attributes = |fill: &str| format!(r##"fill="{fill}" stroke="#555" stroke-width="{stroke}""##);
-    let largest = if let Paint::Blocks(field) = paint { largest(field.values) } else { 0.0 };
+    let largest = if let Paint::Blocks(field) = paint { end(&field) } else { 0.0 };
     let fraction = |i: usize| match paint {
         Paint::Blocks(field) if largest > 0.0 => Some(field.values.get(i).copied().unwrap_or(0.0) / largest),
         Paint::Blocks(_) => Some(0.0),
@@ -303,7 +304,7 @@ fn joints(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
         return;
     };
     // Large values lie on top and are thicker.
-    let largest = largest(field.values);
+    let largest = end(&field);
     let value = |e: usize| field.values.get(e).copied().unwrap_or(0.0);
     let fraction = |e: usize| {
         let of_largest = if largest > 0.0 { value(e) / largest } else { 0.0 };
@@ -445,9 +446,11 @@ fn value_legend(canvas: &mut Canvas, view: &View, field: &Field) {
         canvas.path(&rectangle([at[0], y, at[1], y + 11.0]), &format!(r#"fill="{fill}""#), None);
     }
     canvas.path(&rectangle([x, y, x + width, y + 11.0]), r##"fill="none" stroke="#444" stroke-width="0.6""##, None);
-    let largest = largest(field.values);
     canvas.text([x - 4.0, y + 5.5], 11.0, Anchor::End, false, "#111", "0");
-    let text = format!("{}: {}", si(largest, field.unit), field.title);
+    let text = match end(field) {
+        0.0 => format!("0 everywhere: {}", field.title),
+        end => format!("{}: {}", short(end, field.unit), field.title),
+    };
     canvas.text([x + width + 6.0, y + 5.5], 11.0, Anchor::Start, false, "#111", &text);
     if field.values.iter().any(|v| v.is_nan()) && !field.none.is_empty() {
         let x = x + width + 26.0 + 11.0 * LETTER * text.chars().count() as f64;
@@ -460,8 +463,10 @@ fn value_legend(canvas: &mut Canvas, view: &View, field: &Field) {
     }
 }
 
-fn largest(values: &[f64]) -> f64 {
-    values.iter().copied().filter(|v| v.is_finite()).fold(0.0, f64::max)
+/// Where the colours of a field end: at its largest value, rounded up; 0 where there is none.
+fn end(field: &Field) -> f64 {
+    let largest = field.values.iter().copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
+    if largest < NOTHING { 0.0 } else { round_end(largest) }
 }
 
 /// Colour of a fraction 0 … 1 of the largest value; the brightness falls steadily.

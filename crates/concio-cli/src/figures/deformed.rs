@@ -7,10 +7,13 @@ use concio::wall::{Block, End, Joint};
 
 use super::Options;
 use super::data::Data;
-use super::wall::{Reach, SIDE, View, beam_foot, bounds, colour_bar, has_beam, headings, line_key, rounded, three};
+use super::wall::{
+    Colours, Reach, SIDE, View, beam_foot, bounds, colour_bar, has_beam, headings, line_key, rounded, three,
+};
 use crate::draw::chart::LETTERS;
 use crate::draw::font;
 use crate::draw::output::Drawing;
+use crate::draw::scale::round_end;
 use crate::draw::svg::{Anchor, Canvas, closed, line, px};
 use crate::draw::wall::{BRICK, round_length, shade};
 use crate::format::{plain, short, si, significant};
@@ -181,7 +184,8 @@ fn cracked_joints(canvas: &mut Canvas, view: &View, data: &Data, moment: &Moment
         let width = |part: f64| px(CRACK[0] + (CRACK[1] - CRACK[0]) * part);
         let open = part(joint.opening, opening);
         let attributes = if open > NOTICED {
-            format!(r#"fill="none" stroke="{}" stroke-width="{}""#, shade(open), width(open))
+            let colour = shade(part(joint.opening, round_end(opening)));
+            format!(r#"fill="none" stroke="{colour}" stroke-width="{}""#, width(open))
         } else if part(joint.slip.abs(), slip.max(opening)) > NOTICED {
             slid = slid.max(joint.slip.abs());
             slid_line(&width(part(joint.slip.abs(), slip)))
@@ -241,8 +245,7 @@ fn sides(data: &Data, moment: &Moment, joint: &Joint, point: [f64; 2]) -> [[f64;
 fn cracks_key(canvas: &mut Canvas, width: f64, from: f64, [opening, slip]: [f64; 2]) -> f64 {
     let mut y = from;
     if opening > 0.0 {
-        let label = format!("opening of joints [1], 1 = {}", short(three(opening), "m"));
-        y = colour_bar(canvas, y, width, &label);
+        y = colour_bar(canvas, y, width, &Colours::up_to("opening of joints", "m", opening));
     }
     if slip > 0.0 {
         let text = format!("slid without opening, up to {}", short(three(slip), "m"));

@@ -9,9 +9,10 @@ use super::data::{Data, Instant};
 use crate::draw::chart::LETTERS;
 use crate::draw::font;
 use crate::draw::output::Drawing;
+use crate::draw::scale::{Scale, round_end};
 use crate::draw::svg::{Anchor, Canvas, closed, line, px, rectangle};
 use crate::draw::wall::{LIGHT, ground, shade};
-use crate::format::{plain, short, significant};
+use crate::format::{plain, short};
 
 /// Height of the wall over the width of the figure, at most.
 const TALLEST: f64 = 1.15;
@@ -152,14 +153,14 @@ pub(super) fn headings(canvas: &mut Canvas, width: f64, texts: &[String]) -> f64
     y
 }
 
-/// Joints coloured by the largest relative acceleration of each, over the largest of all.
+/// Joints coloured by the largest relative acceleration of each.
 pub fn peak_acceleration(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let peaks = &data.run.outcome.envelopes.joint_acceleration;
     let largest = largest(peaks)?;
     Ok(accelerations(data, options, peaks, largest, "peak over the whole history".into()))
 }
 
-/// Joints coloured by their relative acceleration at an instant, over the largest in the whole history.
+/// Joints coloured by their relative acceleration at an instant; the colours reach to the largest in the whole history.
 pub fn acceleration(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     if data.is_planar() {
         return Err(InputError::new("frames of a planar run hold no accelerations of joints")
@@ -196,7 +197,8 @@ pub fn cracks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         format!("t = {}", crate::format::seconds(rounded(time))),
         format!("{cracked} of {} bonds cracked, {broken} of them broken", bonds.len()),
     ];
-    let (drawn, bottom) = map(data, options, &values, &texts, "damage of the bond [1], 0 = intact, 1 = broken");
+    let colours = Colours { quantity: "damage of the bond, 0 = intact, 1 = broken", unit: "", end: 1.0 };
+    let (drawn, bottom) = map(data, options, &values, &texts, &colours);
     let title = "Joints coloured by the damage of their bonds".into();
     Ok(Drawing { body: drawn, size: [options.points(), bottom], title, note: String::new() })
 }
@@ -219,20 +221,18 @@ fn openings(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     if largest == 0.0 {
         return Err(InputError::new("no joint opened").key("--at"));
     }
-    let values: Vec<Option<f64>> = values.iter().map(|v| Some(v / largest)).collect();
-    let label = format!("opening of joints [1], 1 = {}", short(three(largest), "m"));
-    let (drawn, bottom) = map(data, options, &values, &[text], &label);
+    let values: Vec<Option<f64>> = values.into_iter().map(Some).collect();
+    let (drawn, bottom) = map(data, options, &values, &[text], &Colours::up_to("opening of joints", "m", largest));
     let title = "Joints coloured by their opening".into();
     Ok(Drawing { body: drawn, size: [options.points(), bottom], title, note: String::new() })
 }
 
 fn accelerations(data: &Data, options: &Options, values: &[f64], largest: f64, text: String) -> Drawing {
-    let values: Vec<Option<f64>> = values.iter().map(|v| Some(v / largest)).collect();
-    // Large ones in m/s², as accelerations are read.
-    let peak = if largest < 0.1 { short(three(largest), "m/s²") } else { format!("{} m/s²", plain(three(largest))) };
-    let label = format!("relative acceleration [1], 1 = {peak}");
-    let (body, bottom) = map(data, options, &values, &[text], &label);
-    let title = "Joints coloured by relative acceleration over the largest in the whole history".into();
+    let values: Vec<Option<f64>> = values.iter().map(|v| Some(*v)).collect();
+    let colours = Colours::up_to("relative acceleration", "m/s²", largest);
+    let texts = [text, format!("largest {} m/s²", plain(three(largest)))];
+    let (body, bottom) = map(data, options, &values, &texts, &colours);
+    let title = "Joints coloured by relative acceleration".into();
     Drawing { body, size: [options.points(), bottom], title, note: hits(data) }
 }
 
@@ -245,9 +245,22 @@ fn largest(peaks: &[f64]) -> Result<f64, InputError> {
     }
 }
 
-/// The wall with its joints coloured by values from 0 to 1, which `label` names, those without one, which are not bonded,
-/// dashed in grey; and where it ends [pt].
-fn map(data: &Data, options: &Options, values: &[Option<f64>], texts: &[String], label: &str) -> (String, f64) {
+/// What colours stand for: a quantity from 0 to `end` in SI.
+pub(super) struct Colours {
+    pub(super) quantity: &'static str,
+    pub(super) unit: &'static str,
+    pub(super) end: f64,
+}
+
+impl Colours {
+    /// Up to the largest value, rounded up.
+    pub(super) fn up_to(quantity: &'static str, unit: &'static str, largest: f64) -> Self {
+        Colours { quantity, unit, end: round_end(largest) }
+    }
+}
+
+/// The wall with its joints coloured by values, those without one, which are not bonded, dashed in grey; and where it ends [pt].
+fn map(data: &Data, options: &Options, values: &[Option<f64>], texts: &[String], colours: &Colours) -> (String, f64) {
     let mut canvas = Canvas::default();
     let head = headings(&mut canvas, options.points(), texts);
     let view = View::new(data, options.points(), Reach::default(), head);
@@ -273,13 +286,14 @@ fn map(data: &Data, options: &Options, values: &[Option<f64>], texts: &[String],
                 }
                 continue;
             };
-            let (fill, width) = if cased { ("#6e6e6e".into(), width + 0.5) } else { (shade(value), width) };
+            let (fill, width) =
+                if cased { ("#6e6e6e".into(), width + 0.5) } else { (shade(value / colours.end), width) };
             let attributes = format!(r#"fill="none" stroke="{fill}" stroke-width="{}""#, px(width));
-            let title = (!cased).then(|| format!("{name}: {}", significant(value, 3)));
+            let title = (!cased).then(|| format!("{name}: {}", short(three(value), colours.unit)));
             canvas.path(&line([ax, ay, bx, by]), &attributes, title.as_deref());
         }
     }
-    let mut bottom = colour_bar(&mut canvas, view.below, options.points(), label);
+    let mut bottom = colour_bar(&mut canvas, view.below, options.points(), colours);
     if values.iter().any(Option::is_none) {
         bottom = line_key(&mut canvas, options.points(), bottom, &unbonded(width), "not bonded");
     }
@@ -317,8 +331,8 @@ fn hits(data: &Data) -> String {
     )
 }
 
-/// The colours from 0 to 1 with what they stand for, below `from` [pt]; where it ends [pt].
-pub(super) fn colour_bar(canvas: &mut Canvas, from: f64, width: f64, label: &str) -> f64 {
+/// The colours with what they stand for, below `from` [pt]; where it ends [pt].
+pub(super) fn colour_bar(canvas: &mut Canvas, from: f64, width: f64, colours: &Colours) -> f64 {
     let [small, size] = LETTERS.map(f64::from);
     let (y, x, long, high) = (from + 3.0, 0.5 * (width - 0.6 * width), 0.6 * width, 6.0);
     let steps = 100;
@@ -329,20 +343,17 @@ pub(super) fn colour_bar(canvas: &mut Canvas, from: f64, width: f64, label: &str
         canvas.path(&rectangle(part), &format!(r#"fill="{}""#, shade((k as f64 + 0.5) / steps as f64)), None);
     }
     let mut frame = rectangle([x, y, x + long, y + high]);
-    for k in 0..=5 {
-        let at = x + long * f64::from(k) / 5.0;
+    let scale = Scale::linear([0.0, colours.end], colours.unit, 6);
+    for k in 0..=(scale.range[1] / scale.step + 1e-9) as usize {
+        let value = k as f64 * scale.step;
+        let at = x + long * value / scale.range[1];
         frame.push_str(&line([at, y + high, at, y + high + 2.0]));
-        let label = if k == 0 {
-            "0".into()
-        } else if k == 5 {
-            "1".into()
-        } else {
-            format!("0.{}", 2 * k)
-        };
-        canvas.text([at, y + high + 4.0 + 0.5 * small], small, Anchor::Middle, false, "#000", &label);
+        canvas.text([at, y + high + 4.0 + 0.5 * small], small, Anchor::Middle, false, "#000", &scale.label(value));
     }
     canvas.path(&frame, r##"fill="none" stroke="#000" stroke-width="0.5""##, None);
     let below = y + high + 6.0 + small + 0.5 * size;
-    canvas.text([0.5 * width, below], size, Anchor::Middle, false, "#000", label);
+    let Colours { quantity, unit, .. } = colours;
+    let label = if unit.is_empty() { (*quantity).into() } else { format!("{quantity} [{}{unit}]", scale.prefix) };
+    canvas.text([0.5 * width, below], size, Anchor::Middle, false, "#000", &label);
     below + 0.5 * size + 4.0
 }

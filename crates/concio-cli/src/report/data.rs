@@ -1,5 +1,7 @@
-//! What the page's program gets: a table of contents in JSON, and the numbers behind it in base64.
+//! What the page's program gets: a table of contents in JSON and the numbers behind it, deflated, in base64.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use concio::case::Beam;
 use concio::ground::response_spectrum;
 use concio::outcome::BondRow;
@@ -7,30 +9,87 @@ use concio::store::{FrictionRow, JointRow};
 use concio::wall::{Block, End};
 use serde_json::{Value, json};
 
-use super::pack::Pack;
+use super::pack::{Digits, Pack, deflated};
 use super::{Content, beam_label};
 
 /// Layout of the data; the page's program refuses another.
-const LAYOUT: u32 = 4;
-/// Bytes that frames may take [bytes]; beyond it only every second, third, … goes into the page. A wall of 20 × 20 bricks
-/// with 2,000 frames stays below.
-const MOST_FRAMES: usize = 16 << 20;
-/// Bytes of one value of an unknown in one frame, and of a joint's.
-const VALUE: [usize; 2] = [5, 4];
+const LAYOUT: u32 = 5;
+/// Times that deflating makes data shorter at best: what is longer is not tried.
+const SHORTER: usize = 6;
+/// Bytes of a number on its way to be deflated, about.
+const BYTES: usize = 3;
+
+/// How the numbers of frames are kept.
+#[derive(Debug, Clone, Copy)]
+struct Precision {
+    /// Motion of blocks.
+    blocks: Digits,
+    /// What joints do.
+    joints: Digits,
+}
+
+/// In shear walls forces follow from differences of displacements, 10⁻⁷ m between blocks that moved 5·10⁻³ m: a quantum of 2⁻³⁸ of
+/// the largest is right to 10⁻⁶ of them, one of 2⁻³⁰ to four digits.
+const SHEAR: [Precision; 2] = [
+    Precision { blocks: Digits::Shared(40), joints: Digits::Float },
+    Precision { blocks: Digits::Shared(32), joints: Digits::Own(20) },
+];
+/// In planar walls frames bring what joints do: what is read off blocks are four digits of their own.
+const PLANAR: [Precision; 3] = [
+    Precision { blocks: Digits::Shared(40), joints: Digits::Float },
+    Precision { blocks: Digits::Own(20), joints: Digits::Own(20) },
+    Precision { blocks: Digits::Own(15), joints: Digits::Own(14) },
+];
+/// Bits of the damage of bonds, from 0 to 1.
+const DAMAGE: Digits = Digits::Shared(20);
 /// Points of a history; a longer one is drawn by the lowest and highest value of short intervals.
 const MOST_POINTS: usize = 6000;
 /// Histories that the page gets beyond those that every run keeps.
 const MOST_ASKED: usize = 80;
+/// What is drawn over each other.
+const LOOPED: [&str; 4] = ["top/displacement", "base/shear", "beam/displacement", "top/force"];
 /// Damping ratio of the spectrum.
 const DAMPING: f64 = 0.05;
 /// Periods of the spectrum [s]: that many from the shortest to the longest, at equal ratios.
 const PERIODS: (usize, f64, f64) = (180, 0.02, 4.0);
 
-/// The table of contents as JSON that may stand in a page, and the numbers in base64.
-pub fn payload(content: &Content) -> (String, String) {
+/// The data in base64, of `room` bytes at most. Where they would be longer, numbers are rounded first, and then only every second,
+/// third, … frame is kept.
+pub fn payload(content: &Content, room: usize) -> String {
+    // In base64 three bytes take four.
+    let most = (room / 4 * 3).max(1);
+    let levels: &[Precision] = if content.is_planar() { &PLANAR } else { &SHEAR };
+    let recorded = content.outcome.recording.frame_time.len();
+    let length = BYTES * numbers_of_frame(content) * recorded;
+    let (mut level, mut every) = (0, 1);
+    loop {
+        // Finer than that it cannot fit.
+        if length / every > SHORTER * most && every < recorded {
+            if level + 1 < levels.len() {
+                level += 1
+            } else {
+                every = length.div_ceil(SHORTER * most)
+            }
+            continue;
+        }
+        let data = attempt(content, levels[level], every, most);
+        if data.len() <= most || every >= recorded.max(1) {
+            return STANDARD.encode(data);
+        }
+        if level + 1 < levels.len() {
+            level += 1;
+        } else {
+            every = (every + 1).max((every * data.len()).div_ceil(most));
+        }
+    }
+}
+
+/// The data with every so many frames.
+fn attempt(content: &Content, precision: Precision, every: usize, most: usize) -> Vec<u8> {
     let mut pack = Pack::default();
-    let frames = frames(&mut pack, content);
+    let frames = frames(&mut pack, content, precision, every);
     let (channels, curve) = histories(&mut pack, content, &frames);
+    let looped = loops(&mut pack, content);
     let spectrum = spectrum(&mut pack, content);
     wall(&mut pack, content);
     let frictions = joints(&mut pack, content.joints);
@@ -57,16 +116,25 @@ pub fn payload(content: &Content) -> (String, String) {
             "recorded": content.outcome.recording.frame_time.len(),
             "every": frames.every,
             "standing": frames.standing,
-            "bytes": frames.bytes,
-            "most": MOST_FRAMES,
+            // How many times as many would have room, where deflating halves them.
+            "room": 2.0 * most as f64 / (numbers.len().max(1) as f64),
+            "rounded": precision.joints.rounding().map(|joints| [precision.blocks.rounding(), Some(joints)]),
         },
         "curve": curve,
+        "loops": looped,
         "channels": channels,
         "spectrum": spectrum,
         "arrays": arrays,
     });
-    // No text in it can end the script element that it stands in.
-    (contents.to_string().replace('<', "\\u003c"), numbers)
+    deflated(&contents.to_string(), &numbers)
+}
+
+/// How many numbers a frame has, those of blocks and of joints.
+fn numbers_of_frame(content: &Content) -> usize {
+    let layout = &content.outcome.layout;
+    let bonded =
+        layout.bonded * if content.is_planar() { 1 } else { 1 + content.joints.len().div_ceil(layout.bonded.max(1)) };
+    3 * layout.unknowns + 2 * layout.turned + 3 * layout.touching + layout.held + bonded
 }
 
 /// What held the bonded joints and what became of it, by the index of the joint.
@@ -101,11 +169,9 @@ struct Kept {
     samples: Vec<usize>,
     /// Whether the beam is the last column of a frame.
     beam: bool,
-    /// Bytes of one frame.
-    bytes: usize,
 }
 
-fn frames(pack: &mut Pack, content: &Content) -> Kept {
+fn frames(pack: &mut Pack, content: &Content, precision: Precision, every: usize) -> Kept {
     let (recording, layout) = (&content.outcome.recording, &content.outcome.layout);
     let recorded = recording.frame_time.len();
     let blocks = content.wall.blocks.len();
@@ -126,9 +192,6 @@ fn frames(pack: &mut Pack, content: &Content) -> Kept {
         ("pressure", &recording.frame_pressure),
         ("friction", &recording.frame_friction),
     ];
-    let of_joints = if content.is_planar() { touching.len() * layout.touching } else { 0 };
-    let bytes = VALUE[0] * unknowns * moving.iter().flatten().count() + VALUE[1] * of_joints;
-    let every = (recorded * bytes).div_ceil(MOST_FRAMES).max(1);
     let kept: Vec<usize> = (0..recorded).step_by(every).collect();
     let samples: Vec<usize> = kept.iter().map(|k| k * layout.frame_every).collect();
     let times: Vec<f64> = kept.iter().map(|&k| recording.frame_time[k]).collect();
@@ -145,22 +208,27 @@ fn frames(pack: &mut Pack, content: &Content) -> Kept {
                 rows.push(of_beam.copied().unwrap_or(f64::NAN));
             }
         }
-        pack.rows(&format!("frame/{name}"), rows.chunks_exact(unknowns));
+        pack.table(&format!("frame/{name}"), unknowns, &rows, precision.blocks);
     }
     for (name, values) in touching {
         let width = if name == "friction" { layout.held } else { layout.touching };
         if width > 0 {
-            let rows = kept.iter().flat_map(|&k| &values[k * width..][..width]);
-            pack.curves(&format!("frame/joint/{name}"), &rows.map(|f| *f as f32).collect::<Vec<_>>());
+            let rows: Vec<f64> = kept.iter().flat_map(|&k| &values[k * width..][..width]).copied().collect();
+            pack.table(&format!("frame/joint/{name}"), width, &rows, precision.joints);
         }
+    }
+    if layout.bonded > 0 {
+        let rows: Vec<f64> =
+            kept.iter().flat_map(|&k| &recording.frame_damage[k * layout.bonded..][..layout.bonded]).copied().collect();
+        pack.table("frame/bond/damage", layout.bonded, &rows, DAMAGE);
     }
     if !content.outcome.bonds.is_empty() && !content.is_planar() {
         let beam = content.history("beam/displacement");
         let of_beam = |sample: usize| beam.as_ref().and_then(|b| b.get(sample)).copied().unwrap_or(0.0);
         let rows = kept.iter().zip(&samples).flat_map(|(&k, &sample)| elastic_forces(content, k, of_beam(sample)));
-        pack.curves("frame/joint/elastic", &rows.map(|f| f as f32).collect::<Vec<_>>());
+        pack.table("frame/joint/elastic", content.joints.len(), &rows.collect::<Vec<_>>(), precision.joints);
     }
-    Kept { every, standing: recording.standing(&times), samples, beam: has_beam, bytes }
+    Kept { every, standing: recording.standing(&times), samples, beam: has_beam }
 }
 
 /// Elastic forces of all joints at a frame, where bonds make them more than a function of the displacements [N].
@@ -198,7 +266,7 @@ fn histories(pack: &mut Pack, content: &Content, frames: &Kept) -> (Vec<Value>, 
         buckets.curve(&values, &mut curves);
     }
     pack.reals("channel/frames", &at_frames);
-    pack.curves("curve/values", &curves);
+    pack.table("curve/values", buckets.points(), &curves, Digits::Float);
     let channels = chosen.iter().map(|&c| json!(layout.channels[c])).collect();
     let curve = json!({
         "samples": samples,
@@ -240,20 +308,50 @@ impl Buckets {
         let [start, end] = self.ends(bucket);
         start + (end - start) / 2
     }
-    fn curve(&self, values: &[f64], into: &mut Vec<f32>) {
+    fn curve(&self, values: &[f64], into: &mut Vec<f64>) {
         if self.buckets == 0 {
-            into.extend(values.iter().map(|v| *v as f32));
+            into.extend_from_slice(values);
             return;
         }
         for bucket in 0..self.buckets {
             let [start, end] = self.ends(bucket);
             let part = &values[start..end];
-            let by_value = |a: &usize, b: &usize| part[*a].total_cmp(&part[*b]);
-            let low = (0..part.len()).min_by(by_value).unwrap_or(0);
-            let high = (0..part.len()).max_by(by_value).unwrap_or(0);
-            into.extend([low.min(high), low.max(high)].map(|k| part[k] as f32));
+            let [low, high] = lowest_and_highest(part);
+            into.extend([low.min(high), low.max(high)].map(|k| part[k]));
         }
     }
+}
+
+/// Where the lowest and the highest of some values are.
+fn lowest_and_highest(values: &[f64]) -> [usize; 2] {
+    let by_value = |a: &usize, b: &usize| values[*a].total_cmp(&values[*b]);
+    let low = (0..values.len()).min_by(by_value).unwrap_or(0);
+    let high = (0..values.len()).max_by(by_value).unwrap_or(0);
+    [low, high]
+}
+
+/// Forces over displacements, of whose samples those are kept at which one of them is lowest or highest in its interval: curves
+/// that are thinned one by one do not belong to each other. Nothing where no curve is thinned.
+fn loops(pack: &mut Pack, content: &Content) -> Vec<&'static str> {
+    let time = &content.outcome.recording.time;
+    if time.len() <= MOST_POINTS {
+        return Vec::new();
+    }
+    let found = LOOPED.into_iter().filter_map(|name| Some((name, content.history(name)?)));
+    let (names, values): (Vec<&str>, Vec<Vec<f64>>) = found.unzip();
+    let intervals = MOST_POINTS / (2 * LOOPED.len());
+    let mut chosen = Vec::with_capacity(MOST_POINTS);
+    for k in 0..intervals {
+        let [start, end] = [k, k + 1].map(|k| k * time.len() / intervals);
+        let from = chosen.len();
+        chosen.extend(values.iter().flat_map(|y| lowest_and_highest(&y[start..end])).map(|at| start + at));
+        chosen[from..].sort_unstable();
+    }
+    chosen.dedup();
+    pack.reals("loop/time", &chosen.iter().map(|&k| time[k]).collect::<Vec<_>>());
+    let rows: Vec<f64> = values.iter().flat_map(|y| chosen.iter().map(|&k| y[k])).collect();
+    pack.table("loop/values", chosen.len(), &rows, Digits::Float);
+    names
 }
 
 /// The response spectrum of the base motion, if the base moves.
@@ -361,13 +459,14 @@ fn envelopes(pack: &mut Pack, content: &Content) {
         ("joint/force", &e.joint_force),
         ("joint/dissipation", &e.joint_dissipation),
     ] {
-        pack.reals(&format!("envelope/{name}"), values);
+        pack.table(&format!("envelope/{name}"), values.len(), values, Digits::Float);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::pack::tests as pack;
 
     #[test]
     fn curves_keep_every_peak_and_their_order() {
@@ -378,7 +477,7 @@ mod tests {
         buckets.curve(&values, &mut curve);
         assert_eq!(curve.len(), buckets.points());
         assert_eq!(curve.len(), MOST_POINTS);
-        let nonzero: Vec<f32> = curve.iter().copied().filter(|v| *v != 0.0).collect();
+        let nonzero: Vec<f64> = curve.iter().copied().filter(|v| *v != 0.0).collect();
         assert_eq!(nonzero, [7.0, -3.0, 5.0]);
         let time: Vec<f64> = (0..values.len()).map(|k| k as f64).collect();
         let times = buckets.times(&time);
@@ -401,6 +500,11 @@ mod tests {
         top = { sine = { amplitude = "1 mm", frequency = "20 Hz" } }
     "#;
 
+    /// Contents and numbers of a payload.
+    fn read_back(payload: &str) -> (Value, Vec<u8>) {
+        pack::inflated(&STANDARD.decode(payload).expect("base64"))
+    }
+
     /// The array of that name in a payload, of numbers of `N` bytes.
     fn array<const N: usize>(contents: &Value, numbers: &[u8], name: &str) -> Vec<[u8; N]> {
         let place = &contents["arrays"][name];
@@ -411,7 +515,6 @@ mod tests {
     /// What frames hold of blocks and joints of a planar run, the beam among them, comes out of the page's numbers.
     #[test]
     fn frames_of_planar_runs_bring_rotations_and_joints() {
-        use base64::Engine as _;
         use concio::record::{Event, EventKind};
         let file = concio::case::from_str(WALL, concio::case::Syntax::Toml, None).expect("a wall");
         let prepared = concio::run::prepare(file.case, std::path::Path::new(".")).expect("a system");
@@ -451,26 +554,20 @@ mod tests {
             outcome: &outcome,
             summary: &json!({}),
         };
-        let (contents, numbers) = payload(&content);
-        let contents: Value = serde_json::from_str(&contents).expect("JSON");
-        let numbers = base64::engine::general_purpose::STANDARD.decode(numbers).expect("base64");
+        let (contents, numbers) = read_back(&payload(&content, 1 << 22));
         assert_eq!((&contents["planar"], &contents["beam"]["moves"]), (&json!(true), &json!(true)));
         assert_eq!((&contents["frames"]["every"], &contents["frames"]["standing"]), (&json!(1), &json!(3)));
-        assert_eq!(contents["frames"]["bytes"], json!(25 * columns + 16 * joints));
-        let quanta = array::<8>(&contents, &numbers, "frame/rotation/quantum");
-        let [low, high] = ["low", "high"].map(|part| format!("frame/rotation/{part}"));
-        let (low, high) = (array::<4>(&contents, &numbers, &low), array::<1>(&contents, &numbers, &high));
-        assert_eq!((quanta.len(), low.len(), high.len()), (frames, frames * columns, frames * columns));
-        for (k, expected) in outcome.recording.frame_rotation.iter().enumerate() {
-            let steps = i64::from(i8::from_le_bytes(high[k])) * (1 << 32) + i64::from(u32::from_le_bytes(low[k]));
-            let value = steps as f64 * f64::from_le_bytes(quanta[k / columns]);
-            assert!((value - expected).abs() <= 1e-11 * expected.abs().max(0.1), "{k}: {value}, not {expected}");
+        assert!(contents["frames"]["rounded"].is_null());
+        for (k, (found, expected)) in pack::read(&contents["arrays"], &numbers, "frame/rotation")
+            .into_iter()
+            .zip(&outcome.recording.frame_rotation)
+            .enumerate()
+        {
+            assert!((found - expected).abs() <= 1e-11 * expected.abs().max(0.1), "{k}: {found}, not {expected}");
         }
         for name in ["slip", "opening", "pressure", "friction"] {
-            let found = array::<4>(&contents, &numbers, &format!("frame/joint/{name}"));
-            let found: Vec<f32> = found.into_iter().map(f32::from_le_bytes).collect();
-            let expected: Vec<f32> = made(joints, 3.0).iter().map(|v| *v as f32).collect();
-            assert_eq!(found, expected, "{name}");
+            let found = pack::read(&contents["arrays"], &numbers, &format!("frame/joint/{name}"));
+            assert_eq!(found, made(joints, 3.0), "{name}");
         }
     }
 
@@ -492,7 +589,6 @@ mod tests {
     /// Corners and centres of voussoirs come with the page; of a wall of rectangles its edges tell them.
     #[test]
     fn outlines_of_polygons_come_with_the_page() {
-        use base64::Engine as _;
         let data_of = |text: &str| {
             let file = concio::case::from_str(text, concio::case::Syntax::Toml, None).expect("a wall");
             let prepared = concio::run::prepare(file.case, std::path::Path::new(".")).expect("a system");
@@ -508,9 +604,7 @@ mod tests {
                 outcome: &outcome,
                 summary: &json!({}),
             };
-            let (contents, numbers) = payload(&content);
-            let contents: Value = serde_json::from_str(&contents).expect("JSON");
-            let numbers = base64::engine::general_purpose::STANDARD.decode(numbers).expect("base64");
+            let (contents, numbers) = read_back(&payload(&content, 1 << 22));
             (prepared.model.wall, contents, numbers)
         };
         let (wall, contents, numbers) = data_of(ARCH);
@@ -530,6 +624,80 @@ mod tests {
         }
         let (_, contents, _) = data_of(WALL);
         assert!(contents["arrays"]["outline/start"].is_null() && contents["arrays"]["block/x0"].is_object());
+    }
+
+    /// Where there is no room numbers are rounded, to four digits of each block and joint, and then frames are left out; what is kept
+    /// says so, and what it is.
+    #[test]
+    fn data_without_room_are_rounded_and_then_thinned() {
+        let file = concio::case::from_str(&ARCH.replace("0.01 s", "0.5 s"), concio::case::Syntax::Toml, None);
+        let prepared = concio::run::prepare(file.expect("a wall").case, std::path::Path::new(".")).expect("a system");
+        let mut outcome = concio::run::run_in_memory(&prepared).expect("a run");
+        let rows = concio::run::joint_rows(&prepared.model);
+        let recording = &mut outcome.recording;
+        // What no neighbour foretells, of very different sizes.
+        let mut dice = 1u64;
+        let rolled = |width: usize| {
+            move |k: usize| {
+                dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                ((dice >> 11) as f64 / (1u64 << 53) as f64 - 0.5) * 10f64.powi(-((k % width % 3) as i32))
+            }
+        };
+        for (width, array) in [
+            (outcome.layout.unknowns, &mut recording.frame_displacement),
+            (outcome.layout.unknowns, &mut recording.frame_velocity),
+            (outcome.layout.unknowns, &mut recording.frame_acceleration),
+            (outcome.layout.touching, &mut recording.frame_pressure),
+        ] {
+            let roll = &mut rolled(width);
+            array.iter_mut().enumerate().for_each(|(k, v)| *v = roll(k));
+        }
+        let content = Content {
+            name: "made".into(),
+            case: prepared.case.clone(),
+            text: None,
+            command: None,
+            wall: &prepared.model.wall,
+            joints: &rows,
+            outcome: &outcome,
+            summary: &json!({}),
+        };
+        let frames = outcome.recording.frame_time.len();
+        assert!(frames > 200);
+        let whole = payload(&content, 1 << 24);
+        let (mut rounded, mut thinned) = (0, 0);
+        // With a single frame.
+        let least = payload(&content, 0).len();
+        for room in (1..=8).map(|k| least + (whole.len() + 4 - least) * k / 8) {
+            let data = payload(&content, room);
+            assert!(data.len() <= room, "{} bytes for {room}", data.len());
+            let (contents, numbers) = read_back(&data);
+            let (every, told) =
+                (contents["frames"]["every"].as_u64().expect("a number") as usize, &contents["frames"]["rounded"]);
+            thinned += usize::from(every > 1);
+            let rounding = match told.as_array() {
+                None => [0.0, 1e-7],
+                Some(told) => {
+                    rounded += 1;
+                    [0, 1].map(|k| told[k].as_f64().expect("a number"))
+                }
+            };
+            assert!(every == 1 || rounding[1] > 0.0, "frames go before digits do");
+            let width = outcome.layout.touching;
+            let found = pack::read(&contents["arrays"], &numbers, "frame/joint/pressure");
+            assert_eq!(found.len(), frames.div_ceil(every) * width);
+            for (k, value) in found.iter().enumerate() {
+                let expected = outcome.recording.frame_pressure[k / width * every * width + k % width];
+                let size = 0.5 * 10f64.powi(-((k % width % 3) as i32));
+                assert!((value - expected).abs() <= size * rounding[1] * 1.0001, "{value}, not {expected}");
+            }
+        }
+        assert!(rounded > thinned && thinned > 0, "{rounded} rounded, {thinned} thinned");
+        let (contents, _) = read_back(&whole);
+        assert!(
+            contents["frames"]["every"] == 1 && contents["frames"]["rounded"].is_null(),
+            "what has room is left alone"
+        );
     }
 
     #[test]

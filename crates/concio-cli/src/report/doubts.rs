@@ -4,7 +4,7 @@ use concio::case::{FrictionLaw, ModelKind};
 
 use super::Content;
 use crate::digest::residual;
-use crate::format::seconds;
+use crate::format::{exponent, seconds};
 
 /// Residual of the energy account beyond which a run is not to be trusted.
 pub const LARGEST_RESIDUAL: f64 = 1e-3;
@@ -55,8 +55,9 @@ fn of_this_run(content: &Content) -> Vec<String> {
     let residual = residual(content.summary);
     if !(residual <= LARGEST_RESIDUAL) {
         doubts.push(format!(
-            "The energy account of this run does not close: its residual is {residual:.1e} of the largest work, more \
+            "The energy account of this run does not close: its residual is {} of the largest work, more \
              than {LARGEST_RESIDUAL}. Lower {}.",
+            exponent(residual, 1),
             if content.case.model == ModelKind::Planar { "solver.step" } else { "solver.tolerance" }
         ));
     }

@@ -5,11 +5,20 @@ use concio::record::Channel;
 use super::{Content, beam_label};
 use crate::draw::curves::{self, Curve, Figure};
 use crate::draw::wall::{self, Field, Paint, Subject};
+use crate::format::NOTHING;
 
 /// Single blocks and joints whose histories a report shows.
 const ASKED: usize = 12;
 
-/// The wall under one name per view.
+/// Views of the wall beside that of the cracks.
+const VIEWS: usize = 5;
+
+/// How many views of the wall there are.
+pub fn views(content: &Content) -> usize {
+    VIEWS + usize::from(!content.outcome.bonds.is_empty())
+}
+
+/// The wall under one name per view; of a bonded wall the cracks come first.
 pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     let beam = beam_label(&content.case);
     let (joints, names): (Vec<_>, Vec<_>) = content.joints.iter().map(|j| (j.joint.clone(), j.name.clone())).unzip();
@@ -20,7 +29,7 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     let of_blocks = of_blocks.get(..content.wall.blocks.len()).unwrap_or(of_blocks);
     let field = |title, unit, values| Field { title, unit, values, none: "no value" };
     let gap = if content.is_planar() { "widest opening" } else { "widest gap of the head joints" };
-    let views = [
+    let views: [_; VIEWS] = [
         ("displacement", Paint::Blocks(field("peak displacement relative to the base", "m", of_blocks))),
         ("slip", Paint::Joints(field("way slipped", "m", &envelopes.joint_slip))),
         ("opening", Paint::Joints(field(gap, "m", &envelopes.joint_opening))),
@@ -32,19 +41,24 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     let field = Field { none: "not bonded", ..field("damage of the bonds at the end", "1", &cracked) };
     let cracks = ("cracks", Paint::Joints(field));
     let cracks = (!content.outcome.bonds.is_empty()).then_some(cracks);
-    views.into_iter().chain(cracks).map(|(name, paint)| (name, wall::draw(&subject, paint))).collect()
+    cracks.into_iter().chain(views).map(|(name, paint)| (name, wall::draw(&subject, paint))).collect()
+}
+
+/// Whether a history differs from zero by more than rounding.
+fn differs(values: &[f64]) -> bool {
+    values.iter().any(|v| v.abs() >= NOTHING || v.is_nan())
 }
 
 /// Motions and forces over time.
 pub fn histories(content: &Content) -> Vec<String> {
     let t = &content.outcome.recording.time;
-    let driven = content.history("beam/displacement").filter(|y| y.iter().any(|v| *v != 0.0));
+    let driven = content.history("beam/displacement").filter(|y| differs(y));
     let mut figures = Vec::new();
     let mut add = |title, quantity, unit, curves: &[(&str, Option<Vec<f64>>)]| {
         let shown: Vec<Curve> = curves
             .iter()
             .filter_map(|(name, y)| Some(Curve { name, x: t, y: y.as_deref()? }))
-            .filter(|c| c.y.iter().any(|v| *v != 0.0))
+            .filter(|c| differs(c.y))
             .collect();
         if !shown.is_empty() {
             figures.push(curves::draw(&Figure {
@@ -119,8 +133,7 @@ pub fn energies(content: &Content) -> Vec<String> {
     let parts: [&'static str; 9] =
         ["input", "friction", "damping", "elastic", "kinetic", "bond", "device", "impact", "nonreciprocal"];
     let of = |name: &&'static str| content.history(&format!("energy/{name}")).map(|y| (*name, y));
-    let found: Vec<(&'static str, Vec<f64>)> =
-        parts.iter().filter_map(of).filter(|(_, y)| y.iter().any(|v| *v != 0.0)).collect();
+    let found: Vec<(&'static str, Vec<f64>)> = parts.iter().filter_map(of).filter(|(_, y)| differs(y)).collect();
     let curves = found.iter().map(|(name, y)| Curve { name: title(name), x: t, y }).collect();
     let account = Figure {
         title: "Energy by mechanism",

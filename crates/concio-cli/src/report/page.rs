@@ -7,34 +7,41 @@ use concio::record::StopReason;
 use serde_json::Value;
 
 use super::{Content, data, doubts, figures};
-use crate::digest;
+use crate::digest::{self, Answer};
 use crate::draw::escape;
-use crate::format::{seconds, si};
+use crate::format::{exponent, seconds, si};
 
 /// Largest input that the page quotes [bytes]; it is in result.h5 in any case.
 const LARGEST_INPUT: usize = 1_000_000;
+/// Bytes that a page may take: it is sent by mail; and those that its data have in any case.
+const LARGEST: usize = 7_900_000;
+const LEAST_DATA: usize = 2_000_000;
 /// The program of the page, built from `report-ui/`.
 const PROGRAM: &str = include_str!("app/app.js");
 const STYLE: &str = include_str!("app/app.css");
+/// Puts on the colours that the reader has chosen before anything is drawn (`report-ui/src/theme.ts`).
+const THEME: &str = "try{const t=localStorage.getItem(\"concio-theme\");\
+     if(t===\"dark\"||t===\"light\")document.documentElement.dataset.theme=t}catch{}";
 /// A browser that obeys it fetches nothing, whatever a name in a wall file may contain.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
 
 /// The report as HTML.
 pub fn html(content: &Content) -> String {
     let title = escape(if content.case.title.is_empty() { &content.name } else { &content.case.title });
-    let (contents, numbers) = data::payload(content);
-    let mut page = String::with_capacity(numbers.len() + contents.len() + (1 << 20));
+    let mut page = String::with_capacity(1 << 20);
     let _ = write!(
         page,
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}\n</style>\n<noscript><style>\n{}</style></noscript>\n</head>\n<body>\n\
+         <script>{THEME}</script>\n<style>\n{STYLE}\n</style>\n<noscript><style>\n{}</style></noscript>\n</head>\n<body>\n\
          <header>\n<h1>{title}</h1>\n",
-        view_rules()
+        view_rules(figures::views(content))
     );
     head(&mut page, content);
     page.push_str("</header>\n<main>\n");
+    answers(&mut page, content);
+    warnings(&mut page, content);
     tiles(&mut page, content);
     page.push_str("<div id=\"app\"></div>\n");
     without_script(&mut page, content);
@@ -48,13 +55,10 @@ pub fn html(content: &Content) -> String {
     section(&mut page, "doubts", "When not to believe this result", &format!("<ul>\n{list}</ul>\n"));
     reproduction(&mut page, content);
     input(&mut page, content);
-    let _ = write!(
-        page,
-        "</main>\n<script type=\"application/json\" id=\"concio-contents\">{contents}</script>\n\
-         <script type=\"text/plain\" id=\"concio-numbers\">{numbers}</script>\n\
-         <script>\n{PROGRAM}</script>\n</body>\n</html>\n"
-    );
-    page
+    page.push_str("</main>\n<script type=\"text/plain\" id=\"concio-data\">");
+    let end = format!("</script>\n<script>\n{PROGRAM}</script>\n</body>\n</html>\n");
+    let room = LARGEST.saturating_sub(page.len() + end.len()).max(LEAST_DATA);
+    page + &data::payload(content, room) + &end
 }
 
 fn section(page: &mut String, id: &str, title: &str, body: &str) {
@@ -69,7 +73,7 @@ fn table(rows: &[(&str, String)]) -> String {
     format!("<table class=\"facts\">\n{}</table>\n", rows.iter().map(row).collect::<String>())
 }
 
-/// What the run is, whether it reached its end, and what the user was warned of.
+/// What the run is, and whether it reached its end.
 fn head(page: &mut String, content: &Content) {
     let outcome = content.outcome;
     let duration = content.summary.get("duration").and_then(Value::as_f64).unwrap_or(outcome.time_reached);
@@ -90,12 +94,40 @@ fn head(page: &mut String, content: &Content) {
         };
         let _ = writeln!(page, "<p class=\"{class}\"><b>{early} at t = {at} of {duration}:</b> {why}.</p>");
     }
+}
+
+/// What is asked first.
+fn answers(page: &mut String, content: &Content) {
+    page.push_str("<dl class=\"answers\">\n");
+    for Answer { name, value, note, grave } in digest::head(content.joints, content.outcome, content.summary) {
+        let class = if grave { " class=\"grave\"" } else { "" };
+        let [value, note] = [value, note].map(|text| unbroken(&escape(&text)));
+        let _ = writeln!(page, "<div{class}><dt>{name}</dt><dd><b>{value}</b><span>{note}</span></dd></div>");
+    }
+    page.push_str("</dl>\n");
+}
+
+/// With numbers that keep their units on their line.
+fn unbroken(text: &str) -> String {
+    let mut whole = String::with_capacity(text.len());
+    let mut before = ' ';
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        let holds = before.is_ascii_digit() || matches!(before, '=' | '±') || rest.peek() == Some(&'=');
+        whole.push(if c == ' ' && holds { '\u{a0}' } else { c });
+        before = c;
+    }
+    whole
+}
+
+/// What the user was warned of, directly beneath.
+fn warnings(page: &mut String, content: &Content) {
     for warning in digest::warnings(content.summary) {
         let _ = writeln!(page, "<p class=\"note\"><b>Warning:</b> {}</p>", escape(warning));
     }
 }
 
-/// The numbers that are looked for first.
+/// Numbers that are looked for next.
 fn tiles(page: &mut String, content: &Content) {
     let (totals, energies) = (&content.outcome.totals, &content.outcome.energies);
     let residual = digest::residual(content.summary);
@@ -106,7 +138,7 @@ fn tiles(page: &mut String, content: &Content) {
         ("work done on the wall", si(energies.input(), "J"), "by base, top and weight, over the whole run"),
         (
             "energy residual",
-            format!("{residual:.1e}"),
+            exponent(residual, 1),
             if closes { "of the largest work: the account closes" } else { "of the largest work: too much" },
         ),
     ];
@@ -161,11 +193,9 @@ fn asked(page: &mut String, content: &Content) {
     section(page, "asked", "Blocks and joints asked for", &body);
 }
 
-const VIEWS: usize = 5;
-
-/// Shows the view whose button is chosen, without a script.
-fn view_rules() -> String {
-    let shown: Vec<String> = (0..VIEWS).map(|k| format!("#v{k}:checked~#w{k}")).collect();
+/// Shows the view whose button is chosen, of so many, without a script.
+fn view_rules(views: usize) -> String {
+    let shown: Vec<String> = (0..views).map(|k| format!("#v{k}:checked~#w{k}")).collect();
     format!(".views>div{{display:none}}\n{}{{display:block}}\n", shown.join(","))
 }
 

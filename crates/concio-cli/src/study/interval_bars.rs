@@ -7,6 +7,7 @@ use crate::draw::font;
 use crate::draw::output::Drawing;
 use crate::draw::scale::{Scale, around};
 use crate::draw::svg::{Anchor, Canvas, line, px, rectangle};
+use crate::format::exponent;
 
 /// Height of a bar and room between the rows of two factors [pt].
 const BAR: f64 = 6.5;
@@ -85,7 +86,7 @@ fn plot(
             let Some((value, interval)) = bar.filter(|(v, _)| v.is_finite()) else { continue };
             let (upper, middle) = (start + i as f64 * BAR, start + (i as f64 + 0.5) * BAR);
             let edges = [at(0.0).min(at(value)), at(0.0).max(at(value))];
-            let tip = format!("{factor}: {value:.4e}");
+            let tip = format!("{factor}: {}", exponent(value, 4));
             canvas.path(&rectangle([edges[0], upper, edges[1], upper + BAR]), &fill(i), Some(&tip));
             if interval.iter().all(|v| v.is_finite()) {
                 let [a, b] = interval.map(at);
@@ -125,7 +126,7 @@ mod tests {
         let group = Group { heading: "h".into(), unit: "m", rows };
         let factors = ["one", "two & more", "three"].map(String::from);
         let drawing = draw("t", &["a"], &factors, &[group], 300.0);
-        for text in [">one<", ">two &amp; more<", ">three<", ">h<", "[m]", "one: 2.0000e0", "two &amp; more: -1"] {
+        for text in [">one<", ">two &amp; more<", ">three<", ">h<", "[m]", "one: 2.0000e0", "two &amp; more: −1"] {
             assert!(drawing.body.contains(text), "{text}");
         }
         assert_eq!(drawing.body.matches("stroke=\"#c8553d\"").count(), 1);

@@ -13,7 +13,7 @@ use crate::draw::escape;
 use crate::draw::output::Drawing;
 use crate::failure::Failure;
 use crate::files;
-use crate::format::{plain, significant};
+use crate::format::{exponent, plain, significant};
 
 /// A browser that obeys it fetches nothing.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
@@ -165,7 +165,7 @@ pub fn shown(v: f64) -> String {
     match v.abs() {
         a if v.fract() == 0.0 && a < 1e6 => plain(v),
         a if (1e-3..1e6).contains(&a) => significant(v, 4),
-        _ => format!("{v:.3e}"),
+        _ => exponent(v, 3),
     }
 }
 
@@ -195,7 +195,15 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        for (v, text) in [(12.0, "12"), (0.123456, "0.1235"), (1.5e-7, "1.500e-7"), (2e9, "2.000e9"), (0.0, "0")] {
+        for (v, text) in [
+            (12.0, "12"),
+            (0.123456, "0.1235"),
+            (1.5e-7, "1.500e−7"),
+            (-2.5, "−2.500"),
+            (1e-23, "0"),
+            (2e9, "2.000e9"),
+            (0.0, "0"),
+        ] {
             assert_eq!(shown(v), text);
         }
     }

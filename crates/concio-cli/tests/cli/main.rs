@@ -5,6 +5,7 @@ mod commands;
 mod compare;
 mod figures;
 mod first_crack;
+mod head;
 mod hostile;
 mod kill;
 mod limit;

@@ -53,8 +53,9 @@ pub struct Lane<'m> {
     /// Energy account and powers at its end.
     energies: Energies,
     power: Power,
-    /// Step that waits for its account [s].
+    /// Step that waits for its account [s], and where the tops are at its end [m].
     waiting: f64,
+    top_at: f64,
     /// Whether an accepted step waits for its account.
     pub pending: bool,
 }
@@ -79,6 +80,7 @@ impl<'m> Lane<'m> {
             energies: Energies::default(),
             power: Power::default(),
             waiting: 0.0,
+            top_at: 0.0,
             pending: false,
         }
     }
@@ -290,7 +292,7 @@ impl<'m> Lane<'m> {
     /// The run at the end of its step, whose envelopes wait.
     pub fn accept(&mut self, w: &mut Work, account: &mut Account, i: usize) {
         w.state.set(w.topology.unknowns as usize + 1, ACCELERATION, i, self.top.a);
-        let Simulation { state, work, .. } = &mut self.run;
+        let Simulation { model, state, work, .. } = &mut self.run;
         (work.start_energies, work.stage_power[0]) = (state.energies, state.power);
         (state.energies, state.power) = (self.energies, self.power);
         state.t = self.plan.end(state.t);
@@ -301,6 +303,11 @@ impl<'m> Lane<'m> {
         state.counters.factorisations += std::mem::take(&mut self.factorisations);
         state.totals.peak_input = state.totals.peak_input.max(state.energies.input().abs());
         state.totals.peak_residual = state.totals.peak_residual.max(state.energies.residual().abs());
+        let place = &w.topology.place;
+        let z = |k: usize| w.state.at(place[k] as usize, Z, i);
+        self.top_at = model.tops.of_wall(z);
+        let span = [state.t - self.plan.h, state.t];
+        model.tops.follow(&mut state.leans, span, model.settles(), z);
         (self.waiting, self.pending) = (self.plan.h, true);
         account.step[i] = self.plan.h;
     }
@@ -367,9 +374,9 @@ impl<'m> Lane<'m> {
         sum.peak_slip_velocity = sum.peak_slip_velocity.max(peaks.slip_velocity[i]);
         sum.minimum_gap = sum.minimum_gap.min(-peaks.closing[i]);
         sum.peak_friction_force = sum.peak_friction_force.max(peaks.friction[i]);
-        sum.base_shear_peak = sum.base_shear_peak.max(peaks.base_shear[i].abs());
         sum.top_force_peak = sum.top_force_peak.max(pull.abs());
         sum.top_force_square += 0.5 * self.waiting * (before * before + pull * pull);
+        self.run.state.raise_base_shear(peaks.base_shear[i].abs(), self.top_at);
     }
 
     /// Number of the run, the run at the end of a step whose account is made up, and what it has recorded.

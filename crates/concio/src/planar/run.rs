@@ -284,9 +284,10 @@ impl Run {
         }
         let pull = self.pull(model, state, h);
         let shear = self.borne(model, state.t);
-        let totals = &mut state.totals;
-        if totals.collapse.is_none() {
-            totals.base_shear_peak = totals.base_shear_peak.max(shear);
+        if state.totals.collapse.is_none() {
+            state.raise_base_shear(shear, model.tops.of_wall(|i| state.z[i]));
+            model.tops.follow(&mut state.leans, [state.t - h, state.t], model.settles(), |i| state.z[i]);
+            let totals = &mut state.totals;
             totals.top_force_peak = totals.top_force_peak.max(pull.abs());
             totals.top_force_square += 0.5 * h * (state.pull * state.pull + pull * pull);
             self.raise(model, state, h);

@@ -1,7 +1,7 @@
 //! Tables of the quantities a result holds: name on disk, unit, meaning, and where they are kept. Writer, reader and
 //! exports go through the same tables, so that none of them can forget a quantity that the others know.
 
-use crate::outcome::{BondRow, TieRow, Totals};
+use crate::outcome::{BondRow, DriftRow, TieRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Layout, Recording};
 use crate::store::{FrictionRow, JointRow};
 use crate::wall::{Block, PanelInfo};
@@ -137,7 +137,7 @@ pub(super) const ENERGIES: [Field<Energies, f64>; 11] = [
 ];
 
 /// Numbers that sum a run up.
-pub(super) const TOTALS: [Field<Totals, f64>; 10] = [
+pub(super) const TOTALS: [Field<Totals, f64>; 12] = [
     field!(
         "peak_relative_displacement",
         "m",
@@ -147,6 +147,13 @@ pub(super) const TOTALS: [Field<Totals, f64>; 10] = [
     field!("peak_slip_velocity", "m/s", peak_slip_velocity, "Largest relative velocity of a bed or support joint."),
     field!("peak_friction_force", "N", peak_friction_force, "Largest friction force in a joint, sign dropped."),
     field!("base_shear_peak", "N", base_shear_peak, "Largest horizontal force of the base on the wall, sign dropped."),
+    field!("base_shear_time", "s", base_shear_time, "When the base shear first came within 1e-4 of its largest."),
+    field!(
+        "base_shear_displacement",
+        "m",
+        base_shear_displacement,
+        "Displacement of the top relative to the base then."
+    ),
     field!("top_force_peak", "N", top_force_peak, "Largest force of the top beam on the wall, sign dropped."),
     field!("top_force_square", "N2 s", top_force_square, "Time integral of the square of that force."),
     field!("minimum_gap", "m", minimum_gap, "Most negative gap of a head joint or connection, from 0 down."),
@@ -233,6 +240,20 @@ pub(super) const BONDS: [Field<BondRow, f64>; 9] = [
     field!("spent", "J", spent, "Energy that breaking has taken."),
     field!("cracked", "s", cracked, "Time of the first crack; infinite when there was none."),
     field!("broken", "s", broken, "Time at which nothing was left of the bond; infinite when something is."),
+];
+
+/// How far a top went.
+pub(super) const DRIFTS: [Field<DriftRow, f64>; 5] = [
+    field!("height", "m", height, "Height of the top above the base."),
+    field!("peak", "m", peak, "Displacement of the top relative to the base when it was farthest."),
+    field!("time", "s", time, "When that was."),
+    field!(
+        "residual",
+        "m",
+        residual,
+        "Mean displacement of the top over the last tenth of the run; infinite when there is none."
+    ),
+    field!("swing", "m", swing, "By how much it left that mean there at most; infinite when there is none."),
 ];
 
 /// Real quantities of a tie.

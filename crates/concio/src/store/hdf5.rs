@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::case::DeviceLaw;
 use crate::error::{Error, Result};
 use crate::files;
-use crate::outcome::{Collapse, Outcome, TieRow};
+use crate::outcome::{Collapse, DriftRow, Outcome, TieRow};
 use crate::record::{Event, Layout, Recording};
 use crate::store::digest;
 use crate::store::fields::{self, Field, Frames};
@@ -52,6 +52,7 @@ pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointR
         write_history(&mut sink, &outcome.layout, &outcome.recording)?;
         write_frames(&mut sink, &outcome.layout, &outcome.recording)?;
         write_bonds(&mut sink, outcome)?;
+        write_drifts(&mut sink, &outcome.drifts)?;
         write_ties(&mut sink, &outcome.ties)?;
         write_collapse(&mut sink, outcome.totals.collapse.as_ref())?;
         write_events(&mut sink, &outcome.recording.events)?;
@@ -257,6 +258,11 @@ fn write_bonds(sink: &mut Sink, outcome: &Outcome) -> Result<()> {
     let joints: Vec<i64> = bonds.iter().map(|b| b.joint as i64).collect();
     sink.list("bonds/joint", &joints, label("1", "Index of the joint."))?;
     write_columns(sink, "bonds", &fields::BONDS, bonds)
+}
+
+fn write_drifts(sink: &mut Sink, drifts: &[DriftRow]) -> Result<()> {
+    sink.texts("drift/top", &names(drifts, |d| &d.top), "Name of the panel, or beam.")?;
+    write_columns(sink, "drift", &fields::DRIFTS, drifts)
 }
 
 /// Nothing where there are none.

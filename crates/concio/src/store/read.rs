@@ -8,7 +8,7 @@ use serde::de::value::{Error as KeywordError, StrDeserializer};
 
 use crate::case::{DeviceLaw, JointKind};
 use crate::error::{Error, Result};
-use crate::outcome::{BondRow, Collapse, Outcome, TieRow, Totals};
+use crate::outcome::{BondRow, Collapse, DriftRow, Outcome, TieRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::Source;
@@ -48,6 +48,7 @@ pub fn read(path: &Path) -> Result<StoredRun> {
         recording,
         bonds,
         ties: read_ties(&source)?,
+        drifts: read_drifts(&source)?,
         envelopes,
         energies: read_numbers(&source, "energy", &fields::ENERGIES, Energies::default())?,
         totals: Totals {
@@ -222,6 +223,13 @@ fn read_ties(source: &Source) -> Result<Vec<TieRow>> {
         from.into_iter().zip(to).map(|(from, to)| TieRow { from, to, ..TieRow::default() }).collect();
     read_columns(source, "ties", &fields::TIES, &mut ties)?;
     Ok(ties)
+}
+
+fn read_drifts(source: &Source) -> Result<Vec<DriftRow>> {
+    let tops = source.texts("drift/top")?;
+    let mut drifts: Vec<DriftRow> = tops.into_iter().map(|top| DriftRow { top, ..DriftRow::default() }).collect();
+    read_columns(source, "drift", &fields::DRIFTS, &mut drifts)?;
+    Ok(drifts)
 }
 
 /// None in a file without it.

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use crate::case::JointKind;
 use crate::error::{Error, Result};
 use crate::files;
 use crate::outcome::{Outcome, TieRow};
@@ -27,8 +28,19 @@ pub struct RunFacts {
     pub solve_seconds: f64,
     /// Time from which a run that had been cut off was taken up [s].
     pub resumed_from: Option<f64>,
+    /// What moved when the first bond cracked.
+    pub at_first_crack: Option<Moving>,
     /// What the user should know.
     pub warnings: Vec<Warning>,
+}
+
+/// What a run is moved by at an instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moving {
+    /// Horizontal acceleration of the base [m/s²].
+    pub acceleration: f64,
+    /// Displacement of a driven top beam relative to the base [m].
+    pub beam: Option<f64>,
 }
 
 /// The content of summary.json; keys and units in docs/results.md. A value that is not finite becomes `null`, because
@@ -42,7 +54,7 @@ pub fn summary(
 ) -> Value {
     let totals = &outcome.totals;
     let graph: Vec<_> = joints.iter().map(|row| row.joint.clone()).collect();
-    json!({
+    let mut summary = json!({
         "blocks": wall.blocks.len(),
         "joints": joints.len(),
         "unknowns": outcome.layout.unknowns + 2 * outcome.layout.turned,
@@ -59,13 +71,17 @@ pub fn summary(
         "peak_slip_velocity": totals.peak_slip_velocity,
         "top_work": outcome.energies.input_top,
         "base_shear_peak": totals.base_shear_peak,
+        "base_shear_time": totals.base_shear_time,
+        "base_shear_displacement": totals.base_shear_displacement,
+        "drift": drift(outcome),
+        "slide": slide(outcome, joints),
         "top_force_peak": totals.top_force_peak,
         "top_force_rms": top_force_rms(outcome),
         "minimum_gap": totals.minimum_gap,
         "contact_residual": totals.contact_residual,
         "collapse": planar::Collapsed::of(outcome, wall),
         "failure": planar::failure(wall, &graph, &outcome.recording),
-        "bonds": bonds(outcome, joints),
+        "bonds": bonds(outcome, joints, facts.at_first_crack),
         "ties": ties(outcome),
         "devices": devices(outcome, joints),
         "energy": energy(&outcome.energies, residual_relative(outcome)),
@@ -74,7 +90,19 @@ pub fn summary(
         "version": provenance.version,
         "warnings": facts.warnings.iter().map(|w| &w.text).collect::<Vec<_>>(),
         "warning_kinds": facts.warnings.iter().map(|w| w.kind).collect::<Vec<_>>(),
-    })
+    });
+    unsign_zeros(&mut summary);
+    summary
+}
+
+/// A zero has no sign.
+fn unsign_zeros(value: &mut Value) {
+    match value {
+        Value::Number(number) if number.as_f64() == Some(0.0) && number.is_f64() => *value = json!(0.0),
+        Value::Array(values) => values.iter_mut().for_each(unsign_zeros),
+        Value::Object(values) => values.values_mut().for_each(unsign_zeros),
+        _ => {}
+    }
 }
 
 /// Writes a summary, its digest in it ([`digest::seal`]): whole or not at all.
@@ -116,8 +144,34 @@ pub fn top_force_rms(outcome: &Outcome) -> f64 {
     if time > 0.0 { (totals.top_force_square / time).sqrt() } else { 0.0 }
 }
 
+/// How far the top went that went farthest over its height.
+fn drift(outcome: &Outcome) -> Value {
+    let Some(row) = outcome.worst_drift() else { return Value::Null };
+    json!({
+        "top": row.top,
+        "height": row.height,
+        "peak": row.ratio(row.peak),
+        "displacement": row.peak,
+        "time": row.time,
+        "residual": row.ratio(row.residual),
+        "swing": row.ratio(row.swing),
+    })
+}
+
+/// Which bed joint of a shear wall slid farthest over its overlap; null of planar walls, whose joints follow.
+fn slide(outcome: &Outcome, joints: &[JointRow]) -> Value {
+    if outcome.layout.touching > 0 {
+        return Value::Null;
+    }
+    let moved = joints.iter().zip(&outcome.envelopes.joint_displacement);
+    let slid =
+        moved.filter(|(row, _)| row.joint.kind == JointKind::Bed).map(|(row, d)| (row, *d, d / row.joint.overlap));
+    let Some((row, displacement, ratio)) = slid.max_by(|a, b| a.2.total_cmp(&b.2)) else { return Value::Null };
+    json!({ "joint": row.name, "displacement": displacement, "of_overlap": ratio })
+}
+
 /// How many bonds cracked and broke, and which was the first; null where no joint is bonded.
-fn bonds(outcome: &Outcome, joints: &[JointRow]) -> Value {
+fn bonds(outcome: &Outcome, joints: &[JointRow], moving: Option<Moving>) -> Value {
     let bonds = &outcome.bonds;
     if bonds.is_empty() {
         return Value::Null;
@@ -129,6 +183,8 @@ fn bonds(outcome: &Outcome, joints: &[JointRow]) -> Value {
         "broken": bonds.iter().filter(|b| b.damage == 1.0).count(),
         "first_crack": first.map(|b| b.cracked),
         "first_joint": first.and_then(|b| joints.get(b.joint)).map(|j| &j.name),
+        "first_acceleration": moving.map(|m| m.acceleration),
+        "first_beam": moving.and_then(|m| m.beam),
     })
 }
 

@@ -37,6 +37,8 @@ TOTALS = {
     "peak_slip_velocity": "m/s",
     "peak_friction_force": "N",
     "base_shear_peak": "N",
+    "base_shear_time": "s",
+    "base_shear_displacement": "m",
     "top_force_peak": "N",
     "top_force_square": "N2 s",
     "minimum_gap": "m",
@@ -60,6 +62,7 @@ BOND_COLUMNS = {
     "spent": "J", "cracked": "s", "broken": "s",
 }
 TIE_COLUMNS = {"force": "N", "stretch": "m", "yielded": "s"}
+DRIFT_COLUMNS = {"height": "m", "peak": "m", "time": "s", "residual": "m", "swing": "m"}
 JOINT_COLUMNS = {
     "weight": "1",
     "overlap": "m",
@@ -322,6 +325,17 @@ def check_ties(result):
     require((np.isfinite(columns["yielded"]) == (columns["stretch"] > 0)).all(), "when a tie yielded")
 
 
+def check_drift(result, panels):
+    tops = result.texts("drift/top")
+    n = len(tops)
+    require(n > 0 and len(set(tops)) == n and set(tops) <= {*panels, "beam"}, f"tops {tops}")
+    columns = {key: result.array(f"drift/{key}", (n,), "f8", unit) for key, unit in DRIFT_COLUMNS.items()}
+    end = result.file["totals/time_reached"][()]
+    require((columns["height"] > 0).all() and (columns["time"] <= end).all(), "height or time of a drift")
+    require((np.isfinite(columns["residual"]) == np.isfinite(columns["swing"])).all(), "a residual without its swing")
+    return tops, columns
+
+
 def check_collapse(result):
     time = result.array("collapse/time", (), "f8", "s")
     require(0 <= time <= result.file["totals/time_reached"][()], "collapse/time")
@@ -429,7 +443,7 @@ def check_npz(path, file):
                 equal(np.array([t.decode() for t in array]), np.array(file[name].asstr()[()]), f"npz: {name}")
             else:
                 equal(array, file[name][()], f"npz: {name}")
-        tops = ["case", "wall", "history", "frames", "bonds", "ties", "collapse", "events", "envelope", "energy", "totals", "counters"]
+        tops = ["case", "wall", "history", "frames", "bonds", "drift", "ties", "collapse", "events", "envelope", "energy", "totals", "counters"]
         wanted = []
         file.visititems(lambda name, item: wanted.append(name) if isinstance(item, h5py.Dataset) else None)
         wanted = {w for w in wanted if any(w == top or w.startswith(top + "/") for top in tops)}
@@ -461,6 +475,14 @@ def check_csv_events(folder, file, joints):
     require([row["joint"] for row in rows] == [joints[k] for k in file["events/joint"]], "csv: events, joint")
     units = {"impact": "N s", "crack": "m", "break": "m", "crush": "m", "collapse": "m"}
     require(all(row["unit"] == units[row["kind"]] for row in rows), "csv: events, unit")
+
+
+def check_csv_drift(folder, tops, columns):
+    with open(folder / "drift.csv", newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    require([row["top"] for row in rows] == tops, "csv: tops")
+    for key, values in columns.items():
+        equal(np.array([float(row[f"{key} [{DRIFT_COLUMNS[key]}]"]) for row in rows]), values, f"csv: drift, {key}")
 
 
 def check_csv(folder, time, heads, values, names, envelopes):
@@ -503,6 +525,7 @@ def main():
     require(len(block_names) <= unknowns <= len(block_names) + 1, "unknowns are neither the blocks nor one more")
     time, heads, values = check_history(result)
     frames = check_frames(result, unknowns, len(joint_names))
+    drifts = check_drift(result, result.texts("wall/panels/name"))
     block_envelopes, joint_envelopes = check_sums(result, unknowns, len(joint_names))
     check_vtkhdf_tree(result)
     result.check_nothing_left()
@@ -516,6 +539,7 @@ def main():
         envelopes = {"block": block_envelopes, "joint": joint_envelopes}
         check_csv(arguments.csv, time, heads, values, names, envelopes)
         check_csv_events(arguments.csv, result.file, joint_names)
+        check_csv_drift(arguments.csv, *drifts)
         check_csv_corners(arguments.csv, block_names, outlines[0], result.file)
     print(
         f"{arguments.result}: {len(block_names)} blocks, {len(joint_names)} joints, {len(time)} samples of "

@@ -2,7 +2,7 @@
 //! shows; they obey no mechanics.
 
 use concio::case::{DeviceLaw, FrictionLaw, JointKind, SpringLaw};
-use concio::outcome::{BondRow, Collapse, Outcome, TieRow, Totals};
+use concio::outcome::{BondRow, Collapse, DriftRow, Outcome, TieRow, Totals};
 use concio::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use concio::store::{FrictionRow, JointRow, Provenance};
 use concio::wall::{Block, End, Joint, PanelInfo, Shape, Wall};
@@ -191,6 +191,14 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
     Outcome {
         ties: if size.planar && wall.blocks.len() > 1 { (0..2).map(tie).collect() } else { Vec::new() },
         bonds: (0..layout.bonded).map(bond).collect(),
+        drifts: vec![DriftRow {
+            top: "p1".into(),
+            height: 0.5,
+            peak: -2e-3,
+            time: 0.03,
+            residual: f64::INFINITY,
+            swing: f64::INFINITY,
+        }],
         time_reached: layout.interval * (size.samples - 1) as f64,
         layout,
         recording,
@@ -213,6 +221,8 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             peak_slip_velocity: 2.2e-2,
             peak_friction_force: 1.7e3,
             base_shear_peak: 1.9e5,
+            base_shear_time: 0.02,
+            base_shear_displacement: -1.25e-3,
             top_force_peak: 2.3e5,
             top_force_square: 4.0e8,
             minimum_gap: -1.0e-9,

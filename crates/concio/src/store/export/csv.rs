@@ -15,7 +15,7 @@ use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword};
 use crate::store::{FrictionRow, StoredRun};
 use crate::wall::{Block, End};
 
-/// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv` and `joint_envelopes.csv`, `corners.csv` where a
+/// Writes `histories.csv`, `blocks.csv`, `joints.csv`, `block_envelopes.csv`, `joint_envelopes.csv` and `drift.csv`, `corners.csv` where a
 /// block is no rectangle, `bonds.csv` where joints are bonded, `ties.csv` where there are ties and `events.csv` where something
 /// happened, into `folder`, which is made if need be. A table that this run has not, left by another, is removed. Numbers read
 /// back to the same bits.
@@ -34,6 +34,7 @@ pub fn csv(run: &StoredRun, folder: &Path) -> Result<()> {
         envelopes(t, "block", &fields::BLOCK_ENVELOPES, &unknown_names(run), &run.outcome.envelopes)
     })?;
     table_if(!run.outcome.bonds.is_empty(), &folder.join("bonds.csv"), |t| bonds(t, run))?;
+    table(&folder.join("drift.csv"), |t| drifts(t, run))?;
     table_if(!run.outcome.ties.is_empty(), &folder.join("ties.csv"), |t| ties(t, run))?;
     table_if(!run.outcome.recording.events.is_empty(), &folder.join("events.csv"), |t| events(t, run))?;
     table(&folder.join("joint_envelopes.csv"), |t| {
@@ -193,6 +194,18 @@ fn bonds(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     for bond in &run.outcome.bonds {
         table.text(run.joints.get(bond.joint).map_or("", |j| &j.name))?;
         numbers(table, &fields::BONDS, bond)?;
+        table.end_row()?;
+    }
+    Ok(())
+}
+
+fn drifts(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
+    table.head("top", "1")?;
+    heads(table, &fields::DRIFTS)?;
+    table.end_row()?;
+    for drift in &run.outcome.drifts {
+        table.cell(&drift.top)?;
+        numbers(table, &fields::DRIFTS, drift)?;
         table.end_row()?;
     }
     Ok(())

@@ -149,6 +149,9 @@ fn fill_recording(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
         archive.integers("bonds/joint", run.outcome.bonds.iter().map(|b| b.joint as i64))?;
         columns(archive, "bonds", &fields::BONDS, &run.outcome.bonds)?;
     }
+    let drifts = &run.outcome.drifts;
+    archive.texts("drift/top", &drifts.iter().map(|d| &d.top).collect::<Vec<_>>())?;
+    columns(archive, "drift", &fields::DRIFTS, drifts)?;
     let ties = &run.outcome.ties;
     if !ties.is_empty() {
         archive.texts("ties/from", &ties.iter().map(|t| &t.from).collect::<Vec<_>>())?;

@@ -1,26 +1,29 @@
 //! The numbers of a run that the terminal and the report both show.
 
-use concio::outcome::{BondRow, Outcome, TieRow};
-use concio::planar::{Collapsed, Failure};
+use concio::outcome::{Outcome, TieRow};
 use concio::record::StopReason;
 use concio::store::JointRow;
 use concio::wall::Wall;
 use serde_json::Value;
 
-use crate::format::{clock, si, significant};
+use crate::format::{clock, exponent, si};
+
+mod head;
+
+pub use head::{Answer, head};
 
 /// What is less than this fraction of the largest value of its kind is rounding, and is told as 0.
 const ROUNDING: f64 = 1e-9;
+/// Relative displacement of a bed joint over its overlap from which a shear wall has slid far: its joints stay as they were laid.
+const LARGE_SLIDE: f64 = 0.1;
 /// Displacement that is none [m]: the floor below which the solver sees no errors, unless the file gives another.
 const NOWHERE: f64 = 1e-14;
 
-/// Names and values, the important ones first.
+/// Names and values of what is told after the [`head`].
 pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value) -> Vec<(&'static str, String)> {
     let (totals, energies) = (&outcome.totals, &outcome.energies);
-    let number = |pointer: &str| summary.pointer(pointer).and_then(Value::as_f64).unwrap_or(f64::NAN);
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-    let moved = totals.peak_relative_displacement;
-    let moved = if moved < NOWHERE { 0.0 } else { moved };
+    let moved = moved(outcome);
     let length = |value: f64| si(beside(value, moved), "m");
     let velocity = beside(totals.peak_slip_velocity, largest(&outcome.envelopes.block_velocity));
     let opening = largest(&outcome.envelopes.joint_opening);
@@ -34,9 +37,6 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
         ("peak slip velocity", si(velocity, "m/s")),
         (opens, format!("opened {}, pressed in {}", length(opening), length(deepest))),
     ];
-    if let Some(failure) = failure(summary) {
-        rows.push(("failure", failure));
-    }
     let devices = joints.iter().filter(|j| j.device.is_some()).count();
     if devices > 0 {
         let taken = joints.iter().zip(&outcome.envelopes.joint_dissipation).filter(|(j, _)| j.device.is_some());
@@ -48,24 +48,12 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
         let cracked = bonds.iter().filter(|b| b.damage > 0.0).count();
         let broken = bonds.iter().filter(|b| b.damage == 1.0).count();
         rows.push(("bonds", format!("{cracked} of {} cracked, {broken} broken", bonds.len())));
-        if let Some(first) = outcome.first_crack() {
-            let name = joints.get(first.joint).map_or("", |j| j.name.as_str());
-            rows.push(("  first crack", first_crack(bonds, first.cracked, name)));
-        }
     }
     if let Some(ties) = ties(&outcome.ties) {
         rows.push(("ties", ties));
     }
-    if let Some(collapse) = collapse(summary) {
-        rows.push(("collapse", collapse));
-    }
-    let (shear, load) = (number("/base_shear_peak"), number("/base_load"));
-    if shear > 0.0 {
-        let share = significant(shear / load, 4);
-        rows.push(("largest base shear", format!("{}, {share} of the vertical force at rest", si(shear, "N"))));
-    }
     if totals.top_force_peak > 0.0 {
-        let rms = si(number("/top_force_rms"), "N");
+        let rms = si(number(summary, "/top_force_rms"), "N");
         rows.push(("force of the top beam", format!("{} peak, {rms} rms", si(totals.top_force_peak, "N"))));
     }
     if energies.initial != 0.0 {
@@ -91,14 +79,14 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
     if energies.nonreciprocal != 0.0 {
         rows.push(("  unbalanced friction", energy(energies.nonreciprocal)));
     }
-    rows.push(("energy residual", format!("{:.1e} of the largest work", residual(summary))));
+    rows.push(("energy residual", format!("{} of the largest work", exponent(residual(summary), 1))));
     let counters = &outcome.counters;
     let mut steps = format!("{}, {} rejected, {} repeated", counters.steps, counters.rejected, counters.failed);
     if counters.unsolved > 0 {
         steps += &format!(", {} with contact left unsolved", counters.unsolved);
     }
     rows.push(("steps", steps));
-    rows.push(("solver time", clock(number("/solve_seconds"))));
+    rows.push(("solver time", clock(number(summary, "/solve_seconds"))));
     rows
 }
 
@@ -116,32 +104,6 @@ fn peak(wall: &Wall, outcome: &Outcome, moved: f64) -> String {
     told
 }
 
-/// How a planar wall failed, in words.
-fn failure(summary: &Value) -> Option<String> {
-    let failure: Failure = serde_json::from_value(summary.get("failure")?.clone()).ok()?;
-    if failure.modes.is_empty() {
-        return Some("none".into());
-    }
-    let names: Vec<&str> = failure.modes.iter().map(|mode| mode.name()).collect();
-    let part = |share: f64| format!("{:.0} %", 100.0 * share);
-    let top = format!("top {} at t = {} s", si(failure.top, "m"), significant(failure.time, 4));
-    let (turning, sliding) = (part(failure.rocking), part(failure.sliding));
-    Some(format!("{}; {top}: {turning} of it turning, {sliding} planes that slid", names.join(", ")))
-}
-
-/// Which block of a planar wall fell first, and when.
-fn collapse(summary: &Value) -> Option<String> {
-    let collapse: Collapsed = serde_json::from_value(summary.get("collapse")?.clone()).ok()?;
-    let (time, way) = (significant(collapse.time, 4), si(collapse.displacement, "m"));
-    let (block, did) = (&collapse.block, collapse.what());
-    let others = match collapse.fallen {
-        None => String::new(),
-        Some(1) => "; 1 block down at the end".into(),
-        Some(fallen) => format!("; {fallen} blocks down at the end"),
-    };
-    Some(format!("t = {time} s: block {block} {did}, {way} from its place{others}"))
-}
-
 /// What the ties bore, and how many yielded.
 fn ties(ties: &[TieRow]) -> Option<String> {
     let most = ties.iter().max_by(|a, b| a.force.total_cmp(&b.force))?;
@@ -150,16 +112,19 @@ fn ties(ties: &[TieRow]) -> Option<String> {
     Some(format!("{force} at most, in that from {} to {}; {yielded} of {count} yielded", most.from, most.to))
 }
 
+fn number(summary: &Value, pointer: &str) -> f64 {
+    summary.pointer(pointer).and_then(Value::as_f64).unwrap_or(f64::NAN)
+}
+
+/// The largest displacement of a block, 0 where it is none [m].
+fn moved(outcome: &Outcome) -> f64 {
+    let moved = outcome.totals.peak_relative_displacement;
+    if moved < NOWHERE { 0.0 } else { moved }
+}
+
 /// `value`, or 0 where it is rounding beside `large`, the largest of its kind.
 fn beside(value: f64, large: f64) -> f64 {
     if value.abs() <= ROUNDING * large.abs() && value.is_finite() { 0.0 } else { value }
-}
-
-/// When and where a bond cracked first, and how many with it: joints that are equal crack together but for rounding.
-fn first_crack(bonds: &[BondRow], time: f64, name: &str) -> String {
-    let together = bonds.iter().filter(|b| b.cracked <= time * (1.0 + ROUNDING)).count();
-    let others = if together > 1 { format!(" and {} more", together - 1) } else { String::new() };
-    format!("t = {} s, joint {name}{others}", significant(time, 4))
 }
 
 /// Residual of the energy account over the largest work.
@@ -188,14 +153,6 @@ pub fn why(reason: StopReason) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn joints_that_crack_together_are_counted() {
-        let cracked = |cracked: f64| BondRow { cracked, ..BondRow::default() };
-        let bonds = [0.282_321_4, 0.282_321_400_000_01, 0.282_322, f64::INFINITY].map(cracked);
-        assert_eq!(first_crack(&bonds, 0.282_321_4, "a|b"), "t = 0.2823 s, joint a|b and 1 more");
-        assert_eq!(first_crack(&bonds[2..], 0.282_322, "c|d"), "t = 0.2823 s, joint c|d");
-    }
 
     #[test]
     fn rounding_is_told_as_nothing() {
