@@ -16,7 +16,7 @@ fn a_tilted_arch_falls_at_its_multiplier() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/17-arch.toml");
     let text = std::fs::read_to_string(path).expect("the example");
     let slow = text
-        .replace("duration = \"2.4 s\"", "duration = \"20 s\"\nquasi_static = true")
+        .replace("duration = \"3.2 s\"", "duration = \"20 s\"\nquasi_static = true")
         .replace("rise = \"2 s\"", "rise = \"20 s\"");
     let case = from_str(&slow, Syntax::Toml, None).expect("a wall file").case;
     assert!(case.motion.quasi_static && slow.contains("\"-0.2 g\", rise = \"20 s\""), "the example is another one");

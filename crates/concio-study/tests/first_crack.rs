@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use concio::Result;
-use concio::case::{self, Signal, SpringLaw};
+use concio::case::{self, RecordInput, Signal, SpringLaw};
+use concio::ground::{Library, measure};
 use concio::run::{Control, prepare};
 use concio::simulate::Simulation;
 use concio_study::first_crack::{Answer, Question, Subject, keep, of_study, search};
@@ -119,9 +120,8 @@ fn the_panel_cracks_under_real_records() -> Result<()> {
     let question = Question { rule, interval: 0.01, checks: 3, periods: vec![0.1, 0.2, 0.5] };
     let subject = |path: &PathBuf| {
         let mut case = wall.clone();
-        case.motion.base = signal(path);
-        // Six seconds of each: at some scale every shaking cracks a joint.
-        case.motion.duration = Some(6.0.into());
+        case.motion.base = strong_part(path);
+        case.motion.duration = Some(4.0.into());
         Subject { name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(), case }
     };
     let subjects: Vec<Subject> = records.iter().map(subject).collect();
@@ -145,9 +145,13 @@ fn the_panel_cracks_under_real_records() -> Result<()> {
     Ok(())
 }
 
-/// A record as it is, its first channel.
-fn signal(path: &Path) -> Signal {
-    serde_json::from_value(serde_json::json!({ "record": path })).expect("a motion")
+/// Four seconds of a record about its peak: at some scale every shaking cracks a joint.
+fn strong_part(path: &Path) -> Signal {
+    let whole: RecordInput = serde_json::from_value(serde_json::json!({ "record": path })).expect("a record");
+    let record = Library::default().record(&whole, Path::new("")).expect("a record");
+    let from = (measure(&record).pga.time - 2.0).clamp(0.0, (record.duration() - 4.0).max(0.0));
+    let trim = [from, (from + 4.0).min(record.duration())];
+    serde_json::from_value(serde_json::json!({ "record": path, "trim": trim })).expect("a motion")
 }
 
 /// The shortest record file of each format beside the project, but for a distant one of 210 s that has to be scaled by 134.

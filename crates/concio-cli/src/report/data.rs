@@ -640,7 +640,7 @@ mod tests {
         let rolled = |width: usize| {
             move |k: usize| {
                 dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                ((dice >> 11) as f64 / (1u64 << 53) as f64 - 0.5) * 10f64.powi(-((k % width % 3) as i32))
+                ((dice >> 11) as f64 / (1u64 << 53) as f64 - 0.5) * 10f64.powi(-((k % width % 2) as i32))
             }
         };
         for (width, array) in [
@@ -688,7 +688,7 @@ mod tests {
             assert_eq!(found.len(), frames.div_ceil(every) * width);
             for (k, value) in found.iter().enumerate() {
                 let expected = outcome.recording.frame_pressure[k / width * every * width + k % width];
-                let size = 0.5 * 10f64.powi(-((k % width % 3) as i32));
+                let size = 0.5 * 10f64.powi(-((k % width % 2) as i32));
                 assert!((value - expected).abs() <= size * rounding[1] * 1.0001, "{value}, not {expected}");
             }
         }

@@ -39,9 +39,9 @@ fn what_is_printed_as_json_is_what_is_written() {
     let printed: Value = serde_json::from_slice(&done.get_output().stdout).expect("JSON");
     assert_eq!(printed, desk.json("found/limit.json"));
     assert_eq!((&printed["towards"], &printed["certified"]), (&"left".into(), &true.into()));
-    // λ W h/2 = (W + Q) b/2 with W = 20 kN, Q = 10 kN.
+    // λ (W h/2 + Q h) = (W + Q) b/2 with W = 20 kN, Q = 10 kN and h = 2 b.
     let bounds = [0, 1].map(|k| printed["bounds"][k].as_f64().expect("a bound"));
-    assert!(bounds.iter().all(|b| (b - 0.75).abs() < 1e-7), "{bounds:?}");
+    assert!(bounds.iter().all(|b| (b - 0.375).abs() < 1e-7), "{bounds:?}");
     let pressed: f64 = printed["forces"].as_array().expect("forces").iter().filter_map(|f| f["normal"].as_f64()).sum();
     assert!((pressed - 30e3).abs() < 1e-3, "{pressed} N on the base");
 }

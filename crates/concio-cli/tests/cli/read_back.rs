@@ -184,5 +184,8 @@ fn an_export_leaves_no_table_of_another_run() {
     let names = fs::read_dir(desk.path("o/csv")).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<String> = names.collect();
     names.sort();
-    assert_eq!(names, ["block_envelopes.csv", "blocks.csv", "histories.csv", "joint_envelopes.csv", "joints.csv"]);
+    assert_eq!(
+        names,
+        ["block_envelopes.csv", "blocks.csv", "drift.csv", "histories.csv", "joint_envelopes.csv", "joints.csv"]
+    );
 }

@@ -6,7 +6,7 @@ use crate::support::{Desk, WALL};
 
 /// The wall of the desk, shaken for a moment.
 fn shaken() -> String {
-    let free = WALL.replace("beam = \"driven\"", "beam = { mass = \"400 kg\" }");
+    let free = WALL.replace("beam = \"driven\"", "beam = { mass = \"499 kg\" }");
     let (head, _) = free.split_once("top = { sine").expect("the motion");
     format!("{head}base = {{ pulse = {{ shape = \"one-sine\", acceleration = \"0.6 g\", duration = \"40 ms\" }} }}\n")
 }
