@@ -4,7 +4,7 @@
 //! the file of that name for the commands that follow. In a block marked `console` every line `$ concio …` is run in a
 //! folder of the document's own and has to end with status 0, or with another one in a block marked `console fails`; the
 //! lines below it have to come in the output, in this order. `…` stands for what is
-//! left out: whole lines, or a part of one. Numbers that `concio run` prints are compared with a tolerance, because stick-slip
+//! left out: whole lines, or a part of one; but warnings are shown. Numbers that `concio run` prints are compared with a tolerance, because stick-slip
 //! amplifies the last digit of a machine's exponential.
 
 use std::fs;
@@ -115,9 +115,20 @@ fn session(root: &Path, desk: &Path, text: &str, fails: bool) -> Result<usize, S
         let tolerance = if arguments.starts_with("run") { RUN_TOLERANCE } else { 0.0 };
         missing(&said, quoted, tolerance)
             .map_err(|lost| format!("`{line}` does not print `{lost}` (or not at this place), but:\n{said}"))?;
+        if let Some(untold) = untold(&said, quoted) {
+            return Err(format!("`{line}` warns, and the page does not show it: {untold}"));
+        }
         count += 1;
     }
     Ok(count)
+}
+
+/// The first warning that the page does not quote, be it cut short: whoever types the command would not know what to make of it.
+fn untold<'a>(said: &'a str, quoted: &str) -> Option<&'a str> {
+    let told: Vec<&str> = quoted.lines().map(str::trim).filter_map(|l| l.strip_prefix("warning:")).collect();
+    let starts =
+        |line: &str| told.iter().any(|t| line["warning:".len()..].starts_with(t.split('…').next().unwrap_or(t)));
+    said.lines().map(str::trim).find(|line| line.starts_with("warning:") && !starts(line))
 }
 
 /// A command that is ended by a signal has no status and is never expected.
@@ -145,7 +156,7 @@ fn alike(line: &str, quote: &str, tolerance: f64) -> bool {
 }
 
 fn same_word(a: &str, b: &str, tolerance: f64) -> bool {
-    let number = |word: &str| word.trim_end_matches(',').parse::<f64>().ok();
+    let number = |word: &str| word.trim_end_matches([',', ':']).replace('−', "-").parse::<f64>().ok();
     match (number(a), number(b)) {
         (Some(x), Some(y)) if tolerance > 0.0 => (x - y).abs() <= tolerance * x.abs().max(y.abs()),
         _ => a == b,
@@ -190,6 +201,15 @@ mod tests {
         assert!(!expected(Some(1), false) && !expected(Some(0), true));
         assert!(!expected(None, false) && !expected(None, true));
         assert_eq!(blocks("```console fails\n$ x\n```\n")[0].language, "console fails");
+    }
+
+    #[test]
+    fn warnings_have_to_be_shown() {
+        let said = "warning: one of 3 m\nelse\n";
+        assert_eq!(untold(said, "…\nelse\n"), Some("warning: one of 3 m"));
+        assert_eq!(untold(said, "warning: two\n"), Some("warning: one of 3 m"));
+        assert_eq!(untold(said, "warning: one …\nelse\n"), None);
+        assert_eq!(untold("else\n", ""), None);
     }
 
     #[test]
