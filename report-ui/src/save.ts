@@ -28,7 +28,9 @@ function written(value: number, single: boolean): string {
     return Number.isFinite(value) ? String((single ? Number(value.toPrecision(8)) : value) + 0) : "";
 }
 
-function quoted(text: string): string {
+function quoted(name: string): string {
+    // Spreadsheets would take such a name for a formula.
+    const text = /^[=+\-@\t\r]/.test(name) ? `'${name}` : name;
     return /[",\r\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
 }
 

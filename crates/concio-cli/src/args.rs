@@ -158,7 +158,7 @@ pub struct Schema {}
 /// in ASCII and CSV, GeoNet V1A and V2A, text of Turkey's NSMN and of Taiwan's CWB, UNAM ASA, uncorrected Volume 1 (RENADIC, USC, CSMIP,
 /// BHRC), or text: columns, after a time column or with --dt, or one component row by row. Prints peak acceleration, velocity and
 /// displacement, Arias intensity, significant duration and Housner intensity of the record as it is: no baseline is taken off,
-/// nothing is filtered. Only the offset of K-NET and KiK-net is taken off, as the archive does before it tells a peak.
+/// nothing is filtered. Only the offset of K-NET and KiK-net is taken off, as the archive does before it states the peak.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -503,8 +503,8 @@ pub struct Cases {
 ///
 /// Prints which keys of their wall files differ, the numbers of both with difference and ratio, and what either warns of. Writes
 /// report.html with these and histories over each other (base acceleration, top displacement, base shear, loop, energies), the
-/// figures as SVG and PDF, and compare.json into the folder. Both runs have ended and are of one model; what the second has more
-/// than the first is a positive difference.
+/// figures as SVG and PDF, and compare.json into the folder. Both runs have ended and are of one model. The difference is
+/// B − A, the ratio B / A.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 #[command(after_help = "\

@@ -36,7 +36,7 @@ fn misused() -> clap::Error {
     match args::Cli::try_parse_from(&arguments) {
         Err(error) => suggesting(error, arguments.get(1..).unwrap_or_default()),
         Ok(_) => {
-            let what = "an argument is no text, or holds characters that cannot be shown";
+            let what = "an argument is not valid UTF-8, or holds characters that cannot be shown";
             args::Cli::command().error(ErrorKind::InvalidValue, what)
         }
     }

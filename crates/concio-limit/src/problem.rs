@@ -1,7 +1,7 @@
 //! From a wall file to blocks, contact points, friction and loads.
 
 use concio::assign::{self, JointLaw};
-use concio::case::{Beam, Case, FrictionLaw, JointKind, ModelKind, Motion, NormalForce};
+use concio::case::{Beam, Case, JointKind, ModelKind, Motion, NormalForce};
 use concio::model::{self, Model};
 use concio::planar;
 use concio::quantity::Time;
@@ -114,7 +114,7 @@ impl Problem {
         let sign = if options.towards == Towards::Right { 1.0 } else { -1.0 };
         Ok(Problem {
             joints: model.joint_names(),
-            friction: friction(&case, &model, &assembly, &sides, options.heads),
+            friction: friction(&case, &model, &assembly, &sides, options.heads)?,
             assembly,
             dead: dead.iter().map(|w| [0.0, -w]).collect(),
             live: live.iter().map(|w| [sign * w, 0.0]).collect(),
@@ -211,16 +211,16 @@ fn sides(case: &Case, model: &Model) -> Result<Vec<Sides>> {
     Ok(model.joints.iter().zip(&laws).map(of).collect())
 }
 
-fn friction(case: &Case, model: &Model, assembly: &Assembly, sides: &[Sides], heads: Heads) -> Vec<f64> {
+fn friction(case: &Case, model: &Model, assembly: &Assembly, sides: &[Sides], heads: Heads) -> Result<Vec<f64>> {
     let mut of_joint = vec![0.0; model.joints.len()];
     for rub in &model.rubs {
         of_joint[rub.joint as usize] = rub.law.static_;
     }
-    // What comes to touch rubs as the wall does, in a run too.
-    let common = if case.joint.friction.law == FrictionLaw::None { 0.0 } else { case.joint.friction.static_ };
+    // What comes to touch rubs as joints of its kind do, in a run too.
+    let laws = assign::resolve(case, &model.wall, &model.joints)?;
     for e in (0..sides.len()).filter(|e| sides[*e] == Sides::Touching) {
-        of_joint[e] = common;
+        of_joint[e] = laws[e].rubs().map_or(0.0, |law| law.static_);
     }
     let frictionless = |joint: usize| heads == Heads::Frictionless && model.joints[joint].kind.is_upright();
-    assembly.points.iter().map(|p| if frictionless(p.joint) { 0.0 } else { of_joint[p.joint] }).collect()
+    Ok(assembly.points.iter().map(|p| if frictionless(p.joint) { 0.0 } else { of_joint[p.joint] }).collect())
 }

@@ -44,10 +44,7 @@ impl Warned {
     pub fn add(&mut self, name: impl Fn() -> String, warnings: &[Warning]) {
         self.of += 1;
         self.runs += usize::from(!warnings.is_empty());
-        let mut kinds: Vec<WarningKind> = warnings.iter().map(|w| w.kind).collect();
-        kinds.sort_unstable();
-        kinds.dedup();
-        for kind in kinds {
+        for kind in kinds_of(warnings) {
             *self.kinds.entry(kind).or_default() += 1;
         }
         let mut counted: Vec<usize> = Vec::new();
@@ -74,11 +71,13 @@ impl Warned {
 
     /// The sentences that another list does not have.
     pub fn sentences(&self, but: &Warned) -> Vec<Sentence> {
-        self.told
-            .iter()
-            .filter(|t| !but.told.iter().any(|o| o.is_like(&t.first)))
-            .map(|t| t.sentence(self.of))
-            .collect()
+        self.sentences_of(but, self.of, self.of)
+    }
+
+    /// The same where `looked` of `all` runs were looked at, of which not all could be made ready.
+    fn sentences_of(&self, but: &Warned, looked: usize, all: usize) -> Vec<Sentence> {
+        let new = |told: &&Told| !but.told.iter().any(|o| o.is_like(&told.first));
+        self.told.iter().filter(new).map(|told| told.sentence(looked, all)).collect()
     }
 }
 
@@ -105,14 +104,19 @@ impl Told {
         self.first.kind == other.kind && alike(&self.first.text, &other.text)
     }
 
-    /// The warning, with the number of its runs, of `of`.
-    fn sentence(&self, all: usize) -> Sentence {
+    /// The warning, with the number of its runs, of `looked` that were looked at of `all`.
+    fn sentence(&self, looked: usize, all: usize) -> Sentence {
         let Told { first, name, runs, same } = self;
-        let of = match (*runs == all, same, runs) {
-            (true, true, _) => "in every run: ".into(),
-            (true, false, _) => format!("in every run, such as {name}: "),
-            (false, _, 1) => format!("in 1 of {all} runs, {name}: "),
-            (false, ..) => format!("in {runs} of {all} runs, such as {name}: "),
+        let which = match (*runs == all, looked < all) {
+            (true, _) => "in every run".into(),
+            (false, false) => format!("in {runs} of {all} runs"),
+            (false, true) if *runs == looked => format!("in all {looked} runs checked, of {all} in the study"),
+            (false, true) => format!("in {runs} of {looked} runs checked, of {all} in the study"),
+        };
+        let of = match (*runs, *same && *runs == looked) {
+            (_, true) => format!("{which}: "),
+            (1, _) => format!("{which}, {name}: "),
+            _ => format!("{which}, such as {name}: "),
         };
         Sentence { of, text: first.text.clone(), everywhere: *runs == all && *same }
     }
@@ -128,11 +132,16 @@ pub fn of_summary(summary: &Value) -> Vec<Warning> {
 
 /// The kinds of some warnings, each once, parted by blanks: a cell of a table; none where there are none.
 pub fn kinds(warnings: &[Warning]) -> Option<String> {
+    let names: Vec<&str> = kinds_of(warnings).into_iter().map(WarningKind::name).collect();
+    (!names.is_empty()).then(|| names.join(" "))
+}
+
+/// The same as they are, sorted.
+fn kinds_of(warnings: &[Warning]) -> Vec<WarningKind> {
     let mut kinds: Vec<WarningKind> = warnings.iter().map(|w| w.kind).collect();
     kinds.sort_unstable();
     kinds.dedup();
-    let names: Vec<&str> = kinds.into_iter().map(WarningKind::name).collect();
-    (!names.is_empty()).then(|| names.join(" "))
+    kinds
 }
 
 /// Whether two sentences differ by their numbers alone.
@@ -167,14 +176,7 @@ impl Before {
             everywhere: false,
         };
         let lost = self.lost.iter().map(lost);
-        let sampled = |mut told: Sentence| {
-            if looked < self.all {
-                told.of =
-                    told.of.replacen("in every run", &format!("in all of {looked} runs looked at, of {}", self.all), 1);
-            }
-            told
-        };
-        lost.chain(self.warned.sentences(&Warned::default()).into_iter().map(sampled)).collect()
+        lost.chain(self.warned.sentences_of(&Warned::default(), looked, self.all)).collect()
     }
 }
 

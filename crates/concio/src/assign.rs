@@ -189,9 +189,9 @@ fn bears(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Resul
         springs && law.device.is_none() && stiffness.amount() * stiffness_factor == 0.0
     };
     let Some(e) = laws.iter().position(weak) else { return Ok(()) };
-    let changes = |change: &JointChange| {
-        change.spring.is_some() && select(&change.at, wall, joints).is_ok_and(|chosen| chosen.contains(&e))
-    };
+    let choice = Choice { wall, joints, names: OnceCell::new() };
+    let changes =
+        |change: &JointChange| change.spring.is_some() && choice.of(&change.at).is_ok_and(|chosen| chosen.contains(&e));
     let key = match case.joint.changes.iter().rposition(changes) {
         Some(number) => format!("joint.change[{number}].spring"),
         None => format!("joint.{}", given_at(&case.joint, joints[e].kind)),

@@ -4,7 +4,7 @@
 use crate::G;
 use crate::assign::{JointLaw, friction_choice, resolve};
 use crate::bond::{self, Bonded};
-use crate::case::{Beam, Case, DeviceLaw, ModelKind, Signal, SpringLaw};
+use crate::case::{Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, Signal, SpringLaw, plausible};
 use crate::device::{self, Device, Nonlinear};
 use crate::drift::{self, Tops};
 use crate::error::{InputError, Result};
@@ -12,6 +12,7 @@ use crate::excitation::Excitation;
 use crate::graph;
 use crate::law::Stribeck;
 use crate::planar::{self, Planar};
+use crate::quantity::Length;
 use crate::wall::{Block, End, Joint, Wall};
 use crate::warning::{Warning, WarningKind};
 
@@ -222,6 +223,8 @@ impl Model {
         let mut warnings = warnings(case, &wall, rubs.len(), if turns { 0 } else { idle }, reciprocal);
         let massless = massless(case, top_load, &mass[..wall.blocks.len()]);
         warnings.extend(massless.map(|text| Warning::new(WarningKind::MasslessLoad, text)));
+        let wide = wide_joint(case, &wall, &joints, &laws);
+        warnings.extend(wide.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
         let detached = planar::detached(case, &wall).into_iter();
         warnings.extend(detached.map(|text| Warning::new(WarningKind::DetachedTie, text)));
         let planar = turns.then(|| planar::compile(case, &wall, &joints, &laws)).transpose()?;
@@ -388,6 +391,37 @@ fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
     }
 }
 
+/// How much thicker than its mortar a bed joint of blocks given one by one is without a word, over the height of the brick: what drawings are
+/// rounded by.
+const THICKER: f64 = 5e-3;
+
+/// Says of blocks given one by one that they lie above what is under them without touching it, where the joint between them is taken for a closed one.
+fn wide_joint(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Option<String> {
+    let beyond = |e: usize| {
+        let (joint, law) = (&joints[e], &laws[e]);
+        let from = match (joint.kind, joint.b) {
+            (JointKind::Bed, End::Block(b)) => wall.blocks[b].y[0] - wall.blocks[joint.a].y[1],
+            (JointKind::Base, _) => wall.blocks[joint.a].y[0],
+            _ => return None,
+        };
+        let number = wall.blocks[joint.a].panel;
+        let (panel, explicit) = (&wall.panels[number], case.panels[number].bond == Bond::Explicit);
+        let beyond = from - panel.mortar[0];
+        let told = explicit && !law.is_open() && beyond > panel.mortar[0] + THICKER * panel.reference_height;
+        told.then_some((from, panel.mortar[0], joint))
+    };
+    let all: Vec<(f64, f64, &Joint)> = (0..joints.len()).filter_map(beyond).collect();
+    let (from, mortar, joint) = all.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let others = if all.len() > 1 { format!(", and {} more are like it", all.len() - 1) } else { String::new() };
+    Some(format!(
+        "joint {} is {} thick, its mortar {}{others}: it bears all the same, as if it were filled. If there is air in it, give it the law `none` \
+         (joint.change); else look at `y` of the block above it",
+        graph::name(wall, joint),
+        Length::from_si(*from),
+        Length::from_si(*mortar),
+    ))
+}
+
 /// Says what becomes of a panel whose top does not reach the beam's bed joint.
 fn under_beam(wall: &Wall, panel: usize) -> Option<String> {
     let (gap, info) = (graph::below_beam(wall, panel), &wall.panels[panel]);
@@ -424,10 +458,12 @@ fn massless(case: &Case, top_load: f64, blocks: &[f64]) -> Option<String> {
     let beside = if case.load.beam == Beam::Free { 0.0 } else { has };
     (shaken && missing > LACKING * (of_blocks + beside)).then(|| {
         format!(
-            "load.top brings {:.2} kN to the wall, {:.0} kg in all, and {has:.0} kg have mass: the ground does not shake the {missing:.0} kg that \
-             are missing, so forces and displacements come out too small; {remedy}",
-            1e-3 * top_load,
-            top_load / G
+            "load.top weighs {} kN ({} kg), but only {} kg of it move with the wall. The ground does not shake the other {} kg, so forces and \
+             displacements come out too small; {remedy}",
+            plausible::rounded(1e-3 * top_load, 4),
+            plausible::rounded(top_load / G, 4),
+            plausible::rounded(has, 4),
+            plausible::rounded(missing, 4)
         )
     })
 }

@@ -53,7 +53,7 @@ impl Outcome {
 }
 
 impl DriftRow {
-    /// A displacement of the top as a drift [1].
+    /// A displacement of the top as a drift, a pure number.
     pub fn ratio(&self, displacement: f64) -> f64 {
         if self.height > 0.0 { displacement / self.height } else { 0.0 }
     }

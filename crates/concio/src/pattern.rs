@@ -150,9 +150,10 @@ fn laid(case: &Case, found: &mut Found) -> Wall {
 }
 
 fn add(found: &mut Found, error: crate::Error) {
-    if let crate::Error::Input(error) = error {
-        found.add(*error);
-    }
+    found.add(match error {
+        crate::Error::Input(error) => *error,
+        other => InputError::new(other.to_string()),
+    });
 }
 
 /// The openings of a wall that can be laid as they come to lie, panel by panel in the order of the file.

@@ -196,7 +196,8 @@ pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointL
             End::Top => (Some(joint.a), n),
         };
         match law.is_open() {
-            true => Link { a, b, law: other, apart: apart(wall, joint) },
+            // Sides that come to touch rub as joints of their kind do.
+            true => Link { a, b, law: Law::dry(law.rubs().map(friction)), apart: apart(wall, joint) },
             false => Link::closed(a, b, compile_law(case, wall, joint, law)),
         }
     };

@@ -154,8 +154,11 @@ const DIGITS: usize = 12;
 /// A number as a message shows it: without the digits that rounding leaves behind, with an exponent where zeros would have to be
 /// counted.
 pub fn shown(v: f64) -> String {
-    if v == 0.0 || !v.is_finite() {
-        return v.abs().to_string();
+    if v == 0.0 {
+        return "0".into();
+    }
+    if !v.is_finite() {
+        return v.to_string();
     }
     let v: f64 = format!("{v:.*e}", DIGITS - 1).parse().unwrap_or(v);
     if (1e-4..1e7).contains(&v.abs()) { v.to_string() } else { format!("{v:e}") }

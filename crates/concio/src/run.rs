@@ -291,8 +291,12 @@ fn open_journal<'p>(
 /// or opens its page. The result goes last: without it the others are nothing.
 fn remove_results_of_others(out: &Path, inputs_hash: &str) -> Result<()> {
     let result = out.join(RESULT);
-    if store::hdf5::inputs_hash(&result).as_deref() == Some(inputs_hash) {
-        return Ok(());
+    match store::hdf5::inputs_hash(&result) {
+        Some(own) if own == inputs_hash => return Ok(()),
+        Some(_) => {}
+        // What is beside no result of a run is not ours to take away.
+        None if !store::is_summary(&out.join(SUMMARY)) => return Ok(()),
+        None => {}
     }
     [REPORT, SUMMARY].iter().try_for_each(|name| files::remove_if_there(&out.join(name)))?;
     files::remove_if_there(&result)

@@ -4,6 +4,7 @@ use concio::bond;
 use concio::case::{Beam, Case, DeviceLaw, JointKind, StopAt};
 use concio::device;
 use concio::model::Model;
+use concio::planar::Rest;
 use concio_study::shaking::{Mode, first_mode};
 
 mod openings;
@@ -40,10 +41,16 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let samples = (duration / prepared.sampling.interval).floor() as u64 + 1;
     let mut general = vec![
         ("unknowns", (model.unknowns() * if model.planar.is_some() { 3 } else { 1 }).to_string()),
-        ("mass", mass(total(model))),
+        ("mass", masses(model)),
     ];
     if model.wall.blocks.len() <= TRIED {
-        general.extend(model.planar.as_ref().map(|own| ("under its loads", planar::rest(own, model.bonds.len()))));
+        if let Some(own) = &model.planar {
+            let rest = own.rest();
+            if rest == Rest::Falls {
+                planar::warn_of_fall(own);
+            }
+            general.push(("under its loads", planar::rest(rest, model.bonds.len())));
+        }
         let mode = first_mode(model);
         let told = |m: Mode| {
             let damping = significant(100.0 * m.damping, 3);
@@ -199,6 +206,13 @@ fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
 }
 
 /// Mass of the blocks, and of a beam that has one [kg]: what a planar wall is led by has a body too.
+/// Of wall and beam, and that of a load that stands on the wall.
+fn masses(model: &Model) -> String {
+    let load = model.load_mass;
+    let of_load = if load > 0.0 { format!(", and {} of the load", mass(load)) } else { String::new() };
+    mass(total(model)) + &of_load
+}
+
 fn total(model: &Model) -> f64 {
     let of_beam = if let Beam::Mass(m) = model.beam { m.si() } else { 0.0 };
     model.wall.blocks.iter().map(|b| b.mass()).sum::<f64>() + of_beam

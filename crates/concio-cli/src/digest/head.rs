@@ -3,7 +3,6 @@
 use concio::drift::BEAM;
 use concio::outcome::{BondRow, Outcome};
 use concio::planar::{Collapsed, Failure};
-use concio::record::StopReason;
 use concio::store::JointRow;
 use serde_json::Value;
 
@@ -160,9 +159,9 @@ fn residual_drift(outcome: &Outcome) -> Answer {
     let name = "residual drift";
     let Some(row) = outcome.worst_drift() else { return Answer::new(name, "–", "") };
     if !row.residual.is_finite() {
-        let why = match outcome.stop_reason {
-            StopReason::Completed => "the wall collapsed",
-            _ => "the run stopped early",
+        let why = match outcome.totals.collapse {
+            Some(_) => "the wall collapsed",
+            None => "the run stopped early",
         };
         return Answer::new(name, "–", why);
     }

@@ -39,7 +39,7 @@ pub fn tell_passed_over(store: &Store, from: usize) -> usize {
         files::note(&format!("warning: {fault}; it does not count, and `concio study run` does its run again"));
     }
     if faults.len() > MOST_NAMED {
-        files::note(&format!("warning: so it is with {} more", faults.len() - MOST_NAMED));
+        files::note(&format!("warning: {} more lines or files do not count either", faults.len() - MOST_NAMED));
     }
     from + faults.len()
 }

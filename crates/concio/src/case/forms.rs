@@ -177,7 +177,7 @@ impl JsonSchema for StopAt {
         "StopAt".into()
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let about = "What ends a run before its motion does: a collapse, at once or some time after it.";
+        let about = "What ends a run before its motion does: the wall's collapse. `collapse` ends the run 2 s after it, a table after the time given.";
         word_or_table::<StopTable>(generator, about, &["collapse"])
     }
 }

@@ -302,7 +302,7 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
     let dry = joint.bond.is_none() && joint.bed.law != SpringLaw::Elastic && !changed;
     let rubs = joint.changes.iter().any(|change| change.friction.is_some());
     if dry && joint.friction.law == FrictionLaw::None && joint.friction.preset.is_none() && !rubs {
-        let text = "joint.friction is missing: dry joints of this planar wall slide at the least push; stones have a `static` of 0.4 to 0.8";
+        let text = "joint.friction is missing or of law `none`: dry joints of this planar wall slide at the least push; stones have a `static` of 0.4 to 0.8";
         doubts.add(WarningKind::UnlikelyJoint, text);
     }
     match &joint.bond {

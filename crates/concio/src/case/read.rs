@@ -334,13 +334,14 @@ fn follow(tree: &mut Cow<Node>) {
     if let Some(friction) = joint.get_mut("friction") {
         fill(friction, None);
     }
-    // Elsewhere, keys that a change does not give stay as they are.
-    if given {
-        return;
-    }
+    // Where one is given, keys that a change does not give stay as they are: it may be of the same joints.
+    let mut given = given;
     if let Some(Value::List(changes)) = joint.get_mut("change").map(|node| &mut node.value) {
         for friction in changes.iter_mut().filter_map(|change| change.get_mut("friction")) {
-            fill(friction, usual.as_deref());
+            given |= friction.has("dynamic");
+            if !given {
+                fill(friction, usual.as_deref());
+            }
         }
     }
 }

@@ -144,8 +144,8 @@ pub fn offset(record: &Record) -> Option<String> {
     (record.displacement.is_none() && mean.abs() > OFFSET * peak).then(|| {
         let [mean_g, without] = [mean.abs() / STANDARD_GRAVITY, m.pga_without_mean.value.abs()].map(|v| rounded(v, 3));
         format!(
-            "its acceleration stands on an offset, a mean of {} m/s² ({mean_g} g, {} % of its peak), which pushes one way throughout and is \
-             part of the peak of {} m/s² (without it {without} m/s²)",
+            "its acceleration has an offset: its mean is {} m/s² ({mean_g} g, {} % of its peak). It pushes one way all the time, and the peak \
+             of {} m/s² includes it ({without} m/s² without)",
             rounded(mean, 3),
             rounded(100.0 * mean.abs() / peak, 2),
             rounded(peak, 4),

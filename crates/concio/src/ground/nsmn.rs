@@ -27,7 +27,10 @@ pub(super) fn read(source: &Source) -> Result<Vec<Record>> {
     let data_line =
         data_line.ok_or_else(|| source.error_at(HEADER.min(source.lines.len()) - 1, "no samples follow the header"))?;
     let titles: Vec<&str> = source.line(data_line - 1).split_whitespace().collect();
-    let found = rows(source, data_line, titles.len().max(1), true, |line| Some(free_fields(line).collect()))?;
+    if titles.is_empty() {
+        return Err(source.error_at(data_line - 1, "no names of components stand above the samples").into());
+    }
+    let found = rows(source, data_line, titles.len(), true, |line| Some(free_fields(line).collect()))?;
     if found.lines.len() as u64 != declared {
         return Err(source.count_error(count_line, "NUMBER OF DATA", declared, found.lines.len()).into());
     }

@@ -237,6 +237,9 @@ pub fn parse(bytes: &[u8], path: &Path, options: &TextOptions) -> Result<Vec<Rec
         return of_text(&source, options);
     };
     let records = format.read(&source, options).map_err(|error| read_as(error, format))?;
+    if records.is_empty() {
+        return Err(read_as(source.error_at(0, "the file holds no component").into(), format));
+    }
     for record in &records {
         agree(&source, record, options)?;
     }

@@ -55,7 +55,7 @@ impl fmt::Display for Remark {
         match self {
             Remark::Offset { mean } => write!(
                 f,
-                "its samples stand on an offset of {} m/s² ({} gal), which is taken off, as the archive does before it tells a peak",
+                "its samples stand on an offset of {} m/s² ({} gal), which is taken off, as the archive does before it states the peak",
                 rounded(*mean, 4),
                 rounded(1e2 * mean, 4)
             ),
@@ -75,7 +75,7 @@ impl fmt::Display for Remark {
                 write!(f, "its time starts at {} s, which is t = 0 here", rounded(*time, 9))
             }
             Remark::Surplus { samples } => {
-                write!(f, "it holds {samples} sample(s) more than its header declares, which are left away")
+                write!(f, "samples beyond those that its header declares are left out: {samples}")
             }
             Remark::UnitByCode { code } => {
                 write!(f, "its header names one unit in words and another by the code {code:02}: the code counts")

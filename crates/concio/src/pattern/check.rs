@@ -119,7 +119,7 @@ const UNEVEN: f64 = 0.1;
 
 /// Refuses blocks that lie higher above what is under them than mortar reaches, as by a wrong `y`.
 fn hangs(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<()> {
-    let over = |joint: &Joint| -> Option<(f64, usize)> {
+    let over = |joint: &Joint| -> Option<(f64, usize, bool)> {
         let (block, from) = match (joint.kind, joint.b) {
             (JointKind::Bed, End::Block(b)) => (b, wall.blocks[joint.a].y[1]),
             (JointKind::Base, _) => (joint.a, 0.0),
@@ -131,19 +131,27 @@ fn hangs(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<()> {
         let upright = wall.blocks[joint.a].is_rectangle() && wall.blocks[block].is_rectangle();
         let gap = wall.blocks[block].y[0] - from;
         let most = 2.0 * panel.mortar[0] + UNEVEN * panel.reference_height;
-        (explicit && (upright || joint.kind == JointKind::Base) && gap > most).then_some((gap, block))
+        (explicit && (upright || joint.kind == JointKind::Base)).then_some((gap, block, gap > most))
     };
-    let mut hanging: Vec<(f64, usize)> = joints.iter().filter_map(over).collect();
-    let Some(&(gap, lost)) = hanging.first() else { return Ok(()) };
-    hanging.sort_unstable_by_key(|found| found.1);
-    hanging.dedup_by_key(|found| found.1);
+    let mut over: Vec<(f64, usize, bool)> = joints.iter().filter_map(over).collect();
+    over.sort_by(|a, b| a.1.cmp(&b.1).then(a.0.total_cmp(&b.0)));
+    let of_block: Vec<&[(f64, usize, bool)]> =
+        over.chunk_by(|a, b| a.1 == b.1).filter(|of| of.iter().any(|g| g.2)).collect();
+    let hangs = |of: &&[(f64, usize, bool)]| of.iter().all(|(.., thick)| *thick);
+    // What hangs is told before what rests on one side alone.
+    let Some(first) = of_block.iter().find(|of| hangs(of)).or(of_block.first()) else { return Ok(()) };
+    let (gap, lost, _) = if hangs(first) { first[0] } else { first[first.len() - 1] };
     let block = &wall.blocks[lost];
     let under = if block.lowest_course() == 0 { "the base" } else { "what is under it" };
-    let others = match hanging.len() {
+    let others = match of_block.len() {
         1 => String::new(),
-        n => format!("; {} more hang too", n - 1),
+        n => format!("; {} more are like it", n - 1),
     };
-    let what = format!("block {} hangs in the air, {} above {under}{others}", block.name, Length::from_si(gap));
+    let gap = Length::from_si(gap);
+    let what = match hangs(first) {
+        true => format!("block {} hangs in the air, {gap} above {under}{others}", block.name),
+        false => format!("block {} rests on one block and lies {gap} above another of that course{others}", block.name),
+    };
     let bed = Length::from_si(wall.panels[block.panel].mortar[0]);
     let allowed =
         format!("a bottom edge on the base at y = 0 or on a block, with the mortar ({bed}) or less between them");

@@ -253,7 +253,7 @@ impl Frame {
         match courses {
             n if n >= least as f64 && n <= last as f64 => Ok((n as usize, self.beds[n as usize][0])),
             n => {
-                let what = format!("the edge over course {} is above the panel, which has {last}", tidy(n));
+                let what = format!("an edge above course {} lies outside the panel, which has {last} courses", tidy(n));
                 Err(InputError::new(what).allowed(format!("up to the panel's {last} courses")))
             }
         }

@@ -4,7 +4,7 @@ use crate::G;
 use crate::case::JointKind;
 use crate::case::plausible::rounded;
 use crate::graph;
-use crate::model::Model;
+use crate::model::{Model, Rub};
 use crate::outcome::Outcome;
 use crate::planar::Rest;
 use crate::store::{JointRow, residual_relative};
@@ -22,6 +22,10 @@ const LARGE_RESIDUAL: f64 = 1e-3;
 
 /// Base shear over what friction and bond bear up to which it is rounding.
 const BEYOND: f64 = 1.001;
+/// Force of a single spring over its friction from which it is told: a spring beside friction bears some as long as its joint hardly slides.
+const FAR_BEYOND: f64 = 2.0;
+const SPRUNG: &str = "the springs of unbonded joints go on bearing however far the joints slide. Forces and displacements are not those of masonry; use \
+                      `model = \"planar\"`, whose joints slide, or a [joint.bond], which breaks";
 /// What a run without inertia is to do about a large residual: some of it no step takes away.
 const STILL: &str = "lower solver.step; what lets go at once, as friction does that falls once a joint slides, needs inertia: leave \
                      motion.quasi_static out";
@@ -91,20 +95,17 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
     let (unsolved, steps) = (outcome.counters.unsolved, outcome.counters.steps);
     (unsolved as f64 > UNSOLVED * steps as f64).then(|| {
         format!(
-            "the contact of {unsolved} of {steps} steps was left unsolved: blocks may overlap there, and forces \
-             be off, by {:.1e} m/s at most; where all joints are rigid, give them a stiffness, else lower solver.step",
+            "the contact of {unsolved} of {steps} steps was left unsolved: blocks may overlap and forces may be wrong there; contact velocities \
+             are off by up to {:.1e} m/s; where all joints are rigid, give them a stiffness, else lower solver.step",
             outcome.totals.contact_residual
         )
     })
 }
 
-/// What springs in no need of friction bear beyond it. Joints of planar walls that slide, and bonded ones, bear no more than they can.
+/// What springs and dashpots in no need of friction bear beyond it. Joints of planar walls that slide, and bonded ones, bear no more than they can.
 fn beyond_friction(model: &Model, outcome: &Outcome) -> Option<String> {
     let base = |e: &usize| model.joints[*e].kind == JointKind::Base;
     let joints: Vec<usize> = (0..model.joints.len()).filter(base).collect();
-    if joints.iter().any(|&e| model.device_of_joint()[e].is_some()) {
-        return None;
-    }
     if let Some(planar) = &model.planar {
         let slides = |e: &usize| {
             let law = &planar.system.links[*e].law;
@@ -114,9 +115,12 @@ fn beyond_friction(model: &Model, outcome: &Outcome) -> Option<String> {
             return None;
         }
     }
+    if joints.iter().any(|&e| model.device_of_joint()[e].is_some()) {
+        return beyond_own_friction(model, outcome);
+    }
     let (rubs, bonds) = (model.rub_of_joint(), model.bond_of_joint());
     let bears = |&e: &usize| {
-        let friction = rubs[e].map_or(0.0, |r| model.rubs[r].law.static_ * model.rubs[r].normal[0]);
+        let friction = rubs[e].map_or(0.0, |r| most_friction(model, r, outcome.envelopes.joint_velocity[e]));
         let bond = bonds[e].map_or(0.0, |b| model.bonds[b].law.strength);
         [friction, bond]
     };
@@ -125,18 +129,53 @@ fn beyond_friction(model: &Model, outcome: &Outcome) -> Option<String> {
     let bare = friction + bond == 0.0;
     let borne = if bare { model.base_load() } else { joints.iter().map(bears).map(|[f, b]| f.max(b)).sum() };
     let shear = outcome.totals.base_shear_peak;
-    (shear > BEYOND * borne).then(|| {
-        let [shear, borne] = [shear, borne].map(|force| format!("{:.2} kN", 1e-3 * force));
-        let bears = match (bare, bond > 0.0) {
-            (true, _) => format!("the vertical force of {borne}, of which friction can bear a part"),
-            (false, false) => format!("the {borne} that friction can bear (μ_s N)"),
-            (false, true) => format!("the {borne} that bond and friction can bear (c A + N tan φ, or μ_s N)"),
-        };
-        format!(
-            "the largest base shear, {shear}, is above {bears}: the springs of unbonded joints go on bearing however far the joints slide. Forces \
-             and displacements are not those of masonry; use `model = \"planar\"`, whose joints slide, or a [joint.bond], which breaks"
-        )
+    if !(shear > BEYOND * borne) {
+        return beyond_own_friction(model, outcome);
+    }
+    let [shear, borne] = [shear, borne].map(|force| format!("{:.2} kN", 1e-3 * force));
+    let bears = match (bare, bond > 0.0) {
+        (true, _) => format!("the vertical force of {borne}, of which friction can bear a part"),
+        (false, false) => format!("the {borne} that friction can bear (μ_s N)"),
+        (false, true) => format!("the {borne} that bond and friction can bear (c A + N tan φ, or μ_s N)"),
+    };
+    let sprung = |e: &usize| bonds[*e].is_none() && model.elastic[*e].stiffness > 0.0;
+    Some(match joints.iter().any(sprung) {
+        true => format!("the largest base shear, {shear}, is above {bears}: {SPRUNG}"),
+        false => format!(
+            "the largest base shear, {shear}, is above {bears}: dashpots bear beside both, at any speed. See whether the result stays with \
+             joint.damping_ratio = 0, or use `model = \"planar\"`, whose dry joints have none"
+        ),
     })
+}
+
+/// Most that friction bears in a joint that slides as fast as `speed` [m/s], in N.
+fn most_friction(model: &Model, rub: usize, speed: f64) -> f64 {
+    let Rub { law, normal, .. } = &model.rubs[rub];
+    law.static_.max(law.dynamic + law.alpha * speed * speed) * normal[0]
+}
+
+/// The spring of an unbonded bed joint of a shear wall that bears far more than its friction can, where the sum over the base does not show it.
+fn beyond_own_friction(model: &Model, outcome: &Outcome) -> Option<String> {
+    if model.planar.is_some() {
+        return None;
+    }
+    let (rubs, bonds, devices) = (model.rub_of_joint(), model.bond_of_joint(), model.device_of_joint());
+    let free = |e: &usize| !model.joints[*e].kind.is_upright() && bonds[*e].is_none() && devices[*e].is_none();
+    let over = |e: usize| {
+        let rub = rubs[e]?;
+        let [force, friction] =
+            [outcome.envelopes.joint_force[e], most_friction(model, rub, outcome.envelopes.joint_velocity[e])];
+        (force > FAR_BEYOND * friction).then_some((force, friction, e))
+    };
+    let all: Vec<(f64, f64, usize)> = (0..model.joints.len()).filter(free).filter_map(over).collect();
+    let (force, friction, e) = all.iter().max_by(|a, b| (a.0 / a.1).total_cmp(&(b.0 / b.1)))?;
+    let others = if all.len() > 1 { format!(", and {} more are like it", all.len() - 1) } else { String::new() };
+    Some(format!(
+        "the spring of joint {} bears up to {:.2} kN, above the {:.2} kN of its friction (μ_s N){others}: {SPRUNG}",
+        graph::name(&model.wall, &model.joints[*e]),
+        1e-3 * force,
+        1e-3 * friction,
+    ))
 }
 
 /// A wall that fell is no result of the forces that it bore before.
@@ -146,8 +185,8 @@ fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
     // Asked only of walls that fall: to settle takes a while.
     let alone = model.planar.as_ref().is_some_and(|planar| planar.rest() == Rest::Falls);
     let alone = if alone { "the wall does not stand under its own loads, whatever the motion: " } else { "" };
-    let what = "peaks and slips are those of the time before, cracks and energies those of the whole run; another step \
-                moves time and block";
+    let what = "peaks and slips are those of the time before, cracks and energies those of the whole run; with another step \
+                time and block may differ";
     Some(format!("{alone}the wall counts as collapsed from t = {time:.4} s on, when block {name} {did}: {what}"))
 }
 
@@ -158,8 +197,8 @@ fn moves_on(model: &Model, outcome: &Outcome) -> Option<String> {
     let (kinetic, work) = (outcome.energies.kinetic, outcome.totals.peak_input.max(outcome.energies.initial.abs()));
     (kinetic > UNDER_WAY * work && kinetic > NOTHING * weight).then(|| {
         format!(
-            "the run ends while the wall is under way: {:.0} % of the largest work is motion then. Whether it comes to rest or falls, \
-             and how it fails, a longer motion.duration tells",
+            "the wall is still moving when the run ends: {:.0} % of the largest work is kinetic energy. A longer motion.duration shows whether \
+             it comes to rest or falls",
             100.0 * kinetic / work
         )
     })
@@ -177,8 +216,8 @@ fn unresolved(model: &Model, outcome: &Outcome) -> Option<String> {
     let resolving = planar.resolving_step();
     let what = if planar.step > resolving {
         format!(
-            "peaks come out too small by a part of it. A solver.step of {} ms resolves joints that ring; all longer ones take as much, so \
-             that half of it tells nothing. A damping_ratio of joints makes it matter less",
+            "peaks come out too small by a part of it. A solver.step of {} ms resolves joints that ring. Any longer step takes as much, so \
+             halving the present step shows nothing. A damping_ratio of joints makes it matter less",
             cut(1e3 * resolving)
         )
     } else {

@@ -9,7 +9,7 @@
 //! A digest beside the file would be lost with the first copy of it, and one inside, as an attribute, would have to leave out
 //! its own place. An object in JSON holds that of all its other keys under `digest`.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
@@ -50,6 +50,9 @@ pub fn noted(path: &Path) -> Result<Option<String>> {
 /// [`Error::Store`] when the file is not what it was when it was written, [`Error::Io`] when it cannot be read.
 pub fn check(path: &Path) -> Result<Option<String>> {
     let io = |e| Error::io(path, e);
+    if !fs::metadata(path).map_err(io)?.is_file() {
+        return Err(Error::Store { path: path.to_path_buf(), what: "it is no file".into() });
+    }
     let mut file = File::open(path).map_err(io)?;
     let Some(noted) = noted_in(&mut file).map_err(io)? else { return Ok(None) };
     let before = file.metadata().map_err(io)?.len() - LINE as u64;

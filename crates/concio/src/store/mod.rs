@@ -21,7 +21,9 @@ use crate::outcome::{BondRow, Outcome};
 use crate::wall::{Joint, Wall};
 
 pub use journal::{Journal, JournalHeader};
-pub use summary::{Moving, RunFacts, read_summary, residual_relative, summary, top_force_rms, write_summary};
+pub use summary::{
+    Moving, RunFacts, is_summary, read_summary, residual_relative, summary, top_force_rms, write_summary,
+};
 
 /// Version of the layout of result files; raised when a reader of the former version would misread a file.
 pub const SCHEMA_VERSION: u32 = 8;

@@ -1,13 +1,12 @@
 //! `summary.json`: the numbers of a run that other programs read.
 
-use std::fs;
 use std::path::Path;
 
 use serde_json::{Value, json};
 
 use crate::case::JointKind;
 use crate::error::{Error, Result};
-use crate::files;
+use crate::files::{self, LARGEST_INPUT, read_input};
 use crate::outcome::{Outcome, TieRow};
 use crate::planar;
 use crate::record::Energies;
@@ -124,9 +123,16 @@ pub fn write_summary(path: &Path, summary: &Value) -> Result<()> {
 /// [`Error::Store`] when it is no JSON, or not what was written; [`Error::Io`] when it cannot be read.
 pub fn read_summary(path: &Path) -> Result<Value> {
     let wrong = |what: String| Error::Store { path: path.to_path_buf(), what };
-    let bytes = fs::read(path).map_err(|e| Error::io(path, e))?;
+    let bytes = read_input(path, LARGEST_INPUT).map_err(|e| wrong(e.to_string()))?;
     let summary: Value = serde_json::from_slice(&bytes).map_err(|e| wrong(format!("it is no JSON: {e}")))?;
     digest::opened(summary).ok_or_else(|| wrong(digest::CHANGED.into()))
+}
+
+/// Whether a file is the summary of a run, whole or damaged.
+pub fn is_summary(path: &Path) -> bool {
+    let text = read_input(path, LARGEST_INPUT).ok();
+    let summary = text.and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
+    summary.is_some_and(|summary| summary.get("inputs_hash").is_some())
 }
 
 /// Largest residual of the energy account over the largest energy in play, the work done on the wall or what it had at

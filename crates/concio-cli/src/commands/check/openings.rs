@@ -64,7 +64,7 @@ fn notes(case: &Case, opening: &Laid) -> Vec<String> {
     let ragged = |(side, jamb): (&str, &Option<Jamb>)| {
         let Jamb { courses, short: ends, .. } = jamb.filter(|jamb| jamb.short > 0)?;
         Some(format!(
-            "{name}: in {ends} of {courses} courses its {side} side lies in a head joint, or leaves a rest no longer than the mortar, \
+            "{name}: in {ends} of {courses} courses its {side} side lies in a head joint, or would leave a rest no longer than the mortar, \
              which goes{by_bricks}"
         ))
     };

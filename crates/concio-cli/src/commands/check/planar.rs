@@ -9,6 +9,7 @@ use concio_planar::joint::{Law, Normal};
 use super::{KINDS, range};
 use crate::draw::wall::kind_name;
 use crate::failure::Failure;
+use crate::files;
 use crate::format::{plain, si, significant};
 
 /// What rigid joints settle by: rounding [m].
@@ -101,9 +102,20 @@ pub fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure
     Ok(rows)
 }
 
+/// Warns of a wall that does not stand.
+pub fn warn_of_fall(planar: &Planar) {
+    let open = planar.open.iter().filter(|open| **open).count();
+    let why = match open {
+        0 => String::new(),
+        1 => "; 1 of its joints is open (law `none`) and bears nothing".into(),
+        open => format!("; {open} of its joints are open (law `none`) and bear nothing"),
+    };
+    files::note(&format!("warning: the wall does not stand under its loads: it falls before anything moves{why}"));
+}
+
 /// Whether the wall stands before anything moves, and whole.
-pub fn rest(planar: &Planar, bonds: usize) -> String {
-    match planar.rest() {
+pub fn rest(rest: Rest, bonds: usize) -> String {
+    match rest {
         Rest::Stands { settled, cracked } => {
             let settled = match settled < ROUNDED {
                 true => String::new(),

@@ -38,16 +38,23 @@ impl Pair {
 }
 
 /// Numbers that summary.json has, by their place in it.
-const OF_SUMMARY: [(&str, &str, &str); 27] = [
+const OF_SUMMARY: [(&str, &str, &str); 34] = [
     ("time reached", "s", "/time_reached"),
+    ("peak drift", "", "/drift/peak"),
+    ("time of the peak drift", "s", "/drift/time"),
+    ("residual drift", "", "/drift/residual"),
+    ("largest slide over its overlap", "", "/slide/of_overlap"),
     ("peak displacement", "m", "/peak_relative_displacement"),
     ("peak slip velocity", "m/s", "/peak_slip_velocity"),
     ("least gap of a head joint", "m", "/minimum_gap"),
     ("collapse", "s", "/collapse/time"),
     ("first crack", "s", "/bonds/first_crack"),
+    ("acceleration of the base then", "m/s²", "/bonds/first_acceleration"),
     ("joints cracked", "", "/bonds/cracked"),
     ("joints broken", "", "/bonds/broken"),
     ("peak base shear", "N", "/base_shear_peak"),
+    ("time of the peak base shear", "s", "/base_shear_time"),
+    ("top displacement then", "m", "/base_shear_displacement"),
     ("peak force of the beam", "N", "/top_force_peak"),
     ("rms force of the beam", "N", "/top_force_rms"),
     ("energy at the start", "J", "/energy/initial"),

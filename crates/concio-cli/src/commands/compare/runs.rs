@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use concio::InputError;
 use concio::record::StopReason;
-use concio::store::StoredRun;
+use concio::run::SUMMARY;
+use concio::store::{StoredRun, read_summary};
 use concio_study::table::Table;
 use serde_json::{Value, json};
 
@@ -51,9 +52,8 @@ impl Side {
             let error = InputError::new(what).in_file(folder);
             return Err(error.help("`concio run` with the same wall file and --out goes on with it").into());
         }
-        let path = folder.join("summary.json");
-        let text = fs::read_to_string(&path).map_err(|e| unusable(&path, &e.to_string()))?;
-        let summary: Value = serde_json::from_str(&text).map_err(|e| unusable(&path, &e.to_string()))?;
+        let path = folder.join(SUMMARY);
+        let summary = read_summary(&path)?;
         let side = Side { folder: folder.to_path_buf(), run, summary };
         let hash = side.summary.get("inputs_hash").and_then(Value::as_str);
         let own = &side.run;

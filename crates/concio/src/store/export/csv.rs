@@ -204,7 +204,7 @@ fn drifts(table: &mut Table, run: &StoredRun) -> csv::Result<()> {
     heads(table, &fields::DRIFTS)?;
     table.end_row()?;
     for drift in &run.outcome.drifts {
-        table.cell(&drift.top)?;
+        table.text(&drift.top)?;
         numbers(table, &fields::DRIFTS, drift)?;
         table.end_row()?;
     }
