@@ -219,7 +219,7 @@ fn friction(case: &Case, model: &Model, assembly: &Assembly, sides: &[Sides], he
     // What comes to touch rubs as joints of its kind do, in a run too.
     let laws = assign::resolve(case, &model.wall, &model.joints)?;
     for e in (0..sides.len()).filter(|e| sides[*e] == Sides::Touching) {
-        of_joint[e] = laws[e].rubs().map_or(0.0, |law| law.static_);
+        of_joint[e] = laws[e].touching().map_or(0.0, |law| law.static_);
     }
     let frictionless = |joint: usize| heads == Heads::Frictionless && model.joints[joint].kind.is_upright();
     Ok(assembly.points.iter().map(|p| if frictionless(p.joint) { 0.0 } else { of_joint[p.joint] }).collect())

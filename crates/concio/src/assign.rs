@@ -32,6 +32,8 @@ pub struct JointLaw {
     parameters: Stribeck,
     /// Whether this joint is one of those that rub, by `friction.on` or by a change of its own.
     may_rub: bool,
+    /// Whether nothing is in it, in planar walls: it rubs where its sides come to touch.
+    empty: bool,
     /// Its bond, if it is one of those that have one; `on` has no meaning here.
     pub bond: Option<BondValues>,
     /// Number of the change that gives it a device in the place of all these.
@@ -90,6 +92,11 @@ impl JointLaw {
     /// The friction law, if the joint has one and is among those that rub: law `stribeck-stick` has an infinite β, law
     /// `coulomb` a slip velocity of 0 too.
     pub fn rubs(&self) -> Option<Stribeck> {
+        if self.empty { None } else { self.touching() }
+    }
+
+    /// The same of a joint in which there is nothing, once its sides have come to touch.
+    pub fn touching(&self) -> Option<Stribeck> {
         let law = self.parameters;
         match self.friction {
             _ if !self.may_rub || self.device.is_some() => None,
@@ -174,7 +181,7 @@ pub fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLa
     }
     if case.model == ModelKind::Planar {
         for law in laws.iter_mut().filter(|law| law.is_open()) {
-            (law.bond, law.friction) = (None, FrictionLaw::None);
+            (law.bond, law.empty) = (None, true);
         }
         bears(case, wall, joints, &laws)?;
     }
@@ -268,6 +275,7 @@ fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {
             || matches!(kind, JointKind::Bed | JointKind::Base | JointKind::Top),
         bond: settings.bond.as_ref().filter(|b| b.on.contains(&kind)).map(BondValues::of),
         device: None,
+        empty: false,
     }
 }
 

@@ -197,7 +197,7 @@ pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointL
         };
         match law.is_open() {
             // Sides that come to touch rub as joints of their kind do.
-            true => Link { a, b, law: Law::dry(law.rubs().map(friction)), apart: apart(wall, joint) },
+            true => Link { a, b, law: Law::dry(law.touching().map(friction)), apart: apart(wall, joint) },
             false => Link::closed(a, b, compile_law(case, wall, joint, law)),
         }
     };

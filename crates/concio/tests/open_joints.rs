@@ -194,3 +194,43 @@ fn springs_without_stiffness_are_refused() {
     let told = refused(&format!("{rigid}{change}"));
     assert!(told.contains("joint.change[0].spring") && told.contains("law = \"none\""), "{told}");
 }
+
+/// Three piers under a lintel, the middle one 45 mm short: nothing touches there, but blocks given one by one are joined over as much, so it is
+/// told. As a joint of law `none` it bears nothing; the outer ones bear half of the lintel each.
+#[test]
+fn a_thick_joint_is_told_and_bears_nothing_as_an_open_one() {
+    let block = |id: &str, course: usize, x: f64, y: f64, length: f64, height: f64| {
+        format!(
+            "[[panel.block]]\nid = \"{id}\"\ncourse = {course}\nx = {x}\ny = {y}\nlength = {length}\nheight = {height}\n"
+        )
+    };
+    let wall = |rest: &str| {
+        let blocks = [
+            block("a", 1, 0.0, 0.0, 0.3, 0.5),
+            block("b", 1, 1.0, 0.0, 0.3, 0.455),
+            block("c", 1, 2.0, 0.0, 0.3, 0.5),
+            block("lintel", 2, 0.0, 0.5, 2.3, 0.3),
+        ];
+        format!(
+            "model = \"planar\"\n[[panel]]\nbond = \"explicit\"\n\
+             brick = {{ length = 0.3, height = 0.5, thickness = 0.4, specific_weight = 20e3 }}\nmortar = {{ bed = 0, head = 0 }}\n\
+             {}[joint]\nbed = {{ law = \"rigid\" }}\nhead = {{ law = \"rigid\" }}\n\
+             friction = {{ law = \"coulomb\", static = 0.6 }}\n{rest}[motion]\nduration = 0.1\n",
+            blocks.concat()
+        )
+    };
+    let warned =
+        |prepared: &Prepared| -> Vec<String> { prepared.model.warnings.iter().map(|w| w.text.clone()).collect() };
+    let told = warned(&prepared(&wall("")));
+    assert!(told.len() == 1 && told[0].starts_with("joint b|lintel is 0.045 m thick, its mortar 0 m"), "{told:?}");
+    let (open, outcome) =
+        ran(&wall("[[joint.change]]\nat = { joints = [\"b|lintel\"] }\nspring = { law = \"none\" }\n"));
+    assert_eq!(warned(&open), Vec::<String>::new());
+    let pressure = |name: &str| {
+        let joint = open.model.joint_names().iter().position(|n| n == name).expect("a joint");
+        outcome.recording.frame_pressure[joint]
+    };
+    let lintel = 2.3 * 0.3 * 0.4 * 20e3;
+    assert_eq!(pressure("b|lintel"), 0.0);
+    ["a|lintel", "c|lintel"].map(|name| close(pressure(name), 0.5 * lintel, 1e-6));
+}

@@ -559,7 +559,7 @@ fn check_tells_openings() {
     let lengths = "x = 0.515\ny = 0.065\nwidth = 0.5\nheight = 0.2\nlintel = { height = 0.125, bearing = 0.1 }";
     let lines = said(lengths);
     assert!(lines.iter().any(|l| l.ends_with("cut left ragged by 5 mm")), "{lines:#?}");
-    let why = "p1o1: in 1 of 3 courses its left side lies in a head joint, or leaves a rest no longer than the mortar, which goes; widths in half bricks";
+    let why = "p1o1: in 1 of 3 courses its left side lies in a head joint, or would leave a rest no longer than the mortar, which is left out; widths in half bricks";
     assert!(lines.iter().any(|l| l.starts_with(why)), "{lines:#?}");
     let lines = said(&format!("snap = true\n{lengths}"));
     assert!(lines.iter().any(|l| l.ends_with("cut straight")), "{lines:#?}");

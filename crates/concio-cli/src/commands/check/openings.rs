@@ -65,7 +65,7 @@ fn notes(case: &Case, opening: &Laid) -> Vec<String> {
         let Jamb { courses, short: ends, .. } = jamb.filter(|jamb| jamb.short > 0)?;
         Some(format!(
             "{name}: in {ends} of {courses} courses its {side} side lies in a head joint, or would leave a rest no longer than the mortar, \
-             which goes{by_bricks}"
+             which is left out{by_bricks}"
         ))
     };
     let moved = |(what, by): &(&str, f64)| {
