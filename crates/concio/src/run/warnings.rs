@@ -23,7 +23,7 @@ const LARGE_RESIDUAL: f64 = 1e-3;
 /// Base shear over what friction and bond bear up to which it is rounding.
 const BEYOND: f64 = 1.001;
 /// Force of a single spring over its friction from which it is told: a spring beside friction bears some as long as its joint hardly slides.
-const FAR_BEYOND: f64 = 1.2;
+const FAR_BEYOND: f64 = 2.0;
 const SPRUNG: &str = "the springs of unbonded joints go on bearing however far the joints slide. Forces and displacements are not those of masonry; use \
                       `model = \"planar\"`, whose joints slide, or a [joint.bond], which breaks";
 /// What a run without inertia is to do about a large residual: some of it no step takes away.
@@ -425,7 +425,7 @@ friction = {{ law = "coulomb", static = 0.5 }}
 {bonds}
 [motion]
 duration = 0.5
-base = {{ sine = {{ acceleration = 12, frequency = 2 }} }}
+base = {{ sine = {{ acceleration = 20, frequency = 2 }} }}
 "#
             )
         };
