@@ -6,14 +6,14 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { assertShows, goTo, launch, open } from "./page.mjs";
 import { makeTurned, motion, touch } from "./turned.mjs";
-import { concio, desk, example, run } from "./truth.mjs";
+import { concio, desk, example, run, wall } from "./truth.mjs";
 
 const place = desk();
 let browser;
 let results;
 
 before(async () => {
-    const text = example("02-driven-top").replace('duration = "0.5 s"', 'duration = "0.2 s"');
+    const text = wall("xtask/walls/driven-top").replace('duration = "0.5 s"', 'duration = "0.2 s"');
     const from = run(place.folder, "shear", `${text}\n[output]\ninterval = "1 ms"\nframes = "2 ms"\n`);
     results = makeTurned(from, join(place.folder, "turned"));
     browser = await launch();
@@ -28,6 +28,7 @@ after(async () => {
 const corners = (page, block) => page.evaluate((name) => {
     const { store, stage } = window.concioReport;
     const { report, frame, magnify } = store;
+    document.querySelector(".stage canvas").scrollIntoView({ block: "center" });
     const i = report.contents.block_names.indexOf(name);
     const [u, v, turn] = ["displacement", "vertical", "rotation"].map((field) => report.frames.value(field, frame, i));
     const { x0, x1, y0, y1 } = report.block;
@@ -125,6 +126,7 @@ test("it plays with every quantity", async () => {
 const moved = (page, name, corners) => page.evaluate(([name, corners, centre]) => {
     const { store, stage } = window.concioReport;
     const { report, frame, magnify } = store;
+    document.querySelector(".stage canvas").scrollIntoView({ block: "center" });
     const i = report.contents.block_names.indexOf(name);
     const [u, v, turn] = ["displacement", "vertical", "rotation"].map((field) => report.frames.value(field, frame, i));
     const canvas = document.querySelector(".stage canvas").getBoundingClientRect();
@@ -146,7 +148,7 @@ function centreOf(corners) {
 }
 
 test("the voussoirs of an arch are drawn with their own corners, at rest and as they fall", async () => {
-    const from = run(place.folder, "arch", example("17-arch"));
+    const from = run(place.folder, "arch", example("17-arch").replace('duration = "3.2 s"', 'duration = "2.4 s"'));
     concio(from, "export", ".", "--csv");
     const rows = readFileSync(join(from, "csv", "corners.csv"), "utf8").trimEnd().split("\n").slice(1).map((line) => line.split(","));
     const { page, problems } = await open(browser, from);

@@ -8,7 +8,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { assertShows, goTo, launch, open, shown } from "./page.mjs";
-import { concio, desk, example, read, run } from "./truth.mjs";
+import { concio, desk, example, read, run, wall } from "./truth.mjs";
 
 /** Samples from frame to frame in the runs below. */
 const EVERY = 2;
@@ -19,8 +19,8 @@ let browser;
 const runs = {};
 
 before(async () => {
-    const driven = example("02-driven-top").replace('duration = "0.5 s"', 'duration = "0.3 s"');
-    const panels = example("04-two-panels").replace(/\[output\][^]*/, "").replace('duration = "1 s"', 'duration = "0.6 s"');
+    const driven = wall("xtask/walls/driven-top").replace('duration = "0.5 s"', 'duration = "0.3 s"');
+    const panels = example("studies/two-panels").replace(/\[output\][^]*/, "").replace('duration = "1 s"', 'duration = "0.6 s"');
     for (const [name, text] of Object.entries({ driven, panels })) {
         const results = run(place.folder, name, `${text}\n${KEEP_ALL}`);
         runs[name] = { results, truth: read(results) };
@@ -91,6 +91,7 @@ const locate = (page, owner, name) => page.evaluate(([owner, name]) => {
     const { store, stage } = window.concioReport;
     const { report } = store;
     const { view } = stage;
+    document.querySelector(".stage canvas").scrollIntoView({ block: "center" });
     const shift = (unknown) => (unknown < 0 ? 0 : report.frames.value("displacement", store.frame, unknown) * store.magnify * view.zoom);
     const area = document.querySelector(".stage canvas").getBoundingClientRect();
     const i = report.contents[`${owner}_names`].indexOf(name);
@@ -290,7 +291,9 @@ test("colours follow the choice, and the bar tells their range", async () => {
     const most = Math.max(...[...truth.peaks.joint.values()].map((j) => Number(j.slip)));
     await page.waitForFunction(() => document.querySelector(".colour-bar .what").textContent.startsWith("way slipped"));
     const high = await page.locator(".colour-bar .marks span").last().textContent();
-    assert.ok(Math.abs(shown(high, "m").value / most - 1) < 6e-3, `${high} for ${most}`);
+    // The bar ends at a round number.
+    const end = shown(high, "m").value / most;
+    assert.ok(end >= 0.999 && end < 2, `${high} for ${most}`);
     assert.deepEqual(problems, []);
 });
 
@@ -337,7 +340,7 @@ test("the wall is enlarged by keys, wheel and buttons, and drags; blocks are fou
 });
 
 test("nothing slipped: no scale, and the joint shown first is none of the slivers", async () => {
-    const still = example("01-first-wall").replace(/\[motion\][^]*/, "");
+    const still = wall("crates/concio/tests/data/shear-panel").replace(/\[motion\][^]*/, "");
     const motion = '[motion]\nduration = "0.2 s"\nbase = { pulse = { shape = "one-sine", acceleration = "0.01 g", duration = "0.1 s" } }\n';
     const results = run(place.folder, "still", `${still}${motion}${KEEP_ALL}`);
     const truth = read(results);
@@ -375,7 +378,9 @@ test("it is laid out anew for paper, and for the window again", async () => {
     const canvas = await page.locator(".stage canvas").boundingBox();
     assert.ok(canvas.width <= 703, `${canvas.width} px of wall`);
     await page.emulateMedia({ media: "screen" });
-    await page.waitForFunction((width) => document.querySelector(".uplot").getBoundingClientRect().width === width, before[0]);
+    // Plots that paper has brought out stand before it now.
+    const back = (width) => [...document.querySelectorAll(".uplot")].some((plot) => plot.getBoundingClientRect().width === width);
+    await page.waitForFunction(back, before[0]);
     await page.waitForFunction((width) => document.querySelector(".stage canvas").getBoundingClientRect().width === width, wide.width);
     assert.deepEqual(problems, []);
 });

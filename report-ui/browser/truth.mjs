@@ -27,7 +27,12 @@ export function run(folder, name, text) {
 }
 
 export function example(name) {
-    return readFileSync(join(ROOT, "examples", `${name}.toml`), "utf8");
+    return wall(`examples/${name}`);
+}
+
+/** A wall file of the project, by its place in it. */
+export function wall(place) {
+    return readFileSync(join(ROOT, `${place}.toml`), "utf8");
 }
 
 /** All that a run keeps: histories of every block and joint, and the peaks. */

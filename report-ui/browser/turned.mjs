@@ -6,6 +6,7 @@
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { deflateSync, inflateSync } from "node:zlib";
 
 /** How far block i has risen [m] and turned, in rad, when a run of so many frames is at one of them. */
 export function motion(frame, frames, i) {
@@ -22,10 +23,12 @@ export function touch(frame, frames, e) {
 /** Writes into the folder `to` the report in `from` with blocks that rise and turn. */
 export function makeTurned(from, to) {
     const page = readFileSync(join(from, "report.html"), "utf8");
-    const [, , text] = page.match(/(id="concio-contents">)(.*?)<\/script>/s);
-    const [, , digits] = page.match(/(id="concio-numbers">)(.*?)<\/script>/s);
-    const contents = JSON.parse(text);
-    const parts = [Buffer.from(digits.trim(), "base64")];
+    const [, , packed] = page.match(/(id="concio-data">)(.*?)<\/script>/s);
+    // The length of the table of contents, that table, and from the next multiple of 8 on the numbers.
+    const all = inflateSync(Buffer.from(packed.trim(), "base64"));
+    const end = 8 + Number(all.readBigUInt64LE(0));
+    const contents = JSON.parse(all.subarray(8, end).toString("utf8"));
+    const parts = [all.subarray(Math.ceil(end / 8) * 8)];
     let length = parts[0].length;
     const add = (name, type, values) => {
         const pad = (8 - (length % 8)) % 8;
@@ -37,15 +40,9 @@ export function makeTurned(from, to) {
     const frames = contents.arrays["frame/time"].count;
     const [blocks, joints] = [contents.block_names.length, contents.joint_names.length];
     const columns = blocks + (contents.beam.moves ? 1 : 0);
-    const quantum = 2 ** -38;
     for (const name of ["vertical", "rotation"]) {
-        const steps = Array.from({ length: frames * columns }, (_, k) => {
-            const [frame, i] = [Math.floor(k / columns), k % columns];
-            return i < blocks ? Math.round(motion(frame, frames, i)[name] / quantum) : 0;
-        });
-        add(`frame/${name}/quantum`, "f64", new Float64Array(frames).fill(quantum));
-        add(`frame/${name}/low`, "u32", Uint32Array.from(steps, (s) => ((s % 2 ** 32) + 2 ** 32) % 2 ** 32));
-        add(`frame/${name}/high`, "i8", Int8Array.from(steps, (s) => Math.floor(s / 2 ** 32)));
+        const value = (_, k) => (k % columns < blocks ? motion(Math.floor(k / columns), frames, k % columns)[name] : 0);
+        add(`frame/${name}`, "f64", Float64Array.from({ length: frames * columns }, value));
     }
     for (const name of ["slip", "opening", "pressure", "friction"]) {
         const value = (_, k) => touch(Math.floor(k / joints), frames, k % joints)[name];
@@ -53,10 +50,12 @@ export function makeTurned(from, to) {
     }
     contents.planar = true;
     mkdirSync(to, { recursive: true });
-    const bytes = Buffer.concat(parts).toString("base64");
-    const contentsText = JSON.stringify(contents).replaceAll("<", "\\u003c");
-    const made = page.replace(text, () => contentsText).replace(digits, () => bytes);
-    writeFileSync(join(to, "report.html"), made);
+    const text = Buffer.from(JSON.stringify(contents), "utf8");
+    const head = Buffer.alloc(8);
+    head.writeBigUInt64LE(BigInt(text.length));
+    const pad = Buffer.alloc((8 - (text.length % 8)) % 8);
+    const made = deflateSync(Buffer.concat([head, text, pad, ...parts])).toString("base64");
+    writeFileSync(join(to, "report.html"), page.replace(packed, () => made));
     return to;
 }
 
