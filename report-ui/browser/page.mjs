@@ -31,6 +31,10 @@ export async function open(browser, results, options = {}) {
     page.on("pageerror", (error) => problems.push(String(error)));
     page.on("request", (request) => request.url() === address || problems.push(`request for ${request.url()}`));
     await page.goto(address);
+    // The data are inflated after the page is there.
+    if (options.javaScriptEnabled !== false) {
+        await page.waitForFunction(() => window.concioReport !== undefined);
+    }
     return { page, problems };
 }
 
