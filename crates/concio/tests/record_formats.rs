@@ -93,7 +93,7 @@ fn csmip_blocks_that_are_promised_must_be_there() {
         assert!(error.to_string().contains("promises velocity and displacement"), "{error}");
     }
     let silent = whole.replace("ACCEL, VELOC AND DISPL DATA", "ACCEL DATA");
-    let accelerations = &silent[..silent.find("   16 POINTS OF VELOC").unwrap()];
+    let accelerations = &format!("{}/&\r\n", &silent[..silent.find("   16 POINTS OF VELOC").unwrap()]);
     assert_eq!(read_text(accelerations).unwrap()[0].npts(), 16);
     // Integers 64 and 66 are the counts: the 15th of the fourth line, the second of the fifth.
     let line = 25 + 3;
@@ -103,6 +103,55 @@ fn csmip_blocks_that_are_promised_must_be_there() {
         .map(|(k, text)| if k == line { format!("{}   16{}", &text[..75], &text[80..]) } else { text.into() })
         .collect();
     assert!(refused(&counted.join("\r\n"), &TextOptions::default()).to_string().contains("promises"));
+}
+
+/// Files whose channels end with a mark are cut behind every line and inside of every mark: refused, but for a cut behind a whole mark. That
+/// leaves a file of fewer channels, which is told where the header knows how many there were.
+#[test]
+fn files_with_marks_are_whole_or_refused() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/records");
+    let is_mark = |line: &str| line.starts_with("/&") || line.starts_with("End-of-data");
+    for (name, channels) in [
+        ("csmip.v2", 3),
+        ("csmip_2012.v1", 3),
+        ("csmip_2012.v2", 2),
+        ("csmip_usc.v2", 3),
+        ("cosmos.v1", 1),
+        ("cosmos.v2c", 1),
+        ("renadic.v1", 3),
+        ("bhrc.v1", 3),
+    ] {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap();
+        let (mut start, mut ends) = (0, Vec::new());
+        for line in text.split_inclusive('\n') {
+            let mark = line.trim_end().len();
+            let inside = if is_mark(line) { start..start + mark } else { start..start + 1 };
+            for cut in inside.filter(|cut| *cut > 0 && !is_mark(text[..*cut].trim_end().lines().last().unwrap())) {
+                assert!(read_text(&text[..cut]).is_err(), "{name} cut at {cut}");
+            }
+            // A mark of BHRC is whole with its second character.
+            for cut in (start + 1..start + mark).filter(|_| is_mark(line) && mark > 2) {
+                let cut_mark = text[start..cut].trim_end();
+                assert!(cut_mark == "/&" || read_text(&text[..cut]).is_err(), "{name} cut at {cut}: {cut_mark}");
+            }
+            start += line.len();
+            ends.extend(is_mark(line).then_some(start));
+        }
+        assert_eq!(ends.len(), channels, "{name}");
+        for (k, end) in ends.iter().enumerate() {
+            assert_eq!(read_text(&text[..*end]).unwrap().len(), k + 1, "{name}");
+        }
+    }
+    let cut = |name: &str, mark: &str| {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap();
+        let end = text.match_indices(mark).nth(1).map_or(text.len(), |(at, _)| at);
+        read_text(&text[..end]).unwrap()
+    };
+    for (name, mark) in [("geonet.v2a", "Corrected accelerogram"), ("geonet.v1a", "Uncorrected accelerogram")] {
+        let records = cut(name, mark);
+        assert_eq!(records.len(), 1, "{name}");
+        assert_eq!(records[0].remarks, [Remark::Fewer { recorded: 3, found: 1 }], "{name}");
+    }
 }
 
 /// Counts that no memory holds, where a format declares them, are counted and not believed.

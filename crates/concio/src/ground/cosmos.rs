@@ -8,9 +8,10 @@
 use crate::Result;
 use crate::case::HistoryQuantity;
 use crate::ground::record::{Format as FileFormat, Raw, Record, Remark, finish};
+use crate::ground::remark::tell_fewer;
 use crate::ground::source::{
-    CUT, Format, Source, after, count, fixed_block, fortran_format, not_a_number, number, refuse_more, unreadable,
-    words,
+    CUT, Format, Source, after, channels_of_recorder, count, fixed_block, fortran_format, not_a_number, number,
+    refuse_more, require_end_mark, unreadable, words,
 };
 use crate::ground::units;
 
@@ -42,6 +43,7 @@ pub(super) fn read(source: &Source) -> Result<Vec<Record>> {
         let error = source.error("the file announces no acceleration samples").key("acceleration pts");
         return Err(error.help("take the acceleration file of the same record").into());
     }
+    tell_fewer(&mut records, channels_of_recorder(source, HEADER));
     Ok(records)
 }
 
@@ -76,6 +78,7 @@ fn channel(source: &Source, start: usize, place: usize) -> Result<(Option<Record
         layout(line).ok_or_else(|| unreadable(source, index, "Format", "a Fortran format such as (8F10.3)"))?;
     let (values, end) = fixed_block(source, index + 1, declared, format, "acceleration pts")?;
     refuse_more(source, end, declared, "acceleration pts")?;
+    require_end_mark(source, end)?;
     if !lower.contains("acceleration pts") {
         return Ok((None, end));
     }

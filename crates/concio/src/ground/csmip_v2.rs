@@ -10,9 +10,10 @@
 
 use crate::Result;
 use crate::ground::record::{Format as FileFormat, Raw, Record, finish};
+use crate::ground::remark::tell_fewer;
 use crate::ground::source::{
-    CUT, Format, Source, after, count, fixed_block, fixed_fields, fortran_format, leading_number, refuse_cut_mark,
-    refuse_more, unreadable, words,
+    CUT, Format, Source, after, channels_of_recorder, count, fixed_block, fixed_fields, fortran_format, leading_number,
+    refuse_more, require_end_mark, unreadable, words,
 };
 
 const SAMPLES: Format = Format { per_line: 8, width: 10 };
@@ -34,10 +35,11 @@ pub(super) fn read(source: &Source) -> Result<Vec<Record>> {
     let (mut records, mut line) = (Vec::new(), 0);
     while let Some(start) = source.next_channel(line) {
         let (record, end) = channel(source, start, records.len() + 1)?;
-        refuse_cut_mark(source, end)?;
+        require_end_mark(source, end)?;
         records.push(record);
         line = end;
     }
+    tell_fewer(&mut records, channels_of_recorder(source, TEXT_LINES));
     Ok(records)
 }
 

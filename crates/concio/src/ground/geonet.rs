@@ -7,10 +7,13 @@
 
 use crate::Result;
 use crate::ground::record::{Format as FileFormat, Raw, Record, finish};
+use crate::ground::remark::tell_fewer;
 use crate::ground::source::{
     CUT, Format, Source, after, fixed_block, leading_number, refuse_more, unreadable, whole, words,
 };
 
+/// Components of an instrument, one file for all.
+const COMPONENTS: u64 = 3;
 const TEXT_LINES: usize = 16;
 const INTEGERS: Format = Format { per_line: 10, width: 8 };
 const INTEGER_LINES: usize = 4;
@@ -35,6 +38,7 @@ pub(super) fn read(source: &Source) -> Result<Vec<Record>> {
         records.push(record);
         line = end;
     }
+    tell_fewer(&mut records, Some(COMPONENTS));
     Ok(records)
 }
 

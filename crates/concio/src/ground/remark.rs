@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::case::plausible::rounded;
+use crate::ground::record::Record;
 
 /// What a reader did to a file or found in it that the samples do not show any more.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +39,20 @@ pub enum Remark {
         /// The code of COSMOS.
         code: u32,
     },
+    /// The file holds fewer channels than its instrument recorded: one of several was kept, or the file lost its end.
+    Fewer {
+        /// Channels of the instrument.
+        recorded: u64,
+        /// Channels in the file.
+        found: usize,
+    },
+}
+
+/// Tells of each channel of a file that there are fewer than its instrument recorded.
+pub(super) fn tell_fewer(records: &mut [Record], recorded: Option<u64>) {
+    let found = records.len();
+    let Some(recorded) = recorded.filter(|recorded| *recorded > found as u64) else { return };
+    records.iter_mut().for_each(|record| record.remarks.push(Remark::Fewer { recorded, found }));
 }
 
 impl Remark {
@@ -45,7 +60,7 @@ impl Remark {
     pub(super) fn is_doubtful(&self) -> bool {
         match self {
             Remark::UnitByCode { .. } | Remark::Surplus { .. } | Remark::Resampled { exact: false, .. } => true,
-            Remark::Offset { .. } | Remark::Start { .. } | Remark::Resampled { .. } => false,
+            Remark::Offset { .. } | Remark::Start { .. } | Remark::Resampled { .. } | Remark::Fewer { .. } => false,
         }
     }
 }
@@ -80,6 +95,10 @@ impl fmt::Display for Remark {
             Remark::UnitByCode { code } => {
                 write!(f, "its header names one unit in words and another by the code {code:02}: the code counts")
             }
+            Remark::Fewer { recorded, found } => write!(
+                f,
+                "its instrument recorded {recorded} channels, the file holds {found}: if you expect more, fetch it again"
+            ),
         }
     }
 }

@@ -7,6 +7,8 @@ use crate::{InputError, Result};
 
 /// The end of a file under DOS and CP/M, which fill the rest of it with the same, or with anything.
 const END_OF_FILE: char = '\u{1a}';
+/// What marks of an end of COSMOS end with.
+const QUANTITIES: [&str; 3] = ["acceleration", "velocity", "displacement"];
 /// Longest part of a header line that is looked at [bytes]: what follows is no header, and a file may be one line.
 const LONGEST_HEADER_LINE: usize = 1 << 14;
 
@@ -42,10 +44,9 @@ impl<'a> Source<'a> {
 
     /// The first line from `line` on that is neither blank nor the mark of an end of channel: where the next channel begins.
     pub fn next_channel(&self, line: usize) -> Option<usize> {
-        let is_end = |text: &str| text.starts_with("/&") || text.to_ascii_lowercase().starts_with("end-of-data");
         let starts = |text: &&str| {
             let text = header_part(text.trim_start());
-            !text.is_empty() && !is_end(text)
+            !text.is_empty() && !is_end_mark(text)
         };
         self.lines.iter().skip(line).position(starts).map(|k| line + k)
     }
@@ -247,14 +248,42 @@ pub(super) fn refuse_more(source: &Source, end: usize, declared: u64, key: &str)
     Err(error.key(key).into())
 }
 
-/// Refuses the mark of an end of channel that is not whole: `/&  ----------  END OF DATA FOR CHANNEL  1  ----------`, or `/&` alone.
-pub(super) fn refuse_cut_mark(source: &Source, line: usize) -> Result<()> {
-    let text = source.line(line).trim();
-    let Some(mark) = text.strip_prefix("/&").filter(|mark| !mark.is_empty()) else { return Ok(()) };
-    if mark.ends_with('-') && after(mark, "channel").is_some() {
+/// Refuses a channel whose samples end before line `end` and that its format's mark does not close, or not in full:
+/// `/&  ----------  END OF DATA FOR CHANNEL  1  ----------`, `/&` alone, `End-of-data for Chan  1 acceleration`.
+pub(super) fn require_end_mark(source: &Source, end: usize) -> Result<()> {
+    let line = (end..source.lines.len()).find(|line| !source.line(*line).trim().is_empty());
+    let text = line.map_or("", |line| header_part(source.line(line).trim()));
+    if !is_end_mark(text) {
+        let error = source.error_at(end.saturating_sub(1), "no mark of the end of the channel follows its samples");
+        return Err(error.allowed("`/&` or `End-of-data` behind every channel").help(CUT).into());
+    }
+    let is_whole = match text.strip_prefix("/&") {
+        Some("") => true,
+        // As many dashes behind the words as before them.
+        Some(rest) => {
+            let words = rest.trim().trim_start_matches('-');
+            let dashes = rest.trim().len() - words.len();
+            after(words, "channel").is_some_and(|rest| rest.len() - rest.trim_end_matches('-').len() >= dashes.max(1))
+        }
+        None => QUANTITIES.iter().any(|quantity| text.to_ascii_lowercase().ends_with(quantity)),
+    };
+    if is_whole {
         return Ok(());
     }
-    Err(source.error_at(line, format!("`{text}` is no whole mark of the end of a channel")).help(CUT).into())
+    let error = source.error_at(line.unwrap_or(end), format!("`{text}` is no whole mark of the end of a channel"));
+    Err(error.help(CUT).into())
+}
+
+fn is_end_mark(text: &str) -> bool {
+    text.starts_with("/&") || text.to_ascii_lowercase().starts_with("end-of-data")
+}
+
+/// Channels of the recorder as headers of this century tell them: `(3 Chns of  3 at Sta)` has the first of both.
+pub(super) fn channels_of_recorder(source: &Source, lines: usize) -> Option<u64> {
+    source.head(lines).find_map(|(_, line)| {
+        let end = line.to_ascii_lowercase().find(" chns of ")?;
+        line[..end].rsplit('(').next().and_then(count)
+    })
 }
 
 /// The header line of a `NAME : value` file whose name contains `key`, and its value.

@@ -12,9 +12,10 @@
 
 use crate::Result;
 use crate::ground::record::{Format as FileFormat, MOST_SAMPLES, Raw, Record, Remark, finish};
+use crate::ground::remark::tell_fewer;
 use crate::ground::source::{
-    CUT, Format, Source, after, fixed_block, fortran_format, free_fields, leading_number, not_a_number, number,
-    refuse_cut_mark, refuse_more, unreadable, whole, words,
+    CUT, Format, Source, after, channels_of_recorder, fixed_block, fortran_format, free_fields, leading_number,
+    not_a_number, number, refuse_more, require_end_mark, unreadable, whole, words,
 };
 
 /// Lines of text, of integers and of reals.
@@ -42,10 +43,14 @@ pub(super) fn read(source: &Source) -> Result<Vec<Record>> {
     let (mut records, mut line) = (Vec::new(), 0);
     while let Some(start) = source.next_channel(line) {
         let (record, end) = channel(source, start, records.len() + 1)?;
-        refuse_cut_mark(source, end)?;
+        // USC keeps one channel in a file, without a mark behind it.
+        if !source.line(start).trim_start().to_ascii_uppercase().starts_with("FILE") {
+            require_end_mark(source, end)?;
+        }
         records.push(record);
         line = end;
     }
+    tell_fewer(&mut records, channels_of_recorder(source, TEXT_LINES));
     Ok(records)
 }
 
