@@ -19,6 +19,7 @@ use concio_device as device;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{Contact, Linear, Status};
+use crate::crack::Part;
 
 /// Parts that the points of a joint stand for that may be crushed: where its middle is crushed decides what it bears, and three points do not tell.
 /// Gregory's rule to third order, which turns as a layer of springs does, as that of three points.
@@ -136,7 +137,7 @@ impl Friction {
     }
 }
 
-/// Bond of a joint by tension cut-off and Mohr and Coulomb, brittle or softening exponentially (B3).
+/// Bond of a joint by tension cut-off and Mohr and Coulomb, brittle or softening exponentially (P9).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bond {
     /// f_t A [N].
@@ -145,8 +146,8 @@ pub struct Bond {
     pub cohesion: f64,
     /// tan φ.
     pub tan_angle: f64,
-    /// δ_c of opening and of shear [m]; 0 where it is brittle.
-    pub decay: [f64; 2],
+    /// G_f A of opening and of shear [J]; 0 where it is brittle.
+    pub energy: [f64; 2],
     /// η: part of the shear stiffness that stays.
     pub residual: f64,
 }
@@ -157,8 +158,6 @@ const RINGING: f64 = 0.125;
 pub const RESOLVED: f64 = 2.18;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
-/// Part of its strength below which a softening bond counts as broken.
-const BROKEN: f64 = 1e-3;
 
 impl Law {
     /// Dry and rigid, plastic in impacts.
@@ -195,28 +194,68 @@ impl Law {
         }
     }
 
-    /// Springs at a point whose bond is damaged by `damage`: in both directions, and in compression only.
-    fn springs(&self, damage: f64) -> (f64, f64) {
-        match self.normal {
-            Normal::Rigid { .. } => (0.0, 0.0),
-            Normal::Springs { both, press, .. } => (both * (1.0 - damage), press + both * damage),
+    /// What a part of a bonded joint bears, the whole of it being such a part.
+    pub(crate) fn part(&self, part: Part) -> Law {
+        let Law { normal, shear, bond, .. } = *self;
+        let residual = bond.map_or(0.0, |bond| bond.residual);
+        let scaled = |factor: f64, series: bool| Shear {
+            stiffness: factor * shear.stiffness,
+            damping: factor * shear.damping,
+            series,
+        };
+        let Normal::Springs { both, press, damping } = normal else {
+            // Without springs the bond is rigid too.
+            return if part == Part::Dry { Law { bond: None, ..*self } } else { *self };
+        };
+        let springs = |both: f64, press: f64, damping: f64| Normal::Springs { both, press, damping };
+        let dry = Law { bond: None, ..*self };
+        match part {
+            Part::Whole => *self,
+            Part::Held => Law {
+                normal: springs(both, 0.0, damping),
+                shear: scaled(1.0 - residual, false),
+                crushing: f64::INFINITY,
+                follows: true,
+                ..dry
+            },
+            Part::Dry => Law {
+                normal: springs(0.0, both + press, damping),
+                shear: scaled(f64::from(u8::from(shear.series)), shear.series),
+                ..dry
+            },
+            Part::Stays => Law {
+                normal: springs(0.0, 0.0, 0.0),
+                shear: scaled(residual, false),
+                friction: None,
+                crushing: f64::INFINITY,
+                follows: true,
+                ..dry
+            },
         }
     }
 
-    /// Whether springs of a point so damaged act in compression only.
-    pub(crate) fn only_presses(&self, damage: f64) -> bool {
-        self.is_compliant() && self.springs(damage).0 == 0.0 && self.device.is_none()
+    /// Springs: in both directions, and in compression only.
+    fn springs(&self) -> (f64, f64) {
+        match self.normal {
+            Normal::Rigid { .. } => (0.0, 0.0),
+            Normal::Springs { both, press, .. } => (both, press),
+        }
+    }
+
+    /// Whether its springs act in compression only.
+    pub(crate) fn only_presses(&self) -> bool {
+        self.is_compliant() && self.springs().0 == 0.0 && self.device.is_none()
     }
 
     /// Lets go what a point keeps in springs that act only where its sides face each other, which they do no more; returns that [J].
     pub(crate) fn let_go(&self, point: &mut Point, share: f64) -> f64 {
-        if !self.only_presses(point.damage) || self.follows {
+        if !self.only_presses() || self.follows {
             return 0.0;
         }
-        let (_, press) = self.springs(point.damage);
+        let (_, press) = self.springs();
         let pressed = 0.5 * share * press * (point.gap + point.crushed).min(0.0).powi(2);
         let k = share * self.shear.stiffness;
-        let sheared = if self.in_line(point.damage) { 0.5 * point.bearing * point.bearing / k } else { 0.0 };
+        let sheared = if self.in_line() { 0.5 * point.bearing * point.bearing / k } else { 0.0 };
         (point.gap, point.bearing) = (0.0, 0.0);
         pressed + sheared
     }
@@ -226,38 +265,30 @@ impl Law {
     }
 
     /// Shear spring beside friction.
-    fn mortar(&self, damage: f64) -> f64 {
-        match (&self.bond, self.shear.series) {
-            (None, true) => 0.0,
-            (None, false) => self.shear.stiffness,
-            (Some(bond), _) => self.shear.stiffness * (1.0 - damage * (1.0 - bond.residual)),
-        }
+    fn mortar(&self) -> f64 {
+        if self.shear.series { 0.0 } else { self.shear.stiffness }
     }
 
     /// Dashpot beside it: a damper has one without a spring.
-    fn mortar_damping(&self, damage: f64) -> f64 {
-        match (&self.bond, self.shear.series) {
-            (None, true) => 0.0,
-            (Some(bond), _) if damage == 1.0 && bond.residual == 0.0 => 0.0,
-            _ => self.shear.damping,
-        }
+    fn mortar_damping(&self) -> f64 {
+        if self.shear.series { 0.0 } else { self.shear.damping }
     }
 
-    /// Whether the normal dashpot acts in both directions at a point so damaged; otherwise where it is pressed.
-    fn damps_both(&self, damage: f64) -> bool {
-        let (both, press) = self.springs(damage);
+    /// Whether the normal dashpot acts in both directions; otherwise where the joint is pressed.
+    fn damps_both(&self) -> bool {
+        let (both, press) = self.springs();
         both > 0.0 || press == 0.0
     }
 
-    /// Stiffness and dashpot across and along a point so damaged [N/m, N s/m], of the whole joint, while it is pressed or not and sticks.
-    pub fn tangent(&self, damage: f64, pressed: bool) -> [[f64; 2]; 2] {
-        let (both, press) = self.springs(damage);
-        let bears = pressed || self.damps_both(damage);
+    /// Stiffness and dashpot across and along [N/m, N s/m], of the whole joint, while it is pressed or not and sticks.
+    pub fn tangent(&self, pressed: bool) -> [[f64; 2]; 2] {
+        let (both, press) = self.springs();
+        let bears = pressed || self.damps_both();
         let across = [both + if pressed { press } else { 0.0 }, if bears { self.normal_damping() } else { 0.0 }];
-        let along = match self.in_line(damage) {
+        let along = match self.in_line() {
             true if pressed => [self.shear.stiffness, self.shear.damping],
             true => [0.0; 2],
-            false => [self.mortar(damage), self.mortar_damping(damage)],
+            false => [self.mortar(), self.mortar_damping()],
         };
         let mut both = [across, along];
         if let Some(Device { direction, law }) = self.device {
@@ -266,9 +297,9 @@ impl Law {
         both
     }
 
-    /// Whether the shear spring is in line with friction at a point so damaged.
-    fn in_line(&self, damage: f64) -> bool {
-        self.shear.series && self.shear.stiffness > 0.0 && (self.bond.is_none() || damage == 1.0)
+    /// Whether the shear spring is in line with friction.
+    fn in_line(&self) -> bool {
+        self.shear.series && self.shear.stiffness > 0.0
     }
 }
 
@@ -287,16 +318,8 @@ pub struct Point {
     pub crushed: f64,
     /// Internal variable of a device, ζ of (I5) or s [m] of (I7).
     pub internal: f64,
-    /// Farthest opening and sliding beyond what the bond can bear [m].
-    pub reach: [f64; 2],
-    /// D, 0 … 1.
-    pub damage: f64,
-    /// χ, the part that rubs, 0 … 1.
+    /// The part of its friction that acts, 0 … 1: less than 1 where a bond holds.
     pub rubbing: f64,
-    /// When its bond first cracked [s]; infinite while it is intact.
-    pub cracked: f64,
-    /// When nothing was left of it [s].
-    pub broken: f64,
     /// Distance of the two sides [m].
     pub gap: f64,
 }
@@ -310,11 +333,7 @@ impl Default for Point {
             speed: 0.0,
             crushed: 0.0,
             internal: 0.0,
-            reach: [0.0; 2],
-            damage: 0.0,
-            rubbing: 0.0,
-            cracked: f64::INFINITY,
-            broken: f64::INFINITY,
+            rubbing: 1.0,
             gap: 0.0,
         }
     }
@@ -333,10 +352,9 @@ pub struct Start {
     pub slipped: bool,
 }
 
-/// The normal direction of a point over a step that ends at `time`: its mean velocity, distances at the ends, impulses of (P4) and of springs.
+/// The normal direction of a point over a step: its mean velocity, distances at the ends, impulses of (P4) and of springs.
 struct Across {
     h: f64,
-    time: f64,
     mean: f64,
     gaps: [f64; 2],
     slipped: bool,
@@ -381,7 +399,7 @@ impl Law {
             let square = 0.0625 * h * h * k / m;
             if still { 1.0 } else { 0.5 + (0.5 * square / (1.0 + square)).min(0.5 * RINGING / square.sqrt()) }
         };
-        let (both, press) = self.springs(point.damage);
+        let (both, press) = self.springs();
         let resolved = theta(both + press, contact.moved[0]);
         let (both, press, dashpot) = (share * both, share * press, share * self.normal_damping());
         let midpoint = if still { 1.0 } else { 0.5 };
@@ -391,18 +409,17 @@ impl Law {
             offset: -h * (k * (g + 0.5 * theta * h * u) + 0.5 * c * u),
             rho: 0.5 * h * (k * theta * h + c),
         };
-        let intact = self.bond.is_some() && point.damage < 1.0;
         match self.normal {
             Normal::Rigid { restitution, .. } => {
                 // Open: what is left of the gap may be closed by the end of the step.
-                let left = gap + 0.5 * h * u_n;
+                let left = gap + point.crushed + 0.5 * h * u_n;
                 contact.bias = if left > 0.0 { 2.0 * left / h } else { restitution * u_n.min(0.0) };
-                if let (true, Some(bond)) = (intact, &self.bond) {
+                if let Some(bond) = &self.bond {
                     contact.pressure[0] = -share * bond.tension * h;
                 }
             }
             Normal::Springs { .. } => {
-                let beside = if self.damps_both(point.damage) { dashpot } else { 0.0 };
+                let beside = if self.damps_both() { dashpot } else { 0.0 };
                 // What crushes is all that presses.
                 let bounded = self.crushing.is_finite() && both > 0.0 && gap + 0.5 * h * u_n < 0.0;
                 let (apart, within) = if bounded { (0.0, both + press) } else { (both, press) };
@@ -424,21 +441,19 @@ impl Law {
             contact.compliant[0] = false;
         }
         let shear = share * self.shear.stiffness;
-        if self.in_line(point.damage) {
+        if self.in_line() {
             let line = over(shear, share * self.shear.damping, 0.0, u_t, theta(self.shear.stiffness, contact.moved[1]));
             contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
             contact.compliant[1] = true;
         } else {
-            let mortar = share * self.mortar(point.damage);
-            let damping = share * self.mortar_damping(point.damage);
+            let mortar = share * self.mortar();
+            let damping = share * self.mortar_damping();
             contact.spring[1] = over(mortar, damping, point.slide, u_t, midpoint);
         }
         contact.hold = along;
-        let rubs = if self.bond.is_some() { point.rubbing } else { 1.0 };
         let slowly = |law: Friction| if still { law.slowly(point.speed > 0.0) } else { law.at(point.speed) };
-        contact.friction = rubs * self.friction.map_or(0.0, slowly);
-        if let (true, false, Some(bond)) = (intact, self.is_compliant(), &self.bond) {
-            // Without springs the bond is rigid too.
+        contact.friction = point.rubbing * self.friction.map_or(0.0, slowly);
+        if let Some(bond) = &self.bond {
             (contact.friction, contact.hold) = (bond.tan_angle, share * bond.cohesion * h);
         }
         Start { gap, velocity, still, slipped: false }
@@ -461,12 +476,12 @@ impl Law {
         Borne { impulse: -h * share * force, rho: rho(slope.max(0.0).min(steepest)), steepest: rho(steepest) }
     }
 
-    /// What the step came to, `after` being the velocity at its end, `time` its end [s].
+    /// What a step of `h` [s] came to, `after` being the velocity at its end.
     pub fn end(
         &self,
         point: &mut Point,
         share: f64,
-        (h, time): (f64, f64),
+        h: f64,
         start: &Start,
         after: [f64; 2],
         contact: &Contact,
@@ -478,7 +493,6 @@ impl Law {
         let compressed = (contact.impulse[0] + linear[0]) / h;
         let normal = Across {
             h,
-            time,
             mean: mean[0],
             gaps: [start.gap, gap],
             slipped: start.slipped,
@@ -512,9 +526,6 @@ impl Law {
         if works.friction < 0.0 {
             works.impact += std::mem::take(&mut works.friction);
         }
-        if self.bond.is_some() && point.damage < 1.0 {
-            self.wear(point, share, time, compressed, contact, &mut works);
-        }
         works
     }
 
@@ -522,7 +533,7 @@ impl Law {
         &self,
         point: &mut Point,
         share: f64,
-        Across { h, time, mean, gaps: [start, gap], slipped, pressed, linear }: Across,
+        Across { h, mean, gaps: [start, gap], slipped, pressed, linear }: Across,
         works: &mut Works,
     ) {
         let most = share * self.crushing;
@@ -535,7 +546,7 @@ impl Law {
             }
             return;
         };
-        let (both, press) = self.springs(point.damage);
+        let (both, press) = self.springs();
         let (both, press, dashpot) = (share * both, share * press, share * self.normal_damping());
         if self.slip[0] > 0.0 {
             works.friction -= pressed * mean;
@@ -553,17 +564,12 @@ impl Law {
             point.crushed += further;
             works.bond += most * further;
             after = 0.5 * most * most / all;
-            if both > 0.0 {
-                // Nothing of a bond outlives it.
-                (point.damage, point.rubbing, point.broken) = (1.0, 1.0, time);
-                point.cracked = point.cracked.min(time);
-            }
         }
         // What springs do not keep and breaking does not take. A dashpot in compression only acts in the part of a step in which the sides
         // touch, and within the strength.
         let lost = -(pressed + linear) * mean - (after - before) - works.bond;
         let full = dashpot * mean * mean * h;
-        let damping = match self.damps_both(point.damage) {
+        let damping = match self.damps_both() {
             true => full,
             false if pressed != 0.0 => full.min(lost.max(0.0)),
             false => 0.0,
@@ -585,7 +591,7 @@ impl Law {
         let borne = contact.impulse[1];
         // Where friction may bear nothing, what does not slide bears nothing either.
         let slides = contact.status != Status::Stick || borne == 0.0;
-        if self.in_line(point.damage) {
+        if self.in_line() {
             let k = share * self.shear.stiffness;
             let before = point.bearing;
             let limit = borne.abs() / h;
@@ -600,8 +606,8 @@ impl Law {
         } else {
             works.friction -= borne * mean;
         }
-        let mortar = share * self.mortar(point.damage);
-        let damping = share * self.mortar_damping(point.damage) * mean * mean * h;
+        let mortar = share * self.mortar();
+        let damping = share * self.mortar_damping() * mean * mean * h;
         let before = 0.5 * mortar * point.slide * point.slide;
         point.slide += h * mean;
         let stored = 0.5 * mortar * point.slide * point.slide;
@@ -609,64 +615,9 @@ impl Law {
         works.damping += damping;
         works.impact += -linear * mean - (stored - before) - damping;
     }
-
-    /// Damage by what the point has come to; `compressed` is what presses it [N].
-    fn wear(&self, point: &mut Point, share: f64, time: f64, compressed: f64, contact: &Contact, works: &mut Works) {
-        let Some(bond) = self.bond else { return };
-        let before = point.damage;
-        let Normal::Springs { both, .. } = self.normal else {
-            let torn = bond.tension > 0.0 && contact.impulse[0] <= contact.pressure[0];
-            let parted = bond.tension == 0.0 && point.gap > TOUCHING;
-            if torn || parted || contact.status == Status::Forth || contact.status == Status::Back {
-                (point.damage, point.rubbing) = (1.0, 1.0);
-                (point.cracked, point.broken) = (time, time);
-            }
-            return;
-        };
-        let strength = (share * bond.cohesion + compressed * bond.tan_angle).max(0.0);
-        let demand = share * self.shear.stiffness * point.slide.abs();
-        let [opening, sliding] = &mut point.reach;
-        let shear = match self.shear.stiffness {
-            0.0 => [0.0; 2],
-            k => worn([demand, strength].map(|f| f / (share * k)), bond.decay[1], sliding),
-        };
-        let open = match both {
-            0.0 => [0.0; 2],
-            k => worn([point.gap - TOUCHING, bond.tension / k], bond.decay[0], opening),
-        };
-        point.damage = point.damage.max(shear[0]).max(open[0]);
-        point.rubbing = point.rubbing.max(shear[1]).max(open[1]);
-        let lost = point.damage - before;
-        if lost > 0.0 {
-            point.cracked = point.cracked.min(time);
-            if 1.0 - point.rubbing < BROKEN {
-                (point.damage, point.rubbing, point.broken) = (1.0, 1.0, time);
-            }
-            let lost = point.damage - before;
-            let torn = 0.5 * share * both * point.gap.max(0.0).powi(2);
-            let sheared = 0.5 * share * self.shear.stiffness * (1.0 - bond.residual) * point.slide.powi(2);
-            works.bond += lost * (torn + sheared);
-            works.elastic -= lost * (torn + sheared);
-        }
-    }
 }
 
 /// How far a device is stretched at the start of a step [m].
 fn stretch(device: &Device, point: &Point, start: &Start) -> f64 {
     if device.direction == 0 { start.gap } else { point.slide }
-}
-
-/// D and χ by (B3) of what is stretched by `stretch` and can bear `limit` [m], where it goes beyond that farther than ever before, which
-/// `reach` keeps; 0 where it does not. Both are 1 beyond the limit where it is brittle.
-fn worn([stretch, limit]: [f64; 2], decay: f64, reach: &mut f64) -> [f64; 2] {
-    let beyond = stretch - limit;
-    if !(beyond > *reach) {
-        return [0.0; 2];
-    }
-    *reach = beyond;
-    if decay == 0.0 {
-        return [1.0; 2];
-    }
-    let left = (-beyond / decay).exp();
-    [1.0 - limit / stretch * left, 1.0 - left]
 }

@@ -7,6 +7,7 @@
 pub mod blocks;
 pub mod body;
 pub mod contact;
+pub mod crack;
 mod interior;
 pub mod joint;
 pub mod motion;

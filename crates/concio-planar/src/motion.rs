@@ -13,7 +13,8 @@ use smallvec::SmallVec;
 use crate::G;
 use crate::blocks::{Slot, Triple};
 use crate::body::Body;
-use crate::contact::{Contact, Effort, Known, Solver, worse};
+use crate::contact::{Contact, Effort, Known, Solver, Status, worse};
+use crate::crack::{self, Crack, Part, Spot};
 use crate::joint::{Friction, Law, Point, Start};
 use crate::order::Orders;
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
@@ -52,6 +53,9 @@ const ENOUGH: f64 = 100.0;
 const JUMP: f64 = 3e-6;
 /// Contact points of a pair that are kept in place: joints that may be crushed have more.
 const POINTS: usize = 3;
+
+/// A point of a joint without bond, but for where it is and how much of the joint.
+const UNBONDED: Spot = Spot { point: 0, part: Part::Whole, at: 0.0, share: 0.0, weight: 0.0, rubs: 1.0 };
 
 /// How contact is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -233,6 +237,8 @@ struct Pair {
     points: SmallVec<[Point; POINTS]>,
     /// Distance as the wall was laid [m]; 0 for those that have come together.
     laid: f64,
+    /// The state of its bond, where it has one.
+    crack: Option<Crack>,
 }
 
 /// All that changes during a motion, to be kept and taken up again.
@@ -263,7 +269,10 @@ struct Seat {
 struct Owner {
     pair: usize,
     point: usize,
+    part: Part,
     share: f64,
+    /// How much of the joint it is.
+    weight: f64,
     start: Start,
     /// x of the normal and the tangent where a body is held in that direction, in the sense of the push on it.
     lever: [f64; 2],
@@ -428,8 +437,8 @@ impl Motion {
         self.counters = Counters::default();
         self.seen.iter_mut().for_each(|s| (s.path, s.taken, s.broken) = (0.0, 0.0, 0.0));
         // What cracks under the loads is cracked when time begins.
-        for point in self.pairs.iter_mut().flat_map(|p| &mut p.points) {
-            for time in [&mut point.cracked, &mut point.broken] {
+        for crack in self.pairs.iter_mut().filter_map(|p| p.crack.as_mut()) {
+            for time in [&mut crack.cracked, &mut crack.broken] {
                 *time = if time.is_finite() { 0.0 } else { f64::INFINITY };
             }
         }
@@ -581,19 +590,29 @@ impl Motion {
             let seat = self.seats[k];
             let pair = &self.pairs[seat.pair];
             let Some(ends) = ends(&self.polygons, pair, self.margin(pair)) else { continue };
-            let law = self.laws.of(pair.link);
-            let shares = law.shares();
             let along = |share: f64| Touch {
                 at: [0, 1].map(|k| ends[0].at[k] + share * (ends[1].at[k] - ends[0].at[k])),
                 gap: ends[0].gap + share * (ends[1].gap - ends[0].gap),
                 normal: ends[0].normal,
             };
+            let law = self.laws.of(pair.link);
+            if let Some(crack) = &pair.crack {
+                for spot in 0..crack.spots().len() {
+                    let spot = self.pairs[seat.pair].crack.as_ref().map_or(UNBONDED, |crack| crack.spots()[spot]);
+                    let (contact, owner) = self.contact(seat, spot, &along(spot.at), h, held);
+                    self.contacts.push(contact);
+                    self.owners.push(owner);
+                }
+                continue;
+            }
+            let (shares, device) = (law.shares(), law.device);
             for (point, share) in shares.iter().enumerate() {
-                let touch = along(point as f64 / (shares.len() - 1) as f64);
-                let (contact, owner) = self.contact(seat, point, *share, &touch, h, held);
+                let at = point as f64 / (shares.len() - 1) as f64;
+                let spot = Spot { point, at, share: *share, weight: *share, ..UNBONDED };
+                let (contact, owner) = self.contact(seat, spot, &along(at), h, held);
                 self.contacts.push(contact);
                 self.owners.push(owner);
-                if let Some(device) = law.device {
+                if let Some(device) = device {
                     self.bent.push(Bent::of(&device, self.contacts.len() - 1, &contact));
                 }
             }
@@ -601,7 +620,8 @@ impl Motion {
         self.begin_devices(h);
     }
 
-    fn contact(&self, seat: Seat, point: usize, share: f64, touch: &Touch, h: f64, held: [f64; 2]) -> (Contact, Owner) {
+    fn contact(&self, seat: Seat, spot: Spot, touch: &Touch, h: f64, held: [f64; 2]) -> (Contact, Owner) {
+        let Spot { point, part, share, weight, .. } = spot;
         let pair = &self.pairs[seat.pair];
         let (n, t) = (touch.normal, [-touch.normal[1], touch.normal[0]]);
         let (mut velocity, mut lever) = ([0.0; 2], [0.0; 2]);
@@ -622,7 +642,7 @@ impl Motion {
         let state = &pair.points[point];
         let mut contact = Contact::rigid((pair.a, pair.b), seat.slot, rows, &self.inverse, state.force.map(|f| h * f));
         contact.drift = lever.map(|lever| lever * held[1]);
-        let law = self.laws.of(pair.link);
+        let law = self.laws.part(pair.link, part);
         let mut gap = touch.gap - 0.5 * h * before[0];
         if law.follows {
             gap = state.gap;
@@ -631,7 +651,7 @@ impl Motion {
         let mut slipped = false;
         if law.is_compliant() && !law.follows {
             // What pulls too is stretched by other edges as it is pressed in by them.
-            let presses = law.only_presses(state.damage);
+            let presses = law.only_presses();
             let followed = if presses { state.gap.min(0.0) } else { state.gap };
             if followed - gap > jump || !presses && gap - followed > jump {
                 gap = followed;
@@ -640,7 +660,7 @@ impl Motion {
         }
         let start = law.begin(state, share, h, self.setting.still, (gap, before), &mut contact);
         let start = Start { slipped, ..start };
-        (contact, Owner { pair: seat.pair, point, share, start, lever })
+        (contact, Owner { pair: seat.pair, point, part, share, weight, start, lever })
     }
 
     /// A push at `arm` from the centre of a body [m].
@@ -668,12 +688,13 @@ impl Motion {
         self.account.elastic = 0.0;
         self.pull = 0.0;
         self.met.fill(false);
+        let mut last = None;
         for (contact, owner) in self.contacts.iter().zip(&self.owners) {
             let pair = &mut self.pairs[owner.pair];
-            let law = self.laws.of(pair.link);
+            let law = self.laws.part(pair.link, owner.part);
             let after = contact.velocity(&self.after);
             let point = &mut pair.points[owner.point];
-            let works = law.end(point, owner.share, (h, time), &owner.start, after, contact);
+            let works = law.end(point, owner.share, h, &owner.start, after, contact);
             let whole = contact.total(after);
             let account = &mut self.account;
             account.elastic += works.elastic;
@@ -685,33 +706,45 @@ impl Motion {
             self.pull -= (whole[0] * owner.lever[0] + whole[1] * owner.lever[1]) / h;
             self.met[owner.pair] = true;
             let Some(seen) = pair.link.map(|k| &mut self.seen[k]) else { continue };
-            let first = owner.point == 0;
+            let first = last != Some(owner.pair);
+            last = Some(owner.pair);
             if first {
                 *seen = Seen { touches: true, ..seen.apart() };
             }
             seen.gap = if first { [point.gap; 2] } else { [seen.gap[0].min(point.gap), seen.gap[1].max(point.gap)] };
-            seen.slide = if first { 0.0 } else { seen.slide } + owner.share * point.slide;
-            seen.speed += owner.share * after[1];
-            seen.parting += owner.share * after[0];
+            seen.slide = if first { 0.0 } else { seen.slide } + owner.weight * point.slide;
+            seen.speed += owner.weight * after[1];
+            seen.parting += owner.weight * after[0];
             seen.pressure += whole[0] / h;
             seen.shear += whole[1] / h;
             seen.friction += contact.impulse[1] / h;
-            seen.path += owner.share * works.slip;
+            seen.path += owner.weight * works.slip;
             seen.taken += works.damping + works.friction + works.impact + works.bond + works.device;
             seen.broken += works.bond;
         }
+        self.wear(time);
         // Of pairs that touch nothing more has to be fetched.
         for at in self.met.iter().enumerate().filter(|(_, met)| !**met).map(|(at, _)| at) {
             let pair = &mut self.pairs[at];
             pair.points.iter_mut().for_each(|point| point.force = [0.0; 2]);
             let Some(link) = pair.link else { continue };
             self.seen[link] = self.seen[link].apart();
-            let law = self.laws.of(Some(link));
-            for (point, share) in pair.points.iter_mut().zip(law.shares()) {
-                self.account.impact += law.let_go(point, *share);
+            match &pair.crack {
+                None => {
+                    let law = self.laws.of(Some(link));
+                    for (point, share) in pair.points.iter_mut().zip(law.shares()) {
+                        self.account.impact += law.let_go(point, *share);
+                    }
+                }
+                Some(crack) => {
+                    let law = self.laws.part(Some(link), Part::Dry);
+                    for spot in crack.spots().iter().filter(|spot| spot.part == Part::Dry) {
+                        self.account.impact += law.let_go(&mut pair.points[spot.point], spot.share);
+                    }
+                }
             }
         }
-        self.settle_ties((h, time));
+        self.settle_ties(h);
         self.settle_holds(h);
         self.account.held += self.pull * held;
         for (body, m) in self.mass.iter().enumerate() {
@@ -722,6 +755,45 @@ impl Motion {
                     self.account.impact += 0.5 * m[k] * w[k] * w[k];
                 }
             }
+        }
+    }
+
+    /// Damages the bonds by a step that ended at `time` [s].
+    fn wear(&mut self, time: f64) {
+        let mut at = 0;
+        while at < self.owners.len() {
+            let own = self.owners[at].pair;
+            let end = at + self.owners[at..].iter().take_while(|owner| owner.pair == own).count();
+            let Pair { crack, points, link, .. } = &mut self.pairs[own];
+            if let (Some(crack), Some(link)) = (crack, *link) {
+                let law = self.laws.of(Some(link));
+                let seen = &mut self.seen[link];
+                match law.is_compliant() {
+                    true => {
+                        crack.follow(points);
+                        let worn = crack.wear(law, points, time);
+                        self.account.elastic -= worn.bond + worn.beyond;
+                        self.account.bond += worn.bond;
+                        self.account.impact += worn.beyond;
+                        seen.taken += worn.bond + worn.beyond;
+                        seen.broken += worn.bond;
+                        if !crack.is_gone() {
+                            let [[near, slide], [far, slid]] = crack.line();
+                            (seen.gap, seen.slide) = ([near.min(far), near.max(far)], 0.5 * (slide + slid));
+                        }
+                    }
+                    false => {
+                        let mut held = self.contacts[at..end].iter().zip(&self.owners[at..end]);
+                        let fails = held.any(|(contact, owner)| {
+                            let slides = matches!(contact.status, Status::Forth | Status::Back);
+                            let torn = contact.pressure[0] < 0.0 && contact.impulse[0] <= contact.pressure[0];
+                            owner.part == Part::Held && (slides || torn)
+                        });
+                        crack.break_rigid(law, points, fails, time);
+                    }
+                }
+            }
+            at = end;
         }
     }
 
@@ -760,7 +832,13 @@ impl Motion {
         let known = std::mem::take(&mut self.pairs);
         let fresh = |a, b, link: Option<usize>| {
             let law = self.laws.of(link);
-            Pair { a, b, link, points: SmallVec::from_elem(Point::default(), law.shares().len()), laid: 0.0 }
+            let crack = law.bond.map(|_| Crack::new(law));
+            let count = if crack.is_some() { crack::POINTS } else { law.shares().len() };
+            let mut points = SmallVec::from_elem(Point::default(), count);
+            if let Some(crack) = &crack {
+                crack.set(&mut points);
+            }
+            Pair { a, b, link, points, laid: 0.0, crack }
         };
         // Joints stay whatever becomes of them: what has gone apart may come together again.
         let mut pairs: Vec<Pair> = self.joints.iter().enumerate().map(|(k, (a, b))| fresh(*a, *b, Some(k))).collect();
@@ -831,9 +909,11 @@ impl Motion {
         Some(&self.pairs[at].points)
     }
 
-    /// Parts of a joint that its points stand for.
-    pub fn shares(&self, link: usize) -> &'static [f64] {
-        self.laws.of(Some(link)).shares()
+    /// The state of the bond of a joint; none where it has none.
+    pub fn crack(&self, link: usize) -> Option<&Crack> {
+        let (a, b) = &self.joints[link];
+        let at = self.pairs.binary_search_by_key(&(*a, *b), |p| (p.a, p.b)).ok()?;
+        self.pairs[at].crack.as_ref()
     }
 
     /// All that changes.
@@ -861,13 +941,21 @@ impl Motion {
             && kept.strains.len() == self.strains.len()
             && kept.pairs.iter().all(|p| p.b < n && p.a.is_none_or(|a| a < n))
             && kept.pairs.iter().all(|p| {
-                p.link.is_none_or(|k| k < self.joints.len()) && self.laws.of(p.link).shares().len() == p.points.len()
+                let law = || self.laws.of(p.link);
+                let count = || if law().bond.is_some() { crack::POINTS } else { law().shares().len() };
+                p.link.is_none_or(|k| k < self.joints.len())
+                    && p.crack.is_some() == law().bond.is_some()
+                    && p.crack.as_ref().is_none_or(Crack::fits)
+                    && count() == p.points.len()
             });
         if fits {
             let Kept { places, velocities, time, account, counters, pairs, looked, seen, pull, strains, known } = kept;
             (self.places, self.velocities, self.time) = (places, velocities, time);
             (self.account, self.counters, self.pairs) = (account, counters, pairs);
             (self.looked, self.seen, self.pull, self.strains) = (looked, seen, pull, strains);
+            for Pair { crack, link, .. } in &mut self.pairs {
+                crack.iter_mut().for_each(|crack| crack.place(self.laws.of(*link)));
+            }
             self.couple();
             return self.solver.take_up(known);
         }

@@ -1,6 +1,7 @@
 //! Laws of joints: those that are alike are kept once.
 
 use super::Link;
+use crate::crack::Part;
 use crate::joint::Law;
 
 /// Laws among which one that is alike is looked for: a wall of bricks has a few, one of stones none that are alike.
@@ -10,6 +11,8 @@ const KNOWN: usize = 64;
 #[derive(Debug, Clone)]
 pub(super) struct Laws {
     all: Vec<Law>,
+    /// Their parts, of those that are bonded: what is held, what has cracked, what stays.
+    parts: Vec<Option<Box<[Law; 3]>>>,
     /// Where each joint's is among them.
     which: Vec<u32>,
     /// That of bodies that come together.
@@ -27,13 +30,27 @@ impl Laws {
             }
             which.push(at as u32);
         }
-        Laws { all, which, other }
+        let parts = [Part::Held, Part::Dry, Part::Stays];
+        let of_bonded = |law: &Law| law.bond.map(|_| Box::new(parts.map(|part| law.part(part))));
+        Laws { parts: all.iter().map(of_bonded).collect(), all, which, other }
     }
 
     /// That of a joint, or of bodies without.
     #[inline(always)]
     pub fn of(&self, link: Option<usize>) -> &Law {
         link.map_or(&self.other, |link| &self.all[self.which[link] as usize])
+    }
+
+    /// That of a part of a joint, or of bodies without.
+    #[inline(always)]
+    pub fn part(&self, link: Option<usize>, part: Part) -> &Law {
+        let bonded = || self.parts[self.which[link?] as usize].as_deref();
+        match (part, bonded()) {
+            (Part::Held, Some([held, ..])) => held,
+            (Part::Dry, Some([_, dry, _])) => dry,
+            (Part::Stays, Some([.., stays])) => stays,
+            _ => self.of(link),
+        }
     }
 }
 

@@ -35,12 +35,17 @@ impl Motion {
             return;
         }
         for first in 0..self.owners.len() {
-            if self.owners[first].point > 0 {
+            let own = self.owners[first].pair;
+            if first > 0 && self.owners[first - 1].pair == own {
                 continue;
             }
-            let law = self.laws.of(self.pairs[self.owners[first].pair].link);
-            let Some(rocking) = law.rocking() else { continue };
-            let last = first + law.shares().len() - 1;
+            let pair = &self.pairs[own];
+            let Some(rocking) = self.laws.of(pair.link).rocking() else { continue };
+            // What a bond holds does not rock.
+            if pair.crack.as_ref().is_some_and(|crack| !crack.is_gone()) {
+                continue;
+            }
+            let last = first + self.owners[first..].iter().take_while(|owner| owner.pair == own).count() - 1;
             for (lands, opens) in [(first, last), (last, first)] {
                 if let Some((contact, hold)) = self.hold_of(lands, opens, rocking, h) {
                     self.contacts.push(contact);

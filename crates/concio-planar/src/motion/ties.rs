@@ -68,7 +68,7 @@ impl Motion {
     }
 
     /// Keeps what the ties have come to, and accounts for their energy.
-    pub(super) fn settle_ties(&mut self, (h, time): (f64, f64)) {
+    pub(super) fn settle_ties(&mut self, h: f64) {
         for strain in &mut self.strains {
             (strain.point.force, strain.pull) = ([0.0; 2], [0.0; 2]);
         }
@@ -76,7 +76,7 @@ impl Motion {
             let strain = &mut self.strains[pull.rod];
             let after = contact.velocity(&self.after);
             let law = &self.rods[pull.rod].law;
-            let works = law.end(&mut strain.point, 1.0, (h, time), &pull.start, after, contact);
+            let works = law.end(&mut strain.point, 1.0, h, &pull.start, after, contact);
             strain.pull = pull.line.map(|d| d * contact.impulse[0] / h);
             self.account.elastic += works.elastic;
             self.account.impact += works.impact;

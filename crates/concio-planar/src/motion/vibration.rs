@@ -123,10 +123,9 @@ impl Motion {
 
     /// What a point is held by, across and along, if it bears more than `least` [N s].
     fn holding(&self, contact: &Contact, owner: &Owner, least: f64) -> [Holds; 2] {
-        let law = self.laws.of(self.pairs[owner.pair].link);
-        let point = &self.pairs[owner.pair].points[owner.point];
+        let law = self.laws.part(self.pairs[owner.pair].link, owner.part);
         let pressed = contact.impulse[0] > least;
-        let [across, along] = law.tangent(point.damage, pressed);
+        let [across, along] = law.tangent(pressed);
         let bears = matches!(law.normal, Normal::Rigid { .. }) && contact.impulse[0].abs() > least;
         let holds = |rows, [stiffness, damping]: [f64; 2], rigid: bool| Holds {
             rows,

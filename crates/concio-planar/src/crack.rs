@@ -1,0 +1,528 @@
+//! Bonded joints: a crack that runs along the joint from where it opens.
+//!
+//! A joint between rigid blocks opens and slides by straight lines along its length. Its bond is known at equally spaced nodes,
+//! with what it lost in between by straight lines too. What is left of it acts in both directions and gives two contact points the
+//! stiffness against parting and against turning that it has in all, exactly: half of it at each, at the distance of its radius of gyration
+//! from its centre. What has cracked acts in compression alone, at nine points, of which those bear whose part of the joint has cracked. A crack is
+//! so as fine as the nodes, and an intact joint has two points.
+//!
+//! At a node that is stretched by w across and s along the joint,
+//!
+//! (P9)  σ = (1 − D) k_n w ≤ e^−ξ f_t,   |τ| = (1 − D) k_t |s| ≤ e^−ξ (c + p tan φ)
+//!
+//! p being the pressure there. Where a limit is passed, ξ grows by the way that goes beyond it over δ_c of that mode,
+//! and D to where the limit is met: one ξ weakens both strengths, as mixed modes do (Lourenço & Rots 1997). Along one mode alone that is (B3). χ = 1 − e^−ξ is
+//! the part that rubs, so that shear stays within (B5). δ_c follows from G_f by (B4) with the strength of the moment: f_t of opening, c + p tan φ of shear.
+//!
+//! Rigid joints break by plane sections: the stress of the joint is the straight line that balances what its points bear, cracked parts pressing only;
+//! the crack runs as far as it is above f_t at its tip.
+
+use serde::{Deserialize, Serialize};
+
+use crate::joint::{Bond, Law, Normal, Point};
+
+/// Nodes of a joint: a crack advances by a thirty-second of it.
+const NODES: usize = 33;
+/// Points of what has cracked.
+pub(crate) const DRY: usize = 9;
+/// Points of what is left of the bond.
+pub(crate) const HELD: usize = 2;
+/// Points of a bonded joint, the last for the spring that stays beside friction.
+pub(crate) const POINTS: usize = HELD + DRY + 1;
+/// What the weights of the nine points are, over those of trapezoids: so they turn as a layer of springs does, where all has cracked.
+const GREGORY: [f64; DRY] = {
+    let [end, next, third] = [0.75, 7.0 / 6.0, 23.0 / 24.0];
+    [end, next, third, 1.0, 1.0, 1.0, third, next, end]
+};
+/// The three points of a joint whose bond is gone and that cannot be crushed, and their weights.
+const THREE: [(usize, f64); 3] = [(0, 1.0 / 6.0), (4, 2.0 / 3.0), (8, 1.0 / 6.0)];
+/// Part of its strength below which a bond counts as broken, ε of (B4).
+const BROKEN: f64 = 1e-3;
+/// Distance up to which sides touch [m]: more than positions are rounded by.
+const TOUCHING: f64 = 1e-12;
+/// Part of a joint below which what is left of its bond is rounding.
+const NOTHING: f64 = 1e-9;
+
+/// What a point of a bonded joint stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// The joint as it is, without bond.
+    Whole,
+    /// What is left of the bond.
+    Held,
+    /// What has cracked.
+    Dry,
+    /// The spring that stays beside friction.
+    Stays,
+}
+
+/// A contact point of a bonded joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Spot {
+    /// Which of the points.
+    pub point: usize,
+    /// What it stands for.
+    pub part: Part,
+    /// Where, 0 … 1 along the joint.
+    pub at: f64,
+    /// How much of the joint's law it bears.
+    pub share: f64,
+    /// How much of the joint it is: these add up to 1.
+    pub weight: f64,
+    /// The part of its friction that acts.
+    pub rubs: f64,
+}
+
+/// The state of the bond of one joint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Crack {
+    /// ξ and D of the nodes.
+    nodes: Vec<[f64; 2]>,
+    /// Opening and slide at both ends, now and a step before [m].
+    line: [[f64; 2]; 2],
+    was: [[f64; 2]; 2],
+    /// First and last node of a rigid joint that are held.
+    held: [usize; 2],
+    /// When it first cracked [s]; infinite while it is intact.
+    pub cracked: f64,
+    /// When nothing was left of it [s].
+    pub broken: f64,
+    /// How far it was stretched at most where it has cracked [m].
+    pub reach: f64,
+    /// What its points stand for; follows from the nodes.
+    #[serde(skip)]
+    spots: Vec<Spot>,
+}
+
+/// What became of the bond in a step [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Worn {
+    /// What breaking took.
+    pub bond: f64,
+    /// What springs lost beside that, because a step goes beyond a limit before it is met.
+    pub beyond: f64,
+}
+
+/// Place of a node, 0 … 1.
+fn place(node: usize) -> f64 {
+    node as f64 / (NODES - 1) as f64
+}
+
+/// On the way from one end to the other.
+fn between(line: &[[f64; 2]; 2], at: f64) -> [f64; 2] {
+    [0, 1].map(|k| line[0][k] + at * (line[1][k] - line[0][k]))
+}
+
+/// ∫ f over each interval between nodes, of polynomials to third order there: `f` of its ends and of its middle.
+fn integral(f: impl Fn(usize, f64) -> f64) -> f64 {
+    let part = |n: usize| f(n, 0.0) + 4.0 * f(n, 0.5) + f(n, 1.0);
+    (0..NODES - 1).map(part).sum::<f64>() / (6.0 * (NODES - 1) as f64)
+}
+
+impl Crack {
+    /// Of an intact joint.
+    pub(crate) fn new(law: &Law) -> Self {
+        let mut crack = Crack {
+            nodes: vec![[0.0; 2]; NODES],
+            line: [[0.0; 2]; 2],
+            was: [[0.0; 2]; 2],
+            held: [0, NODES - 1],
+            cracked: f64::INFINITY,
+            broken: f64::INFINITY,
+            reach: 0.0,
+            spots: Vec::with_capacity(POINTS),
+        };
+        crack.place(law);
+        crack
+    }
+
+    /// Its contact points.
+    pub(crate) fn spots(&self) -> &[Spot] {
+        &self.spots
+    }
+
+    /// Mean of D over the joint.
+    pub fn damage(&self) -> f64 {
+        if self.is_gone() { 1.0 } else { self.mean(|n| self.nodes[n][1]) }
+    }
+
+    /// Part of the joint along which it has cracked, 0 … 1.
+    pub fn length(&self) -> f64 {
+        if self.is_gone() { 1.0 } else { self.mean(|n| f64::from(u8::from(self.nodes[n][1] > 0.0))) }
+    }
+
+    /// Opening and slide at both ends [m].
+    pub fn line(&self) -> [[f64; 2]; 2] {
+        self.line
+    }
+
+    /// Whether nothing is left of it.
+    pub fn is_gone(&self) -> bool {
+        self.nodes.iter().all(|[_, damage]| *damage == 1.0)
+    }
+
+    /// Of what is linear between nodes.
+    fn mean(&self, f: impl Fn(usize) -> f64) -> f64 {
+        let ends = 0.5 * (f(0) + f(NODES - 1));
+        (ends + (1..NODES - 1).map(f).sum::<f64>()) / (NODES - 1) as f64
+    }
+
+    /// D, or with `what` 0 ξ, on the way from a node to the next.
+    fn between(&self, n: usize, part: f64) -> f64 {
+        let [from, to] = [self.nodes[n][1], self.nodes[n + 1][1]];
+        from + part * (to - from)
+    }
+
+    /// χ there.
+    fn rubbing(&self, n: usize, part: f64) -> f64 {
+        let chi = |n: usize| 1.0 - (-self.nodes[n][0]).exp();
+        let [from, to] = [chi(n), chi(n + 1)];
+        from + part * (to - from)
+    }
+
+    /// Moments of what is left of the bond, and by how much it rubs.
+    fn left(&self) -> ([f64; 3], f64) {
+        let x = |n: usize, part: f64| (n as f64 + part) / (NODES - 1) as f64;
+        let moment = |order: i32| integral(|n, part| (1.0 - self.between(n, part)) * x(n, part).powi(order));
+        let rubs = integral(|n, part| (1.0 - self.between(n, part)) * self.rubbing(n, part));
+        ([moment(0), moment(1), moment(2)], rubs)
+    }
+
+    /// Whether it has the nodes of such a bond, as one that was read back may not.
+    pub(crate) fn fits(&self) -> bool {
+        self.nodes.len() == NODES && self.held[0] < self.held[1] && self.held[1] < NODES
+    }
+
+    /// Gives the points what follows from its state: stretch of what is held, and what part of friction acts.
+    pub(crate) fn set(&self, points: &mut [Point]) {
+        for spot in &self.spots {
+            let point = &mut points[spot.point];
+            point.rubbing = spot.rubs;
+            if spot.part == Part::Held {
+                [point.gap, point.slide] = self.stretched(spot.at);
+            }
+        }
+    }
+
+    /// Takes the points from the nodes.
+    pub(crate) fn place(&mut self, law: &Law) {
+        let mut spots = std::mem::take(&mut self.spots);
+        spots.clear();
+        match law.normal {
+            Normal::Rigid { .. } => self.place_rigid(&mut spots),
+            Normal::Springs { both, press, .. } => self.place_springs([both, press], law, &mut spots),
+        }
+        self.spots = spots;
+    }
+
+    fn place_rigid(&self, spots: &mut Vec<Spot>) {
+        let [first, last] = self.held;
+        let dry = |end: usize, weight: f64| Spot {
+            point: HELD + end * (DRY - 1),
+            part: Part::Dry,
+            at: end as f64,
+            share: 0.5,
+            weight,
+            rubs: 1.0,
+        };
+        if self.is_gone() {
+            spots.extend([dry(0, 0.5), dry(1, 0.5)]);
+            return;
+        }
+        let length = place(last) - place(first);
+        let held = |point: usize, node: usize| Spot {
+            point,
+            part: Part::Held,
+            at: place(node),
+            share: 0.5 * length,
+            weight: 0.5,
+            rubs: 1.0,
+        };
+        if first > 0 {
+            spots.push(dry(0, 0.0));
+        }
+        spots.extend([held(0, first), held(1, last)]);
+        if last < NODES - 1 {
+            spots.push(dry(1, 0.0));
+        }
+    }
+
+    fn place_springs(&self, [both, press]: [f64; 2], law: &Law, spots: &mut Vec<Spot>) {
+        let intact = self.nodes.iter().all(|[_, damage]| *damage == 0.0);
+        let gone = self.is_gone();
+        if !gone {
+            let ([whole, first, second], rubs) = match intact {
+                true => ([1.0, 0.5, 1.0 / 3.0], 0.0),
+                false => self.left(),
+            };
+            if whole > NOTHING {
+                let centre = first / whole;
+                let away = (second / whole - centre * centre).max(0.0).sqrt();
+                let share = 0.5 * whole;
+                let held = |point: usize, at: f64| Spot { point, part: Part::Held, at, share, weight: share, rubs: rubs / whole };
+                spots.extend([held(0, centre - away), held(1, centre + away)]);
+            }
+        }
+        // Of springs of which some act in compression only as long as nothing has cracked.
+        let stiffness = both + press;
+        let cracked = |damaged: f64, all: f64| (both * damaged + press * all) / stiffness;
+        let dry = |point: usize, share: f64, weight: f64, rubs: f64| Spot {
+            point: HELD + point,
+            part: Part::Dry,
+            at: point as f64 / (DRY - 1) as f64,
+            share,
+            weight,
+            rubs,
+        };
+        if intact || gone && law.crushing.is_infinite() {
+            let damaged = f64::from(u8::from(gone));
+            let three = THREE.map(|(point, part)| dry(point, cracked(damaged, 1.0) * part, damaged * part, damaged));
+            spots.extend(three.into_iter().filter(|spot| spot.share > 0.0));
+        } else {
+            for point in 0..DRY {
+                let [damaged, all, rubbing] = self.around(point);
+                let share = cracked(damaged, all);
+                if share > NOTHING {
+                    spots.push(dry(point, share, damaged, if damaged > 0.0 { rubbing / damaged } else { 0.0 }));
+                }
+            }
+        }
+        if law.bond.is_some_and(|bond| bond.residual > 0.0) {
+            spots.push(Spot { point: POINTS - 1, part: Part::Stays, at: 0.5, share: 1.0, weight: 0.0, rubs: 0.0 });
+        }
+    }
+
+    /// The part of the joint that a point of what has cracked stands for: what of it has, all of it, and what rubs.
+    fn around(&self, point: usize) -> [f64; 3] {
+        let apart = (NODES - 1) / (DRY - 1);
+        let centre = point * apart;
+        let nodes = centre.saturating_sub(apart)..(centre + apart).min(NODES - 1);
+        let mut sums = [0.0; 3];
+        for n in nodes {
+            for (part, factor) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
+                let hat = 1.0 - ((n as f64 + part) - centre as f64).abs() / apart as f64;
+                let (damage, chi) = (self.between(n, part), self.rubbing(n, part));
+                for (sum, value) in sums.iter_mut().zip([damage, 1.0, damage * chi]) {
+                    *sum += factor * hat * value;
+                }
+            }
+        }
+        sums.map(|sum| sum * GREGORY[point] / (6.0 * (NODES - 1) as f64))
+    }
+
+    /// Opening and slide of a point that is held, which go on with the motion wherever it was before.
+    pub(crate) fn stretched(&self, at: f64) -> [f64; 2] {
+        between(&self.line, at)
+    }
+
+    /// Takes opening and slide at the ends from the points that are held, after a step.
+    pub(crate) fn follow(&mut self, points: &[Point]) {
+        let mut held = self.spots.iter().filter(|spot| spot.part == Part::Held);
+        let (Some(first), Some(second)) = (held.next(), held.next()) else { return };
+        let of = |spot: &Spot| [points[spot.point].gap, points[spot.point].slide];
+        let (from, to, length) = (of(first), of(second), second.at - first.at);
+        if length > 0.0 {
+            let at = |x: f64| [0, 1].map(|k| from[k] + (x - first.at) / length * (to[k] - from[k]));
+            self.was = std::mem::replace(&mut self.line, [at(0.0), at(1.0)]);
+        }
+    }
+
+    /// Energy in the springs of the joint as its line and its points stand [J].
+    pub(crate) fn stored(&self, law: &Law, points: &[Point]) -> f64 {
+        let Normal::Springs { both, press, .. } = law.normal else { return 0.0 };
+        let residual = law.bond.map_or(0.0, |bond| bond.residual);
+        let shear = law.shear.stiffness;
+        let mut energy = 0.0;
+        for spot in &self.spots {
+            let point = &points[spot.point];
+            energy += match spot.part {
+                Part::Held => {
+                    let [w, s] = self.stretched(spot.at);
+                    0.5 * spot.share * (both * w * w + (1.0 - residual) * shear * s * s)
+                }
+                Part::Dry => {
+                    let k = spot.share * (both + press);
+                    let sheared = match law.shear.series && shear > 0.0 {
+                        true => 0.5 * point.bearing * point.bearing / (spot.share * shear),
+                        false => 0.0,
+                    };
+                    0.5 * k * (point.gap + point.crushed).min(0.0).powi(2) + sheared
+                }
+                Part::Whole | Part::Stays => 0.5 * residual * shear * point.slide * point.slide,
+            };
+        }
+        energy
+    }
+
+    /// What the bond lost in a step of a joint with springs that ended at `time` [s]; its points are placed anew where it lost something.
+    pub(crate) fn wear(&mut self, law: &Law, points: &mut [Point], time: f64) -> Worn {
+        let (Some(bond), Normal::Springs { both, press, .. }) = (law.bond, law.normal) else { return Worn::default() };
+        let [near, far] = self.line;
+        // Nothing that has not cracked is near its strength: most joints at most times.
+        let sheared = law.shear.stiffness * near[1].abs().max(far[1].abs());
+        let pressed = (both + press) * (-near[0].min(far[0])).max(0.0);
+        let intact = self.cracked.is_infinite();
+        let opened = near[0].max(far[0]);
+        if intact && both * (opened - TOUCHING) <= bond.tension && sheared <= bond.cohesion && pressed <= law.crushing {
+            return Worn::default();
+        }
+        let before = self.stored(law, points);
+        let mut taken = 0.0;
+        let mut worn = false;
+        for n in 0..NODES {
+            let x = place(n);
+            let [w, s] = self.stretched(x);
+            let weight = if n == 0 || n == NODES - 1 { 0.5 } else { 1.0 } / (NODES - 1) as f64;
+            if self.nodes[n][1] == 1.0 {
+                continue;
+            }
+            let then = between(&self.was, x);
+            let grown = [w - then[0], s.abs() - then[1].abs()].map(|way| way.max(0.0));
+            let lost = self.wear_node(n, [w, s], grown, law, &bond);
+            if lost > 0.0 {
+                worn = true;
+                taken += weight * lost;
+                self.reach = self.reach.max(w.max(s.abs()));
+            }
+        }
+        if !worn {
+            return Worn::default();
+        }
+        self.cracked = self.cracked.min(time);
+        if self.is_gone() {
+            self.broken = self.broken.min(time);
+        }
+        let gaps: [[f64; 2]; DRY] = std::array::from_fn(|k| self.stretched(k as f64 / (DRY - 1) as f64));
+        let was: [bool; DRY] = std::array::from_fn(|k| self.spots.iter().any(|spot| spot.point == HELD + k));
+        self.place(law);
+        for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
+            let k = spot.point - HELD;
+            if !was[k] {
+                let point = &mut points[spot.point];
+                *point = Point { gap: gaps[k][0], slide: gaps[k][1], ..Point::default() };
+            }
+        }
+        self.set(points);
+        let lost = before - self.stored(law, points);
+        Worn { bond: taken, beyond: lost - taken }
+    }
+
+    /// What a node lost that is stretched by `w` and `s`, `grown` of it in this step [m], of a joint as it would be everywhere [J].
+    fn wear_node(&mut self, n: usize, [w, s]: [f64; 2], grown: [f64; 2], law: &Law, bond: &Bond) -> f64 {
+        let Normal::Springs { both, press, .. } = law.normal else { return 0.0 };
+        let [mut xi, mut damage] = self.nodes[n];
+        let along = (1.0 - bond.residual) * law.shear.stiffness;
+        let pressure = ((both + press) * -w).max(0.0);
+        let mut taken = 0.0;
+        // `way` is how much farther it is stretched than before, `other` twice what the other direction would store.
+        let mut pass = |[stretch, way]: [f64; 2], k: f64, strength: f64, energy: f64, other: f64| {
+            if k == 0.0 || damage == 1.0 {
+                return;
+            }
+            let from = strength * (-xi).exp();
+            let limit = from / (k * (1.0 - damage));
+            if !(stretch > limit) {
+                return;
+            }
+            let before = damage;
+            let decay = ((energy - 0.5 * strength * strength / k) / ((1.0 - BROKEN) * strength)).max(0.0);
+            // Where the limit has come to the stretch and not the stretch to the limit, nothing has slid beyond it.
+            xi = if decay > 0.0 { xi + (stretch - limit).min(way) / decay } else { f64::INFINITY };
+            let to = strength * (-xi).exp();
+            if to > BROKEN * strength {
+                damage = 1.0 - to / (k * stretch);
+                taken += decay * (from - to) - 0.5 * (to * stretch - from * limit);
+            } else {
+                // What bears next to nothing bears nothing, and gives back nothing of what it stored.
+                (xi, damage) = (f64::INFINITY, 1.0);
+                taken += decay * (from - BROKEN * strength).max(0.0) + 0.5 * from * limit;
+            }
+            taken += 0.5 * (damage - before) * other;
+        };
+        pass([w - TOUCHING, grown[0]], both, bond.tension, bond.energy[0], along * s * s);
+        pass([s.abs(), grown[1]], along, bond.cohesion + pressure * bond.tan_angle, bond.energy[1], both * w.max(0.0).powi(2));
+        if pressure > law.crushing && damage < 1.0 {
+            taken += 0.5 * (1.0 - damage) * along * s * s;
+            (xi, damage) = (f64::INFINITY, 1.0);
+        }
+        self.nodes[n] = [xi, damage];
+        taken
+    }
+
+    /// Breaks a rigid joint by what its points bear [N], or that slides, in a step that ended at `time` [s].
+    pub(crate) fn break_rigid(&mut self, law: &Law, points: &mut [Point], slid: bool, time: f64) {
+        let Some(bond) = law.bond else { return };
+        if self.is_gone() {
+            return;
+        }
+        let parted = bond.tension == 0.0
+            && self.spots.iter().any(|spot| spot.part == Part::Held && points[spot.point].gap > TOUCHING);
+        let sum = |f: &dyn Fn(&Spot) -> f64| self.spots.iter().map(|s| points[s.point].force[0] * f(s)).sum::<f64>();
+        let (normal, moment) = (sum(&|_| 1.0), sum(&|spot| spot.at - 0.5));
+        let mut gone = slid || parted;
+        let [mut first, mut last] = self.held;
+        // The edge of an uncracked joint is stressed by N ∓ 6 M/ℓ over its area.
+        if !gone && (self.cracked.is_finite() || 6.0 * moment.abs() - normal > bond.tension) {
+            loop {
+                let Some(tips) = plane(normal, moment, first, last) else {
+                    gone = true;
+                    break;
+                };
+                let over = tips.map(|stress| -stress > bond.tension);
+                if !over[0] && !over[1] {
+                    break;
+                }
+                first += usize::from(over[0] && tips[0] <= tips[1]);
+                last -= usize::from(over[1] && tips[1] < tips[0]);
+                if first >= last {
+                    gone = true;
+                    break;
+                }
+            }
+        }
+        if !gone && [first, last] == self.held {
+            return;
+        }
+        self.held = [first, last];
+        for (n, node) in self.nodes.iter_mut().enumerate() {
+            if gone || n < first || n > last {
+                *node = [f64::INFINITY, 1.0];
+            }
+        }
+        self.cracked = self.cracked.min(time);
+        if gone {
+            self.broken = self.broken.min(time);
+        }
+        self.place(law);
+        self.set(points);
+    }
+}
+
+/// Stress over a mean of 1 at the tips of what is held from node `first` to node `last`, pressing above 0, of a plane section that balances `normal`
+/// and `moment` about the middle [N, both over a joint of length 1]; what has cracked presses only. None where nothing balances them.
+fn plane(normal: f64, moment: f64, first: usize, last: usize) -> Option<[f64; 2]> {
+    let mut line = [normal, 0.0];
+    for _ in 0..2 * NODES {
+        // What bears: what is held, and what has cracked where it is pressed.
+        let mut sums = [0.0; 3];
+        for n in 0..NODES {
+            let x = place(n) - 0.5;
+            let weight = if n == 0 || n == NODES - 1 { 0.5 } else { 1.0 } / (NODES - 1) as f64;
+            if (first..=last).contains(&n) || line[0] + line[1] * x > 0.0 {
+                (0..3).for_each(|k| sums[k] += weight * x.powi(k as i32));
+            }
+        }
+        let [a, b, c] = sums;
+        let whole = a * c - b * b;
+        if !(whole > 1e-12) {
+            return None;
+        }
+        let next = [(c * normal - b * moment) / whole, (a * moment - b * normal) / whole];
+        let settled = (0..2).all(|k| (next[k] - line[k]).abs() <= 1e-9 * (normal.abs() + moment.abs()));
+        line = next;
+        if settled {
+            break;
+        }
+    }
+    Some([first, last].map(|n| line[0] + line[1] * (place(n) - 0.5)))
+}
