@@ -21,8 +21,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::joint::{Bond, Law, Normal, Point};
 
-/// Nodes of a joint: a crack advances by a thirty-second of it.
-const NODES: usize = 33;
+/// Nodes of a joint: a crack advances by a sixty-fourth of it.
+const NODES: usize = 65;
 /// Points of what has cracked.
 pub(crate) const DRY: usize = 9;
 /// Points of what is left of the bond.

@@ -406,16 +406,11 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
     let dashpot = |k: f64| 2.0 * law.damping_ratio * (k * joint.weight * reference).sqrt();
     let area = joint.area(wall);
     let bond = bond_of(law).map(|values| {
-        let strength = [values.tensile_strength * area, values.cohesion * area];
-        let decay = |k: usize| {
-            let beyond = values.energy[k] * area - stored(strength[k], ways[k] * stiffness);
-            if strength[k] > 0.0 && values.energy[k] > 0.0 && beyond > 0.0 { beyond / strength[k] } else { 0.0 }
-        };
         PointBond {
-            tension: strength[0],
-            cohesion: strength[1],
+            tension: values.tensile_strength * area,
+            cohesion: values.cohesion * area,
             tan_angle: values.tan_angle,
-            decay: [decay(0), decay(1)],
+            energy: values.energy.map(|energy| energy * area),
             residual: values.residual,
         }
     });

@@ -116,7 +116,7 @@ pub(super) fn standing(planar: &Planar) -> (Motion, Rest) {
     let settled = motion.strayed_by(&planar.system);
     // What is no number has not stood.
     if settled <= most * least {
-        let has_cracked = |e: &usize| motion.points(*e).is_some_and(|p| p.iter().any(|p| p.cracked.is_finite()));
+        let has_cracked = |e: &usize| motion.crack(*e).is_some_and(|crack| crack.cracked.is_finite());
         let cracked = (0..planar.system.links.len()).filter(has_cracked).count();
         return (motion, Rest::Stands { settled, cracked });
     }
@@ -380,15 +380,10 @@ impl Run {
     fn cracks(&self, model: &Model, state: &mut State, tell: &mut impl FnMut(Event)) {
         for (bond, held) in model.bonds.iter().zip(&mut state.bonds) {
             let e = bond.joint as usize;
-            let Some(points) = self.motion.points(e) else { continue };
-            let first = points.iter().map(|p| p.cracked).fold(f64::INFINITY, f64::min);
-            let last = points.iter().map(|p| p.broken).fold(0.0, f64::max);
-            let reach = points.iter().map(|p| p.reach[0].max(p.reach[1])).fold(0.0, f64::max);
-            let stretch = points.iter().map(|p| p.slide.abs().max(p.gap)).fold(0.0, f64::max);
-            let shares = self.motion.shares(e);
-            // Shares of thirds do not add up to 1 to the bit.
-            let gone = points.iter().all(|p| p.damage == 1.0);
-            let damage = if gone { 1.0 } else { points.iter().zip(shares).map(|(p, share)| share * p.damage).sum() };
+            let Some(crack) = self.motion.crack(e) else { continue };
+            let (first, last, reach) = (crack.cracked, crack.broken, crack.reach);
+            let stretch = crack.line().iter().map(|[gap, slide]| gap.max(slide.abs())).fold(0.0, f64::max);
+            let (damage, length) = (crack.damage(), crack.length());
             if !held.cracked.is_finite() && first.is_finite() {
                 tell(Event { time: first, joint: bond.joint, kind: EventKind::Crack, value: stretch });
             }
@@ -399,6 +394,7 @@ impl Run {
             let force = if model.joints[e].kind.is_upright() { -seen.pressure } else { seen.shear.abs() };
             let peak = held.peak.max(force);
             *held = BondState { reach, damage, spent: seen.broken, peak, cracked: first, broken: last };
+            let _ = length;
         }
     }
 
