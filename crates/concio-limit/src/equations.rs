@@ -47,7 +47,9 @@ impl Equations {
             if let Other::Body(b) = point.b {
                 column.extend(side(b, 1.0));
             }
-            column.retain(|(_, v)| *v != 0.0);
+            // What keeps its turn has no balance of moments.
+            let turns = problem.level.map_or(usize::MAX, |body| 3 * body + 2);
+            column.retain(|(row, v)| *v != 0.0 && *row != turns);
             column.sort_by_key(|(row, _)| *row);
             column
         };

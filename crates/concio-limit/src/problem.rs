@@ -1,7 +1,7 @@
 //! From a wall file to blocks, contact points, friction and loads.
 
 use concio::assign::{self, JointLaw};
-use concio::case::{Beam, Case, JointKind, ModelKind, Motion, NormalForce};
+use concio::case::{Beam, BeamRotation, Case, JointKind, ModelKind, Motion, NormalForce};
 use concio::model::{self, Model};
 use concio::planar;
 use concio::quantity::Time;
@@ -70,6 +70,8 @@ pub struct Problem {
     pub dead: Vec<[f64; 2]>,
     /// Live load at the centre of every body at λ = 1 [N].
     pub live: Vec<[f64; 2]>,
+    /// A body that keeps its turn, as a beam does whose rotation is held.
+    pub level: Option<usize>,
     /// Whether a load on the blocks has mass, and pushes with them.
     pub laden: bool,
     /// What the analysis leaves out of the wall file, or takes otherwise than it may be meant.
@@ -111,6 +113,8 @@ impl Problem {
         if options.push == Push::Top {
             (0..loaded.len()).filter(|&i| loaded[i] > 0.0).for_each(|i| live[i] = dead[i]);
         }
+        let blocks = model.wall.blocks.len();
+        let level = assembly.bodies.len() > blocks && case.load.beam_rotation == BeamRotation::Fixed;
         let sign = if options.towards == Towards::Right { 1.0 } else { -1.0 };
         Ok(Problem {
             joints: model.joint_names(),
@@ -118,6 +122,7 @@ impl Problem {
             assembly,
             dead: dead.iter().map(|w| [0.0, -w]).collect(),
             live: live.iter().map(|w| [sign * w, 0.0]).collect(),
+            level: level.then_some(blocks),
             laden: model.load_mass > 0.0,
             warnings: warnings(given, &model, &sides),
             wall: model.wall,
@@ -163,11 +168,16 @@ fn warnings(case: &Case, model: &Model, sides: &[Sides]) -> Vec<String> {
             "of the {all:.2} kN that load.top brings, {has:.2} kN push: the rest has no mass, and presses alone. Leave load.mass out, and all of it pushes"
         )
     });
+    let crushes = case.joint.bed.compressive_strength.is_some()
+        || case.joint.changes.iter().any(|c| c.spring.is_some_and(|s| s.compressive_strength.is_some()));
+    let crushes = crushes.then(|| {
+        "compressive_strength is left out: joints bear any pressure at their edges, and the multiplier is too high where they would crush".to_string()
+    });
     let touching = sides.iter().filter(|sides| **sides == Sides::Touching).count();
     let touching = (touching > 0).then(|| {
         format!("the sides of {touching} joints of law `none` touch as they are laid: blocks press and rub there. A gap between them keeps them apart")
     });
-    bonded.into_iter().chain(laid).chain(tied).chain(presses).chain(touching).collect()
+    bonded.into_iter().chain(laid).chain(tied).chain(presses).chain(crushes).chain(touching).collect()
 }
 
 /// Part of a load that may have no mass without a word.
@@ -176,9 +186,11 @@ const LACKING: f64 = 0.01;
 /// The beam and the length on which it lies [m].
 fn beam(case: &Case, model: &Model, mass: f64) -> (Body, f64) {
     let tops: Vec<_> = model.joints.iter().filter(|j| j.kind == JointKind::Top).collect();
-    let length: f64 = tops.iter().map(|j| j.overlap).sum();
+    let loaded = model.wall.loaded();
+    let length: f64 = tops.iter().map(|j| loaded[j.a]).sum();
+    let touched: f64 = tops.iter().map(|j| j.overlap).sum();
     // It lies so that it presses alike everywhere, wherever its ends are.
-    let x = tops.iter().map(|j| 0.5 * (j.line[0] + j.line[2]) * j.overlap).sum::<f64>() / length;
+    let x = tops.iter().map(|j| 0.5 * (j.line[0] + j.line[2]) * j.overlap).sum::<f64>() / touched;
     let [left, right, y] = tops.iter().fold([f64::INFINITY, f64::NEG_INFINITY, 0.0], |e, j| {
         [e[0].min(j.line[0]), e[1].max(j.line[2]), f64::max(e[2], j.line[1])]
     });

@@ -505,11 +505,11 @@ fn plane(normal: f64, moment: f64, first: usize, last: usize) -> Option<[f64; 2]
     for _ in 0..2 * NODES {
         // What bears: what is held, and what has cracked where it is pressed.
         let mut sums = [0.0; 3];
-        for n in 0..NODES {
-            let x = place(n) - 0.5;
-            let weight = if n == 0 || n == NODES - 1 { 0.5 } else { 1.0 } / (NODES - 1) as f64;
-            if (first..=last).contains(&n) || line[0] + line[1] * x > 0.0 {
-                (0..3).for_each(|k| sums[k] += weight * x.powi(k as i32));
+        for n in 0..NODES - 1 {
+            let [from, middle, to] = [0.0, 0.5, 1.0].map(|part| (n as f64 + part) / (NODES - 1) as f64 - 0.5);
+            if (first..last).contains(&n) || line[0] + line[1] * middle > 0.0 {
+                let whole = |k: i32| (from.powi(k) + 4.0 * middle.powi(k) + to.powi(k)) / (6.0 * (NODES - 1) as f64);
+                (0..3).for_each(|k| sums[k as usize] += whole(k));
             }
         }
         let [a, b, c] = sums;

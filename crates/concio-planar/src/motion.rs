@@ -191,6 +191,8 @@ pub struct Counters {
     pub unsolved: u64,
     /// Largest violation left [m/s].
     pub residual: f64,
+    /// Steps without inertia that ended before what slowed down had come to rest.
+    pub moving: u64,
 }
 
 /// What a joint did in the last step, and since the start.
@@ -462,18 +464,29 @@ impl Motion {
     }
 
     /// From here over `h` [s]; `forcing` says what acts between two instants. Without inertia, steps under what acts then
-    /// follow until the bodies are at rest, ten at most: those of a mechanism never are.
+    /// follow until the bodies are at rest, each twice as long as the one before as long as they move less in it: what swings slowly comes to rest in
+    /// long steps alone. A mechanism never comes to rest, and moves the more the longer they are.
     pub fn go(&mut self, h: f64, forcing: &impl Fn(f64, f64) -> Forcing) {
         let start = self.time;
         self.part(start, h, HALVINGS, forcing);
-        let first = self.fastest();
+        let first = self.fastest() * h;
+        let (mut way, mut step) = (first, h);
+        let acts = forcing(start, start + h);
         for _ in 0..if self.setting.still { FOLLOWING } else { 0 } {
-            if self.fastest() <= AT_REST * first {
+            if way <= AT_REST * first {
                 break;
             }
-            let stays = |from: f64, to: f64| Forcing { held: 0.0, ..forcing(from, to) };
-            self.part(start, h, HALVINGS, &stays);
+            let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
+            self.part(start, step, HALVINGS, &stays);
+            let next = self.fastest() * step;
+            if next > way {
+                step = h;
+            } else {
+                step *= 2.0;
+            }
+            way = next;
         }
+        self.counters.moving += u64::from(self.setting.still && way > AT_REST * first && step > h);
         self.time = start + h;
     }
 
@@ -514,6 +527,7 @@ impl Motion {
         let halves = halvings > HALVINGS - SOON && !self.setting.still;
         let effort = self.solve(halves);
         let effort = self.follow_devices(h, halves, effort);
+        let effort = if self.turn() { effort.then(self.solve(halves)) } else { effort };
         self.count(effort);
         let enough = effort.residual <= self.setting.enough();
         if !enough && halvings > 0 {
@@ -527,6 +541,25 @@ impl Motion {
         std::mem::swap(&mut self.velocities, &mut self.after);
         self.time += h;
         true
+    }
+
+    /// Where a slide that friction of motion held back turns round, friction at rest holds it: whether there is such a point, which is to be solved
+    /// again. Rest in between two slides would be a matter of chance otherwise.
+    fn turn(&mut self) -> bool {
+        let mut turns = false;
+        for (contact, owner) in self.contacts.iter_mut().zip(&self.owners) {
+            let pair = &self.pairs[owner.pair];
+            let point = &pair.points[owner.point];
+            let law = self.laws.part(pair.link, owner.part);
+            let Some(friction) = law.friction.filter(|_| law.bond.is_none() && point.speed > 0.0) else { continue };
+            let most = point.rubbing * friction.static_;
+            let after = contact.velocity(&self.after)[1];
+            if contact.friction < most && owner.start.velocity[1] * after < 0.0 {
+                contact.friction = most;
+                turns = true;
+            }
+        }
+        turns && !self.setting.still
     }
 
     /// Velocities without contact, and polygons in the middle of the step; what is held moves at `rate` before and after it [m/s].

@@ -152,7 +152,8 @@ pub fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLa
             }
             if let Some(c) = &change.friction {
                 law.friction = c.law.unwrap_or(law.friction);
-                law.may_rub = true;
+                // Joints that `on` leaves out rub where a change names them or their kind, not where it meets them among others.
+                law.may_rub |= c.law.is_some() || !change.at.kind.is_empty() || !change.at.joints.is_empty();
                 let p = &mut law.parameters;
                 p.static_ = c.static_.unwrap_or(p.static_);
                 p.dynamic = c.dynamic.unwrap_or(p.dynamic);

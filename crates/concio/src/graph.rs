@@ -126,9 +126,14 @@ fn between(wall: &Wall, i: usize, j: usize, connection: Option<f64>) -> Option<J
     if ends[0][axis] > ends[1][axis] {
         ends.swap(0, 1);
     }
-    let unit = if kind == JointKind::Bed { 0.5 * info.reference_length } else { info.reference_height };
+    // Head joints are whole ones, as those between rectangles (theory, section 1).
+    let weight = match kind {
+        JointKind::Bed => found.length / (0.5 * info.reference_length),
+        JointKind::Connection => found.length / info.reference_height,
+        _ => 1.0,
+    };
     let line = [ends[0][0], ends[0][1], ends[1][0], ends[1][1]];
-    Some(Joint { kind, a, b: End::Block(b), weight: found.length / unit, overlap: found.length, line })
+    Some(Joint { kind, a, b: End::Block(b), weight, overlap: found.length, line })
 }
 
 /// The joint of a polygon's level side with base or beam.

@@ -110,7 +110,9 @@ pub(crate) fn beam(case: &Case, wall: &Wall, joints: &[Joint]) -> Option<BeamBod
         return None;
     }
     let tops: Vec<&Joint> = joints.iter().filter(|j| j.kind == JointKind::Top).collect();
-    let length: f64 = tops.iter().map(|j| j.overlap).sum();
+    // As far as the load lies on the blocks under it, whatever part of them it touches.
+    let loaded = wall.loaded();
+    let length: f64 = tops.iter().map(|j| loaded[j.a]).sum();
     let [left, right] =
         tops.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |e, j| [e[0].min(j.line[0]), e[1].max(j.line[2])]);
     let level = top_level(wall);

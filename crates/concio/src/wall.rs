@@ -190,6 +190,8 @@ impl Joint {
         let below = wall.blocks[self.a].course + 1;
         match (self.kind, self.b) {
             (JointKind::Bed, End::Block(upper)) => wall.blocks[upper].course + 1,
+            // Beside a lintel of several courses that of the brick, on either side.
+            (JointKind::Head, End::Block(right)) => below.min(wall.blocks[right].course + 1),
             (JointKind::Top, _) => below + 1,
             _ => below,
         }

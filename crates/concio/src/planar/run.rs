@@ -182,6 +182,8 @@ impl Run {
 
     /// Energies at the start.
     pub fn begin(&self, state: &mut State) {
+        // What is held bears its part of the loads before anything moves.
+        state.pull = self.motion.pull;
         state.energies.elastic = self.motion.account.elastic;
         state.energies.initial = self.motion.account.elastic;
     }
