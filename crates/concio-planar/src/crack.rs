@@ -526,3 +526,99 @@ fn plane(normal: f64, moment: f64, first: usize, last: usize) -> Option<[f64; 2]
     }
     Some([first, last].map(|n| line[0] + line[1] * (place(n) - 0.5)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::joint::{Friction, Shear};
+
+    /// One node of a joint of 0.3 m²: f_t 50 kPa, c 20 kPa, tan φ 0.6, 20 and 100 N/m.
+    fn law() -> Law {
+        Law {
+            normal: Normal::Springs { both: 3e9, press: 0.0, damping: 0.0 },
+            shear: Shear { stiffness: 3e9, damping: 0.0, series: false },
+            bond: Some(Bond { tension: 15e3, cohesion: 6e3, tan_angle: 0.6, energy: [6.0, 30.0], residual: 0.0 }),
+            ..Law::dry(Some(Friction::coulomb(0.6)))
+        }
+    }
+
+    fn stretch(crack: &mut Crack, from: [f64; 2], to: [f64; 2], law: &Law) -> f64 {
+        let bond = law.bond.expect("a bond");
+        let mut taken = 0.0;
+        let steps = 2000;
+        let mut was = from;
+        for n in 1..=steps {
+            let at = [0, 1].map(|k| from[k] + (to[k] - from[k]) * f64::from(n) / f64::from(steps));
+            let grown = [at[0] - was[0], at[1].abs() - was[1].abs()].map(|way| way.max(0.0));
+            taken += crack.wear_node(7, at, grown, law, &bond);
+            was = at;
+        }
+        taken
+    }
+
+    /// What a node has lost by opening it does not bear in shear, nor what it lost in shear in tension.
+    #[test]
+    fn one_damage_weakens_both_strengths() {
+        let law = law();
+        let pressed = -60e3 / 3e9;
+        let mut crack = Crack::new(&law);
+        // δ_c of opening is G/f_t and a little less: χ = 0.9 at 2.3 of it.
+        stretch(&mut crack, [0.0; 2], [2.303 * 6.0 / 15e3, 0.0], &law);
+        let chi = 1.0 - (-crack.nodes[7][0]).exp();
+        assert!((chi - 0.9).abs() < 0.01, "{chi}");
+        stretch(&mut crack, [pressed, 0.0], [pressed, 3.2e-3], &law);
+        let [xi, damage] = crack.nodes[7];
+        let strength = 6e3 + 0.6 * 60e3;
+        // (B5) with what is left, at most.
+        assert!((1.0 - damage) * 3e9 * 3.2e-3 <= (1.0 - chi) * strength * (1.0 + 1e-9));
+        let rubs = (1.0 - (-xi).exp()) * 0.6 * 60e3;
+        assert!((1.0 - damage) * 3e9 * 3.2e-3 + rubs <= (1.0 - chi) * strength + 0.6 * 60e3);
+        let mut crack = Crack::new(&law);
+        stretch(&mut crack, [0.0; 2], [0.0, 5e-3], &law);
+        let left = (-crack.nodes[7][0]).exp();
+        stretch(&mut crack, [0.0, 5e-3], [1e-4, 5e-3], &law);
+        assert!((1.0 - crack.nodes[7][1]) * 3e9 * 1e-4 <= left * 15e3 * (1.0 + 1e-9));
+    }
+
+    /// Either mode takes its energy, however it is approached, and gives the curve of (B3).
+    #[test]
+    fn a_node_follows_its_softening_and_takes_its_energy() {
+        let law = law();
+        for (mode, strength) in [(0, 15e3), (1, 6e3)] {
+            let mut crack = Crack::new(&law);
+            let bond = law.bond.expect("a bond");
+            let along = |way: f64| if mode == 0 { [way, 0.0] } else { [0.0, way] };
+            let limit = strength / 3e9;
+            let decay = (bond.energy[mode] - 0.5 * strength * limit) / ((1.0 - BROKEN) * strength);
+            let mut taken = stretch(&mut crack, [0.0; 2], along(limit + decay), &law);
+            let force = (1.0 - crack.nodes[7][1]) * 3e9 * (limit + decay);
+            assert!((force / (strength * (-1.0f64).exp()) - 1.0).abs() < 1e-6, "{force}");
+            taken += stretch(&mut crack, along(limit + decay), along(limit + 8.0 * decay), &law);
+            assert!(crack.nodes[7][1] == 1.0 && (taken / bond.energy[mode] - 1.0).abs() < 1e-3, "{taken}");
+        }
+    }
+
+    /// An intact joint has two points with the stiffness against turning of the whole; one that has lost its bond three.
+    #[test]
+    fn points_have_the_stiffness_of_the_joint() {
+        let law = law();
+        let mut crack = Crack::new(&law);
+        let moments = |crack: &Crack| {
+            [0, 1, 2].map(|k| crack.spots().iter().map(|s| s.share * (s.at - 0.5).powi(k)).sum::<f64>())
+        };
+        let close = |found: [f64; 3], within: f64| {
+            let whole = [1.0, 0.0, 1.0 / 12.0];
+            assert!((0..3).all(|k| (found[k] - whole[k]).abs() < within), "{found:?}");
+        };
+        assert_eq!(crack.spots().len(), 2);
+        close(moments(&crack), 1e-15);
+        for cracked in [5, 20, 40, NODES] {
+            crack.nodes[..cracked].fill([f64::INFINITY, 1.0]);
+            crack.place(&law);
+            close(moments(&crack), 4e-3);
+            let weights: f64 = crack.spots().iter().map(|s| s.weight).sum();
+            assert!((weights - 1.0).abs() < 1e-2, "{weights}");
+        }
+        assert_eq!(crack.spots().len(), 3);
+    }
+}

@@ -41,9 +41,13 @@ const SOON: u32 = 2;
 /// Least step in which loads come to bear [s], and after how many it is doubled: the slowest modes take the longest steps.
 const SETTLING: f64 = 2e-2;
 const DOUBLED: usize = 40;
-/// Steps that follow a step without inertia at most, and velocity over that of the first at which none follows.
-const FOLLOWING: usize = 10;
+/// Steps that follow a step without inertia at most, those after which none follows where bodies do not slow down, and the way in one over that
+/// of the farthest at which none follows.
+const FOLLOWING: usize = 60;
+const PATIENCE: usize = 10;
 const AT_REST: f64 = 1e-3;
+/// Way in such a step, over the size of a body, beyond which longer ones follow only where it shrinks.
+const FAR: f64 = 1e-4;
 /// What contact may be violated by, over the velocity that gravity gives in a step.
 const ACCURACY: f64 = 1e-6;
 /// What is left at most, over the tolerance, of a step that is not taken again in two halves.
@@ -464,29 +468,28 @@ impl Motion {
     }
 
     /// From here over `h` [s]; `forcing` says what acts between two instants. Without inertia, steps under what acts then
-    /// follow until the bodies are at rest, each twice as long as the one before as long as they move less in it: what swings slowly comes to rest in
-    /// long steps alone. A mechanism never comes to rest, and moves the more the longer they are.
+    /// follow until the bodies are at rest, each twice as long as the one before as long as they move less in it, or hardly: what swings slowly comes
+    /// to rest in long steps alone. A mechanism never does, and moves the more the longer they are.
     pub fn go(&mut self, h: f64, forcing: &impl Fn(f64, f64) -> Forcing) {
         let start = self.time;
         self.part(start, h, HALVINGS, forcing);
-        let first = self.fastest() * h;
-        let (mut way, mut step) = (first, h);
+        let (mut way, mut step) = (self.fastest() * h, h);
+        let (mut most, mut shrinks) = (way, false);
         let acts = forcing(start, start + h);
-        for _ in 0..if self.setting.still { FOLLOWING } else { 0 } {
-            if way <= AT_REST * first {
+        let size = self.radius.iter().fold(0.0, |most: f64, r| most.max(*r));
+        for number in 0..if self.setting.still { FOLLOWING } else { 0 } {
+            if way <= AT_REST * most || number >= PATIENCE && !shrinks {
                 break;
+            }
+            if shrinks || way <= FAR * size {
+                step *= 2.0;
             }
             let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
             self.part(start, step, HALVINGS, &stays);
             let next = self.fastest() * step;
-            if next > way {
-                step = h;
-            } else {
-                step *= 2.0;
-            }
-            way = next;
+            (shrinks, way, most) = (next < way, next, most.max(next));
         }
-        self.counters.moving += u64::from(self.setting.still && way > AT_REST * first && step > h);
+        self.counters.moving += u64::from(self.setting.still && way > AT_REST * most && shrinks);
         self.time = start + h;
     }
 

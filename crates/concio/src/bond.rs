@@ -180,6 +180,7 @@ impl Bonded {
             energy: self.law.energy(),
             decay: self.law.decay,
             damage: state.damage,
+            crack: state.crack.unwrap_or(if state.damage > 0.0 { 1.0 } else { 0.0 }),
             spent: state.spent,
             cracked: state.cracked,
             broken: state.broken,

@@ -223,11 +223,13 @@ impl Model {
         let mut warnings = warnings(case, &wall, rubs.len(), if turns { 0 } else { idle }, reciprocal);
         let massless = massless(case, top_load, &mass[..wall.blocks.len()]);
         warnings.extend(massless.map(|text| Warning::new(WarningKind::MasslessLoad, text)));
+        let stronger = stronger_cracked(&wall, &joints, &laws, &normal);
+        warnings.extend(stronger.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
         let wide = wide_joint(case, &wall, &joints, &laws);
         warnings.extend(wide.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
         let detached = planar::detached(case, &wall).into_iter();
         warnings.extend(detached.map(|text| Warning::new(WarningKind::DetachedTie, text)));
-        let planar = turns.then(|| planar::compile(case, &wall, &joints, &laws)).transpose()?;
+        let planar = turns.then(|| planar::compile(case, &wall, &joints, &laws, &normal)).transpose()?;
         let rigid = |(e, law): (usize, &JointLaw)| {
             let spring = &law.spring;
             (spring.law == SpringLaw::Rigid)
@@ -389,6 +391,27 @@ fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
         damping: joint.weight * 2.0 * damping * (nominal * reference).sqrt(),
         unilateral,
     }
+}
+
+/// Says of bonded joints that bear more once they have cracked than before: μ_s N under the loads at rest is above c A + N tan φ.
+fn stronger_cracked(wall: &Wall, joints: &[Joint], laws: &[JointLaw], normal: &[[f64; 2]]) -> Option<String> {
+    let over = |e: usize| {
+        let (bond, friction) = (laws[e].bond.as_ref()?, laws[e].rubs()?);
+        let force = normal[e][0];
+        let [intact, cracked] =
+            [bond.cohesion * joints[e].area(wall) + force * bond.tan_angle, friction.static_ * force];
+        (!joints[e].kind.is_upright() && cracked > intact * (1.0 + 1e-9)).then_some((cracked, intact, e))
+    };
+    let all: Vec<(f64, f64, usize)> = (0..joints.len()).filter_map(over).collect();
+    let (cracked, intact, e) = all.iter().max_by(|a, b| (a.0 - a.1).total_cmp(&(b.0 - b.1)))?;
+    let others = if all.len() > 1 { format!(", and {} more are like it", all.len() - 1) } else { String::new() };
+    Some(format!(
+        "joint {} would be stronger cracked than whole: friction bears {:.2} kN under the loads at rest (μ_s N), its bond {:.2} kN (c A + N tan φ){others}; \
+         look at friction.static and friction_angle",
+        graph::name(wall, &joints[*e]),
+        1e-3 * cracked,
+        1e-3 * intact,
+    ))
 }
 
 /// How much thicker than its mortar a bed joint of blocks given one by one is without a word, over the height of the brick: what drawings are

@@ -94,6 +94,8 @@ pub struct BondRow {
     pub decay: f64,
     /// Damage at the end, the part of the stiffness that is lost, 0 … 1.
     pub damage: f64,
+    /// Part of the joint's length along which it has cracked, 0 … 1; of shear walls all of it at once.
+    pub crack: f64,
     /// Energy that breaking has taken [J].
     pub spent: f64,
     /// When it first cracked [s]; infinite when it did not.

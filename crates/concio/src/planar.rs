@@ -162,11 +162,17 @@ pub fn top_level(wall: &Wall) -> f64 {
     wall.blocks.iter().map(|b| b.y[1]).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Makes bodies and laws of a wall.
+/// Makes bodies and laws of a wall, whose joints bear `normal` at rest [N].
 ///
 /// # Errors
 /// Devices that planar walls do not have, ties without length.
-pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Result<Planar> {
+pub(crate) fn compile(
+    case: &Case,
+    wall: &Wall,
+    joints: &[Joint],
+    laws: &[JointLaw],
+    normal: &[[f64; 2]],
+) -> Result<Planar> {
     let mut bodies = bodies(wall, joints, laws);
     let n = bodies.len();
     let load = case.load.top.si();
@@ -203,7 +209,7 @@ pub(crate) fn compile(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointL
             false => Link::closed(a, b, compile_law(case, wall, joint, law)),
         }
     };
-    softening(wall, joints, laws)?;
+    softening(wall, joints, laws, normal)?;
     let links = joints.iter().zip(laws).map(link).collect();
     let ties = ties(case, wall, &offset)?;
     let system = System { bodies, links, ties, other, load: loads, held };
@@ -452,15 +458,17 @@ fn stored(strength: f64, stiffness: f64) -> f64 {
     0.5 * strength * strength / stiffness
 }
 
-/// Refuses bonds that store more at their strength than breaking takes, in either direction and without pressure.
-fn softening(wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Result<()> {
+/// Refuses bonds that store more at their strength than breaking takes, in either direction and under the pressure at rest.
+fn softening(wall: &Wall, joints: &[Joint], laws: &[JointLaw], normal: &[[f64; 2]]) -> Result<()> {
     let mut snaps = Snaps::default();
     for (number, (joint, law)) in joints.iter().zip(laws).enumerate() {
         let stiffness = law.stiffness(joint, wall) * law.spring.stiffness_factor;
         let springs = matches!(law.spring.law, SpringLaw::Elastic | SpringLaw::NoTension) && stiffness > 0.0;
         let Some(values) = bond_of(law).filter(|_| springs) else { continue };
         let (area, ways) = (joint.area(wall), ways(joint, law));
-        for (mode, strength) in [values.tensile_strength, values.cohesion].into_iter().enumerate() {
+        let pressure = if joint.kind.is_upright() { 0.0 } else { normal[number][0] / area };
+        let shear = values.cohesion + pressure * values.tan_angle;
+        for (mode, strength) in [values.tensile_strength, shear].into_iter().enumerate() {
             let (least, given) = (stored(strength * area, ways[mode] * stiffness) / area, values.energy[mode]);
             if given > 0.0 && given <= least {
                 snaps.add(mode, Snap { joint: number, least, given, whole: false });

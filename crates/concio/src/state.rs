@@ -132,6 +132,8 @@ pub struct BondState {
     pub reach: f64,
     /// D, 0 … 1: what is lost of the stiffness. The part that rubs is [`crate::bond::Bond::rubbing`].
     pub damage: f64,
+    /// Part of the joint's length along which it has cracked, where cracks run along joints.
+    pub crack: Option<f64>,
     /// Energy that breaking took [J].
     pub spent: f64,
     /// Largest |elastic force| of the joint so far [N].
@@ -145,7 +147,15 @@ pub struct BondState {
 impl BondState {
     /// Of an intact bond.
     pub const INTACT: BondState =
-        BondState { reach: 0.0, damage: 0.0, spent: 0.0, peak: 0.0, cracked: f64::INFINITY, broken: f64::INFINITY };
+        BondState {
+        reach: 0.0,
+        damage: 0.0,
+        crack: None,
+        spent: 0.0,
+        peak: 0.0,
+        cracked: f64::INFINITY,
+        broken: f64::INFINITY,
+    };
 }
 
 /// What a run has done to a device with a law of its own.

@@ -395,8 +395,7 @@ impl Run {
             let seen = &self.motion.seen[e];
             let force = if model.joints[e].kind.is_upright() { -seen.pressure } else { seen.shear.abs() };
             let peak = held.peak.max(force);
-            *held = BondState { reach, damage, spent: seen.broken, peak, cracked: first, broken: last };
-            let _ = length;
+            *held = BondState { reach, damage, crack: Some(length), spent: seen.broken, peak, cracked: first, broken: last };
         }
     }
 

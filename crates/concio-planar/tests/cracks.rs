@@ -1,0 +1,213 @@
+//! Bonded joints against fine quadratures, and what else a joint keeps of what happened to it.
+
+use concio_planar::G;
+use concio_planar::body::Body;
+use concio_planar::joint::{Bond, Friction, Law, Normal, Shear};
+use concio_planar::motion::{Forcing, Link, Motion, Setting, System};
+
+/// A block of `length` × `height` m, 0.3 m thick, of 20 kN/m³.
+fn block([length, height]: [f64; 2]) -> Body {
+    Body::rectangle("block", [0.0, length], [0.0, height], 20e3 / G * length * height * 0.3)
+}
+
+/// Mortar of 50 N/mm³ across and 20.8 along, of 50 kPa and `energies` [N/m], that does not fail in shear.
+fn mortar(length: f64, energies: [f64; 2]) -> Law {
+    let area = 0.3 * length;
+    Law {
+        normal: Normal::Springs { both: 50e9 * area, press: 0.0, damping: 0.0 },
+        shear: Shear { stiffness: 20.8e9 * area, damping: 0.0, series: false },
+        bond: Some(Bond {
+            tension: 50e3 * area,
+            cohesion: 5e6 * area,
+            tan_angle: 0.0,
+            energy: energies.map(|g| g * area),
+            residual: 0.0,
+        }),
+        ..Law::dry(Some(Friction::coulomb(5.0)))
+    }
+}
+
+fn system(body: Body, law: Law) -> System {
+    let links = vec![Link::closed(None, 0, law)];
+    System { links, ..System::dry(&[body], 5.0) }
+}
+
+/// The largest tilt [g] that a block on a joint bears, ground tilted by 0.02 g a second.
+fn bears(size: [f64; 2], law: Law) -> f64 {
+    let mut motion = Motion::new(&system(block(size), law), Setting { still: true, ..Setting::new(2e-2) });
+    assert!(motion.stand(1e-12, 4000));
+    let rate = 0.02 * G;
+    for step in 0..20_000 {
+        let tilt = rate * (step + 1) as f64 * 2e-2;
+        motion.go(2e-2, &|from, to| Forcing { base: [tilt * (to - from), 0.0], held: 0.0 });
+        if motion.places[0].angle.abs() > 1e-2 || (motion.places[0].centre[0] - 0.5 * size[0]).abs() > 0.01 {
+            return tilt / G;
+        }
+    }
+    f64::INFINITY
+}
+
+/// The same by 4,000 springs in a plane section: brittle, or softening exponentially with secant unloading.
+fn plane_section([length, height]: [f64; 2], energy: f64) -> f64 {
+    const STRIPS: usize = 4000;
+    let (k, strength, weight) = (50e9 * 0.3 * length, 50e3 * 0.3 * length, 20e3 * 0.3 * length * height);
+    let first = strength / k;
+    let decay = energy * 0.3 * length / strength - 0.5 * first;
+    let mut widest = vec![0.0f64; STRIPS];
+    let x = |i: usize| ((i as f64 + 0.5) / STRIPS as f64 - 0.5) * length;
+    let stress = |w: f64, widest: f64| match w.max(widest) {
+        _ if w < 0.0 => k * w,
+        far if far <= first => k * w,
+        _ if energy == 0.0 => 0.0,
+        far => strength * (-(far - first) / decay).exp() * w / far,
+    };
+    let mut most = 0.0f64;
+    for n in 1..=20_000 {
+        let turn = 3e-8 * n as f64 / length;
+        // What presses is what the block weighs.
+        let pull = |middle: f64, widest: &[f64]| -> f64 {
+            (0..STRIPS).map(|i| stress(middle + turn * x(i), widest[i])).sum::<f64>() / STRIPS as f64
+        };
+        let (mut low, mut high) = (-1e-4, 1e-4);
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if pull(middle, &widest) > -weight { high = middle } else { low = middle }
+        }
+        let middle = 0.5 * (low + high);
+        let moment: f64 = (0..STRIPS).map(|i| stress(middle + turn * x(i), widest[i]) * x(i)).sum::<f64>() / STRIPS as f64;
+        (0..STRIPS).for_each(|i| widest[i] = widest[i].max(middle + turn * x(i)));
+        most = most.max(moment / (0.5 * weight * height));
+        if moment < 0.7 * most * 0.5 * weight * height {
+            break;
+        }
+    }
+    most
+}
+
+/// Brittle, with 2 and with 20 N/m: 1.163, 2.57 and 3.00 g for the block of 1 m.
+#[test]
+fn a_bonded_joint_cracks_from_its_edge() {
+    let told = [(0.0, 1.163), (2.0, 2.57), (20.0, 3.00)];
+    for length in [0.5, 1.0, 2.0] {
+        for (energy, known) in told {
+            let expected = plane_section([length, length], energy);
+            assert!(length != 1.0 || (expected / known - 1.0).abs() < 5e-3, "{expected} instead of {known}");
+            let found = bears([length, length], mortar(length, [energy, 0.0]));
+            println!("block of {length} m, {energy} N/m: {found:.4} g, plane section {expected:.4} g");
+            assert!((found / expected - 1.0).abs() < 0.03, "{length} m, {energy} N/m: {found} instead of {expected}");
+        }
+    }
+}
+
+/// Rigid joints break by plane sections too: (N + f_t A) ℓ/6 = a W h/2.
+#[test]
+fn a_rigid_bonded_joint_is_as_strong_as_a_plane_section() {
+    for length in [0.5, 1.0, 2.0] {
+        let law = Law { normal: Normal::Rigid { restitution: 0.0, rocking: 1.0 }, shear: Shear { stiffness: 0.0, ..mortar(1.0, [0.0; 2]).shear }, ..mortar(length, [0.0; 2]) };
+        let stress = 20e3 * length;
+        let expected = ((stress + 50e3) / (3.0 * stress)).max(1.0);
+        let found = bears([length, length], law);
+        assert!((found / expected - 1.0).abs() < 0.01, "{length} m: {found} instead of {expected}");
+    }
+}
+
+/// A joint that is torn off takes G_f^I A, one that is sheared off under any pressure G_f^II A.
+#[test]
+fn full_breaks_take_their_fracture_energy() {
+    let size = [1.0, 0.5];
+    let area = 0.3;
+    let mut law = mortar(1.0, [20.0, 100.0]);
+    let mut torn = system(block(size), law);
+    torn.load[0] = [0.0, 40e3];
+    let mut motion = Motion::new(&torn, Setting::new(1e-4));
+    (0..2000).for_each(|_| motion.step(Forcing::default()));
+    assert!(motion.crack(0).expect("a bond").is_gone());
+    assert!((motion.account.bond / (20.0 * area) - 1.0).abs() < 1e-3, "{} J", motion.account.bond);
+    for pressure in [10e3, 60e3, 600e3] {
+        law.bond = law.bond.map(|bond| Bond { cohesion: 20e3 * area, tan_angle: 0.6, ..bond });
+        law.friction = Some(Friction::coulomb(0.6));
+        let mut sheared = system(block(size), law);
+        sheared.load[0] = [0.0, -pressure * area];
+        sheared.held[0] = [true, false, true];
+        let mut motion = Motion::new(&sheared, Setting { still: true, ..Setting::new(2e-2) });
+        assert!(motion.stand(1e-12, 4000));
+        for _ in 0..4000 {
+            motion.go(2e-2, &|_, _| Forcing { base: [0.0; 2], held: 1e-5 });
+        }
+        let crack = motion.crack(0).expect("a bond");
+        assert!(crack.is_gone() && crack.length() == 1.0 && crack.damage() == 1.0);
+        assert!((motion.account.bond / (100.0 * area) - 1.0).abs() < 1e-3, "{pressure} Pa: {} J", motion.account.bond);
+    }
+}
+
+/// A slide of μ_d 0.1 that turns round while the ground pushes with less than μ_s 0.4 rests until it pushes with more (integration with
+/// 2 µs, which rests where v = 0 and |a| ≤ μ_s g: −15.42 mm after 2 s of 0.42 g at 2 Hz).
+#[test]
+fn a_slide_that_turns_round_is_held_by_friction_at_rest() {
+    let friction = Friction { static_: 0.4, dynamic: 0.1, slip_velocity: 0.0, alpha: 0.0 };
+    let base = |t: f64| 0.42 * G / (4.0 * std::f64::consts::PI) * (1.0 - (4.0 * std::f64::consts::PI * t).cos());
+    for (step, within) in [(1e-3, 0.3e-3), (5e-4, 0.2e-3), (2e-4, 0.1e-3), (1e-4, 0.05e-3)] {
+        let mut motion = Motion::new(&system(block([1.0, 0.2]), Law::dry(Some(friction))), Setting::new(step));
+        let steps = (2.0 / step).round() as usize;
+        for _ in 0..steps {
+            motion.go(step, &|from, to| Forcing { base: [base(to) - base(from), 0.0], held: 0.0 });
+        }
+        let way = motion.places[0].centre[0] - 0.5;
+        assert!((way + 15.42e-3).abs() < within, "{} mm with steps of {step} s", 1e3 * way);
+    }
+}
+
+/// A soft block of T = 0.7 s tilted to 0.1 g in 1 s or in 10 s: f/k + θ h/2 with θ = f h/2/(k_n ℓ²/12 − W h/2), whatever the rate.
+#[test]
+fn slow_loads_do_not_lag() {
+    let [length, height] = [0.6, 4.0];
+    let body = block([length, height]);
+    let weight = body.mass * G;
+    let (k_n, k_t) = (0.05e9 * 2.4 * 0.3 * length, 0.05e9 * 0.3 * length);
+    let law = Law {
+        normal: Normal::Springs { both: k_n, press: 0.0, damping: 0.0 },
+        shear: Shear { stiffness: k_t, damping: 0.0, series: false },
+        ..Law::dry(None)
+    };
+    let force = 0.1 * weight;
+    let turn = force * 0.5 * height / (k_n * length * length / 12.0 - 0.5 * weight * height);
+    let expected = force / k_t + turn * 0.5 * height;
+    for rise in [1.0, 10.0] {
+        let mut motion = Motion::new(&system(body.clone(), law), Setting { still: true, ..Setting::new(2e-2) });
+        assert!(motion.stand(1e-12, 4000));
+        let start = motion.places[0].centre[0];
+        for step in 1..=(rise / 2e-2_f64).round() as usize {
+            let tilt = 0.1 * G * step as f64 * 2e-2 / rise;
+            motion.go(2e-2, &|from, to| Forcing { base: [tilt * (to - from), 0.0], held: 0.0 });
+        }
+        let way = (motion.places[0].centre[0] - start).abs();
+        assert!((way / expected - 1.0).abs() < 2e-3, "{way} instead of {expected} m in {rise} s");
+        assert_eq!(motion.counters.moving, 0);
+    }
+}
+
+/// What is crushed is gone: a rigid block pushed over to and fro bears less the second time, and has sunk.
+#[test]
+fn a_crushed_rigid_joint_does_not_heal() {
+    let mut law = Law::dry(Some(Friction::coulomb(0.8)));
+    law.crushing = 0.4e6 * 0.3;
+    let mut body = block([1.0, 2.0]);
+    body.inertia *= 1.0;
+    let run = |cycles: usize| {
+        let mut motion = Motion::new(&system(body.clone(), law), Setting::new(1e-3));
+        let base = |t: f64| 0.55 * G / (2.0 * std::f64::consts::PI) * (1.0 - (2.0 * std::f64::consts::PI * t).cos());
+        let mut fell = 0.0f64;
+        for _ in 0..1000 * cycles {
+            motion.go(1e-3, &|from, to| Forcing { base: [base(to) - base(from), 0.0], held: 0.0 });
+            fell = fell.min(motion.places[0].centre[1] - 1.0);
+        }
+        let points = motion.points(0).expect("a joint").to_vec();
+        (points.iter().map(|p| p.crushed).fold(0.0, f64::max), points, motion)
+    };
+    let (crushed, points, _) = run(3);
+    assert!(crushed > 1e-5, "{crushed}");
+    // No point bears above where it has been crushed to: its sides overlap by as much.
+    for point in points.iter().filter(|p| p.force[0] > 0.0) {
+        assert!(point.gap + point.crushed < 1e-9, "{point:?}");
+    }
+}
