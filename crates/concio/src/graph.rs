@@ -1,5 +1,6 @@
 //! Blocks → joints, from geometry alone; and the vertical load that each joint carries (theory, sections 1 and 3).
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use crate::case::{JointKind, NormalForce};
@@ -30,6 +31,9 @@ pub fn joints(wall: &Wall, beam: bool) -> Vec<Joint> {
                 beds(wall, row.iter().filter(ends), above.iter().filter(begins), reference, &mut joints);
             }
         }
+        if uneven(wall, rows, reference) {
+            through(wall, panel, &mut joints);
+        }
     }
     for (left, pair) in courses.windows(2).enumerate() {
         if shaped[left] || shaped[left + 1] {
@@ -53,6 +57,38 @@ pub fn joints(wall: &Wall, beam: bool) -> Vec<Joint> {
     // They stay as long as the model does.
     joints.shrink_to_fit();
     joints
+}
+
+/// Whether a block of a panel of rectangles reaches up beside blocks of a higher course, as a through stone does that stands beside two courses.
+fn uneven(wall: &Wall, rows: &[Vec<usize>], reference: f64) -> bool {
+    let mut highest = f64::NEG_INFINITY;
+    for row in rows {
+        // Lintels have their courses.
+        let own = || row.iter().map(|&i| &wall.blocks[i]).filter(|block| block.lowest_course() == block.course);
+        let low = own().map(|block| block.y[0]).fold(f64::INFINITY, f64::min);
+        if low < highest - CONTACT_TOLERANCE * reference {
+            return true;
+        }
+        highest = own().map(|block| block.y[1]).fold(highest, f64::max);
+    }
+    false
+}
+
+/// Joints of such blocks that courses do not show: those between sides that face each other.
+fn through(wall: &Wall, panel: usize, joints: &mut Vec<Joint>) {
+    let known: HashSet<(usize, usize)> = joints
+        .iter()
+        .filter_map(|j| if let End::Block(b) = j.b { Some((j.a.min(b), j.a.max(b))) } else { None })
+        .collect();
+    let info = &wall.panels[panel];
+    let mut order: Vec<usize> = (0..wall.blocks.len()).filter(|&i| wall.blocks[i].panel == panel).collect();
+    order.sort_by(|&i, &j| wall.blocks[i].x[0].total_cmp(&wall.blocks[j].x[0]));
+    let widest = info.mortar[0].max(info.mortar[1]) + ROUGH * info.reference_length;
+    for (k, &i) in order.iter().enumerate() {
+        let beside = order[k + 1..].iter().take_while(|&&j| wall.blocks[j].x[0] <= wall.blocks[i].x[1] + widest);
+        let new = beside.filter(|&&j| !known.contains(&(i.min(j), i.max(j))));
+        joints.extend(new.filter_map(|&j| between(wall, i, j, None)));
+    }
 }
 
 /// Which panels have blocks that are not rectangles: their joints are found by the sides that face each other, without
@@ -97,7 +133,7 @@ fn polygon_connections(wall: &Wall, left: usize, joints: &mut Vec<Joint>) {
 /// often written in millimetres.
 const ROUGH: f64 = 4e-3;
 
-/// The joint between two blocks of which at least one is a polygon: bed or head by its slope, within 45° of the horizontal
+/// The joint between two blocks by the sides that face each other: bed or head by its slope, within 45° of the horizontal
 /// or not; with `connection`, the width of the gap between their panels [m], that.
 fn between(wall: &Wall, i: usize, j: usize, connection: Option<f64>) -> Option<Joint> {
     let (a, b) = (&wall.blocks[i], &wall.blocks[j]);

@@ -371,6 +371,9 @@ pub struct Counters {
     /// Steps whose contact was left with more than a hundred times the tolerance, without inertia with more than it.
     #[serde(default)]
     pub unsolved: u64,
+    /// Steps without inertia that ended before what slowed down had come to rest.
+    #[serde(default)]
+    pub moving: u64,
 }
 
 /// Why a run ended.

@@ -63,6 +63,8 @@ kinds! {
     Energy = "energy",
     /// Steps whose contact was left unsolved.
     Unsolved = "unsolved-contact",
+    /// Steps without inertia that did not end at rest.
+    Moving = "not-at-rest",
     /// A base shear above what friction and bond bear.
     BeyondFriction = "beyond-friction",
     /// A wall that counts as collapsed.

@@ -279,6 +279,7 @@ impl Run {
         energies.device = account.device;
         let counters = &mut state.counters;
         (counters.steps, counters.rejected, counters.unsolved) = (counted.steps, counted.halved, counted.unsolved);
+        counters.moving = counted.moving;
         (counters.iterations, counters.factorisations) = (counted.iterations, counted.factorisations);
         state.totals.contact_residual = state.totals.contact_residual.max(counted.residual);
         for (taken, seen) in state.envelopes.joint_dissipation.iter_mut().zip(&self.motion.seen) {

@@ -55,6 +55,7 @@ fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
     let told = [
         (WarningKind::Energy, balance),
         (WarningKind::Unsolved, unsolved(outcome)),
+        (WarningKind::Moving, moving(outcome)),
         (WarningKind::BeyondFriction, beyond_friction(model, outcome)),
         (WarningKind::Collapse, collapsed(model, outcome)),
         (WarningKind::UnderWay, moves_on(model, outcome)),
@@ -98,6 +99,17 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
             "the contact of {unsolved} of {steps} steps was left unsolved: blocks may overlap and forces may be wrong there; contact velocities \
              are off by up to {:.1e} m/s; where all joints are rigid, give them a stiffness, else lower solver.step",
             outcome.totals.contact_residual
+        )
+    })
+}
+
+/// Says of runs without inertia that their steps ended too soon for what swings slowly.
+fn moving(outcome: &Outcome) -> Option<String> {
+    let (moving, steps) = (outcome.counters.moving, outcome.counters.steps);
+    (moving as f64 > UNSOLVED * steps as f64).then(|| {
+        format!(
+            "{moving} steps ended before the wall had come to rest, though it slowed down: displacements and forces lag behind their loads; a slower \
+             load or lower solver.step shows by how much"
         )
     })
 }

@@ -168,7 +168,7 @@ pub(super) const TOTALS: [Field<Totals, f64>; 12] = [
 ];
 
 /// Work of the solver.
-pub(super) const COUNTERS: [Field<Counters, u64>; 9] = [
+pub(super) const COUNTERS: [Field<Counters, u64>; 10] = [
     field!("steps", "1", steps, "Accepted steps."),
     field!("rejected", "1", rejected, "Steps rejected by the error control."),
     field!("failed", "1", failed, "Steps repeated because the iteration did not converge."),
@@ -183,6 +183,7 @@ pub(super) const COUNTERS: [Field<Counters, u64>; 9] = [
         unsolved,
         "Steps whose contact was left with more than a hundred times the tolerance, without inertia with more than it."
     ),
+    field!("moving", "1", moving, "Steps without inertia that ended before what slowed down had come to rest."),
 ];
 
 /// Real quantities of a block.

@@ -242,6 +242,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             located: 70,
             impacts: 80,
             unsolved: 90,
+            moving: 100,
         },
         stop_reason: StopReason::Completed,
     }
