@@ -67,11 +67,10 @@ const NOTHING: f64 = 1e-5;
 pub(super) fn describe(problem: &Problem, equations: &Equations, velocities: &[f64]) -> Mechanism {
     let bodies = &problem.assembly.bodies;
     let corner = |v: [f64; 3], r: &[f64; 2]| (v[0] - v[2] * r[1]).hypot(v[1] + v[2] * r[0]);
-    let of =
-        |body: usize| {
-            let turn = if problem.level == Some(body) { 0.0 } else { velocities[3 * body + 2] / equations.length };
-            [velocities[3 * body], velocities[3 * body + 1], turn]
-        };
+    let of = |body: usize| {
+        let turn = if problem.level == Some(body) { 0.0 } else { velocities[3 * body + 2] / equations.length };
+        [velocities[3 * body], velocities[3 * body + 1], turn]
+    };
     let fastest = (0..bodies.len()).flat_map(|i| bodies[i].corners.iter().map(move |r| corner(of(i), r)));
     let fastest = fastest.fold(f64::MIN_POSITIVE, f64::max);
     let rates = equations.rates(velocities);

@@ -259,7 +259,14 @@ impl Crack {
                 let centre = first / whole;
                 let away = (second / whole - centre * centre).max(0.0).sqrt();
                 let share = 0.5 * whole;
-                let held = |point: usize, at: f64| Spot { point, part: Part::Held, at, share, weight: share, rubs: rubs / whole };
+                let held = |point: usize, at: f64| Spot {
+                    point,
+                    part: Part::Held,
+                    at,
+                    share,
+                    weight: share,
+                    rubs: rubs / whole,
+                };
                 spots.extend([held(0, centre - away), held(1, centre + away)]);
             }
         }
@@ -307,7 +314,9 @@ impl Crack {
                 }
             }
         }
-        sums.map(|sum| sum * GREGORY[point] / (6.0 * (NODES - 1) as f64))
+        // Of a part trapezoids keep what it is in all and where; of the whole they would turn too stiffly.
+        let rule = if self.is_gone() { GREGORY[point] } else { 1.0 };
+        sums.map(|sum| sum * rule / (6.0 * (NODES - 1) as f64))
     }
 
     /// Opening and slide of a point that is held, which go on with the motion wherever it was before.
@@ -440,7 +449,13 @@ impl Crack {
             taken += 0.5 * (damage - before) * other;
         };
         pass([w - TOUCHING, grown[0]], both, bond.tension, bond.energy[0], along * s * s);
-        pass([s.abs(), grown[1]], along, bond.cohesion + pressure * bond.tan_angle, bond.energy[1], both * w.max(0.0).powi(2));
+        pass(
+            [s.abs(), grown[1]],
+            along,
+            bond.cohesion + pressure * bond.tan_angle,
+            bond.energy[1],
+            both * w.max(0.0).powi(2),
+        );
         if pressure > law.crushing && damage < 1.0 {
             taken += 0.5 * (1.0 - damage) * along * s * s;
             (xi, damage) = (f64::INFINITY, 1.0);

@@ -18,6 +18,7 @@
 use concio_device as device;
 use serde::{Deserialize, Serialize};
 
+use crate::G;
 use crate::contact::{Contact, Linear, Status};
 use crate::crack::Part;
 
@@ -156,6 +157,8 @@ pub struct Bond {
 const RINGING: f64 = 0.125;
 /// h ω up to which (P6) damps what rings by less than ζ: 4 x where x³ = ζ (1 + x²).
 pub const RESOLVED: f64 = 2.18;
+/// Speed over that which gravity gives in a step up to which a point rests.
+const RESTING: f64 = 1e-5;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
 
@@ -515,7 +518,8 @@ impl Law {
         self.end_shear(point, share, h, mean[1], (contact, linear[1]), &mut works);
         point.force = contact.impulse.map(|p| p / h);
         point.gap = gap;
-        let slides = matches!(contact.status, Status::Forth | Status::Back);
+        // What hardly moves rests: what is left of a velocity that was taken away counts as none.
+        let slides = matches!(contact.status, Status::Forth | Status::Back) && after[1].abs() > RESTING * G * h;
         // Without inertia what has slid goes on to count as sliding: its speed means nothing.
         let rests = if start.still { point.speed } else { 0.0 };
         point.speed = if slides { after[1].abs() } else { rests };

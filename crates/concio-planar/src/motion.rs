@@ -48,6 +48,8 @@ const PATIENCE: usize = 10;
 const AT_REST: f64 = 1e-3;
 /// Way in such a step, over the size of a body, beyond which longer ones follow only where it shrinks.
 const FAR: f64 = 1e-4;
+/// The longest of them, over the first.
+const LONGEST: f64 = 1024.0;
 /// What contact may be violated by, over the velocity that gravity gives in a step.
 const ACCURACY: f64 = 1e-6;
 /// What is left at most, over the tolerance, of a step that is not taken again in two halves.
@@ -481,7 +483,7 @@ impl Motion {
             if way <= AT_REST * most || number >= PATIENCE && !shrinks {
                 break;
             }
-            if shrinks || way <= FAR * size {
+            if (shrinks || way <= FAR * size) && step < LONGEST * h {
                 step *= 2.0;
             }
             let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };

@@ -47,9 +47,9 @@ fn bears(size: [f64; 2], law: Law) -> f64 {
     f64::INFINITY
 }
 
-/// The same by 4,000 springs in a plane section: brittle, or softening exponentially with secant unloading.
+/// The same by 2,000 springs in a plane section: brittle, or softening exponentially with secant unloading.
 fn plane_section([length, height]: [f64; 2], energy: f64) -> f64 {
-    const STRIPS: usize = 4000;
+    const STRIPS: usize = 2000;
     let (k, strength, weight) = (50e9 * 0.3 * length, 50e3 * 0.3 * length, 20e3 * 0.3 * length * height);
     let first = strength / k;
     let decay = energy * 0.3 * length / strength - 0.5 * first;
@@ -62,19 +62,21 @@ fn plane_section([length, height]: [f64; 2], energy: f64) -> f64 {
         far => strength * (-(far - first) / decay).exp() * w / far,
     };
     let mut most = 0.0f64;
-    for n in 1..=20_000 {
-        let turn = 3e-8 * n as f64 / length;
+    let mut turn = 1e-7 / length;
+    for _ in 0..3000 {
+        turn *= 1.004;
         // What presses is what the block weighs.
         let pull = |middle: f64, widest: &[f64]| -> f64 {
             (0..STRIPS).map(|i| stress(middle + turn * x(i), widest[i])).sum::<f64>() / STRIPS as f64
         };
-        let (mut low, mut high) = (-1e-4, 1e-4);
-        for _ in 0..50 {
+        let (mut low, mut high) = (-1e-2, 1e-2);
+        for _ in 0..40 {
             let middle = 0.5 * (low + high);
             if pull(middle, &widest) > -weight { high = middle } else { low = middle }
         }
         let middle = 0.5 * (low + high);
-        let moment: f64 = (0..STRIPS).map(|i| stress(middle + turn * x(i), widest[i]) * x(i)).sum::<f64>() / STRIPS as f64;
+        let moment: f64 =
+            (0..STRIPS).map(|i| stress(middle + turn * x(i), widest[i]) * x(i)).sum::<f64>() / STRIPS as f64;
         (0..STRIPS).for_each(|i| widest[i] = widest[i].max(middle + turn * x(i)));
         most = most.max(moment / (0.5 * weight * height));
         if moment < 0.7 * most * 0.5 * weight * height {
@@ -103,7 +105,11 @@ fn a_bonded_joint_cracks_from_its_edge() {
 #[test]
 fn a_rigid_bonded_joint_is_as_strong_as_a_plane_section() {
     for length in [0.5, 1.0, 2.0] {
-        let law = Law { normal: Normal::Rigid { restitution: 0.0, rocking: 1.0 }, shear: Shear { stiffness: 0.0, ..mortar(1.0, [0.0; 2]).shear }, ..mortar(length, [0.0; 2]) };
+        let law = Law {
+            normal: Normal::Rigid { restitution: 0.0, rocking: 1.0 },
+            shear: Shear { stiffness: 0.0, ..mortar(1.0, [0.0; 2]).shear },
+            ..mortar(length, [0.0; 2])
+        };
         let stress = 20e3 * length;
         let expected = ((stress + 50e3) / (3.0 * stress)).max(1.0);
         let found = bears([length, length], law);

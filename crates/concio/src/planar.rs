@@ -413,14 +413,12 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
     let reference = wall.panels[wall.blocks[joint.a].panel].reference_mass;
     let dashpot = |k: f64| 2.0 * law.damping_ratio * (k * joint.weight * reference).sqrt();
     let area = joint.area(wall);
-    let bond = bond_of(law).map(|values| {
-        PointBond {
-            tension: values.tensile_strength * area,
-            cohesion: values.cohesion * area,
-            tan_angle: values.tan_angle,
-            energy: values.energy.map(|energy| energy * area),
-            residual: values.residual,
-        }
+    let bond = bond_of(law).map(|values| PointBond {
+        tension: values.tensile_strength * area,
+        cohesion: values.cohesion * area,
+        tan_angle: values.tan_angle,
+        energy: values.energy.map(|energy| energy * area),
+        residual: values.residual,
     });
     let (normal, series) = match spring.law {
         SpringLaw::Rigid => {

@@ -146,8 +146,7 @@ pub struct BondState {
 
 impl BondState {
     /// Of an intact bond.
-    pub const INTACT: BondState =
-        BondState {
+    pub const INTACT: BondState = BondState {
         reach: 0.0,
         damage: 0.0,
         crack: None,

@@ -396,7 +396,15 @@ impl Run {
             let seen = &self.motion.seen[e];
             let force = if model.joints[e].kind.is_upright() { -seen.pressure } else { seen.shear.abs() };
             let peak = held.peak.max(force);
-            *held = BondState { reach, damage, crack: Some(length), spent: seen.broken, peak, cracked: first, broken: last };
+            *held = BondState {
+                reach,
+                damage,
+                crack: Some(length),
+                spent: seen.broken,
+                peak,
+                cracked: first,
+                broken: last,
+            };
         }
     }
 
