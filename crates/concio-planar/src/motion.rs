@@ -45,11 +45,11 @@ const DOUBLED: usize = 40;
 /// of the farthest at which none follows.
 const FOLLOWING: usize = 60;
 const PATIENCE: usize = 10;
-const AT_REST: f64 = 1e-3;
+const AT_REST: f64 = 1e-5;
 /// Way in such a step, over the size of a body, beyond which longer ones follow only where it shrinks.
 const FAR: f64 = 1e-4;
 /// The longest of them, over the first.
-const LONGEST: f64 = 1024.0;
+const LONGEST: f64 = 64.0;
 /// What contact may be violated by, over the velocity that gravity gives in a step.
 const ACCURACY: f64 = 1e-6;
 /// What is left at most, over the tolerance, of a step that is not taken again in two halves.
