@@ -119,6 +119,21 @@ fn integral(f: impl Fn(usize, f64) -> f64) -> f64 {
     (0..NODES - 1).map(part).sum::<f64>() / (6.0 * (NODES - 1) as f64)
 }
 
+/// What of ∫ f between two nodes three points bear, at both ends and in the middle: the integral, where it acts, and how it turns.
+fn thirds(near: usize, far: usize, f: &dyn Fn(usize, f64) -> f64) -> [f64; 3] {
+    let length = (far - near).max(1) as f64;
+    let mut moments = [0.0; 3];
+    for n in near..far {
+        for (part, factor) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
+            let x = (n as f64 + part - near as f64) / length;
+            let value = factor * f(n, part) / (6.0 * (NODES - 1) as f64);
+            (0..3).for_each(|k| moments[k] += value * x.powi(k as i32));
+        }
+    }
+    let [whole, first, second] = moments;
+    [whole - 3.0 * first + 2.0 * second, 4.0 * (first - second), 2.0 * second - first]
+}
+
 impl Crack {
     /// Of an intact joint.
     pub(crate) fn new(law: &Law) -> Self {
@@ -180,12 +195,11 @@ impl Crack {
         from + part * (to - from)
     }
 
-    /// Moments of what is left of the bond, and by how much it rubs.
-    fn left(&self) -> ([f64; 3], f64) {
+    /// Moments of what is left of the bond.
+    fn left(&self) -> [f64; 3] {
         let x = |n: usize, part: f64| (n as f64 + part) / (NODES - 1) as f64;
         let moment = |order: i32| integral(|n, part| (1.0 - self.between(n, part)) * x(n, part).powi(order));
-        let rubs = integral(|n, part| (1.0 - self.between(n, part)) * self.rubbing(n, part));
-        ([moment(0), moment(1), moment(2)], rubs)
+        [moment(0), moment(1), moment(2)]
     }
 
     /// Whether it has the nodes of such a bond, as one that was read back may not.
@@ -251,52 +265,65 @@ impl Crack {
         let intact = self.nodes.iter().all(|[_, damage]| *damage == 0.0);
         let gone = self.is_gone();
         if !gone {
-            let ([whole, first, second], rubs) = match intact {
-                true => ([1.0, 0.5, 1.0 / 3.0], 0.0),
-                false => self.left(),
-            };
+            let [whole, first, second] = if intact { [1.0, 0.5, 1.0 / 3.0] } else { self.left() };
             if whole > NOTHING {
                 let centre = first / whole;
                 let away = (second / whole - centre * centre).max(0.0).sqrt();
                 let share = 0.5 * whole;
-                let held = |point: usize, at: f64| Spot {
-                    point,
-                    part: Part::Held,
-                    at,
-                    share,
-                    weight: share,
-                    rubs: rubs / whole,
-                };
+                let held =
+                    |point: usize, at: f64| Spot { point, part: Part::Held, at, share, weight: share, rubs: 0.0 };
                 spots.extend([held(0, centre - away), held(1, centre + away)]);
             }
         }
         // Of springs of which some act in compression only as long as nothing has cracked.
         let stiffness = both + press;
         let cracked = |damaged: f64, all: f64| (both * damaged + press * all) / stiffness;
-        let dry = |point: usize, share: f64, weight: f64, rubs: f64| Spot {
+        // The part χ of all pressure rubs, of which what has cracked bears its share.
+        let dry = |point: usize, at: f64, share: f64, [damaged, rubbing]: [f64; 2]| Spot {
             point: HELD + point,
             part: Part::Dry,
-            at: point as f64 / (DRY - 1) as f64,
+            at,
             share,
-            weight,
-            rubs,
+            weight: damaged.max(0.0),
+            rubs: (rubbing / share).clamp(0.0, 1.0),
         };
-        if intact || gone && law.crushing.is_infinite() {
-            let damaged = f64::from(u8::from(gone));
-            let three = THREE.map(|(point, part)| dry(point, cracked(damaged, 1.0) * part, damaged * part, damaged));
+        if law.crushing.is_infinite() {
+            // Three points at the ends and the middle of what has cracked, which turn as it does.
+            let [near, far] = if press > 0.0 || gone { [0, NODES - 1] } else { self.cracked_between() };
+            let [from, length] = [place(near), place(far) - place(near)];
+            let of = |f: &dyn Fn(usize, f64) -> f64| thirds(near, far, f);
+            let damaged = of(&|n, part| self.between(n, part));
+            let all = of(&|_, _| 1.0);
+            let rubbing = of(&|n, part| self.rubbing(n, part));
+            for (k, (point, _)) in THREE.into_iter().enumerate() {
+                let share = cracked(damaged[k], all[k]);
+                if share > NOTHING {
+                    spots.push(dry(point, from + 0.5 * k as f64 * length, share, [damaged[k], rubbing[k]]));
+                }
+            }
+        } else if intact {
+            let three = THREE.map(|(point, part)| dry(point, point as f64 / 8.0, cracked(0.0, 1.0) * part, [0.0; 2]));
             spots.extend(three.into_iter().filter(|spot| spot.share > 0.0));
         } else {
             for point in 0..DRY {
                 let [damaged, all, rubbing] = self.around(point);
                 let share = cracked(damaged, all);
                 if share > NOTHING {
-                    spots.push(dry(point, share, damaged, if damaged > 0.0 { rubbing / damaged } else { 0.0 }));
+                    spots.push(dry(point, point as f64 / (DRY - 1) as f64, share, [damaged, rubbing]));
                 }
             }
         }
         if law.bond.is_some_and(|bond| bond.residual > 0.0) {
             spots.push(Spot { point: POINTS - 1, part: Part::Stays, at: 0.5, share: 1.0, weight: 0.0, rubs: 0.0 });
         }
+    }
+
+    /// First and last node between which all lies that has cracked.
+    fn cracked_between(&self) -> [usize; 2] {
+        let cracked = |node: &[f64; 2]| node[1] > 0.0;
+        let first = self.nodes.iter().position(cracked).unwrap_or(0);
+        let last = self.nodes.iter().rposition(cracked).unwrap_or(0);
+        [first.saturating_sub(1), (last + 1).min(NODES - 1)]
     }
 
     /// The part of the joint that a point of what has cracked stands for: what of it has, all of it, and what rubs.
@@ -309,7 +336,7 @@ impl Crack {
             for (part, factor) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
                 let hat = 1.0 - ((n as f64 + part) - centre as f64).abs() / apart as f64;
                 let (damage, chi) = (self.between(n, part), self.rubbing(n, part));
-                for (sum, value) in sums.iter_mut().zip([damage, 1.0, damage * chi]) {
+                for (sum, value) in sums.iter_mut().zip([damage, 1.0, chi]) {
                     *sum += factor * hat * value;
                 }
             }
@@ -387,8 +414,10 @@ impl Crack {
             }
             let then = between(&self.was, x);
             let grown = [w - then[0], s.abs() - then[1].abs()].map(|way| way.max(0.0));
+            let before = self.nodes[n];
             let lost = self.wear_node(n, [w, s], grown, law, &bond);
-            if lost > 0.0 {
+            // What is crushed may have stored nothing along the joint.
+            if self.nodes[n] != before {
                 worn = true;
                 taken += weight * lost;
                 self.reach = self.reach.max(w.max(s.abs()));
@@ -401,15 +430,14 @@ impl Crack {
         if self.is_gone() {
             self.broken = self.broken.min(time);
         }
-        let gaps: [[f64; 2]; DRY] = std::array::from_fn(|k| self.stretched(k as f64 / (DRY - 1) as f64));
-        let was: [bool; DRY] = std::array::from_fn(|k| self.spots.iter().any(|spot| spot.point == HELD + k));
+        let mut was = [f64::NAN; POINTS];
+        self.spots.iter().for_each(|spot| was[spot.point] = spot.at);
         self.place(law);
-        for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
-            let k = spot.point - HELD;
-            if !was[k] {
-                let point = &mut points[spot.point];
-                *point = Point { gap: gaps[k][0], slide: gaps[k][1], ..Point::default() };
-            }
+        for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry && spot.at != was[spot.point]) {
+            let [gap, slide] = self.stretched(spot.at);
+            let point = &mut points[spot.point];
+            let kept = if was[spot.point].is_nan() { Point::default() } else { *point };
+            *point = Point { gap, slide, ..kept };
         }
         self.set(points);
         let lost = before - self.stored(law, points);

@@ -41,15 +41,17 @@ const SOON: u32 = 2;
 /// Least step in which loads come to bear [s], and after how many it is doubled: the slowest modes take the longest steps.
 const SETTLING: f64 = 2e-2;
 const DOUBLED: usize = 40;
-/// Steps that follow a step without inertia at most, those after which none follows where bodies do not slow down, and the way in one over that
-/// of the farthest at which none follows.
+/// Steps that follow a step without inertia at most, those after which none follows where bodies do not slow down, and the way ahead over that
+/// of the farthest step at which none follows.
 const FOLLOWING: usize = 60;
 const PATIENCE: usize = 10;
-const AT_REST: f64 = 1e-5;
-/// Way in such a step, over the size of a body, beyond which longer ones follow only where it shrinks.
+const AT_REST: f64 = 1e-4;
+/// The way in such a step over that of the one before from which the next is longer, and over the size of a body, beyond which it is only where
+/// the way shrinks.
+const SLOWLY: f64 = 0.75;
 const FAR: f64 = 1e-4;
 /// The longest of them, over the first.
-const LONGEST: f64 = 64.0;
+const LONGEST: f64 = 16.0;
 /// What contact may be violated by, over the velocity that gravity gives in a step.
 const ACCURACY: f64 = 1e-6;
 /// What is left at most, over the tolerance, of a step that is not taken again in two halves.
@@ -156,6 +158,11 @@ impl Setting {
     /// What may be left of a step that is not taken again in two halves [m/s]. Without inertia errors are not carried away by what follows.
     fn enough(&self) -> f64 {
         if self.still { self.tolerance } else { ENOUGH * self.tolerance }
+    }
+
+    /// The part of the tolerance that a step of `h` [s] has: without inertia it is of the way, whatever the step.
+    fn part(&self, h: f64) -> f64 {
+        if self.still { (self.step / h).min(1.0) } else { 1.0 }
     }
 }
 
@@ -470,29 +477,38 @@ impl Motion {
     }
 
     /// From here over `h` [s]; `forcing` says what acts between two instants. Without inertia, steps under what acts then
-    /// follow until the bodies are at rest, each twice as long as the one before as long as they move less in it, or hardly: what swings slowly comes
+    /// follow until the bodies are at rest, each twice as long as the one before where that comes slowly: what swings slowly comes
     /// to rest in long steps alone. A mechanism never does, and moves the more the longer they are.
     pub fn go(&mut self, h: f64, forcing: &impl Fn(f64, f64) -> Forcing) {
         let start = self.time;
         self.part(start, h, HALVINGS, forcing);
-        let (mut way, mut step) = (self.fastest() * h, h);
-        let (mut most, mut shrinks) = (way, false);
-        let acts = forcing(start, start + h);
+        if self.setting.still {
+            let acts = forcing(start, start + h);
+            self.follow(start, h, &acts);
+        }
+        self.time = start + h;
+    }
+
+    /// Steps under what acts over `h` [s], until the bodies are at rest.
+    fn follow(&mut self, start: f64, h: f64, acts: &Forcing) {
         let size = self.radius.iter().fold(0.0, |most: f64, r| most.max(*r));
-        for number in 0..if self.setting.still { FOLLOWING } else { 0 } {
-            if way <= AT_REST * most || number >= PATIENCE && !shrinks {
+        let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
+        let (mut way, mut step) = (self.fastest() * h, h);
+        let (mut most, mut ratio) = (way, f64::INFINITY);
+        for number in 0..FOLLOWING {
+            // Steps that shrink by a ratio have so much before them.
+            let ahead = if ratio < 1.0 { way * ratio / (1.0 - ratio) } else { f64::INFINITY };
+            if way == 0.0 || ahead <= AT_REST * most || number >= PATIENCE && ratio >= 1.0 {
                 break;
             }
-            if (shrinks || way <= FAR * size) && step < LONGEST * h {
+            if ratio > SLOWLY && (ratio < 1.0 || way <= FAR * size) && step < LONGEST * h {
                 step *= 2.0;
             }
-            let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
             self.part(start, step, HALVINGS, &stays);
             let next = self.fastest() * step;
-            (shrinks, way, most) = (next < way, next, most.max(next));
+            (ratio, way, most) = (next / way, next, most.max(next));
         }
-        self.counters.moving += u64::from(self.setting.still && way > AT_REST * most && shrinks);
-        self.time = start + h;
+        self.counters.moving += u64::from(ratio < 1.0 && way * ratio > AT_REST * most * (1.0 - ratio));
     }
 
     /// Largest velocity of a body's edge [m/s].
@@ -530,11 +546,11 @@ impl Motion {
         self.guess();
         // Without inertia halves of a step are other steps, of loads that come to bear: all is tried first.
         let halves = halvings > HALVINGS - SOON && !self.setting.still;
-        let effort = self.solve(halves);
+        let effort = self.solve(h, halves);
         let effort = self.follow_devices(h, halves, effort);
-        let effort = if self.turn() { effort.then(self.solve(halves)) } else { effort };
+        let effort = if self.turn() { effort.then(self.solve(h, halves)) } else { effort };
         self.count(effort);
-        let enough = effort.residual <= self.setting.enough();
+        let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
         if !enough && halvings > 0 {
             return false;
         }
@@ -596,16 +612,16 @@ impl Motion {
         }
     }
 
-    fn solve(&mut self, halves: bool) -> Effort {
+    fn solve(&mut self, h: f64, halves: bool) -> Effort {
+        let part = self.setting.part(h);
         let Motion { solver, mass, inverse, free, contacts, after, setting, .. } = self;
+        let tolerance = part * setting.tolerance;
         match setting.method {
             Method::Newton => {
-                let ends = (setting.tolerance, setting.enough());
+                let ends = (tolerance, part * setting.enough());
                 solver.newton(mass, free, contacts, after, ends, halves)
             }
-            Method::GaussSeidel(rounds) => {
-                solver.gauss_seidel(inverse, free, contacts, after, setting.tolerance, rounds)
-            }
+            Method::GaussSeidel(rounds) => solver.gauss_seidel(inverse, free, contacts, after, tolerance, rounds),
         }
     }
 

@@ -10,12 +10,12 @@ fn block([length, height]: [f64; 2]) -> Body {
     Body::rectangle("block", [0.0, length], [0.0, height], 20e3 / G * length * height * 0.3)
 }
 
-/// Mortar of 50 N/mm³ across and 20.8 along, of 50 kPa and `energies` [N/m], that does not fail in shear.
+/// Mortar of 120 N/mm³ across and 50 along, of 50 kPa and `energies` [N/m], that does not fail in shear.
 fn mortar(length: f64, energies: [f64; 2]) -> Law {
     let area = 0.3 * length;
     Law {
-        normal: Normal::Springs { both: 50e9 * area, press: 0.0, damping: 0.0 },
-        shear: Shear { stiffness: 20.8e9 * area, damping: 0.0, series: false },
+        normal: Normal::Springs { both: 120e9 * area, press: 0.0, damping: 0.0 },
+        shear: Shear { stiffness: 50e9 * area, damping: 0.0, series: false },
         bond: Some(Bond {
             tension: 50e3 * area,
             cohesion: 5e6 * area,
@@ -50,7 +50,7 @@ fn bears(size: [f64; 2], law: Law) -> f64 {
 /// The same by 2,000 springs in a plane section: brittle, or softening exponentially with secant unloading.
 fn plane_section([length, height]: [f64; 2], energy: f64) -> f64 {
     const STRIPS: usize = 2000;
-    let (k, strength, weight) = (50e9 * 0.3 * length, 50e3 * 0.3 * length, 20e3 * 0.3 * length * height);
+    let (k, strength, weight) = (120e9 * 0.3 * length, 50e3 * 0.3 * length, 20e3 * 0.3 * length * height);
     let first = strength / k;
     let decay = energy * 0.3 * length / strength - 0.5 * first;
     let mut widest = vec![0.0f64; STRIPS];

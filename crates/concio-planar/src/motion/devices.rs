@@ -56,7 +56,7 @@ impl Motion {
                 effort.residual = worse(effort.residual, missed);
                 break;
             }
-            effort = effort.then(self.solve(halves));
+            effort = effort.then(self.solve(h, halves));
         }
         effort
     }
