@@ -45,7 +45,7 @@ const DOUBLED: usize = 40;
 /// of the farthest step at which none follows.
 const FOLLOWING: usize = 60;
 const PATIENCE: usize = 10;
-const AT_REST: f64 = 1e-4;
+const AT_REST: f64 = 1e-3;
 /// The way in such a step over that of the one before from which the next is longer, and over the size of a body, beyond which it is only where
 /// the way shrinks.
 const SLOWLY: f64 = 0.75;
