@@ -36,6 +36,11 @@ const GREGORY: [f64; DRY] = {
 };
 /// The three points of a joint whose bond is gone and that cannot be crushed, and their weights.
 const THREE: [(usize, f64); 3] = [(0, 1.0 / 6.0), (4, 2.0 / 3.0), (8, 1.0 / 6.0)];
+/// Moments of the whole joint.
+const WHOLE: Moments = [1.0, 0.5, 1.0 / 3.0];
+/// A node that has lost nothing, and one that has lost all.
+const INTACT: [f64; 3] = [0.0, 0.0, 1.0];
+const GONE: [f64; 3] = [f64::INFINITY, 1.0, 0.0];
 /// Part of its strength below which a bond counts as broken, ε of (B4).
 const BROKEN: f64 = 1e-3;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
@@ -76,8 +81,8 @@ pub(crate) struct Spot {
 /// The state of the bond of one joint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Crack {
-    /// ξ and D of the nodes.
-    nodes: Vec<[f64; 2]>,
+    /// ξ, D and e^−ξ of the nodes.
+    nodes: Vec<[f64; 3]>,
     /// Opening and slide at both ends, now and a step before [m].
     line: [[f64; 2]; 2],
     was: [[f64; 2]; 2],
@@ -113,24 +118,14 @@ fn between(line: &[[f64; 2]; 2], at: f64) -> [f64; 2] {
     [0, 1].map(|k| line[0][k] + at * (line[1][k] - line[0][k]))
 }
 
-/// ∫ f over each interval between nodes, of polynomials to third order there: `f` of its ends and of its middle.
-fn integral(f: impl Fn(usize, f64) -> f64) -> f64 {
-    let part = |n: usize| f(n, 0.0) + 4.0 * f(n, 0.5) + f(n, 1.0);
-    (0..NODES - 1).map(part).sum::<f64>() / (6.0 * (NODES - 1) as f64)
-}
+/// ∫ f x^k over the joint for k of 0, 1 and 2.
+type Moments = [f64; 3];
 
-/// What of ∫ f between two nodes three points bear, at both ends and in the middle: the integral, where it acts, and how it turns.
-fn thirds(near: usize, far: usize, f: &dyn Fn(usize, f64) -> f64) -> [f64; 3] {
-    let length = (far - near).max(1) as f64;
-    let mut moments = [0.0; 3];
-    for n in near..far {
-        for (part, factor) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
-            let x = (n as f64 + part - near as f64) / length;
-            let value = factor * f(n, part) / (6.0 * (NODES - 1) as f64);
-            (0..3).for_each(|k| moments[k] += value * x.powi(k as i32));
-        }
-    }
+/// What three points at the ends and the middle of a part of the joint bear, from `from` on and of this length, so that they have these moments.
+fn thirds(moments: Moments, from: f64, length: f64) -> [f64; 3] {
     let [whole, first, second] = moments;
+    let [first, second] =
+        [(first - from * whole) / length, (second - from * (2.0 * first - from * whole)) / (length * length)];
     [whole - 3.0 * first + 2.0 * second, 4.0 * (first - second), 2.0 * second - first]
 }
 
@@ -138,7 +133,7 @@ impl Crack {
     /// Of an intact joint.
     pub(crate) fn new(law: &Law) -> Self {
         let mut crack = Crack {
-            nodes: vec![[0.0; 2]; NODES],
+            nodes: vec![INTACT; NODES],
             line: [[0.0; 2]; 2],
             was: [[0.0; 2]; 2],
             held: [0, NODES - 1],
@@ -173,7 +168,7 @@ impl Crack {
 
     /// Whether nothing is left of it.
     pub fn is_gone(&self) -> bool {
-        self.nodes.iter().all(|[_, damage]| *damage == 1.0)
+        self.nodes.iter().all(|[_, damage, _]| *damage == 1.0)
     }
 
     /// Of what is linear between nodes.
@@ -190,16 +185,31 @@ impl Crack {
 
     /// χ there.
     fn rubbing(&self, n: usize, part: f64) -> f64 {
-        let chi = |n: usize| 1.0 - (-self.nodes[n][0]).exp();
+        let chi = |n: usize| 1.0 - self.nodes[n][2];
         let [from, to] = [chi(n), chi(n + 1)];
         from + part * (to - from)
     }
 
-    /// Moments of what is left of the bond.
-    fn left(&self) -> [f64; 3] {
-        let x = |n: usize, part: f64| (n as f64 + part) / (NODES - 1) as f64;
-        let moment = |order: i32| integral(|n, part| (1.0 - self.between(n, part)) * x(n, part).powi(order));
-        [moment(0), moment(1), moment(2)]
+    /// Moments of D and of χ.
+    fn moments(&self) -> [Moments; 2] {
+        let mut sums = [[0.0; 3]; 2];
+        for (n, pair) in self.nodes.windows(2).enumerate() {
+            // What cracks runs along a part of the joint: the rest has nothing to add.
+            let [[_, from, left], [_, to, less]] = [pair[0], pair[1]];
+            if from == 0.0 && to == 0.0 {
+                continue;
+            }
+            for (part, factor) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
+                let x = (n as f64 + part) / (NODES - 1) as f64;
+                let values = [from + part * (to - from), 1.0 - left - part * (less - left)];
+                for (sum, value) in sums.iter_mut().zip(values) {
+                    for (k, power) in [1.0, x, x * x].into_iter().enumerate() {
+                        sum[k] += factor * value * power;
+                    }
+                }
+            }
+        }
+        sums.map(|sum| sum.map(|moment| moment / (6.0 * (NODES - 1) as f64)))
     }
 
     /// Whether it has the nodes of such a bond, as one that was read back may not.
@@ -262,10 +272,11 @@ impl Crack {
     }
 
     fn place_springs(&self, [both, press]: [f64; 2], law: &Law, spots: &mut Vec<Spot>) {
-        let intact = self.nodes.iter().all(|[_, damage]| *damage == 0.0);
+        let intact = self.nodes.iter().all(|[_, damage, _]| *damage == 0.0);
         let gone = self.is_gone();
+        let [damaged, rubbing] = self.moments();
         if !gone {
-            let [whole, first, second] = if intact { [1.0, 0.5, 1.0 / 3.0] } else { self.left() };
+            let [whole, first, second]: Moments = std::array::from_fn(|k| WHOLE[k] - damaged[k]);
             if whole > NOTHING {
                 let centre = first / whole;
                 let away = (second / whole - centre * centre).max(0.0).sqrt();
@@ -291,10 +302,7 @@ impl Crack {
             // Three points at the ends and the middle of what has cracked, which turn as it does.
             let [near, far] = if press > 0.0 || gone { [0, NODES - 1] } else { self.cracked_between() };
             let [from, length] = [place(near), place(far) - place(near)];
-            let of = |f: &dyn Fn(usize, f64) -> f64| thirds(near, far, f);
-            let damaged = of(&|n, part| self.between(n, part));
-            let all = of(&|_, _| 1.0);
-            let rubbing = of(&|n, part| self.rubbing(n, part));
+            let [damaged, all, rubbing] = [damaged, WHOLE, rubbing].map(|moments| thirds(moments, from, length));
             for (k, (point, _)) in THREE.into_iter().enumerate() {
                 let share = cracked(damaged[k], all[k]);
                 if share > NOTHING {
@@ -320,7 +328,7 @@ impl Crack {
 
     /// First and last node between which all lies that has cracked.
     fn cracked_between(&self) -> [usize; 2] {
-        let cracked = |node: &[f64; 2]| node[1] > 0.0;
+        let cracked = |node: &[f64; 3]| node[1] > 0.0;
         let first = self.nodes.iter().position(cracked).unwrap_or(0);
         let last = self.nodes.iter().rposition(cracked).unwrap_or(0);
         [first.saturating_sub(1), (last + 1).min(NODES - 1)]
@@ -447,7 +455,7 @@ impl Crack {
     /// What a node lost that is stretched by `w` and `s`, `grown` of it in this step [m], of a joint as it would be everywhere [J].
     fn wear_node(&mut self, n: usize, [w, s]: [f64; 2], grown: [f64; 2], law: &Law, bond: &Bond) -> f64 {
         let Normal::Springs { both, press, .. } = law.normal else { return 0.0 };
-        let [mut xi, mut damage] = self.nodes[n];
+        let [mut xi, mut damage, mut left] = self.nodes[n];
         let along = (1.0 - bond.residual) * law.shear.stiffness;
         let pressure = ((both + press) * -w).max(0.0);
         let mut taken = 0.0;
@@ -456,7 +464,7 @@ impl Crack {
             if k == 0.0 || damage == 1.0 {
                 return;
             }
-            let from = strength * (-xi).exp();
+            let from = strength * left;
             let limit = from / (k * (1.0 - damage));
             if !(stretch > limit) {
                 return;
@@ -465,13 +473,14 @@ impl Crack {
             let decay = ((energy - 0.5 * strength * strength / k) / ((1.0 - BROKEN) * strength)).max(0.0);
             // Where the limit has come to the stretch and not the stretch to the limit, nothing has slid beyond it.
             xi = if decay > 0.0 { xi + (stretch - limit).min(way) / decay } else { f64::INFINITY };
-            let to = strength * (-xi).exp();
+            left = (-xi).exp();
+            let to = strength * left;
             if to > BROKEN * strength {
                 damage = 1.0 - to / (k * stretch);
                 taken += decay * (from - to) - 0.5 * (to * stretch - from * limit);
             } else {
                 // What bears next to nothing bears nothing, and gives back nothing of what it stored.
-                (xi, damage) = (f64::INFINITY, 1.0);
+                [xi, damage, left] = GONE;
                 taken += decay * (from - BROKEN * strength).max(0.0) + 0.5 * from * limit;
             }
             taken += 0.5 * (damage - before) * other;
@@ -486,9 +495,9 @@ impl Crack {
         );
         if pressure > law.crushing && damage < 1.0 {
             taken += 0.5 * (1.0 - damage) * along * s * s;
-            (xi, damage) = (f64::INFINITY, 1.0);
+            [xi, damage, left] = GONE;
         }
-        self.nodes[n] = [xi, damage];
+        self.nodes[n] = [xi, damage, left];
         taken
     }
 
@@ -529,7 +538,7 @@ impl Crack {
         self.held = [first, last];
         for (n, node) in self.nodes.iter_mut().enumerate() {
             if gone || n < first || n > last {
-                *node = [f64::INFINITY, 1.0];
+                *node = GONE;
             }
         }
         self.cracked = self.cracked.min(time);
@@ -610,11 +619,11 @@ mod tests {
         let chi = 1.0 - (-crack.nodes[7][0]).exp();
         assert!((chi - 0.9).abs() < 0.01, "{chi}");
         stretch(&mut crack, [pressed, 0.0], [pressed, 3.2e-3], &law);
-        let [xi, damage] = crack.nodes[7];
+        let [_, damage, left] = crack.nodes[7];
         let strength = 6e3 + 0.6 * 60e3;
         // (B5) with what is left, at most.
         assert!((1.0 - damage) * 3e9 * 3.2e-3 <= (1.0 - chi) * strength * (1.0 + 1e-9));
-        let rubs = (1.0 - (-xi).exp()) * 0.6 * 60e3;
+        let rubs = (1.0 - left) * 0.6 * 60e3;
         assert!((1.0 - damage) * 3e9 * 3.2e-3 + rubs <= (1.0 - chi) * strength + 0.6 * 60e3);
         let mut crack = Crack::new(&law);
         stretch(&mut crack, [0.0; 2], [0.0, 5e-3], &law);
@@ -656,7 +665,7 @@ mod tests {
         assert_eq!(crack.spots().len(), 2);
         close(moments(&crack), 1e-15);
         for cracked in [5, 20, 40, NODES] {
-            crack.nodes[..cracked].fill([f64::INFINITY, 1.0]);
+            crack.nodes[..cracked].fill(GONE);
             crack.place(&law);
             close(moments(&crack), 4e-3);
             let weights: f64 = crack.spots().iter().map(|s| s.weight).sum();

@@ -182,6 +182,12 @@ impl Law {
         matches!(self.normal, Normal::Springs { .. })
     }
 
+    /// Stiffness across of the joint while it is pressed [N/m]; 0 of a rigid one.
+    pub fn normal_stiffness(&self) -> f64 {
+        let (both, press) = self.springs();
+        both + press
+    }
+
     /// η of (P8) where it loses more than an impact takes as it rocks.
     pub(crate) fn rocking(&self) -> Option<f64> {
         let Normal::Rigid { rocking, .. } = self.normal else { return None };

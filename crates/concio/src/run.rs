@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use concio_planar::joint::Normal;
+use concio_planar::joint::{Law, Normal};
 use serde_json::Value;
 
 use crate::case::{Beam, Case, Signal, canonical_json, plausible};
@@ -399,6 +399,11 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
             alpha: rubs.alpha,
         })
     };
+    // Joints of planar walls have stiffnesses of their own, along and across, which rigidity does not touch along.
+    let own = |e: usize| {
+        let planar = model.planar.as_ref().filter(|planar| !planar.open[e] && device[e].is_none())?;
+        Some(&planar.system.links[e].law)
+    };
     let row = |(e, rub): (usize, Option<usize>)| {
         let rub = rub.map(|r| &model.rubs[r]);
         let (joint, law) = (&model.joints[e], &model.elastic[e]);
@@ -411,8 +416,9 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
                 l if l.stiffness == 0.0 && l.damping == 0.0 => SpringLaw::None,
                 _ => SpringLaw::Elastic,
             },
-            stiffness: law.stiffness,
-            damping: law.damping,
+            stiffness: own(e).map_or(law.stiffness, |own| own.shear.stiffness),
+            normal_stiffness: own(e).map_or(0.0, Law::normal_stiffness),
+            damping: own(e).map_or(law.damping, |own| own.shear.damping),
             restitution: contact[e].map_or(0.0, |c| model.contacts[c].restitution),
             device: device[e],
             normal_force: rub.map_or([0.0; 2], |r| r.normal),

@@ -43,6 +43,9 @@ pub fn check(args: &Check) -> Result<(), Failure> {
         ("unknowns", (model.unknowns() * if model.planar.is_some() { 3 } else { 1 }).to_string()),
         ("mass", masses(model)),
     ];
+    if model.top_load > 0.0 {
+        general.push(("load on top", load_on_top(model)));
+    }
     if model.wall.blocks.len() <= TRIED {
         if let Some(own) = &model.planar {
             let rest = own.rest();
@@ -211,6 +214,16 @@ fn masses(model: &Model) -> String {
     let load = model.load_mass;
     let of_load = if load > 0.0 { format!(", and {} of the load", mass(load)) } else { String::new() };
     mass(total(model)) + &of_load
+}
+
+/// The vertical force of `load.top`, which counts bricks and no mortar, and what it presses on: the joints below a beam, or the top sides.
+fn load_on_top(model: &Model) -> String {
+    let wall = &model.wall;
+    let below = |joint: &&concio::wall::Joint| joint.kind == JointKind::Top;
+    let joints: f64 = model.joints.iter().filter(below).map(|joint| joint.area(wall)).sum();
+    let sides = || wall.loaded().iter().zip(&wall.blocks).map(|(length, block)| length * block.thickness).sum();
+    let area = if joints > 0.0 { joints } else { sides() };
+    format!("{}, {} on {} m² of bricks", si(model.top_load, "N"), si(model.top_load / area, "Pa"), significant(area, 4))
 }
 
 fn total(model: &Model) -> f64 {

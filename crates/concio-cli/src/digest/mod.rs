@@ -37,6 +37,11 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
         ("peak slip velocity", si(velocity, "m/s")),
         (opens, format!("opened {}, pressed in {}", length(opening), length(deepest))),
     ];
+    let [base, weight] = ["/base_load", "/weight"].map(|key| number(summary, key));
+    if base > weight * (1.0 + NOWHERE) {
+        let load = format!("{} on the base at rest, {} of it load on top", si(base, "N"), si(base - weight, "N"));
+        rows.push(("vertical force", load));
+    }
     let devices = joints.iter().filter(|j| j.device.is_some()).count();
     if devices > 0 {
         let taken = joints.iter().zip(&outcome.envelopes.joint_dissipation).filter(|(j, _)| j.device.is_some());

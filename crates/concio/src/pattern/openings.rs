@@ -4,7 +4,7 @@
 //! rectangles. A bed joint reaches from the tops of one course to the bottoms of the next.
 
 use super::place::{Frame, Place};
-use super::{Courses, Found, Rect, block_name};
+use super::{Courses, Found, Rect};
 use crate::InputError;
 use crate::case::Panel;
 use crate::case::validate::tidy;
@@ -111,8 +111,15 @@ impl Frame {
                     continue;
                 }
                 if length < SLIVER * self.length {
-                    let name = block_name(self.index, r, block.source);
-                    let what = format!("the cut leaves {} m of block {name}", tidy(length));
+                    // Earlier openings have changed the numbers of what follows them: the place says which one it is.
+                    let course = r + 1;
+                    let what = format!(
+                        "the cut leaves {} m of the block from x = {} to {} m in course {course} of panel p{}",
+                        tidy(length),
+                        tidy(x0),
+                        tidy(x1),
+                        self.index + 1
+                    );
                     let least = tidy(SLIVER * self.length);
                     let none = tidy(self.head);
                     let error =

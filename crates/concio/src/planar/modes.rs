@@ -3,7 +3,8 @@
 //! At the frame in which the top has gone farthest, its displacement is split: a course that turns by θ brings θ times its
 //! height (rocking), a bed joint plane in which all joints have slid the same way brings what the least of them slid
 //! (sliding). What is left comes from joints that slide and open here and not there; where these reach through the wall in
-//! steps, it is a diagonal crack.
+//! steps, it is a diagonal crack. Where joints have parted from edge to edge, so that nothing holds the top to the base any more, what
+//! slid along that cut counts: as sliding where half of it lies at one level, otherwise as a crack in steps.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +17,10 @@ use crate::wall::{End, Joint, Wall};
 const NAMED: f64 = 0.25;
 /// Displacement of the top over the height of the wall below which it has not failed.
 const MOVED: f64 = 5e-4;
+/// Opening and slip from which the joints of a cut have parted, over the displacement of the top: the largest at which there is one counts.
+const PARTED: [f64; 7] = [0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1];
+/// Part of a cut at one level from which it is a plane that slid, and not a crack in steps.
+const FLAT: f64 = 0.5;
 /// Opening and slip from which a joint counts as cracked in a stepped crack, over the displacement of the top.
 const CRACKED: f64 = 0.02;
 
@@ -106,10 +111,20 @@ pub fn failure(wall: &Wall, joints: &[Joint], recording: &Recording) -> Option<F
     let height = wall.blocks.iter().map(|b| b.y[1]).fold(0.0, f64::max);
     let limit = CRACKED * moved.abs();
     let cracked = |e: &usize| if joints[*e].kind.is_upright() { opening(*e) > limit } else { slip(*e).abs() > limit };
+    // The cut that has parted farthest: there may be others, of less.
+    let cut = PARTED.iter().find_map(|part| {
+        let least = part * moved.abs();
+        cut(wall, joints, &courses, &|e| slip(e).abs() > least || opening(e) > least, &slip)
+    });
+    let (flat, stepped) = match &cut {
+        Some(cut) if cut.level >= FLAT => (share(cut.slid), 0.0),
+        Some(cut) => (0.0, share(cut.slid)),
+        None => (0.0, 0.0),
+    };
+    let sliding = sliding.max(flat);
     let mut parts = vec![(Mode::Rocking, rocking), (Mode::Sliding, sliding)];
-    if steps(wall, joints, &cracked) {
-        parts.push((Mode::Diagonal, 1.0 - (rocking + sliding).min(1.0)));
-    }
+    let rest = if steps(wall, joints, &cracked) { 1.0 - (rocking + sliding).min(1.0) } else { 0.0 };
+    parts.push((Mode::Diagonal, rest.max(stepped)));
     parts.retain(|part| part.1 >= NAMED && moved.abs() > MOVED * height);
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut modes: Vec<Mode> = parts.into_iter().map(|part| part.0).collect();
@@ -153,6 +168,67 @@ fn slid(wall: &Wall, joints: &[Joint], slip: &impl Fn(usize) -> f64) -> f64 {
         }
     };
     planes.iter().flatten().flatten().map(|ends| through(*ends)).sum()
+}
+
+/// A cut from edge to edge along which a wall has parted.
+struct Cut {
+    /// How far what is above has slid on what is below, the mean along bed joints [m].
+    slid: f64,
+    /// Part of its length that lies at one level.
+    level: f64,
+}
+
+/// The upper side of what the base still holds through joints that have not parted, where no more of the top hangs on it.
+fn cut(
+    wall: &Wall,
+    joints: &[Joint],
+    courses: &[Vec<Vec<usize>>],
+    parted: &impl Fn(usize) -> bool,
+    slip: &impl Fn(usize) -> f64,
+) -> Option<Cut> {
+    let (base, top) = (wall.blocks.len(), wall.blocks.len() + 1);
+    let node = |end: &End| match end {
+        End::Base => base,
+        End::Top => top,
+        End::Block(block) => *block,
+    };
+    let mut around = vec![Vec::new(); wall.blocks.len() + 2];
+    for (_, joint) in joints.iter().enumerate().filter(|(e, _)| !parted(*e)) {
+        let other = node(&joint.b);
+        around[joint.a].push(other);
+        around[other].push(joint.a);
+    }
+    let mut held = vec![false; around.len()];
+    held[base] = true;
+    let mut stack = vec![base];
+    while let Some(at) = stack.pop() {
+        for next in &around[at] {
+            if !std::mem::replace(&mut held[*next], true) {
+                stack.push(*next);
+            }
+        }
+    }
+    let beam = joints.iter().any(|joint| joint.b == End::Top);
+    let highest = || courses.iter().filter_map(|rows| rows.last()).flatten();
+    if if beam { held[top] } else { highest().any(|block| held[*block]) } {
+        return None;
+    }
+    let (mut length, mut slid, mut levels) = (0.0, 0.0, std::collections::BTreeMap::new());
+    for (e, joint) in joints.iter().enumerate() {
+        let other = node(&joint.b);
+        if held[joint.a] == held[other] || joint.kind.is_upright() {
+            continue;
+        }
+        let [x0, y0, x1, y1] = joint.line;
+        let along = (x1 - x0).abs();
+        // Slip is that of the lower side, of a base joint that of the block itself.
+        let offset = if other == base { slip(e) } else { -slip(e) };
+        length += along;
+        slid += along * offset;
+        *levels.entry((0.5e3 * (y0 + y1)).round() as i64).or_insert(0.0) += along;
+    }
+    let longest = levels.values().copied().fold(0.0, f64::max);
+    (length > 0.0).then(|| Cut { slid: slid / length, level: longest / length })
 }
 
 /// Whether cracked joints hang together over at least half of the courses, through head joints and pieces of bed joints.

@@ -207,14 +207,20 @@ pub(super) const PANELS: [Field<PanelInfo, f64>; 6] = [
 ];
 
 /// Real quantities of a joint.
-pub(super) const JOINTS: [Field<JointRow, f64>; 11] = [
+pub(super) const JOINTS: [Field<JointRow, f64>; 12] = [
     field!("weight", "1", joint.weight, "Overlap weight; 1 for head joints."),
     field!("overlap", "m", joint.overlap, "Contact length."),
     field!("x0", "m", joint.line[0], "Contact line, start."),
     field!("y0", "m", joint.line[1], "Contact line, start."),
     field!("x1", "m", joint.line[2], "Contact line, end."),
     field!("y1", "m", joint.line[3], "Contact line, end."),
-    field!("stiffness", "N/m", stiffness, "Stiffness, overlap weight and rigidity included."),
+    field!("stiffness", "N/m", stiffness, "Stiffness as it acts; of planar walls along the joint."),
+    field!(
+        "normal_stiffness",
+        "N/m",
+        normal_stiffness,
+        "Stiffness across a pressed joint of a planar wall; 0 in shear walls."
+    ),
     field!("damping", "N s/m", damping, "Damping, overlap weight included."),
     field!("normal_force_a", "N", normal_force[0], "Normal force in the equation of a."),
     field!("normal_force_b", "N", normal_force[1], "Normal force in the equation of b."),

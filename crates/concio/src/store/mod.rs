@@ -50,8 +50,10 @@ pub struct JointRow {
     pub name: String,
     /// Elastic law.
     pub law: SpringLaw,
-    /// Stiffness as it acts [N/m]: overlap weight, and rigidity of a no-tension joint, included.
+    /// Stiffness as it acts [N/m]: overlap weight, and in shear walls rigidity of a no-tension joint, included; of planar walls that along the joint.
     pub stiffness: f64,
+    /// Stiffness across of a joint of a planar wall that is pressed [N/m]; 0 in shear walls, of rigid and of open joints.
+    pub normal_stiffness: f64,
     /// Damping as it acts [N s/m]: overlap weight included.
     pub damping: f64,
     /// Normal force in the equation of `a` and of `b` [N]; equal unless `overburden`.

@@ -159,6 +159,7 @@ fn read_joints(source: &Source, blocks: usize) -> Result<Vec<JointRow>> {
             name,
             law,
             stiffness: 0.0,
+            normal_stiffness: 0.0,
             damping: 0.0,
             normal_force: [0.0; 2],
             friction,

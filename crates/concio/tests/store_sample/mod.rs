@@ -129,6 +129,7 @@ fn joint(k: usize, kind: JointKind, a: usize, b: End, wall: &Wall) -> JointRow {
         name: format!("{}|{other}", wall.blocks[a].name),
         law: if rubs { SpringLaw::Elastic } else { SpringLaw::NoTension },
         stiffness: 5.4e7 + f,
+        normal_stiffness: 1.3e8 + f,
         damping: 1e3 + f,
         normal_force: [100.0 + f, 101.0 + f],
         friction: rubs.then_some(friction),
