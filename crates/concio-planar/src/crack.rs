@@ -3,8 +3,8 @@
 //! A joint between rigid blocks opens and slides by straight lines along its length. Its bond is known at equally spaced nodes,
 //! with what it lost in between by straight lines too. What is left of it acts in both directions and gives two contact points the
 //! stiffness against parting and against turning that it has in all, exactly: half of it at each, at the distance of its radius of gyration
-//! from its centre. What has cracked acts in compression alone, at nine points, of which those bear whose part of the joint has cracked. A crack is
-//! so as fine as the nodes, and an intact joint has two points.
+//! from its centre. What has cracked acts in compression alone, at three points with its stiffness and turning, or at nine where joints may be
+//! crushed. It rubs for the whole joint: friction at springs that pull too would have a kink, where contact is hard to solve.
 //!
 //! At a node that is stretched by w across and s along the joint,
 //!

@@ -1095,3 +1095,21 @@ fn stones_in_the_air_are_refused() {
     // What is uneven by a tenth of a brick's height is packed with mortar.
     assert_eq!(told(0.0, 0.349, false), Ok(()));
 }
+
+/// Results tell stiffnesses as they act: along k A, across 2.4 times as much and rigidity besides.
+#[test]
+fn stiffnesses_are_told_as_they_act() {
+    let wall = prepared(&stack(
+        2,
+        r#"
+[joint]
+bed = { law = "no-tension", stiffness = "10 N/mm3", rigidity = 3 }
+head = { law = "none" }
+"#,
+    ));
+    // 0.5 m × 1 m.
+    for row in concio::run::joint_rows(&wall.model) {
+        close(row.stiffness, 10e9 * 0.5, 1e-12);
+        close(row.normal_stiffness, 2.4 * 3.0 * 10e9 * 0.5, 1e-12);
+    }
+}
