@@ -966,7 +966,7 @@ base = { synthetic = { seed = 28, pga = "1.5 g", duration = "4 s" } }
 step = "2 ms"
 "#);
     let residual = outcome.totals.peak_residual / outcome.totals.peak_input;
-    assert!(outcome.totals.collapse.is_some() && outcome.energies.bond > 15.0, "{:?}", outcome.energies);
+    assert!(outcome.totals.collapse.is_some() && outcome.energies.bond > 10.0, "{:?}", outcome.energies);
     assert!(residual < 1e-4, "{residual:e}");
 }
 
@@ -1105,6 +1105,8 @@ fn stiffnesses_are_told_as_they_act() {
 [joint]
 bed = { law = "no-tension", stiffness = "10 N/mm3", rigidity = 3 }
 head = { law = "none" }
+[motion]
+duration = "10 ms"
 "#,
     ));
     // 0.5 m × 1 m.

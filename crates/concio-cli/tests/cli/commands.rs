@@ -188,7 +188,7 @@ Small wall
 
   unknowns      10
   mass          23.98 kg
-  load on top   5.000 kN, 83.33 kPa on 0.0600 m² of bricks
+  load on top   4.900 kN, 83.33 kPa on 0.05880 m² of bricks
   first period  [..]
   duration      0.05 s, 2001 samples kept
 
