@@ -106,7 +106,7 @@ fn csmip_blocks_that_are_promised_must_be_there() {
 }
 
 /// Files whose channels end with a mark are cut behind every line and inside of every mark: refused, but for a cut behind a whole mark. That
-/// leaves a file of fewer channels, which is told where the header knows how many there were.
+/// leaves a file of fewer channels, which is told where the header knows how many there were; so is a first channel without its mark.
 #[test]
 fn files_with_marks_are_whole_or_refused() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/records");
@@ -127,7 +127,10 @@ fn files_with_marks_are_whole_or_refused() {
             let mark = line.trim_end().len();
             let inside = if is_mark(line) { start..start + mark } else { start..start + 1 };
             for cut in inside.filter(|cut| *cut > 0 && !is_mark(text[..*cut].trim_end().lines().last().unwrap())) {
-                assert!(read_text(&text[..cut]).is_err(), "{name} cut at {cut}");
+                // Behind the first channel nothing says that there should be a mark: read, and told.
+                let whole = |records: Vec<Record>| records.len() == 1 && records[0].remarks == [Remark::Unmarked];
+                let first = ends.is_empty() && !name.starts_with("cosmos");
+                assert!(read_text(&text[..cut]).map_or(true, |records| first && whole(records)), "{name} cut at {cut}");
             }
             // A mark of BHRC is whole with its second character.
             for cut in (start + 1..start + mark).filter(|_| is_mark(line) && mark > 2) {

@@ -10,10 +10,10 @@
 
 use crate::Result;
 use crate::ground::record::{Format as FileFormat, Raw, Record, finish};
-use crate::ground::remark::tell_fewer;
+use crate::ground::remark::{tell_fewer, tell_unmarked};
 use crate::ground::source::{
-    CUT, Format, Source, after, channels_of_recorder, count, fixed_block, fixed_fields, fortran_format, leading_number,
-    refuse_more, require_end_mark, unreadable, words,
+    CUT, Format, Source, after, channels_of_recorder, count, fixed_block, fixed_fields, fortran_format, is_marked,
+    leading_number, refuse_more, require_end_mark, unreadable, words,
 };
 
 const SAMPLES: Format = Format { per_line: 8, width: 10 };
@@ -32,14 +32,17 @@ pub(super) fn is_format(source: &Source) -> bool {
 }
 
 pub(super) fn read(source: &Source) -> Result<Vec<Record>> {
-    let (mut records, mut line) = (Vec::new(), 0);
+    let (mut records, mut line, marked) = (Vec::new(), 0, is_marked(source));
     while let Some(start) = source.next_channel(line) {
         let (record, end) = channel(source, start, records.len() + 1)?;
-        require_end_mark(source, end)?;
+        if marked {
+            require_end_mark(source, end)?;
+        }
         records.push(record);
         line = end;
     }
     tell_fewer(&mut records, channels_of_recorder(source, TEXT_LINES));
+    tell_unmarked(&mut records, marked);
     Ok(records)
 }
 

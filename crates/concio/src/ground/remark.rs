@@ -39,6 +39,8 @@ pub enum Remark {
         /// The code of COSMOS.
         code: u32,
     },
+    /// No mark of an end stands behind the channels, as archives write it: the file was made by other means, or lost its end.
+    Unmarked,
     /// The file holds fewer channels than its instrument recorded: one of several was kept, or the file lost its end.
     Fewer {
         /// Channels of the instrument.
@@ -46,6 +48,13 @@ pub enum Remark {
         /// Channels in the file.
         found: usize,
     },
+}
+
+/// Tells of each channel that the file has no mark of an end behind any of them.
+pub(super) fn tell_unmarked(records: &mut [Record], marked: bool) {
+    if !marked {
+        records.iter_mut().for_each(|record| record.remarks.push(Remark::Unmarked));
+    }
 }
 
 /// Tells of each channel of a file that there are fewer than its instrument recorded.
@@ -59,7 +68,10 @@ impl Remark {
     /// Whether the samples may be other than the archive meant, so that who uses them should look.
     pub(super) fn is_doubtful(&self) -> bool {
         match self {
-            Remark::UnitByCode { .. } | Remark::Surplus { .. } | Remark::Resampled { exact: false, .. } => true,
+            Remark::UnitByCode { .. }
+            | Remark::Surplus { .. }
+            | Remark::Unmarked
+            | Remark::Resampled { exact: false, .. } => true,
             Remark::Offset { .. } | Remark::Start { .. } | Remark::Resampled { .. } | Remark::Fewer { .. } => false,
         }
     }
@@ -95,6 +107,9 @@ impl fmt::Display for Remark {
             Remark::UnitByCode { code } => {
                 write!(f, "its header names one unit in words and another by the code {code:02}: the code counts")
             }
+            Remark::Unmarked => f.write_str(
+                "no mark of an end (`/&`) stands behind its samples, as archives write it: if you expect more channels, fetch it again",
+            ),
             Remark::Fewer { recorded, found } => write!(
                 f,
                 "its instrument recorded {recorded} channels, the file holds {found}: if you expect more, fetch it again"

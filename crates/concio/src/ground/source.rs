@@ -248,6 +248,11 @@ pub(super) fn refuse_more(source: &Source, end: usize, declared: u64, key: &str)
     Err(error.key(key).into())
 }
 
+/// Whether any channel of a file ends with `/&`: archives write it behind all of them, others behind none.
+pub(super) fn is_marked(source: &Source) -> bool {
+    source.lines.iter().any(|line| line.trim_start().starts_with("/&"))
+}
+
 /// Refuses a channel whose samples end before line `end` and that its format's mark does not close, or not in full:
 /// `/&  ----------  END OF DATA FOR CHANNEL  1  ----------`, `/&` alone, `End-of-data for Chan  1 acceleration`.
 pub(super) fn require_end_mark(source: &Source, end: usize) -> Result<()> {

@@ -12,10 +12,10 @@
 
 use crate::Result;
 use crate::ground::record::{Format as FileFormat, MOST_SAMPLES, Raw, Record, Remark, finish};
-use crate::ground::remark::tell_fewer;
+use crate::ground::remark::{tell_fewer, tell_unmarked};
 use crate::ground::source::{
-    CUT, Format, Source, after, channels_of_recorder, fixed_block, fortran_format, free_fields, leading_number,
-    not_a_number, number, refuse_more, require_end_mark, unreadable, whole, words,
+    CUT, Format, Source, after, channels_of_recorder, fixed_block, fortran_format, free_fields, is_marked,
+    leading_number, not_a_number, number, refuse_more, require_end_mark, unreadable, whole, words,
 };
 
 /// Lines of text, of integers and of reals.
@@ -40,17 +40,19 @@ pub(super) fn is_format(source: &Source) -> bool {
 }
 
 pub(super) fn read(source: &Source) -> Result<Vec<Record>> {
-    let (mut records, mut line) = (Vec::new(), 0);
+    let (mut records, mut line, marked) = (Vec::new(), 0, is_marked(source));
     while let Some(start) = source.next_channel(line) {
         let (record, end) = channel(source, start, records.len() + 1)?;
-        // USC keeps one channel in a file, without a mark behind it.
-        if !source.line(start).trim_start().to_ascii_uppercase().starts_with("FILE") {
+        if marked {
             require_end_mark(source, end)?;
         }
         records.push(record);
         line = end;
     }
     tell_fewer(&mut records, channels_of_recorder(source, TEXT_LINES));
+    // USC keeps one channel in a file, without a mark behind it.
+    let alone = source.line(0).trim_start().to_ascii_uppercase().starts_with("FILE");
+    tell_unmarked(&mut records, marked || alone);
     Ok(records)
 }
 
