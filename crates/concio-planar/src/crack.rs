@@ -177,7 +177,7 @@ impl Crack {
         (ends + (1..NODES - 1).map(f).sum::<f64>()) / (NODES - 1) as f64
     }
 
-    /// D, or with `what` 0 ξ, on the way from a node to the next.
+    /// D on the way from a node to the next.
     fn between(&self, n: usize, part: f64) -> f64 {
         let [from, to] = [self.nodes[n][1], self.nodes[n + 1][1]];
         from + part * (to - from)
@@ -298,20 +298,17 @@ impl Crack {
             weight: damaged.max(0.0),
             rubs: (rubbing / share).clamp(0.0, 1.0),
         };
-        if law.crushing.is_infinite() {
-            // Three points at the ends and the middle of what has cracked, which turn as it does.
-            let [near, far] = if press > 0.0 || gone { [0, NODES - 1] } else { self.cracked_between() };
-            let [from, length] = [place(near), place(far) - place(near)];
-            let [damaged, all, rubbing] = [damaged, WHOLE, rubbing].map(|moments| thirds(moments, from, length));
-            for (k, (point, _)) in THREE.into_iter().enumerate() {
-                let share = cracked(damaged[k], all[k]);
-                if share > NOTHING {
-                    spots.push(dry(point, from + 0.5 * k as f64 * length, share, [damaged[k], rubbing[k]]));
-                }
+        // Three points at the ends and the middle of what has cracked, which turn as it does.
+        let [near, far] = if press > 0.0 || gone { [0, NODES - 1] } else { self.cracked_between() };
+        let [from, length] = [place(near), place(far) - place(near)];
+        let [damaged, all, rubbing] = [damaged, WHOLE, rubbing].map(|moments| thirds(moments, from, length));
+        let shares: [f64; 3] = std::array::from_fn(|k| cracked(damaged[k], all[k]));
+        // Where damage is so uneven that one of them would pull, nine stand for what is around them.
+        let few = shares.iter().all(|share| *share >= -NOTHING);
+        if few && (law.crushing.is_infinite() || intact) {
+            for (k, (point, _)) in THREE.into_iter().enumerate().filter(|(k, _)| shares[*k] > NOTHING) {
+                spots.push(dry(point, from + 0.5 * k as f64 * length, shares[k], [damaged[k], rubbing[k]]));
             }
-        } else if intact {
-            let three = THREE.map(|(point, part)| dry(point, point as f64 / 8.0, cracked(0.0, 1.0) * part, [0.0; 2]));
-            spots.extend(three.into_iter().filter(|spot| spot.share > 0.0));
         } else {
             for point in 0..DRY {
                 let [damaged, all, rubbing] = self.around(point);
@@ -471,17 +468,21 @@ impl Crack {
             }
             let before = damage;
             let decay = ((energy - 0.5 * strength * strength / k) / ((1.0 - BROKEN) * strength)).max(0.0);
+            // What has no strength breaks at once.
+            let decay = if strength > 0.0 { decay } else { 0.0 };
+            // Where the limit has come to the stretch as pressure fell, the rest is no work of breaking.
+            let at = limit.max(stretch - way);
             // Where the limit has come to the stretch and not the stretch to the limit, nothing has slid beyond it.
             xi = if decay > 0.0 { xi + (stretch - limit).min(way) / decay } else { f64::INFINITY };
             left = (-xi).exp();
             let to = strength * left;
             if to > BROKEN * strength {
                 damage = 1.0 - to / (k * stretch);
-                taken += decay * (from - to) - 0.5 * (to * stretch - from * limit);
+                taken += decay * (from - to) - 0.5 * (to * stretch - from * at);
             } else {
                 // What bears next to nothing bears nothing, and gives back nothing of what it stored.
                 [xi, damage, left] = GONE;
-                taken += decay * (from - BROKEN * strength).max(0.0) + 0.5 * from * limit;
+                taken += decay * (from - BROKEN * strength).max(0.0) + 0.5 * from * at;
             }
             taken += 0.5 * (damage - before) * other;
         };
@@ -489,7 +490,7 @@ impl Crack {
         pass(
             [s.abs(), grown[1]],
             along,
-            bond.cohesion + pressure * bond.tan_angle,
+            (1.0 - bond.residual) * (bond.cohesion + pressure * bond.tan_angle),
             bond.energy[1],
             both * w.max(0.0).powi(2),
         );
@@ -535,7 +536,9 @@ impl Crack {
         if !gone && [first, last] == self.held {
             return;
         }
-        self.held = [first, last];
+        if !gone {
+            self.held = [first, last];
+        }
         for (n, node) in self.nodes.iter_mut().enumerate() {
             if gone || n < first || n > last {
                 *node = GONE;

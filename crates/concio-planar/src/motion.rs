@@ -494,21 +494,26 @@ impl Motion {
         let size = self.radius.iter().fold(0.0, |most: f64, r| most.max(*r));
         let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
         let (mut way, mut step) = (self.fastest() * h, h);
-        let (mut most, mut ratio) = (way, f64::INFINITY);
+        let (mut most, mut ratio, mut longer, mut rests) = (way, f64::INFINITY, false, false);
         for number in 0..FOLLOWING {
             // Steps that shrink by a ratio have so much before them.
             let ahead = if ratio < 1.0 { way * ratio / (1.0 - ratio) } else { f64::INFINITY };
-            if way == 0.0 || ahead <= AT_REST * most || number >= PATIENCE && ratio >= 1.0 {
+            rests = way == 0.0 || ahead <= AT_REST * most;
+            if rests || number >= PATIENCE && ratio >= 1.0 && !longer {
                 break;
             }
-            if ratio > SLOWLY && (ratio < 1.0 || way <= FAR * size) && step < LONGEST * h {
+            longer = ratio > SLOWLY && (ratio < 1.0 || way <= FAR * size) && step < LONGEST * h;
+            if longer {
                 step *= 2.0;
             }
-            self.part(start, step, HALVINGS, &stays);
+            // The end of the step is that of the load: what cracks in it cracks then.
+            self.part(start + h - step, step, HALVINGS, &stays);
             let next = self.fastest() * step;
             (ratio, way, most) = (next / way, next, most.max(next));
         }
-        self.counters.moving += u64::from(ratio < 1.0 && way * ratio > AT_REST * most * (1.0 - ratio));
+        // A mechanism never comes to rest.
+        let falls = ratio >= 1.0 && way > FAR * size;
+        self.counters.moving += u64::from(!rests && !falls);
     }
 
     /// Largest velocity of a body's edge [m/s].
@@ -548,7 +553,12 @@ impl Motion {
         let halves = halvings > HALVINGS - SOON && !self.setting.still;
         let effort = self.solve(h, halves);
         let effort = self.follow_devices(h, halves, effort);
-        let effort = if self.turn() { effort.then(self.solve(h, halves)) } else { effort };
+        let effort = if self.turn() {
+            let again = self.solve(h, halves);
+            effort.then(self.follow_devices(h, halves, again))
+        } else {
+            effort
+        };
         self.count(effort);
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
         if !enough && halvings > 0 {
@@ -567,6 +577,9 @@ impl Motion {
     /// Where a slide that friction of motion held back turns round, friction at rest holds it: whether there is such a point, which is to be solved
     /// again. Rest in between two slides would be a matter of chance otherwise.
     fn turn(&mut self) -> bool {
+        if self.setting.still {
+            return false;
+        }
         let mut turns = false;
         for (contact, owner) in self.contacts.iter_mut().zip(&self.owners) {
             let pair = &self.pairs[owner.pair];
@@ -580,7 +593,7 @@ impl Motion {
                 turns = true;
             }
         }
-        turns && !self.setting.still
+        turns
     }
 
     /// Velocities without contact, and polygons in the middle of the step; what is held moves at `rate` before and after it [m/s].
@@ -886,13 +899,8 @@ impl Motion {
         let known = std::mem::take(&mut self.pairs);
         let fresh = |a, b, link: Option<usize>| {
             let law = self.laws.of(link);
-            let crack = law.bond.map(|_| Crack::new(law));
-            let count = if crack.is_some() { crack::POINTS } else { law.shares().len() };
-            let mut points = SmallVec::from_elem(Point::default(), count);
-            if let Some(crack) = &crack {
-                crack.set(&mut points);
-            }
-            Pair { a, b, link, points, laid: 0.0, crack }
+            let count = if law.bond.is_some() { crack::POINTS } else { law.shares().len() };
+            Pair { a, b, link, points: SmallVec::from_elem(Point::default(), count), laid: 0.0, crack: None }
         };
         // Joints stay whatever becomes of them: what has gone apart may come together again.
         let mut pairs: Vec<Pair> = self.joints.iter().enumerate().map(|(k, (a, b))| fresh(*a, *b, Some(k))).collect();
@@ -910,6 +918,13 @@ impl Motion {
         for pair in known {
             if let Ok(at) = pairs.binary_search_by_key(&(pair.a, pair.b), |p| (p.a, p.b)) {
                 pairs[at] = pair;
+            }
+        }
+        for pair in pairs.iter_mut().filter(|pair| pair.crack.is_none()) {
+            let law = self.laws.of(pair.link);
+            pair.crack = law.bond.map(|_| Crack::new(law));
+            if let Some(crack) = &pair.crack {
+                crack.set(&mut pair.points);
             }
         }
         self.pairs = pairs;
@@ -939,7 +954,10 @@ impl Motion {
         // Two ends of each joint at most are held back.
         let most = if self.rocks { 2 * self.pairs.len() } else { 0 };
         self.holds.reserve(most);
-        self.contacts.reserve(most);
+        // As many contacts as there may be, so that no step asks for more.
+        let points: usize = self.pairs.iter().map(|pair| pair.points.len()).sum();
+        self.contacts.reserve(points + most);
+        self.owners.reserve(points);
         self.met.resize(self.pairs.len(), false);
         let matrix = self.solver.matrix();
         let seat = |(k, pair): (usize, &Pair)| Seat { pair: k, slot: pair.a.map(|a| matrix.slot(a, pair.b)) };

@@ -217,3 +217,59 @@ fn a_crushed_rigid_joint_does_not_heal() {
         assert!(point.gap + point.crushed < 1e-9, "{point:?}");
     }
 }
+
+/// A joint without tensile strength whose energy is not 0 has numbers for energies, and a rigid joint that broke is taken up again.
+#[test]
+fn joints_without_strength_and_broken_ones_go_on() {
+    let mut law = mortar(1.0, [10.0, 100.0]);
+    law.bond = law.bond.map(|bond| Bond { tension: 0.0, ..bond });
+    let tilt = |law: Law| {
+        let mut motion = Motion::new(&system(block([1.0, 1.0]), law), Setting::new(1e-3));
+        for _ in 0..200 {
+            motion.go(1e-3, &|from, to| Forcing { base: [0.9 * G * (to - from), 0.0], held: 0.0 });
+        }
+        motion
+    };
+    let soft = tilt(law).account;
+    assert!([soft.bond, soft.elastic, soft.impact].iter().all(|energy| energy.is_finite()), "{soft:?}");
+    let rigid = Law {
+        normal: Normal::Rigid { restitution: 0.0, rocking: 1.0 },
+        shear: Shear { stiffness: 0.0, ..law.shear },
+        bond: Some(Bond { tension: 1.0, cohesion: 1e6, tan_angle: 0.0, energy: [0.0; 2], residual: 0.0 }),
+        ..law
+    };
+    let mut broken = Motion::new(&system(block([1.0, 1.0]), rigid), Setting::new(1e-3));
+    for _ in 0..200 {
+        broken.go(1e-3, &|from, to| Forcing { base: [1.1 * G * (to - from), 0.0], held: 0.0 });
+    }
+    assert!(broken.crack(0).expect("a bond").is_gone());
+    let kept = broken.keep();
+    assert!(broken.take_up(kept));
+}
+
+/// Where pressure falls on a joint that is sheared, no energy of breaking comes back.
+#[test]
+fn a_sheared_joint_that_is_relieved_takes_no_energy_back() {
+    let area = 0.3;
+    let mut law = mortar(1.0, [20.0, 100.0]);
+    law.bond = law.bond.map(|bond| Bond { cohesion: 20e3 * area, tan_angle: 0.6, ..bond });
+    let mut sheared = system(block([1.0, 0.5]), law);
+    sheared.load[0] = [0.0, -100e3 * area];
+    sheared.held[0] = [true, false, true];
+    let setting = Setting { still: true, ..Setting::new(2e-2) };
+    let mut motion = Motion::new(&sheared, setting);
+    assert!(motion.stand(1e-12, 4000));
+    for _ in 0..20 {
+        // 1.5 µm of 50 N/mm³: 75 kPa of the 80 kPa that it bears.
+        motion.go(2e-2, &|_, _| Forcing { base: [0.0; 2], held: 1.5e-6 / 20.0 });
+    }
+    assert_eq!(motion.account.bond, 0.0);
+    // The ground falls away below it: pressure goes, the limit comes to the stretch.
+    let mut last = 0.0;
+    for step in 0..50 {
+        let relief = 1e-3 * G * f64::from(step);
+        motion.go(2e-2, &|from, to| Forcing { base: [0.0, -relief * (to - from) * 200.0], held: 0.0 });
+        assert!(motion.account.bond >= last, "{} after {last}", motion.account.bond);
+        last = motion.account.bond;
+    }
+}

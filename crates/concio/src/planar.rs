@@ -467,9 +467,11 @@ fn softening(wall: &Wall, joints: &[Joint], laws: &[JointLaw], normal: &[[f64; 2
         let pressure = if joint.kind.is_upright() { 0.0 } else { normal[number][0] / area };
         let shear = values.cohesion + pressure * values.tan_angle;
         for (mode, strength) in [values.tensile_strength, shear].into_iter().enumerate() {
-            let (least, given) = (stored(strength * area, ways[mode] * stiffness) / area, values.energy[mode]);
-            if given > 0.0 && given <= least {
-                snaps.add(mode, Snap { joint: number, least, given, whole: false });
+            // Of shear the part that goes.
+            let goes = if mode == 1 { 1.0 - values.residual } else { 1.0 };
+            let (least, given) = (goes * stored(strength * area, ways[mode] * stiffness) / area, values.energy[mode]);
+            if given > 0.0 && (given <= least || goes == 0.0) {
+                snaps.add(mode, Snap { joint: number, least, given, whole: goes == 0.0 });
             }
         }
     }

@@ -51,8 +51,9 @@ impl Motion {
                 let after = self.contacts[contact].velocity(&self.after)[device.direction];
                 missed = worse(missed, self.bend(k, h, after, round));
             }
-            let solved = effort.residual <= self.setting.enough();
-            if !(solved && missed > self.setting.tolerance) || round == MOST {
+            let part = self.setting.part(h);
+            let solved = effort.residual <= part * self.setting.enough();
+            if !(solved && missed > part * self.setting.tolerance) || round == MOST {
                 effort.residual = worse(effort.residual, missed);
                 break;
             }

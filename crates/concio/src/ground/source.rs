@@ -270,7 +270,11 @@ pub(super) fn require_end_mark(source: &Source, end: usize) -> Result<()> {
             let dashes = rest.trim().len() - words.len();
             after(words, "channel").is_some_and(|rest| rest.len() - rest.trim_end_matches('-').len() >= dashes.max(1))
         }
-        None => QUANTITIES.iter().any(|quantity| text.to_ascii_lowercase().ends_with(quantity)),
+        // Some writers name the channel alone.
+        None => after(text, "for chan").is_some_and(|rest| {
+            let last = rest.split_whitespace().next_back().unwrap_or("").to_ascii_lowercase();
+            !last.is_empty() && QUANTITIES.iter().all(|quantity| last == *quantity || !quantity.starts_with(&last))
+        }),
     };
     if is_whole {
         return Ok(());

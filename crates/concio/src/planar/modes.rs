@@ -221,8 +221,8 @@ fn cut(
         }
         let [x0, y0, x1, y1] = joint.line;
         let along = (x1 - x0).abs();
-        // Slip is that of the lower side, of a base joint that of the block itself.
-        let offset = if other == base { slip(e) } else { -slip(e) };
+        // Slip is that of the lower side, of a base joint that of the block itself; what is held may lie above.
+        let offset = if held[joint.a] { -slip(e) } else { slip(e) };
         length += along;
         slid += along * offset;
         *levels.entry((0.5e3 * (y0 + y1)).round() as i64).or_insert(0.0) += along;
