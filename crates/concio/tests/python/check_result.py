@@ -47,7 +47,7 @@ TOTALS = {
     "peak_residual": "J",
     "time_reached": "s",
 }
-COUNTERS = ["steps", "rejected", "failed", "iterations", "factorisations", "events", "located", "impacts", "unsolved"]
+COUNTERS = ["steps", "rejected", "failed", "iterations", "factorisations", "events", "located", "impacts", "unsolved", "moving"]
 BLOCK_COLUMNS = {"x0": "m", "x1": "m", "y0": "m", "y1": "m", "thickness": "m", "specific_weight": "N/m3", "mass": "kg"}
 PANEL_COLUMNS = {
     "reference_length": "m",
@@ -59,7 +59,7 @@ PANEL_COLUMNS = {
 }
 BOND_COLUMNS = {
     "strength": "N", "stiffness": "N/m", "residual_stiffness": "1", "energy": "J", "decay": "m", "damage": "1",
-    "spent": "J", "cracked": "s", "broken": "s",
+    "crack": "1", "spent": "J", "cracked": "s", "broken": "s",
 }
 TIE_COLUMNS = {"force": "N", "stretch": "m", "yielded": "s"}
 DRIFT_COLUMNS = {"height": "m", "peak": "m", "time": "s", "residual": "m", "swing": "m"}
@@ -71,6 +71,7 @@ JOINT_COLUMNS = {
     "x1": "m",
     "y1": "m",
     "stiffness": "N/m",
+    "normal_stiffness": "N/m",
     "damping": "N s/m",
     "normal_force_a": "N",
     "normal_force_b": "N",
