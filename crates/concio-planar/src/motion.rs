@@ -511,9 +511,8 @@ impl Motion {
             let next = self.fastest() * step;
             (ratio, way, most) = (next / way, next, most.max(next));
         }
-        // A mechanism never comes to rest.
-        let falls = ratio >= 1.0 && way > FAR * size;
-        self.counters.moving += u64::from(!rests && !falls);
+        // What does not slow down, as a mechanism or a crack that runs on, is not told: it has no rest to come to.
+        self.counters.moving += u64::from(!rests && ratio < 1.0);
     }
 
     /// Largest velocity of a body's edge [m/s].

@@ -15,6 +15,8 @@ use crate::warning::{Warning, WarningKind};
 const LARGE_SLIP: f64 = 0.1;
 /// Friction work of joints that never slip, over the largest energy in play, that could be taken for damage.
 const NOTICEABLE_CREEP: f64 = 0.05;
+/// Part of all steps from which those are told that ended before the wall was at rest: some that follow each load step are among them.
+const MOVING: f64 = 5e-3;
 /// Part of the steps whose contact may be left unsolved before a result should be doubted for it.
 const UNSOLVED: f64 = 1e-3;
 /// Residual of the energy account over the largest work beyond which a result should not be used.
@@ -106,7 +108,7 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
 /// Says of runs without inertia that their steps ended too soon for what swings slowly.
 fn moving(outcome: &Outcome) -> Option<String> {
     let (moving, steps) = (outcome.counters.moving, outcome.counters.steps);
-    (moving as f64 > UNSOLVED * steps as f64).then(|| {
+    (moving as f64 > MOVING * steps as f64).then(|| {
         format!(
             "{moving} steps ended before the wall had come to rest, though it slowed down: displacements and forces lag behind their loads; a slower \
              load or lower solver.step shows by how much"
