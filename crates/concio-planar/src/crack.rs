@@ -34,8 +34,8 @@ const GREGORY: [f64; DRY] = {
     let [end, next, third] = [0.75, 7.0 / 6.0, 23.0 / 24.0];
     [end, next, third, 1.0, 1.0, 1.0, third, next, end]
 };
-/// The three points of a joint whose bond is gone and that cannot be crushed, and their weights.
-const THREE: [(usize, f64); 3] = [(0, 1.0 / 6.0), (4, 2.0 / 3.0), (8, 1.0 / 6.0)];
+/// Those of the nine that are taken where three do.
+const THREE: [usize; 3] = [0, 4, 8];
 /// Moments of the whole joint.
 const WHOLE: Moments = [1.0, 0.5, 1.0 / 3.0];
 /// A node that has lost nothing, and one that has lost all.
@@ -306,7 +306,7 @@ impl Crack {
         // Where damage is so uneven that one of them would pull, nine stand for what is around them.
         let few = shares.iter().all(|share| *share >= -NOTHING);
         if few && (law.crushing.is_infinite() || intact) {
-            for (k, (point, _)) in THREE.into_iter().enumerate().filter(|(k, _)| shares[*k] > NOTHING) {
+            for (k, point) in THREE.into_iter().enumerate().filter(|(k, _)| shares[*k] > NOTHING) {
                 spots.push(dry(point, from + 0.5 * k as f64 * length, shares[k], [damaged[k], rubbing[k]]));
             }
         } else {
@@ -389,6 +389,7 @@ impl Crack {
                     };
                     0.5 * k * (point.gap + point.crushed).min(0.0).powi(2) + sheared
                 }
+                // Of the whole there is no point where there is a bond.
                 Part::Whole | Part::Stays => 0.5 * residual * shear * point.slide * point.slide,
             };
         }

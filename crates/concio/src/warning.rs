@@ -65,6 +65,8 @@ kinds! {
     Unsolved = "unsolved-contact",
     /// Steps without inertia that did not end at rest.
     Moving = "not-at-rest",
+    /// A largest base shear that a tilted wall bore as it fell.
+    PeakInFall = "peak-in-fall",
     /// A base shear above what friction and bond bear.
     BeyondFriction = "beyond-friction",
     /// A wall that counts as collapsed.

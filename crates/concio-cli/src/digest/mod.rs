@@ -38,9 +38,10 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
         (opens, format!("opened {}, pressed in {}", length(opening), length(deepest))),
     ];
     let [base, weight] = ["/base_load", "/weight"].map(|key| number(summary, key));
-    if base > weight * (1.0 + NOWHERE) {
-        let load = format!("{} on the base at rest, {} of it load on top", si(base, "N"), si(base - weight, "N"));
-        rows.push(("vertical force", load));
+    let load = beside(base - weight, base);
+    if load > 0.0 {
+        let told = format!("{} on the base at rest, {} of it load on top", si(base, "N"), si(load, "N"));
+        rows.push(("vertical force", told));
     }
     let devices = joints.iter().filter(|j| j.device.is_some()).count();
     if devices > 0 {

@@ -1,8 +1,8 @@
 //! What a user should know of a run that has ended before believing it.
 
 use crate::G;
-use crate::case::JointKind;
 use crate::case::plausible::rounded;
+use crate::case::{Beam, JointKind};
 use crate::graph;
 use crate::model::{Model, Rub};
 use crate::outcome::Outcome;
@@ -17,6 +17,8 @@ const LARGE_SLIP: f64 = 0.1;
 const NOTICEABLE_CREEP: f64 = 0.05;
 /// Part of all steps from which those are told that ended before the wall was at rest: some that follow each load step are among them.
 const MOVING: f64 = 5e-3;
+/// Displacement of the top over the wall's height from which the largest base shear of a wall that tilts is one that it bore as it fell.
+const FALLING: f64 = 0.1;
 /// Part of the steps whose contact may be left unsolved before a result should be doubted for it.
 const UNSOLVED: f64 = 1e-3;
 /// Residual of the energy account over the largest work beyond which a result should not be used.
@@ -58,6 +60,7 @@ fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
         (WarningKind::Energy, balance),
         (WarningKind::Unsolved, unsolved(outcome)),
         (WarningKind::Moving, moving(outcome)),
+        (WarningKind::PeakInFall, peak_in_fall(model, outcome)),
         (WarningKind::BeyondFriction, beyond_friction(model, outcome)),
         (WarningKind::Collapse, collapsed(model, outcome)),
         (WarningKind::UnderWay, moves_on(model, outcome)),
@@ -112,6 +115,23 @@ fn moving(outcome: &Outcome) -> Option<String> {
         format!(
             "{moving} steps ended before the wall had come to rest, though it slowed down: displacements and forces lag behind their loads; a slower \
              load or lower solver.step shows by how much"
+        )
+    })
+}
+
+/// Says of a wall that is pushed by its own weight, without inertia, that its largest base shear came as it fell.
+fn peak_in_fall(model: &Model, outcome: &Outcome) -> Option<String> {
+    if !model.planar.as_ref()?.still || matches!(model.beam, Beam::Driven) {
+        return None;
+    }
+    let height = model.wall.blocks.iter().map(|b| b.y[1]).fold(0.0, f64::max);
+    let way = outcome.totals.base_shear_displacement.abs();
+    (way > FALLING * height).then(|| {
+        format!(
+            "the largest base shear came when the top was {} mm away, {:.0} % of the height: the wall was falling, and bore less before. What it bears is \
+             the base shear at which the top begins to run away, in the loop of the report; a slower tilt comes nearer to it",
+            rounded(1e3 * way, 3),
+            100.0 * way / height
         )
     })
 }
@@ -365,6 +385,39 @@ step = "{step}"
         assert!(told_of[0].contains(&says) && told_of[0].contains("quasi_static"), "{told_of:?}");
         let (residual, told_of) = told("10 ms");
         assert!(residual < LARGE_RESIDUAL && told_of.is_empty(), "{residual}: {told_of:?}");
+    }
+
+    /// A largest base shear with the top 0.62 m away, two fifths of the height, is that of a fall; one with the top in its place is not.
+    #[test]
+    fn a_base_shear_of_a_fall_is_told() {
+        let (prepared, mut outcome) = ran(r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = { length = 0.6, height = 1.5, thickness = 0.2, specific_weight = 20e3 }
+mortar = { bed = 0, head = 0 }
+[joint]
+bed = { law = "elastic", stiffness = "10 N/mm3" }
+head = { law = "none" }
+friction = { law = "coulomb", static = 3, dynamic = 3 }
+bond = { tensile_strength = "80 kPa", cohesion = "2 MPa", friction_angle = "30 deg" }
+[motion]
+base = { tilt = { acceleration = "0.4 g", rise = "10 s" } }
+duration = "10 s"
+stop_at = "collapse"
+quasi_static = true
+[solver]
+step = "2 ms"
+"#);
+        assert!((outcome.totals.base_shear_peak / 3600.0 - 0.4).abs() < 1e-3, "{}", outcome.totals.base_shear_peak);
+        let mut told = |way: f64| {
+            outcome.totals.base_shear_displacement = way;
+            let all = of(&prepared.model, &crate::run::joint_rows(&prepared.model), &outcome);
+            all.iter().any(|warning| warning.kind == WarningKind::PeakInFall)
+        };
+        assert!(!told(-13e-6) && !told(-0.14) && told(-0.62));
     }
 
     /// What a planar run leaves unsolved and a wall that fell are told, and slips that its joints follow are not.
