@@ -98,16 +98,17 @@ impl Problem {
             Push::Top => vec![0.0; dead.len()],
         };
         let loaded = model.wall.loaded();
-        let load = case.load.top.si();
         if let Beam::Mass(mass) = case.load.beam {
             let (beam, length) = beam(&case, &model, mass.si());
             assembly.bodies.push(beam);
-            dead.push(load * length);
-            live.push(if options.push == Push::Body { mass.si() * G } else { load * length });
+            let load = case.load.top.per_length(length) * length;
+            dead.push(load);
+            live.push(if options.push == Push::Body { mass.si() * G } else { load });
             for point in assembly.points.iter_mut().filter(|p| p.b == Other::Beam) {
                 point.b = Other::Body(model.wall.blocks.len());
             }
         } else {
+            let load = case.load.top.per_length(loaded.iter().sum());
             dead.iter_mut().zip(&loaded).for_each(|(dead, length)| *dead += load * length);
         }
         if options.push == Push::Top {

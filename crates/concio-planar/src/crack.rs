@@ -3,15 +3,16 @@
 //! A joint between rigid blocks opens and slides by straight lines along its length. Its bond is known at equally spaced nodes,
 //! with what it lost in between by straight lines too. What is left of it acts in both directions and gives two contact points the
 //! stiffness against parting and against turning that it has in all, exactly: half of it at each, at the distance of its radius of gyration
-//! from its centre. What has cracked acts in compression alone, at three points with its stiffness and turning, or at nine where joints may be
-//! crushed. It rubs for the whole joint: friction at springs that pull too would have a kink, where contact is hard to solve.
+//! from its centre. What has cracked acts in compression alone, at three points with its stiffness and turning, where a part of it is pressed
+//! and a part open at three each, where joints may be crushed at nine. It rubs for the whole joint: friction at springs that pull too would have a kink, where contact is hard to solve.
 //!
 //! At a node that is stretched by w across and s along the joint,
 //!
 //! (P9)  σ = (1 − D) k_n w ≤ e^−ξ f_t,   |τ| = (1 − D) k_t |s| ≤ e^−ξ (c + p tan φ)
 //!
-//! p being the pressure there. Where a limit is passed, ξ grows by the way that goes beyond it over δ_c of that mode,
-//! and D to where the limit is met: one ξ weakens both strengths, as mixed modes do (Lourenço & Rots 1997). Along one mode alone that is (B3). χ = 1 − e^−ξ is
+//! p being the pressure there. Where a limit is passed, ξ grows by the way that goes beyond it over δ_c of that mode, and what that mode alone
+//! would lose of its stiffness to where the limit is met; D is the larger loss of the two. One ξ weakens both strengths, as mixed modes do (Lourenço & Rots
+//! 1997); a limit that is approached with a stiffness lost to the other mode is passed no later for it. Along one mode alone that is (B3). χ = 1 − e^−ξ is
 //! the part that rubs, so that shear stays within (B5). δ_c follows from G_f by (B4) with the strength of the moment: f_t of opening, c + p tan φ of shear.
 //!
 //! Rigid joints break by plane sections: the stress of the joint is the straight line that balances what its points bear, cracked parts pressing only;
@@ -36,17 +37,42 @@ const GREGORY: [f64; DRY] = {
 };
 /// Those of the nine that are taken where three do.
 const THREE: [usize; 3] = [0, 4, 8];
+/// Those that are taken where three stand for what is open, and three for what is pressed.
+const SIX: [[usize; 3]; 2] = [[0, 1, 2], [6, 7, 8]];
 /// Moments of the whole joint.
 const WHOLE: Moments = [1.0, 0.5, 1.0 / 3.0];
-/// A node that has lost nothing, and one that has lost all.
-const INTACT: [f64; 3] = [0.0, 0.0, 1.0];
-const GONE: [f64; 3] = [f64::INFINITY, 1.0, 0.0];
 /// Part of its strength below which a bond counts as broken, ε of (B4).
 const BROKEN: f64 = 1e-3;
+/// Nodes by which the place where sides touch may move away before points are placed anew.
+const NEARLY: f64 = 2.0;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
 /// Part of a joint below which what is left of its bond is rounding.
 const NOTHING: f64 = 1e-9;
+
+/// A node of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Node {
+    /// e^−ξ: what is left of both strengths.
+    left: f64,
+    /// What opening and shear alone would have lost of the stiffness.
+    lost: [f64; 2],
+}
+
+impl Node {
+    const INTACT: Node = Node { left: 1.0, lost: [0.0; 2] };
+    const GONE: Node = Node { left: 0.0, lost: [1.0; 2] };
+
+    /// D.
+    fn damage(&self) -> f64 {
+        self.lost[0].max(self.lost[1])
+    }
+
+    /// χ.
+    fn rubbing(&self) -> f64 {
+        1.0 - self.left
+    }
+}
 
 /// What a point of a bonded joint stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,13 +107,14 @@ pub(crate) struct Spot {
 /// The state of the bond of one joint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Crack {
-    /// ξ, D and e^−ξ of the nodes.
-    nodes: Vec<[f64; 3]>,
+    nodes: Vec<Node>,
     /// Opening and slide at both ends, now and a step before [m].
     line: [[f64; 2]; 2],
     was: [[f64; 2]; 2],
     /// First and last node of a rigid joint that are held.
     held: [usize; 2],
+    /// Node at which its sides touch, where a part of what has cracked is open and a part pressed; else 0.
+    split: usize,
     /// When it first cracked [s]; infinite while it is intact.
     pub cracked: f64,
     /// When nothing was left of it [s].
@@ -133,10 +160,11 @@ impl Crack {
     /// Of an intact joint.
     pub(crate) fn new(law: &Law) -> Self {
         let mut crack = Crack {
-            nodes: vec![INTACT; NODES],
+            nodes: vec![Node::INTACT; NODES],
             line: [[0.0; 2]; 2],
             was: [[0.0; 2]; 2],
             held: [0, NODES - 1],
+            split: 0,
             cracked: f64::INFINITY,
             broken: f64::INFINITY,
             reach: 0.0,
@@ -153,12 +181,12 @@ impl Crack {
 
     /// Mean of D over the joint.
     pub fn damage(&self) -> f64 {
-        if self.is_gone() { 1.0 } else { self.mean(|n| self.nodes[n][1]) }
+        if self.is_gone() { 1.0 } else { self.mean(|n| self.nodes[n].damage()) }
     }
 
     /// Part of the joint along which it has cracked, 0 … 1.
     pub fn length(&self) -> f64 {
-        if self.is_gone() { 1.0 } else { self.mean(|n| f64::from(u8::from(self.nodes[n][1] > 0.0))) }
+        if self.is_gone() { 1.0 } else { self.mean(|n| f64::from(u8::from(self.nodes[n].damage() > 0.0))) }
     }
 
     /// Opening and slide at both ends [m].
@@ -168,7 +196,7 @@ impl Crack {
 
     /// Whether nothing is left of it.
     pub fn is_gone(&self) -> bool {
-        self.nodes.iter().all(|[_, damage, _]| *damage == 1.0)
+        self.nodes.iter().all(|node| node.damage() == 1.0)
     }
 
     /// Of what is linear between nodes.
@@ -179,29 +207,29 @@ impl Crack {
 
     /// D on the way from a node to the next.
     fn between(&self, n: usize, part: f64) -> f64 {
-        let [from, to] = [self.nodes[n][1], self.nodes[n + 1][1]];
+        let [from, to] = [n, n + 1].map(|n| self.nodes[n].damage());
         from + part * (to - from)
     }
 
     /// χ there.
     fn rubbing(&self, n: usize, part: f64) -> f64 {
-        let chi = |n: usize| 1.0 - self.nodes[n][2];
-        let [from, to] = [chi(n), chi(n + 1)];
+        let [from, to] = [n, n + 1].map(|n| self.nodes[n].rubbing());
         from + part * (to - from)
     }
 
-    /// Moments of D and of χ.
-    fn moments(&self) -> [Moments; 2] {
+    /// Moments of D and of χ from one node to another.
+    fn moments(&self, [first, last]: [usize; 2]) -> [Moments; 2] {
         let mut sums = [[0.0; 3]; 2];
-        for (n, pair) in self.nodes.windows(2).enumerate() {
+        for (n, pair) in self.nodes.windows(2).enumerate().take(last).skip(first) {
             // What cracks runs along a part of the joint: the rest has nothing to add.
-            let [[_, from, left], [_, to, less]] = [pair[0], pair[1]];
+            let [from, to] = [pair[0].damage(), pair[1].damage()];
             if from == 0.0 && to == 0.0 {
                 continue;
             }
             for (part, factor) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
                 let x = (n as f64 + part) / (NODES - 1) as f64;
-                let values = [from + part * (to - from), 1.0 - left - part * (less - left)];
+                let [chi, next] = [pair[0].rubbing(), pair[1].rubbing()];
+                let values = [from + part * (to - from), chi + part * (next - chi)];
                 for (sum, value) in sums.iter_mut().zip(values) {
                     for (k, power) in [1.0, x, x * x].into_iter().enumerate() {
                         sum[k] += factor * value * power;
@@ -214,7 +242,7 @@ impl Crack {
 
     /// Whether it has the nodes of such a bond, as one that was read back may not.
     pub(crate) fn fits(&self) -> bool {
-        self.nodes.len() == NODES && self.held[0] < self.held[1] && self.held[1] < NODES
+        self.nodes.len() == NODES && self.split < NODES && self.held[0] < self.held[1] && self.held[1] < NODES
     }
 
     /// Gives the points what follows from its state: stretch of what is held, and what part of friction acts.
@@ -272,10 +300,10 @@ impl Crack {
     }
 
     fn place_springs(&self, [both, press]: [f64; 2], law: &Law, spots: &mut Vec<Spot>) {
-        let intact = self.nodes.iter().all(|[_, damage, _]| *damage == 0.0);
+        let intact = self.nodes.iter().all(|node| node.damage() == 0.0);
         let gone = self.is_gone();
-        let [damaged, rubbing] = self.moments();
         if !gone {
+            let [damaged, _] = self.moments([0, NODES - 1]);
             let [whole, first, second]: Moments = std::array::from_fn(|k| WHOLE[k] - damaged[k]);
             if whole > NOTHING {
                 let centre = first / whole;
@@ -298,18 +326,28 @@ impl Crack {
             weight: damaged.max(0.0),
             rubs: (rubbing / share).clamp(0.0, 1.0),
         };
-        // Three points at the ends and the middle of what has cracked, which turn as it does.
-        let [near, far] = if press > 0.0 || gone { [0, NODES - 1] } else { self.cracked_between() };
-        let [from, length] = [place(near), place(far) - place(near)];
-        let [damaged, all, rubbing] = [damaged, WHOLE, rubbing].map(|moments| thirds(moments, from, length));
-        let shares: [f64; 3] = std::array::from_fn(|k| cracked(damaged[k], all[k]));
-        // Where damage is so uneven that one of them would pull, nine stand for what is around them.
-        let few = shares.iter().all(|share| *share >= -NOTHING);
-        if few && (law.crushing.is_infinite() || intact) {
-            for (k, point) in THREE.into_iter().enumerate().filter(|(k, _)| shares[*k] > NOTHING) {
-                spots.push(dry(point, from + 0.5 * k as f64 * length, shares[k], [damaged[k], rubbing[k]]));
+        // Three points at the ends and the middle of what has cracked, which turn as it does; of what is pressed and what is open of it three each.
+        let [near, far] = if gone { [0, NODES - 1] } else { self.presses_between(press) };
+        let splits = !gone && (near + 1..far).contains(&self.split);
+        let parts: &[_] = if splits { &[[near, self.split], [self.split, far]] } else { &[[near, far]] };
+        let before = spots.len();
+        let mut few = law.crushing.is_infinite() || intact;
+        for (nodes, points) in parts.iter().zip(if splits { SIX } else { [THREE; 2] }) {
+            let [start, end] = nodes.map(place);
+            let all = [1, 2, 3].map(|k| (end.powi(k) - start.powi(k)) / f64::from(k));
+            let [damaged, rubbing] = self.moments(*nodes);
+            let [damaged, all, rubbing] = [damaged, all, rubbing].map(|moments| thirds(moments, start, end - start));
+            for (k, point) in points.into_iter().enumerate() {
+                let share = cracked(damaged[k], all[k]);
+                // Where damage is so uneven that one of them would pull, nine stand for what is around them.
+                few &= share >= -NOTHING;
+                if share > NOTHING {
+                    spots.push(dry(point, start + 0.5 * k as f64 * (end - start), share, [damaged[k], rubbing[k]]));
+                }
             }
-        } else {
+        }
+        if !few {
+            spots.truncate(before);
             for point in 0..DRY {
                 let [damaged, all, rubbing] = self.around(point);
                 let share = cracked(damaged, all);
@@ -323,12 +361,28 @@ impl Crack {
         }
     }
 
-    /// First and last node between which all lies that has cracked.
-    fn cracked_between(&self) -> [usize; 2] {
-        let cracked = |node: &[f64; 3]| node[1] > 0.0;
+    /// First and last node between which all lies that acts in compression only: what has cracked, or all of it.
+    fn presses_between(&self, press: f64) -> [usize; 2] {
+        if press > 0.0 {
+            return [0, NODES - 1];
+        }
+        let cracked = |node: &Node| node.damage() > 0.0;
         let first = self.nodes.iter().position(cracked).unwrap_or(0);
         let last = self.nodes.iter().rposition(cracked).unwrap_or(0);
         [first.saturating_sub(1), (last + 1).min(NODES - 1)]
+    }
+
+    /// The node nearest to where its sides touch, what has cracked being open on one side of it and pressed on the other; 0 where it is all one.
+    fn touching(&self, press: f64) -> usize {
+        let [near, far] = self.presses_between(press);
+        let [[from, _], [to, _]] = self.line;
+        let at = from / (from - to) * (NODES - 1) as f64;
+        let inside = at > near as f64 && at < far as f64;
+        match self.split {
+            split if split > 0 && inside && (at - split as f64).abs() < NEARLY => split,
+            _ if inside => (at.round() as usize).clamp(near + 1, far.max(near + 2) - 1),
+            _ => 0,
+        }
     }
 
     /// The part of the joint that a point of what has cracked stands for: what of it has, all of it, and what rubs.
@@ -415,7 +469,7 @@ impl Crack {
             let x = place(n);
             let [w, s] = self.stretched(x);
             let weight = if n == 0 || n == NODES - 1 { 0.5 } else { 1.0 } / (NODES - 1) as f64;
-            if self.nodes[n][1] == 1.0 {
+            if self.nodes[n].damage() == 1.0 {
                 continue;
             }
             let then = between(&self.was, x);
@@ -429,9 +483,11 @@ impl Crack {
                 self.reach = self.reach.max(w.max(s.abs()));
             }
         }
-        if !worn {
+        let split = if worn || !intact { self.touching(press) } else { self.split };
+        if !worn && split == self.split {
             return Worn::default();
         }
+        self.split = split;
         self.cracked = self.cracked.min(time);
         if self.is_gone() {
             self.broken = self.broken.min(time);
@@ -453,53 +509,50 @@ impl Crack {
     /// What a node lost that is stretched by `w` and `s`, `grown` of it in this step [m], of a joint as it would be everywhere [J].
     fn wear_node(&mut self, n: usize, [w, s]: [f64; 2], grown: [f64; 2], law: &Law, bond: &Bond) -> f64 {
         let Normal::Springs { both, press, .. } = law.normal else { return 0.0 };
-        let [mut xi, mut damage, mut left] = self.nodes[n];
+        let mut node = self.nodes[n];
         let along = (1.0 - bond.residual) * law.shear.stiffness;
         let pressure = ((both + press) * -w).max(0.0);
         let mut taken = 0.0;
         // `way` is how much farther it is stretched than before, `other` twice what the other direction would store.
-        let mut pass = |[stretch, way]: [f64; 2], k: f64, strength: f64, energy: f64, other: f64| {
-            if k == 0.0 || damage == 1.0 {
+        let mut pass = |mode: usize, [stretch, way]: [f64; 2], k: f64, strength: f64, other: f64| {
+            let before = node.damage();
+            if k == 0.0 || before == 1.0 {
                 return;
             }
-            let from = strength * left;
-            let limit = from / (k * (1.0 - damage));
+            let from = strength * node.left;
+            let limit = from / (k * (1.0 - node.lost[mode]));
             if !(stretch > limit) {
                 return;
             }
-            let before = damage;
-            let decay = ((energy - 0.5 * strength * strength / k) / ((1.0 - BROKEN) * strength)).max(0.0);
+            let decay = ((bond.energy[mode] - 0.5 * strength * strength / k) / ((1.0 - BROKEN) * strength)).max(0.0);
             // What has no strength breaks at once.
             let decay = if strength > 0.0 { decay } else { 0.0 };
             // Where the limit has come to the stretch as pressure fell, the rest is no work of breaking.
             let at = limit.max(stretch - way);
             // Where the limit has come to the stretch and not the stretch to the limit, nothing has slid beyond it.
-            xi = if decay > 0.0 { xi + (stretch - limit).min(way) / decay } else { f64::INFINITY };
-            left = (-xi).exp();
-            let to = strength * left;
+            node.left *= if decay > 0.0 { (-(stretch - limit).min(way) / decay).exp() } else { 0.0 };
+            let to = strength * node.left;
             if to > BROKEN * strength {
-                damage = 1.0 - to / (k * stretch);
-                taken += decay * (from - to) - 0.5 * (to * stretch - from * at);
+                node.lost[mode] = 1.0 - to / (k * stretch);
+                // What the other mode has lost already it does not take again.
+                if node.damage() > before {
+                    taken += decay * (from - to) - 0.5 * (to * stretch - from * at);
+                }
             } else {
                 // What bears next to nothing bears nothing, and gives back nothing of what it stored.
-                [xi, damage, left] = GONE;
+                node = Node::GONE;
                 taken += decay * (from - BROKEN * strength).max(0.0) + 0.5 * from * at;
             }
-            taken += 0.5 * (damage - before) * other;
+            taken += 0.5 * (node.damage() - before) * other;
         };
-        pass([w - TOUCHING, grown[0]], both, bond.tension, bond.energy[0], along * s * s);
-        pass(
-            [s.abs(), grown[1]],
-            along,
-            (1.0 - bond.residual) * (bond.cohesion + pressure * bond.tan_angle),
-            bond.energy[1],
-            both * w.max(0.0).powi(2),
-        );
-        if pressure > law.crushing && damage < 1.0 {
-            taken += 0.5 * (1.0 - damage) * along * s * s;
-            [xi, damage, left] = GONE;
+        pass(0, [w - TOUCHING, grown[0]], both, bond.tension, along * s * s);
+        let shear_strength = (1.0 - bond.residual) * (bond.cohesion + pressure * bond.tan_angle);
+        pass(1, [s.abs(), grown[1]], along, shear_strength, both * w.max(0.0).powi(2));
+        if pressure > law.crushing && node.damage() < 1.0 {
+            taken += 0.5 * (1.0 - node.damage()) * along * s * s;
+            node = Node::GONE;
         }
-        self.nodes[n] = [xi, damage, left];
+        self.nodes[n] = node;
         taken
     }
 
@@ -542,7 +595,7 @@ impl Crack {
         }
         for (n, node) in self.nodes.iter_mut().enumerate() {
             if gone || n < first || n > last {
-                *node = GONE;
+                *node = Node::GONE;
             }
         }
         self.cracked = self.cracked.min(time);
@@ -620,10 +673,10 @@ mod tests {
         let mut crack = Crack::new(&law);
         // δ_c of opening is G/f_t and a little less: χ = 0.9 at 2.3 of it.
         stretch(&mut crack, [0.0; 2], [2.303 * 6.0 / 15e3, 0.0], &law);
-        let chi = 1.0 - (-crack.nodes[7][0]).exp();
+        let chi = crack.nodes[7].rubbing();
         assert!((chi - 0.9).abs() < 0.01, "{chi}");
         stretch(&mut crack, [pressed, 0.0], [pressed, 3.2e-3], &law);
-        let [_, damage, left] = crack.nodes[7];
+        let (damage, left) = (crack.nodes[7].damage(), crack.nodes[7].left);
         let strength = 6e3 + 0.6 * 60e3;
         // (B5) with what is left, at most.
         assert!((1.0 - damage) * 3e9 * 3.2e-3 <= (1.0 - chi) * strength * (1.0 + 1e-9));
@@ -631,9 +684,9 @@ mod tests {
         assert!((1.0 - damage) * 3e9 * 3.2e-3 + rubs <= (1.0 - chi) * strength + 0.6 * 60e3);
         let mut crack = Crack::new(&law);
         stretch(&mut crack, [0.0; 2], [0.0, 5e-3], &law);
-        let left = (-crack.nodes[7][0]).exp();
+        let left = crack.nodes[7].left;
         stretch(&mut crack, [0.0, 5e-3], [1e-4, 5e-3], &law);
-        assert!((1.0 - crack.nodes[7][1]) * 3e9 * 1e-4 <= left * 15e3 * (1.0 + 1e-9));
+        assert!((1.0 - crack.nodes[7].damage()) * 3e9 * 1e-4 <= left * 15e3 * (1.0 + 1e-9));
     }
 
     /// Either mode takes its energy, however it is approached, and gives the curve of (B3).
@@ -647,10 +700,49 @@ mod tests {
             let limit = strength / 3e9;
             let decay = (bond.energy[mode] - 0.5 * strength * limit) / ((1.0 - BROKEN) * strength);
             let mut taken = stretch(&mut crack, [0.0; 2], along(limit + decay), &law);
-            let force = (1.0 - crack.nodes[7][1]) * 3e9 * (limit + decay);
+            let force = (1.0 - crack.nodes[7].damage()) * 3e9 * (limit + decay);
             assert!((force / (strength * (-1.0f64).exp()) - 1.0).abs() < 1e-6, "{force}");
             taken += stretch(&mut crack, along(limit + decay), along(limit + 8.0 * decay), &law);
-            assert!(crack.nodes[7][1] == 1.0 && (taken / bond.energy[mode] - 1.0).abs() < 1e-3, "{taken}");
+            assert!(crack.nodes[7].damage() == 1.0 && (taken / bond.energy[mode] - 1.0).abs() < 1e-3, "{taken}");
+        }
+    }
+
+    /// A break in both modes takes no more than the tougher one alone, whatever the path, and half of the weaker at least: work of the stresses along it.
+    #[test]
+    fn mixed_modes_take_what_lies_between() {
+        let law = law();
+        let bond = law.bond.expect("a bond");
+        let far = [8.0 * bond.energy[0] / bond.tension, 8.0 * bond.energy[1] / bond.cohesion];
+        let half = [0.25 * bond.energy[0] / bond.tension, 0.25 * bond.energy[1] / bond.cohesion];
+        let straight = |ratio: f64| vec![[0.0; 2], [ratio.min(1.0) * far[0], (1.0 / ratio).min(1.0) * far[1]]];
+        let paths = [
+            straight(1.0),
+            straight(0.1),
+            straight(10.0),
+            vec![[0.0; 2], [half[0], 0.0], [half[0], far[1]], far],
+            vec![[0.0; 2], [0.0, half[1]], [far[0], half[1]]],
+            vec![[0.0; 2], half, [0.0, half[1]], [0.0, far[1]]],
+        ];
+        for path in paths {
+            let mut crack = Crack::new(&law);
+            let (mut work, mut was) = (0.0, [0.0; 2]);
+            let stresses =
+                |crack: &Crack, [w, s]: [f64; 2]| [w, s].map(|way| (1.0 - crack.nodes[7].damage()) * 3e9 * way);
+            for leg in path.windows(2) {
+                let steps = 40_000;
+                for n in 1..=steps {
+                    let at = [0, 1].map(|k| leg[0][k] + (leg[1][k] - leg[0][k]) * f64::from(n) / f64::from(steps));
+                    let before = stresses(&crack, was);
+                    let grown = [0, 1].map(|k| (at[k] - was[k]).max(0.0));
+                    crack.wear_node(7, at, grown, &law, &bond);
+                    let after = stresses(&crack, at);
+                    work += (0..2).map(|k| 0.5 * (before[k] + after[k]) * (at[k] - was[k])).sum::<f64>();
+                    was = at;
+                }
+            }
+            assert_eq!(crack.nodes[7].damage(), 1.0, "{path:?}");
+            let [least, most] = bond.energy;
+            assert!(work > 0.5 * least && work < 1.001 * most, "{work} J along {path:?}");
         }
     }
 
@@ -669,7 +761,7 @@ mod tests {
         assert_eq!(crack.spots().len(), 2);
         close(moments(&crack), 1e-15);
         for cracked in [5, 20, 40, NODES] {
-            crack.nodes[..cracked].fill(GONE);
+            crack.nodes[..cracked].fill(Node::GONE);
             crack.place(&law);
             close(moments(&crack), 4e-3);
             let weights: f64 = crack.spots().iter().map(|s| s.weight).sum();

@@ -236,6 +236,21 @@ pub struct Seen {
 }
 
 impl Seen {
+    /// Its motion at a part of the step that began with `start`, on straight lines; else as it is at its end.
+    pub fn since(&self, start: &Seen, part: f64) -> Self {
+        if part == 1.0 {
+            return *self;
+        }
+        let way = |a: f64, b: f64| a + part * (b - a);
+        Seen {
+            gap: [0, 1].map(|k| way(start.gap[k], self.gap[k])),
+            slide: way(start.slide, self.slide),
+            speed: way(start.speed, self.speed),
+            parting: way(start.parting, self.parting),
+            ..*self
+        }
+    }
+
     /// What stays of it where its sides do not touch.
     fn apart(&self) -> Self {
         let Seen { path, taken, broken, slide, gap, .. } = *self;

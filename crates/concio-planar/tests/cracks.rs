@@ -101,6 +101,21 @@ fn a_bonded_joint_cracks_from_its_edge() {
     }
 }
 
+/// Shear that takes stiffness under the toe makes a section no stronger: it bore 3.35 g where opening was counted from what shear had left of the stiffness,
+/// and where three points stood for what is pressed and what is open.
+#[test]
+fn mortar_weak_in_shear_bears_no_more() {
+    let expected = plane_section([1.0, 1.0], 20.0);
+    for (cohesion, energy) in [(0.5e6, 500.0), (0.2e6, 1000.0)] {
+        let mut law = mortar(1.0, [20.0, energy]);
+        let bond = law.bond.as_mut().expect("a bond");
+        (bond.cohesion, bond.tan_angle) = (cohesion * 0.3, 0.6);
+        let found = bears([1.0, 1.0], Law { friction: Some(Friction::coulomb(0.6)), ..law });
+        println!("c {cohesion} Pa, {energy} N/m: {found:.4} g, plane section {expected:.4} g");
+        assert!((found / expected - 1.0).abs() < 0.03, "{cohesion} Pa, {energy} N/m: {found} instead of {expected}");
+    }
+}
+
 /// Rigid joints break by plane sections too: (N + f_t A) ℓ/6 = a W h/2.
 #[test]
 fn a_rigid_bonded_joint_is_as_strong_as_a_plane_section() {

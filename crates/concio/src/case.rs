@@ -809,8 +809,8 @@ pub struct BondChange {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Load {
-    /// q [N/m], from 0: vertical load per length of brick. Default 0.
-    pub top: ForcePerLength,
+    /// q [N/m], from 0: vertical load per length of brick, which mortar is no part of; or the whole, `{ force = "150 kN" }`. Default 0.
+    pub top: TopLoad,
     /// Mass of what bears down on a wall without a beam [kg], from 0: the ground shakes it with the blocks that it lies on, spread over them as
     /// the load is. Default the load over g; 0 for a load that moves with nothing, such as that of a jack. A beam has a mass of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -824,6 +824,39 @@ pub struct Load {
     /// default half of a brick's height.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beam_height: Option<Length>,
+}
+
+/// Vertical load on the top: per length of brick, `"40 kN/m"`, or the whole, `{ force = "150 kN" }`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TopLoad {
+    /// q [N/m].
+    PerLength(ForcePerLength),
+    /// q times the length of brick that it lies on [N].
+    Force(Force),
+}
+
+impl TopLoad {
+    /// q [N/m] where it lies on `length` [m]; 0 where that is 0.
+    pub fn per_length(self, length: f64) -> f64 {
+        match self {
+            TopLoad::PerLength(q) => q.si(),
+            TopLoad::Force(_) if length == 0.0 => 0.0,
+            TopLoad::Force(force) => force.si() / length,
+        }
+    }
+}
+
+impl Default for TopLoad {
+    fn default() -> Self {
+        0.0.into()
+    }
+}
+
+impl From<f64> for TopLoad {
+    /// Per length [N/m].
+    fn from(si: f64) -> Self {
+        TopLoad::PerLength(si.into())
+    }
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {

@@ -493,10 +493,10 @@ impl Channels {
     pub(crate) fn sample_planar(&self, model: &Model, at: Row, row: &mut Vec<f64>) {
         let mean = |values: &[f64]| model.tops.of_courses(|i| values[i]);
         let base = model.excitation.drive(at.t).base(at.t);
-        row.extend([base.a, base.u, at.shear, mean(at.z), mean(at.v), at.state.pull]);
+        row.extend([base.a, base.u, at.shear, mean(at.z), mean(at.v), at.pull]);
         row.extend(model.floating_beam().map_or([0.0; 3], |beam| [at.z[beam], at.v[beam], at.a[beam]]));
         row.push(peak(&at.z[..model.wall.blocks.len()]));
-        push_energies(&at.state.energies, row);
+        push_energies(at.energies, row);
         for w in &self.watched {
             match *w {
                 Watched::Block(i) => row.extend([at.z[i], at.v[i], at.a[i], at.vertical[i], at.rotation[i]]),
@@ -521,7 +521,7 @@ impl Channels {
                         }
                     });
                     row.extend([seen.gap[1].max(0.0), seen.pressure]);
-                    row.extend(bond.map(|b| at.state.bonds[b].damage));
+                    row.extend(bond.map(|b| at.bonds[b].damage));
                 }
             }
         }

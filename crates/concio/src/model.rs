@@ -175,12 +175,14 @@ impl Model {
         let joints = graph::joints(&wall, has_beam);
         let laws = resolve(case, &wall, &joints)?;
         let (_, from) = friction_choice(&case.joint.friction);
-        let normal = graph::normal_forces(&wall, &joints, case.load.top.si(), has_beam, from);
-        let laden = load_masses(case, &wall);
-        let mut mass: Vec<f64> = wall.blocks.iter().zip(&laden).map(|(b, load)| b.mass() + load).collect();
         let turns = case.model == ModelKind::Planar;
         let lies = if turns { planar::beam(case, &wall, &joints).map(|b| b.length) } else { None };
-        let top_load = case.load.top.si() * lies.unwrap_or_else(|| wall.loaded().iter().sum());
+        let lies = lies.unwrap_or_else(|| wall.loaded().iter().sum());
+        let per_length = case.load.top.per_length(lies);
+        let normal = graph::normal_forces(&wall, &joints, per_length, has_beam, from);
+        let laden = load_masses(case, &wall);
+        let mut mass: Vec<f64> = wall.blocks.iter().zip(&laden).map(|(b, load)| b.mass() + load).collect();
+        let top_load = per_length * lies;
         let floating = match beam {
             Beam::Mass(m) => Some(m.si()),
             // It rises and turns, if it does not slide.
@@ -371,7 +373,7 @@ pub fn load_masses(case: &Case, wall: &Wall) -> Vec<f64> {
     }
     let lengths = wall.loaded();
     let whole: f64 = lengths.iter().sum();
-    let per_length = case.load.mass.map_or(case.load.top.si() / G, |mass| mass.si() / whole);
+    let per_length = case.load.mass.map_or(case.load.top.per_length(whole) / G, |mass| mass.si() / whole);
     lengths.into_iter().map(|length| per_length * length).collect()
 }
 
@@ -523,7 +525,7 @@ fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool
             (0..wall.panels.len()).map(|p| graph::below_beam(wall, p) <= graph::packing(wall, p)).collect();
         let under = |b: &&Block| carries[b.panel] && b.course + 1 == wall.panels[b.panel].courses;
         let length: f64 = wall.blocks.iter().filter(under).map(Block::length).sum();
-        let load = case.load.top.si() * length;
+        let load = case.load.top.per_length(length) * length;
         if m.si() * crate::G > HEAVIER * load {
             let text = format!(
                 "the beam weighs {:.0} N but load.top brings only {load:.0} N to the wall; its weight acts through load.top alone",

@@ -5,6 +5,19 @@ use serde::{Deserialize, Serialize};
 use crate::bond::Bond;
 use crate::record::{Counters, Energies, Envelopes, Layout, Recording, StopReason};
 
+/// Part of its peak down to which the force of a push counts as borne, and what displacements may differ by from rounding.
+const FOUR_FIFTHS: f64 = 0.8;
+const ROUNDING: f64 = 1e-9;
+
+/// How stiff a wall was that is pushed, and how far it went.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Push {
+    /// Secant stiffness: the largest base shear over the displacement of the top then [N/m].
+    pub stiffness: f64,
+    /// Largest displacement of the top at which it bore four fifths of that [m]; none where it never went on with less.
+    pub ultimate: Option<f64>,
+}
+
 /// The whole result of one run. Equal inputs give equal bits; times of the clock are therefore kept elsewhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
@@ -38,6 +51,21 @@ impl Outcome {
         let channels = &self.layout.channels;
         let at = channels.iter().position(|c| c.name == name)?;
         Some(self.recording.values.chunks_exact(channels.len()).map(|row| row[at]).collect())
+    }
+
+    /// What the samples of a push tell, base shear over the displacement of the top, until a collapse; none without any shear.
+    pub fn push(&self) -> Option<Push> {
+        let (shear, courses, beam) =
+            (self.history("base/shear")?, self.history("top/displacement")?, self.history("beam/displacement")?);
+        let top = if beam.iter().any(|d| *d != 0.0) { beam } else { courses };
+        let end = self.totals.collapse.map_or(f64::INFINITY, |collapse| collapse.time);
+        let stood = self.recording.time.iter().take_while(|t| **t <= end).count();
+        let borne = || shear[..stood].iter().map(|f| f.abs()).zip(top[..stood].iter().map(|d| d.abs()));
+        let (peak, displacement) = borne().fold((0.0, 0.0), |most, now| if now.0 > most.0 { now } else { most });
+        let ultimate = borne().filter(|(f, _)| *f >= FOUR_FIFTHS * peak).map(|(_, d)| d).fold(0.0, f64::max);
+        let fell = borne().any(|(_, d)| d > ultimate * (1.0 + ROUNDING));
+        (peak > 0.0 && displacement > 0.0)
+            .then(|| Push { stiffness: peak / displacement, ultimate: fell.then_some(ultimate) })
     }
 
     /// The bond that cracked first, of several at once the one of the first joint; none when none cracked.

@@ -175,7 +175,6 @@ pub(crate) fn compile(
 ) -> Result<Planar> {
     let mut bodies = bodies(wall, joints, laws);
     let n = bodies.len();
-    let load = case.load.top.si();
     let mut loads: Vec<[f64; 2]> = wall.blocks.iter().map(|b| [0.0, -b.weight()]).collect();
     for ((body, block), mass) in bodies.iter_mut().zip(&wall.blocks).zip(load_masses(case, wall)) {
         bear(body, block, mass);
@@ -185,13 +184,15 @@ pub(crate) fn compile(
     let mut held = vec![[false; 3]; n];
     match beam(case, wall, joints) {
         Some(beam) => {
-            loads.push([0.0, -load * beam.length]);
+            loads.push([0.0, -case.load.top.per_length(beam.length) * beam.length]);
             let level = case.load.beam_rotation == BeamRotation::Fixed;
             held.push([matches!(case.load.beam, Beam::Driven | Beam::Tied), false, level]);
             bodies.push(beam.body);
         }
         None => {
-            for (load_on, length) in loads.iter_mut().zip(wall.loaded()) {
+            let lengths = wall.loaded();
+            let load = case.load.top.per_length(lengths.iter().sum());
+            for (load_on, length) in loads.iter_mut().zip(lengths) {
                 load_on[1] -= load * length;
             }
         }

@@ -345,7 +345,9 @@ fn write(
 ) -> Result<Value> {
     let (model, provenance, joints) = (&prepared.model, prepared.provenance(), joint_rows(&prepared.model));
     let warnings = warnings::all(model, &joints, outcome);
+    let pushes = model.excitation.driven || model.planar.as_ref().is_some_and(|planar| planar.still);
     let facts = RunFacts {
+        push: if pushes { outcome.push() } else { None },
         duration: model.excitation.duration,
         weight: model.weight(),
         base_load: model.base_load(),

@@ -248,23 +248,16 @@ impl<'m> Simulation<'m> {
         if self.state.t >= self.model.excitation.duration {
             return Some(StopReason::Completed);
         }
-        let after = self.planar.as_ref().and(self.model.planar.as_ref())?.after_collapse?;
+        let told = self.planar.as_ref()?.told_until();
+        let after = self.model.planar.as_ref()?.after_collapse?;
         let collapse = self.state.totals.collapse?;
-        (self.state.t >= collapse.time + after).then_some(StopReason::Collapsed)
+        (told >= collapse.time + after).then_some(StopReason::Collapsed)
     }
 
     /// One accepted step, to the next break of the motion or frame at the farthest.
     fn step(&mut self) -> std::result::Result<(), StopReason> {
-        let Simulation { model, state, recording, planar, .. } = self;
-        if let Some(bodies) = planar {
-            let heard = &mut recording.events;
-            let from = heard.len();
-            bodies.step(model, state, |event| heard.push(event))?;
-            Event::sort(&mut heard[from..]);
-            while self.sample_is_due() {
-                self.sample();
-            }
-            return Ok(());
+        if self.planar.is_some() {
+            return self.step_bodies();
         }
         let mut plan = self.plan();
         loop {
@@ -288,6 +281,23 @@ impl<'m> Simulation<'m> {
                 Verdict::Stop(reason) => return Err(reason),
             }
         }
+    }
+
+    /// A step of a planar wall, and the samples of which all is known after it.
+    fn step_bodies(&mut self) -> std::result::Result<(), StopReason> {
+        let due = self.sample_time(self.state.samples);
+        let Simulation { model, state, recording, planar: Some(bodies), .. } = self else { return Ok(()) };
+        let heard = &mut recording.events;
+        let from = heard.len();
+        let stepped = bodies.step(model, state, due, |event| heard.push(event));
+        Event::sort(&mut heard[from..]);
+        let told = bodies.told_until();
+        let ends = stepped.is_ok() && self.over() == Some(StopReason::Completed);
+        let until = self.slack() + if ends { self.state.t } else { told };
+        while self.sample_time(self.state.samples) <= until {
+            self.sample();
+        }
+        stepped
     }
 
     /// Where the next step aims.

@@ -73,7 +73,7 @@ fn the_design_page_is_read_as_it_stands() {
     let friction = case.joint.friction;
     assert_eq!((friction.law, friction.on), (FrictionLaw::Stribeck, FrictionOn::Bed));
     assert_eq!([friction.static_, friction.dynamic, friction.slip_velocity.si()], [0.6, 0.42, 1e-3]);
-    assert_eq!((case.load.top.si(), case.load.beam), (1e4, Beam::Driven));
+    assert_eq!((case.load.top, case.load.beam), (1e4.into(), Beam::Driven));
     assert_eq!(case.motion.base, Signal::None);
     let Signal::Sine(sine) = case.motion.top else { panic!("not a sine: {:?}", case.motion.top) };
     assert_eq!(sine.amplitude.map(|a| a.si()), Some(5e-3));

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use concio::case::{Syntax, from_str};
 use concio::planar::{Mode, failure};
-use concio::quantity::ForcePerLength;
 use concio::run::{prepare, run_in_memory};
 use serde_json::Value;
 
@@ -25,7 +24,7 @@ fn reference() -> Option<Vec<Value>> {
 /// Peak force under a load on top [N], and how the wall fails.
 fn pushed(load: f64) -> (f64, Vec<Mode>) {
     let mut file = from_str(WALL, Syntax::Toml, None).expect("the example");
-    file.case.load.top = ForcePerLength::from_si(load);
+    file.case.load.top = load.into();
     let prepared = prepare(file.case, Path::new(".")).expect("a wall");
     let outcome = run_in_memory(&prepared).expect("a run");
     assert!(outcome.totals.contact_residual < 1e-6, "{:e}", outcome.totals.contact_residual);

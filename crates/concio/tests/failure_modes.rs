@@ -4,7 +4,6 @@ use std::path::Path;
 
 use concio::case::{Syntax, from_str};
 use concio::planar::{Failure, Mode, failure};
-use concio::quantity::ForcePerLength;
 use concio::run::{prepare, run_in_memory};
 
 const PANEL: &str = include_str!("../../../examples/16-shear-panel.toml");
@@ -13,7 +12,7 @@ fn pushed(bricks: usize, courses: usize, load: f64) -> Failure {
     let mut file = from_str(PANEL, Syntax::Toml, None).expect("the example");
     let panel = &mut file.case.panels[0];
     (panel.bricks, panel.courses) = (Some(bricks), Some(courses));
-    file.case.load.top = ForcePerLength::from_si(load);
+    file.case.load.top = load.into();
     let prepared = prepare(file.case, Path::new(".")).expect("a wall");
     let outcome = run_in_memory(&prepared).expect("a run");
     failure(&prepared.model.wall, &prepared.model.joints, &outcome.recording).expect("frames")

@@ -181,3 +181,49 @@ fn a_mass_where_it_could_not_act_is_refused() {
         assert!(error.contains("load.mass") && error.contains(told), "{error}");
     }
 }
+
+/// A load that is given as a force is that, whatever the length of its bricks, in both models, under a beam and without.
+#[test]
+fn a_load_may_be_given_whole() {
+    for model in ["planar", "shear"] {
+        for beam in ["free", "tied"] {
+            let text = format!(
+                r#"
+model = "{model}"
+[[panel]]
+bond = "running"
+courses = 4
+bricks = 4
+brick = {{ length = "242.5 mm", height = "55 mm", thickness = "250 mm", specific_weight = "20 kN/m3" }}
+mortar = {{ bed = "10 mm", head = "10 mm" }}
+[joint]
+bed = {{ law = "elastic", stiffness = "10 N/mm3" }}
+head = {{ law = "elastic", stiffness = "10 N/mm3" }}
+friction = {{ law = "coulomb", static = 0.5 }}
+[load]
+top = {{ force = "150 kN" }}
+beam = "{beam}"
+[motion]
+duration = "1 s"
+"#
+            );
+            let whole = prepared(&text).model;
+            close(whole.top_load, 150e3, 1e-14);
+            let blocks: f64 = whole.wall.blocks.iter().map(|block| block.weight()).sum();
+            close(whole.base_load(), blocks + 150e3, 1e-14);
+            // Two halves and three bricks, 0.9700 m without mortar: the same as so much for each metre of brick.
+            let length: f64 = whole.wall.loaded().iter().sum();
+            let per_length = prepared(&text.replace("{ force = \"150 kN\" }", &(150e3 / length).to_string())).model;
+            close(per_length.top_load, 150e3, 1e-14);
+            let mass = |model: &concio::model::Model| model.mass.iter().sum::<f64>();
+            close(mass(&whole), mass(&per_length), 1e-14);
+        }
+    }
+    let wrong = |top: &str| {
+        let text = format!("[load]\ntop = {top}\n");
+        from_str(&text, Syntax::Toml, None).map(|_| ()).expect_err("no load").to_string()
+    };
+    assert!(wrong("\"150 kN\"").contains("{ force = \"150 kN\" }"), "{}", wrong("\"150 kN\""));
+    assert!(wrong("{ force = \"150 kN/m\" }").contains("force"), "{}", wrong("{ force = \"150 kN/m\" }"));
+    assert!(wrong("true").contains("{ force = "), "{}", wrong("true"));
+}

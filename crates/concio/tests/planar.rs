@@ -1115,3 +1115,101 @@ duration = "10 ms"
         close(row.normal_stiffness, 2.4 * 3.0 * 10e9 * 0.5, 1e-12);
     }
 }
+
+/// The work of a force on an undamped wall that is driven for a period is 0, whatever the step: forces belong to the instants of displacements.
+#[test]
+fn an_undamped_wall_has_no_loop() {
+    for (step, interval) in [("1 ms", "1 ms"), ("1 ms", "0.25 ms"), ("0.1 ms", "1 ms"), ("0.7 ms", "1 ms")] {
+        let (_, outcome) = ran(&format!(
+            r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 4
+bricks = 1
+brick = {{ length = 1, height = 0.25, thickness = 0.12, specific_weight = 18e3 }}
+[joint]
+damping_ratio = 0
+bed = {{ law = "elastic", stiffness = "1 N/mm3" }}
+head = {{ law = "none" }}
+friction = {{ law = "none" }}
+[load]
+top = "20 kN/m"
+beam = "driven"
+beam_rotation = "fixed"
+[motion]
+duration = "0.5 s"
+top = {{ sine = {{ amplitude = "1 mm", frequency = "10 Hz", ramp = "0.2 s" }} }}
+[solver]
+step = "{step}"
+[output]
+interval = "{interval}"
+joints = ["p1c1b1|p1c2b1"]
+blocks = ["p1c2b1"]
+"#
+        ));
+        let last = (0.1 / concio::quantity::Time::parse(interval).expect("a time").si()).round() as usize;
+        let loop_of = |force: &str, way: &str| {
+            let [force, way] = [force, way].map(|name| channel(&outcome, name));
+            let from = force.len() - 1 - last;
+            // Over the ellipse of a force that is a quarter of a period behind: twice the damping ratio.
+            let work: f64 = (from..from + last).map(|k| 0.5 * (force[k] + force[k + 1]) * (way[k + 1] - way[k])).sum();
+            let most = |x: &[f64]| x[from..].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            work / (std::f64::consts::PI * most(&force) * most(&way))
+        };
+        let joint = "joint/p1c1b1|p1c2b1";
+        for (force, way) in [
+            ("top/force", "beam/displacement"),
+            ("base/shear", "beam/displacement"),
+            (&format!("{joint}/elastic"), &format!("{joint}/slip")),
+        ] {
+            let found = loop_of(force, way);
+            // Of forces that are means over the step before a sample it is 3.1e-2; the wall's own vibration leaves some 10⁻⁴.
+            assert!(found.abs() < 1e-3, "{force} at {step}, samples of {interval}: {found:e}");
+        }
+    }
+}
+
+/// A bond that softens in shear from F_0 = c A + N μ to N μ by (P9) has lost a fifth of its peak at δ_0 + δ_c ln(c A/(c A − F_0/5)); what slides
+/// on friction alone never does.
+#[test]
+fn a_push_tells_stiffness_and_ultimate_displacement() {
+    let pushed = |bond: &str| {
+        let (_, outcome) = ran(&stack(
+            1,
+            &format!(
+                r#"
+[joint]
+bed = {{ law = "elastic", stiffness = "1 N/mm3" }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.3, dynamic = 0.3 }}
+{bond}
+[[joint.change]]
+at = {{ kind = ["top"] }}
+spring = {{ stiffness = "2000 N/mm3" }}
+friction = {{ static = 3, dynamic = 3 }}
+[load]
+top = "1000 kN/m"
+beam = "driven"
+beam_rotation = "fixed"
+[motion]
+top = {{ path = {{ displacements = ["10 mm"], speed = "1 mm/s" }} }}
+quasi_static = true
+"#
+            ),
+        ));
+        outcome.push().expect("a push")
+    };
+    // 0.5 m² under 502 kN.
+    let (area, load, cohesion, energy): (f64, f64, f64, f64) = (0.5, 502e3, 0.4e6, 600.0);
+    let strength = cohesion * area + 0.3 * load;
+    let limit = strength / (1e9 * area);
+    let decay = (energy * area / strength - 0.5 * limit) / (1.0 - 1e-3);
+    let softening = pushed(
+        "bond = { tensile_strength = \"1 MPa\", cohesion = \"0.4 MPa\", friction_angle = \"16.6992442 deg\", mode_1_energy = \"1000 N/m\", mode_2_energy = \"600 N/m\" }",
+    );
+    let fifth = limit + decay * (cohesion * area / (cohesion * area - 0.2 * strength)).ln();
+    close(softening.stiffness, strength / limit, 1e-2);
+    close(softening.ultimate.expect("it softens"), fifth, 1e-2);
+    assert_eq!(pushed("").ultimate, None);
+}

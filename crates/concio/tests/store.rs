@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use concio::Error;
 use concio::dice::Dice;
+use concio::outcome::Push;
 use concio::record::{Channel, Recording};
 use concio::store::{self, Journal, JournalHeader, Moving, RunFacts, StoredRun, digest, export, hdf5};
 use concio::warning::{Warning, WarningKind};
@@ -649,6 +650,7 @@ fn summary_has_the_keys_that_other_programs_read() {
         base_load: 5e4,
         solve_seconds: 0.5,
         resumed_from: None,
+        push: Some(Push { stiffness: 2e7, ultimate: Some(5e-3) }),
         at_first_crack: Some(Moving { acceleration: -2.5, beam: Some(1e-3) }),
         warnings: vec![Warning::new(WarningKind::Collapse, "One.")],
     };
@@ -665,6 +667,7 @@ fn summary_has_the_keys_that_other_programs_read() {
     assert_eq!(number("/weight"), 3e4);
     assert_eq!(number("/base_shear_peak"), 1.9e5);
     assert_eq!((number("/base_shear_time"), number("/base_shear_displacement")), (0.02, -1.25e-3));
+    assert_eq!((number("/push/stiffness"), number("/push/ultimate")), (2e7, 5e-3));
     assert_eq!((number("/drift/peak"), number("/drift/displacement"), number("/drift/time")), (-4e-3, -2e-3, 0.03));
     assert!(summary["drift"]["top"] == "p1" && summary["drift"]["residual"].is_null(), "{}", summary["drift"]);
     assert_eq!((number("/bonds/first_acceleration"), number("/bonds/first_beam")), (-2.5, 1e-3));

@@ -2,7 +2,7 @@
 //! with a change too small to mean anything, because its trajectories are chaotic.
 
 use concio::case::{self, Beam, CaseFile, FrictionOn, NormalForce, Signal, Sine, Syntax};
-use concio::quantity::{Acceleration, ForcePerLength, Frequency, Length, Mass, Time};
+use concio::quantity::{Acceleration, Frequency, Length, Mass, Time};
 
 /// A case of section 4.2, or the control to case 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -117,7 +117,7 @@ pub fn file(which: Which, setting: Setting, member: usize) -> concio::Result<Cas
     if which == Which::Control {
         friction.dynamic = friction.static_;
     }
-    let load = case.load.top.si();
+    let load = case.load.top.per_length(1.0);
     let rubs = friction.static_ > 0.0;
     if setting != Setting::Files {
         // Findings are read off the frames; without a beam some of these joints are not there.
@@ -128,9 +128,9 @@ pub fn file(which: Which, setting: Setting, member: usize) -> concio::Result<Cas
         Setting::ReportFriction => overburden(friction),
         Setting::ReportFrictionLightLoad => {
             overburden(friction);
-            case.load.top = ForcePerLength::from_si(load / 3.0);
+            case.load.top = (load / 3.0).into();
         }
-        Setting::LightLoad => case.load.top = ForcePerLength::from_si(load / 3.0),
+        Setting::LightLoad => case.load.top = (load / 3.0).into(),
         Setting::LargeDrive => {
             case.motion.top = sine(Some(5e-3), None, 2.0, 0.5);
             case.motion.duration = Some(Time::from_si(0.5));
@@ -150,7 +150,7 @@ pub fn file(which: Which, setting: Setting, member: usize) -> concio::Result<Cas
     if member + 1 == MEMBERS {
         case.solver.tolerance *= 0.5;
     } else {
-        case.load.top = ForcePerLength::from_si(case.load.top.si() * (1.0 + 1e-9 * member as f64));
+        case.load.top = (case.load.top.per_length(1.0) * (1.0 + 1e-9 * member as f64)).into();
     }
     Ok(file)
 }

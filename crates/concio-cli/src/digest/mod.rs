@@ -43,6 +43,15 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
         let told = format!("{} on the base at rest, {} of it load on top", si(base, "N"), si(load, "N"));
         rows.push(("vertical force", told));
     }
+    if let Some(push) = summary.get("push").filter(|push| !push.is_null()) {
+        let stiffness = si(number(push, "/stiffness"), "N/m");
+        let ultimate = push.get("ultimate").and_then(Value::as_f64);
+        let borne = match ultimate {
+            Some(ultimate) => format!("four fifths of it borne until {} at the top", si(ultimate, "m")),
+            None => "it never fell by a fifth".into(),
+        };
+        rows.push(("peak of the push", format!("secant stiffness {stiffness}, {borne}")));
+    }
     let devices = joints.iter().filter(|j| j.device.is_some()).count();
     if devices > 0 {
         let taken = joints.iter().zip(&outcome.envelopes.joint_dissipation).filter(|(j, _)| j.device.is_some());

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use concio::case::plausible::rounded;
-use concio::case::{Baseline, Case, ModelKind, Signal};
+use concio::case::{Baseline, Case, ModelKind, Signal, TopLoad};
 use concio::ground::Library;
 use concio::ground::coverage::{Coverage, coverage};
 use concio::run::prepare_with;
@@ -486,10 +486,11 @@ pub fn wall(case: &Case) -> concio::Result<String> {
     let joints = concio::graph::joints(&wall, case.load.beam != concio::case::Beam::Free).len();
     let panels =
         if wall.panels.len() == 1 { String::new() } else { format!("{}, ", counted(wall.panels.len(), "panel")) };
-    let load = match case.load.top.si() {
-        0.0 => String::new(),
-        load => format!(", {} on top", short(load, "N/m")),
+    let (load, unit) = match case.load.top {
+        TopLoad::PerLength(load) => (load.si(), "N/m"),
+        TopLoad::Force(load) => (load.si(), "N"),
     };
+    let load = if load == 0.0 { String::new() } else { format!(", {} on top", short(load, unit)) };
     let beam = match case.load.beam {
         concio::case::Beam::Mass(mass) => format!(", a beam of {}", crate::draw::wall::mass(mass.si())),
         concio::case::Beam::Free => String::new(),

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use concio::case::{Beam, Case, ModelKind, Spring, SpringLaw, Syntax, from_str};
-use concio::quantity::{ForcePerLength, Length, Time};
+use concio::quantity::{Length, Time};
 use concio::run::prepare;
 use concio::simulate::{Progress, Simulation};
 use concio_limit::{Heads, Limit, Options, Problem, Push, Towards, analyse};
@@ -164,7 +164,7 @@ pub fn pushed(wall: &DryWall, load: f64, height: f64) -> f64 {
     let mut case =
         planar(wall, r#"{ "top": { "path": { "displacements": ["2 mm"], "speed": "1 mm/s" } }, "duration": 2 }"#);
     case.load.beam = Beam::Driven;
-    case.load.top = ForcePerLength::from_si(load);
+    case.load.top = load.into();
     case.load.beam_height = Some(Length::from_si(height));
     case.solver.step = Some(Time::from_si(0.02));
     let mut peak = 0.0;

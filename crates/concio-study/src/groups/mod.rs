@@ -140,7 +140,10 @@ pub fn groups(case: &Case, model: &Model, folder: &Path, reference: &Reference) 
                 "stiffness" => springs(|k| !k.is_upright()),
                 "head_stiffness" => springs(|k| k.is_upright()),
                 "damping" => damping,
-                "load" => one(case.load.top.si() * brick / r.force()).filter(|v| v[0] > 0.0),
+                "load" => {
+                    let length = model.wall.loaded().iter().sum();
+                    one(case.load.top.per_length(length) * brick / r.force()).filter(|v| v[0] > 0.0)
+                }
                 "normal_force" => normal,
                 "static" => rubs.and_then(|f| one(f.static_)),
                 "dynamic" => rubs.and_then(|f| one(f.dynamic)),

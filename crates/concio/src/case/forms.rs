@@ -1,4 +1,4 @@
-//! Keys that take a word or a table: `set`, `load.beam`, `motion.base`, `motion.top`, `baseline`; and `channel`, a number or a name.
+//! Keys that take a word or a table: `set`, `load.beam`, `load.top` (a number or a table), `motion.base`, `motion.top`, `baseline`; and `channel`, a number or a name.
 //! Serde's own enum forms would read differently from the documented ones, hence by hand; each writes what it reads.
 
 use std::borrow::Cow;
@@ -140,6 +140,68 @@ impl JsonSchema for Beam {
         let about = "The top beam: `free` (the load only), `driven` (by motion.top), `tied` (moves with the base), \
                      or a rigid beam with mass.";
         word_or_table::<BeamTable>(generator, about, &["free", "driven", "tied"])
+    }
+}
+
+/// A load on the top as a whole.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct TopTable {
+    /// All of it [N], from 0.
+    force: Force,
+}
+
+impl<'de> Deserialize<'de> for TopLoad {
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        struct OfLoad;
+        impl<'de> Visitor<'de> for OfLoad {
+            type Value = TopLoad;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "a load per length of brick, such as \"40 kN/m\" or a number in N/m, or { force = \"150 kN\" }",
+                )
+            }
+            fn visit_f64<E: de::Error>(self, q: f64) -> Result<TopLoad, E> {
+                Ok(q.into())
+            }
+            fn visit_i64<E: de::Error>(self, q: i64) -> Result<TopLoad, E> {
+                Ok((q as f64).into())
+            }
+            fn visit_u64<E: de::Error>(self, q: u64) -> Result<TopLoad, E> {
+                Ok((q as f64).into())
+            }
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<TopLoad, E> {
+                let per_length = ForcePerLength::parse(text);
+                per_length.map(TopLoad::PerLength).map_err(|message| match Force::parse(text) {
+                    Ok(_) => E::custom(format!("{text:?} is a force: a load in all is {{ force = {text:?} }}, per length it has units such as kN/m")),
+                    Err(_) => E::custom(message),
+                })
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TopLoad, A::Error> {
+                TopTable::deserialize(MapAccessDeserializer::new(map)).map(|table| TopLoad::Force(table.force))
+            }
+        }
+        d.deserialize_any(OfLoad)
+    }
+}
+
+impl Serialize for TopLoad {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        match *self {
+            TopLoad::PerLength(q) => q.serialize(s),
+            TopLoad::Force(force) => TopTable { force }.serialize(s),
+        }
+    }
+}
+
+impl JsonSchema for TopLoad {
+    fn schema_name() -> Cow<'static, str> {
+        "TopLoad".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let per_length = generator.subschema_for::<ForcePerLength>();
+        let whole = generator.subschema_for::<TopTable>();
+        json_schema!({ "description": "Vertical load on the top: per length of brick, or all of it.", "anyOf": [per_length, whole] })
     }
 }
 

@@ -6,7 +6,9 @@
 use std::f64::consts::PI;
 
 use super::node::{Node, Value};
-use super::{Beam, Case, FrictionChange, FrictionLaw, ModelKind, Panel, Signal, Solver, SpringChange, SpringLaw};
+use super::{
+    Beam, Case, FrictionChange, FrictionLaw, ModelKind, Panel, Signal, Solver, SpringChange, SpringLaw, TopLoad,
+};
 use crate::quantity::{Stiffness, shown};
 use crate::warning::{Warning, WarningKind};
 
@@ -72,6 +74,9 @@ const SLIP_VELOCITY: Expected =
 /// From less than a person on a metre of wall, 100 N, to 10 MPa on a wall of one metre.
 const LOAD: Expected =
     Expected { limits: [1e2, 1e7], usual: [1e3, 2e6], unit: "N/m", slips: &[(1e3, "kN/m", 1e3), (1e-3, "kN/m", 1e3)] };
+/// The same on a pier of the laboratory to a façade.
+const WHOLE_LOAD: Expected =
+    Expected { limits: [1e2, 1e9], usual: [1e3, 1e8], unit: "N", slips: &[(1e3, "kN", 1e3), (1e-3, "kN", 1e3)] };
 /// A beam of the laboratory to the floors of a tower.
 const BEAM: Expected =
     Expected { limits: [10.0, 1e7], usual: [100.0, 1e6], unit: "kg", slips: &[(1e3, "t", 1e3), (1e-3, "t", 1e3)] };
@@ -115,7 +120,10 @@ pub fn doubts(case: &Case) -> Vec<Warning> {
     if case.model == ModelKind::Planar {
         of_planar(&mut doubts, case);
     }
-    doubts.look("load.top", case.load.top.si(), &LOAD);
+    match case.load.top {
+        TopLoad::PerLength(load) => doubts.look("load.top", load.si(), &LOAD),
+        TopLoad::Force(force) => doubts.look("load.top.force", force.si(), &WHOLE_LOAD),
+    }
     if let Beam::Mass(mass) = case.load.beam {
         doubts.look("load.beam.mass", mass.si(), &BEAM);
     }

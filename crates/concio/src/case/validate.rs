@@ -3,7 +3,7 @@
 
 use std::fmt::Display;
 
-use super::{Beam, Case, ParameterSet, Signal};
+use super::{Beam, Case, ParameterSet, Signal, TopLoad};
 use crate::quantity::{Dimension, Quantity, Stiffness, shown};
 use crate::{InputError, Result};
 
@@ -160,7 +160,10 @@ impl Findings {
 }
 
 fn load(f: &mut Findings, case: &Case) {
-    f.quantity("load.top", case.load.top, Bound::From0);
+    match case.load.top {
+        TopLoad::PerLength(load) => f.quantity("load.top", load, Bound::From0),
+        TopLoad::Force(force) => f.quantity("load.top.force", force, Bound::From0),
+    }
     if let Beam::Mass(mass) = case.load.beam {
         f.quantity("load.beam.mass", mass, Bound::Above0);
     }

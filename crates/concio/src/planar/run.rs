@@ -14,7 +14,7 @@ use crate::model::Model;
 use crate::outcome::{Collapse, TieRow};
 use crate::planar::collapse::is_down;
 use crate::planar::{Planar, Rest};
-use crate::record::{Event, EventKind, Layout, Recording, StopReason};
+use crate::record::{Energies, Event, EventKind, Layout, Recording, StopReason};
 use crate::state::{BondState, State};
 use crate::wall::End;
 
@@ -50,8 +50,12 @@ pub(crate) struct Run {
     /// Whether each joint has been crushed.
     crushed: Vec<bool>,
     ties: Vec<Borne>,
-    /// Motion at a sample.
-    at: Sample,
+    /// The last step, and the one before it where a sample needs it.
+    last: Stride,
+    past: Past,
+    /// What the joints did at a sample.
+    seen: Vec<Seen>,
+    a: Vec<f64>,
 }
 
 /// What is kept of a run beside its state.
@@ -62,6 +66,7 @@ pub(crate) struct Kept {
     before: Vec<f64>,
     crushed: Vec<bool>,
     ties: Vec<Borne>,
+    last: Stride,
 }
 
 /// Part of a step that the last one may be longer by: times add up with rounding, and of what that leaves no acceleration can be told.
@@ -75,15 +80,89 @@ struct Borne {
     yielded: f64,
 }
 
-#[derive(Debug, Clone, Default)]
-struct Sample {
+/// Motion over a step. Its forces and accelerations are means over it: they belong to its middle, without inertia to its end.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Stride {
+    from: f64,
+    middle: f64,
+    to: f64,
+    /// Those of the step's start and end.
+    start: Moved,
+    end: Moved,
+    /// What the joints did when it began.
+    before: Vec<Seen>,
+    /// Horizontal force of the base on the wall [N].
+    shear: f64,
+}
+
+/// Displacement and velocity along x, displacement along y and rotation of each block.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Moved {
     z: Vec<f64>,
     v: Vec<f64>,
     vertical: Vec<f64>,
     rotation: Vec<f64>,
-    /// Those of the step's start.
-    start: [Vec<f64>; 4],
-    from: f64,
+}
+
+/// A step that is over, with all that a sample in its second half is made of.
+#[derive(Debug, Clone)]
+struct Past {
+    stride: Stride,
+    a: Vec<f64>,
+    seen: Vec<Seen>,
+    bonds: Vec<BondState>,
+    energies: Energies,
+    pull: f64,
+}
+
+impl Moved {
+    fn none(n: usize) -> Self {
+        let zeros = || vec![0.0; n];
+        Moved { z: zeros(), v: zeros(), vertical: zeros(), rotation: zeros() }
+    }
+
+    fn numbers(&mut self) -> [&mut Vec<f64>; 4] {
+        let Moved { z, v, vertical, rotation } = self;
+        [z, v, vertical, rotation]
+    }
+
+    fn read(&mut self, motion: &Motion, origin: &[Place], aside: &[(usize, [f64; 2])]) {
+        for (i, (now, then)) in motion.places.iter().zip(origin).enumerate() {
+            self.z[i] = now.centre[0] - then.centre[0];
+            self.vertical[i] = now.centre[1] - then.centre[1];
+            self.rotation[i] = now.angle - then.angle;
+            self.v[i] = motion.velocities[i][0];
+        }
+        for &(i, offset) in aside {
+            let [now, then] = [&motion.places[i], &origin[i]].map(|place| place.turned(offset));
+            self.z[i] += now[0] - then[0];
+            self.vertical[i] += now[1] - then[1];
+            self.v[i] -= motion.velocities[i][2] * now[1];
+        }
+    }
+}
+
+impl Stride {
+    /// At rest at t = 0.
+    fn none(n: usize, seen: &[Seen]) -> Self {
+        let [start, end] = [(); 2].map(|()| Moved::none(n));
+        Stride { from: 0.0, middle: 0.0, to: 0.0, start, end, before: seen.to_vec(), shear: 0.0 }
+    }
+
+    /// How much of it is over at `t`, 0 … 1.
+    fn share(&self, t: f64) -> f64 {
+        if self.to > self.from { ((t - self.from) / (self.to - self.from)).clamp(0.0, 1.0) } else { 1.0 }
+    }
+
+    /// Motion at `t` in the step, for which its start is given up.
+    fn at(&mut self, t: f64) -> &Moved {
+        let share = self.share(t);
+        for (first, last) in self.start.numbers().into_iter().zip(self.end.numbers()) {
+            first.iter_mut().zip(last).for_each(|(a, b)| *a += share * (*b - *a));
+        }
+        self.from = t;
+        &self.start
+    }
 }
 
 /// What channels of a planar wall are read off.
@@ -96,8 +175,10 @@ pub(crate) struct Row<'a> {
     pub vertical: &'a [f64],
     pub rotation: &'a [f64],
     pub seen: &'a [Seen],
-    pub state: &'a State,
-    /// Horizontal force of the base on the wall [N].
+    pub bonds: &'a [BondState],
+    pub energies: &'a Energies,
+    /// Force of the beam, and horizontal force of the base, on the wall [N].
+    pub pull: f64,
     pub shear: f64,
 }
 
@@ -129,15 +210,7 @@ impl Run {
     pub fn new(model: &Model, planar: &Planar, longest: f64) -> Self {
         let (motion, _) = standing(planar);
         let n = motion.places.len();
-        let zeros = vec![0.0; n];
-        let sample = Sample {
-            z: zeros.clone(),
-            v: zeros.clone(),
-            vertical: zeros.clone(),
-            rotation: zeros.clone(),
-            start: [(); 4].map(|()| zeros.clone()),
-            from: 0.0,
-        };
+        let never = Stride { to: f64::NEG_INFINITY, ..Stride::none(n, &motion.seen) };
         let mut run = Run {
             origin: motion.places.clone(),
             aside: planar.offset.iter().copied().enumerate().filter(|(_, offset)| *offset != [0.0; 2]).collect(),
@@ -149,9 +222,20 @@ impl Run {
             before: vec![0.0; model.joints.len()],
             crushed: vec![false; model.joints.len()],
             ties: vec![Borne { force: 0.0, stretch: 0.0, yielded: f64::INFINITY }; planar.system.ties.len()],
-            at: sample,
+            last: Stride::none(n, &motion.seen),
+            past: Past {
+                stride: never,
+                a: vec![0.0; n],
+                seen: motion.seen.clone(),
+                bonds: vec![BondState::INTACT; model.bonds.len()],
+                energies: Energies::default(),
+                pull: 0.0,
+            },
+            seen: motion.seen.clone(),
+            a: vec![0.0; n],
             motion,
         };
+        run.last.shear = run.base_shear();
         run.strain(0.0);
         run
     }
@@ -191,32 +275,48 @@ impl Run {
     /// What has to be kept beside the state.
     pub fn keep(&self) -> Kept {
         let (origin, before, crushed) = (self.origin.clone(), self.before.clone(), self.crushed.clone());
-        Kept { motion: self.motion.keep(), origin, before, crushed, ties: self.ties.clone() }
+        Kept { motion: self.motion.keep(), origin, before, crushed, ties: self.ties.clone(), last: self.last.clone() }
     }
 
     /// Goes on from what was kept; false where it is not of this wall.
     pub fn take_up(&mut self, kept: Kept) -> bool {
-        let Kept { motion, origin, before, crushed, ties } = kept;
+        let Kept { motion, origin, before, crushed, ties, mut last } = kept;
+        let n = self.a.len();
         let fits = origin.len() == self.origin.len()
             && before.len() == self.before.len()
             && crushed.len() == self.crushed.len()
             && ties.len() == self.ties.len()
+            && last.before.len() == self.before.len()
+            && [&mut last.start, &mut last.end].iter_mut().all(|moved| moved.numbers().iter().all(|x| x.len() == n))
             && self.motion.take_up(motion);
         if fits {
+            self.last = last;
             (self.origin, self.before, self.crushed) = (origin, before, crushed);
             self.ties = ties;
         }
         fits
     }
 
-    /// One step, to the end of the run at the farthest.
-    pub fn step(&mut self, model: &Model, state: &mut State, mut tell: impl FnMut(Event)) -> Result<(), StopReason> {
+    /// One step, to the end of the run at the farthest. The next sample is due at `due` [s].
+    pub fn step(
+        &mut self,
+        model: &Model,
+        state: &mut State,
+        due: f64,
+        mut tell: impl FnMut(Event),
+    ) -> Result<(), StopReason> {
         let excitation = &model.excitation;
         let remaining = excitation.duration - state.t;
         let lands = remaining <= self.step * (1.0 + SLIVER);
         let h = if lands { remaining } else { self.step };
-        self.at.from = state.t;
-        self.copy(Side::Start);
+        if !self.still && due <= state.t + 0.5 * h {
+            self.pass(state);
+        }
+        (self.last.from, self.last.middle) = (state.t, state.t + if self.still { h } else { 0.5 * h });
+        self.last.start.read(&self.motion, &self.origin, &self.aside);
+        if due <= state.t + h + 0.5 * h {
+            self.last.before.copy_from_slice(&self.motion.seen);
+        }
         let drives = model.floating_beam().filter(|_| model.beam == crate::case::Beam::Driven);
         let still = self.still;
         // Without inertia forces are those of the step's end.
@@ -231,45 +331,43 @@ impl Run {
         self.motion.time = state.t;
         self.motion.go(h, &forcing);
         state.t = if lands { excitation.duration } else { state.t + h };
-        self.copy(Side::End);
-        if self.at.z.iter().chain(&self.at.vertical).chain(&self.at.rotation).any(|x| !x.is_finite()) {
+        self.last.to = state.t;
+        self.last.end.read(&self.motion, &self.origin, &self.aside);
+        self.last.shear = self.base_shear();
+        let Moved { z, vertical, rotation, .. } = &self.last.end;
+        if z.iter().chain(vertical).chain(rotation).any(|x| !x.is_finite()) {
+            // What was due before is told with what is known.
+            self.last.middle = f64::INFINITY;
             return Err(StopReason::NotFinite);
         }
         self.observe(model, state, h, &mut tell);
         Ok(())
     }
 
-    fn copy(&mut self, side: Side) {
-        let Sample { z, v, vertical, rotation, start, .. } = &mut self.at;
-        let [z, v, vertical, rotation] = match side {
-            Side::End => [z, v, vertical, rotation],
-            Side::Start => {
-                let [z, v, vertical, rotation] = start;
-                [z, v, vertical, rotation]
-            }
-        };
-        for (i, (now, then)) in self.motion.places.iter().zip(&self.origin).enumerate() {
-            z[i] = now.centre[0] - then.centre[0];
-            vertical[i] = now.centre[1] - then.centre[1];
-            rotation[i] = now.angle - then.angle;
-            v[i] = self.motion.velocities[i][0];
-        }
-        for &(i, offset) in &self.aside {
-            let [now, then] = [&self.motion.places[i], &self.origin[i]].map(|place| place.turned(offset));
-            z[i] += now[0] - then[0];
-            vertical[i] += now[1] - then[1];
-            v[i] -= self.motion.velocities[i][2] * now[1];
-        }
+    /// Puts the last step behind, with what a sample in its second half needs of it.
+    fn pass(&mut self, state: &State) {
+        let past = &mut self.past;
+        std::mem::swap(&mut past.stride, &mut self.last);
+        let n = past.a.len();
+        past.a.copy_from_slice(&state.a[..n]);
+        past.seen.copy_from_slice(&self.motion.seen);
+        past.bonds.copy_from_slice(&state.bonds);
+        (past.energies, past.pull) = (state.energies, state.pull);
+    }
+
+    /// Until when forces are known [s].
+    pub fn told_until(&self) -> f64 {
+        if self.last.middle.is_finite() { self.last.middle } else { self.last.from }
     }
 
     /// State, envelopes and totals after a step.
     fn observe(&mut self, model: &Model, state: &mut State, h: f64, tell: &mut impl FnMut(Event)) {
-        let n = self.at.z.len();
+        let n = self.last.end.z.len();
         for i in 0..n {
-            state.a[i] = (self.at.v[i] - self.at.start[1][i]) / h;
+            state.a[i] = (self.last.end.v[i] - self.last.start.v[i]) / h;
         }
-        state.z[..n].copy_from_slice(&self.at.z);
-        state.v[..n].copy_from_slice(&self.at.v);
+        state.z[..n].copy_from_slice(&self.last.end.z);
+        state.v[..n].copy_from_slice(&self.last.end.v);
         let (account, counted) = (&self.motion.account, &self.motion.counters);
         let energies = &mut state.energies;
         (energies.input_base, energies.input_top) = (account.input, account.held);
@@ -322,7 +420,7 @@ impl Run {
     /// What counts as borne of the base shear at the time `t` [N]: without inertia what the base holds against the load. A stone that turns over
     /// from rest in every step pulls at the base the other way, by more than it ever bore.
     fn borne(&self, model: &Model, t: f64) -> f64 {
-        let (shear, base) = (self.base_shear(), model.excitation.base.acceleration(t));
+        let (shear, base) = (self.last.shear, model.excitation.base.acceleration(t));
         if self.still && base != 0.0 { shear * base.signum() } else { shear.abs() }
     }
 
@@ -337,7 +435,7 @@ impl Run {
     fn raise(&mut self, model: &Model, state: &mut State, h: f64) {
         let blocks = model.wall.blocks.len();
         let envelopes = &mut state.envelopes;
-        for i in 0..self.at.z.len() {
+        for i in 0..self.last.end.z.len() {
             envelopes.block_displacement[i] = envelopes.block_displacement[i].max(state.z[i].abs());
             envelopes.block_velocity[i] = envelopes.block_velocity[i].max(state.v[i].abs());
             envelopes.block_acceleration[i] = envelopes.block_acceleration[i].max(state.a[i].abs());
@@ -373,7 +471,7 @@ impl Run {
             None => 0.0,
             Some(beam) if matches!(model.beam, crate::case::Beam::Mass(_)) => {
                 let base = &model.excitation.base;
-                let ground = velocity(base, state.t) - velocity(base, self.at.from);
+                let ground = velocity(base, state.t) - velocity(base, self.last.from);
                 -model.mass[beam] * (state.a[beam] + ground / h)
             }
             Some(_) => self.motion.pull,
@@ -410,16 +508,18 @@ impl Run {
 
     /// The first block that has fallen or turned over, and the same as an event of one of its joints.
     fn collapse(&self, model: &Model, time: f64) -> Option<(Collapse, Event)> {
-        let down = |i: usize| is_down(self.at.rotation[i], self.at.vertical[i], model.wall.blocks[i].height());
+        let down =
+            |i: usize| is_down(self.last.end.rotation[i], self.last.end.vertical[i], model.wall.blocks[i].height());
         let (block, turned) = (0..model.wall.blocks.len()).find_map(|i| Some((i, down(i)?)))?;
         let of_block = |j: &crate::wall::Joint| j.a == block || j.b == End::Block(block);
         let joint = model.joints.iter().position(of_block)? as u32;
-        let way = self.at.z[block].hypot(self.at.vertical[block]);
+        let way = self.last.end.z[block].hypot(self.last.end.vertical[block]);
         let event = Event { time, joint, kind: EventKind::Collapse, value: way };
         Some((Collapse { time, block, way, turned }, event))
     }
 
-    /// Appends sample `k` at `t` [s], and the frame if one is due.
+    /// Appends sample `k` at `t` [s], and the frame if one is due. Forces and accelerations between the middles of two steps are those on the
+    /// line from one to the other, beyond the last middle those of the last step.
     pub fn sample(
         &mut self,
         model: &Model,
@@ -429,20 +529,38 @@ impl Run {
         (k, t): (u64, f64),
         recording: &mut Recording,
     ) {
+        let Run { motion, last, past, seen, a, .. } = self;
+        let (from, to) = (past.stride.middle, last.middle);
         let share =
-            if state.t > self.at.from { ((t - self.at.from) / (state.t - self.at.from)).clamp(0.0, 1.0) } else { 1.0 };
-        let [z, v, vertical, rotation] = {
-            let Sample { z, v, vertical, rotation, start, .. } = &mut self.at;
-            // Between the ends of the step in place: what is overwritten is read no more.
-            for (first, last) in start.iter_mut().zip([&*z, v, vertical, rotation]) {
-                first.iter_mut().zip(last).for_each(|(a, b)| *a += share * (b - *a));
-            }
-            self.at.from = t;
-            &self.at.start
+            if past.stride.to == last.from && t < to { ((t - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 };
+        // What is no number after a step that fails is not asked.
+        let mean = |a: f64, b: f64| match share {
+            0.0 => a,
+            1.0 => b,
+            _ => a + share * (b - a),
         };
+        let earlier = t <= past.stride.to;
+        let (done, stride, bonds, energies) = match earlier {
+            true => (&past.seen, &past.stride, &past.bonds, &past.energies),
+            false => (&motion.seen, &*last, &state.bonds, &state.energies),
+        };
+        let moved = stride.share(t);
+        for (k, at) in seen.iter_mut().enumerate() {
+            let (first, [before, after]) = (done[k].since(&stride.before[k], moved), [&past.seen[k], &motion.seen[k]]);
+            *at = Seen {
+                pressure: mean(before.pressure, after.pressure),
+                shear: mean(before.shear, after.shear),
+                friction: mean(before.friction, after.friction),
+                ..first
+            };
+        }
+        for (at, (before, after)) in a.iter_mut().zip(past.a.iter().zip(&state.a)) {
+            *at = mean(*before, *after);
+        }
+        let (pull, shear) = (mean(past.pull, state.pull), mean(past.stride.shear, last.shear));
+        let Moved { z, v, vertical, rotation } = if earlier { past.stride.at(t) } else { last.at(t) };
         recording.time.push(t);
-        let (seen, shear) = (&self.motion.seen, self.base_shear());
-        let row = Row { t, z, v, a: &state.a, vertical, rotation, seen, state, shear };
+        let row = Row { t, z, v, a, vertical, rotation, seen, bonds, energies, pull, shear };
         channels.sample_planar(model, row, &mut recording.values);
         if layout.frame_every == 0 || !k.is_multiple_of(layout.frame_every as u64) {
             return;
@@ -450,11 +568,11 @@ impl Run {
         recording.frame_time.push(t);
         recording.frame_displacement.extend_from_slice(z);
         recording.frame_velocity.extend_from_slice(v);
-        recording.frame_acceleration.extend_from_slice(&state.a[..z.len()]);
+        recording.frame_acceleration.extend_from_slice(a);
         recording.frame_vertical.extend_from_slice(vertical);
         recording.frame_rotation.extend_from_slice(rotation);
-        recording.frame_damage.extend(state.bonds.iter().map(|bond| bond.damage));
-        for ((seen, joint), apart) in self.motion.seen.iter().zip(&model.joints).zip(&self.apart) {
+        recording.frame_damage.extend(bonds.iter().map(|bond| bond.damage));
+        for ((seen, joint), apart) in seen.iter().zip(&model.joints).zip(&self.apart) {
             let sign = turned(joint.kind);
             recording.frame_slip.push(sign * seen.slide);
             recording.frame_opening.push((seen.gap[1] - apart).max(0.0));
@@ -462,12 +580,6 @@ impl Run {
             recording.frame_friction.push(-sign * seen.shear);
         }
     }
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Side {
-    Start,
-    End,
 }
 
 /// Velocity of the base [m/s], that of a base that is set in motion at t = 0 included.

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::case::JointKind;
 use crate::error::{Error, Result};
 use crate::files::{self, LARGEST_INPUT, read_input};
-use crate::outcome::{Outcome, TieRow};
+use crate::outcome::{Outcome, Push, TieRow};
 use crate::planar;
 use crate::record::Energies;
 use crate::store::{JointRow, Provenance, digest};
@@ -27,6 +27,8 @@ pub struct RunFacts {
     pub solve_seconds: f64,
     /// Time from which a run that had been cut off was taken up [s].
     pub resumed_from: Option<f64>,
+    /// What became of a push, where the run is one.
+    pub push: Option<Push>,
     /// What moved when the first bond cracked.
     pub at_first_crack: Option<Moving>,
     /// What the user should know.
@@ -72,6 +74,7 @@ pub fn summary(
         "base_shear_peak": totals.base_shear_peak,
         "base_shear_time": totals.base_shear_time,
         "base_shear_displacement": totals.base_shear_displacement,
+        "push": facts.push,
         "drift": drift(outcome),
         "slide": slide(outcome, joints),
         "top_force_peak": totals.top_force_peak,

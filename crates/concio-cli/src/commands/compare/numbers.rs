@@ -38,7 +38,7 @@ impl Pair {
 }
 
 /// Numbers that summary.json has, by their place in it.
-const OF_SUMMARY: [(&str, &str, &str); 34] = [
+const OF_SUMMARY: [(&str, &str, &str); 36] = [
     ("time reached", "s", "/time_reached"),
     ("peak drift", "", "/drift/peak"),
     ("time of the peak drift", "s", "/drift/time"),
@@ -55,6 +55,8 @@ const OF_SUMMARY: [(&str, &str, &str); 34] = [
     ("peak base shear", "N", "/base_shear_peak"),
     ("time of the peak base shear", "s", "/base_shear_time"),
     ("top displacement then", "m", "/base_shear_displacement"),
+    ("secant stiffness", "N/m", "/push/stiffness"),
+    ("ultimate displacement of the top", "m", "/push/ultimate"),
     ("peak force of the beam", "N", "/top_force_peak"),
     ("rms force of the beam", "N", "/top_force_rms"),
     ("energy at the start", "J", "/energy/initial"),
