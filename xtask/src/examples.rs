@@ -27,8 +27,10 @@ pub fn run_all(root: &Path) -> Outcome {
     for file in files {
         one(root, &file)?;
     }
-    // Too large to be run each time.
-    read(Command::new(concio(root)).arg("check").arg("examples/large/facade.toml").current_dir(root))?;
+    // Too large to be run each time, or run by a test.
+    for file in ["large/facade.toml", "laboratory/ispra-low.toml", "laboratory/ispra-high.toml"] {
+        read(Command::new(concio(root)).arg("check").arg(format!("examples/{file}")).current_dir(root))?;
+    }
     studies(root)
 }
 

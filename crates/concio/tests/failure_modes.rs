@@ -75,3 +75,24 @@ quasi_static = true
     assert_eq!(found.modes, [Mode::Diagonal], "{found:?}");
     println!("peak {:.1} kN, {found:?}", 1e-3 * outcome.totals.base_shear_peak);
 }
+
+const ISPRA: [(&str, f64, Mode); 2] = [
+    (include_str!("../../../examples/laboratory/ispra-low.toml"), 84e3, Mode::Sliding),
+    (include_str!("../../../examples/laboratory/ispra-high.toml"), 72e3, Mode::Rocking),
+];
+
+/// The walls of Ispra within 10 % of the largest forces that were measured (Anthoine, Magonette and Magenes 1995): the high one rocks, the low one parts
+/// along its joints.
+#[test]
+fn the_walls_of_ispra_bear_what_they_bore_in_the_laboratory() {
+    for (text, measured, mode) in ISPRA {
+        let file = from_str(text, Syntax::Toml, None).expect("the example");
+        let prepared = prepare(file.case, Path::new(".")).expect("a wall");
+        let outcome = run_in_memory(&prepared).expect("a run");
+        let found = failure(&prepared.model.wall, &prepared.model.joints, &outcome.recording).expect("frames");
+        let peak = outcome.totals.base_shear_peak;
+        println!("peak {peak:.0} N, measured {measured:.0} N, {found:?}");
+        assert!((peak / measured - 1.0).abs() < 0.1, "{peak} N instead of {measured} N");
+        assert!(found.modes.contains(&mode), "{found:?}");
+    }
+}
