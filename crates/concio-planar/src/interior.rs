@@ -30,7 +30,7 @@ mod packs;
 mod point;
 
 use crate::blocks::{Blocks, Digits, Triple};
-use crate::contact::{Contact, Effort, unbalance, worse};
+use crate::contact::{Contact, Effort, Linear, Status, unbalance, worse};
 use group::Group;
 use lanes::PACK;
 use packs::{Packs, is_plain};
@@ -74,7 +74,9 @@ const STUCK: f64 = 0.03;
 /// Room for the solution.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Interior {
-    /// Most contacts, in packs; others without and with a largest p_n.
+    /// Contacts that are springs alone, which no bound meets.
+    springs: Vec<u32>,
+    /// Most others, in packs; others without and with a largest p_n.
     plain: Packs,
     usual: Group<3>,
     limited: Group<4>,
@@ -274,6 +276,10 @@ impl Interior {
             }
         }
         effort.factorisations = effort.iterations;
+        for number in &self.springs {
+            let contact = &mut contacts[*number as usize];
+            (contact.impulse, contact.status) = ([0.0; 2], Status::Open);
+        }
         self.plain.tell(contacts, v);
         self.usual.tell(contacts, v);
         self.limited.tell(contacts, v);
@@ -309,6 +315,7 @@ impl Interior {
         for room in [&mut self.residual, &mut self.step, &mut self.gone, &mut self.work, push, rise] {
             room.resize(v.len(), [0.0; 3]);
         }
+        self.springs.clear();
         self.plain.begin(digits);
         self.usual.clear();
         self.limited.clear();
@@ -327,6 +334,11 @@ impl Interior {
                         contacts[*number as usize].push(&mut self.residual, p);
                     }
                 }
+                continue;
+            }
+            if is_spring(contact) {
+                self.springs.push(number as u32);
+                contact.push(&mut self.residual, contact.whole([0.0; 2], u));
                 continue;
             }
             let p = match contact.pressure[1] == f64::INFINITY {
@@ -356,6 +368,14 @@ impl Interior {
         self.step.fill([0.0; 3]);
         if method.begins_matrix() {
             matrix.reset_whole(mass, digits);
+        }
+        for number in &self.springs {
+            let contact = &contacts[*number as usize];
+            contact.push(&mut self.residual, contact.whole([0.0; 2], contact.velocity(v)));
+            if method.begins_matrix() {
+                let [across, along] = contact.spring.map(|spring| spring.rho);
+                contact.rows.couple(contact.slot, matrix, [across, along, 0.0]);
+            }
         }
         let (residual, step) = (&mut self.residual[..], &mut self.step[..]);
         let mut sums = Sums { left: Left::default(), number: 0, changed: 0, residual, step, matrix };
@@ -413,6 +433,12 @@ struct Sums<'a> {
     matrix: &'a mut Blocks,
 }
 
+/// Whether a contact is no more than the springs beside: what is left of a bond.
+fn is_spring(contact: &Contact) -> bool {
+    let bears = contact.friction > 0.0 || contact.hold > 0.0;
+    contact.compliant[0] && contact.law[0] == Linear::default() && contact.pressure[0] <= 0.0 && !bears
+}
+
 /// What a contact answers across or along, with what acts beside it, over the mass that it moves.
 fn stiffness(contact: &Contact, k: usize) -> f64 {
     if !contact.moved[k].is_finite() {
@@ -431,7 +457,7 @@ pub(crate) fn inertia(residual: &mut [Triple], mass: &[Triple], free: &[Triple],
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::{Linear, Solver};
+    use crate::contact::Solver;
     use crate::order::Orders;
 
     /// Numbers from −1 to 1.

@@ -83,6 +83,8 @@ struct Borne {
 /// Motion over a step. Its forces and accelerations are means over it: they belong to its middle, without inertia to its end.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Stride {
+    /// When it began, and from where `start` is.
+    began: f64,
     from: f64,
     middle: f64,
     to: f64,
@@ -146,17 +148,17 @@ impl Stride {
     /// At rest at t = 0.
     fn none(n: usize, seen: &[Seen]) -> Self {
         let [start, end] = [(); 2].map(|()| Moved::none(n));
-        Stride { from: 0.0, middle: 0.0, to: 0.0, start, end, before: seen.to_vec(), shear: 0.0 }
+        Stride { began: 0.0, from: 0.0, middle: 0.0, to: 0.0, start, end, before: seen.to_vec(), shear: 0.0 }
     }
 
     /// How much of it is over at `t`, 0 … 1.
     fn share(&self, t: f64) -> f64 {
-        if self.to > self.from { ((t - self.from) / (self.to - self.from)).clamp(0.0, 1.0) } else { 1.0 }
+        part_of(self.began, t, self.to)
     }
 
     /// Motion at `t` in the step, for which its start is given up.
     fn at(&mut self, t: f64) -> &Moved {
-        let share = self.share(t);
+        let share = part_of(self.from, t, self.to);
         for (first, last) in self.start.numbers().into_iter().zip(self.end.numbers()) {
             first.iter_mut().zip(last).for_each(|(a, b)| *a += share * (*b - *a));
         }
@@ -312,7 +314,8 @@ impl Run {
         if !self.still && due <= state.t + 0.5 * h {
             self.pass(state);
         }
-        (self.last.from, self.last.middle) = (state.t, state.t + if self.still { h } else { 0.5 * h });
+        (self.last.began, self.last.from) = (state.t, state.t);
+        self.last.middle = state.t + if self.still { h } else { 0.5 * h };
         self.last.start.read(&self.motion, &self.origin, &self.aside);
         if due <= state.t + h + 0.5 * h {
             self.last.before.copy_from_slice(&self.motion.seen);
@@ -357,7 +360,7 @@ impl Run {
 
     /// Until when forces are known [s].
     pub fn told_until(&self) -> f64 {
-        if self.last.middle.is_finite() { self.last.middle } else { self.last.from }
+        if self.last.middle.is_finite() { self.last.middle } else { self.last.began }
     }
 
     /// State, envelopes and totals after a step.
@@ -471,7 +474,7 @@ impl Run {
             None => 0.0,
             Some(beam) if matches!(model.beam, crate::case::Beam::Mass(_)) => {
                 let base = &model.excitation.base;
-                let ground = velocity(base, state.t) - velocity(base, self.last.from);
+                let ground = velocity(base, state.t) - velocity(base, self.last.began);
                 -model.mass[beam] * (state.a[beam] + ground / h)
             }
             Some(_) => self.motion.pull,
@@ -532,7 +535,7 @@ impl Run {
         let Run { motion, last, past, seen, a, .. } = self;
         let (from, to) = (past.stride.middle, last.middle);
         let share =
-            if past.stride.to == last.from && t < to { ((t - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 };
+            if past.stride.to == last.began && t < to { ((t - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 };
         // What is no number after a step that fails is not asked.
         let mean = |a: f64, b: f64| match share {
             0.0 => a,
@@ -580,6 +583,11 @@ impl Run {
             recording.frame_friction.push(-sign * seen.shear);
         }
     }
+}
+
+/// How much of the way from `from` to `to` lies behind `t`, 0 … 1; all of one of no length.
+fn part_of(from: f64, t: f64, to: f64) -> f64 {
+    if to > from { ((t - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 }
 }
 
 /// Velocity of the base [m/s], that of a base that is set in motion at t = 0 included.
