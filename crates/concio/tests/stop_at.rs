@@ -51,7 +51,7 @@ fn a_run_ends_after_its_collapse_with_the_bits_of_one_that_goes_on() {
     ] {
         let short = run_in_memory(&stone(stop)).expect("a run");
         assert_eq!((short.stop_reason, short.totals.collapse), (StopReason::Collapsed, Some(collapse)), "{stop}");
-        // The first step that ends no earlier; steps of 1 ms.
+        // The first step whose forces belong to no earlier instant; steps of 1 ms.
         let late = short.time_reached - (collapse.time + after);
         assert!((0.0..1e-3 + 1e-12).contains(&late), "{stop}: {late} s late");
         let (a, b) = (&short.recording, &whole.recording);

@@ -534,8 +534,7 @@ impl Run {
     ) {
         let Run { motion, last, past, seen, a, .. } = self;
         let (from, to) = (past.stride.middle, last.middle);
-        let share =
-            if past.stride.to == last.began && t < to { ((t - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 };
+        let share = if past.stride.to == last.began { part_of(from, t, to) } else { 1.0 };
         // What is no number after a step that fails is not asked.
         let mean = |a: f64, b: f64| match share {
             0.0 => a,
