@@ -5,6 +5,8 @@
 //! stiffness against parting and against turning that it has in all, exactly: half of it at each, at the distance of its radius of gyration
 //! from its centre. What has cracked acts in compression alone, at three points with its stiffness and turning, where a part of it is pressed
 //! and a part open at three each, where joints may be crushed at nine. It rubs for the whole joint: friction at springs that pull too would have a kink, where contact is hard to solve.
+//! Its friction is in line with the part D of the stiffness along: a joint that sticks is as stiff as before it cracked (Alfano & Sacco 2006), and of
+//! the shear that breaks a part of it friction goes on to bear what it can.
 //!
 //! At a node that is stretched by w across and s along the joint,
 //!
@@ -13,7 +15,12 @@
 //! p being the pressure there. Where a limit is passed, ξ grows by the way that goes beyond it over δ_c of that mode, and what that mode alone
 //! would lose of its stiffness to where the limit is met; D is the larger loss of the two. One ξ weakens both strengths, as mixed modes do (Lourenço & Rots
 //! 1997); a limit that is approached with a stiffness lost to the other mode is passed no later for it. Along one mode alone that is (B3). χ = 1 − e^−ξ is
-//! the part that rubs, so that shear stays within (B5). δ_c follows from G_f by (B4) with the strength of the moment: f_t of opening, c + p tan φ of shear.
+//! the part that rubs, so that shear stays within (B5). δ_c follows from G_f with the strength of the moment, S = f_t of opening, c + p tan φ of shear, and with
+//! what friction goes on to bear of it, R = min(μ p, S) of shear, so that all that the bond loses is G_f:
+//!
+//! (P10)  G_f = ½ (S² − R²)/k + (1 − ε) S δ_c
+//!
+//! which is (B4) but for what the springs of friction keep.
 //!
 //! Rigid joints break by plane sections: the stress of the joint is the straight line that balances what its points bear, cracked parts pressing only;
 //! the crack runs as far as it is above f_t at its tip.
@@ -71,6 +78,15 @@ impl Node {
     /// χ.
     fn rubbing(&self) -> f64 {
         1.0 - self.left
+    }
+
+    /// What friction bears of the shear that broke it after the slide `s` [m], under the pressure of an opening `w`, and what its springs store
+    /// then, of a joint as it would be everywhere [N, J].
+    fn rubs(&self, [w, s]: [f64; 2], law: &Law) -> [f64; 2] {
+        let (along, damage) = (law.breaking_stiffness(), self.damage());
+        let [_, goes_on] = law.shear_strengths(law.normal_stiffness() * (-w).max(0.0));
+        let borne = (self.rubbing() * goes_on).min(damage * along * s.abs());
+        [borne, if borne > 0.0 { 0.5 * borne * borne / (damage * along) } else { 0.0 }]
     }
 }
 
@@ -187,6 +203,12 @@ impl Crack {
     /// Part of the joint along which it has cracked, 0 … 1.
     pub fn length(&self) -> f64 {
         if self.is_gone() { 1.0 } else { self.mean(|n| f64::from(u8::from(self.nodes[n].damage() > 0.0))) }
+    }
+
+    /// Part of the joint along which it has cracked from its first contact point on, the first along the tangent; the rest of what has cracked lies at the other end.
+    pub fn start(&self) -> f64 {
+        let held = self.nodes.iter().position(|node| node.damage() == 0.0).filter(|_| !self.is_gone());
+        held.map_or(self.length(), |first| (first as f64 - 0.5).max(0.0) / (NODES - 1) as f64)
     }
 
     /// Opening and slide at both ends [m].
@@ -427,21 +449,18 @@ impl Crack {
         let Normal::Springs { both, press, .. } = law.normal else { return 0.0 };
         let residual = law.bond.map_or(0.0, |bond| bond.residual);
         let shear = law.shear.stiffness;
-        let mut energy = 0.0;
+        let breaks = law.breaking_stiffness();
+        let [_, mut energy] = self.rubbed(law, points);
         for spot in &self.spots {
             let point = &points[spot.point];
             energy += match spot.part {
                 Part::Held => {
                     let [w, s] = self.stretched(spot.at);
-                    0.5 * spot.share * (both * w * w + (1.0 - residual) * shear * s * s)
+                    0.5 * spot.share * (both * w * w + breaks * s * s)
                 }
                 Part::Dry => {
                     let k = spot.share * (both + press);
-                    let sheared = match law.shear.series && shear > 0.0 {
-                        true => 0.5 * point.bearing * point.bearing / (spot.share * shear),
-                        false => 0.0,
-                    };
-                    0.5 * k * (point.gap + point.crushed).min(0.0).powi(2) + sheared
+                    0.5 * k * (point.gap + point.crushed).min(0.0).powi(2)
                 }
                 // Of the whole there is no point where there is a bond.
                 Part::Whole | Part::Stays => 0.5 * residual * shear * point.slide * point.slide,
@@ -463,6 +482,7 @@ impl Crack {
             return Worn::default();
         }
         let before = self.stored(law, points);
+        let mut rubs = self.rubbed(law, points);
         let mut taken = 0.0;
         let mut worn = false;
         for n in 0..NODES {
@@ -475,7 +495,12 @@ impl Crack {
             let then = between(&self.was, x);
             let grown = [w - then[0], s.abs() - then[1].abs()].map(|way| way.max(0.0));
             let before = self.nodes[n];
-            let lost = self.wear_node(n, [w, s], grown, law, &bond);
+            let kept = |node: &Node| node.rubs([w, s], law);
+            let (lost, had) = (self.wear_node(n, [w, s], grown, law, &bond), kept(&before));
+            let [borne, stored] = kept(&self.nodes[n]);
+            rubs[0] -= weight * (borne - had[0]) * s.signum();
+            rubs[1] += weight * (stored - had[1]);
+            let lost = lost - (stored - had[1]);
             // What is crushed may have stored nothing along the joint.
             if self.nodes[n] != before {
                 worn = true;
@@ -502,8 +527,54 @@ impl Crack {
             *point = Point { gap, slide, ..kept };
         }
         self.set(points);
+        self.rub(law, points, rubs);
         let lost = before - self.stored(law, points);
         Worn { bond: taken, beyond: lost - taken }
+    }
+
+    /// What has cracked bears along the joint, and what its springs along store [N, J].
+    fn rubbed(&self, law: &Law, points: &[Point]) -> [f64; 2] {
+        let along = law.breaking_stiffness();
+        let dry = self.spots.iter().filter(|spot| spot.part == Part::Dry && along > 0.0);
+        dry.fold([0.0; 2], |[whole, energy], spot| {
+            let bearing = points[spot.point].bearing;
+            [whole + bearing, energy + 0.5 * bearing * bearing / (spot.share * along)]
+        })
+    }
+
+    /// Has what has cracked bear `whole` along the joint [N], or what stores no more than `energy` [J]: all its points stretched alike, those that
+    /// friction lets.
+    fn rub(&self, law: &Law, points: &mut [Point], [whole, energy]: [f64; 2]) {
+        let (stiffness, along, mu) = (law.normal_stiffness(), law.breaking_stiffness(), law.slow_friction());
+        let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry && along > 0.0);
+        let (mut rest, mut held, mut slides) =
+            (whole, dry().map(|spot| spot.share * along).sum::<f64>(), [false; POINTS]);
+        loop {
+            let stretch = if held > 0.0 { rest / held } else { 0.0 };
+            let mut settled = true;
+            for spot in dry() {
+                if slides[spot.point] {
+                    continue;
+                }
+                let point = &mut points[spot.point];
+                let pressed = spot.share * stiffness * (-point.gap - point.crushed).max(0.0);
+                let most = spot.rubs * mu * pressed;
+                point.bearing = stretch * spot.share * along;
+                if point.bearing.abs() > most {
+                    point.bearing = most.copysign(stretch);
+                    (rest, held) = (rest - point.bearing, held - spot.share * along);
+                    (slides[spot.point], settled) = (true, false);
+                }
+            }
+            if settled {
+                break;
+            }
+        }
+        let [_, stored] = self.rubbed(law, points);
+        if stored > energy.max(0.0) {
+            let part = (energy.max(0.0) / stored).sqrt();
+            dry().for_each(|spot| points[spot.point].bearing *= part);
+        }
     }
 
     /// What a node lost that is stretched by `w` and `s`, `grown` of it in this step [m], of a joint as it would be everywhere [J].
@@ -511,11 +582,11 @@ impl Crack {
         let Normal::Springs { both, press, .. } = law.normal else { return 0.0 };
         let mut node = self.nodes[n];
         let (damage, had) = (node.damage(), node.lost);
-        let along = (1.0 - bond.residual) * law.shear.stiffness;
+        let along = law.breaking_stiffness();
         let pressure = ((both + press) * -w).max(0.0);
         let (mut taken, mut passed) = (0.0, [false; 2]);
         // `way` is how much farther it is stretched than before, `other` twice what the other direction would store.
-        let mut pass = |mode: usize, [stretch, way]: [f64; 2], k: f64, strength: f64, other: f64| {
+        let mut pass = |mode: usize, [stretch, way]: [f64; 2], k: f64, [strength, goes_on]: [f64; 2], other: f64| {
             let before = node.damage();
             if k == 0.0 || before == 1.0 {
                 return;
@@ -526,7 +597,9 @@ impl Crack {
                 return;
             }
             passed[mode] = true;
-            let decay = ((bond.energy[mode] - 0.5 * strength * strength / k) / ((1.0 - BROKEN) * strength)).max(0.0);
+            // What friction goes on to bear its springs keep.
+            let stored = 0.5 * (strength * strength - goes_on * goes_on) / k;
+            let decay = ((bond.energy[mode] - stored) / ((1.0 - BROKEN) * strength)).max(0.0);
             // What has no strength breaks at once.
             let decay = if strength > 0.0 { decay } else { 0.0 };
             // Where the limit has come to the stretch as pressure fell, the rest is no work of breaking.
@@ -544,9 +617,8 @@ impl Crack {
             }
             taken += 0.5 * (node.damage() - before) * other;
         };
-        pass(0, [w - TOUCHING, grown[0]], both, bond.tension, along * s * s);
-        let shear_strength = (1.0 - bond.residual) * (bond.cohesion + pressure * bond.tan_angle);
-        pass(1, [s.abs(), grown[1]], along, shear_strength, both * w.max(0.0).powi(2));
+        pass(0, [w - TOUCHING, grown[0]], both, [bond.tension, 0.0], along * s * s);
+        pass(1, [s.abs(), grown[1]], along, law.shear_strengths(pressure), both * w.max(0.0).powi(2));
         // Where both modes have lost some, one of them bears less than its limit. What springs bore on the way and do not store is taken then.
         if passed[0] && (passed[1] || had[1] > 0.0) || passed[1] && had[0] > 0.0 {
             let [w, s] = [w.max(0.0), s.abs()];

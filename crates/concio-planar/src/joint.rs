@@ -194,6 +194,23 @@ impl Law {
         (rocking < 1.0).then_some(rocking)
     }
 
+    /// Stiffness along of its bond that breaking takes [N/m].
+    pub(crate) fn breaking_stiffness(&self) -> f64 {
+        (1.0 - self.bond.map_or(0.0, |bond| bond.residual)) * self.shear.stiffness
+    }
+
+    /// What its bond bears along under a pressure at most [N], and what friction goes on to bear of that once it breaks.
+    pub(crate) fn shear_strengths(&self, pressure: f64) -> [f64; 2] {
+        let of = |bond: Bond| (1.0 - bond.residual) * (bond.cohesion + pressure * bond.tan_angle);
+        let strength = self.bond.map_or(0.0, of);
+        [strength, (self.slow_friction() * pressure).min(strength)]
+    }
+
+    /// μ of a slide that is as slow as can be; 0 where nothing rubs.
+    pub(crate) fn slow_friction(&self) -> f64 {
+        self.friction.map_or(0.0, |friction| friction.slowly(true))
+    }
+
     /// Parts of the joint that its points stand for, which are equally far from each other.
     pub fn shares(&self) -> &'static [f64] {
         match (self.crushing.is_finite(), self.is_compliant()) {
@@ -227,11 +244,9 @@ impl Law {
                 follows: true,
                 ..dry
             },
-            Part::Dry => Law {
-                normal: springs(0.0, both + press, damping),
-                shear: scaled(f64::from(u8::from(shear.series)), shear.series),
-                ..dry
-            },
+            Part::Dry => {
+                Law { normal: springs(0.0, both + press, damping), shear: scaled(1.0 - residual, true), ..dry }
+            }
             Part::Stays => Law {
                 normal: springs(0.0, 0.0, 0.0),
                 shear: scaled(residual, false),

@@ -172,6 +172,8 @@ impl Bonded {
 
     /// The bond in a result.
     pub(crate) fn row(&self, state: &BondState) -> BondRow {
+        let whole = if state.damage > 0.0 { [1.0, 0.0] } else { [0.0; 2] };
+        let [crack_start, crack_end] = state.crack.unwrap_or(whole);
         BondRow {
             joint: self.joint as usize,
             strength: self.law.strength,
@@ -180,7 +182,8 @@ impl Bonded {
             energy: self.law.energy(),
             decay: self.law.decay,
             damage: state.damage,
-            crack: state.crack.unwrap_or(if state.damage > 0.0 { 1.0 } else { 0.0 }),
+            crack: crack_start + crack_end,
+            crack_start,
             spent: state.spent,
             cracked: state.cracked,
             broken: state.broken,

@@ -124,6 +124,8 @@ pub struct BondRow {
     pub damage: f64,
     /// Part of the joint's length along which it has cracked, 0 … 1; of shear walls all of it at once.
     pub crack: f64,
+    /// The part of it that lies at the joint's first end, left or below; the rest lies at the other.
+    pub crack_start: f64,
     /// Energy that breaking has taken [J].
     pub spent: f64,
     /// When it first cracked [s]; infinite when it did not.
@@ -148,6 +150,11 @@ pub struct TieRow {
 }
 
 impl BondRow {
+    /// Where it has cracked: from where to where, 0 … 1 along the joint from its first end.
+    pub fn cracks(&self) -> [[f64; 2]; 2] {
+        [[0.0, self.crack_start], [1.0 - (self.crack - self.crack_start), 1.0]]
+    }
+
     /// The law, for a joint that is bonded against opening alone or not.
     pub fn law(&self, opens: bool) -> Bond {
         let BondRow { strength, stiffness, residual_stiffness, decay, .. } = *self;

@@ -132,8 +132,8 @@ pub struct BondState {
     pub reach: f64,
     /// D, 0 … 1: what is lost of the stiffness. The part that rubs is [`crate::bond::Bond::rubbing`].
     pub damage: f64,
-    /// Part of the joint's length along which it has cracked, where cracks run along joints.
-    pub crack: Option<f64>,
+    /// Parts of the joint's length along which it has cracked, from its first end (left or below) and from the other, where cracks run along joints.
+    pub crack: Option<[f64; 2]>,
     /// Energy that breaking took [J].
     pub spent: f64,
     /// Largest |elastic force| of the joint so far [N].

@@ -38,6 +38,8 @@ pub struct Field<'a> {
     pub values: &'a [f64],
     /// What a joint without value is.
     pub none: &'a str,
+    /// The parts of each joint that have the value, from where to where, 0 … 1 along it; the rest has 0. Empty where all of it has.
+    pub parts: &'a [[[f64; 2]; 2]],
 }
 
 /// What the colours stand for.
@@ -290,19 +292,26 @@ fn blocks(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
 fn joints(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
     let thin = (0.003 * view.scale).clamp(0.5, 1.6);
     let detailed = is_detailed(subject);
-    let data = |e: usize| line(view.line(subject.joints[e].line));
+    let whole = |e: usize| line(view.line(subject.joints[e].line));
     let Paint::Joints(field) = paint else {
         for kind in KINDS {
             let members: Vec<usize> = (0..subject.joints.len()).filter(|&e| subject.joints[e].kind == kind).collect();
             let attributes = format!(r#"fill="none" {}"#, stroke(kind, thin));
             if detailed {
-                members.iter().for_each(|&e| canvas.path(&data(e), &attributes, Some(&subject.names[e])));
+                members.iter().for_each(|&e| canvas.path(&whole(e), &attributes, Some(&subject.names[e])));
             } else if !members.is_empty() {
-                canvas.path(&members.iter().map(|&e| data(e)).collect::<String>(), &attributes, None);
+                canvas.path(&members.iter().map(|&e| whole(e)).collect::<String>(), &attributes, None);
             }
         }
         return;
     };
+    let data = |e: usize| match field.parts.get(e) {
+        Some(parts) => parts_of(view.line(subject.joints[e].line), parts),
+        None => whole(e),
+    };
+    // What has no value of a joint that is cracked in part.
+    let is_part = |e: usize| field.parts.get(e).is_some_and(|[a, b]| a[1] < b[0] && (a[0] < a[1] || b[0] < b[1]));
+    let rest: String = (0..subject.joints.len()).filter(|&e| is_part(e)).map(whole).collect();
     // Large values lie on top and are thicker.
     let largest = end(&field);
     let value = |e: usize| field.values.get(e).copied().unwrap_or(0.0);
@@ -313,6 +322,9 @@ fn joints(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
     let attributes = |fill: &str, f: f64| {
         format!(r#"fill="none" stroke="{fill}" stroke-width="{}""#, px(thin * (1.0 + 2.5 * f.clamp(0.0, 1.0))))
     };
+    if !rest.is_empty() {
+        canvas.path(&rest, &attributes(&shade(0.0), 0.0), None);
+    }
     if detailed {
         let mut order: Vec<usize> = (0..subject.joints.len()).collect();
         let height = |e: usize| fraction(e).unwrap_or(-1.0);
@@ -329,6 +341,17 @@ fn joints(canvas: &mut Canvas, view: &View, subject: &Subject, paint: Paint) {
             canvas.path(&d, &attributes(&fill, thick), None);
         }
     }
+}
+
+/// Parts of a line, from where to where, 0 … 1 along it; all of it where there is none, for what lies below a pointer.
+pub fn parts_of([x0, y0, x1, y1]: [f64; 4], parts: &[[f64; 2]; 2]) -> String {
+    let at = |s: f64| [x0 + s * (x1 - x0), y0 + s * (y1 - y0)];
+    let of = |[from, to]: &[f64; 2]| {
+        let ([ax, ay], [bx, by]) = (at(*from), at(*to));
+        line([ax, ay, bx, by])
+    };
+    let some: String = parts.iter().filter(|[from, to]| from < to).map(of).collect();
+    if some.is_empty() { line([x0, y0, x1, y1]) } else { some }
 }
 
 fn joint_names(canvas: &mut Canvas, view: &View, subject: &Subject) {

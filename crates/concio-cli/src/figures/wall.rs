@@ -11,7 +11,7 @@ use crate::draw::font;
 use crate::draw::output::Drawing;
 use crate::draw::scale::{Scale, round_end};
 use crate::draw::svg::{Anchor, Canvas, closed, line, px, rectangle};
-use crate::draw::wall::{LIGHT, ground, shade};
+use crate::draw::wall::{LIGHT, ground, parts_of, shade};
 use crate::format::{plain, short};
 
 /// Height of the wall over the width of the figure, at most.
@@ -198,7 +198,11 @@ pub fn cracks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         format!("{cracked} of {} bonds cracked, {broken} of them broken", bonds.len()),
     ];
     let colours = Colours { quantity: "damage of the bond, 0 = intact, 1 = broken", unit: "", end: 1.0 };
-    let (drawn, bottom) = map(data, options, &values, &texts, &colours);
+    let mut parts = vec![WHOLE; data.run.joints.len()];
+    if options.at == Instant::Peak {
+        bonds.iter().for_each(|bond| parts[bond.joint] = bond.cracks());
+    }
+    let (drawn, bottom) = map(data, options, (&values, &parts), &texts, &colours);
     let title = "Joints coloured by the damage of their bonds".into();
     Ok(Drawing { body: drawn, size: [options.points(), bottom], title, note: String::new() })
 }
@@ -222,7 +226,7 @@ fn openings(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         return Err(InputError::new("no joint opened").key("--at"));
     }
     let values: Vec<Option<f64>> = values.into_iter().map(Some).collect();
-    let (drawn, bottom) = map(data, options, &values, &[text], &Colours::up_to("opening of joints", "m", largest));
+    let (drawn, bottom) = map(data, options, (&values, &[]), &[text], &Colours::up_to("opening of joints", "m", largest));
     let title = "Joints coloured by their opening".into();
     Ok(Drawing { body: drawn, size: [options.points(), bottom], title, note: String::new() })
 }
@@ -231,7 +235,7 @@ fn accelerations(data: &Data, options: &Options, values: &[f64], largest: f64, t
     let values: Vec<Option<f64>> = values.iter().map(|v| Some(*v)).collect();
     let colours = Colours::up_to("relative acceleration", "m/s²", largest);
     let texts = [text, format!("largest {} m/s²", plain(three(largest)))];
-    let (body, bottom) = map(data, options, &values, &texts, &colours);
+    let (body, bottom) = map(data, options, (&values, &[]), &texts, &colours);
     let title = "Joints coloured by relative acceleration".into();
     Drawing { body, size: [options.points(), bottom], title, note: hits(data) }
 }
@@ -259,8 +263,17 @@ impl Colours {
     }
 }
 
-/// The wall with its joints coloured by values, those without one, which are not bonded, dashed in grey; and where it ends [pt].
-fn map(data: &Data, options: &Options, values: &[Option<f64>], texts: &[String], colours: &Colours) -> (String, f64) {
+/// The parts of a joint that has its value all along.
+const WHOLE: [[f64; 2]; 2] = [[0.0, 1.0], [1.0; 2]];
+
+/// The wall with its joints coloured by values, where they have parts these alone, those without one, which are not bonded, dashed in grey; and where it ends [pt].
+fn map(
+    data: &Data,
+    options: &Options,
+    (values, parts): (&[Option<f64>], &[[[f64; 2]; 2]]),
+    texts: &[String],
+    colours: &Colours,
+) -> (String, f64) {
     let mut canvas = Canvas::default();
     let head = headings(&mut canvas, options.points(), texts);
     let view = View::new(data, options.points(), Reach::default(), head);
@@ -290,7 +303,13 @@ fn map(data: &Data, options: &Options, values: &[Option<f64>], texts: &[String],
                 if cased { ("#6e6e6e".into(), width + 0.5) } else { (shade(value / colours.end), width) };
             let attributes = format!(r#"fill="none" stroke="{fill}" stroke-width="{}""#, px(width));
             let title = (!cased).then(|| format!("{name}: {}", short(three(value), colours.unit)));
-            canvas.path(&line([ax, ay, bx, by]), &attributes, title.as_deref());
+            let ends = [ax, ay, bx, by];
+            let drawn = parts.get(e).map_or_else(|| line(ends), |parts| parts_of(ends, parts));
+            if !cased && drawn != line(ends) {
+                let intact = format!(r#"fill="none" stroke="{}" stroke-width="{}""#, shade(0.0), px(0.5 * width));
+                canvas.path(&line(ends), &intact, None);
+            }
+            canvas.path(&drawn, &attributes, title.as_deref());
         }
     }
     let mut bottom = colour_bar(&mut canvas, view.below, options.points(), colours);

@@ -27,7 +27,7 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     // A massive beam is one more unknown behind the blocks; the colours are those of the blocks.
     let of_blocks = &envelopes.block_displacement;
     let of_blocks = of_blocks.get(..content.wall.blocks.len()).unwrap_or(of_blocks);
-    let field = |title, unit, values| Field { title, unit, values, none: "no value" };
+    let field = |title, unit, values| Field { title, unit, values, none: "no value", parts: &[] };
     let gap = if content.is_planar() { "widest opening" } else { "widest gap of the head joints" };
     let views: [_; VIEWS] = [
         ("displacement", Paint::Blocks(field("peak displacement relative to the base", "m", of_blocks))),
@@ -37,8 +37,13 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
         ("dissipation", Paint::Joints(field("energy dissipated", "J", &envelopes.joint_dissipation))),
     ];
     let mut cracked = vec![f64::NAN; content.joints.len()];
-    content.outcome.bonds.iter().for_each(|bond| cracked[bond.joint] = bond.damage);
-    let field = Field { none: "not bonded", ..field("damage of the bonds at the end", "1", &cracked) };
+    // Along which part of a joint it has cracked is known where cracks run along joints.
+    let mut parts = vec![[[0.0, 1.0], [1.0; 2]]; content.joints.len()];
+    for bond in &content.outcome.bonds {
+        cracked[bond.joint] = bond.damage;
+        parts[bond.joint] = bond.cracks();
+    }
+    let field = Field { none: "not bonded", parts: &parts, ..field("damage of the bonds at the end", "1", &cracked) };
     let cracks = ("cracks", Paint::Joints(field));
     let cracks = (!content.outcome.bonds.is_empty()).then_some(cracks);
     cracks.into_iter().chain(views).map(|(name, paint)| (name, wall::draw(&subject, paint))).collect()

@@ -487,7 +487,13 @@ impl Run {
             let Some(crack) = self.motion.crack(e) else { continue };
             let (first, last, reach) = (crack.cracked, crack.broken, crack.reach);
             let stretch = crack.line().iter().map(|[gap, slide]| gap.max(slide.abs())).fold(0.0, f64::max);
-            let (damage, length) = (crack.damage(), crack.length());
+            let damage = crack.damage();
+            let start = crack.start();
+            // Contact goes along the tangent, the normal to what lies above or to the right turned counterclockwise.
+            let lengths = match model.joints[e].kind.is_upright() {
+                true => [start, crack.length() - start],
+                false => [crack.length() - start, start],
+            };
             if !held.cracked.is_finite() && first.is_finite() {
                 tell(Event { time: first, joint: bond.joint, kind: EventKind::Crack, value: stretch });
             }
@@ -500,7 +506,7 @@ impl Run {
             *held = BondState {
                 reach,
                 damage,
-                crack: Some(length),
+                crack: Some(lengths),
                 spent: seen.broken,
                 peak,
                 cracked: first,

@@ -237,7 +237,7 @@ pub(super) const FRICTION: [Field<FrictionRow, f64>; 5] = [
 ];
 
 /// Real quantities of a bond.
-pub(super) const BONDS: [Field<BondRow, f64>; 10] = [
+pub(super) const BONDS: [Field<BondRow, f64>; 11] = [
     field!("strength", "N", strength, "Force at which the joint cracks."),
     field!("stiffness", "N/m", stiffness, "Stiffness of the intact joint; of a head joint in tension."),
     field!("residual_stiffness", "1", residual_stiffness, "Fraction of the stiffness that a cracked joint keeps."),
@@ -245,6 +245,7 @@ pub(super) const BONDS: [Field<BondRow, f64>; 10] = [
     field!("decay", "m", decay, "Length over which the strength falls; 0 when the bond is brittle."),
     field!("damage", "1", damage, "Damage at the end: part of the stiffness that is lost, 0 to 1."),
     field!("crack", "1", crack, "Part of the joint's length along which it has cracked, 0 to 1."),
+    field!("crack_start", "1", crack_start, "Part of it at the joint's left or lower end; the rest is at the other."),
     field!("spent", "J", spent, "Energy that breaking has taken."),
     field!("cracked", "s", cracked, "Time of the first crack; infinite when there was none."),
     field!("broken", "s", broken, "Time at which nothing was left of the bond; infinite when something is."),

@@ -59,7 +59,7 @@ PANEL_COLUMNS = {
 }
 BOND_COLUMNS = {
     "strength": "N", "stiffness": "N/m", "residual_stiffness": "1", "energy": "J", "decay": "m", "damage": "1",
-    "crack": "1", "spent": "J", "cracked": "s", "broken": "s",
+    "crack": "1", "crack_start": "1", "spent": "J", "cracked": "s", "broken": "s",
 }
 TIE_COLUMNS = {"force": "N", "stretch": "m", "yielded": "s"}
 DRIFT_COLUMNS = {"height": "m", "peak": "m", "time": "s", "residual": "m", "swing": "m"}
@@ -184,11 +184,11 @@ class Result:
 def check_head(result):
     attributes = result.file.attrs
     require(attributes["format"] == "concio-result", "attribute format")
-    require(attributes["schema_version"] == 9, "attribute schema_version")
+    require(attributes["schema_version"] == 10, "attribute schema_version")
     require(attributes["stop_reason"] in STOP_REASONS, f"stop_reason {attributes['stop_reason']!r}")
     for name in ["version", "model", "inputs_hash"]:
         require(isinstance(attributes[name], str) and attributes[name], f"attribute {name}")
-    require(result.array("schema_version", (), "u4", "1") == 9, "schema_version")
+    require(result.array("schema_version", (), "u4", "1") == 10, "schema_version")
     (case,) = result.texts("case", 1)
     require(isinstance(json.loads(case), dict), "case is no JSON object")
 

@@ -179,6 +179,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         decay: 1e-5 * k as f64,
         damage: 0.5 + 0.5 * k as f64,
         crack: 0.75,
+        crack_start: 0.25,
         spent: 0.125,
         cracked: 1e-3,
         broken: if k == 0 { f64::INFINITY } else { 2e-3 },
