@@ -23,6 +23,7 @@ mod schemes;
 mod shown;
 mod studies;
 mod symbols;
+mod verification;
 
 use command::{Outcome, cargo, run};
 
@@ -32,6 +33,7 @@ cargo xtask docs       make the generated documents (reference, schema, symbols,
 cargo xtask cases      run the cases of the report anew; docs/report-cases.md and its pictures follow from them
 cargo xtask studies    make the worked examples of docs/studies/ anew: runs, output, figures (or those named)
 cargo xtask planar     make the runs and pictures of docs/planar.md anew
+cargo xtask verification   make docs/verification.md anew of what tests find (--cargo-profile, --check)
 cargo xtask examples   run every wall file in examples/
 cargo xtask shown      try the wall files and commands that documents show
 cargo xtask equations  check the numbers of equations
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
         "docs" => build(&root).and_then(|()| documents::make(&root)),
         "studies" => build(&root).and_then(|()| studies::make(&root, &rest)),
         "planar" => build(&root).and_then(|()| planar::make(&root)),
+        "verification" => verification::make(&root, &rest),
         "examples" => build(&root).and_then(|()| examples::run_all(&root)),
         "shown" => build(&root).and_then(|()| shown::check(&root)),
         "equations" => equations::check(&root),
@@ -90,7 +93,7 @@ fn build(root: &Path) -> Outcome {
 
 fn ci(root: &Path) -> Outcome {
     let python = python::environment(root)?;
-    let steps: [(&str, &dyn Fn() -> Outcome); 11] = [
+    let steps: [(&str, &dyn Fn() -> Outcome); 12] = [
         ("format", &|| run(cargo(root).args(["fmt", "--all", "--check"]))),
         ("lints", &|| {
             run(cargo(root).args([
@@ -106,6 +109,7 @@ fn ci(root: &Path) -> Outcome {
         }),
         ("build", &|| build(root)),
         ("tests", &|| tests(root, python.as_deref())),
+        ("page of verification", &|| verification::check(root)),
         ("API documentation", &|| api::check(root)),
         ("generated documents", &|| documents::check(root)),
         ("links", &|| links::check(root)),
@@ -134,6 +138,7 @@ fn tests(root: &Path, python: Option<&Path>) -> Outcome {
     } else {
         all.args(["test", "--locked", "--release", "--workspace", "--all-targets"]);
     }
+    all.env("CONCIO_VERIFIED", verification::folder(root)?);
     if let Some(python) = python {
         all.env("CONCIO_PYTHON", python);
     }

@@ -3,6 +3,7 @@
 use concio::quantity::Length;
 use concio_limit::assembly::Other;
 use concio_limit::{Heads, LimitError, MechanismKind, Options, Problem, Push, Stop, Towards, analyse};
+use concio_verified::agrees;
 use proptest::prelude::*;
 
 mod limit_walls;
@@ -24,11 +25,18 @@ fn a_block_slides_or_turns() {
         let expected = f64::min(mu, length / height);
         for options in [Options::default(), LEFT, TOP] {
             let limit = wall.limit(options);
-            close("λ", certified(&limit), expected, 1e-9);
+            let way = match (options.towards, options.push) {
+                (Towards::Left, _) => "to the left",
+                (_, Push::Top) => "at the top",
+                _ => "to the right",
+            };
+            let of = |what: &str| format!("Limit analysis: block, {what}; {length} × {height}, μ = {mu}, pushed {way}");
+            agrees!(of("associative"), "min(μ, b/h)", "", certified(&limit), expected, 1e-9);
             let kind = if mu < length / height { MechanismKind::Sliding } else { MechanismKind::Overturning };
             assert_eq!(limit.mechanism.kind, kind, "{length} × {height}, μ = {mu}");
             assert_eq!(limit.non_associative.stop, Stop::Converged);
-            close("λ without dilation", limit.non_associative.multiplier, expected, 1e-5);
+            let estimate = limit.non_associative.multiplier;
+            agrees!(of("without dilation"), "min(μ, b/h)", "", estimate, expected, 1e-5);
         }
     }
 }
@@ -37,7 +45,7 @@ fn a_block_slides_or_turns() {
 #[test]
 fn what_only_slides_is_no_mixed_mechanism() {
     let limit = DryWall::running(6, 4, [0.4, 0.2], 0.2, true).limit(Options::default());
-    close("λ", certified(&limit), 0.2, 1e-9);
+    agrees!("Limit analysis: squat wall of little friction", "μ", "", certified(&limit), 0.2, 1e-9);
     assert!(limit.mechanism.joints.iter().any(|j| j.opens), "all as one");
     assert_eq!(limit.mechanism.kind, MechanismKind::Sliding);
 }
@@ -49,7 +57,9 @@ fn a_stack_turns_whole() {
         [(5, [1.0, 1.0], 0.4), (5, [1.0, 1.0], 0.1), (10, [0.5, 0.25], 0.4), (3, [0.3, 0.2], 1.5)]
     {
         let expected = f64::min(mu, brick[0] / (number as f64 * brick[1]));
-        close("λ", DryWall::stack(number, brick, mu).multiplier(), expected, 1e-9);
+        let subject = format!("Limit analysis: stack of blocks; {number} of {} × {}, μ = {mu}", brick[0], brick[1]);
+        let found = DryWall::stack(number, brick, mu).multiplier();
+        agrees!(subject, "min(μ, b/(n h))", "", found, expected, 1e-9);
     }
 }
 
@@ -59,17 +69,36 @@ fn the_top_course_is_pushed() {
     for ([length, height], mu, expected) in
         [([1.0, 1.0], 0.9, 2.0 / 3.0), ([1.0, 1.0], 0.3, 0.3), ([0.3, 0.6], 2.0, 1.0 / 3.0)]
     {
-        close("λ", certified(&DryWall::stack(2, [length, height], mu).limit(TOP)), expected, 1e-9);
+        let subject = format!("Limit analysis: two blocks, pushed at the upper one; {length} × {height}, μ = {mu}");
+        let found = certified(&DryWall::stack(2, [length, height], mu).limit(TOP));
+        agrees!(subject, "min(μ, b/h, 2 b/(3 h))", "", found, expected, 1e-9);
     }
     // A load of as much as a block's weight W, with its mass on the top: λ (W 3h/2 + W 2h) = (3 W) b/2 at the foot.
     let mut wall = DryWall::stack(2, [1.0, 1.0], 0.9);
     wall.load = format!("top = {:?}", wall.weight);
-    close("λ", certified(&wall.limit(TOP)), 1.5 / 3.5, 1e-9);
-    close("λ of the weights", certified(&wall.limit(Options::default())), 1.5 / 4.0, 1e-9);
+    let [top, weights] = [TOP, Options::default()].map(|options| certified(&wall.limit(options)));
+    let against = "balance of moments about the foot";
+    agrees!(
+        "Limit analysis: two blocks under a load with mass, pushed at the upper one",
+        against,
+        "",
+        top,
+        1.5 / 3.5,
+        1e-9
+    );
+    agrees!("Limit analysis: two blocks under a load with mass", against, "", weights, 1.5 / 4.0, 1e-9);
     // One without mass presses alone, and pushes in the middle of its block where the dead load of the top is what pushes.
     wall.load += "\nmass = 0";
-    close("λ without mass", certified(&wall.limit(TOP)), 1.5 / 3.0, 1e-9);
-    close("λ of the weights without mass", certified(&wall.limit(Options::default())), 1.5 / 2.0, 1e-9);
+    let [top, weights] = [TOP, Options::default()].map(|options| certified(&wall.limit(options)));
+    agrees!(
+        "Limit analysis: two blocks under a load without mass, pushed at the upper one",
+        against,
+        "",
+        top,
+        1.5 / 3.0,
+        1e-9
+    );
+    agrees!("Limit analysis: two blocks under a load without mass", against, "", weights, 1.5 / 2.0, 1e-9);
 }
 
 /// A pier turns over at b/h beside a wall that it does not touch, across an open joint of whichever width; where their sides touch, they lean on each other.
@@ -96,7 +125,9 @@ fn an_open_joint_bears_nothing() {
     };
     for (courses, gap) in [(1, 0.03), (8, 0.03), (8, 0.3)] {
         for options in [Options::default(), LEFT] {
-            close("λ of the pier", found(&wall(courses, gap, "none"), options), 0.25, 1e-9);
+            let way = if options.towards == Towards::Left { "left" } else { "right" };
+            let subject = format!("Limit analysis: pier beside a wall; {courses} courses, {gap} m, to the {way}");
+            agrees!(subject, "b/h", "", found(&wall(courses, gap, "none"), options), 0.25, 1e-9);
         }
     }
     // Touching stones are those of a rigid joint.
@@ -115,9 +146,12 @@ fn a_beam_with_mass_is_one_more_body() {
     wall.load = format!("top = {beam:?}\nbeam = {{ mass = {:?} }}", beam / 9.81);
     // The beam is half as high as the stone, and its mass in its middle.
     let expected = (weight + beam) * 0.5 / (0.5 * weight + 1.25 * beam);
-    close("λ", certified(&wall.limit(Options::default())), expected, 1e-9);
+    let found = certified(&wall.limit(Options::default()));
+    let against = "balance of moments of block and beam about the foot";
+    agrees!("Limit analysis: block under a beam with mass", against, "", found, expected, 1e-9);
     wall.mu = 0.2;
-    close("λ where it slides", certified(&wall.limit(Options::default())), 0.2, 1e-9);
+    let found = certified(&wall.limit(Options::default()));
+    agrees!("Limit analysis: block under a beam with mass, μ = 0.2", "μ", "", found, 0.2, 1e-9);
     wall.load = "beam = \"tied\"".into();
     let error = Problem::of(&wall.case(), Options::default()).expect_err("a held top").to_string();
     assert!(error.contains("load.beam") && error.contains("allowed"), "{error}");
@@ -131,7 +165,9 @@ fn mortar_on_the_base_lifts_the_stone() {
         case.panels[0].mortar.bed = Length::from_si(bed);
         case.panels[0].blocks[0].y = Some(Length::from_si(bed));
         let problem = Problem::of(&case, Options::default()).expect("a problem");
-        close("λ", certified(&analyse(&problem).expect("a limit")), 0.1 / (bed + 0.2), 1e-9);
+        let found = certified(&analyse(&problem).expect("a limit"));
+        let subject = format!("Limit analysis: stone on mortar; {bed} m");
+        agrees!(subject, "(ℓ/2)/(t_b + h/2)", "", found, 0.1 / (bed + 0.2), 1e-9);
     }
 }
 
@@ -182,7 +218,10 @@ fn forces_and_mechanism_obey_their_equations() {
             let of = |(l, v): (&[f64; 2], &[f64; 3])| l[0] * v[0] + l[1] * v[1];
             loads.iter().zip(&limit.mechanism.velocities).map(of).sum()
         };
-        close("λ of the powers", -power(&problem.dead) / power(&problem.live), lambda, 1e-9);
+        let way = if options.towards == Towards::Left { "left" } else { "right" };
+        let subject =
+            format!("Limit analysis: wall of 8 courses, λ from the powers of its mechanism; μ = {mu}, to the {way}");
+        agrees!(subject, "λ of the forces", "", -power(&problem.dead) / power(&problem.live), lambda, 1e-9);
         assert!(limit.unbalanced <= 1e-9 * scale);
     }
 }

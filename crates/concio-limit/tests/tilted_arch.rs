@@ -7,6 +7,7 @@ use concio::case::{Syntax, from_str};
 use concio::run::prepare;
 use concio::simulate::{Progress, Simulation};
 use concio_limit::{Options, Problem, analyse};
+use concio_verified::agrees;
 
 /// Displacement at which the arch counts as moving [m]: what a mechanism covers within a thousandth of the ramp.
 const MOVING: f64 = 1e-4;
@@ -30,5 +31,6 @@ fn a_tilted_arch_falls_at_its_multiplier() {
         run.clear_recording();
     }
     let found = 0.2 * run.time() / 20.0;
-    assert!((found / limit.multiplier() - 1.0).abs() < 0.01, "{found} beside {}", limit.multiplier());
+    let subject = "Limit analysis: arch of example 17 on ground that tilts slowly, tilt at which it falls";
+    agrees!(subject, "multiplier of limit analysis", "g", found, limit.multiplier(), 0.01);
 }

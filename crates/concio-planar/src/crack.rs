@@ -14,13 +14,13 @@
 //!
 //! p being the pressure there. Where a limit is passed, ξ grows by the way that goes beyond it over δ_c of that mode, and what that mode alone
 //! would lose of its stiffness to where the limit is met; D is the larger loss of the two. One ξ weakens both strengths, as mixed modes do (Lourenço & Rots
-//! 1997); a limit that is approached with a stiffness lost to the other mode is passed no later for it. Along one mode alone that is (B3). χ = 1 − e^−ξ is
+//! 1997); stiffness that is lost in one mode does not put off the limit of the other. Along one mode alone that is (B3). χ = 1 − e^−ξ is
 //! the part that rubs, so that shear stays within (B5). δ_c follows from G_f with the strength of the moment, S = f_t of opening, c + p tan φ of shear, and with
 //! what friction goes on to bear of it, R = min(μ p, S) of shear, so that all that the bond loses is G_f:
 //!
 //! (P10)  G_f = ½ (S² − R²)/k + (1 − ε) S δ_c
 //!
-//! which is (B4) but for what the springs of friction keep.
+//! which is (B4) but for what the springs of friction keep. Where pressure changes as it breaks, δ_c is that with which the rest of G_f goes.
 //!
 //! Rigid joints break by plane sections: the stress of the joint is the straight line that balances what its points bear, cracked parts pressing only;
 //! the crack runs as far as it is above f_t at its tip.
@@ -64,11 +64,13 @@ struct Node {
     left: f64,
     /// What opening and shear alone would have lost of the stiffness.
     lost: [f64; 2],
+    /// The part of G_f that opening and shear still have to take.
+    rest: [f64; 2],
 }
 
 impl Node {
-    const INTACT: Node = Node { left: 1.0, lost: [0.0; 2] };
-    const GONE: Node = Node { left: 0.0, lost: [1.0; 2] };
+    const INTACT: Node = Node { left: 1.0, lost: [0.0; 2], rest: [1.0; 2] };
+    const GONE: Node = Node { left: 0.0, lost: [1.0; 2], rest: [0.0; 2] };
 
     /// D.
     fn damage(&self) -> f64 {
@@ -76,16 +78,16 @@ impl Node {
     }
 
     /// χ.
-    fn rubbing(&self) -> f64 {
+    fn chi(&self) -> f64 {
         1.0 - self.left
     }
 
     /// What friction bears of the shear that broke it after the slide `s` [m], under the pressure of an opening `w`, and what its springs store
     /// then, of a joint as it would be everywhere [N, J].
-    fn rubs(&self, [w, s]: [f64; 2], law: &Law) -> [f64; 2] {
+    fn friction(&self, [w, s]: [f64; 2], law: &Law) -> [f64; 2] {
         let (along, damage) = (law.breaking_stiffness(), self.damage());
         let [_, goes_on] = law.shear_strengths(law.normal_stiffness() * (-w).max(0.0));
-        let borne = (self.rubbing() * goes_on).min(damage * along * s.abs());
+        let borne = (self.chi() * goes_on).min(damage * along * s.abs());
         [borne, if borne > 0.0 { 0.5 * borne * borne / (damage * along) } else { 0.0 }]
     }
 }
@@ -117,7 +119,7 @@ pub(crate) struct Spot {
     /// How much of the joint it is: these add up to 1.
     pub weight: f64,
     /// The part of its friction that acts.
-    pub rubs: f64,
+    pub rubbing: f64,
 }
 
 /// The state of the bond of one joint.
@@ -147,7 +149,7 @@ pub struct Crack {
 pub(crate) struct Worn {
     /// What breaking took.
     pub bond: f64,
-    /// What springs lost beside that, because a step goes beyond a limit before it is met.
+    /// What springs lost beside that, because a step goes beyond a limit before it is met, and where points are placed anew.
     pub beyond: f64,
 }
 
@@ -206,7 +208,7 @@ impl Crack {
     }
 
     /// Part of the joint along which it has cracked from its first contact point on, the first along the tangent; the rest of what has cracked lies at the other end.
-    pub fn start(&self) -> f64 {
+    pub fn length_at_first(&self) -> f64 {
         let held = self.nodes.iter().position(|node| node.damage() == 0.0).filter(|_| !self.is_gone());
         held.map_or(self.length(), |first| (first as f64 - 0.5).max(0.0) / (NODES - 1) as f64)
     }
@@ -228,14 +230,14 @@ impl Crack {
     }
 
     /// D on the way from a node to the next.
-    fn between(&self, n: usize, part: f64) -> f64 {
+    fn damage_between(&self, n: usize, part: f64) -> f64 {
         let [from, to] = [n, n + 1].map(|n| self.nodes[n].damage());
         from + part * (to - from)
     }
 
     /// χ there.
-    fn rubbing(&self, n: usize, part: f64) -> f64 {
-        let [from, to] = [n, n + 1].map(|n| self.nodes[n].rubbing());
+    fn chi_between(&self, n: usize, part: f64) -> f64 {
+        let [from, to] = [n, n + 1].map(|n| self.nodes[n].chi());
         from + part * (to - from)
     }
 
@@ -250,8 +252,7 @@ impl Crack {
             }
             for (part, factor) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
                 let x = (n as f64 + part) / (NODES - 1) as f64;
-                let [chi, next] = [pair[0].rubbing(), pair[1].rubbing()];
-                let values = [from + part * (to - from), chi + part * (next - chi)];
+                let values = [self.damage_between(n, part), self.chi_between(n, part)];
                 for (sum, value) in sums.iter_mut().zip(values) {
                     for (k, power) in [1.0, x, x * x].into_iter().enumerate() {
                         sum[k] += factor * value * power;
@@ -271,7 +272,7 @@ impl Crack {
     pub(crate) fn set(&self, points: &mut [Point]) {
         for spot in &self.spots {
             let point = &mut points[spot.point];
-            point.rubbing = spot.rubs;
+            point.rubbing = spot.rubbing;
             if spot.part == Part::Held {
                 [point.gap, point.slide] = self.stretched(spot.at);
             }
@@ -297,7 +298,7 @@ impl Crack {
             at: end as f64,
             share: 0.5,
             weight,
-            rubs: 1.0,
+            rubbing: 1.0,
         };
         if self.is_gone() {
             spots.extend([dry(0, 0.5), dry(1, 0.5)]);
@@ -310,7 +311,7 @@ impl Crack {
             at: place(node),
             share: 0.5 * length,
             weight: 0.5,
-            rubs: 1.0,
+            rubbing: 1.0,
         };
         if first > 0 {
             spots.push(dry(0, 0.0));
@@ -332,7 +333,7 @@ impl Crack {
                 let away = (second / whole - centre * centre).max(0.0).sqrt();
                 let share = 0.5 * whole;
                 let held =
-                    |point: usize, at: f64| Spot { point, part: Part::Held, at, share, weight: share, rubs: 0.0 };
+                    |point: usize, at: f64| Spot { point, part: Part::Held, at, share, weight: share, rubbing: 0.0 };
                 spots.extend([held(0, centre - away), held(1, centre + away)]);
             }
         }
@@ -346,40 +347,40 @@ impl Crack {
             at,
             share,
             weight: damaged.max(0.0),
-            rubs: (rubbing / share).clamp(0.0, 1.0),
+            rubbing: (rubbing / share).clamp(0.0, 1.0),
         };
         // Three points at the ends and the middle of what has cracked, which turn as it does; of what is pressed and what is open of it three each.
         let [near, far] = if gone { [0, NODES - 1] } else { self.presses_between(press) };
-        let splits = !gone && (near + 1..far).contains(&self.split);
+        let splits = (near + 1..far).contains(&self.split);
         let parts: &[_] = if splits { &[[near, self.split], [self.split, far]] } else { &[[near, far]] };
         let before = spots.len();
         let mut few = law.crushing.is_infinite() || intact;
         for (nodes, points) in parts.iter().zip(if splits { SIX } else { [THREE; 2] }) {
             let [start, end] = nodes.map(place);
             let all = [1, 2, 3].map(|k| (end.powi(k) - start.powi(k)) / f64::from(k));
-            let [damaged, rubbing] = self.moments(*nodes);
-            let [damaged, all, rubbing] = [damaged, all, rubbing].map(|moments| thirds(moments, start, end - start));
+            let [damaged, rubs] = self.moments(*nodes);
+            let [damaged, all, rubs] = [damaged, all, rubs].map(|moments| thirds(moments, start, end - start));
             for (k, point) in points.into_iter().enumerate() {
                 let share = cracked(damaged[k], all[k]);
                 // Where damage is so uneven that one of them would pull, nine stand for what is around them.
-                few &= share >= -NOTHING;
+                few &= share >= -NOTHING && rubs[k] >= -NOTHING && rubs[k] <= share + NOTHING;
                 if share > NOTHING {
-                    spots.push(dry(point, start + 0.5 * k as f64 * (end - start), share, [damaged[k], rubbing[k]]));
+                    spots.push(dry(point, start + 0.5 * k as f64 * (end - start), share, [damaged[k], rubs[k]]));
                 }
             }
         }
         if !few {
             spots.truncate(before);
             for point in 0..DRY {
-                let [damaged, all, rubbing] = self.around(point);
+                let [damaged, all, rubs] = self.around(point);
                 let share = cracked(damaged, all);
                 if share > NOTHING {
-                    spots.push(dry(point, point as f64 / (DRY - 1) as f64, share, [damaged, rubbing]));
+                    spots.push(dry(point, point as f64 / (DRY - 1) as f64, share, [damaged, rubs]));
                 }
             }
         }
         if law.bond.is_some_and(|bond| bond.residual > 0.0) {
-            spots.push(Spot { point: POINTS - 1, part: Part::Stays, at: 0.5, share: 1.0, weight: 0.0, rubs: 0.0 });
+            spots.push(Spot { point: POINTS - 1, part: Part::Stays, at: 0.5, share: 1.0, weight: 0.0, rubbing: 0.0 });
         }
     }
 
@@ -416,8 +417,8 @@ impl Crack {
         for n in nodes {
             for (part, factor) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
                 let hat = 1.0 - ((n as f64 + part) - centre as f64).abs() / apart as f64;
-                let (damage, chi) = (self.between(n, part), self.rubbing(n, part));
-                for (sum, value) in sums.iter_mut().zip([damage, 1.0, chi]) {
+                for (sum, value) in sums.iter_mut().zip([self.damage_between(n, part), 1.0, self.chi_between(n, part)])
+                {
                     *sum += factor * hat * value;
                 }
             }
@@ -432,10 +433,12 @@ impl Crack {
         between(&self.line, at)
     }
 
-    /// Takes opening and slide at the ends from the points that are held, after a step.
+    /// Takes opening and slide at the ends from the points, after a step.
     pub(crate) fn follow(&mut self, points: &[Point]) {
-        let mut held = self.spots.iter().filter(|spot| spot.part == Part::Held);
-        let (Some(first), Some(second)) = (held.next(), held.next()) else { return };
+        // Where nothing is left of the bond, all that has cracked moves alike.
+        let part = if self.is_gone() { Part::Dry } else { Part::Held };
+        let mut ends = self.spots.iter().filter(|spot| spot.part == part);
+        let (Some(first), Some(second)) = (ends.next(), ends.next_back()) else { return };
         let of = |spot: &Spot| [points[spot.point].gap, points[spot.point].slide];
         let (from, to, length) = (of(first), of(second), second.at - first.at);
         if length > 0.0 {
@@ -450,7 +453,7 @@ impl Crack {
         let residual = law.bond.map_or(0.0, |bond| bond.residual);
         let shear = law.shear.stiffness;
         let breaks = law.breaking_stiffness();
-        let [_, mut energy] = self.rubbed(law, points);
+        let [_, mut energy] = self.friction_borne(law, points);
         for spot in &self.spots {
             let point = &points[spot.point];
             energy += match spot.part {
@@ -469,9 +472,12 @@ impl Crack {
         energy
     }
 
-    /// What the bond lost in a step of a joint with springs that ended at `time` [s]; its points are placed anew where it lost something.
+    /// What the bond lost in a step of a joint with springs that ended at `time` [s]; its points are placed anew where it lost something or its sides touch elsewhere.
     pub(crate) fn wear(&mut self, law: &Law, points: &mut [Point], time: f64) -> Worn {
         let (Some(bond), Normal::Springs { both, press, .. }) = (law.bond, law.normal) else { return Worn::default() };
+        if self.broken.is_finite() && self.touching(press) == self.split {
+            return Worn::default();
+        }
         let [near, far] = self.line;
         // Nothing that has not cracked is near its strength: most joints at most times.
         let sheared = law.shear.stiffness * near[1].abs().max(far[1].abs());
@@ -482,7 +488,7 @@ impl Crack {
             return Worn::default();
         }
         let before = self.stored(law, points);
-        let mut rubs = self.rubbed(law, points);
+        let mut friction = self.friction_borne(law, points);
         let mut taken = 0.0;
         let mut worn = false;
         for n in 0..NODES {
@@ -495,18 +501,22 @@ impl Crack {
             let then = between(&self.was, x);
             let grown = [w - then[0], s.abs() - then[1].abs()].map(|way| way.max(0.0));
             let before = self.nodes[n];
-            let kept = |node: &Node| node.rubs([w, s], law);
+            let kept = |node: &Node| node.friction([w, s], law);
             let (lost, had) = (self.wear_node(n, [w, s], grown, law, &bond), kept(&before));
             let [borne, stored] = kept(&self.nodes[n]);
-            rubs[0] -= weight * (borne - had[0]) * s.signum();
-            rubs[1] += weight * (stored - had[1]);
+            friction[0] -= weight * (borne - had[0]) * s.signum();
+            friction[1] += weight * (stored - had[1]);
             let lost = lost - (stored - had[1]);
-            // What is crushed may have stored nothing along the joint.
+            // A crushed node may have taken nothing.
             if self.nodes[n] != before {
                 worn = true;
                 taken += weight * lost;
                 self.reach = self.reach.max(w.max(s.abs()));
             }
+        }
+        // What is left of it has no points any more.
+        if worn && 1.0 - self.damage() <= NOTHING {
+            self.nodes.fill(Node::GONE);
         }
         let split = if worn || !intact { self.touching(press) } else { self.split };
         if !worn && split == self.split {
@@ -527,13 +537,13 @@ impl Crack {
             *point = Point { gap, slide, ..kept };
         }
         self.set(points);
-        self.rub(law, points, rubs);
+        self.share_friction(law, points, friction);
         let lost = before - self.stored(law, points);
         Worn { bond: taken, beyond: lost - taken }
     }
 
     /// What has cracked bears along the joint, and what its springs along store [N, J].
-    fn rubbed(&self, law: &Law, points: &[Point]) -> [f64; 2] {
+    fn friction_borne(&self, law: &Law, points: &[Point]) -> [f64; 2] {
         let along = law.breaking_stiffness();
         let dry = self.spots.iter().filter(|spot| spot.part == Part::Dry && along > 0.0);
         dry.fold([0.0; 2], |[whole, energy], spot| {
@@ -544,8 +554,9 @@ impl Crack {
 
     /// Has what has cracked bear `whole` along the joint [N], or what stores no more than `energy` [J]: all its points stretched alike, those that
     /// friction lets.
-    fn rub(&self, law: &Law, points: &mut [Point], [whole, energy]: [f64; 2]) {
-        let (stiffness, along, mu) = (law.normal_stiffness(), law.breaking_stiffness(), law.slow_friction());
+    fn share_friction(&self, law: &Law, points: &mut [Point], [whole, energy]: [f64; 2]) {
+        let (stiffness, along) = (law.normal_stiffness(), law.breaking_stiffness());
+        let mu = |point: &Point| law.friction.map_or(0.0, |friction| friction.at(point.speed));
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry && along > 0.0);
         let (mut rest, mut held, mut slides) =
             (whole, dry().map(|spot| spot.share * along).sum::<f64>(), [false; POINTS]);
@@ -558,7 +569,7 @@ impl Crack {
                 }
                 let point = &mut points[spot.point];
                 let pressed = spot.share * stiffness * (-point.gap - point.crushed).max(0.0);
-                let most = spot.rubs * mu * pressed;
+                let most = spot.rubbing * mu(point) * pressed;
                 point.bearing = stretch * spot.share * along;
                 if point.bearing.abs() > most {
                     point.bearing = most.copysign(stretch);
@@ -570,7 +581,7 @@ impl Crack {
                 break;
             }
         }
-        let [_, stored] = self.rubbed(law, points);
+        let [_, stored] = self.friction_borne(law, points);
         if stored > energy.max(0.0) {
             let part = (energy.max(0.0) / stored).sqrt();
             dry().for_each(|spot| points[spot.point].bearing *= part);
@@ -597,9 +608,12 @@ impl Crack {
                 return;
             }
             passed[mode] = true;
-            // What friction goes on to bear its springs keep.
-            let stored = 0.5 * (strength * strength - goes_on * goes_on) / k;
-            let decay = ((bond.energy[mode] - stored) / ((1.0 - BROKEN) * strength)).max(0.0);
+            // Of what the bond stores, and of what breaking takes from here on, the springs of friction keep a part.
+            let kept = |node: &Node| if mode == 1 { node.friction([w, s], law)[1] } else { 0.0 };
+            let (had, left) = (kept(&node), node.left);
+            let capacity = bond.energy[mode] * node.rest[mode];
+            let stored = 0.5 * (from * limit - goes_on * goes_on / k) + had;
+            let decay = ((capacity - stored) / (from - BROKEN * strength)).max(0.0);
             // What has no strength breaks at once.
             let decay = if strength > 0.0 { decay } else { 0.0 };
             // Where the limit has come to the stretch as pressure fell, the rest is no work of breaking.
@@ -609,7 +623,12 @@ impl Crack {
             let to = strength * node.left;
             if to > BROKEN * strength {
                 node.lost[mode] = 1.0 - to / (k * stretch);
-                taken += decay * (from - to) - 0.5 * (to * stretch - from * at);
+                let spent = decay * (from - to) - 0.5 * (to * stretch - from * at);
+                taken += spent;
+                if bond.energy[mode] > 0.0 {
+                    node.rest[mode] = (capacity - spent + kept(&node) - had) / bond.energy[mode];
+                }
+                node.rest[1 - mode] *= node.left / left;
             } else {
                 // What bears next to nothing bears nothing, and gives back nothing of what it stored.
                 node = Node::GONE;
@@ -750,7 +769,7 @@ mod tests {
         let mut crack = Crack::new(&law);
         // δ_c of opening is G/f_t and a little less: χ = 0.9 at 2.3 of it.
         stretch(&mut crack, [0.0; 2], [2.303 * 6.0 / 15e3, 0.0], &law);
-        let chi = crack.nodes[7].rubbing();
+        let chi = crack.nodes[7].chi();
         assert!((chi - 0.9).abs() < 0.01, "{chi}");
         stretch(&mut crack, [pressed, 0.0], [pressed, 3.2e-3], &law);
         let (damage, left) = (crack.nodes[7].damage(), crack.nodes[7].left);

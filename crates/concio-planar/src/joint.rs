@@ -445,10 +445,10 @@ impl Law {
             Normal::Springs { .. } => {
                 let beside = if self.damps_both() { dashpot } else { 0.0 };
                 // What crushes is all that presses.
-                let bounded = self.crushing.is_finite() && both > 0.0 && gap + 0.5 * h * u_n < 0.0;
+                let bounded = self.crushing.is_finite() && both > 0.0 && gap + point.crushed + 0.5 * h * u_n < 0.0;
                 let (apart, within) = if bounded { (0.0, both + press) } else { (both, press) };
                 let theta = if bounded { midpoint } else { theta_press };
-                contact.spring[0] = over(apart, beside, gap, u_n, midpoint);
+                contact.spring[0] = over(apart, beside, gap + point.crushed, u_n, midpoint);
                 contact.law[0] = over(within, dashpot - beside, gap + point.crushed, u_n, theta);
                 contact.compliant[0] = true;
                 if bounded {
@@ -577,7 +577,8 @@ impl Law {
             works.friction -= pressed * mean;
         }
         let pressed = if self.slip[0] > 0.0 { 0.0 } else { pressed };
-        let stored = |g: f64, crushed: f64| 0.5 * both * g * g + 0.5 * press * (g + crushed).min(0.0).powi(2);
+        let stored =
+            |g: f64, crushed: f64| 0.5 * both * (g + crushed).powi(2) + 0.5 * press * (g + crushed).min(0.0).powi(2);
         let before = stored(start, point.crushed);
         if slipped {
             works.impact += stored(point.gap, point.crushed) - before;

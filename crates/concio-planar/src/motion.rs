@@ -13,7 +13,7 @@ use smallvec::SmallVec;
 use crate::G;
 use crate::blocks::{Slot, Triple};
 use crate::body::Body;
-use crate::contact::{Contact, Effort, Known, Solver, Status, worse};
+use crate::contact::{Contact, Effort, Known, Solver, worse};
 use crate::crack::{self, Crack, Part, Spot};
 use crate::joint::{Friction, Law, Point, Start};
 use crate::order::Orders;
@@ -59,11 +59,13 @@ const ENOUGH: f64 = 100.0;
 /// How much deeper than their velocities took them the sides of a joint may overlap, over `REACH`: where a stone that falls comes upon another edge
 /// of its neighbour there would be a spring pressed in by nothing, and energy of nothing. Where they overlap so much less, what the spring had is lost.
 const JUMP: f64 = 3e-6;
+/// Part by which the shear of a bonded rigid joint is below its strength where it breaks.
+const SHEARED: f64 = 1e-9;
 /// Contact points of a pair that are kept in place: joints that may be crushed have more.
 const POINTS: usize = 3;
 
 /// A point of a joint without bond, but for where it is and how much of the joint.
-const UNBONDED: Spot = Spot { point: 0, part: Part::Whole, at: 0.0, share: 0.0, weight: 0.0, rubs: 1.0 };
+const UNBONDED: Spot = Spot { point: 0, part: Part::Whole, at: 0.0, share: 0.0, weight: 0.0, rubbing: 1.0 };
 
 /// How contact is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -864,13 +866,17 @@ impl Motion {
                         }
                     }
                     false => {
-                        let mut held = self.contacts[at..end].iter().zip(&self.owners[at..end]);
-                        let fails = held.any(|(contact, owner)| {
-                            let slides = matches!(contact.status, Status::Forth | Status::Back);
-                            let torn = contact.pressure[0] < 0.0 && contact.impulse[0] <= contact.pressure[0];
-                            owner.part == Part::Held && (slides || torn)
-                        });
-                        crack.break_rigid(law, points, fails, time);
+                        let held = self.contacts[at..end].iter().zip(&self.owners[at..end]);
+                        let held = held.filter(|(_, owner)| owner.part == Part::Held).map(|(contact, _)| contact);
+                        // How rigid points share the shear is not known: the joint has its strength as a whole.
+                        let (mut shear, mut strength, mut torn) = (0.0, 0.0, false);
+                        for contact in held {
+                            shear += contact.impulse[1];
+                            strength += contact.hold + contact.friction * contact.impulse[0];
+                            torn |= contact.pressure[0] < 0.0 && contact.impulse[0] <= contact.pressure[0];
+                        }
+                        let slides = strength.is_finite() && shear.abs() >= strength * (1.0 - SHEARED) && shear != 0.0;
+                        crack.break_rigid(law, points, torn || slides, time);
                     }
                 }
             }

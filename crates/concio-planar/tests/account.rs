@@ -7,6 +7,7 @@ use concio_planar::body::Body;
 use concio_planar::joint::{Friction, Law, Normal, Shear};
 use concio_planar::motion::{Forcing, Link, Motion, Setting, System};
 use concio_planar::shape::Place;
+use concio_verified::agrees;
 
 fn stone(x: [f64; 2], y: [f64; 2]) -> Body {
     Body::rectangle("stone", x, y, 20e3 / G * (x[1] - x[0]) * (y[1] - y[0]) * 0.3)
@@ -113,7 +114,8 @@ fn what_slips_off_an_edge_is_lost() {
         let mut motion = Motion::new(&system, Setting::new(1e-3));
         motion.stand(1e-10, 400);
         let initial = motion.account.elastic;
-        assert!((initial / (0.5 * 5e4 * 5e4 / press) - 1.0).abs() < 1e-6, "{initial}");
+        let subject = format!("Springs: energy of a loaded joint at rest; k = {press:e} N/m, {speed} m/s");
+        agrees!(subject, "F²/(2 k)", "J", initial, 0.5 * 5e4 * 5e4 / press, 1e-6);
         motion.step(Forcing { base: [-speed, 0.0], held: 0.0 });
         let mut parted = false;
         for _ in 0..600 {

@@ -4,6 +4,7 @@ use concio_planar::G;
 use concio_planar::body::Body;
 use concio_planar::joint::{Bond, Friction, Law, Normal, Shear};
 use concio_planar::motion::{Forcing, Link, Motion, Setting, System};
+use concio_verified::{agrees, farthest};
 
 /// A block of `length` × `height` m, 0.3 m thick, of 20 kN/m³.
 fn block([length, height]: [f64; 2]) -> Body {
@@ -96,7 +97,9 @@ fn a_bonded_joint_cracks_from_its_edge() {
             assert!(length != 1.0 || (expected / known - 1.0).abs() < 5e-3, "{expected} instead of {known}");
             let found = bears([length, length], mortar(length, [energy, 0.0]));
             println!("block of {length} m, {energy} N/m: {found:.4} g, plane section {expected:.4} g");
-            assert!((found / expected - 1.0).abs() < 0.03, "{length} m, {energy} N/m: {found} instead of {expected}");
+            let subject =
+                format!("Bonds: block that cracks from its edge, tilt it bears; {length} m, G_f^I = {energy} N/m");
+            agrees!(subject, "2,000 softening springs in a plane section", "g", found, expected, 0.03);
         }
     }
 }
@@ -112,7 +115,8 @@ fn mortar_weak_in_shear_bears_no_more() {
         (bond.cohesion, bond.tan_angle) = (cohesion * 0.3, 0.6);
         let found = bears([1.0, 1.0], Law { friction: Some(Friction::coulomb(0.6)), ..law });
         println!("c {cohesion} Pa, {energy} N/m: {found:.4} g, plane section {expected:.4} g");
-        assert!((found / expected - 1.0).abs() < 0.03, "{cohesion} Pa, {energy} N/m: {found} instead of {expected}");
+        let subject = format!("Bonds: block of 1 m on mortar weak in shear, tilt it bears; c = {cohesion} Pa");
+        agrees!(subject, "2,000 softening springs in a plane section", "g", found, expected, 0.03);
     }
 }
 
@@ -128,7 +132,8 @@ fn a_rigid_bonded_joint_is_as_strong_as_a_plane_section() {
         let stress = 20e3 * length;
         let expected = ((stress + 50e3) / (3.0 * stress)).max(1.0);
         let found = bears([length, length], law);
-        assert!((found / expected - 1.0).abs() < 0.01, "{length} m: {found} instead of {expected}");
+        let subject = format!("Bonds: block on a rigid bonded joint, tilt it bears; {length} m");
+        agrees!(subject, "plane section, (N + f_t A) ℓ/6 = a W h/2", "g", found, expected, 0.01);
     }
 }
 
@@ -143,7 +148,7 @@ fn full_breaks_take_their_fracture_energy() {
     let mut motion = Motion::new(&torn, Setting::new(1e-4));
     (0..2000).for_each(|_| motion.step(Forcing::default()));
     assert!(motion.crack(0).expect("a bond").is_gone());
-    assert!((motion.account.bond / (20.0 * area) - 1.0).abs() < 1e-3, "{} J", motion.account.bond);
+    agrees!("Bonds: energy of a joint torn off", "G_f^I A", "J", motion.account.bond, 20.0 * area, 1e-3);
     for pressure in [10e3, 60e3, 600e3] {
         law.bond = law.bond.map(|bond| Bond { cohesion: 20e3 * area, tan_angle: 0.6, ..bond });
         law.friction = Some(Friction::coulomb(0.6));
@@ -157,7 +162,8 @@ fn full_breaks_take_their_fracture_energy() {
         }
         let crack = motion.crack(0).expect("a bond");
         assert!(crack.is_gone() && crack.length() == 1.0 && crack.damage() == 1.0);
-        assert!((motion.account.bond / (100.0 * area) - 1.0).abs() < 1e-3, "{pressure} Pa: {} J", motion.account.bond);
+        let subject = format!("Bonds: energy of a joint sheared off; under {} kPa", 1e-3 * pressure);
+        agrees!(subject, "G_f^II A", "J", motion.account.bond, 100.0 * area, 1e-3);
     }
 }
 
@@ -174,7 +180,9 @@ fn a_slide_that_turns_round_is_held_by_friction_at_rest() {
             motion.go(step, &|from, to| Forcing { base: [base(to) - base(from), 0.0], held: 0.0 });
         }
         let way = motion.places[0].centre[0] - 0.5;
-        assert!((way + 15.42e-3).abs() < within, "{} mm with steps of {step} s", 1e3 * way);
+        let subject =
+            format!("Sliding: block with μ_s 0.4, μ_d 0.1 under 0.42 g at 2 Hz, way after 2 s; steps of {step} s");
+        agrees!(subject, "integration in steps of 2 µs that rests where v = 0", "m", way, -15.42e-3, abs: within);
     }
 }
 
@@ -202,7 +210,8 @@ fn slow_loads_do_not_lag() {
             motion.go(2e-2, &|from, to| Forcing { base: [tilt * (to - from), 0.0], held: 0.0 });
         }
         let way = (motion.places[0].centre[0] - start).abs();
-        assert!((way / expected - 1.0).abs() < 2e-3, "{way} instead of {expected} m in {rise} s");
+        let subject = format!("Springs: soft block tilted to 0.1 g, way of its centre; in {rise} s");
+        agrees!(subject, "f/k + θ h/2, θ = f h/2/(k_n ℓ²/12 − W h/2)", "m", way, expected, 2e-3);
         assert_eq!(motion.counters.moving, 0);
     }
 }
@@ -286,5 +295,45 @@ fn a_sheared_joint_that_is_relieved_takes_no_energy_back() {
         motion.go(2e-2, &|from, to| Forcing { base: [0.0, -relief * (to - from) * 200.0], held: 0.0 });
         assert!(motion.account.bond >= last, "{} after {last}", motion.account.bond);
         last = motion.account.bond;
+    }
+}
+
+/// A joint that has been sheared off bears what friction does, and turned round it gives that back with the stiffness that it had whole: μ N − k d, until it
+/// slides the other way. So much that the bond stored at its strength is still stored after it broke, and the bond takes G_f A all the same (P10).
+#[test]
+fn a_broken_joint_sticks_with_its_stiffness() {
+    let area = 0.3;
+    for energy in [20.0, 100.0] {
+        let mut law = mortar(1.0, [20.0, energy]);
+        law.bond = law.bond.map(|bond| Bond { cohesion: 20e3 * area, tan_angle: 0.6, ..bond });
+        law.friction = Some(Friction::coulomb(0.5));
+        let mut sheared = system(block([1.0, 0.5]), law);
+        let (load, stiffness) = (600e3 * area, 50e9 * area);
+        sheared.load[0] = [0.0, -load];
+        sheared.held[0] = [true, false, true];
+        let mut motion = Motion::new(&sheared, Setting { still: true, ..Setting::new(2e-2) });
+        assert!(motion.stand(1e-12, 4000));
+        let at_rest = motion.account.elastic;
+        let go = |motion: &mut Motion, way: f64| motion.go(2e-2, &|_, _| Forcing { base: [0.0; 2], held: way });
+        (0..4000).for_each(|_| go(&mut motion, 1e-6));
+        assert!(motion.crack(0).expect("a bond").is_gone());
+        let subject = format!("Bonds: joint sheared off under 600 kPa, energy; G_f^II = {energy} N/m");
+        agrees!(subject, "G_f^II A (P10)", "J", motion.account.bond, energy * area, 1e-3);
+        let borne = 0.5 * load;
+        let subject = format!("Bonds: joint sheared off under 600 kPa, force it bears after; G_f^II = {energy} N/m");
+        agrees!(subject, "μ N", "N", motion.pull, borne, 1e-6);
+        let slack = 2.0 * borne / stiffness;
+        let back = (1..=12).map(|step| {
+            go(&mut motion, -0.1 * slack);
+            let expected = (borne - stiffness * 0.1 * slack * f64::from(step)).max(-borne);
+            (motion.pull / borne, expected / borne)
+        });
+        let subject = format!(
+            "Bonds: joint sheared off and turned round, largest error of its force over μ N; G_f^II = {energy} N/m"
+        );
+        agrees!(subject, "max(μ N − k d, −μ N)", "", farthest(back), 0.0, abs: 1e-6);
+        let account = &motion.account;
+        let gone = account.held + at_rest - account.elastic - account.friction - account.bond - account.impact;
+        assert!(gone.abs() < 1e-9 * account.held, "{account:?}");
     }
 }

@@ -6,6 +6,7 @@ use concio_planar::G;
 use concio_planar::body::Body;
 use concio_planar::motion::{Forcing, Motion, Setting, System};
 use concio_planar::tie::Tie;
+use concio_verified::agrees;
 
 const MASS: f64 = 1000.0;
 const STIFFNESS: f64 = 4e6;
@@ -38,10 +39,6 @@ fn unbalanced(motion: &Motion, given: f64) -> f64 {
     motion.kinetic() + a.elastic + a.friction + a.impact + a.damping + a.bond + a.device - a.input - given
 }
 
-fn close(found: f64, expected: f64, relative: f64) {
-    assert!((found / expected - 1.0).abs() <= relative, "{found} instead of {expected}");
-}
-
 /// Without inertia: what friction does not hold of m a the rod holds, f = m a − μ m g, whichever end is named first.
 #[test]
 fn a_rod_holds_what_friction_does_not() {
@@ -53,7 +50,8 @@ fn a_rod_holds_what_friction_does_not() {
         motion.go(h, &|from, to| Forcing { base: [-(to - from) * a, 0.0], held: 0.0 });
     }
     // Contact is solved to a millionth of what gravity does in a step, here m g.
-    assert!((force(&motion) - MASS * (a - mu * G)).abs() <= 1e-6 * MASS * G, "{}", force(&motion));
+    let expected = MASS * (a - mu * G);
+    agrees!("Ties: rod that holds a pushed block", "m a − μ m g", "N", force(&motion), expected, abs: 1e-6 * MASS * G);
     assert_eq!(motion.counters.unsolved, 0);
     // The other way it is slack, and the block goes.
     let still = Setting { still: true, ..Setting::new(h) };
@@ -79,7 +77,9 @@ fn a_rod_is_a_spring() {
         worst / (MASS * a)
     };
     let [coarse, fine] = [1e-3, 5e-4].map(error);
-    assert!(fine < 5e-3 && (coarse / fine - 4.0).abs() < 0.4, "{coarse:e} {fine:e}");
+    let subject = "Ties: block on a rod, accelerated at once, largest error of the force over m a";
+    agrees!(subject, "m a (1 − cos ω t)", "", fine, 0.0, abs: 5e-3);
+    agrees!("Ties: block on a rod, accelerated at once, how the error falls where the step is halved", "4, second order", "", coarse / fine, 4.0, abs: 0.4);
 }
 
 /// Two blocks that part: nothing until the slack is gone, v √(k m/2) at most, and then they go on towards each other as fast
@@ -104,10 +104,11 @@ fn a_slack_rod_bears_late_and_never_pushes() {
         (motion, peak, first)
     };
     let (motion, peak, first) = parted(tie);
-    assert!((first - slack / v).abs() <= 1.01 * h, "{first}");
-    close(peak, v * (0.5 * STIFFNESS * MASS).sqrt(), 1e-3);
+    agrees!("Ties: slack rod between blocks that part, instant it bears", "slack/v", "s", first, slack / v, abs: 1.01 * h);
+    let expected = v * (0.5 * STIFFNESS * MASS).sqrt();
+    agrees!("Ties: slack rod between blocks that part, peak force", "v √(k m/2)", "N", peak, expected, 1e-3);
     let after = motion.velocities[0][0] - motion.velocities[1][0];
-    close(after, v, 2e-3);
+    agrees!("Ties: slack rod between blocks that part, speed at which they come back", "v", "m/s", after, v, 2e-3);
     assert_eq!((force(&motion), motion.account.device), (0.0, 0.0));
     let given = 0.25 * MASS * v * v;
     assert!(unbalanced(&motion, given).abs() < 1e-9 * given, "{:e}", unbalanced(&motion, given));
@@ -130,10 +131,13 @@ fn a_rod_yields_and_unloads_as_it_was_loaded() {
         motion.step(Forcing::default());
         peak = peak.max(force(&motion));
     }
-    close(peak, most, 1e-12);
-    close(yielded(&motion), plastic, 1e-4);
-    close(motion.account.device, most * yielded(&motion), 1e-9);
-    close(-motion.velocities[0][0], most / (STIFFNESS * MASS).sqrt(), 1e-3);
+    agrees!("Ties: rod that yields, peak force", "f_y", "N", peak, most, 1e-12);
+    let against = "½ m v² = f_y²/2 k + f_y e_p";
+    agrees!("Ties: rod that yields, plastic stretch", against, "m", yielded(&motion), plastic, 1e-4);
+    let taken = motion.account.device;
+    agrees!("Ties: rod that yields, energy taken", "f_y e_p", "J", taken, most * yielded(&motion), 1e-9);
+    let (back, expected) = (-motion.velocities[0][0], most / (STIFFNESS * MASS).sqrt());
+    agrees!("Ties: rod that yields, speed of the block after", "f_y/√(k m)", "m/s", back, expected, 1e-3);
     assert_eq!(force(&motion), 0.0);
     assert!(unbalanced(&motion, given).abs() < 1e-9 * given, "{:e}", unbalanced(&motion, given));
     // Again, too slow to yield.
@@ -149,7 +153,8 @@ fn a_rod_yields_and_unloads_as_it_was_loaded() {
         }
         peak = peak.max(force(&motion));
     }
-    close(peak, slow * (STIFFNESS * MASS).sqrt(), 1e-3);
+    let expected = slow * (STIFFNESS * MASS).sqrt();
+    agrees!("Ties: rod that has yielded, pulled again, peak force", "v √(k m)", "N", peak, expected, 1e-3);
     assert!((from - stretched).abs() < 1.01 * slow * h, "{from} {stretched}");
     assert_eq!(yielded(&motion), stretched);
 }
@@ -174,7 +179,9 @@ fn a_rod_turns_with_what_it_holds() {
         last = x;
         assert!(motion.time < 20.0);
     }
-    close(crossed[2] - crossed[0], 4.0 * (length / G).sqrt() * 1.685_750, 1e-4);
+    let (period, expected) = (crossed[2] - crossed[0], 4.0 * (length / G).sqrt() * 1.685_750);
+    let against = "4 √(L/g) K(sin 30°) (Abramowitz and Stegun, table 17.1)";
+    agrees!("Ties: block that hangs on a rod, period from 60°", against, "s", period, expected, 1e-4);
     let swung = MASS * G * length * (1.0 - c);
     assert!(unbalanced(&motion, 0.0).abs() < 1e-4 * swung, "{:e}", unbalanced(&motion, 0.0) / swung);
     assert_eq!(motion.places[0].angle, 0.0);
@@ -208,7 +215,15 @@ fn a_block_tied_down_rocks_later() {
     assert!(force(&stands) < 1e-6 * most, "{}", force(&stands));
     let middle = 0.5 * (lifts + goes);
     let held = tilted(middle);
-    close(force(&held), (middle - lifts) * MASS * G * 0.5 * height / (2.0 * b), 1e-4);
+    let expected = (middle - lifts) * MASS * G * 0.5 * height / (2.0 * b);
+    agrees!(
+        "Ties: slender block tied down and tilted, force",
+        "(m a h − m g b)/2 b",
+        "N",
+        force(&held),
+        expected,
+        1e-4
+    );
     assert!(held.places[0].angle < 0.0 && held.places[0].angle > -1e-4);
     let held = tilted(0.99 * goes);
     assert_eq!(yielded(&held), 0.0);

@@ -3,6 +3,7 @@
 use concio_planar::body::Body;
 use concio_planar::joint::{Law, Normal, Shear};
 use concio_planar::motion::{Forcing, Link, Motion, Setting, System};
+use concio_verified::agrees;
 
 const LENGTH: f64 = 0.4;
 const HEIGHT: f64 = 1.1;
@@ -38,7 +39,11 @@ fn a_block_on_springs_sways_as_two_unknowns_do() {
     for (normal, lets_go) in [(both, false), (press, true)] {
         let found = block(normal, lets_go).slowest().expect("it is held");
         // Under its weight it stands 15 µm lower than it was laid.
-        assert!((found.frequency / expected() - 1.0).abs() < 5e-5, "{found:?} instead of {}", expected());
+        let subject = format!(
+            "Springs: block that sways and turns on its joint, ω₁; {}",
+            if lets_go { "no tension" } else { "elastic" }
+        );
+        agrees!(subject, "the lower root of two unknowns, u and θ", "rad/s", found.frequency, expected(), 5e-5);
         assert!(found.damping > 0.0, "{found:?}");
     }
 }
@@ -47,8 +52,9 @@ fn a_block_on_springs_sways_as_two_unknowns_do() {
 #[test]
 fn a_rigid_joint_holds_what_it_bears() {
     let found = block(Normal::Rigid { restitution: 0.0, rocking: 1.0 }, false).slowest().expect("it sways");
-    assert!((found.frequency / (ALONG / MASS).sqrt() - 1.0).abs() < 1e-5, "{found:?}");
-    assert!((found.damping / (300.0 / (2.0 * (ALONG * MASS).sqrt())) - 1.0).abs() < 1e-4, "{found:?}");
+    let (omega, ratio) = ((ALONG / MASS).sqrt(), 300.0 / (2.0 * (ALONG * MASS).sqrt()));
+    agrees!("Springs: rigid joint that gives way along, ω", "√(k/m)", "rad/s", found.frequency, omega, 1e-5);
+    agrees!("Springs: rigid joint that gives way along, damping ratio", "c/(2 √(k m))", "", found.damping, ratio, 1e-4);
     let body = Body::rectangle("b", [0.0, LENGTH], [0.0, HEIGHT], MASS);
     let mut motion = Motion::new(&System::dry(&[body], 0.6), Setting::new(1e-4));
     assert!(motion.stand(1e-10, 400));
@@ -71,7 +77,8 @@ fn a_tall_stack_of_rigid_joints_sways_on_what_gives_way_below() {
         assert!(motion.stand(1e-10, 400));
         let expected = (ALONG / (MASS * courses as f64)).sqrt();
         let found = motion.slowest().unwrap_or_else(|| panic!("{courses} courses sway"));
-        assert!((found.frequency / expected - 1.0).abs() < 1e-3, "{courses}: {found:?} instead of {expected}");
+        let subject = format!("Springs: stack of rigid courses on a bearing, ω₁; {courses}");
+        agrees!(subject, "√(k/(n m))", "rad/s", found.frequency, expected, 1e-3);
     }
 }
 
@@ -91,7 +98,8 @@ fn blocks_nearly_alike_sway_nearly_alike() {
         assert!(motion.stand(1e-10, 400));
         let found = motion.slowest().unwrap_or_else(|| panic!("{more} heavier"));
         let slower = expected() / (1.0 + more).sqrt();
-        assert!((found.frequency / slower - 1.0).abs() < 2e-4, "{more}: {found:?} instead of {slower}");
+        let subject = format!("Springs: two blocks of which one is a little heavier, ω₁; by {more:e}");
+        agrees!(subject, "that of the heavier one", "rad/s", found.frequency, slower, 2e-4);
     }
 }
 
@@ -135,12 +143,13 @@ fn ringing(h: f64, omega: f64, crushing: f64) -> [f64; 2] {
 fn what_rings_is_damped_by_an_eighth_at_most() {
     let x = 0.25 * concio_planar::joint::RESOLVED;
     assert!((x * x * x / (1.0 + x * x) / 0.125 - 1.0).abs() < 5e-3);
-    for crushing in [f64::INFINITY, 1e9] {
-        for x in [0.1_f64, 0.3, 0.5, 1.0, 3.0, 20.0] {
-            let h = 1e-3;
-            let expected = (x * x * x / (1.0 + x * x)).min(0.125);
-            for found in ringing(h, 4.0 * x / h, crushing) {
-                assert!((found / expected - 1.0).abs() < 1e-5, "x = {x}: {found} instead of {expected}");
+    let h = 1e-3;
+    for x in [0.1_f64, 0.3, 0.5, 1.0, 3.0, 20.0] {
+        let expected = (x * x * x / (1.0 + x * x)).min(0.125);
+        for (crushing, points) in [(f64::INFINITY, 3), (1e9, 9)] {
+            for (found, way) in ringing(h, 4.0 * x / h, crushing).into_iter().zip(["across", "along"]) {
+                let subject = format!("Springs: damping ratio of steps; h ω = {}, {way}, {points} points", 4.0 * x);
+                agrees!(subject, "x³/(1 + x²) at x = h ω/4, an eighth at most (P6)", "", found, expected, 1e-5);
             }
         }
     }

@@ -150,6 +150,11 @@ pub struct TieRow {
 }
 
 impl BondRow {
+    /// Mean damage of what has cracked of it, 0 … 1.
+    pub fn damage_of_crack(&self) -> f64 {
+        if self.crack > 0.0 { (self.damage / self.crack).min(1.0) } else { 0.0 }
+    }
+
     /// Where it has cracked: from where to where, 0 … 1 along the joint from its first end.
     pub fn cracks(&self) -> [[f64; 2]; 2] {
         [[0.0, self.crack_start], [1.0 - (self.crack - self.crack_start), 1.0]]

@@ -15,6 +15,7 @@ use concio::run::{Prepared, prepare, run_in_memory};
 use concio::samples::{Link, lumped, solver};
 use concio::simulate::{Sampling, Simulation};
 use concio::wall::End;
+use concio_verified::{agrees, farthest};
 
 use ready::ready;
 use restarted::restarted;
@@ -98,14 +99,17 @@ fn a_softening_joint_bears_its_strength_and_takes_its_energy() {
         let outcome = run(&drawn(bond, way, 2.0, None), &fine(1e-4), 4000);
         let row = outcome.bonds[0];
         let force = peak(&channel(&outcome, "joint/base|m1/elastic"));
-        assert!((force / F0 - 1.0).abs() < 1e-3, "peak force {force} of {F0}");
-        assert!((outcome.energies.bond / energy - 1.0).abs() < 1e-3, "{} of {energy} J", outcome.energies.bond);
+        let how = if opens { "opened" } else { "sheared" };
+        let of = |what: &str| format!("Bonds: softening joint, {what}; {how}");
+        agrees!(of("peak force"), "F₀", "N", force, F0, 1e-3);
+        agrees!(of("energy"), "G A", "J", outcome.energies.bond, energy, 1e-3);
         assert_eq!((row.spent, row.damage), (outcome.energies.bond, 1.0));
         // The block follows the beam but for the spring between: F/(10 K) of it, quasi-statically.
         let cracked = 1.1 * limit / way.abs() * 2.0;
-        assert!((row.cracked / cracked - 1.0).abs() < 1e-3, "cracked at {} instead of {cracked}", row.cracked);
+        agrees!(of("instant it cracks"), "F₀/k and the spring that draws it", "s", row.cracked, cracked, 1e-3);
         let last = limit + bond.decay * 1e3f64.ln();
-        assert!((row.broken / (last / way.abs() * 2.0) - 1.0).abs() < 1e-2, "broken at {}", row.broken);
+        let broken = last / way.abs() * 2.0;
+        agrees!(of("instant it breaks"), "δ₀ + δ_c ln 10³", "s", row.broken, broken, 1e-2);
         assert!(residual(&outcome) < 1e-4, "energy residual {}", residual(&outcome));
     }
 }
@@ -132,6 +136,7 @@ fn unloading_goes_along_the_secant() {
         let slip = channel(&outcome, "joint/base|m1/slip");
         let force = channel(&outcome, "joint/base|m1/elastic");
         let (mut reach, mut unloaded, mut softened) = (0.0f64, 0, 0);
+        let mut pairs = Vec::new();
         for (d, f) in slip.iter().zip(&force) {
             // The channel of a joint that opens is its gap; the force is that on the left block.
             let (d, f) = if opens { (*d, -*f) } else { (d.abs(), *f * d.signum()) };
@@ -144,8 +149,11 @@ fn unloading_goes_along_the_secant() {
             reach = reach.max(d);
             let envelope = if reach > limit { F0 * (-(reach - limit) / bond.decay).exp() / reach } else { K };
             // Between samples the joint may have been stretched a little further.
-            assert!((f - envelope * d).abs() <= 1e-3 * F0, "{f} instead of {} at {d} after {reach}", envelope * d);
+            pairs.push((f / F0, envelope * d / F0));
         }
+        let how = if opens { "opened and shut" } else { "sheared to and fro" };
+        let subject = format!("Bonds: softening joint stretched to and fro, largest error of the force over F₀; {how}");
+        agrees!(subject, "envelope and secant (B1), (B2)", "", farthest(pairs), 0.0, abs: 1e-3);
         assert!(unloaded > 300 && softened > 100, "{unloaded}, {softened}");
         assert!(residual(&outcome) < 1e-4, "energy residual {}", residual(&outcome));
     }
@@ -175,10 +183,18 @@ fn a_brittle_bond_cracks_when_its_strength_is_reached() {
             let outcome = run.outcome(rows, reason);
             let row = outcome.bonds[0];
             let allowed = if tolerance == 1e-3 { 3e-3 } else { 1e-5 };
-            assert!((row.cracked / time - 1.0).abs() < allowed, "{} instead of {time}", row.cracked);
+            let how = if opens {
+                "opened"
+            } else if sign > 0.0 {
+                "sheared"
+            } else {
+                "sheared the other way"
+            };
+            let of = |what: &str| format!("Bonds: brittle joint at a tolerance of {tolerance:e}, {what}; {how}");
+            agrees!(of("instant it cracks"), "asin(δ₀ ω/v₀)/ω", "s", row.cracked, time, allowed);
             assert_eq!((row.broken, row.damage), (row.cracked, 1.0));
             let free = sign * (v0 * v0 - (omega * limit).powi(2)).sqrt();
-            assert!((velocity / free - 1.0).abs() < allowed, "{velocity} instead of {free}");
+            agrees!(of("speed after"), "√(v₀² − ω²δ₀²)", "m/s", velocity, free, allowed);
             // Never before its strength, and beyond it by 1e-7 at most.
             let force = outcome.envelopes.joint_force[0];
             assert!((1.0..1.0 + 2e-7).contains(&(force / F0)) || (force / F0 - 1.0).abs() < 2e-9, "{force}");
@@ -219,6 +235,7 @@ fn a_sheared_joint_never_bears_more_than_its_strength() {
     let (area, stiffness, normal) = (0.03, 1.08e8, 5e3);
     let coulomb = |mu| Stribeck { static_: mu, dynamic: mu, slip_velocity: 0.0, beta: f64::INFINITY, alpha: 0.0 };
     let falling = Stribeck { static_: 0.6, dynamic: 0.42, slip_velocity: 1e-3, beta: 100.0, alpha: 0.0 };
+    let (mut strengths, mut energies) = (Vec::new(), Vec::new());
     for (cohesion, tan, law) in [(0.1e6, 0.6, coulomb(0.6)), (0.0, 0.6, coulomb(0.6)), (0.1e6, 0.75, falling)] {
         let strength = cohesion * area + normal * tan;
         let least = 0.5 * strength * strength / stiffness;
@@ -237,14 +254,17 @@ fn a_sheared_joint_never_bears_more_than_its_strength() {
             let borne: Vec<f64> = elastic.iter().zip(&friction).map(|(e, f)| e + f).collect();
             let most = peak(&borne).max(outcome.envelopes.joint_force[0]) / strength;
             println!("c {cohesion} tan φ {tan} G {}: {most}, {:?}", energy / area, outcome.counters);
-            assert!(most < 1.0 + 1e-3, "{most} of the strength at {} N/m", energy / area);
-            assert!(most > 1.0 - 1e-3, "{most} of the strength at {} N/m", energy / area);
+            strengths.push((most, 1.0));
             assert_eq!(outcome.bonds[0].damage, 1.0);
             let spent = if energy == 0.0 { least } else { energy };
-            assert!((outcome.energies.bond / spent - 1.0).abs() < 1e-3, "{} of {spent} J", outcome.energies.bond);
+            energies.push((outcome.energies.bond / spent, 1.0));
             assert!(residual(&outcome) < 1e-4, "energy residual {}", residual(&outcome));
         }
     }
+    let of = |what: &str| format!("Bonds: 15 sheared joints from brittle to tough, {what}, largest error over it");
+    let against = "c A + N tan φ (Lourenço and Rots 1997)";
+    agrees!(of("strength"), against, "", farthest(strengths), 0.0, abs: 1e-3);
+    agrees!(of("energy"), "G_f^II A, of brittle ones F₀²/(2 k)", "", farthest(energies), 0.0, abs: 1e-3);
 }
 
 /// The cracked part of a sheared joint rubs, the rest is elastic: (B1) with Coulomb's friction.
@@ -259,17 +279,24 @@ fn friction_grows_with_the_cracked_part() {
         let slip = channel(&outcome, "joint/base|m1/slip");
         let forces = ["elastic", "friction"].map(|f| channel(&outcome, &format!("joint/base|m1/{f}")));
         let damage = channel(&outcome, "joint/base|m1/damage");
+        let mut pairs = [Vec::new(), Vec::new(), Vec::new()];
         for (k, d) in slip.iter().enumerate() {
             let left = if *d > limit { (-(d - limit) / bond.decay).exp() } else { 1.0 };
             let left = if damage[k] == 1.0 { 0.0 } else { left };
             let intact = left * (limit / d).min(1.0);
-            assert!((damage[k] - (1.0 - intact)).abs() < 1e-6, "{} at {d}", damage[k]);
-            assert!((forces[0][k] - intact * K * d).abs() < 1e-6 * F0);
-            let rubs = (1.0 - left) * mu * normal;
-            assert!((forces[1][k] - rubs).abs() < allowed * mu * normal, "{} instead of {rubs}", forces[1][k]);
+            pairs[0].push((damage[k], 1.0 - intact));
+            pairs[1].push((forces[0][k] / F0, intact * K * d / F0));
+            pairs[2].push((forces[1][k] / (mu * normal), 1.0 - left));
         }
+        let name = if beta.is_finite() { "regularised" } else { "Coulomb's" };
+        let of = |what: &str| format!("Bonds: sheared joint that rubs, {what}; {name} friction");
+        let [damaged, held, rubbed] = pairs.map(farthest);
+        agrees!(of("largest error of the damage"), "1 − e^(−(d − δ₀)/δ_c) δ₀/d", "", damaged, 0.0, abs: 1e-6);
+        agrees!(of("largest error of the elastic force over F₀"), "(1 − D) k d", "", held, 0.0, abs: 1e-6);
+        let against = "(1 − e^(−(d − δ₀)/δ_c)) μ N";
+        agrees!(of("largest error of friction over μ N"), against, "", rubbed, 0.0, abs: allowed);
         assert_eq!(outcome.bonds[0].damage, 1.0);
-        assert!((outcome.energies.bond / energy - 1.0).abs() < 1e-3);
+        agrees!(of("energy"), "G A", "J", outcome.energies.bond, energy, 1e-3);
         assert!(residual(&outcome) < 1e-4, "energy residual {}", residual(&outcome));
     }
 }
@@ -293,7 +320,8 @@ fn a_cracked_joint_sticks_by_its_own_law() {
     let limit = F0 / K;
     let exact = limit + 0.5 * M * (v0 * v0 - limit * limit * K / M) / (0.5 * normal);
     let last = &rows.frame_displacement[rows.frame_displacement.len() - 5..];
-    assert!((last[0] / exact - 1.0).abs() < 1e-5, "{} instead of {exact}", last[0]);
+    let subject = "Bonds: brittle joint that cracks and slides, way";
+    agrees!(subject, "δ₀ + ½ m (v₀² − ω²δ₀²)/(μ N)", "m", last[0], exact, 1e-5);
     assert_eq!(last, [last[0]; 5], "it moved after it stopped");
 }
 
@@ -343,7 +371,7 @@ fn strengths_are_mohr_coulombs() {
         model.rubs.iter().for_each(|r| normal[r.joint as usize] = r.normal[0]);
         normal
     };
-    let mut changed = 0;
+    let (mut changed, mut strengths) = (0, Vec::new());
     for bond in &model.bonds {
         let e = bond.joint as usize;
         let joint = &model.joints[e];
@@ -357,11 +385,13 @@ fn strengths_are_mohr_coulombs() {
             }
             _ => 0.2e6 * area + normal[e] * 35f64.to_radians().tan(),
         };
-        assert!((bond.law.strength / expected - 1.0).abs() < 1e-12, "{joint:?}");
+        strengths.push((bond.law.strength / expected, 1.0));
         let stiffness = joint.weight * 5.4e7;
         assert!((bond.law.stiffness / stiffness - 1.0).abs() < 1e-12 && bond.law.is_brittle());
     }
     assert_eq!(changed, 8);
+    let subject = "Bonds: strengths of all joints of a panel, largest error over each";
+    agrees!(subject, "c A + N tan φ, of head joints f_t A", "", farthest(strengths), 0.0, abs: 1e-12);
 }
 
 /// An infinite strength gives the bits of an elastic wall without friction.

@@ -10,6 +10,7 @@ use concio::outcome::Outcome;
 use concio::record::{Recording, StopReason};
 use concio::run::{Prepared, joint_rows, prepare, run_in_memory};
 use concio::simulate::{Progress, Simulation};
+use concio_verified::{agrees, farthest};
 
 /// A single block, 10 kg, under 40 kN/m, with the devices `base` below and `top` above it.
 const BLOCK: &str = r#"
@@ -119,14 +120,13 @@ fn largest(values: &[f64]) -> f64 {
 fn a_dashpot_stops_a_block() {
     let run = Run::on(r#"{ law = "viscous", damping = "2 kN s/m" }"#, 0.05);
     let outcome = run.go(0.0, 0.3);
-    for (t, v) in outcome.recording.time.iter().zip(&outcome.recording.frame_velocity) {
-        let exact = 0.3 * (-2e3 * t / MASS).exp();
-        assert!((v - exact).abs() < 1e-6, "{v} instead of {exact} at {t}");
-    }
-    let last = outcome.recording.frame_displacement.last().unwrap();
-    assert!((last / (0.3 * MASS / 2e3) - 1.0).abs() < 1e-4, "{last}");
-    let taken = outcome.energies.damping / (0.5 * MASS * 0.09);
-    assert!((taken - 1.0).abs() < 1e-5, "{taken}");
+    let frames = outcome.recording.time.iter().zip(&outcome.recording.frame_velocity);
+    let off = farthest(frames.map(|(t, v)| (*v, 0.3 * (-2e3 * t / MASS).exp())));
+    let of = |what: &str| format!("Devices: viscous, block of 0.3 m/s, {what}");
+    agrees!(of("largest error of its speed"), "v₀ e^(−ct/m)", "m/s", off, 0.0, abs: 1e-6);
+    let last = *outcome.recording.frame_displacement.last().unwrap();
+    agrees!(of("way"), "v₀ m/c", "m", last, 0.3 * MASS / 2e3, 1e-4);
+    agrees!(of("energy taken"), "½ m v₀²", "J", outcome.energies.damping, 0.5 * MASS * 0.09, 1e-5);
     assert!(residual(&outcome) < 1e-5, "{}", residual(&outcome));
 }
 
@@ -143,12 +143,15 @@ fn a_dashpot_with_a_power_stops_a_block_in_finite_time() {
         let falling = beyond * c * v_0.powf(beyond) / MASS;
         let stop = v.powf(beyond) / falling;
         let outcome = Run::on(law, 1.5 * stop).go(0.0, v);
-        for (t, found) in outcome.recording.time.iter().zip(&outcome.recording.frame_velocity) {
-            let exact = (v.powf(beyond) - falling * t).max(0.0).powf(1.0 / beyond);
-            // Below 1e-4 v_0 the law is linear.
-            assert!((found - exact).abs() < 3e-5, "{found} instead of {exact} at {t} of {stop}, {law}");
-        }
-        assert!((outcome.energies.damping / outcome.energies.initial - 1.0).abs() < 1e-5);
+        let exact = |t: f64| (v.powf(beyond) - falling * t).max(0.0).powf(1.0 / beyond);
+        let frames = outcome.recording.time.iter().zip(&outcome.recording.frame_velocity);
+        let off = farthest(frames.map(|(t, found)| (*found, exact(*t))));
+        let of = |what: &str| format!("Devices: viscous with an exponent, block of 0.3 m/s, {what}; α = {alpha}");
+        // Below 1e-4 v_0 the law is linear.
+        let against = "v^(1−α) falls by (1 − α) c v_0^(1−α)/m";
+        agrees!(of("largest error of its speed"), against, "m/s", off, 0.0, abs: 3e-5);
+        let energies = &outcome.energies;
+        agrees!(of("energy taken"), "½ m v₀²", "J", energies.damping, energies.initial, 1e-5);
         let lost = outcome.envelopes.joint_dissipation[0];
         assert!((lost / outcome.energies.damping - 1.0).abs() < 1e-9, "{lost}");
         assert!(residual(&outcome) < 1e-5);
@@ -162,14 +165,16 @@ fn an_elastic_device_is_an_oscillator() {
     let decay = 0.5 * c / MASS;
     let omega = (k / MASS - decay * decay).sqrt();
     let outcome = Run::on(r#"{ law = "elastic", stiffness = "400 kN/m", damping = 120 }"#, 0.2).go(z, 0.0);
-    for (t, found) in outcome.recording.time.iter().zip(&outcome.recording.frame_displacement) {
-        let exact = z * (-decay * t).exp() * ((omega * t).cos() + decay / omega * (omega * t).sin());
-        assert!((found - exact).abs() < 1e-4 * z, "{found} instead of {exact} at {t}");
-    }
+    let exact = |t: f64| z * (-decay * t).exp() * ((omega * t).cos() + decay / omega * (omega * t).sin());
+    let frames = outcome.recording.time.iter().zip(&outcome.recording.frame_displacement);
+    let off = farthest(frames.map(|(t, found)| (found / z, exact(*t) / z)));
+    let subject = "Devices: elastic with damping, free decay, largest error over x₀";
+    agrees!(subject, "x₀ e^(−ct/2m) (cos ωt + c/(2mω) sin ωt)", "", off, 0.0, abs: 1e-4);
     assert!(residual(&outcome) < 1e-5, "{}", residual(&outcome));
     // The weight on it changes nothing, and mortar and friction are gone.
     assert_eq!(outcome.energies.friction, 0.0);
-    assert!((outcome.envelopes.joint_force[0] / (k * z) - 1.0).abs() < 1e-9);
+    let force = outcome.envelopes.joint_force[0];
+    agrees!("Devices: elastic with damping, peak force", "k x₀", "N", force, k * z, 1e-9);
 }
 
 /// Beside a spring each half cycle loses 2 F_s/k of the amplitude, whatever the weight; the account has the work.
@@ -185,13 +190,14 @@ fn a_friction_damper_loses_four_slip_forces_over_stiffness_in_a_cycle() {
         let run =
             Run { top: r#"{ law = "elastic", stiffness = "1000 kN/m" }"#, samples: 480, ..Run::on(base, 12.0 * half) };
         let outcome = run.go(z, 0.0);
-        for n in 0..=9 {
-            let exact = (z - 2.0 * f64::from(n) * slip / k) * if n % 2 == 0 { 1.0 } else { -1.0 };
-            let found = outcome.recording.frame_displacement[40 * n as usize];
-            assert!((found - exact).abs() < 2e-6, "{found} instead of {exact} after {n} half cycles, {base}");
-        }
+        let exact = |n: i32| (z - 2.0 * f64::from(n) * slip / k) * if n % 2 == 0 { 1.0 } else { -1.0 };
+        let frames = &outcome.recording.frame_displacement;
+        let off = farthest((0..=9).map(|n| (frames[40 * n as usize], exact(n))));
+        let name = if base.contains("sticks") { "sticking" } else { "regularised" };
+        let of = |what: &str| format!("Devices: friction damper beside a spring, {what}; {name}");
+        agrees!(of("amplitudes of 9 half cycles, largest error"), "x₀ − 2 n F_s/k", "m", off, 0.0, abs: 2e-6);
         let way: f64 = (0..9).map(|n| 2.0 * (z - (2.0 * f64::from(n) + 1.0) * slip / k)).sum();
-        assert!((outcome.energies.friction / (slip * way) - 1.0).abs() < 1e-3, "{}", outcome.energies.friction);
+        agrees!(of("energy taken"), "F_s times the way", "J", outcome.energies.friction, slip * way, 1e-3);
         assert!(residual(&outcome) < 1e-5, "{}", residual(&outcome));
     }
 }
@@ -206,10 +212,10 @@ fn a_friction_damper_slips_at_its_force() {
     };
     let outcome = run.go(0.0, 0.0);
     let exact = -0.5 * (50.0 - 300.0 / MASS) * 0.01;
-    let found = outcome.recording.frame_displacement.last().unwrap();
-    assert!((found / exact - 1.0).abs() < 1e-5, "{found} instead of {exact}");
-    let last = *force(&outcome).last().unwrap();
-    assert!((last.abs() / 300.0 - 1.0).abs() < 1e-5, "{last}");
+    let found = *outcome.recording.frame_displacement.last().unwrap();
+    agrees!("Devices: friction damper that slips, way", "½ (a − F_s/m) t²", "m", found, exact, 1e-5);
+    let last = force(&outcome).last().unwrap().abs();
+    agrees!("Devices: friction damper that slips, force", "F_s", "N", last, 300.0, 1e-5);
     // Below it, it holds but for creep.
     let held = Run { motion: run.motion.replace("50 m/s2", "25 m/s2"), ..run };
     let held = Run { base: r#"{ law = "friction-damper", slip_force = "0.3 kN", sticks = true }"#, ..held };
@@ -297,17 +303,12 @@ fn a_shaken_hysteretic_block_moves_as_integrated_independently() {
         let (found, forces) = (&outcome.recording.frame_displacement, force(&outcome));
         let size = exact.iter().fold(0.0f64, |m, y| m.max(y[0].abs()));
         assert!(size > 5.0 * law.displacement, "{size}");
-        for (k, y) in exact.iter().enumerate() {
-            assert!(
-                (found[k] - y[0]).abs() < 2e-4 * size,
-                "{} instead of {} at sample {k}, n = {}",
-                found[k],
-                y[0],
-                law.n
-            );
-            let expected = law.force(y[0], y[2]);
-            assert!((forces[k] - expected).abs() < 3e-3 * law.force, "{} instead of {expected} at {k}", forces[k]);
-        }
+        let of = |what: &str| format!("Devices: Bouc–Wen, block shaken at 11 Hz, {what}; n = {}", law.n);
+        let against = "Runge and Kutta's method of order 4, steps of 10 µs";
+        let ways = farthest(exact.iter().enumerate().map(|(k, y)| (found[k] / size, y[0] / size)));
+        agrees!(of("largest error of x over its peak"), against, "", ways, 0.0, abs: 2e-4);
+        let forces = exact.iter().enumerate().map(|(k, y)| (forces[k] / law.force, law.force(y[0], y[2]) / law.force));
+        agrees!(of("largest error of the force over F_y"), against, "", farthest(forces), 0.0, abs: 3e-3);
         assert!(outcome.energies.device > 10.0 * law.force * law.displacement);
         assert!(residual(&outcome) < 1e-5, "{}", residual(&outcome));
     }
@@ -350,10 +351,12 @@ fn hysteretic_loops_are_those_of_the_equation() {
         }
         worst = worst.max((forces[k] - law.force(to, zeta)).abs());
     }
-    assert!(worst < 2e-3 * law.force, "the force misses the loop by {worst} N");
+    let of = |what: &str| format!("Devices: Bouc–Wen with n = 1.5, drawn slowly, {what}");
+    let against = "ζ as a function of the displacement (I5)";
+    agrees!(of("largest error of the force over F_y"), against, "", worst / law.force, 0.0, abs: 2e-3);
     let device = channel(&outcome, "energy/device");
     let cycle = device[samples] - device[samples / 2];
-    assert!((cycle / work - 1.0).abs() < 2e-3, "{cycle} J instead of {work} J in a cycle");
+    agrees!(of("energy of a cycle"), against, "J", cycle, work, 2e-3);
     assert!(residual(&outcome) < 1e-4);
 
     let sharp = Hysteresis { n: 100.0, ..PLAIN };
@@ -361,10 +364,12 @@ fn hysteretic_loops_are_those_of_the_equation() {
     let device = channel(&outcome, "energy/device");
     let cycle = device[samples] - device[samples / 2];
     let bilinear = 4.0 * (1.0 - sharp.hardening) * sharp.force * (amplitude - sharp.displacement);
-    assert!((cycle / bilinear - 1.0).abs() < 0.01, "{cycle} J instead of {bilinear} J");
+    let of = |what: &str| format!("Devices: Bouc–Wen with n = 100, drawn slowly, {what}");
+    let against = "bilinear, 4 (1 − r) F_y (x − d_y)";
+    agrees!(of("energy of a cycle"), against, "J", cycle, bilinear, 0.01);
     let peak = outcome.envelopes.joint_force[0];
     let exact = sharp.force * (1.0 + sharp.hardening * (amplitude / sharp.displacement - 1.0));
-    assert!((peak / exact - 1.0).abs() < 0.01, "{peak} N instead of {exact} N");
+    agrees!(of("peak force"), "bilinear, F_y (1 + r (x/d_y − 1))", "N", peak, exact, 0.01);
 }
 
 const FLAG: &str = r#"{ law = "re-centring", stiffness = "5e6 N/m", post_stiffness = "2e5 N/m", activation_force = "1 kN", flag = 0.7 }"#;
@@ -393,7 +398,8 @@ fn a_re_centring_device_draws_a_flag_and_comes_back() {
     }
     let turn = largest(&d);
     let area = 2.0 * flag * activation * (1.0 - second / first) * (turn - yields);
-    assert!((outcome.energies.device / area - 1.0).abs() < 1e-3, "{} J instead of {area} J", outcome.energies.device);
+    let subject = "Devices: re-centring, energy of a cycle";
+    agrees!(subject, "area of the flag, 2 β F_a (1 − k₂/k₁) (x − d_a)", "J", outcome.energies.device, area, 1e-3);
     assert!(d[samples].abs() < 1e-6 && forces[samples].abs() < 5.0, "{} m, {} N left", d[samples], forces[samples]);
     assert!(residual(&outcome) < 1e-4, "{}", residual(&outcome));
 
@@ -422,7 +428,8 @@ fn a_flag_without_height_dissipates_nothing() {
     let beyond = energy - 0.5 * 1e3 * yields;
     let exact = yields + (-1e3 + (1e6f64 + 2.0 * 2e5 * beyond).sqrt()) / 2e5;
     let found = outcome.totals.peak_relative_displacement;
-    assert!((found / exact - 1.0).abs() < 1e-4, "{found} instead of {exact}");
+    let against = "½ m v² = ½ F_a d_a + F_a (x − d_a) + ½ k₂ (x − d_a)²";
+    agrees!("Devices: re-centring without height of its flag, struck, peak", against, "m", found, exact, 1e-4);
 }
 
 /// Loaded in one direction the laws are smooth: errors fall with the order of the scheme.

@@ -12,6 +12,7 @@ use concio::ground::record::{Format, Record, TextOptions, parse};
 use concio::ground::signal::{GroundMotion, compile, from_record};
 use concio::ground::{STANDARD_GRAVITY, measure, response_spectrum};
 use concio::quantity::{Acceleration, Frequency, Length, Time, Velocity};
+use concio_verified::{agrees, farthest};
 use proptest::prelude::*;
 
 fn record(dt: f64, npts: usize, a: impl Fn(f64) -> f64) -> Record {
@@ -68,7 +69,8 @@ fn spectrum_of_a_step() {
         for (period, sd) in spectrum.periods.iter().zip(&spectrum.sd) {
             let omega = 2.0 * PI / period;
             let peak = 2.0 / (omega * omega) * (1.0 + (-PI * damping / (1.0 - damping * damping).sqrt()).exp());
-            assert_close(*sd, peak, 1e-5);
+            let subject = format!("Ground motion: S_d of a step; ζ = {damping}, T = {period} s");
+            agrees!(subject, "a/ω² (1 + e^(−πζ/√(1 − ζ²)))", "m", *sd, peak, 1e-5);
         }
     }
 }
@@ -78,7 +80,8 @@ fn spectrum_at_resonance() {
     // From rest at r = 1 the envelope grows to the steady amplitude a/(2ζω²) and never passes it.
     let harmonic = record(0.001, 80_001, |t| 0.7 * (2.0 * PI * t).sin());
     let spectrum = response_spectrum(harmonic.dt, &harmonic.acceleration, 0.05, &[1.0]);
-    assert_close(spectrum.sd[0], 0.7 / (0.1 * 4.0 * PI * PI), 2e-5);
+    let expected = 0.7 / (0.1 * 4.0 * PI * PI);
+    agrees!("Ground motion: S_d of a sine at resonance", "a/(2 ζ ω²)", "m", spectrum.sd[0], expected, 2e-5);
     assert_close(spectrum.psv[0], spectrum.sd[0] * 2.0 * PI, 1e-14);
     assert_close(spectrum.psa[0], spectrum.sd[0] * 4.0 * PI * PI, 1e-14);
 }
@@ -96,7 +99,8 @@ fn stiff_oscillators_follow_the_ground() {
     // Soft ones stay behind: Sd tends to the ground's own displacement.
     let closed = record(0.005, 4001, |t| if t < 2.0 { (PI * t).sin() } else { 0.0 });
     let soft = response_spectrum(closed.dt, &closed.acceleration, 0.0, &[4000.0]);
-    assert_close(soft.sd[0], measure(&closed).pgd.value.abs(), 1e-3);
+    let expected = measure(&closed).pgd.value.abs();
+    agrees!("Ground motion: S_d of a soft oscillator", "peak ground displacement", "m", soft.sd[0], expected, 1e-3);
 }
 
 proptest! {
@@ -142,12 +146,14 @@ fn measures_of_one_sine() {
     let m = measure(&sine);
     assert_close(m.pga.value, peak, 1e-12);
     assert_close(m.pga.time, 0.25, 1e-12);
-    assert_close(m.pgv.value, peak * period / PI, 1e-5);
+    agrees!("Ground motion: one sine, peak velocity", "A T/π", "m/s", m.pgv.value, peak * period / PI, 1e-5);
     assert_close(m.pgv.time, 0.5, 1e-12);
-    assert_close(m.pgd.value, peak * period * period / (2.0 * PI), 1e-5);
+    let expected = peak * period * period / (2.0 * PI);
+    agrees!("Ground motion: one sine, peak displacement", "A T²/2π", "m", m.pgd.value, expected, 1e-5);
     assert_close(m.final_displacement, m.pgd.value, 1e-12);
     assert!(m.final_velocity.abs() < 1e-12);
-    assert_close(m.arias, PI / (2.0 * STANDARD_GRAVITY) * peak * peak * period / 2.0, 1e-9);
+    let expected = PI / (2.0 * STANDARD_GRAVITY) * peak * peak * period / 2.0;
+    agrees!("Ground motion: one sine, Arias intensity", "π/(2g) A² T/2", "m/s", m.arias, expected, 1e-9);
     // Husid curve of sin²: x − sin(4πx)/(4π) = 0.05 at x = 0.127863, solved by bisection; symmetric.
     let husid = |x: f64| x - (4.0 * PI * x).sin() / (4.0 * PI);
     let (mut low, mut high) = (0.0, 0.5);
@@ -156,7 +162,8 @@ fn measures_of_one_sine() {
         if husid(middle) < 0.05 { low = middle } else { high = middle }
     }
     assert_close(m.t5, low, 1e-4);
-    assert_close(m.d5_95, 1.0 - 2.0 * low, 1e-4);
+    let against = "x − sin(4πx)/4π = 0.05, by bisection";
+    agrees!("Ground motion: one sine, significant duration", against, "s", m.d5_95, 1.0 - 2.0 * low, 1e-4);
 }
 
 #[test]
@@ -168,7 +175,9 @@ fn measures_of_a_constant() {
     assert_close(m.final_displacement, -150.0, 1e-12);
     // 5 % step response: PSV = a T/(2π)(1 + e^{−πζ/√(1−ζ²)}), integrated over 0.1 … 2.5 s.
     let overshoot = 1.0 + (-PI * 0.05 / (1.0_f64 - 0.0025).sqrt()).exp();
-    assert_close(m.housner, 3.0 * overshoot / (4.0 * PI) * (2.5 * 2.5 - 0.1 * 0.1), 2e-3);
+    let expected = 3.0 * overshoot / (4.0 * PI) * (2.5 * 2.5 - 0.1 * 0.1);
+    let against = "PSV of a step, integrated from 0.1 s to 2.5 s";
+    agrees!("Ground motion: constant acceleration, Housner intensity", against, "m", m.housner, expected, 2e-3);
     let rest = measure(&record(0.01, 10, |_| 0.0));
     assert_eq!((rest.pga.value, rest.arias, rest.d5_95, rest.housner), (0.0, 0.0, 0.0, 0.0));
 }
@@ -243,8 +252,9 @@ fn coarsening_does_not_mirror_high_frequencies() {
     process::resample(&mut mixed, 0.01).unwrap();
     // Unfiltered, 98 Hz would come back as a full 2 Hz wave at 100 samples a second.
     let middle = 200..1800;
-    let error = middle.map(|k| (mixed.acceleration[k] - slow(k as f64 * 0.01)).abs()).fold(0.0, f64::max);
-    assert!(error < 2e-3, "{error}");
+    let error = farthest(middle.map(|k| (mixed.acceleration[k], slow(k as f64 * 0.01))));
+    let subject = "Ground motion: 2 Hz and 98 Hz at 100 samples a second, largest error";
+    agrees!(subject, "2 Hz alone", "m/s²", error, 0.0, abs: 2e-3);
 }
 
 #[test]
@@ -259,7 +269,8 @@ fn high_pass_by_its_response() {
         let warped = |f: f64| (PI * f * dt).tan();
         let gain = 1.0 / (1.0 + (warped(corner) / warped(frequency)).powi(2 * order as i32));
         let found = largest(&filtered.acceleration[6000..14_000]);
-        assert!((found - gain).abs() < 1e-3, "{frequency} Hz: {found} instead of {gain}");
+        let subject = format!("Ground motion: high pass, gain; order {order} at {corner} Hz, at {frequency} Hz");
+        agrees!(subject, "1/(1 + (f_c/f)^2n), frequencies pre-warped", "", found, gain, abs: 1e-3);
     }
     let drift = RecordInput { baseline: Baseline::HighPass { corner: Frequency::from_si(0.5), order: 4 }, ..input() };
     let filtered = prepare(record(dt, 20_001, |_| 1.0), &drift).unwrap();
@@ -396,6 +407,7 @@ fn path(displacements: &[f64], speed: f64) -> GroundMotion {
 fn a_tilt_follows_its_closed_form() {
     let (a, start, rise) = (4.905, 0.7, 10.0);
     let motion = tilt(a, start, rise);
+    let mut pairs = Vec::new();
     for t in [0.0, 0.3, 0.7, 1.2, 5.0, 10.69, 10.71, 12.0, 40.0] {
         let s = f64::max(t - start, 0.0);
         let expected = if s < rise {
@@ -405,9 +417,12 @@ fn a_tilt_follows_its_closed_form() {
         };
         let now = motion.at(t);
         for (found, expected) in [now.u, now.v, now.a].into_iter().zip(expected) {
-            assert!((found - expected).abs() <= 1e-13 * expected.abs(), "{found} instead of {expected} at {t}");
+            assert!(expected != 0.0 || found == 0.0, "{found} at {t}");
+            pairs.push(if expected == 0.0 { (0.0, 0.0) } else { (found / expected, 1.0) });
         }
     }
+    let subject = "Ground motion: tilt, u, v and a, largest error over each";
+    agrees!(subject, "A τ³/6T, A τ²/2T, A τ/T; after T with what is left", "", farthest(pairs), 0.0, abs: 1e-13);
     assert_eq!([motion.next_break(0.0), motion.next_break(1.0)], [start, start + rise]);
     assert_eq!((motion.end(), motion.next_break(11.0)), (None, f64::INFINITY));
 }
@@ -562,10 +577,13 @@ fn sines_in_closed_form() {
         t => 3.0 * f64::min(1.0, t / 0.7) * (omega * t).sin(),
     });
     let (v, u) = integrate(fine.dt, &fine.acceleration, 0.0, 0.0);
+    let mut pairs = Vec::new();
     for k in [700, 7000, 12_000, 15_000, 20_000] {
         let now = ramped.at(k as f64 * 1e-4);
-        assert!((now.v - v[k]).abs() < 1e-6 && (now.u - u[k]).abs() < 1e-6, "{k}: {now:?} {} {}", v[k], u[k]);
+        pairs.extend([(now.v, v[k]), (now.u, u[k])]);
     }
+    let subject = "Ground motion: sine that grows, v and u, largest error of both";
+    agrees!(subject, "integration of samples of 0.1 ms", "m, m/s", farthest(pairs), 0.0, abs: 1e-6);
     assert_eq!((ramped.end(), ramped.sample_interval(), ramped.longest_useful_step()), (Some(1.5), None, 0.025));
 }
 
@@ -575,13 +593,21 @@ fn pulses_in_closed_form() {
     assert_eq!((rectangle.acceleration(0.3), rectangle.acceleration(0.8)), (2.0, 0.0));
     assert_eq!(rectangle.segment(0.3).acceleration(0.8), 2.0);
     assert_close(rectangle.at(0.8).u, 0.25, 1e-14);
-    assert_close(rectangle.at(1.8).u, 1.25, 1e-14);
+    agrees!(
+        "Ground motion: rectangular pulse, u a second after",
+        "½ A T² + A T t",
+        "m",
+        rectangle.at(1.8).u,
+        1.25,
+        1e-14
+    );
     let half = pulse(PulseShape::HalfSine, -2.0, 0.5, 0.3);
     assert_close(half.acceleration(0.55), -2.0, 1e-14);
-    assert_close(half.at(0.9).v, -2.0 * 2.0 * 0.5 / PI, 1e-14);
+    let expected = -2.0 * 2.0 * 0.5 / PI;
+    agrees!("Ground motion: half sine, v after", "2 A T/π", "m/s", half.at(0.9).v, expected, 1e-14);
     let one = pulse(PulseShape::OneSine, 2.0, 0.5, 0.0);
     assert!(one.at(0.5).v.abs() < 1e-15);
-    assert_close(one.at(0.5).u, 2.0 * 0.25 / (2.0 * PI), 1e-13);
+    agrees!("Ground motion: one sine, u after", "A T²/2π", "m", one.at(0.5).u, 2.0 * 0.25 / (2.0 * PI), 1e-13);
     let ricker = pulse(PulseShape::Ricker, 2.0, 0.5, 0.2);
     assert_close(ricker.acceleration(0.95), 2.0, 1e-14);
     // The wavelet crosses zero where 2 π² f² τ² = 1, and its lobes cancel.
@@ -598,10 +624,10 @@ fn sweeps_follow_their_phase() {
     ] {
         let name = if logarithmic { "logarithmic sweep" } else { "linear sweep" };
         let (_, sweep, _) = motions().into_iter().find(|m| m.0 == name).unwrap();
-        for k in 0..500 {
-            let t = 0.01 * k as f64;
-            assert!((sweep.acceleration(t) - (2.0 * PI * cycles(t)).sin()).abs() < 5e-4, "{t}");
-        }
+        let times = (0..500).map(|k| 0.01 * k as f64);
+        let off = farthest(times.map(|t| (sweep.acceleration(t), (2.0 * PI * cycles(t)).sin())));
+        let subject = format!("Ground motion: sweep, largest error over its amplitude; {name}");
+        agrees!(subject, "sin of its phase", "", off, 0.0, abs: 5e-4);
     }
 }
 

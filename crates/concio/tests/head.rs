@@ -8,6 +8,7 @@ use std::path::Path;
 use concio::G;
 use concio::outcome::Outcome;
 use concio::run::{Control, run, run_in_memory};
+use concio_verified::agrees;
 use serde_json::Value;
 
 fn close(found: f64, expected: f64, relative: f64) {
@@ -60,7 +61,7 @@ fn a_stone_that_slides_has_borne_what_friction_does_when_it_began_to() {
 friction = { law = "coulomb", static = 0.4, dynamic = 0.4 }"#;
     let outcome = ran(&pushed(0.02, joint, 4.5));
     let totals = &outcome.totals;
-    close(totals.base_shear_peak, 160.0, 1e-5);
+    agrees!("Sliding: flat stone pushed slowly, peak base shear", "μ W", "N", totals.base_shear_peak, 160.0, 1e-5);
     // A step is 20 ms; of the shear that lasts the beginning is told, not what rounding makes the largest.
     assert!((totals.base_shear_time - 4.0).abs() <= 0.021, "{} s", totals.base_shear_time);
     close(-totals.base_shear_displacement, 160.0 / 1e7, 0.03);
@@ -79,7 +80,8 @@ friction = { law = "none" }"#;
     assert_eq!(outcome.drifts.len(), 1);
     let drift = &outcome.drifts[0];
     assert_eq!((drift.top.as_str(), drift.height, drift.swing), ("p1", arm, 0.0));
-    close(-drift.peak, leans, 1e-3);
+    let against = "F/k_s + F (h/2)²/(k_n L²/12 − W h/2)";
+    agrees!("Springs: stone pushed slowly, drift", against, "m", -drift.peak, leans, 1e-3);
     assert_eq!((drift.residual, drift.time), (drift.peak, 2.0));
     close(outcome.totals.base_shear_peak, force, 1e-5);
     assert!((outcome.totals.base_shear_time - 2.0).abs() < 0.021);
@@ -128,7 +130,14 @@ duration = 4
     let at_rest = 5e3 / G / (2.0 * 1e6);
     let worst = outcome.worst_drift().expect("a drift");
     assert_eq!((worst.top.as_str(), worst.height), ("soft", 0.25));
-    close(-worst.residual, at_rest, 1e-3);
+    agrees!(
+        "Springs: soft pier on a base that accelerates slowly, drift",
+        "m a/k",
+        "m",
+        -worst.residual,
+        at_rest,
+        1e-3
+    );
     close(-worst.peak, at_rest, 0.05);
     assert!(worst.swing < 1e-2 * at_rest, "{} m", worst.swing);
     close(outcome.drifts[0].residual, worst.residual / 3.0, 1e-3);
@@ -173,8 +182,10 @@ mode_2_energy = "5000 N/m"
     let told = summary(&text(grows, ""));
     let bonds = &told["bonds"];
     let number = |key: &str| bonds[key].as_f64().unwrap_or_else(|| panic!("{key}: {bonds}"));
-    close(number("first_acceleration"), strength / mass, 0.01);
-    close(number("first_crack"), strength / mass / 10.0, 0.01);
+    let (found, expected) = (number("first_acceleration"), strength / mass);
+    agrees!("Bonds: brick on mortar, base acceleration of the first crack", "c A/m", "m/s²", found, expected, 0.01);
+    let found = number("first_crack");
+    agrees!("Bonds: brick on mortar, instant of the first crack", "c A/m", "s", found, expected / 10.0, 0.01);
     assert!(
         bonds["first_joint"].as_str().is_some_and(|joint| joint.starts_with("base|")) && bonds["first_beam"].is_null(),
         "{bonds}"
@@ -185,7 +196,8 @@ mode_2_energy = "5000 N/m"
     let bonds = &told["bonds"];
     let [time, beam] =
         ["first_crack", "first_beam"].map(|key| bonds[key].as_f64().unwrap_or_else(|| panic!("{key}: {bonds}")));
-    close(beam, 1e-3 * time, 1e-6);
+    let subject = "Bonds: brick under a driven beam, way of the beam at the first crack";
+    agrees!(subject, "speed and time", "m", beam, 1e-3 * time, 1e-6);
     assert_eq!(bonds["first_acceleration"], 0.0);
     assert_eq!(told["drift"]["top"], "beam");
 }

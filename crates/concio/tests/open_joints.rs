@@ -6,6 +6,7 @@ use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
 use concio::planar::Rest;
 use concio::run::{Prepared, prepare, run_in_memory};
+use concio_verified::agrees;
 
 fn prepared(text: &str) -> Prepared {
     let file = from_str(text, Syntax::Toml, None).expect("a wall file");
@@ -59,7 +60,9 @@ fn a_pier_turns_over_alone_until_it_leans_on_its_neighbour() {
         let sine: f64 = gap / 2.0;
         let middle = 0.25 * (1.0 - sine.asin().cos()) + sine;
         let path = outcome.history("block/p1c1b1/displacement").expect("a history");
-        close(path.iter().fold(0.0, |most: f64, x| most.max(x.abs())), middle, 1e-3);
+        let most = path.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let subject = format!("Springs: pier beside an open joint, way until it leans on its neighbour; {gap} m");
+        agrees!(subject, "b/2 (1 − cos θ) + h/2 sin θ, h sin θ = gap", "m", most, middle, 1e-3);
         // Alone it bears a quarter of its weight; what the wall beside it bears is friction, 0.4 of its own.
         assert!(outcome.totals.minimum_gap > -1e-6, "{}", outcome.totals.minimum_gap);
     }
@@ -107,7 +110,10 @@ block = [{{ id = "pier", course = 1, x = 0, y = 0, length = 0.5, height = 2 }}, 
     });
     let sine: f64 = 0.015;
     let middle = 0.25 * (1.0 - sine.asin().cos()) + sine;
-    found.iter().for_each(|x| close(*x, middle, 1e-3));
+    for (found, shape) in found.into_iter().zip(["rectangle", "polygon"]) {
+        let subject = format!("Springs: pier and its neighbour, way until they touch; {shape}");
+        agrees!(subject, "b/2 (1 − cos θ) + h/2 sin θ, h sin θ = gap", "m", found, middle, 1e-3);
+    }
 }
 
 fn courses(bed: &str, base: &str, mortar: f64) -> String {
@@ -141,7 +147,10 @@ fn courses_sink_through_open_bed_joints() {
         else {
             panic!("{bed}, {base}: it stands")
         };
-        assert!((found - settled).abs() < 1e-6, "{bed}, {base}: {found} instead of {settled}");
+        let law = |text: &str| if text == none { "open" } else { "rigid" };
+        let subject =
+            format!("Springs: three courses on open joints, way they sink; bed {}, base {}", law(bed), law(base));
+        agrees!(subject, "thickness of the open joints", "m", found, settled, abs: 1e-6);
     }
 }
 
@@ -233,6 +242,8 @@ fn a_thick_joint_is_told_and_bears_nothing_as_an_open_one() {
     let lintel = 2.3 * 0.3 * 0.4 * 20e3;
     assert_eq!(pressure("b|lintel"), 0.0);
     for name in ["a|lintel", "c|lintel"] {
-        close(pressure(name), 0.5 * lintel, 1e-6);
+        let subject =
+            format!("Walls and loads: lintel over an open joint, what it presses with; {}", name.replace('|', " and "));
+        agrees!(subject, "W/2", "N", pressure(name), 0.5 * lintel, 1e-6);
     }
 }

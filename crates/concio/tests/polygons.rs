@@ -4,6 +4,7 @@ use concio::case::{Case, CaseFile, JointKind, Syntax, from_str};
 use concio::graph;
 use concio::pattern::lay;
 use concio::wall::{Block, Joint, Wall};
+use concio_verified::agrees;
 
 fn file(blocks: &str, mortar: f64) -> CaseFile {
     let text = format!(
@@ -70,9 +71,11 @@ fn sloping_sides_are_joints() {
     }
     // Mass and inertia of the triangle: ½ a b with a right angle at the apex, and a b (a² + b²)/36 about its centre.
     let wedge = named(&wall, "wedge");
-    assert!((wedge.area() - 0.12).abs() < 1e-12);
+    let (area, polar) = (wedge.area(), wedge.polar_moment());
+    agrees!("Walls and loads: right-angled triangle, area", "½ a b", "m²", area, 0.12, abs: 1e-12);
     assert!((wedge.weight() - 20e3 * 0.12 * 0.25).abs() < 1e-9);
-    assert!((wedge.polar_moment() - 0.24 * (0.36 + 0.16) / 36.0).abs() < 1e-12);
+    let expected = 0.24 * (0.36 + 0.16) / 36.0;
+    agrees!("Walls and loads: right-angled triangle, polar moment", "a b (a² + b²)/36", "m⁴", polar, expected, abs: 1e-12);
     assert!(!wedge.is_rectangle() && wedge.corners().len() == 3);
 }
 
@@ -163,7 +166,15 @@ fn arches_have_the_area_of_their_ring() {
         // What fills up a springer of a segment: the triangle between its radial and its level bed.
         let fill = 0.3 * alpha.sin() * 0.3 * alpha.cos();
         let area: f64 = wall.blocks.iter().map(Block::area).sum();
-        assert!((area / (ring + fill) - 1.0).abs() < 1e-12, "rise {rise}: {area} m², not {}", ring + fill);
+        let subject = format!("Walls and loads: area of an arch; {n} voussoirs, rise {rise} m");
+        agrees!(
+            subject,
+            "½ n sin(2α/n) ((R + t)² − R²) and what fills up its springers",
+            "m²",
+            area,
+            ring + fill,
+            1e-12
+        );
         let springer = if rise == 1.0 { 4 } else { 5 };
         let corners: Vec<usize> = wall.blocks.iter().map(|b| b.corners().len()).collect();
         assert_eq!((corners[0], corners[n - 1]), (springer, springer));

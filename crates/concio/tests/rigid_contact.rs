@@ -10,6 +10,7 @@ use concio::run::Prepared;
 use concio::samples::{Link, lumped, solver};
 use concio::simulate::{Progress, Sampling, Simulation};
 use concio::wall::End;
+use concio_verified::{agrees, farthest};
 use proptest::prelude::*;
 
 use ready::ready;
@@ -70,10 +71,14 @@ fn bouncing_block() {
         });
         assert_eq!(reason, StopReason::Completed);
         let mut exact = first;
-        for (k, t) in times.iter().take(30).enumerate() {
-            assert!((t / exact - 1.0).abs() < 1e-6, "e = {e}, impact {k}: {t} against {exact}");
+        let pairs = times.iter().take(30).enumerate().map(|(k, t)| {
+            let now = exact;
             exact += 2.0 * first * e.powi(k as i32 + 1);
-        }
+            (t / now, 1.0)
+        });
+        let subject =
+            format!("Rigid contact: bouncing block, instants of 30 impacts, largest error over each; e = {e}");
+        agrees!(subject, "t₁ (1 + 2 Σ eᵏ)", "", farthest(pairs), 0.0, abs: 1e-6);
         // Bounces as low as 1e-13 m are none.
         let [most, least] = [1e-13f64, 1e-12].map(|low| ((low / height).ln() / (2.0 * e.ln())).round() as usize);
         assert!((least..=most + 1).contains(&times.len()), "{} impacts, not {least} to {most}", times.len());
@@ -104,11 +109,11 @@ fn plastic_impact_sticks_and_lets_go() {
         });
         if leaves {
             let exact = -0.5 * a * (end - turns) * (end - turns);
-            assert!((last / exact - 1.0).abs() < 1e-6, "{last} against {exact}");
+            agrees!("Rigid contact: block that lets go, way", "½ a t²", "m", last, exact, 1e-6);
             assert_eq!(borne, 0.0);
         } else {
             assert!(last.abs() < 1e-12, "it moved after the impact: {last}");
-            assert!((borne / (M * a) - 1.0).abs() < 1e-9, "{borne} against {}", M * a);
+            agrees!("Rigid contact: block pressed on after a plastic impact, force", "m a", "N", borne, M * a, 1e-9);
         }
     }
 }
@@ -145,7 +150,9 @@ fn two_blocks() {
         close(&after, &[v[0] - p / m[0], v[1] + p / m[1]], 1e-14);
         close(&impulse, &[p], IMPULSE);
         let exact = 0.5 * reduced * (1.0 - e * e) * w * w;
-        assert!((lost - exact).abs() <= IMPULSE * reduced * w * w, "e = {e}: {lost} against {exact}");
+        let allowed = IMPULSE * reduced * w * w;
+        let subject = format!("Rigid contact: two masses collide, energy lost; e = {e}");
+        agrees!(subject, "½ m₁m₂/(m₁ + m₂) (1 − e²) w²", "J", lost, exact, abs: allowed);
     }
 }
 
@@ -159,6 +166,8 @@ fn newtons_cradle_by_newtons_law() {
         let p = 2.0 / 3.0 * (1.0 + e);
         close(&impulse, &[p, 0.5 * p], IMPULSE);
         close(&after, &[1.0 - p, 0.5 * p, 0.5 * p], 1e-14);
+        let subject = format!("Rigid contact: Newton's cradle of three balls, speed of the last; e = {e}");
+        agrees!(subject, "(1 + e)/3 v (R4)", "m/s", after[2], 0.5 * p, 1e-14);
         let exact = 0.5 * p * (1.0 - e);
         assert!((lost - exact).abs() < IMPULSE, "e = {e}: {lost} against {exact}");
     }

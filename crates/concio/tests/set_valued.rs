@@ -12,6 +12,7 @@ use concio::record::StopReason;
 use concio::samples::{Histories, Link, lumped, respond, shaking, solver};
 use concio::simulate::{Sampling, Simulation};
 use concio::wall::End;
+use concio_verified::{agrees, farthest};
 
 const M: f64 = 100.0;
 const K: f64 = 4e5;
@@ -43,11 +44,12 @@ fn coulomb_decrement_and_where_it_stops() {
     // Samples at the turning points.
     let h = respond(&model, &fine(1e-9), half, &[x0], &[0.0]).unwrap();
     let x = first(&h);
-    for k in 0..=8 {
-        let exact = (x0 - k as f64 * 2.0 * mu * N / K) * if k % 2 == 0 { 1.0 } else { -1.0 };
-        assert!((x[k] - exact).abs() <= 1e-6 * x0, "half cycle {k}: {} against {exact}", x[k]);
-    }
-    assert!((x[8] - 0.000228).abs() < 1e-6 * x0, "{}", x[8]);
+    let exact = |k: usize| (x0 - k as f64 * 2.0 * mu * N / K) * if k % 2 == 0 { 1.0 } else { -1.0 };
+    let off = farthest((0..=8).map(|k| (x[k] / x0, exact(k) / x0)));
+    let subject = "Friction: Coulomb's law beside a spring, amplitudes of 8 half cycles, largest error over x₀";
+    agrees!(subject, "x₀ − 2 n μN/k", "", off, 0.0, abs: 1e-6);
+    let against = "x₀ − 16 μN/k";
+    agrees!("Friction: Coulomb's law beside a spring, where it stops", against, "m", x[8], 0.000228, abs: 1e-6 * x0);
     assert_eq!(x[9..], [x[9]; 4], "it moved after it stopped");
     assert!(h.residual < 1e-6, "energy residual {}", h.residual);
 }
@@ -73,10 +75,11 @@ fn stick_slip_belt() {
         .collect();
     assert!(passes.len() >= 8, "{passes:?}");
     let measured = (passes[passes.len() - 1] - passes[0]) / (passes.len() - 1) as f64;
-    assert!((measured / period - 1.0).abs() < 1e-6, "period {measured} against {period}");
+    let against = "sticking to μ_s N/k, then a half wave about μ_k N/k";
+    agrees!("Friction: static and dynamic, block on a belt, period", against, "s", measured, period, 1e-6);
     let largest = x.iter().fold(0.0f64, |a, x| a.max(*x));
     let exact = centre + ((release - centre).powi(2) + (v / omega).powi(2)).sqrt();
-    assert!((largest / exact - 1.0).abs() < 1e-6, "{largest} against {exact}");
+    agrees!("Friction: static and dynamic, block on a belt, peak", against, "m", largest, exact, 1e-6);
 }
 
 /// A5: steady amplitude of a block with Coulomb friction under P0 cos ωt, in units of P0/k, also where it sticks for
@@ -111,7 +114,9 @@ fn den_hartog() {
         let (low, high) = last.iter().fold((0.0f64, 0.0f64), |(l, h), x| (l.min(*x), h.max(*x)));
         let amplitude = 0.5 * (high - low) / (M * a / K);
         // Between samples, 1/400 of a cycle apart, a peak is missed by up to 3e-5 of itself.
-        assert!((amplitude / exact - 1.0).abs() < 1e-4, "β {beta}, F/P0 {ratio}: {amplitude} against {exact}");
+        let subject = format!("Friction: Coulomb's law under a sine, amplitude; β = {beta}, F/P₀ = {ratio}");
+        let against = "Den Hartog 1931; where it sticks in between, piecewise solution";
+        agrees!(subject, against, "P₀/k", amplitude, exact, 1e-4);
     }
 }
 
@@ -128,7 +133,8 @@ fn newmark_pulses() {
         let h = respond(&model, &fine(1e-8), 1e-3, &[0.0], &[0.0]).unwrap();
         assert_eq!(h.stop_reason, StopReason::Completed);
         let slip = first(&h).last().unwrap().abs();
-        assert!((slip / exact - 1.0).abs() < 1e-5, "{shape:?}: {slip} against {exact}");
+        let subject = format!("Friction: Coulomb's law, slip under a pulse of 0.5 g; {shape:?}");
+        agrees!(subject, "Newmark's sliding block", "m", slip, exact, 1e-5);
     }
 }
 
@@ -141,7 +147,12 @@ fn friction_force_is_what_the_joint_bears() {
     let law = coulomb(mu_s, mu_k);
     let free = Link::friction(0, End::Base, law, N);
     let bonded = Link::bonded(0, End::Base, bond, Some((law, N)));
-    for (link, a, exact) in [(free, 3.0, 300.0), (free, -3.0, 300.0), (free, 6.0, mu_k * N), (bonded, 3.0, 0.0)] {
+    for (link, a, exact, name) in [
+        (free, 3.0, 300.0, "stuck"),
+        (free, -3.0, 300.0, "stuck the other way"),
+        (free, 6.0, mu_k * N, "slipping"),
+        (bonded, 3.0, 0.0, "bonded"),
+    ] {
         let pulse =
             Pulse { shape: PulseShape::Rectangular, acceleration: a.into(), duration: 0.2.into(), start: 0.05.into() };
         let model = lumped(&[M], &[link], Excitation::of_base(signal(Signal::Pulse(pulse)), 0.6));
@@ -149,7 +160,8 @@ fn friction_force_is_what_the_joint_bears() {
         let mut run = Simulation::new(&model, &fine(1e-8), &sampling).unwrap();
         assert_eq!(run.run_to_end().1, StopReason::Completed);
         let found = run.state().totals.peak_friction_force;
-        assert!((found - exact).abs() <= 1e-9 * M * a.abs(), "at {a} m/s²: {found} against {exact}");
+        let subject = format!("Friction: force of a block accelerated at once; {name}");
+        agrees!(subject, "min(m a, μ_k N), nothing beside a bond", "N", found, exact, abs: 1e-9 * M * a.abs());
     }
 }
 

@@ -8,6 +8,7 @@ use concio::record::{Recording, StopReason};
 use concio::run::{Prepared, prepare, run_in_memory};
 use concio::simulate::Simulation;
 use concio::store::{self, hdf5};
+use concio_verified::agrees;
 
 fn prepared(text: &str) -> Prepared {
     let file = from_str(text, Syntax::Toml, None).expect("a wall file");
@@ -62,16 +63,20 @@ fn a_rod_holds_what_friction_does_not() {
         let [tie] = &outcome.ties[..] else { panic!("{:?}", outcome.ties) };
         assert_eq!((tie.from.as_str(), tie.to.as_str(), tie.stretch), ("base", "stone", 0.0));
         assert!(tie.yielded.is_infinite());
-        close(tie.force, 0.3 * 5e3, 1e-5);
-        close(last(&outcome, "top/displacement"), tie.force / 5e6, 1e-5);
-        close(last(&outcome, "base/shear"), -0.7 * 5e3, 1e-5);
+        let first = if ends.starts_with("from = \"base\"") { "base" } else { "stone" };
+        let of = |what: &str| format!("Ties: stone of a wall file on a rod, {what}; named from the {first}");
+        agrees!(of("force"), "(0.7 − μ) W", "N", tie.force, 0.3 * 5e3, 1e-5);
+        agrees!(of("way"), "f/k", "m", last(&outcome, "top/displacement"), tie.force / 5e6, 1e-5);
+        agrees!(of("base shear"), "0.7 W", "N", last(&outcome, "base/shear"), -0.7 * 5e3, 1e-5);
     }
     // Too weak: it yields when what it should bear passes f_y, 0.4 + 1 kN/5 kN of the weight.
     let tie = "from = \"base\"\nat = [0, 0.125]\nto = \"stone\"\nstiffness = \"50 MN/m\"\nyield_force = \"1 kN\"";
     let outcome = ran(&held(&format!("[[tie]]\n{tie}")));
-    close(outcome.ties[0].force, 1e3, 1e-9);
-    assert!((outcome.ties[0].yielded - 2.0 * 0.6 / 0.7).abs() < 0.03, "{:?}", outcome.ties);
-    close(outcome.energies.device, 1e3 * outcome.ties[0].stretch, 1e-9);
+    let tie = &outcome.ties[0];
+    let of = |what: &str| format!("Ties: stone of a wall file on a rod that yields, {what}");
+    agrees!(of("force"), "f_y", "N", tie.force, 1e3, 1e-9);
+    agrees!(of("instant it yields"), "μ W + f_y", "s", tie.yielded, 2.0 * 0.6 / 0.7, abs: 0.03);
+    agrees!(of("energy taken"), "f_y e_p", "J", outcome.energies.device, 1e3 * tie.stretch, 1e-9);
 }
 
 /// Six courses of a dry wall, tied along the top and down to the base at both sides, rods of both kinds that yield.

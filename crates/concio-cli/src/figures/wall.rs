@@ -200,7 +200,10 @@ pub fn cracks(data: &Data, options: &Options) -> Result<Drawing, InputError> {
     let colours = Colours { quantity: "damage of the bond, 0 = intact, 1 = broken", unit: "", end: 1.0 };
     let mut parts = vec![WHOLE; data.run.joints.len()];
     if options.at == Instant::Peak {
-        bonds.iter().for_each(|bond| parts[bond.joint] = bond.cracks());
+        for bond in bonds {
+            parts[bond.joint] = bond.cracks();
+            values[bond.joint] = Some(bond.damage_of_crack());
+        }
     }
     let (drawn, bottom) = map(data, options, (&values, &parts), &texts, &colours);
     let title = "Joints coloured by the damage of their bonds".into();
@@ -226,7 +229,8 @@ fn openings(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         return Err(InputError::new("no joint opened").key("--at"));
     }
     let values: Vec<Option<f64>> = values.into_iter().map(Some).collect();
-    let (drawn, bottom) = map(data, options, (&values, &[]), &[text], &Colours::up_to("opening of joints", "m", largest));
+    let (drawn, bottom) =
+        map(data, options, (&values, &[]), &[text], &Colours::up_to("opening of joints", "m", largest));
     let title = "Joints coloured by their opening".into();
     Ok(Drawing { body: drawn, size: [options.points(), bottom], title, note: String::new() })
 }

@@ -40,7 +40,7 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     // Along which part of a joint it has cracked is known where cracks run along joints.
     let mut parts = vec![[[0.0, 1.0], [1.0; 2]]; content.joints.len()];
     for bond in &content.outcome.bonds {
-        cracked[bond.joint] = bond.damage;
+        cracked[bond.joint] = bond.damage_of_crack();
         parts[bond.joint] = bond.cracks();
     }
     let field = Field { none: "not bonded", parts: &parts, ..field("damage of the bonds at the end", "1", &cracked) };

@@ -488,7 +488,7 @@ impl Run {
             let (first, last, reach) = (crack.cracked, crack.broken, crack.reach);
             let stretch = crack.line().iter().map(|[gap, slide]| gap.max(slide.abs())).fold(0.0, f64::max);
             let damage = crack.damage();
-            let start = crack.start();
+            let start = crack.length_at_first();
             // Contact goes along the tangent, the normal to what lies above or to the right turned counterclockwise.
             let lengths = match model.joints[e].kind.is_upright() {
                 true => [start, crack.length() - start],

@@ -6,7 +6,7 @@ use crate::case::{Beam, JointKind};
 use crate::graph;
 use crate::model::{Model, Rub};
 use crate::outcome::Outcome;
-use crate::planar::Rest;
+use crate::planar::{Planar, Rest};
 use crate::store::{JointRow, residual_relative};
 use crate::warning::{Warning, WarningKind};
 
@@ -141,12 +141,8 @@ fn beyond_friction(model: &Model, outcome: &Outcome) -> Option<String> {
     let base = |e: &usize| model.joints[*e].kind == JointKind::Base;
     let joints: Vec<usize> = (0..model.joints.len()).filter(base).collect();
     if let Some(planar) = &model.planar {
-        let slides = |e: &usize| {
-            let law = &planar.system.links[*e].law;
-            law.bond.is_some() || law.shear.series || law.shear.stiffness == 0.0
-        };
-        if joints.iter().all(slides) {
-            return None;
+        if joints.iter().all(|e| slides(planar, *e)) {
+            return beyond_own_friction(model, outcome);
         }
     }
     if joints.iter().any(|&e| model.device_of_joint()[e].is_some()) {
@@ -182,23 +178,31 @@ fn beyond_friction(model: &Model, outcome: &Outcome) -> Option<String> {
     })
 }
 
+/// Whether a joint of a planar wall bears along no more than its friction once it slides.
+fn slides(planar: &Planar, joint: usize) -> bool {
+    let law = &planar.system.links[joint].law;
+    law.bond.is_some() || law.shear.series || law.shear.stiffness == 0.0
+}
+
 /// Most that friction bears in a joint that slides as fast as `speed` [m/s], in N.
 fn most_friction(model: &Model, rub: usize, speed: f64) -> f64 {
     let Rub { law, normal, .. } = &model.rubs[rub];
     law.static_.max(law.dynamic + law.alpha * speed * speed) * normal[0]
 }
 
-/// The spring of an unbonded bed joint of a shear wall that bears far more than its friction can, where the sum over the base does not show it.
+/// The spring of an unbonded bed joint that bears far more than its friction can, where the sum over the base does not show it.
 fn beyond_own_friction(model: &Model, outcome: &Outcome) -> Option<String> {
-    if model.planar.is_some() {
-        return None;
-    }
     let (rubs, bonds, devices) = (model.rub_of_joint(), model.bond_of_joint(), model.device_of_joint());
     let free = |e: &usize| !model.joints[*e].kind.is_upright() && bonds[*e].is_none() && devices[*e].is_none();
     let over = |e: usize| {
         let rub = rubs[e]?;
-        let [force, friction] =
-            [outcome.envelopes.joint_force[e], most_friction(model, rub, outcome.envelopes.joint_velocity[e])];
+        let envelopes = &outcome.envelopes;
+        let force = match &model.planar {
+            Some(planar) if slides(planar, e) => return None,
+            Some(planar) => planar.system.links[e].law.shear.stiffness * envelopes.joint_displacement[e],
+            None => envelopes.joint_force[e],
+        };
+        let friction = most_friction(model, rub, envelopes.joint_velocity[e]);
         (force > FAR_BEYOND * friction).then_some((force, friction, e))
     };
     let all: Vec<(f64, f64, usize)> = (0..model.joints.len()).filter(free).filter_map(over).collect();
