@@ -140,10 +140,8 @@ fn peak_in_fall(model: &Model, outcome: &Outcome) -> Option<String> {
 fn beyond_friction(model: &Model, outcome: &Outcome) -> Option<String> {
     let base = |e: &usize| model.joints[*e].kind == JointKind::Base;
     let joints: Vec<usize> = (0..model.joints.len()).filter(base).collect();
-    if let Some(planar) = &model.planar {
-        if joints.iter().all(|e| slides(planar, *e)) {
-            return beyond_own_friction(model, outcome);
-        }
+    if model.planar.as_ref().is_some_and(|planar| joints.iter().all(|e| slides(planar, *e))) {
+        return beyond_own_friction(model, outcome);
     }
     if joints.iter().any(|&e| model.device_of_joint()[e].is_some()) {
         return beyond_own_friction(model, outcome);
