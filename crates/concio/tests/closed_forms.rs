@@ -93,7 +93,7 @@ fn coulomb_decrement() {
     let turns = turning_points(&first(&h));
     let loss = 2.0 * mu * N / K;
     assert!(turns.len() >= 7, "{turns:?}");
-    let exact = |k: usize| (x0 - (k + 1) as f64 * loss) * if k % 2 == 0 { -1.0 } else { 1.0 };
+    let exact = |k: usize| (x0 - (k + 1) as f64 * loss) * if k.is_multiple_of(2) { -1.0 } else { 1.0 };
     let off = farthest(turns.iter().take(7).enumerate().map(|(k, turn)| (turn / exact(k), 1.0)));
     let subject = "Friction: regularised law beside a spring, amplitudes of 7 half cycles, largest error over each";
     agrees!(subject, "x₀ − 2 n μN/k", "", off, 0.0, abs: 0.01);
