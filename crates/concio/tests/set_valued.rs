@@ -44,7 +44,7 @@ fn coulomb_decrement_and_where_it_stops() {
     // Samples at the turning points.
     let h = respond(&model, &fine(1e-9), half, &[x0], &[0.0]).unwrap();
     let x = first(&h);
-    let exact = |k: usize| (x0 - k as f64 * 2.0 * mu * N / K) * if k % 2 == 0 { 1.0 } else { -1.0 };
+    let exact = |k: usize| (x0 - k as f64 * 2.0 * mu * N / K) * if k.is_multiple_of(2) { 1.0 } else { -1.0 };
     let off = farthest((0..=8).map(|k| (x[k] / x0, exact(k) / x0)));
     let subject = "Friction: Coulomb's law beside a spring, amplitudes of 8 half cycles, largest error over x₀";
     agrees!(subject, "x₀ − 2 n μN/k", "", off, 0.0, abs: 1e-6);
