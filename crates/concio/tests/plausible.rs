@@ -181,3 +181,20 @@ fn joints_that_hold_without_limit_are_told() {
     let found = planar(&format!("{dry}\n[solver]\ntolerance = 1e-3\nmax_step = \"1 ms\""));
     assert!(found.len() == 2 && found[0].contains("solver.tolerance does nothing"), "{found:?}");
 }
+
+/// A push that goes far in every step is told, and joints that hold without limit are, also where a change bonds others.
+#[test]
+fn fast_pushes_and_beds_that_no_change_bonds_are_told() {
+    let low = include_str!("../../../examples/laboratory/ispra-low.toml");
+    let told = |text: &str, what: &str| doubts(&case(text)).iter().any(|doubt| doubt.text.contains(what));
+    assert!(doubts(&case(low)).is_empty(), "{:?}", doubts(&case(low)));
+    for (speed, tells) in [("\"1 mm/s\"", false), ("\"20 mm/s\"", false), ("\"100 mm/s\"", true), ("1", true)] {
+        let text = low.replace("speed = \"1 mm/s\"", &format!("speed = {speed}"));
+        assert_eq!(told(&text, "in every step of this `quasi_static` run"), tells, "{speed}");
+    }
+    let bond = low.lines().find(|line| line.starts_with("bond = {")).expect("a bond");
+    let without = low.replacen(bond, "", 1);
+    assert!(told(&without, "`elastic` without a bond"));
+    let beds = without.replace("kind = [\"base\", \"top\"]", "kind = [\"bed\", \"base\", \"top\"]");
+    assert!(!told(&beds, "`elastic` without a bond"));
+}

@@ -7,8 +7,10 @@ use std::f64::consts::PI;
 
 use super::node::{Node, Value};
 use super::{
-    Beam, Case, FrictionChange, FrictionLaw, ModelKind, Panel, Signal, Solver, SpringChange, SpringLaw, TopLoad,
+    Beam, Case, FrictionChange, FrictionLaw, JointKind, ModelKind, Panel, Signal, Solver, SpringChange, SpringLaw,
+    TopLoad,
 };
+use crate::planar;
 use crate::quantity::{Stiffness, shown};
 use crate::warning::{Warning, WarningKind};
 
@@ -273,6 +275,9 @@ fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {
     }
 }
 
+/// Way of a driven top in a step without inertia from which it is told [m].
+const LONG_WAY: f64 = 0.5e-3;
+
 /// What is right in shear walls, whose joints cannot open, and hardly meant where they can.
 fn of_planar(doubts: &mut Doubts, case: &Case) {
     let (given, own) = (&case.solver, Solver::default());
@@ -305,8 +310,21 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
             );
             doubts.add(WarningKind::StillMotion, text);
         }
+        if let Signal::Path(path) = &case.motion.top {
+            let way = path.speed.si() * planar::step(case);
+            if way > LONG_WAY {
+                let text = format!(
+                    "motion.top.path.speed moves the top by {} mm in every step of this `quasi_static` run: forces depend on that, and may be far off. \
+                     Less than 0.1 mm, or a ten-thousandth of the height, changes them by less than a hundredth",
+                    shown(rounded(1e3 * way, 3))
+                );
+                doubts.add(WarningKind::UnlikelyNumber, text);
+            }
+        }
     }
     let changed = joint.changes.iter().any(|change| change.bond.is_some());
+    let beds = |kinds: &[JointKind]| kinds.is_empty() || kinds.contains(&JointKind::Bed);
+    let bonds_beds = joint.changes.iter().any(|change| change.bond.is_some() && beds(&change.at.kind));
     let dry = joint.bond.is_none() && joint.bed.law != SpringLaw::Elastic && !changed;
     let rubs = joint.changes.iter().any(|change| change.friction.is_some());
     if dry && joint.friction.law == FrictionLaw::None && joint.friction.preset.is_none() && !rubs {
@@ -314,7 +332,7 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
         doubts.add(WarningKind::UnlikelyJoint, text);
     }
     match &joint.bond {
-        None if joint.bed.law == SpringLaw::Elastic && !changed => doubts.add(
+        None if joint.bed.law == SpringLaw::Elastic && !bonds_beds => doubts.add(
             WarningKind::UnlikelyJoint,
             "joint.bed is `elastic` without a bond: in a planar wall such joints pull without limit, and bear shear without limit beside \
              friction; dry joints are `no-tension` with `rigidity = 1`, or `rigid`",
