@@ -1292,3 +1292,45 @@ quasi_static = true
         assert!((drawn[1] - drawn[0] - bond.crack).abs() < 1e-12, "{drawn:?}");
     }
 }
+
+/// A block of 1 m × `height` on one joint of `joint`, pushed or tilted by `rest`.
+fn on_one_joint(height: &str, weight: &str, joint: &str, rest: &str) -> Outcome {
+    let (_, outcome) = ran(&format!(
+        "model = \"planar\"\n[[panel]]\nbond = \"stack\"\ncourses = 1\nbricks = 1\n\
+         brick = {{ length = \"1 m\", height = \"{height}\", thickness = \"0.25 m\", specific_weight = \"{weight}\" }}\n\
+         mortar = {{ bed = 0, head = 0 }}\n[joint]\nhead = {{ law = \"none\" }}\n{joint}\n[motion]\nquasi_static = true\n{rest}"
+    ));
+    outcome
+}
+
+/// A bonded rigid joint that is sheared and turned bears c A + N tan φ as a whole: 12.5 kN + 1 kN tan 30° over a weight of 1 kN.
+#[test]
+fn a_bonded_rigid_joint_is_sheared_as_a_whole() {
+    let joint = "bed = { law = \"rigid\" }\nfriction = { law = \"coulomb\", static = 0.4, dynamic = 0.4 }\n\
+                 bond = { tensile_strength = \"1 MPa\", cohesion = \"0.05 MPa\", friction_angle = \"30 deg\" }";
+    let tilt = "base = { tilt = { acceleration = \"15 g\", rise = \"10 s\" } }\nduration = \"10 s\"";
+    let outcome = on_one_joint("0.2 m", "20 kN/m3", joint, tilt);
+    close(outcome.totals.base_shear_peak / 1e3, 12.5 + 30f64.to_radians().tan(), 3e-3);
+}
+
+/// The energy account closes where a joint that pulls crushes, and where the last of a bond breaks as the joint is open on one side.
+#[test]
+fn the_account_closes_where_joints_crush_and_where_bonds_end() {
+    let push = |ways: &str| format!("top = {{ path = {{ displacements = {ways}, speed = \"1 mm/s\" }} }}\n");
+    let load =
+        "[load]\ntop = { force = \"75 kN\" }\nbeam = \"driven\"\nbeam_height = \"0.02 m\"\n[solver]\nstep = \"5 ms\"\n";
+    let crushed = "bed = { law = \"elastic\", stiffness = \"5 N/mm3\", compressive_strength = \"2 MPa\" }\n\
+                   friction = { law = \"coulomb\", static = 0.6, dynamic = 0.6 }";
+    let broken = "bed = { law = \"elastic\", stiffness = \"5 N/mm3\" }\nfriction = { law = \"coulomb\", static = 0.6, dynamic = 0.6 }\n\
+                  bond = { tensile_strength = \"0.1 MPa\", cohesion = \"50 MPa\", friction_angle = \"0 deg\", mode_1_energy = \"10 N/m\" }\n\
+                  [[joint.change]]\nat = { kind = [\"top\"] }\nspring = { stiffness = \"20000 N/mm3\" }\nfriction = { law = \"none\" }\n\
+                  bond = { tensile_strength = \"5000 MPa\", cohesion = \"5000 MPa\", mode_1_energy = 0, mode_2_energy = 0 }";
+    for (joint, ways, weight) in [
+        (crushed, "[\"2 mm\", \"-2 mm\", \"2 mm\"]", "20 kN/m3"),
+        (broken, "[\"1 mm\", \"-1 mm\", \"3 mm\"]", "0.001 kN/m3"),
+    ] {
+        let outcome = on_one_joint("1 m", weight, joint, &(push(ways) + load));
+        let residual = outcome.totals.peak_residual / outcome.totals.peak_input;
+        assert!(residual < 1e-4, "{residual:e}");
+    }
+}

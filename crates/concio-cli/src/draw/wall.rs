@@ -27,6 +27,9 @@ const LETTERS: [f64; 2] = [4.8, 13.0];
 /// Shades in which values are drawn when elements are merged.
 const SHADES: usize = 32;
 
+/// The parts of a joint that has its value all along.
+pub const WHOLE: [[f64; 2]; 2] = [[0.0, 1.0], [1.0; 2]];
+
 /// A value per block or joint.
 #[derive(Debug, Clone, Copy)]
 pub struct Field<'a> {

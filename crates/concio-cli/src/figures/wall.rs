@@ -11,7 +11,7 @@ use crate::draw::font;
 use crate::draw::output::Drawing;
 use crate::draw::scale::{Scale, round_end};
 use crate::draw::svg::{Anchor, Canvas, closed, line, px, rectangle};
-use crate::draw::wall::{LIGHT, ground, parts_of, shade};
+use crate::draw::wall::{LIGHT, WHOLE, ground, parts_of, shade};
 use crate::format::{plain, short};
 
 /// Height of the wall over the width of the figure, at most.
@@ -266,9 +266,6 @@ impl Colours {
         Colours { quantity, unit, end: round_end(largest) }
     }
 }
-
-/// The parts of a joint that has its value all along.
-const WHOLE: [[f64; 2]; 2] = [[0.0, 1.0], [1.0; 2]];
 
 /// The wall with its joints coloured by values, where they have parts these alone, those without one, which are not bonded, dashed in grey; and where it ends [pt].
 fn map(

@@ -38,7 +38,7 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     ];
     let mut cracked = vec![f64::NAN; content.joints.len()];
     // Along which part of a joint it has cracked is known where cracks run along joints.
-    let mut parts = vec![[[0.0, 1.0], [1.0; 2]]; content.joints.len()];
+    let mut parts = vec![wall::WHOLE; content.joints.len()];
     for bond in &content.outcome.bonds {
         cracked[bond.joint] = bond.damage_of_crack();
         parts[bond.joint] = bond.cracks();
