@@ -44,14 +44,14 @@ const GREGORY: [f64; DRY] = {
 };
 /// Those of the nine that are taken where three do.
 const THREE: [usize; 3] = [0, 4, 8];
-/// Those that are taken where three stand for what is open, and three for what is pressed.
-const SIX: [[usize; 3]; 2] = [[0, 1, 2], [6, 7, 8]];
+/// Those that are taken where two stand for what lies on one side of where the joint's sides touch, and two for what lies on the other.
+const FOUR: [[usize; 2]; 2] = [[0, 2], [8, 6]];
 /// Moments of the whole joint.
 const WHOLE: Moments = [1.0, 0.5, 1.0 / 3.0];
 /// Part of its strength below which a bond counts as broken, ε of (B4).
 const BROKEN: f64 = 1e-3;
-/// Nodes by which the place where sides touch may move away before points are placed anew.
-const NEARLY: f64 = 2.0;
+/// Part of what is pressed or open by which the place where sides touch may move away before points are placed anew.
+const NEARLY: f64 = 1.0 / 32.0;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
 /// Part of a joint below which what is left of its bond is rounding.
@@ -131,8 +131,8 @@ pub struct Crack {
     was: [[f64; 2]; 2],
     /// First and last node of a rigid joint that are held.
     held: [usize; 2],
-    /// Node at which its sides touch, where a part of what has cracked is open and a part pressed; else 0.
-    split: usize,
+    /// Where its sides touch, between nodes, where a part of what has cracked is open and a part pressed; else 0.
+    split: f64,
     /// When it first cracked [s]; infinite while it is intact.
     pub cracked: f64,
     /// When nothing was left of it [s].
@@ -166,6 +166,21 @@ fn between(line: &[[f64; 2]; 2], at: f64) -> [f64; 2] {
 /// ∫ f x^k over the joint for k of 0, 1 and 2.
 type Moments = [f64; 3];
 
+/// Moments of all between two places, counted in nodes.
+fn whole_between(places: [f64; 2]) -> Moments {
+    let [from, to] = places.map(|at| at / (NODES - 1) as f64);
+    [to - from, (to * to - from * from) / 2.0, (to.powi(3) - from.powi(3)) / 3.0]
+}
+
+/// What a point at the edge of a part of the joint bears and what another one, so that they have these moments (Gauss and Radau): a part that is pressed
+/// bears what it should to second order in how far its end is from where it was taken to be. And where the other is.
+fn edge_and_inside(moments: Moments, edge: f64) -> ([f64; 2], f64) {
+    let [whole, first, second] = moments;
+    let [first, second] = [first - edge * whole, second - edge * (2.0 * first - edge * whole)];
+    let inside = if second > 0.0 { first * first / second } else { 0.0 };
+    ([whole - inside, inside], if first == 0.0 { edge } else { edge + second / first })
+}
+
 /// What three points at the ends and the middle of a part of the joint bear, from `from` on and of this length, so that they have these moments.
 fn thirds(moments: Moments, from: f64, length: f64) -> [f64; 3] {
     let [whole, first, second] = moments;
@@ -174,22 +189,37 @@ fn thirds(moments: Moments, from: f64, length: f64) -> [f64; 3] {
     [whole - 3.0 * first + 2.0 * second, 4.0 * (first - second), 2.0 * second - first]
 }
 
+/// Whether the points of a joint of this law move, as a bond cracks or a part of the joint opens.
+pub(crate) fn moves(law: &Law) -> bool {
+    law.bond.is_some() || law.parts_freely()
+}
+
+/// How many points a joint of this law has at most.
+pub(crate) fn most_points(law: &Law) -> usize {
+    if moves(law) { POINTS } else { law.shares().len() }
+}
+
 impl Crack {
-    /// Of an intact joint.
-    pub(crate) fn new(law: &Law) -> Self {
+    /// Of an intact joint, or of one without bond whose springs only press: that is one whose bond is gone. None of another, whose points stay where they are.
+    pub(crate) fn of(law: &Law) -> Option<Self> {
+        if !moves(law) {
+            return None;
+        }
+        let bonded = law.bond.is_some();
+        let since = if bonded { f64::INFINITY } else { 0.0 };
         let mut crack = Crack {
-            nodes: vec![Node::INTACT; NODES],
+            nodes: if bonded { vec![Node::INTACT; NODES] } else { Vec::new() },
             line: [[0.0; 2]; 2],
             was: [[0.0; 2]; 2],
             held: [0, NODES - 1],
-            split: 0,
-            cracked: f64::INFINITY,
-            broken: f64::INFINITY,
+            split: 0.0,
+            cracked: since,
+            broken: since,
             reach: 0.0,
             spots: Vec::with_capacity(POINTS),
         };
         crack.place(law);
-        crack
+        Some(crack)
     }
 
     /// Its contact points.
@@ -241,21 +271,25 @@ impl Crack {
         from + part * (to - from)
     }
 
-    /// Moments of D and of χ from one node to another.
-    fn moments(&self, [first, last]: [usize; 2]) -> [Moments; 2] {
+    /// Moments of D and of χ between two places, counted in nodes.
+    fn moments(&self, [first, last]: [f64; 2]) -> [Moments; 2] {
+        if self.is_gone() {
+            return [whole_between([first, last]); 2];
+        }
         let mut sums = [[0.0; 3]; 2];
-        for (n, pair) in self.nodes.windows(2).enumerate().take(last).skip(first) {
+        for n in first as usize..last.ceil() as usize {
             // What cracks runs along a part of the joint: the rest has nothing to add.
-            let [from, to] = [pair[0].damage(), pair[1].damage()];
+            let [from, to] = [n, n + 1].map(|n| self.nodes[n].damage());
             if from == 0.0 && to == 0.0 {
                 continue;
             }
-            for (part, factor) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
+            let [start, end] = [(first - n as f64).max(0.0), (last - n as f64).min(1.0)];
+            for (part, factor) in [(start, 1.0), (0.5 * (start + end), 4.0), (end, 1.0)] {
                 let x = (n as f64 + part) / (NODES - 1) as f64;
                 let values = [self.damage_between(n, part), self.chi_between(n, part)];
                 for (sum, value) in sums.iter_mut().zip(values) {
                     for (k, power) in [1.0, x, x * x].into_iter().enumerate() {
-                        sum[k] += factor * value * power;
+                        sum[k] += factor * (end - start) * value * power;
                     }
                 }
             }
@@ -263,9 +297,12 @@ impl Crack {
         sums.map(|sum| sum.map(|moment| moment / (6.0 * (NODES - 1) as f64)))
     }
 
-    /// Whether it has the nodes of such a bond, as one that was read back may not.
-    pub(crate) fn fits(&self) -> bool {
-        self.nodes.len() == NODES && self.split < NODES && self.held[0] < self.held[1] && self.held[1] < NODES
+    /// Whether it has the nodes of a joint of this law, as one that was read back may not.
+    pub(crate) fn fits(&self, law: &Law) -> bool {
+        self.nodes.len() == if law.bond.is_some() { NODES } else { 0 }
+            && (0.0..(NODES - 1) as f64).contains(&self.split)
+            && self.held[0] < self.held[1]
+            && self.held[1] < NODES
     }
 
     /// Gives the points what follows from its state: stretch of what is held, and what part of friction acts.
@@ -326,7 +363,7 @@ impl Crack {
         let intact = self.nodes.iter().all(|node| node.damage() == 0.0);
         let gone = self.is_gone();
         if !gone {
-            let [damaged, _] = self.moments([0, NODES - 1]);
+            let [damaged, _] = self.moments([0.0, (NODES - 1) as f64]);
             let [whole, first, second]: Moments = std::array::from_fn(|k| WHOLE[k] - damaged[k]);
             if whole > NOTHING {
                 let centre = first / whole;
@@ -349,18 +386,37 @@ impl Crack {
             weight: damaged.max(0.0),
             rubbing: (rubbing / share).clamp(0.0, 1.0),
         };
-        // Three points at the ends and the middle of what has cracked, which turn as it does; of what is pressed and what is open of it three each.
-        let [near, far] = if gone { [0, NODES - 1] } else { self.presses_between(press) };
-        let splits = (near + 1..far).contains(&self.split);
-        let parts: &[_] = if splits { &[[near, self.split], [self.split, far]] } else { &[[near, far]] };
+        let [near, far] = self.presses_between(press);
         let before = spots.len();
         let mut few = law.crushing.is_infinite() || intact;
-        for (nodes, points) in parts.iter().zip(if splits { SIX } else { [THREE; 2] }) {
-            let [start, end] = nodes.map(place);
-            let all = [1, 2, 3].map(|k| (end.powi(k) - start.powi(k)) / f64::from(k));
-            let [damaged, rubs] = self.moments(*nodes);
-            let [damaged, all, rubs] = [damaged, all, rubs].map(|moments| thirds(moments, start, end - start));
-            for (k, point) in points.into_iter().enumerate() {
+        if self.split > 0.0 {
+            // Of what is pressed and what is open of it two points each.
+            for (between, points) in [[near, self.split], [self.split, far]].into_iter().zip(FOUR) {
+                let edge = if between[0] == near { near } else { far } / (NODES - 1) as f64;
+                let [damaged, rubs] = self.moments(between);
+                let all = whole_between(between);
+                let ([outer, inner], at) = edge_and_inside([0, 1, 2].map(|k| cracked(damaged[k], all[k])), edge);
+                // What is in proportion to it in all and where.
+                let split = |moments: Moments| {
+                    let inner = if at == edge { 0.0 } else { (moments[1] - edge * moments[0]) / (at - edge) };
+                    [moments[0] - inner, inner]
+                };
+                let [damaged, rubs] = [split(damaged), split(rubs)];
+                let both = [(edge, outer), (at, inner)];
+                for k in if edge < at { [0, 1] } else { [1, 0] } {
+                    let (at, share) = both[k];
+                    if share > NOTHING {
+                        spots.push(dry(points[k], at, share, [damaged[k], rubs[k]]));
+                    }
+                }
+            }
+        } else {
+            // Three points at the ends and the middle of what has cracked, which turn as it does.
+            let [start, end] = [near, far].map(|at| at / (NODES - 1) as f64);
+            let [damaged, rubs] = self.moments([near, far]);
+            let [damaged, all, rubs] =
+                [damaged, whole_between([near, far]), rubs].map(|moments| thirds(moments, start, end - start));
+            for (k, point) in THREE.into_iter().enumerate() {
                 let share = cracked(damaged[k], all[k]);
                 // Where damage is so uneven that one of them would pull, nine stand for what is around them.
                 few &= share >= -NOTHING && rubs[k] >= -NOTHING && rubs[k] <= share + NOTHING;
@@ -379,32 +435,42 @@ impl Crack {
                 }
             }
         }
+        self.stays(law, spots);
+    }
+
+    fn stays(&self, law: &Law, spots: &mut Vec<Spot>) {
         if law.bond.is_some_and(|bond| bond.residual > 0.0) {
             spots.push(Spot { point: POINTS - 1, part: Part::Stays, at: 0.5, share: 1.0, weight: 0.0, rubbing: 0.0 });
         }
     }
 
-    /// First and last node between which all lies that acts in compression only: what has cracked, or all of it.
-    fn presses_between(&self, press: f64) -> [usize; 2] {
-        if press > 0.0 {
-            return [0, NODES - 1];
+    /// Between which nodes all lies that acts in compression only: what has cracked, or all of it.
+    fn presses_between(&self, press: f64) -> [f64; 2] {
+        let all = [0.0, (NODES - 1) as f64];
+        if press > 0.0 || self.is_gone() {
+            return all;
         }
         let cracked = |node: &Node| node.damage() > 0.0;
         let first = self.nodes.iter().position(cracked).unwrap_or(0);
         let last = self.nodes.iter().rposition(cracked).unwrap_or(0);
-        [first.saturating_sub(1), (last + 1).min(NODES - 1)]
+        [(first as f64 - 1.0).max(all[0]), (last as f64 + 1.0).min(all[1])]
     }
 
-    /// The node nearest to where its sides touch, what has cracked being open on one side of it and pressed on the other; 0 where it is all one.
-    fn touching(&self, press: f64) -> usize {
-        let [near, far] = self.presses_between(press);
+    /// Where its sides touch, what has cracked being open on one side of it and pressed on the other; 0 where it is all one, or may be crushed.
+    fn touching(&self, law: &Law) -> f64 {
+        let Normal::Springs { press, .. } = law.normal else { return 0.0 };
         let [[from, _], [to, _]] = self.line;
         let at = from / (from - to) * (NODES - 1) as f64;
-        let inside = at > near as f64 && at < far as f64;
-        match self.split {
-            split if split > 0 && inside && (at - split as f64).abs() < NEARLY => split,
-            _ if inside => (at.round() as usize).clamp(near + 1, far.max(near + 2) - 1),
-            _ => 0,
+        if law.crushing.is_finite() || !(from.max(to) > TOUCHING && at > 0.0 && at < (NODES - 1) as f64) {
+            return 0.0;
+        }
+        let [near, far] = self.presses_between(press);
+        let room = |at: f64| (at - near).min(far - at);
+        let stays = self.split > 0.0 && (at - self.split).abs() < NEARLY * room(self.split);
+        match room(at) > 0.0 {
+            true if stays => self.split,
+            true => at,
+            false => 0.0,
         }
     }
 
@@ -437,14 +503,19 @@ impl Crack {
     pub(crate) fn follow(&mut self, points: &[Point]) {
         // Where nothing is left of the bond, all that has cracked moves alike.
         let part = if self.is_gone() { Part::Dry } else { Part::Held };
+        if let Some(line) = self.line_through(part, points) {
+            self.was = std::mem::replace(&mut self.line, line);
+        }
+    }
+
+    /// Opening and slide at the ends as the points of a part have them; none where they are no two.
+    fn line_through(&self, part: Part, points: &[Point]) -> Option<[[f64; 2]; 2]> {
         let mut ends = self.spots.iter().filter(|spot| spot.part == part);
-        let (Some(first), Some(second)) = (ends.next(), ends.next_back()) else { return };
+        let (first, second) = (ends.next()?, ends.next_back()?);
         let of = |spot: &Spot| [points[spot.point].gap, points[spot.point].slide];
         let (from, to, length) = (of(first), of(second), second.at - first.at);
-        if length > 0.0 {
-            let at = |x: f64| [0, 1].map(|k| from[k] + (x - first.at) / length * (to[k] - from[k]));
-            self.was = std::mem::replace(&mut self.line, [at(0.0), at(1.0)]);
-        }
+        let at = |x: f64| [0, 1].map(|k| from[k] + (x - first.at) / length * (to[k] - from[k]));
+        (length > 0.0).then(|| [at(0.0), at(1.0)])
     }
 
     /// Energy in the springs of the joint as its line and its points stand [J].
@@ -474,8 +545,8 @@ impl Crack {
 
     /// What the bond lost in a step of a joint with springs that ended at `time` [s]; its points are placed anew where it lost something or its sides touch elsewhere.
     pub(crate) fn wear(&mut self, law: &Law, points: &mut [Point], time: f64) -> Worn {
-        let (Some(bond), Normal::Springs { both, press, .. }) = (law.bond, law.normal) else { return Worn::default() };
-        if self.broken.is_finite() && self.touching(press) == self.split {
+        let Normal::Springs { both, press, .. } = law.normal else { return Worn::default() };
+        if self.broken.is_finite() && self.touching(law) == self.split {
             return Worn::default();
         }
         let [near, far] = self.line;
@@ -484,6 +555,8 @@ impl Crack {
         let pressed = (both + press) * (-near[0].min(far[0])).max(0.0);
         let intact = self.cracked.is_infinite();
         let opened = near[0].max(far[0]);
+        let bond =
+            law.bond.unwrap_or(Bond { tension: 0.0, cohesion: 0.0, tan_angle: 0.0, energy: [0.0; 2], residual: 0.0 });
         if intact && both * (opened - TOUCHING) <= bond.tension && sheared <= bond.cohesion && pressed <= law.crushing {
             return Worn::default();
         }
@@ -491,7 +564,7 @@ impl Crack {
         let mut friction = self.friction_borne(law, points);
         let mut taken = 0.0;
         let mut worn = false;
-        for n in 0..NODES {
+        for n in 0..self.nodes.len() {
             let x = place(n);
             let [w, s] = self.stretched(x);
             let weight = if n == 0 || n == NODES - 1 { 0.5 } else { 1.0 } / (NODES - 1) as f64;
@@ -518,7 +591,7 @@ impl Crack {
         if worn && 1.0 - self.damage() <= NOTHING {
             self.nodes.fill(Node::GONE);
         }
-        let split = if worn || !intact { self.touching(press) } else { self.split };
+        let split = if worn || !intact { self.touching(law) } else { self.split };
         if !worn && split == self.split {
             return Worn::default();
         }
@@ -527,13 +600,17 @@ impl Crack {
         if self.is_gone() {
             self.broken = self.broken.min(time);
         }
+        // What has cracked opens as the edges of the blocks stand, what is held by how far it was stretched: they differ by rounding and by turning.
+        let line = self.line_through(Part::Dry, points).unwrap_or(self.line);
         let mut was = [f64::NAN; POINTS];
         self.spots.iter().for_each(|spot| was[spot.point] = spot.at);
+        // Blocks slide alike along the joint.
+        let speed = self.spots.iter().map(|spot| points[spot.point].speed).fold(0.0, f64::max);
         self.place(law);
         for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry && spot.at != was[spot.point]) {
-            let [gap, slide] = self.stretched(spot.at);
+            let [gap, slide] = between(&line, spot.at);
             let point = &mut points[spot.point];
-            let kept = if was[spot.point].is_nan() { Point::default() } else { *point };
+            let kept = if was[spot.point].is_nan() { Point { speed, ..Point::default() } } else { *point };
             *point = Point { gap, slide, ..kept };
         }
         self.set(points);
@@ -766,7 +843,7 @@ mod tests {
     fn one_damage_weakens_both_strengths() {
         let law = law();
         let pressed = -60e3 / 3e9;
-        let mut crack = Crack::new(&law);
+        let mut crack = Crack::of(&law).expect("a bond");
         // δ_c of opening is G/f_t and a little less: χ = 0.9 at 2.3 of it.
         stretch(&mut crack, [0.0; 2], [2.303 * 6.0 / 15e3, 0.0], &law);
         let chi = crack.nodes[7].chi();
@@ -778,7 +855,7 @@ mod tests {
         assert!((1.0 - damage) * 3e9 * 3.2e-3 <= (1.0 - chi) * strength * (1.0 + 1e-9));
         let rubs = (1.0 - left) * 0.6 * 60e3;
         assert!((1.0 - damage) * 3e9 * 3.2e-3 + rubs <= (1.0 - chi) * strength + 0.6 * 60e3);
-        let mut crack = Crack::new(&law);
+        let mut crack = Crack::of(&law).expect("a bond");
         stretch(&mut crack, [0.0; 2], [0.0, 5e-3], &law);
         let left = crack.nodes[7].left;
         stretch(&mut crack, [0.0, 5e-3], [1e-4, 5e-3], &law);
@@ -790,7 +867,7 @@ mod tests {
     fn a_node_follows_its_softening_and_takes_its_energy() {
         let law = law();
         for (mode, strength) in [(0, 15e3), (1, 6e3)] {
-            let mut crack = Crack::new(&law);
+            let mut crack = Crack::of(&law).expect("a bond");
             let bond = law.bond.expect("a bond");
             let along = |way: f64| if mode == 0 { [way, 0.0] } else { [0.0, way] };
             let limit = strength / 3e9;
@@ -820,7 +897,7 @@ mod tests {
             vec![[0.0; 2], half, [0.0, half[1]], [0.0, far[1]]],
         ];
         for path in paths {
-            let mut crack = Crack::new(&law);
+            let mut crack = Crack::of(&law).expect("a bond");
             let (mut work, mut taken, mut was) = (0.0, 0.0, [0.0; 2]);
             let stresses =
                 |crack: &Crack, [w, s]: [f64; 2]| [w, s].map(|way| (1.0 - crack.nodes[7].damage()) * 3e9 * way);
@@ -847,7 +924,7 @@ mod tests {
     #[test]
     fn points_have_the_stiffness_of_the_joint() {
         let law = law();
-        let mut crack = Crack::new(&law);
+        let mut crack = Crack::of(&law).expect("a bond");
         let moments = |crack: &Crack| {
             [0, 1, 2].map(|k| crack.spots().iter().map(|s| s.share * (s.at - 0.5).powi(k)).sum::<f64>())
         };

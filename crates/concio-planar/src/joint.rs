@@ -271,6 +271,12 @@ impl Law {
         self.is_compliant() && self.springs().0 == 0.0 && self.device.is_none()
     }
 
+    /// Whether it bears nothing where its sides are apart, and its pressure along a part of it is a straight line: it has three points for that part, and three
+    /// for what is open.
+    pub(crate) fn parts_freely(&self) -> bool {
+        self.only_presses() && !self.follows && self.crushing.is_infinite() && self.slip == [0.0; 2]
+    }
+
     /// Lets go what a point keeps in springs that act only where its sides face each other, which they do no more; returns that [J].
     pub(crate) fn let_go(&self, point: &mut Point, share: f64) -> f64 {
         if !self.only_presses() || self.follows {

@@ -848,9 +848,10 @@ impl Motion {
             let own = self.owners[at].pair;
             let end = at + self.owners[at..].iter().take_while(|owner| owner.pair == own).count();
             let Pair { crack, points, link, .. } = &mut self.pairs[own];
-            if let (Some(crack), Some(link)) = (crack, *link) {
-                let law = self.laws.of(Some(link));
-                let seen = &mut self.seen[link];
+            if let Some(crack) = crack {
+                let law = self.laws.of(*link);
+                let mut unseen = Seen::default();
+                let seen = link.map_or(&mut unseen, |link| &mut self.seen[link]);
                 match law.is_compliant() {
                     true => {
                         crack.follow(points);
@@ -919,8 +920,14 @@ impl Motion {
         let known = std::mem::take(&mut self.pairs);
         let fresh = |a, b, link: Option<usize>| {
             let law = self.laws.of(link);
-            let count = if law.bond.is_some() { crack::POINTS } else { law.shares().len() };
-            Pair { a, b, link, points: SmallVec::from_elem(Point::default(), count), laid: 0.0, crack: None }
+            Pair {
+                a,
+                b,
+                link,
+                points: SmallVec::from_elem(Point::default(), crack::most_points(law)),
+                laid: 0.0,
+                crack: None,
+            }
         };
         // Joints stay whatever becomes of them: what has gone apart may come together again.
         let mut pairs: Vec<Pair> = self.joints.iter().enumerate().map(|(k, (a, b))| fresh(*a, *b, Some(k))).collect();
@@ -942,7 +949,7 @@ impl Motion {
         }
         for pair in pairs.iter_mut().filter(|pair| pair.crack.is_none()) {
             let law = self.laws.of(pair.link);
-            pair.crack = law.bond.map(|_| Crack::new(law));
+            pair.crack = Crack::of(law);
             if let Some(crack) = &pair.crack {
                 crack.set(&mut pair.points);
             }
@@ -1005,7 +1012,7 @@ impl Motion {
     pub fn crack(&self, link: usize) -> Option<&Crack> {
         let (a, b) = &self.joints[link];
         let at = self.pairs.binary_search_by_key(&(*a, *b), |p| (p.a, p.b)).ok()?;
-        self.pairs[at].crack.as_ref()
+        self.pairs[at].crack.as_ref().filter(|_| self.laws.of(Some(link)).bond.is_some())
     }
 
     /// All that changes.
@@ -1034,11 +1041,10 @@ impl Motion {
             && kept.pairs.iter().all(|p| p.b < n && p.a.is_none_or(|a| a < n))
             && kept.pairs.iter().all(|p| {
                 let law = || self.laws.of(p.link);
-                let count = || if law().bond.is_some() { crack::POINTS } else { law().shares().len() };
                 p.link.is_none_or(|k| k < self.joints.len())
-                    && p.crack.is_some() == law().bond.is_some()
-                    && p.crack.as_ref().is_none_or(Crack::fits)
-                    && count() == p.points.len()
+                    && p.crack.is_some() == crack::moves(law())
+                    && p.crack.as_ref().is_none_or(|crack| crack.fits(law()))
+                    && crack::most_points(law()) == p.points.len()
             });
         if fits {
             let Kept { places, velocities, time, account, counters, pairs, looked, seen, pull, strains, known } = kept;

@@ -1,4 +1,4 @@
-//! Bonded joints against fine quadratures, and what else a joint keeps of what happened to it.
+//! Joints that open and crack against closed forms and fine quadratures, and what else a joint keeps of what happened to it.
 
 use concio_planar::G;
 use concio_planar::body::Body;
@@ -85,6 +85,42 @@ fn plane_section([length, height]: [f64; 2], energy: f64) -> f64 {
         }
     }
     most
+}
+
+/// Without bond a joint that is pressed along 3 (ℓ/2 − e) turns by θ = 2 N/(k (3 (ℓ/2 − e))²), k per length; pressed all along by 12 N e/(k ℓ³). Loads go up
+/// and come back, over the other edge too.
+#[test]
+fn a_joint_without_bond_opens_as_a_layer_of_springs() {
+    let (size, k) = ([1.0, 1.0], 1e12);
+    let law = Law {
+        normal: Normal::Springs { both: 0.0, press: k * size[0], damping: 0.0 },
+        ..Law::dry(Some(Friction::coulomb(5.0)))
+    };
+    let mut loaded = system(block(size), law);
+    loaded.load[0] = [0.0, -1e5];
+    let mut motion = Motion::new(&loaded, Setting { still: true, ..Setting::new(2e-2) });
+    assert!(motion.stand(1e-14, 4000));
+    let turned = |e: f64| {
+        let ([length, _], apart) = (size, 3.0 * (0.5 - e.abs()));
+        let along = if apart < length { 2e5 / (k * apart * apart) } else { 12e5 * e.abs() / (k * length.powi(3)) };
+        -along.copysign(e)
+    };
+    // M = N e at the joint, of a force at the middle of the block.
+    let pushes = |e: f64| 1e5 * e / (0.5 * size[1] * block(size).mass);
+    let mut e = 0.0;
+    for goal in [0.15, 0.25, 0.35, 0.45, 0.48, 0.3, 0.1, -0.3, -0.45, 0.0] {
+        let way = (1..=20).map(|part| e + (goal - e) * f64::from(part) / 20.0);
+        let off = farthest(way.map(|e| {
+            let push = pushes(e);
+            motion.go(2e-2, &|from, to| Forcing { base: [-push * (to - from), 0.0], held: 0.0 });
+            let expected = turned(e);
+            (motion.places[0].angle / expected.abs().max(1e-9), expected / expected.abs().max(1e-9))
+        }));
+        let subject =
+            format!("Springs: joint without bond that opens, largest error of its turning; e/ℓ from {e} to {goal}");
+        agrees!(subject, "θ = 2 N/(k (3 (ℓ/2 − e))²), 12 N e/(k ℓ³) pressed all along", "", off, 0.0, abs: 5e-3);
+        e = goal;
+    }
 }
 
 /// Brittle, with 2 and with 20 N/m: 1.163, 2.57 and 3.00 g for the block of 1 m.
