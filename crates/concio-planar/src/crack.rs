@@ -1,10 +1,10 @@
-//! Bonded joints: a crack that runs along the joint from where it opens.
+//! What becomes of a joint: what is open of it, what of its bond has cracked, what is crushed.
 //!
-//! A joint between rigid blocks opens and slides by straight lines along its length. Its bond is known at equally spaced nodes,
-//! with what it lost in between by straight lines too. What is left of it acts in both directions and gives two contact points the
+//! A joint between rigid blocks opens and slides by straight lines along its length. Its bond and what is crushed are known at equally spaced nodes,
+//! with straight lines in between. What is left of the bond acts in both directions and gives two contact points the
 //! stiffness against parting and against turning that it has in all, exactly: half of it at each, at the distance of its radius of gyration
-//! from its centre. What has cracked acts in compression alone, at three points with its stiffness and turning, where a part of it is pressed
-//! and a part open at three each, where joints may be crushed at nine. It rubs for the whole joint: friction at springs that pull too would have a kink, where contact is hard to solve.
+//! from its centre. What has cracked, as all of a joint without bond, acts in compression alone, at two points for each of its zones: open, pressed, crushed ([`crate::zone`]).
+//! It rubs for the whole joint: friction at springs that pull too would have a kink, where contact is hard to solve.
 //! Its friction is in line with the part D of the stiffness along: a joint that sticks is as stiff as before it cracked (Alfano & Sacco 2006), and of
 //! the shear that breaks a part of it friction goes on to bear what it can.
 //!
@@ -28,34 +28,30 @@
 use serde::{Deserialize, Serialize};
 
 use crate::joint::{Bond, Law, Normal, Point};
+use crate::zone::{self, Local, Moments, Zone};
 
-/// Nodes of a joint: a crack advances by a sixty-fourth of it.
-const NODES: usize = 65;
-/// Points of what has cracked.
-pub(crate) const DRY: usize = 9;
+/// Nodes of a joint: a crack advances by 1/128 of it.
+const NODES: usize = 129;
+/// Points of what has cracked: two for each zone.
+pub(crate) const DRY: usize = 2 * ZONES;
 /// Points of what is left of the bond.
 pub(crate) const HELD: usize = 2;
 /// Points of a bonded joint, the last for the spring that stays beside friction.
 pub(crate) const POINTS: usize = HELD + DRY + 1;
-/// What the weights of the nine points are, over those of trapezoids: so they turn as a layer of springs does, where all has cracked.
-const GREGORY: [f64; DRY] = {
-    let [end, next, third] = [0.75, 7.0 / 6.0, 23.0 / 24.0];
-    [end, next, third, 1.0, 1.0, 1.0, third, next, end]
-};
-/// Those of the nine that are taken where three do.
-const THREE: [usize; 3] = [0, 4, 8];
-/// Those that are taken where two stand for what lies on one side of where the joint's sides touch, and two for what lies on the other.
-const FOUR: [[usize; 2]; 2] = [[0, 2], [8, 6]];
 /// Moments of the whole joint.
 const WHOLE: Moments = [1.0, 0.5, 1.0 / 3.0];
 /// Part of its strength below which a bond counts as broken, ε of (B4).
 const BROKEN: f64 = 1e-3;
-/// Part of what is pressed or open by which the place where sides touch may move away before points are placed anew.
+/// Part of the least zone by which zones may grow or shrink before points are placed anew.
 const NEARLY: f64 = 1.0 / 32.0;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
 /// Part of a joint below which what is left of its bond is rounding.
 const NOTHING: f64 = 1e-9;
+/// Part of the strength up to which a corner is a contact point.
+const WELL_BELOW: f64 = 0.5;
+/// Part by which the pressure of what crushes is below the strength at most.
+const HARDLY: f64 = 0.01;
 
 /// A node of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -93,7 +89,7 @@ impl Node {
 }
 
 /// What a point of a bonded joint stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Part {
     /// The joint as it is, without bond.
     Whole,
@@ -106,7 +102,7 @@ pub(crate) enum Part {
 }
 
 /// A contact point of a bonded joint.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Spot {
     /// Which of the points.
     pub point: usize,
@@ -120,9 +116,11 @@ pub(crate) struct Spot {
     pub weight: f64,
     /// The part of its friction that acts.
     pub rubbing: f64,
+    /// What is crushed of it [m], so that its zone bears what it does: of two points that stand for an uneven one any number.
+    pub crushed: f64,
 }
 
-/// The state of the bond of one joint.
+/// The state of the bond of one joint, and of what is crushed of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Crack {
     nodes: Vec<Node>,
@@ -131,18 +129,28 @@ pub struct Crack {
     was: [[f64; 2]; 2],
     /// First and last node of a rigid joint that are held.
     held: [usize; 2],
-    /// Where its sides touch, between nodes, where a part of what has cracked is open and a part pressed; else 0.
-    split: f64,
+    /// What is crushed at its nodes [m]; none of a joint that bears any pressure.
+    crushed: Vec<f64>,
+    /// How much of it was open, pressed and crushing when its points were placed.
+    placed: [f64; ZONES],
+    /// Energy in its springs beyond that of its points [J].
+    hidden: f64,
     /// When it first cracked [s]; infinite while it is intact.
     pub cracked: f64,
     /// When nothing was left of it [s].
     pub broken: f64,
     /// How far it was stretched at most where it has cracked [m].
     pub reach: f64,
-    /// What its points stand for; follows from the nodes.
-    #[serde(skip)]
+    /// What its points stand for.
     spots: Vec<Spot>,
 }
+
+/// Zones of a joint: what is open, what is pressed, what is pressed where it was crushed, and what is pressed nearly as hard as it bears.
+const ZONES: usize = 4;
+const OPEN: usize = 0;
+const PRESSED: usize = 1;
+const CRUSHED: usize = 2;
+const CRUSHING: usize = 3;
 
 /// What became of the bond in a step [J].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -163,35 +171,14 @@ fn between(line: &[[f64; 2]; 2], at: f64) -> [f64; 2] {
     [0, 1].map(|k| line[0][k] + at * (line[1][k] - line[0][k]))
 }
 
-/// ∫ f x^k over the joint for k of 0, 1 and 2.
-type Moments = [f64; 3];
-
-/// Moments of all between two places, counted in nodes.
-fn whole_between(places: [f64; 2]) -> Moments {
-    let [from, to] = places.map(|at| at / (NODES - 1) as f64);
-    [to - from, (to * to - from * from) / 2.0, (to.powi(3) - from.powi(3)) / 3.0]
-}
-
-/// What a point at the edge of a part of the joint bears and what another one, so that they have these moments (Gauss and Radau): a part that is pressed
-/// bears what it should to second order in how far its end is from where it was taken to be. And where the other is.
-fn edge_and_inside(moments: Moments, edge: f64) -> ([f64; 2], f64) {
-    let [whole, first, second] = moments;
-    let [first, second] = [first - edge * whole, second - edge * (2.0 * first - edge * whole)];
-    let inside = if second > 0.0 { first * first / second } else { 0.0 };
-    ([whole - inside, inside], if first == 0.0 { edge } else { edge + second / first })
-}
-
-/// What three points at the ends and the middle of a part of the joint bear, from `from` on and of this length, so that they have these moments.
-fn thirds(moments: Moments, from: f64, length: f64) -> [f64; 3] {
-    let [whole, first, second] = moments;
-    let [first, second] =
-        [(first - from * whole) / length, (second - from * (2.0 * first - from * whole)) / (length * length)];
-    [whole - 3.0 * first + 2.0 * second, 4.0 * (first - second), 2.0 * second - first]
-}
-
 /// Whether the points of a joint of this law move, as a bond cracks or a part of the joint opens.
 pub(crate) fn moves(law: &Law) -> bool {
-    law.bond.is_some() || law.parts_freely()
+    law.bond.is_some() || law.has_zones()
+}
+
+/// Whether all of a joint of this law pulls: without bond springs in both directions do for good.
+fn pulls(law: &Law) -> bool {
+    law.bond.is_none() && !law.only_presses()
 }
 
 /// How many points a joint of this law has at most.
@@ -212,13 +199,15 @@ impl Crack {
             line: [[0.0; 2]; 2],
             was: [[0.0; 2]; 2],
             held: [0, NODES - 1],
-            split: 0.0,
+            crushed: vec![0.0; if law.has_zones() && law.crushing.is_finite() { NODES } else { 0 }],
+            placed: [0.0; ZONES],
+            hidden: 0.0,
             cracked: since,
             broken: since,
             reach: 0.0,
             spots: Vec::with_capacity(POINTS),
         };
-        crack.place(law);
+        crack.place(law, &[[0.0; 2]; 2], &crack.zones(law, &[[0.0; 2]; 2]));
         Some(crack)
     }
 
@@ -250,7 +239,7 @@ impl Crack {
 
     /// Whether nothing is left of it.
     pub fn is_gone(&self) -> bool {
-        self.nodes.iter().all(|node| node.damage() == 1.0)
+        self.broken.is_finite()
     }
 
     /// Of what is linear between nodes.
@@ -259,48 +248,89 @@ impl Crack {
         (ends + (1..NODES - 1).map(f).sum::<f64>()) / (NODES - 1) as f64
     }
 
-    /// D on the way from a node to the next.
-    fn damage_between(&self, n: usize, part: f64) -> f64 {
-        let [from, to] = [n, n + 1].map(|n| self.nodes[n].damage());
-        from + part * (to - from)
+    /// The most that is crushed of it [m].
+    pub fn depth(&self) -> f64 {
+        self.crushed.iter().copied().fold(0.0, f64::max)
     }
 
-    /// χ there.
-    fn chi_between(&self, n: usize, part: f64) -> f64 {
-        let [from, to] = [n, n + 1].map(|n| self.nodes[n].chi());
-        from + part * (to - from)
+    /// Energy in its springs beyond that of its points [J].
+    pub(crate) fn hidden(&self) -> f64 {
+        self.hidden
     }
 
-    /// Moments of D and of χ between two places, counted in nodes.
-    fn moments(&self, [first, last]: [f64; 2]) -> [Moments; 2] {
-        if self.is_gone() {
-            return [whole_between([first, last]); 2];
-        }
-        let mut sums = [[0.0; 3]; 2];
-        for n in first as usize..last.ceil() as usize {
-            // What cracks runs along a part of the joint: the rest has nothing to add.
-            let [from, to] = [n, n + 1].map(|n| self.nodes[n].damage());
-            if from == 0.0 && to == 0.0 {
-                continue;
+    /// Lets that go where its sides face each other no more; returns it [J].
+    pub(crate) fn let_go(&mut self) -> f64 {
+        std::mem::take(&mut self.hidden)
+    }
+
+    /// What is open of what has cracked, what is pressed and what crushes, its ends being as far apart as `line` says.
+    fn zones(&self, law: &Law, line: &[[f64; 2]; 2]) -> [Zone; ZONES] {
+        let mut zones = [Zone::default(); ZONES];
+        let Normal::Springs { both, press, .. } = law.normal else { return zones };
+        let stiffness = both + press;
+        let most = law.crushing / stiffness;
+        let pulls = pulls(law);
+        let [from, to] = [line[0][0], line[1][0]];
+        let gone = self.is_gone();
+        let mut take = |[a, b]: [(f64, Local); 2], pressed: usize| {
+            let mut add = |ends: [(f64, Local); 2]| {
+                let opens = ends[0].1[3].max(ends[1].1[3]) > TOUCHING && !pulls;
+                zones[if opens { OPEN } else { pressed }].add(ends);
+            };
+            let [start, end] = [a.1[3], b.1[3]];
+            // Where its sides touch it has two parts.
+            if start * end < 0.0 {
+                let part = start / (start - end);
+                let mut middle = (a.0 + part * (b.0 - a.0), zone::between(&a.1, &b.1, part));
+                middle.1[3] = 0.0;
+                add([a, middle]);
+                add([middle, b]);
+            } else {
+                add([a, b]);
             }
-            let [start, end] = [(first - n as f64).max(0.0), (last - n as f64).min(1.0)];
-            for (part, factor) in [(start, 1.0), (0.5 * (start + end), 4.0), (end, 1.0)] {
-                let x = (n as f64 + part) / (NODES - 1) as f64;
-                let values = [self.damage_between(n, part), self.chi_between(n, part)];
-                for (sum, value) in sums.iter_mut().zip(values) {
-                    for (k, power) in [1.0, x, x * x].into_iter().enumerate() {
-                        sum[k] += factor * (end - start) * value * power;
-                    }
+        };
+        // Most joints by far.
+        if gone && self.crushed.iter().all(|depth| *depth == 0.0) && -from.min(to) < most {
+            take([(0.0, [1.0, 1.0, 1.0, from]), (1.0, [1.0, 1.0, 1.0, to])], PRESSED);
+        } else {
+            let depth = |n: usize| *self.crushed.get(n).unwrap_or(&0.0);
+            let gap = |n: usize| between(line, place(n))[0] + depth(n);
+            let local = |n: usize| self.nodes.get(n).map_or([1.0; 2], |node| [node.damage(), node.chi()]);
+            let plain = |n: usize| n < NODES && local(n)[0] == 1.0 && depth(n) == 0.0;
+            // Of springs of which some act in compression only as long as nothing has cracked.
+            let acts = |cracked: f64| if gone { 1.0 } else { (both * cracked + press) / stiffness };
+            let mut n = 0;
+            while n < NODES - 1 {
+                // What has cracked for good is alike as far as it goes.
+                let mut end = n + 1;
+                while plain(n) && plain(end) && plain(end + 1) {
+                    end += 1;
                 }
+                let ends = [n, end].map(|n| {
+                    let [cracked, rubs] = local(n);
+                    (place(n), [acts(cracked), cracked, rubs, gap(n)])
+                });
+                let [(_, first), (_, last)] = ends;
+                if first[0] > 0.0 || last[0] > 0.0 {
+                    let pressed = match first[3].max(last[3]) <= -most * (1.0 - HARDLY) {
+                        true => CRUSHING,
+                        false if depth(n) > 0.0 && depth(end) > 0.0 => CRUSHED,
+                        false => PRESSED,
+                    };
+                    take(ends, pressed);
+                }
+                n = end;
             }
         }
-        sums.map(|sum| sum.map(|moment| moment / (6.0 * (NODES - 1) as f64)))
+        zones
     }
 
     /// Whether it has the nodes of a joint of this law, as one that was read back may not.
     pub(crate) fn fits(&self, law: &Law) -> bool {
         self.nodes.len() == if law.bond.is_some() { NODES } else { 0 }
-            && (0.0..(NODES - 1) as f64).contains(&self.split)
+            && self.crushed.len() == if law.has_zones() && law.crushing.is_finite() { NODES } else { 0 }
+            && self.spots.len() <= POINTS
+            && self.spots.iter().all(|spot| spot.point < POINTS)
             && self.held[0] < self.held[1]
             && self.held[1] < NODES
     }
@@ -316,13 +346,13 @@ impl Crack {
         }
     }
 
-    /// Takes the points from the nodes.
-    pub(crate) fn place(&mut self, law: &Law) {
+    /// Takes the points from its zones, its ends being as far apart as `line` says.
+    fn place(&mut self, law: &Law, line: &[[f64; 2]; 2], zones: &[Zone; ZONES]) {
         let mut spots = std::mem::take(&mut self.spots);
         spots.clear();
         match law.normal {
             Normal::Rigid { .. } => self.place_rigid(&mut spots),
-            Normal::Springs { both, press, .. } => self.place_springs([both, press], law, &mut spots),
+            Normal::Springs { .. } => self.place_springs(law, line, zones, &mut spots),
         }
         self.spots = spots;
     }
@@ -336,6 +366,7 @@ impl Crack {
             share: 0.5,
             weight,
             rubbing: 1.0,
+            crushed: 0.0,
         };
         if self.is_gone() {
             spots.extend([dry(0, 0.5), dry(1, 0.5)]);
@@ -349,6 +380,7 @@ impl Crack {
             share: 0.5 * length,
             weight: 0.5,
             rubbing: 1.0,
+            crushed: 0.0,
         };
         if first > 0 {
             spots.push(dry(0, 0.0));
@@ -359,139 +391,108 @@ impl Crack {
         }
     }
 
-    fn place_springs(&self, [both, press]: [f64; 2], law: &Law, spots: &mut Vec<Spot>) {
-        let intact = self.nodes.iter().all(|node| node.damage() == 0.0);
-        let gone = self.is_gone();
-        if !gone {
-            let [damaged, _] = self.moments([0.0, (NODES - 1) as f64]);
-            let [whole, first, second]: Moments = std::array::from_fn(|k| WHOLE[k] - damaged[k]);
+    fn place_springs(&mut self, law: &Law, line: &[[f64; 2]; 2], zones: &[Zone; ZONES], spots: &mut Vec<Spot>) {
+        let Normal::Springs { both, press, .. } = law.normal else { return };
+        let stiffness = both + press;
+        let spot = |point: usize, part: Part, at: f64, share: f64| Spot {
+            point,
+            part,
+            at,
+            share,
+            weight: share,
+            rubbing: 0.0,
+            crushed: 0.0,
+        };
+        if !self.is_gone() {
+            // What acts otherwise is what is pressed only, and D of the rest.
+            let acts = |k: usize| zones.iter().map(|zone| zone.acts[k]).sum::<f64>();
+            let [whole, first, second]: Moments = std::array::from_fn(|k| (WHOLE[k] - acts(k)) * stiffness / both);
             if whole > NOTHING {
                 let centre = first / whole;
                 let away = (second / whole - centre * centre).max(0.0).sqrt();
-                let share = 0.5 * whole;
-                let held =
-                    |point: usize, at: f64| Spot { point, part: Part::Held, at, share, weight: share, rubbing: 0.0 };
+                let held = |point: usize, at: f64| spot(point, Part::Held, at, 0.5 * whole);
                 spots.extend([held(0, centre - away), held(1, centre + away)]);
             }
         }
-        // Of springs of which some act in compression only as long as nothing has cracked.
-        let stiffness = both + press;
-        let cracked = |damaged: f64, all: f64| (both * damaged + press * all) / stiffness;
-        // The part χ of all pressure rubs, of which what has cracked bears its share.
-        let dry = |point: usize, at: f64, share: f64, [damaged, rubbing]: [f64; 2]| Spot {
-            point: HELD + point,
-            part: Part::Dry,
-            at,
-            share,
-            weight: damaged.max(0.0),
-            rubbing: (rubbing / share).clamp(0.0, 1.0),
-        };
-        let [near, far] = self.presses_between(press);
-        let before = spots.len();
-        let mut few = law.crushing.is_infinite() || intact;
-        if self.split > 0.0 {
-            // Of what is pressed and what is open of it two points each.
-            for (between, points) in [[near, self.split], [self.split, far]].into_iter().zip(FOUR) {
-                let edge = if between[0] == near { near } else { far } / (NODES - 1) as f64;
-                let [damaged, rubs] = self.moments(between);
-                let all = whole_between(between);
-                let ([outer, inner], at) = edge_and_inside([0, 1, 2].map(|k| cracked(damaged[k], all[k])), edge);
-                // What is in proportion to it in all and where.
-                let split = |moments: Moments| {
-                    let inner = if at == edge { 0.0 } else { (moments[1] - edge * moments[0]) / (at - edge) };
-                    [moments[0] - inner, inner]
-                };
-                let [damaged, rubs] = [split(damaged), split(rubs)];
-                let both = [(edge, outer), (at, inner)];
-                for k in if edge < at { [0, 1] } else { [1, 0] } {
-                    let (at, share) = both[k];
-                    if share > NOTHING {
-                        spots.push(dry(points[k], at, share, [damaged[k], rubs[k]]));
-                    }
+        let pulls = pulls(law);
+        self.placed = zones.map(|zone| zone.acts[0]);
+        self.hidden = 0.0;
+        let crushed = self.depth() > 0.0;
+        let ends = zones
+            .iter()
+            .filter(|zone| zone.is_there())
+            .fold([1.0f64, 0.0f64], |[near, far], zone| [near.min(zone.between[0]), far.max(zone.between[1])]);
+        let alone = zones.iter().filter(|zone| zone.is_there()).count() == 1;
+        let mut point = HELD;
+        for (kind, zone) in zones.iter().enumerate().filter(|(_, zone)| zone.is_there()) {
+            let (gap, cracked, rubs) = (zone.line(zone.gap), zone.line(zone.cracked), zone.line(zone.rubs));
+            // A point in a corner that is near its strength would hold back all it stands for.
+            let corners = zone.between.iter().all(|at| -gap(*at) < WELL_BELOW * law.crushing / stiffness);
+            let points = match (corners, alone) {
+                (true, true) => zone.three(ends),
+                (true, false) => zone.two(Some(ends)),
+                (false, _) => zone.two(None),
+            };
+            let points = || points.into_iter().filter(|[_, share]| *share > NOTHING);
+            // A line through an uneven zone may leave what such a zone has: it is turned as far as it has to be.
+            let mean = zone.gap[0] / zone.acts[0];
+            let limits = if kind == OPEN {
+                [0.0, f64::INFINITY]
+            } else {
+                [-law.crushing / stiffness, if pulls { f64::INFINITY } else { 0.0 }]
+            };
+            let turned = points().fold(1.0, |turned: f64, [at, _]| {
+                let limit = if gap(at) < mean { limits[0] } else { limits[1] };
+                if (gap(at) - mean).abs() > (limit - mean).abs() {
+                    turned.min((limit - mean) / (gap(at) - mean))
+                } else {
+                    turned
                 }
+            });
+            for [at, share] in points() {
+                let mut spot = spot(point, Part::Dry, at, share);
+                // The part χ of all pressure rubs, of which what has cracked bears its share.
+                (spot.weight, spot.rubbing) = ((share * cracked(at)).max(0.0), rubs(at).clamp(0.0, 1.0));
+                if crushed {
+                    let gap = mean + turned.max(0.0) * (gap(at) - mean);
+                    spot.crushed = gap - between(line, at)[0];
+                    self.hidden -= if kind == OPEN { 0.0 } else { 0.5 * stiffness * share * gap * gap };
+                }
+                spots.push(spot);
+                point += 1;
             }
-        } else {
-            // Three points at the ends and the middle of what has cracked, which turn as it does.
-            let [start, end] = [near, far].map(|at| at / (NODES - 1) as f64);
-            let [damaged, rubs] = self.moments([near, far]);
-            let [damaged, all, rubs] =
-                [damaged, whole_between([near, far]), rubs].map(|moments| thirds(moments, start, end - start));
-            for (k, point) in THREE.into_iter().enumerate() {
-                let share = cracked(damaged[k], all[k]);
-                // Where damage is so uneven that one of them would pull, nine stand for what is around them.
-                few &= share >= -NOTHING && rubs[k] >= -NOTHING && rubs[k] <= share + NOTHING;
-                if share > NOTHING {
-                    spots.push(dry(point, start + 0.5 * k as f64 * (end - start), share, [damaged[k], rubs[k]]));
-                }
-            }
-        }
-        if !few {
-            spots.truncate(before);
-            for point in 0..DRY {
-                let [damaged, all, rubs] = self.around(point);
-                let share = cracked(damaged, all);
-                if share > NOTHING {
-                    spots.push(dry(point, point as f64 / (DRY - 1) as f64, share, [damaged, rubs]));
-                }
+            if crushed && kind != OPEN {
+                self.hidden += 0.5 * stiffness * zone.square;
             }
         }
-        self.stays(law, spots);
-    }
-
-    fn stays(&self, law: &Law, spots: &mut Vec<Spot>) {
         if law.bond.is_some_and(|bond| bond.residual > 0.0) {
-            spots.push(Spot { point: POINTS - 1, part: Part::Stays, at: 0.5, share: 1.0, weight: 0.0, rubbing: 0.0 });
+            spots.push(Spot { weight: 0.0, ..spot(POINTS - 1, Part::Stays, 0.5, 1.0) });
         }
     }
 
-    /// Between which nodes all lies that acts in compression only: what has cracked, or all of it.
-    fn presses_between(&self, press: f64) -> [f64; 2] {
-        let all = [0.0, (NODES - 1) as f64];
-        if press > 0.0 || self.is_gone() {
-            return all;
-        }
-        let cracked = |node: &Node| node.damage() > 0.0;
-        let first = self.nodes.iter().position(cracked).unwrap_or(0);
-        let last = self.nodes.iter().rposition(cracked).unwrap_or(0);
-        [(first as f64 - 1.0).max(all[0]), (last as f64 + 1.0).min(all[1])]
+    /// Whether its points stand for these zones still.
+    fn stand(&self, zones: &[Zone; ZONES]) -> bool {
+        let there = |part: f64| part > zone::LEAST;
+        let least = self.placed.iter().copied().filter(|part| there(*part)).fold(f64::INFINITY, f64::min);
+        zones.iter().zip(self.placed).all(|(zone, placed)| {
+            let now = zone.acts[0];
+            there(now) == there(placed) && (now - placed).abs() <= NEARLY * least
+        })
     }
 
-    /// Where its sides touch, what has cracked being open on one side of it and pressed on the other; 0 where it is all one, or may be crushed.
-    fn touching(&self, law: &Law) -> f64 {
-        let Normal::Springs { press, .. } = law.normal else { return 0.0 };
-        let [[from, _], [to, _]] = self.line;
-        let at = from / (from - to) * (NODES - 1) as f64;
-        if law.crushing.is_finite() || !(from.max(to) > TOUCHING && at > 0.0 && at < (NODES - 1) as f64) {
-            return 0.0;
-        }
-        let [near, far] = self.presses_between(press);
-        let room = |at: f64| (at - near).min(far - at);
-        let stays = self.split > 0.0 && (at - self.split).abs() < NEARLY * room(self.split);
-        match room(at) > 0.0 {
-            true if stays => self.split,
-            true => at,
-            false => 0.0,
-        }
-    }
-
-    /// The part of the joint that a point of what has cracked stands for: what of it has, all of it, and what rubs.
-    fn around(&self, point: usize) -> [f64; 3] {
-        let apart = (NODES - 1) / (DRY - 1);
-        let centre = point * apart;
-        let nodes = centre.saturating_sub(apart)..(centre + apart).min(NODES - 1);
-        let mut sums = [0.0; 3];
-        for n in nodes {
-            for (part, factor) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
-                let hat = 1.0 - ((n as f64 + part) - centre as f64).abs() / apart as f64;
-                for (sum, value) in sums.iter_mut().zip([self.damage_between(n, part), 1.0, self.chi_between(n, part)])
-                {
-                    *sum += factor * hat * value;
-                }
+    /// Crushes what is pressed harder than it bears, its ends being as far apart as `line` says; what that takes [J].
+    fn crush(&mut self, law: &Law, line: &[[f64; 2]; 2]) -> f64 {
+        let most = law.crushing / law.normal_stiffness();
+        let mut taken = 0.0;
+        for (n, crushed) in self.crushed.iter_mut().enumerate() {
+            let to = -between(line, place(n))[0] - most;
+            if to > *crushed {
+                let weight = if n == 0 || n == NODES - 1 { 0.5 } else { 1.0 } / (NODES - 1) as f64;
+                taken += weight * law.crushing * (to - *crushed);
+                *crushed = to;
             }
         }
-        // Of a part trapezoids keep what it is in all and where; of the whole they would turn too stiffly.
-        let rule = if self.is_gone() { GREGORY[point] } else { 1.0 };
-        sums.map(|sum| sum * rule / (6.0 * (NODES - 1) as f64))
+        taken
     }
 
     /// Opening and slide of a point that is held, which go on with the motion wherever it was before.
@@ -510,8 +511,9 @@ impl Crack {
 
     /// Opening and slide at the ends as the points of a part have them; none where they are no two.
     fn line_through(&self, part: Part, points: &[Point]) -> Option<[[f64; 2]; 2]> {
-        let mut ends = self.spots.iter().filter(|spot| spot.part == part);
-        let (first, second) = (ends.next()?, ends.next_back()?);
+        let spots = self.spots.iter().filter(|spot| spot.part == part);
+        let first = spots.clone().reduce(|a, b| if b.at < a.at { b } else { a })?;
+        let second = spots.reduce(|a, b| if b.at > a.at { b } else { a })?;
         let of = |spot: &Spot| [points[spot.point].gap, points[spot.point].slide];
         let (from, to, length) = (of(first), of(second), second.at - first.at);
         let at = |x: f64| [0, 1].map(|k| from[k] + (x - first.at) / length * (to[k] - from[k]));
@@ -525,6 +527,7 @@ impl Crack {
         let shear = law.shear.stiffness;
         let breaks = law.breaking_stiffness();
         let [_, mut energy] = self.friction_borne(law, points);
+        energy += self.hidden;
         for spot in &self.spots {
             let point = &points[spot.point];
             energy += match spot.part {
@@ -534,7 +537,8 @@ impl Crack {
                 }
                 Part::Dry => {
                     let k = spot.share * (both + press);
-                    0.5 * k * (point.gap + point.crushed).min(0.0).powi(2)
+                    let gap = point.gap + point.crushed;
+                    0.5 * k * if pulls(law) { gap } else { gap.min(0.0) }.powi(2)
                 }
                 // Of the whole there is no point where there is a bond.
                 Part::Whole | Part::Stays => 0.5 * residual * shear * point.slide * point.slide,
@@ -543,78 +547,92 @@ impl Crack {
         energy
     }
 
-    /// What the bond lost in a step of a joint with springs that ended at `time` [s]; its points are placed anew where it lost something or its sides touch elsewhere.
+    /// What the bond lost in a step of a joint with springs that ended at `time` [s], and what was crushed; its points are placed anew where it lost
+    /// something or other parts of it are open, pressed or crushing.
     pub(crate) fn wear(&mut self, law: &Law, points: &mut [Point], time: f64) -> Worn {
         let Normal::Springs { both, press, .. } = law.normal else { return Worn::default() };
-        if self.broken.is_finite() && self.touching(law) == self.split {
-            return Worn::default();
-        }
         let [near, far] = self.line;
         // Nothing that has not cracked is near its strength: most joints at most times.
         let sheared = law.shear.stiffness * near[1].abs().max(far[1].abs());
         let pressed = (both + press) * (-near[0].min(far[0])).max(0.0);
         let intact = self.cracked.is_infinite();
         let opened = near[0].max(far[0]);
-        let bond =
-            law.bond.unwrap_or(Bond { tension: 0.0, cohesion: 0.0, tan_angle: 0.0, energy: [0.0; 2], residual: 0.0 });
+        let bond = law.bond.unwrap_or_default();
         if intact && both * (opened - TOUCHING) <= bond.tension && sheared <= bond.cohesion && pressed <= law.crushing {
             return Worn::default();
         }
-        let before = self.stored(law, points);
-        let mut friction = self.friction_borne(law, points);
+        let mut friction = [0.0; 2];
         let mut taken = 0.0;
         let mut worn = false;
-        for n in 0..self.nodes.len() {
+        let breaks = law.breaking_stiffness();
+        let bonded = if self.is_gone() { 0 } else { self.nodes.len() };
+        for n in 0..bonded {
             let x = place(n);
             let [w, s] = self.stretched(x);
             let weight = if n == 0 || n == NODES - 1 { 0.5 } else { 1.0 } / (NODES - 1) as f64;
-            if self.nodes[n].damage() == 1.0 {
+            let pressure = (both + press) * (-w).max(0.0);
+            let holds = self.nodes[n] == Node::INTACT
+                && both * (w - TOUCHING) <= bond.tension
+                && breaks * s.abs() <= law.shear_strengths(pressure)[0]
+                && pressure <= law.crushing;
+            if holds || self.nodes[n].damage() == 1.0 {
                 continue;
             }
             let then = between(&self.was, x);
             let grown = [w - then[0], s.abs() - then[1].abs()].map(|way| way.max(0.0));
             let before = self.nodes[n];
-            let kept = |node: &Node| node.friction([w, s], law);
-            let (lost, had) = (self.wear_node(n, [w, s], grown, law, &bond), kept(&before));
-            let [borne, stored] = kept(&self.nodes[n]);
-            friction[0] -= weight * (borne - had[0]) * s.signum();
-            friction[1] += weight * (stored - had[1]);
-            let lost = lost - (stored - had[1]);
+            let lost = self.wear_node(n, [w, s], grown, law, &bond);
             // A crushed node may have taken nothing.
-            if self.nodes[n] != before {
-                worn = true;
-                taken += weight * lost;
-                self.reach = self.reach.max(w.max(s.abs()));
+            if self.nodes[n] == before {
+                continue;
             }
+            let [had, keeps] = [before, self.nodes[n]].map(|node| node.friction([w, s], law));
+            friction[0] -= weight * (keeps[0] - had[0]) * s.signum();
+            friction[1] += weight * (keeps[1] - had[1]);
+            worn = true;
+            taken += weight * (lost - (keeps[1] - had[1]));
+            self.reach = self.reach.max(w.max(s.abs()));
         }
         // What is left of it has no points any more.
         if worn && 1.0 - self.damage() <= NOTHING {
             self.nodes.fill(Node::GONE);
         }
-        let split = if worn || !intact { self.touching(law) } else { self.split };
-        if !worn && split == self.split {
-            return Worn::default();
-        }
-        self.split = split;
-        self.cracked = self.cracked.min(time);
-        if self.is_gone() {
-            self.broken = self.broken.min(time);
-        }
         // What has cracked opens as the edges of the blocks stand, what is held by how far it was stretched: they differ by rounding and by turning.
         let line = self.line_through(Part::Dry, points).unwrap_or(self.line);
-        let mut was = [f64::NAN; POINTS];
-        self.spots.iter().for_each(|spot| was[spot.point] = spot.at);
-        // Blocks slide alike along the joint.
-        let speed = self.spots.iter().map(|spot| points[spot.point].speed).fold(0.0, f64::max);
-        self.place(law);
-        for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry && spot.at != was[spot.point]) {
+        let crushed = self.crush(law, &line);
+        let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
+        // What the points have crushed in the step is told as theirs.
+        let told: f64 = dry().map(|spot| (points[spot.point].crushed - spot.crushed) * spot.share).sum();
+        let new = worn || crushed > 0.0 || told > 0.0;
+        if !new && intact {
+            return Worn::default();
+        }
+        if !self.is_gone() && self.nodes.iter().all(|node| node.damage() == 1.0) {
+            self.broken = time;
+        }
+        let zones = self.zones(law, &line);
+        if !new && self.stand(&zones) {
+            return Worn::default();
+        }
+        taken += crushed - if told > 0.0 { law.crushing * told } else { 0.0 };
+        let before = self.stored(law, points);
+        let [borne, stored] = self.friction_borne(law, points);
+        self.cracked = self.cracked.min(time);
+        // Points go on with the speed of the nearest one.
+        let mut speeds = [[f64::NAN; 2]; DRY];
+        dry().zip(&mut speeds).for_each(|(spot, speed)| *speed = [spot.at, points[spot.point].speed]);
+        self.place(law, &line, &zones);
+        for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
             let [gap, slide] = between(&line, spot.at);
-            let point = &mut points[spot.point];
-            let kept = if was[spot.point].is_nan() { Point { speed, ..Point::default() } } else { *point };
-            *point = Point { gap, slide, ..kept };
+            let nearest = speeds.iter().filter(|speed| !speed[0].is_nan()).min_by(|a, b| {
+                let [a, b] = [a, b].map(|speed| (speed[0] - spot.at).abs());
+                a.total_cmp(&b)
+            });
+            let speed = nearest.map_or(0.0, |speed| speed[1]);
+            points[spot.point] = Point { gap, slide, speed, crushed: spot.crushed, ..points[spot.point] };
         }
         self.set(points);
-        self.share_friction(law, points, friction);
+        self.share_friction(law, points, [borne + friction[0], stored + friction[1]]);
         let lost = before - self.stored(law, points);
         Worn { bond: taken, beyond: lost - taken }
     }
@@ -775,7 +793,7 @@ impl Crack {
         if gone {
             self.broken = self.broken.min(time);
         }
-        self.place(law);
+        self.place(law, &self.line.clone(), &[Zone::default(); ZONES]);
         self.set(points);
     }
 }
@@ -936,7 +954,8 @@ mod tests {
         close(moments(&crack), 1e-15);
         for cracked in [5, 20, 40, NODES] {
             crack.nodes[..cracked].fill(Node::GONE);
-            crack.place(&law);
+            crack.broken = if cracked == NODES { 0.0 } else { f64::INFINITY };
+            crack.place(&law, &[[0.0; 2]; 2], &crack.zones(&law, &[[0.0; 2]; 2]));
             close(moments(&crack), 4e-3);
             let weights: f64 = crack.spots().iter().map(|s| s.weight).sum();
             assert!((weights - 1.0).abs() < 1e-2, "{weights}");

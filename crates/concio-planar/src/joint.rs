@@ -1,9 +1,8 @@
 //! What a joint bears at its contact points during one step: springs, dashpots, friction, bond, crushing.
 //!
-//! A rigid joint has two points, its ends. A compliant one has three, its ends and its middle, with a sixth, two thirds and a
-//! sixth of its length: they give a layer of springs its stiffness against parting and against turning exactly, and have the
-//! corner at the edge. A joint of either kind whose pressure is bounded has nine, of the same
-//! stiffness. Over a step the stretch g of a spring goes on with the mean of the velocities at its ends, and its
+//! A rigid joint has two points, its ends, or nine where its pressure is bounded. A compliant one has those of its zones ([`crate::crack`]), or if all of it
+//! pulls three: its ends and its middle, with a sixth, two thirds and a sixth of its length, which gives a layer of springs its stiffness against parting and against
+//! turning. Over a step the stretch g of a spring goes on with the mean of the velocities at its ends, and its
 //! force is that of g_0 + θ (g_1 − g_0):
 //!
 //! (P6)  θ = ½ + min(½ x²/(1 + x²), ζ/(2 x)),   x = h ω/4,   ω² = k/m,   ζ = ⅛
@@ -22,8 +21,8 @@ use crate::G;
 use crate::contact::{Contact, Linear, Status};
 use crate::crack::Part;
 
-/// Parts that the points of a joint stand for that may be crushed: where its middle is crushed decides what it bears, and three points do not tell.
-/// Gregory's rule to third order, which turns as a layer of springs does, as that of three points.
+/// Parts of a joint that its points stand for where they stay where they are and it may be crushed: where its middle is crushed decides what it bears, and two points do not tell.
+/// Gregory's rule to third order, which turns as the whole does.
 const CRUSHABLE: [f64; 9] = {
     let [end, next, third, inner] = [3.0 / 64.0, 7.0 / 48.0, 23.0 / 192.0, 0.125];
     [end, next, third, inner, inner, inner, third, next, end]
@@ -139,7 +138,7 @@ impl Friction {
 }
 
 /// Bond of a joint by tension cut-off and Mohr and Coulomb, brittle or softening exponentially (P9).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Bond {
     /// f_t A [N].
     pub tension: f64,
@@ -271,10 +270,15 @@ impl Law {
         self.is_compliant() && self.springs().0 == 0.0 && self.device.is_none()
     }
 
-    /// Whether it bears nothing where its sides are apart, and its pressure along a part of it is a straight line: it has three points for that part, and three
-    /// for what is open.
-    pub(crate) fn parts_freely(&self) -> bool {
-        self.only_presses() && !self.follows && self.crushing.is_infinite() && self.slip == [0.0; 2]
+    /// Whether its points stand for zones that move along it without bond: springs that only press let go of what opens, any springs of what is crushed.
+    pub(crate) fn has_zones(&self) -> bool {
+        let moves = self.crushing.is_finite() || self.springs().0 == 0.0;
+        self.is_compliant()
+            && self.normal_stiffness() > 0.0
+            && moves
+            && !self.follows
+            && self.slip == [0.0; 2]
+            && self.device.is_none()
     }
 
     /// Lets go what a point keeps in springs that act only where its sides face each other, which they do no more; returns that [J].

@@ -14,6 +14,7 @@ pub mod motion;
 mod order;
 pub mod shape;
 pub mod tie;
+mod zone;
 
 /// Acceleration of gravity [m/s²].
 pub const G: f64 = 9.81;

@@ -65,7 +65,8 @@ const SHEARED: f64 = 1e-9;
 const POINTS: usize = 3;
 
 /// A point of a joint without bond, but for where it is and how much of the joint.
-const UNBONDED: Spot = Spot { point: 0, part: Part::Whole, at: 0.0, share: 0.0, weight: 0.0, rubbing: 1.0 };
+const UNBONDED: Spot =
+    Spot { point: 0, part: Part::Whole, at: 0.0, share: 0.0, weight: 0.0, rubbing: 1.0, crushed: 0.0 };
 
 /// How contact is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -812,7 +813,7 @@ impl Motion {
             pair.points.iter_mut().for_each(|point| point.force = [0.0; 2]);
             let Some(link) = pair.link else { continue };
             self.seen[link] = self.seen[link].apart();
-            match &pair.crack {
+            match &mut pair.crack {
                 None => {
                     let law = self.laws.of(Some(link));
                     for (point, share) in pair.points.iter_mut().zip(law.shares()) {
@@ -824,6 +825,7 @@ impl Motion {
                     for spot in crack.spots().iter().filter(|spot| spot.part == Part::Dry) {
                         self.account.impact += law.let_go(&mut pair.points[spot.point], spot.share);
                     }
+                    self.account.impact += crack.let_go();
                 }
             }
         }
@@ -855,6 +857,7 @@ impl Motion {
                 match law.is_compliant() {
                     true => {
                         crack.follow(points);
+                        self.account.elastic += crack.hidden();
                         let worn = crack.wear(law, points, time);
                         self.account.elastic -= worn.bond + worn.beyond;
                         self.account.bond += worn.bond;
@@ -1008,6 +1011,16 @@ impl Motion {
         Some(&self.pairs[at].points)
     }
 
+    /// The most that is crushed of a joint [m].
+    pub fn crushed(&self, link: usize) -> f64 {
+        let (a, b) = &self.joints[link];
+        let Ok(at) = self.pairs.binary_search_by_key(&(*a, *b), |p| (p.a, p.b)) else { return 0.0 };
+        match &self.pairs[at].crack {
+            Some(crack) if self.laws.of(Some(link)).is_compliant() => crack.depth(),
+            _ => self.pairs[at].points.iter().map(|p| p.crushed).fold(0.0, f64::max),
+        }
+    }
+
     /// The state of the bond of a joint; none where it has none.
     pub fn crack(&self, link: usize) -> Option<&Crack> {
         let (a, b) = &self.joints[link];
@@ -1051,9 +1064,6 @@ impl Motion {
             (self.places, self.velocities, self.time) = (places, velocities, time);
             (self.account, self.counters, self.pairs) = (account, counters, pairs);
             (self.looked, self.seen, self.pull, self.strains) = (looked, seen, pull, strains);
-            for Pair { crack, link, .. } in &mut self.pairs {
-                crack.iter_mut().for_each(|crack| crack.place(self.laws.of(*link)));
-            }
             self.couple();
             return self.solver.take_up(known);
         }

@@ -714,7 +714,9 @@ duration = "60 s"
         let name = if law == rigid { "rigid joint" } else { "springs without tension" };
         let subject = format!("Crushing: stone of 0.5 m × 2 m that turns over; {name}, f_c = {strength} MPa");
         let against = "λ = (ℓ/2 − N/(2 f_c b))/h_c";
-        agrees!(subject, against, "", outcome.totals.base_shear_peak / weight, expected, 0.04);
+        // Nine points that stay where they are, or zones that go with what is crushed.
+        let within = if law == rigid { 0.04 } else { 0.01 };
+        agrees!(subject, against, "", outcome.totals.base_shear_peak / weight, expected, within);
         assert!(outcome.recording.events.iter().any(|e| e.kind == EventKind::Crush));
     }
 }

@@ -406,7 +406,7 @@ impl Run {
             if self.crushed[e] {
                 continue;
             }
-            let depth = self.motion.points(e).map_or(0.0, |p| p.iter().map(|p| p.crushed).fold(0.0, f64::max));
+            let depth = self.motion.crushed(e);
             if depth > CRUSHED {
                 self.crushed[e] = true;
                 tell(Event { time: state.t, joint: e as u32, kind: EventKind::Crush, value: depth });

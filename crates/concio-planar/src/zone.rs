@@ -1,0 +1,144 @@
+//! Parts of a joint that act alike, and the contact points that stand for each.
+//!
+//! What is open of a joint bears nothing, what is pressed bears as its springs do, what is pressed as hard as it can bears that. Blocks are rigid, so that over a step
+//! the opening of a joint changes by a straight line along it. Two points with the first three moments of such a part (Gauss; Radau where it ends at
+//! the end of the joint) bear what it does, to second order in how far its own ends move meanwhile.
+
+/// ∫ f x^k over a part of the joint for k of 0, 1 and 2, x going from 0 to 1 along the joint.
+pub(crate) type Moments = [f64; 3];
+
+/// Part of a joint below which there is none of a kind.
+pub(crate) const LEAST: f64 = 1e-6;
+
+/// What acts alike: any places of the joint.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Zone {
+    /// Of what acts, 1 where all of the joint does.
+    pub acts: Moments,
+    /// Of what has cracked, and of what rubs, by 1 and x.
+    pub cracked: [f64; 2],
+    /// See there.
+    pub rubs: [f64; 2],
+    /// Of what acts by the gap that is left above what is crushed [m].
+    pub gap: [f64; 2],
+    /// Of what acts by the square of that gap [m²].
+    pub square: f64,
+    /// From where to where it reaches.
+    pub between: [f64; 2],
+}
+
+/// The two places of Gauss's rule on the way from 0 to 1, ½ ∓ 1/√12.
+const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+
+/// What a zone is like at some place: what acts, what has cracked, what rubs, and its gap.
+pub(crate) type Local = [f64; 4];
+
+/// A part of the way from one to the other.
+#[inline]
+pub(crate) fn between<const N: usize>(from: &[f64; N], to: &[f64; N], part: f64) -> [f64; N] {
+    std::array::from_fn(|k| from[k] + part * (to[k] - from[k]))
+}
+
+impl Zone {
+    /// Takes in what lies between two places, and is as it is there and in between by straight lines.
+    #[inline]
+    pub fn add(&mut self, [(from, start), (to, end)]: [(f64, Local); 2]) {
+        self.between =
+            if self.acts[0] == 0.0 { [from, to] } else { [self.between[0].min(from), self.between[1].max(to)] };
+        // Nothing is of more than third order.
+        for part in GAUSS {
+            let [acts, cracked, rubs, gap] = between(&start, &end, part);
+            let (x, weight) = (from + part * (to - from), 0.5 * (to - from));
+            for (k, power) in [1.0, x].into_iter().enumerate() {
+                self.acts[k] += weight * acts * power;
+                self.cracked[k] += weight * cracked * power;
+                self.rubs[k] += weight * rubs * power;
+                self.gap[k] += weight * acts * gap * power;
+            }
+            self.acts[2] += weight * acts * x * x;
+            self.square += weight * acts * gap * gap;
+        }
+    }
+
+    /// Whether there is any of it.
+    pub fn is_there(&self) -> bool {
+        self.acts[0] > LEAST
+    }
+
+    /// What acts of it: where its middle is, and its radius of gyration about that.
+    fn middle(&self) -> [f64; 2] {
+        let [all, first, second] = self.acts;
+        let centre = first / all;
+        [centre, (second / all - centre * centre).max(0.0).sqrt()]
+    }
+
+    /// The straight line that has these sums, over what acts, at some places.
+    pub fn line(&self, [all, first]: [f64; 2]) -> impl Fn(f64) -> f64 {
+        let [centre, radius] = self.middle();
+        let mean = all / self.acts[0];
+        let slope = if radius > 0.0 { (first - centre * all) / (self.acts[0] * radius * radius) } else { 0.0 };
+        move |x| mean + slope * (x - centre)
+    }
+
+    /// Two points with its moments: where they are and how much of the joint acts there. Of given ends of the joint one is taken that it alone has.
+    pub fn two(&self, ends: Option<[f64; 2]>) -> [[f64; 2]; 3] {
+        let [from, to] = self.between;
+        let [all, first, second] = self.acts;
+        let has = ends.map(|[near, far]| [(from <= near + LEAST, near), (to >= far - LEAST, far)]);
+        let edge = match has {
+            Some([(true, near), (false, _)]) => near,
+            Some([(false, _), (true, far)]) => far,
+            _ => {
+                let [centre, radius] = self.middle();
+                return [[centre - radius, 0.5 * all], [centre + radius, 0.5 * all], [centre, 0.0]];
+            }
+        };
+        let [first, second] = [first - edge * all, second - edge * (2.0 * first - edge * all)];
+        let [inside, at] = if second > 0.0 { [first * first / second, second / first] } else { [0.0; 2] };
+        [[edge, all - inside], [edge + at, inside], [edge, 0.0]]
+    }
+
+    /// Three points with its moments, where it is all there is between these ends: at either end, wherever blocks come to touch next, and in the middle. Two where one of them would pull.
+    pub fn three(&self, ends: [f64; 2]) -> [[f64; 2]; 3] {
+        let [from, to] = ends;
+        let ([all, first, second], length) = (self.acts, to - from);
+        let [first, second] =
+            [(first - from * all) / length, (second - from * (2.0 * first - from * all)) / (length * length)];
+        let shares = [all - 3.0 * first + 2.0 * second, 4.0 * (first - second), 2.0 * second - first];
+        let three = [0, 1, 2].map(|k| [from + 0.5 * k as f64 * length, shares[k]]);
+        if shares.iter().all(|share| *share >= 0.0) { three } else { self.two(None) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points have the moments of their zone, and bear to second order what a layer of springs does whose pressed part has moved on.
+    #[test]
+    fn points_stand_for_their_zone() {
+        for (places, cracked) in [([0.0, 0.3], [1.0, 1.0]), ([0.4, 1.0], [0.2, 0.9]), ([0.2, 0.7], [1.0, 0.1])] {
+            let mut zone = Zone::default();
+            zone.add([0, 1].map(|k| (places[k], [cracked[k], cracked[k], 0.5 * cracked[k], k as f64 - 0.3])));
+            let close = |found: &[[f64; 2]]| {
+                (0..3).all(|k| {
+                    let moment: f64 = found.iter().map(|[at, share]| share * at.powi(k)).sum();
+                    (moment - zone.acts[k as usize]).abs() < 1e-15
+                })
+            };
+            assert!(close(&zone.two(Some([0.0, 1.0]))) && close(&zone.three(places)));
+            let gap = zone.line(zone.gap);
+            assert!(places.iter().zip([-0.3, 0.7]).all(|(at, expected)| (gap(*at) - expected).abs() < 1e-12));
+        }
+        let mut pressed = Zone::default();
+        pressed.add([0.0, 0.25].map(|at| (at, [1.0, 1.0, 1.0, 0.0])));
+        let points = pressed.two(Some([0.0, 1.0]));
+        let off = |part: f64| {
+            let end = 0.25 * (1.0 + part);
+            let borne: f64 = points.iter().map(|[at, share]| share * (end - at).max(0.0)).sum();
+            (borne / (0.5 * end * end) - 1.0).abs()
+        };
+        let [coarse, fine] = [off(0.08), off(0.04)];
+        assert!(coarse < 0.01 && (coarse / fine - 4.0).abs() < 0.3, "{coarse} {fine}");
+    }
+}
