@@ -155,8 +155,10 @@ const CRUSHING: usize = 3;
 /// What became of the bond in a step [J].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Worn {
-    /// What breaking took.
+    /// What breaking and crushing took.
     pub bond: f64,
+    /// What friction took where parts of the joint opened that had borne shear.
+    pub friction: f64,
     /// What springs lost beside that, because a step goes beyond a limit before it is met, and where points are placed anew.
     pub beyond: f64,
 }
@@ -634,7 +636,9 @@ impl Crack {
         self.set(points);
         self.share_friction(law, points, [borne + friction[0], stored + friction[1]]);
         let lost = before - self.stored(law, points);
-        Worn { bond: taken, beyond: lost - taken }
+        let [_, keeps] = self.friction_borne(law, points);
+        let rubbed = stored + friction[1] - keeps;
+        Worn { bond: taken, friction: rubbed, beyond: lost - taken - rubbed }
     }
 
     /// What has cracked bears along the joint, and what its springs along store [N, J].

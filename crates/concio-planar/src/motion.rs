@@ -859,10 +859,12 @@ impl Motion {
                         crack.follow(points);
                         self.account.elastic += crack.hidden();
                         let worn = crack.wear(law, points, time);
-                        self.account.elastic -= worn.bond + worn.beyond;
+                        let lost = worn.bond + worn.friction + worn.beyond;
+                        self.account.elastic -= lost;
                         self.account.bond += worn.bond;
+                        self.account.friction += worn.friction;
                         self.account.impact += worn.beyond;
-                        seen.taken += worn.bond + worn.beyond;
+                        seen.taken += lost;
                         seen.broken += worn.bond;
                         if !crack.is_gone() {
                             let [[near, slide], [far, slid]] = crack.line();
