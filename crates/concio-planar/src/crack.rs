@@ -3,7 +3,7 @@
 //! A joint between rigid blocks opens and slides by straight lines along its length. Its bond and what is crushed are known at equally spaced nodes,
 //! with straight lines in between. What is left of the bond acts in both directions and gives two contact points the
 //! stiffness against parting and against turning that it has in all, exactly: half of it at each, at the distance of its radius of gyration
-//! from its centre. What has cracked, as all of a joint without bond, acts in compression alone, at two points for each of its zones: open, pressed, crushed ([`crate::zone`]).
+//! from its centre. What has cracked, as all of a joint without bond, acts in compression alone, at two points for each of its zones: open, pressed, crushed and crushing ([`crate::zone`]).
 //! It rubs for the whole joint: friction at springs that pull too would have a kink, where contact is hard to solve.
 //! Its friction is in line with the part D of the stiffness along: a joint that sticks is as stiff as before it cracked (Alfano & Sacco 2006), and of
 //! the shear that breaks a part of it friction goes on to bear what it can.
@@ -46,6 +46,8 @@ const BROKEN: f64 = 1e-3;
 const NEARLY: f64 = 1.0 / 32.0;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
+/// How far apart sides are taken to be that face each other no more [m]: more than is ever crushed.
+const APART: f64 = 1e3;
 /// Part of a joint below which what is left of its bond is rounding.
 const NOTHING: f64 = 1e-9;
 /// Part of the strength up to which a corner is a contact point.
@@ -131,8 +133,8 @@ pub struct Crack {
     held: [usize; 2],
     /// What is crushed at its nodes [m]; none of a joint that bears any pressure.
     crushed: Vec<f64>,
-    /// How much of it was open, pressed and crushing when its points were placed.
-    placed: [f64; ZONES],
+    /// How much of it was in each zone when its points were placed, and its first moment.
+    placed: [[f64; 2]; ZONES],
     /// Energy in its springs beyond that of its points [J].
     hidden: f64,
     /// When it first cracked [s]; infinite while it is intact.
@@ -183,6 +185,11 @@ fn pulls(law: &Law) -> bool {
     law.bond.is_none() && !law.only_presses()
 }
 
+/// At how many nodes of a joint of this law it is known what is crushed.
+fn crushed_nodes(law: &Law) -> usize {
+    if moves(law) && law.is_compliant() && law.crushing.is_finite() { NODES } else { 0 }
+}
+
 /// How many points a joint of this law has at most.
 pub(crate) fn most_points(law: &Law) -> usize {
     if moves(law) { POINTS } else { law.shares().len() }
@@ -201,8 +208,8 @@ impl Crack {
             line: [[0.0; 2]; 2],
             was: [[0.0; 2]; 2],
             held: [0, NODES - 1],
-            crushed: vec![0.0; if law.has_zones() && law.crushing.is_finite() { NODES } else { 0 }],
-            placed: [0.0; ZONES],
+            crushed: vec![0.0; crushed_nodes(law)],
+            placed: [[0.0; 2]; ZONES],
             hidden: 0.0,
             cracked: since,
             broken: since,
@@ -260,9 +267,26 @@ impl Crack {
         self.hidden
     }
 
-    /// Lets that go where its sides face each other no more; returns it [J].
-    pub(crate) fn let_go(&mut self) -> f64 {
-        std::mem::take(&mut self.hidden)
+    /// Where its sides face each other no more: all that has no bond is open, and what springs keep beyond that of the points is lost, which is returned [J].
+    pub(crate) fn part(&mut self, law: &Law, points: &mut [Point]) -> f64 {
+        let pressed = self.placed.iter().enumerate().any(|(kind, placed)| kind != OPEN && placed[0] > 0.0);
+        if !law.is_compliant() || pulls(law) || !pressed {
+            return 0.0;
+        }
+        let lost = self.hidden;
+        let apart = [[APART, 0.0]; 2];
+        let zones = self.zones(law, &apart);
+        self.place(law, &apart, &zones);
+        for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
+            points[spot.point] = Point { crushed: spot.crushed, ..Point::default() };
+        }
+        self.set(points);
+        lost
+    }
+
+    /// Makes room for all of its points, as one that was read back may not have.
+    pub(crate) fn reserve(&mut self) {
+        self.spots.reserve(POINTS - self.spots.len());
     }
 
     /// What is open of what has cracked, what is pressed and what crushes, its ends being as far apart as `line` says.
@@ -330,9 +354,10 @@ impl Crack {
     /// Whether it has the nodes of a joint of this law, as one that was read back may not.
     pub(crate) fn fits(&self, law: &Law) -> bool {
         self.nodes.len() == if law.bond.is_some() { NODES } else { 0 }
-            && self.crushed.len() == if law.has_zones() && law.crushing.is_finite() { NODES } else { 0 }
-            && self.spots.len() <= POINTS
-            && self.spots.iter().all(|spot| spot.point < POINTS)
+            && (law.bond.is_some() || self.is_gone())
+            && self.crushed.len() == crushed_nodes(law)
+            && (1..=POINTS).contains(&self.spots.len())
+            && self.spots.iter().all(|spot| spot.point < POINTS && spot.at.is_finite() && spot.share > 0.0)
             && self.held[0] < self.held[1]
             && self.held[1] < NODES
     }
@@ -406,9 +431,8 @@ impl Crack {
             crushed: 0.0,
         };
         if !self.is_gone() {
-            // What acts otherwise is what is pressed only, and D of the rest.
-            let acts = |k: usize| zones.iter().map(|zone| zone.acts[k]).sum::<f64>();
-            let [whole, first, second]: Moments = std::array::from_fn(|k| (WHOLE[k] - acts(k)) * stiffness / both);
+            let damaged = |k: usize| zones.iter().map(|zone| zone.cracked[k]).sum::<f64>();
+            let [whole, first, second]: Moments = std::array::from_fn(|k| WHOLE[k] - damaged(k));
             if whole > NOTHING {
                 let centre = first / whole;
                 let away = (second / whole - centre * centre).max(0.0).sqrt();
@@ -417,7 +441,7 @@ impl Crack {
             }
         }
         let pulls = pulls(law);
-        self.placed = zones.map(|zone| zone.acts[0]);
+        self.placed = zones.map(|zone| [zone.acts[0], zone.acts[1]]);
         self.hidden = 0.0;
         let crushed = self.depth() > 0.0;
         let ends = zones
@@ -427,7 +451,8 @@ impl Crack {
         let alone = zones.iter().filter(|zone| zone.is_there()).count() == 1;
         let mut point = HELD;
         for (kind, zone) in zones.iter().enumerate().filter(|(_, zone)| zone.is_there()) {
-            let (gap, cracked, rubs) = (zone.line(zone.gap), zone.line(zone.cracked), zone.line(zone.rubs));
+            let (gap, cracked, rubs) =
+                (zone.line(zone.gap), zone.line([zone.cracked[0], zone.cracked[1]]), zone.line(zone.rubs));
             // A point in a corner that is near its strength would hold back all it stands for.
             let corners = zone.between.iter().all(|at| -gap(*at) < WELL_BELOW * law.crushing / stiffness);
             let points = match (corners, alone) {
@@ -475,10 +500,11 @@ impl Crack {
     /// Whether its points stand for these zones still.
     fn stand(&self, zones: &[Zone; ZONES]) -> bool {
         let there = |part: f64| part > zone::LEAST;
-        let least = self.placed.iter().copied().filter(|part| there(*part)).fold(f64::INFINITY, f64::min);
+        let parts = self.placed.iter().map(|placed| placed[0]);
+        let least = parts.filter(|part| there(*part)).fold(f64::INFINITY, f64::min);
         zones.iter().zip(self.placed).all(|(zone, placed)| {
-            let now = zone.acts[0];
-            there(now) == there(placed) && (now - placed).abs() <= NEARLY * least
+            there(zone.acts[0]) == there(placed[0])
+                && (0..2).all(|k| (zone.acts[k] - placed[k]).abs() <= NEARLY * least)
         })
     }
 

@@ -61,7 +61,7 @@ const ENOUGH: f64 = 100.0;
 const JUMP: f64 = 3e-6;
 /// Part by which the shear of a bonded rigid joint is below its strength where it breaks.
 const SHEARED: f64 = 1e-9;
-/// Contact points of a pair that are kept in place: joints that may be crushed have more.
+/// Contact points of a pair that are kept in place: joints whose points move have more.
 const POINTS: usize = 3;
 
 /// A point of a joint without bond, but for where it is and how much of the joint.
@@ -270,7 +270,7 @@ struct Pair {
     points: SmallVec<[Point; POINTS]>,
     /// Distance as the wall was laid [m]; 0 for those that have come together.
     laid: f64,
-    /// The state of its bond, where it has one.
+    /// What has become of its bond and what is open and crushed, where its points move with that.
     crack: Option<Crack>,
 }
 
@@ -811,11 +811,15 @@ impl Motion {
         for at in self.met.iter().enumerate().filter(|(_, met)| !**met).map(|(at, _)| at) {
             let pair = &mut self.pairs[at];
             pair.points.iter_mut().for_each(|point| point.force = [0.0; 2]);
+            let law = self.laws.of(pair.link);
+            let part = |pair: &mut Pair| pair.crack.as_mut().map_or(0.0, |crack| crack.part(law, &mut pair.points));
+            if pair.link.is_none() {
+                self.account.impact += part(pair);
+            }
             let Some(link) = pair.link else { continue };
             self.seen[link] = self.seen[link].apart();
-            match &mut pair.crack {
+            match &pair.crack {
                 None => {
-                    let law = self.laws.of(Some(link));
                     for (point, share) in pair.points.iter_mut().zip(law.shares()) {
                         self.account.impact += law.let_go(point, *share);
                     }
@@ -825,7 +829,7 @@ impl Motion {
                     for spot in crack.spots().iter().filter(|spot| spot.part == Part::Dry) {
                         self.account.impact += law.let_go(&mut pair.points[spot.point], spot.share);
                     }
-                    self.account.impact += crack.let_go();
+                    self.account.impact += part(pair);
                 }
             }
         }
@@ -843,7 +847,7 @@ impl Motion {
         }
     }
 
-    /// Damages the bonds by a step that ended at `time` [s].
+    /// Cracks and crushes the joints by a step that ended at `time` [s].
     fn wear(&mut self, time: f64) {
         let mut at = 0;
         while at < self.owners.len() {
@@ -1066,6 +1070,7 @@ impl Motion {
             (self.places, self.velocities, self.time) = (places, velocities, time);
             (self.account, self.counters, self.pairs) = (account, counters, pairs);
             (self.looked, self.seen, self.pull, self.strains) = (looked, seen, pull, strains);
+            self.pairs.iter_mut().filter_map(|pair| pair.crack.as_mut()).for_each(Crack::reserve);
             self.couple();
             return self.solver.take_up(known);
         }

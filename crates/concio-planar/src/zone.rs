@@ -2,22 +2,22 @@
 //!
 //! What is open of a joint bears nothing, what is pressed bears as its springs do, what is pressed as hard as it can bears that. Blocks are rigid, so that over a step
 //! the opening of a joint changes by a straight line along it. Two points with the first three moments of such a part (Gauss; Radau where it ends at
-//! the end of the joint) bear what it does, to second order in how far its own ends move meanwhile.
+//! the end of the joint) bear what it does, to second order in how far its own ends move meanwhile. A zone that is alone has three, to be there wherever blocks come to touch next.
 
 /// ∫ f x^k over a part of the joint for k of 0, 1 and 2, x going from 0 to 1 along the joint.
 pub(crate) type Moments = [f64; 3];
 
 /// Part of a joint below which there is none of a kind.
-pub(crate) const LEAST: f64 = 1e-6;
+pub(crate) const LEAST: f64 = 1e-3;
 
 /// What acts alike: any places of the joint.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Zone {
     /// Of what acts, 1 where all of the joint does.
     pub acts: Moments,
-    /// Of what has cracked, and of what rubs, by 1 and x.
-    pub cracked: [f64; 2],
-    /// See there.
+    /// Of what has cracked.
+    pub cracked: Moments,
+    /// Of what rubs, by 1 and x.
     pub rubs: [f64; 2],
     /// Of what acts by the gap that is left above what is crushed [m].
     pub gap: [f64; 2],
@@ -26,6 +26,9 @@ pub(crate) struct Zone {
     /// From where to where it reaches.
     pub between: [f64; 2],
 }
+
+/// What places are rounded by.
+const ROUNDING: f64 = 1e-9;
 
 /// The two places of Gauss's rule on the way from 0 to 1, ½ ∓ 1/√12.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
@@ -56,6 +59,7 @@ impl Zone {
                 self.gap[k] += weight * acts * gap * power;
             }
             self.acts[2] += weight * acts * x * x;
+            self.cracked[2] += weight * cracked * x * x;
             self.square += weight * acts * gap * gap;
         }
     }
@@ -84,7 +88,7 @@ impl Zone {
     pub fn two(&self, ends: Option<[f64; 2]>) -> [[f64; 2]; 3] {
         let [from, to] = self.between;
         let [all, first, second] = self.acts;
-        let has = ends.map(|[near, far]| [(from <= near + LEAST, near), (to >= far - LEAST, far)]);
+        let has = ends.map(|[near, far]| [(from <= near + ROUNDING, near), (to >= far - ROUNDING, far)]);
         let edge = match has {
             Some([(true, near), (false, _)]) => near,
             Some([(false, _), (true, far)]) => far,
