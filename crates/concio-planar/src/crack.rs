@@ -3,7 +3,7 @@
 //! A joint between rigid blocks opens and slides by straight lines along its length. Its bond and what is crushed are known at equally spaced nodes,
 //! with straight lines in between. What is left of the bond acts in both directions and gives two contact points the
 //! stiffness against parting and against turning that it has in all, exactly: half of it at each, at the distance of its radius of gyration
-//! from its centre. What has cracked, as all of a joint without bond, acts in compression alone, at two points for each of its zones: open, pressed, crushed and crushing ([`crate::zone`]).
+//! from its centre. What has cracked, as all of a joint without bond, acts in compression alone, at two points for each of its zones: open, pressed, crushed and crushing (`zone.rs`).
 //! It rubs for the whole joint: friction at springs that pull too would have a kink, where contact is hard to solve.
 //! Its friction is in line with the part D of the stiffness along: a joint that sticks is as stiff as before it cracked (Alfano & Sacco 2006), and of
 //! the shear that breaks a part of it friction goes on to bear what it can.
