@@ -35,6 +35,8 @@ pub use vibration::Vibration;
 /// How far bodies without a joint may be apart to be looked at, over the shortest edge: half as far they may move before all are
 /// looked at again.
 const REACH: f64 = 0.1;
+/// Steps in turn in which nothing moves any more where bodies stand.
+const RESTS: usize = 4;
 /// Times that a step is halved, and of these the first ones, before which no more is tried than an interior point method.
 const HALVINGS: u32 = 4;
 const SOON: u32 = 2;
@@ -448,10 +450,12 @@ impl Motion {
         let setting = Setting { still: true, step: self.setting.step.max(SETTLING), ..self.setting.clone() };
         let own = std::mem::replace(&mut self.setting, setting);
         let laid = self.places.clone();
-        let mut stands = false;
+        let (mut stands, mut rests) = (false, 0);
         for number in 1..=most {
             self.step(Forcing::default());
-            if self.fastest() * self.setting.step <= within {
+            // Points of joints that are open in part move after a step: at rest none have for some.
+            rests = if self.fastest() * self.setting.step <= within { rests + 1 } else { 0 };
+            if rests == RESTS {
                 stands = true;
                 break;
             }
