@@ -192,7 +192,7 @@ fn crushed_nodes(law: &Law) -> usize {
 
 /// How many points a joint of this law has at most.
 pub(crate) fn most_points(law: &Law) -> usize {
-    if moves(law) { POINTS } else { law.shares().len() }
+    if moves(law) { POINTS } else { law.points().len() }
 }
 
 impl Crack {

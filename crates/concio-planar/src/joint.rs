@@ -1,6 +1,6 @@
 //! What a joint bears at its contact points during one step: springs, dashpots, friction, bond, crushing.
 //!
-//! A rigid joint has two points, its ends, or nine where its pressure is bounded. A compliant one has those of its zones ([`crate::crack`]), or if all of it
+//! A rigid joint has two points, its ends, or seventeen where its pressure is bounded. A compliant one has those of its zones ([`crate::crack`]), or if all of it
 //! pulls three: its ends and its middle, with a sixth, two thirds and a sixth of its length, which gives a layer of springs its stiffness against parting and against
 //! turning. Over a step the stretch g of a spring goes on with the mean of the velocities at its ends, and its
 //! force is that of g_0 + θ (g_1 − g_0):
@@ -14,6 +14,10 @@
 //! the midpoint, θ = ½, which keeps energy whatever the step: the modes of a mortared wall are slower than its joints alone, and
 //! would be damped with them.
 
+use std::array;
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
 use concio_device as device;
 use serde::{Deserialize, Serialize};
 
@@ -21,12 +25,22 @@ use crate::G;
 use crate::contact::{Contact, Linear, Status};
 use crate::crack::Part;
 
-/// Parts of a joint that its points stand for where they stay where they are and it may be crushed: where its middle is crushed decides what it bears, and two points do not tell.
-/// Gregory's rule to third order, which turns as the whole does.
-const CRUSHABLE: [f64; 9] = {
-    let [end, next, third, inner] = [3.0 / 64.0, 7.0 / 48.0, 23.0 / 192.0, 0.125];
-    [end, next, third, inner, inner, inner, third, next, end]
-};
+/// Intervals between the points of a joint that may be crushed and whose points stay where they are.
+const CRUSHABLE: usize = 16;
+
+/// Place and share of those points by the rule of Clenshaw and Curtis (1960): many where the toe is. Where its middle is crushed decides what such a joint bears,
+/// and its moment is off by at most w²/8 of its strength and length, w being the share of the point at which that is.
+static CRUSHABLE_POINTS: LazyLock<[[f64; 2]; CRUSHABLE + 1]> = LazyLock::new(|| {
+    let (n, turn) = (CRUSHABLE as f64, PI / CRUSHABLE as f64);
+    array::from_fn(|k| {
+        let terms = (1..=CRUSHABLE / 2).map(|j| {
+            let twice = if 2 * j == CRUSHABLE { 1.0 } else { 2.0 };
+            twice * ((2 * j * k) as f64 * turn).cos() / (4 * j * j - 1) as f64
+        });
+        let share = (1.0 - terms.sum::<f64>()) / n;
+        [0.5 - 0.5 * (k as f64 * turn).cos(), if k % CRUSHABLE == 0 { 0.5 * share } else { share }]
+    })
+});
 
 /// Law of a joint. Stiffnesses, dashpots and strengths are those of its whole length.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -210,12 +224,12 @@ impl Law {
         self.friction.map_or(0.0, |friction| friction.slowly(true))
     }
 
-    /// Parts of the joint that its points stand for, which are equally far from each other.
-    pub fn shares(&self) -> &'static [f64] {
+    /// Places of its points that stay where they are, 0 … 1 along the joint, and the part of it that each stands for.
+    pub fn points(&self) -> &'static [[f64; 2]] {
         match (self.crushing.is_finite(), self.is_compliant()) {
-            (true, _) => &CRUSHABLE,
-            (false, true) => &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
-            (false, false) => &[0.5, 0.5],
+            (true, _) => &*CRUSHABLE_POINTS,
+            (false, true) => &[[0.0, 1.0 / 6.0], [0.5, 2.0 / 3.0], [1.0, 1.0 / 6.0]],
+            (false, false) => &[[0.0, 0.5], [1.0, 0.5]],
         }
     }
 
@@ -573,11 +587,13 @@ impl Law {
     ) {
         let most = share * self.crushing;
         let Normal::Springs { .. } = self.normal else {
-            if pressed >= h * most && mean < 0.0 {
-                point.crushed -= h * mean;
-                works.bond -= pressed * mean;
-            } else {
-                works.impact -= pressed * mean;
+            works.impact -= pressed * mean;
+            if pressed >= h * most {
+                // The rest of the way the sides were still apart.
+                let further = (-gap - point.crushed).max(0.0);
+                point.crushed += further;
+                works.bond += most * further;
+                works.impact -= most * further;
             }
             return;
         };

@@ -693,10 +693,9 @@ impl Motion {
                 }
                 continue;
             }
-            let (shares, device) = (law.shares(), law.device);
-            for (point, share) in shares.iter().enumerate() {
-                let at = point as f64 / (shares.len() - 1) as f64;
-                let spot = Spot { point, at, share: *share, weight: *share, ..UNBONDED };
+            let (points, device) = (law.points(), law.device);
+            for (point, [at, share]) in points.iter().copied().enumerate() {
+                let spot = Spot { point, at, share, weight: share, ..UNBONDED };
                 let (contact, owner) = self.contact(seat, spot, &along(at), h, held);
                 self.contacts.push(contact);
                 self.owners.push(owner);
@@ -824,7 +823,7 @@ impl Motion {
             self.seen[link] = self.seen[link].apart();
             match &pair.crack {
                 None => {
-                    for (point, share) in pair.points.iter_mut().zip(law.shares()) {
+                    for (point, [_, share]) in pair.points.iter_mut().zip(law.points()) {
                         self.account.impact += law.let_go(point, *share);
                     }
                 }
