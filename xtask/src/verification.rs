@@ -10,11 +10,11 @@ use serde::Deserialize;
 use crate::command::{Outcome, cargo, run};
 
 const PAGE: &str = "docs/verification.md";
-const PACKAGES: [&str; 4] = ["concio-device", "concio-limit", "concio-planar", "concio"];
+const PACKAGES: [&str; 5] = ["concio-device", "concio-limit", "concio-planar", "concio", "concio-study"];
 const HEADER: &str = "| Subject | Held against | Expected | Found | Off by | The test allows | Command |";
 
 /// Sections of the page in their order; the first half of a record's subject is one of them.
-const SECTIONS: [(&str, &str); 14] = [
+const SECTIONS: [(&str, &str); 15] = [
     ("Ground motion", "Signals, filters, measures and response spectra."),
     ("Walls and loads", "Geometry, weights, and what joints bear at rest."),
     ("Integration", "Oscillators of the shear model, without friction and with springs that let go."),
@@ -28,6 +28,7 @@ const SECTIONS: [(&str, &str); 14] = [
     ("Sliding", "Blocks and dry walls that slide on what is below them."),
     ("Rocking", "Blocks that rock on their corners."),
     ("Limit analysis", "Multipliers of the load under which walls of rigid blocks become mechanisms."),
+    ("Statistics", "Estimates of studies, and how often their intervals hold what they estimate."),
     ("Laboratory", "Walls that were tested elsewhere; the answer is what was measured."),
 ];
 

@@ -2,7 +2,8 @@
 //!
 //! - Latin hypercube: M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239–245.
 //! - Morris: M. D. Morris, Technometrics 33 (1991) 161–174: from a random base point on a grid of p levels one factor
-//!   after the other, in random order, moves by Δ = p/(2(p − 1)).
+//!   after the other, in random order, moves by Δ = p/(2(p − 1)). Lists are grids of their own, so that every value may be
+//!   drawn; names have no order, and move to any other.
 //! - Sobol: A. Saltelli et al., Comput. Phys. Commun. 181 (2010) 259–270: base points A and B, and for each factor A
 //!   with this factor's column of B; A and B are the two halves of one scrambled Sobol sequence.
 
@@ -21,6 +22,9 @@ const MOST_SOBOL: usize = 128;
 
 /// Points of the Sobol sequence at hand.
 const MOST_SOBOL_POINTS: usize = 1 << 16;
+
+/// Values without a run that are named.
+const MOST_NAMED: usize = 10;
 
 /// Where a factor stands in a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,7 +93,8 @@ pub fn points(file: &StudyFile, factors: &[Factor]) -> Result<Vec<Vec<At>>> {
                 return Err(file.wrong("design.levels", what, "an even number from 4"));
             }
             suits_morris(file, factors)?;
-            morris(runs, k, design.levels, design.seed)
+            let grids: Vec<Grid> = factors.iter().map(|factor| Grid::of(factor, design.levels)).collect();
+            return Ok(morris(runs, &grids, design.seed));
         }
         DesignKind::Sobol if k > MOST_SOBOL => return wrong(format!("{k} factors are too many for it"), "up to 128"),
         DesignKind::Sobol if runs > MOST_SOBOL_POINTS => {
@@ -170,26 +175,94 @@ fn latin_hypercube(n: usize, k: usize, seed: u64) -> Vec<Vec<f64>> {
     rows
 }
 
-/// Trajectories of k + 1 points each.
-fn morris(trajectories: usize, k: usize, levels: usize, seed: u64) -> Vec<Vec<f64>> {
+/// What a trajectory moves a factor over.
+enum Grid {
+    /// So many shares of a distribution, equally far from each other.
+    Shares(usize),
+    /// Levels in the order of their values.
+    Rising(Vec<usize>),
+    /// Levels without an order, in that of their names: what is drawn does not depend on how they are listed.
+    Names(Vec<usize>),
+}
+
+impl Grid {
+    /// Of a factor; `shares` for one with a distribution.
+    fn of(factor: &Factor, shares: usize) -> Grid {
+        let Some(levels) = factor.levels() else { return Grid::Shares(shares) };
+        let mut order: Vec<usize> = (0..levels).collect();
+        if let Over::Levels(all) = &factor.over
+            && all.iter().any(|level| level.place.is_none())
+        {
+            order.sort_by_key(|level| all[*level].label.to_string());
+            return Grid::Names(order);
+        }
+        let places = factor.places();
+        order.sort_by(|a, b| places[*a].total_cmp(&places[*b]));
+        Grid::Rising(order)
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Grid::Shares(levels) => *levels,
+            Grid::Rising(order) | Grid::Names(order) => order.len(),
+        }
+    }
+
+    fn at(&self, level: usize) -> At {
+        match self {
+            Grid::Shares(levels) => At::Share(level as f64 / (levels - 1) as f64),
+            Grid::Rising(order) | Grid::Names(order) => At::Level(order[level]),
+        }
+    }
+
+    /// Half of the levels away, up from the lower half and down from the upper, either way from the middle one; any other name.
+    fn moved(&self, level: usize, dice: &mut Dice) -> usize {
+        let (n, half) = (self.len(), self.len() / 2);
+        match self {
+            Grid::Names(_) => (level + 1 + dice.below(n - 1)) % n,
+            _ if n % 2 == 1 && level == half => 2 * half * dice.below(2),
+            _ if level < half => level + half,
+            _ => level - half,
+        }
+    }
+}
+
+/// Trajectories of one point more than there are factors.
+fn morris(trajectories: usize, grids: &[Grid], seed: u64) -> Vec<Vec<At>> {
     let mut dice = Dice::new(seed);
-    let spacing = 1.0 / (levels - 1) as f64;
-    let jump = levels / 2;
     let mut rows = Vec::new();
     for _ in 0..trajectories {
-        let mut point: Vec<usize> = (0..k).map(|_| dice.below(levels)).collect();
-        let mut order: Vec<usize> = (0..k).collect();
+        let mut point: Vec<usize> = grids.iter().map(|grid| dice.below(grid.len())).collect();
+        let mut order: Vec<usize> = (0..grids.len()).collect();
         dice.shuffle(&mut order);
-        let share = |point: &[usize]| point.iter().map(|&l| l as f64 * spacing).collect::<Vec<f64>>();
-        rows.push(share(&point));
+        let at = |point: &[usize]| point.iter().zip(grids).map(|(level, grid)| grid.at(*level)).collect();
+        rows.push(at(&point));
         for factor in order {
-            // Half of the levels away, up from the lower half and down from the upper.
-            let level = &mut point[factor];
-            *level = if *level < jump { *level + jump } else { *level - jump };
-            rows.push(share(&point));
+            point[factor] = grids[factor].moved(point[factor], &mut dice);
+            rows.push(at(&point));
         }
     }
     rows
+}
+
+/// Levels that no run has: what is said of a factor then tells nothing of them.
+pub fn unreached(factors: &[Factor], points: &[Vec<At>]) -> Vec<String> {
+    let of = |(k, factor): (usize, &Factor)| {
+        let levels = factor.levels()?;
+        let mut reached = vec![false; levels];
+        for at in points.iter().map(|row| row[k]) {
+            if let At::Level(level) = at {
+                reached[level] = true;
+            }
+        }
+        let lost: Vec<String> = (0..levels).filter(|&level| !reached[level]).map(|level| factor.label(level)).collect();
+        let more = lost.len().saturating_sub(MOST_NAMED);
+        let named = lost[..lost.len() - more].join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() };
+        (!lost.is_empty()).then(|| {
+            format!("no run has {} of the {levels} values of `{}`: {named}; more `runs` reach them", lost.len(), factor.name)
+        })
+    };
+    factors.iter().enumerate().filter_map(of).collect()
 }
 
 /// A (n rows), B (n), then per factor A with its column of B (n each).
@@ -228,18 +301,36 @@ mod tests {
 
     #[test]
     fn one_factor_moves_at_a_time_on_a_trajectory() {
-        let (k, levels) = (4, 6);
-        for trajectory in morris(20, k, levels, 3).chunks(k + 1) {
+        let grids = [Grid::Shares(6), Grid::Rising(vec![3, 0, 2, 1]), Grid::Rising(vec![0, 1, 2]), Grid::Names(vec![1, 2, 0])];
+        let k = grids.len();
+        let number = |at: &At, grid: &Grid| match (at, grid) {
+            (At::Level(level), Grid::Rising(order) | Grid::Names(order)) => {
+                order.iter().position(|l| l == level).map_or(f64::NAN, |l| l as f64)
+            }
+            (At::Share(share), _) => *share,
+            _ => f64::NAN,
+        };
+        let mut steps = vec![Vec::new(); k];
+        for trajectory in morris(60, &grids, 3).chunks(k + 1) {
             let mut moved = vec![0; k];
             for pair in trajectory.windows(2) {
                 let differ: Vec<usize> = (0..k).filter(|&f| pair[0][f] != pair[1][f]).collect();
                 assert_eq!(differ.len(), 1);
-                moved[differ[0]] += 1;
-                let step = (pair[1][differ[0]] - pair[0][differ[0]]).abs();
-                assert!((step - 0.6).abs() < 1e-12, "{step}");
+                let f = differ[0];
+                moved[f] += 1;
+                let [from, to] = [0, 1].map(|i| number(&pair[i][f], &grids[f]));
+                steps[f].push([from, to]);
             }
             assert_eq!(moved, vec![1; k]);
-            assert!(trajectory.iter().flatten().all(|s| (0.0..=1.0).contains(s)));
+        }
+        let sizes = |f: usize| steps[f].iter().map(|[from, to]| (to - from).abs());
+        assert!(sizes(0).all(|s| (s - 0.6).abs() < 1e-12), "half of six shares");
+        assert!(sizes(1).all(|s| s == 2.0), "half of four values");
+        assert!(sizes(2).all(|s| s == 1.0), "half of three values, from and to the middle one");
+        for names in [0.0, 1.0, 2.0] {
+            for other in [0.0, 1.0, 2.0] {
+                assert_eq!(steps[3].contains(&[names, other]), names != other, "{names} {other}");
+            }
         }
     }
 

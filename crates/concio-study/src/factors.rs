@@ -172,6 +172,16 @@ impl Factor {
         }
     }
 
+    /// What a level of it is called; empty for a distribution.
+    pub fn label(&self, level: usize) -> String {
+        let label = match &self.over {
+            Over::Levels(levels) => levels[level].label.clone(),
+            Over::Scales(scales) => number(scales[level]),
+            Over::Values(_) => return String::new(),
+        };
+        label.as_str().map_or_else(|| label.to_string(), str::to_string)
+    }
+
     /// Where its levels stand between the least and the largest, 0 … 1: by their values, names at equal distances. Empty
     /// for a distribution.
     pub fn places(&self) -> Vec<f64> {

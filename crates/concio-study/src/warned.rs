@@ -162,6 +162,8 @@ pub struct Before {
     pub warned: Warned,
     /// Runs that cannot be made ready: what each is called, and why.
     pub lost: Vec<(String, String)>,
+    /// What the design leaves out.
+    pub gaps: Vec<String>,
     /// Runs in all, of which `warned.of` and those of `lost` were looked at.
     pub all: usize,
 }
@@ -176,7 +178,8 @@ impl Before {
             everywhere: false,
         };
         let lost = self.lost.iter().map(lost);
-        lost.chain(self.warned.sentences_of(&Warned::default(), looked, self.all)).collect()
+        let gap = |text: &String| Sentence { of: String::new(), text: text.clone(), everywhere: false };
+        self.gaps.iter().map(gap).chain(lost).chain(self.warned.sentences_of(&Warned::default(), looked, self.all)).collect()
     }
 }
 

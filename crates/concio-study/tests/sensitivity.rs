@@ -7,9 +7,13 @@ use concio_study::Plan;
 use concio_study::measures::{End, MEASURES, Row};
 use concio_study::sensitivity::{Bootstrap, Found, Indices, morris, ranks, sensitivity, sobol, tables};
 use concio_study::table::Cells;
+use concio_verified::agrees;
 use std::f64::consts::PI;
 
 use common::Desk;
+
+/// What a count of intervals that hold the truth is held against.
+const COVERAGE: &str = "0.90 to 0.98";
 
 const BOOTSTRAP: Bootstrap = Bootstrap { resamples: 300, confidence: 0.95, seed: 3 };
 
@@ -76,6 +80,44 @@ fn listed_values_stand_where_their_numbers_do() {
     let Ok(Indices::Morris(effects)) = &found.indices else { panic!("{:?}", found.indices) };
     assert!((effects[0].mean.value - 4.5).abs() < 1e-12 && effects[0].deviation.value < 1e-12, "{:?}", effects[0]);
     assert_eq!(effects[1].absolute.value, 0.0);
+}
+
+/// Names have no order: however they are listed, the same runs are drawn, and an effect is never larger than the largest difference of two names.
+#[test]
+fn effects_of_names_do_not_depend_on_their_order() {
+    let value = |name: &str| [("a", 2.0), ("b", 7.0), ("c", 2.5), ("d", 3.0)].into_iter().find(|(n, _)| *n == name).map(|(_, v)| v);
+    let of = |order: &str| {
+        let choices: Vec<String> =
+            order.chars().map(|c| format!("{{ name = \"{c}\", set = {{ title = \"{c}\" }} }}")).collect();
+        let names = format!("[[vary]]\nname = \"thing\"\nchoices = [{}]\n", choices.join(", "));
+        let study = plan("morris", 60, &format!("{names}{BETA}{ASKED}"));
+        let found = found(&study, |labels| labels[0].as_str().and_then(value).expect("a name"));
+        let Ok(Indices::Morris(effects)) = &found.indices else { panic!("{:?}", found.indices) };
+        effects[0]
+    };
+    let found = of("abcd");
+    for order in ["acbd", "dcba", "bdac"] {
+        assert_eq!(of(order), found, "{order}");
+    }
+    // The six pairs differ by 5, 0.5, 1, 4.5, 4 and 0.5.
+    assert!((found.absolute.value - 15.5 / 6.0).abs() < 0.5 && found.absolute.interval[1] <= 5.0, "{found:?}");
+}
+
+/// Every choice stands a chance of being run, more of them than `levels` too, and what no run has is told.
+#[test]
+fn every_choice_may_be_run() {
+    let choices: Vec<String> = (1..=9).map(|i| format!("{{ name = \"a{i}\", set = {{ title = \"{i}\" }} }}")).collect();
+    let values: Vec<String> = (1..=7).map(|i| format!("\"{i} kN/m\"")).collect();
+    let vary = format!(
+        "[[vary]]\nname = \"thing\"\nchoices = [{}]\n[[vary]]\npath = \"load.top\"\nvalues = [{}]\n",
+        choices.join(", "),
+        values.join(", ")
+    );
+    let study = plan("morris", 40, &vary);
+    assert_eq!(concio_study::design::unreached(&study.factors, &study.points), [""; 0]);
+    let few = plan("morris", 2, &vary);
+    let told = concio_study::design::unreached(&few.factors, &few.points);
+    assert!(told[0].starts_with("no run has ") && told[0].contains("of the 9 values of `thing`: a"), "{told:?}");
 }
 
 /// The rank coefficient of what rises with a listed value is 1, in whatever order the list has its values. Names have none,
@@ -158,7 +200,7 @@ fn elementary_effects_of_a_linear_function_are_its_coefficients() -> Result<(), 
     let x = points("morris", 12, 4);
     let values: Vec<Option<f64>> =
         x.iter().map(|x| Some(x.iter().zip(a).map(|(x, a)| a * x).sum::<f64>() - 7.0)).collect();
-    for (k, e) in morris::effects(&x, &values, 4, &BOOTSTRAP)?.iter().enumerate() {
+    for (k, e) in morris::effects(&x, &values, &[true; 4], 0.95)?.iter().enumerate() {
         assert!((e.absolute.value - a[k].abs()).abs() < 1e-12, "{e:?}");
         assert!((e.mean.value - a[k]).abs() < 1e-12 && e.deviation.value < 1e-12);
         assert!((e.absolute.interval[1] - e.absolute.interval[0]).abs() < 1e-12);
@@ -171,15 +213,36 @@ fn elementary_effects_of_a_linear_function_are_its_coefficients() -> Result<(), 
 fn interactions_show_in_sigma_and_lost_runs_are_left_out() -> Result<(), String> {
     let x = points("morris", 40, 3);
     let mut values: Vec<Option<f64>> = x.iter().map(|x| Some(x[0] * x[1])).collect();
-    let found = morris::effects(&x, &values, 3, &BOOTSTRAP)?;
+    let found = morris::effects(&x, &values, &[true; 3], 0.95)?;
     assert!(found[0].deviation.value > 0.25 && found[2].absolute.value == 0.0);
     assert!((found[0].absolute.value - 0.5).abs() < 0.15, "{:?}", found[0]);
     values[1] = None;
-    let fewer = morris::effects(&x, &values, 3, &BOOTSTRAP)?;
+    let fewer = morris::effects(&x, &values, &[true; 3], 0.95)?;
     let rest: Vec<Option<f64>> = values[4..].to_vec();
-    assert_eq!(fewer, morris::effects(&x[4..], &rest, 3, &BOOTSTRAP)?);
-    assert!(morris::effects(&x[..4], &values[..4], 3, &BOOTSTRAP).is_err());
+    assert_eq!(fewer, morris::effects(&x[4..], &rest, &[true; 3], 0.95)?);
+    assert!(morris::effects(&x[..4], &values[..4], &[true; 3], 0.95).is_err());
     Ok(())
+}
+
+/// 95 % intervals of elementary effects hold what they estimate in 90 to 98 of 100 studies, of the fewest trajectories that there may be on.
+#[test]
+fn intervals_of_effects_cover() {
+    let mut dice = Dice::new(17);
+    let trials = 2000;
+    for n in [2, 3, 5, 12, 40] {
+        let mut held = [0.0; 2];
+        for _ in 0..trials {
+            let draws: Vec<f64> = (0..n).map(|_| 1.0 + dice.normal()).collect();
+            let found = [morris::mean(&draws, 0.95), morris::deviation(&draws, 0.95)];
+            for (held, index) in held.iter_mut().zip(found) {
+                *held += f64::from(u8::from(index.interval[0] <= 1.0 && 1.0 <= index.interval[1]));
+            }
+        }
+        for (held, of) in held.into_iter().zip(["μ", "σ"]) {
+            let subject = format!("Statistics: part of 95 % intervals of Morris' {of} that hold it; {n} normal effects");
+            agrees!(subject, COVERAGE, "", held / f64::from(trials), 0.94, abs: 0.04);
+        }
+    }
 }
 
 /// Intervals of 95 % hold the mean of 40 draws about as often as they say.

@@ -15,6 +15,7 @@ use concio_study::interfaces::{DeviceInput, ObjectiveInput, Over, Target};
 use concio_study::measures::{End, Row};
 use concio_study::ranking;
 use concio_study::table::Table;
+use concio_study::design::unreached;
 use concio_study::warned::{Before, Told, Warned};
 use serde_json::Value;
 
@@ -219,6 +220,7 @@ pub fn before(plan: &Plan) -> Before {
     let runs = before.warned.of;
     let of_file = |first: Warning| Told { first, name: String::new(), runs, same: true };
     before.warned.told.splice(0..0, unit_doubts(plan).into_iter().map(of_file));
+    before.gaps = unreached(&plan.factors, &plan.points);
     before
 }
 
@@ -449,6 +451,7 @@ pub fn section(plan: &Plan, one: &str, case: Option<&Case>, trouble: Trouble) ->
         text.push(format!("Asked: {}.", asked.join("; ")));
     }
     text.push(format!("Design: {}.", design(plan, one)));
+    text.extend(unreached(&plan.factors, &plan.points).into_iter().map(|told| format!("Warning: {told}.")));
     text.extend(case.map(wall).transpose()?);
     text.extend(trouble.told);
     text.extend(models(plan, case).into_iter().map(String::from));

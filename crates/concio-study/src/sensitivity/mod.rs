@@ -1,8 +1,8 @@
 //! Which factors move a measure, and how much: indices that fit the design of the study.
 //!
 //! `morris` gives elementary effects, `sobol` shares of the variance, every other design standardised rank regression
-//! coefficients. Confidence is from the bootstrap: whatever the design drew independently (trajectories, base points, runs)
-//! is drawn again with replacement, and the interval holds the middle part of the indices so found.
+//! coefficients. Intervals of elementary effects are those of small samples ([`morris`]). Those of the others are from the bootstrap: whatever the design drew
+//! independently (base points, runs) is drawn again with replacement, and the interval holds the middle part of the indices so found.
 
 pub mod morris;
 pub mod ranks;
@@ -31,7 +31,7 @@ pub struct Sensitivity {
     #[serde(default = "confidence")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub confidence: f64,
-    /// Resamples of the bootstrap, 100 … 100,000; default 1000.
+    /// Resamples of the bootstrap, which all designs but `morris` have, 100 … 100,000; default 1000.
     #[serde(default = "resamples")]
     #[schemars(range(min = 100, max = 100_000))]
     pub resamples: usize,
@@ -55,7 +55,7 @@ fn seed() -> u64 {
 pub struct Index {
     /// Estimate from all that was run.
     pub value: f64,
-    /// Interval of the bootstrap.
+    /// Its interval.
     pub interval: [f64; 2],
 }
 
@@ -163,19 +163,17 @@ pub fn sensitivity(plan: &Plan, rows: &[Option<&Row>]) -> Result<Vec<Found>> {
     let Some(asked) = &plan.file.study.sensitivity else { return Ok(Vec::new()) };
     let bootstrap = Bootstrap { resamples: asked.resamples, confidence: asked.confidence, seed: asked.seed };
     let levels: Vec<Vec<f64>> = plan.factors.iter().map(Factor::places).collect();
+    let ordered: Vec<bool> = plan.factors.iter().map(Factor::is_ordered).collect();
     let shares: Vec<Vec<f64>> = plan.points.iter().map(|row| places(row, &levels)).collect();
     let of = |measure: &'static Measure| {
         let value = |row: &Option<&Row>| row.filter(|r| r.end == End::Completed).and_then(|r| r.number(measure.name));
         let values: Vec<Option<f64>> = rows.iter().map(value).collect();
         let k = plan.factors.len();
         let found = match plan.file.study.design.kind {
-            DesignKind::Morris => morris::effects(&shares, &values, k, &bootstrap).map(Indices::Morris),
+            DesignKind::Morris => morris::effects(&shares, &values, &ordered, asked.confidence).map(Indices::Morris),
             DesignKind::Sobol => sobol::shares(&values, k, &bootstrap).map(Indices::Sobol),
-            _ => {
-                let ordered: Vec<bool> = plan.factors.iter().map(Factor::is_ordered).collect();
-                ranks::coefficients(&shares, &values, &ordered, &bootstrap)
-                    .map(|(coefficients, explained)| Indices::Ranks { coefficients, explained })
-            }
+            _ => ranks::coefficients(&shares, &values, &ordered, &bootstrap)
+                .map(|(coefficients, explained)| Indices::Ranks { coefficients, explained }),
         };
         Found { measure, indices: found, left_out: values.iter().filter(|v| v.is_none()).count() }
     };
