@@ -577,7 +577,7 @@ impl Crack {
 
     /// What the bond lost in a step of a joint with springs that ended at `time` [s], and what was crushed; its points are placed anew where it lost
     /// something or other parts of it are open, pressed or crushing.
-    pub(crate) fn wear(&mut self, law: &Law, points: &mut [Point], time: f64) -> Worn {
+    pub(crate) fn wear(&mut self, law: &Law, points: &mut [Point], still: bool, time: f64) -> Worn {
         let Normal::Springs { both, press, .. } = law.normal else { return Worn::default() };
         let [near, far] = self.line;
         // Nothing that has not cracked is near its strength: most joints at most times.
@@ -660,7 +660,7 @@ impl Crack {
             points[spot.point] = Point { gap, slide, speed, crushed: spot.crushed, ..points[spot.point] };
         }
         self.set(points);
-        self.share_friction(law, points, [borne + friction[0], stored + friction[1]]);
+        self.share_friction(law, points, still, [borne + friction[0], stored + friction[1]]);
         let lost = before - self.stored(law, points);
         let [_, keeps] = self.friction_borne(law, points);
         let rubbed = stored + friction[1] - keeps;
@@ -679,9 +679,9 @@ impl Crack {
 
     /// Has what has cracked bear `whole` along the joint [N], or what stores no more than `energy` [J]: all its points stretched alike, those that
     /// friction lets.
-    fn share_friction(&self, law: &Law, points: &mut [Point], [whole, energy]: [f64; 2]) {
+    fn share_friction(&self, law: &Law, points: &mut [Point], still: bool, [whole, energy]: [f64; 2]) {
         let (stiffness, along) = (law.normal_stiffness(), law.breaking_stiffness());
-        let mu = |point: &Point| law.friction.map_or(0.0, |friction| friction.at(point.speed));
+        let mu = |point: &Point| law.friction.map_or(0.0, |friction| friction.of(point.speed, still));
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry && along > 0.0);
         let (mut rest, mut held, mut slides) =
             (whole, dry().map(|spot| spot.share * along).sum::<f64>(), [false; POINTS]);

@@ -42,6 +42,9 @@ static CRUSHABLE_POINTS: LazyLock<[[f64; 2]; CRUSHABLE + 1]> = LazyLock::new(|| 
     })
 });
 
+/// Stiffness of what grips, over the mass that the point moves and the square of the step.
+const GRIP: f64 = 1e8;
+
 /// Law of a joint. Stiffnesses, dashpots and strengths are those of its whole length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Law {
@@ -139,6 +142,11 @@ impl Friction {
     /// μ of a slide without inertia, as slow as can be: that at rest, or of one that has no δ_v μ_d once it has slid.
     pub fn slowly(&self, slid: bool) -> f64 {
         if slid && self.slip_velocity == 0.0 { self.dynamic } else { self.static_ }
+    }
+
+    /// μ that acts in a step: at the speed of sliding [m/s], or without inertia (`still`), where a speed means no more than that it has slid.
+    pub(crate) fn of(&self, speed: f64, still: bool) -> f64 {
+        if still { self.slowly(speed > 0.0) } else { self.at(speed) }
     }
 
     /// μ at the speed of sliding [m/s]; 0 where it sticks.
@@ -345,6 +353,13 @@ impl Law {
         both
     }
 
+    /// Whether friction of a rigid joint goes on with what it bore, as far as it moves with that of a very stiff spring in line with it: what rests bears any
+    /// friction up to the limit otherwise, and a wall that has slid would be told to bear less than it does.
+    fn grips(&self, still: bool) -> bool {
+        let rubs = self.friction.is_some() && self.bond.is_none() && self.shear.stiffness == 0.0;
+        still && rubs && self.slip == [0.0; 2] && matches!(self.normal, Normal::Rigid { .. })
+    }
+
     /// Whether the shear spring is in line with friction.
     fn in_line(&self) -> bool {
         self.shear.series && self.shear.stiffness > 0.0
@@ -493,14 +508,17 @@ impl Law {
             let line = over(shear, share * self.shear.damping, 0.0, u_t, theta(self.shear.stiffness, contact.moved[1]));
             contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
             contact.compliant[1] = true;
+        } else if self.grips(still) {
+            let line = over(GRIP * contact.moved[1] / (h * h), 0.0, 0.0, u_t, 1.0);
+            contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
+            contact.compliant[1] = true;
         } else {
             let mortar = share * self.mortar();
             let damping = share * self.mortar_damping();
             contact.spring[1] = over(mortar, damping, point.slide, u_t, midpoint);
         }
         contact.hold = along;
-        let slowly = |law: Friction| if still { law.slowly(point.speed > 0.0) } else { law.at(point.speed) };
-        contact.friction = point.rubbing * self.friction.map_or(0.0, slowly);
+        contact.friction = point.rubbing * self.friction.map_or(0.0, |friction| friction.of(point.speed, still));
         if let Some(bond) = &self.bond {
             (contact.friction, contact.hold) = (bond.tan_angle, share * bond.cohesion * h);
         }
@@ -561,6 +579,9 @@ impl Law {
         }
         self.end_normal(point, share, normal, &mut works);
         self.end_shear(point, share, h, mean[1], (contact, linear[1]), &mut works);
+        if self.grips(start.still) {
+            point.bearing = contact.impulse[1] / h;
+        }
         point.force = contact.impulse.map(|p| p / h);
         point.gap = gap;
         // What hardly moves rests: what is left of a velocity that was taken away counts as none.

@@ -865,7 +865,7 @@ impl Motion {
                     true => {
                         crack.follow(points);
                         self.account.elastic += crack.hidden();
-                        let worn = crack.wear(law, points, time);
+                        let worn = crack.wear(law, points, self.setting.still, time);
                         let lost = worn.bond + worn.friction + worn.beyond;
                         self.account.elastic -= lost;
                         self.account.bond += worn.bond;

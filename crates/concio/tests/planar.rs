@@ -593,6 +593,48 @@ quasi_static = true
     agrees!("Sliding: block driven slowly by a beam, work of the beam", "μ N d", "J", e.input_top, expected, 2e-3);
 }
 
+/// A block under 50 kN that a beam drives slowly bears μ_s N as long as it slides: on rigid joints, where what rests bears anything up to that, and on springs, where
+/// `stribeck-stick` weakens with a speed that means nothing here.
+#[test]
+fn a_block_that_slides_slowly_bears_its_friction() {
+    let stribeck = r#""stribeck-stick", static = 0.2, dynamic = 0.1, slip_velocity = "1 mm/s""#;
+    let coulomb = r#""coulomb", static = 0.2, dynamic = 0.2"#;
+    for (bed, friction, name) in [
+        (r#"law = "rigid""#, coulomb, "rigid joint"),
+        (r#"law = "no-tension", stiffness = "5 N/mm3", rigidity = 1"#, stribeck, "springs and stribeck-stick"),
+    ] {
+        for step in [5, 20, 80] {
+            let (_, outcome) = ran(&block(&format!(
+                r#"
+[joint]
+bed = {{ {bed} }}
+head = {{ law = "none" }}
+friction = {{ law = {friction} }}
+[[joint.change]]
+at = {{ kind = ["top"] }}
+friction = {{ static = 9, dynamic = 9 }}
+[load]
+top = {{ force = "50 kN" }}
+beam = "driven"
+beam_height = 0.1
+[motion]
+top = {{ path = {{ displacements = ["2 mm", "-2 mm"], speed = "1 mm/s" }} }}
+quasi_static = true
+[solver]
+step = "{step} ms"
+[output]
+interval = "80 ms"
+"#
+            )));
+            let (time, shear) = (&outcome.recording.time, channel(&outcome, "base/shear"));
+            let sliding = time.iter().zip(&shear).filter(|(t, _)| (1.0..1.9).contains(*t) || (4.0..5.9).contains(*t));
+            let off = sliding.map(|(_, shear)| (shear.abs() / (0.2 * 55e3) - 1.0).abs()).fold(0.0, f64::max);
+            let subject = format!("Sliding: block driven slowly, largest error of its force; {name}, steps of {step} ms");
+            agrees!(subject, "μ_s N", "", off, 0.0, abs: 2e-3);
+        }
+    }
+}
+
 /// Without inertia, devices bear what their laws say of the way of the beam, there and back: (I4) its limit and a part by hardening, (I6) its flag.
 #[test]
 fn a_slow_beam_draws_the_loop_of_a_device() {
