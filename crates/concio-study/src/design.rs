@@ -257,9 +257,14 @@ pub fn unreached(factors: &[Factor], points: &[Vec<At>]) -> Vec<String> {
         }
         let lost: Vec<String> = (0..levels).filter(|&level| !reached[level]).map(|level| factor.label(level)).collect();
         let more = lost.len().saturating_sub(MOST_NAMED);
-        let named = lost[..lost.len() - more].join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() };
+        let named =
+            lost[..lost.len() - more].join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() };
         (!lost.is_empty()).then(|| {
-            format!("no run has {} of the {levels} values of `{}`: {named}; more `runs` reach them", lost.len(), factor.name)
+            format!(
+                "no run has {} of the {levels} values of `{}`: {named}; more `runs` reach them",
+                lost.len(),
+                factor.name
+            )
         })
     };
     factors.iter().enumerate().filter_map(of).collect()
@@ -301,7 +306,8 @@ mod tests {
 
     #[test]
     fn one_factor_moves_at_a_time_on_a_trajectory() {
-        let grids = [Grid::Shares(6), Grid::Rising(vec![3, 0, 2, 1]), Grid::Rising(vec![0, 1, 2]), Grid::Names(vec![1, 2, 0])];
+        let grids =
+            [Grid::Shares(6), Grid::Rising(vec![3, 0, 2, 1]), Grid::Rising(vec![0, 1, 2]), Grid::Names(vec![1, 2, 0])];
         let k = grids.len();
         let number = |at: &At, grid: &Grid| match (at, grid) {
             (At::Level(level), Grid::Rising(order) | Grid::Names(order)) => {

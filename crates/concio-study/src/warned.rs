@@ -179,7 +179,12 @@ impl Before {
         };
         let lost = self.lost.iter().map(lost);
         let gap = |text: &String| Sentence { of: String::new(), text: text.clone(), everywhere: false };
-        self.gaps.iter().map(gap).chain(lost).chain(self.warned.sentences_of(&Warned::default(), looked, self.all)).collect()
+        self.gaps
+            .iter()
+            .map(gap)
+            .chain(lost)
+            .chain(self.warned.sentences_of(&Warned::default(), looked, self.all))
+            .collect()
     }
 }
 

@@ -85,7 +85,9 @@ fn listed_values_stand_where_their_numbers_do() {
 /// Names have no order: however they are listed, the same runs are drawn, and an effect is never larger than the largest difference of two names.
 #[test]
 fn effects_of_names_do_not_depend_on_their_order() {
-    let value = |name: &str| [("a", 2.0), ("b", 7.0), ("c", 2.5), ("d", 3.0)].into_iter().find(|(n, _)| *n == name).map(|(_, v)| v);
+    let value = |name: &str| {
+        [("a", 2.0), ("b", 7.0), ("c", 2.5), ("d", 3.0)].into_iter().find(|(n, _)| *n == name).map(|(_, v)| v)
+    };
     let of = |order: &str| {
         let choices: Vec<String> =
             order.chars().map(|c| format!("{{ name = \"{c}\", set = {{ title = \"{c}\" }} }}")).collect();
@@ -239,7 +241,8 @@ fn intervals_of_effects_cover() {
             }
         }
         for (held, of) in held.into_iter().zip(["μ", "σ"]) {
-            let subject = format!("Statistics: part of 95 % intervals of Morris' {of} that hold it; {n} normal effects");
+            let subject =
+                format!("Statistics: part of 95 % intervals of Morris' {of} that hold it; {n} normal effects");
             agrees!(subject, COVERAGE, "", held / f64::from(trials), 0.94, abs: 0.04);
         }
     }

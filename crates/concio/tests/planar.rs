@@ -629,7 +629,8 @@ interval = "80 ms"
             let (time, shear) = (&outcome.recording.time, channel(&outcome, "base/shear"));
             let sliding = time.iter().zip(&shear).filter(|(t, _)| (1.0..1.9).contains(*t) || (4.0..5.9).contains(*t));
             let off = sliding.map(|(_, shear)| (shear.abs() / (0.2 * 55e3) - 1.0).abs()).fold(0.0, f64::max);
-            let subject = format!("Sliding: block driven slowly, largest error of its force; {name}, steps of {step} ms");
+            let subject =
+                format!("Sliding: block driven slowly, largest error of its force; {name}, steps of {step} ms");
             agrees!(subject, "μ_s N", "", off, 0.0, abs: 2e-3);
         }
     }

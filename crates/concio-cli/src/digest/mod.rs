@@ -40,7 +40,11 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
     let [base, weight] = ["/base_load", "/weight"].map(|key| number(summary, key));
     let load = beside(base - weight, base);
     if load > 0.0 {
-        let told = format!("{} on the base at rest, {} of it load on top", si(base, "N"), si(load, "N"));
+        let told = format!(
+            "{} on the base at rest, {} of it load beside the weight of wall and beam",
+            si(base, "N"),
+            si(load, "N")
+        );
         rows.push(("vertical force", told));
     }
     if let Some(push) = summary.get("push").filter(|push| !push.is_null()) {
@@ -48,6 +52,7 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
         let ultimate = push.get("ultimate").and_then(Value::as_f64);
         let borne = match ultimate {
             Some(ultimate) => format!("four fifths of it borne until {} at the top", si(ultimate, "m")),
+            None if outcome.totals.collapse.is_some() => "it did not fall by a fifth before the wall collapsed".into(),
             None => "it never fell by a fifth".into(),
         };
         rows.push(("peak of the push", format!("secant stiffness {stiffness}, {borne}")));

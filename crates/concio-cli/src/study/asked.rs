@@ -10,12 +10,12 @@ use concio::ground::coverage::{Coverage, coverage};
 use concio::run::prepare_with;
 use concio::warning::Warning;
 use concio_study::Plan;
+use concio_study::design::unreached;
 use concio_study::file::{Choice, Design, DesignKind, Distribution, DistributionLaw, Follower, Spacing, Study, Vary};
 use concio_study::interfaces::{DeviceInput, ObjectiveInput, Over, Target};
 use concio_study::measures::{End, Row};
 use concio_study::ranking;
 use concio_study::table::Table;
-use concio_study::design::unreached;
 use concio_study::warned::{Before, Told, Warned};
 use serde_json::Value;
 

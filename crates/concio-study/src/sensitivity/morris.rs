@@ -81,9 +81,7 @@ pub fn deviation(values: &[f64], confidence: f64) -> Index {
     let excess = if unbiased.is_finite() && n > 3.0 { unbiased.max(0.0) } else { 0.0 };
     let freedom = 2.0 * n / (excess + 2.0 * n / (n - 1.0));
     let value = (squares / (n - 1.0)).sqrt();
-    let end = |share: f64| {
-        value * (freedom / chi_squared(freedom, share)).sqrt()
-    };
+    let end = |share: f64| value * (freedom / chi_squared(freedom, share)).sqrt();
     let tail = 0.5 * (1.0 - confidence);
     Index { value, interval: [end(1.0 - tail), end(tail)] }
 }

@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 
 use super::node::{Node, Value};
 use super::{
-    Beam, Case, FrictionChange, FrictionLaw, JointKind, ModelKind, Panel, Signal, Solver, SpringChange, SpringLaw,
-    TopLoad,
+    Beam, Case, FrictionChange, FrictionLaw, JointBond, JointKind, Joints, ModelKind, Panel, Signal, Solver,
+    SpringChange, SpringLaw, TopLoad,
 };
 use crate::planar;
 use crate::quantity::{Stiffness, shown};
@@ -63,22 +63,28 @@ const STIFFNESS_PER_AREA: Expected = Expected {
 };
 /// From mud to the strongest concrete; bricks themselves split at some MPa.
 const STRENGTH: Expected =
-    Expected { limits: [10.0, 2e7], usual: [1e4, 1e7], unit: "Pa", slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3)] };
+    Expected { limits: [1e3, 2e7], usual: [1e4, 1e7], unit: "Pa", slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3)] };
 /// Masonry bears 0.5 to 50 MPa, adobe less, hard stone laid dry more.
 const COMPRESSION: Expected =
     Expected { limits: [1e4, 5e8], usual: [1e5, 1e8], unit: "Pa", slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3)] };
 /// Fracture energies: mortar has 1 to 20 N/m when opened, 10 to 1000 N/m when sheared.
-const FRACTURE: Expected =
-    Expected { limits: [1e-4, 1e5], usual: [0.1, 2e3], unit: "N/m", slips: &[(1e3, "N/mm", 1e3), (1e-3, "N/m", 1.0)] };
+const OPENING_ENERGY: Expected = Expected {
+    limits: [1e-4, 1e3],
+    usual: [0.1, 200.0],
+    unit: "N/m",
+    slips: &[(1e3, "N/mm", 1e3), (1e-3, "N/m", 1.0)],
+};
+const SHEAR_ENERGY: Expected =
+    Expected { limits: [1e-4, 1e4], usual: [0.1, 2e3], unit: "N/m", slips: &[(1e3, "N/mm", 1e3), (1e-3, "N/m", 1.0)] };
 /// δ_v: faster than 0.1 m/s is beyond what joints reach in most earthquakes, so that they would never slip.
 const SLIP_VELOCITY: Expected =
     Expected { limits: [1e-7, 0.1], usual: [1e-5, 0.02], unit: "m/s", slips: &[(1e-3, "mm/s", 1e-3)] };
-/// From less than a person on a metre of wall, 100 N, to 10 MPa on a wall of one metre.
+/// From a light roof to 10 MPa on a wall of one metre.
 const LOAD: Expected =
-    Expected { limits: [1e2, 1e7], usual: [1e3, 2e6], unit: "N/m", slips: &[(1e3, "kN/m", 1e3), (1e-3, "kN/m", 1e3)] };
+    Expected { limits: [3e2, 1e7], usual: [1e3, 2e6], unit: "N/m", slips: &[(1e3, "kN/m", 1e3), (1e-3, "kN/m", 1e3)] };
 /// The same on a pier of the laboratory to a façade.
 const WHOLE_LOAD: Expected =
-    Expected { limits: [1e2, 1e9], usual: [1e3, 1e8], unit: "N", slips: &[(1e3, "kN", 1e3), (1e-3, "kN", 1e3)] };
+    Expected { limits: [1e3, 1e9], usual: [1e3, 1e8], unit: "N", slips: &[(1e3, "kN", 1e3), (1e-3, "kN", 1e3)] };
 /// A beam of the laboratory to the floors of a tower.
 const BEAM: Expected =
     Expected { limits: [10.0, 1e7], usual: [100.0, 1e6], unit: "kg", slips: &[(1e3, "t", 1e3), (1e-3, "t", 1e3)] };
@@ -276,7 +282,11 @@ fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {
 }
 
 /// Way of a driven top in a step without inertia from which it is told [m].
-const LONG_WAY: f64 = 0.5e-3;
+const LONG_WAY: f64 = 0.1001e-3;
+/// By how much of g a tilt may grow in a step of a run without inertia.
+const STEEP: f64 = 5e-3;
+/// Pressure up to which a joint without a strength is looked at [Pa]: toes of laboratory walls reach some MPa.
+const MOST_PRESSED: f64 = 5e6;
 
 /// What is right in shear walls, whose joints cannot open, and hardly meant where they can.
 fn of_planar(doubts: &mut Doubts, case: &Case) {
@@ -310,12 +320,23 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
             );
             doubts.add(WarningKind::StillMotion, text);
         }
+        if let Signal::Tilt(tilt) = &case.motion.base {
+            let more = tilt.acceleration.si().abs() * planar::step(case) / tilt.rise.si() / crate::G;
+            if more > STEEP {
+                let text = format!(
+                    "motion.base.tilt grows by {} g in every step of this `quasi_static` run: what the wall bears is known no better, and a wall that                      begins to fall is told to bear what comes on it meanwhile. Let `rise` be {} s or longer",
+                    shown(rounded(more, 2)),
+                    shown(rounded(tilt.rise.si() * more / STEEP, 2)),
+                );
+                doubts.add(WarningKind::UnlikelyNumber, text);
+            }
+        }
         if let Signal::Path(path) = &case.motion.top {
             let way = path.speed.si() * planar::step(case);
             if way > LONG_WAY {
                 let text = format!(
                     "motion.top.path.speed moves the top by {} mm in every step of this `quasi_static` run: forces depend on that, and may be far off. \
-                     Less than 0.1 mm, or a ten-thousandth of the height, changes them by less than a hundredth",
+                     Up to 0.1 mm, or a ten-thousandth of the height, changes them by less than a hundredth",
                     shown(rounded(1e3 * way, 3))
                 );
                 doubts.add(WarningKind::UnlikelyNumber, text);
@@ -346,6 +367,45 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
         }
         _ => {}
     }
+    if let Some(bond) = &joint.bond {
+        of_bond(doubts, joint, bond);
+    }
+}
+
+/// Bonds of planar walls that are weaker than what is to be left of them, or stronger than they may be.
+fn of_bond(doubts: &mut Doubts, joint: &Joints, bond: &JointBond) {
+    let (tan, cohesion, tension) = (bond.friction_angle.si().tan(), bond.cohesion.si(), bond.tensile_strength.si());
+    let mega = |pascal: f64| shown(rounded(1e-6 * pascal, 3));
+    if tan > 0.0 && cohesion > 0.0 && tension > cohesion / tan * (1.0 + 1e-9) {
+        let text = format!(
+            "joint.bond.tensile_strength is {} MPa, above cohesion/tan(friction_angle) = {} MPa, where its friction ends: such a joint is pulled apart by more              than shear would leave of it; mortar has less than half of that",
+            mega(tension),
+            mega(cohesion / tan),
+        );
+        doubts.add(WarningKind::UnlikelyNumber, text);
+    }
+    let friction = &joint.friction;
+    let none = friction.law == FrictionLaw::None && friction.preset.is_none();
+    if none && tan > 0.0 && !joint.changes.iter().any(|change| change.friction.is_some_and(|f| f.law.is_some())) {
+        let text = "joint.friction is missing or of law `none` beside a bond with a friction_angle: joints that have cracked bear no shear at all. Masonry has \
+                    `friction = { law = \"coulomb\", static = … }` of about the tangent of that angle";
+        doubts.add(WarningKind::UnlikelyJoint, text);
+    }
+    let strengths =
+        [Some(joint.bed), joint.base, joint.top].into_iter().flatten().filter_map(|s| s.compressive_strength);
+    let crushed = strengths.map(|s| s.si()).fold(MOST_PRESSED, f64::min);
+    let static_ = if none { 0.0 } else { friction.static_ };
+    let from = cohesion / (static_ - tan);
+    if static_ > tan && from < crushed {
+        let text = format!(
+            "joint.friction.static is {}, above tan(friction_angle) = {}: from a pressure of {} MPa on, c/(μ_s − tan φ), joints are stronger cracked than \
+             whole, and a wall whose toes are pressed harder bears more than its bonds do",
+            shown(static_),
+            shown(rounded(tan, 3)),
+            mega(from),
+        );
+        doubts.add(WarningKind::UnlikelyJoint, text);
+    }
 }
 
 fn of_joints(doubts: &mut Doubts, case: &Case) {
@@ -365,8 +425,8 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
     if let Some(bond) = &joint.bond {
         doubts.look("joint.bond.tensile_strength", bond.tensile_strength.si(), &STRENGTH);
         doubts.look("joint.bond.cohesion", bond.cohesion.si(), &STRENGTH);
-        doubts.look("joint.bond.mode_1_energy", bond.mode_1_energy.si(), &FRACTURE);
-        doubts.look("joint.bond.mode_2_energy", bond.mode_2_energy.si(), &FRACTURE);
+        doubts.look("joint.bond.mode_1_energy", bond.mode_1_energy.si(), &OPENING_ENERGY);
+        doubts.look("joint.bond.mode_2_energy", bond.mode_2_energy.si(), &SHEAR_ENERGY);
     }
     for (index, change) in joint.changes.iter().enumerate() {
         let at = format!("joint.change[{index}]");

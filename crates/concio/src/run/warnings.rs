@@ -29,7 +29,7 @@ const BEYOND: f64 = 1.001;
 /// Force of a single spring over its friction from which it is told: a spring beside friction bears some as long as its joint hardly slides.
 const FAR_BEYOND: f64 = 2.0;
 const SPRUNG: &str = "the springs of unbonded joints go on bearing however far the joints slide. Forces and displacements are not those of masonry; use \
-                      `model = \"planar\"`, whose joints slide, or a [joint.bond], which breaks";
+                      `law = \"no-tension\"` in a wall of `model = \"planar\"`, whose joints slide, or a [joint.bond], which breaks";
 /// What a run without inertia is to do about a large residual: some of it no step takes away.
 const STILL: &str = "lower solver.step; what lets go at once, as friction does that falls once a joint slides, needs inertia: leave \
                      motion.quasi_static out";
