@@ -1,8 +1,11 @@
 //! Fits of fragilities against known lognormals: medians, dispersions and bands that hold them as often as they say.
 
 use concio::dice::Dice;
-use concio_study::ida::fragility::{Fragility, fit};
+use concio_study::ida::curve::{Curve, Point};
+use concio_study::ida::fragility::{Fragility, fit, fit_clusters};
+use concio_study::ida::hunt::Way;
 use concio_study::ida::likelihood::{Evidence, phi};
+use concio_verified::agrees;
 
 const MEDIAN: f64 = 0.45;
 const DISPERSION: f64 = 0.4;
@@ -34,6 +37,159 @@ fn holds(shares: [f64; 5]) {
 
 fn capacity(dice: &mut Dice) -> f64 {
     MEDIAN * (DISPERSION * dice.normal()).exp()
+}
+
+/// Part of `trials` fits whose intervals hold the median and the dispersion, and how many could be fitted.
+fn held(trials: usize, fitted: &mut dyn FnMut() -> Option<Fragility>) -> ([f64; 2], usize) {
+    let (mut held, mut all) = ([0usize; 2], 0);
+    for found in (0..trials).filter_map(|_| fitted()) {
+        let within = |[low, high]: [f64; 2], v: f64| usize::from(low <= v && v <= high);
+        all += 1;
+        held[0] += within(found.median_interval, MEDIAN);
+        held[1] += within(found.dispersion_interval, DISPERSION);
+    }
+    (held.map(|n| n as f64 / all as f64), all)
+}
+
+/// Writes down how often both intervals hold what they estimate.
+fn covers(what: &str, case: &str, shares: [f64; 2]) {
+    for (share, of) in shares.into_iter().zip(["median", "dispersion"]) {
+        let subject = format!("Statistics: part of 95 % intervals of a fragility's {of} that hold it, {what}; {case}");
+        agrees!(subject, "0.90 to 0.98", "", share, 0.94, abs: 0.04);
+    }
+}
+
+/// Intervals of few records are Student's: two say next to nothing.
+#[test]
+fn intervals_of_few_records_cover() {
+    let mut dice = Dice::new(11);
+    for n in [2, 3, 5, 12, 40] {
+        let mut draw = || fit(&(0..n).map(|_| Evidence::At(capacity(&mut dice))).collect::<Vec<_>>(), 0.95).ok();
+        let (shares, fitted) = held(1000, &mut draw);
+        assert_eq!(fitted, 1000);
+        covers("capacities found", &format!("{n} records"), shares);
+    }
+    // t(0.975, 1) = 12.706: the half-width of ln θ is t s/√2, s that over n − 1.
+    let found = fit(&[Evidence::At(8.0), Evidence::At(10.0)], 0.95).expect("two capacities");
+    let half = 12.706_2 * 0.5 * (10f64 / 8.0).ln();
+    agrees!(
+        "Statistics: upper end of the 95 % interval of the median of two capacities, 8 and 10",
+        "√80 e^(t s/√2), t(0.975, 1) = 12.7062",
+        "",
+        found.median_interval[1],
+        80f64.sqrt() * half.exp(),
+        1e-4
+    );
+}
+
+/// Several draws of the parameters under each motion are as many records as there are motions, where the motion decides.
+#[test]
+fn intervals_take_motions_as_clusters() {
+    for (motions, part) in [(5, 0.9), (12, 0.9), (12, 0.3), (40, 0.6)] {
+        // Variance of the motions and of the rest.
+        let [between, rest] = [part, 1.0 - part].map(|part: f64| DISPERSION * part.sqrt());
+        let mut dice = Dice::new(12);
+        let mut alone = Dice::new(12);
+        let draws = |dice: &mut Dice| -> (Vec<Evidence>, Vec<usize>) {
+            let of = |motion: usize, dice: &mut Dice| {
+                let own = between * dice.normal();
+                (0..6).map(|_| (Evidence::At(MEDIAN * (own + rest * dice.normal()).exp()), motion)).collect::<Vec<_>>()
+            };
+            (0..motions).flat_map(|motion| of(motion, dice)).unzip()
+        };
+        let mut fitted = || {
+            let (evidence, of) = draws(&mut dice);
+            fit_clusters(&evidence, &of, 0.95).ok()
+        };
+        let (shares, _) = held(400, &mut fitted);
+        let percent = 100.0 * part;
+        let case = format!("{motions} motions, 6 draws each, {percent} % of the variance theirs");
+        agrees!(
+            format!("Statistics: part of 95 % intervals of a fragility's median that hold it, motions as clusters; {case}"),
+            "0.90 to 0.98",
+            "",
+            shares[0],
+            0.94,
+            abs: 0.04
+        );
+        // As independent runs they do not.
+        let (naive, _) = held(400, &mut || fit(&draws(&mut alone).0, 0.95).ok());
+        assert!(part < 0.5 || naive[0] < 0.8, "{naive:?}");
+    }
+}
+
+/// All records at the same intensities: what a record does at one of them is not independent of what it does at the next.
+#[test]
+fn intervals_of_stripes_cover() {
+    let intensities = [0.15, 0.25, 0.35, 0.5, 0.7, 1.0];
+    for n in [12, 40] {
+        let mut dice = Dice::new(13);
+        let mut fitted = || {
+            let of = |record: usize, dice: &mut Dice| {
+                let own = capacity(dice);
+                let entry = |y: f64| if own <= y { Evidence::Below(y) } else { Evidence::Above(y) };
+                intensities.map(|y| (entry(y), record))
+            };
+            let (entries, of): (Vec<_>, Vec<_>) = (0..n).flat_map(|record| of(record, &mut dice)).unzip();
+            fit_clusters(&entries, &of, 0.95).ok()
+        };
+        let (shares, all) = held(400, &mut fitted);
+        assert!(all >= 396, "{all}");
+        covers("stripes of the same records", &format!("{n} records"), shares);
+    }
+}
+
+/// A limit that damage jumps over, as where sliding begins: the runs of a hunt tell between which intensities, and the fit knows no more.
+#[test]
+fn intervals_of_jumps_cover() {
+    let way = Way::Hunt { first: 0.05, step: 0.05, growth: 0.01, most: 3.0, runs: 14, resolution: 0.1 };
+    let hunted = |own: f64| {
+        let mut points: Vec<Point> = Vec::new();
+        while let [y] = way.next(&points, &[1e-4])[..] {
+            let damage = if y < own { 1e-7 * y } else { 1e-2 * (y / own - 1.0) + 2e-4 };
+            let place = points.partition_point(|p| p.intensity < y);
+            let run = Point {
+                intensity: y,
+                scale: y,
+                damage: Some(damage),
+                collapsed: false,
+                id: String::new(),
+                warnings: vec![],
+            };
+            points.insert(place, run);
+        }
+        assert_eq!(points.len(), 14);
+        let curve = Curve { name: String::new(), motion: 0, number: 0, unit: 1.0, points, failed: None };
+        if let Some((low, high)) = curve.bracket(1e-4) {
+            assert!(low.is_none_or(|low| low.intensity < own) && own <= high.intensity);
+        }
+        curve.capacity(1e-4)
+    };
+    for n in [5, 12, 40] {
+        let mut dice = Dice::new(14);
+        let (shares, all) =
+            held(200, &mut || fit(&(0..n).map(|_| hunted(capacity(&mut dice))).collect::<Vec<_>>(), 0.95).ok());
+        assert!(all >= 196, "{all}");
+        covers("limits that damage jumps over", &format!("{n} records, 14 runs each"), shares);
+    }
+}
+
+/// Where nothing is known but between which runs capacities lie, the likelihood is that of intervals.
+#[test]
+fn intervals_of_capacities_are_fitted() -> Result<(), &'static str> {
+    let mut dice = Dice::new(15);
+    let edges: Vec<f64> = (0..40).map(|k| 0.05 * 1.15f64.powi(k)).collect();
+    let within = |c: f64| {
+        let upper = edges.partition_point(|e| *e < c);
+        Evidence::Within([edges[upper - 1], edges[upper]])
+    };
+    let evidence: Vec<Evidence> = (0..20_000).map(|_| within(capacity(&mut dice))).collect();
+    let found = fit(&evidence, 0.95)?;
+    assert!(
+        (found.median / MEDIAN - 1.0).abs() < 0.015 && (found.dispersion / DISPERSION - 1.0).abs() < 0.02,
+        "{found:?}"
+    );
+    Ok(())
 }
 
 #[test]
@@ -96,4 +252,13 @@ fn limits_that_none_or_all_reach_say_so() {
     let stripe = |intensity, reached| Evidence::Stripe { intensity, reached, of: 4 };
     assert_eq!(why(&[stripe(0.1, 0), stripe(0.2, 0)]), "no record reaches the limit");
     assert!(why(&[stripe(0.1, 4), stripe(0.2, 4)]).contains("lowest intensity"));
+    // From none to all between two intensities: any dispersion that is small enough.
+    for evidence in [
+        vec![stripe(0.5, 0), stripe(1.5, 4)],
+        vec![Evidence::Above(0.5), Evidence::Below(0.8)],
+        vec![Evidence::Within([0.5, 0.8]), Evidence::Within([0.8, 1.0])],
+    ] {
+        assert!(why(&evidence).contains("do not overlap"), "{}", why(&evidence));
+    }
+    assert!(why(&[stripe(0.1, 3), stripe(0.2, 1)]).contains("does not rise enough"));
 }

@@ -162,12 +162,12 @@ fn hunting_is_taken_up_where_it_was() -> concio::Result<()> {
     let study = format!(
         "{PULSES}[ida]\ndamage = \"peak_joint_displacement\"\ncollapse = \"300 mm\"\n\
          limits = [{{ name = \"1 cm\", value = \"10 mm\" }}, {{ name = \"10 cm\", value = 0.1 }}]\n\
-         hunt = {{ first = \"0.1 g\", step = \"0.2 g\", most = \"3 g\", runs = 10 }}\n"
+         hunt = {{ first = \"0.1 g\", step = \"0.2 g\", most = \"3 g\", runs = 16 }}\n"
     );
     let plan = desk.plan(&study)?;
     let out = desk.path("out");
     let mut first = Analysis::new(&plan)?.expect("the study has [ida]");
-    assert_eq!(run(&mut first, &out)?, 20);
+    assert_eq!(run(&mut first, &out)?, 32);
     let bytes = || std::fs::metadata(out.join("runs/part-0001.jsonl")).expect("a part").len();
     let before = bytes();
     let mut again = Analysis::new(&plan)?.expect("the study has [ida]");
@@ -178,6 +178,11 @@ fn hunting_is_taken_up_where_it_was() -> concio::Result<()> {
         let collapse = curve.points.iter().position(|p| p.collapsed).expect("a collapse");
         let [low, high] = [curve.points[collapse - 1].intensity, curve.points[collapse].intensity];
         assert!(slip(low) < 0.3 && slip(high) >= 0.3 && high / low < 1.1 + 1e-9, "{low} {high}");
+        for limit in [0.01, 0.1] {
+            let (low, high) = curve.bracket(limit).expect("a crossing");
+            let low = low.map_or(0.0, |low| low.intensity);
+            assert!(slip(low) < limit && slip(high.intensity) >= limit && high.intensity / low < 1.1 + 1e-9, "{low}");
+        }
     }
     Ok(())
 }

@@ -14,7 +14,7 @@ fn hunts_then_closes_in_then_fills() {
     let way = Way::Hunt { first: 0.05, step: 0.1, growth: 0.05, most: 5.0, runs: 12, resolution: 0.1 };
     let mut points: Vec<Point> = Vec::new();
     let mut asked = Vec::new();
-    while let [next] = way.next(&points)[..] {
+    while let [next] = way.next(&points, &[])[..] {
         asked.push(next);
         let place = points.partition_point(|p| p.intensity < next);
         points.insert(place, point(next, next >= 0.97));
@@ -34,7 +34,7 @@ fn hunts_then_closes_in_then_fills() {
 fn without_collapse_it_goes_to_the_end_and_fills() {
     let way = Way::Hunt { first: 0.5, step: 1.0, growth: 0.0, most: 2.0, runs: 6, resolution: 0.1 };
     let mut points: Vec<Point> = Vec::new();
-    while let [next] = way.next(&points)[..] {
+    while let [next] = way.next(&points, &[])[..] {
         let place = points.partition_point(|p| p.intensity < next);
         points.insert(place, point(next, false));
     }
@@ -52,7 +52,7 @@ fn curve(points: &[(f64, f64, bool)]) -> Curve {
         warnings: Vec::new(),
     };
     let points = points.iter().map(point).collect();
-    Curve { name: "a".into(), number: 0, unit: 1.0, points, failed: None }
+    Curve { name: "a".into(), motion: 0, number: 0, unit: 1.0, points, failed: None }
 }
 
 /// Damage as a power of the intensity is a straight line between logarithms: capacities come out exactly.
@@ -70,7 +70,7 @@ fn powers_are_interpolated_exactly() {
     assert_eq!((c.damage(2.5), c.damage(0.05)), (None, None));
     let fallen = curve(&[(0.1, 1.0, false), (0.4, 2.0, true)]);
     assert_eq!(fallen.damage(0.3), Some(f64::INFINITY));
-    assert_eq!(fallen.capacity(9.0), Evidence::At(0.2));
+    assert_eq!(fallen.capacity(9.0), Evidence::Within([0.1, 0.4]));
 }
 
 #[test]

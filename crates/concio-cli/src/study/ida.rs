@@ -189,6 +189,9 @@ fn tell(plan: &Plan, analysis: &Analysis, told: &Warned) -> std::result::Result<
     if missing(analysis) > 0 {
         return Ok(());
     }
+    for told in doubts(analysis) {
+        files::note(&format!("warning: {told}"));
+    }
     let found = fragilities(&analysis.settings, &usable(analysis));
     files::print(&found.iter().map(|f| line(&analysis.settings, f)).collect::<String>())
 }
@@ -210,6 +213,28 @@ fn line(settings: &Settings, found: &Found) -> String {
         ),
         Err(cause) => format!("  {} ({}): {cause}\n", found.limit, found.method),
     }
+}
+
+/// What is to be known of capacities before their fit is believed.
+fn doubts(analysis: &Analysis) -> Vec<String> {
+    let curves = usable(analysis);
+    let of = |(name, value): &(String, f64)| {
+        let again = curves.iter().filter(|c| c.below_again(*value) > 0).count();
+        let between = curves.iter().filter(|c| matches!(c.capacity(*value), Evidence::Within(_))).count();
+        let all = counted(curves.len(), "curve");
+        [
+            (again > 0).then(|| {
+                format!("{name}: {again} of {all} fall below the limit again at a higher intensity; their lowest crossing counts")
+            }),
+            (between > 0).then(|| {
+                format!(
+                    "{name}: {between} of {all} jump over the limit between two runs that are far apart, and count as anywhere between them; runs between \
+                     narrow the intervals"
+                )
+            }),
+        ]
+    };
+    analysis.settings.limits.iter().flat_map(of).flatten().collect()
 }
 
 fn usable<'a>(analysis: &'a Analysis) -> Vec<&'a Curve> {
@@ -244,6 +269,7 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
         ..Section::default()
     };
     let mut text: Vec<String> = found.iter().map(|f| line(s, f).trim().to_string()).collect();
+    text.extend(doubts(analysis).into_iter().map(|told| format!("Warning: {told}.")));
     let percent = 100.0 * s.confidence;
     text.insert(
         0,
@@ -289,7 +315,7 @@ fn ways(s: &Settings) -> String {
     let way = match &s.way {
         Way::List(list) => format!("at {}", list.iter().map(|v| of(*v)).collect::<Vec<_>>().join(", ")),
         Way::Hunt { first, step, growth, most, runs, resolution } => format!(
-            "from {} in steps of {} that grow by {}, up to {}, {} each, the gap below a collapse closed to {} of it",
+            "from {} in steps of {} that grow by {}, up to {}, {} each, gaps that hold a collapse or a limit closed to {} of it",
             of(*first),
             of(*step),
             of(*growth),
@@ -423,6 +449,7 @@ fn points(evidence: &[Evidence]) -> Vec<(f64, f64)> {
     }
     let place = |e: &Evidence| match e {
         Evidence::At(y) | Evidence::Below(y) => Some((*y, true)),
+        Evidence::Within([low, high]) => Some(((low * high).sqrt(), true)),
         Evidence::Above(y) => Some((*y, false)),
         Evidence::Stripe { .. } => None,
     };

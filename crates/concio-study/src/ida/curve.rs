@@ -5,7 +5,7 @@ use concio::warning::Warning;
 use concio::quantity::shown;
 
 use super::Settings;
-use super::fragility::{Fragility, fit};
+use super::fragility::{Fragility, fit_clusters};
 use super::hunt::Way;
 use super::likelihood::Evidence;
 use crate::measures::{End, Row};
@@ -46,7 +46,7 @@ impl Point {
     }
 
     /// Whether damage of that value is reached.
-    fn reaches(&self, value: f64) -> bool {
+    pub(crate) fn reaches(&self, value: f64) -> bool {
         self.collapsed || self.damage.is_some_and(|d| d >= value)
     }
 }
@@ -56,6 +56,8 @@ impl Point {
 pub struct Curve {
     /// Its name.
     pub name: String,
+    /// What it shares its motion with: curves of one motion have the same number.
+    pub motion: usize,
     /// Number of the run of the design that it scales, from 0.
     pub number: usize,
     /// Intensity at scale 1.
@@ -67,26 +69,37 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// The intensity at which damage first reaches `value`, and the two runs that it lies between.
+    /// The two runs between which damage first reaches `value`, the lower one none where the first run reaches it; none where no run does.
+    pub fn bracket(&self, value: f64) -> Option<(Option<&Point>, &Point)> {
+        let upper = self.points.iter().position(|p| p.reaches(value))?;
+        Some((upper.checked_sub(1).map(|i| &self.points[i]), &self.points[upper]))
+    }
+
+    /// The intensity at which damage first reaches `value`.
     ///
-    /// Between the two the logarithm of the intensity is linear in that of the damage (in the damage, where the lower run
-    /// has none); where the upper run stopped early it is the middle of both.
+    /// Between two runs the logarithm of the intensity is linear in that of the damage. Where damage jumps from one to the other, as it does where sliding, rocking
+    /// or a collapse begins, such a line says nothing: the capacity is the middle of both where they are next to each other, and known to lie between them where not.
     pub fn capacity(&self, value: f64) -> Evidence {
-        let Some(upper) = self.points.iter().position(|p| p.reaches(value)) else {
+        let Some((low, high)) = self.bracket(value) else {
             return Evidence::Above(self.points.last().map_or(0.0, |p| p.intensity));
         };
-        let high = &self.points[upper];
-        let Some(low) = upper.checked_sub(1).map(|i| &self.points[i]) else { return Evidence::Below(high.intensity) };
-        let (d0, d1) = (low.damage.unwrap_or(0.0), high.damage.unwrap_or(0.0));
-        let share = if d1 < value {
-            0.5
-        } else if d0 > 0.0 {
-            (value / d0).ln() / (d1 / d0).ln()
-        } else {
-            value / d1
+        let Some(low) = low else { return Evidence::Below(high.intensity) };
+        let ratio = high.intensity / low.intensity;
+        let damages = (low.damage.unwrap_or(0.0), high.damage.unwrap_or(0.0));
+        let share = match damages {
+            (d0, d1) if !high.collapsed && d0 > 0.0 && (d1 / d0).ln() <= STEEPEST * ratio.ln() => {
+                (value / d0).ln() / (d1 / d0).ln()
+            }
+            _ if ratio > 1.0 + NEAR => return Evidence::Within([low.intensity, high.intensity]),
+            _ => 0.5,
         };
         let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 };
-        Evidence::At(low.intensity * (high.intensity / low.intensity).powf(share))
+        Evidence::At(low.intensity * ratio.powf(share))
+    }
+
+    /// Runs of higher intensity than that at which damage first reaches `value` that do not reach it.
+    pub fn below_again(&self, value: f64) -> usize {
+        self.points.iter().skip_while(|p| !p.reaches(value)).filter(|p| !p.reaches(value)).count()
     }
 
     /// Damage at an intensity between its runs, straight between the logarithms; infinite from collapse on, none beyond
@@ -108,6 +121,11 @@ impl Curve {
         if d0 > 0.0 && d1 > 0.0 { Some(d0 * (d1 / d0).powf(share)) } else { Some(d0 + share * (d1 - d0)) }
     }
 }
+
+/// Power of the intensity with which damage rises from one run to the next at most where it does not jump.
+const STEEPEST: f64 = 4.0;
+/// By what part of the lower intensity two runs may lie apart whose middle is a capacity: its error is a 35th of that then.
+const NEAR: f64 = 0.1 + 1e-9;
 
 /// Shares of the curves that the fractiles stand for.
 pub const SHARES: [f64; 3] = [0.16, 0.5, 0.84];
@@ -167,18 +185,30 @@ pub struct Found {
 pub fn fragilities(settings: &Settings, curves: &[&Curve]) -> Vec<Found> {
     let mut found = Vec::new();
     for (limit, value) in &settings.limits {
-        let mut add = |method, evidence: Vec<Evidence>| {
-            let fit = fit(&evidence, settings.confidence);
+        let mut add = |method, evidence: Vec<Evidence>, fit| {
             found.push(Found { limit: limit.clone(), value: *value, method, evidence, fit });
         };
-        add("capacities", curves.iter().map(|c| c.capacity(*value)).collect());
+        let motions: Vec<usize> = curves.iter().map(|c| c.motion).collect();
+        let evidence: Vec<Evidence> = curves.iter().map(|c| c.capacity(*value)).collect();
+        let fit = fit_clusters(&evidence, &motions, settings.confidence);
+        add("capacities", evidence, fit);
         if let Way::List(list) = &settings.way {
             let stripe = |(k, intensity): (usize, &f64)| Evidence::Stripe {
                 intensity: *intensity,
                 reached: curves.iter().filter(|c| c.points.get(k).is_some_and(|p| p.reaches(*value))).count(),
                 of: curves.len(),
             };
-            add("stripes", list.iter().enumerate().map(stripe).collect());
+            // A motion is the same at all intensities: what each of its runs says is one entry.
+            let each = |c: &&Curve| {
+                let entry = |p: &Point| match p.reaches(*value) {
+                    true => Evidence::Below(p.intensity),
+                    false => Evidence::Above(p.intensity),
+                };
+                c.points.iter().map(|p| (entry(p), c.motion)).collect::<Vec<_>>()
+            };
+            let (entries, of): (Vec<Evidence>, Vec<usize>) = curves.iter().flat_map(each).unzip();
+            let fit = fit_clusters(&entries, &of, settings.confidence);
+            add("stripes", list.iter().enumerate().map(stripe).collect(), fit);
         }
     }
     found

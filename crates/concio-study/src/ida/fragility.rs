@@ -5,7 +5,8 @@
 //! - Fixed stripes, binomial: J. W. Baker, Earthquake Spectra 31 (2015) 579.
 //! - Intervals are where twice the likelihood's fall from its maximum stays below c: 3.84 for 95 %, the quantile of χ²;
 //!   where n capacities were found, n ln(1 + t²/(n − 1)) with Student's t, which is exact for the median of capacities
-//!   that were all found.
+//!   that were all found. Where a motion has several curves, or one curve counts at several intensities, n is the number of motions, and the fall is larger by
+//!   what the variance is larger for it ([`Likelihood::clustered`]).
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
@@ -26,16 +27,26 @@ pub struct Fragility {
     place: Place,
     largest: f64,
     fall: f64,
+    /// Cluster of each entry of the evidence, and how many there are; none where all are independent.
+    clusters: Option<(Vec<usize>, usize)>,
 }
 
 /// How far from the best value an interval is looked for: that many of the first steps, doubled each.
 const DOUBLINGS: usize = 30;
 
-/// Fits (F1); `confidence` is that of the intervals, between 0 and 1.
+/// Fits (F1) to independent records; `confidence` is that of the intervals, between 0 and 1.
 ///
 /// # Errors
 /// Why the evidence determines no lognormal.
 pub fn fit(evidence: &[Evidence], confidence: f64) -> Result<Fragility, &'static str> {
+    fit_clusters(evidence, &(0..evidence.len()).collect::<Vec<_>>(), confidence)
+}
+
+/// The same of records of which some belong together: `of` names the cluster of each, such as its motion.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_clusters(evidence: &[Evidence], of: &[usize], confidence: f64) -> Result<Fragility, &'static str> {
     if evidence.len() < 2 {
         return Err("fewer than two records or stripes");
     }
@@ -51,8 +62,19 @@ pub fn fit(evidence: &[Evidence], confidence: f64) -> Result<Fragility, &'static
     if evidence.iter().all(at_once) {
         return Err("every record reaches the limit at its lowest intensity");
     }
+    if !overlap(evidence) {
+        return Err(
+            "what reaches the limit and what does not do not overlap: the dispersion is not determined, and intensities between would tell it",
+        );
+    }
     let likelihood = Likelihood::new(evidence);
     let place = likelihood.largest()?;
+    let mut names = of.to_vec();
+    names.sort_unstable();
+    names.dedup();
+    let known = |name: &usize| names.binary_search(name).unwrap_or(0);
+    let clusters = (names.len() < evidence.len()).then(|| (of.iter().map(known).collect(), names.len()));
+    let n = if clusters.is_some() { names.len() as f64 } else { likelihood.located() };
     let [a, b] = place;
     let mut fit = Fragility {
         median: (likelihood.centre - a / b).exp(),
@@ -60,22 +82,43 @@ pub fn fit(evidence: &[Evidence], confidence: f64) -> Result<Fragility, &'static
         median_interval: [0.0, f64::INFINITY],
         dispersion_interval: [0.0, f64::INFINITY],
         largest: likelihood.at(place),
-        fall: 0.5 * threshold(likelihood.exact(), confidence),
+        fall: 0.5 * threshold(n, clusters.is_some(), confidence),
         likelihood,
         place,
+        clusters,
     };
     fit.median_interval = fit.interval_of_median();
     fit.dispersion_interval = fit.interval_of_dispersion();
     Ok(fit)
 }
 
-fn threshold(exact: f64, confidence: f64) -> f64 {
-    let chi = ChiSquared::new(1.0).map_or(f64::NAN, |d| d.inverse_cdf(confidence));
-    if exact < 3.0 {
-        return chi;
+/// Whether a limit is not reached at some intensity at or above one at which it is: otherwise every dispersion down to 0 is more likely than the one above it.
+fn overlap(evidence: &[Evidence]) -> bool {
+    let (mut stands, mut reached) = (0.0f64, f64::INFINITY);
+    for e in evidence {
+        let [not, at] = match *e {
+            Evidence::At(y) => [y, y],
+            Evidence::Within(ends) => ends,
+            Evidence::Above(y) => [y, f64::INFINITY],
+            Evidence::Below(y) => [0.0, y],
+            Evidence::Stripe { intensity, reached, of } => {
+                [if reached < of { intensity } else { 0.0 }, if reached > 0 { intensity } else { f64::INFINITY }]
+            }
+        };
+        (stands, reached) = (stands.max(not), reached.min(at));
     }
-    let t = StudentsT::new(0.0, 1.0, exact - 1.0).map_or(f64::NAN, |d| d.inverse_cdf(0.5 + 0.5 * confidence));
-    exact * (t * t / (exact - 1.0)).ln_1p()
+    let exact = evidence.iter().any(|e| matches!(e, Evidence::At(_) | Evidence::Stripe { .. }));
+    stands > reached || exact && stands == reached
+}
+
+/// How far twice the likelihood falls: of `n` capacities or clusters. What is known of no capacity, and of one alone, falls as that of many.
+fn threshold(n: f64, clustered: bool, confidence: f64) -> f64 {
+    if n < 2.0 {
+        let chi = ChiSquared::new(1.0).map_or(f64::NAN, |d| d.inverse_cdf(confidence));
+        return if clustered { f64::INFINITY } else { chi };
+    }
+    let t = StudentsT::new(0.0, 1.0, n - 1.0).map_or(f64::NAN, |d| d.inverse_cdf(0.5 + 0.5 * confidence));
+    n * (t * t / (n - 1.0)).ln_1p()
 }
 
 impl Fragility {
@@ -91,7 +134,8 @@ impl Fragility {
         let z = a + b * x;
         // a + b x = z fixed: a line with direction (−x, 1).
         let profile = |z: f64| self.likelihood.on_line([z - b * x, b], [-x, 1.0]);
-        let ends = [-1.0, 1.0].map(|sign| self.end(z, 0.1 * sign, &profile));
+        let fall = self.fall([1.0, x]);
+        let ends = [-1.0, 1.0].map(|sign| self.end(z, 0.1 * sign, fall, &profile));
         [ends[0].map_or(0.0, phi), ends[1].map_or(1.0, phi)]
     }
 
@@ -99,7 +143,8 @@ impl Fragility {
         let [a, b] = self.place;
         let x = -a / b;
         let profile = |x: f64| self.likelihood.on_line([-b * x, b], [-x, 1.0]);
-        let ends = [-1.0, 1.0].map(|sign| self.end(x, 0.1 * sign * self.dispersion, &profile));
+        let fall = self.fall([-1.0 / b, a / (b * b)]);
+        let ends = [-1.0, 1.0].map(|sign| self.end(x, 0.1 * sign * self.dispersion, fall, &profile));
         let of = |x: Option<f64>, none: f64| x.map_or(none, |x| (x + self.likelihood.centre).exp());
         [of(ends[0], 0.0), of(ends[1], f64::INFINITY)]
     }
@@ -111,13 +156,24 @@ impl Fragility {
             // Along a alone; the start keeps the median.
             self.likelihood.on_line([a / b * other, other], [1.0, 0.0])
         };
-        let ends = [-1.0, 1.0].map(|sign| self.end(-b.ln(), 0.1 * sign, &profile));
+        let fall = self.fall([0.0, 1.0 / b]);
+        let ends = [-1.0, 1.0].map(|sign| self.end(-b.ln(), 0.1 * sign, fall, &profile));
         [ends[0].map_or(0.0, f64::exp), ends[1].map_or(f64::INFINITY, f64::exp)]
     }
 
-    /// Where the profile has fallen by as much as the confidence allows; none when it does not within reach.
-    fn end(&self, best: f64, first: f64, profile: &dyn Fn(f64) -> f64) -> Option<f64> {
-        let inside = |v: f64| profile(v) >= self.largest - self.fall;
+    /// How far the profile of a quantity with these derivatives by a and b may fall.
+    fn fall(&self, by: [f64; 2]) -> f64 {
+        match &self.clusters {
+            Some((of, clusters)) if *clusters > 1 => {
+                self.fall * self.likelihood.clustered(self.place, by, of, *clusters)
+            }
+            _ => self.fall,
+        }
+    }
+
+    /// Where the profile has fallen by that much; none when it does not within reach.
+    fn end(&self, best: f64, first: f64, fall: f64, profile: &dyn Fn(f64) -> f64) -> Option<f64> {
+        let inside = |v: f64| profile(v) >= self.largest - fall;
         let (mut step, mut low) = (first, best);
         let mut high = None;
         for _ in 0..DOUBLINGS {

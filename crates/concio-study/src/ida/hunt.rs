@@ -19,7 +19,7 @@ pub enum Way {
         most: f64,
         /// Runs per motion.
         runs: usize,
-        /// Gap below the collapse over the intensity below it that is small enough.
+        /// Gap that holds a collapse or a limit, over the intensity below it, that is small enough.
         resolution: f64,
     },
 }
@@ -29,7 +29,9 @@ impl Way {
     ///
     /// The hunt is an order of questions that the answers decide: all are asked anew from the points known, so that an
     /// analysis that is taken up again asks the same.
-    pub fn next(&self, points: &[Point]) -> Vec<f64> {
+    ///
+    /// Gaps that hold one of `limits` are closed before others are filled, and before the hunt goes on where the runs that are left would not do for both.
+    pub fn next(&self, points: &[Point], limits: &[f64]) -> Vec<f64> {
         match self {
             Way::List(list) if points.is_empty() => list.clone(),
             Way::List(_) => Vec::new(),
@@ -39,12 +41,21 @@ impl Way {
                 }
                 let Some(last) = points.last() else { return vec![*first] };
                 let collapse = points.iter().position(|p| p.collapsed);
+                let open = open(points, limits, [*resolution, 0.1 * first]);
+                // What is left is just enough for them.
+                if !open.is_empty() && runs - points.len() <= open.iter().map(|gap| gap.runs).sum() {
+                    return widest(&open);
+                }
+                let close = || if open.is_empty() { None } else { Some(widest(&open)) };
                 let Some(collapse) = collapse else {
                     if last.intensity >= most * (1.0 - 1e-12) {
-                        return fill(points);
+                        return close().unwrap_or_else(|| fill(points));
                     }
-                    let taken = points.len() - 1;
-                    return vec![(last.intensity + step + taken as f64 * growth).min(*most)];
+                    let (mut next, mut length) = (*first, *step);
+                    while next <= last.intensity * (1.0 + 1e-12) {
+                        (next, length) = (next + length, length + growth);
+                    }
+                    return vec![next.min(*most)];
                 };
                 let high = points[collapse].intensity;
                 let low = collapse.checked_sub(1).map_or(0.0, |i| points[i].intensity);
@@ -52,10 +63,39 @@ impl Way {
                     // A third: runs that collapse cost the most and say the least.
                     return vec![low + (high - low) / 3.0];
                 }
-                fill(&points[..collapse])
+                close().unwrap_or_else(|| fill(&points[..collapse]))
             }
         }
     }
+}
+
+/// A gap that holds a limit and is wider than it may be.
+struct Gap {
+    /// Over the intensity below it.
+    width: f64,
+    middle: f64,
+    /// How many runs close it.
+    runs: usize,
+}
+
+/// Those of the limits that are reached, for each gap one; intensities below `least` count as that.
+fn open(points: &[Point], limits: &[f64], [resolution, least]: [f64; 2]) -> Vec<Gap> {
+    let mut uppers: Vec<usize> = limits.iter().filter_map(|l| points.iter().position(|p| p.reaches(*l))).collect();
+    uppers.sort_unstable();
+    uppers.dedup();
+    let gap = |upper: usize| {
+        let low = upper.checked_sub(1).map_or(0.0, |i| points[i].intensity);
+        let gap = points[upper].intensity - low;
+        let width = gap / low.max(least);
+        Gap { width, middle: low + 0.5 * gap, runs: (width / resolution).log2().ceil().max(1.0) as usize }
+    };
+    uppers.into_iter().map(gap).filter(|gap| gap.width > resolution).collect()
+}
+
+/// The middle of the widest.
+fn widest(open: &[Gap]) -> Vec<f64> {
+    let widest = open.iter().reduce(|a, b| if b.width > a.width * (1.0 + 1e-12) { b } else { a });
+    widest.map_or_else(Vec::new, |gap| vec![gap.middle])
 }
 
 /// The middle of the widest gap, the lowest of several, that below the first intensity included.

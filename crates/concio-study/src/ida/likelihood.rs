@@ -2,9 +2,9 @@
 //!
 //! (F1)  P(limit reached at intensity y) = Φ(z),   z = ln(y/θ)/β = a + b x,   x = ln y,  b = 1/β,  a = −ln θ/β
 //!
-//! (F2)  l(a, b) = Σ ln[b φ(z)] + Σ ln Φ(−z) + Σ [k ln Φ(z) + (n − k) ln Φ(−z)]
+//! (F2)  l(a, b) = Σ ln[b φ(z)] + Σ ln[Φ(z_2) − Φ(z_1)] + Σ ln Φ(−z) + Σ [k ln Φ(z) + (n − k) ln Φ(−z)]
 //!
-//! over capacities that were found, records that did not reach the limit (their largest intensity), and stripes where k of
+//! over capacities that were found, those known to lie between two runs, records that did not reach the limit (their largest intensity), and stripes where k of
 //! n records reached it. l is concave in (a, b) (Pratt, J. Am. Stat. Assoc. 76 (1981) 103): Newton's method with steps
 //! that are halved until l rises finds the maximum from anywhere, and along any straight line too. Fixing θ, β or the
 //! probability at an intensity leaves a straight line each, so profiles are one-dimensional maxima.
@@ -16,6 +16,8 @@ use statrs::function::erf::erfc;
 pub enum Evidence {
     /// The limit is reached at this intensity, above 0.
     At(f64),
+    /// It is reached somewhere between these.
+    Within([f64; 2]),
     /// It is not reached up to this intensity.
     Above(f64),
     /// It is reached at this intensity already, the lowest that was run.
@@ -54,10 +56,11 @@ pub fn phi(z: f64) -> f64 {
     0.5 * erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// One term of (F2): ln y less the centre, how often the limit was found there, reached, not reached.
+/// One term of (F2): ln y less the centre, how often the limit was found there, reached, not reached; or where it lies between `x` and `to`.
 #[derive(Debug, Clone, Copy)]
 struct Term {
     x: f64,
+    to: Option<f64>,
     at: f64,
     reached: f64,
     not: f64,
@@ -71,7 +74,7 @@ pub struct Likelihood {
     pub centre: f64,
     /// Spread of ln y: the scale of β where the search begins.
     spread: f64,
-    exact: f64,
+    located: f64,
 }
 
 /// A point (a, b).
@@ -81,7 +84,12 @@ impl Likelihood {
     /// Of evidence at intensities above 0.
     pub fn new(evidence: &[Evidence]) -> Self {
         let term = |e: &Evidence| {
+            let mut to = None;
             let (y, [at, reached, not]) = match *e {
+                Evidence::Within([low, high]) => {
+                    to = Some(high.ln());
+                    (low, [0.0; 3])
+                }
                 Evidence::At(y) => (y, [1.0, 0.0, 0.0]),
                 Evidence::Above(y) => (y, [0.0, 0.0, 1.0]),
                 Evidence::Below(y) => (y, [0.0, 1.0, 0.0]),
@@ -89,38 +97,47 @@ impl Likelihood {
                     (intensity, [0.0, reached as f64, of.saturating_sub(reached) as f64])
                 }
             };
-            Term { x: y.ln(), at, reached, not }
+            Term { x: y.ln(), to, at, reached, not }
         };
         let mut terms: Vec<Term> = evidence.iter().map(term).collect();
         let n = terms.len().max(1) as f64;
-        let centre = terms.iter().map(|t| t.x).sum::<f64>() / n;
-        terms.iter_mut().for_each(|t| t.x -= centre);
-        let spread = (terms.iter().map(|t| t.x * t.x).sum::<f64>() / n).sqrt();
-        let exact = terms.iter().map(|t| t.at).sum();
-        Likelihood { terms, centre, spread, exact }
+        let centre = terms.iter().map(Term::middle).sum::<f64>() / n;
+        for t in &mut terms {
+            (t.x, t.to) = (t.x - centre, t.to.map(|to| to - centre));
+        }
+        let spread = (terms.iter().map(|t| t.middle().powi(2)).sum::<f64>() / n).sqrt();
+        let located = terms.iter().filter(|t| t.at > 0.0 || t.to.is_some()).count() as f64;
+        Likelihood { terms, centre, spread, located }
     }
 
-    /// l, its derivatives by z weighted with 1, x, and the second ones with 1, x, x².
-    fn sums(&self, [a, b]: Place) -> (f64, [f64; 2], [f64; 3]) {
-        let (mut l, mut g, mut h) = (self.exact * b.ln(), [0.0; 2], [0.0; 3]);
+    /// l, its derivatives by a and b, and the second ones by a², a b and b².
+    fn sums(&self, place: Place) -> (f64, [f64; 2], [f64; 3]) {
+        let (mut l, mut g, mut h) = (0.0, [0.0; 2], [0.0; 3]);
         for t in &self.terms {
-            let z = a + b * t.x;
-            let (mut d1, mut d2) = (-t.at * z, -t.at);
-            l -= t.at * (0.5 * z * z + LN_ROOT_TAU);
-            if t.reached > 0.0 {
-                let [v, s, c] = ln_phi(z);
-                (l, d1, d2) = (l + t.reached * v, d1 + t.reached * s, d2 + t.reached * c);
-            }
-            if t.not > 0.0 {
-                let [v, s, c] = ln_phi(-z);
-                (l, d1, d2) = (l + t.not * v, d1 - t.not * s, d2 + t.not * c);
-            }
-            g = [g[0] + d1, g[1] + d1 * t.x];
-            h = [h[0] + d2, h[1] + d2 * t.x, h[2] + d2 * t.x * t.x];
+            let (value, first, second) = t.of(place);
+            l += value;
+            g = [0, 1].map(|k| g[k] + first[k]);
+            h = [0, 1, 2].map(|k| h[k] + second[k]);
         }
-        g[1] += self.exact / b;
-        h[2] -= self.exact / (b * b);
         (l, g, h)
+    }
+
+    /// By what factor the variance of a quantity with the derivatives `by` a and b is larger than that of independent terms where terms of one cluster are
+    /// not: `of` is the cluster of each term, and there are `clusters` of them, two at least (the sandwich of P. J. Huber, 1967, by clusters).
+    pub fn clustered(&self, place: Place, by: [f64; 2], of: &[usize], clusters: usize) -> f64 {
+        let mut scores = vec![[0.0; 2]; clusters];
+        for (t, cluster) in self.terms.iter().zip(of) {
+            let (_, first, _) = t.of(place);
+            scores[*cluster] = [0, 1].map(|k| scores[*cluster][k] + first[k]);
+        }
+        let (_, _, [aa, ab, bb]) = self.sums(place);
+        let det = aa * bb - ab * ab;
+        // (−H)⁻¹ by.
+        let row = [-(bb * by[0] - ab * by[1]) / det, -(aa * by[1] - ab * by[0]) / det];
+        let independent = row[0] * by[0] + row[1] * by[1];
+        let few = clusters as f64 / (clusters as f64 - 1.0);
+        let together: f64 = scores.iter().map(|g| (row[0] * g[0] + row[1] * g[1]).powi(2)).sum();
+        (few * together / independent).max(1.0)
     }
 
     /// l at a place.
@@ -193,10 +210,48 @@ impl Likelihood {
         self.at(place)
     }
 
-    /// Number of capacities that were found.
-    pub fn exact(&self) -> f64 {
-        self.exact
+    /// Number of capacities that were found or lie between two runs.
+    pub fn located(&self) -> f64 {
+        self.located
     }
+}
+
+impl Term {
+    fn middle(&self) -> f64 {
+        0.5 * (self.x + self.to.unwrap_or(self.x))
+    }
+
+    /// Its value, its derivatives by a and b, and the second ones by a², a b and b².
+    fn of(&self, [a, b]: Place) -> (f64, [f64; 2], [f64; 3]) {
+        let (x, z) = (self.x, a + b * self.x);
+        if let Some(to) = self.to {
+            return between([x, to], [z, a + b * to]);
+        }
+        let (mut l, mut d1, mut d2) = (self.at * (b.ln() - 0.5 * z * z - LN_ROOT_TAU), -self.at * z, -self.at);
+        if self.reached > 0.0 {
+            let [v, s, c] = ln_phi(z);
+            (l, d1, d2) = (l + self.reached * v, d1 + self.reached * s, d2 + self.reached * c);
+        }
+        if self.not > 0.0 {
+            let [v, s, c] = ln_phi(-z);
+            (l, d1, d2) = (l + self.not * v, d1 - self.not * s, d2 + self.not * c);
+        }
+        (l, [d1, d1 * x + self.at / b], [d2, d2 * x, d2 * x * x - self.at / (b * b)])
+    }
+}
+
+/// ln[Φ(z_2) − Φ(z_1)] with its derivatives.
+fn between(x: [f64; 2], z: [f64; 2]) -> (f64, [f64; 2], [f64; 3]) {
+    // Of the tail that is the smaller one: the difference of two numbers next to 1 has no digits.
+    let [far, near] = if z[0] > 0.0 { [-z[1], -z[0]] } else { z };
+    let [far, near] = [far, near].map(|z| ln_phi(z)[0]);
+    let value = near + (-(far - near).exp()).ln_1p();
+    let density = z.map(|z| (-0.5 * z * z - LN_ROOT_TAU - value).exp());
+    // Σ ± φ x^p and Σ ± (−z φ) x^p.
+    let first = |p: i32| density[1] * x[1].powi(p) - density[0] * x[0].powi(p);
+    let second = |p: i32| z[0] * density[0] * x[0].powi(p) - z[1] * density[1] * x[1].powi(p);
+    let [g, h] = [first(0), first(1)];
+    (value, [g, h], [second(0) - g * g, second(1) - g * h, second(2) - h * h])
 }
 
 #[cfg(test)]
@@ -223,6 +278,8 @@ mod tests {
             Evidence::Above(0.7),
             Evidence::Below(0.1),
             Evidence::Stripe { intensity: 0.4, reached: 2, of: 5 },
+            Evidence::Within([0.3, 0.42]),
+            Evidence::Within([1.2, 1.5]),
         ];
         let l = Likelihood::new(&evidence);
         let (p, e) = ([0.3, 1.7], 1e-5);

@@ -23,7 +23,7 @@ use serde_json::Value;
 
 use crate::Plan;
 use crate::factors::few;
-use crate::file::StudyFile;
+use crate::file::{DesignKind, StudyFile};
 use crate::intensity::Intensity;
 use crate::measures::{MEASURES, Row, ends_with_collapse};
 use curve::{Curve, Point};
@@ -81,7 +81,8 @@ pub struct Limit {
     pub value: Value,
 }
 
-/// Hunt and fill: growing steps up to collapse, then the gap below the collapse is closed, then the widest gaps are filled.
+/// Hunt and fill: growing steps up to collapse, then the gap below the collapse is closed, then the widest gaps are filled. Gaps that hold a limit are closed
+/// before that, and before the hunt goes on where the runs that are left would not do for both.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Hunt {
@@ -98,7 +99,7 @@ pub struct Hunt {
     #[serde(default = "runs")]
     #[schemars(range(min = 4, max = 1000))]
     pub runs: usize,
-    /// Gap below the collapse, over the intensity below it, that is small enough; above 0, default 0.1.
+    /// Gap that holds the collapse or a limit, over the intensity below it, that is small enough; above 0, default 0.1.
     #[serde(default = "resolution")]
     pub resolution: f64,
 }
@@ -295,11 +296,15 @@ impl<'a> Analysis<'a> {
         let Some(settings) = settings(&plan.file)? else { return Ok(None) };
         let curve = |number: usize| -> Result<Curve> {
             let unit = settings.intensity.of(&plan.case(number)?, settings.period)?;
-            Ok(Curve { name: name(plan, number), number, unit, points: Vec::new(), failed: None })
+            // With one motion the sample is that of the parameters.
+            let motion = plan.motion(number).filter(|_| plan.file.study.motions.len() > 1).unwrap_or(number);
+            Ok(Curve { name: name(plan, number), motion, number, unit, points: Vec::new(), failed: None })
         };
         let curves = (0..plan.points.len()).map(curve).collect::<Result<Vec<_>>>()?;
         let mut seen = HashMap::new();
-        for curve in &curves {
+        // What is drawn twice counts twice.
+        let listed = matches!(plan.file.study.design.kind, DesignKind::Grid | DesignKind::List);
+        for curve in curves.iter().filter(|_| listed) {
             let id = plan.id(&plan.scaled_case(curve.number, 1.0 / curve.unit)?)?;
             if let Some(before) = seen.insert(id, &curve.name) {
                 let what = format!(
@@ -332,9 +337,10 @@ impl<'a> Analysis<'a> {
 
     /// What is asked next of the curves in `share`: numbers of curves and intensities. Empty when they are done.
     pub fn questions(&self, share: &dyn Fn(usize) -> bool) -> Vec<(usize, f64)> {
+        let limits: Vec<f64> = self.settings.limits.iter().map(|(_, value)| *value).collect();
         let of = |(number, curve): (usize, &Curve)| {
             let asked = if share(number) && curve.failed.is_none() {
-                self.settings.way.next(&curve.points)
+                self.settings.way.next(&curve.points, &limits)
             } else {
                 Vec::new()
             };

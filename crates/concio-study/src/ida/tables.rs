@@ -25,7 +25,8 @@ pub fn runs(settings: &Settings, curves: &[Curve]) -> Table {
     table
 }
 
-/// Intensity at which every curve reaches every limit: one line per curve, empty where it does not.
+/// Intensity at which every curve reaches every limit, the two runs that it lies between, what it counts as, and how many runs of higher intensity fall below the limit
+/// again: one line per curve.
 pub fn capacities(settings: &Settings, curves: &[Curve]) -> Table {
     let mut table = Table::default();
     table.texts("curve", curves.iter().map(|c| Some(c.name.clone())).collect());
@@ -34,11 +35,29 @@ pub fn capacities(settings: &Settings, curves: &[Curve]) -> Table {
     let unit = settings.intensity.unit();
     table.numbers("highest run", unit, curves.iter().map(last).collect());
     for (name, value) in &settings.limits {
+        let usable = || curves.iter().map(|c| Some(c).filter(|c| c.failed.is_none()));
         let cell = |c: &Curve| match c.capacity(*value) {
-            Evidence::At(y) if c.failed.is_none() => Some(y),
+            Evidence::At(y) => Some(y),
+            Evidence::Within([low, high]) => Some((low * high).sqrt()),
             _ => None,
         };
-        table.numbers(name, unit, curves.iter().map(cell).collect());
+        table.numbers(name, unit, usable().map(|c| cell(c?)).collect());
+        let from = |c: &Curve| c.bracket(*value).and_then(|(low, _)| low.map(|p| p.intensity)).or(last(c));
+        let from = |c: &Curve| if c.bracket(*value).is_some_and(|(low, _)| low.is_none()) { None } else { from(c) };
+        table.numbers(format!("{name} from"), unit, usable().map(|c| from(c?)).collect());
+        table.numbers(format!("{name} to"), unit, usable().map(|c| Some(c?.bracket(*value)?.1.intensity)).collect());
+        let counts = |c: &Curve| match c.capacity(*value) {
+            Evidence::At(_) => "found",
+            Evidence::Within(_) => "between runs",
+            Evidence::Below(_) => "below the first run",
+            _ => "above the last run",
+        };
+        table.texts(format!("{name} is"), usable().map(|c| Some(counts(c?).into())).collect());
+        table.numbers(
+            format!("{name} below again"),
+            "",
+            usable().map(|c| Some(c?.below_again(*value) as f64)).collect(),
+        );
     }
     table.texts("cause", curves.iter().map(|c| c.failed.clone()).collect());
     table
@@ -68,6 +87,7 @@ pub fn fits(settings: &Settings, found: &[Found]) -> Table {
         found.iter().map(|f| (f.method == "capacities").then(|| number(f))).collect()
     };
     table.numbers("reached", "", count(|e| !matches!(e, Evidence::Above(_))));
+    table.numbers("between runs", "", count(|e| matches!(e, Evidence::Within(_))));
     table.numbers("not reached", "", count(|e| matches!(e, Evidence::Above(_))));
     let mut numbers = |name: &str, unit: &str, pick: &dyn Fn(&super::fragility::Fragility) -> f64| {
         let cell = |f: &Found| f.fit.as_ref().ok().map(pick).filter(|v| v.is_finite());
