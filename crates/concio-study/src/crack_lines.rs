@@ -4,6 +4,8 @@
 //! A run counts a joint as cracked by the rule asked for. Lines are chains of joints, cracked in at least a share of the
 //! runs, each of which meets the next at the corner of a block.
 
+use std::collections::BTreeMap;
+
 use concio::Result;
 use concio::case::{Beam, Case};
 use concio::model::Model;
@@ -12,6 +14,7 @@ use concio::wall::{Joint, Wall};
 use concio::{graph, pattern};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::Plan;
 use crate::factors::Over;
@@ -24,6 +27,8 @@ use crate::measures::{End, Row};
 const SLACK: f64 = 1e-6;
 /// Two-sided 95 % of a normal variable.
 const DEVIATIONS: f64 = 1.959_963_984_540_054;
+/// Share of Student's law below the upper end of such an interval.
+const UPPER: f64 = 0.975;
 
 /// `[cracks]` of a study file: how often and in which order joints crack, and which lines they form.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -110,7 +115,8 @@ pub struct JointCracks {
     pub cracked: usize,
     /// Share of the runs in which it cracked, 0 … 1.
     pub frequency: f64,
-    /// Ends of the 95 % interval of its probability (Wilson, J. Am. Stat. Assoc. 22 (1927) 209).
+    /// Ends of the 95 % interval of its probability (Wilson, J. Am. Stat. Assoc. 22 (1927) 209), of as many independent runs as tell as much: those under one
+    /// motion are not.
     pub interval: [f64; 2],
     /// Mean place in the order of cracking over the runs in which it cracked, 1 for the first; joints that crack together
     /// share their places. None when it never did, or the rule does not tell when.
@@ -161,7 +167,10 @@ pub fn count(input: &CracksInput, plan: &Plan, model: &Model, rows: &[Option<&Ro
     let scales = plan.factors.iter().position(|f| matches!(f.over, Over::Scales(_)));
     let all: Vec<(usize, &Row)> = rows.iter().enumerate().filter_map(|(i, r)| Some((i, (*r)?))).collect();
     let done: Vec<(usize, &Row)> = all.into_iter().filter(|(_, r)| r.end == End::Completed).collect();
-    let rows_of = |some: &[(usize, &Row)]| some.iter().map(|(_, r)| times(input, model, r)).collect::<Vec<_>>();
+    let rows_of = |some: &[(usize, &Row)]| {
+        let motion = |number: usize| plan.motion(number).unwrap_or(number);
+        some.iter().map(|(number, r)| (motion(*number), times(input, model, r))).unzip::<_, _, Vec<_>, Vec<_>>()
+    };
     let mut groups = vec![group("all runs", input, model, &rows_of(&done))];
     if let Some(place) = scales
         && let Over::Scales(levels) = &plan.factors[place].over
@@ -188,7 +197,7 @@ fn times(input: &CracksInput, model: &Model, row: &Row) -> Vec<f64> {
     (0..model.joints.len()).map(time).collect()
 }
 
-fn group(name: &str, input: &CracksInput, model: &Model, runs: &[Vec<f64>]) -> Group {
+fn group(name: &str, input: &CracksInput, model: &Model, (motions, runs): &(Vec<usize>, Vec<Vec<f64>>)) -> Group {
     let places: Vec<Vec<Option<f64>>> = runs.iter().map(|times| order(times)).collect();
     let looked_at = Limits::of(model, &input.rule());
     let looked_at = |e: &usize| looked_at.as_ref().is_some_and(|l| l.of_joint[*e].is_finite());
@@ -201,7 +210,7 @@ fn group(name: &str, input: &CracksInput, model: &Model, runs: &[Vec<f64>]) -> G
             joint: e,
             cracked: found.len(),
             frequency,
-            interval: wilson(found.len(), runs.len()),
+            interval: interval(motions, &runs.iter().map(|times| times[e].is_finite()).collect::<Vec<_>>()),
             order: told.then(|| found.iter().sum::<f64>() / found.len() as f64),
             first: if told { runs.iter().filter(|t| t[e].is_finite() && t[e] == earliest(t)).count() } else { 0 },
         }
@@ -236,12 +245,33 @@ fn order(times: &[f64]) -> Vec<Option<f64>> {
     times.iter().map(|t| t.is_finite().then(|| place(*t))).collect()
 }
 
-/// 95 % interval of a probability that `hits` of `n` runs estimate.
-fn wilson(hits: usize, n: usize) -> [f64; 2] {
-    if n == 0 {
+/// 95 % interval of the probability of what runs tell, `motions` being the motion of each.
+///
+/// Runs under one motion are alike: with the variance of the shares by motion, n runs tell as much as n p (1 − p)/(n V) independent ones (L. Kish, Survey Sampling, 1965), and as many
+/// motions less one are the degrees of freedom. Where all runs say the same, they count as one for each motion.
+pub fn interval(motions: &[usize], runs: &[bool]) -> [f64; 2] {
+    let (n, hits) = (runs.len() as f64, runs.iter().filter(|hit| **hit).count() as f64);
+    if runs.is_empty() {
         return [0.0, 1.0];
     }
-    let (n, p, z) = (n as f64, hits as f64 / n as f64, DEVIATIONS);
+    let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+    for (motion, hit) in motions.iter().zip(runs) {
+        let sum = sums.entry(*motion).or_default();
+        *sum = [sum[0] + f64::from(u8::from(*hit)), sum[1] + 1.0];
+    }
+    let (m, p) = (sums.len() as f64, hits / n);
+    if sums.len() == runs.len() || sums.len() < 2 {
+        return wilson(p, n, DEVIATIONS);
+    }
+    let variance = m / (m - 1.0) * sums.values().map(|[hits, of]| (hits - p * of).powi(2)).sum::<f64>() / (n * n);
+    let alone = p * (1.0 - p);
+    let telling = if alone > 0.0 { (alone / variance).min(n) } else { m };
+    let t = StudentsT::new(0.0, 1.0, m - 1.0).map_or(DEVIATIONS, |law| law.inverse_cdf(UPPER));
+    wilson(p, telling, t)
+}
+
+/// Interval of a probability that a share `p` of `n` independent runs estimates, to `z` deviations.
+fn wilson(p: f64, n: f64, z: f64) -> [f64; 2] {
     let middle = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
     let half = z / (1.0 + z * z / n) * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
     [(middle - half).max(0.0), (middle + half).min(1.0)]
@@ -323,10 +353,13 @@ mod tests {
     /// Wilson's interval for 8 of 10, as R's `prop.test(8, 10, correct = FALSE)` prints it: 0.4901625 0.9433178.
     #[test]
     fn intervals_are_those_of_wilson() {
-        let [low, high] = wilson(8, 10);
+        let runs: Vec<bool> = (0..10).map(|k| k < 8).collect();
+        let each: Vec<usize> = (0..10).collect();
+        let [low, high] = interval(&each, &runs);
         assert!((low - 0.490_162_5).abs() < 1e-7 && (high - 0.943_317_8).abs() < 1e-7, "{low} {high}");
-        assert_eq!(wilson(0, 10)[0], 0.0);
-        assert_eq!(wilson(0, 0), [0.0, 1.0]);
+        assert_eq!(interval(&[0; 10], &runs), [low, high], "one motion: the runs are the sample");
+        assert_eq!(interval(&each, &[false; 10])[0], 0.0);
+        assert_eq!(interval(&[], &[]), [0.0, 1.0]);
     }
 
     fn model() -> Result<Model> {

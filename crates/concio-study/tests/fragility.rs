@@ -118,6 +118,30 @@ fn intervals_take_motions_as_clusters() {
     }
 }
 
+/// The probability that a joint cracks, of runs under motions that differ: as the shares by motion vary, so wide is the interval.
+#[test]
+fn intervals_of_crack_maps_cover() {
+    // By motion the probability is Φ(a + b x), so that its mean is Φ(a/√(1 + b²)).
+    for (motions, runs, a, b) in [(5, 30, 0.3, 1.0), (8, 30, 0.5, 1.5), (12, 10, 0.0, 0.6), (40, 6, -0.8, 1.0)] {
+        let mut dice = Dice::new(16);
+        let truth = phi(a / (1.0f64 + b * b).sqrt());
+        let mut held = 0.0;
+        for _ in 0..1000 {
+            let of = |motion: usize, dice: &mut Dice| {
+                let p = phi(a + b * dice.normal());
+                (0..runs).map(|_| (motion, dice.unit() < p)).collect::<Vec<_>>()
+            };
+            let (of, hits): (Vec<_>, Vec<_>) = (0..motions).flat_map(|motion| of(motion, &mut dice)).unzip();
+            let [low, high] = concio_study::crack_lines::interval(&of, &hits);
+            held += f64::from(u8::from(low <= truth && truth <= high));
+        }
+        let subject = format!(
+            "Statistics: part of 95 % intervals of a crack's probability that hold it; {motions} motions, {runs} runs each"
+        );
+        agrees!(subject, "0.90 to 0.98", "", held / 1000.0, 0.94, abs: 0.04);
+    }
+}
+
 /// All records at the same intensities: what a record does at one of them is not independent of what it does at the next.
 #[test]
 fn intervals_of_stripes_cover() {

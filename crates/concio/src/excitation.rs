@@ -165,6 +165,12 @@ fn sampled(motion: &GroundMotion, duration: f64) -> Option<Value> {
     if !(count <= MOST_PRINTED) {
         return None;
     }
-    let acceleration: Vec<f64> = (0..=count as usize).map(|k| motion.acceleration(k as f64 * dt)).collect();
+    // The last sample of a record is its own, not the rest after it.
+    let last = motion.sample_interval().and(motion.end()).map_or(f64::INFINITY, |end| (end / dt).round());
+    let at = |k: usize| {
+        let (k, t) = (k as f64, k as f64 * dt);
+        if k == last { motion.segment((k - 0.5) * dt).at(t).a } else { motion.acceleration(t) }
+    };
+    let acceleration: Vec<f64> = (0..=count as usize).map(at).collect();
     Some(json!({"dt": dt, "acceleration": acceleration}))
 }

@@ -75,6 +75,25 @@ fn spectrum_of_a_step() {
     }
 }
 
+/// A pulse that ends before an oscillator has moved leaves it a velocity: S_d = v e^(−ζ/√(1 − ζ²) atan(√(1 − ζ²)/ζ))/ω, wherever its samples end. And a peak lies between samples.
+#[test]
+fn spectrum_of_what_is_over() {
+    let omega = 2.0 * PI / 0.5;
+    let damping: f64 = 0.05;
+    let root = (1.0 - damping * damping).sqrt();
+    let expected = 2.0 * 1e-4 / PI * (-damping / root * (root / damping).atan()).exp() / omega;
+    for samples in [101, 120, 4000] {
+        let pulse = record(1e-6, samples, |t| if t <= 1e-4 { (1e4 * PI * t).sin() } else { 0.0 });
+        let found = response_spectrum(pulse.dt, &pulse.acceleration, damping, &[0.5]).sd[0];
+        let subject = format!("Ground motion: S_d of a pulse of 0.1 ms; {samples} samples of 1 µs");
+        agrees!(subject, "v/ω e^(−ζ/√(1 − ζ²) atan(√(1 − ζ²)/ζ))", "m", found, expected, 1e-4);
+    }
+    let coarse = record(0.025, 400, |t| if t > 0.0 { 1.0 } else { 0.0 });
+    let fine = record(0.001, 10_000, |t| (40.0 * t).min(1.0));
+    let [coarse, fine] = [coarse, fine].map(|r| response_spectrum(r.dt, &r.acceleration, 0.0, &[0.5]).sd[0]);
+    assert_close(coarse, fine, 2e-4);
+}
+
 #[test]
 fn spectrum_at_resonance() {
     // From rest at r = 1 the envelope grows to the steady amplitude a/(2ζω²) and never passes it.

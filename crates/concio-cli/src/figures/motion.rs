@@ -3,12 +3,16 @@
 use concio::InputError;
 use concio::case::Beam;
 use concio::ground::response_spectrum;
+use concio_study::intensity::Sampled;
+
+use crate::format::seconds;
 
 use super::data::Data;
 use super::{Options, letter};
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::draw::output::Drawing;
 
+const BASE: &str = "base";
 /// Damping ratio of the spectrum.
 pub const DAMPING: f64 = 0.05;
 /// Periods of the spectrum [s]: that many from the shortest to the longest, at equal ratios.
@@ -17,6 +21,8 @@ const PERIODS: (usize, f64, f64) = (400, 0.02, 10.0);
 /// A motion at equal intervals.
 struct Moved {
     name: &'static str,
+    /// Of its acceleration.
+    channel: &'static str,
     time: Vec<f64>,
     /// Acceleration, velocity, displacement, in SI.
     histories: [Vec<f64>; 3],
@@ -54,7 +60,7 @@ pub fn motion(data: &Data, options: &Options) -> Result<Drawing, InputError> {
         })
         .collect();
     panels.push(spectrum(data, &found));
-    let named = found.len() > 1 || found[0].name != "base";
+    let named = found.len() > 1 || found[0].name != BASE;
     Ok(chart::draw(&Sheet {
         title: "Motion of base and top beam, and response spectrum with 5 % damping".into(),
         legend: if named { found.iter().map(|m| m.name.into()).collect() } else { Vec::new() },
@@ -71,17 +77,25 @@ impl Moved {
     }
 }
 
+/// Of the whole motion, whatever time is shown: that of the base as it was given where its record is there, else as the run kept it.
 fn spectrum<'a>(data: &Data, found: &[Moved]) -> Panel<'a> {
     let periods = periods();
-    let interval = data.run.outcome.layout.interval;
-    let line = |(style, moved): (usize, &Moved)| {
-        let spectrum = response_spectrum(interval, &moved.histories[0], DAMPING, &periods);
+    let kept = data.run.outcome.layout.interval;
+    let mut coarse = false;
+    let mut line = |(style, moved): (usize, &Moved)| {
+        let given = if moved.name == BASE { Sampled::of_case(&data.case).ok() } else { None };
+        coarse |= given.is_none();
+        let (dt, acceleration) =
+            given.map_or_else(|| (kept, data.whole(moved.channel)), |given| (given.dt, given.acceleration));
+        let spectrum = response_spectrum(dt, &acceleration, DAMPING, &periods);
         Line { x: spectrum.periods.into(), y: spectrum.psa.into(), style }
     };
     let lines: Vec<Line> = found.iter().enumerate().map(line).collect();
+    let samples = if coarse { format!(", samples every {}", seconds(kept)) } else { String::new() };
+    let heading = format!("5 % response spectrum{samples}");
     let top = lines.iter().flat_map(|l| l.y.iter()).fold(0.0f64, |m, v| m.max(*v));
     Panel {
-        heading: letter(3, 4, "5 % response spectrum"),
+        heading: letter(3, 4, &heading),
         x: Axis { quantity: "period".into(), unit: "s", range: Some([PERIODS.1, PERIODS.2]), logarithmic: true },
         y: Axis { quantity: "pseudo-acc.".into(), unit: "m/s²", range: Some([0.0, 1.08 * top]), logarithmic: false },
         lines,
@@ -94,7 +108,7 @@ fn spectrum<'a>(data: &Data, found: &[Moved]) -> Panel<'a> {
 fn base(data: &Data) -> Option<Moved> {
     let (a, u) = (data.channel("base/acceleration")?, data.channel("base/displacement")?);
     let velocity = velocity(data.run.outcome.layout.interval, &a.values, &u.values);
-    Some(Moved { name: "base", time: a.time, histories: [a.values, velocity, u.values] })
+    Some(Moved { name: BASE, channel: "base/acceleration", time: a.time, histories: [a.values, velocity, u.values] })
 }
 
 /// A driven beam, relative to the base.
@@ -104,7 +118,12 @@ fn beam(data: &Data) -> Option<Moved> {
     }
     let (u, v, a) =
         (data.channel("beam/displacement")?, data.channel("beam/velocity")?, data.channel("beam/acceleration")?);
-    Some(Moved { name: "top beam, relative to the base", time: u.time, histories: [a.values, v.values, u.values] })
+    Some(Moved {
+        name: "top beam, relative to the base",
+        channel: "beam/acceleration",
+        time: u.time,
+        histories: [a.values, v.values, u.values],
+    })
 }
 
 /// Velocity from samples of displacement and acceleration, exact where the acceleration is linear between them:

@@ -23,7 +23,7 @@ use std::sync::Arc;
 use crate::case::Synthetic;
 use crate::ground::process::integrate;
 use crate::ground::record::{Format, Record, interval_error};
-use crate::ground::spectrum::response_spectrum;
+use crate::ground::spectrum::spectrum_at_samples;
 use crate::quantity::shown;
 use crate::{Error, InputError, Result};
 
@@ -146,7 +146,7 @@ impl Design {
 
     /// Target over response spectrum at the matched periods.
     fn ratios(&self, a: &[f64]) -> Vec<f64> {
-        let spectrum = response_spectrum(self.dt, a, DAMPING, &self.periods);
+        let spectrum = spectrum_at_samples(self.dt, a, DAMPING, &self.periods);
         self.target.iter().zip(spectrum.psa).map(|(target, found)| target / found.max(1e-3 * target)).collect()
     }
 
@@ -333,7 +333,7 @@ mod tests {
         let periods: Vec<f64> = (0..=90).map(|k| 0.2 + 0.02 * k as f64).collect();
         for seed in 0..4 {
             let record = generate(&input(seed)).unwrap();
-            let found = response_spectrum(record.dt, &record.acceleration, 0.05, &periods);
+            let found = spectrum_at_samples(record.dt, &record.acceleration, 0.05, &periods);
             let ratio = |(psa, period): (&f64, &f64)| psa / elastic_spectrum(3.0, [0.15, 0.5, 2.0], *period);
             let ratios: Vec<f64> = found.psa.iter().zip(&periods).map(ratio).collect();
             assert!(ratios.iter().all(|ratio| (0.9..=1.1).contains(ratio)), "seed {seed}: {ratios:?}");
