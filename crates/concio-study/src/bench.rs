@@ -4,6 +4,7 @@ use concio::Result;
 use concio::case::Case;
 use rayon::prelude::*;
 
+use crate::first_crack::{self, Answer, FirstCrackInput, Subject};
 use crate::interfaces::{Question, Target, with};
 use crate::limits::{Criterion, Rule};
 use crate::measures::{End, Row};
@@ -127,48 +128,29 @@ impl<'b, 'r> Bench<'b, 'r> {
         (trials, scales).into_par_iter().map(|(t, s)| self.case(t, *s)).collect::<Vec<_>>().into_iter().collect()
     }
 
-    /// The scale of the motion at which a first bond cracks, by halving the logarithm of the interval, all trials at
-    /// once: the middle of the last interval; an end of the range where the first crack lies beyond it.
+    /// The least scale of the motion at which a first bond cracks, as `[first-crack]` finds it: from below, with lower scales tried
+    /// in the end, because a wall that slides or rocks may stand more than it cracks at. An end of the range where it lies beyond it; not a number where a run
+    /// failed.
     fn first_cracks(&mut self, trials: &[Trial]) -> Result<Option<Vec<f64>>> {
         let [low, high] = self.question.input.crack_scales;
-        let mut ends = vec![[low, high]; trials.len()];
-        let mut found: Vec<Option<f64>> = vec![None; trials.len()];
-        for (scale, wanted) in [(low, true), (high, false)] {
-            let Some(cracks) = self.cracked(trials, &vec![scale; trials.len()])? else { return Ok(None) };
-            for (found, cracks) in found.iter_mut().zip(cracks) {
-                match cracks {
-                    Some(cracks) if cracks == wanted => *found = found.or(Some(scale)),
-                    Some(_) => {}
-                    None => *found = found.or(Some(f64::NAN)),
-                }
-            }
-        }
-        for _ in 0..self.question.rounds() {
-            let open: Vec<usize> = (0..trials.len()).filter(|&i| found[i].is_none()).collect();
-            if open.is_empty() {
-                break;
-            }
-            let some: Vec<Trial> = open.iter().map(|&i| trials[i]).collect();
-            let middles: Vec<f64> = open.iter().map(|&i| (ends[i][0] * ends[i][1]).sqrt()).collect();
-            let Some(cracks) = self.cracked(&some, &middles)? else { return Ok(None) };
-            for ((&i, middle), cracks) in open.iter().zip(middles).zip(cracks) {
-                match cracks {
-                    Some(cracks) => ends[i][usize::from(cracks)] = middle,
-                    None => found[i] = Some(f64::NAN),
-                }
-            }
-        }
-        let of = |(found, [low, high]): (Option<f64>, [f64; 2])| found.unwrap_or((low * high).sqrt());
-        Ok(Some(found.into_iter().zip(ends).map(of).collect()))
-    }
-
-    /// Whether a bond cracks at these scales; none where a run failed before one did. Runs end with their first crack.
-    fn cracked(&mut self, trials: &[Trial], scales: &[f64]) -> Result<Option<Vec<Option<bool>>>> {
-        let cases = self.cases(trials, scales)?;
+        let name = String::new();
+        let subject = |trial: &Trial| Ok(Subject { name: name.clone(), case: self.case(trial, 1.0)? });
+        let subjects = trials.iter().map(subject).collect::<Result<Vec<_>>>()?;
         let rule = Rule::new(Criterion::Bond, None);
-        let Some(rows) = self.runner.rows_until(&cases, &rule)? else { return Ok(None) };
-        let cracked = |row: &Row| (row.end == End::Completed).then(|| row.number("first_crack").is_some());
-        Ok(Some(rows.iter().map(cracked).collect()))
+        let input = FirstCrackInput::default();
+        let asked =
+            first_crack::Question { rule, interval: self.question.input.crack_within, checks: input.checks, periods: Vec::new() };
+        let keep = first_crack::keep().joints;
+        let found = self.runner.with_cracks(&rule, &keep, |runner| first_crack::search(&asked, &subjects, runner))?;
+        let Some(answers) = found else { return Ok(None) };
+        self.runs += answers.iter().map(|answer| answer.trials.len()).sum::<usize>();
+        let of = |answer: &Answer| match (answer.below(), answer.crack()) {
+            (_, Some(crack)) if crack.time == Some(0.0) => low,
+            _ if answer.cause.is_some() => f64::NAN,
+            (below, Some(crack)) => (below.map_or(0.0, |below| below.scale) * crack.scale).sqrt().clamp(low, high),
+            (_, None) => high,
+        };
+        Ok(Some(answers.iter().map(of).collect()))
     }
 }
 

@@ -65,7 +65,7 @@ pub struct Interfaces {
     #[serde(default = "finalists")]
     #[schemars(range(min = 1, max = 100))]
     pub finalists: usize,
-    /// `first_cracking`: scales of the motions between which the first crack is looked for, rising, above 0. Default
+    /// `first_cracking`: scales that the first crack counts as where it lies below or above them, rising, above 0. Default
     /// 0.02 to 20.
     #[serde(default = "scales")]
     pub crack_scales: [f64; 2],
@@ -76,6 +76,9 @@ pub struct Interfaces {
     #[serde(default = "seed")]
     pub seed: u64,
 }
+
+/// Runs that a first crack takes, some less, some more.
+const SEARCHING: usize = 12;
 
 fn population() -> usize {
     16
@@ -406,13 +409,7 @@ impl Question {
     pub fn runs_each(&self) -> usize {
         let cracking = self.objectives.iter().any(|o| o.target == Target::FirstCracking);
         let plain = self.objectives.iter().any(|o| o.target != Target::FirstCracking);
-        usize::from(plain) + if cracking { 2 + self.rounds() } else { 0 }
-    }
-
-    /// Halvings of the interval of the first crack.
-    pub fn rounds(&self) -> usize {
-        let [low, high] = self.input.crack_scales;
-        ((high / low).ln() / self.input.crack_within.ln_1p()).log2().ceil().max(0.0) as usize
+        usize::from(plain) + if cracking { SEARCHING } else { 0 }
     }
 }
 

@@ -149,15 +149,13 @@ impl<'a> Runner<'a> {
         self.store.holding(id, &self.joints, self.results)
     }
 
-    /// [`Runner::rows`] of runs that end with their first crack ([`Runner::until`]), whatever this runner does else.
-    ///
-    /// # Errors
-    /// As [`Runner::rows`].
-    pub fn rows_until(&mut self, cases: &[Case], rule: &Rule) -> Result<Option<Vec<Row>>> {
-        let own = (self.until.replace(*rule), std::mem::take(&mut self.results));
-        let rows = self.rows(cases);
-        (self.until, self.results) = own;
-        rows
+    /// What `ask` finds with runs that end with their first crack ([`Runner::until`]) and keep `joints`, whatever this runner does else.
+    pub fn with_cracks<T>(&mut self, rule: &Rule, joints: &[PerJoint], ask: impl FnOnce(&mut Self) -> T) -> T {
+        let own =
+            (self.until.replace(*rule), std::mem::take(&mut self.results), std::mem::replace(&mut self.joints, joints.to_vec()));
+        let found = ask(self);
+        (self.until, self.results, self.joints) = own;
+        found
     }
 
     /// The rows of `cases`, in their order: from the store, or run now. None when the watch stopped the runs (what was

@@ -185,6 +185,60 @@ fn first_cracking_is_an_objective() {
     assert!((double / single - 2.0).abs() < 0.03, "{single} {double}");
 }
 
+/// A wall that cracks at a scale, stands more, and cracks again: the least scale counts. The wall is a bonded block on one that slides on its base; single runs from 2.5 on by 0.05
+/// find the first crack at 2.55 and none from 3 to 4.
+#[test]
+fn the_least_scale_of_a_first_crack_counts() {
+    let wall = r#"
+model = "shear"
+[[panel]]
+bond = "stack"
+courses = 2
+bricks = 1
+brick = { length = "250 mm", height = "55 mm", thickness = "120 mm", specific_weight = "18 kN/m3" }
+mortar = { bed = "10 mm", head = "10 mm" }
+[joint]
+damping_ratio = 0.002
+bed = { law = "elastic", stiffness = "1e5 N/m" }
+base = { law = "elastic", stiffness = "1e3 N/m" }
+head = { law = "no-tension", stiffness = "5.4e7 N/m", rigidity = 1000 }
+friction = { law = "coulomb", static = 0.3, dynamic = 0.3 }
+[joint.bond]
+tensile_strength = "0.05 MPa"
+cohesion = "594 Pa"
+friction_angle = "0 deg"
+on = ["bed"]
+[motion]
+duration = "1.5 s"
+base = { sine = { acceleration = "0.1 g", frequency = "26 Hz" } }
+"#;
+    let study = r#"
+wall = "wall.toml"
+[[motion]]
+name = "s"
+base = { sine = { acceleration = "0.1 g", frequency = "26 Hz" } }
+[interfaces]
+at = { kind = ["base"] }
+count = 1
+runs = 60
+population = 4
+[[interfaces.objective]]
+measure = "first_cracking"
+[[interfaces.device]]
+name = "spring"
+change = { device = { law = "elastic", stiffness = "1e5 N/m" } }
+"#;
+    let desk = Desk::new(wall);
+    let plan = desk.plan(study).expect("a plan");
+    let question = interfaces::question(&plan).expect("a question");
+    let watch = |_: &Progress| Control::Continue;
+    let mut runner = Runner::open(&desk.path("out"), &Default::default(), 2, &watch).expect("a store");
+    let mut bench = concio_study::bench::Bench::new(&plan, &question, &mut runner);
+    let trial = concio_study::bench::Trial { design: None, scene: 0, factor: 1.0 };
+    let values = bench.values(&[trial]).expect("values").expect("not stopped");
+    assert!((2.45..2.6).contains(&values[0][0]), "{values:?}");
+}
+
 /// The error of a study file.
 fn refused(wall: &str, study: &str) -> InputError {
     match Desk::new(wall).plan(study) {

@@ -82,7 +82,7 @@ fn spectrum<'a>(data: &Data, found: &[Moved]) -> Panel<'a> {
     let periods = periods();
     let kept = data.run.outcome.layout.interval;
     let mut coarse = false;
-    let mut line = |(style, moved): (usize, &Moved)| {
+    let line = |(style, moved): (usize, &Moved)| {
         let given = if moved.name == BASE { Sampled::of_case(&data.case).ok() } else { None };
         coarse |= given.is_none();
         let (dt, acceleration) =
