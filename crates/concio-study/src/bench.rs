@@ -138,8 +138,12 @@ impl<'b, 'r> Bench<'b, 'r> {
         let subjects = trials.iter().map(subject).collect::<Result<Vec<_>>>()?;
         let rule = Rule::new(Criterion::Bond, None);
         let input = FirstCrackInput::default();
-        let asked =
-            first_crack::Question { rule, interval: self.question.input.crack_within, checks: input.checks, periods: Vec::new() };
+        let asked = first_crack::Question {
+            rule,
+            interval: self.question.input.crack_within,
+            checks: input.checks,
+            periods: Vec::new(),
+        };
         let keep = first_crack::keep().joints;
         let found = self.runner.with_cracks(&rule, &keep, |runner| first_crack::search(&asked, &subjects, runner))?;
         let Some(answers) = found else { return Ok(None) };

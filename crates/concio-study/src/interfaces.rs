@@ -77,6 +77,8 @@ pub struct Interfaces {
     pub seed: u64,
 }
 
+/// Generations from which on a search learns from what it has seen.
+const GENERATIONS: usize = 10;
 /// Runs that a first crack takes, some less, some more.
 const SEARCHING: usize = 12;
 
@@ -405,6 +407,31 @@ impl Question {
         (0..self.scenes.len()).filter(|&s| self.scenes[s].held_out == held_out).collect()
     }
 
+    /// Generations of every device that the runs allow.
+    pub fn generations(&self) -> usize {
+        self.input.runs / self.generation()
+    }
+
+    /// Runs of one generation of every device.
+    fn generation(&self) -> usize {
+        self.runs_each() * self.of(false).len() * self.input.population * self.devices.len()
+    }
+
+    /// What is to be known of a search that is too short to learn from what it sees.
+    pub fn too_few(&self) -> Option<String> {
+        let generations = self.generations();
+        (generations < GENERATIONS).then(|| {
+            format!(
+                "interfaces.runs = {} allow {generations} {} of {} designs of each device: below {GENERATIONS} a search is hardly more than random draws; {} \
+                 runs have {GENERATIONS}",
+                self.input.runs,
+                if generations == 1 { "generation" } else { "generations" },
+                self.input.population,
+                GENERATIONS * self.generation()
+            )
+        })
+    }
+
     /// Runs that the value of a design under one scene takes.
     pub fn runs_each(&self) -> usize {
         let cracking = self.objectives.iter().any(|o| o.target == Target::FirstCracking);
@@ -648,7 +675,7 @@ fn neighbours(joints: &[Joint], eligible: &[usize]) -> Vec<Vec<usize>> {
 
 fn budget(file: &StudyFile, question: &Question) -> Result<()> {
     let each = question.runs_each() * question.of(false).len();
-    let least = each * question.input.population * question.devices.len();
+    let least = question.generation();
     if question.input.runs < least {
         let what = format!("{} runs are less than one generation", question.input.runs);
         let allowed = format!(

@@ -151,8 +151,11 @@ impl<'a> Runner<'a> {
 
     /// What `ask` finds with runs that end with their first crack ([`Runner::until`]) and keep `joints`, whatever this runner does else.
     pub fn with_cracks<T>(&mut self, rule: &Rule, joints: &[PerJoint], ask: impl FnOnce(&mut Self) -> T) -> T {
-        let own =
-            (self.until.replace(*rule), std::mem::take(&mut self.results), std::mem::replace(&mut self.joints, joints.to_vec()));
+        let own = (
+            self.until.replace(*rule),
+            std::mem::take(&mut self.results),
+            std::mem::replace(&mut self.joints, joints.to_vec()),
+        );
         let found = ask(self);
         (self.until, self.results, self.joints) = own;
         found
