@@ -220,7 +220,7 @@ pub fn before(plan: &Plan) -> Before {
     let runs = before.warned.of;
     let of_file = |first: Warning| Told { first, name: String::new(), runs, same: true };
     before.warned.told.splice(0..0, unit_doubts(plan).into_iter().map(of_file));
-    before.gaps = doubts(plan);
+    before.gaps = of_design(plan);
     before
 }
 
@@ -231,7 +231,7 @@ fn unit_doubts(plan: &Plan) -> Vec<Warning> {
 }
 
 /// What is to be known of the study's design before anything is run.
-fn doubts(plan: &Plan) -> Vec<String> {
+fn of_design(plan: &Plan) -> Vec<String> {
     let question =
         plan.file.study.interfaces.is_some().then(|| concio_study::interfaces::question(plan).ok()).flatten();
     unreached(&plan.factors, &plan.points).into_iter().chain(question.and_then(|q| q.too_few())).collect()
@@ -458,7 +458,7 @@ pub fn section(plan: &Plan, one: &str, case: Option<&Case>, trouble: Trouble) ->
         text.push(format!("Asked: {}.", asked.join("; ")));
     }
     text.push(format!("Design: {}.", design(plan, one)));
-    text.extend(doubts(plan).into_iter().map(|told| format!("Warning: {told}.")));
+    text.extend(of_design(plan).into_iter().map(|told| format!("Warning: {told}.")));
     text.extend(case.map(wall).transpose()?);
     text.extend(trouble.told);
     text.extend(models(plan, case).into_iter().map(String::from));
