@@ -286,3 +286,55 @@ fn limits_that_none_or_all_reach_say_so() {
     }
     assert!(why(&[stripe(0.1, 3), stripe(0.2, 1)]).contains("does not rise enough"));
 }
+
+/// Over a hazard that falls as y^(−k) the rate is λ(θ) e^(k² β²/2) (Cornell); between points of a curve it is what a fine sum is, and its interval holds the truth.
+#[test]
+fn annual_rates_are_those_of_cornell() {
+    use concio_study::ida::hazard::Hazard;
+    let (k, at) = (2.5, 1e-3);
+    let power = |points: usize| Hazard {
+        points: (0..points)
+            .map(|i| {
+                let y = 1e-4 * 1e8f64.powf(i as f64 / (points - 1) as f64);
+                [y, at * (y / MEDIAN).powf(-k)]
+            })
+            .collect(),
+    };
+    let expected = at * (0.5 * k * k * DISPERSION * DISPERSION).exp();
+    for points in [2, 30] {
+        let subject = format!("Statistics: annual rate of a limit over a hazard curve that is a power; {points} points");
+        agrees!(subject, "λ(θ) e^(k² β²/2)", "1/year", power(points).rate(MEDIAN, DISPERSION), expected, 1e-9);
+    }
+    // A curve of a site, bent: a sum over fine steps, and the last point beyond.
+    let points = vec![[0.5, 0.05], [1.0, 0.01], [2.0, 1.5e-3], [5.0, 1e-4]];
+    let rate = |y: f64| {
+        let i = points.iter().rposition(|p| p[0] <= y).unwrap_or(0).min(points.len() - 2);
+        let [[y0, r0], [y1, r1]] = [points[i], points[i + 1]];
+        r0 * (y / y0).powf(-(r0 / r1 as f64).ln() / (y1 / y0 as f64).ln())
+    };
+    let (median, dispersion) = (2.2, 0.45);
+    let probability = |y: f64| phi((y / median as f64).ln() / dispersion);
+    let n = 200_000;
+    let y = |i: usize| 0.5 * 10f64.powf(i as f64 / n as f64);
+    let sum: f64 = (0..n).map(|i| probability((y(i) * y(i + 1)).sqrt()) * (rate(y(i)) - rate(y(i + 1)))).sum();
+    let hazard = Hazard { points: points.clone() };
+    agrees!(
+        "Statistics: annual rate of a limit over a hazard curve of four points",
+        "sum over 200,000 steps, and λ of the last point",
+        "1/year",
+        hazard.rate(median, dispersion),
+        sum + 1e-4 * probability(5.0),
+        1e-6
+    );
+    // How often the interval holds the rate of the lognormal that ten records were drawn from.
+    let hazard = power(30);
+    let mut dice = Dice::new(18);
+    let mut held = 0.0;
+    for _ in 0..400 {
+        let found = fit(&(0..10).map(|_| Evidence::At(capacity(&mut dice))).collect::<Vec<_>>(), 0.95).expect("a fit");
+        let ([_, low, high], _) = hazard.of(&found);
+        held += f64::from(u8::from(low <= expected && expected <= high));
+    }
+    let subject = "Statistics: part of 95 % intervals of an annual rate that hold it, ten records";
+    agrees!(subject, "0.90 to 0.98", "", held / 400.0, 0.94, abs: 0.04);
+}

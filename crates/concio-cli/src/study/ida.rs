@@ -8,6 +8,8 @@ use concio::run::Control;
 use concio::{InputError, Result};
 use concio_study::Plan;
 use concio_study::ida::curve::{Curve, Found, SHARES, fractiles, fragilities, grid};
+use concio_study::ida::fragility::Fragility;
+use concio_study::ida::hazard::Hazard;
 use concio_study::ida::hunt::Way;
 use concio_study::ida::likelihood::Evidence;
 use concio_study::ida::{Analysis, Settings, tables};
@@ -31,6 +33,8 @@ use crate::stop;
 const SIZE: [f64; 2] = [420.0, 210.0];
 /// Places in the styles of the chart: a single motion, median, the other fractiles or the band.
 const ONE: usize = 5;
+/// Part of an annual rate, and of the records, from which what lies beyond the ends of a hazard curve is told.
+const FROM_ENDS: f64 = 0.02;
 const MIDDLE: usize = 0;
 const OUTER: usize = 1;
 
@@ -196,12 +200,28 @@ fn tell(plan: &Plan, analysis: &Analysis, told: &Warned) -> std::result::Result<
     files::print(&found.iter().map(|f| line(&analysis.settings, f)).collect::<String>())
 }
 
+/// How often a year, and in fifty years.
+fn often(hazard: &Hazard, fit: &Fragility) -> String {
+    let ([rate, low, high], beyond) = hazard.of(fit);
+    let first = hazard.points.first().map_or(0.0, |point| fit.probability(point[0]));
+    let end = if low == rate && high == rate { String::new() } else { format!(" ({} … {})", shown(low), shown(high)) };
+    let mut told = format!(", {} a year{end}, {} % in 50 years", shown(rate), shown(-1e2 * (-50.0 * rate).exp_m1()));
+    if beyond > FROM_ENDS * rate {
+        told += &format!("; shaking beyond the hazard curve may add {} a year", shown(beyond));
+    }
+    if first > FROM_ENDS {
+        let percent = shown(1e2 * first);
+        told += &format!("; {percent} % reach the limit at its first intensity already, and what is below is left out");
+    }
+    told
+}
+
 /// A fit in a line.
 fn line(settings: &Settings, found: &Found) -> String {
     let unit = settings.intensity.unit();
     match &found.fit {
         Ok(f) => format!(
-            "  {} ({}): median {} {unit} ({} … {}), dispersion {} ({} … {})\n",
+            "  {} ({}): median {} {unit} ({} … {}), dispersion {} ({} … {}){}\n",
             found.limit,
             found.method,
             shown(f.median),
@@ -210,6 +230,7 @@ fn line(settings: &Settings, found: &Found) -> String {
             shown(f.dispersion),
             shown(f.dispersion_interval[0]),
             shown(f.dispersion_interval[1]),
+            settings.hazard.as_ref().map_or(String::new(), |hazard| often(hazard, f)),
         ),
         Err(cause) => format!("  {} ({}): {cause}\n", found.limit, found.method),
     }

@@ -8,6 +8,8 @@
 //!   that were all found. Where a motion has several curves, or one curve counts at several intensities, n is the number of motions, and the fall is larger by
 //!   what the variance is larger for it ([`Likelihood::clustered`]).
 
+use std::f64::consts::PI;
+
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
 use super::likelihood::{Evidence, Likelihood, Place, phi};
@@ -31,6 +33,8 @@ pub struct Fragility {
     clusters: Option<(Vec<usize>, usize)>,
 }
 
+/// Directions in which the end of the plausible region is looked for.
+const DIRECTIONS: usize = 96;
 /// How far from the best value an interval is looked for: that many of the first steps, doubled each.
 const DOUBLINGS: usize = 30;
 
@@ -159,6 +163,29 @@ impl Fragility {
         let fall = self.fall([0.0, 1.0 / b]);
         let ends = [-1.0, 1.0].map(|sign| self.end(-b.ln(), 0.1 * sign, fall, &profile));
         [ends[0].map_or(0.0, f64::exp), ends[1].map_or(f64::INFINITY, f64::exp)]
+    }
+
+    /// Medians and dispersions around the region that the confidence allows, for the interval of whatever follows from both; empty where it has no end.
+    pub fn plausible(&self) -> Vec<[f64; 2]> {
+        let [a, b] = self.place;
+        // Of the two the wider, where runs share their motions.
+        let fall = self.fall([-1.0 / b, a / (b * b)]).max(self.fall([0.0, 1.0 / b]));
+        let direction = |k: usize| {
+            let turn = 2.0 * PI * k as f64 / DIRECTIONS as f64;
+            // Of the median, in dispersions, and of ln β.
+            [turn.cos(), turn.sin()]
+        };
+        let at = |[m, s]: [f64; 2], way: f64| {
+            let other = b * (-s * way).exp();
+            [-(-a / b + m * way / b) * other, other]
+        };
+        let one = |k: usize| {
+            let direction = direction(k);
+            let end = self.end(0.0, 0.1, fall, &|way| self.likelihood.at(at(direction, way)))?;
+            let [a, b] = at(direction, end);
+            Some([(self.likelihood.centre - a / b).exp(), 1.0 / b])
+        };
+        (0..DIRECTIONS).map(one).collect::<Option<Vec<_>>>().unwrap_or_default()
     }
 
     /// How far the profile of a quantity with these derivatives by a and b may fall.

@@ -8,6 +8,7 @@
 
 pub mod curve;
 pub mod fragility;
+pub mod hazard;
 pub mod hunt;
 pub mod likelihood;
 pub mod tables;
@@ -27,6 +28,7 @@ use crate::file::{DesignKind, StudyFile};
 use crate::intensity::Intensity;
 use crate::measures::{MEASURES, Row, ends_with_collapse};
 use curve::{Curve, Point};
+use hazard::Hazard;
 use hunt::Way;
 
 /// Measures that do not grow with the shaking.
@@ -61,6 +63,9 @@ pub struct Ida {
     /// Intensities that are found motion by motion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hunt: Option<Hunt>,
+    /// How often a year the intensities of the site are exceeded: makes annual rates of the fragilities.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hazard: Option<HazardInput>,
     /// Confidence of intervals and bands, between 0 and 1; default 0.95.
     #[serde(default = "confidence")]
     #[schemars(range(min = 0.0, max = 1.0))]
@@ -69,6 +74,16 @@ pub struct Ida {
 
 fn confidence() -> f64 {
     0.95
+}
+
+/// A hazard curve of the site, for the intensity that the analysis has.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HazardInput {
+    /// Intensities, rising, two at least, each above 0: a number in SI or a text with its unit.
+    pub intensities: Vec<Value>,
+    /// At what rate each is exceeded [1/year], above 0, falling.
+    pub rates: Vec<f64>,
 }
 
 /// A limit state.
@@ -128,6 +143,8 @@ pub struct Settings {
     pub collapse: f64,
     /// How intensities are chosen.
     pub way: Way,
+    /// How often they are exceeded.
+    pub hazard: Option<Hazard>,
     /// Confidence of intervals.
     pub confidence: f64,
 }
@@ -183,6 +200,7 @@ pub fn settings(file: &StudyFile) -> Result<Option<Settings>> {
         limits: limits(file, ida, measure.unit, collapse)?,
         collapse: collapse.unwrap_or(f64::INFINITY),
         way: way(file, ida)?,
+        hazard: ida.hazard.as_ref().map(|input| hazard(file, input, ida.intensity)).transpose()?,
         confidence: ida.confidence,
     }))
 }
@@ -207,6 +225,34 @@ fn limits(file: &StudyFile, ida: &Ida, unit: &str, collapse: Option<f64>) -> Res
     }
     limits.sort_by(|a, b| a.1.total_cmp(&b.1));
     Ok(limits)
+}
+
+fn hazard(file: &StudyFile, input: &HazardInput, intensity: Intensity) -> Result<Hazard> {
+    let (n, rates) = (input.intensities.len(), input.rates.len());
+    if intensity == Intensity::Scale {
+        let what = "`scale` is no intensity that a site has";
+        return Err(file.wrong("ida.hazard", what, "`pga`, `pgv` or `sa` as `intensity`"));
+    }
+    if n != rates || n < 2 {
+        let what = format!("{n} intensities and {rates} rates make no curve");
+        return Err(file.wrong("ida.hazard.rates", what, "as many rates as intensities, two at least"));
+    }
+    few(n, MOST_PER_CURVE, |what, allowed| file.wrong("ida.hazard.intensities", what, allowed))?;
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    for (i, (value, rate)) in input.intensities.iter().zip(&input.rates).enumerate() {
+        let key = |list: &str| format!("ida.hazard.{list}[{i}]");
+        let value = above(file, &key("intensities"), value, intensity.unit())?;
+        let [before, more] = points.last().copied().unwrap_or([0.0, f64::INFINITY]);
+        if value <= before {
+            return Err(file.wrong(&key("intensities"), "does not lie above the one before it", "rising intensities"));
+        }
+        if !(*rate > 0.0 && *rate < more) {
+            let what = format!("{} is out of range", shown(*rate));
+            return Err(file.wrong(&key("rates"), what, "above 0 and below the one before it"));
+        }
+        points.push([value, *rate]);
+    }
+    Ok(Hazard { points })
 }
 
 fn way(file: &StudyFile, ida: &Ida) -> Result<Way> {

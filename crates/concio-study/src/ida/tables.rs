@@ -99,6 +99,14 @@ pub fn fits(settings: &Settings, found: &[Found]) -> Table {
     numbers("dispersion", "", &|f| f.dispersion);
     numbers("dispersion from", "", &|f| f.dispersion_interval[0]);
     numbers("dispersion to", "", &|f| f.dispersion_interval[1]);
+    if let Some(hazard) = &settings.hazard {
+        let rates: Vec<Option<([f64; 3], f64)>> =
+            found.iter().map(|f| f.fit.as_ref().ok().map(|fit| hazard.of(fit))).collect();
+        for (k, name) in ["annual rate", "annual rate from", "annual rate to"].into_iter().enumerate() {
+            table.numbers(name, "1/year", rates.iter().map(|r| r.map(|(rate, _)| rate[k])).collect());
+        }
+        table.numbers("annual rate beyond", "1/year", rates.iter().map(|r| r.map(|(_, beyond)| beyond)).collect());
+    }
     table.texts("note", found.iter().map(|f| f.fit.as_ref().err().map(|e| (*e).to_string())).collect());
     table
 }
