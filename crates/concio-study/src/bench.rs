@@ -135,7 +135,7 @@ impl<'b, 'r> Bench<'b, 'r> {
         let [low, high] = self.question.input.crack_scales;
         let name = String::new();
         let subject = |trial: &Trial| Ok(Subject { name: name.clone(), case: self.case(trial, 1.0)? });
-        let subjects = trials.iter().map(subject).collect::<Result<Vec<_>>>()?;
+        let subjects = trials.par_iter().map(subject).collect::<Vec<_>>().into_iter().collect::<Result<Vec<_>>>()?;
         let rule = Rule::new(Criterion::Bond, None);
         let input = FirstCrackInput::default();
         let asked = first_crack::Question {
@@ -149,7 +149,8 @@ impl<'b, 'r> Bench<'b, 'r> {
         let Some(answers) = found else { return Ok(None) };
         self.runs += answers.iter().map(|answer| answer.trials.len()).sum::<usize>();
         let of = |answer: &Answer| match (answer.below(), answer.crack()) {
-            (_, Some(crack)) if crack.time == Some(0.0) => low,
+            (_, Some(crack)) if crack.time == Some(0.0) || crack.scale <= low => low,
+            (Some(below), _) if below.scale >= high => high,
             _ if answer.cause.is_some() => f64::NAN,
             (below, Some(crack)) => (below.map_or(0.0, |below| below.scale) * crack.scale).sqrt().clamp(low, high),
             (_, None) => high,

@@ -310,7 +310,11 @@ impl<'a> Seek<'a> {
             case: &subject.case,
             limits: Limits::of(model, &question.rule),
             joints: model.joints.iter().map(joint).collect(),
-            cause: (shaking.pga == 0.0).then(|| "the base does not accelerate during the run".into()),
+            cause: match (shaking.pga == 0.0, Limits::of(model, &question.rule).is_none()) {
+                (true, _) => Some("the base does not accelerate during the run".into()),
+                (_, true) => Some("no joint of the wall can crack by the rule".into()),
+                _ => None,
+            },
             shaking,
             mode,
             trials: Vec::new(),

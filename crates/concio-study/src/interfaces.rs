@@ -422,8 +422,8 @@ impl Question {
         let generations = self.generations();
         (generations < GENERATIONS).then(|| {
             format!(
-                "interfaces.runs = {} allow {generations} {} of {} designs of each device: below {GENERATIONS} a search is hardly more than random draws; {} \
-                 runs have {GENERATIONS}",
+                "interfaces.runs = {} are {generations} {} of {} designs of each device, and a search of fewer than {GENERATIONS} is hardly more than random \
+                 draws: {GENERATIONS} generations take {} runs",
                 self.input.runs,
                 if generations == 1 { "generation" } else { "generations" },
                 self.input.population,
@@ -637,7 +637,12 @@ fn scenes(plan: &Plan) -> Result<Vec<Scene>> {
         let held_out = plan.motion(number).is_some_and(|m| motions[m].held_out);
         Ok(Scene { name, held_out, changes, scale, laws })
     };
-    (0..plan.points.len()).map(scene).collect()
+    let scenes = (0..plan.points.len()).map(scene).collect::<Result<Vec<Scene>>>()?;
+    if scenes.iter().all(|scene| scene.held_out) {
+        let what = "every run of the design has a motion that is held out: the search has none to search with";
+        return Err(plan.file.wrong("design", what, "a design whose runs have other motions too"));
+    }
+    Ok(scenes)
 }
 
 /// The wall, which has to be the same in all runs.

@@ -52,11 +52,13 @@ fn held(trials: usize, fitted: &mut dyn FnMut() -> Option<Fragility>) -> ([f64; 
 }
 
 /// Writes down how often both intervals hold what they estimate.
-fn covers(what: &str, case: &str, shares: [f64; 2]) {
-    for (share, of) in shares.into_iter().zip(["median", "dispersion"]) {
-        let subject = format!("Statistics: part of 95 % intervals of a fragility's {of} that hold it, {what}; {case}");
-        agrees!(subject, "0.90 to 0.98", "", share, 0.94, abs: 0.04);
-    }
+macro_rules! covers {
+    ($what:expr, $case:expr, $shares:expr) => {
+        for (share, of) in $shares.into_iter().zip(["median", "dispersion"]) {
+            let subject = format!("Statistics: part of 95 % intervals of a fragility's {of} that hold it, {}; {}", $what, $case);
+            agrees!(subject, "0.90 to 0.98", "", share, 0.94, abs: 0.04);
+        }
+    };
 }
 
 /// Intervals of few records are Student's: two say next to nothing.
@@ -67,7 +69,7 @@ fn intervals_of_few_records_cover() {
         let mut draw = || fit(&(0..n).map(|_| Evidence::At(capacity(&mut dice))).collect::<Vec<_>>(), 0.95).ok();
         let (shares, fitted) = held(1000, &mut draw);
         assert_eq!(fitted, 1000);
-        covers("capacities found", &format!("{n} records"), shares);
+        covers!("capacities found", &format!("{n} records"), shares);
     }
     // t(0.975, 1) = 12.706: the half-width of ln θ is t s/√2, s that over n − 1.
     let found = fit(&[Evidence::At(8.0), Evidence::At(10.0)], 0.95).expect("two capacities");
@@ -159,7 +161,7 @@ fn intervals_of_stripes_cover() {
         };
         let (shares, all) = held(400, &mut fitted);
         assert!(all >= 396, "{all}");
-        covers("stripes of the same records", &format!("{n} records"), shares);
+        covers!("stripes of the same records", &format!("{n} records"), shares);
     }
 }
 
@@ -194,7 +196,7 @@ fn intervals_of_jumps_cover() {
         let (shares, all) =
             held(200, &mut || fit(&(0..n).map(|_| hunted(capacity(&mut dice))).collect::<Vec<_>>(), 0.95).ok());
         assert!(all >= 196, "{all}");
-        covers("limits that damage jumps over", &format!("{n} records, 14 runs each"), shares);
+        covers!("limits that damage jumps over", &format!("{n} records, 14 runs each"), shares);
     }
 }
 
@@ -302,7 +304,8 @@ fn annual_rates_are_those_of_cornell() {
     };
     let expected = at * (0.5 * k * k * DISPERSION * DISPERSION).exp();
     for points in [2, 30] {
-        let subject = format!("Statistics: annual rate of a limit over a hazard curve that is a power; {points} points");
+        let subject =
+            format!("Statistics: annual rate of a limit over a hazard curve that is a power; {points} points");
         agrees!(subject, "λ(θ) e^(k² β²/2)", "1/year", power(points).rate(MEDIAN, DISPERSION), expected, 1e-9);
     }
     // A curve of a site, bent: a sum over fine steps, and the last point beyond.
@@ -326,15 +329,43 @@ fn annual_rates_are_those_of_cornell() {
         sum + 1e-4 * probability(5.0),
         1e-6
     );
+    // Of a wide fragility the shifted normal law lies far in its tail: the sum has digits there too.
+    let wide = |y: f64| phi((y / 1.0f64).ln() / 4.0);
+    let sum: f64 = (0..n).map(|i| wide((y(i) * y(i + 1)).sqrt()) * (rate(y(i)) - rate(y(i + 1)))).sum();
+    let found = Hazard { points: points.clone() }.rate(1.0, 4.0);
+    agrees!(
+        "Statistics: annual rate of a limit with a dispersion of 4",
+        "sum over 200,000 steps, and λ of the last point",
+        "1/year",
+        found,
+        sum + 1e-4 * wide(5.0),
+        1e-6
+    );
     // How often the interval holds the rate of the lognormal that ten records were drawn from.
     let hazard = power(30);
     let mut dice = Dice::new(18);
     let mut held = 0.0;
     for _ in 0..400 {
         let found = fit(&(0..10).map(|_| Evidence::At(capacity(&mut dice))).collect::<Vec<_>>(), 0.95).expect("a fit");
-        let ([_, low, high], _) = hazard.of(&found);
+        let [low, high] = hazard.of(&found).interval.expect("an interval");
         held += f64::from(u8::from(low <= expected && expected <= high));
     }
     let subject = "Statistics: part of 95 % intervals of an annual rate that hold it, ten records";
     agrees!(subject, "0.90 to 0.98", "", held / 400.0, 0.94, abs: 0.04);
+}
+
+/// One motion, however often it was run, is no sample of motions: nothing bounds the median.
+#[test]
+fn one_motion_has_no_interval() {
+    let evidence = [0.3, 0.4, 0.5, 0.7].map(Evidence::At);
+    let found = fit_clusters(&evidence, &[3; 4], 0.95).expect("a fit");
+    assert_eq!(found.median_interval, [0.0, f64::INFINITY]);
+    assert_eq!(found.dispersion_interval, [0.0, f64::INFINITY]);
+    assert_eq!(found.plausible(), None);
+    // Two motions that reach the limit are two, whatever others do not.
+    let mut many = vec![Evidence::At(0.3), Evidence::At(0.6)];
+    many.extend([Evidence::Above(0.35); 8]);
+    let pairs: Vec<usize> = (0..10).map(|k| k / 2 + usize::from(k == 1) * 9).collect();
+    let [clustered, alone] = [fit_clusters(&many, &pairs, 0.95), fit(&many, 0.95)].map(|f| f.expect("a fit"));
+    assert!(clustered.median_interval[1] >= 0.999 * alone.median_interval[1], "{clustered:?} {alone:?}");
 }

@@ -102,3 +102,12 @@ fn fractiles_of_curves_that_collapse() {
         }
     }
 }
+
+/// What falls below a limit again is counted, and the lowest crossing is the capacity.
+#[test]
+fn curves_that_rise_again_are_counted() {
+    let c = curve(&[(0.1, 1.0, false), (0.2, 3.0, false), (0.3, 1.5, false), (0.4, 5.0, false)]);
+    assert_eq!((c.below_again(2.0), c.below_again(1.2), c.below_again(9.0)), (1, 0, 0));
+    let (low, high) = c.bracket(2.0).expect("a crossing");
+    assert_eq!((low.map(|p| p.intensity), high.intensity), (Some(0.1), 0.2));
+}

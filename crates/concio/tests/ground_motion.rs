@@ -88,6 +88,22 @@ fn spectrum_of_what_is_over() {
         let subject = format!("Ground motion: S_d of a pulse of 0.1 ms; {samples} samples of 1 µs");
         agrees!(subject, "v/ω e^(−ζ/√(1 − ζ²) atan(√(1 − ζ²)/ζ))", "m", found, expected, 1e-4);
     }
+    // Critically damped it reaches v/(e ω), overdamped v r^(r/(1 − r))/|r_2| with the ratio r of its roots.
+    let pulse = record(1e-6, 101, |t| (1e4 * PI * t).sin());
+    let velocity = 2.0 * 1e-4 / PI;
+    let found = response_spectrum(pulse.dt, &pulse.acceleration, 1.0, &[0.5]).sd[0];
+    agrees!(
+        "Ground motion: S_d of a pulse, critically damped",
+        "v/(e ω)",
+        "m",
+        found,
+        velocity / 1f64.exp() / omega,
+        1e-3
+    );
+    let found = response_spectrum(pulse.dt, &pulse.acceleration, 1.25, &[0.5]).sd[0];
+    // The roots of ζ = 1.25 are −ω/2 and −2 ω.
+    let expected = velocity / (1.5 * omega) * (0.25f64.powf(1.0 / 3.0) - 0.25f64.powf(4.0 / 3.0));
+    agrees!("Ground motion: S_d of a pulse, ζ = 1.25", "v (4^(−1/3) − 4^(−4/3))/(1.5 ω)", "m", found, expected, 1e-3);
     let coarse = record(0.025, 400, |t| if t > 0.0 { 1.0 } else { 0.0 });
     let fine = record(0.001, 10_000, |t| (40.0 * t).min(1.0));
     let [coarse, fine] = [coarse, fine].map(|r| response_spectrum(r.dt, &r.acceleration, 0.0, &[0.5]).sd[0]);

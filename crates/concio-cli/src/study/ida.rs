@@ -9,7 +9,7 @@ use concio::{InputError, Result};
 use concio_study::Plan;
 use concio_study::ida::curve::{Curve, Found, SHARES, fractiles, fragilities, grid};
 use concio_study::ida::fragility::Fragility;
-use concio_study::ida::hazard::Hazard;
+use concio_study::ida::hazard::{Hazard, Rate};
 use concio_study::ida::hunt::Way;
 use concio_study::ida::likelihood::Evidence;
 use concio_study::ida::{Analysis, Settings, tables};
@@ -202,9 +202,10 @@ fn tell(plan: &Plan, analysis: &Analysis, told: &Warned) -> std::result::Result<
 
 /// How often a year, and in fifty years.
 fn often(hazard: &Hazard, fit: &Fragility) -> String {
-    let ([rate, low, high], beyond) = hazard.of(fit);
+    let Rate { value: rate, interval, beyond } = hazard.of(fit);
     let first = hazard.points.first().map_or(0.0, |point| fit.probability(point[0]));
-    let end = if low == rate && high == rate { String::new() } else { format!(" ({} … {})", shown(low), shown(high)) };
+    let end = interval
+        .map_or(" (an interval without end)".into(), |[low, high]| format!(" ({} … {})", shown(low), shown(high)));
     let mut told = format!(", {} a year{end}, {} % in 50 years", shown(rate), shown(-1e2 * (-50.0 * rate).exp_m1()));
     if beyond > FROM_ENDS * rate {
         told += &format!("; shaking beyond the hazard curve may add {} a year", shown(beyond));
@@ -281,7 +282,7 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
         title: "Incremental dynamic analysis".into(),
         text: vec![
             "Every motion at rising intensity. Between two runs curves are straight in the logarithms of intensity and \
-             damage. Fractiles are those of the damage over the curves at one intensity; where so many curves have collapsed \
+             damage, unless damage jumps. Fractiles are those of the damage over the curves at one intensity; where so many curves have collapsed \
              they end."
                 .into(),
         ],

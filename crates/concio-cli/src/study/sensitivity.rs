@@ -25,7 +25,7 @@ pub fn section(plan: &Plan, rows: &[Option<&Row>]) -> Result<Option<(Section, Ta
     let table = tables::table(plan, &found);
     let text = text(&found);
     let figures = figure(plan, &found).into_iter().collect();
-    let caption = "Indices with the interval of the bootstrap".to_string();
+    let caption = "Indices with their intervals".to_string();
     let tables = vec![(caption, table.clone())];
     let brief = brief(plan, &found);
     Ok(Some((Section { title: "Sensitivity".into(), text, figures, tables, brief }, table)))

@@ -56,7 +56,7 @@ impl Point {
 pub struct Curve {
     /// Its name.
     pub name: String,
-    /// What it shares its motion with: curves of one motion have the same number.
+    /// Curves with the same number belong together: those of one motion, if there are several motions.
     pub motion: usize,
     /// Number of the run of the design that it scales, from 0.
     pub number: usize,

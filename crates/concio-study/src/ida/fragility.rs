@@ -78,7 +78,16 @@ pub fn fit_clusters(evidence: &[Evidence], of: &[usize], confidence: f64) -> Res
     names.dedup();
     let known = |name: &usize| names.binary_search(name).unwrap_or(0);
     let clusters = (names.len() < evidence.len()).then(|| (of.iter().map(known).collect(), names.len()));
-    let n = if clusters.is_some() { names.len() as f64 } else { likelihood.located() };
+    // Clusters that tell of a capacity; where none does, as of stripes, all.
+    let located = |e: &Evidence| matches!(e, Evidence::At(_) | Evidence::Within(_));
+    let mut telling: Vec<usize> = evidence.iter().zip(of).filter(|(e, _)| located(e)).map(|(_, of)| *of).collect();
+    telling.sort_unstable();
+    telling.dedup();
+    let n = match (clusters.is_some(), telling.len()) {
+        (false, located) => located as f64,
+        (true, 0) => names.len() as f64,
+        (true, located) => located as f64,
+    };
     let [a, b] = place;
     let mut fit = Fragility {
         median: (likelihood.centre - a / b).exp(),
@@ -165,8 +174,8 @@ impl Fragility {
         [ends[0].map_or(0.0, f64::exp), ends[1].map_or(f64::INFINITY, f64::exp)]
     }
 
-    /// Medians and dispersions around the region that the confidence allows, for the interval of whatever follows from both; empty where it has no end.
-    pub fn plausible(&self) -> Vec<[f64; 2]> {
+    /// Medians and dispersions around the region that the confidence allows, for the interval of whatever follows from both; none where it has no end.
+    pub fn plausible(&self) -> Option<Vec<[f64; 2]>> {
         let [a, b] = self.place;
         // Of the two the wider, where runs share their motions.
         let fall = self.fall([-1.0 / b, a / (b * b)]).max(self.fall([0.0, 1.0 / b]));
@@ -185,7 +194,7 @@ impl Fragility {
             let [a, b] = at(direction, end);
             Some([(self.likelihood.centre - a / b).exp(), 1.0 / b])
         };
-        (0..DIRECTIONS).map(one).collect::<Option<Vec<_>>>().unwrap_or_default()
+        (0..DIRECTIONS).map(one).collect()
     }
 
     /// How far the profile of a quantity with these derivatives by a and b may fall.
@@ -200,6 +209,9 @@ impl Fragility {
 
     /// Where the profile has fallen by that much; none when it does not within reach.
     fn end(&self, best: f64, first: f64, fall: f64, profile: &dyn Fn(f64) -> f64) -> Option<f64> {
+        if fall.is_infinite() {
+            return None;
+        }
         let inside = |v: f64| profile(v) >= self.largest - fall;
         let (mut step, mut low) = (first, best);
         let mut high = None;

@@ -74,7 +74,6 @@ pub struct Likelihood {
     pub centre: f64,
     /// Spread of ln y: the scale of β where the search begins.
     spread: f64,
-    located: f64,
 }
 
 /// A point (a, b).
@@ -106,8 +105,7 @@ impl Likelihood {
             (t.x, t.to) = (t.x - centre, t.to.map(|to| to - centre));
         }
         let spread = (terms.iter().map(|t| t.middle().powi(2)).sum::<f64>() / n).sqrt();
-        let located = terms.iter().filter(|t| t.at > 0.0 || t.to.is_some()).count() as f64;
-        Likelihood { terms, centre, spread, located }
+        Likelihood { terms, centre, spread }
     }
 
     /// l, its derivatives by a and b, and the second ones by a², a b and b².
@@ -208,11 +206,6 @@ impl Likelihood {
             place = self.rise(place, [t * d[0], t * d[1]], l);
         }
         self.at(place)
-    }
-
-    /// Number of capacities that were found or lie between two runs.
-    pub fn located(&self) -> f64 {
-        self.located
     }
 }
 

@@ -1,6 +1,7 @@
 //! Tables of an incremental analysis.
 
 use super::curve::{Curve, Found, SHARES, grid};
+use super::hazard::Rate;
 use super::{Settings, likelihood::Evidence};
 use crate::table::Table;
 use crate::warned::kinds;
@@ -35,15 +36,20 @@ pub fn capacities(settings: &Settings, curves: &[Curve]) -> Table {
     let unit = settings.intensity.unit();
     table.numbers("highest run", unit, curves.iter().map(last).collect());
     for (name, value) in &settings.limits {
-        let usable = || curves.iter().map(|c| Some(c).filter(|c| c.failed.is_none()));
+        let limits: Vec<f64> = settings.limits.iter().map(|(_, value)| *value).collect();
+        // Of curves that still ask for runs nothing is known for good.
+        let done = |c: &&Curve| c.failed.is_none() && settings.way.next(&c.points, &limits).is_empty();
+        let usable = || curves.iter().map(|c| Some(c).filter(done));
         let cell = |c: &Curve| match c.capacity(*value) {
             Evidence::At(y) => Some(y),
             Evidence::Within([low, high]) => Some((low * high).sqrt()),
             _ => None,
         };
         table.numbers(name, unit, usable().map(|c| cell(c?)).collect());
-        let from = |c: &Curve| c.bracket(*value).and_then(|(low, _)| low.map(|p| p.intensity)).or(last(c));
-        let from = |c: &Curve| if c.bracket(*value).is_some_and(|(low, _)| low.is_none()) { None } else { from(c) };
+        let from = |c: &Curve| match c.bracket(*value) {
+            Some((low, _)) => low.map(|p| p.intensity),
+            None => last(c),
+        };
         table.numbers(format!("{name} from"), unit, usable().map(|c| from(c?)).collect());
         table.numbers(format!("{name} to"), unit, usable().map(|c| Some(c?.bracket(*value)?.1.intensity)).collect());
         let counts = |c: &Curve| match c.capacity(*value) {
@@ -100,12 +106,14 @@ pub fn fits(settings: &Settings, found: &[Found]) -> Table {
     numbers("dispersion from", "", &|f| f.dispersion_interval[0]);
     numbers("dispersion to", "", &|f| f.dispersion_interval[1]);
     if let Some(hazard) = &settings.hazard {
-        let rates: Vec<Option<([f64; 3], f64)>> =
-            found.iter().map(|f| f.fit.as_ref().ok().map(|fit| hazard.of(fit))).collect();
-        for (k, name) in ["annual rate", "annual rate from", "annual rate to"].into_iter().enumerate() {
-            table.numbers(name, "1/year", rates.iter().map(|r| r.map(|(rate, _)| rate[k])).collect());
-        }
-        table.numbers("annual rate beyond", "1/year", rates.iter().map(|r| r.map(|(_, beyond)| beyond)).collect());
+        let rates: Vec<Option<Rate>> = found.iter().map(|f| f.fit.as_ref().ok().map(|fit| hazard.of(fit))).collect();
+        let mut column = |name: &str, of: fn(Rate) -> Option<f64>| {
+            table.numbers(name, "1/year", rates.iter().map(|rate| rate.and_then(of)).collect());
+        };
+        column("annual rate", |rate| Some(rate.value));
+        column("annual rate from", |rate| rate.interval.map(|[low, _]| low));
+        column("annual rate to", |rate| rate.interval.map(|[_, high]| high));
+        column("annual rate beyond", |rate| Some(rate.beyond));
     }
     table.texts("note", found.iter().map(|f| f.fit.as_ref().err().map(|e| (*e).to_string())).collect());
     table

@@ -324,7 +324,8 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
             let more = tilt.acceleration.si().abs() * planar::step(case) / tilt.rise.si() / crate::G;
             if more > STEEP {
                 let text = format!(
-                    "motion.base.tilt grows by {} g in every step of this `quasi_static` run: what the wall bears is known no better, and a wall that                      begins to fall is told to bear what comes on it meanwhile. Let `rise` be {} s or longer",
+                    "motion.base.tilt grows by {} g in every step of this `quasi_static` run: what the wall bears is known no better, and a wall that \
+                     begins to fall is told to bear what comes on it meanwhile. Let `rise` be {} s or longer",
                     shown(rounded(more, 2)),
                     shown(rounded(tilt.rise.si() * more / STEEP, 2)),
                 );
@@ -378,7 +379,8 @@ fn of_bond(doubts: &mut Doubts, joint: &Joints, bond: &JointBond) {
     let mega = |pascal: f64| shown(rounded(1e-6 * pascal, 3));
     if tan > 0.0 && cohesion > 0.0 && tension > cohesion / tan * (1.0 + 1e-9) {
         let text = format!(
-            "joint.bond.tensile_strength is {} MPa, above cohesion/tan(friction_angle) = {} MPa, where its friction ends: such a joint is pulled apart by more              than shear would leave of it; mortar has less than half of that",
+            "joint.bond.tensile_strength is {} MPa, above cohesion/tan(friction_angle) = {} MPa, where its friction ends: such a joint is pulled apart by more \
+             than shear would leave of it; mortar has less than half of that",
             mega(tension),
             mega(cohesion / tan),
         );

@@ -95,8 +95,19 @@ fn peak_displacements<const WHOLE: bool>(dt: f64, acceleration: &[f64], damping:
 /// Largest |displacement| of an oscillator that swings freely from a displacement and a velocity: at its first turn, the next ones are smaller.
 fn free_peak([u, v]: [f64; 2], omega: f64, damping: f64) -> f64 {
     if damping >= 1.0 {
-        // What creeps back has been farthest before.
-        return u.abs();
+        // It turns once at most: u e^(r t) + … of both roots, or of one that is double.
+        let root = omega * (damping * damping - 1.0).sqrt();
+        let [slow, fast] = [root, -root].map(|root| root - damping * omega);
+        let (turn, at): (f64, Box<dyn Fn(f64) -> f64>) = if root > 0.0 {
+            let second = (v - slow * u) / (fast - slow);
+            let first = u - second;
+            let turn = (-second * fast / (first * slow)).ln() / (slow - fast);
+            (turn, Box::new(move |t| first * (slow * t).exp() + second * (fast * t).exp()))
+        } else {
+            let rises = v + omega * u;
+            (v / (omega * rises), Box::new(move |t| (u + rises * t) * (-omega * t).exp()))
+        };
+        return if turn > 0.0 && turn.is_finite() { at(turn).abs().max(u.abs()) } else { u.abs() };
     }
     let damped = omega * (1.0 - damping * damping).sqrt();
     let turn = (v * damped).atan2(omega * omega * u + damping * omega * v);
