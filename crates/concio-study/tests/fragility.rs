@@ -314,14 +314,14 @@ fn annual_rates_are_those_of_cornell() {
         agrees!(subject, "λ(θ) e^(k² β²/2)", "1/year", power(points).rate(MEDIAN, DISPERSION), expected, 1e-9);
     }
     // A curve of a site, bent: a sum over fine steps, and the last point beyond.
-    let points = vec![[0.5, 0.05], [1.0, 0.01], [2.0, 1.5e-3], [5.0, 1e-4]];
+    let points: Vec<[f64; 2]> = vec![[0.5, 0.05], [1.0, 0.01], [2.0, 1.5e-3], [5.0, 1e-4]];
     let rate = |y: f64| {
         let i = points.iter().rposition(|p| p[0] <= y).unwrap_or(0).min(points.len() - 2);
         let [[y0, r0], [y1, r1]] = [points[i], points[i + 1]];
-        r0 * (y / y0).powf(-(r0 / r1 as f64).ln() / (y1 / y0 as f64).ln())
+        r0 * (y / y0).powf(-(r0 / r1).ln() / (y1 / y0).ln())
     };
-    let (median, dispersion) = (2.2, 0.45);
-    let probability = |y: f64| phi((y / median as f64).ln() / dispersion);
+    let (median, dispersion): (f64, f64) = (2.2, 0.45);
+    let probability = |y: f64| phi((y / median).ln() / dispersion);
     let n = 200_000;
     let y = |i: usize| 0.5 * 10f64.powf(i as f64 / n as f64);
     let sum: f64 = (0..n).map(|i| probability((y(i) * y(i + 1)).sqrt()) * (rate(y(i)) - rate(y(i + 1)))).sum();
@@ -335,7 +335,7 @@ fn annual_rates_are_those_of_cornell() {
         1e-6
     );
     // Of a wide fragility the shifted normal law lies far in its tail: the sum has digits there too.
-    let wide = |y: f64| phi((y / 1.0f64).ln() / 4.0);
+    let wide = |y: f64| phi(y.ln() / 4.0);
     let sum: f64 = (0..n).map(|i| wide((y(i) * y(i + 1)).sqrt()) * (rate(y(i)) - rate(y(i + 1)))).sum();
     let found = Hazard { points: points.clone() }.rate(1.0, 4.0);
     agrees!(
