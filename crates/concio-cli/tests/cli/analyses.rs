@@ -58,7 +58,15 @@ fn an_incremental_analysis_by_shards_is_that_of_one_process() {
     let lines = desk.get("one/ida.csv").lines().count();
     assert_eq!(lines, 1 + 3 * 8);
     assert!(
-        desk.get("one/fragility.csv").starts_with("limit,largest_slip [m],from,reached,not reached,median [m/s²],")
+        desk.get("one/fragility.csv")
+            .starts_with("limit,largest_slip [m],from,reached,between runs,not reached,median [m/s²],")
+    );
+    let capacities = desk.get("one/capacities.csv");
+    assert!(
+        capacities.starts_with(
+            "curve,runs,highest run [m/s²],2 cm [m/s²],2 cm from [m/s²],2 cm to [m/s²],2 cm is,2 cm below again,"
+        ),
+        "{capacities}"
     );
     for name in ["ida", "fragility"] {
         assert!(
@@ -70,6 +78,35 @@ fn an_incremental_analysis_by_shards_is_that_of_one_process() {
     assert!(report.contains("<h2>Fragility</h2>") && report.contains("<h2>Incremental dynamic analysis</h2>"));
     desk.concio("study status ida.toml --out one").assert().success();
     desk.concio("study report ida.toml --out one").assert().success();
+}
+
+/// A hazard curve of the site makes annual rates, and one that is no curve is refused with its line.
+#[test]
+fn a_hazard_curve_makes_annual_rates() {
+    let desk = Desk::new();
+    desk.put("sliding.toml", SLIDING);
+    let with = |hazard: &str| format!("{IDA}[ida.hazard]\n{hazard}\n");
+    desk.put("ida.toml", &with("intensities = [\"0.1 g\", \"0.4 g\", \"2 g\"]\nrates = [1e-2, 1e-3, 2e-5]"));
+    let told = desk.concio("study run ida.toml --out one").assert().success().get_output().stdout.clone();
+    let told = String::from_utf8_lossy(&told).into_owned();
+    assert!(told.contains(" a year (") && told.contains(" % in 50 years"), "{told}");
+    let head = desk.get("one/fragility.csv").lines().next().unwrap_or_default().to_string();
+    assert!(
+        head.contains(
+            "annual rate [1/year],annual rate from [1/year],annual rate to [1/year],annual rate beyond [1/year]"
+        ),
+        "{head}"
+    );
+    for (hazard, says) in [
+        ("intensities = [\"0.1 g\"]\nrates = [1e-2]", "1 intensities and 1 rates make no curve"),
+        ("intensities = [\"0.4 g\", \"0.1 g\"]\nrates = [1e-2, 1e-3]", "does not lie above the one before it"),
+        ("intensities = [\"0.1 g\", \"0.4 g\"]\nrates = [1e-3, 1e-2]", "0.01 is out of range"),
+    ] {
+        desk.put("ida.toml", &with(hazard));
+        let error = desk.concio("study check ida.toml").assert().code(2).get_output().stderr.clone();
+        let error = String::from_utf8_lossy(&error).into_owned();
+        assert!(error.contains(says) && error.contains("ida.toml:"), "{error}");
+    }
 }
 
 const SENSITIVITY: &str = r#"wall = "sliding.toml"
