@@ -86,7 +86,7 @@ fn a_hazard_curve_makes_annual_rates() {
     let desk = Desk::new();
     desk.put("sliding.toml", SLIDING);
     let with = |hazard: &str| format!("{IDA}[ida.hazard]\n{hazard}\n");
-    desk.put("ida.toml", &with("intensities = [\"0.1 g\", \"0.4 g\", \"2 g\"]\nrates = [1e-2, 1e-3, 2e-5]"));
+    desk.put("ida.toml", with("intensities = [\"0.1 g\", \"0.4 g\", \"2 g\"]\nrates = [1e-2, 1e-3, 2e-5]"));
     let told = desk.concio("study run ida.toml --out one").assert().success().get_output().stdout.clone();
     let told = String::from_utf8_lossy(&told).into_owned();
     assert!(told.contains(" a year (") && told.contains(" % in 50 years"), "{told}");
@@ -102,7 +102,7 @@ fn a_hazard_curve_makes_annual_rates() {
         ("intensities = [\"0.4 g\", \"0.1 g\"]\nrates = [1e-2, 1e-3]", "does not lie above the one before it"),
         ("intensities = [\"0.1 g\", \"0.4 g\"]\nrates = [1e-3, 1e-2]", "0.01 is out of range"),
     ] {
-        desk.put("ida.toml", &with(hazard));
+        desk.put("ida.toml", with(hazard));
         let error = desk.concio("study check ida.toml").assert().code(2).get_output().stderr.clone();
         let error = String::from_utf8_lossy(&error).into_owned();
         assert!(error.contains(says) && error.contains("ida.toml:"), "{error}");
