@@ -160,6 +160,8 @@ fn capital(text: &str) -> String {
 struct Entry {
     words: [String; 3],
     joints: Option<f64>,
+    /// Which they are.
+    names: Option<String>,
     training: Vec<Spread>,
     held_out: Vec<Spread>,
 }
@@ -172,7 +174,8 @@ fn entry(question: &Question, line: &Line) -> Entry {
         None => [line.name.clone(), String::new(), String::new()],
     };
     let joints = line.design.as_ref().map(|d| d.joints.len() as f64);
-    Entry { words, joints, training: line.training.clone(), held_out: line.held_out.clone() }
+    let names = line.design.as_ref().map(|d| question.names(d).join(", "));
+    Entry { words, joints, names, training: line.training.clone(), held_out: line.held_out.clone() }
 }
 
 /// The quantiles of some random draws, each objective for itself.
@@ -191,6 +194,7 @@ fn quantiles(question: &Question, name: &str, lines: &[Line]) -> Vec<Entry> {
     let entry = |(share, what): (f64, &str)| Entry {
         words: [format!("{name}, {what} of {}", lines.len()), String::new(), String::new()],
         joints: None,
+        names: None,
         training: of(share, false),
         held_out: of(share, true),
     };
@@ -226,6 +230,7 @@ fn comparison(question: &Question, answer: &Answer) -> Table {
             table.numbers(format!("scatter, {name}, {kind}"), unit, scatter);
         }
     }
+    table.texts("which joints", entries.iter().map(|e| e.names.clone()).collect());
     table
 }
 

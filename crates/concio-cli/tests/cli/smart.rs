@@ -76,6 +76,9 @@ fn a_search_ends_with_report_tables_and_figures() {
     for name in ["unreinforced", "\"random, median of 3\"", "search,viscous"] {
         assert!(compared.lines().any(|l| l.starts_with(name)), "{name}: {compared}");
     }
+    assert!(compared.lines().next().is_some_and(|l| l.ends_with("which joints")), "{compared}");
+    let greedy = compared.lines().find(|l| l.starts_with("greedy by"));
+    assert!(greedy.is_some_and(|l| l.contains("p1c")), "{compared}");
     // All is in the store: the report is made again, to the last byte, without a run.
     let parts = || std::fs::read_dir(desk.path("out/runs")).map(Iterator::count).unwrap_or(0);
     let before = parts();
