@@ -133,8 +133,7 @@ impl<'b, 'r> Bench<'b, 'r> {
     /// failed.
     fn first_cracks(&mut self, trials: &[Trial]) -> Result<Option<Vec<f64>>> {
         let [low, high] = self.question.input.crack_scales;
-        let name = String::new();
-        let subject = |trial: &Trial| Ok(Subject { name: name.clone(), case: self.case(trial, 1.0)? });
+        let subject = |trial: &Trial| Ok(Subject { name: String::new(), case: self.case(trial, 1.0)? });
         let subjects = trials.par_iter().map(subject).collect::<Vec<_>>().into_iter().collect::<Result<Vec<_>>>()?;
         let rule = Rule::new(Criterion::Bond, None);
         let input = FirstCrackInput::default();

@@ -14,7 +14,6 @@ use concio::wall::{Joint, Wall};
 use concio::{graph, pattern};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::Plan;
 use crate::factors::Over;
@@ -22,13 +21,14 @@ use crate::file::{PerJoint, StudyFile};
 use crate::first_crack::check_limit;
 use crate::limits::{Criterion, Limits, Rule};
 use crate::measures::{End, Row};
+use crate::sensitivity::student;
 
 /// Slack of corners that meet, over the length of the wall.
 const SLACK: f64 = 1e-6;
 /// Two-sided 95 % of a normal variable.
 const DEVIATIONS: f64 = 1.959_963_984_540_054;
-/// Share of Student's law below the upper end of such an interval.
-const UPPER: f64 = 0.975;
+/// Confidence of such an interval.
+const CONFIDENCE: f64 = 0.95;
 
 /// `[cracks]` of a study file: how often and in which order joints crack, and which lines they form.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -266,8 +266,7 @@ pub fn interval(motions: &[usize], runs: &[bool]) -> [f64; 2] {
     let variance = m / (m - 1.0) * sums.values().map(|[hits, of]| (hits - p * of).powi(2)).sum::<f64>() / (n * n);
     let alone = p * (1.0 - p);
     let telling = if alone > 0.0 { (alone / variance).min(n) } else { m };
-    let t = StudentsT::new(0.0, 1.0, m - 1.0).map_or(DEVIATIONS, |law| law.inverse_cdf(UPPER));
-    wilson(p, telling, t)
+    wilson(p, telling, student(m - 1.0, CONFIDENCE))
 }
 
 /// Interval of a probability that a share `p` of `n` independent runs estimates, to `z` deviations.

@@ -303,18 +303,19 @@ impl<'a> Seek<'a> {
         let model = &prepared.model;
         let mode = first_mode(model);
         let shaking = Shaking::of(&model.excitation, &question.periods, mode);
+        let limits = Limits::of(model, &question.rule);
         let joint = |j| (concio::graph::name(&model.wall, j), kind_name(j.kind));
         Ok(Seek {
             question,
             name: &subject.name,
             case: &subject.case,
-            limits: Limits::of(model, &question.rule),
             joints: model.joints.iter().map(joint).collect(),
-            cause: match (shaking.pga == 0.0, Limits::of(model, &question.rule).is_none()) {
+            cause: match (shaking.pga == 0.0, &limits) {
                 (true, _) => Some("the base does not accelerate during the run".into()),
-                (_, true) => Some("no joint of the wall can crack by the rule".into()),
+                (_, None) => Some("no joint of the wall can crack by the rule".into()),
                 _ => None,
             },
+            limits,
             shaking,
             mode,
             trials: Vec::new(),

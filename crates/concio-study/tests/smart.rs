@@ -169,20 +169,23 @@ fn first_cracking_is_an_objective() {
         .replace("runs = 400", "runs = 4000\ncrack_within = 0.01")
         // A device in the place of mortar has no bond.
         .replace("friction = { law = \"none\" } }", "friction = { law = \"none\" }, bond = { cohesion = 0 } }");
-    let value = |bond: &str| {
-        let desk = Desk::new(&WALL.replace("BOND", bond));
-        let plan = desk.plan(&study.replace("population = 8", "population = 4")).expect("a plan");
-        let question = interfaces::question(&plan).expect("a question");
-        let watch = |_: &Progress| Control::Continue;
-        let mut runner = Runner::open(&desk.path("out"), &Default::default(), 2, &watch).expect("a store");
-        let mut bench = concio_study::bench::Bench::new(&plan, &question, &mut runner);
-        let trial = concio_study::bench::Trial { design: None, scene: 0, factor: 1.0 };
-        let values = bench.values(&[trial]).expect("values").expect("not stopped");
-        values[0][0]
-    };
+    let value =
+        |bond: &str| first_crack(&WALL.replace("BOND", bond), &study.replace("population = 8", "population = 4"));
     let [single, double] = [value(BOND), value(&BOND.replace("0.1", "0.2"))];
     assert!(single > 0.02 && double < 20.0, "{single} {double}");
     assert!((double / single - 2.0).abs() < 0.03, "{single} {double}");
+}
+
+/// The first objective of a study for the wall as it is.
+fn first_crack(wall: &str, study: &str) -> f64 {
+    let desk = Desk::new(wall);
+    let plan = desk.plan(study).expect("a plan");
+    let question = interfaces::question(&plan).expect("a question");
+    let watch = |_: &Progress| Control::Continue;
+    let mut runner = Runner::open(&desk.path("out"), &Default::default(), 2, &watch).expect("a store");
+    let mut bench = concio_study::bench::Bench::new(&plan, &question, &mut runner);
+    let trial = concio_study::bench::Trial { design: None, scene: 0, factor: 1.0 };
+    bench.values(&[trial]).expect("values").expect("not stopped")[0][0]
 }
 
 /// A wall that cracks at a scale, stands more, and cracks again: the least scale counts. The wall is a bonded block on one that slides on its base; single runs from 2.5 on by 0.05
@@ -228,15 +231,8 @@ measure = "first_cracking"
 name = "spring"
 change = { device = { law = "elastic", stiffness = "1e5 N/m" } }
 "#;
-    let desk = Desk::new(wall);
-    let plan = desk.plan(study).expect("a plan");
-    let question = interfaces::question(&plan).expect("a question");
-    let watch = |_: &Progress| Control::Continue;
-    let mut runner = Runner::open(&desk.path("out"), &Default::default(), 2, &watch).expect("a store");
-    let mut bench = concio_study::bench::Bench::new(&plan, &question, &mut runner);
-    let trial = concio_study::bench::Trial { design: None, scene: 0, factor: 1.0 };
-    let values = bench.values(&[trial]).expect("values").expect("not stopped");
-    assert!((2.45..2.6).contains(&values[0][0]), "{values:?}");
+    let scale = first_crack(wall, study);
+    assert!((2.45..2.6).contains(&scale), "{scale}");
 }
 
 /// The error of a study file.

@@ -10,7 +10,9 @@
 
 use std::f64::consts::PI;
 
-use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use crate::sensitivity::student;
 
 use super::likelihood::{Evidence, Likelihood, Place, phi};
 
@@ -83,11 +85,7 @@ pub fn fit_clusters(evidence: &[Evidence], of: &[usize], confidence: f64) -> Res
     let mut telling: Vec<usize> = evidence.iter().zip(of).filter(|(e, _)| located(e)).map(|(_, of)| *of).collect();
     telling.sort_unstable();
     telling.dedup();
-    let n = match (clusters.is_some(), telling.len()) {
-        (false, located) => located as f64,
-        (true, 0) => names.len() as f64,
-        (true, located) => located as f64,
-    };
+    let n = if clusters.is_some() && telling.is_empty() { names.len() } else { telling.len() } as f64;
     let [a, b] = place;
     let mut fit = Fragility {
         median: (likelihood.centre - a / b).exp(),
@@ -130,7 +128,7 @@ fn threshold(n: f64, clustered: bool, confidence: f64) -> f64 {
         let chi = ChiSquared::new(1.0).map_or(f64::NAN, |d| d.inverse_cdf(confidence));
         return if clustered { f64::INFINITY } else { chi };
     }
-    let t = StudentsT::new(0.0, 1.0, n - 1.0).map_or(f64::NAN, |d| d.inverse_cdf(0.5 + 0.5 * confidence));
+    let t = student(n - 1.0, confidence);
     n * (t * t / (n - 1.0)).ln_1p()
 }
 

@@ -42,11 +42,14 @@ impl Way {
                 let Some(last) = points.last() else { return vec![*first] };
                 let collapse = points.iter().position(|p| p.collapsed);
                 let open = open(points, limits, [*resolution, 0.1 * first]);
+                let widest = open.iter().reduce(|a, b| if b.width > a.width * (1.0 + 1e-12) { b } else { a });
+                let close = || widest.map(|gap| vec![gap.middle]);
                 // What is left is just enough for them.
-                if !open.is_empty() && runs - points.len() <= open.iter().map(|gap| gap.runs).sum() {
-                    return widest(&open);
+                if runs - points.len() <= open.iter().map(|gap| gap.runs).sum()
+                    && let Some(next) = close()
+                {
+                    return next;
                 }
-                let close = || if open.is_empty() { None } else { Some(widest(&open)) };
                 let Some(collapse) = collapse else {
                     if last.intensity >= most * (1.0 - 1e-12) {
                         return close().unwrap_or_else(|| fill(points));
@@ -90,12 +93,6 @@ fn open(points: &[Point], limits: &[f64], [resolution, least]: [f64; 2]) -> Vec<
         Gap { width, middle: low + 0.5 * gap, runs: (width / resolution).log2().ceil().max(1.0) as usize }
     };
     uppers.into_iter().map(gap).filter(|gap| gap.width > resolution).collect()
-}
-
-/// The middle of the widest.
-fn widest(open: &[Gap]) -> Vec<f64> {
-    let widest = open.iter().reduce(|a, b| if b.width > a.width * (1.0 + 1e-12) { b } else { a });
-    widest.map_or_else(Vec::new, |gap| vec![gap.middle])
 }
 
 /// The middle of the widest gap, the lowest of several, that below the first intensity included.

@@ -321,6 +321,14 @@ fn number(value: &Value, unit: &str) -> Option<f64> {
     }
 }
 
+impl Settings {
+    /// The intensities to run next, given those that were run, rising ([`Way::next`]).
+    pub fn next(&self, points: &[Point]) -> Vec<f64> {
+        let limits: Vec<f64> = self.limits.iter().map(|(_, value)| *value).collect();
+        self.way.next(points, &limits)
+    }
+}
+
 /// An incremental analysis under way.
 #[derive(Debug)]
 pub struct Analysis<'a> {
@@ -383,13 +391,9 @@ impl<'a> Analysis<'a> {
 
     /// What is asked next of the curves in `share`: numbers of curves and intensities. Empty when they are done.
     pub fn questions(&self, share: &dyn Fn(usize) -> bool) -> Vec<(usize, f64)> {
-        let limits: Vec<f64> = self.settings.limits.iter().map(|(_, value)| *value).collect();
         let of = |(number, curve): (usize, &Curve)| {
-            let asked = if share(number) && curve.failed.is_none() {
-                self.settings.way.next(&curve.points, &limits)
-            } else {
-                Vec::new()
-            };
+            let asked =
+                if share(number) && curve.failed.is_none() { self.settings.next(&curve.points) } else { Vec::new() };
             asked.into_iter().map(move |intensity| (number, intensity))
         };
         self.curves.iter().enumerate().flat_map(of).collect()

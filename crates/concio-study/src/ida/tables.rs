@@ -35,11 +35,11 @@ pub fn capacities(settings: &Settings, curves: &[Curve]) -> Table {
     let last = |c: &Curve| c.points.last().map(|p| p.intensity);
     let unit = settings.intensity.unit();
     table.numbers("highest run", unit, curves.iter().map(last).collect());
+    // Of curves that still ask for runs nothing is known for good.
+    let done = |c: &&Curve| c.failed.is_none() && settings.next(&c.points).is_empty();
+    let all: Vec<Option<&Curve>> = curves.iter().map(|c| Some(c).filter(done)).collect();
+    let usable = || all.iter().copied();
     for (name, value) in &settings.limits {
-        let limits: Vec<f64> = settings.limits.iter().map(|(_, value)| *value).collect();
-        // Of curves that still ask for runs nothing is known for good.
-        let done = |c: &&Curve| c.failed.is_none() && settings.way.next(&c.points, &limits).is_empty();
-        let usable = || curves.iter().map(|c| Some(c).filter(done));
         let cell = |c: &Curve| match c.capacity(*value) {
             Evidence::At(y) => Some(y),
             Evidence::Within([low, high]) => Some((low * high).sqrt()),

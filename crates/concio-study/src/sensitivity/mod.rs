@@ -14,6 +14,7 @@ use concio::dice::Dice;
 use concio::quantity::shown;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::Plan;
 use crate::design::At;
@@ -57,6 +58,11 @@ pub struct Index {
     pub value: f64,
     /// Its interval.
     pub interval: [f64; 2],
+}
+
+/// By how many deviations an interval of that confidence lies on either side, by Student's law with so many degrees of freedom.
+pub(crate) fn student(freedom: f64, confidence: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |law| law.inverse_cdf(0.5 + 0.5 * confidence))
 }
 
 /// How the bootstrap is done.
