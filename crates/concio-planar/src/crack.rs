@@ -32,6 +32,8 @@ use crate::zone::{self, Local, Moments, Zone};
 
 /// Nodes of a joint: a crack advances by 1/128 of it.
 const NODES: usize = 129;
+/// Nodes of a joint without bond at which it is known what is crushed: what rocks back over that leans on a narrow edge.
+const CRUSHED_NODES: usize = 513;
 /// Points of what has cracked: two for each zone.
 pub(crate) const DRY: usize = 2 * ZONES;
 /// Points of what is left of the bond.
@@ -52,6 +54,8 @@ const APART: f64 = 1e3;
 const NOTHING: f64 = 1e-9;
 /// Part of the strength up to which a corner is a contact point.
 const WELL_BELOW: f64 = 0.5;
+/// Part by which what points bear may be off where the joint is crushed, before a step is halved.
+const FOLLOWS: f64 = 0.02;
 /// Part by which the pressure of what crushes is below the strength at most.
 const HARDLY: f64 = 0.01;
 
@@ -180,14 +184,16 @@ pub(crate) fn moves(law: &Law) -> bool {
     law.bond.is_some() || law.has_zones()
 }
 
-/// Whether all of a joint of this law pulls: without bond springs in both directions do for good.
-fn pulls(law: &Law) -> bool {
-    law.bond.is_none() && !law.only_presses()
-}
-
 /// At how many nodes of a joint of this law it is known what is crushed.
 fn crushed_nodes(law: &Law) -> usize {
-    if moves(law) && law.is_compliant() && law.crushing.is_finite() { NODES } else { 0 }
+    let known = moves(law) && law.is_compliant() && law.crushing.is_finite();
+    if !known {
+        0
+    } else if law.bond.is_some() {
+        NODES
+    } else {
+        CRUSHED_NODES
+    }
 }
 
 /// How many points a joint of this law has at most.
@@ -270,7 +276,7 @@ impl Crack {
     /// Where its sides face each other no more: all that has no bond is open, and what springs keep beyond that of the points is lost, which is returned [J].
     pub(crate) fn part(&mut self, law: &Law, points: &mut [Point]) -> f64 {
         let pressed = self.placed.iter().enumerate().any(|(kind, placed)| kind != OPEN && placed[0] > 0.0);
-        if !law.is_compliant() || pulls(law) || !pressed {
+        if !law.is_compliant() || !pressed {
             return 0.0;
         }
         let lost = self.hidden;
@@ -295,12 +301,11 @@ impl Crack {
         let Normal::Springs { both, press, .. } = law.normal else { return zones };
         let stiffness = both + press;
         let most = law.crushing / stiffness;
-        let pulls = pulls(law);
         let [from, to] = [line[0][0], line[1][0]];
         let gone = self.is_gone();
         let mut take = |[a, b]: [(f64, Local); 2], pressed: usize| {
             let mut add = |ends: [(f64, Local); 2]| {
-                let opens = ends[0].1[3].max(ends[1].1[3]) > TOUCHING && !pulls;
+                let opens = ends[0].1[3].max(ends[1].1[3]) > TOUCHING;
                 zones[if opens { OPEN } else { pressed }].add(ends);
             };
             let [start, end] = [a.1[3], b.1[3]];
@@ -320,35 +325,69 @@ impl Crack {
             take([(0.0, [1.0, 1.0, 1.0, from]), (1.0, [1.0, 1.0, 1.0, to])], PRESSED);
         } else {
             let depth = |n: usize| *self.crushed.get(n).unwrap_or(&0.0);
-            let gap = |n: usize| between(line, place(n))[0] + depth(n);
             let local = |n: usize| self.nodes.get(n).map_or([1.0; 2], |node| [node.damage(), node.chi()]);
-            let plain = |n: usize| n < NODES && local(n)[0] == 1.0 && depth(n) == 0.0;
+            let place = |n: usize| self.place_of(n);
+            let last = self.nodes.len().max(self.crushed.len()) - 1;
+            let plain = |n: usize| n <= last && local(n)[0] == 1.0 && depth(n) == 0.0;
             // Of springs of which some act in compression only as long as nothing has cracked.
             let acts = |cracked: f64| if gone { 1.0 } else { (both * cracked + press) / stiffness };
             let mut n = 0;
-            while n < NODES - 1 {
+            while n < last {
                 // What has cracked for good is alike as far as it goes.
                 let mut end = n + 1;
                 while plain(n) && plain(end) && plain(end + 1) {
                     end += 1;
                 }
-                let ends = [n, end].map(|n| {
-                    let [cracked, rubs] = local(n);
-                    (place(n), [acts(cracked), cracked, rubs, gap(n)])
-                });
-                let [(_, first), (_, last)] = ends;
-                if first[0] > 0.0 || last[0] > 0.0 {
-                    let pressed = match first[3].max(last[3]) <= -most * (1.0 - HARDLY) {
-                        true => CRUSHING,
-                        false if depth(n) > 0.0 && depth(end) > 0.0 => CRUSHED,
-                        false => PRESSED,
-                    };
-                    take(ends, pressed);
+                let [from, to] = [local(n), local(end)];
+                let mut piece = |ends: [[f64; 2]; 2]| {
+                    let ends = ends.map(|[at, deep]| {
+                        let [cracked, rubs] = zone::between(&from, &to, (at - place(n)) / (place(end) - place(n)));
+                        (at, [acts(cracked), cracked, rubs, between(line, at)[0] + deep])
+                    });
+                    let [(_, first), (_, last)] = ends;
+                    if first[0] > 0.0 || last[0] > 0.0 {
+                        let pressed = match first[3].max(last[3]) <= -most * (1.0 - HARDLY) {
+                            true => CRUSHING,
+                            false if depth(n) > 0.0 && depth(end) > 0.0 => CRUSHED,
+                            false => PRESSED,
+                        };
+                        take(ends, pressed);
+                    }
+                };
+                match self.edge(n).filter(|_| end == n + 1) {
+                    Some(edge) => {
+                        piece([[place(n), depth(n)], [edge, 0.0]]);
+                        piece([[edge, 0.0], [place(end), depth(end)]]);
+                    }
+                    None => piece([[place(n), depth(n)], [place(end), depth(end)]]),
                 }
                 n = end;
             }
         }
         zones
+    }
+
+    /// Where what is crushed ends between a node and the next one: as the line through the last two nodes of it says, if it ends there.
+    fn edge(&self, n: usize) -> Option<f64> {
+        let depth = |n: Option<usize>| n.and_then(|n| self.crushed.get(n)).copied().unwrap_or(0.0);
+        let [deeper, deep, rest, sense] = match [depth(Some(n)), depth(Some(n + 1))] {
+            [deep, 0.0] if deep > 0.0 => [depth(n.checked_sub(1)), deep, self.place_of(n), 1.0],
+            [0.0, deep] if deep > 0.0 => [depth(Some(n + 2)), deep, self.place_of(n + 1), -1.0],
+            _ => return None,
+        };
+        let reach = deep / (deeper - deep);
+        (reach > 0.0 && reach < 1.0).then(|| rest + sense * reach * self.place_of(1))
+    }
+
+    /// Place of a node of which it is known what is crushed, 0 … 1.
+    fn place_of(&self, node: usize) -> f64 {
+        node as f64 / (self.nodes.len().max(self.crushed.len()) - 1) as f64
+    }
+
+    /// The part of the joint that such a node stands for.
+    fn weight(&self, node: usize) -> f64 {
+        let last = self.crushed.len() - 1;
+        if node == 0 || node == last { 0.5 * self.place_of(1) } else { self.place_of(1) }
     }
 
     /// Whether it has the nodes of a joint of this law, as one that was read back may not.
@@ -440,7 +479,6 @@ impl Crack {
                 spots.extend([held(0, centre - away), held(1, centre + away)]);
             }
         }
-        let pulls = pulls(law);
         self.placed = zones.map(|zone| [zone.acts[0], zone.acts[1]]);
         self.hidden = 0.0;
         let crushed = self.depth() > 0.0;
@@ -463,11 +501,7 @@ impl Crack {
             let points = || points.into_iter().filter(|[_, share]| *share > NOTHING);
             // A line through an uneven zone may leave what such a zone has: it is turned as far as it has to be.
             let mean = zone.gap[0] / zone.acts[0];
-            let limits = if kind == OPEN {
-                [0.0, f64::INFINITY]
-            } else {
-                [-law.crushing / stiffness, if pulls { f64::INFINITY } else { 0.0 }]
-            };
+            let limits = if kind == OPEN { [0.0, f64::INFINITY] } else { [-law.crushing / stiffness, 0.0] };
             let turned = points().fold(1.0, |turned: f64, [at, _]| {
                 let limit = if gap(at) < mean { limits[0] } else { limits[1] };
                 if (gap(at) - mean).abs() > (limit - mean).abs() {
@@ -508,16 +542,48 @@ impl Crack {
         })
     }
 
+    /// Whether its points, at these gaps now [m], bear nearly what the whole of it does that has cracked, where some of it is crushed.
+    pub(crate) fn follows(&self, law: &Law, points: &[Point], gaps: impl Iterator<Item = (usize, f64)>) -> bool {
+        if self.depth() == 0.0 || !self.is_gone() {
+            return true;
+        }
+        let stiffness = law.normal_stiffness();
+        let bears = |gap: f64| (-stiffness * gap).clamp(0.0, law.crushing);
+        let place_of = |point: usize| self.spots.iter().find(|spot| spot.point == point);
+        let (mut ends, mut found) = ([[f64::INFINITY, 0.0], [f64::NEG_INFINITY, 0.0]], [0.0; 2]);
+        for (spot, gap) in gaps.filter_map(|(point, gap)| Some((place_of(point)?, gap))) {
+            let force = spot.share * bears(gap + points[spot.point].crushed);
+            found = [found[0] + force, found[1] + force * spot.at];
+            if spot.at < ends[0][0] {
+                ends[0] = [spot.at, gap];
+            }
+            if spot.at > ends[1][0] {
+                ends[1] = [spot.at, gap];
+            }
+        }
+        let [[from, near], [to, far]] = ends;
+        if !(to > from) {
+            return true;
+        }
+        let slope = (far - near) / (to - from);
+        let mut whole = [0.0; 2];
+        for (n, crushed) in self.crushed.iter().enumerate() {
+            let at = self.place_of(n);
+            let force = self.weight(n) * bears(near + slope * (at - from) + crushed);
+            whole = [whole[0] + force, whole[1] + force * at];
+        }
+        (0..2).all(|k| (whole[k] - found[k]).abs() <= FOLLOWS * found[0].max(FOLLOWS * law.crushing))
+    }
+
     /// Crushes what is pressed harder than it bears, its ends being as far apart as `line` says; what that takes [J].
     fn crush(&mut self, law: &Law, line: &[[f64; 2]; 2]) -> f64 {
         let most = law.crushing / law.normal_stiffness();
         let mut taken = 0.0;
-        for (n, crushed) in self.crushed.iter_mut().enumerate() {
-            let to = -between(line, place(n))[0] - most;
-            if to > *crushed {
-                let weight = if n == 0 || n == NODES - 1 { 0.5 } else { 1.0 } / (NODES - 1) as f64;
-                taken += weight * law.crushing * (to - *crushed);
-                *crushed = to;
+        for n in 0..self.crushed.len() {
+            let to = -between(line, self.place_of(n))[0] - most;
+            if to > self.crushed[n] {
+                taken += self.weight(n) * law.crushing * (to - self.crushed[n]);
+                self.crushed[n] = to;
             }
         }
         taken
@@ -566,7 +632,7 @@ impl Crack {
                 Part::Dry => {
                     let k = spot.share * (both + press);
                     let gap = point.gap + point.crushed;
-                    0.5 * k * if pulls(law) { gap } else { gap.min(0.0) }.powi(2)
+                    0.5 * k * gap.min(0.0).powi(2)
                 }
                 // Of the whole there is no point where there is a bond.
                 Part::Whole | Part::Stays => 0.5 * residual * shear * point.slide * point.slide,

@@ -1,6 +1,6 @@
 //! What a joint bears at its contact points during one step: springs, dashpots, friction, bond, crushing.
 //!
-//! A rigid joint has two points, its ends, or seventeen where its pressure is bounded. A compliant one has those of its zones ([`crate::crack`]), or if all of it
+//! A rigid joint has two points, its ends. A compliant one has those of its zones ([`crate::crack`]), or if all of it
 //! pulls three: its ends and its middle, with a sixth, two thirds and a sixth of its length, which gives a layer of springs its stiffness against parting and against
 //! turning. Over a step the stretch g of a spring goes on with the mean of the velocities at its ends, and its
 //! force is that of g_0 + θ (g_1 − g_0):
@@ -14,33 +14,12 @@
 //! the midpoint, θ = ½, which keeps energy whatever the step: the modes of a mortared wall are slower than its joints alone, and
 //! would be damped with them.
 
-use std::array;
-use std::f64::consts::PI;
-use std::sync::LazyLock;
-
 use concio_device as device;
 use serde::{Deserialize, Serialize};
 
 use crate::G;
 use crate::contact::{Contact, Linear, Status};
 use crate::crack::Part;
-
-/// Intervals between the points of a joint that may be crushed and whose points stay where they are.
-const CRUSHABLE: usize = 16;
-
-/// Place and share of those points by the rule of Clenshaw and Curtis (1960): many where the toe is. Where its middle is crushed decides what such a joint bears,
-/// and its moment is off by at most w²/8 of its strength and length, w being the share of the point at which that is.
-static CRUSHABLE_POINTS: LazyLock<[[f64; 2]; CRUSHABLE + 1]> = LazyLock::new(|| {
-    let (n, turn) = (CRUSHABLE as f64, PI / CRUSHABLE as f64);
-    array::from_fn(|k| {
-        let terms = (1..=CRUSHABLE / 2).map(|j| {
-            let twice = if 2 * j == CRUSHABLE { 1.0 } else { 2.0 };
-            twice * ((2 * j * k) as f64 * turn).cos() / (4 * j * j - 1) as f64
-        });
-        let share = (1.0 - terms.sum::<f64>()) / n;
-        [0.5 - 0.5 * (k as f64 * turn).cos(), if k % CRUSHABLE == 0 { 0.5 * share } else { share }]
-    })
-});
 
 /// Stiffness of what grips, over the mass that the point moves and the square of the step.
 const GRIP: f64 = 1e8;
@@ -56,7 +35,7 @@ pub struct Law {
     pub friction: Option<Friction>,
     /// What holds it until it cracks.
     pub bond: Option<Bond>,
-    /// Pressure at which it is crushed [N]; infinite where it is not.
+    /// Pressure at which it is crushed [N]; infinite where it is not. Of joints with springs alone that do not pull once their bond is gone.
     pub crushing: f64,
     /// Force at which it yields across and along, whatever the pressure, as a friction damper does [N]; 0 for none.
     pub slip: [f64; 2],
@@ -234,10 +213,9 @@ impl Law {
 
     /// Places of its points that stay where they are, 0 … 1 along the joint, and the part of it that each stands for.
     pub fn points(&self) -> &'static [[f64; 2]] {
-        match (self.crushing.is_finite(), self.is_compliant()) {
-            (true, _) => &*CRUSHABLE_POINTS,
-            (false, true) => &[[0.0, 1.0 / 6.0], [0.5, 2.0 / 3.0], [1.0, 1.0 / 6.0]],
-            (false, false) => &[[0.0, 0.5], [1.0, 0.5]],
+        match self.is_compliant() {
+            true => &[[0.0, 1.0 / 6.0], [0.5, 2.0 / 3.0], [1.0, 1.0 / 6.0]],
+            false => &[[0.0, 0.5], [1.0, 0.5]],
         }
     }
 
@@ -292,15 +270,9 @@ impl Law {
         self.is_compliant() && self.springs().0 == 0.0 && self.device.is_none()
     }
 
-    /// Whether its points stand for zones that move along it without bond: springs that only press let go of what opens, any springs of what is crushed.
+    /// Whether its points stand for zones that move along it without bond, as springs that only press let go of what opens.
     pub(crate) fn has_zones(&self) -> bool {
-        let moves = self.crushing.is_finite() || self.springs().0 == 0.0;
-        self.is_compliant()
-            && self.normal_stiffness() > 0.0
-            && moves
-            && !self.follows
-            && self.slip == [0.0; 2]
-            && self.device.is_none()
+        self.only_presses() && self.normal_stiffness() > 0.0 && !self.follows && self.slip == [0.0; 2]
     }
 
     /// Lets go what a point keeps in springs that act only where its sides face each other, which they do no more; returns that [J].
@@ -475,7 +447,7 @@ impl Law {
         match self.normal {
             Normal::Rigid { restitution, .. } => {
                 // Open: what is left of the gap may be closed by the end of the step.
-                let left = gap + point.crushed + 0.5 * h * u_n;
+                let left = gap + 0.5 * h * u_n;
                 contact.bias = if left > 0.0 { 2.0 * left / h } else { restitution * u_n.min(0.0) };
                 if let Some(bond) = &self.bond {
                     contact.pressure[0] = -share * bond.tension * h;
@@ -483,16 +455,9 @@ impl Law {
             }
             Normal::Springs { .. } => {
                 let beside = if self.damps_both() { dashpot } else { 0.0 };
-                // What crushes is all that presses.
-                let bounded = self.crushing.is_finite() && both > 0.0 && gap + point.crushed + 0.5 * h * u_n < 0.0;
-                let (apart, within) = if bounded { (0.0, both + press) } else { (both, press) };
-                let theta = if bounded { midpoint } else { theta_press };
-                contact.spring[0] = over(apart, beside, gap + point.crushed, u_n, midpoint);
-                contact.law[0] = over(within, dashpot - beside, gap + point.crushed, u_n, theta);
+                contact.spring[0] = over(both, beside, gap + point.crushed, u_n, midpoint);
+                contact.law[0] = over(press, dashpot - beside, gap + point.crushed, u_n, theta_press);
                 contact.compliant[0] = true;
-                if bounded {
-                    contact.pressure[0] = f64::NEG_INFINITY;
-                }
             }
         }
         contact.pressure[1] = share * self.crushing * h;
@@ -606,16 +571,8 @@ impl Law {
         Across { h, mean, gaps: [start, gap], slipped, pressed, linear }: Across,
         works: &mut Works,
     ) {
-        let most = share * self.crushing;
         let Normal::Springs { .. } = self.normal else {
             works.impact -= pressed * mean;
-            if pressed >= h * most {
-                // The rest of the way the sides were still apart.
-                let further = (-gap - point.crushed).max(0.0);
-                point.crushed += further;
-                works.bond += most * further;
-                works.impact -= most * further;
-            }
             return;
         };
         let (both, press) = self.springs();
@@ -631,7 +588,7 @@ impl Law {
             works.impact += stored(point.gap, point.crushed) - before;
         }
         let mut after = stored(gap, point.crushed);
-        let all = both + press;
+        let (all, most) = (both + press, share * self.crushing);
         if all > 0.0 && -all * (gap + point.crushed) > most {
             let further = -gap - most / all - point.crushed;
             point.crushed += further;

@@ -372,6 +372,8 @@ pub struct Motion {
     /// Ends held back in rocking impacts, whose contacts follow those; whether a joint has any.
     holds: Vec<Hold>,
     rocks: bool,
+    /// Whether some joint can be crushed.
+    crushes: bool,
     /// Contacts of devices with a law of their own.
     bent: Vec<Bent>,
     free: Vec<Triple>,
@@ -416,6 +418,7 @@ impl Motion {
             pulls: Vec::with_capacity(system.ties.len()),
             holds: Vec::new(),
             rocks: system.links.iter().map(|link| &link.law).chain([&system.other]).any(|law| law.rocking().is_some()),
+            crushes: system.links.iter().any(|link| link.law.crushing.is_finite()),
             bent: Vec::new(),
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
@@ -582,7 +585,7 @@ impl Motion {
         };
         self.count(effort);
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
-        if !enough && halvings > 0 {
+        if halvings > 0 && !(enough && self.follows_crushing(h)) {
             return false;
         }
         self.counters.steps += 1;
@@ -848,6 +851,28 @@ impl Motion {
                 }
             }
         }
+    }
+
+    /// Whether the points of all joints that have been crushed bear at the end of a step of `h` [s] what the joints do.
+    fn follows_crushing(&self, h: f64) -> bool {
+        let mut at = 0;
+        !self.crushes
+            || self.owners.chunk_by(|a, b| a.pair == b.pair).all(|owners| {
+                let contacts = &self.contacts[at..at + owners.len()];
+                at += owners.len();
+                let Pair { crack, points, link, .. } = &self.pairs[owners[0].pair];
+                let law = self.laws.of(*link);
+                let Some(crack) = crack.as_ref().filter(|_| law.crushing.is_finite()) else { return true };
+                let gaps = |part: f64| {
+                    let dry = owners.iter().zip(contacts).filter(|(owner, _)| owner.part == Part::Dry);
+                    dry.map(move |(owner, contact)| {
+                        let mean = 0.5 * (owner.start.velocity[0] + contact.velocity(&self.after)[0]);
+                        (owner.point, owner.start.gap + part * h * mean)
+                    })
+                };
+                // Where the nodes are too few for what is pressed, shorter steps do not help.
+                crack.follows(law, points, gaps(1.0)) || !crack.follows(law, points, gaps(0.0))
+            })
     }
 
     /// Cracks and crushes the joints by a step that ended at `time` [s].

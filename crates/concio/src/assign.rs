@@ -84,6 +84,17 @@ impl JointLaw {
         self.spring.stiffness.over(joint.area(wall) / joint.weight)
     }
 
+    /// Whether its springs have no stiffness.
+    fn lacks_stiffness(&self) -> bool {
+        let Spring { law, stiffness, stiffness_factor, .. } = self.spring;
+        matches!(law, SpringLaw::Elastic | SpringLaw::NoTension) && stiffness.amount() * stiffness_factor == 0.0
+    }
+
+    /// Whether it bears pressure up to a strength.
+    fn crushes(&self) -> bool {
+        self.spring.compressive_strength.is_some() && self.spring.law != SpringLaw::None
+    }
+
     /// The joint's device, if it has one.
     pub fn device<'c>(&self, case: &'c Case) -> Option<&'c Device> {
         case.joint.changes.get(self.device? as usize)?.device.as_ref()
@@ -189,25 +200,39 @@ pub fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLa
     Ok(laws)
 }
 
-/// Refuses springs without stiffness in planar walls, whose blocks would pass through each other.
+/// Refuses joints of planar walls that bear no pressure, or that would bear it in a way that no joint does.
 fn bears(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Result<()> {
-    let weak = |law: &JointLaw| {
-        let Spring { law: kind, stiffness, stiffness_factor, .. } = law.spring;
-        let springs = matches!(kind, SpringLaw::Elastic | SpringLaw::NoTension);
-        springs && law.device.is_none() && stiffness.amount() * stiffness_factor == 0.0
-    };
-    let Some(e) = laws.iter().position(weak) else { return Ok(()) };
-    let choice = Choice { wall, joints, names: OnceCell::new() };
-    let changes =
-        |change: &JointChange| change.spring.is_some() && choice.of(&change.at).is_ok_and(|chosen| chosen.contains(&e));
-    let key = match case.joint.changes.iter().rposition(changes) {
-        Some(number) => format!("joint.change[{number}].spring"),
-        None => format!("joint.{}", given_at(&case.joint, joints[e].kind)),
-    };
-    let error =
-        InputError::new("a joint without stiffness would let the blocks of a planar wall pass through each other");
-    let allowed = "`stiffness` and `stiffness_factor` above 0; `law = \"none\"` where there is nothing between them";
-    Err(error.key(key).allowed(allowed).into())
+    type Fault = fn(&JointLaw) -> bool;
+    let faults: [(Fault, &str, &str); 3] = [
+        (
+            JointLaw::lacks_stiffness,
+            "a joint without stiffness would let the blocks of a planar wall pass through each other",
+            "`stiffness` and `stiffness_factor` above 0; `law = \"none\"` where there is nothing between them",
+        ),
+        (
+            |law| law.crushes() && law.spring.law == SpringLaw::Elastic && crate::planar::bond_of(law).is_none(),
+            "a joint of law `elastic` without a bond pulls without limit, and cannot crush",
+            "`law = \"no-tension\"`, a `bond`, or no `compressive_strength`",
+        ),
+        (
+            |law| law.crushes() && (law.spring.restitution.is_some() || law.spring.rocking_restitution.is_some()),
+            "a joint that can crush gives back what its springs store, not a part of its velocity",
+            "`compressive_strength` without `restitution` and `rocking_restitution`, or those alone",
+        ),
+    ];
+    for (has, message, allowed) in faults {
+        let Some(e) = laws.iter().position(|law| law.device.is_none() && has(law)) else { continue };
+        let choice = Choice { wall, joints, names: OnceCell::new() };
+        let changes = |change: &JointChange| {
+            change.spring.is_some() && choice.of(&change.at).is_ok_and(|chosen| chosen.contains(&e))
+        };
+        let key = match case.joint.changes.iter().rposition(changes) {
+            Some(number) => format!("joint.change[{number}].spring"),
+            None => format!("joint.{}", given_at(&case.joint, joints[e].kind)),
+        };
+        return Err(InputError::new(message).key(key).allowed(allowed).into());
+    }
+    Ok(())
 }
 
 /// The table of `[joint]` that a kind of joint takes its spring from.

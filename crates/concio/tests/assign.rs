@@ -133,7 +133,7 @@ fn planar_numbers_come_through_changes() {
         "[load]",
         "[[joint.change]]\nat = { course = [1] }\nspring = { normal_to_shear = 3, compressive_strength = \"2 MPa\" }\n[load]",
     );
-    let (wall, joints, laws) = laws(&case(&text));
+    let (wall, joints, laws) = laws(&case(&text.replace("\"elastic\"", "\"no-tension\"")));
     for (joint, law) in joints.iter().zip(&laws) {
         let first = joint.kind != JointKind::Bed && wall.blocks[joint.a].course == 0;
         let given = if joint.kind.is_upright() { Some(4e6) } else { None };
@@ -142,5 +142,42 @@ fn planar_numbers_come_through_changes() {
         assert_eq!(spring.normal_to_shear, if first { 3.0 } else { 2.4 });
         assert_eq!(strength, if first { Some(2e6) } else { given });
         assert_ne!(spring.law, SpringLaw::None);
+    }
+}
+
+/// A joint that pulls without limit, or gives back a part of a velocity, cannot crush: it is told where that is written.
+#[test]
+fn what_cannot_crush_is_refused() {
+    let planar = WALL.replace("\"shear\"", "\"planar\"");
+    let change = |spring: &str, more: &str| {
+        let change = format!("[[joint.change]]\nat = {{ kind = [\"base\"] }}\nspring = {{ {spring} }}\n{more}\n[load]");
+        planar.replace("[load]", &change)
+    };
+    let crushes = "compressive_strength = \"4 MPa\"";
+    let bond = "bond = { tensile_strength = \"0.1 MPa\", cohesion = \"0.1 MPa\" }";
+    let pulls = "pulls without limit, and cannot crush";
+    let gives = "gives back what its springs store";
+    let rigid = format!("law = \"rigid\", {crushes}");
+    for (text, refused) in [
+        (planar.replace("36 N/mm3\"", &format!("36 N/mm3\", {crushes}")), Some(("joint.bed", pulls))),
+        (change(crushes, ""), Some(("joint.change[0].spring", pulls))),
+        (change(crushes, bond), None),
+        (change(&rigid, ""), None),
+        (change(&format!("{rigid}, restitution = 0.1"), ""), Some(("joint.change[0].spring", gives))),
+        (change(&format!("{rigid}, rocking_restitution = 0.9"), ""), Some(("joint.change[0].spring", gives))),
+    ] {
+        let case = case(&text);
+        let wall = lay(&case).expect("laid");
+        match (resolve(&case, &wall, &graph::joints(&wall, true)), refused) {
+            (Ok(_), None) => {}
+            (Err(Error::Input(e)), Some((key, what))) => {
+                assert_eq!(e.key.as_deref(), Some(key), "{e}");
+                assert!(
+                    e.what.contains(what) && e.allowed.is_some_and(|a| a.contains("compressive_strength")),
+                    "{text}"
+                );
+            }
+            (found, _) => panic!("{text}: {:?}", found.err()),
+        }
     }
 }
