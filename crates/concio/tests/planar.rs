@@ -1388,21 +1388,21 @@ fn the_account_closes_where_joints_crush_and_where_bonds_end() {
 #[test]
 fn a_crushed_rigid_joint_does_not_heal() {
     let (length, height, thickness, strength, weight, load) = (1.0, 2.0, 0.3, 0.4e6, 12e3, 10e3);
-    let stone = block(&format!(
+    let stone = block(
         r#"
 [joint]
-bed = {{ law = "rigid", compressive_strength = "0.4 MPa" }}
-head = {{ law = "none" }}
-top = {{ law = "rigid" }}
-friction = {{ law = "coulomb", static = 1.9, dynamic = 1.9 }}
+bed = { law = "rigid", compressive_strength = "0.4 MPa" }
+head = { law = "none" }
+top = { law = "rigid" }
+friction = { law = "coulomb", static = 1.9, dynamic = 1.9 }
 [load]
 top = "10 kN/m"
 beam = "driven"
 [motion]
 quasi_static = true
-top = {{ path = {{ displacements = ["50 mm", "0 mm", "50 mm"], speed = "5 mm/s" }} }}
-"#
-    ));
+top = { path = { displacements = ["50 mm", "0 mm", "50 mm"], speed = "5 mm/s" } }
+"#,
+    );
     let stone = stone.replace("length = 0.5", "length = 1").replace("height = 0.5", "height = 2");
     let (_, outcome) = ran(&stone.replace("thickness = 1", "thickness = 0.3"));
     // The block's centre is at half its height, the beam's half a metre above it.
