@@ -1,4 +1,4 @@
-//! The readers that users have: h5py, NumPy and VTK, in a virtual environment under target/.
+//! Python for the checks: the readers that users have (h5py, NumPy, VTK) and the peers of statistics (SALib, SciPy, eqsig, pycma), in a virtual environment under target/.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -7,8 +7,8 @@ use crate::command::{Outcome, read, run};
 use crate::concio;
 use crate::examples::folder;
 
-/// What the checks import.
-const PACKAGES: [&str; 3] = ["h5py", "numpy", "vtk"];
+/// What the checks import, by the names under which it is installed.
+const PACKAGES: [&str; 7] = ["h5py", "numpy", "vtk", "scipy", "SALib", "eqsig", "cma"];
 /// The example whose result is read.
 const EXAMPLE: &str = "04-two-panels";
 
@@ -26,7 +26,7 @@ pub fn environment(root: &Path) -> Result<Option<PathBuf>, String> {
         return Ok(Some(python));
     }
     let skipped = |what: &str| {
-        println!("skipped: readers in Python ({what})");
+        println!("skipped: readers and peers in Python ({what})");
         Ok(None)
     };
     if read(Command::new("python3").args(["-m", "venv"]).arg(&folder)).is_err() {
@@ -35,7 +35,7 @@ pub fn environment(root: &Path) -> Result<Option<PathBuf>, String> {
     let mut install = Command::new(&python);
     install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(PACKAGES);
     if read(&mut install).is_err() || !works(&python) {
-        return skipped("h5py, numpy and vtk cannot be installed here");
+        return skipped("h5py, numpy, vtk, scipy, SALib, eqsig or cma cannot be installed here");
     }
     Ok(Some(python))
 }
