@@ -18,9 +18,6 @@ use crate::ranking::{Ranks, ranks};
 use crate::runner::Runner;
 use crate::search::{Design, Found, Member, Quest, search};
 
-/// Part of the search's runs that tuning the greedy placements takes.
-const GREEDY: usize = 4;
-
 /// A mean over copies of the motions and its scatter, in SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spread {
@@ -62,7 +59,7 @@ pub struct Answer {
     /// The wall as it is.
     pub unreinforced: Line,
     /// The devices in the joints of highest rank, parameters tuned: one line per ranking, or with two objectives the ends
-    /// of its front and its knee.
+    /// of its front and its knee. Then, per ranking, with the device and the parameters of the chosen design.
     pub greedy: Vec<Line>,
     /// What the search found: one line, or with two objectives the front, in the order of the first.
     pub search: Vec<Line>,
@@ -108,11 +105,11 @@ pub fn answer(plan: &Plan, question: &Question, rows: &[&Row], runner: &mut Runn
     let mut tuned: Vec<(PerJoint, Found)> = Vec::new();
     for (number, rank) in ranks.iter().enumerate() {
         let starts = [top(&question, rank, question.places.most)];
-        let share = evaluations / GREEDY / ranks.len();
         let quest = Quest {
             starts: &starts,
             fixed: true,
-            evaluations: share,
+            // All rankings together have as much as the search.
+            evaluations: evaluations / ranks.len(),
             seed: input.seed.wrapping_add(1 + number as u64),
             ..quest.clone()
         };
@@ -140,6 +137,12 @@ pub fn answer(plan: &Plan, question: &Question, rows: &[&Row], runner: &mut Runn
     let costs: Vec<Vec<f64>> = search.iter().map(|l| judge.costs(l)).collect();
     let chosen = pareto::knee(&costs).unwrap_or(0);
     let Some(design) = search.get(chosen).and_then(|l| l.design.clone()) else { return Ok(None) };
+    let as_the_search = |rank: &Ranks| Design { joints: top(&question, rank, question.places.most), ..design.clone() };
+    for rank in &ranks {
+        let name = format!("greedy by {}, device of the search", crate::ranking::name(rank.by));
+        let Some(line) = judge.line(&name, Some(&as_the_search(rank)), true)? else { return Ok(None) };
+        greedy.push(line);
+    }
     let Some(random) = judge.random(None)? else { return Ok(None) };
     let Some(placed) = judge.random(Some(&design))? else { return Ok(None) };
     let by_runs = |(n, best): &(usize, Vec<f64>)| {
@@ -162,8 +165,8 @@ pub fn answer(plan: &Plan, question: &Question, rows: &[&Row], runner: &mut Runn
 pub fn comparison(plan: &Plan, question: &Question) -> usize {
     let rankings = plan.file.study.ranking.clone().unwrap_or_default().by.len();
     let input = &question.input;
-    // Of two objectives, both ends of a front and its knee.
-    let greedy = rankings * if question.objectives.len() > 1 { 3 } else { 1 };
+    // With parameters of its own, of two objectives both ends of a front and its knee; and with those of the search.
+    let greedy = rankings * if question.objectives.len() > 1 { 4 } else { 2 };
     let lines = (1 + greedy + input.finalists) * input.copies + 2 * input.draws;
     lines * question.scenes.len() * question.runs_each()
 }

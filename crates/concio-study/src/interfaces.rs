@@ -41,7 +41,7 @@ pub struct Interfaces {
     /// Alternatives to put in the place of mortar, at least one; all joints of a design have the same.
     #[serde(default, rename = "device")]
     pub devices: Vec<DeviceInput>,
-    /// Runs that the search may ask for; the greedy placement is tuned with a quarter of it on top. At least one
+    /// Runs that the search may ask for; the greedy placements are tuned with as many again. At least one
     /// generation: `population` designs of every device under every motion of the search.
     #[schemars(range(min = 1))]
     pub runs: usize,

@@ -352,7 +352,7 @@ fn annual_rates_are_those_of_cornell() {
     let mut held = 0.0;
     for _ in 0..400 {
         let found = fit(&(0..10).map(|_| Evidence::At(capacity(&mut dice))).collect::<Vec<_>>(), 0.95).expect("a fit");
-        let [low, high] = hazard.of(&found).interval.expect("an interval");
+        let [low, high] = hazard.of(&found).interval;
         held += f64::from(u8::from(low <= expected && expected <= high));
     }
     let subject = "Statistics: part of 95 % intervals of an annual rate that hold it, ten records";
@@ -373,4 +373,35 @@ fn one_motion_has_no_interval() {
     let pairs: Vec<usize> = (0..10).map(|k| k / 2 + usize::from(k == 1) * 9).collect();
     let [clustered, alone] = [fit_clusters(&many, &pairs, 0.95), fit(&many, 0.95)].map(|f| f.expect("a fit"));
     assert!(clustered.median_interval[1] >= 0.999 * alone.median_interval[1], "{clustered:?} {alone:?}");
+}
+
+/// A rate whose shaking below the first point of the curve may matter has no end above; one whose curve ends too low holds what lies beyond.
+#[test]
+fn rates_hold_what_a_hazard_curve_leaves_out() {
+    use concio_study::ida::hazard::Hazard;
+    let stripe = |intensity: f64, reached: usize| Evidence::Stripe { intensity, reached, of: 8 };
+    // Two stripes that hardly rise: any dispersion up to infinity is as likely.
+    let vague = fit(&[stripe(2.4, 3), stripe(2.8, 4)], 0.95).expect("a fit");
+    assert_eq!(vague.plausible(), None);
+    let site = Hazard { points: vec![[0.5, 0.03], [1.0, 0.01], [4.0, 2e-4]] };
+    let rate = site.of(&vague);
+    assert!(rate.interval[1].is_infinite() && rate.interval[0] < rate.value, "{rate:?}");
+    assert!(site.doubt(&vague).is_some_and(|doubt| doubt.contains("begin it lower")));
+    // All records stand up to where the curve ends.
+    let strong = fit(&[3.0, 3.4, 4.0, 4.2, 5.0].map(Evidence::At), 0.95).expect("a fit");
+    let short = Hazard { points: vec![[0.5, 0.03], [1.0, 0.01]] };
+    let rate = short.of(&strong);
+    assert!(rate.value < 1e-6 && (rate.interval[1] / 0.01 - 1.0).abs() < 1e-3, "{rate:?}");
+    assert!(short.doubt(&strong).is_some_and(|doubt| doubt.contains("beyond")));
+    assert_eq!(Hazard { points: vec![[0.5, 0.03], [1.0, 0.01], [20.0, 1e-9]] }.doubt(&strong), None);
+}
+
+/// One capacity says no more than two: of eight blocks that were run up to where the first overturned, whose median is 2.29, the interval of the median is no narrower than
+/// that of two like ones.
+#[test]
+fn one_capacity_says_no_more_than_two() {
+    let mut evidence = vec![Evidence::At(0.991)];
+    evidence.extend([Evidence::Above(1.0); 7]);
+    let one = fit(&evidence, 0.95).expect("a fit");
+    assert!(one.median_interval[1] > 2.29, "{:?}", one.median_interval);
 }

@@ -120,8 +120,13 @@ fn a_sliding_wall_slips_as_newmark_says_at_every_intensity() -> concio::Result<(
     }
     // Capacities: where the closed form gives 5 cm, to what straight lines between the runs allow.
     for (curve, slip) in analysis.curves.iter().zip([rectangle as fn(f64) -> f64, half_sine]) {
-        let Evidence::At(found) = curve.capacity(0.05) else { panic!("{} reaches 5 cm", curve.name) };
-        assert!((slip(found) / 0.05 - 1.0).abs() < 0.12, "{} {found}: {}", curve.name, slip(found));
+        match curve.capacity(0.05) {
+            Evidence::At(found) => {
+                assert!((slip(found) / 0.05 - 1.0).abs() < 0.12, "{} {found}: {}", curve.name, slip(found));
+            }
+            Evidence::Within([low, high]) => assert!(slip(low) < 0.05 && slip(high) >= 0.05 && high > 1.25 * low),
+            other => panic!("{}: {other:?}", curve.name),
+        }
     }
     let curves: Vec<_> = analysis.curves.iter().collect();
     let middle = fractiles(&curves);

@@ -59,8 +59,8 @@ fn curve(points: &[(f64, f64, bool)]) -> Curve {
 #[test]
 fn powers_are_interpolated_exactly() {
     let power = |y: f64| 0.3 * y.powf(1.7);
-    let c = curve(&[0.1, 0.4, 0.9, 2.0].map(|y| (y, power(y), false)));
-    for y in [0.15, 0.4, 1.3] {
+    let c = curve(&[0.1, 0.4, 0.5, 0.62, 2.0].map(|y| (y, power(y), false)));
+    for y in [0.45, 0.5, 0.6] {
         let Evidence::At(found) = c.capacity(power(y)) else { panic!("a capacity at {y}") };
         assert!((found / y - 1.0).abs() < 1e-12);
         assert!((c.damage(y).unwrap_or(0.0) / power(y) - 1.0).abs() < 1e-12);
@@ -68,6 +68,8 @@ fn powers_are_interpolated_exactly() {
     assert_eq!(c.capacity(power(2.5)), Evidence::Above(2.0));
     assert_eq!(c.capacity(power(0.05)), Evidence::Below(0.1));
     assert_eq!((c.damage(2.5), c.damage(0.05)), (None, None));
+    // Between runs that lie far apart it may be anything.
+    assert_eq!(c.capacity(power(0.15)), Evidence::Within([0.1, 0.4]));
     let fallen = curve(&[(0.1, 1.0, false), (0.4, 2.0, true)]);
     assert_eq!(fallen.damage(0.3), Some(f64::INFINITY));
     assert_eq!(fallen.capacity(9.0), Evidence::Within([0.1, 0.4]));

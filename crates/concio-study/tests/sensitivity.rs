@@ -285,3 +285,26 @@ fn the_kind_of_index_follows_the_design() {
         assert!(load > 0.5 && beta < 0.25, "{design}: {load} {beta}");
     }
 }
+
+/// No trajectory is run twice, forwards or backwards, as long as there are others; few of them, and few base points, are warned of.
+#[test]
+fn trajectories_differ() {
+    use concio_study::design::scarce;
+    use concio_study::file::DesignKind;
+    for runs in [2, 6, 12] {
+        let points = points("morris", runs, 2);
+        let mut seen: Vec<Vec<String>> = Vec::new();
+        for trajectory in points.chunks(3) {
+            let mut own: Vec<String> = trajectory.iter().map(|row| format!("{row:?}")).collect();
+            own.sort();
+            assert!(!seen.contains(&own), "{own:?}");
+            seen.push(own);
+        }
+    }
+    assert!(scarce(DesignKind::Morris, 4).is_some_and(|told| told.contains("design.runs = 4")));
+    assert!(scarce(DesignKind::Sobol, 15).is_some());
+    assert_eq!(
+        [scarce(DesignKind::Morris, 5), scarce(DesignKind::Sobol, 16), scarce(DesignKind::Random, 2)],
+        [None, None, None]
+    );
+}

@@ -124,8 +124,8 @@ fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
     }
     if let Some(interfaces) = &study.interfaces {
         let question = interfaces::question(&plan)?;
-        let quarter = "a quarter of it, or one generation, for the greedy placements";
-        rows.push(("search", format!("up to {}, besides {quarter}", counted(interfaces.runs, "run"))));
+        let runs = counted(interfaces.runs, "run");
+        rows.push(("search", format!("up to {runs}, and as many to tune the greedy placements")));
         rows.push(("comparison", format!("up to {}", counted(answer::comparison(&plan, &question), "run"))));
     }
     if study.first_crack.is_some() || study.ida.is_some() || study.interfaces.is_some() {

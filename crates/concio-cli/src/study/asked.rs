@@ -10,7 +10,7 @@ use concio::ground::coverage::{Coverage, coverage};
 use concio::run::prepare_with;
 use concio::warning::Warning;
 use concio_study::Plan;
-use concio_study::design::unreached;
+use concio_study::design::{scarce, unreached};
 use concio_study::file::{Choice, Design, DesignKind, Distribution, DistributionLaw, Follower, Spacing, Study, Vary};
 use concio_study::interfaces::{DeviceInput, ObjectiveInput, Over, Target};
 use concio_study::measures::{End, Row};
@@ -234,7 +234,9 @@ fn unit_doubts(plan: &Plan) -> Vec<Warning> {
 fn of_design(plan: &Plan) -> Vec<String> {
     let question =
         plan.file.study.interfaces.is_some().then(|| concio_study::interfaces::question(plan).ok()).flatten();
-    unreached(&plan.factors, &plan.points).into_iter().chain(question.and_then(|q| q.too_few())).collect()
+    let study = &plan.file.study;
+    let few = study.sensitivity.is_some().then(|| scarce(study.design.kind, study.design.runs.unwrap_or(0))).flatten();
+    unreached(&plan.factors, &plan.points).into_iter().chain(few).chain(question.and_then(|q| q.too_few())).collect()
 }
 
 /// What the runs that are known warn of.

@@ -153,10 +153,7 @@ fn write(request: &Request, answers: &[Answer], elastic: bool) -> Result<PathBuf
     files::write(&out.join("first-crack.json"), &(text + "\n"))?;
     let mut facts = request.facts.clone();
     facts.push(("criterion", criterion(question)));
-    facts.push((
-        "interval",
-        format!("{} %", significant(100.0 * question.interval, 3).trim_end_matches('0').trim_end_matches('.')),
-    ));
+    facts.push(("interval", format!("{} %", shown(100.0 * question.interval))));
     let mut text = words(question, answers);
     if elastic {
         text.push(format!("Note: {DEFORMATION}."));
@@ -331,7 +328,7 @@ fn words(question: &Question, answers: &[Answer]) -> Vec<String> {
     text.push(format!(
         "Each motion was scaled until a first joint cracked ({asked}). The crack lies between two runs that were made, one without \
          and one with it, at most {} % apart; {} in all.",
-        100.0 * question.interval,
+        shown(100.0 * question.interval),
         counted(runs, "run")
     ));
     let peaks: Vec<f64> = done.iter().map(|(a, t)| t.scale * a.shaking.pga).collect();
@@ -342,7 +339,12 @@ fn words(question: &Question, answers: &[Answer]) -> Vec<String> {
     };
     if let (Some(&least), Some(&most)) = (order(&peaks).first(), order(&peaks).last()) {
         let g = |k: usize| format!("{} g ({})", significant(peaks[k] / concio::G, 3), done[k].0.name);
-        let mut said = format!("The first crack comes at a PGA from {} to {}", g(least), g(most));
+        let mut said = format!(
+            "The runs with the first crack, up to {} % above those without, have a PGA from {} to {}",
+            shown(100.0 * question.interval),
+            g(least),
+            g(most)
+        );
         if done.len() > 2 {
             said.push_str(&format!(
                 ", median {} g, dispersion β {}",

@@ -13,6 +13,7 @@ use concio_study::ida::hazard::{Hazard, Rate};
 use concio_study::ida::hunt::Way;
 use concio_study::ida::likelihood::Evidence;
 use concio_study::ida::{Analysis, Settings, tables};
+use concio_study::intensity::Intensity;
 use concio_study::runner::{Progress, Runner};
 use concio_study::store::Store;
 use concio_study::table::{self, Table};
@@ -25,7 +26,7 @@ use crate::commands::wall_file::warn_of_runs;
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::failure::{Failure, STOPPED};
 use crate::files;
-use crate::format::{counted, pairs, plain};
+use crate::format::{counted, pairs, plain, significant};
 use crate::progress::Runs;
 use crate::stop;
 
@@ -33,8 +34,8 @@ use crate::stop;
 const SIZE: [f64; 2] = [420.0, 210.0];
 /// Places in the styles of the chart: a single motion, median, the other fractiles or the band.
 const ONE: usize = 5;
-/// Part of an annual rate, and of the records, from which what lies beyond the ends of a hazard curve is told.
-const FROM_ENDS: f64 = 0.02;
+/// Acceleration below which no hazard curve ends that is of use [m/s²].
+const LOW_HAZARD: f64 = 2.0;
 const MIDDLE: usize = 0;
 const OUTER: usize = 1;
 
@@ -108,7 +109,8 @@ pub fn described(plan: &Plan) -> std::result::Result<Vec<(&'static str, String)>
     let Some(analysis) = Analysis::new(plan)? else { return Ok(Vec::new()) };
     let s = &analysis.settings;
     let asked = analysis.questions(&|_| true).len();
-    Ok(vec![
+    let hazard = s.hazard.as_ref().map(|hazard| curve(hazard, s.intensity));
+    Ok([
         ("curves", analysis.curves.len().to_string()),
         (
             "intensity",
@@ -121,7 +123,10 @@ pub fn described(plan: &Plan) -> std::result::Result<Vec<(&'static str, String)>
         ("damage", s.damage.clone()),
         ("limit states", s.limits.iter().map(|(n, v)| format!("{n} ({v} {})", s.unit)).collect::<Vec<_>>().join(", ")),
         ("first runs", asked.to_string()),
-    ])
+    ]
+    .into_iter()
+    .chain(hazard.map(|curve| ("hazard curve", curve)))
+    .collect())
 }
 
 /// The analysis as far as the store answers it.
@@ -200,21 +205,24 @@ fn tell(plan: &Plan, analysis: &Analysis, told: &Warned) -> std::result::Result<
     files::print(&found.iter().map(|f| line(&analysis.settings, f)).collect::<String>())
 }
 
+/// A hazard curve from its first to its last point.
+fn curve(hazard: &Hazard, intensity: Intensity) -> String {
+    let at = |[value, rate]: [f64; 2]| {
+        let in_g = format!(" ({} g)", significant(value / concio::G, 3));
+        let in_g = if intensity == Intensity::Pgv { String::new() } else { in_g };
+        format!("{} {}{in_g} {} times a year", shown(value), intensity.unit(), shown(rate))
+    };
+    let ends = [hazard.points.first(), hazard.points.last()].map(|point| at(point.copied().unwrap_or_default()));
+    format!("from {} to {}", ends[0], ends[1])
+}
+
 /// How often a year, and in fifty years.
 fn often(hazard: &Hazard, fit: &Fragility) -> String {
-    let Rate { value: rate, interval, beyond } = hazard.of(fit);
-    let first = hazard.points.first().map_or(0.0, |point| fit.probability(point[0]));
-    let end = interval
-        .map_or(" (an interval without end)".into(), |[low, high]| format!(" ({} … {})", shown(low), shown(high)));
-    let mut told = format!(", {} a year{end}, {} % in 50 years", shown(rate), shown(-1e2 * (-50.0 * rate).exp_m1()));
-    if beyond > FROM_ENDS * rate {
-        told += &format!("; shaking beyond the hazard curve may add {} a year", shown(beyond));
-    }
-    if first > FROM_ENDS {
-        let percent = shown(1e2 * first);
-        told += &format!("; {percent} % reach the limit at its first intensity already, and what is below is left out");
-    }
-    told
+    let Rate { value: rate, interval: [low, high], .. } = hazard.of(fit);
+    let percent = shown(-1e2 * (-50.0 * rate).exp_m1());
+    let end = if high.is_finite() { shown(high) } else { "no end".into() };
+    let told = format!(", {} a year ({} … {end}), {percent} % in 50 years", shown(rate), shown(low));
+    told + &hazard.doubt(fit).map_or(String::new(), |doubt| format!("; {doubt}"))
 }
 
 /// A fit in a line.
@@ -250,13 +258,19 @@ fn doubts(analysis: &Analysis) -> Vec<String> {
             }),
             (between > 0).then(|| {
                 format!(
-                    "{name}: {between} of {all} jump over the limit between two runs that are far apart, and count as anywhere between them; runs between \
+                    "{name}: {between} of {all} reach the limit between two runs that are far apart, or jump over it, and count as anywhere between them; runs between \
                      narrow the intervals"
                 )
             }),
         ]
     };
-    analysis.settings.limits.iter().flat_map(of).flatten().collect()
+    let settings = &analysis.settings;
+    let ends = settings.hazard.as_ref().and_then(|hazard| hazard.points.last()).map(|point| point[0]);
+    let low = ends.filter(|y| *y < LOW_HAZARD && settings.intensity != Intensity::Pgv).map(|y| {
+        let in_g = significant(y / concio::G, 3);
+        format!("ida.hazard.intensities end at {} m/s2, {in_g} g: did you mean \"{} g\"?", shown(y), shown(y))
+    });
+    settings.limits.iter().flat_map(of).flatten().chain(low).collect()
 }
 
 fn usable<'a>(analysis: &'a Analysis) -> Vec<&'a Curve> {

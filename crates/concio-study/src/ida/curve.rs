@@ -78,7 +78,7 @@ impl Curve {
     /// The intensity at which damage first reaches `value`.
     ///
     /// Between two runs the logarithm of the intensity is linear in that of the damage. Where damage jumps from one to the other, as it does where sliding, rocking
-    /// or a collapse begins, such a line says nothing: the capacity is the middle of both where they are next to each other, and known to lie between them where not.
+    /// or a collapse begins, and between runs that lie far apart, such a line says nothing: the capacity is the middle of both where they are next to each other, and known to lie between them where not.
     pub fn capacity(&self, value: f64) -> Evidence {
         let Some((low, high)) = self.bracket(value) else {
             return Evidence::Above(self.points.last().map_or(0.0, |p| p.intensity));
@@ -87,7 +87,9 @@ impl Curve {
         let ratio = high.intensity / low.intensity;
         let damages = (low.damage.unwrap_or(0.0), high.damage.unwrap_or(0.0));
         let share = match damages {
-            (d0, d1) if !high.collapsed && d0 > 0.0 && (d1 / d0).ln() <= STEEPEST * ratio.ln() => {
+            (d0, d1)
+                if !high.collapsed && d0 > 0.0 && ratio <= 1.0 + WIDE && (d1 / d0).ln() <= STEEPEST * ratio.ln() =>
+            {
                 (value / d0).ln() / (d1 / d0).ln()
             }
             _ if ratio > 1.0 + NEAR => return Evidence::Within([low.intensity, high.intensity]),
@@ -124,6 +126,8 @@ impl Curve {
 
 /// Power of the intensity with which damage rises from one run to the next at most where it does not jump.
 const STEEPEST: f64 = 4.0;
+/// By what part of the lower intensity two runs may lie apart at most for damage to be a power of the intensity in between.
+const WIDE: f64 = 0.25 + 1e-9;
 /// By what part of the lower intensity two runs may lie apart whose middle is a capacity: its error is a 35th of that then.
 const NEAR: f64 = 0.1 + 1e-9;
 

@@ -122,12 +122,13 @@ fn overlap(evidence: &[Evidence]) -> bool {
     stands > reached || exact && stands == reached
 }
 
-/// How far twice the likelihood falls: of `n` capacities or clusters. What is known of no capacity, and of one alone, falls as that of many.
+/// How far twice the likelihood falls: of `n` capacities or clusters. What is known of no capacity falls as that of many, one alone as that of two.
 fn threshold(n: f64, clustered: bool, confidence: f64) -> f64 {
-    if n < 2.0 {
+    if n < 1.0 || n < 2.0 && clustered {
         let chi = ChiSquared::new(1.0).map_or(f64::NAN, |d| d.inverse_cdf(confidence));
         return if clustered { f64::INFINITY } else { chi };
     }
+    let n = n.max(2.0);
     let t = student(n - 1.0, confidence);
     n * (t * t / (n - 1.0)).ln_1p()
 }
@@ -174,6 +175,10 @@ impl Fragility {
 
     /// Medians and dispersions around the region that the confidence allows, for the interval of whatever follows from both; none where it has no end.
     pub fn plausible(&self) -> Option<Vec<[f64; 2]>> {
+        let ends = [self.median_interval, self.dispersion_interval];
+        if ends.iter().any(|[low, high]| !(*low > 0.0 && high.is_finite())) {
+            return None;
+        }
         let [a, b] = self.place;
         // Of the two the wider, where runs share their motions.
         let fall = self.fall([-1.0 / b, a / (b * b)]).max(self.fall([0.0, 1.0 / b]));

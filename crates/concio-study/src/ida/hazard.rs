@@ -9,6 +9,8 @@
 //!
 //! Nothing is known beyond the ends. Above the last point shaking counts as if it were that of the last, which is the least that it does; below the first it counts for nothing.
 
+use concio::quantity::shown;
+
 use super::fragility::Fragility;
 use super::likelihood::phi;
 
@@ -24,8 +26,8 @@ pub struct Hazard {
 pub struct Rate {
     /// λ_L [1/year].
     pub value: f64,
-    /// Interval at the confidence of the fit; none where it has no end.
-    pub interval: Option<[f64; 2]>,
+    /// Interval at the confidence of the fit, with what shaking beyond the last point may add; no end above where the limit is reached at the first point already.
+    pub interval: [f64; 2],
     /// The most that shaking beyond the last point of the curve may add [1/year].
     pub beyond: f64,
 }
@@ -53,13 +55,69 @@ impl Hazard {
 
     /// The same of a fit.
     pub fn of(&self, fit: &Fragility) -> Rate {
+        let [first, last] = [self.points.first(), self.points.last()].map(|point| point.copied().unwrap_or_default());
         let value = self.rate(fit.median, fit.dispersion);
-        let widened = |[low, high]: [f64; 2], [median, dispersion]: [f64; 2]| {
-            let rate = self.rate(median, dispersion);
-            [low.min(rate), high.max(rate)]
+        let beyond = last[1] * (1.0 - fit.probability(last[0]));
+        let [mut low, mut high] = match fit.plausible() {
+            Some(all) => all.into_iter().fold([value, value + beyond], |[low, high], [median, dispersion]| {
+                let rate = self.rate(median, dispersion);
+                let more = last[1] * phi(-(last[0] / median).ln() / dispersion);
+                [low.min(rate), high.max(rate + more)]
+            }),
+            // Without an end the fits agree in probabilities at least.
+            None => self.between(fit),
         };
-        let interval = fit.plausible().map(|all| all.into_iter().fold([value; 2], widened));
-        let [last, exceeded] = self.points.last().copied().unwrap_or_default();
-        Rate { value, interval, beyond: exceeded * (1.0 - fit.probability(last)) }
+        if fit.band(first[0])[1] > FROM_FIRST {
+            high = f64::INFINITY;
+        }
+        low = low.min(value);
+        Rate { value, interval: [low, high], beyond }
+    }
+
+    /// λ_L where the probability at each intensity is the least and the most that the confidence allows, beyond the last point too.
+    fn between(&self, fit: &Fragility) -> [f64; 2] {
+        let (mut sums, mut before) = ([0.0; 2], None::<[f64; 2]>);
+        for pair in self.points.windows(2) {
+            let [[y0, rate0], [y1, rate1]] = [pair[0], pair[1]];
+            for k in 0..=PARTS {
+                let part = k as f64 / PARTS as f64;
+                let (y, rate) = (y0 * (y1 / y0).powf(part), rate0 * (rate1 / rate0).powf(part));
+                let band = fit.band(y);
+                if let Some([low, was]) = before {
+                    sums = [sums[0] + low * (was - rate), sums[1] + band[1] * (was - rate)];
+                }
+                before = Some([band[0], rate]);
+            }
+        }
+        let last = self.points.last().map_or(0.0, |point| point[1]);
+        [sums[0] + before.map_or(0.0, |[low, _]| low) * last, sums[1] + last]
+    }
+
+    /// What the rate lacks, where what lies beyond the ends of the curve matters.
+    pub fn doubt(&self, fit: &Fragility) -> Option<String> {
+        let Rate { value, beyond, .. } = self.of(fit);
+        let first = self.points.first().map_or(0.0, |point| fit.probability(point[0]));
+        let mut told = Vec::new();
+        if beyond > FROM_BEYOND * value {
+            told.push(format!("shaking beyond the hazard curve may add {} a year", shown(beyond)));
+        }
+        if first > FROM_FIRST {
+            let percent = shown(1e2 * first);
+            told.push(format!(
+                "{percent} % reach the limit at the first intensity of the hazard curve already: the rate is a lower bound, for what is below is left out"
+            ));
+        } else if self.of(fit).interval[1].is_infinite() {
+            told.push(
+                "the limit may be reached at the first intensity of the hazard curve already: begin it lower, or run more records"
+                    .into(),
+            );
+        }
+        (!told.is_empty()).then(|| told.join("; "))
     }
 }
+
+/// Part of the rate from which what lies beyond the last point is told, and part of the records from which what lies below the first is.
+const FROM_BEYOND: f64 = 0.02;
+const FROM_FIRST: f64 = 0.02;
+/// Parts of a piece of the curve where a rate is summed.
+const PARTS: usize = 50;

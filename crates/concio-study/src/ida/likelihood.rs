@@ -149,7 +149,9 @@ impl Likelihood {
     /// Why there is none.
     pub fn largest(&self) -> Result<Place, &'static str> {
         if !(self.spread > 0.0) {
-            return Err("all intensities are the same");
+            return Err(
+                "all capacities are the same, or lie between the same two runs: runs at intensities between would tell the dispersion",
+            );
         }
         let mut place = [0.0, 1.0 / self.spread];
         for _ in 0..MOST_STEPS {

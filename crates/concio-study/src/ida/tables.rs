@@ -111,11 +111,15 @@ pub fn fits(settings: &Settings, found: &[Found]) -> Table {
             table.numbers(name, "1/year", rates.iter().map(|rate| rate.and_then(of)).collect());
         };
         column("annual rate", |rate| Some(rate.value));
-        column("annual rate from", |rate| rate.interval.map(|[low, _]| low));
-        column("annual rate to", |rate| rate.interval.map(|[_, high]| high));
+        column("annual rate from", |rate| Some(rate.interval[0]));
+        column("annual rate to", |rate| Some(rate.interval[1]).filter(|high| high.is_finite()));
         column("annual rate beyond", |rate| Some(rate.beyond));
     }
-    table.texts("note", found.iter().map(|f| f.fit.as_ref().err().map(|e| (*e).to_string())).collect());
+    let note = |f: &Found| match &f.fit {
+        Ok(fit) => settings.hazard.as_ref().and_then(|hazard| hazard.doubt(fit)),
+        Err(cause) => Some((*cause).to_string()),
+    };
+    table.texts("note", found.iter().map(note).collect());
     table
 }
 

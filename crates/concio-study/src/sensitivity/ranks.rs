@@ -10,6 +10,9 @@
 
 use super::{Bootstrap, Index};
 
+/// How many more runs than factors it takes: intervals of fewer miss up to two in five of what they estimate.
+const FREEDOM: usize = 5;
+
 /// Coefficients of the factors that are `ordered`, none for the others, and R². Rows without value are left out.
 ///
 /// # Errors
@@ -23,12 +26,16 @@ pub fn coefficients(
     let used: Vec<usize> = (0..values.len()).filter(|&i| values[i].is_some()).collect();
     let y: Vec<f64> = used.iter().filter_map(|&i| values[i]).collect();
     let varies = |f: usize| used.iter().any(|&i| shares[i][f] != shares[used[0]][f]);
+    if y.len() < 2 {
+        return Err("fewer than two runs have a value".into());
+    }
     let factors: Vec<usize> = (0..ordered.len()).filter(|&f| ordered[f] && !used.is_empty() && varies(f)).collect();
     if factors.is_empty() {
         return Err("no factor has values with an order".into());
     }
-    if y.len() < factors.len() + 2 {
-        return Err(format!("{} runs are too few for {} factors", y.len(), factors.len()));
+    let least = factors.len() + FREEDOM;
+    if y.len() < least {
+        return Err(format!("{} runs are too few for {} factors: it takes {least}", y.len(), factors.len()));
     }
     if y.iter().all(|v| *v == y[0]) {
         return Err("it does not vary".into());
