@@ -238,8 +238,8 @@ fn the_strategy_is_as_good_as_pycma() {
     let rosenbrock =
         |x: &[f64]| -> f64 { x.windows(2).map(|p| 100.0 * (p[1] - p[0] * p[0]).powi(2) + (1.0 - p[0]).powi(2)).sum() };
     let (population, repeats, goal) = (10, 21, 1e-9);
-    let functions: [(&str, &dyn Fn(&[f64]) -> f64, f64); 2] =
-        [("ellipsoid", &ellipsoid, 1.0), ("rosenbrock", &rosenbrock, 0.0)];
+    type Function<'f> = &'f dyn Fn(&[f64]) -> f64;
+    let functions: [(&str, Function, f64); 2] = [("ellipsoid", &ellipsoid, 1.0), ("rosenbrock", &rosenbrock, 0.0)];
     for (name, function, from) in functions {
         let (start, sigma) = ([from; 5], 0.5);
         let question = json!({
