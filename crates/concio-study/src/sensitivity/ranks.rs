@@ -11,7 +11,7 @@
 use super::{Bootstrap, Index};
 
 /// How many more runs than factors it takes: intervals of fewer miss up to two in five of what they estimate.
-const FREEDOM: usize = 5;
+const FREEDOM: usize = 4;
 
 /// Coefficients of the factors that are `ordered`, none for the others, and R². Rows without value are left out.
 ///
