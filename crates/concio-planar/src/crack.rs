@@ -174,6 +174,12 @@ fn place(node: usize) -> f64 {
     node as f64 / (NODES - 1) as f64
 }
 
+/// The part of a joint of so many nodes that one of them stands for.
+fn weight(node: usize, nodes: usize) -> f64 {
+    let whole = 1.0 / (nodes - 1) as f64;
+    if node == 0 || node == nodes - 1 { 0.5 * whole } else { whole }
+}
+
 /// On the way from one end to the other.
 fn between(line: &[[f64; 2]; 2], at: f64) -> [f64; 2] {
     [0, 1].map(|k| line[0][k] + at * (line[1][k] - line[0][k]))
@@ -384,12 +390,6 @@ impl Crack {
         node as f64 / (self.nodes.len().max(self.crushed.len()) - 1) as f64
     }
 
-    /// The part of the joint that such a node stands for.
-    fn weight(&self, node: usize) -> f64 {
-        let last = self.crushed.len() - 1;
-        if node == 0 || node == last { 0.5 * self.place_of(1) } else { self.place_of(1) }
-    }
-
     /// Whether it has the nodes of a joint of this law, as one that was read back may not.
     pub(crate) fn fits(&self, law: &Law) -> bool {
         self.nodes.len() == if law.bond.is_some() { NODES } else { 0 }
@@ -544,14 +544,14 @@ impl Crack {
 
     /// Whether its points, at these gaps now [m], bear nearly what the whole of it does that has cracked, where some of it is crushed.
     pub(crate) fn follows(&self, law: &Law, points: &[Point], gaps: impl Iterator<Item = (usize, f64)>) -> bool {
-        if self.depth() == 0.0 || !self.is_gone() {
+        if !self.is_gone() || self.depth() == 0.0 {
             return true;
         }
         let stiffness = law.normal_stiffness();
         let bears = |gap: f64| (-stiffness * gap).clamp(0.0, law.crushing);
-        let place_of = |point: usize| self.spots.iter().find(|spot| spot.point == point);
+        let standing = |point: usize| self.spots.iter().find(|spot| spot.point == point);
         let (mut ends, mut found) = ([[f64::INFINITY, 0.0], [f64::NEG_INFINITY, 0.0]], [0.0; 2]);
-        for (spot, gap) in gaps.filter_map(|(point, gap)| Some((place_of(point)?, gap))) {
+        for (spot, gap) in gaps.filter_map(|(point, gap)| Some((standing(point)?, gap))) {
             let force = spot.share * bears(gap + points[spot.point].crushed);
             found = [found[0] + force, found[1] + force * spot.at];
             if spot.at < ends[0][0] {
@@ -569,7 +569,7 @@ impl Crack {
         let mut whole = [0.0; 2];
         for (n, crushed) in self.crushed.iter().enumerate() {
             let at = self.place_of(n);
-            let force = self.weight(n) * bears(near + slope * (at - from) + crushed);
+            let force = weight(n, self.crushed.len()) * bears(near + slope * (at - from) + crushed);
             whole = [whole[0] + force, whole[1] + force * at];
         }
         (0..2).all(|k| (whole[k] - found[k]).abs() <= FOLLOWS * found[0].max(FOLLOWS * law.crushing))
@@ -578,11 +578,15 @@ impl Crack {
     /// Crushes what is pressed harder than it bears, its ends being as far apart as `line` says; what that takes [J].
     fn crush(&mut self, law: &Law, line: &[[f64; 2]; 2]) -> f64 {
         let most = law.crushing / law.normal_stiffness();
+        // It is pressed in most at an end.
+        if -line[0][0].min(line[1][0]) <= most {
+            return 0.0;
+        }
         let mut taken = 0.0;
         for n in 0..self.crushed.len() {
             let to = -between(line, self.place_of(n))[0] - most;
             if to > self.crushed[n] {
-                taken += self.weight(n) * law.crushing * (to - self.crushed[n]);
+                taken += weight(n, self.crushed.len()) * law.crushing * (to - self.crushed[n]);
                 self.crushed[n] = to;
             }
         }
@@ -663,7 +667,7 @@ impl Crack {
         for n in 0..bonded {
             let x = place(n);
             let [w, s] = self.stretched(x);
-            let weight = if n == 0 || n == NODES - 1 { 0.5 } else { 1.0 } / (NODES - 1) as f64;
+            let weight = weight(n, NODES);
             let pressure = (both + press) * (-w).max(0.0);
             let holds = self.nodes[n] == Node::INTACT
                 && both * (w - TOUCHING) <= bond.tension

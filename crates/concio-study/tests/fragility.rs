@@ -386,14 +386,14 @@ fn rates_hold_what_a_hazard_curve_leaves_out() {
     let site = Hazard { points: vec![[0.5, 0.03], [1.0, 0.01], [4.0, 2e-4]] };
     let rate = site.of(&vague);
     assert!(rate.interval[1].is_infinite() && rate.interval[0] < rate.value, "{rate:?}");
-    assert!(site.doubt(&vague).is_some_and(|doubt| doubt.contains("begin it lower")));
+    assert!(rate.doubt().is_some_and(|doubt| doubt.contains("begin it lower")));
     // All records stand up to where the curve ends.
     let strong = fit(&[3.0, 3.4, 4.0, 4.2, 5.0].map(Evidence::At), 0.95).expect("a fit");
     let short = Hazard { points: vec![[0.5, 0.03], [1.0, 0.01]] };
     let rate = short.of(&strong);
     assert!(rate.value < 1e-6 && (rate.interval[1] / 0.01 - 1.0).abs() < 1e-3, "{rate:?}");
-    assert!(short.doubt(&strong).is_some_and(|doubt| doubt.contains("beyond")));
-    assert_eq!(Hazard { points: vec![[0.5, 0.03], [1.0, 0.01], [20.0, 1e-9]] }.doubt(&strong), None);
+    assert!(rate.doubt().is_some_and(|doubt| doubt.contains("beyond")));
+    assert_eq!(Hazard { points: vec![[0.5, 0.03], [1.0, 0.01], [20.0, 1e-9]] }.of(&strong).doubt(), None);
 }
 
 /// One capacity says no more than two: of eight blocks that were run up to where the first overturned, whose median is 2.29, the interval of the median is no narrower than

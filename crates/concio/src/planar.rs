@@ -426,9 +426,9 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
         residual: values.residual,
     });
     let crushing = spring.compressive_strength.map_or(f64::INFINITY, |f| f.si() * area);
+    let stiff = crushing / (PRESSED_IN * joint.overlap);
     let (normal, series) = match spring.law {
         SpringLaw::Rigid if crushing.is_finite() => {
-            let stiff = crushing / (PRESSED_IN * joint.overlap);
             let (both, press) = if bond.is_some() { (stiff, 0.0) } else { (0.0, stiff) };
             (Normal::Springs { both, press, damping: 0.0 }, true)
         }
@@ -446,9 +446,7 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
         }
     };
     let shear = match spring.law {
-        SpringLaw::Rigid if crushing.is_finite() => {
-            Shear { stiffness: crushing / (PRESSED_IN * joint.overlap), damping: 0.0, series }
-        }
+        SpringLaw::Rigid if crushing.is_finite() => Shear { stiffness: stiff, damping: 0.0, series },
         SpringLaw::Rigid => Shear { stiffness: 0.0, damping: 0.0, series: false },
         _ => Shear { stiffness: along * stiffness, damping: dashpot(along * given), series },
     };

@@ -218,11 +218,12 @@ fn curve(hazard: &Hazard, intensity: Intensity) -> String {
 
 /// How often a year, and in fifty years.
 fn often(hazard: &Hazard, fit: &Fragility) -> String {
-    let Rate { value: rate, interval: [low, high], .. } = hazard.of(fit);
-    let percent = shown(-1e2 * (-50.0 * rate).exp_m1());
+    let rate = hazard.of(fit);
+    let Rate { value, interval: [low, high], .. } = rate;
+    let percent = shown(-1e2 * (-50.0 * value).exp_m1());
     let end = if high.is_finite() { shown(high) } else { "no end".into() };
-    let told = format!(", {} a year ({} … {end}), {percent} % in 50 years", shown(rate), shown(low));
-    told + &hazard.doubt(fit).map_or(String::new(), |doubt| format!("; {doubt}"))
+    let told = format!(", {} a year ({} … {end}), {percent} % in 50 years", shown(value), shown(low));
+    told + &rate.doubt().map_or(String::new(), |doubt| format!("; {doubt}"))
 }
 
 /// A fit in a line.

@@ -30,6 +30,30 @@ pub struct Rate {
     pub interval: [f64; 2],
     /// The most that shaking beyond the last point of the curve may add [1/year].
     pub beyond: f64,
+    /// Part of the records that reach the limit at the first point already.
+    pub first: f64,
+}
+
+impl Rate {
+    /// What the rate lacks, where what lies beyond the ends of the curve matters.
+    pub fn doubt(&self) -> Option<String> {
+        let mut told = Vec::new();
+        if self.beyond > FROM_BEYOND * self.value {
+            told.push(format!("shaking beyond the hazard curve may add {} a year", shown(self.beyond)));
+        }
+        if self.first > FROM_FIRST {
+            let percent = shown(1e2 * self.first);
+            told.push(format!(
+                "{percent} % reach the limit at the first intensity of the hazard curve already: the rate is a lower bound, for what is below is left out"
+            ));
+        } else if self.interval[1].is_infinite() {
+            told.push(
+                "the limit may be reached at the first intensity of the hazard curve already: begin it lower, or run more records"
+                    .into(),
+            );
+        }
+        (!told.is_empty()).then(|| told.join("; "))
+    }
 }
 
 impl Hazard {
@@ -71,7 +95,7 @@ impl Hazard {
             high = f64::INFINITY;
         }
         low = low.min(value);
-        Rate { value, interval: [low, high], beyond }
+        Rate { value, interval: [low, high], beyond, first: fit.probability(first[0]) }
     }
 
     /// λ_L where the probability at each intensity is the least and the most that the confidence allows, beyond the last point too.
@@ -91,28 +115,6 @@ impl Hazard {
         }
         let last = self.points.last().map_or(0.0, |point| point[1]);
         [sums[0] + before.map_or(0.0, |[low, _]| low) * last, sums[1] + last]
-    }
-
-    /// What the rate lacks, where what lies beyond the ends of the curve matters.
-    pub fn doubt(&self, fit: &Fragility) -> Option<String> {
-        let Rate { value, beyond, .. } = self.of(fit);
-        let first = self.points.first().map_or(0.0, |point| fit.probability(point[0]));
-        let mut told = Vec::new();
-        if beyond > FROM_BEYOND * value {
-            told.push(format!("shaking beyond the hazard curve may add {} a year", shown(beyond)));
-        }
-        if first > FROM_FIRST {
-            let percent = shown(1e2 * first);
-            told.push(format!(
-                "{percent} % reach the limit at the first intensity of the hazard curve already: the rate is a lower bound, for what is below is left out"
-            ));
-        } else if self.of(fit).interval[1].is_infinite() {
-            told.push(
-                "the limit may be reached at the first intensity of the hazard curve already: begin it lower, or run more records"
-                    .into(),
-            );
-        }
-        (!told.is_empty()).then(|| told.join("; "))
     }
 }
 

@@ -105,8 +105,9 @@ pub fn fits(settings: &Settings, found: &[Found]) -> Table {
     numbers("dispersion", "", &|f| f.dispersion);
     numbers("dispersion from", "", &|f| f.dispersion_interval[0]);
     numbers("dispersion to", "", &|f| f.dispersion_interval[1]);
-    if let Some(hazard) = &settings.hazard {
-        let rates: Vec<Option<Rate>> = found.iter().map(|f| f.fit.as_ref().ok().map(|fit| hazard.of(fit))).collect();
+    let rate = |f: &Found| Some(settings.hazard.as_ref()?.of(f.fit.as_ref().ok()?));
+    let rates: Vec<Option<Rate>> = found.iter().map(rate).collect();
+    if settings.hazard.is_some() {
         let mut column = |name: &str, of: fn(Rate) -> Option<f64>| {
             table.numbers(name, "1/year", rates.iter().map(|rate| rate.and_then(of)).collect());
         };
@@ -115,11 +116,11 @@ pub fn fits(settings: &Settings, found: &[Found]) -> Table {
         column("annual rate to", |rate| Some(rate.interval[1]).filter(|high| high.is_finite()));
         column("annual rate beyond", |rate| Some(rate.beyond));
     }
-    let note = |f: &Found| match &f.fit {
-        Ok(fit) => settings.hazard.as_ref().and_then(|hazard| hazard.doubt(fit)),
+    let note = |(f, rate): (&Found, &Option<Rate>)| match &f.fit {
+        Ok(_) => rate.and_then(|rate| rate.doubt()),
         Err(cause) => Some((*cause).to_string()),
     };
-    table.texts("note", found.iter().map(note).collect());
+    table.texts("note", found.iter().zip(&rates).map(note).collect());
     table
 }
 
