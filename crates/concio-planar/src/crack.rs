@@ -52,10 +52,12 @@ const TOUCHING: f64 = 1e-12;
 const APART: f64 = 1e3;
 /// Part of a joint below which what is left of its bond is rounding.
 const NOTHING: f64 = 1e-9;
+/// Part of what crushes below which what is pressed beside it is its edge.
+const THIN: f64 = 0.1;
 /// Part of the strength up to which a corner is a contact point.
 const WELL_BELOW: f64 = 0.5;
 /// Part by which what points bear may be off where the joint is crushed, before a step is halved.
-const FOLLOWS: f64 = 0.02;
+pub(crate) const MISSED: f64 = 0.02;
 /// Part by which the pressure of what crushes is below the strength at most.
 const HARDLY: f64 = 0.01;
 
@@ -124,6 +126,8 @@ pub(crate) struct Spot {
     pub rubbing: f64,
     /// What is crushed of it [m], so that its zone bears what it does: of two points that stand for an uneven one any number.
     pub crushed: f64,
+    /// By how much of the joint the part that is crushed may grow or shrink beside it in a step, which it bears.
+    pub edge: f64,
 }
 
 /// The state of the bond of one joint, and of what is crushed of it.
@@ -167,6 +171,8 @@ pub(crate) struct Worn {
     pub friction: f64,
     /// What springs lost beside that, because a step goes beyond a limit before it is met, and where points are placed anew.
     pub beyond: f64,
+    /// Whether its points are others now.
+    pub placed: bool,
 }
 
 /// Place of a node, 0 … 1.
@@ -433,6 +439,7 @@ impl Crack {
             weight,
             rubbing: 1.0,
             crushed: 0.0,
+            edge: 0.0,
         };
         if self.is_gone() {
             spots.extend([dry(0, 0.5), dry(1, 0.5)]);
@@ -447,6 +454,7 @@ impl Crack {
             weight: 0.5,
             rubbing: 1.0,
             crushed: 0.0,
+            edge: 0.0,
         };
         if first > 0 {
             spots.push(dry(0, 0.0));
@@ -468,6 +476,7 @@ impl Crack {
             weight: share,
             rubbing: 0.0,
             crushed: 0.0,
+            edge: 0.0,
         };
         if !self.is_gone() {
             let damaged = |k: usize| zones.iter().map(|zone| zone.cracked[k]).sum::<f64>();
@@ -482,23 +491,31 @@ impl Crack {
         self.placed = zones.map(|zone| [zone.acts[0], zone.acts[1]]);
         self.hidden = 0.0;
         let crushed = self.depth() > 0.0;
+        // What is pressed beside what crushes is as wide as its end moves where it is pressed in by its depth: a spring without limits of its stiffness
+        // bears what that end moves by, however thin it is.
+        let crushes = zones[CRUSHING].acts[0];
+        let edge = |kind: usize, zone: &Zone| {
+            (kind == PRESSED || kind == CRUSHED) && zone.acts[0] < THIN * crushes && zone.acts[0] > NOTHING
+        };
+        let there = |kind: usize, zone: &Zone| zone.is_there() || edge(kind, zone);
         let ends = zones
             .iter()
             .filter(|zone| zone.is_there())
             .fold([1.0f64, 0.0f64], |[near, far], zone| [near.min(zone.between[0]), far.max(zone.between[1])]);
         let alone = zones.iter().filter(|zone| zone.is_there()).count() == 1;
         let mut point = HELD;
-        for (kind, zone) in zones.iter().enumerate().filter(|(_, zone)| zone.is_there()) {
+        for (kind, zone) in zones.iter().enumerate().filter(|(kind, zone)| there(*kind, zone)) {
             let (gap, cracked, rubs) =
                 (zone.line(zone.gap), zone.line([zone.cracked[0], zone.cracked[1]]), zone.line(zone.rubs));
             // A point in a corner that is near its strength would hold back all it stands for.
+            let edge = if edge(kind, zone) { 0.5 * crushes } else { 0.0 };
             let corners = zone.between.iter().all(|at| -gap(*at) < WELL_BELOW * law.crushing / stiffness);
             let points = match (corners, alone) {
                 (true, true) => zone.three(ends),
                 (true, false) => zone.two(Some(ends)),
                 (false, _) => zone.two(None),
             };
-            let points = || points.into_iter().filter(|[_, share]| *share > NOTHING);
+            let points = || points.into_iter().filter(|[_, share]| *share > 0.1 * NOTHING);
             // A line through an uneven zone may leave what such a zone has: it is turned as far as it has to be.
             let mean = zone.gap[0] / zone.acts[0];
             let limits = if kind == OPEN { [0.0, f64::INFINITY] } else { [-law.crushing / stiffness, 0.0] };
@@ -514,6 +531,9 @@ impl Crack {
                 let mut spot = spot(point, Part::Dry, at, share);
                 // The part χ of all pressure rubs, of which what has cracked bears its share.
                 (spot.weight, spot.rubbing) = ((share * cracked(at)).max(0.0), rubs(at).clamp(0.0, 1.0));
+                if edge > 0.0 {
+                    (spot.edge, spot.rubbing) = (edge, 0.0);
+                }
                 if crushed {
                     let gap = mean + turned.max(0.0) * (gap(at) - mean);
                     spot.crushed = gap - between(line, at)[0];
@@ -542,17 +562,17 @@ impl Crack {
         })
     }
 
-    /// Whether its points, at these gaps now [m], bear nearly what the whole of it does that has cracked, where some of it is crushed.
-    pub(crate) fn follows(&self, law: &Law, points: &[Point], gaps: impl Iterator<Item = (usize, f64)>) -> bool {
-        if !self.is_gone() || self.depth() == 0.0 {
-            return true;
+    /// By what part of the pressure its points, at these gaps now [m], miss what the whole of it bears that has cracked, where some of it is crushed.
+    pub(crate) fn misses(&self, law: &Law, points: &[Point], gaps: impl Iterator<Item = (usize, f64)>) -> f64 {
+        if !self.is_gone() {
+            return 0.0;
         }
         let stiffness = law.normal_stiffness();
-        let bears = |gap: f64| (-stiffness * gap).clamp(0.0, law.crushing);
         let standing = |point: usize| self.spots.iter().find(|spot| spot.point == point);
         let (mut ends, mut found) = ([[f64::INFINITY, 0.0], [f64::NEG_INFINITY, 0.0]], [0.0; 2]);
         for (spot, gap) in gaps.filter_map(|(point, gap)| Some((standing(point)?, gap))) {
-            let force = spot.share * bears(gap + points[spot.point].crushed);
+            let bears = -spot.share * stiffness * (gap + points[spot.point].crushed);
+            let force = bears.clamp(-spot.edge * law.crushing, (spot.share + spot.edge) * law.crushing);
             found = [found[0] + force, found[1] + force * spot.at];
             if spot.at < ends[0][0] {
                 ends[0] = [spot.at, gap];
@@ -563,16 +583,30 @@ impl Crack {
         }
         let [[from, near], [to, far]] = ends;
         if !(to > from) {
-            return true;
+            return 0.0;
         }
         let slope = (far - near) / (to - from);
-        let mut whole = [0.0; 2];
-        for (n, crushed) in self.crushed.iter().enumerate() {
-            let at = self.place_of(n);
-            let force = weight(n, self.crushed.len()) * bears(near + slope * (at - from) + crushed);
-            whole = [whole[0] + force, whole[1] + force * at];
+        let [start, end] = [0.0, 1.0].map(|at: f64| near + slope * (at - from));
+        if self.depth() == 0.0 && -stiffness * start.min(end) <= law.crushing {
+            return 0.0;
         }
-        (0..2).all(|k| (whole[k] - found[k]).abs() <= FOLLOWS * found[0].max(FOLLOWS * law.crushing))
+        let pressed = |n: usize| -stiffness * (start + slope * self.place_of(n) + self.crushed[n]) / law.crushing;
+        // ∫ of what is borne, over the strength, to a pressure over it.
+        let borne = |p: f64| if p < 1.0 { 0.5 * p.max(0.0).powi(2) } else { p - 0.5 };
+        let mut whole = [0.0; 2];
+        let mut from = pressed(0);
+        for n in 1..self.crushed.len() {
+            let to = pressed(n);
+            let mean = match (to - from).abs() > NOTHING {
+                true => (borne(to) - borne(from)) / (to - from),
+                false => to.clamp(0.0, 1.0),
+            };
+            let force = law.crushing * self.place_of(1) * mean;
+            whole = [whole[0] + force, whole[1] + 0.5 * force * (self.place_of(n - 1) + self.place_of(n))];
+            from = to;
+        }
+        let off = (whole[0] - found[0]).abs().max((whole[1] - found[1]).abs());
+        off / found[0].max(MISSED * law.crushing)
     }
 
     /// Crushes what is pressed harder than it bears, its ends being as far apart as `line` says; what that takes [J].
@@ -734,7 +768,7 @@ impl Crack {
         let lost = before - self.stored(law, points);
         let [_, keeps] = self.friction_borne(law, points);
         let rubbed = stored + friction[1] - keeps;
-        Worn { bond: taken, friction: rubbed, beyond: lost - taken - rubbed }
+        Worn { bond: taken, friction: rubbed, beyond: lost - taken - rubbed, placed: true }
     }
 
     /// What has cracked bears along the joint, and what its springs along store [N, J].

@@ -385,6 +385,8 @@ pub struct Start {
     pub still: bool,
     /// Whether the distance is greater than that of the end of the last step, because other edges face each other: what springs kept is lost.
     pub slipped: bool,
+    /// Whether it is an edge of what crushes, which no strength limits.
+    pub edge: bool,
 }
 
 /// The normal direction of a point over a step: its mean velocity, distances at the ends, impulses of (P4) and of springs.
@@ -393,6 +395,7 @@ struct Across {
     mean: f64,
     gaps: [f64; 2],
     slipped: bool,
+    edge: bool,
     pressed: f64,
     linear: f64,
 }
@@ -487,7 +490,7 @@ impl Law {
         if let Some(bond) = &self.bond {
             (contact.friction, contact.hold) = (bond.tan_angle, share * bond.cohesion * h);
         }
-        Start { gap, velocity, still, slipped: false }
+        Start { gap, velocity, still, slipped: false, edge: false }
     }
 
     /// What a device bears at a point over a step of `h` [s] where the velocity at its end is `after` [m/s].
@@ -527,6 +530,7 @@ impl Law {
             mean: mean[0],
             gaps: [start.gap, gap],
             slipped: start.slipped,
+            edge: start.edge,
             pressed: contact.impulse[0],
             linear: linear[0],
         };
@@ -568,7 +572,7 @@ impl Law {
         &self,
         point: &mut Point,
         share: f64,
-        Across { h, mean, gaps: [start, gap], slipped, pressed, linear }: Across,
+        Across { h, mean, gaps: [start, gap], slipped, edge, pressed, linear }: Across,
         works: &mut Works,
     ) {
         let Normal::Springs { .. } = self.normal else {
@@ -589,7 +593,7 @@ impl Law {
         }
         let mut after = stored(gap, point.crushed);
         let (all, most) = (both + press, share * self.crushing);
-        if all > 0.0 && -all * (gap + point.crushed) > most {
+        if !edge && all > 0.0 && -all * (gap + point.crushed) > most {
             let further = -gap - most / all - point.crushed;
             point.crushed += further;
             works.bond += most * further;

@@ -37,12 +37,16 @@ pub use vibration::Vibration;
 const REACH: f64 = 0.1;
 /// Steps in turn in which nothing moves any more where bodies stand.
 const RESTS: usize = 4;
-/// Times that a step is halved, and of these the first ones, before which no more is tried than an interior point method.
+/// Times that a step is halved where its contact is not solved, of these the first ones, before which no more is tried than an interior point
+/// method, and times where it crosses what is pressed of a joint.
 const HALVINGS: u32 = 4;
 const SOON: u32 = 2;
+const CROSSINGS: u32 = 8;
 /// Least step in which loads come to bear [s], and after how many it is doubled: the slowest modes take the longest steps.
 const SETTLING: f64 = 2e-2;
 const DOUBLED: usize = 40;
+/// The step up to which, without inertia, a way is resisted by the same part of the weights whatever the step [s].
+const RESISTING: f64 = 0.1;
 /// Steps that follow a step without inertia at most, those after which none follows where bodies do not slow down, and the way ahead over that
 /// of the farthest step at which none follows.
 const FOLLOWING: usize = 60;
@@ -68,7 +72,7 @@ const POINTS: usize = 3;
 
 /// A point of a joint without bond, but for where it is and how much of the joint.
 const UNBONDED: Spot =
-    Spot { point: 0, part: Part::Whole, at: 0.0, share: 0.0, weight: 0.0, rubbing: 1.0, crushed: 0.0 };
+    Spot { point: 0, part: Part::Whole, at: 0.0, share: 0.0, weight: 0.0, rubbing: 1.0, crushed: 0.0, edge: 0.0 };
 
 /// How contact is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -331,6 +335,9 @@ pub struct Motion {
     load: Vec<[f64; 2]>,
     held: Vec<[bool; 3]>,
     mass: Vec<Triple>,
+    /// Part of the mass that resists in the step, what resists, and one over it, 0 where a body is held.
+    resists: f64,
+    resistance: Vec<Triple>,
     inverse: Vec<Triple>,
     rest: Vec<Polygon>,
     polygons: Vec<Polygon>,
@@ -374,6 +381,8 @@ pub struct Motion {
     rocks: bool,
     /// Whether some joint can be crushed.
     crushes: bool,
+    /// Whether points of a joint were placed anew after the last step.
+    placed: bool,
     /// Contacts of devices with a law of their own.
     bent: Vec<Bent>,
     free: Vec<Triple>,
@@ -388,11 +397,12 @@ impl Motion {
         let places: Vec<Place> = bodies.iter().map(|b| Place { centre: b.centre, angle: 0.0 }).collect();
         let far = |p: &Polygon| p.corners.iter().map(|c| c[0].hypot(c[1])).fold(0.0, f64::max);
         let mass: Vec<Triple> = bodies.iter().map(|b| [b.mass, b.mass, b.inertia]).collect();
-        let free = |(m, held): (&Triple, &[bool; 3])| [0, 1, 2].map(|k| if held[k] { 0.0 } else { 1.0 / m[k] });
         let mut linked: Vec<_> = system.links.iter().map(|l| in_order(l.a, l.b)).collect();
         linked.sort_unstable();
         let mut motion = Motion {
-            inverse: mass.iter().zip(&system.held).map(free).collect(),
+            resists: 0.0,
+            resistance: mass.clone(),
+            inverse: mass.clone(),
             mass,
             polygons: rest.clone(),
             radius: rest.iter().map(far).collect(),
@@ -419,6 +429,7 @@ impl Motion {
             holds: Vec::new(),
             rocks: system.links.iter().map(|link| &link.law).chain([&system.other]).any(|law| law.rocking().is_some()),
             crushes: system.links.iter().any(|link| link.law.crushing.is_finite()),
+            placed: false,
             bent: Vec::new(),
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
@@ -498,7 +509,7 @@ impl Motion {
 
     /// One step of the setting's length.
     pub fn step(&mut self, forcing: Forcing) {
-        self.take(self.setting.step, forcing, 0);
+        self.take(self.setting.step, forcing, CROSSINGS);
     }
 
     /// From here over `h` [s]; `forcing` says what acts between two instants. Without inertia, steps under what acts then
@@ -506,7 +517,7 @@ impl Motion {
     /// to rest in long steps alone. A mechanism never does, and moves the more the longer they are.
     pub fn go(&mut self, h: f64, forcing: &impl Fn(f64, f64) -> Forcing) {
         let start = self.time;
-        self.part(start, h, HALVINGS, forcing);
+        self.part(start, h, 0, forcing);
         if self.setting.still {
             let acts = forcing(start, start + h);
             self.follow(start, h, &acts);
@@ -519,11 +530,14 @@ impl Motion {
         let size = self.radius.iter().fold(0.0, |most: f64, r| most.max(*r));
         let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
         let (mut way, mut step) = (self.fastest() * h, h);
-        let (mut most, mut ratio, mut longer, mut rests) = (way, f64::INFINITY, false, false);
+        let (mut most, mut ratio, mut longer) = (way, f64::INFINITY, false);
+        let (mut near, mut rests) = (false, false);
         for number in 0..FOLLOWING {
             // Steps that shrink by a ratio have so much before them.
             let ahead = if ratio < 1.0 { way * ratio / (1.0 - ratio) } else { f64::INFINITY };
-            rests = way == 0.0 || ahead <= AT_REST * most;
+            // A joint whose points were placed anew has another equilibrium than the one that came near.
+            let nears = std::mem::replace(&mut near, way == 0.0 || ahead <= AT_REST * most);
+            rests = near && (nears || !self.placed);
             if rests || number >= PATIENCE && ratio >= 1.0 && !longer {
                 break;
             }
@@ -532,7 +546,7 @@ impl Motion {
                 step *= 2.0;
             }
             // The end of the step is that of the load: what cracks in it cracks then.
-            self.part(start + h - step, step, HALVINGS, &stays);
+            self.part(start + h - step, step, 0, &stays);
             let next = self.fastest() * step;
             (ratio, way, most) = (next / way, next, most.max(next));
         }
@@ -546,18 +560,17 @@ impl Motion {
         self.velocities.iter().zip(&self.radius).map(of).fold(0.0, f64::max)
     }
 
-    fn part(&mut self, from: f64, h: f64, halvings: u32, forcing: &impl Fn(f64, f64) -> Forcing) {
+    fn part(&mut self, from: f64, h: f64, halved: u32, forcing: &impl Fn(f64, f64) -> Forcing) {
         self.time = from;
-        if !self.take(h, forcing(from, from + h), halvings) {
+        if !self.take(h, forcing(from, from + h), halved) {
             self.counters.halved += 1;
-            self.part(from, 0.5 * h, halvings - 1, forcing);
-            self.part(from + 0.5 * h, 0.5 * h, halvings - 1, forcing);
+            self.part(from, 0.5 * h, halved + 1, forcing);
+            self.part(from + 0.5 * h, 0.5 * h, halved + 1, forcing);
         }
     }
 
-    /// A step that may be halved so many times, and is taken whether its contact is solved or not where that is none; otherwise nothing has happened
-    /// where it is not solved.
-    fn take(&mut self, h: f64, forcing: Forcing, halvings: u32) -> bool {
+    /// A step that was halved so many times; whether it was taken. It is not where halves of it are to be, and nothing has happened then.
+    fn take(&mut self, h: f64, forcing: Forcing, halved: u32) -> bool {
         // At the beginning: what is asked after a step is asked of the pairs that its contacts know.
         if self.strayed() {
             self.look();
@@ -565,6 +578,7 @@ impl Motion {
         if self.setting.still {
             self.velocities.fill([0.0; 3]);
         }
+        self.resist(h);
         // From rest to twice the mean, as all that moves does without inertia.
         let rate = forcing.held / h;
         let held = if self.setting.still { [0.0, 2.0 * rate] } else { [rate; 2] };
@@ -574,7 +588,7 @@ impl Motion {
         self.hold_back(h);
         self.guess();
         // Without inertia halves of a step are other steps, of loads that come to bear: all is tried first.
-        let halves = halvings > HALVINGS - SOON && !self.setting.still;
+        let halves = halved < SOON && !self.setting.still;
         let effort = self.solve(h, halves);
         let effort = self.follow_devices(h, halves, effort);
         let effort = if self.turn() {
@@ -585,7 +599,7 @@ impl Motion {
         };
         self.count(effort);
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
-        if halvings > 0 && !(enough && self.follows_crushing(h)) {
+        if halved < HALVINGS && !enough || halved < CROSSINGS && !self.follows_crushing(h) {
             return false;
         }
         self.counters.steps += 1;
@@ -596,6 +610,20 @@ impl Motion {
         std::mem::swap(&mut self.velocities, &mut self.after);
         self.time += h;
         true
+    }
+
+    /// Says what part of the masses resists in a step of `h` [s]. Without inertia what is left of it is to be small: what a body that starts to move
+    /// presses on is crushed for good.
+    fn resist(&mut self, h: f64) {
+        let part = if self.setting.still { (h / RESISTING).min(1.0).powi(2) } else { 1.0 };
+        if part == self.resists {
+            return;
+        }
+        self.resists = part;
+        for (body, m) in self.mass.iter().enumerate() {
+            self.resistance[body] = m.map(|m| part * m);
+            self.inverse[body] = [0, 1, 2].map(|k| if self.held[body][k] { 0.0 } else { 1.0 / (part * m[k]) });
+        }
     }
 
     /// Where a slide that friction of motion held back turns round, friction at rest holds it: whether there is such a point, which is to be solved
@@ -625,7 +653,7 @@ impl Motion {
         for (body, place) in self.places.iter().enumerate() {
             let (v, held, load) = (self.velocities[body], self.held[body], self.load[body]);
             let mut half = v.map(|v| 0.5 * h * v);
-            let pushed = |k: usize| v[k] - forcing.base[k] + h * load[k] * self.inverse[body][k];
+            let pushed = |k: usize| v[k] - forcing.base[k] / self.resists + h * load[k] * self.inverse[body][k];
             let mut after = [pushed(0), pushed(1), v[2]];
             if held[0] {
                 (half[0], after[0]) = (0.5 * h * rate[0], rate[1]);
@@ -651,12 +679,12 @@ impl Motion {
 
     fn solve(&mut self, h: f64, halves: bool) -> Effort {
         let part = self.setting.part(h);
-        let Motion { solver, mass, inverse, free, contacts, after, setting, .. } = self;
+        let Motion { solver, resistance, inverse, free, contacts, after, setting, .. } = self;
         let tolerance = part * setting.tolerance;
         match setting.method {
             Method::Newton => {
                 let ends = (tolerance, part * setting.enough());
-                solver.newton(mass, free, contacts, after, ends, halves)
+                solver.newton(resistance, free, contacts, after, ends, halves)
             }
             Method::GaussSeidel(rounds) => solver.gauss_seidel(inverse, free, contacts, after, tolerance, rounds),
         }
@@ -711,7 +739,7 @@ impl Motion {
     }
 
     fn contact(&self, seat: Seat, spot: Spot, touch: &Touch, h: f64, held: [f64; 2]) -> (Contact, Owner) {
-        let Spot { point, part, share, weight, .. } = spot;
+        let Spot { point, part, share, weight, edge, .. } = spot;
         let pair = &self.pairs[seat.pair];
         let (n, t) = (touch.normal, [-touch.normal[1], touch.normal[0]]);
         let (mut velocity, mut lever) = ([0.0; 2], [0.0; 2]);
@@ -749,7 +777,11 @@ impl Motion {
             slipped = pair.link.is_some() && gap - state.gap > jump;
         }
         let start = law.begin(state, share, h, self.setting.still, (gap, before), &mut contact);
-        let start = Start { slipped, ..start };
+        if edge > 0.0 {
+            let most = h * edge * law.crushing;
+            contact.pressure = [-most, contact.pressure[1] + most];
+        }
+        let start = Start { slipped, edge: edge > 0.0, ..start };
         (contact, Owner { pair: seat.pair, point, part, share, weight, start, lever })
     }
 
@@ -842,7 +874,7 @@ impl Motion {
         self.settle_ties(h);
         self.settle_holds(h);
         self.account.held += self.pull * held;
-        for (body, m) in self.mass.iter().enumerate() {
+        for (body, m) in self.resistance.iter().enumerate() {
             let (v, w, f, held) = (self.velocities[body], self.after[body], self.free[body], self.held[body]);
             for k in (0..3).filter(|k| !held[*k]) {
                 self.account.input += 0.5 * m[k] * (f[k] - v[k]) * (v[k] + w[k]);
@@ -870,13 +902,15 @@ impl Motion {
                         (owner.point, owner.start.gap + part * h * mean)
                     })
                 };
-                // Where the nodes are too few for what is pressed, shorter steps do not help.
-                crack.follows(law, points, gaps(1.0)) || !crack.follows(law, points, gaps(0.0))
+                let misses = |part: f64| crack.misses(law, points, gaps(part));
+                // What they miss from the start shorter steps do not mend.
+                misses(1.0) <= crack::MISSED + misses(0.0)
             })
     }
 
     /// Cracks and crushes the joints by a step that ended at `time` [s].
     fn wear(&mut self, time: f64) {
+        self.placed = false;
         let mut at = 0;
         while at < self.owners.len() {
             let own = self.owners[at].pair;
@@ -891,6 +925,7 @@ impl Motion {
                         crack.follow(points);
                         self.account.elastic += crack.hidden();
                         let worn = crack.wear(law, points, self.setting.still, time);
+                        self.placed |= worn.placed;
                         let lost = worn.bond + worn.friction + worn.beyond;
                         self.account.elastic -= lost;
                         self.account.bond += worn.bond;

@@ -402,9 +402,11 @@ pub(crate) fn bond_of(law: &JointLaw) -> Option<&BondValues> {
     law.bond.as_ref().filter(|b| b.tensile_strength > 0.0 || b.cohesion > 0.0 || b.tan_angle > 0.0)
 }
 
-/// By which part of its length a rigid joint is pressed in where it crushes: what is crushed is known of joints with springs, and a hundredth of what stones of
-/// 0.5 m are pressed in, whose strain at their strength is 1e-3.
-const PRESSED_IN: f64 = 1e-5;
+/// By which part of its length a joint is pressed in at least where it crushes: what is crushed is known of joints with springs. In motion it is a
+/// hundredth of what stones of 0.5 m are pressed in, whose strain at their strength is 1e-3; stiffer springs ring within a step.
+fn pressed_in(case: &Case) -> f64 {
+    if case.motion.quasi_static { 1e-6 } else { 1e-5 }
+}
 
 fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
     if let Some(device) = law.device(case) {
@@ -426,10 +428,10 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
         residual: values.residual,
     });
     let crushing = spring.compressive_strength.map_or(f64::INFINITY, |f| f.si() * area);
-    let stiff = crushing / (PRESSED_IN * joint.overlap);
+    let stiffest = crushing / (pressed_in(case) * joint.overlap);
     let (normal, series) = match spring.law {
         SpringLaw::Rigid if crushing.is_finite() => {
-            let (both, press) = if bond.is_some() { (stiff, 0.0) } else { (0.0, stiff) };
+            let (both, press) = if bond.is_some() { (stiffest, 0.0) } else { (0.0, stiffest) };
             (Normal::Springs { both, press, damping: 0.0 }, true)
         }
         SpringLaw::Rigid => {
@@ -437,16 +439,17 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
             (Normal::Rigid { restitution: restitution.unwrap_or(0.0), rocking: rocking.unwrap_or(1.0) }, false)
         }
         SpringLaw::Elastic | SpringLaw::None => {
-            (Normal::Springs { both: across * stiffness, press: 0.0, damping: dashpot(across * given) }, false)
+            let both = (across * stiffness).min(stiffest);
+            (Normal::Springs { both, press: 0.0, damping: dashpot(across * given) }, false)
         }
         SpringLaw::NoTension => {
-            let (own, closed) = (across * stiffness, across * stiffness * spring.rigidity);
+            let [own, closed] = [1.0, spring.rigidity].map(|k| (across * stiffness * k).min(stiffest));
             let (both, press) = if bond.is_some() { (own, (closed - own).max(0.0)) } else { (0.0, closed) };
             (Normal::Springs { both, press, damping: dashpot(across * given) }, true)
         }
     };
     let shear = match spring.law {
-        SpringLaw::Rigid if crushing.is_finite() => Shear { stiffness: stiff, damping: 0.0, series },
+        SpringLaw::Rigid if crushing.is_finite() => Shear { stiffness: stiffest, damping: 0.0, series },
         SpringLaw::Rigid => Shear { stiffness: 0.0, damping: 0.0, series: false },
         _ => Shear { stiffness: along * stiffness, damping: dashpot(along * given), series },
     };

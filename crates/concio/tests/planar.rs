@@ -526,7 +526,8 @@ base = { sine = { acceleration = "0.8 g", frequency = "3 Hz" } }
     let found = outcome.totals.peak_relative_displacement;
     let subject = "Sliding: dry wall of 6 courses, μ = 0.6, under 0.8 g at 3 Hz, peak slip";
     agrees!(subject, "Newmark's sliding block", "m", found, 6.556e-3, 1e-3);
-    assert!(outcome.totals.contact_residual < 1e-7, "{:e}", outcome.totals.contact_residual);
+    // A hundred times the tolerance, which steps are taken with.
+    assert!(outcome.totals.contact_residual < 1e-6, "{:e}", outcome.totals.contact_residual);
 }
 
 /// Stones of a course only just touch: what rounding presses them by tells nothing of how the wall swings.
@@ -1383,15 +1384,25 @@ fn the_account_closes_where_joints_crush_and_where_bonds_end() {
     }
 }
 
-/// What is crushed of a rigid joint is gone: a stone of 1 m × 2 m that is pushed over, back and over again by 2 % bears what 2,000 strips do, and crushing takes what it
-/// takes from them.
+/// What is crushed of a joint is gone: a stone of 1 m × 2 m that is pushed over, back and over again by 2 % bears what 2,000 strips do, and crushing takes what it
+/// takes from them. Springs of 4,800 N/mm³ are as stiff as a rigid joint.
 #[test]
-fn a_crushed_rigid_joint_does_not_heal() {
+fn a_crushed_joint_does_not_heal() {
+    for (law, pressed_in) in [
+        (r#""rigid""#, 1e-6),
+        (r#""no-tension", rigidity = 1, stiffness = "2000 N/mm3""#, 1e-6),
+        (r#""no-tension", rigidity = 1, normal_to_shear = 1, stiffness = "4 N/mm3""#, 1e-4),
+    ] {
+        crushed_to_and_fro(law, pressed_in);
+    }
+}
+
+fn crushed_to_and_fro(law: &str, pressed_in: f64) {
     let (length, height, thickness, strength, weight, load) = (1.0, 2.0, 0.3, 0.4e6, 12e3, 10e3);
+    let joint = format!("[joint]\nbed = {{ law = {law}, compressive_strength = \"0.4 MPa\" }}\n");
     let stone = block(
-        r#"
-[joint]
-bed = { law = "rigid", compressive_strength = "0.4 MPa" }
+        &(joint
+            + r#"
 head = { law = "none" }
 top = { law = "rigid" }
 friction = { law = "coulomb", static = 1.9, dynamic = 1.9 }
@@ -1401,7 +1412,7 @@ beam = "driven"
 [motion]
 quasi_static = true
 top = { path = { displacements = ["50 mm", "0 mm", "50 mm"], speed = "5 mm/s" } }
-"#,
+"#),
     );
     let stone = stone.replace("length = 0.5", "length = 1").replace("height = 0.5", "height = 2");
     let (_, outcome) = ran(&stone.replace("thickness = 1", "thickness = 0.3"));
@@ -1410,7 +1421,7 @@ top = { path = { displacements = ["50 mm", "0 mm", "50 mm"], speed = "5 mm/s" } 
     let pushed = channel(&outcome, "top/force");
     const STRIPS: usize = 2000;
     let area = length * thickness;
-    let stiffness = strength / (1e-5 * length);
+    let stiffness = strength / (pressed_in * length);
     let (mut crushed, mut sunk, mut taken) = (vec![0.0f64; STRIPS], 0.0, 0.0);
     let x = |n: usize| ((n as f64 + 0.5) / STRIPS as f64 - 0.5) * length;
     let mut off = 0.0f64;
@@ -1433,8 +1444,11 @@ top = { path = { displacements = ["50 mm", "0 mm", "50 mm"], speed = "5 mm/s" } 
         let expected = (moment - weight * 0.5 * height * angle - load * lever * angle) / lever;
         off += (pushed - expected).abs() / angles.len() as f64;
     }
+    let subject = format!(
+        "Crushing: {} joint pressed in by {pressed_in:e} of its length, stone of 1 m × 2 m pushed over by 2 %, back and again",
+        law.split('"').nth(1).unwrap_or_default()
+    );
+    agrees!(format!("{subject}; energy that crushing takes"), "2,000 strips", "J", outcome.energies.bond, taken, 5e-3);
     let most = pushed.iter().copied().fold(0.0, f64::max);
-    let subject = "Crushing: rigid joint, stone of 1 m × 2 m pushed over by 2 %, back and again";
-    agrees!(format!("{subject}; energy that crushing takes"), "2,000 strips", "J", outcome.energies.bond, taken, 0.02);
-    assert!(off < 0.01 * most, "{off} N of {most} N in the mean");
+    agrees!(format!("{subject}; how far its force is off in the mean, over the largest"), "2,000 strips", "", off / most, 0.0, abs: 3e-3);
 }
