@@ -112,7 +112,7 @@ pub fn points(file: &StudyFile, factors: &[Factor]) -> Result<Vec<Vec<At>>> {
 const ATTEMPTS: usize = 50;
 /// Trajectories and base points from which on 95 % intervals hold nine in ten of what they estimate.
 const FEWEST_TRAJECTORIES: usize = 5;
-const FEWEST_BASE_POINTS: usize = 16;
+const FEWEST_BASE_POINTS: usize = 12;
 
 /// Trajectories move every factor, and go to the ends of its range.
 fn suits_morris(file: &StudyFile, factors: &[Factor]) -> Result<()> {
@@ -267,12 +267,15 @@ fn morris(trajectories: usize, grids: &[Grid], seed: u64) -> Vec<Vec<At>> {
 /// What is to be known of indices from fewer runs than their intervals take.
 pub fn scarce(kind: DesignKind, runs: usize) -> Option<String> {
     let (least, told) = match kind {
-        DesignKind::Morris => (FEWEST_TRAJECTORIES, "trajectories hold a normal law at best: of fewer than"),
-        DesignKind::Sobol => (FEWEST_BASE_POINTS, "base points are too narrow: of fewer than"),
+        DesignKind::Morris => (FEWEST_TRAJECTORIES, ["trajectories hold a normal law at best", "two in five"]),
+        DesignKind::Sobol => (FEWEST_BASE_POINTS, ["base points are too narrow", "one in eight"]),
         _ => return None,
     };
+    let [narrow, miss] = told;
     (runs < least).then(|| {
-        format!("design.runs = {runs}: intervals of so few {told} {least} up to two in five miss what they estimate")
+        format!(
+            "design.runs = {runs}: intervals of so few {narrow}: of fewer than {least} up to {miss} miss what they estimate"
+        )
     })
 }
 

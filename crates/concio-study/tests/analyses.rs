@@ -29,7 +29,6 @@ fn sensitivity_of_nothing() {
     says(&format!("{VARY}[sensitivity]\nof = []\n"), 6, &["no measure is named"]);
     says("[sensitivity]\nof = [\"peak_drift\"]\n", 2, &["nothing varies", "[[vary]]"]);
     says(&format!("{VARY}[sensitivity]\nof = [\"peak_drift\"]\nconfidence = 1.0\n"), 7, &["between 0 and 1"]);
-    says(&format!("{VARY}[sensitivity]\nof = [\"peak_drift\"]\nresamples = 3\n"), 7, &["100"]);
 }
 
 /// Trajectories need two values of every factor, and ends to go to.

@@ -10,13 +10,11 @@ use concio::ground::{measure, response_spectrum};
 use concio_study::cma::Cma;
 use concio_study::ida::fragility::fit;
 use concio_study::ida::likelihood::Evidence;
-use concio_study::sensitivity::{Bootstrap, morris, ranks, sobol};
+use concio_study::sensitivity::{morris, ranks, sobol};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 use statrs::distribution::{ContinuousCDF, StudentsT};
-
-const BOOTSTRAP: Bootstrap = Bootstrap { resamples: 400, confidence: 0.95, seed: 3 };
 
 /// What the peers answer; none where there is no Python.
 fn peers<T: DeserializeOwned>(question: &Value) -> Option<T> {
@@ -73,7 +71,7 @@ fn shares_of_the_variance_are_those_of_salib() {
     let values: Vec<f64> = blocks.iter().flatten().map(|x| 40.0 + ishigami(x)).collect();
     let Some(peer) = peers::<Shares>(&json!({ "what": "sobol", "values": values, "factors": k })) else { return };
     let values: Vec<Option<f64>> = values.into_iter().map(Some).collect();
-    let found = sobol::shares(&values, k, &BOOTSTRAP).expect("shares");
+    let found = sobol::shares(&values, k, 0.95).expect("shares");
     for (f, shares) in found.iter().enumerate() {
         near(&format!("S of x{f}"), shares.first.value, peer.first[f], 1e-10);
         near(&format!("T of x{f}"), shares.total.value, peer.total[f], 1e-10);
@@ -133,7 +131,7 @@ fn rank_coefficients_are_those_of_scipy() {
     let question = json!({ "what": "ranks", "shares": shares, "values": values });
     let Some(peer) = peers::<Ranks>(&question) else { return };
     let values: Vec<Option<f64>> = values.into_iter().map(Some).collect();
-    let (found, explained) = ranks::coefficients(&shares, &values, &[true; 3], &BOOTSTRAP).expect("coefficients");
+    let (found, explained) = ranks::coefficients(&shares, &values, &[true; 3], (&[0; 80], 0.95)).expect("coefficients");
     for (f, index) in found.iter().enumerate() {
         near(&format!("b of x{f}"), index.expect("an order").value, peer.coefficients[f], 1e-10);
     }

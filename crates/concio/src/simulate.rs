@@ -35,6 +35,8 @@ const FINEST: f64 = 1e-4;
 /// Steps shorter than this over the shortest time scale are not shortened further for the energy's sake: friction that
 /// jumps loses what it loses.
 const UNFELT: f64 = 1e-4;
+/// By what joints that remember how far they went may miss it, over the tolerance of displacements.
+const MEMORY: f64 = 0.1;
 /// Samples in a step at most; the record buffer holds twice as many.
 const WINDOW: usize = 128;
 /// Events that it holds, beside as many as may happen at one instant.
@@ -265,7 +267,8 @@ impl<'m> Simulation<'m> {
             let tolerance = self.tolerance(plan.h);
             let attempt = self.work.attempt(self.model, &self.state, &self.drive, plan.h, tolerance);
             if attempt.is_ok_and(|error| error <= 1.0) {
-                let first = events::first(self.model, &self.state, &self.work.z, self.work.v(), plan.h);
+                let first =
+                    events::first(self.model, &self.state, [&self.work.z, self.work.v()], plan.h, MEMORY * tolerance.z);
                 if first.is_some() {
                     self.state.counters.located += 1;
                     plan.event = first;

@@ -623,3 +623,58 @@ fn a_device_needs_a_joint() {
         }
     }
 }
+
+/// What joints remember of how far they went, s of (I7) and δ_m of (B3), is known at turns inside steps too: with ESDIRK4 a flag and a bond that softens go as with
+/// steps of a fiftieth.
+#[test]
+fn memory_knows_turns_inside_steps() {
+    let flag = r#"
+        bed = { law = "elastic", stiffness = "2000 N/m" }
+        head = { law = "none" }
+        friction = { law = "none" }
+        [[joint.change]]
+        at = { kind = ["base"] }
+        device = { law = "re-centring", stiffness = "6000 N/m", activation_force = "4 N", flag = 0.9, post_stiffness = "1500 N/m" }
+        "#;
+    let bond = r#"
+        bed = { law = "elastic", stiffness = "2500 N/m" }
+        head = { law = "none" }
+        friction = { law = "none" }
+        bond = { cohesion = "666.67 Pa", friction_angle = "0 deg", tensile_strength = "0 Pa", mode_2_energy = "9.3253 N/m", on = ["base"] }
+        "#;
+    for (what, joint, frequency) in [("re-centring flag", flag, 2.7), ("bond that softens", bond, 5.0)] {
+        let moves = |solver: &str| {
+            let text = format!(
+                r#"
+                model = "shear"
+                [[panel]]
+                bond = "stack"
+                courses = 1
+                bricks = 1
+                brick = {{ length = "250 mm", height = "55 mm", thickness = "120 mm", specific_weight = "18 kN/m3" }}
+                [joint]
+                damping_ratio = 0
+                {joint}
+                [load]
+                beam = "free"
+                [motion]
+                duration = "1.5 s"
+                base = {{ sine = {{ acceleration = "2.7 m/s2", frequency = {frequency}, ramp = "1 s" }} }}
+                [solver]
+                scheme = "esdirk4"
+                {solver}
+                [output]
+                interval = "5 ms"
+                blocks = ["all"]
+                "#
+            );
+            let outcome = run_in_memory(&prepared(&text)).unwrap();
+            outcome.history("block/p1c1b1/displacement").unwrap()
+        };
+        let (found, fine) = (moves("tolerance = 1e-6"), moves("tolerance = 1e-8\nmax_step = \"0.1 ms\""));
+        let most = fine.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        let off = farthest(found.iter().zip(&fine).map(|(a, b)| (a / most, b / most)));
+        let subject = format!("Memory: {what}, one block, motion over its largest with tolerance 1e-6");
+        agrees!(subject, "steps of 0.1 ms", "", off, 0.0, abs: 2e-5);
+    }
+}

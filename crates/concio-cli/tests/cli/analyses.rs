@@ -123,7 +123,6 @@ from = "0.4 g"
 to = "0.8 g"
 [sensitivity]
 of = ["largest_slip", "joints_cracked"]
-resamples = 100
 "#;
 
 #[test]

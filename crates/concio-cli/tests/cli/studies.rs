@@ -52,8 +52,7 @@ fn holds(text: &str, parts: &[&str]) {
 /// Sensitivity and ranking: asked, answered on the terminal, and what was run in the report.
 #[test]
 fn a_study_says_what_was_run_and_what_it_answers() {
-    let asked =
-        "[sensitivity]\nof = [\"peak_drift\"]\nresamples = 100\n[ranking]\nlisted = 2\nby = [\"displacement\"]\n";
+    let asked = "[sensitivity]\nof = [\"peak_drift\"]\n[ranking]\nlisted = 2\nby = [\"displacement\"]\n";
     let desk = desk(&format!("{DRAWN}{VARY}{MOTIONS}{asked}"));
     let parts = [
         "asks       sensitivity of peak_drift\n",

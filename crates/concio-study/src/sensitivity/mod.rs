@@ -1,8 +1,8 @@
 //! Which factors move a measure, and how much: indices that fit the design of the study.
 //!
 //! `morris` gives elementary effects, `sobol` shares of the variance, every other design standardised rank regression
-//! coefficients. Intervals of elementary effects are those of small samples ([`morris`]). Those of the others are from the bootstrap: whatever the design drew
-//! independently (base points, runs) is drawn again with replacement, and the interval holds the middle part of the indices so found.
+//! coefficients. Intervals of elementary effects are those of small samples ([`morris`]), those of the others are from the jackknife ([`jackknife`]): whatever
+//! is independent (base points, runs, or the motions of runs that share some) is left out in turn.
 
 pub mod morris;
 pub mod ranks;
@@ -10,7 +10,6 @@ pub mod sobol;
 pub mod tables;
 
 use concio::Result;
-use concio::dice::Dice;
 use concio::quantity::shown;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -32,23 +31,10 @@ pub struct Sensitivity {
     #[serde(default = "confidence")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub confidence: f64,
-    /// Resamples of the bootstrap, which all designs but `morris` have, 100 … 100,000; default 1000.
-    #[serde(default = "resamples")]
-    #[schemars(range(min = 100, max = 100_000))]
-    pub resamples: usize,
-    /// Seed of the bootstrap; default 1.
-    #[serde(default = "seed")]
-    pub seed: u64,
 }
 
 fn confidence() -> f64 {
     0.95
-}
-fn resamples() -> usize {
-    1000
-}
-fn seed() -> u64 {
-    1
 }
 
 /// An index with its interval.
@@ -65,40 +51,32 @@ pub(crate) fn student(freedom: f64, confidence: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |law| law.inverse_cdf(0.5 + 0.5 * confidence))
 }
 
-/// How the bootstrap is done.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bootstrap {
-    /// Number of resamples, from 1.
-    pub resamples: usize,
-    /// Confidence, between 0 and 1.
-    pub confidence: f64,
-    /// Seed.
-    pub seed: u64,
-}
+/// Parts that are left out one by one at most: of more, groups are.
+const GROUPS: usize = 200;
 
-impl Bootstrap {
-    /// Indices of `n` independent parts: `of` computes them from a list of parts, which may hold one several times. An index
-    /// that is no number has an interval that is none.
-    pub fn indices(&self, n: usize, of: &dyn Fn(&[usize]) -> Vec<f64>) -> Vec<Index> {
-        let all: Vec<usize> = (0..n).collect();
-        let values = of(&all);
-        let mut dice = Dice::new(self.seed);
-        let mut drawn: Vec<Vec<f64>> = vec![Vec::new(); values.len()];
-        for _ in 0..self.resamples {
-            let parts: Vec<usize> = (0..n).map(|_| dice.below(n)).collect();
-            for (list, value) in drawn.iter_mut().zip(of(&parts)) {
-                if value.is_finite() {
-                    list.push(value);
-                }
-            }
-        }
-        let tail = 0.5 * (1.0 - self.confidence);
-        let interval = |mut list: Vec<f64>| {
-            list.sort_by(f64::total_cmp);
-            [tail, 1.0 - tail].map(|share| crate::ida::curve::quantile(&list, share))
-        };
-        values.into_iter().zip(drawn).map(|(value, list)| Index { value, interval: interval(list) }).collect()
-    }
+/// Indices of `n` independent parts, two at least: `of` computes them from a list of parts. Their intervals are Student's with so many degrees of `freedom` of
+/// what the jackknife tells of their scatter (J. W. Tukey, 1958; of groups that are not alike, F. Busing et al., Stat. Comput. 9 (1999) 3):
+///
+/// (J1)  s² = 1/G Σ_j (h_j θ − (h_j − 1) θ_j − θ_J)²/(h_j − 1),   θ_J = G θ − Σ_j (1 − 1/h_j) θ_j
+///
+/// θ_j is θ without group j of G groups, which has n/h_j parts. An index that is no number, of some group left out too, has an interval that is none.
+pub fn jackknife(n: usize, freedom: f64, confidence: f64, of: &dyn Fn(&[usize]) -> Vec<f64>) -> Vec<Index> {
+    let all: Vec<usize> = (0..n).collect();
+    let values = of(&all);
+    let groups = n.min(GROUPS);
+    let without = |group: usize| all.iter().copied().filter(|part| part % groups != group).collect::<Vec<_>>();
+    let left: Vec<Vec<f64>> = (0..groups).map(|group| of(&without(group))).collect();
+    let times: Vec<f64> = (0..groups).map(|group| n as f64 / (n - group).div_ceil(groups) as f64).collect();
+    let index = |(k, value): (usize, f64)| {
+        let count = groups as f64;
+        let sum: f64 = left.iter().zip(&times).map(|(left, h)| (1.0 - 1.0 / h) * left[k]).sum();
+        let centre = count * value - sum;
+        let off = |(left, h): (&Vec<f64>, &f64)| (h * value - (h - 1.0) * left[k] - centre).powi(2) / (h - 1.0);
+        let scatter = (left.iter().zip(&times).map(off).sum::<f64>() / count).sqrt();
+        let half = student(freedom.min(count - 1.0), confidence) * scatter;
+        Index { value, interval: [value - half, value + half] }
+    };
+    values.into_iter().enumerate().map(index).collect()
 }
 
 /// The indices of the factors for one measure.
@@ -146,10 +124,6 @@ pub fn measures(plan: &Plan) -> Result<Vec<&'static Measure>> {
         let what = format!("{} is out of range", shown(asked.confidence));
         return Err(file.wrong("sensitivity.confidence", what, "between 0 and 1"));
     }
-    if !(100..=100_000).contains(&asked.resamples) {
-        let what = format!("{} is out of range", asked.resamples);
-        return Err(file.wrong("sensitivity.resamples", what, "100 … 100,000"));
-    }
     let find = |(i, name): (usize, &String)| {
         let found = MEASURES.iter().find(|m| m.name == name);
         found.ok_or_else(|| {
@@ -167,7 +141,7 @@ pub fn measures(plan: &Plan) -> Result<Vec<&'static Measure>> {
 pub fn sensitivity(plan: &Plan, rows: &[Option<&Row>]) -> Result<Vec<Found>> {
     let measures = measures(plan)?;
     let Some(asked) = &plan.file.study.sensitivity else { return Ok(Vec::new()) };
-    let bootstrap = Bootstrap { resamples: asked.resamples, confidence: asked.confidence, seed: asked.seed };
+    let motions: Vec<usize> = (0..rows.len()).map(|number| plan.motion(number).unwrap_or_default()).collect();
     let levels: Vec<Vec<f64>> = plan.factors.iter().map(Factor::places).collect();
     let ordered: Vec<bool> = plan.factors.iter().map(Factor::is_ordered).collect();
     let shares: Vec<Vec<f64>> = plan.points.iter().map(|row| places(row, &levels)).collect();
@@ -177,8 +151,8 @@ pub fn sensitivity(plan: &Plan, rows: &[Option<&Row>]) -> Result<Vec<Found>> {
         let k = plan.factors.len();
         let found = match plan.file.study.design.kind {
             DesignKind::Morris => morris::effects(&shares, &values, &ordered, asked.confidence).map(Indices::Morris),
-            DesignKind::Sobol => sobol::shares(&values, k, &bootstrap).map(Indices::Sobol),
-            _ => ranks::coefficients(&shares, &values, &ordered, &bootstrap)
+            DesignKind::Sobol => sobol::shares(&values, k, asked.confidence).map(Indices::Sobol),
+            _ => ranks::coefficients(&shares, &values, &ordered, (&motions, asked.confidence))
                 .map(|(coefficients, explained)| Indices::Ranks { coefficients, explained }),
         };
         Found { measure, indices: found, left_out: values.iter().filter(|v| v.is_none()).count() }

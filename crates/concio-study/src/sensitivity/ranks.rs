@@ -8,12 +8,15 @@
 //! b_i lies between −1 and 1 where factors vary independently; R² near 1 says that the measure rises or falls with the
 //! factors throughout, and that the b_i tell all.
 
-use super::{Bootstrap, Index};
+use std::collections::BTreeMap;
+
+use super::{Index, jackknife};
 
 /// How many more runs than factors it takes: intervals of fewer miss up to two in five of what they estimate.
 const FREEDOM: usize = 4;
 
-/// Coefficients of the factors that are `ordered`, none for the others, and R². Rows without value are left out.
+/// Coefficients of the factors that are `ordered`, none for the others, and R². Rows without value are left out. `motions` are those of the rows: where some
+/// share theirs, what is independent are the motions.
 ///
 /// # Errors
 /// Too few runs, nothing to regress on, factors that move together.
@@ -21,7 +24,7 @@ pub fn coefficients(
     shares: &[Vec<f64>],
     values: &[Option<f64>],
     ordered: &[bool],
-    bootstrap: &Bootstrap,
+    (motions, confidence): (&[usize], f64),
 ) -> Result<(Vec<Option<Index>>, f64), String> {
     let used: Vec<usize> = (0..values.len()).filter(|&i| values[i].is_some()).collect();
     let y: Vec<f64> = used.iter().filter_map(|&i| values[i]).collect();
@@ -46,7 +49,16 @@ pub fn coefficients(
         return Err("factors move together: their parts cannot be told from each other".into());
     }
     let none = || vec![f64::NAN; factors.len() + 1];
-    let found = bootstrap.indices(y.len(), &|parts| regression(&columns, &y, parts).unwrap_or_else(none));
+    let mut alike: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    used.iter().enumerate().for_each(|(row, &run)| alike.entry(motions[run]).or_default().push(row));
+    let alike: Vec<Vec<usize>> =
+        if alike.len() < 2 { all.iter().map(|&row| vec![row]).collect() } else { alike.into_values().collect() };
+    let freedom = y.len() as f64 - factors.len() as f64 - 1.0;
+    let of = |parts: &[usize]| {
+        let rows: Vec<usize> = parts.iter().flat_map(|&part| &alike[part]).copied().collect();
+        regression(&columns, &y, &rows).unwrap_or_else(none)
+    };
+    let found = jackknife(alike.len(), freedom, confidence, &of);
     let mut coefficients = vec![None; ordered.len()];
     for (f, index) in factors.iter().zip(&found) {
         coefficients[*f] = Some(*index);

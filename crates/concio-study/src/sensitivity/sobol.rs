@@ -6,9 +6,9 @@
 //! (V1)  S_i V = mean[ f(B) (f(A_i) − f(A)) ],   T_i V = ½ mean[ (f(A) − f(A_i))² ]
 //!
 //! V is the variance of f(A) and f(B) together; their mean is taken off f first, which changes (V1) by nothing in the mean
-//! and takes most of its scatter away where f is far from 0.
+//! and takes most of its scatter away where f is far from 0. The interval of T_i is that of its logarithm.
 
-use super::{Bootstrap, Index};
+use super::{Index, jackknife};
 
 /// Shares of one factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Shares {
 ///
 /// # Errors
 /// Fewer than two whole base points; a measure that does not vary.
-pub fn shares(values: &[Option<f64>], k: usize, bootstrap: &Bootstrap) -> Result<Vec<Shares>, String> {
+pub fn shares(values: &[Option<f64>], k: usize, confidence: f64) -> Result<Vec<Shares>, String> {
     let n = values.len() / (k + 2);
     let point = |i: usize| (0..k + 2).map(|block| values[block * n + i]).collect::<Option<Vec<f64>>>();
     let points: Vec<Vec<f64>> = (0..n).filter_map(point).collect();
@@ -35,7 +35,7 @@ pub fn shares(values: &[Option<f64>], k: usize, bootstrap: &Bootstrap) -> Result
     if points.iter().all(|p| p[0] == first && p[1] == first) {
         return Err("it does not vary".into());
     }
-    let indices = bootstrap.indices(points.len(), &|parts| {
+    let indices = jackknife(points.len(), points.len() as f64 - 1.0, confidence, &|parts| {
         let n = parts.len() as f64;
         let mean = parts.iter().map(|&p| points[p][0] + points[p][1]).sum::<f64>() / (2.0 * n);
         let square = |v: f64| (v - mean) * (v - mean);
@@ -46,9 +46,14 @@ pub fn shares(values: &[Option<f64>], k: usize, bootstrap: &Bootstrap) -> Result
             };
             let first = sum(&|a, b, mixed| (b - mean) * (mixed - a));
             let total = sum(&|a, _, mixed| 0.5 * (a - mixed) * (a - mixed));
-            [first / variance, total / variance]
+            [first / variance, (total / variance).ln()]
         };
         (0..k).flat_map(of).collect()
     });
-    Ok(indices.chunks(2).map(|i| Shares { first: i[0], total: i[1] }).collect())
+    // A mean of squares scatters by its size: what moves nothing has none.
+    let total = |log: &Index| {
+        let value = log.value.exp();
+        Index { value, interval: if value == 0.0 { [0.0; 2] } else { log.interval.map(f64::exp) } }
+    };
+    Ok(indices.chunks(2).map(|i| Shares { first: i[0], total: total(&i[1]) }).collect())
 }

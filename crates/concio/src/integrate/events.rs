@@ -8,7 +8,10 @@
 //! through displacements and velocities there. Where it passes its limit by more than is allowed the step is tried again,
 //! as long as the cubic says; the nearer its end is to the event the better the cubic, so that few attempts are
 //! needed. An attempt that stays short of the event is a step like any other: nothing is lost by taking it.
+//! Joints that remember how far they went, s of (I7) and δ_m of (B3), know it at the ends of steps alone: where one turns inside a step so that its memory
+//! would miss more than the step may be off, the step ends at the turn.
 
+use crate::device::Law;
 use crate::model::Model;
 use crate::state::State;
 
@@ -85,19 +88,45 @@ pub fn at_once(model: &Model) -> usize {
 }
 
 /// When, counted from the start of the step [s], the first event is over which the step of `h` from `state` to `z`, `v`
-/// has passed; none when it may be accepted.
-pub fn first(model: &Model, state: &State, z: &[f64], v: &[f64], h: f64) -> Option<f64> {
+/// has passed; none when it may be accepted. What a joint remembers may be off by `within` [m].
+pub fn first(model: &Model, state: &State, [z, v]: [&[f64]; 2], h: f64, within: f64) -> Option<f64> {
     let mut earliest: Option<f64> = None;
-    for (watch, joint, sign) in watched(model, state) {
+    let mut sooner = |at: f64| earliest = Some(earliest.map_or(at, |e| e.min(at)));
+    let path = |joint: usize, sign: f64| {
         let [a, b] = model.sides[joint].map(|s| s as usize);
         let d = [sign * (state.z[a] - state.z[b]), sign * (z[a] - z[b])];
         let w = [sign * (state.v[a] - state.v[b]), sign * (v[a] - v[b])];
-        let reach = watch.reach(d[0]);
-        let path = Path { d, w, h };
+        Path { d, w, h }
+    };
+    for (watch, joint, sign) in watched(model, state) {
+        let path = path(joint, sign);
+        let reach = watch.reach(path.d[0]);
         if path.highest() > reach.limit {
-            let at = h * path.crossing(reach.target);
-            earliest = Some(earliest.map_or(at, |e| e.min(at)));
+            sooner(h * path.crossing(reach.target));
         }
+    }
+    let mut turn = |joint: u32, remembers: &dyn Fn(f64, f64) -> f64, known: f64| {
+        let up = path(joint as usize, 1.0);
+        let sign = up.w[0].signum();
+        if up.w[0] * up.w[1] >= 0.0 {
+            return;
+        }
+        let path = path(joint as usize, sign);
+        let [at, end] = [path.turning(), path.d[1]];
+        let turned = remembers(remembers(known, sign * path.at(at)), sign * end);
+        if (turned - remembers(known, sign * end)).abs() > within {
+            sooner(h * at);
+        }
+    };
+    for (device, held) in model.nonlinear.iter().zip(&state.devices) {
+        if let Law::ReCentring(_) = device.law {
+            turn(device.joint, &|known, d| device.law.settled(known, d), held.internal);
+        }
+    }
+    for (bond, held) in
+        model.bonds.iter().zip(&state.bonds).filter(|(bond, held)| !bond.law.is_brittle() && held.damage < 1.0)
+    {
+        turn(bond.joint, &|known, d| known.max(bond.law.stretch(d)), held.reach.max(bond.law.limit()));
     }
     // Shorter at any rate: attempts must come to an end.
     earliest.map(|at| at.min(h * (1.0 - 1e-9)))
