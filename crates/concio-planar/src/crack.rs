@@ -52,6 +52,8 @@ const TOUCHING: f64 = 1e-12;
 const APART: f64 = 1e3;
 /// Part of a joint below which what is left of its bond is rounding.
 const NOTHING: f64 = 1e-9;
+/// Part of the strength up to which a joint that has not been crushed may come in a step without a look at whether its points bear what it does.
+const FAR_BELOW: f64 = 0.1;
 /// Part of what crushes below which what is pressed beside it is its edge.
 const THIN: f64 = 0.1;
 /// Part of the strength up to which a corner is a contact point.
@@ -171,8 +173,6 @@ pub(crate) struct Worn {
     pub friction: f64,
     /// What springs lost beside that, because a step goes beyond a limit before it is met, and where points are placed anew.
     pub beyond: f64,
-    /// Whether its points are others now.
-    pub placed: bool,
 }
 
 /// Place of a node, 0 … 1.
@@ -587,7 +587,7 @@ impl Crack {
         }
         let slope = (far - near) / (to - from);
         let [start, end] = [0.0, 1.0].map(|at: f64| near + slope * (at - from));
-        if self.depth() == 0.0 && -stiffness * start.min(end) <= law.crushing {
+        if self.depth() == 0.0 && -stiffness * start.min(end) <= FAR_BELOW * law.crushing {
             return 0.0;
         }
         let pressed = |n: usize| -stiffness * (start + slope * self.place_of(n) + self.crushed[n]) / law.crushing;
@@ -768,7 +768,7 @@ impl Crack {
         let lost = before - self.stored(law, points);
         let [_, keeps] = self.friction_borne(law, points);
         let rubbed = stored + friction[1] - keeps;
-        Worn { bond: taken, friction: rubbed, beyond: lost - taken - rubbed, placed: true }
+        Worn { bond: taken, friction: rubbed, beyond: lost - taken - rubbed }
     }
 
     /// What has cracked bears along the joint, and what its springs along store [N, J].

@@ -41,12 +41,10 @@ const RESTS: usize = 4;
 /// method, and times where it crosses what is pressed of a joint.
 const HALVINGS: u32 = 4;
 const SOON: u32 = 2;
-const CROSSINGS: u32 = 8;
-/// Least step in which loads come to bear [s], and after how many it is doubled: the slowest modes take the longest steps.
+const CROSSINGS: u32 = 6;
+/// Least step in which loads come to bear and whose inertia resists without inertia [s], and after how many it is doubled: the slowest modes take the longest steps.
 const SETTLING: f64 = 2e-2;
 const DOUBLED: usize = 40;
-/// The step up to which, without inertia, a way is resisted by the same part of the weights whatever the step [s].
-const RESISTING: f64 = 0.1;
 /// Steps that follow a step without inertia at most, those after which none follows where bodies do not slow down, and the way ahead over that
 /// of the farthest step at which none follows.
 const FOLLOWING: usize = 60;
@@ -381,8 +379,6 @@ pub struct Motion {
     rocks: bool,
     /// Whether some joint can be crushed.
     crushes: bool,
-    /// Whether points of a joint were placed anew after the last step.
-    placed: bool,
     /// Contacts of devices with a law of their own.
     bent: Vec<Bent>,
     free: Vec<Triple>,
@@ -429,7 +425,6 @@ impl Motion {
             holds: Vec::new(),
             rocks: system.links.iter().map(|link| &link.law).chain([&system.other]).any(|law| law.rocking().is_some()),
             crushes: system.links.iter().any(|link| link.law.crushing.is_finite()),
-            placed: false,
             bent: Vec::new(),
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
@@ -530,14 +525,11 @@ impl Motion {
         let size = self.radius.iter().fold(0.0, |most: f64, r| most.max(*r));
         let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
         let (mut way, mut step) = (self.fastest() * h, h);
-        let (mut most, mut ratio, mut longer) = (way, f64::INFINITY, false);
-        let (mut near, mut rests) = (false, false);
+        let (mut most, mut ratio, mut longer, mut rests) = (way, f64::INFINITY, false, false);
         for number in 0..FOLLOWING {
             // Steps that shrink by a ratio have so much before them.
             let ahead = if ratio < 1.0 { way * ratio / (1.0 - ratio) } else { f64::INFINITY };
-            // A joint whose points were placed anew has another equilibrium than the one that came near.
-            let nears = std::mem::replace(&mut near, way == 0.0 || ahead <= AT_REST * most);
-            rests = near && (nears || !self.placed);
+            rests = way == 0.0 || ahead <= AT_REST * most;
             if rests || number >= PATIENCE && ratio >= 1.0 && !longer {
                 break;
             }
@@ -612,10 +604,10 @@ impl Motion {
         true
     }
 
-    /// Says what part of the masses resists in a step of `h` [s]. Without inertia what is left of it is to be small: what a body that starts to move
-    /// presses on is crushed for good.
+    /// Says what part of the masses resists in a step of `h` [s]. Without inertia, where joints can be crushed, parts of a step are resisted as the whole is by
+    /// the same part of the way: what a body that starts to move presses on is crushed for good.
     fn resist(&mut self, h: f64) {
-        let part = if self.setting.still { (h / RESISTING).min(1.0).powi(2) } else { 1.0 };
+        let part = if self.setting.still && self.crushes { (h / SETTLING).min(1.0).powi(2) } else { 1.0 };
         if part == self.resists {
             return;
         }
@@ -776,7 +768,11 @@ impl Motion {
             }
             slipped = pair.link.is_some() && gap - state.gap > jump;
         }
+        // What grips does so however little resists.
+        let moved = contact.moved;
+        contact.moved = moved.map(|m| m / self.resists);
         let start = law.begin(state, share, h, self.setting.still, (gap, before), &mut contact);
+        contact.moved = moved;
         if edge > 0.0 {
             let most = h * edge * law.crushing;
             contact.pressure = [-most, contact.pressure[1] + most];
@@ -910,7 +906,6 @@ impl Motion {
 
     /// Cracks and crushes the joints by a step that ended at `time` [s].
     fn wear(&mut self, time: f64) {
-        self.placed = false;
         let mut at = 0;
         while at < self.owners.len() {
             let own = self.owners[at].pair;
@@ -925,7 +920,6 @@ impl Motion {
                         crack.follow(points);
                         self.account.elastic += crack.hidden();
                         let worn = crack.wear(law, points, self.setting.still, time);
-                        self.placed |= worn.placed;
                         let lost = worn.bond + worn.friction + worn.beyond;
                         self.account.elastic -= lost;
                         self.account.bond += worn.bond;

@@ -402,10 +402,13 @@ pub(crate) fn bond_of(law: &JointLaw) -> Option<&BondValues> {
     law.bond.as_ref().filter(|b| b.tensile_strength > 0.0 || b.cohesion > 0.0 || b.tan_angle > 0.0)
 }
 
-/// By which part of its length a joint is pressed in at least where it crushes: what is crushed is known of joints with springs. In motion it is a
-/// hundredth of what stones of 0.5 m are pressed in, whose strain at their strength is 1e-3; stiffer springs ring within a step.
+/// By which part of its length a rigid joint is pressed in where it crushes: what is crushed is known of joints with springs. It is a hundredth of what
+/// stones of 0.5 m are pressed in, whose strain at their strength is 1e-3; stiffer springs ring within a step, and walls of them are hard to solve.
+const PRESSED_IN: f64 = 1e-5;
+
+/// The same of a joint whose springs are given, at least.
 fn pressed_in(case: &Case) -> f64 {
-    if case.motion.quasi_static { 1e-6 } else { 1e-5 }
+    if case.motion.quasi_static { 0.1 * PRESSED_IN } else { PRESSED_IN }
 }
 
 fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
@@ -428,10 +431,11 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
         residual: values.residual,
     });
     let crushing = spring.compressive_strength.map_or(f64::INFINITY, |f| f.si() * area);
+    let rigid = crushing / (PRESSED_IN * joint.overlap);
     let stiffest = crushing / (pressed_in(case) * joint.overlap);
     let (normal, series) = match spring.law {
         SpringLaw::Rigid if crushing.is_finite() => {
-            let (both, press) = if bond.is_some() { (stiffest, 0.0) } else { (0.0, stiffest) };
+            let (both, press) = if bond.is_some() { (rigid, 0.0) } else { (0.0, rigid) };
             (Normal::Springs { both, press, damping: 0.0 }, true)
         }
         SpringLaw::Rigid => {
@@ -449,7 +453,7 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
         }
     };
     let shear = match spring.law {
-        SpringLaw::Rigid if crushing.is_finite() => Shear { stiffness: stiffest, damping: 0.0, series },
+        SpringLaw::Rigid if crushing.is_finite() => Shear { stiffness: rigid, damping: 0.0, series },
         SpringLaw::Rigid => Shear { stiffness: 0.0, damping: 0.0, series: false },
         _ => Shear { stiffness: along * stiffness, damping: dashpot(along * given), series },
     };

@@ -168,6 +168,9 @@ fn at_key(error: Error, key: &str) -> Error {
     }
 }
 
+/// What is left of a whole number by rounding.
+const WHOLE: f64 = 1e-6;
+
 fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
     let (output, duration) = (&case.output, excitation.duration);
     // Between steps without inertia there is nothing: samples there would make stairs.
@@ -180,9 +183,16 @@ fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
         .into_iter()
         .flatten()
         .filter_map(|m| m.sample_interval());
-    let interval = match output.interval {
-        Some(interval) => interval.si(),
-        None => of_steps.or(of_record.reduce(f64::min)).unwrap_or(duration / 2000.0).min(duration),
+    let asked = output.frames.map(|frames| frames.si()).filter(|frames| *frames > 0.0 && *frames <= duration);
+    let own = of_steps.or(of_record.reduce(f64::min)).unwrap_or(duration / 2000.0).min(duration);
+    let interval = match (output.interval, asked) {
+        (Some(interval), _) => interval.si(),
+        // A frame is taken with a sample.
+        (None, Some(frames)) => match of_steps {
+            Some(_) => own.min(frames),
+            None => frames / (frames / own * (1.0 - WHOLE)).ceil(),
+        },
+        (None, None) => own,
     };
     if !(interval <= duration && duration / interval <= MOST_SAMPLES) {
         let [least, asked, most] = [duration / MOST_SAMPLES, interval, duration].map(shown);
@@ -192,6 +202,13 @@ fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
     }
     let frames = output.frames.map_or(duration / 400.0, |f| f.si());
     let frame_every = if frames == 0.0 { 0 } else { ((frames / interval).round() as usize).max(1) };
+    if asked.is_some_and(|frames| (frame_every as f64 * interval / frames - 1.0).abs() > WHOLE) {
+        let what = format!("a frame every {} s, but a sample every {} s", shown(frames), shown(interval));
+        let fewer = (frames / interval).floor().max(1.0);
+        let [less, more] = [fewer, fewer + 1.0].map(|times| shown(times * interval));
+        let allowed = format!("whole multiples of the interval of samples, such as {less} s or {more} s");
+        return Err(InputError::new(what).key("output.frames").allowed(allowed).into());
+    }
     Ok(Sampling { interval, frame_every, blocks: output.blocks.clone(), joints: output.joints.clone() })
 }
 

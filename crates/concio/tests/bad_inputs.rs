@@ -509,3 +509,22 @@ fn files_that_cannot_be_read() {
     let e = input_error(read(&empty).map(|_| ()), "empty");
     assert!(e.what.contains("the file is empty"), "{e}");
 }
+
+/// A frame is taken with a sample: frames between samples are refused, and samples without an interval of their own are taken so that there are none.
+#[test]
+fn frames_are_taken_with_samples() {
+    let prepared = |output: &str| {
+        let file = from_str(&format!("{GOOD}[output]\n{output}"), Syntax::Toml, None).expect("a wall file");
+        concio::run::prepare(file.case, Path::new(""))
+    };
+    let refused = prepared("interval = \"0.1 s\"\nframes = \"0.25 s\"\n").map(|_| ());
+    let told = input_error(refused, "frames between samples").to_string();
+    assert!(
+        told.contains("a frame every 0.25 s, but a sample every 0.1 s") && told.contains("0.2 s or 0.3 s"),
+        "{told}"
+    );
+    for frames in [0.0123, 0.25] {
+        let sampling = prepared(&format!("frames = {frames}\n")).expect("a run").sampling;
+        assert!((sampling.frame_every as f64 * sampling.interval / frames - 1.0).abs() < 1e-9, "{sampling:?}");
+    }
+}
