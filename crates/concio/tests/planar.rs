@@ -1448,7 +1448,7 @@ top = { path = { displacements = ["50 mm", "0 mm", "50 mm"], speed = "5 mm/s" } 
         "Crushing: {} joint pressed in by {pressed_in:e} of its length, stone of 1 m × 2 m pushed over by 2 %, back and again",
         law.split('"').nth(1).unwrap_or_default()
     );
-    agrees!(format!("{subject}; energy that crushing takes"), "2,000 strips", "J", outcome.energies.bond, taken, 1e-2);
+    assert!((outcome.energies.bond / taken - 1.0).abs() < 1e-2, "{subject}: {} {taken}", outcome.energies.bond);
     let most = pushed.iter().copied().fold(0.0, f64::max);
-    agrees!(format!("{subject}; how far its force is off in the mean, over the largest"), "2,000 strips", "", off / most, 0.0, abs: 1e-2);
+    assert!(off < 1e-2 * most, "{subject}: {off} of {most}");
 }
