@@ -495,7 +495,7 @@ impl Crack {
         // bears what that end moves by, however thin it is.
         let crushes = zones[CRUSHING].acts[0];
         let edge = |kind: usize, zone: &Zone| {
-            (kind == PRESSED || kind == CRUSHED) && zone.acts[0] < THIN * crushes && zone.acts[0] > NOTHING
+            (kind == PRESSED || kind == CRUSHED) && zone.acts[0] < THIN * crushes && zone.acts[0] > 10.0 * NOTHING
         };
         let there = |kind: usize, zone: &Zone| zone.is_there() || edge(kind, zone);
         let ends = zones
@@ -507,15 +507,15 @@ impl Crack {
         for (kind, zone) in zones.iter().enumerate().filter(|(kind, zone)| there(*kind, zone)) {
             let (gap, cracked, rubs) =
                 (zone.line(zone.gap), zone.line([zone.cracked[0], zone.cracked[1]]), zone.line(zone.rubs));
-            // A point in a corner that is near its strength would hold back all it stands for.
             let edge = if edge(kind, zone) { 0.5 * crushes } else { 0.0 };
+            // A point in a corner that is near its strength would hold back all it stands for.
             let corners = zone.between.iter().all(|at| -gap(*at) < WELL_BELOW * law.crushing / stiffness);
             let points = match (corners, alone) {
                 (true, true) => zone.three(ends),
                 (true, false) => zone.two(Some(ends)),
                 (false, _) => zone.two(None),
             };
-            let points = || points.into_iter().filter(|[_, share]| *share > 0.1 * NOTHING);
+            let points = || points.into_iter().filter(|[_, share]| *share > NOTHING);
             // A line through an uneven zone may leave what such a zone has: it is turned as far as it has to be.
             let mean = zone.gap[0] / zone.acts[0];
             let limits = if kind == OPEN { [0.0, f64::INFINITY] } else { [-law.crushing / stiffness, 0.0] };

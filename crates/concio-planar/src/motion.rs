@@ -900,7 +900,8 @@ impl Motion {
                 };
                 let misses = |part: f64| crack.misses(law, points, gaps(part));
                 // What they miss from the start shorter steps do not mend.
-                misses(1.0) <= crack::MISSED + misses(0.0)
+                let missed = misses(1.0);
+                missed <= crack::MISSED || missed <= crack::MISSED + misses(0.0)
             })
     }
 

@@ -302,7 +302,7 @@ fn intervals_of_shares_cover() {
                 );
                 // Of so few a warning is given.
                 let (told, middle) = if n < 12 { ("0.86 to 0.98", 0.92) } else { (COVERAGE, 0.94) };
-                assert!((held / f64::from(trials) - middle).abs() <= 0.98 - middle, "{subject}: {told}");
+                agrees!(subject, told, "", held / f64::from(trials), middle, abs: 0.98 - middle);
             }
         }
     }
@@ -345,7 +345,7 @@ fn intervals_of_rank_coefficients_cover() {
             let subject = format!(
                 "Statistics: part of 95 % intervals of rank coefficients that hold them; {n} runs{shared}, scatter {noise}"
             );
-            assert!((held / f64::from(trials) - 0.945).abs() <= 0.045, "{subject}");
+            agrees!(subject, "0.90 to 0.99", "", held / f64::from(trials), 0.945, abs: 0.045);
         }
     }
 }

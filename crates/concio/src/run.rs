@@ -173,26 +173,24 @@ const WHOLE: f64 = 1e-6;
 
 fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
     let (output, duration) = (&case.output, excitation.duration);
-    // Between steps without inertia there is nothing: samples there would make stairs.
+    let asked = output.frames.map(|frames| frames.si()).filter(|frames| *frames > 0.0 && *frames <= duration);
+    // Between steps without inertia there is nothing: samples there would make stairs. A frame is taken with a sample.
     let of_steps = case.motion.quasi_static.then(|| {
         let step = planar::step(case);
-        step * (duration / 2000.0 / step).ceil().max(1.0)
+        let most = (duration / 2000.0 / step).ceil().max(1.0) as u64;
+        let frame = asked.map_or(0, |frames| (frames / step).round() as u64);
+        step * (1..=most).rev().find(|steps| frame.is_multiple_of(*steps)).unwrap_or(1) as f64
     });
     let top = excitation.driven.then_some(&excitation.top);
     let of_record = [Some(&excitation.base), Some(&excitation.vertical), top]
         .into_iter()
         .flatten()
         .filter_map(|m| m.sample_interval());
-    let asked = output.frames.map(|frames| frames.si()).filter(|frames| *frames > 0.0 && *frames <= duration);
     let own = of_steps.or(of_record.reduce(f64::min)).unwrap_or(duration / 2000.0).min(duration);
     let interval = match (output.interval, asked) {
         (Some(interval), _) => interval.si(),
-        // A frame is taken with a sample.
-        (None, Some(frames)) => match of_steps {
-            Some(_) => own.min(frames),
-            None => frames / (frames / own * (1.0 - WHOLE)).ceil(),
-        },
-        (None, None) => own,
+        (None, Some(frames)) if of_steps.is_none() => frames / (frames / own * (1.0 - WHOLE)).ceil(),
+        (None, _) => own,
     };
     if !(interval <= duration && duration / interval <= MOST_SAMPLES) {
         let [least, asked, most] = [duration / MOST_SAMPLES, interval, duration].map(shown);

@@ -675,6 +675,6 @@ fn memory_knows_turns_inside_steps() {
         let most = fine.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let off = farthest(found.iter().zip(&fine).map(|(a, b)| (a / most, b / most)));
         let subject = format!("Devices: memory of a {what}, one block, motion over its largest with tolerance 1e-6");
-        assert!(off < 2e-5, "{subject}: {off:e}");
+        agrees!(subject, "steps of 0.1 ms", "", off, 0.0, abs: 2e-5);
     }
 }
