@@ -174,7 +174,7 @@ const WHOLE: f64 = 1e-6;
 fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
     let (output, duration) = (&case.output, excitation.duration);
     let asked = output.frames.map(|frames| frames.si()).filter(|frames| *frames > 0.0 && *frames <= duration);
-    // Between steps without inertia there is nothing: samples there would make stairs. A frame is taken with a sample.
+    // A frame is taken with a sample. Between steps without inertia there is nothing: samples there, which make stairs, are taken for such frames alone.
     let of_steps = case.motion.quasi_static.then(|| {
         let step = planar::step(case);
         let most = (duration / 2000.0 / step).ceil().max(1.0) as u64;
@@ -189,8 +189,8 @@ fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
     let own = of_steps.or(of_record.reduce(f64::min)).unwrap_or(duration / 2000.0).min(duration);
     let interval = match (output.interval, asked) {
         (Some(interval), _) => interval.si(),
-        (None, Some(frames)) if of_steps.is_none() => frames / (frames / own * (1.0 - WHOLE)).ceil(),
-        (None, _) => own,
+        (None, Some(frames)) => frames / (frames / own * (1.0 - WHOLE)).ceil(),
+        (None, None) => own,
     };
     if !(interval <= duration && duration / interval <= MOST_SAMPLES) {
         let [least, asked, most] = [duration / MOST_SAMPLES, interval, duration].map(shown);

@@ -527,4 +527,12 @@ fn frames_are_taken_with_samples() {
         let sampling = prepared(&format!("frames = {frames}\n")).expect("a run").sampling;
         assert!((sampling.frame_every as f64 * sampling.interval / frames - 1.0).abs() < 1e-9, "{sampling:?}");
     }
+    // Without inertia samples are at steps, but for frames that are not.
+    let arch = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/17-arch.toml"));
+    let arch = arch.expect("the example").replace("duration = \"3.2 s\"", "duration = \"200 s\"\nquasi_static = true");
+    for (frames, interval) in [("10 ms", 0.01), ("0.5 s", 0.1), ("1 s", 0.1)] {
+        let file = from_str(&arch.replace("\"10 ms\"", &format!("\"{frames}\"")), Syntax::Toml, None).expect("a file");
+        let sampling = concio::run::prepare(file.case, Path::new("")).expect("a run").sampling;
+        assert!((sampling.interval - interval).abs() < 1e-12, "{frames}: {sampling:?}");
+    }
 }
