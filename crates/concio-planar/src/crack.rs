@@ -139,8 +139,11 @@ pub struct Crack {
     /// Opening and slide at both ends, now and a step before [m].
     line: [[f64; 2]; 2],
     was: [[f64; 2]; 2],
-    /// First and last node of a rigid joint that are held.
+    /// First and last node of a rigid joint that are held; what it bore across and along after the last step, and by how much its largest tension was over
+    /// the strength then [N].
     held: [usize; 2],
+    borne: [f64; 2],
+    over: f64,
     /// What is crushed at its nodes [m]; none of a joint that bears any pressure.
     crushed: Vec<f64>,
     /// How much of it was in each zone when its points were placed, and its first moment.
@@ -153,6 +156,8 @@ pub struct Crack {
     pub broken: f64,
     /// How far it was stretched at most where it has cracked [m].
     pub reach: f64,
+    /// Largest tension and shear that a rigid joint bore when it cracked or broke, which may be within a step [N].
+    pub peak: [f64; 2],
     /// What its points stand for.
     spots: Vec<Spot>,
 }
@@ -226,12 +231,15 @@ impl Crack {
             line: [[0.0; 2]; 2],
             was: [[0.0; 2]; 2],
             held: [0, NODES - 1],
+            borne: [0.0; 2],
+            over: f64::NEG_INFINITY,
             crushed: vec![0.0; crushed_nodes(law)],
             placed: [[0.0; 2]; ZONES],
             hidden: 0.0,
             cracked: since,
             broken: since,
             reach: 0.0,
+            peak: [0.0; 2],
             spots: Vec::with_capacity(POINTS),
         };
         crack.place(law, &[[0.0; 2]; 2], &crack.zones(law, &[[0.0; 2]; 2]));
@@ -881,40 +889,53 @@ impl Crack {
         taken
     }
 
-    /// Breaks a rigid joint by what its points bear [N], or that slides, in a step that ended at `time` [s].
-    pub(crate) fn break_rigid(&mut self, law: &Law, points: &mut [Point], slid: bool, time: f64) {
-        let Some(bond) = law.bond else { return };
+    /// Breaks a rigid joint by what its points bear, or that slides, in a step that ended at `time` [s]; it bears `borne` across and along [N]. Returns how much of
+    /// the change of its forces was over when it cracked or broke, 0 … 1; none where it did not.
+    pub(crate) fn break_rigid(
+        &mut self,
+        law: &Law,
+        points: &mut [Point],
+        slid: bool,
+        borne: [f64; 2],
+        time: f64,
+    ) -> Option<f64> {
+        let bond = law.bond?;
         if self.is_gone() {
-            return;
+            return None;
         }
         let parted = bond.tension == 0.0
             && self.spots.iter().any(|spot| spot.part == Part::Held && points[spot.point].gap > TOUCHING);
         let sum = |f: &dyn Fn(&Spot) -> f64| self.spots.iter().map(|s| points[s.point].force[0] * f(s)).sum::<f64>();
         let (normal, moment) = (sum(&|_| 1.0), sum(&|spot| spot.at - 0.5));
-        let mut gone = slid || parted;
+        // The edges of an uncracked joint are stressed by N ∓ 6 M/ℓ over its area.
+        let stressed = |first: usize, last: usize| match last - first == NODES - 1 {
+            true => Some([normal - 6.0 * moment, normal + 6.0 * moment]),
+            false => plane(normal, moment, first, last),
+        };
         let [mut first, mut last] = self.held;
-        // The edge of an uncracked joint is stressed by N ∓ 6 M/ℓ over its area.
-        if !gone && (self.cracked.is_finite() || 6.0 * moment.abs() - normal > bond.tension) {
-            loop {
-                let Some(tips) = plane(normal, moment, first, last) else {
-                    gone = true;
-                    break;
-                };
-                let over = tips.map(|stress| -stress > bond.tension);
-                if !over[0] && !over[1] {
-                    break;
-                }
-                first += usize::from(over[0] && tips[0] <= tips[1]);
-                last -= usize::from(over[1] && tips[1] < tips[0]);
-                if first >= last {
-                    gone = true;
-                    break;
-                }
+        let (mut gone, mut begins) = (slid || parted, None);
+        let over = loop {
+            let tips = stressed(first, last);
+            let over = tips.map_or(f64::INFINITY, |[a, b]| -a.min(b) - bond.tension);
+            begins = begins.or(Some(over));
+            if gone || over <= 0.0 {
+                break over;
             }
-        }
+            match tips {
+                Some([a, b]) if a <= b => first += 1,
+                Some(_) => last -= 1,
+                None => gone = true,
+            }
+            gone |= first >= last;
+        };
+        let (was, before) = (std::mem::replace(&mut self.borne, borne), std::mem::replace(&mut self.over, over));
         if !gone && [first, last] == self.held {
-            return;
+            return None;
         }
+        let begins = begins.filter(|over| *over > 0.0 && before.is_finite());
+        let part = begins.map_or(1.0, |over| if before < 0.0 { before / (before - over) } else { 0.0 });
+        let [across, along] = [0, 1].map(|k| was[k] + part * (borne[k] - was[k]));
+        self.peak = [self.peak[0].max(-across), self.peak[1].max(along.abs())];
         if !gone {
             self.held = [first, last];
         }
@@ -929,6 +950,7 @@ impl Crack {
         }
         self.place(law, &self.line.clone(), &[Zone::default(); ZONES]);
         self.set(points);
+        Some(part)
     }
 }
 

@@ -117,6 +117,8 @@ pub struct System {
     pub load: Vec<[f64; 2]>,
     /// Directions x, y, θ in which each body is held: x follows [`Forcing::held`], the others stay.
     pub held: Vec<[bool; 3]>,
+    /// Whether the base shakes each body: the mass of one that it does not resists motion relative to the base alone.
+    pub shaken: Vec<bool>,
 }
 
 impl System {
@@ -128,6 +130,7 @@ impl System {
             other: Law::dry(Some(Friction::coulomb(friction))),
             load: bodies.iter().map(|b| [0.0, -b.mass * G]).collect(),
             held: vec![[false; 3]; bodies.len()],
+            shaken: vec![true; bodies.len()],
             bodies: bodies.to_vec(),
         }
     }
@@ -332,6 +335,7 @@ pub struct Motion {
     rods: Vec<Rod>,
     load: Vec<[f64; 2]>,
     held: Vec<[bool; 3]>,
+    shaken: Vec<bool>,
     mass: Vec<Triple>,
     /// Part of the mass that resists in the step, what resists, and one over it, 0 where a body is held.
     resists: f64,
@@ -353,6 +357,8 @@ pub struct Motion {
     pub seen: Vec<Seen>,
     /// Force of what is held on the others in the last step [N].
     pub pull: f64,
+    /// The largest of it, and of the horizontal force of the base, when bonds broke at once since [`Motion::go`] began [N], which its end does not tell; 0 where none did.
+    pub breaks: [f64; 2],
     strains: Vec<Strain>,
     pairs: Vec<Pair>,
     /// Which of them have contacts.
@@ -377,8 +383,11 @@ pub struct Motion {
     /// Ends held back in rocking impacts, whose contacts follow those; whether a joint has any.
     holds: Vec<Hold>,
     rocks: bool,
-    /// Whether some joint can be crushed.
+    /// Whether some joint can be crushed, and whether some bond breaks at once.
     crushes: bool,
+    brittle: bool,
+    /// How much of the change of forces in the step was over when such a bond first cracked or broke in it, if one did.
+    breaks_at: Option<f64>,
     /// Contacts of devices with a law of their own.
     bent: Vec<Bent>,
     free: Vec<Triple>,
@@ -425,6 +434,9 @@ impl Motion {
             holds: Vec::new(),
             rocks: system.links.iter().map(|link| &link.law).chain([&system.other]).any(|law| law.rocking().is_some()),
             crushes: system.links.iter().any(|link| link.law.crushing.is_finite()),
+            brittle: system.links.iter().any(|link| link.law.bond.is_some() && !link.law.is_compliant()),
+            breaks_at: None,
+            breaks: [0.0; 2],
             bent: Vec::new(),
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
@@ -434,6 +446,7 @@ impl Motion {
             laws: Laws::new(&system.links, system.other),
             load: system.load.clone(),
             held: system.held.clone(),
+            shaken: system.shaken.clone(),
             setting,
         };
         motion.look();
@@ -497,6 +510,14 @@ impl Motion {
         self.places.iter().zip(&system.bodies).map(gone).fold(0.0, worse)
     }
 
+    /// Horizontal force of the base on the bodies in the last step, that of ties to it included [N].
+    pub fn base_shear(&self) -> f64 {
+        let joints = self.joints.iter().zip(&self.seen).filter(|((a, _), _)| a.is_none());
+        let borne = 0.0 - joints.map(|(_, seen)| seen.shear).sum::<f64>();
+        let anchored = self.ties().filter(|(tie, _)| tie.a.is_none()).map(|(_, strain)| strain.pull[0]);
+        anchored.fold(borne, |sum, pull| sum + pull)
+    }
+
     /// How steps are taken.
     pub fn setting(&self) -> &Setting {
         &self.setting
@@ -512,6 +533,7 @@ impl Motion {
     /// to rest in long steps alone. A mechanism never does, and moves the more the longer they are.
     pub fn go(&mut self, h: f64, forcing: &impl Fn(f64, f64) -> Forcing) {
         let start = self.time;
+        self.breaks = [0.0; 2];
         self.part(start, h, 0, forcing);
         if self.setting.still {
             let acts = forcing(start, start + h);
@@ -597,7 +619,15 @@ impl Motion {
         self.counters.steps += 1;
         self.counters.unsolved += u64::from(!enough);
         self.counters.residual = worse(self.counters.residual, effort.residual);
+        let before = if self.brittle { [self.pull, self.base_shear()] } else { [0.0; 2] };
         self.settle(h, forcing.held);
+        if let Some(part) = self.breaks_at.take() {
+            let now = [self.pull, self.base_shear()];
+            for (peak, (from, to)) in self.breaks.iter_mut().zip(before.into_iter().zip(now)) {
+                let then = from + part * (to - from);
+                *peak = if then.abs() > peak.abs() { then } else { *peak };
+            }
+        }
         self.advance(h, forcing.held);
         std::mem::swap(&mut self.velocities, &mut self.after);
         self.time += h;
@@ -645,7 +675,8 @@ impl Motion {
         for (body, place) in self.places.iter().enumerate() {
             let (v, held, load) = (self.velocities[body], self.held[body], self.load[body]);
             let mut half = v.map(|v| 0.5 * h * v);
-            let pushed = |k: usize| v[k] - forcing.base[k] / self.resists + h * load[k] * self.inverse[body][k];
+            let base = if self.shaken[body] { forcing.base } else { [0.0; 2] };
+            let pushed = |k: usize| v[k] - base[k] / self.resists + h * load[k] * self.inverse[body][k];
             let mut after = [pushed(0), pushed(1), v[2]];
             if held[0] {
                 (half[0], after[0]) = (0.5 * h * rate[0], rate[1]);
@@ -944,7 +975,10 @@ impl Motion {
                             torn |= contact.pressure[0] < 0.0 && contact.impulse[0] <= contact.pressure[0];
                         }
                         let slides = strength.is_finite() && shear.abs() >= strength * (1.0 - SHEARED) && shear != 0.0;
-                        crack.break_rigid(law, points, torn || slides, time);
+                        let borne = [seen.pressure, seen.shear];
+                        if let Some(part) = crack.break_rigid(law, points, torn || slides, borne, time) {
+                            self.breaks_at = Some(self.breaks_at.map_or(part, |first: f64| first.min(part)));
+                        }
                     }
                 }
             }

@@ -119,7 +119,7 @@ pub(crate) fn beam(case: &Case, wall: &Wall, joints: &[Joint]) -> Option<BeamBod
     let height = beam_height(case, wall);
     let mass = match case.load.beam {
         Beam::Mass(mass) => mass.si(),
-        // Held from side to side, it needs a mass for its rise and turn alone; its load is a dead one.
+        // Held from side to side, it needs a mass for its rise and turn relative to the base alone; its load is a dead one, which nothing shakes.
         _ => tops.iter().map(|j| wall.blocks[j.a].mass()).sum(),
     };
     Some(BeamBody { body: Body::rectangle("beam", [left, right], [level, level + height], mass), length })
@@ -182,11 +182,14 @@ pub(crate) fn compile(
     let from = |(block, body): (&crate::wall::Block, &Body)| [0, 1].map(|k| block.centre()[k] - body.centre[k]);
     let offset: Vec<[f64; 2]> = wall.blocks.iter().zip(&bodies).map(from).collect();
     let mut held = vec![[false; 3]; n];
+    let mut shaken = vec![true; n];
     match beam(case, wall, joints) {
         Some(beam) => {
             loads.push([0.0, -case.load.top.per_length(beam.length) * beam.length]);
             let level = case.load.beam_rotation == BeamRotation::Fixed;
-            held.push([matches!(case.load.beam, Beam::Driven | Beam::Tied), false, level]);
+            let sideways = matches!(case.load.beam, Beam::Driven | Beam::Tied);
+            held.push([sideways, false, level]);
+            shaken.push(!sideways);
             bodies.push(beam.body);
         }
         None => {
@@ -213,7 +216,7 @@ pub(crate) fn compile(
     softening(wall, joints, laws, normal)?;
     let links = joints.iter().zip(laws).map(link).collect();
     let ties = ties(case, wall, &offset)?;
-    let system = System { bodies, links, ties, other, load: loads, held };
+    let system = System { bodies, links, ties, other, load: loads, held, shaken };
     let open = laws.iter().map(JointLaw::is_open).collect();
     let after_collapse = case.motion.stop_at.map(|StopAt::Collapse(after)| after.si());
     Ok(Planar { system, offset, open, step: step(case), still: case.motion.quasi_static, after_collapse })

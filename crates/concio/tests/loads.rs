@@ -98,6 +98,33 @@ fn a_load_with_mass_slows_the_wall_down() {
     }
 }
 
+/// A beam that is held from side to side brings its load and no mass of its own: under vertical motion the base bears W (1 + a/g) + Q.
+#[test]
+fn a_held_beam_has_no_weight_beside_its_load() {
+    let [b, _, w, q] = BLOCK;
+    let slowly =
+        "quasi_static = true\nduration = \"4 s\"\nvertical = { sine = { acceleration = 4, frequency = 0.125 } }";
+    let quickly = slowly.replace("quasi_static = true\n", "").replace("4 s", "0.25 s").replace("0.125", "2");
+    let joint = "bed = { law = \"no-tension\", rigidity = 1, stiffness = \"100 N/mm3\" }\nhead = { law = \"none\" }\nfriction = { law = \"coulomb\", static = 1, dynamic = 1 }";
+    let driven = "beam = \"driven\"";
+    for (beam, motion, within) in [(driven, slowly, 1e-3), ("beam = \"tied\"", slowly, 1e-3), (driven, &quickly, 1e-2)]
+    {
+        let load = format!("top = {}\n{beam}", q / b);
+        let still = "top = { path = { displacements = [1e-9], speed = 1e-9 } }";
+        let held = if beam == driven { format!("{motion}\n{still}") } else { motion.into() };
+        let (prepared, outcome) = ran(&block("planar", joint, &load, &held));
+        let joints = &prepared.model.joints;
+        let base = |e: usize| joints[e].kind == concio::case::JointKind::Base;
+        let rows = outcome.recording.frame_pressure.chunks_exact(joints.len());
+        let borne = |row: &[f64]| (0..joints.len()).filter(|e| base(*e)).map(|e| row[e]).sum::<f64>();
+        let most = rows.map(borne).fold(0.0, f64::max);
+        let how = if motion == slowly { "slowly" } else { "at 2 Hz" };
+        let name = if beam == driven { "driven" } else { "tied" };
+        let subject = format!("Loads: base of a stone below a {name} beam, shaken upwards {how}");
+        agrees!(subject, "W (1 + a/g) + Q", "N", most, w * (1.0 + 4.0 / G) + q, within);
+    }
+}
+
 /// A stone that rocks about its foot: what is told of it is the way of its own middle, not of the middle of stone and load.
 #[test]
 fn displacements_are_those_of_the_block() {

@@ -1361,6 +1361,64 @@ fn a_bonded_rigid_joint_is_sheared_as_a_whole() {
     close(outcome.totals.base_shear_peak / 1e3, 12.5 + 30f64.to_radians().tan(), 3e-3);
 }
 
+/// A rigid bond breaks within the step that a driven beam loads it in: what it bore then is told, whatever is left of it at the step's end. A block of 0.8 m cracks
+/// from its edge at (N + f_t A) L/(6 h), by the middle of the beam at h; one that is low and held level is sheared off at c A + N tan φ.
+#[test]
+fn what_a_rigid_bond_bears_is_told() {
+    let of = |height: f64, strength: &str, rest: &str, step: f64| {
+        let (_, outcome) = ran(&format!(
+            r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = {{ length = 0.8, height = {height}, thickness = 0.3, specific_weight = 22e3 }}
+[joint]
+bed = {{ law = "rigid" }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.6, dynamic = 0.6 }}
+bond = {{ tensile_strength = 1e9, cohesion = 1e9, friction_angle = 0 }}
+[[joint.change]]
+at = {{ kind = ["base"] }}
+bond = {{ {strength} }}
+[load]
+top = {{ force = 30e3 }}
+beam = "driven"
+beam_height = 0.2
+{rest}
+[motion]
+quasi_static = true
+top = {{ path = {{ displacements = [1e-5], speed = 1e-4 }} }}
+[solver]
+step = {step}"#
+        ));
+        let row = outcome.bonds.iter().find(|row| row.cracked.is_finite()).expect("it cracks");
+        [outcome.totals.top_force_peak, outcome.totals.base_shear_peak, outcome.envelopes.joint_force[row.joint]]
+    };
+    let area = 0.8 * 0.3;
+    for step in [0.02, 0.005, 0.001] {
+        let (height, strength) = (1.4, "tensile_strength = 0.4e6, cohesion = 5e6, friction_angle = \"35 deg\"");
+        let normal = 30e3 + 22e3 * area * height;
+        let bends = (normal + 0.4e6 * area) * 0.8 / 6.0 / (height + 0.1);
+        for (name, borne) in ["beam", "base", "joint"].into_iter().zip(of(height, strength, "", step)) {
+            let subject = format!(
+                "Bonds: rigid joint of a driven block that cracks by bending, force of the {name}; step {step} s"
+            );
+            agrees!(subject, "(N + f_t A) L/(6 h)", "N", borne, bends, 3e-3);
+        }
+        let (height, strength) = (0.05, "tensile_strength = 4e6, cohesion = 0.2e6, friction_angle = \"35 deg\"");
+        let shears = 0.2e6 * area + (30e3 + 22e3 * area * height) * 35f64.to_radians().tan();
+        for (name, borne) in
+            ["beam", "base", "joint"].into_iter().zip(of(height, strength, "beam_rotation = \"fixed\"", step))
+        {
+            let subject =
+                format!("Bonds: rigid joint of a driven block that is sheared off, force of the {name}; step {step} s");
+            agrees!(subject, "c A + N tan φ", "N", borne, shears, 3e-3);
+        }
+    }
+}
+
 /// The energy account closes where a joint crushes, and where the last of a bond breaks as the joint is open on one side.
 #[test]
 fn the_account_closes_where_joints_crush_and_where_bonds_end() {

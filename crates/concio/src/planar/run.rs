@@ -44,8 +44,7 @@ pub(crate) struct Run {
     apart: Vec<f64>,
     /// Relative velocity of every joint before the step [m/s].
     before: Vec<f64>,
-    /// Joints that the wall stands on, and those that can be crushed.
-    base: Vec<usize>,
+    /// Joints that can be crushed.
     crushable: Vec<usize>,
     /// Whether each joint has been crushed.
     crushed: Vec<bool>,
@@ -216,7 +215,6 @@ impl Run {
         let mut run = Run {
             origin: motion.places.clone(),
             aside: planar.offset.iter().copied().enumerate().filter(|(_, offset)| *offset != [0.0; 2]).collect(),
-            base: (0..model.joints.len()).filter(|e| model.joints[*e].kind == JointKind::Base).collect(),
             crushable: (0..model.joints.len()).filter(|e| planar.system.links[*e].law.crushing.is_finite()).collect(),
             apart: planar.system.links.iter().map(|link| link.apart).collect(),
             step: planar.step.min(longest),
@@ -237,7 +235,7 @@ impl Run {
             a: vec![0.0; n],
             motion,
         };
-        run.last.shear = run.base_shear();
+        run.last.shear = run.motion.base_shear();
         run.strain(0.0);
         run
     }
@@ -336,7 +334,7 @@ impl Run {
         state.t = if lands { excitation.duration } else { state.t + h };
         self.last.to = state.t;
         self.last.end.read(&self.motion, &self.origin, &self.aside);
-        self.last.shear = self.base_shear();
+        self.last.shear = self.motion.base_shear();
         let Moved { z, vertical, rotation, .. } = &self.last.end;
         if z.iter().chain(vertical).chain(rotation).any(|x| !x.is_finite()) {
             // What was due before is told with what is known.
@@ -387,12 +385,14 @@ impl Run {
             *taken = seen.taken;
         }
         let pull = self.pull(model, state, h);
-        let shear = self.borne(model, state.t);
+        let [broken_pull, broken_shear] = self.motion.breaks;
+        let shear = [self.last.shear, broken_shear].map(|shear| self.borne(model, state.t, shear));
+        let shear = shear[0].max(shear[1]);
         if state.totals.collapse.is_none() {
             state.raise_base_shear(shear, model.tops.of_wall(|i| state.z[i]));
             model.tops.follow(&mut state.leans, [state.t - h, state.t], model.settles(), |i| state.z[i]);
             let totals = &mut state.totals;
-            totals.top_force_peak = totals.top_force_peak.max(pull.abs());
+            totals.top_force_peak = totals.top_force_peak.max(pull.abs()).max(broken_pull.abs());
             totals.top_force_square += 0.5 * h * (state.pull * state.pull + pull * pull);
             self.raise(model, state, h);
             self.strain(state.t);
@@ -420,18 +420,11 @@ impl Run {
         }
     }
 
-    /// What counts as borne of the base shear at the time `t` [N]: without inertia what the base holds against the load. A stone that turns over
+    /// What counts as borne of a base shear at the time `t` [N]: without inertia what the base holds against the load. A stone that turns over
     /// from rest in every step pulls at the base the other way, by more than it ever bore.
-    fn borne(&self, model: &Model, t: f64) -> f64 {
-        let (shear, base) = (self.last.shear, model.excitation.base.acceleration(t));
+    fn borne(&self, model: &Model, t: f64, shear: f64) -> f64 {
+        let base = model.excitation.base.acceleration(t);
         if self.still && base != 0.0 { shear * base.signum() } else { shear.abs() }
-    }
-
-    /// Horizontal force of the base on the wall in the last step, that of ties to it included [N].
-    fn base_shear(&self) -> f64 {
-        let borne = 0.0 - self.base.iter().map(|&e| self.motion.seen[e].shear).sum::<f64>();
-        let anchored = self.motion.ties().filter(|(tie, _)| tie.a.is_none()).map(|(_, strain)| strain.pull[0]);
-        anchored.fold(borne, |sum, pull| sum + pull)
     }
 
     /// Peaks of blocks and joints, of a wall that has not collapsed.
@@ -457,8 +450,9 @@ impl Run {
             envelopes.joint_slip[e] = seen.path;
             envelopes.joint_opening[e] = envelopes.joint_opening[e].max(opening);
             envelopes.joint_closing[e] = envelopes.joint_closing[e].max(-seen.gap[0]);
-            let force = if upright { seen.pressure } else { seen.shear };
-            envelopes.joint_force[e] = envelopes.joint_force[e].max(force.abs());
+            let [tension, along] = self.motion.crack(e).map_or([0.0; 2], |crack| crack.peak);
+            let (force, breaks) = if upright { (seen.pressure, tension) } else { (seen.shear, along) };
+            envelopes.joint_force[e] = envelopes.joint_force[e].max(force.abs()).max(breaks);
             totals.peak_friction_force = totals.peak_friction_force.max(seen.friction.abs());
             if upright {
                 totals.minimum_gap = totals.minimum_gap.min(seen.gap[0]);
@@ -501,8 +495,10 @@ impl Run {
                 tell(Event { time: last, joint: bond.joint, kind: EventKind::Break, value: stretch });
             }
             let seen = &self.motion.seen[e];
-            let force = if model.joints[e].kind.is_upright() { -seen.pressure } else { seen.shear.abs() };
-            let peak = held.peak.max(force);
+            let [tension, shear] = crack.peak;
+            let upright = model.joints[e].kind.is_upright();
+            let (force, breaks) = if upright { (-seen.pressure, tension) } else { (seen.shear.abs(), shear) };
+            let peak = held.peak.max(force).max(breaks);
             *held = BondState {
                 reach,
                 damage,
