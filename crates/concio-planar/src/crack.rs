@@ -178,6 +178,8 @@ pub(crate) struct Worn {
     pub friction: f64,
     /// What springs lost beside that, because a step goes beyond a limit before it is met, and where points are placed anew.
     pub beyond: f64,
+    /// How much of the step was over when a part of it that breaks at once did so, 0 … 1; none where none did.
+    pub breaks_at: Option<f64>,
 }
 
 /// Place of a node, 0 … 1.
@@ -704,6 +706,7 @@ impl Crack {
         let mut friction = [0.0; 2];
         let mut taken = 0.0;
         let mut worn = false;
+        let mut breaks_at: Option<f64> = None;
         let breaks = law.breaking_stiffness();
         let bonded = if self.is_gone() { 0 } else { self.nodes.len() };
         for n in 0..bonded {
@@ -730,6 +733,15 @@ impl Crack {
             friction[0] -= weight * (keeps[0] - had[0]) * s.signum();
             friction[1] += weight * (keeps[1] - had[1]);
             worn = true;
+            if before == Node::INTACT && self.nodes[n] == Node::GONE {
+                let strengths = [bond.tension / both, law.shear_strengths(pressure)[0] / breaks];
+                let parts = [0, 1].map(|k| {
+                    let (from, to) = [(then[0], w), (then[1].abs(), s.abs())][k];
+                    if to > strengths[k] { ((strengths[k] - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 }
+                });
+                let part = parts[0].min(parts[1]);
+                breaks_at = Some(breaks_at.map_or(part, |first| first.min(part)));
+            }
             taken += weight * (lost - (keeps[1] - had[1]));
             self.reach = self.reach.max(w.max(s.abs()));
         }
@@ -776,7 +788,7 @@ impl Crack {
         let lost = before - self.stored(law, points);
         let [_, keeps] = self.friction_borne(law, points);
         let rubbed = stored + friction[1] - keeps;
-        Worn { bond: taken, friction: rubbed, beyond: lost - taken - rubbed }
+        Worn { bond: taken, friction: rubbed, beyond: lost - taken - rubbed, breaks_at }
     }
 
     /// What has cracked bears along the joint, and what its springs along store [N, J].

@@ -182,6 +182,12 @@ impl Law {
         matches!(self.normal, Normal::Springs { .. })
     }
 
+    /// Whether its force may fall at once: as a bond breaks, or as friction at rest is overcome.
+    pub(crate) fn is_sudden(&self) -> bool {
+        let falls = self.friction.is_some_and(|friction| friction.slowly(true) < friction.static_);
+        falls || self.bond.is_some()
+    }
+
     /// Stiffness across of the joint while it is pressed [N/m]; 0 of a rigid one.
     pub fn normal_stiffness(&self) -> f64 {
         let (both, press) = self.springs();
@@ -400,6 +406,11 @@ struct Across {
     linear: f64,
 }
 
+/// Whether a contact slid in a step of `h` [s], faster than what rests does, with `after` at its end [m/s].
+pub(crate) fn slides(contact: &Contact, after: f64, h: f64) -> bool {
+    matches!(contact.status, Status::Forth | Status::Back) && after.abs() > RESTING * G * h
+}
+
 /// Where the energy at a point went during a step [J].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Works {
@@ -554,7 +565,7 @@ impl Law {
         point.force = contact.impulse.map(|p| p / h);
         point.gap = gap;
         // What hardly moves rests: what is left of a velocity that was taken away counts as none.
-        let slides = matches!(contact.status, Status::Forth | Status::Back) && after[1].abs() > RESTING * G * h;
+        let slides = slides(contact, after[1], h);
         // Without inertia what has slid goes on to count as sliding: its speed means nothing.
         let rests = if start.still { point.speed } else { 0.0 };
         point.speed = if slides { after[1].abs() } else { rests };

@@ -15,7 +15,7 @@ use crate::blocks::{Slot, Triple};
 use crate::body::Body;
 use crate::contact::{Contact, Effort, Known, Solver, worse};
 use crate::crack::{self, Crack, Part, Spot};
-use crate::joint::{Friction, Law, Point, Start};
+use crate::joint::{Friction, Law, Point, Start, slides};
 use crate::order::Orders;
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
 use crate::tie::{Strain, Tie};
@@ -357,7 +357,8 @@ pub struct Motion {
     pub seen: Vec<Seen>,
     /// Force of what is held on the others in the last step [N].
     pub pull: f64,
-    /// The largest of it, and of the horizontal force of the base, when bonds broke at once since [`Motion::go`] began [N], which its end does not tell; 0 where none did.
+    /// Largest pull and base shear when a bond broke at once or friction at rest was overcome since [`Motion::go`] began [N], which forces at its end do not show; 0 where
+    /// neither came to pass.
     pub breaks: [f64; 2],
     strains: Vec<Strain>,
     pairs: Vec<Pair>,
@@ -383,10 +384,10 @@ pub struct Motion {
     /// Ends held back in rocking impacts, whose contacts follow those; whether a joint has any.
     holds: Vec<Hold>,
     rocks: bool,
-    /// Whether some joint can be crushed, and whether some bond breaks at once.
+    /// Whether some joint can be crushed, and whether some has a force that falls at once.
     crushes: bool,
-    brittle: bool,
-    /// How much of the change of forces in the step was over when such a bond first cracked or broke in it, if one did.
+    sudden: bool,
+    /// How much of the change of forces in the step was over when such a force first fell in it, if one did.
     breaks_at: Option<f64>,
     /// Contacts of devices with a law of their own.
     bent: Vec<Bent>,
@@ -434,7 +435,7 @@ impl Motion {
             holds: Vec::new(),
             rocks: system.links.iter().map(|link| &link.law).chain([&system.other]).any(|law| law.rocking().is_some()),
             crushes: system.links.iter().any(|link| link.law.crushing.is_finite()),
-            brittle: system.links.iter().any(|link| link.law.bond.is_some() && !link.law.is_compliant()),
+            sudden: system.links.iter().map(|link| &link.law).chain([&system.other]).any(Law::is_sudden),
             breaks_at: None,
             breaks: [0.0; 2],
             bent: Vec::new(),
@@ -619,7 +620,7 @@ impl Motion {
         self.counters.steps += 1;
         self.counters.unsolved += u64::from(!enough);
         self.counters.residual = worse(self.counters.residual, effort.residual);
-        let before = if self.brittle { [self.pull, self.base_shear()] } else { [0.0; 2] };
+        let before = if self.sudden { [self.pull, self.base_shear()] } else { [0.0; 2] };
         self.settle(h, forcing.held);
         if let Some(part) = self.breaks_at.take() {
             let now = [self.pull, self.base_shear()];
@@ -843,6 +844,11 @@ impl Motion {
             let law = self.laws.part(pair.link, owner.part);
             let after = contact.velocity(&self.after);
             let point = &mut pair.points[owner.point];
+            // Friction at rest is overcome at the end of the step.
+            let falls = law.friction.is_some_and(|friction| friction.slowly(true) < friction.static_);
+            if falls && point.speed == 0.0 && slides(contact, after[1], h) {
+                self.breaks_at.get_or_insert(1.0);
+            }
             let works = law.end(point, owner.share, h, &owner.start, after, contact);
             let whole = contact.total(after);
             let account = &mut self.account;
@@ -939,6 +945,7 @@ impl Motion {
     /// Cracks and crushes the joints by a step that ended at `time` [s].
     fn wear(&mut self, time: f64) {
         let mut at = 0;
+        let mut breaks_at = self.breaks_at.unwrap_or(f64::INFINITY);
         while at < self.owners.len() {
             let own = self.owners[at].pair;
             let end = at + self.owners[at..].iter().take_while(|owner| owner.pair == own).count();
@@ -953,6 +960,7 @@ impl Motion {
                         self.account.elastic += crack.hidden();
                         let worn = crack.wear(law, points, self.setting.still, time);
                         let lost = worn.bond + worn.friction + worn.beyond;
+                        breaks_at = breaks_at.min(worn.breaks_at.unwrap_or(f64::INFINITY));
                         self.account.elastic -= lost;
                         self.account.bond += worn.bond;
                         self.account.friction += worn.friction;
@@ -977,13 +985,14 @@ impl Motion {
                         let slides = strength.is_finite() && shear.abs() >= strength * (1.0 - SHEARED) && shear != 0.0;
                         let borne = [seen.pressure, seen.shear];
                         if let Some(part) = crack.break_rigid(law, points, torn || slides, borne, time) {
-                            self.breaks_at = Some(self.breaks_at.map_or(part, |first: f64| first.min(part)));
+                            breaks_at = breaks_at.min(part);
                         }
                     }
                 }
             }
             at = end;
         }
+        self.breaks_at = breaks_at.is_finite().then_some(breaks_at);
     }
 
     /// Energy of the motion relative to the base [J], what is held left out; 0 without inertia.

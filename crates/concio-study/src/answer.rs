@@ -117,7 +117,9 @@ pub fn answer(plan: &Plan, question: &Question, rows: &[&Row], runner: &mut Runn
         tuned.push((rank.by, found));
     }
     let greedy_runs = bench.runs;
-    let known: Vec<Design> = tuned.iter().flat_map(|(_, found)| &found.front).map(|m| m.design.clone()).collect();
+    let mut known: Vec<&Member> = tuned.iter().flat_map(|(_, found)| &found.front).collect();
+    known.sort_by(|a, b| a.values[0].total_cmp(&b.values[0]));
+    let known: Vec<Design> = known.into_iter().map(|m| m.design.clone()).collect();
     let starts = starts(&question, &ranks);
     let quest = Quest { starts: &starts, known: &known, ..quest };
     let Some(found) = sought(&quest, &mut bench, &training)? else { return Ok(None) };
@@ -348,13 +350,13 @@ pub struct Verdict {
     pub unreinforced: Spread,
     /// The search's best design for this objective, as the motions of the search show it.
     pub search: Spread,
-    /// The best greedy placement under these motions.
+    /// The greedy placement that is best under the motions of the search.
     pub greedy: Spread,
-    /// The best random placement under these motions, of both kinds, and the median one of everything drawn.
+    /// The random placement that is best under the motions of the search, and the median one under these, of both kinds.
     pub random: [f64; 2],
-    /// Whether the search is better than every greedy and every random placement under these motions.
+    /// Whether the search is better than the wall as it is and than both of them.
     pub beats: bool,
-    /// By how many scatters (of search and rival together) it is better than the best of them; negative where it is not.
+    /// By how many scatters (of search and rival together) it is better than the best of the three; negative where it is not.
     pub lead: f64,
 }
 
@@ -368,20 +370,24 @@ impl Answer {
         };
         let cost = |line: &Line| of(line).map_or(f64::INFINITY, |s| goal.cost(s.mean));
         let training = |line: &Line| line.training.get(objective).map_or(f64::INFINITY, |s| goal.cost(s.mean));
-        let best = self.search.iter().min_by(|a, b| training(a).total_cmp(&training(b)))?;
-        let greedy = self.greedy.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)))?;
-        let costs: Vec<f64> = self.random.iter().map(cost).collect();
-        let least = self.random.iter().chain(&self.placed).map(cost).fold(f64::INFINITY, f64::min);
-        let (search, greedy) = (of(best)?, of(greedy)?);
-        let rivals = [(goal.cost(greedy.mean), greedy.deviation), (least, search.deviation)];
-        let rival = if rivals[0].0 <= rivals[1].0 { rivals[0] } else { rivals[1] };
+        // Each strategy is asked for its best under the motions of the search: what does best under others nobody knows beforehand.
+        let by_training = |a: &&Line, b: &&Line| training(a).total_cmp(&training(b));
+        let drawn = || self.random.iter().chain(&self.placed);
+        let best = self.search.iter().min_by(by_training)?;
+        let greedy = of(self.greedy.iter().min_by(by_training)?)?;
+        let random = drawn().min_by(by_training).map_or(f64::INFINITY, cost);
+        let (search, unreinforced) = (of(best)?, of(&self.unreinforced)?);
+        let alike = |spread: Spread| (goal.cost(spread.mean), spread.deviation);
+        let rivals = [alike(unreinforced), alike(greedy), (random, search.deviation)];
+        let rival = rivals.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
         let gain = rival.0 - goal.cost(search.mean);
         let scatter = search.deviation.hypot(rival.1);
+        let costs: Vec<f64> = drawn().map(cost).collect();
         Some(Verdict {
-            unreinforced: of(&self.unreinforced)?,
+            unreinforced,
             search,
             greedy,
-            random: [goal.cost(least), goal.cost(quantile(&costs, 0.5)?)],
+            random: [goal.cost(random), goal.cost(quantile(&costs, 0.5)?)],
             beats: gain > 0.0,
             lead: if gain == 0.0 { 0.0 } else { gain / scatter },
         })

@@ -15,7 +15,7 @@ use crate::placement::{Places, Set};
 
 /// Deviation of the parameters at first, their ranges being 0 … 1.
 const WIDTH: f64 = 0.3;
-/// The same when sets stay.
+/// The same when sets stay, and where designs with tuned parameters are known.
 const NARROW: f64 = 0.1;
 /// Designs of an archive that may have the same set of joints: the others leave room for other sets.
 const SAME_SET: usize = 2;
@@ -153,7 +153,8 @@ impl Strand {
         let seed = quest.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(device as u64);
         let known = quest.known.iter().find(|d| d.device == device);
         let middle = known.map_or(vec![0.5; parameters], |d| d.shares.clone());
-        let cma = (parameters > 0).then(|| Cma::new(&middle, WIDTH, quest.population, seed ^ 1));
+        let width = if known.is_some() { NARROW } else { WIDTH };
+        let cma = (parameters > 0).then(|| Cma::new(&middle, width, quest.population, seed ^ 1));
         Strand {
             device,
             archive: Vec::new(),

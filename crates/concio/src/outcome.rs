@@ -53,16 +53,17 @@ impl Outcome {
         Some(self.recording.values.chunks_exact(channels.len()).map(|row| row[at]).collect())
     }
 
-    /// What the samples of a push tell, base shear over the displacement of the top, until a collapse, with a peak between them; none without any shear.
+    /// What a push tells: base shear over the displacement of the top, from the samples and the peak of all steps, until a collapse; none without any shear.
     pub fn push(&self) -> Option<Push> {
         let (shear, courses, beam) =
             (self.history("base/shear")?, self.history("top/displacement")?, self.history("beam/displacement")?);
         let top = if beam.iter().any(|d| *d != 0.0) { beam } else { courses };
         let end = self.totals.collapse.map_or(f64::INFINITY, |collapse| collapse.time);
         let stood = self.recording.time.iter().take_while(|t| **t <= end).count();
-        let borne = || shear[..stood].iter().map(|f| f.abs()).zip(top[..stood].iter().map(|d| d.abs()));
         let between = (self.totals.base_shear_peak, self.totals.base_shear_displacement.abs());
-        let (peak, displacement) = borne().fold(between, |most, now| if now.0 > most.0 { now } else { most });
+        let samples = || shear[..stood].iter().map(|f| f.abs()).zip(top[..stood].iter().map(|d| d.abs()));
+        let borne = || std::iter::once(between).chain(samples());
+        let (peak, displacement) = borne().fold((0.0, 0.0), |most, now| if now.0 > most.0 { now } else { most });
         let ultimate = borne().filter(|(f, _)| *f >= FOUR_FIFTHS * peak).map(|(_, d)| d).fold(0.0, f64::max);
         let fell = borne().any(|(_, d)| d > ultimate * (1.0 + ROUNDING));
         (peak > 0.0 && displacement > 0.0)

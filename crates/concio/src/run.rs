@@ -193,10 +193,11 @@ fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
         (None, None) => own,
     };
     if !(interval <= duration && duration / interval <= MOST_SAMPLES) {
-        let [least, asked, most] = [duration / MOST_SAMPLES, interval, duration].map(shown);
-        let what = format!("{asked} s for a run of {most} s");
+        let [least, every, most] = [duration / MOST_SAMPLES, interval, duration].map(shown);
+        let what = format!("{every} s for a run of {most} s");
         let allowed = format!("{least} s to {most} s, for at most {MOST_SAMPLES:.0} samples");
-        return Err(InputError::new(what).key("output.interval").allowed(allowed).into());
+        let key = if output.interval.is_none() && asked.is_some() { "output.frames" } else { "output.interval" };
+        return Err(InputError::new(what).key(key).allowed(allowed).into());
     }
     let frames = output.frames.map_or(duration / 400.0, |f| f.si());
     let frame_every = if frames == 0.0 { 0 } else { ((frames / interval).round() as usize).max(1) };

@@ -120,7 +120,7 @@ fn a_held_beam_has_no_weight_beside_its_load() {
         let most = rows.map(borne).fold(0.0, f64::max);
         let how = if motion == slowly { "slowly" } else { "at 2 Hz" };
         let name = if beam == driven { "driven" } else { "tied" };
-        let subject = format!("Loads: base of a stone below a {name} beam, shaken upwards {how}");
+        let subject = format!("Walls and loads: base of a stone below a {name} beam, shaken upwards {how}");
         agrees!(subject, "W (1 + a/g) + Q", "N", most, w * (1.0 + 4.0 / G) + q, within);
     }
 }

@@ -129,9 +129,16 @@ fn judged(question: &Question, k: usize, motions: &str, v: &Verdict) -> String {
         (false, true) => "as good as the best of them".to_string(),
         (false, false) => format!("worse than the best of them, by {apart} scatters"),
     };
+    let cost = |value: f64| question.objectives[k].cost(value);
+    let others = [v.search.mean, v.greedy.mean, v.random[0]].map(cost);
+    let nothing = if others.iter().all(|other| cost(v.unreinforced.mean) <= *other) {
+        " The wall does best without any device."
+    } else {
+        ""
+    };
     format!(
         "{}, {motions}: the wall as it is {} ± {}; the search {}; greedy {}; the best random placement {}, the median one \
-         {}. The search is {against}.",
+         {}. The search is {against}.{nothing}",
         capital(&question.objectives[k].title()),
         said(v.unreinforced.mean, unit),
         said(v.unreinforced.deviation, unit),
@@ -178,16 +185,18 @@ fn entry(question: &Question, line: &Line) -> Entry {
     Entry { words, joints, names, training: line.training.clone(), held_out: line.held_out.clone() }
 }
 
-/// The quantiles of some random draws, each objective for itself.
+/// The quantiles of some random draws, each objective for itself. The best is that under the motions of the search, under the others too.
 fn quantiles(question: &Question, name: &str, lines: &[Line]) -> Vec<Entry> {
     let of = |share: f64, held: bool| -> Vec<Spread> {
         let one = |(k, objective): (usize, &concio_study::interfaces::Objective)| {
-            let costs: Vec<f64> = lines
-                .iter()
-                .filter_map(|l| if held { l.held_out.get(k) } else { l.training.get(k) })
-                .map(|s| objective.cost(s.mean))
-                .collect();
-            Some(Spread { mean: objective.cost(quantile(&costs, share)?), deviation: 0.0 })
+            let costs = |held: bool| -> Vec<f64> {
+                let spreads = lines.iter().filter_map(|l| if held { l.held_out.get(k) } else { l.training.get(k) });
+                spreads.map(|s| objective.cost(s.mean)).collect()
+            };
+            let known = costs(false);
+            let best = (0..known.len()).min_by(|a, b| known[*a].total_cmp(&known[*b]))?;
+            let cost = if share == 0.0 { *costs(held).get(best)? } else { quantile(&costs(held), share)? };
+            Some(Spread { mean: objective.cost(cost), deviation: 0.0 })
         };
         question.objectives.iter().enumerate().filter_map(one).collect()
     };
