@@ -293,6 +293,7 @@ pub struct Kept {
     looked: Vec<Place>,
     seen: Vec<Seen>,
     pull: f64,
+    borne: [f64; 2],
     strains: Vec<Strain>,
     known: Known,
 }
@@ -387,8 +388,10 @@ pub struct Motion {
     /// Whether some joint can be crushed, and whether some has a force that falls at once.
     crushes: bool,
     sudden: bool,
-    /// How much of the change of forces in the step was over when such a force first fell in it, if one did.
+    /// How much of the change of forces in the step was over when such a force first fell in it, if one did, and what was borne at the step's end, as in
+    /// [`Motion::breaks`].
     breaks_at: Option<f64>,
+    borne: [f64; 2],
     /// Contacts of devices with a law of their own.
     bent: Vec<Bent>,
     free: Vec<Triple>,
@@ -437,6 +440,7 @@ impl Motion {
             crushes: system.links.iter().any(|link| link.law.crushing.is_finite()),
             sudden: system.links.iter().map(|link| &link.law).chain([&system.other]).any(Law::is_sudden),
             breaks_at: None,
+            borne: [0.0; 2],
             breaks: [0.0; 2],
             bent: Vec::new(),
             free: vec![[0.0; 3]; bodies.len()],
@@ -620,19 +624,34 @@ impl Motion {
         self.counters.steps += 1;
         self.counters.unsolved += u64::from(!enough);
         self.counters.residual = worse(self.counters.residual, effort.residual);
-        let before = if self.sudden { [self.pull, self.base_shear()] } else { [0.0; 2] };
         self.settle(h, forcing.held);
-        if let Some(part) = self.breaks_at.take() {
-            let now = [self.pull, self.base_shear()];
-            for (peak, (from, to)) in self.breaks.iter_mut().zip(before.into_iter().zip(now)) {
-                let then = from + part * (to - from);
-                *peak = if then.abs() > peak.abs() { then } else { *peak };
-            }
+        if self.sudden {
+            self.tell_breaks(h);
         }
         self.advance(h, forcing.held);
         std::mem::swap(&mut self.velocities, &mut self.after);
         self.time += h;
         true
+    }
+
+    /// Raises the largest forces at breaks by those of a step of `h` [s], if something broke in it.
+    fn tell_breaks(&mut self, h: f64) {
+        let borne = [self.pull - self.resisted(h), self.base_shear()];
+        let before = std::mem::replace(&mut self.borne, borne);
+        let Some(part) = self.breaks_at.take() else { return };
+        for (peak, (from, to)) in self.breaks.iter_mut().zip(before.into_iter().zip(borne)) {
+            let then = from + part * (to - from);
+            *peak = if then.abs() > peak.abs() { then } else { *peak };
+        }
+    }
+
+    /// Part of the pull of what is held that only moves masses without inertia, which start from rest in every step [N].
+    fn resisted(&self, h: f64) -> f64 {
+        if !self.setting.still || !self.held.iter().any(|held| held[0]) {
+            return 0.0;
+        }
+        let moved = self.resistance.iter().zip(&self.after).zip(&self.held).filter(|(_, held)| !held[0]);
+        moved.map(|((m, w), _)| m[0] * w[0]).sum::<f64>() / h
     }
 
     /// Says what part of the masses resists in a step of `h` [s]. Without inertia, where joints can be crushed, parts of a step are resisted as the whole is by
@@ -1147,6 +1166,7 @@ impl Motion {
             looked: self.looked.clone(),
             seen: self.seen.clone(),
             pull: self.pull,
+            borne: self.borne,
             strains: self.strains.clone(),
             known: self.solver.known(),
         }
@@ -1167,10 +1187,12 @@ impl Motion {
                     && crack::most_points(law()) == p.points.len()
             });
         if fits {
-            let Kept { places, velocities, time, account, counters, pairs, looked, seen, pull, strains, known } = kept;
+            let Kept { places, velocities, time, account, counters, pairs, looked, seen, pull, borne, strains, known } =
+                kept;
             (self.places, self.velocities, self.time) = (places, velocities, time);
             (self.account, self.counters, self.pairs) = (account, counters, pairs);
-            (self.looked, self.seen, self.pull, self.strains) = (looked, seen, pull, strains);
+            (self.looked, self.seen, self.strains) = (looked, seen, strains);
+            (self.pull, self.borne) = (pull, borne);
             self.pairs.iter_mut().filter_map(|pair| pair.crack.as_mut()).for_each(Crack::reserve);
             self.couple();
             return self.solver.take_up(known);

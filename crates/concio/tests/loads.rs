@@ -1,4 +1,4 @@
-//! Mass of what stands on a wall, against closed forms.
+//! Mass of what stands on a wall, and what a wall bears that is driven, against closed forms.
 
 use std::path::Path;
 
@@ -122,6 +122,79 @@ fn a_held_beam_has_no_weight_beside_its_load() {
         let name = if beam == driven { "driven" } else { "tied" };
         let subject = format!("Walls and loads: base of a stone below a {name} beam, shaken upwards {how}");
         agrees!(subject, "W (1 + a/g) + Q", "N", most, w * (1.0 + 4.0 / G) + q, within);
+    }
+}
+
+/// The block below a beam that drives it by 0.1 mm/s without inertia, in steps of `step` [s]: largest forces of beam, base and base joints [N].
+fn driven(joint: &str, load: &str, step: f64) -> [f64; 3] {
+    let [b, .., q] = BLOCK;
+    let load = format!("top = {}\nbeam = \"driven\"\nbeam_height = 0.2\n{load}", q / b);
+    let path = "top = { path = { displacements = [3e-5], speed = 1e-4 } }";
+    let motion = format!("quasi_static = true\n{path}\n[solver]\nstep = {step}");
+    let joint = format!(
+        "head = {{ law = \"none\" }}\ntop = {{ law = \"rigid\" }}\nfriction = {{ law = \"coulomb\", static = 2, dynamic = 2 }}\n{joint}"
+    );
+    // Low where nothing but the beam is to turn it.
+    let text = block("planar", &joint, &load, &motion);
+    let low = load.contains("fixed");
+    let (prepared, outcome) = ran(&if low { text.replace("height = 1,", "height = 0.1,") } else { text });
+    let kinds = prepared.model.joints.iter().map(|joint| joint.kind);
+    let base = kinds.zip(&outcome.envelopes.joint_force).filter(|(kind, _)| *kind == concio::case::JointKind::Base);
+    [outcome.totals.top_force_peak, outcome.totals.base_shear_peak, base.map(|(_, force)| force).sum()]
+}
+
+/// A bond breaks, or friction at rest is overcome, within the step that a driven beam loads it in: what was borne then is told, whatever is left of it at the
+/// step's end. The block cracks from its edge at (N + f_t A) b/(6 h), by the middle of the beam at h; low and held level, it is sheared off at c A + N tan φ,
+/// and slides from μ_s N on.
+#[test]
+fn what_is_borne_within_a_step_is_told() {
+    let [b, h, w, q] = BLOCK;
+    let springs = "law = \"no-tension\", stiffness = \"10 N/mm3\", rigidity = 1";
+    let rigid = "law = \"rigid\"";
+    let tan = 30f64.to_radians().tan();
+    let (strong, tough) = ("friction = { static = 0.6, dynamic = 0.6 }\nbond = ", "friction_angle = \"30 deg\" }");
+    let sheared = format!("{strong}{{ tensile_strength = 1e6, cohesion = 0.01e6, {tough}");
+    let bent = format!("{strong}{{ tensile_strength = 0.4e6, cohesion = 5e6, {tough}");
+    let slid = "friction = { static = 0.6, dynamic = 0.4 }".to_string();
+    let (bends, low) = ((w + q + 0.4e6 * b) * b / (6.0 * (h + 0.1)), 0.1 * w + q);
+    let level = "beam_rotation = \"fixed\"";
+    let cases = [
+        ("Bonds: rigid joint that a driven beam bends", rigid, &bent, "", "(N + f_t A) b/(6 h)", bends),
+        (
+            "Bonds: rigid joint that a driven beam shears",
+            rigid,
+            &sheared,
+            level,
+            "c A + N tan φ",
+            0.01e6 * b + low * tan,
+        ),
+        (
+            "Bonds: brittle joint on springs that a driven beam shears",
+            springs,
+            &sheared,
+            level,
+            "c A + N tan φ",
+            0.01e6 * b + low * tan,
+        ),
+        ("Sliding: rigid joint that a driven beam starts to slide", rigid, &slid, level, "μ_s N", 0.6 * low),
+        ("Sliding: joint on springs that a driven beam starts to slide", springs, &slid, level, "μ_s N", 0.6 * low),
+    ];
+    for (name, law, base, load, against, borne) in cases {
+        let bonded = base.contains("bond");
+        let top = if bonded {
+            "bond = { tensile_strength = 1e9, cohesion = 1e9, friction_angle = 0, on = [\"top\", \"base\"] }\n"
+        } else {
+            ""
+        };
+        let joint = format!("bed = {{ {law} }}\n{top}[[joint.change]]\nat = {{ kind = [\"base\"] }}\n{base}");
+        for step in [0.02, 0.005, 0.001] {
+            let [beam, shear, force] = driven(&joint, load, step);
+            agrees!(format!("{name}, largest force of the beam; step {step} s"), against, "N", beam, borne, 3e-3);
+            agrees!(format!("{name}, largest base shear; step {step} s"), against, "N", shear, borne, 3e-3);
+            if bonded && law == rigid {
+                agrees!(format!("{name}, largest force of the joint; step {step} s"), against, "N", force, borne, 3e-3);
+            }
+        }
     }
 }
 

@@ -992,7 +992,7 @@ step = {step}
     for (law, after) in [("stribeck-stick", 0.6), ("coulomb", 0.3)] {
         for step in ["20e-3", "2e-3"] {
             let [peak, last] = forces(law, step);
-            assert!(peak < 0.6 * 52e3 * 1.001, "{law} {step}: {peak}");
+            assert!(peak < 0.6 * 52e3 * 1.0001, "{law} {step}: {peak}");
             let subject = format!("Friction: planar block driven slowly, force at the end; {law}, steps of {step} s");
             let against = if law == "coulomb" { "μ_d N" } else { "μ_s N" };
             agrees!(subject, against, "N", last, after * 52e3, 1e-3);
@@ -1359,111 +1359,6 @@ fn a_bonded_rigid_joint_is_sheared_as_a_whole() {
     let tilt = "base = { tilt = { acceleration = \"15 g\", rise = \"10 s\" } }\nduration = \"10 s\"";
     let outcome = on_one_joint("0.2 m", "20 kN/m3", joint, tilt);
     close(outcome.totals.base_shear_peak / 1e3, 12.5 + 30f64.to_radians().tan(), 3e-3);
-}
-
-/// A rigid bond breaks within the step that a driven beam loads it in: what it bore then is told, whatever is left of it at the step's end. A block of 0.8 m cracks
-/// from its edge at (N + f_t A) L/(6 h), by the middle of the beam at h; one that is low and held level is sheared off at c A + N tan φ.
-#[test]
-fn what_a_rigid_bond_bears_is_told() {
-    let of = |height: f64, strength: &str, rest: &str, step: f64| {
-        let (_, outcome) = ran(&format!(
-            r#"
-model = "planar"
-[[panel]]
-bond = "stack"
-courses = 1
-bricks = 1
-brick = {{ length = 0.8, height = {height}, thickness = 0.3, specific_weight = 22e3 }}
-[joint]
-bed = {{ law = "rigid" }}
-head = {{ law = "none" }}
-friction = {{ law = "coulomb", static = 0.6, dynamic = 0.6 }}
-bond = {{ tensile_strength = 1e9, cohesion = 1e9, friction_angle = 0 }}
-[[joint.change]]
-at = {{ kind = ["base"] }}
-bond = {{ {strength} }}
-[load]
-top = {{ force = 30e3 }}
-beam = "driven"
-beam_height = 0.2
-{rest}
-[motion]
-quasi_static = true
-top = {{ path = {{ displacements = [1e-5], speed = 1e-4 }} }}
-[solver]
-step = {step}"#
-        ));
-        let row = outcome.bonds.iter().find(|row| row.cracked.is_finite()).expect("it cracks");
-        [outcome.totals.top_force_peak, outcome.totals.base_shear_peak, outcome.envelopes.joint_force[row.joint]]
-    };
-    let area = 0.8 * 0.3;
-    for step in [0.02, 0.005, 0.001] {
-        let (height, strength) = (1.4, "tensile_strength = 0.4e6, cohesion = 5e6, friction_angle = \"35 deg\"");
-        let normal = 30e3 + 22e3 * area * height;
-        let bends = (normal + 0.4e6 * area) * 0.8 / 6.0 / (height + 0.1);
-        for (name, borne) in ["beam", "base", "joint"].into_iter().zip(of(height, strength, "", step)) {
-            let subject = format!(
-                "Bonds: rigid joint of a driven block that cracks by bending, force of the {name}; step {step} s"
-            );
-            agrees!(subject, "(N + f_t A) L/(6 h)", "N", borne, bends, 3e-3);
-        }
-        let (height, strength) = (0.05, "tensile_strength = 4e6, cohesion = 0.2e6, friction_angle = \"35 deg\"");
-        let shears = 0.2e6 * area + (30e3 + 22e3 * area * height) * 35f64.to_radians().tan();
-        for (name, borne) in
-            ["beam", "base", "joint"].into_iter().zip(of(height, strength, "beam_rotation = \"fixed\"", step))
-        {
-            let subject =
-                format!("Bonds: rigid joint of a driven block that is sheared off, force of the {name}; step {step} s");
-            agrees!(subject, "c A + N tan φ", "N", borne, shears, 3e-3);
-        }
-    }
-}
-
-/// So it is with springs: a brittle bond breaks at c A + N tan φ within the step, and friction at rest is overcome at μ_s N, whatever is borne at its end. A joint of
-/// 1 m × 0.2 m below 102 kN, driven by 1 mm/s.
-#[test]
-fn what_is_borne_within_a_step_is_told() {
-    let springs = "law = \"no-tension\", stiffness = \"10 N/mm3\", rigidity = 1";
-    let bond = "bond = { tensile_strength = 1e6, cohesion = 0.3e6, friction_angle = \"30 deg\" }";
-    let cases = [
-        ("Bonds: brittle joint on springs", springs, 0.6, bond, 0.3e6 * 0.2 + 102e3 * 30f64.to_radians().tan()),
-        ("Sliding: friction at rest of a rigid joint", "law = \"rigid\"", 0.4, "", 0.6 * 102e3),
-        ("Sliding: friction at rest of a joint on springs", springs, 0.4, "", 0.6 * 102e3),
-    ];
-    for (name, law, dynamic, bond, borne) in cases {
-        for step in [0.02, 0.005] {
-            let (_, outcome) = ran(&format!(
-                r#"
-model = "planar"
-[[panel]]
-bond = "stack"
-courses = 1
-bricks = 1
-brick = {{ length = 1, height = 0.1, thickness = 0.2, specific_weight = 20e3 }}
-[joint]
-head = {{ law = "none" }}
-top = {{ law = "rigid" }}
-friction = {{ law = "coulomb", static = 2, dynamic = 2 }}
-bed = {{ {law} }}
-[[joint.change]]
-at = {{ kind = ["base"] }}
-friction = {{ static = 0.6, dynamic = {dynamic} }}
-{bond}
-[load]
-top = {{ force = {} }}
-beam = "driven"
-beam_rotation = "fixed"
-[motion]
-quasi_static = true
-top = {{ path = {{ displacements = ["0.3 mm"], speed = "1 mm/s" }} }}
-[solver]
-step = {step}"#,
-                102e3 - 20e3 * 0.02
-            ));
-            let subject = format!("{name}, largest force of a beam that drives it; step {step} s");
-            agrees!(subject, "c A + N tan φ, μ_s N", "N", outcome.totals.top_force_peak, borne, 0.02);
-        }
-    }
 }
 
 /// The energy account closes where a joint crushes, and where the last of a bond breaks as the joint is open on one side.

@@ -450,9 +450,9 @@ impl Run {
             envelopes.joint_slip[e] = seen.path;
             envelopes.joint_opening[e] = envelopes.joint_opening[e].max(opening);
             envelopes.joint_closing[e] = envelopes.joint_closing[e].max(-seen.gap[0]);
-            let [tension, along] = self.motion.crack(e).map_or([0.0; 2], |crack| crack.peak);
-            let (force, breaks) = if upright { (seen.pressure, tension) } else { (seen.shear, along) };
-            envelopes.joint_force[e] = envelopes.joint_force[e].max(force.abs()).max(breaks);
+            let force = if upright { seen.pressure } else { seen.shear };
+            let broke = self.motion.crack(e).map_or(0.0, |crack| crack.peak[usize::from(!upright)]);
+            envelopes.joint_force[e] = envelopes.joint_force[e].max(force.abs()).max(broke);
             totals.peak_friction_force = totals.peak_friction_force.max(seen.friction.abs());
             if upright {
                 totals.minimum_gap = totals.minimum_gap.min(seen.gap[0]);
@@ -495,10 +495,9 @@ impl Run {
                 tell(Event { time: last, joint: bond.joint, kind: EventKind::Break, value: stretch });
             }
             let seen = &self.motion.seen[e];
-            let [tension, shear] = crack.peak;
             let upright = model.joints[e].kind.is_upright();
-            let (force, breaks) = if upright { (-seen.pressure, tension) } else { (seen.shear.abs(), shear) };
-            let peak = held.peak.max(force).max(breaks);
+            let force = if upright { -seen.pressure } else { seen.shear.abs() };
+            let peak = held.peak.max(force).max(crack.peak[usize::from(!upright)]);
             *held = BondState {
                 reach,
                 damage,
