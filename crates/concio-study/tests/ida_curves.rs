@@ -75,6 +75,16 @@ fn powers_are_interpolated_exactly() {
     assert_eq!(fallen.capacity(9.0), Evidence::Within([0.1, 0.4]));
 }
 
+/// A number of cracked joints jumps somewhere between two runs, not at the upper one.
+#[test]
+fn counts_rise_by_jumps() {
+    let cracked = curve(&[(4.1202, 1.0, false), (5.1012, 2.0, false)]);
+    assert_eq!(cracked.capacity(2.0), Evidence::Within([4.1202, 5.1012]));
+    let near = curve(&[(4.0, 1.0, false), (4.2, 2.0, false)]);
+    let Evidence::At(found) = near.capacity(2.0) else { panic!("two near runs") };
+    assert!((found / (4.0f64 * 4.2).sqrt() - 1.0).abs() < 1e-12, "{found}");
+}
+
 #[test]
 fn fractiles_of_three_curves() {
     let curves = [1.0, 2.0, 4.0].map(|k| curve(&[(0.1, 0.1 * k, false), (1.0, k, false)]));

@@ -227,6 +227,8 @@ impl Model {
         warnings.extend(massless.map(|text| Warning::new(WarningKind::MasslessLoad, text)));
         let stronger = stronger_cracked(&wall, &joints, &laws, &normal);
         warnings.extend(stronger.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
+        let crushed = crushed_at_rest(&wall, &joints, &laws, &normal).filter(|_| turns);
+        warnings.extend(crushed.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
         let wide = wide_joint(case, &wall, &joints, &laws);
         warnings.extend(wide.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
         let detached = planar::detached(case, &wall).into_iter();
@@ -413,6 +415,28 @@ fn stronger_cracked(wall: &Wall, joints: &[Joint], laws: &[JointLaw], normal: &[
         graph::name(wall, &joints[*e]),
         1e-3 * cracked,
         1e-3 * intact,
+    ))
+}
+
+/// Part of its strength from which on the pressure of a joint at rest is told.
+const NEARLY_CRUSHED: f64 = 0.9;
+
+/// Says of joints that their loads crush them at rest, or nearly: why the wall does not stand is asked for first.
+fn crushed_at_rest(wall: &Wall, joints: &[Joint], laws: &[JointLaw], normal: &[[f64; 2]]) -> Option<String> {
+    let strained = |e: usize| {
+        let strength = laws[e].spring.compressive_strength?.si() * joints[e].area(wall);
+        (!joints[e].kind.is_upright()).then_some((normal[e][0] / strength, e))
+    };
+    let all: Vec<(f64, usize)> = (0..joints.len()).filter_map(strained).filter(|s| s.0 >= NEARLY_CRUSHED).collect();
+    let (part, e) = all.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let others = if all.len() > 1 { format!(", and {} more joints are like it", all.len() - 1) } else { String::new() };
+    let pressure = normal[e][0] / joints[e].area(wall);
+    let then = if part >= 1.0 { "the wall does not stand" } else { "hardly anything is left for the motion" };
+    Some(format!(
+        "joint {} is pressed by {} MPa at rest, and its compressive_strength is {} MPa: {then}{others}",
+        graph::name(wall, &joints[e]),
+        plausible::rounded(1e-6 * pressure, 3),
+        plausible::rounded(1e-6 * pressure / part, 3),
     ))
 }
 

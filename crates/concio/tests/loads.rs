@@ -333,3 +333,23 @@ duration = "1 s"
     assert!(wrong("{ force = \"150 kN/m\" }").contains("force"), "{}", wrong("{ force = \"150 kN/m\" }"));
     assert!(wrong("true").contains("{ force = "), "{}", wrong("true"));
 }
+
+/// A joint whose loads crush it at rest is named with its pressure and strength.
+#[test]
+fn what_is_crushed_at_rest_is_told() {
+    let [b, _, w, q] = BLOCK;
+    let pressure = 1e-6 * (w + q) / b;
+    for (strength, part) in [(2.0, None), (1.05, Some("hardly anything")), (0.5, Some("does not stand"))] {
+        let joint = format!(
+            "bed = {{ law = \"no-tension\", rigidity = 1, stiffness = \"100 N/mm3\", compressive_strength = \"{} MPa\" }}\n\
+             head = {{ law = \"none\" }}\nfriction = {{ law = \"coulomb\", static = 1, dynamic = 1 }}",
+            strength * pressure
+        );
+        let text = block("planar", &joint, &format!("top = {}", q / b), "duration = 1");
+        let file = from_str(&text, Syntax::Toml, None).expect("a wall file");
+        let warnings = prepare(file.case, Path::new(".")).expect("a wall").model.warnings.clone();
+        let told = warnings.iter().find(|warning| warning.contains("compressive_strength is"));
+        assert_eq!(told.is_some(), part.is_some(), "{strength}: {warnings:?}");
+        assert!(told.is_none_or(|told| told.contains(part.unwrap_or_default())), "{told:?}");
+    }
+}

@@ -311,6 +311,28 @@ fn columns_without_time_are_components() {
     assert!(refused(timed, &given(0.02, "g", None)).what.contains("named as 0.02 s"));
 }
 
+/// Files of other quantities are no accelerograms, whatever unit the caller gives; columns of them beside accelerations are left out.
+#[test]
+fn other_quantities_are_refused() {
+    let rows: String = (0..50).map(|n| format!("{:.2} {:.4}\n", 0.01 * f64::from(n), f64::from(n).sin())).collect();
+    let options = TextOptions { units: Some("cm/s2".into()), ..given(0.01, "cm/s2", None) };
+    for (title, part) in [
+        ("t [s]  v [cm/s]", "velocity"),
+        ("time velocity", "velocity"),
+        ("T Sa", "a spectrum"),
+        ("disp_mm force_kN", "the first column is displacement"),
+        ("freq_Hz amplitude", "the first column is a spectrum"),
+    ] {
+        let error = refused(&format!("{title}\n{rows}"), &TextOptions { dt: None, ..options.clone() });
+        assert!(error.to_string().contains(part), "{title}: {error}");
+        assert_eq!(error.line, Some(1), "{title}");
+    }
+    let both: String =
+        (0..50).map(|n| format!("{:.2},{:.4},{:.4}\n", 0.01 * f64::from(n), f64::from(n).sin(), 7.0)).collect();
+    let records = read_text(&format!("time [s],acc [cm/s2],vel [cm/s]\n{both}")).expect("an accelerogram");
+    assert_eq!(records.len(), 1);
+}
+
 #[test]
 fn one_component_row_by_row() {
     let values = decaying_sine(DT, 100);

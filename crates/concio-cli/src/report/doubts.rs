@@ -83,7 +83,14 @@ fn of_this_run(content: &Content) -> Vec<String> {
                 .into(),
         );
     }
-    if slips {
+    if slips && planar && !content.case.motion.quasi_static {
+        doubts.push(
+            "Blocks slip and meet in this run, and both are sensitive to the last digit: drifts, peaks of forces and the name of \
+             the failure may change with the step. Run it with half of `solver.step` too, and rely only on what does not change. \
+             The largest base shear is often that of an impact."
+                .into(),
+        );
+    } else if slips {
         let sure = if planar { "envelopes and forces" } else { "energies, envelopes and forces" };
         doubts.push(format!(
             "Joints slip in this run. Stick-slip is sensitive to the last digit: {sure} can be relied on, the course of a \

@@ -77,7 +77,7 @@ impl Curve {
 
     /// The intensity at which damage first reaches `value`.
     ///
-    /// Between two runs the logarithm of the intensity is linear in that of the damage. Where damage jumps from one to the other, as it does where sliding, rocking
+    /// Between two runs the logarithm of the intensity is linear in that of the damage. Where damage jumps from one to the other, as a number of joints does and any damage where sliding, rocking
     /// or a collapse begins, and between runs that lie far apart, such a line says nothing: the capacity is the middle of both where they are next to each other, and known to lie between them where not.
     pub fn capacity(&self, value: f64) -> Evidence {
         let Some((low, high)) = self.bracket(value) else {
@@ -88,7 +88,11 @@ impl Curve {
         let damages = (low.damage.unwrap_or(0.0), high.damage.unwrap_or(0.0));
         let share = match damages {
             (d0, d1)
-                if !high.collapsed && d0 > 0.0 && ratio <= 1.0 + WIDE && (d1 / d0).ln() <= STEEPEST * ratio.ln() =>
+                if !high.collapsed
+                    && !self.counts()
+                    && d0 > 0.0
+                    && ratio <= 1.0 + WIDE
+                    && (d1 / d0).ln() <= STEEPEST * ratio.ln() =>
             {
                 (value / d0).ln() / (d1 / d0).ln()
             }
@@ -97,6 +101,11 @@ impl Curve {
         };
         let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 };
         Evidence::At(low.intensity * ratio.powf(share))
+    }
+
+    /// Whether damage is a number of things, which rises by jumps alone.
+    fn counts(&self) -> bool {
+        self.points.iter().all(|point| point.damage.is_none_or(|damage| damage.fract() == 0.0))
     }
 
     /// Runs of higher intensity than that at which damage first reaches `value` that do not reach it.

@@ -45,9 +45,15 @@ pub(super) fn read(source: &Source, options: &TextOptions) -> Result<Vec<Record>
         }
         (untimed(source, &table, options)?, 0)
     };
+    let others: Vec<Option<&str>> = names.iter().map(|title| other_than(title, options.quantity)).collect();
+    refuse_others(source, data_line, &names, &others, columns, options)?;
     let header = header_unit(source, data_line, options.quantity);
     let mut records = Vec::new();
     for (index, values) in table.columns.into_iter().enumerate().skip(columns) {
+        // Velocities and displacements beside accelerations are no components.
+        if others.get(index).is_some_and(Option::is_some) {
+            continue;
+        }
         let title = names.get(index).copied().unwrap_or("");
         let (units_line, units) = unit(source, data_line, title, header, options)?;
         let raw = Raw {
@@ -65,6 +71,61 @@ pub(super) fn read(source: &Source, options: &TextOptions) -> Result<Vec<Record>
         records.push(finish(source, raw)?);
     }
     Ok(records)
+}
+
+/// What a column has by its title, where that is another quantity than the one that is read.
+fn other_than(title: &str, quantity: HistoryQuantity) -> Option<&'static str> {
+    const NAMED: [(&str, &[&str]); 5] = [
+        ("acceleration", &["acc", "accel", "acceleration"]),
+        ("displacement", &["disp", "displ", "displacement", "drift"]),
+        ("velocity", &["vel", "velocity"]),
+        ("a spectrum", &["sa", "psa", "psv", "freq", "frequency", "period", "spectrum"]),
+        ("force", &["force", "load"]),
+    ];
+    let lower = title.to_lowercase();
+    let word = lower.split(|c: char| !c.is_alphabetic()).find(|word| !word.is_empty()).unwrap_or("");
+    let of_unit = bracketed(&lower).any(is_unit_of_velocity).then_some("velocity");
+    let named = NAMED.iter().find(|(_, words)| words.contains(&word)).map(|(what, _)| *what);
+    named.or(of_unit).filter(|what| *what != name(quantity))
+}
+
+fn is_unit_of_velocity(unit: &str) -> bool {
+    let length = unit.strip_suffix("/s").or_else(|| unit.strip_suffix("/sec"));
+    length.is_some_and(|length| units::factor(length, HistoryQuantity::Displacement).is_some())
+}
+
+/// Refuses files of which no column has what is read, and those whose first column stands in the place of time and is none.
+fn refuse_others(
+    source: &Source,
+    data_line: usize,
+    names: &[&str],
+    others: &[Option<&str>],
+    columns: usize,
+    options: &TextOptions,
+) -> Result<()> {
+    let title_line = data_line.saturating_sub(1);
+    let wanted = name(options.quantity);
+    let time = columns == 1 && others.first().is_some_and(Option::is_some);
+    let values = others.get(columns..).unwrap_or_default();
+    let found = match (time, values.iter().all(Option::is_some)) {
+        (true, _) => others.first().copied().flatten(),
+        (false, true) => values.first().copied().flatten(),
+        (false, false) => None,
+    };
+    // Titles with blanks between name and unit are told apart by their units.
+    let line = source.line(title_line).to_lowercase();
+    let rated = names.is_empty() && bracketed(&line).any(is_unit_of_velocity);
+    let of_wanted = bracketed(&line).any(|unit| units::factor(unit, options.quantity).is_some());
+    let Some(found) = found.or_else(|| (rated && !of_wanted).then_some("velocity")) else { return Ok(()) };
+    let what = if time {
+        format!("the first column is {found}, and no time")
+    } else {
+        format!("the columns are {found}, and no {wanted}")
+    };
+    let error = source
+        .error_at(title_line, what)
+        .allowed("columns of acceleration, or of displacement with `quantity = \"displacement\"`");
+    Err(error.into())
 }
 
 /// The layout that file or caller names.
