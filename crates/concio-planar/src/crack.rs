@@ -10,9 +10,9 @@
 //!
 //! At a node that is stretched by w across and s along the joint,
 //!
-//! (P9)  σ = (1 − D) k_n w ≤ e^−ξ f_t,   |τ| = (1 − D) k_t |s| ≤ e^−ξ (c + p tan φ)
+//! (P9)  σ = (1 − D) k_n w ≤ e^−ξ f_t,   |τ| = (1 − D) k_t |s| ≤ e^−ξ (c + p tan φ) − σ tan φ
 //!
-//! p being the pressure there. Where a limit is passed, ξ grows by the way that goes beyond it over δ_c of that mode, and what that mode alone
+//! p being the pressure there; of tension σ tan φ counts, c σ/f_t at most, so that f_t is borne without shear. Where a limit is passed, ξ grows by the way that goes beyond it over δ_c of that mode, and what that mode alone
 //! would lose of its stiffness to where the limit is met; D is the larger loss of the two. One ξ weakens both strengths, as mixed modes do (Lourenço & Rots
 //! 1997); stiffness that is lost in one mode does not put off the limit of the other. Along one mode alone that is (B3). χ = 1 − e^−ξ is
 //! the part that rubs, so that shear stays within (B5). δ_c follows from G_f with the strength of the moment, S = f_t of opening, c + p tan φ of shear, and with
@@ -700,7 +700,12 @@ impl Crack {
         let intact = self.cracked.is_infinite();
         let opened = near[0].max(far[0]);
         let bond = law.bond.unwrap_or_default();
-        if intact && both * (opened - TOUCHING) <= bond.tension && sheared <= bond.cohesion && pressed <= law.crushing {
+        let pulled = law.shear.stiffness * law.pulled(opened - TOUCHING);
+        if intact
+            && both * (opened - TOUCHING) <= bond.tension
+            && sheared + pulled <= bond.cohesion
+            && pressed <= law.crushing
+        {
             return Worn::default();
         }
         let mut friction = [0.0; 2];
@@ -716,15 +721,14 @@ impl Crack {
             let pressure = (both + press) * (-w).max(0.0);
             let holds = self.nodes[n] == Node::INTACT
                 && both * (w - TOUCHING) <= bond.tension
-                && breaks * s.abs() <= law.shear_strengths(pressure)[0]
+                && breaks * (s.abs() + law.pulled(w - TOUCHING)) <= law.shear_strengths(pressure)[0]
                 && pressure <= law.crushing;
             if holds || self.nodes[n].damage() == 1.0 {
                 continue;
             }
             let then = between(&self.was, x);
-            let grown = [w - then[0], s.abs() - then[1].abs()].map(|way| way.max(0.0));
             let before = self.nodes[n];
-            let lost = self.wear_node(n, [w, s], grown, law, &bond);
+            let lost = self.wear_node(n, [w, s], then, law, &bond);
             // A crushed node may have taken nothing.
             if self.nodes[n] == before {
                 continue;
@@ -736,7 +740,8 @@ impl Crack {
             if before == Node::INTACT && self.nodes[n] == Node::GONE {
                 let strengths = [bond.tension / both, law.shear_strengths(pressure)[0] / breaks];
                 let parts = [0, 1].map(|k| {
-                    let (from, to) = [(then[0], w), (then[1].abs(), s.abs())][k];
+                    let sheared = |[w, s]: [f64; 2]| s.abs() + law.pulled(w - TOUCHING);
+                    let (from, to) = [(then[0], w), (sheared(then), sheared([w, s]))][k];
                     if to > strengths[k] { ((strengths[k] - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 }
                 });
                 let part = parts[0].min(parts[1]);
@@ -837,17 +842,26 @@ impl Crack {
         }
     }
 
-    /// What a node lost that is stretched by `w` and `s`, `grown` of it in this step [m], of a joint as it would be everywhere [J].
-    fn wear_node(&mut self, n: usize, [w, s]: [f64; 2], grown: [f64; 2], law: &Law, bond: &Bond) -> f64 {
+    /// What a node lost that is stretched by `w` and `s`, and was by `then` before this step [m], of a joint as it would be everywhere [J].
+    fn wear_node(&mut self, n: usize, [w, s]: [f64; 2], then: [f64; 2], law: &Law, bond: &Bond) -> f64 {
         let Normal::Springs { both, press, .. } = law.normal else { return 0.0 };
         let mut node = self.nodes[n];
         let (damage, had) = (node.damage(), node.lost);
         let along = law.breaking_stiffness();
         let pressure = ((both + press) * -w).max(0.0);
+        // Tension takes from the strength along what it bears times tan φ: a slide that would bear that is added to the one there is.
+        let sheared = |node: &Node, [w, s]: [f64; 2]| {
+            let [opened, slid] = node.lost.map(|lost| 1.0 - lost);
+            s.abs() + if opened < slid { opened / slid } else { 1.0 } * law.pulled(w - TOUCHING)
+        };
+        let grown = [w - then[0], s.abs() - then[1].abs(), sheared(&node, [w, s]) - sheared(&node, then)];
+        let grown = grown.map(|way| way.max(0.0));
         let (mut taken, mut passed) = (0.0, [false; 2]);
         // `way` is how much farther it is stretched than before, `other` twice what the other direction would store.
-        let mut pass = |mode: usize, [stretch, way]: [f64; 2], k: f64, [strength, goes_on]: [f64; 2], other: f64| {
+        type Stretch<'a> = (&'a dyn Fn(&Node) -> f64, f64);
+        let mut pass = |mode: usize, (stretch, way): Stretch, k: f64, [strength, goes_on]: [f64; 2], other: f64| {
             let before = node.damage();
+            let stretch = stretch(&node);
             if k == 0.0 || before == 1.0 {
                 return;
             }
@@ -885,10 +899,16 @@ impl Crack {
             }
             taken += 0.5 * (node.damage() - before) * other;
         };
-        pass(0, [w - TOUCHING, grown[0]], both, [bond.tension, 0.0], along * s * s);
-        pass(1, [s.abs(), grown[1]], along, law.shear_strengths(pressure), both * w.max(0.0).powi(2));
+        pass(0, (&|_| w - TOUCHING, grown[0]), both, [bond.tension, 0.0], along * s * s);
+        pass(
+            1,
+            (&|node| sheared(node, [w, s]), grown[2]),
+            along,
+            law.shear_strengths(pressure),
+            both * w.max(0.0).powi(2),
+        );
         // Where both modes have lost some, one of them bears less than its limit. What springs bore on the way and do not store is taken then.
-        if passed[0] && (passed[1] || had[1] > 0.0) || passed[1] && had[0] > 0.0 {
+        if passed[0] && (passed[1] || had[1] > 0.0) || passed[1] && (had[0] > 0.0 || law.pulled(w) > 0.0) {
             let [w, s] = [w.max(0.0), s.abs()];
             let both_ways = both * w * (w - grown[0]).max(0.0) + along * s * (s - grown[1]);
             taken = 0.5 * (node.damage() - damage) * both_ways;
@@ -1017,8 +1037,7 @@ mod tests {
         let mut was = from;
         for n in 1..=steps {
             let at = [0, 1].map(|k| from[k] + (to[k] - from[k]) * f64::from(n) / f64::from(steps));
-            let grown = [at[0] - was[0], at[1].abs() - was[1].abs()].map(|way| way.max(0.0));
-            taken += crack.wear_node(7, at, grown, law, &bond);
+            taken += crack.wear_node(7, at, was, law, &bond);
             was = at;
         }
         taken
@@ -1092,8 +1111,7 @@ mod tests {
                 for n in 1..=steps {
                     let at = [0, 1].map(|k| leg[0][k] + (leg[1][k] - leg[0][k]) * f64::from(n) / f64::from(steps));
                     let before = stresses(&crack, was);
-                    let grown = [0, 1].map(|k| (at[k] - was[k]).max(0.0));
-                    taken += crack.wear_node(7, at, grown, &law, &bond);
+                    taken += crack.wear_node(7, at, was, &law, &bond);
                     let after = stresses(&crack, at);
                     work += (0..2).map(|k| 0.5 * (before[k] + after[k]) * (at[k] - was[k])).sum::<f64>();
                     was = at;

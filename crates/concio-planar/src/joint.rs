@@ -21,8 +21,8 @@ use crate::G;
 use crate::contact::{Contact, Linear, Status};
 use crate::crack::Part;
 
-/// Stiffness of what grips, over the mass that the point moves and the square of the step.
-const GRIP: f64 = 1e8;
+/// Way that what grips gives until it bears the pressure along, over the step [m/s]: the longer, the less force comes from what the solution is off by.
+const GIVES: f64 = 5e-5;
 
 /// Law of a joint. Stiffnesses, dashpots and strengths are those of its whole length.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -159,6 +159,8 @@ const RINGING: f64 = 0.125;
 pub const RESOLVED: f64 = 2.18;
 /// Speed over that which gravity gives in a step up to which a point rests.
 const RESTING: f64 = 1e-5;
+/// Part of a strength by which what is borne may be off.
+const ROUNDING: f64 = 1e-6;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
 
@@ -210,6 +212,14 @@ impl Law {
         let of = |bond: Bond| (1.0 - bond.residual) * (bond.cohesion + pressure * bond.tan_angle);
         let strength = self.bond.map_or(0.0, of);
         [strength, (self.slow_friction() * pressure).min(strength)]
+    }
+
+    /// The slide that would bear what an opening `w` of an intact bond takes from its strength along, as (P9) says [m].
+    pub(crate) fn pulled(&self, w: f64) -> f64 {
+        let (both, _) = self.springs();
+        let steepest = |bond: Bond| bond.tan_angle.min((1.0 - ROUNDING) * bond.cohesion / bond.tension);
+        let tan = self.bond.filter(|bond| bond.tension > 0.0).map_or(0.0, steepest);
+        if self.shear.stiffness == 0.0 { 0.0 } else { tan * both * w.max(0.0) / self.shear.stiffness }
     }
 
     /// μ of a slide that is as slow as can be; 0 where nothing rubs.
@@ -488,7 +498,7 @@ impl Law {
             contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
             contact.compliant[1] = true;
         } else if self.grips(still) {
-            let line = over(GRIP * contact.moved[1] / (h * h), 0.0, 0.0, u_t, 1.0);
+            let line = over(point.force[0].max(contact.moved[1] * G) / (GIVES * h), 0.0, 0.0, u_t, 1.0);
             contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
             contact.compliant[1] = true;
         } else {

@@ -294,8 +294,16 @@ pub struct Kept {
     seen: Vec<Seen>,
     pull: f64,
     borne: [f64; 2],
+    shakes: [f64; 2],
     strains: Vec<Strain>,
     known: Known,
+}
+
+/// What the base moved in a step without inertia: Σ m Δx [kg m], and the work of the forces that acted at the ends of its parts [J].
+#[derive(Debug, Clone, Copy, Default)]
+struct Moved {
+    masses: [f64; 2],
+    work: f64,
 }
 
 /// A pair, and where it stands in the matrix.
@@ -392,6 +400,9 @@ pub struct Motion {
     /// [`Motion::breaks`].
     breaks_at: Option<f64>,
     borne: [f64; 2],
+    /// Without inertia: acceleration of the base in the step before [m/s²], and what moved in this one.
+    shakes: [f64; 2],
+    moved: Moved,
     /// Contacts of devices with a law of their own.
     bent: Vec<Bent>,
     free: Vec<Triple>,
@@ -442,6 +453,8 @@ impl Motion {
             breaks_at: None,
             borne: [0.0; 2],
             breaks: [0.0; 2],
+            shakes: [0.0; 2],
+            moved: Moved::default(),
             bent: Vec::new(),
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
@@ -538,13 +551,31 @@ impl Motion {
     /// to rest in long steps alone. A mechanism never does, and moves the more the longer they are.
     pub fn go(&mut self, h: f64, forcing: &impl Fn(f64, f64) -> Forcing) {
         let start = self.time;
-        self.breaks = [0.0; 2];
+        let (pull, held) = (self.pull, self.account.held);
+        (self.breaks, self.moved) = ([0.0; 2], Moved::default());
         self.part(start, h, 0, forcing);
         if self.setting.still {
             let acts = forcing(start, start + h);
             self.follow(start, h, &acts);
+            self.work_at_rest(h, &acts, pull, held);
         }
         self.time = start + h;
+    }
+
+    /// Between one rest and the next forces do the work of their mean: what those at the end of the steps did beyond it went into bodies that are at rest again.
+    /// `pull` acted and `held` was done by what is held before a step of `h` [s] under `acts`.
+    fn work_at_rest(&mut self, h: f64, acts: &Forcing, pull: f64, held: f64) {
+        let base = acts.base.map(|v| v / h);
+        let mean = [0, 1].map(|k| 0.5 * (self.shakes[k] + base[k]));
+        let Moved { masses, work } = self.moved;
+        let surplus = [
+            work + mean[0] * masses[0] + mean[1] * masses[1],
+            self.account.held - held - 0.5 * (pull + self.pull) * acts.held,
+        ];
+        self.account.input -= surplus[0];
+        self.account.held -= surplus[1];
+        self.account.impact -= surplus[0] + surplus[1];
+        self.shakes = base;
     }
 
     /// Steps under what acts over `h` [s], until the bodies are at rest.
@@ -624,7 +655,7 @@ impl Motion {
         self.counters.steps += 1;
         self.counters.unsolved += u64::from(!enough);
         self.counters.residual = worse(self.counters.residual, effort.residual);
-        self.settle(h, forcing.held);
+        self.settle(h, forcing);
         if self.sudden {
             self.tell_breaks(h);
         }
@@ -852,7 +883,7 @@ impl Motion {
     }
 
     /// Keeps what the points have come to for the next step, and accounts for the energy of this one.
-    fn settle(&mut self, h: f64, held: f64) {
+    fn settle(&mut self, h: f64, Forcing { base, held }: Forcing) {
         let time = self.time + h;
         self.account.elastic = 0.0;
         self.pull = 0.0;
@@ -893,7 +924,9 @@ impl Motion {
             seen.shear += whole[1] / h;
             seen.friction += contact.impulse[1] / h;
             seen.path += owner.weight * works.slip;
-            seen.taken += works.damping + works.friction + works.impact + works.bond + works.device;
+            seen.taken += works.damping + works.friction + works.bond + works.device;
+            // Without inertia nothing bumps: it is what a step at once has beyond the mean of its forces.
+            seen.taken += if self.setting.still { 0.0 } else { works.impact };
             seen.broken += works.bond;
         }
         self.wear(time);
@@ -932,6 +965,11 @@ impl Motion {
                 self.account.input += 0.5 * m[k] * (f[k] - v[k]) * (v[k] + w[k]);
                 if self.setting.still {
                     self.account.impact += 0.5 * m[k] * w[k] * w[k];
+                    if k < 2 && self.shaken[body] {
+                        let moved = 0.5 * self.mass[body][k] * (v[k] + w[k]);
+                        self.moved.masses[k] += h * moved;
+                        self.moved.work -= base[k] * moved;
+                    }
                 }
             }
         }
@@ -1167,6 +1205,7 @@ impl Motion {
             seen: self.seen.clone(),
             pull: self.pull,
             borne: self.borne,
+            shakes: self.shakes,
             strains: self.strains.clone(),
             known: self.solver.known(),
         }
@@ -1187,12 +1226,25 @@ impl Motion {
                     && crack::most_points(law()) == p.points.len()
             });
         if fits {
-            let Kept { places, velocities, time, account, counters, pairs, looked, seen, pull, borne, strains, known } =
-                kept;
+            let Kept {
+                places,
+                velocities,
+                time,
+                account,
+                counters,
+                pairs,
+                looked,
+                seen,
+                pull,
+                borne,
+                shakes,
+                strains,
+                known,
+            } = kept;
             (self.places, self.velocities, self.time) = (places, velocities, time);
             (self.account, self.counters, self.pairs) = (account, counters, pairs);
             (self.looked, self.seen, self.strains) = (looked, seen, strains);
-            (self.pull, self.borne) = (pull, borne);
+            (self.pull, self.borne, self.shakes) = (pull, borne, shakes);
             self.pairs.iter_mut().filter_map(|pair| pair.crack.as_mut()).for_each(Crack::reserve);
             self.couple();
             return self.solver.take_up(known);

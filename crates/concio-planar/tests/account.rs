@@ -145,3 +145,44 @@ fn a_dashpot_takes_no_more_than_there_is() {
     }
     assert!(motion.kinetic() < 1e-2 * before);
 }
+
+/// Pushed and tilted slowly, a block on mortar takes the work of the mean of the force, ½ k d² and ½ m a x, and loses nothing, whatever the step.
+#[test]
+fn slow_loads_do_the_work_of_their_mean() {
+    let (k, area) = (10e9, 0.3);
+    let law = Law {
+        normal: Normal::Springs { both: 24e9 * area, press: 0.0, damping: 0.0 },
+        shear: Shear { stiffness: k * area, damping: 0.0, series: false },
+        ..Law::dry(None)
+    };
+    let body = stone([0.0, 1.0], [0.0, 0.5]);
+    let dry = System::dry(&[body], 0.6);
+    for step in [5e-3f64, 2e-2, 8e-2] {
+        let steps = (1.6 / step).round() as usize;
+        let at_rest = |held: [bool; 3]| {
+            let system = System { links: vec![Link::closed(None, 0, law)], held: vec![held], ..dry.clone() };
+            let mut motion = Motion::new(&system, Setting { still: true, ..Setting::new(step) });
+            assert!(motion.stand(1e-12, 4000));
+            motion
+        };
+        let mut pushed = at_rest([true, false, true]);
+        let way = 1e-4 / steps as f64;
+        (0..steps).for_each(|_| pushed.go(step, &|_, _| Forcing { base: [0.0; 2], held: way }));
+        let work = 0.5 * k * area * 1e-8;
+        let subject = format!("Springs: work of a slow push of a block on mortar; steps of {step} s");
+        agrees!(subject, "½ k d²", "J", pushed.account.held, work, 1e-6);
+        assert!(pushed.account.impact.abs() < 1e-6 * work, "{:?}", pushed.account);
+        let mut tilted = at_rest([false; 3]);
+        let start = tilted.places[0].centre;
+        for n in 1..=steps {
+            let tilt = 20.0 * G * n as f64 / steps as f64;
+            tilted.go(step, &|from, to| Forcing { base: [tilt * (to - from), 0.0], held: 0.0 });
+        }
+        let end = tilted.places[0].centre;
+        let mass = dry.bodies[0].mass;
+        let work = 0.5 * mass * 20.0 * G * (start[0] - end[0]) - mass * G * (end[1] - start[1]);
+        let subject = format!("Springs: work of a slow tilt of a block on mortar and of its weight; steps of {step} s");
+        agrees!(subject, "½ m a x − W z", "J", tilted.account.input, work, 1e-3);
+        assert!(tilted.account.impact.abs() < 1e-3 * work, "{:?}", tilted.account);
+    }
+}

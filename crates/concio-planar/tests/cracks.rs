@@ -204,6 +204,39 @@ fn full_breaks_take_their_fracture_energy() {
     }
 }
 
+/// A joint that is pulled by σ as it is sheared bears (c − σ tan φ) A, brittle or softening, at three steps.
+#[test]
+fn tension_takes_from_the_strength_along() {
+    let size = [1.0, 0.5];
+    let area = 0.3;
+    let (cohesion, tan_angle) = (50e3, 0.6);
+    for energies in [[0.0; 2], [20.0, 100.0]] {
+        for tension in [0.0, 15e3, 30e3, 45e3] {
+            let mut law = mortar(1.0, energies);
+            law.bond = law.bond.map(|bond| Bond { cohesion: cohesion * area, tan_angle, ..bond });
+            let mut pulled = system(block(size), law);
+            pulled.load[0] = [0.0, tension * area];
+            pulled.held[0] = [true, false, true];
+            for steps in [500, 1000, 2000] {
+                let mut motion = Motion::new(&pulled, Setting { still: true, ..Setting::new(2e-2) });
+                assert!(motion.stand(1e-12, 4000));
+                let way = 1.2 * cohesion / 50e9 / f64::from(steps);
+                let mut borne = 0.0f64;
+                for _ in 0..steps {
+                    motion.go(2e-2, &|_, _| Forcing { base: [0.0; 2], held: way });
+                    borne = borne.max(motion.pull);
+                }
+                let subject = format!(
+                    "Bonds: joint sheared under a tension of {} kPa, what it bears; {} N/m, {steps} steps",
+                    1e-3 * tension,
+                    energies[1]
+                );
+                agrees!(subject, "(c − σ tan φ) A", "N", borne, (cohesion - tension * tan_angle) * area, 4e-3);
+            }
+        }
+    }
+}
+
 /// A slide of μ_d 0.1 that turns round while the ground pushes with less than μ_s 0.4 rests until it pushes with more (integration with
 /// 2 µs, which rests where v = 0 and |a| ≤ μ_s g: −15.42 mm after 2 s of 0.42 g at 2 Hz).
 #[test]

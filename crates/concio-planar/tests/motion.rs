@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use concio_planar::G;
 use concio_planar::body::Body;
-use concio_planar::joint::{Friction, Law, Normal};
+use concio_planar::joint::{Friction, Law, Normal, Shear};
 use concio_planar::motion::{Forcing, Link, Method, Motion, Setting, System};
 use concio_planar::shape::Place;
-use concio_verified::agrees;
+use concio_verified::{agrees, farthest};
 
 fn brick(name: &str, x: [f64; 2], y: [f64; 2], gamma: f64) -> Body {
     Body::rectangle(name, x, y, gamma / G * (x[1] - x[0]) * (y[1] - y[0]) * 0.12)
@@ -174,4 +174,36 @@ fn what_nothing_has_pressed_in_stores_nothing() {
     assert!(most < 1e-4 * 0.5 * press * 1e-6);
     let sunk = place.centre[1] - motion.places[1].centre[1];
     assert!((0.9e-3..1.1e-3).contains(&sunk), "{sunk:e}");
+}
+
+/// A block on a dry rigid base slides at μ N as a beam drives it to and fro through mortar beside friction: what the solution is off by is no force.
+#[test]
+fn what_slides_in_series_with_mortar_bears_friction() {
+    let block = Body::rectangle("block", [0.0, 1.0], [0.0, 0.5], 20e3 / G * 0.1);
+    let beam = Body::rectangle("beam", [0.0, 1.0], [0.5, 0.501], 0.4);
+    let (area, load) = (0.2, 100e3);
+    let mortar = Law {
+        normal: Normal::Springs { both: 24e9 * area, press: 0.0, damping: 0.0 },
+        shear: Shear { stiffness: 10e9 * area, damping: 0.0, series: false },
+        ..Law::dry(Some(Friction::coulomb(0.6)))
+    };
+    let most = 0.6 * (block.mass * G + load);
+    let links = vec![Link::closed(None, 0, Law::dry(Some(Friction::coulomb(0.6)))), Link::closed(Some(0), 1, mortar)];
+    let mut system = System { links, ..System::dry(&[block, beam], 0.6) };
+    system.load[1] = [0.0, -load];
+    system.held[1] = [true, false, false];
+    for step in [20e-3, 10e-3, 5e-3] {
+        let mut motion = Motion::new(&system, Setting { still: true, ..Setting::new(step) });
+        assert!(motion.stand(1e-12, 4000));
+        let steps = (0.4 / step).round() as usize;
+        let borne = (0..2 * steps).map(|n| {
+            let way = if n < steps { 1e-3 * step } else { -1e-3 * step };
+            motion.go(step, &|_, _| Forcing { base: [0.0; 2], held: way });
+            (n % steps, motion.pull.abs())
+        });
+        let slides = borne.filter(|(n, _)| *n > steps / 4).map(|(_, borne)| (borne / most, 1.0));
+        let subject =
+            format!("Sliding: block driven through mortar, largest error of its force over μ N; steps of {step} s");
+        agrees!(subject, "μ N", "", farthest(slides), 0.0, abs: 2e-3);
+    }
 }
