@@ -21,8 +21,9 @@ use crate::G;
 use crate::contact::{Contact, Linear, Status};
 use crate::crack::Part;
 
-/// Way that what grips gives until it bears the pressure along, over the step [m/s]: the longer, the less force comes from what the solution is off by.
-const GIVES: f64 = 5e-5;
+/// Stiffness of what grips, over the mass that the point moves and the square of the step: what is stiffer takes force from what the solution is off by, what is
+/// softer gives more than 6 nm under its own weight.
+const GRIP: f64 = 1e5;
 
 /// Law of a joint. Stiffnesses, dashpots and strengths are those of its whole length.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -341,11 +342,10 @@ impl Law {
         both
     }
 
-    /// Whether friction of a rigid joint goes on with what it bore, as far as it moves with that of a very stiff spring in line with it: what rests bears any
+    /// Whether friction without a spring in line with it goes on with what it bore, as far as it moves with that of a very stiff one: what rests bears any
     /// friction up to the limit otherwise, and a wall that has slid would be told to bear less than it does.
     fn grips(&self, still: bool) -> bool {
-        let rubs = self.friction.is_some() && self.bond.is_none() && self.shear.stiffness == 0.0;
-        still && rubs && self.slip == [0.0; 2] && matches!(self.normal, Normal::Rigid { .. })
+        still && self.friction.is_some() && self.bond.is_none() && self.slip == [0.0; 2] && !self.in_line()
     }
 
     /// Whether the shear spring is in line with friction.
@@ -497,11 +497,12 @@ impl Law {
             let line = over(shear, share * self.shear.damping, 0.0, u_t, theta(self.shear.stiffness, contact.moved[1]));
             contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
             contact.compliant[1] = true;
-        } else if self.grips(still) {
-            let line = over(point.force[0].max(contact.moved[1] * G) / (GIVES * h), 0.0, 0.0, u_t, 1.0);
-            contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
-            contact.compliant[1] = true;
         } else {
+            if self.grips(still) {
+                let line = over(GRIP * contact.moved[1] / (h * h), 0.0, 0.0, u_t, 1.0);
+                contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
+                contact.compliant[1] = true;
+            }
             let mortar = share * self.mortar();
             let damping = share * self.mortar_damping();
             contact.spring[1] = over(mortar, damping, point.slide, u_t, midpoint);

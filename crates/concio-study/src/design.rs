@@ -14,6 +14,7 @@ use concio::dice::Dice;
 
 use crate::factors::{Factor, Over};
 use crate::file::{DesignKind, StudyFile};
+use crate::sensitivity::ranks;
 
 /// Runs that a study may have: each takes some 2 kB before it is done.
 pub const MOST_RUNS: usize = 500_000;
@@ -264,12 +265,16 @@ fn morris(trajectories: usize, grids: &[Grid], seed: u64) -> Vec<Vec<At>> {
     rows
 }
 
-/// What is to be known of indices from fewer runs than their intervals take.
-pub fn scarce(kind: DesignKind, runs: usize) -> Option<String> {
+/// What is to be known of indices of so many `factors` with an order from fewer `runs`, trajectories or base points than they or their intervals take.
+pub fn scarce(kind: DesignKind, runs: usize, factors: usize) -> Option<String> {
     let (least, told) = match kind {
         DesignKind::Morris => (FEWEST_TRAJECTORIES, ["trajectories hold a normal law at best", "two in five"]),
         DesignKind::Sobol => (FEWEST_BASE_POINTS, ["base points are too narrow", "one in eight"]),
-        _ => return None,
+        _ => {
+            let least = factors + ranks::FREEDOM;
+            return (factors > 0 && runs < least)
+                .then(|| format!("{runs} runs give no rank coefficients of {factors} factors: it takes {least}"));
+        }
     };
     let [narrow, miss] = told;
     (runs < least).then(|| {

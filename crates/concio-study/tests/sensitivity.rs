@@ -386,10 +386,11 @@ fn trajectories_differ() {
             seen.push(own);
         }
     }
-    assert!(scarce(DesignKind::Morris, 4).is_some_and(|told| told.contains("design.runs = 4")));
-    assert!(scarce(DesignKind::Sobol, 11).is_some());
+    assert!(scarce(DesignKind::Morris, 4, 3).is_some_and(|told| told.contains("design.runs = 4")));
+    assert!(scarce(DesignKind::Sobol, 11, 3).is_some());
+    assert!(scarce(DesignKind::LatinHypercube, 6, 3).is_some_and(|told| told.contains("it takes 7")));
     assert_eq!(
-        [scarce(DesignKind::Morris, 5), scarce(DesignKind::Sobol, 12), scarce(DesignKind::Random, 2)],
+        [scarce(DesignKind::Morris, 5, 3), scarce(DesignKind::Sobol, 12, 3), scarce(DesignKind::Random, 7, 3)],
         [None, None, None]
     );
 }

@@ -235,7 +235,12 @@ fn of_design(plan: &Plan) -> Vec<String> {
     let question =
         plan.file.study.interfaces.is_some().then(|| concio_study::interfaces::question(plan).ok()).flatten();
     let study = &plan.file.study;
-    let few = study.sensitivity.is_some().then(|| scarce(study.design.kind, study.design.runs.unwrap_or(0))).flatten();
+    let runs = match study.design.kind {
+        DesignKind::Morris | DesignKind::Sobol => study.design.runs.unwrap_or(0),
+        _ => plan.points.len(),
+    };
+    let ordered = plan.factors.iter().filter(|factor| factor.is_ordered()).count();
+    let few = study.sensitivity.is_some().then(|| scarce(study.design.kind, runs, ordered)).flatten();
     unreached(&plan.factors, &plan.points).into_iter().chain(few).chain(question.and_then(|q| q.too_few())).collect()
 }
 

@@ -90,10 +90,17 @@ fn text(found: &[Found]) -> Vec<String> {
     for f in found {
         match &f.indices {
             Err(cause) => text.push(format!("{}: no indices, {cause}.", f.measure.name)),
-            Ok(Indices::Ranks { explained, .. }) => {
+            Ok(Indices::Ranks { explained, coefficients }) => {
                 let percent = 100.0 * explained;
+                let unknown = coefficients.iter().flatten().any(|index| index.interval[0].is_nan());
+                let why = match unknown {
+                    true => {
+                        " It has no intervals: without some runs, those of a motion together, factors move together."
+                    }
+                    false => "",
+                };
                 text.push(format!(
-                    "{}: the regression explains {percent:.0} % of the ranks' variance.",
+                    "{}: the regression explains {percent:.0} % of the ranks' variance.{why}",
                     f.measure.name
                 ));
             }

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use super::{Index, jackknife};
 
 /// How many more runs than factors it takes: intervals of fewer miss up to two in five of what they estimate.
-const FREEDOM: usize = 4;
+pub const FREEDOM: usize = 4;
 
 /// Coefficients of the factors that are `ordered`, none for the others, and R². Rows without value are left out. `motions` are those of the rows: where some
 /// share theirs, what is independent are the motions.
