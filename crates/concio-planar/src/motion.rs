@@ -551,30 +551,32 @@ impl Motion {
     /// to rest in long steps alone. A mechanism never does, and moves the more the longer they are.
     pub fn go(&mut self, h: f64, forcing: &impl Fn(f64, f64) -> Forcing) {
         let start = self.time;
-        let (pull, held) = (self.pull, self.account.held);
+        let (pull, before) = (self.pull, self.account);
         (self.breaks, self.moved) = ([0.0; 2], Moved::default());
         self.part(start, h, 0, forcing);
         if self.setting.still {
             let acts = forcing(start, start + h);
             self.follow(start, h, &acts);
-            self.work_at_rest(h, &acts, pull, held);
+            self.work_at_rest(h, &acts, pull, &before);
         }
         self.time = start + h;
     }
 
     /// Between one rest and the next forces do the work of their mean: what those at the end of the steps did beyond it went into bodies that are at rest again.
-    /// `pull` acted and `held` was done by what is held before a step of `h` [s] under `acts`.
-    fn work_at_rest(&mut self, h: f64, acts: &Forcing, pull: f64, held: f64) {
+    /// That is no more than bodies and springs lost: rigid joints slide at once. `pull` acted and the account was as `before` ahead of a step of `h` [s] under `acts`.
+    fn work_at_rest(&mut self, h: f64, acts: &Forcing, pull: f64, before: &Account) {
         let base = acts.base.map(|v| v / h);
         let mean = [0, 1].map(|k| 0.5 * (self.shakes[k] + base[k]));
         let Moved { masses, work } = self.moved;
         let surplus = [
             work + mean[0] * masses[0] + mean[1] * masses[1],
-            self.account.held - held - 0.5 * (pull + self.pull) * acts.held,
+            self.account.held - before.held - 0.5 * (pull + self.pull) * acts.held,
         ];
-        self.account.input -= surplus[0];
-        self.account.held -= surplus[1];
-        self.account.impact -= surplus[0] + surplus[1];
+        let (lost, all) = ((self.account.impact - before.impact).max(0.0), surplus[0] + surplus[1]);
+        let part = if all > lost { lost / all } else { 1.0 };
+        self.account.input -= part * surplus[0];
+        self.account.held -= part * surplus[1];
+        self.account.impact -= part * all;
         self.shakes = base;
     }
 
