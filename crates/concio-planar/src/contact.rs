@@ -199,6 +199,8 @@ pub struct Contact {
     pub law: [Linear; 2],
     /// Whether these are springs, which stay as they are; otherwise p is taken anew until it stays.
     pub compliant: [bool; 2],
+    /// By how many times nearer than others its law along is to be met: a force of what is very stiff is known no better than its length.
+    pub tight: f64,
     /// What acts beside them, normal and along the tangent.
     pub spring: [Linear; 2],
     /// Mass that a push at this point moves, in both directions [kg].
@@ -250,6 +252,7 @@ impl Contact {
             bias: 0.0,
             law,
             compliant: [false; 2],
+            tight: 1.0,
             spring: [Linear::default(); 2],
             moved,
             impulse,

@@ -204,6 +204,6 @@ fn what_slides_in_series_with_mortar_bears_friction() {
         let slides = borne.filter(|(n, _)| *n > steps / 4).map(|(_, borne)| (borne / most, 1.0));
         let subject =
             format!("Sliding: block driven through mortar, largest error of its force over μ N; steps of {step} s");
-        agrees!(subject, "μ N", "", farthest(slides), 0.0, abs: 1e-4);
+        agrees!(subject, "μ N", "", farthest(slides), 0.0, abs: 1e-6);
     }
 }

@@ -164,6 +164,7 @@ impl<F: Element> Given<F> {
             bias: Lanes::of(simd, &self.bias, part),
             firm: if let Some(rest) = rest { [of(&rest.firm[0]), of(&rest.firm[1])] } else { [zero; 2] },
             along: if let Some(rest) = rest { of(&rest.along) } else { zero },
+            tight: zero.alike(1.0),
         }
     }
 }

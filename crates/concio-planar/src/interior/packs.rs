@@ -61,7 +61,7 @@ impl Default for Packs {
 
 /// Whether a contact is of this kind.
 pub(super) fn is_plain(contact: &Contact) -> bool {
-    let alone = contact.spring[1] == Default::default() && contact.drift == [0.0; 2];
+    let alone = contact.spring[1] == Default::default() && contact.drift == [0.0; 2] && contact.tight == 1.0;
     alone && contact.rows.levers().is_some() && contact.pressure[1] == f64::INFINITY && is_dry(contact)
 }
 

@@ -60,6 +60,8 @@ pub(super) struct Laws<T = f64> {
     pub firm: [T; 2],
     /// Mass that a push along moves [kg].
     pub along: T,
+    /// By how many times nearer than others the law along is to be met.
+    pub tight: T,
 }
 
 impl Laws {
@@ -73,6 +75,7 @@ impl Laws {
             bias: contact.bias,
             firm: contact.compliant.map(|c| if c { 0.0 } else { 1.0 }),
             along: contact.moved[1],
+            tight: contact.tight,
         }
     }
 }
@@ -317,7 +320,8 @@ impl<const N: usize, T: Real> Point<N, T> {
             let k = DIRECTION[i];
             view.off[k] = view.off[k] - zero.alike(SENSE[i]) * l;
             left.residual = left.residual.worse(view.astray[i].size() * per_mass);
-            left.residual = left.residual.worse(T::pick(absent, zero, (s * per_mass).smaller(l)));
+            let pull = if k == 1 { l * laws.tight } else { l };
+            left.residual = left.residual.worse(T::pick(absent, zero, (s * per_mass).smaller(pull)));
             left.products = left.products + T::pick(absent, zero, s * l);
         }
     }
@@ -326,7 +330,8 @@ impl<const N: usize, T: Real> Point<N, T> {
     #[inline(always)]
     pub fn gauge(&self, laws: &Laws<T>, view: &View<N, T>, left: &mut Left<T>) {
         for k in 0..2 {
-            left.residual = left.residual.worse(view.off[k].size());
+            let off = view.off[k].size();
+            left.residual = left.residual.worse(if k == 1 { off * laws.tight } else { off });
             left.drawn = left.drawn.larger(laws.firm[k] * self.shift(k).size());
         }
     }
@@ -469,7 +474,8 @@ impl<const N: usize, T: Real> Point<N, T> {
         let bound = (mu * pressed).larger(zero) + laws.hold;
         let off = u_t + self.shift(1);
         let tends = self.p[1] - laws.along * off;
-        left.residual = left.residual.worse((self.p[1] - tends.between(-bound, bound)).size() / laws.along);
+        left.residual =
+            left.residual.worse((self.p[1] - tends.between(-bound, bound)).size() * laws.tight / laws.along);
         // Where both are led to, it goes where it tends to.
         let ([forth, back], both) = match led {
             Some(led) => ([led[0], led[1]], zero.below(tends)),
