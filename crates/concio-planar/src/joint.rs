@@ -21,8 +21,8 @@ use crate::G;
 use crate::contact::{Contact, Linear, Status};
 use crate::crack::Part;
 
-/// Stiffness of what grips, over the square of the step and the mass that the point moves or that would weigh what presses it: it gives μ g h²/10⁵ before it slides,
-/// 24 nm in steps of 20 ms.
+/// Stiffness of what grips, over the square of the step and the larger of the mass that the point moves and that whose weight presses it. It yields μ g h²/10⁵ before
+/// it slides: 24 nm for μ = 0.6 and steps of 20 ms.
 const GRIP: f64 = 1e5;
 
 /// Law of a joint. Stiffnesses, dashpots and strengths are those of its whole length.
@@ -160,7 +160,7 @@ const RINGING: f64 = 0.125;
 pub const RESOLVED: f64 = 2.18;
 /// Speed over that which gravity gives in a step up to which a point rests.
 const RESTING: f64 = 1e-5;
-/// Part of a strength by which what is borne may be off.
+/// Part of the strength along that is left at f_t at least.
 const ROUNDING: f64 = 1e-6;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
@@ -215,7 +215,7 @@ impl Law {
         [strength, (self.slow_friction() * pressure).min(strength)]
     }
 
-    /// The slide that would bear what an opening `w` of an intact bond takes from its strength along, as (P9) says [m].
+    /// Slide whose shear is what an opening `w` of an intact bond takes from its strength along, as (P9) says [m].
     pub(crate) fn pulled(&self, w: f64) -> f64 {
         let (both, _) = self.springs();
         let steepest = |bond: Bond| bond.tan_angle.min((1.0 - ROUNDING) * bond.cohesion / bond.tension);
@@ -294,6 +294,9 @@ impl Law {
 
     /// Lets go what a point keeps in springs that act only where its sides face each other, which they do no more; returns that [J].
     pub(crate) fn let_go(&self, point: &mut Point, share: f64) -> f64 {
+        if !self.in_line() {
+            point.bearing = 0.0;
+        }
         if !self.only_presses() || self.follows {
             return 0.0;
         }

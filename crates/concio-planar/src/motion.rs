@@ -275,7 +275,7 @@ struct Pair {
     b: usize,
     link: Option<usize>,
     points: SmallVec<[Point; POINTS]>,
-    /// Distance as the wall was laid [m]; 0 for those that have come together.
+    /// Distance as the wall was laid [m]; 0 for those that have come as_a_whole.
     laid: f64,
     /// What has become of its bond and what is open and crushed, where its points move with that.
     crack: Option<Crack>,
@@ -573,7 +573,14 @@ impl Motion {
             self.account.held - before.held - 0.5 * (pull + self.pull) * acts.held,
         ];
         let (lost, all) = ((self.account.impact - before.impact).max(0.0), surplus[0] + surplus[1]);
-        let part = if all > lost { lost / all } else { 1.0 };
+        // Where a force fell at once its mean says nothing.
+        let part = if all > lost {
+            lost / all
+        } else if all < 0.0 && self.breaks != [0.0; 2] {
+            0.0
+        } else {
+            1.0
+        };
         self.account.input -= part * surplus[0];
         self.account.held -= part * surplus[1];
         self.account.impact -= part * all;
@@ -890,18 +897,33 @@ impl Motion {
         self.account.elastic = 0.0;
         self.pull = 0.0;
         self.met.fill(false);
-        let mut last = None;
-        for (contact, owner) in self.contacts.iter().zip(&self.owners) {
+        let (mut last, mut as_a_whole) = (None, true);
+        for (at, (contact, owner)) in self.contacts.iter().zip(&self.owners).enumerate() {
             let pair = &mut self.pairs[owner.pair];
             let law = self.laws.part(pair.link, owner.part);
             let after = contact.velocity(&self.after);
             let point = &mut pair.points[owner.point];
+            if last != Some(owner.pair) {
+                // Without inertia a rigid joint slides when both of its ends do: one that bears little gives way first by what the other's grip yields.
+                let mut own = self.contacts[at..]
+                    .iter()
+                    .zip(&self.owners[at..])
+                    .take_while(|(_, other)| other.pair == owner.pair);
+                let slide = |(contact, _): (&Contact, &Owner)| {
+                    contact.impulse[0] == 0.0 || slides(contact, contact.velocity(&self.after)[1], h)
+                };
+                as_a_whole = !self.setting.still || law.is_compliant() || own.all(slide);
+            }
             // Friction at rest is overcome at the end of the step.
             let falls = law.friction.is_some_and(|friction| friction.slowly(true) < friction.static_);
-            if falls && point.speed == 0.0 && slides(contact, after[1], h) {
+            let keeps_static_friction = point.speed == 0.0 && !as_a_whole;
+            if falls && point.speed == 0.0 && as_a_whole && slides(contact, after[1], h) {
                 self.breaks_at.get_or_insert(1.0);
             }
             let works = law.end(point, owner.share, h, &owner.start, after, contact);
+            if keeps_static_friction {
+                point.speed = 0.0;
+            }
             let whole = contact.total(after);
             let account = &mut self.account;
             account.elastic += works.elastic;
@@ -927,7 +949,7 @@ impl Motion {
             seen.friction += contact.impulse[1] / h;
             seen.path += owner.weight * works.slip;
             seen.taken += works.damping + works.friction + works.bond + works.device;
-            // Without inertia nothing bumps: it is what a step at once has beyond the mean of its forces.
+            // Without inertia there are no impacts: this is the work of the step's last force beyond that of the mean one.
             seen.taken += if self.setting.still { 0.0 } else { works.impact };
             seen.broken += works.bond;
         }
@@ -1098,7 +1120,7 @@ impl Motion {
                 crack: None,
             }
         };
-        // Joints stay whatever becomes of them: what has gone apart may come together again.
+        // Joints stay whatever becomes of them: what has gone apart may come as_a_whole again.
         let mut pairs: Vec<Pair> = self.joints.iter().enumerate().map(|(k, (a, b))| fresh(*a, *b, Some(k))).collect();
         let alone = |a, b| self.linked.binary_search(&(a, b)).is_err();
         for own in &boxes {

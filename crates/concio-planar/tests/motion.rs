@@ -207,3 +207,37 @@ fn what_slides_in_series_with_mortar_bears_friction() {
         agrees!(subject, "μ N", "", farthest(slides), 0.0, abs: 1e-6);
     }
 }
+
+/// A rigid joint with μ_s 0.6 and μ_d 0.4 that a beam drives slowly through soft mortar bears μ_s N before it slides and μ_d N after: its ends slide together.
+#[test]
+fn what_is_driven_slowly_bears_friction_at_rest_first() {
+    let block = Body::rectangle("block", [0.0, 1.0], [0.0, 0.2], 20e3 / G * 0.04);
+    let beam = Body::rectangle("beam", [0.0, 1.0], [0.2, 0.201], 0.4);
+    let (area, load) = (0.2, 100e3);
+    let soft = Law {
+        normal: Normal::Springs { both: 0.0, press: 1.2e9 * area, damping: 0.0 },
+        shear: Shear { stiffness: 0.5e9 * area, damping: 0.0, series: true },
+        ..Law::dry(Some(Friction::coulomb(2.0)))
+    };
+    let friction = Friction { static_: 0.6, dynamic: 0.4, slip_velocity: 0.0, alpha: 0.0 };
+    let pressed = block.mass * G + load;
+    let links = vec![Link::closed(None, 0, Law::dry(Some(friction))), Link::closed(Some(0), 1, soft)];
+    let mut system = System { links, ..System::dry(&[block, beam], 0.6) };
+    system.load[1] = [0.0, -load];
+    system.held[1] = [true, false, true];
+    for step in [20e-3, 10e-3, 5e-3] {
+        let mut motion = Motion::new(&system, Setting { still: true, ..Setting::new(step) });
+        assert!(motion.stand(1e-12, 4000));
+        let (mut most, mut slides) = (0.0f64, 0.0);
+        for _ in 0..(2.0 / step) as usize {
+            motion.go(step, &|_, _| Forcing { base: [0.0; 2], held: 1e-3 * step });
+            most = most.max(motion.pull).max(motion.breaks[0]);
+            slides = motion.pull;
+        }
+        let subject = format!("Sliding: block driven through soft mortar, what it bears at most; steps of {step} s");
+        agrees!(subject, "μ_s N", "N", most, 0.6 * pressed, 5e-3);
+        let subject =
+            format!("Sliding: block driven through soft mortar, what it bears as it slides; steps of {step} s");
+        agrees!(subject, "μ_d N", "N", slides, 0.4 * pressed, 5e-3);
+    }
+}

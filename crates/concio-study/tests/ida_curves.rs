@@ -80,8 +80,8 @@ fn powers_are_interpolated_exactly() {
 fn counts_rise_by_jumps() {
     let cracked = curve(&[(4.1202, 1.0, false), (5.1012, 2.0, false)]);
     assert_eq!(cracked.capacity(2.0), Evidence::Within([4.1202, 5.1012]));
-    let near = curve(&[(4.0, 1.0, false), (4.2, 2.0, false)]);
-    let Evidence::At(found) = near.capacity(2.0) else { panic!("two near runs") };
+    let near = curve(&[(4.0, 20.0, false), (4.2, 21.0, false)]);
+    let Evidence::At(found) = near.capacity(20.5) else { panic!("two near runs") };
     assert!((found / (4.0f64 * 4.2).sqrt() - 1.0).abs() < 1e-12, "{found}");
 }
 

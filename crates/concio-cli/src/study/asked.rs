@@ -239,7 +239,7 @@ fn of_design(plan: &Plan) -> Vec<String> {
         DesignKind::Morris | DesignKind::Sobol => study.design.runs.unwrap_or(0),
         _ => plan.points.len(),
     };
-    let ordered = plan.factors.iter().filter(|factor| factor.is_ordered()).count();
+    let ordered = plan.factors.iter().filter(|factor| factor.is_ordered() && factor.levels() != Some(1)).count();
     let few = study.sensitivity.is_some().then(|| scarce(study.design.kind, runs, ordered)).flatten();
     unreached(&plan.factors, &plan.points).into_iter().chain(few).chain(question.and_then(|q| q.too_few())).collect()
 }

@@ -95,7 +95,7 @@ fn text(found: &[Found]) -> Vec<String> {
                 let unknown = coefficients.iter().flatten().any(|index| index.interval[0].is_nan());
                 let why = match unknown {
                     true => {
-                        " It has no intervals: without some runs, those of a motion together, factors move together."
+                        " It has no intervals: they come from leaving out groups of runs, those of a motion together, and without some of these the factors cannot be told apart. More runs or motions give them."
                     }
                     false => "",
                 };

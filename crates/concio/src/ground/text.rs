@@ -118,9 +118,9 @@ fn refuse_others(
     let of_wanted = bracketed(&line).any(|unit| units::factor(unit, options.quantity).is_some());
     let Some(found) = found.or_else(|| (rated && !of_wanted).then_some("velocity")) else { return Ok(()) };
     let what = if time {
-        format!("the first column is {found}, and no time")
+        format!("the first column is {found}, not time")
     } else {
-        format!("the columns are {found}, and no {wanted}")
+        format!("no column holds {wanted}: they are {found}")
     };
     let error = source
         .error_at(title_line, what)
