@@ -12,8 +12,8 @@
 //!
 //! (P9)  σ = (1 − D) k_n w ≤ e^−ξ f_t,   |τ| = (1 − D) k_t |s| ≤ e^−ξ (c + p tan φ) − σ tan φ
 //!
-//! p being the pressure there; of tension σ tan φ counts, c σ/f_t at most, so that f_t is borne without shear. Where a limit is passed, ξ grows by the way that goes beyond it over δ_c of that mode, and what that mode alone
-//! would lose of its stiffness to where the limit is met; D is the larger loss of the two. One ξ weakens both strengths, as mixed modes do (Lourenço & Rots
+//! p being the pressure there; of tension σ tan φ counts, c σ/f_t at most, so that f_t is borne without shear.
+//! Where a limit is passed, ξ grows by the way that goes beyond it over δ_c of that mode, and what that mode alone would lose of its stiffness to where the limit is met; D is the larger loss of the two. One ξ weakens both strengths, as mixed modes do (Lourenço & Rots
 //! 1997); stiffness that is lost in one mode does not put off the limit of the other. Along one mode alone that is (B3). χ = 1 − e^−ξ is
 //! the part that rubs, so that shear stays within (B5). δ_c follows from G_f with the strength of the moment, S = f_t of opening, c + p tan φ of shear, and with
 //! what friction goes on to bear of it, R = min(μ p, S) of shear, so that all that the bond loses is G_f:
@@ -700,7 +700,7 @@ impl Crack {
         let intact = self.cracked.is_infinite();
         let opened = near[0].max(far[0]);
         let bond = law.bond.unwrap_or_default();
-        let pulled = law.shear.stiffness * law.pulled(opened - TOUCHING);
+        let pulled = law.shear.stiffness * law.pulled(opened);
         if intact
             && both * (opened - TOUCHING) <= bond.tension
             && sheared + pulled <= bond.cohesion
@@ -721,7 +721,7 @@ impl Crack {
             let pressure = (both + press) * (-w).max(0.0);
             let holds = self.nodes[n] == Node::INTACT
                 && both * (w - TOUCHING) <= bond.tension
-                && breaks * (s.abs() + law.pulled(w - TOUCHING)) <= law.shear_strengths(pressure)[0]
+                && breaks * law.sheared([w, s]) <= law.shear_strengths(pressure)[0]
                 && pressure <= law.crushing;
             if holds || self.nodes[n].damage() == 1.0 {
                 continue;
@@ -740,8 +740,7 @@ impl Crack {
             if before == Node::INTACT && self.nodes[n] == Node::GONE {
                 let strengths = [bond.tension / both, law.shear_strengths(pressure)[0] / breaks];
                 let parts = [0, 1].map(|k| {
-                    let sheared = |[w, s]: [f64; 2]| s.abs() + law.pulled(w - TOUCHING);
-                    let (from, to) = [(then[0], w), (sheared(then), sheared([w, s]))][k];
+                    let (from, to) = [(then[0], w), (law.sheared(then), law.sheared([w, s]))][k];
                     if to > strengths[k] { ((strengths[k] - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 }
                 });
                 let part = parts[0].min(parts[1]);
@@ -852,16 +851,20 @@ impl Crack {
         // Tension takes from the strength along what it bears times tan φ: a slide that would bear that is added to the one there is.
         let sheared = |node: &Node, [w, s]: [f64; 2]| {
             let [opened, slid] = node.lost.map(|lost| 1.0 - lost);
-            s.abs() + if opened < slid { opened / slid } else { 1.0 } * law.pulled(w - TOUCHING)
+            let bears = (opened / slid).min(1.0);
+            s.abs() + bears * law.pulled(w)
         };
         let grown = [w - then[0], s.abs() - then[1].abs(), sheared(&node, [w, s]) - sheared(&node, then)];
         let grown = grown.map(|way| way.max(0.0));
         let (mut taken, mut passed) = (0.0, [false; 2]);
         // `way` is how much farther it is stretched than before, `other` twice what the other direction would store.
-        type Stretch<'a> = (&'a dyn Fn(&Node) -> f64, f64);
-        let mut pass = |mode: usize, (stretch, way): Stretch, k: f64, [strength, goes_on]: [f64; 2], other: f64| {
+        let mut pass = |node: &mut Node,
+                        mode: usize,
+                        [stretch, way]: [f64; 2],
+                        k: f64,
+                        [strength, goes_on]: [f64; 2],
+                        other: f64| {
             let before = node.damage();
-            let stretch = stretch(&node);
             if k == 0.0 || before == 1.0 {
                 return;
             }
@@ -873,7 +876,7 @@ impl Crack {
             passed[mode] = true;
             // Of what the bond stores, and of what breaking takes from here on, the springs of friction keep a part.
             let kept = |node: &Node| if mode == 1 { node.friction([w, s], law)[1] } else { 0.0 };
-            let (had, left) = (kept(&node), node.left);
+            let (had, left) = (kept(node), node.left);
             let capacity = bond.energy[mode] * node.rest[mode];
             let stored = 0.5 * (from * limit - goes_on * goes_on / k) + had;
             let decay = ((capacity - stored) / (from - BROKEN * strength)).max(0.0);
@@ -889,24 +892,20 @@ impl Crack {
                 let spent = decay * (from - to) - 0.5 * (to * stretch - from * at);
                 taken += spent;
                 if bond.energy[mode] > 0.0 {
-                    node.rest[mode] = (capacity - spent + kept(&node) - had) / bond.energy[mode];
+                    node.rest[mode] = (capacity - spent + kept(node) - had) / bond.energy[mode];
                 }
                 node.rest[1 - mode] *= node.left / left;
             } else {
                 // What bears next to nothing bears nothing, and gives back nothing of what it stored.
-                node = Node::GONE;
+                *node = Node::GONE;
                 taken += decay * (from - BROKEN * strength).max(0.0) + 0.5 * from * at;
             }
             taken += 0.5 * (node.damage() - before) * other;
         };
-        pass(0, (&|_| w - TOUCHING, grown[0]), both, [bond.tension, 0.0], along * s * s);
-        pass(
-            1,
-            (&|node| sheared(node, [w, s]), grown[2]),
-            along,
-            law.shear_strengths(pressure),
-            both * w.max(0.0).powi(2),
-        );
+        pass(&mut node, 0, [w - TOUCHING, grown[0]], both, [bond.tension, 0.0], along * s * s);
+        let stretch = sheared(&node, [w, s]);
+        let opened = both * w.max(0.0).powi(2);
+        pass(&mut node, 1, [stretch, grown[2]], along, law.shear_strengths(pressure), opened);
         // Where both modes have lost some, one of them bears less than its limit. What springs bore on the way and do not store is taken then.
         if passed[0] && (passed[1] || had[1] > 0.0) || passed[1] && (had[0] > 0.0 || law.pulled(w) > 0.0) {
             let [w, s] = [w.max(0.0), s.abs()];

@@ -21,9 +21,9 @@ use crate::G;
 use crate::contact::{Contact, Linear, Status};
 use crate::crack::Part;
 
-/// Stiffness of what grips, over the square of the step and the larger of the mass that the point moves and that whose weight presses it. It yields μ g h²/10⁵ before
-/// it slides: 24 nm for μ = 0.6 and steps of 20 ms.
-const GRIP: f64 = 1e5;
+/// Stiffness of what grips, over the square of the step and the larger of the mass that the point moves and that whose weight presses it. It yields μ g h²/10⁶ before
+/// it slides: 2.4 nm for μ = 0.6 and steps of 20 ms.
+const GRIP: f64 = 1e6;
 
 /// Law of a joint. Stiffnesses, dashpots and strengths are those of its whole length.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -215,12 +215,18 @@ impl Law {
         [strength, (self.slow_friction() * pressure).min(strength)]
     }
 
-    /// Slide whose shear is what an opening `w` of an intact bond takes from its strength along, as (P9) says [m].
+    /// Slide that would bear along what an opening `w` of an intact bond takes from its strength there, as (P9) says [m].
     pub(crate) fn pulled(&self, w: f64) -> f64 {
         let (both, _) = self.springs();
         let steepest = |bond: Bond| bond.tan_angle.min((1.0 - ROUNDING) * bond.cohesion / bond.tension);
         let tan = self.bond.filter(|bond| bond.tension > 0.0).map_or(0.0, steepest);
-        if self.shear.stiffness == 0.0 { 0.0 } else { tan * both * w.max(0.0) / self.shear.stiffness }
+        let opened = (w - TOUCHING).max(0.0);
+        if self.shear.stiffness == 0.0 { 0.0 } else { tan * both * opened / self.shear.stiffness }
+    }
+
+    /// Slide that asks of an intact bond what an opening and a slide do together [m].
+    pub(crate) fn sheared(&self, [w, s]: [f64; 2]) -> f64 {
+        s.abs() + self.pulled(w)
     }
 
     /// μ of a slide that is as slow as can be; 0 where nothing rubs.
@@ -505,7 +511,7 @@ impl Law {
                 let pressed = point.force[0].max(-(both + press) * (gap + point.crushed));
                 let mass = contact.moved[1].max(pressed / G);
                 let line = over(GRIP * mass / (h * h), 0.0, 0.0, u_t, 1.0);
-                contact.tight = line.rho / mass;
+                contact.tight = 0.5 * GRIP;
                 contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
                 contact.compliant[1] = true;
             }

@@ -275,7 +275,7 @@ struct Pair {
     b: usize,
     link: Option<usize>,
     points: SmallVec<[Point; POINTS]>,
-    /// Distance as the wall was laid [m]; 0 for those that have come as_a_whole.
+    /// Distance as the wall was laid [m]; 0 for those that have come together.
     laid: f64,
     /// What has become of its bond and what is open and crushed, where its points move with that.
     crack: Option<Crack>,
@@ -897,31 +897,27 @@ impl Motion {
         self.account.elastic = 0.0;
         self.pull = 0.0;
         self.met.fill(false);
-        let (mut last, mut as_a_whole) = (None, true);
+        let mut last = None;
         for (at, (contact, owner)) in self.contacts.iter().zip(&self.owners).enumerate() {
             let pair = &mut self.pairs[owner.pair];
             let law = self.laws.part(pair.link, owner.part);
             let after = contact.velocity(&self.after);
             let point = &mut pair.points[owner.point];
-            if last != Some(owner.pair) {
-                // Without inertia a rigid joint slides when both of its ends do: one that bears little gives way first by what the other's grip yields.
-                let mut own = self.contacts[at..]
-                    .iter()
-                    .zip(&self.owners[at..])
-                    .take_while(|(_, other)| other.pair == owner.pair);
-                let slide = |(contact, _): (&Contact, &Owner)| {
-                    contact.impulse[0] == 0.0 || slides(contact, contact.velocity(&self.after)[1], h)
-                };
-                as_a_whole = !self.setting.still || law.is_compliant() || own.all(slide);
-            }
-            // Friction at rest is overcome at the end of the step.
+            // Friction at rest is overcome at the end of the step. Without inertia a rigid joint slides when both of its ends do: one that bears little gives way
+            // first by what the other's grip yields.
             let falls = law.friction.is_some_and(|friction| friction.slowly(true) < friction.static_);
-            let keeps_static_friction = point.speed == 0.0 && !as_a_whole;
-            if falls && point.speed == 0.0 && as_a_whole && slides(contact, after[1], h) {
+            let starts = falls && point.speed == 0.0 && slides(contact, after[1], h);
+            let waits = starts && self.setting.still && !law.is_compliant() && {
+                let own = |(_, other): &(&Contact, &Owner)| other.pair == owner.pair;
+                let before = self.owners[..at].iter().rev().take_while(|other| other.pair == owner.pair).count();
+                let pair = self.contacts[at - before..].iter().zip(&self.owners[at - before..]).take_while(own);
+                !pair.into_iter().all(|(c, _)| c.impulse[0] == 0.0 || slides(c, c.velocity(&self.after)[1], h))
+            };
+            if starts && !waits {
                 self.breaks_at.get_or_insert(1.0);
             }
             let works = law.end(point, owner.share, h, &owner.start, after, contact);
-            if keeps_static_friction {
+            if waits {
                 point.speed = 0.0;
             }
             let whole = contact.total(after);
@@ -1120,7 +1116,7 @@ impl Motion {
                 crack: None,
             }
         };
-        // Joints stay whatever becomes of them: what has gone apart may come as_a_whole again.
+        // Joints stay whatever becomes of them: what has gone apart may come together again.
         let mut pairs: Vec<Pair> = self.joints.iter().enumerate().map(|(k, (a, b))| fresh(*a, *b, Some(k))).collect();
         let alone = |a, b| self.linked.binary_search(&(a, b)).is_err();
         for own in &boxes {

@@ -186,3 +186,24 @@ fn slow_loads_do_the_work_of_their_mean() {
         assert!(tilted.account.impact.abs() < 1e-3 * work, "{:?}", tilted.account);
     }
 }
+
+/// A slow tilt goes on from anywhere with the same bits and the same work.
+#[test]
+fn a_slow_tilt_goes_on_from_where_it_was_kept() {
+    let law = Law { shear: SHEAR, ..springs(0.0, 1.2e9, 0.0) };
+    let system =
+        System { links: vec![Link::closed(None, 0, law)], ..System::dry(&[stone([0.0, 1.0], [0.0, 0.5])], 0.6) };
+    let new = || Motion::new(&system, Setting { still: true, ..Setting::new(2e-2) });
+    let tilt = |motion: &mut Motion, n: usize| {
+        let acceleration = 0.5 * G * n as f64 / 40.0;
+        motion.go(2e-2, &|from, to| Forcing { base: [acceleration * (to - from), 0.0], held: 0.0 });
+    };
+    let mut whole = new();
+    assert!(whole.stand(1e-12, 4000));
+    (1..=20).for_each(|n| tilt(&mut whole, n));
+    let mut second = new();
+    assert!(second.take_up(whole.keep()));
+    (21..=40).for_each(|n| tilt(&mut whole, n));
+    (21..=40).for_each(|n| tilt(&mut second, n));
+    assert!(second.keep() == whole.keep() && whole.account.input > 0.0);
+}

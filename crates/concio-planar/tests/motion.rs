@@ -176,32 +176,46 @@ fn what_nothing_has_pressed_in_stores_nothing() {
     assert!((0.9e-3..1.1e-3).contains(&sunk), "{sunk:e}");
 }
 
+/// A beam under 100 kN drives a block of `height` slowly, by `ways` in steps of `step`; the block stands on a dry rigid base, and a joint of `law` (of its area,
+/// 0.2 m²) lies on it. What presses the base, and the force of the beam after each step and at a break within it [N].
+fn driven(
+    height: f64,
+    friction: Friction,
+    turns: bool,
+    law: &impl Fn(f64) -> Law,
+    step: f64,
+    ways: &[f64],
+) -> (f64, Vec<[f64; 2]>) {
+    let block = Body::rectangle("block", [0.0, 1.0], [0.0, height], 20e3 / G * 0.2 * height);
+    let beam = Body::rectangle("beam", [0.0, 1.0], [height, height + 1e-3], 0.4);
+    let pressed = block.mass * G + 100e3;
+    let links = vec![Link::closed(None, 0, Law::dry(Some(friction))), Link::closed(Some(0), 1, law(0.2))];
+    let mut system = System { links, ..System::dry(&[block, beam], 0.6) };
+    system.load[1] = [0.0, -100e3];
+    system.held[1] = [true, false, !turns];
+    let mut motion = Motion::new(&system, Setting { still: true, ..Setting::new(step) });
+    assert!(motion.stand(1e-12, 4000));
+    let borne = ways.iter().map(|way| {
+        motion.go(step, &|_, _| Forcing { base: [0.0; 2], held: *way });
+        [motion.pull, motion.breaks[0]]
+    });
+    (pressed, borne.collect())
+}
+
 /// A block on a dry rigid base slides at μ N as a beam drives it to and fro through mortar beside friction: what the solution is off by is no force.
 #[test]
 fn what_slides_in_series_with_mortar_bears_friction() {
-    let block = Body::rectangle("block", [0.0, 1.0], [0.0, 0.5], 20e3 / G * 0.1);
-    let beam = Body::rectangle("beam", [0.0, 1.0], [0.5, 0.501], 0.4);
-    let (area, load) = (0.2, 100e3);
-    let mortar = Law {
+    let mortar = |area: f64| Law {
         normal: Normal::Springs { both: 24e9 * area, press: 0.0, damping: 0.0 },
         shear: Shear { stiffness: 10e9 * area, damping: 0.0, series: false },
         ..Law::dry(Some(Friction::coulomb(0.6)))
     };
-    let most = 0.6 * (block.mass * G + load);
-    let links = vec![Link::closed(None, 0, Law::dry(Some(Friction::coulomb(0.6)))), Link::closed(Some(0), 1, mortar)];
-    let mut system = System { links, ..System::dry(&[block, beam], 0.6) };
-    system.load[1] = [0.0, -load];
-    system.held[1] = [true, false, false];
-    for step in [20e-3, 10e-3, 5e-3] {
-        let mut motion = Motion::new(&system, Setting { still: true, ..Setting::new(step) });
-        assert!(motion.stand(1e-12, 4000));
+    for step in [20e-3f64, 10e-3, 5e-3] {
         let steps = (0.4 / step).round() as usize;
-        let borne = (0..2 * steps).map(|n| {
-            let way = if n < steps { 1e-3 * step } else { -1e-3 * step };
-            motion.go(step, &|_, _| Forcing { base: [0.0; 2], held: way });
-            (n % steps, motion.pull.abs())
-        });
-        let slides = borne.filter(|(n, _)| *n > steps / 4).map(|(_, borne)| (borne / most, 1.0));
+        let ways: Vec<f64> = (0..2 * steps).map(|n| if n < steps { 1e-3 * step } else { -1e-3 * step }).collect();
+        let (pressed, borne) = driven(0.5, Friction::coulomb(0.6), true, &mortar, step, &ways);
+        let slides = borne.iter().enumerate().filter(|(n, _)| n % steps > steps / 4);
+        let slides = slides.map(|(_, [borne, _])| (borne.abs() / (0.6 * pressed), 1.0));
         let subject =
             format!("Sliding: block driven through mortar, largest error of its force over μ N; steps of {step} s");
         agrees!(subject, "μ N", "", farthest(slides), 0.0, abs: 1e-6);
@@ -211,33 +225,21 @@ fn what_slides_in_series_with_mortar_bears_friction() {
 /// A rigid joint with μ_s 0.6 and μ_d 0.4 that a beam drives slowly through soft mortar bears μ_s N before it slides and μ_d N after: its ends slide together.
 #[test]
 fn what_is_driven_slowly_bears_friction_at_rest_first() {
-    let block = Body::rectangle("block", [0.0, 1.0], [0.0, 0.2], 20e3 / G * 0.04);
-    let beam = Body::rectangle("beam", [0.0, 1.0], [0.2, 0.201], 0.4);
-    let (area, load) = (0.2, 100e3);
-    let soft = Law {
+    let soft = |area: f64| Law {
         normal: Normal::Springs { both: 0.0, press: 1.2e9 * area, damping: 0.0 },
         shear: Shear { stiffness: 0.5e9 * area, damping: 0.0, series: true },
         ..Law::dry(Some(Friction::coulomb(2.0)))
     };
     let friction = Friction { static_: 0.6, dynamic: 0.4, slip_velocity: 0.0, alpha: 0.0 };
-    let pressed = block.mass * G + load;
-    let links = vec![Link::closed(None, 0, Law::dry(Some(friction))), Link::closed(Some(0), 1, soft)];
-    let mut system = System { links, ..System::dry(&[block, beam], 0.6) };
-    system.load[1] = [0.0, -load];
-    system.held[1] = [true, false, true];
     for step in [20e-3, 10e-3, 5e-3] {
-        let mut motion = Motion::new(&system, Setting { still: true, ..Setting::new(step) });
-        assert!(motion.stand(1e-12, 4000));
-        let (mut most, mut slides) = (0.0f64, 0.0);
-        for _ in 0..(2.0 / step) as usize {
-            motion.go(step, &|_, _| Forcing { base: [0.0; 2], held: 1e-3 * step });
-            most = most.max(motion.pull).max(motion.breaks[0]);
-            slides = motion.pull;
-        }
+        let ways = vec![1e-3 * step; (2.0 / step) as usize];
+        let (pressed, borne) = driven(0.2, friction, false, &soft, step, &ways);
+        let most = borne.iter().flatten().fold(0.0f64, |most, borne| most.max(*borne));
         let subject = format!("Sliding: block driven through soft mortar, what it bears at most; steps of {step} s");
         agrees!(subject, "μ_s N", "N", most, 0.6 * pressed, 5e-3);
+        let last = borne.last().map_or(0.0, |[borne, _]| *borne);
         let subject =
             format!("Sliding: block driven through soft mortar, what it bears as it slides; steps of {step} s");
-        agrees!(subject, "μ_d N", "N", slides, 0.4 * pressed, 5e-3);
+        agrees!(subject, "μ_d N", "N", last, 0.4 * pressed, 5e-3);
     }
 }
