@@ -154,6 +154,13 @@ pub struct Bond {
     pub residual: f64,
 }
 
+impl Bond {
+    /// What tension takes from the strength along, over that tension (P9): tan φ, c/f_t at most.
+    pub(crate) fn tan_pulled(&self) -> f64 {
+        if self.tension > 0.0 { self.tan_angle.min((1.0 - ROUNDING) * self.cohesion / self.tension) } else { 0.0 }
+    }
+}
+
 /// ζ of (P6): ratio at which a joint that rings faster than the step resolves is damped at most.
 const RINGING: f64 = 0.125;
 /// h ω up to which (P6) damps what rings by less than ζ: 4 x where x³ = ζ (1 + x²).
@@ -218,8 +225,7 @@ impl Law {
     /// Slide that would bear along what an opening `w` of an intact bond takes from its strength there, as (P9) says [m].
     pub(crate) fn pulled(&self, w: f64) -> f64 {
         let (both, _) = self.springs();
-        let steepest = |bond: Bond| bond.tan_angle.min((1.0 - ROUNDING) * bond.cohesion / bond.tension);
-        let tan = self.bond.filter(|bond| bond.tension > 0.0).map_or(0.0, steepest);
+        let tan = self.bond.map_or(0.0, |bond| bond.tan_pulled());
         let opened = (w - TOUCHING).max(0.0);
         if self.shear.stiffness == 0.0 { 0.0 } else { tan * both * opened / self.shear.stiffness }
     }
@@ -351,10 +357,14 @@ impl Law {
         both
     }
 
-    /// Whether friction without a spring in line with it goes on with what it bore, as far as it moves with that of a very stiff one: what rests bears any
+    /// Whether friction, of a damper too, without a spring in line with it goes on with what it bore, as far as it moves with that of a very stiff one: what rests bears any
     /// friction up to the limit otherwise, and a wall that has slid would be told to bear less than it does.
     fn grips(&self, still: bool) -> bool {
-        still && self.friction.is_some() && self.bond.is_none() && self.slip == [0.0; 2] && !self.in_line()
+        still
+            && (self.friction.is_some() || self.slip[1] > 0.0)
+            && self.bond.is_none()
+            && self.slip[0] == 0.0
+            && !self.in_line()
     }
 
     /// Whether the shear spring is in line with friction.

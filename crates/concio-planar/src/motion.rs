@@ -45,15 +45,18 @@ const CROSSINGS: u32 = 6;
 /// Least step in which loads come to bear and whose inertia resists without inertia [s], and after how many it is doubled: the slowest modes take the longest steps.
 const SETTLING: f64 = 2e-2;
 const DOUBLED: usize = 40;
-/// Steps that follow a step without inertia at most, those after which none follows where bodies do not slow down, and the way ahead over that
-/// of the farthest step at which none follows.
+/// Steps that follow a step without inertia at most, and while joints crack or are crushed in each; those after which none follows where bodies do not slow
+/// down, and the way ahead over that of the farthest step at which none follows.
 const FOLLOWING: usize = 60;
+const CRACKING: usize = 1000;
 const PATIENCE: usize = 10;
 const AT_REST: f64 = 1e-3;
 /// The way in such a step over that of the one before from which the next is longer, and over the size of a body, beyond which it is only where
 /// the way shrinks.
 const SLOWLY: f64 = 0.75;
 const FAR: f64 = 1e-4;
+/// The way in such a step over the size of a body beyond which it falls, whatever cracks.
+const FALLING: f64 = 1e-2;
 /// The longest of them, over the first.
 const LONGEST: f64 = 16.0;
 /// What contact may be violated by, over the velocity that gravity gives in a step.
@@ -592,12 +595,13 @@ impl Motion {
         let size = self.radius.iter().fold(0.0, |most: f64, r| most.max(*r));
         let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
         let (mut way, mut step) = (self.fastest() * h, h);
-        let (mut most, mut ratio, mut longer, mut rests) = (way, f64::INFINITY, false, false);
-        for number in 0..FOLLOWING {
+        let (mut most, mut ratio, mut longer, mut rests, mut cracks) = (way, f64::INFINITY, false, false, false);
+        for number in 0..CRACKING {
             // Steps that shrink by a ratio have so much before them.
             let ahead = if ratio < 1.0 { way * ratio / (1.0 - ratio) } else { f64::INFINITY };
             rests = way == 0.0 || ahead <= AT_REST * most;
-            if rests || number >= PATIENCE && ratio >= 1.0 && !longer {
+            let runs_on = number >= FOLLOWING || number >= PATIENCE && ratio >= 1.0 && !longer;
+            if rests || runs_on && !cracks {
                 break;
             }
             longer = ratio > SLOWLY && (ratio < 1.0 || way <= FAR * size) && step < LONGEST * h;
@@ -605,8 +609,10 @@ impl Motion {
                 step *= 2.0;
             }
             // The end of the step is that of the load: what cracks in it cracks then.
+            let spent = self.account.bond;
             self.part(start + h - step, step, 0, &stays);
             let next = self.fastest() * step;
+            cracks = self.account.bond > spent && next <= FALLING * size;
             (ratio, way, most) = (next / way, next, most.max(next));
         }
         // What does not slow down, as a mechanism or a crack that runs on, is not told: it has no rest to come to.
@@ -1053,12 +1059,17 @@ impl Motion {
                         let held = self.contacts[at..end].iter().zip(&self.owners[at..end]);
                         let held = held.filter(|(_, owner)| owner.part == Part::Held).map(|(contact, _)| contact);
                         // How rigid points share the shear is not known: the joint has its strength as a whole.
-                        let (mut shear, mut strength, mut torn) = (0.0, 0.0, false);
+                        let (mut pressure, mut shear, mut strength, mut torn) = (0.0, 0.0, 0.0, false);
                         for contact in held {
+                            pressure += contact.impulse[0];
                             shear += contact.impulse[1];
-                            strength += contact.hold + contact.friction * contact.impulse[0];
+                            strength += contact.hold;
                             torn |= contact.pressure[0] < 0.0 && contact.impulse[0] <= contact.pressure[0];
                         }
+                        let tan = law
+                            .bond
+                            .map_or(0.0, |bond| if pressure < 0.0 { bond.tan_pulled() } else { bond.tan_angle });
+                        strength += tan * pressure;
                         let slides = strength.is_finite() && shear.abs() >= strength * (1.0 - SHEARED) && shear != 0.0;
                         let borne = [seen.pressure, seen.shear];
                         if let Some(part) = crack.break_rigid(law, points, torn || slides, borne, time) {

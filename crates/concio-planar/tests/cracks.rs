@@ -237,6 +237,51 @@ fn tension_takes_from_the_strength_along() {
     }
 }
 
+/// A joint that is sheared by a load that grows bears (c + p tan φ) A, and (c − σ tan φ) A where it is pulled, c σ/f_t being taken at most; with springs that
+/// soften, which break as soon as they bear no more, and rigid; at three steps.
+#[test]
+fn what_is_sheared_by_a_growing_load_falls_at_its_strength() {
+    let size = [1.0, 0.5];
+    let area = 0.3;
+    let body = block(size);
+    let (cohesion, tensile) = (50e3, 50e3);
+    let soft = Law { friction: Some(Friction::coulomb(0.4)), ..mortar(1.0, [20.0, 100.0]) };
+    let stiff = Law { friction: soft.friction, bond: mortar(1.0, [0.0; 2]).bond, ..Law::dry(None) };
+    // Tension; pressure below 0.
+    for (tension, tan_angle) in [(-40e3, 0.6), (0.0, 0.6), (30e3, 0.6), (30e3, 1.5)] {
+        for (name, law) in [("softening springs", soft), ("rigid", stiff)] {
+            for step in [5e-3, 2e-2, 8e-2] {
+                let mut law = law;
+                law.bond = law.bond.map(|bond| Bond { cohesion: cohesion * area, tan_angle, ..bond });
+                let mut loaded = system(body.clone(), law);
+                loaded.load[0] = [0.0, tension * area];
+                loaded.held[0] = [false, false, true];
+                let mut motion = Motion::new(&loaded, Setting { still: true, ..Setting::new(step) });
+                assert!(motion.stand(1e-12, 4000));
+                let takes = if tension > 0.0 { f64::min(tan_angle, cohesion / tensile) } else { tan_angle };
+                let expected = (cohesion - tension * takes) * area;
+                // What it bears in 100 s.
+                let rate = expected / body.mass / 100.0;
+                let mut borne = 0.0f64;
+                for number in 1..=(110.0 / step).round() as usize {
+                    let tilt = rate * number as f64 * step;
+                    motion.go(step, &|from, to| Forcing { base: [tilt * (to - from), 0.0], held: 0.0 });
+                    if motion.crack(0).is_none_or(|crack| crack.is_gone()) {
+                        break;
+                    }
+                    borne = borne.max(motion.base_shear().abs());
+                }
+                let subject = format!(
+                    "Bonds: joint sheared by a load that grows, what it bears; {name}, tan φ = {tan_angle}, {} of {} kPa, steps of {step} s",
+                    if tension > 0.0 { "tension" } else { "pressure" },
+                    1e-3 * tension.abs()
+                );
+                agrees!(subject, "(c + p tan φ) A, (c − σ min(tan φ, c/f_t)) A", "N", borne, expected, 2.5e-3);
+            }
+        }
+    }
+}
+
 /// A slide of μ_d 0.1 that turns round while the ground pushes with less than μ_s 0.4 rests until it pushes with more (integration with
 /// 2 µs, which rests where v = 0 and |a| ≤ μ_s g: −15.42 mm after 2 s of 0.42 g at 2 Hz).
 #[test]

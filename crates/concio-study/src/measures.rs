@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::file::PerJoint;
 
 /// Raised when a measure means something else than before: it stands in every row, and runs measured earlier are done again.
-pub const VERSION: u32 = 8;
+pub const VERSION: u32 = 9;
 
 /// A number of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
