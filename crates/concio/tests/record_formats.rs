@@ -320,6 +320,8 @@ fn other_quantities_are_refused() {
         ("t [s]  v [cm/s]", "velocity"),
         ("time velocity", "velocity"),
         ("T Sa", "a spectrum"),
+        ("T [s]  Sa [g]", "a spectrum"),
+        ("time (s) velocity (cm/s)", "velocity"),
         ("disp_mm force_kN", "the first column is displacement"),
         ("freq_Hz amplitude", "the first column is a spectrum"),
     ] {
@@ -329,8 +331,10 @@ fn other_quantities_are_refused() {
     }
     let both: String =
         (0..50).map(|n| format!("{:.2},{:.4},{:.4}\n", 0.01 * f64::from(n), f64::from(n).sin(), 7.0)).collect();
-    let records = read_text(&format!("time [s],acc [cm/s2],vel [cm/s]\n{both}")).expect("an accelerogram");
-    assert_eq!(records.len(), 1);
+    for title in ["time [s],acc [cm/s2],vel [cm/s]", "t [s]  a [cm/s2]  v [cm/s]", "t (s) SA01 (cm/s2) vel1"] {
+        let records = read_text(&format!("{title}\n{both}")).expect("an accelerogram");
+        assert_eq!(records.len(), 1, "{title}");
+    }
 }
 
 #[test]

@@ -46,7 +46,7 @@ pub(super) fn read(source: &Source, options: &TextOptions) -> Result<Vec<Record>
         (untimed(source, &table, options)?, 0)
     };
     let others: Vec<Option<&str>> = names.iter().map(|title| other_than(title, options.quantity)).collect();
-    refuse_others(source, data_line, &names, &others, columns, options)?;
+    refuse_others(source, data_line, &others, columns, options.quantity)?;
     let header = header_unit(source, data_line, options.quantity);
     let mut records = Vec::new();
     for (index, values) in table.columns.into_iter().enumerate().skip(columns) {
@@ -83,9 +83,12 @@ fn other_than(title: &str, quantity: HistoryQuantity) -> Option<&'static str> {
         ("force", &["force", "load"]),
     ];
     let lower = title.to_lowercase();
-    let word = lower.split(|c: char| !c.is_alphabetic()).find(|word| !word.is_empty()).unwrap_or("");
+    let word = lower.split(|c: char| !c.is_alphanumeric()).find(|word| !word.is_empty()).unwrap_or("");
+    // `vel1` is a velocity, `SA01` a sensor.
+    let stem = word.trim_end_matches(|c: char| c.is_numeric());
+    let is_named = |what: &str, words: &[&str]| words.contains(if what == "a spectrum" { &word } else { &stem });
     let of_unit = bracketed(&lower).any(is_unit_of_velocity).then_some("velocity");
-    let named = NAMED.iter().find(|(_, words)| words.contains(&word)).map(|(what, _)| *what);
+    let named = NAMED.iter().find(|(what, words)| is_named(what, words)).map(|(what, _)| *what);
     named.or(of_unit).filter(|what| *what != name(quantity))
 }
 
@@ -98,13 +101,12 @@ fn is_unit_of_velocity(unit: &str) -> bool {
 fn refuse_others(
     source: &Source,
     data_line: usize,
-    names: &[&str],
     others: &[Option<&str>],
     columns: usize,
-    options: &TextOptions,
+    quantity: HistoryQuantity,
 ) -> Result<()> {
     let title_line = data_line.saturating_sub(1);
-    let wanted = name(options.quantity);
+    let wanted = name(quantity);
     let time = columns == 1 && others.first().is_some_and(Option::is_some);
     let values = others.get(columns..).unwrap_or_default();
     let found = match (time, values.iter().all(Option::is_some)) {
@@ -112,11 +114,7 @@ fn refuse_others(
         (false, true) => values.first().copied().flatten(),
         (false, false) => None,
     };
-    // Titles with blanks between name and unit are told apart by their units.
-    let line = source.line(title_line).to_lowercase();
-    let rated = names.is_empty() && bracketed(&line).any(is_unit_of_velocity);
-    let of_wanted = bracketed(&line).any(|unit| units::factor(unit, options.quantity).is_some());
-    let Some(found) = found.or_else(|| (rated && !of_wanted).then_some("velocity")) else { return Ok(()) };
+    let Some(found) = found else { return Ok(()) };
     let what = if time {
         format!("the first column is {found}, not time")
     } else {

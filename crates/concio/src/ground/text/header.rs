@@ -47,10 +47,26 @@ pub(super) fn column_names<'a>(source: &Source<'a>, data_line: usize, columns: u
     let fields: Vec<&str> = match separator {
         Some(c) => title.split(c).map(|field| field.trim().trim_matches('"')).collect(),
         None if columns == 1 => vec![title],
-        None => title.split_whitespace().collect(),
+        None => titles(title),
     };
     let keyed = title.contains(['=', ':']);
     if fields.len() == columns && !keyed { fields } else { Vec::new() }
+}
+
+/// Titles between blanks; what stands in brackets belongs to the one before.
+fn titles(line: &str) -> Vec<&str> {
+    let (mut starts, mut depth, mut blank) = (Vec::new(), 0, true);
+    for (at, c) in line.char_indices() {
+        match c {
+            '[' | '(' => depth += 1,
+            ']' | ')' => depth -= 1,
+            _ if blank && depth == 0 && !c.is_whitespace() => starts.push(at),
+            _ => {}
+        }
+        blank = c.is_whitespace();
+    }
+    let ends = starts.iter().skip(1).copied().chain([line.len()]);
+    starts.iter().zip(ends).map(|(start, end)| line[*start..end].trim_end()).collect()
 }
 
 /// Words of a header line that may be a unit: in brackets, behind `units:`, behind `units of`.
