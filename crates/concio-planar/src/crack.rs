@@ -857,6 +857,8 @@ impl Crack {
         let grown = [w - then[0], s.abs() - then[1].abs(), sheared(&node, [w, s]) - sheared(&node, then)];
         let grown = grown.map(|way| way.max(0.0));
         let (mut taken, mut passed) = (0.0, [false; 2]);
+        // A step that goes far beyond a limit goes far in the other direction too, where nothing bears any more by then.
+        let less = |from: f64, to: f64| from.abs().min(to.abs());
         // `way` is how much farther it is stretched than before, `other` twice what the other direction would store.
         let mut pass = |node: &mut Node,
                         mode: usize,
@@ -902,15 +904,19 @@ impl Crack {
             }
             taken += 0.5 * (node.damage() - before) * other;
         };
-        pass(&mut node, 0, [w - TOUCHING, grown[0]], both, [bond.tension, 0.0], along * s * s);
+        pass(&mut node, 0, [w - TOUCHING, grown[0]], both, [bond.tension, 0.0], along * less(then[1], s).powi(2));
         let stretch = sheared(&node, [w, s]);
-        let opened = both * w.max(0.0).powi(2);
+        let opened = both * less(then[0].max(0.0), w.max(0.0)).powi(2);
         pass(&mut node, 1, [stretch, grown[2]], along, law.shear_strengths(pressure), opened);
         // Where both modes have lost some, one of them bears less than its limit. What springs bore on the way and do not store is taken then.
         if passed[0] && (passed[1] || had[1] > 0.0) || passed[1] && (had[0] > 0.0 || law.pulled(w) > 0.0) {
             let [w, s] = [w.max(0.0), s.abs()];
             let both_ways = both * w * (w - grown[0]).max(0.0) + along * s * (s - grown[1]);
-            taken = 0.5 * (node.damage() - damage) * both_ways;
+            // Where one step goes far beyond the limits that is more than there was to take: what one of the modes did, or the springs had.
+            let gone = node.damage() - damage;
+            let stored = 0.5 * gone * (both * then[0].max(0.0).powi(2) + along * then[1] * then[1]);
+            let of = |mode: usize| bond.energy[mode] * (self.nodes[n].rest[mode] - node.rest[mode]);
+            taken = (0.5 * gone * both_ways).min(of(0).max(of(1)).max(stored));
         }
         if pressure > law.crushing && node.damage() < 1.0 {
             taken += 0.5 * (1.0 - node.damage()) * along * s * s;

@@ -533,6 +533,10 @@ impl Law {
         contact.friction = point.rubbing * self.friction.map_or(0.0, |friction| friction.of(point.speed, still));
         if let Some(bond) = &self.bond {
             (contact.friction, contact.hold) = (bond.tan_angle, share * bond.cohesion * h);
+            // What slides by as much as the solution may be off by has broken.
+            if still && !self.is_compliant() {
+                contact.tight = 0.5 * GRIP;
+            }
         }
         Start { gap, velocity, still, slipped: false, edge: false }
     }

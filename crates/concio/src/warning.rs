@@ -69,6 +69,8 @@ kinds! {
     PeakInFall = "peak-in-fall",
     /// A base shear above what friction and bond bear.
     BeyondFriction = "beyond-friction",
+    /// Bonds that crack under the loads at rest.
+    CrackedAtRest = "cracked-at-rest",
     /// A wall that counts as collapsed.
     Collapse = "collapse",
     /// A run that ends while the wall is under way.

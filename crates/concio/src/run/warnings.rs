@@ -62,6 +62,7 @@ fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
         (WarningKind::Moving, moving(outcome)),
         (WarningKind::PeakInFall, peak_in_fall(model, outcome)),
         (WarningKind::BeyondFriction, beyond_friction(model, outcome)),
+        (WarningKind::CrackedAtRest, cracked_at_rest(model, joints, outcome)),
         (WarningKind::Collapse, collapsed(model, outcome)),
         (WarningKind::UnderWay, moves_on(model, outcome)),
         (WarningKind::Unresolved, unresolved(model, outcome)),
@@ -211,6 +212,26 @@ fn beyond_own_friction(model: &Model, outcome: &Outcome) -> Option<String> {
         graph::name(&model.wall, &model.joints[*e]),
         1e-3 * force,
         1e-3 * friction,
+    ))
+}
+
+/// Bonds of planar walls that are cracked before anything moves.
+fn cracked_at_rest(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Option<String> {
+    let planar = model.planar.as_ref()?;
+    let at_rest = || outcome.bonds.iter().filter(|bond| bond.cracked == 0.0);
+    let first = at_rest().next()?;
+    let rigid = at_rest().any(|bond| !planar.system.links[bond.joint].law.is_compliant());
+    let remedy = if rigid {
+        ". Loads do not say how rigid blocks share their forces, and what was found here may strain joints that need bear nothing: give them \
+         springs (`law = \"elastic\"`)"
+    } else {
+        ": the wall has cracks when the motion begins"
+    };
+    Some(format!(
+        "{} of {} bonds are cracked before anything moves, that of joint {} first{remedy}",
+        at_rest().count(),
+        outcome.bonds.len(),
+        joints[first.joint].name
     ))
 }
 

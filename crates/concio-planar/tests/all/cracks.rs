@@ -1,0 +1,527 @@
+//! Joints that open and crack against closed forms and fine quadratures, and what else a joint keeps of what happened to it.
+
+use concio_planar::G;
+use concio_planar::body::Body;
+use concio_planar::joint::{Bond, Friction, Law, Normal, Shear};
+use concio_planar::motion::{Forcing, Link, Motion, Setting, System};
+use concio_planar::shape::Place;
+use concio_verified::{agrees, farthest};
+
+/// A block of `length` × `height` m, 0.3 m thick, of 20 kN/m³.
+fn block([length, height]: [f64; 2]) -> Body {
+    Body::rectangle("block", [0.0, length], [0.0, height], 20e3 / G * length * height * 0.3)
+}
+
+/// Mortar of 120 N/mm³ across and 50 along, of 50 kPa and `energies` [N/m], that does not fail in shear.
+fn mortar(length: f64, energies: [f64; 2]) -> Law {
+    let area = 0.3 * length;
+    Law {
+        normal: Normal::Springs { both: 120e9 * area, press: 0.0, damping: 0.0 },
+        shear: Shear { stiffness: 50e9 * area, damping: 0.0, series: false },
+        bond: Some(Bond {
+            tension: 50e3 * area,
+            cohesion: 5e6 * area,
+            tan_angle: 0.0,
+            energy: energies.map(|g| g * area),
+            residual: 0.0,
+        }),
+        ..Law::dry(Some(Friction::coulomb(5.0)))
+    }
+}
+
+fn system(body: Body, law: Law) -> System {
+    let links = vec![Link::closed(None, 0, law)];
+    System { links, ..System::dry(&[body], 5.0) }
+}
+
+/// The largest tilt [g] that a block on a joint bears, ground tilted by 0.02 g a second.
+fn bears(size: [f64; 2], law: Law) -> f64 {
+    let mut motion = Motion::new(&system(block(size), law), Setting { still: true, ..Setting::new(2e-2) });
+    assert!(motion.stand(1e-12, 4000));
+    let rate = 0.02 * G;
+    for step in 0..20_000 {
+        let tilt = rate * (step + 1) as f64 * 2e-2;
+        motion.go(2e-2, &|from, to| Forcing { base: [tilt * (to - from), 0.0], held: 0.0 });
+        if motion.places[0].angle.abs() > 1e-2 || (motion.places[0].centre[0] - 0.5 * size[0]).abs() > 0.01 {
+            return tilt / G;
+        }
+    }
+    f64::INFINITY
+}
+
+/// The same by 2,000 springs in a plane section: brittle, or softening exponentially with secant unloading.
+fn plane_section([length, height]: [f64; 2], energy: f64) -> f64 {
+    const STRIPS: usize = 2000;
+    let (k, strength, weight) = (120e9 * 0.3 * length, 50e3 * 0.3 * length, 20e3 * 0.3 * length * height);
+    let first = strength / k;
+    let decay = energy * 0.3 * length / strength - 0.5 * first;
+    let mut widest = vec![0.0f64; STRIPS];
+    let x = |i: usize| ((i as f64 + 0.5) / STRIPS as f64 - 0.5) * length;
+    let stress = |w: f64, widest: f64| match w.max(widest) {
+        _ if w < 0.0 => k * w,
+        far if far <= first => k * w,
+        _ if energy == 0.0 => 0.0,
+        far => strength * (-(far - first) / decay).exp() * w / far,
+    };
+    let mut most = 0.0f64;
+    let mut turn = 1e-7 / length;
+    for _ in 0..3000 {
+        turn *= 1.004;
+        // What presses is what the block weighs.
+        let pull = |middle: f64, widest: &[f64]| -> f64 {
+            (0..STRIPS).map(|i| stress(middle + turn * x(i), widest[i])).sum::<f64>() / STRIPS as f64
+        };
+        let (mut low, mut high) = (-1e-2, 1e-2);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if pull(middle, &widest) > -weight { high = middle } else { low = middle }
+        }
+        let middle = 0.5 * (low + high);
+        let moment: f64 =
+            (0..STRIPS).map(|i| stress(middle + turn * x(i), widest[i]) * x(i)).sum::<f64>() / STRIPS as f64;
+        (0..STRIPS).for_each(|i| widest[i] = widest[i].max(middle + turn * x(i)));
+        most = most.max(moment / (0.5 * weight * height));
+        if moment < 0.7 * most * 0.5 * weight * height {
+            break;
+        }
+    }
+    most
+}
+
+/// Without bond a joint that is pressed along 3 (ℓ/2 − e) turns by θ = 2 N/(k (3 (ℓ/2 − e))²), k per length; pressed all along by 12 N e/(k ℓ³). Loads go up
+/// and come back, over the other edge too.
+#[test]
+fn a_joint_without_bond_opens_as_a_layer_of_springs() {
+    let (size, k) = ([1.0, 1.0], 1e12);
+    let law = Law {
+        normal: Normal::Springs { both: 0.0, press: k * size[0], damping: 0.0 },
+        ..Law::dry(Some(Friction::coulomb(5.0)))
+    };
+    let mut loaded = system(block(size), law);
+    loaded.load[0] = [0.0, -1e5];
+    let mut motion = Motion::new(&loaded, Setting { still: true, ..Setting::new(2e-2) });
+    assert!(motion.stand(1e-14, 4000));
+    let turned = |e: f64| {
+        let ([length, _], apart) = (size, 3.0 * (0.5 - e.abs()));
+        let along = if apart < length { 2e5 / (k * apart * apart) } else { 12e5 * e.abs() / (k * length.powi(3)) };
+        -along.copysign(e)
+    };
+    // M = N e at the joint, of a force at the middle of the block.
+    let pushes = |e: f64| 1e5 * e / (0.5 * size[1] * block(size).mass);
+    let mut e = 0.0;
+    for goal in [0.15, 0.25, 0.35, 0.45, 0.48, 0.3, 0.1, -0.3, -0.45, 0.0] {
+        let way = (1..=20).map(|part| e + (goal - e) * f64::from(part) / 20.0);
+        let off = farthest(way.map(|e| {
+            let push = pushes(e);
+            motion.go(2e-2, &|from, to| Forcing { base: [-push * (to - from), 0.0], held: 0.0 });
+            let expected = turned(e);
+            (motion.places[0].angle / expected.abs().max(1e-9), expected / expected.abs().max(1e-9))
+        }));
+        let subject =
+            format!("Springs: joint without bond that opens, largest error of its turning; e/ℓ from {e} to {goal}");
+        agrees!(subject, "θ = 2 N/(k (3 (ℓ/2 − e))²), 12 N e/(k ℓ³) pressed all along", "", off, 0.0, abs: 5e-3);
+        e = goal;
+    }
+}
+
+/// Brittle, with 2 and with 20 N/m: 1.163, 2.57 and 3.00 g for the block of 1 m.
+#[test]
+fn a_bonded_joint_cracks_from_its_edge() {
+    let told = [(0.0, 1.163), (2.0, 2.57), (20.0, 3.00)];
+    for length in [0.5, 1.0, 2.0] {
+        for (energy, known) in told {
+            let expected = plane_section([length, length], energy);
+            assert!(length != 1.0 || (expected / known - 1.0).abs() < 5e-3, "{expected} instead of {known}");
+            let found = bears([length, length], mortar(length, [energy, 0.0]));
+            println!("block of {length} m, {energy} N/m: {found:.4} g, plane section {expected:.4} g");
+            let subject =
+                format!("Bonds: block that cracks from its edge, tilt it bears; {length} m, G_f^I = {energy} N/m");
+            agrees!(subject, "2,000 softening springs in a plane section", "g", found, expected, 0.012);
+        }
+    }
+}
+
+/// Shear that takes stiffness under the toe makes a section no stronger: it bore 3.35 g where opening was counted from what shear had left of the stiffness,
+/// and where three points stood for what is pressed and what is open.
+#[test]
+fn mortar_weak_in_shear_bears_no_more() {
+    let expected = plane_section([1.0, 1.0], 20.0);
+    for (cohesion, energy) in [(0.5e6, 500.0), (0.2e6, 1000.0)] {
+        let mut law = mortar(1.0, [20.0, energy]);
+        let bond = law.bond.as_mut().expect("a bond");
+        (bond.cohesion, bond.tan_angle) = (cohesion * 0.3, 0.6);
+        let found = bears([1.0, 1.0], Law { friction: Some(Friction::coulomb(0.6)), ..law });
+        println!("c {cohesion} Pa, {energy} N/m: {found:.4} g, plane section {expected:.4} g");
+        let subject = format!("Bonds: block of 1 m on mortar weak in shear, tilt it bears; c = {cohesion} Pa");
+        agrees!(subject, "2,000 softening springs in a plane section", "g", found, expected, 0.012);
+    }
+}
+
+/// Rigid joints break by plane sections too: (N + f_t A) ℓ/6 = a W h/2.
+#[test]
+fn a_rigid_bonded_joint_is_as_strong_as_a_plane_section() {
+    for length in [0.5, 1.0, 2.0] {
+        let law = Law {
+            normal: Normal::Rigid { restitution: 0.0, rocking: 1.0 },
+            shear: Shear { stiffness: 0.0, ..mortar(1.0, [0.0; 2]).shear },
+            ..mortar(length, [0.0; 2])
+        };
+        let stress = 20e3 * length;
+        let expected = ((stress + 50e3) / (3.0 * stress)).max(1.0);
+        let found = bears([length, length], law);
+        let subject = format!("Bonds: block on a rigid bonded joint, tilt it bears; {length} m");
+        agrees!(subject, "plane section, (N + f_t A) ℓ/6 = a W h/2", "g", found, expected, 0.01);
+    }
+}
+
+/// A joint that is torn off takes G_f^I A, one that is sheared off under any pressure G_f^II A.
+#[test]
+fn full_breaks_take_their_fracture_energy() {
+    let size = [1.0, 0.5];
+    let area = 0.3;
+    let mut law = mortar(1.0, [20.0, 100.0]);
+    let mut torn = system(block(size), law);
+    torn.load[0] = [0.0, 40e3];
+    let mut motion = Motion::new(&torn, Setting::new(1e-4));
+    (0..2000).for_each(|_| motion.step(Forcing::default()));
+    assert!(motion.crack(0).expect("a bond").is_gone());
+    agrees!("Bonds: energy of a joint torn off", "G_f^I A", "J", motion.account.bond, 20.0 * area, 1e-3);
+    for pressure in [10e3, 60e3, 600e3] {
+        law.bond = law.bond.map(|bond| Bond { cohesion: 20e3 * area, tan_angle: 0.6, ..bond });
+        law.friction = Some(Friction::coulomb(0.6));
+        let mut sheared = system(block(size), law);
+        sheared.load[0] = [0.0, -pressure * area];
+        sheared.held[0] = [true, false, true];
+        let mut motion = Motion::new(&sheared, Setting { still: true, ..Setting::new(2e-2) });
+        assert!(motion.stand(1e-12, 4000));
+        for _ in 0..4000 {
+            motion.go(2e-2, &|_, _| Forcing { base: [0.0; 2], held: 1e-5 });
+        }
+        let crack = motion.crack(0).expect("a bond");
+        assert!(crack.is_gone() && crack.length() == 1.0 && crack.damage() == 1.0);
+        let subject = format!("Bonds: energy of a joint sheared off; under {} kPa", 1e-3 * pressure);
+        agrees!(subject, "G_f^II A", "J", motion.account.bond, 100.0 * area, 1e-3);
+    }
+}
+
+/// A joint that is pulled by σ as it is sheared bears (c − σ tan φ) A, brittle or softening, at three steps.
+#[test]
+fn tension_takes_from_the_strength_along() {
+    let size = [1.0, 0.5];
+    let area = 0.3;
+    let (cohesion, tan_angle) = (50e3, 0.6);
+    for energies in [[0.0; 2], [20.0, 100.0]] {
+        for tension in [0.0, 15e3, 30e3, 45e3] {
+            let mut law = mortar(1.0, energies);
+            law.bond = law.bond.map(|bond| Bond { cohesion: cohesion * area, tan_angle, ..bond });
+            let mut pulled = system(block(size), law);
+            pulled.load[0] = [0.0, tension * area];
+            pulled.held[0] = [true, false, true];
+            for steps in [500, 1000, 2000] {
+                let mut motion = Motion::new(&pulled, Setting { still: true, ..Setting::new(2e-2) });
+                assert!(motion.stand(1e-12, 4000));
+                let way = 1.2 * cohesion / 50e9 / f64::from(steps);
+                let mut borne = 0.0f64;
+                for _ in 0..steps {
+                    motion.go(2e-2, &|_, _| Forcing { base: [0.0; 2], held: way });
+                    borne = borne.max(motion.pull);
+                }
+                let subject = format!(
+                    "Bonds: joint sheared under a tension of {} kPa, what it bears; {} N/m, {steps} steps",
+                    1e-3 * tension,
+                    energies[1]
+                );
+                agrees!(subject, "(c − σ tan φ) A", "N", borne, (cohesion - tension * tan_angle) * area, 4e-3);
+            }
+        }
+    }
+}
+
+/// A joint that is torn by a load that grows, straight or with a small moment, takes G_f A, however far the step goes in which it parts: both modes take the same.
+#[test]
+fn what_is_torn_takes_no_more_than_its_energy() {
+    let size = [0.8, 0.03];
+    let area = 0.3 * size[0];
+    let body = block(size);
+    let mut law = Law { friction: Some(Friction::coulomb(0.3)), ..mortar(size[0], [40.0; 2]) };
+    let springs = 5e9 * area;
+    law.normal = Normal::Springs { both: springs, press: 0.0, damping: 0.0 };
+    law.shear = Shear { stiffness: springs, ..law.shear };
+    law.bond = law.bond.map(|bond| Bond { tension: 100e3 * area, cohesion: 300e3 * area, tan_angle: 0.6, ..bond });
+    for (tilt, steps) in [(0.0, [5e-3, 2e-2, 5e-2].as_slice()), (0.02, &[2e-3, 5e-3])] {
+        for step in steps.iter().copied() {
+            let mut motion = Motion::new(&system(body.clone(), law), Setting { still: true, ..Setting::new(step) });
+            assert!(motion.stand(1e-12, 4000));
+            // Twice what it bears in 100 s.
+            let rate = 2.0 * 100e3 * area / body.mass / 100.0;
+            for number in 1..=(100.0 / step).round() as usize {
+                let lift = rate * number as f64 * step;
+                let acts = [tilt * lift, -lift];
+                motion.go(step, &|from, to| Forcing { base: acts.map(|a| a * (to - from)), held: 0.0 });
+                if motion.crack(0).is_none_or(|crack| crack.is_gone()) {
+                    break;
+                }
+            }
+            let name = if tilt == 0.0 { "straight" } else { "askew" };
+            let subject =
+                format!("Bonds: energy of a softening joint torn by a load that grows; {name}, steps of {step} s");
+            agrees!(subject, "G_f A", "J", motion.account.bond, 40.0 * area, 2e-2);
+        }
+    }
+}
+
+/// A joint that is sheared by a load that grows bears (c + p tan φ) A, and (c − σ tan φ) A where it is pulled, c σ/f_t being taken at most; with springs that
+/// soften, which break as soon as they bear no more, and rigid; at three steps.
+#[test]
+fn what_is_sheared_by_a_growing_load_falls_at_its_strength() {
+    let size = [1.0, 0.5];
+    let area = 0.3;
+    let body = block(size);
+    let (cohesion, tensile) = (50e3, 50e3);
+    let soft = Law { friction: Some(Friction::coulomb(0.4)), ..mortar(1.0, [20.0, 100.0]) };
+    let stiff = Law { friction: soft.friction, bond: mortar(1.0, [0.0; 2]).bond, ..Law::dry(None) };
+    // Tension; pressure below 0.
+    for (tension, tan_angle) in [(-40e3, 0.6), (0.0, 0.6), (30e3, 0.6), (30e3, 1.5)] {
+        for (name, law) in [("softening springs", soft), ("rigid", stiff)] {
+            for step in [5e-3, 2e-2, 8e-2] {
+                let mut law = law;
+                law.bond = law.bond.map(|bond| Bond { cohesion: cohesion * area, tan_angle, ..bond });
+                let mut loaded = system(body.clone(), law);
+                loaded.load[0] = [0.0, tension * area];
+                loaded.held[0] = [false, false, true];
+                let mut motion = Motion::new(&loaded, Setting { still: true, ..Setting::new(step) });
+                assert!(motion.stand(1e-12, 4000));
+                let takes = if tension > 0.0 { f64::min(tan_angle, cohesion / tensile) } else { tan_angle };
+                let expected = (cohesion - tension * takes) * area;
+                // What it bears in 100 s.
+                let rate = expected / body.mass / 100.0;
+                let mut borne = 0.0f64;
+                for number in 1..=(110.0 / step).round() as usize {
+                    let tilt = rate * number as f64 * step;
+                    motion.go(step, &|from, to| Forcing { base: [tilt * (to - from), 0.0], held: 0.0 });
+                    if motion.crack(0).is_none_or(|crack| crack.is_gone()) {
+                        break;
+                    }
+                    borne = borne.max(motion.base_shear().abs());
+                }
+                let subject = format!(
+                    "Bonds: joint sheared by a load that grows, what it bears; {name}, tan φ = {tan_angle}, {} of {} kPa, steps of {step} s",
+                    if tension > 0.0 { "tension" } else { "pressure" },
+                    1e-3 * tension.abs()
+                );
+                agrees!(subject, "(c + p tan φ) A, (c − σ min(tan φ, c/f_t)) A", "N", borne, expected, 2.5e-3);
+            }
+        }
+    }
+}
+
+/// A slide of μ_d 0.1 that turns round while the ground pushes with less than μ_s 0.4 rests until it pushes with more (integration with
+/// 2 µs, which rests where v = 0 and |a| ≤ μ_s g: −15.42 mm after 2 s of 0.42 g at 2 Hz).
+#[test]
+fn a_slide_that_turns_round_is_held_by_friction_at_rest() {
+    let friction = Friction { static_: 0.4, dynamic: 0.1, slip_velocity: 0.0, alpha: 0.0 };
+    let base = |t: f64| 0.42 * G / (4.0 * std::f64::consts::PI) * (1.0 - (4.0 * std::f64::consts::PI * t).cos());
+    for (step, within) in [(1e-3, 0.3e-3), (5e-4, 0.2e-3), (2e-4, 0.1e-3), (1e-4, 0.05e-3)] {
+        let mut motion = Motion::new(&system(block([1.0, 0.2]), Law::dry(Some(friction))), Setting::new(step));
+        let steps = (2.0 / step).round() as usize;
+        for _ in 0..steps {
+            motion.go(step, &|from, to| Forcing { base: [base(to) - base(from), 0.0], held: 0.0 });
+        }
+        let way = motion.places[0].centre[0] - 0.5;
+        let subject =
+            format!("Sliding: block with μ_s 0.4, μ_d 0.1 under 0.42 g at 2 Hz, way after 2 s; steps of {step} s");
+        agrees!(subject, "integration in steps of 2 µs that rests where v = 0", "m", way, -15.42e-3, abs: within);
+    }
+}
+
+/// A soft block of T = 0.7 s tilted to 0.1 g in 1 s or in 10 s: f/k + θ h/2 with θ = f h/2/(k_n ℓ²/12 − W h/2), whatever the rate.
+#[test]
+fn slow_loads_do_not_lag() {
+    let [length, height] = [0.6, 4.0];
+    let body = block([length, height]);
+    let weight = body.mass * G;
+    let (k_n, k_t) = (0.05e9 * 2.4 * 0.3 * length, 0.05e9 * 0.3 * length);
+    let law = Law {
+        normal: Normal::Springs { both: k_n, press: 0.0, damping: 0.0 },
+        shear: Shear { stiffness: k_t, damping: 0.0, series: false },
+        ..Law::dry(None)
+    };
+    let force = 0.1 * weight;
+    let turn = force * 0.5 * height / (k_n * length * length / 12.0 - 0.5 * weight * height);
+    let expected = force / k_t + turn * 0.5 * height;
+    for rise in [1.0, 10.0] {
+        let mut motion = Motion::new(&system(body.clone(), law), Setting { still: true, ..Setting::new(2e-2) });
+        assert!(motion.stand(1e-12, 4000));
+        let start = motion.places[0].centre[0];
+        for step in 1..=(rise / 2e-2_f64).round() as usize {
+            let tilt = 0.1 * G * step as f64 * 2e-2 / rise;
+            motion.go(2e-2, &|from, to| Forcing { base: [tilt * (to - from), 0.0], held: 0.0 });
+        }
+        let way = (motion.places[0].centre[0] - start).abs();
+        let subject = format!("Springs: soft block tilted to 0.1 g, way of its centre; in {rise} s");
+        agrees!(subject, "f/k + θ h/2, θ = f h/2/(k_n ℓ²/12 − W h/2)", "m", way, expected, 2e-3);
+        assert_eq!(motion.counters.moving, 0);
+    }
+}
+
+/// Largest moment [N m] and what crushing took [J] of a joint of 1 m, `k` N/m stiff, that turns along `way` [rad] and back under `load` [N]: of 2,000 strips that
+/// bear `crushing` in all at most and do not pull.
+fn strips_crushed(k: f64, load: f64, crushing: f64, way: &[f64]) -> [f64; 2] {
+    const STRIPS: usize = 2000;
+    let x = |n: usize| (n as f64 + 0.5) / STRIPS as f64 - 0.5;
+    let mut crushed = vec![0.0f64; STRIPS];
+    let (mut most, mut taken) = (0.0f64, 0.0);
+    for angle in way {
+        let sunk = |middle: f64, n: usize| -(middle + angle * x(n));
+        let bears = |middle: f64, n: usize, crushed: f64| (k * (sunk(middle, n) - crushed)).clamp(0.0, crushing);
+        let [mut low, mut high] = [-1.0, 1.0];
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let all: f64 = (0..STRIPS).map(|n| bears(middle, n, crushed[n])).sum::<f64>() / STRIPS as f64;
+            *if all > load { &mut low } else { &mut high } = middle;
+        }
+        let moment: f64 = (0..STRIPS).map(|n| bears(low, n, crushed[n]) * x(n)).sum::<f64>() / STRIPS as f64;
+        most = most.max(moment.abs());
+        for (n, crushed) in crushed.iter_mut().enumerate() {
+            let further = sunk(low, n) - crushing / k - *crushed;
+            if further > 0.0 {
+                taken += further * crushing / STRIPS as f64;
+                *crushed += further;
+            }
+        }
+    }
+    [most, taken]
+}
+
+/// Pushed to and fro, farther each time, a joint that is crushed bears what strips do and takes what they take.
+#[test]
+fn a_joint_that_is_crushed_to_and_fro_is_one_of_strips() {
+    let (k, load) = (3e10, 75e3);
+    for crushing in [120e3, 225e3, 375e3] {
+        for step in [2e-6, 8e-6] {
+            let law = Law {
+                normal: Normal::Springs { both: 0.0, press: k, damping: 0.0 },
+                crushing,
+                ..Law::dry(Some(Friction::coulomb(5.0)))
+            };
+            let mut pushed = system(block([1.0, 1.0]), law);
+            pushed.load[0] = [0.0, -load];
+            pushed.held[0] = [true, false, false];
+            let mut motion = Motion::new(&pushed, Setting { still: true, ..Setting::new(2e-2) });
+            assert!(motion.stand(1e-12, 4000));
+            let (mut way, mut most, mut at) = (Vec::new(), 0.0f64, 0.0);
+            for goal in [4e-4f64, -4e-4, 8e-4, -8e-4, 0.0] {
+                let steps = ((goal - at).abs() / step).round() as usize;
+                for _ in 0..steps {
+                    motion.go(2e-2, &|_, _| Forcing { base: [0.0; 2], held: 0.5 * step * (goal - at).signum() });
+                    let Place { centre, angle } = motion.places[0];
+                    way.push(angle);
+                    most = most.max((motion.pull * centre[1] + load * (centre[0] - 0.5)).abs());
+                }
+                at = goal;
+            }
+            let [moment, taken] = strips_crushed(k, load, crushing, &way);
+            let case = format!("f_c A = {} kN, {step} rad a step", 1e-3 * crushing);
+            let [bears, takes] = ["largest moment", "energy that crushing takes"]
+                .map(|what| format!("Crushing: joint turned to and fro, {what}; {case}"));
+            agrees!(bears, "2,000 strips", "N m", most, moment, 2e-3);
+            agrees!(takes, "2,000 strips", "J", motion.account.bond, taken, 8e-3);
+        }
+    }
+}
+
+/// A joint without tensile strength whose energy is not 0 has numbers for energies, and a rigid joint that broke is taken up again.
+#[test]
+fn joints_without_strength_and_broken_ones_go_on() {
+    let mut law = mortar(1.0, [10.0, 100.0]);
+    law.bond = law.bond.map(|bond| Bond { tension: 0.0, ..bond });
+    let tilt = |law: Law| {
+        let mut motion = Motion::new(&system(block([1.0, 1.0]), law), Setting::new(1e-3));
+        for _ in 0..200 {
+            motion.go(1e-3, &|from, to| Forcing { base: [0.9 * G * (to - from), 0.0], held: 0.0 });
+        }
+        motion
+    };
+    let soft = tilt(law).account;
+    assert!([soft.bond, soft.elastic, soft.impact].iter().all(|energy| energy.is_finite()), "{soft:?}");
+    let rigid = Law {
+        normal: Normal::Rigid { restitution: 0.0, rocking: 1.0 },
+        shear: Shear { stiffness: 0.0, ..law.shear },
+        bond: Some(Bond { tension: 1.0, cohesion: 1e6, tan_angle: 0.0, energy: [0.0; 2], residual: 0.0 }),
+        ..law
+    };
+    let mut broken = Motion::new(&system(block([1.0, 1.0]), rigid), Setting::new(1e-3));
+    for _ in 0..200 {
+        broken.go(1e-3, &|from, to| Forcing { base: [1.1 * G * (to - from), 0.0], held: 0.0 });
+    }
+    assert!(broken.crack(0).expect("a bond").is_gone());
+    let kept = broken.keep();
+    assert!(broken.take_up(kept));
+}
+
+/// Where pressure falls on a joint that is sheared, no energy of breaking comes back.
+#[test]
+fn a_sheared_joint_that_is_relieved_takes_no_energy_back() {
+    let area = 0.3;
+    let mut law = mortar(1.0, [20.0, 100.0]);
+    law.bond = law.bond.map(|bond| Bond { cohesion: 20e3 * area, tan_angle: 0.6, ..bond });
+    let mut sheared = system(block([1.0, 0.5]), law);
+    sheared.load[0] = [0.0, -100e3 * area];
+    sheared.held[0] = [true, false, true];
+    let setting = Setting { still: true, ..Setting::new(2e-2) };
+    let mut motion = Motion::new(&sheared, setting);
+    assert!(motion.stand(1e-12, 4000));
+    for _ in 0..20 {
+        // 1.5 µm of 50 N/mm³: 75 kPa of the 80 kPa that it bears.
+        motion.go(2e-2, &|_, _| Forcing { base: [0.0; 2], held: 1.5e-6 / 20.0 });
+    }
+    assert_eq!(motion.account.bond, 0.0);
+    // The ground falls away below it: pressure goes, the limit comes to the stretch.
+    let mut last = 0.0;
+    for step in 0..50 {
+        let relief = 1e-3 * G * f64::from(step);
+        motion.go(2e-2, &|from, to| Forcing { base: [0.0, -relief * (to - from) * 200.0], held: 0.0 });
+        assert!(motion.account.bond >= last, "{} after {last}", motion.account.bond);
+        last = motion.account.bond;
+    }
+}
+
+/// A joint that has been sheared off bears what friction does, and turned round it gives that back with the stiffness that it had whole: μ N − k d, until it
+/// slides the other way. So much that the bond stored at its strength is still stored after it broke, and the bond takes G_f A all the same (P10).
+#[test]
+fn a_broken_joint_sticks_with_its_stiffness() {
+    let area = 0.3;
+    for energy in [20.0, 100.0] {
+        let mut law = mortar(1.0, [20.0, energy]);
+        law.bond = law.bond.map(|bond| Bond { cohesion: 20e3 * area, tan_angle: 0.6, ..bond });
+        law.friction = Some(Friction::coulomb(0.5));
+        let mut sheared = system(block([1.0, 0.5]), law);
+        let (load, stiffness) = (600e3 * area, 50e9 * area);
+        sheared.load[0] = [0.0, -load];
+        sheared.held[0] = [true, false, true];
+        let mut motion = Motion::new(&sheared, Setting { still: true, ..Setting::new(2e-2) });
+        assert!(motion.stand(1e-12, 4000));
+        let at_rest = motion.account.elastic;
+        let go = |motion: &mut Motion, way: f64| motion.go(2e-2, &|_, _| Forcing { base: [0.0; 2], held: way });
+        (0..4000).for_each(|_| go(&mut motion, 1e-6));
+        assert!(motion.crack(0).expect("a bond").is_gone());
+        let subject = format!("Bonds: joint sheared off under 600 kPa, energy; G_f^II = {energy} N/m");
+        agrees!(subject, "G_f^II A (P10)", "J", motion.account.bond, energy * area, 1e-3);
+        let borne = 0.5 * load;
+        let subject = format!("Bonds: joint sheared off under 600 kPa, force it bears after; G_f^II = {energy} N/m");
+        agrees!(subject, "μ N", "N", motion.pull, borne, 1e-6);
+        let slack = 2.0 * borne / stiffness;
+        let back = (1..=12).map(|step| {
+            go(&mut motion, -0.1 * slack);
+            let expected = (borne - stiffness * 0.1 * slack * f64::from(step)).max(-borne);
+            (motion.pull / borne, expected / borne)
+        });
+        let subject = format!(
+            "Bonds: joint sheared off and turned round, largest error of its force over μ N; G_f^II = {energy} N/m"
+        );
+        agrees!(subject, "max(μ N − k d, −μ N)", "", farthest(back), 0.0, abs: 1e-6);
+        let account = &motion.account;
+        let gone = account.held + at_rest - account.elastic - account.friction - account.bond - account.impact;
+        assert!(gone.abs() < 1e-9 * account.held, "{account:?}");
+    }
+}

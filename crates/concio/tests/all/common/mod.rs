@@ -1,0 +1,4 @@
+//! Set-ups that several files share.
+
+pub mod ready;
+pub mod restarted;

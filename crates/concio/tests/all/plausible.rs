@@ -1,0 +1,243 @@
+//! Numbers that are allowed but hardly meant are told, with a guess at what was meant.
+
+use std::path::Path;
+
+use concio::case::plausible::doubts;
+use concio::case::{Case, ModelKind, Syntax, from_str, starter};
+
+const WALL: &str = r#"
+model = "shear"
+[[panel]]
+bond = "running"
+courses = 2
+bricks = 2
+brick = { length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18000 }
+mortar = { bed = 0.01, head = 0.01 }
+[joint]
+bed = { law = "elastic", stiffness = 5.4e7 }
+head = { law = "no-tension", stiffness = 5.4e7 }
+friction = { law = "stribeck", static = 0.6, dynamic = 0.4, slip_velocity = 0.001 }
+[load]
+top = 40000
+beam = { mass = 4000 }
+[motion]
+base = { synthetic = { seed = 1, pga = 3.0, duration = 5.0, dt = 0.005 } }
+"#;
+
+/// A bare number that reads like a multiple of g is asked about; one with a unit never is.
+#[test]
+fn bare_accelerations_are_asked_about() {
+    let doubts = |pga: &str| {
+        let text = WALL.replace("pga = 3.0", &format!("pga = {pga}"));
+        concio::case::from_str(&text, concio::case::Syntax::Toml, None).expect("a wall file").unit_doubts()
+    };
+    let told = ["motion.base.synthetic.pga is 0.3 m/s2, a number without a unit; did you mean \"0.3 g\"?"];
+    assert_eq!(doubts("0.3"), told);
+    assert_eq!(doubts("1").len(), 1);
+    for fine in ["1.5", "3.0", "\"0.3 m/s2\"", "\"0.03 g\"", "\"0.3 g\""] {
+        assert_eq!(doubts(fine), [""; 0], "{fine}");
+    }
+}
+
+fn case(text: &str) -> Case {
+    let file = from_str(text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    file.validate().unwrap_or_else(|e| panic!("{e}\n{text}"));
+    file.case
+}
+
+#[test]
+fn an_ordinary_wall_raises_none() {
+    assert_eq!(doubts(&case(WALL)), Vec::<String>::new());
+    for model in [ModelKind::Shear, ModelKind::Planar] {
+        assert_eq!(doubts(&case(starter(model))), Vec::<String>::new());
+    }
+}
+
+/// Of devices: forces and ways of another unit, and a key that does nothing.
+#[test]
+fn doubtful_devices_are_told() {
+    let of = |device: &str| {
+        let change = format!("[[joint.change]]\nat = {{ kind = [\"bed\"] }}\ndevice = {{ {device} }}\n[load]");
+        doubts(&case(&WALL.replace("[load]", &change)))
+    };
+    for (device, told) in [
+        (
+            r#"law = "viscous", damping = 1000, reference_velocity = 0.1"#,
+            Some("joint.change[0].device.reference_velocity does nothing where `exponent` is 1: the dashpot is linear"),
+        ),
+        (r#"law = "viscous", damping = 1000, reference_velocity = 0.1, exponent = 0.5"#, None),
+        (
+            r#"law = "bouc-wen", yield_force = 2000, yield_displacement = 0.2"#,
+            Some("joint.change[0].device.yield_displacement is 0.2 m, more than 0.05 m; did you mean \"0.2 mm\"?"),
+        ),
+        (r#"law = "friction-damper", slip_force = 2000"#, None),
+    ] {
+        assert_eq!(of(device), told.into_iter().collect::<Vec<_>>(), "{device}");
+    }
+}
+
+/// Each number is one that engineers write when they forget that a bare number is in SI.
+#[test]
+fn each_mistake_of_unit_is_told_with_a_guess() {
+    for (right, wrong, told) in [
+        ("length = 0.25", "length = 300", "panel[0].brick.length is 300 m, more than 5 m; did you mean \"300 mm\"?"),
+        ("length = 0.25", "length = 25", "panel[0].brick.length is 25 m, more than 5 m; did you mean \"25 cm\"?"),
+        ("height = 0.055", "height = \"0.055 mm\"", "less than 0.005 m; did you mean \"0.055 m\"?"),
+        ("bed = 0.01", "bed = 10", "panel[0].mortar.bed is 10 m, more than 0.1 m; did you mean \"10 mm\"?"),
+        ("18000", "18", "specific_weight is 18 N/m3, less than 2500 N/m3; did you mean \"18 kN/m3\"?"),
+        ("18000", "1800", "specific_weight is 1800 N/m3, less than 2500 N/m3; did you mean \"1800 kg/m3\"?"),
+        ("18000", "\"18000 kN/m3\"", "more than 100000 N/m3; did you mean \"18 kN/m3\"?"),
+        (
+            "stiffness = 5.4e7 }\nhead",
+            "stiffness = 54 }\nhead",
+            "joint.bed.stiffness is 54 N/m, less than 1000 N/m; did you mean \"54 MN/m\"?",
+        ),
+        (
+            "stiffness = 5.4e7 }\nhead",
+            "stiffness = \"36 N/m3\" }\nhead",
+            "joint.bed.stiffness is 36 N/m3, less than 1000000 N/m3; did you mean \"36 N/mm3\"?",
+        ),
+        (
+            "static = 0.6",
+            "static = 30",
+            "joint.friction.static is 30, more than 2; did you mean 0.58, the tangent of 30 degrees?",
+        ),
+        ("slip_velocity = 0.001", "slip_velocity = 1", "more than 0.1 m/s; did you mean \"1 mm/s\"?"),
+        ("top = 40000", "top = 40", "load.top is 40 N/m, less than 300 N/m; did you mean \"40 kN/m\"?"),
+        ("mass = 4000", "mass = 4", "load.beam.mass is 4 kg, less than 10 kg; did you mean \"4 t\"?"),
+        ("pga = 3.0", "pga = 300", "pga is 300 m/s2, more than 60 m/s2; did you mean \"300 cm/s2\"?"),
+        ("dt = 0.005", "dt = 0.5", "motion.base.synthetic.dt is 0.5 s, more than 0.2 s"),
+    ] {
+        assert!(WALL.contains(right), "{right}");
+        let found = doubts(&case(&WALL.replacen(right, wrong, 1)));
+        // 300 m of brick still make a wall: nothing else is doubted.
+        assert!(found.len() == 1 && found[0].contains(told), "{wrong}: {found:?}");
+    }
+}
+
+#[test]
+fn the_doubts_are_warnings_of_a_prepared_run() {
+    let prepared =
+        concio::run::prepare(case(&WALL.replace("mass = 4000", "mass = 4")), Path::new(".")).expect("a wall");
+    assert!(prepared.model.warnings.iter().any(|w| w.starts_with("load.beam.mass is 4 kg")));
+}
+
+/// Runs that would take days are told with what keeps their steps short.
+#[test]
+fn runs_without_end_are_told() {
+    let told = |wall: &str| {
+        let prepared = concio::run::prepare(case(wall), Path::new(".")).expect("a wall");
+        prepared.model.warnings.iter().find(|w| w.starts_with("motion.duration: ")).cloned()
+    };
+    assert_eq!(told(WALL), None);
+    let (head, _) = WALL.split_once("[motion]").expect("a motion");
+    let with = |rest: &str| told(&format!("{head}[motion]\n{rest}"));
+    let pulse = |length: &str, duration: &str| {
+        with(&format!(
+            "duration = {duration}\nbase = {{ pulse = {{ shape = \"half-sine\", acceleration = 1, duration = {length} }} }}"
+        ))
+    };
+    assert_eq!(pulse("1e-3", "10"), None);
+    let short = pulse("1e-8", "10").expect("a doubt");
+    assert!(short.contains("10 s takes") && short.ends_with("(what the motion changes within)"), "{short}");
+    let small = with("duration = 10\n[solver]\nmax_step = 1e-9").expect("a doubt");
+    assert_eq!(small, "motion.duration: 10 s takes 1e10 steps at least, none longer than 1e-9 s (solver.max_step)");
+    let planar =
+        told(&format!("{head}[motion]\nduration = 1e9\n").replace("\"shear\"", "\"planar\"")).expect("a doubt");
+    assert!(planar.contains("1e9 s takes 1e12 steps") && planar.ends_with("0.001 s (solver.step)"), "{planar}");
+}
+
+/// Joints of planar walls open: what holds without limit there, or not at all, is told.
+#[test]
+fn joints_that_hold_without_limit_are_told() {
+    let planar = |joint: &str| {
+        doubts(&case(&format!(
+            "model = \"planar\"\n[[panel]]\nbond = \"running\"\ncourses = 4\nbricks = 3\n\
+             brick = {{ length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18e3 }}\n\
+             [joint]\nhead = {{ law = \"no-tension\", stiffness = \"36 N/mm3\" }}\n{joint}{}duration = 1",
+            if joint.contains("[motion]") { "\n" } else { "\n[motion]\n" }
+        )))
+    };
+    let elastic = "bed = { law = \"elastic\", stiffness = \"15 N/mm3\" }";
+    let found = planar(elastic);
+    assert!(found.len() == 1 && found[0].contains("pull without limit"), "{found:?}");
+    let bond = |text: &str| planar(&format!("{elastic}\nbond = {{ {text} }}"));
+    let found = bond("tensile_strength = \"0.1 MPa\"");
+    assert!(found.len() == 1 && found[0].contains("joint.bond.cohesion is 0"), "{found:?}");
+    assert_eq!(bond("tensile_strength = \"0.1 MPa\", cohesion = \"0.1 MPa\""), Vec::<String>::new());
+    let smooth = "bed = { law = \"no-tension\", stiffness = \"15 N/mm3\", rigidity = 1 }";
+    let found = planar(smooth);
+    assert!(found.len() == 1 && found[0].contains("joint.friction is missing"), "{found:?}");
+    let dry = &format!("{smooth}\nfriction = {{ law = \"coulomb\", static = 0.6, dynamic = 0.6 }}");
+    assert_eq!(planar(dry), Vec::<String>::new());
+    let found = planar(&dry.replace("rigidity = 1", "rigidity = 500"));
+    assert!(found.len() == 1 && found[0].contains("rigidity = 500 times as stiff"), "{found:?}");
+    let found = planar(&format!(
+        "{dry}\n[motion]\nquasi_static = true\nbase = {{ sine = {{ amplitude = \"5 mm\", frequency = 2 }} }}"
+    ));
+    assert!(found.len() == 1 && found[0].contains("motion.base is a motion, and `quasi_static`"), "{found:?}");
+    let tilt = "base = { tilt = { acceleration = \"0.5 g\", rise = \"5 s\" } }";
+    assert_eq!(planar(&format!("{dry}\n[motion]\nquasi_static = true\n{tilt}")), Vec::<String>::new());
+    let found = planar(&format!("{dry}\n[solver]\ntolerance = 1e-3\nmax_step = \"1 ms\""));
+    assert!(found.len() == 2 && found[0].contains("solver.tolerance does nothing"), "{found:?}");
+}
+
+/// Bonds that are stronger than they may be, weaker than what is left of them, or that leave nothing.
+#[test]
+fn bonds_at_odds_with_friction_are_told() {
+    let low = include_str!("../../../../examples/laboratory/ispra-low.toml");
+    for (from, to, what) in [
+        (
+            "static = 0.577",
+            "static = 0.9",
+            "joint.friction.static is 0.9, above tan(friction_angle) = 0.577: from a pressure of 0.713 MPa",
+        ),
+        (
+            "tensile_strength = \"0.1 MPa\"",
+            "tensile_strength = \"0.6 MPa\"",
+            "above cohesion/tan(friction_angle) = 0.398 MPa",
+        ),
+        (
+            "mode_2_energy = \"50 N/m\"",
+            "mode_2_energy = \"50 N/mm\"",
+            "mode_2_energy is 50000 N/m, more than 10000 N/m",
+        ),
+        ("cohesion = \"0.23 MPa\"", "cohesion = \"0.23 kPa\"", "joint.bond.cohesion is 230 Pa, less than 1000 Pa"),
+        (
+            "friction = { law = \"coulomb\", static = 0.577, dynamic = 0.577, on = \"all\" }",
+            "",
+            "joints that have cracked bear no shear at all",
+        ),
+        ("force = \"150 kN\"", "force = 150", "load.top.force is 150 N, less than 1000 N"),
+    ] {
+        assert!(low.contains(from), "{from}");
+        let found = doubts(&case(&low.replacen(from, to, 1)));
+        assert!(found.iter().any(|doubt| doubt.text.contains(what)), "{to}: {found:?}");
+    }
+}
+
+/// A push that goes far in every step is told, and joints that hold without limit are, also where a change bonds others.
+#[test]
+fn fast_pushes_and_beds_that_no_change_bonds_are_told() {
+    let low = include_str!("../../../../examples/laboratory/ispra-low.toml");
+    let told = |text: &str, what: &str| doubts(&case(text)).iter().any(|doubt| doubt.text.contains(what));
+    assert!(doubts(&case(low)).is_empty(), "{:?}", doubts(&case(low)));
+    for (speed, tells) in [("\"1 mm/s\"", false), ("\"5 mm/s\"", false), ("\"20 mm/s\"", true), ("1", true)] {
+        let text = low.replace("speed = \"1 mm/s\"", &format!("speed = {speed}"));
+        assert_eq!(told(&text, "in every step of this `quasi_static` run"), tells, "{speed}");
+    }
+    let tilt = |rise: &str| {
+        let push = low.lines().find(|line| line.starts_with("top = { path")).expect("a push");
+        low.replace(push, &format!("duration = 1\nbase = {{ tilt = {{ acceleration = \"1 g\", rise = \"{rise}\" }} }}"))
+            .replace("beam = \"driven\"", "")
+            .replace("beam_rotation = \"fixed\"", "")
+    };
+    for (rise, tells) in [("0.5 s", true), ("20 s", false)] {
+        assert_eq!(told(&tilt(rise), "in every step of this `quasi_static` run"), tells, "{rise}");
+    }
+    let bond = low.lines().find(|line| line.starts_with("bond = {")).expect("a bond");
+    let without = low.replacen(bond, "", 1);
+    assert!(told(&without, "`elastic` without a bond"));
+    let beds = without.replace("kind = [\"base\", \"top\"]", "kind = [\"bed\", \"base\", \"top\"]");
+    assert!(!told(&beds, "`elastic` without a bond"));
+}

@@ -1,0 +1,4 @@
+//! Record files of every format, written to order.
+
+pub mod fixtures;
+pub mod writers;
