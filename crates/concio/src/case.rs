@@ -74,7 +74,7 @@ pub struct Case {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ModelKind {
-    /// One horizontal unknown per block (the report's model).
+    /// One horizontal degree of freedom per block (the report's model).
     Shear,
     /// Horizontal, vertical and rotation: blocks rock, lift off and slide.
     Planar,

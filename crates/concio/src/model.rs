@@ -1,4 +1,4 @@
-//! The compiled system: immutable arrays that the time loop reads. One horizontal unknown per block, and one for
+//! The compiled system: immutable arrays that the time loop reads. One horizontal degree of freedom per block, and one for
 //! a top beam with mass (theory, sections 2 and 3).
 
 use crate::G;

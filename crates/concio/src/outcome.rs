@@ -18,7 +18,7 @@ pub struct Push {
     pub ultimate: Option<f64>,
 }
 
-/// The whole result of one run. Equal inputs give equal bits; times of the clock are therefore kept elsewhere.
+/// The whole result of one run. Equal inputs give equal bits; clock times are therefore kept elsewhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// What was kept.

@@ -200,7 +200,7 @@ pub struct Laid {
 pub struct Jamb {
     /// Courses beside it.
     pub courses: usize,
-    /// Courses that end before the side of the opening: at a head joint, or with a rest no longer than the head mortar left out.
+    /// Courses that end before the side of the opening: at a head joint, or with an offcut no longer than the head joint left out.
     pub short: usize,
     /// By how much at most [m].
     pub by: f64,
