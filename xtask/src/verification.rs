@@ -78,13 +78,14 @@ pub fn folder(root: &Path) -> Result<PathBuf, String> {
 }
 
 /// Runs the tests that record, built with a profile (`release` where none is named), and writes the page; with `--check` it only compares
-/// the page with what the last run wrote.
+/// the page with what the last run wrote, with `--recorded` it makes it of that.
 pub fn make(root: &Path, rest: &[String]) -> Outcome {
     let profile = match rest {
         [] => "release",
         [key, profile] if key == "--cargo-profile" => profile,
         [key] if key == "--check" => return check(root),
-        _ => return Err("cargo xtask verification [--cargo-profile PROFILE | --check]".into()),
+        [key] if key == "--recorded" => return write(root),
+        _ => return Err("cargo xtask verification [--cargo-profile PROFILE | --check | --recorded]".into()),
     };
     let records = folder(root)?;
     let nextest = cargo(root).args(["nextest", "--version"]).output().is_ok_and(|o| o.status.success());
@@ -101,6 +102,11 @@ pub fn make(root: &Path, rest: &[String]) -> Outcome {
         command.args(["--no-fail-fast", "--package", package]).args(targets).arg("--").args(tests);
         run(command.env("CONCIO_VERIFIED", &records))?;
     }
+    write(root)
+}
+
+/// Writes the page of what the tests that ran last wrote down.
+fn write(root: &Path) -> Outcome {
     let text = page(root)?;
     fs::write(root.join(PAGE), text).map_err(|e| format!("{PAGE}: {e}"))?;
     println!("{PAGE}");
