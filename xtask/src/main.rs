@@ -33,7 +33,7 @@ cargo xtask docs       make the generated documents (reference, schema, symbols,
 cargo xtask cases      run the cases of the report anew; docs/report-cases.md and its pictures follow from them
 cargo xtask studies    make the worked examples of docs/studies/ anew: runs, output, figures (or those named)
 cargo xtask planar     make the runs and pictures of docs/planar.md anew
-cargo xtask verification   make docs/verification.md anew of what tests find (--cargo-profile, --check)
+cargo xtask verification   make docs/verification.md anew of what tests find (--cargo-profile, --check, --recorded)
 cargo xtask examples   run every wall file in examples/
 cargo xtask shown      try the wall files and commands that documents show
 cargo xtask equations  check the numbers of equations

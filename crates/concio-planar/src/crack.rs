@@ -912,7 +912,7 @@ impl Crack {
         if passed[0] && (passed[1] || had[1] > 0.0) || passed[1] && (had[0] > 0.0 || law.pulled(w) > 0.0) {
             let [w, s] = [w.max(0.0), s.abs()];
             let both_ways = both * w * (w - grown[0]).max(0.0) + along * s * (s - grown[1]);
-            // Where one step goes far beyond the limits that is more than there was to take: what one of the modes did, or the springs had.
+            // A step far beyond the limits would count more than there was: at most what one of the modes lost, or what the springs stored before.
             let gone = node.damage() - damage;
             let stored = 0.5 * gone * (both * then[0].max(0.0).powi(2) + along * then[1] * then[1]);
             let of = |mode: usize| bond.energy[mode] * (self.nodes[n].rest[mode] - node.rest[mode]);

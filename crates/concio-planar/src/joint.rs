@@ -357,7 +357,7 @@ impl Law {
         both
     }
 
-    /// Whether friction, of a damper too, without a spring in line with it goes on with what it bore, as far as it moves with that of a very stiff one: what rests bears any
+    /// Whether friction or a friction damper without a spring in line keeps what it bore, and then moves like a very stiff spring: what rests bears any
     /// friction up to the limit otherwise, and a wall that has slid would be told to bear less than it does.
     fn grips(&self, still: bool) -> bool {
         still
@@ -533,7 +533,7 @@ impl Law {
         contact.friction = point.rubbing * self.friction.map_or(0.0, |friction| friction.of(point.speed, still));
         if let Some(bond) = &self.bond {
             (contact.friction, contact.hold) = (bond.tan_angle, share * bond.cohesion * h);
-            // What slides by as much as the solution may be off by has broken.
+            // Solved so closely that no slide is taken for sticking: it must be seen to break.
             if still && !self.is_compliant() {
                 contact.tight = 0.5 * GRIP;
             }

@@ -45,10 +45,10 @@ const CROSSINGS: u32 = 6;
 /// Least step in which loads come to bear and whose inertia resists without inertia [s], and after how many it is doubled: the slowest modes take the longest steps.
 const SETTLING: f64 = 2e-2;
 const DOUBLED: usize = 40;
-/// Steps that follow a step without inertia at most, and while joints crack or are crushed in each; those after which none follows where bodies do not slow
-/// down, and the way ahead over that of the farthest step at which none follows.
+/// Steps that follow a step without inertia at most; the same while each of them cracks or crushes a joint.
 const FOLLOWING: usize = 60;
 const CRACKING: usize = 1000;
+/// Steps after which none follows where bodies do not slow down, and the way ahead over that of the farthest step at which none follows.
 const PATIENCE: usize = 10;
 const AT_REST: f64 = 1e-3;
 /// The way in such a step over that of the one before from which the next is longer, and over the size of a body, beyond which it is only where
@@ -402,6 +402,10 @@ pub struct Motion {
     /// How much of the change of forces in the step was over when such a force first fell in it, if one did, and what was borne at the step's end, as in
     /// [`Motion::breaks`].
     breaks_at: Option<f64>,
+    /// Whether a joint has cracked or been crushed further since [`Motion::follow`] asked last.
+    worn: bool,
+    /// When what happens in steps that follow counts as happening [s].
+    instant: Option<f64>,
     borne: [f64; 2],
     /// Without inertia: acceleration of the base in the step before [m/s²], and what moved in this one.
     shakes: [f64; 2],
@@ -454,6 +458,8 @@ impl Motion {
             crushes: system.links.iter().any(|link| link.law.crushing.is_finite()),
             sudden: system.links.iter().map(|link| &link.law).chain([&system.other]).any(Law::is_sudden),
             breaks_at: None,
+            worn: false,
+            instant: None,
             borne: [0.0; 2],
             breaks: [0.0; 2],
             shakes: [0.0; 2],
@@ -596,27 +602,29 @@ impl Motion {
         let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
         let (mut way, mut step) = (self.fastest() * h, h);
         let (mut most, mut ratio, mut longer, mut rests, mut cracks) = (way, f64::INFINITY, false, false, false);
+        // All of them are at the end of the step of the load.
+        self.instant = Some(start + h);
         for number in 0..CRACKING {
             // Steps that shrink by a ratio have so much before them.
             let ahead = if ratio < 1.0 { way * ratio / (1.0 - ratio) } else { f64::INFINITY };
             rests = way == 0.0 || ahead <= AT_REST * most;
-            let runs_on = number >= FOLLOWING || number >= PATIENCE && ratio >= 1.0 && !longer;
-            if rests || runs_on && !cracks {
+            let enough = number >= FOLLOWING || number >= PATIENCE && ratio >= 1.0 && !longer;
+            if rests || enough && !cracks {
                 break;
             }
             longer = ratio > SLOWLY && (ratio < 1.0 || way <= FAR * size) && step < LONGEST * h;
             if longer {
                 step *= 2.0;
             }
-            // The end of the step is that of the load: what cracks in it cracks then.
-            let spent = self.account.bond;
+            self.worn = false;
             self.part(start + h - step, step, 0, &stays);
             let next = self.fastest() * step;
-            cracks = self.account.bond > spent && next <= FALLING * size;
+            cracks = self.worn && next <= FALLING * size;
             (ratio, way, most) = (next / way, next, most.max(next));
         }
-        // What does not slow down, as a mechanism or a crack that runs on, is not told: it has no rest to come to.
-        self.counters.moving += u64::from(!rests && ratio < 1.0);
+        self.instant = None;
+        // What neither slows down nor cracks, as a mechanism, is not told: it has no rest to come to.
+        self.counters.moving += u64::from(!rests && (ratio < 1.0 || cracks));
     }
 
     /// Largest velocity of a body's edge [m/s].
@@ -899,7 +907,7 @@ impl Motion {
 
     /// Keeps what the points have come to for the next step, and accounts for the energy of this one.
     fn settle(&mut self, h: f64, Forcing { base, held }: Forcing) {
-        let time = self.time + h;
+        let time = self.instant.unwrap_or(self.time + h);
         self.account.elastic = 0.0;
         self.pull = 0.0;
         self.met.fill(false);
@@ -933,6 +941,7 @@ impl Motion {
             account.friction += works.friction;
             account.impact += works.impact;
             account.bond += works.bond;
+            self.worn |= works.bond > 0.0;
             account.device += works.device;
             self.pull -= (whole[0] * owner.lever[0] + whole[1] * owner.lever[1]) / h;
             self.met[owner.pair] = true;
@@ -1046,6 +1055,7 @@ impl Motion {
                         breaks_at = breaks_at.min(worn.breaks_at.unwrap_or(f64::INFINITY));
                         self.account.elastic -= lost;
                         self.account.bond += worn.bond;
+                        self.worn |= worn.bond > 0.0 || worn.breaks_at.is_some();
                         self.account.friction += worn.friction;
                         self.account.impact += worn.beyond;
                         seen.taken += lost;
@@ -1059,21 +1069,21 @@ impl Motion {
                         let held = self.contacts[at..end].iter().zip(&self.owners[at..end]);
                         let held = held.filter(|(_, owner)| owner.part == Part::Held).map(|(contact, _)| contact);
                         // How rigid points share the shear is not known: the joint has its strength as a whole.
-                        let (mut pressure, mut shear, mut strength, mut torn) = (0.0, 0.0, 0.0, false);
+                        let (mut pressed, mut shear, mut strength, mut torn) = (0.0, 0.0, 0.0, false);
                         for contact in held {
-                            pressure += contact.impulse[0];
+                            pressed += contact.impulse[0];
                             shear += contact.impulse[1];
                             strength += contact.hold;
                             torn |= contact.pressure[0] < 0.0 && contact.impulse[0] <= contact.pressure[0];
                         }
-                        let tan = law
-                            .bond
-                            .map_or(0.0, |bond| if pressure < 0.0 { bond.tan_pulled() } else { bond.tan_angle });
-                        strength += tan * pressure;
+                        let tan =
+                            law.bond.map_or(0.0, |bond| if pressed < 0.0 { bond.tan_pulled() } else { bond.tan_angle });
+                        strength += tan * pressed;
                         let slides = strength.is_finite() && shear.abs() >= strength * (1.0 - SHEARED) && shear != 0.0;
                         let borne = [seen.pressure, seen.shear];
                         if let Some(part) = crack.break_rigid(law, points, torn || slides, borne, time) {
                             breaks_at = breaks_at.min(part);
+                            self.worn = true;
                         }
                     }
                 }

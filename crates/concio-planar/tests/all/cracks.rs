@@ -248,7 +248,7 @@ fn what_is_torn_takes_no_more_than_its_energy() {
     law.normal = Normal::Springs { both: springs, press: 0.0, damping: 0.0 };
     law.shear = Shear { stiffness: springs, ..law.shear };
     law.bond = law.bond.map(|bond| Bond { tension: 100e3 * area, cohesion: 300e3 * area, tan_angle: 0.6, ..bond });
-    for (tilt, steps) in [(0.0, [5e-3, 2e-2, 5e-2].as_slice()), (0.02, &[2e-3, 5e-3])] {
+    for (tilt, steps) in [(0.0, [5e-3, 2e-2, 5e-2].as_slice()), (0.02, &[2e-3, 5e-3, 2e-2])] {
         for step in steps.iter().copied() {
             let mut motion = Motion::new(&system(body.clone(), law), Setting { still: true, ..Setting::new(step) });
             assert!(motion.stand(1e-12, 4000));
@@ -261,6 +261,11 @@ fn what_is_torn_takes_no_more_than_its_energy() {
                 if motion.crack(0).is_none_or(|crack| crack.is_gone()) {
                     break;
                 }
+            }
+            // In a step of 20 ms the block falls on while the joint tears: docs/planar.md says by how much it counts too much.
+            if tilt > 0.0 && step > 1e-2 {
+                assert!((0.98..1.4).contains(&(motion.account.bond / 40.0 / area)), "{}", motion.account.bond);
+                continue;
             }
             let name = if tilt == 0.0 { "straight" } else { "askew" };
             let subject =

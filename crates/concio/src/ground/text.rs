@@ -83,9 +83,10 @@ fn other_than(title: &str, quantity: HistoryQuantity) -> Option<&'static str> {
         ("force", &["force", "load"]),
     ];
     let lower = title.to_lowercase();
-    let word = lower.split(|c: char| !c.is_alphanumeric()).find(|word| !word.is_empty()).unwrap_or("");
+    let mut words = lower.split(|c: char| !c.is_alphanumeric());
+    let word = words.find(|word| word.contains(char::is_alphabetic)).unwrap_or("");
     // `vel1` is a velocity, `SA01` a sensor.
-    let stem = word.trim_end_matches(|c: char| c.is_numeric());
+    let stem = word.trim_matches(char::is_numeric);
     let is_named = |what: &str, words: &[&str]| words.contains(if what == "a spectrum" { &word } else { &stem });
     let of_unit = bracketed(&lower).any(is_unit_of_velocity).then_some("velocity");
     let named = NAMED.iter().find(|(what, words)| is_named(what, words)).map(|(what, _)| *what);
@@ -114,7 +115,11 @@ fn refuse_others(
         (false, true) => values.first().copied().flatten(),
         (false, false) => None,
     };
-    let Some(found) = found else { return Ok(()) };
+    // Lines that are no titles of these columns have their units still.
+    let line = source.line(title_line).to_lowercase();
+    let has = |is: &dyn Fn(&str) -> bool| others.is_empty() && bracketed(&line).any(is);
+    let rated = has(&is_unit_of_velocity) && !has(&|unit| units::factor(unit, quantity).is_some());
+    let Some(found) = found.or(rated.then_some("velocity")) else { return Ok(()) };
     let what = if time {
         format!("the first column is {found}, not time")
     } else {

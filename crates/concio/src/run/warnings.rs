@@ -222,13 +222,13 @@ fn cracked_at_rest(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Opt
     let first = at_rest().next()?;
     let rigid = at_rest().any(|bond| !planar.system.links[bond.joint].law.is_compliant());
     let remedy = if rigid {
-        ". Loads do not say how rigid blocks share their forces, and what was found here may strain joints that need bear nothing: give them \
+        ". Rigid blocks can share their forces in many ways, and the one found here may strain joints that need not bear anything: give them \
          springs (`law = \"elastic\"`)"
     } else {
         ": the wall has cracks when the motion begins"
     };
     Some(format!(
-        "{} of {} bonds are cracked before anything moves, that of joint {} first{remedy}",
+        "{} of {} bonds are cracked before anything moves, among them that of joint {}{remedy}",
         at_rest().count(),
         outcome.bonds.len(),
         joints[first.joint].name

@@ -381,10 +381,12 @@ duration = "0.1 s"
 "#
         )
     };
-    for (law, cracks) in [("law = \"rigid\"", true), ("law = \"elastic\", stiffness = \"100 N/mm3\"", false)] {
+    let springs = "law = \"elastic\", stiffness = \"100 N/mm3\"";
+    for (law, cracks) in [("law = \"rigid\"", Some("can share their forces in many ways")), (springs, None)] {
         let out = tempfile::tempdir().expect("a folder");
         let finished = run(&prepared(&wall(law)), out.path(), &mut |_| Control::Continue).expect("a run");
         let told = finished.summary["warnings"].to_string();
-        assert_eq!(told.contains("before anything moves") && told.contains("how rigid blocks share"), cracks, "{told}");
+        assert_eq!(told.contains("before anything moves"), cracks.is_some(), "{told}");
+        assert!(told.contains(cracks.unwrap_or_default()), "{told}");
     }
 }

@@ -317,6 +317,8 @@ fn other_quantities_are_refused() {
         ("T Sa", "a spectrum"),
         ("T [s]  Sa [g]", "a spectrum"),
         ("time (s) velocity (cm/s)", "velocity"),
+        ("time in seconds  velocity (cm/s)", "velocity"),
+        ("Velocity (cm/s), dt = 0.01", "velocity"),
         ("disp_mm force_kN", "the first column is displacement"),
         ("freq_Hz amplitude", "the first column is a spectrum"),
     ] {
@@ -326,7 +328,13 @@ fn other_quantities_are_refused() {
     }
     let both: String =
         (0..50).map(|n| format!("{:.2},{:.4},{:.4}\n", 0.01 * f64::from(n), f64::from(n).sin(), 7.0)).collect();
-    for title in ["time [s],acc [cm/s2],vel [cm/s]", "t [s]  a [cm/s2]  v [cm/s]", "t (s) SA01 (cm/s2) vel1"] {
+    for title in [
+        "time [s],acc [cm/s2],vel [cm/s]",
+        "t [s]  a [cm/s2]  v [cm/s]",
+        "t (s) SA01 (cm/s2) vel1",
+        "t (s) 1_acc (cm/s2) 1_vel",
+        "[s] [cm/s2] [cm/s]",
+    ] {
         let records = read_text(&format!("{title}\n{both}")).expect("an accelerogram");
         assert_eq!(records.len(), 1, "{title}");
     }

@@ -47,6 +47,7 @@ pub(super) fn column_names<'a>(source: &Source<'a>, data_line: usize, columns: u
     let fields: Vec<&str> = match separator {
         Some(c) => title.split(c).map(|field| field.trim().trim_matches('"')).collect(),
         None if columns == 1 => vec![title],
+        None if title.starts_with(['[', '(']) => title.split_whitespace().collect(),
         None => titles(title),
     };
     let keyed = title.contains(['=', ':']);
@@ -59,7 +60,7 @@ fn titles(line: &str) -> Vec<&str> {
     for (at, c) in line.char_indices() {
         match c {
             '[' | '(' => depth += 1,
-            ']' | ')' => depth -= 1,
+            ']' | ')' => depth = (depth - 1).max(0),
             _ if blank && depth == 0 && !c.is_whitespace() => starts.push(at),
             _ => {}
         }
