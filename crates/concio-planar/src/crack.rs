@@ -88,6 +88,17 @@ impl Node {
         1.0 - self.left
     }
 
+    /// Whether it is broken, or intact and within its strengths where it is stretched by `w` and `s` [m].
+    fn holds(&self, [w, s]: [f64; 2], law: &Law, bond: &Bond) -> bool {
+        let Normal::Springs { both, press, .. } = law.normal else { return true };
+        let pressure = (both + press) * (-w).max(0.0);
+        self.damage() == 1.0
+            || *self == Node::INTACT
+                && both * (w - TOUCHING) <= bond.tension
+                && law.breaking_stiffness() * law.sheared([w, s]) <= law.shear_strengths(pressure)[0]
+                && pressure <= law.crushing
+    }
+
     /// What friction bears of the shear that broke it after the slide `s` [m], under the pressure of an opening `w`, and what its springs store
     /// then, of a joint as it would be everywhere [N, J].
     fn friction(&self, [w, s]: [f64; 2], law: &Law) -> [f64; 2] {
@@ -168,6 +179,22 @@ const OPEN: usize = 0;
 const PRESSED: usize = 1;
 const CRUSHED: usize = 2;
 const CRUSHING: usize = 3;
+
+/// What of the forces of a bond goes in a step, those that it would have at its end had nothing cracked in it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Softened {
+    /// Tension [N], and its moment about the first end over the length of the joint.
+    pub across: [f64; 2],
+    /// Shear, in the sense of the slide [N].
+    pub along: f64,
+    /// The part of its stiffness across and along with which each half of the joint goes on to resist.
+    pub left: [[f64; 2]; 2],
+}
+
+impl Softened {
+    /// Of a bond that bears all that it did.
+    pub(crate) const NOTHING: Softened = Softened { across: [0.0; 2], along: 0.0, left: [[1.0; 2]; 2] };
+}
 
 /// What became of the bond in a step [J].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -646,17 +673,26 @@ impl Crack {
     pub(crate) fn follow(&mut self, points: &[Point]) {
         // Where nothing is left of the bond, all that has cracked moves alike.
         let part = if self.is_gone() { Part::Dry } else { Part::Held };
-        if let Some(line) = self.line_through(part, points) {
+        if let Some(line) = self.line_through(part, &|spot| [points[spot.point].gap, points[spot.point].slide]) {
             self.was = std::mem::replace(&mut self.line, line);
         }
     }
 
-    /// Opening and slide at the ends as the points of a part have them; none where they are no two.
-    fn line_through(&self, part: Part, points: &[Point]) -> Option<[[f64; 2]; 2]> {
+    /// Where the two points of what is left of its bond are, 0 … 1 along it.
+    pub(crate) fn held_at(&self) -> [f64; HELD] {
+        [0, 1].map(|k| self.spots[k].at)
+    }
+
+    /// Opening and slide at the ends where those two are stretched by so much [m].
+    pub(crate) fn line_of_held(&self, stretched: [[f64; 2]; HELD]) -> [[f64; 2]; 2] {
+        self.line_through(Part::Held, &|spot| stretched[spot.point]).unwrap_or(self.line)
+    }
+
+    /// Opening and slide at the ends where the points of a part have those `of` them; none where they are no two.
+    fn line_through(&self, part: Part, of: &dyn Fn(&Spot) -> [f64; 2]) -> Option<[[f64; 2]; 2]> {
         let spots = self.spots.iter().filter(|spot| spot.part == part);
         let first = spots.clone().reduce(|a, b| if b.at < a.at { b } else { a })?;
         let second = spots.reduce(|a, b| if b.at > a.at { b } else { a })?;
-        let of = |spot: &Spot| [points[spot.point].gap, points[spot.point].slide];
         let (from, to, length) = (of(first), of(second), second.at - first.at);
         let at = |x: f64| [0, 1].map(|k| from[k] + (x - first.at) / length * (to[k] - from[k]));
         (length > 0.0).then(|| [at(0.0), at(1.0)])
@@ -689,25 +725,67 @@ impl Crack {
         energy
     }
 
+    /// Whether nothing of it has cracked nor comes near its strength where its ends are as far apart as `line` says: most joints at most times.
+    fn is_far_from_cracking(&self, law: &Law, [near, far]: &[[f64; 2]; 2]) -> bool {
+        let Normal::Springs { both, press, .. } = law.normal else { return false };
+        let sheared = law.shear.stiffness * near[1].abs().max(far[1].abs());
+        let pressed = (both + press) * (-near[0].min(far[0])).max(0.0);
+        let opened = near[0].max(far[0]);
+        let bond = law.bond.unwrap_or_default();
+        let pulled = law.shear.stiffness * law.pulled(opened);
+        self.cracked.is_infinite()
+            && both * (opened - TOUCHING) <= bond.tension
+            && sheared + pulled <= bond.cohesion
+            && pressed <= law.crushing
+    }
+
+    /// What of the forces of a bond goes in a step that takes its ends as far apart as `line` says; none where nothing does.
+    pub(crate) fn softened(&self, law: &Law, line: &[[f64; 2]; 2]) -> Option<Softened> {
+        let (Normal::Springs { both, .. }, Some(bond)) = (law.normal, law.bond) else { return None };
+        if self.is_gone() || self.is_far_from_cracking(law, line) {
+            return None;
+        }
+        let along = law.breaking_stiffness();
+        let mut softened = Softened { left: [[0.0; 2]; 2], ..Softened::NOTHING };
+        let (mut worn, mut held) = (false, [0.0; 2]);
+        for n in 0..NODES {
+            let x = place(n);
+            let [w, s] = between(line, x);
+            let (before, weight) = (self.nodes[n], weight(n, NODES));
+            let half = usize::from(x > 0.5);
+            let had = weight * (1.0 - before.damage());
+            held[half] += had;
+            if before.holds([w, s], law, &bond) {
+                softened.left.iter_mut().for_each(|left| left[half] += had);
+                continue;
+            }
+            let (node, _) = self.worn(n, [w, s], between(&self.line, x), law, &bond);
+            worn |= node != before;
+            let gone = weight * (node.damage() - before.damage());
+            let rubs = node.friction([w, s], law)[0] - before.friction([w, s], law)[0];
+            let opens = gone * both * w.max(0.0);
+            softened.across = [softened.across[0] + opens, softened.across[1] + x * opens];
+            softened.along += gone * along * s - weight * rubs * s.signum();
+            // What softens bears the less the farther it is stretched: it resists nothing.
+            for (left, lost) in softened.left.iter_mut().zip([0, 1].map(|k| node.lost[k] > before.lost[k])) {
+                left[half] += if lost { 0.0 } else { weight * (1.0 - node.damage()) };
+            }
+        }
+        for left in &mut softened.left {
+            *left = [0, 1].map(|half| if held[half] > 0.0 { left[half] / held[half] } else { 0.0 });
+        }
+        worn.then_some(softened)
+    }
+
     /// What the bond lost in a step of a joint with springs that ended at `time` [s], and what was crushed; its points are placed anew where it lost
     /// something or other parts of it are open, pressed or crushing.
     pub(crate) fn wear(&mut self, law: &Law, points: &mut [Point], still: bool, time: f64) -> Worn {
         let Normal::Springs { both, press, .. } = law.normal else { return Worn::default() };
-        let [near, far] = self.line;
-        // Nothing that has not cracked is near its strength: most joints at most times.
-        let sheared = law.shear.stiffness * near[1].abs().max(far[1].abs());
-        let pressed = (both + press) * (-near[0].min(far[0])).max(0.0);
         let intact = self.cracked.is_infinite();
-        let opened = near[0].max(far[0]);
-        let bond = law.bond.unwrap_or_default();
-        let pulled = law.shear.stiffness * law.pulled(opened);
-        if intact
-            && both * (opened - TOUCHING) <= bond.tension
-            && sheared + pulled <= bond.cohesion
-            && pressed <= law.crushing
-        {
+        if self.is_far_from_cracking(law, &self.line) {
             return Worn::default();
         }
+        let bond = law.bond.unwrap_or_default();
         let mut friction = [0.0; 2];
         let mut taken = 0.0;
         let mut worn = false;
@@ -719,25 +797,22 @@ impl Crack {
             let [w, s] = self.stretched(x);
             let weight = weight(n, NODES);
             let pressure = (both + press) * (-w).max(0.0);
-            let holds = self.nodes[n] == Node::INTACT
-                && both * (w - TOUCHING) <= bond.tension
-                && breaks * law.sheared([w, s]) <= law.shear_strengths(pressure)[0]
-                && pressure <= law.crushing;
-            if holds || self.nodes[n].damage() == 1.0 {
+            if self.nodes[n].holds([w, s], law, &bond) {
                 continue;
             }
             let then = between(&self.was, x);
             let before = self.nodes[n];
-            let lost = self.wear_node(n, [w, s], then, law, &bond);
+            let (node, lost) = self.worn(n, [w, s], then, law, &bond);
             // A crushed node may have taken nothing.
-            if self.nodes[n] == before {
+            if node == before {
                 continue;
             }
-            let [had, keeps] = [before, self.nodes[n]].map(|node| node.friction([w, s], law));
+            self.nodes[n] = node;
+            let [had, keeps] = [before, node].map(|node| node.friction([w, s], law));
             friction[0] -= weight * (keeps[0] - had[0]) * s.signum();
             friction[1] += weight * (keeps[1] - had[1]);
             worn = true;
-            if before == Node::INTACT && self.nodes[n] == Node::GONE {
+            if before == Node::INTACT && node == Node::GONE {
                 let strengths = [bond.tension / both, law.shear_strengths(pressure)[0] / breaks];
                 let parts = [0, 1].map(|k| {
                     let (from, to) = [(then[0], w), (law.sheared(then), law.sheared([w, s]))][k];
@@ -754,7 +829,9 @@ impl Crack {
             self.nodes.fill(Node::GONE);
         }
         // What has cracked opens as the edges of the blocks stand, what is held by how far it was stretched: they differ by rounding and by turning.
-        let line = self.line_through(Part::Dry, points).unwrap_or(self.line);
+        let line = self
+            .line_through(Part::Dry, &|spot| [points[spot.point].gap, points[spot.point].slide])
+            .unwrap_or(self.line);
         let crushed = self.crush(law, &line);
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
         // What the points have crushed in the step is told as theirs.
@@ -841,10 +918,11 @@ impl Crack {
         }
     }
 
-    /// What a node lost that is stretched by `w` and `s`, and was by `then` before this step [m], of a joint as it would be everywhere [J].
-    fn wear_node(&mut self, n: usize, [w, s]: [f64; 2], then: [f64; 2], law: &Law, bond: &Bond) -> f64 {
-        let Normal::Springs { both, press, .. } = law.normal else { return 0.0 };
+    /// What becomes of a node that is stretched by `w` and `s`, and was by `then` before this step [m], and what it lost, of a joint as it would be
+    /// everywhere [J].
+    fn worn(&self, n: usize, [w, s]: [f64; 2], then: [f64; 2], law: &Law, bond: &Bond) -> (Node, f64) {
         let mut node = self.nodes[n];
+        let Normal::Springs { both, press, .. } = law.normal else { return (node, 0.0) };
         let (damage, had) = (node.damage(), node.lost);
         let along = law.breaking_stiffness();
         let pressure = ((both + press) * -w).max(0.0);
@@ -922,8 +1000,7 @@ impl Crack {
             taken += 0.5 * (1.0 - node.damage()) * along * s * s;
             node = Node::GONE;
         }
-        self.nodes[n] = node;
-        taken
+        (node, taken)
     }
 
     /// Breaks a rigid joint by what its points bear, or that slides, in a step that ended at `time` [s]; it bears `borne` across and along [N]. Returns how much of
@@ -1035,6 +1112,13 @@ mod tests {
         }
     }
 
+    /// What the seventh node lost.
+    fn wear_node(crack: &mut Crack, at: [f64; 2], was: [f64; 2], law: &Law, bond: &Bond) -> f64 {
+        let (node, lost) = crack.worn(7, at, was, law, bond);
+        crack.nodes[7] = node;
+        lost
+    }
+
     fn stretch(crack: &mut Crack, from: [f64; 2], to: [f64; 2], law: &Law) -> f64 {
         let bond = law.bond.expect("a bond");
         let mut taken = 0.0;
@@ -1042,7 +1126,7 @@ mod tests {
         let mut was = from;
         for n in 1..=steps {
             let at = [0, 1].map(|k| from[k] + (to[k] - from[k]) * f64::from(n) / f64::from(steps));
-            taken += crack.wear_node(7, at, was, law, &bond);
+            taken += wear_node(crack, at, was, law, &bond);
             was = at;
         }
         taken
@@ -1116,7 +1200,7 @@ mod tests {
                 for n in 1..=steps {
                     let at = [0, 1].map(|k| leg[0][k] + (leg[1][k] - leg[0][k]) * f64::from(n) / f64::from(steps));
                     let before = stresses(&crack, was);
-                    taken += crack.wear_node(7, at, was, &law, &bond);
+                    taken += wear_node(&mut crack, at, was, &law, &bond);
                     let after = stresses(&crack, at);
                     work += (0..2).map(|k| 0.5 * (before[k] + after[k]) * (at[k] - was[k])).sum::<f64>();
                     was = at;

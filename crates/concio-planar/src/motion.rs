@@ -22,11 +22,13 @@ use crate::tie::{Strain, Tie};
 use devices::Bent;
 use laws::Laws;
 use rocking::Hold;
+use softening::Softens;
 use ties::{Pull, Rod};
 
 mod devices;
 mod laws;
 mod rocking;
+mod softening;
 mod ties;
 mod vibration;
 
@@ -412,6 +414,8 @@ pub struct Motion {
     moved: Moved,
     /// Contacts of devices with a law of their own.
     bent: Vec<Bent>,
+    /// Bonds that may soften in the step.
+    softens: Vec<Softens>,
     free: Vec<Triple>,
     after: Vec<Triple>,
 }
@@ -465,6 +469,7 @@ impl Motion {
             shakes: [0.0; 2],
             moved: Moved::default(),
             bent: Vec::new(),
+            softens: Vec::new(),
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
             rods: system.ties.iter().map(|tie| Rod::new(tie, &places)).collect(),
@@ -663,10 +668,10 @@ impl Motion {
         // Without inertia halves of a step are other steps, of loads that come to bear: all is tried first.
         let halves = halved < SOON && !self.setting.still;
         let effort = self.solve(h, halves);
-        let effort = self.follow_devices(h, halves, effort);
+        let effort = self.follow_lines(h, halves, effort);
         let effort = if self.turn() {
             let again = self.solve(h, halves);
-            effort.then(self.follow_devices(h, halves, again))
+            effort.then(self.follow_lines(h, halves, again))
         } else {
             effort
         };
@@ -802,6 +807,7 @@ impl Motion {
         self.contacts.clear();
         self.owners.clear();
         self.bent.clear();
+        self.softens.clear();
         for k in 0..self.seats.len() {
             let seat = self.seats[k];
             let pair = &self.pairs[seat.pair];
@@ -813,12 +819,14 @@ impl Motion {
             };
             let law = self.laws.of(pair.link);
             if let Some(crack) = &pair.crack {
+                let first = self.contacts.len();
                 for spot in 0..crack.spots().len() {
                     let spot = self.pairs[seat.pair].crack.as_ref().map_or(UNBONDED, |crack| crack.spots()[spot]);
                     let (contact, owner) = self.contact(seat, spot, &along(spot.at), h, held);
                     self.contacts.push(contact);
                     self.owners.push(owner);
                 }
+                self.begin_softening(first);
                 continue;
             }
             let (points, device) = (law.points(), law.device);
@@ -1193,6 +1201,7 @@ impl Motion {
         let points: usize = self.pairs.iter().map(|pair| pair.points.len()).sum();
         self.contacts.reserve(points + most);
         self.owners.reserve(points);
+        self.softens.reserve(self.pairs.len());
         self.met.resize(self.pairs.len(), false);
         let matrix = self.solver.matrix();
         let seat = |(k, pair): (usize, &Pair)| Seat { pair: k, slot: pair.a.map(|a| matrix.slot(a, pair.b)) };

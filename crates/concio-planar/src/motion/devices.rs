@@ -3,9 +3,9 @@
 //!
 //! A device follows its law along the straight way of a step, however far that goes, and bears the mean of it: what it stores and loses is
 //! its work. Lines are tangents at first; where these go in circles, as at a corner, chords of the last two iterates, and in the end lines so steep that
-//! they cannot.
+//! they cannot. Bonds that soften (`softening.rs`) are found in the same rounds.
 
-use super::Motion;
+use super::{Motion, softening};
 use crate::contact::{Contact, Effort, Linear, worse};
 use crate::joint::Device;
 
@@ -41,22 +41,27 @@ impl Motion {
         }
     }
 
-    /// Solves again until the lines are those of the solution, after a first one that took `effort`; no longer where contact stays unsolved.
-    pub(super) fn follow_devices(&mut self, h: f64, halves: bool, effort: Effort) -> Effort {
+    /// Solves again until the lines of devices and bonds are those of the solution, after a first one that took `effort`; no longer where contact stays unsolved.
+    pub(super) fn follow_lines(&mut self, h: f64, halves: bool, effort: Effort) -> Effort {
         let mut effort = effort;
         for round in 0.. {
-            let mut missed = 0.0;
+            let (mut missed, mut off) = (0.0, 0.0);
             for k in 0..self.bent.len() {
                 let Bent { contact, device, .. } = self.bent[k];
                 let after = self.contacts[contact].velocity(&self.after)[device.direction];
                 missed = worse(missed, self.bend(k, h, after, round));
             }
+            for k in 0..self.softens.len() {
+                off = worse(off, self.softened(k, h, round));
+            }
             let part = self.setting.part(h);
             let solved = effort.residual <= part * self.setting.enough();
-            if !(solved && missed > part * self.setting.tolerance) || round == MOST {
+            let ends = missed <= part * self.setting.tolerance && (off <= softening::OFF || round >= softening::MOST);
+            if !solved || ends || round == MOST {
                 effort.residual = worse(effort.residual, missed);
                 break;
             }
+            self.soften();
             effort = effort.then(self.solve(h, halves));
         }
         effort

@@ -320,6 +320,115 @@ fn what_is_sheared_by_a_growing_load_falls_at_its_strength() {
     }
 }
 
+/// The same in motion: a slab that a load pushes slowly over soft and stiff springs leaves when the load is (c + p tan φ) A, and is never held by more.
+#[test]
+fn what_is_sheared_in_motion_falls_at_its_strength() {
+    let (area, cohesion, tan_angle, pressure) = (0.3, 100e3, 0.5, 60e3);
+    let body = Body::rectangle("slab", [0.0, 1.0], [0.0, 0.003], pressure * area / G);
+    let expected = (cohesion + pressure * tan_angle) * area;
+    for k in [5e9, 20e9, 100e9] {
+        for (step, within) in [(1e-3, 5e-3), (5e-3, 5e-3), (2e-2, 2e-2)] {
+            let mut law = Law { friction: Some(Friction::coulomb(0.4)), ..mortar(1.0, [20.0, 200.0]) };
+            (law.normal, law.shear.stiffness) =
+                (Normal::Springs { both: 2.4 * k * area, press: 0.0, damping: 0.0 }, k * area);
+            law.bond = law.bond.map(|bond| Bond { cohesion: cohesion * area, tan_angle, ..bond });
+            let mut loaded = system(body.clone(), law);
+            loaded.held[0] = [false, false, true];
+            let mut motion = Motion::new(&loaded, Setting::new(step));
+            assert!(motion.stand(1e-12, 4000));
+            let rate = expected / body.mass / 0.8;
+            let mut borne = 0.0f64;
+            for number in 1..=(1.5 / step).round() as usize {
+                let tilt = rate * (number as f64 - 0.5) * step;
+                motion.go(step, &|from, to| Forcing { base: [tilt * (to - from), 0.0], held: 0.0 });
+                borne = borne.max(motion.base_shear().abs());
+            }
+            assert!(motion.crack(0).is_some_and(|crack| crack.is_gone()));
+            let subject = format!(
+                "Bonds: joint sheared in motion by a load that grows, what it bears; {} N/mm³, steps of {step} s",
+                1e-9 * k
+            );
+            agrees!(subject, "(c + p tan φ) A", "N", borne, expected, within);
+        }
+    }
+}
+
+/// When the middle of a block that is tilted by `rate` [m/s³] is 5 mm from its place [s]: 400 strips of `k` [N/m³] and `strength` [Pa] that soften by
+/// `energy` [N/m], in steps of 10 µs.
+fn strips_in_motion([length, height]: [f64; 2], k: f64, strength: f64, energy: f64, rate: f64) -> f64 {
+    const STRIPS: usize = 400;
+    let area = 0.3 * length / STRIPS as f64;
+    let (weight, first) = (20e3 * 0.3 * length * height, strength / k);
+    let decay = (energy - 0.5 * strength * first) / ((1.0 - 1e-3) * strength);
+    let mass = weight / G;
+    let inertia = mass * ((length * length + height * height) / 12.0 + 0.25 * height * height);
+    let (mut widest, mut secant) = (vec![first; STRIPS], vec![k; STRIPS]);
+    let (dt, mut time) = (1e-5, 0.0f64);
+    let (mut rise, mut turn) = (-weight / (k * 0.3 * length), 0.0f64);
+    let mut speeds = [0.0; 2];
+    while turn * 0.5 * height < 5e-3 {
+        let mut sums = [0.0; 2];
+        for strip in 0..STRIPS {
+            let x = ((strip as f64 + 0.5) / STRIPS as f64 - 0.5) * length;
+            let w = rise + turn * x;
+            if w > widest[strip] {
+                let bears = strength * (-(w - first) / decay).exp();
+                (widest[strip], secant[strip]) = (w, if bears < 1e-3 * strength { 0.0 } else { bears / w });
+            }
+            let force = area * w * if w < 0.0 { k } else { secant[strip] };
+            sums = [sums[0] + force, sums[1] + force * x];
+        }
+        let arm = 0.5 * height;
+        let push = mass * rate * time * turn.cos() + weight * turn.sin();
+        speeds[0] += dt * (-sums[0] - weight) / mass;
+        speeds[1] += dt * (push * arm - sums[1]) / inertia;
+        (rise, turn, time) = (rise + dt * speeds[0], turn + dt * speeds[1], time + dt);
+    }
+    time
+}
+
+/// A bonded block that is tilted in motion goes over when strips of its own inertia do, with soft and stiff mortar, at steps from fine to twenty times the default.
+#[test]
+fn a_bonded_block_that_is_tilted_in_motion_goes_when_strips_do() {
+    let size = [0.5, 2.0];
+    let area = 0.3 * size[0];
+    let rate = 0.5 * G;
+    for k in [5e9, 100e9] {
+        for energy in [5.0, 50.0] {
+            let expected = strips_in_motion(size, 2.4 * k, 100e3, energy, rate);
+            for (step, within) in [(1e-3, 2e-3), (5e-3, 3e-3), (2e-2, 1.2e-2)] {
+                let mut law = mortar(size[0], [energy, 1e6]);
+                (law.normal, law.shear.stiffness) =
+                    (Normal::Springs { both: 2.4 * k * area, press: 0.0, damping: 0.0 }, k * area);
+                law.bond = law.bond.map(|bond| Bond { tension: 100e3 * area, ..bond });
+                let mut motion = Motion::new(&system(block(size), law), Setting::new(step));
+                assert!(motion.stand(1e-12, 4000));
+                let mut way = 0.0f64;
+                let found = loop {
+                    let tilt = rate * (motion.time + 0.5 * step);
+                    motion.go(step, &|from, to| Forcing { base: [tilt * (to - from), 0.0], held: 0.0 });
+                    let before = std::mem::replace(&mut way, (motion.places[0].centre[0] - 0.5 * size[0]).abs());
+                    if way >= 5e-3 {
+                        break motion.time - step * (way - 5e-3) / (way - before);
+                    }
+                };
+                let subject = format!(
+                    "Bonds: block tilted in motion until it goes, when it is 5 mm away; {} N/mm³, G_f^I = {energy} N/m, steps of {step} s",
+                    1e-9 * k
+                );
+                agrees!(
+                    subject,
+                    "400 strips, block of three degrees of freedom but for its slide",
+                    "s",
+                    found,
+                    expected,
+                    within
+                );
+            }
+        }
+    }
+}
+
 /// A slide of μ_d 0.1 that turns round while the ground pushes with less than μ_s 0.4 rests until it pushes with more (integration with
 /// 2 µs, which rests where v = 0 and |a| ≤ μ_s g: −15.42 mm after 2 s of 0.42 g at 2 Hz).
 #[test]

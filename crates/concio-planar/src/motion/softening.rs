@@ -1,0 +1,91 @@
+//! Bonds that soften in a step: solved with what is left of them at its end.
+//!
+//! A bond is known as a step begins, and its springs bear in it what that has. Where they would pass its strength, a body that a load pushes slowly
+//! would hang on to it, a little farther stretched after each step, while the load grows. What such a bond loses in the step is therefore taken from its
+//! springs, which go on to resist with what does not soften, and the step is solved again, until both agree.
+
+use super::Motion;
+use crate::contact::{Linear, worse};
+use crate::crack::{HELD, Part, Softened};
+
+/// What the forces of a bond may be off by in a step, over what it would bear had nothing cracked.
+pub(super) const OFF: f64 = 1e-3;
+/// Solutions in which a bond resists with what does not soften, then half-way to what it had, and at most: where the first go in circles, as over stiff
+/// springs in long steps, the others come nearer each time.
+const TANGENTS: usize = 4;
+const BETWEEN: usize = 16;
+pub(super) const MOST: usize = 40;
+
+/// What is left of a bond, at its two contact points.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Softens {
+    /// The first of its two contacts.
+    contact: usize,
+    /// What acts there across and along if nothing cracks.
+    own: [[Linear; 2]; HELD],
+    /// What is to act there in the next solution.
+    next: [[Linear; 2]; HELD],
+}
+
+impl Motion {
+    /// Has what is left of a bond in mind, if its contacts, from `first` on, have some.
+    pub(super) fn begin_softening(&mut self, first: usize) {
+        let held = self.owners[first..].iter().take_while(|owner| owner.part == Part::Held).count();
+        let own = |k: usize| self.contacts[first + k].spring;
+        if held == HELD && !self.setting.still && self.contacts[first].compliant[0] {
+            let own = [own(0), own(1)];
+            self.softens.push(Softens { contact: first, own, next: own });
+        }
+    }
+
+    /// Finds what is left of a bond at the end of a step of `h` [s] as it was solved last; returns by how much what acts misses that, over what it would
+    /// bear had nothing cracked.
+    pub(super) fn softened(&mut self, bond: usize, h: f64, round: usize) -> f64 {
+        let Softens { contact: first, own, .. } = self.softens[bond];
+        let acts: [_; HELD] = std::array::from_fn(|k| self.contacts[first + k].spring);
+        let pair = &self.pairs[self.owners[first].pair];
+        let Some(crack) = &pair.crack else { return 0.0 };
+        let after: [[f64; 2]; HELD] = std::array::from_fn(|k| self.contacts[first + k].velocity(&self.after));
+        let stretched = |k: usize| {
+            let owner = &self.owners[first + k];
+            let before = [owner.start.gap, pair.points[owner.point].slide];
+            [0, 1].map(|d| before[d] + 0.5 * h * (owner.start.velocity[d] + after[k][d]))
+        };
+        let ends = crack.line_of_held([stretched(0), stretched(1)]);
+        let softened = crack.softened(self.laws.of(pair.link), &ends);
+        if softened.is_none() && acts == own {
+            self.softens[bond].next = own;
+            return 0.0;
+        }
+        let softened = softened.unwrap_or(Softened::NOTHING);
+        let [near, far] = crack.held_at();
+        let [whole, moment] = softened.across;
+        // The mean of what it bears at both ends of the step.
+        let second = if far > near { (moment - near * whole) / (far - near) } else { 0.5 * whole };
+        let lost = [[whole - second, 0.5 * softened.along], [second, 0.5 * softened.along]];
+        let (mut missed, mut all) = (0.0, 0.0);
+        for k in 0..HELD {
+            for d in 0..2 {
+                let (own, u) = (own[k][d], after[k][d]);
+                let bears = own.at(u) + 0.5 * h * lost[k][d];
+                missed = worse(missed, (bears - acts[k][d].at(u)).abs());
+                all += own.at(u).abs();
+                let rho = own.rho
+                    * match round {
+                        0..TANGENTS => softened.left[d][k],
+                        TANGENTS..BETWEEN => 0.5 * (1.0 + softened.left[d][k]),
+                        _ => 1.0,
+                    };
+                self.softens[bond].next[k][d] = Linear { offset: bears + rho * u, rho };
+            }
+        }
+        if all > 0.0 { missed / all } else { 0.0 }
+    }
+
+    /// Has all bonds bear what was found.
+    pub(super) fn soften(&mut self) {
+        for Softens { contact: first, next, .. } in &self.softens {
+            (0..HELD).for_each(|k| self.contacts[first + k].spring = next[k]);
+        }
+    }
+}
