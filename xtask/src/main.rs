@@ -14,6 +14,7 @@ mod examples;
 mod gallery;
 mod histories;
 mod links;
+mod modules;
 mod peers;
 mod performance;
 mod planar;
@@ -38,6 +39,7 @@ cargo xtask examples   run every wall file in examples/
 cargo xtask shown      try the wall files and commands that documents show
 cargo xtask equations  check the numbers of equations
 cargo xtask links      check the links of the documents
+cargo xtask modules    find circles between modules
 cargo xtask report-ui  build the program of the interactive report into the tree (needs Node.js)
 cargo xtask report-ui-check   its bundle is current, its tests pass, a browser shows the numbers of the result
 cargo xtask peers      compare with CVODE
@@ -59,6 +61,7 @@ fn main() -> ExitCode {
         "shown" => build(&root).and_then(|()| shown::check(&root)),
         "equations" => equations::check(&root),
         "links" => links::check(&root),
+        "modules" => modules::check(&root),
         "report-ui" => report_ui::build(&root),
         "report-ui-check" => build(&root).and_then(|()| report_ui::check(&root)),
         "peers" => build(&root).and_then(|()| peers::compare(&root)),
