@@ -189,11 +189,14 @@ pub(crate) struct Softened {
     pub along: f64,
     /// The part of its stiffness across and along with which each half of the joint goes on to resist.
     pub left: [[f64; 2]; 2],
+    /// What its springs store at the end of the step, those of friction that its breaking has stretched with them, and what they stored at its start [J].
+    pub stored: [f64; 2],
 }
 
 impl Softened {
     /// Of a bond that bears all that it did.
-    pub(crate) const NOTHING: Softened = Softened { across: [0.0; 2], along: 0.0, left: [[1.0; 2]; 2] };
+    pub(crate) const NOTHING: Softened =
+        Softened { across: [0.0; 2], along: 0.0, left: [[1.0; 2]; 2], stored: [0.0; 2] };
 }
 
 /// What became of the bond in a step [J].
@@ -207,6 +210,11 @@ pub(crate) struct Worn {
     pub beyond: f64,
     /// How much of the step was over when a part of it that breaks at once did so, 0 … 1; none where none did.
     pub breaks_at: Option<f64>,
+}
+
+/// The part of the way from one stretch to another that lies beyond rest, 0 … 1: what is stretched the other way at first loses nothing until then.
+fn beyond_rest(from: f64, to: f64) -> f64 {
+    if from * to < 0.0 { to / (to - from) } else { 1.0 }
 }
 
 /// Place of a node, 0 … 1.
@@ -754,18 +762,27 @@ impl Crack {
             let (before, weight) = (self.nodes[n], weight(n, NODES));
             let half = usize::from(x > 0.5);
             let had = weight * (1.0 - before.damage());
+            let [opened, slid] = between(&self.line, x);
             held[half] += had;
+            softened.stored[1] += 0.5 * had * (both * opened * opened + along * slid * slid);
             if before.holds([w, s], law, &bond) {
                 softened.left.iter_mut().for_each(|left| left[half] += had);
+                softened.stored[0] += 0.5 * had * (both * w * w + along * s * s);
                 continue;
             }
             let (node, _) = self.worn(n, [w, s], between(&self.line, x), law, &bond);
             worn |= node != before;
             let gone = weight * (node.damage() - before.damage());
-            let rubs = node.friction([w, s], law)[0] - before.friction([w, s], law)[0];
-            let opens = gone * both * w.max(0.0);
+            let [had_rubbing, rubbing] = [before, node].map(|node| node.friction([w, s], law));
+            let rubs = rubbing[0] - had_rubbing[0];
+            let keeps = weight * (1.0 - node.damage());
+            // What is pressed of what breaks stays pressed.
+            let bears = if w > 0.0 { keeps } else { had };
+            softened.stored[0] +=
+                0.5 * (bears * both * w * w + keeps * along * s * s) + weight * (rubbing[1] - had_rubbing[1]);
+            let opens = gone * both * w.max(0.0) * beyond_rest(opened, w);
             softened.across = [softened.across[0] + opens, softened.across[1] + x * opens];
-            softened.along += gone * along * s - weight * rubs * s.signum();
+            softened.along += (gone * along * s - weight * rubs * s.signum()) * beyond_rest(slid, s);
             // What softens bears the less the farther it is stretched: it resists nothing.
             for (left, lost) in softened.left.iter_mut().zip([0, 1].map(|k| node.lost[k] > before.lost[k])) {
                 left[half] += if lost { 0.0 } else { weight * (1.0 - node.damage()) };

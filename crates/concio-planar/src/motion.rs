@@ -416,6 +416,8 @@ pub struct Motion {
     bent: Vec<Bent>,
     /// Bonds that may soften in the step.
     softens: Vec<Softens>,
+    /// Whether what they bear was not found, or gives back more than they lose.
+    astray: bool,
     free: Vec<Triple>,
     after: Vec<Triple>,
 }
@@ -470,6 +472,7 @@ impl Motion {
             moved: Moved::default(),
             bent: Vec::new(),
             softens: Vec::new(),
+            astray: false,
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
             rods: system.ties.iter().map(|tie| Rod::new(tie, &places)).collect(),
@@ -676,6 +679,10 @@ impl Motion {
             effort
         };
         self.count(effort);
+        if self.astray && halved < HALVINGS {
+            return false;
+        }
+        let effort = if self.astray { self.solve_as_it_was(h) } else { effort };
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
         if halved < HALVINGS && !enough || halved < CROSSINGS && !self.follows_crushing(h) {
             return false;

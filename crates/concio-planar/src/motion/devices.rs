@@ -56,7 +56,9 @@ impl Motion {
             }
             let part = self.setting.part(h);
             let solved = effort.residual <= part * self.setting.enough();
-            let ends = missed <= part * self.setting.tolerance && (off <= softening::OFF || round >= softening::MOST);
+            self.astray = off > softening::OFF || self.gives();
+            let softened = off <= softening::OFF || round >= softening::MOST;
+            let ends = missed <= part * self.setting.tolerance && softened;
             if !solved || ends || round == MOST {
                 effort.residual = worse(effort.residual, missed);
                 break;

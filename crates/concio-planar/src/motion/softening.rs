@@ -2,10 +2,11 @@
 //!
 //! A bond is known as a step begins, and its springs bear in it what that has. Where they would pass its strength, a body that a load pushes slowly
 //! would hang on to it, a little farther stretched after each step, while the load grows. What such a bond loses in the step is therefore taken from its
-//! springs, which go on to resist with what does not soften, and the step is solved again, until both agree.
+//! springs, which go on to resist with what does not soften, and the step is solved again, until both agree. Where they do not, or where the joint would give
+//! back more than its springs had, the step is taken in two halves; the shortest ones are solved with the bond as it was at their start.
 
 use super::Motion;
-use crate::contact::{Linear, worse};
+use crate::contact::{Effort, Linear, worse};
 use crate::crack::{HELD, Part, Softened};
 
 /// What the forces of a bond may be off by in a step, over what it would bear had nothing cracked.
@@ -15,6 +16,8 @@ pub(super) const OFF: f64 = 1e-3;
 const TANGENTS: usize = 4;
 const BETWEEN: usize = 16;
 pub(super) const MOST: usize = 40;
+/// What a bond may give back, over what its springs store and bear.
+const GIVEN: f64 = 1e-3;
 
 /// What is left of a bond, at its two contact points.
 #[derive(Debug, Clone, Copy)]
@@ -25,6 +28,10 @@ pub(super) struct Softens {
     own: [[Linear; 2]; HELD],
     /// What is to act there in the next solution.
     next: [[Linear; 2]; HELD],
+    /// What they would bear had nothing cracked, as the step was solved first [N s].
+    borne: f64,
+    /// Whether the joint gives back more than it loses.
+    gives: bool,
 }
 
 impl Motion {
@@ -34,7 +41,7 @@ impl Motion {
         let own = |k: usize| self.contacts[first + k].spring;
         if held == HELD && !self.setting.still && self.contacts[first].compliant[0] {
             let own = [own(0), own(1)];
-            self.softens.push(Softens { contact: first, own, next: own });
+            self.softens.push(Softens { contact: first, own, next: own, borne: 0.0, gives: false });
         }
     }
 
@@ -55,6 +62,7 @@ impl Motion {
         let softened = crack.softened(self.laws.of(pair.link), &ends);
         if softened.is_none() && acts == own {
             self.softens[bond].next = own;
+            self.softens[bond].gives = false;
             return 0.0;
         }
         let softened = softened.unwrap_or(Softened::NOTHING);
@@ -63,11 +71,13 @@ impl Motion {
         // The mean of what it bears at both ends of the step.
         let second = if far > near { (moment - near * whole) / (far - near) } else { 0.5 * whole };
         let lost = [[whole - second, 0.5 * softened.along], [second, 0.5 * softened.along]];
-        let (mut missed, mut all) = (0.0, 0.0);
+        let (mut missed, mut all, mut work, mut works) = (0.0, 0.0, 0.0, 0.0);
         for k in 0..HELD {
             for d in 0..2 {
                 let (own, u) = (own[k][d], after[k][d]);
                 let bears = own.at(u) + 0.5 * h * lost[k][d];
+                let mean = 0.5 * (self.owners[first + k].start.velocity[d] + u);
+                (work, works) = (work - acts[k][d].at(u) * mean, works + (acts[k][d].at(u) * mean).abs());
                 missed = worse(missed, (bears - acts[k][d].at(u)).abs());
                 all += own.at(u).abs();
                 let rho = own.rho
@@ -79,7 +89,29 @@ impl Motion {
                 self.softens[bond].next[k][d] = Linear { offset: bears + rho * u, rho };
             }
         }
-        if all > 0.0 { missed / all } else { 0.0 }
+        let softens = &mut self.softens[bond];
+        if round == 0 {
+            softens.borne = all;
+        }
+        let [after, before] = softened.stored;
+        softens.gives = work - (after - before) < -GIVEN * (works + after + before);
+        if softens.borne > 0.0 { missed / softens.borne } else { 0.0 }
+    }
+
+    /// Solves a step of `h` [s] with all bonds as they were at its start.
+    pub(super) fn solve_as_it_was(&mut self, h: f64) -> Effort {
+        for Softens { contact: first, own, .. } in &self.softens {
+            (0..HELD).for_each(|k| self.contacts[first + k].spring = own[k]);
+        }
+        self.guess();
+        let effort = self.solve(h, false);
+        self.count(effort);
+        effort
+    }
+
+    /// Whether a bond gives back more than it loses.
+    pub(super) fn gives(&self) -> bool {
+        self.softens.iter().any(|softens| softens.gives)
     }
 
     /// Has all bonds bear what was found.

@@ -1,5 +1,7 @@
 //! Joints that open and crack against closed forms and fine quadratures, and what else a joint keeps of what happened to it.
 
+use std::f64::consts::TAU;
+
 use concio_planar::G;
 use concio_planar::body::Body;
 use concio_planar::joint::{Bond, Friction, Law, Normal, Shear};
@@ -425,6 +427,38 @@ fn a_bonded_block_that_is_tilted_in_motion_goes_when_strips_do() {
                     within
                 );
             }
+        }
+    }
+}
+
+/// Whatever breaks in a step, however long it is, gives back no more than it bore: a flat block on a brittle bond and one that softens under a pulse of 11 g.
+#[test]
+fn what_breaks_in_motion_gives_nothing_back() {
+    let (size, area) = ([0.72, 0.15], 0.3 * 0.72);
+    for energy in [0.0, 2.0] {
+        for step in [1e-3, 5e-3, 2e-2] {
+            let mut law = Law { friction: Some(Friction::coulomb(0.6)), ..mortar(size[0], [energy, 2.0 * energy]) };
+            let k = 4.63e9 * area;
+            (law.normal, law.shear.stiffness) = (Normal::Springs { both: 2.4 * k, press: 0.0, damping: 0.0 }, k);
+            law.bond =
+                law.bond.map(|bond| Bond { tension: 10.5e3 * area, cohesion: 24.8e3 * area, tan_angle: 0.6, ..bond });
+            let mut motion = Motion::new(&system(block(size), law), Setting::new(step));
+            assert!(motion.stand(1e-12, 4000));
+            let ground = |t: f64| if t < 0.1 { 11.0 * G * 0.1 / TAU * (1.0 - (TAU * t / 0.1).cos()) } else { 0.0 };
+            let (mut most, mut lost) = (0.0f64, 0.0f64);
+            for number in 0..(0.3 / step).round() as usize {
+                let from = number as f64 * step;
+                let base = ground(from + step) - ground(from);
+                motion.go(step, &|a, b| Forcing { base: [base * (b - a) / step, 0.0], held: 0.0 });
+                let account = motion.account;
+                let now = account.impact + account.bond + account.friction + account.damping;
+                assert!(
+                    now >= lost - 1e-3 * most - 1e-9,
+                    "{lost} J lost before, {now} J after, of {most} J; {energy} N/m, {step} s"
+                );
+                (lost, most) = (lost.max(now), most.max(account.input.abs()));
+            }
+            assert!(motion.crack(0).is_some_and(|crack| crack.is_gone()) && most > 1.0, "{most}");
         }
     }
 }
