@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use concio::run::Status;
+use concio::simulate::Status;
 use concio_study::runner;
 use indicatif::{ProgressBar, ProgressStyle};
 

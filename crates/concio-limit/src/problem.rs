@@ -2,7 +2,7 @@
 
 use concio::assign::{self, JointLaw};
 use concio::case::{Beam, BeamRotation, Case, JointKind, ModelKind, Motion, NormalForce};
-use concio::model::{self, Model};
+use concio::model::Model;
 use concio::planar;
 use concio::quantity::Time;
 use concio::wall::{Joint, Wall};
@@ -90,7 +90,7 @@ impl Problem {
         let case = at_rest(given)?;
         let model = run::prepare(case.clone(), std::path::Path::new("."))?.model;
         let sides = sides(&case, &model)?;
-        let laden = model::load_masses(&case, &model.wall);
+        let laden = assign::load_masses(&case, &model.wall);
         let mut assembly = Assembly::of(&model.wall, &model.joints, |e| sides[e] != Sides::Apart, &laden);
         let mut dead: Vec<f64> = model.wall.blocks.iter().map(|b| b.weight()).collect();
         let mut live = match options.push {

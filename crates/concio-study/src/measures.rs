@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use concio::outcome::{BondRow, Outcome};
+use concio::bond::BondRow;
+use concio::outcome::Outcome;
 use concio::quantity::shown;
 use concio::run::{Prepared, joint_rows, warnings_of};
 use concio::store::{JointRow, residual_relative, top_force_rms};

@@ -43,8 +43,8 @@ fn checked(path: &Path) -> concio::Result<()> {
         first_mode(model);
     }
     assert_eq!(model.joint_names().len(), concio::run::joint_rows(model).len());
-    device::ratings(&prepared.case, model)?;
-    bond::given(&prepared.case, model)?;
+    device::ratings(&prepared.case, &model.wall, &model.joints)?;
+    bond::given(&prepared.case, &model.wall, &model.joints)?;
     Ok(())
 }
 

@@ -3,8 +3,9 @@
 use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
+use crate::G;
 use crate::case::{
-    Case, Device, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointChange, JointKind, Joints,
+    Beam, Case, Device, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointChange, JointKind, Joints,
     ModelKind, NormalForce, Selector, Spring, SpringLaw,
 };
 use crate::error::{InputError, Result};
@@ -210,7 +211,7 @@ fn bears(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Resul
             "`stiffness` and `stiffness_factor` above 0; `law = \"none\"` where there is nothing between them",
         ),
         (
-            |law| law.crushes() && law.spring.law == SpringLaw::Elastic && crate::planar::bond_of(law).is_none(),
+            |law| law.crushes() && law.spring.law == SpringLaw::Elastic && law.strong_bond().is_none(),
             "a joint of law `elastic` without a bond pulls without limit, and cannot crush",
             "`law = \"no-tension\"`, a `bond`, or no `compressive_strength`",
         ),
@@ -380,4 +381,22 @@ impl Choice<'_> {
         };
         wanted.iter().map(place).collect()
     }
+}
+
+impl JointLaw {
+    /// Its bond; strengths of 0 are none.
+    pub(crate) fn strong_bond(&self) -> Option<&BondValues> {
+        self.bond.as_ref().filter(|b| b.tensile_strength > 0.0 || b.cohesion > 0.0 || b.tan_angle > 0.0)
+    }
+}
+
+/// Mass of what bears down on each block of a wall without a beam [kg]: in proportion to the load on it.
+pub fn load_masses(case: &Case, wall: &Wall) -> Vec<f64> {
+    if case.load.beam != Beam::Free {
+        return vec![0.0; wall.blocks.len()];
+    }
+    let lengths = wall.loaded();
+    let whole: f64 = lengths.iter().sum();
+    let per_length = case.load.mass.map_or(case.load.top.per_length(whole) / G, |mass| mass.si() / whole);
+    lengths.into_iter().map(|length| per_length * length).collect()
 }

@@ -14,17 +14,17 @@
 //! secant unloading instead of plastic slip. The part that rubs is χ and not D: D, which leads the loss of strength by
 //! the way δ_m/δ_0, would let friction add to a strength that is still there.
 
-pub use crate::assign::BondValues;
+pub use serde::{Deserialize, Serialize};
+
+use crate::assign::BondValues;
 use crate::assign::{JointLaw, resolve};
 use crate::case::{Case, SpringLaw};
 use crate::elementary::exp_of_negative;
 use crate::error::{InputError, Result};
 use crate::graph;
 use crate::law::spring_force;
-use crate::model::{Elastic, Model, Rub};
-use crate::outcome::BondRow;
+use crate::law::{Elastic, Rub};
 use crate::quantity::shown;
-use crate::state::BondState;
 use crate::wall::{Joint, Wall};
 
 /// ε: a softening bond that bears no more than this fraction of its strength is broken.
@@ -152,6 +152,67 @@ impl Bond {
     }
 }
 
+/// What a run has done to a bond.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BondState {
+    /// δ_m: largest |δ|, or widest gap, that counted for the damage so far [m]; 0 while the bond is intact.
+    pub reach: f64,
+    /// D, 0 … 1: what is lost of the stiffness. The part that rubs is [`crate::bond::Bond::rubbing`].
+    pub damage: f64,
+    /// Parts of the joint's length along which it has cracked, from its first end (left or below) and from the other, where cracks run along joints.
+    pub crack: Option<[f64; 2]>,
+    /// Energy that breaking took [J].
+    pub spent: f64,
+    /// Largest |elastic force| of the joint so far [N].
+    pub peak: f64,
+    /// When it first cracked [s]; infinite while it is intact.
+    pub cracked: f64,
+    /// When nothing was left of it [s]; infinite until then.
+    pub broken: f64,
+}
+
+impl BondState {
+    /// Of an intact bond.
+    pub const INTACT: BondState = BondState {
+        reach: 0.0,
+        damage: 0.0,
+        crack: None,
+        spent: 0.0,
+        peak: 0.0,
+        cracked: f64::INFINITY,
+        broken: f64::INFINITY,
+    };
+}
+
+/// A bonded joint and what became of it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BondRow {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Force at which it cracks [N].
+    pub strength: f64,
+    /// Stiffness of the intact joint [N/m]; of a head joint or connection in tension.
+    pub stiffness: f64,
+    /// Fraction of it that a cracked joint keeps, 0 … 1.
+    pub residual_stiffness: f64,
+    /// Energy that it takes to break [J].
+    pub energy: f64,
+    /// Length over which the strength falls, δ_c of (B3) [m]; 0 when it is brittle.
+    pub decay: f64,
+    /// Damage at the end, the part of the stiffness that is lost, 0 … 1.
+    pub damage: f64,
+    /// Part of the joint's length along which it has cracked, 0 … 1; of shear walls all of it at once.
+    pub crack: f64,
+    /// The part of it that lies at the joint's first end, left or below; the rest lies at the other.
+    pub crack_start: f64,
+    /// Energy that breaking has taken [J].
+    pub spent: f64,
+    /// When it first cracked [s]; infinite when it did not.
+    pub cracked: f64,
+    /// When nothing was left of it [s]; infinite when something is.
+    pub broken: f64,
+}
+
 /// A joint with a bond.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bonded {
@@ -197,12 +258,12 @@ impl Bonded {
     }
 }
 
-/// What `case`, whose model is `model`, says of the bond of every joint; none for joints that `on` leaves out.
+/// What `case`, whose wall and joints these are, says of the bond of every joint; none for joints that `on` leaves out.
 ///
 /// # Errors
 /// None that compiling the model did not have.
-pub fn given(case: &Case, model: &Model) -> Result<Vec<Option<BondValues>>> {
-    Ok(resolve(case, &model.wall, &model.joints)?.iter().map(|law| law.bond).collect())
+pub fn given(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<Option<BondValues>>> {
+    Ok(resolve(case, wall, joints)?.iter().map(|law| law.bond).collect())
 }
 
 /// The bonds of a wall. Head joints that are bonded open when they have cracked: their springs in `elastic` are

@@ -20,12 +20,15 @@ mod size;
 mod templates;
 pub mod validate;
 
+pub(crate) use devices::{BETA, GAMMA};
 pub use devices::{Device, DeviceLaw};
 pub use document::Document;
 pub use extent::Extent;
 pub use read::{CaseFile, LARGEST_FILE, Syntax, canonical_json, from_str, read};
 pub use templates::{describe, example, schema, starter};
 pub use validate::validate;
+
+pub use crate::wall::JointKind;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -34,6 +37,16 @@ use crate::quantity::{
     Acceleration, Angle, EnergyPerArea, Force, ForcePerLength, Frequency, Length, Mass, SpecificWeight, Stiffness,
     Stress, Time, Velocity,
 };
+
+/// Samples of a synthetic motion are fewer than this.
+pub(crate) const SYNTHETIC_SAMPLES: f64 = 2e5;
+/// Samples that a run may keep.
+pub(crate) const MOST_SAMPLES: f64 = 1e7;
+
+/// Step unless the wall file says otherwise [s].
+pub const PLANAR_STEP: f64 = 1e-3;
+/// The same without inertia, where what stands for it is the smaller the longer steps are.
+pub const QUASI_STATIC_STEP: f64 = 2e-2;
 
 /// A wall, its joints, its loads and its motion: all that one run needs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -699,29 +712,6 @@ pub struct Selector {
     pub region: Option<[Length; 4]>,
 }
 
-/// Kinds of joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum JointKind {
-    /// Between blocks of adjacent courses.
-    Bed,
-    /// Between neighbours in a course.
-    Head,
-    /// Bottom course on the base.
-    Base,
-    /// Top beam on the top course.
-    Top,
-    /// Between panels.
-    Connection,
-}
-
-impl JointKind {
-    /// Whether blocks stand side by side at it: head joints and connections of panels, which open and close.
-    pub fn is_upright(self) -> bool {
-        matches!(self, JointKind::Head | JointKind::Connection)
-    }
-}
-
 /// What a [`JointChange`] changes of the elastic law.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -1231,4 +1221,17 @@ pub struct Output {
     pub blocks: Vec<String>,
     /// Joints whose slip, slip velocity, elastic force and friction force histories are kept; `["all"]` for all.
     pub joints: Vec<String>,
+}
+
+impl Case {
+    /// Step of a planar wall [s].
+    pub(crate) fn planar_step(&self) -> f64 {
+        let own = if self.motion.quasi_static { QUASI_STATIC_STEP } else { PLANAR_STEP };
+        self.solver.step.map_or(own, |h| h.si())
+    }
+
+    /// The name of a panel (from 0): its own, or `p1`, `p2`, ….
+    pub fn panel_name(&self, panel: usize) -> String {
+        self.panels.get(panel).and_then(|p| p.name.clone()).unwrap_or_else(|| format!("p{}", panel + 1))
+    }
 }

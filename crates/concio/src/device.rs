@@ -4,15 +4,12 @@
 pub use concio_device::{BoucWen, Law, Power, ReCentring};
 
 use crate::assign::{JointLaw, resolve};
-use crate::case::{Case, Device as Given, DeviceLaw};
+use crate::case::{BETA, Case, Device as Given, DeviceLaw, GAMMA};
 use crate::error::Result;
 use crate::law::Stribeck;
-use crate::model::{Elastic, Model, Rub};
+use crate::law::{Elastic, Rub};
+use crate::wall::{Joint, Wall};
 
-/// β and γ of (I5) unless given.
-pub(crate) const BETA: f64 = 0.5;
-/// See [`BETA`].
-pub(crate) const GAMMA: f64 = 0.5;
 const SHARPNESS: f64 = 2.0;
 const SLIP_VELOCITY: f64 = 1e-3;
 const STEEPNESS: f64 = 100.0;
@@ -56,12 +53,12 @@ impl Rating {
     }
 }
 
-/// The devices that `case`, whose model is `model`, has, in the order of [`Model::devices`].
+/// The devices that `case`, whose wall and joints these are, has, in the order of the joints.
 ///
 /// # Errors
 /// None that compiling the model did not have.
-pub fn ratings(case: &Case, model: &Model) -> Result<Vec<Rating>> {
-    let laws = resolve(case, &model.wall, &model.joints)?;
+pub fn ratings(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<Rating>> {
+    let laws = resolve(case, wall, joints)?;
     Ok(laws.iter().filter_map(|law| law.device(case)).map(Rating::of).collect())
 }
 

@@ -6,7 +6,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::outcome::DriftRow;
 use crate::wall::{End, Joint, Wall};
 
 /// Part of a run, at its end, over which the residual drift is a mean: swings cancel there.
@@ -149,6 +148,31 @@ pub fn settles(duration: f64, still: bool) -> f64 {
 #[inline]
 fn mean(blocks: &[u32], of: impl Fn(usize) -> f64) -> f64 {
     blocks.iter().map(|&i| of(i as usize)).sum::<f64>() / blocks.len().max(1) as f64
+}
+
+/// How far a top of the wall went relative to the base, at the ends of steps ([`crate::drift`]).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DriftRow {
+    /// Name of the panel, or `beam`.
+    pub top: String,
+    /// Its height above the base [m]: displacements over it are drifts.
+    pub height: f64,
+    /// Displacement of the top when it was farthest from its place [m], until a collapse.
+    pub peak: f64,
+    /// When that was [s].
+    pub time: f64,
+    /// Mean over the last tenth of the run, without inertia at its end [m]; infinite of a run that stopped early and of a wall that
+    /// collapsed.
+    pub residual: f64,
+    /// By how much it left that mean there, at most [m].
+    pub swing: f64,
+}
+
+impl DriftRow {
+    /// A displacement of the top as a drift, a pure number.
+    pub fn ratio(&self, displacement: f64) -> f64 {
+        if self.height > 0.0 { displacement / self.height } else { 0.0 }
+    }
 }
 
 #[cfg(test)]

@@ -1,18 +1,17 @@
 //! Forces, envelopes and sampled channels from a state.
 
-use std::collections::HashMap;
-
-use crate::case::DeviceLaw;
-use crate::error::{InputError, Result};
+use crate::bond::BondState;
 use crate::excitation::Drive;
-use crate::integrate::dense::extreme;
-use crate::integrate::devices;
-use crate::integrate::events::TOUCHING;
 use crate::law::spring_force;
-use crate::model::{Elastic, Model, Support};
-use crate::planar::{Row, turned};
-use crate::record::{Channel, Energies};
-use crate::state::{BondState, DeviceState, Power, State, Tangents, View};
+use crate::law::{Elastic, Support};
+use crate::model::Model;
+use crate::record::Energies;
+use crate::state::{DeviceState, Power, State, Tangents, View};
+
+pub(crate) mod devices;
+
+/// How near to each other the sides of a rigid joint touch [m].
+pub const TOUCHING: f64 = 1e-13;
 
 /// Displacements and velocities with what the laws are there.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +37,7 @@ fn bonds_beyond(model: &Model, bonds: &[BondState], z: &[f64], mut change: impl 
 
 /// Motion and laws, from which forces follow.
 #[derive(Debug, Clone, Copy)]
-struct Acting<'a> {
+pub(crate) struct Acting<'a> {
     z: &'a [f64],
     v: &'a [f64],
     mu: &'a [f64],
@@ -48,13 +47,13 @@ struct Acting<'a> {
 }
 
 impl<'a> Acting<'a> {
-    fn of(at: View<'a>) -> Self {
+    pub(crate) fn of(at: View<'a>) -> Self {
         Acting { z: at.z, v: at.v, mu: at.mu, reaction: at.reaction, bonds: at.bonds, devices: at.devices }
     }
 }
 
 /// Horizontal force of the joints of a support on the blocks that lie at it, against the blocks' motion relative to it [N].
-fn borne_by(model: &Model, support: &Support, at: Acting<'_>) -> f64 {
+pub(crate) fn borne_by(model: &Model, support: &Support, at: Acting<'_>) -> f64 {
     let sides = |e: u32| model.sides[e as usize].map(|s| s as usize);
     let mut borne = 0.0;
     for &e in &support.joints {
@@ -84,7 +83,7 @@ fn borne_by(model: &Model, support: &Support, at: Acting<'_>) -> f64 {
 
 /// Force of a joint as it acts on side a, with the sign of (2)–(5): `(elastic, viscous, friction)` [N]. What a rigid joint
 /// bears counts as elastic, the law of its own of a device as friction; what a bond changes is left out.
-fn joint_forces(model: &Model, at: View, index: [Option<usize>; 3], joint: usize) -> (f64, f64, f64) {
+pub(crate) fn joint_forces(model: &Model, at: View, index: [Option<usize>; 3], joint: usize) -> (f64, f64, f64) {
     let [rub, contact, device] = index;
     let [a, b] = model.sides[joint].map(|s| s as usize);
     let (d, w) = (at.z[a] - at.z[b], at.v[a] - at.v[b]);
@@ -370,214 +369,30 @@ pub fn kick(model: &Model, state: &mut State, jump: f64) {
     state.energies.kinetic = after;
 }
 
-fn peak(values: &[f64]) -> f64 {
+pub(crate) fn peak(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |p, v| v.abs().max(p))
 }
 
-/// A selected history beyond the ones that are always kept.
-#[derive(Debug, Clone, Copy)]
-enum Watched {
-    Block(usize),
-    /// With its index among the joints that rub, the rigid ones and the devices with laws of their own, and that among
-    /// the bonds.
-    Joint(usize, [Option<usize>; 3], Option<usize>),
+/// Largest |z| inside a step of `h` [s] whose ends have displacements `z`, velocities `v`: that of the ends, or where
+/// the velocity, linear between them, passes zero.
+#[inline(always)]
+pub fn extreme(z: [f64; 2], v: [f64; 2], h: f64) -> f64 {
+    // θ of the turn if there is one; otherwise 0, where it is the start.
+    let turns = v[0] * v[1] < 0.0;
+    let at = if turns { v[0] / (v[0] - v[1]) } else { 0.0 };
+    z[0] + 0.5 * h * at * v[0]
 }
 
-/// The channels of a run: what they are and how to read them off a state.
-#[derive(Debug, Clone)]
-pub struct Channels {
-    watched: Vec<Watched>,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-const ALWAYS: [(&str, &str, &str); 10] = [
-    ("base/acceleration", "m/s2", "absolute acceleration of the base"),
-    ("base/displacement", "m", "absolute displacement of the base"),
-    ("base/shear", "N", "horizontal force of the base on the wall"),
-    ("top/displacement", "m", "mean displacement of the top courses relative to the base"),
-    ("top/velocity", "m/s", "mean velocity of the top courses relative to the base"),
-    ("top/force", "N", "horizontal force of the top beam on the wall"),
-    ("beam/displacement", "m", "displacement of the top beam relative to the base"),
-    ("beam/velocity", "m/s", "velocity of the top beam relative to the base"),
-    ("beam/acceleration", "m/s2", "acceleration of the top beam relative to the base"),
-    ("peak/displacement", "m", "largest absolute displacement of a block relative to the base at the moment"),
-];
-const ENERGIES: [(&str, &str); 11] = [
-    ("input", "work done on the wall by base and top motion"),
-    ("kinetic", "kinetic energy of the motion relative to the base"),
-    ("elastic", "elastic energy of the joints"),
-    ("damping", "dissipated by viscous damping"),
-    ("friction", "dissipated by friction"),
-    ("bond", "dissipated by the breaking of bonds"),
-    ("device", "dissipated by the hysteresis of devices"),
-    ("impact", "lost in the impacts of rigid joints"),
-    ("nonreciprocal", "taken out by friction whose action differs from its reaction"),
-    ("residual", "kinetic + elastic + dissipated - input"),
-    ("top", "part of input that a driven top beam brings"),
-];
-const BLOCK: [(&str, &str, &str); 3] = [
-    ("displacement", "m", "displacement relative to the base"),
-    ("velocity", "m/s", "velocity relative to the base"),
-    ("acceleration", "m/s2", "acceleration relative to the base"),
-];
-const JOINT: [(&str, &str, &str); 5] = [
-    ("slip", "m", "relative displacement (gap of a head joint: positive is open)"),
-    ("velocity", "m/s", "relative velocity (positive opens a head joint)"),
-    (
-        "elastic",
-        "N",
-        "elastic force, or that of rigid contact, on the lower or left block, against its relative motion",
-    ),
-    ("damping", "N", "viscous force, same sign"),
-    ("friction", "N", "friction force, or that of a device with a law of its own, same sign"),
-];
-
-/// Beside them, of the blocks of planar walls.
-const PLANAR_BLOCK: [(&str, &str, &str); 2] = [
-    ("vertical", "m", "how far the centre has risen"),
-    ("rotation", "rad", "rotation about the centre, counterclockwise"),
-];
-
-/// Beside those of joints, of the joints of planar walls.
-const PLANAR_JOINT: [(&str, &str, &str); 2] = [
-    ("opening", "m", "widest distance of the sides along the joint, from 0"),
-    ("pressure", "N", "normal force, compression positive"),
-];
-
-/// Beside them, of joints with a bond.
-const DAMAGE: (&str, &str, &str) = ("damage", "1", "damage of the bond: part of its stiffness that is lost, 0 to 1");
-
-impl Channels {
-    /// The channels for the block and joint names asked for (`all` for every one).
-    ///
-    /// # Errors
-    /// A name that no block or joint bears.
-    pub fn new(model: &Model, blocks: &[String], joints: &[String]) -> Result<(Self, Vec<Channel>)> {
-        let block_names: Vec<String> = model.wall.blocks.iter().map(|b| b.name.clone()).collect();
-        let joint_names = model.joint_names();
-        let mut watched: Vec<Watched> =
-            chosen("output.blocks", "block", blocks, &block_names)?.into_iter().map(Watched::Block).collect();
-        let (rub, contact, bond) = (model.rub_of_joint(), model.contact_of_joint(), model.bond_of_joint());
-        let device = model.nonlinear_of_joint();
-        let joint = |e: usize| Watched::Joint(e, [rub[e], contact[e], device[e]], bond[e]);
-        watched.extend(chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(joint));
-        let channel =
-            |name: String, unit: &str, text: &str| Channel { name, unit: unit.into(), description: text.into() };
-        let mut list: Vec<Channel> = ALWAYS.iter().map(|(n, u, d)| channel((*n).into(), u, d)).collect();
-        list.extend(ENERGIES.iter().map(|(n, d)| channel(format!("energy/{n}"), "J", d)));
-        for w in &watched {
-            match *w {
-                Watched::Block(i) => {
-                    let of_planar = model.planar.iter().flat_map(|_| &PLANAR_BLOCK);
-                    let name = &block_names[i];
-                    list.extend(
-                        BLOCK.iter().chain(of_planar).map(|(n, u, d)| channel(format!("block/{name}/{n}"), u, d)),
-                    );
-                }
-                Watched::Joint(e, _, bond) => {
-                    let of_bond = bond.map(|_| &DAMAGE);
-                    let of_planar = model.planar.iter().flat_map(|_| &PLANAR_JOINT);
-                    list.extend(
-                        JOINT
-                            .iter()
-                            .chain(of_planar)
-                            .chain(of_bond)
-                            .map(|(n, u, d)| channel(format!("joint/{}/{n}", joint_names[e]), u, d)),
-                    );
-                }
-            }
-        }
-        Ok((Channels { watched }, list))
+    /// A parabola's turn is met exactly.
+    #[test]
+    fn turns_inside_a_step_are_seen() {
+        let (h, turn, peak) = (0.2, 0.07, 3.0);
+        let (z, v) = (|t: f64| peak - (t - turn).powi(2), |t: f64| -2.0 * (t - turn));
+        assert!((extreme([z(0.0), z(h)], [v(0.0), v(h)], h) - peak).abs() < 1e-15);
+        assert_eq!(extreme([1.0, 2.0], [0.5, 0.5], h), 1.0);
     }
-
-    /// [`Channels::sample`] of a planar wall.
-    pub(crate) fn sample_planar(&self, model: &Model, at: Row, row: &mut Vec<f64>) {
-        let mean = |values: &[f64]| model.tops.of_courses(|i| values[i]);
-        let base = model.excitation.drive(at.t).base(at.t);
-        row.extend([base.a, base.u, at.shear, mean(at.z), mean(at.v), at.pull]);
-        row.extend(model.floating_beam().map_or([0.0; 3], |beam| [at.z[beam], at.v[beam], at.a[beam]]));
-        row.push(peak(&at.z[..model.wall.blocks.len()]));
-        push_energies(at.energies, row);
-        for w in &self.watched {
-            match *w {
-                Watched::Block(i) => row.extend([at.z[i], at.v[i], at.a[i], at.vertical[i], at.rotation[i]]),
-                Watched::Joint(e, index, bond) => {
-                    let (seen, kind) = (&at.seen[e], model.joints[e].kind);
-                    let sign = turned(kind);
-                    let (moved, speed, force) = match kind.is_upright() {
-                        true => (seen.gap[1], seen.parting, seen.pressure),
-                        false => (sign * seen.slide, sign * seen.speed, -sign * (seen.shear - seen.friction)),
-                    };
-                    let device = model.devices.binary_search_by_key(&(e as u32), |device| device.joint);
-                    row.extend([moved, speed]);
-                    row.extend(match device.map(|k| model.devices[k].law) {
-                        Err(_) => [force, 0.0, -sign * seen.friction],
-                        Ok(law) => {
-                            let whole = if kind.is_upright() { seen.pressure } else { -sign * seen.shear };
-                            match law {
-                                DeviceLaw::Elastic => [whole, 0.0, 0.0],
-                                DeviceLaw::Viscous if index[2].is_none() => [0.0, whole, 0.0],
-                                _ => [0.0, 0.0, whole],
-                            }
-                        }
-                    });
-                    row.extend([seen.gap[1].max(0.0), seen.pressure]);
-                    row.extend(bond.map(|b| at.bonds[b].damage));
-                }
-            }
-        }
-    }
-
-    /// Appends one row of values.
-    pub fn sample(&self, model: &Model, drive: &Drive, at: View, row: &mut Vec<f64>) {
-        let beam = model.floating_beam().unwrap_or(model.top());
-        let [shear, pull] =
-            [&model.on_base, &model.on_beam].map(|support| 0.0 - borne_by(model, support, Acting::of(at)));
-        let mean = |values: &[f64]| model.tops.of_courses(|i| values[i]);
-        let base = drive.base(at.t);
-        let energies = at.energies;
-        row.extend([base.a, base.u, shear, mean(at.z), mean(at.v), pull]);
-        row.extend([at.z[beam], at.v[beam], at.a[beam]]);
-        row.push(peak(&at.z[..model.wall.blocks.len()]));
-        push_energies(energies, row);
-        for w in &self.watched {
-            match *w {
-                Watched::Block(i) => row.extend([at.z[i], at.v[i], at.a[i]]),
-                Watched::Joint(e, index, bond) => {
-                    let [a, b] = model.sides[e].map(|s| s as usize);
-                    let sign = if model.joints[e].kind.is_upright() { -1.0 } else { 1.0 };
-                    let (elastic, viscous, friction) = joint_forces(model, at, index, e);
-                    let (d, v) = (at.z[a] - at.z[b], at.v[a] - at.v[b]);
-                    let bond = bond.map(|b| (&model.bonds[b], at.bonds[b].damage));
-                    let elastic = bond.map_or(elastic, |(bond, damage)| bond.force(&model.elastic[e], damage, d));
-                    row.extend([sign * d, sign * v, elastic, viscous, friction]);
-                    row.extend(bond.map(|(_, damage)| damage));
-                }
-            }
-        }
-    }
-}
-
-/// The energy channels, in the order of [`ENERGIES`].
-fn push_energies(energies: &Energies, row: &mut Vec<f64>) {
-    let Energies { input_top, kinetic, elastic, damping, friction, bond, device, impact, nonreciprocal, .. } =
-        *energies;
-    row.extend([energies.input(), kinetic, elastic, damping, friction, bond, device, impact, nonreciprocal]);
-    row.extend([energies.residual(), input_top]);
-}
-
-fn chosen(key: &str, what: &str, asked: &[String], names: &[String]) -> Result<Vec<usize>> {
-    if asked.iter().any(|a| a == "all") {
-        return Ok((0..names.len()).collect());
-    }
-    let places: HashMap<&String, usize> = names.iter().enumerate().map(|(i, n)| (n, i)).collect();
-    let mut indices = Vec::with_capacity(asked.len());
-    for name in asked {
-        let i = *places.get(name).ok_or_else(|| {
-            InputError::new(format!("no {what} is named `{name}`"))
-                .key(key)
-                .allowed(format!("\"all\", or names as `concio check` draws them, for example {}", names[0]))
-        })?;
-        indices.push(i);
-    }
-    Ok(indices)
 }

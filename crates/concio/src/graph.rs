@@ -4,8 +4,8 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use crate::case::{JointKind, NormalForce};
-use crate::pattern::CONTACT_TOLERANCE;
 use crate::polygon::{facing, of_box};
+use crate::wall::CONTACT_TOLERANCE;
 use crate::wall::{Block, End, Joint, Wall};
 
 /// Finds all joints: base, then course by course bed and head joints of each panel, then connections, then the

@@ -86,6 +86,59 @@ pub fn spring_force(unilateral: bool, stiffness: f64, d: f64) -> f64 {
     if unilateral && d <= 0.0 { 0.0 } else { stiffness * d }
 }
 
+/// Elastic and viscous part of a joint, (2)–(4).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elastic {
+    /// w K_H, or κ K_V for a no-tension joint [N/m].
+    pub stiffness: f64,
+    /// w C [N s/m].
+    pub damping: f64,
+    /// The stiffness acts in compression only.
+    pub unilateral: bool,
+}
+
+/// Frictional part of a joint, (5).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rub {
+    /// Index of the joint.
+    pub joint: u32,
+    /// Normal force in the equation of each side [N].
+    pub normal: [f64; 2],
+    /// μ(v).
+    pub law: Stribeck,
+}
+
+impl Rub {
+    /// The normal force on the side where it is larger [N].
+    pub fn largest_normal(&self) -> f64 {
+        self.normal[0].max(self.normal[1])
+    }
+}
+
+/// A joint that lets its sides part and never lets them overlap: (R1), (R2).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Index of the joint.
+    pub joint: u32,
+    /// Newton's coefficient of restitution e, 0 … 1.
+    pub restitution: f64,
+}
+
+/// What is joined to a support, by index in the lists of the [`Model`].
+#[derive(Debug, Clone, Default)]
+pub struct Support {
+    /// Joints.
+    pub joints: Vec<u32>,
+    /// Among those that rub.
+    pub rubs: Vec<u32>,
+    /// Among the bonds.
+    pub bonds: Vec<u32>,
+    /// Among the rigid joints.
+    pub contacts: Vec<u32>,
+    /// Among the devices with laws of their own.
+    pub devices: Vec<u32>,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,7 @@
 //! a top beam with mass (theory, sections 2 and 3).
 
 use crate::G;
-use crate::assign::{JointLaw, friction_choice, resolve};
+use crate::assign::{JointLaw, friction_choice, load_masses, resolve};
 use crate::bond::{self, Bonded};
 use crate::case::{Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, Signal, SpringLaw, plausible};
 use crate::device::{self, Device, Nonlinear};
@@ -10,7 +10,7 @@ use crate::drift::{self, Tops};
 use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::graph;
-use crate::law::Stribeck;
+use crate::law::{Contact, Elastic, Rub, Support};
 use crate::planar::{self, Planar};
 use crate::quantity::Length;
 use crate::wall::{Block, End, Joint, Wall};
@@ -62,59 +62,6 @@ pub struct Model {
     pub planar: Option<Planar>,
     /// Things a user should know before believing the result.
     pub warnings: Vec<Warning>,
-}
-
-/// Elastic and viscous part of a joint, (2)–(4).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Elastic {
-    /// w K_H, or κ K_V for a no-tension joint [N/m].
-    pub stiffness: f64,
-    /// w C [N s/m].
-    pub damping: f64,
-    /// The stiffness acts in compression only.
-    pub unilateral: bool,
-}
-
-/// Frictional part of a joint, (5).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rub {
-    /// Index of the joint.
-    pub joint: u32,
-    /// Normal force in the equation of each side [N].
-    pub normal: [f64; 2],
-    /// μ(v).
-    pub law: Stribeck,
-}
-
-impl Rub {
-    /// The normal force on the side where it is larger [N].
-    pub fn largest_normal(&self) -> f64 {
-        self.normal[0].max(self.normal[1])
-    }
-}
-
-/// A joint that lets its sides part and never lets them overlap: (R1), (R2).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contact {
-    /// Index of the joint.
-    pub joint: u32,
-    /// Newton's coefficient of restitution e, 0 … 1.
-    pub restitution: f64,
-}
-
-/// What is joined to a support, by index in the lists of the [`Model`].
-#[derive(Debug, Clone, Default)]
-pub struct Support {
-    /// Joints.
-    pub joints: Vec<u32>,
-    /// Among those that rub.
-    pub rubs: Vec<u32>,
-    /// Among the bonds.
-    pub bonds: Vec<u32>,
-    /// Among the rigid joints.
-    pub contacts: Vec<u32>,
-    /// Among the devices with laws of their own.
-    pub devices: Vec<u32>,
 }
 
 impl Support {
@@ -366,17 +313,6 @@ pub(crate) fn stiffest(mass: &[f64], sides: &[[u32; 2]], elastic: &[Elastic], du
     let bilateral = over(false);
     let largest = if bilateral > 0.0 { bilateral } else { over(true) };
     largest.max((std::f64::consts::TAU / duration).powi(2))
-}
-
-/// Mass of what bears down on each block of a wall without a beam [kg]: in proportion to the load on it.
-pub fn load_masses(case: &Case, wall: &Wall) -> Vec<f64> {
-    if case.load.beam != Beam::Free {
-        return vec![0.0; wall.blocks.len()];
-    }
-    let lengths = wall.loaded();
-    let whole: f64 = lengths.iter().sum();
-    let per_length = case.load.mass.map_or(case.load.top.per_length(whole) / G, |mass| mass.si() / whole);
-    lengths.into_iter().map(|length| per_length * length).collect()
 }
 
 fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {

@@ -2,45 +2,11 @@
 //! and the forces of every joint, in the shear model by equations (2) to (6) of the theory, in the planar model as the
 //! frame holds them. Signs are those of the sampled channels.
 
+use crate::bond::BondRow;
 use crate::law::Stribeck;
-use crate::outcome::BondRow;
-use crate::record::{Layout, Recording};
+use crate::record::Motion;
 use crate::store::{FrictionRow, StoredRun};
-use crate::wall::{Block, End};
-
-/// Motion of a block or of the top beam, relative to the base; the horizontal one unless said.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Motion {
-    /// Of the centre [m].
-    pub displacement: f64,
-    /// [m/s]
-    pub velocity: f64,
-    /// [m/s²]
-    pub acceleration: f64,
-    /// How far the centre has risen [m]; 0 in the shear model.
-    pub vertical: f64,
-    /// Rotation about the centre, counterclockwise, in rad; 0 in the shear model.
-    pub rotation: f64,
-}
-
-impl Motion {
-    /// Displacement [m] of the point that is at `arm` [m] from the centre when the body is at rest, by the whole rotation
-    /// and not only its first order.
-    pub fn of_point(&self, arm: [f64; 2]) -> [f64; 2] {
-        if self.rotation == 0.0 {
-            return [self.displacement, self.vertical];
-        }
-        // cos φ − 1 without the digits that small rotations lose in the difference.
-        let (sine, less) = (self.rotation.sin(), -2.0 * (0.5 * self.rotation).sin().powi(2));
-        [self.displacement + less * arm[0] - sine * arm[1], self.vertical + sine * arm[0] + less * arm[1]]
-    }
-
-    /// Displacement [m] of the point of `block` that is at `point` [m] when the block is at rest.
-    pub fn of_point_in(&self, block: &Block, point: [f64; 2]) -> [f64; 2] {
-        let centre = block.centre();
-        self.of_point([point[0] - centre[0], point[1] - centre[1]])
-    }
-}
+use crate::wall::End;
 
 /// Relative motion and forces of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -66,21 +32,6 @@ pub struct JointMotion {
     /// Friction force, same sign [N]: by (6), or as the frame holds it where a law is set-valued or a joint bonded. In the
     /// planar model the whole tangential force.
     pub friction: f64,
-}
-
-impl Motion {
-    /// Of unknown `index` in frame `frame`; both must be there.
-    pub fn in_frame(layout: &Layout, recording: &Recording, frame: usize, index: usize) -> Self {
-        let at = frame * layout.unknowns + index;
-        let turned = |rows: &[f64]| if layout.turned > 0 { rows[frame * layout.turned + index] } else { 0.0 };
-        Motion {
-            displacement: recording.frame_displacement[at],
-            velocity: recording.frame_velocity[at],
-            acceleration: recording.frame_acceleration[at],
-            vertical: turned(&recording.frame_vertical),
-            rotation: turned(&recording.frame_rotation),
-        }
-    }
 }
 
 /// One frame of a run.

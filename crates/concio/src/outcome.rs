@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::bond::Bond;
+use crate::bond::{Bond, BondRow};
+use crate::drift::DriftRow;
 use crate::record::{Counters, Energies, Envelopes, Layout, Recording, StopReason};
 
 /// Part of its peak down to which the force of a push counts as borne, and what displacements may differ by from rounding.
@@ -80,60 +81,6 @@ impl Outcome {
     pub fn worst_drift(&self) -> Option<&DriftRow> {
         self.drifts.iter().max_by(|a, b| a.ratio(a.peak).abs().total_cmp(&b.ratio(b.peak).abs()))
     }
-}
-
-impl DriftRow {
-    /// A displacement of the top as a drift, a pure number.
-    pub fn ratio(&self, displacement: f64) -> f64 {
-        if self.height > 0.0 { displacement / self.height } else { 0.0 }
-    }
-}
-
-/// How far a top of the wall went relative to the base, at the ends of steps ([`crate::drift`]).
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct DriftRow {
-    /// Name of the panel, or `beam`.
-    pub top: String,
-    /// Its height above the base [m]: displacements over it are drifts.
-    pub height: f64,
-    /// Displacement of the top when it was farthest from its place [m], until a collapse.
-    pub peak: f64,
-    /// When that was [s].
-    pub time: f64,
-    /// Mean over the last tenth of the run, without inertia at its end [m]; infinite of a run that stopped early and of a wall that
-    /// collapsed.
-    pub residual: f64,
-    /// By how much it left that mean there, at most [m].
-    pub swing: f64,
-}
-
-/// A bonded joint and what became of it.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct BondRow {
-    /// Index of the joint.
-    pub joint: usize,
-    /// Force at which it cracks [N].
-    pub strength: f64,
-    /// Stiffness of the intact joint [N/m]; of a head joint or connection in tension.
-    pub stiffness: f64,
-    /// Fraction of it that a cracked joint keeps, 0 … 1.
-    pub residual_stiffness: f64,
-    /// Energy that it takes to break [J].
-    pub energy: f64,
-    /// Length over which the strength falls, δ_c of (B3) [m]; 0 when it is brittle.
-    pub decay: f64,
-    /// Damage at the end, the part of the stiffness that is lost, 0 … 1.
-    pub damage: f64,
-    /// Part of the joint's length along which it has cracked, 0 … 1; of shear walls all of it at once.
-    pub crack: f64,
-    /// The part of it that lies at the joint's first end, left or below; the rest lies at the other.
-    pub crack_start: f64,
-    /// Energy that breaking has taken [J].
-    pub spent: f64,
-    /// When it first cracked [s]; infinite when it did not.
-    pub cracked: f64,
-    /// When nothing was left of it [s]; infinite when something is.
-    pub broken: f64,
 }
 
 /// What became of a tie.

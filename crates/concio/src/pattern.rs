@@ -20,17 +20,6 @@ mod random;
 
 pub use openings::{Jamb, Laid};
 
-/// Contacts and overlaps shorter than this part of L_ref count as none: they come from rounding.
-pub const CONTACT_TOLERANCE: f64 = 1e-6;
-
-/// Relative error allowed when bricks have to make up a width.
-pub(crate) const SLACK: f64 = 1e-9;
-
-/// The name of a panel (from 0): its own, or `p1`, `p2`, ….
-pub fn panel_name(case: &Case, panel: usize) -> String {
-    case.panels.get(panel).and_then(|p| p.name.clone()).unwrap_or_else(|| format!("p{}", panel + 1))
-}
-
 /// A block before it has a name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Rect {
@@ -185,7 +174,7 @@ fn panel_info(case: &Case, index: usize) -> PanelInfo {
         specific_weight: brick.specific_weight.si(),
     };
     PanelInfo {
-        name: panel_name(case, index),
+        name: case.panel_name(index),
         courses: 0,
         reference_length: brick.length.si(),
         reference_height: brick.height.si(),

@@ -7,35 +7,33 @@ use std::collections::{BTreeMap, HashSet};
 
 use concio_planar::body::Body;
 use concio_planar::joint::{self, Bond as PointBond, Friction, Law, Normal, Shear};
-use concio_planar::motion::{Link, System};
+use concio_planar::motion::{Link, Motion, Setting, System};
 use concio_planar::shape::{Place, Polygon, touches};
 use concio_planar::tie::Tie as Rod;
 
 use crate::assign::JointLaw;
-use crate::bond::{Bond, BondValues, Bonded, Snap, Snaps};
+use crate::assign::load_masses;
+use crate::bond::{Bond, Bonded, Snap, Snaps};
 use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw, StopAt, Tie};
 use crate::device;
 use crate::error::{InputError, Result};
+use crate::law::Elastic;
 use crate::law::Stribeck;
-use crate::model::{Elastic, load_masses};
 use crate::wall::{End, Joint, Wall};
 
-mod collapse;
-mod modes;
-mod run;
-
-pub use collapse::Collapsed;
 pub use concio_planar::motion::Vibration;
-pub use modes::{Failure, Mode, failure};
-pub(crate) use run::{Kept, Row, Run, turned};
-
-/// Step unless the wall file says otherwise [s].
-pub const STEP: f64 = 1e-3;
-/// The same without inertia, where what stands for it is the smaller the longer steps are.
-pub const QUASI_STATIC_STEP: f64 = 2e-2;
 
 /// How far outside of its block a tie may be fixed [m]: what numbers are rounded by.
 const BESIDE: f64 = 1e-6;
+
+/// Largest way of a body in a step without inertia at which the wall stands under its loads [m].
+const STANDS: f64 = 1e-10;
+/// Steps in which it has to come to that.
+const SETTLING: usize = 400;
+/// Way of a body over the least height of a block from which a wall that has not come to that is falling, and from which what has
+/// come to rest is no longer the wall.
+const FALLING: f64 = 0.01;
+const FELL: f64 = 0.25;
 
 /// A wall whose blocks rise and turn.
 #[derive(Debug, Clone)]
@@ -57,12 +55,12 @@ pub struct Planar {
 impl Planar {
     /// The slowest vibration of the wall as it stands under its loads ([`concio_planar::motion::Motion::slowest`]).
     pub fn slowest(&self) -> Option<Vibration> {
-        run::standing(self).0.slowest()
+        standing(self).0.slowest()
     }
 
     /// How the wall takes its loads before anything moves.
     pub fn rest(&self) -> Rest {
-        run::standing(self).1
+        standing(self).1
     }
 
     /// Longest step that resolves the joints whose springs let go, as they ring between the blocks beside them [s]: that of the
@@ -219,13 +217,7 @@ pub(crate) fn compile(
     let system = System { bodies, links, ties, other, load: loads, held, shaken };
     let open = laws.iter().map(JointLaw::is_open).collect();
     let after_collapse = case.motion.stop_at.map(|StopAt::Collapse(after)| after.si());
-    Ok(Planar { system, offset, open, step: step(case), still: case.motion.quasi_static, after_collapse })
-}
-
-/// Step of a wall [s].
-pub(crate) fn step(case: &Case) -> f64 {
-    let own = if case.motion.quasi_static { QUASI_STATIC_STEP } else { STEP };
-    case.solver.step.map_or(own, |h| h.si())
+    Ok(Planar { system, offset, open, step: case.planar_step(), still: case.motion.quasi_static, after_collapse })
 }
 
 /// Ties as rods between bodies; the base is the first of the two.
@@ -387,7 +379,7 @@ fn part(wall: &Wall, joints: &[Joint], faces: &mut [[f64; 4]]) {
 /// head joint in tension.
 pub(crate) fn bonds(wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Vec<Bonded> {
     let of = |(e, (joint, law)): (usize, (&Joint, &JointLaw))| {
-        let values = bond_of(law)?;
+        let values = law.strong_bond()?;
         let opens = joint.kind.is_upright();
         let area = joint.area(wall);
         let which = usize::from(!opens);
@@ -398,11 +390,6 @@ pub(crate) fn bonds(wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Vec<Bon
         Some(Bonded { joint: e as u32, rub: None, law: softening.unwrap_or(law) })
     };
     joints.iter().zip(laws).enumerate().filter_map(of).collect()
-}
-
-/// The bond of a joint; strengths of 0 are none.
-pub(crate) fn bond_of(law: &JointLaw) -> Option<&BondValues> {
-    law.bond.as_ref().filter(|b| b.tensile_strength > 0.0 || b.cohesion > 0.0 || b.tan_angle > 0.0)
 }
 
 /// By which part of its length a rigid joint is pressed in where it crushes: what is crushed is known of joints with springs. It is a hundredth of what
@@ -426,7 +413,7 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
     let reference = wall.panels[wall.blocks[joint.a].panel].reference_mass;
     let dashpot = |k: f64| 2.0 * law.damping_ratio * (k * joint.weight * reference).sqrt();
     let area = joint.area(wall);
-    let bond = bond_of(law).map(|values| PointBond {
+    let bond = law.strong_bond().map(|values| PointBond {
         tension: values.tensile_strength * area,
         cohesion: values.cohesion * area,
         tan_angle: values.tan_angle,
@@ -483,7 +470,7 @@ fn softening(wall: &Wall, joints: &[Joint], laws: &[JointLaw], normal: &[[f64; 2
     for (number, (joint, law)) in joints.iter().zip(laws).enumerate() {
         let stiffness = law.stiffness(joint, wall) * law.spring.stiffness_factor;
         let springs = matches!(law.spring.law, SpringLaw::Elastic | SpringLaw::NoTension) && stiffness > 0.0;
-        let Some(values) = bond_of(law).filter(|_| springs) else { continue };
+        let Some(values) = law.strong_bond().filter(|_| springs) else { continue };
         let (area, ways) = (joint.area(wall), ways(joint, law));
         let pressure = if joint.kind.is_upright() { 0.0 } else { normal[number][0] / area };
         let shear = values.cohesion + pressure * values.tan_angle;
@@ -540,4 +527,21 @@ fn common_friction(case: &Case) -> Option<Friction> {
         slip_velocity,
         alpha: f.alpha,
     })
+}
+
+/// The wall at rest under its loads, and how it takes them. What does not come to rest moves on in the run, from where it was laid.
+pub(crate) fn standing(planar: &Planar) -> (Motion, Rest) {
+    let setting = Setting { still: planar.still, ..Setting::new(planar.step) };
+    let mut motion = Motion::new(&planar.system, setting.clone());
+    let least = planar.system.bodies.iter().map(Body::height).fold(f64::INFINITY, f64::min);
+    let most = if motion.stand(STANDS, SETTLING) { FELL } else { FALLING };
+    let settled = motion.strayed_by(&planar.system);
+    // What is no number has not stood.
+    if settled <= most * least {
+        let has_cracked = |e: &usize| motion.crack(*e).is_some_and(|crack| crack.cracked.is_finite());
+        let cracked = (0..planar.system.links.len()).filter(has_cracked).count();
+        return (motion, Rest::Stands { settled, cracked });
+    }
+    let rest = if settled <= FELL * least { Rest::Settles(settled) } else { Rest::Falls };
+    (Motion::new(&planar.system, setting), rest)
 }

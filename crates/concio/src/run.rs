@@ -6,19 +6,19 @@ use std::time::{Duration, Instant};
 use concio_planar::joint::{Law, Normal};
 use serde_json::Value;
 
-use crate::case::{Beam, Case, Signal, canonical_json, plausible};
+use crate::case::{Beam, Case, MOST_SAMPLES, Signal, canonical_json, plausible};
 use crate::error::{Error, InputError, Result};
 use crate::excitation::Excitation;
 use crate::files;
 use crate::ground::signal::compile_with;
 use crate::ground::{Library, coverage};
-use crate::model::{Model, Rub};
+use crate::law::Rub;
+use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::pattern;
-use crate::planar;
 use crate::quantity::shown;
 use crate::record::StopReason;
-use crate::simulate::{Progress, Sampling, Simulation};
+use crate::simulate::{Progress, Sampling, Simulation, Status};
 use crate::store::{self, JointRow, Journal, JournalHeader, Provenance, RunFacts};
 use crate::warning::{Warning, WarningKind};
 
@@ -37,26 +37,6 @@ pub struct Prepared {
     pub sampling: Sampling,
     /// BLAKE3 of the resolved input, the bytes of its records and the versions of program and format, in hex.
     pub inputs_hash: String,
-}
-
-/// How far a run is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Status {
-    /// Time reached [s].
-    pub time: f64,
-    /// End of the run [s].
-    pub duration: f64,
-    /// Steps taken, those before a resume included.
-    pub steps: u64,
-    /// Time from which an unfinished run was taken up [s]; none of one that began at 0, or that was not taken up by [`run`].
-    pub resumed_from: Option<f64>,
-}
-
-impl Status {
-    /// Share of the run that is done, from 0 to 1.
-    pub fn share(&self) -> f64 {
-        self.time / self.duration
-    }
 }
 
 /// What the caller wants to happen next.
@@ -90,8 +70,6 @@ pub const REPORT: &str = "report.html";
 const BETWEEN_LOOKS: Duration = Duration::from_millis(40);
 /// Time by the clock between two checkpoints: what a killed run can lose.
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(1);
-/// Samples that a run may keep.
-pub(crate) const MOST_SAMPLES: f64 = 1e7;
 /// Steps of which there are hardly meant to be more: of a hundred blocks hours, of a thousand days.
 const ENDLESS: f64 = 1e8;
 
@@ -176,7 +154,7 @@ fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
     let asked = output.frames.map(|frames| frames.si()).filter(|frames| *frames > 0.0 && *frames <= duration);
     // A frame is taken with a sample. Between steps without inertia there is nothing: samples there, which make stairs, are taken for such frames alone.
     let of_steps = case.motion.quasi_static.then(|| {
-        let step = planar::step(case);
+        let step = case.planar_step();
         let most = (duration / 2000.0 / step).ceil().max(1.0) as u64;
         let frame = asked.map_or(0, |frames| (frames / step).round() as u64);
         step * (1..=most).rev().find(|steps| frame.is_multiple_of(*steps)).unwrap_or(1) as f64

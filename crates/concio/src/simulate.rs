@@ -4,20 +4,20 @@
 //! does no I/O and allocates nothing, but for pairs of a planar wall that are looked up anew. The caller empties the buffer, shows progress, saves the state.
 
 use crate::case::Solver;
-use crate::dynamics::{Channels, accelerate, book_impact, kick, observe, settle, stored_energy};
+use crate::channels::Channels;
+use crate::dynamics::devices;
+use crate::dynamics::{accelerate, book_impact, kick, observe, settle, stored_energy};
 use crate::error::Result;
 use crate::excitation::Drive;
 use crate::integrate::cracks;
-use crate::integrate::devices;
 use crate::integrate::events;
 use crate::integrate::impact::{COLLISIONS, Impacts};
 use crate::integrate::stage::{self, Failure};
 use crate::integrate::step::{Step, Tolerance};
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::planar;
+use crate::planar_run;
 use crate::record::{Event, EventKind, Layout, Recording, StopReason};
-use crate::run::Status;
 use crate::state::{Instant, State, View};
 
 /// Shortest step as a fraction of the shortest time scale 1/ω; below it the tolerance cannot be held.
@@ -61,7 +61,7 @@ pub struct Simulation<'m> {
     pub(crate) drive: Drive,
     longest_step: f64,
     /// The bodies of a planar wall, whose steps are their own.
-    planar: Option<Box<planar::Run>>,
+    planar: Option<Box<planar_run::Run>>,
 }
 
 /// A step under way: where it aims, and its present try.
@@ -153,7 +153,7 @@ impl<'m> Simulation<'m> {
         let mut state = State::at_rest(model);
         let drive = model.excitation.drive(0.0);
         let longest = WINDOW as f64 * layout.interval;
-        let planar = model.planar.as_ref().map(|planar| Box::new(planar::Run::new(model, planar, longest)));
+        let planar = model.planar.as_ref().map(|planar| Box::new(planar_run::Run::new(model, planar, longest)));
         let mut work = Step::new(model, solver.scheme);
         if let Some(bodies) = &planar {
             bodies.begin(&mut state);
@@ -546,7 +546,7 @@ impl<'m> Simulation<'m> {
     /// Goes back to a saved state; false when the bytes are not one of this model's, and the simulation is then to be made anew.
     pub fn restore(&mut self, bytes: &[u8]) -> bool {
         let Ok((state, kept, factors)) =
-            postcard::from_bytes::<(State, Option<planar::Kept>, Option<stage::Kept>)>(bytes)
+            postcard::from_bytes::<(State, Option<planar_run::Kept>, Option<stage::Kept>)>(bytes)
         else {
             return false;
         };
@@ -676,4 +676,24 @@ fn begin_account(model: &Model, state: &mut State) {
 /// Step factor 0.9 (1/error)^(1/order).
 fn growth(error: f64, order: f64) -> f64 {
     if error <= 0.0 { f64::INFINITY } else { 0.9 * error.powf(-1.0 / order) }
+}
+
+/// How far a run is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Status {
+    /// Time reached [s].
+    pub time: f64,
+    /// End of the run [s].
+    pub duration: f64,
+    /// Steps taken, those before a resume included.
+    pub steps: u64,
+    /// Time from which an unfinished run was taken up [s]; none of one that began at 0, or that was not taken up by [`run`].
+    pub resumed_from: Option<f64>,
+}
+
+impl Status {
+    /// Share of the run that is done, from 0 to 1.
+    pub fn share(&self) -> f64 {
+        self.time / self.duration
+    }
 }

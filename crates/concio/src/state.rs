@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::bond::BondState;
 use crate::drift::Lean;
 use crate::model::Model;
 use crate::outcome::Totals;
@@ -123,38 +124,6 @@ impl Instant {
         let Instant { t, z, v, a, mu, reaction, bonds, devices, energies } = self;
         View { t: *t, z, v, a, mu, reaction, bonds, devices, energies }
     }
-}
-
-/// What a run has done to a bond.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct BondState {
-    /// δ_m: largest |δ|, or widest gap, that counted for the damage so far [m]; 0 while the bond is intact.
-    pub reach: f64,
-    /// D, 0 … 1: what is lost of the stiffness. The part that rubs is [`crate::bond::Bond::rubbing`].
-    pub damage: f64,
-    /// Parts of the joint's length along which it has cracked, from its first end (left or below) and from the other, where cracks run along joints.
-    pub crack: Option<[f64; 2]>,
-    /// Energy that breaking took [J].
-    pub spent: f64,
-    /// Largest |elastic force| of the joint so far [N].
-    pub peak: f64,
-    /// When it first cracked [s]; infinite while it is intact.
-    pub cracked: f64,
-    /// When nothing was left of it [s]; infinite until then.
-    pub broken: f64,
-}
-
-impl BondState {
-    /// Of an intact bond.
-    pub const INTACT: BondState = BondState {
-        reach: 0.0,
-        damage: 0.0,
-        crack: None,
-        spent: 0.0,
-        peak: 0.0,
-        cracked: f64::INFINITY,
-        broken: f64::INFINITY,
-    };
 }
 
 /// What a run has done to a device with a law of its own.

@@ -1,7 +1,37 @@
 //! Blocks and joints of a wall: what geometry alone says. `pattern` makes the blocks, `graph` the joints.
 
-use crate::case::JointKind;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::polygon;
+
+/// Contacts and overlaps shorter than this part of L_ref count as none: they come from rounding.
+pub const CONTACT_TOLERANCE: f64 = 1e-6;
+/// Relative error allowed when bricks have to make up a width.
+pub(crate) const SLACK: f64 = 1e-9;
+
+/// Kinds of joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum JointKind {
+    /// Between blocks of adjacent courses.
+    Bed,
+    /// Between neighbours in a course.
+    Head,
+    /// Bottom course on the base.
+    Base,
+    /// Top beam on the top course.
+    Top,
+    /// Between panels.
+    Connection,
+}
+
+impl JointKind {
+    /// Whether blocks stand side by side at it: head joints and connections of panels, which open and close.
+    pub fn is_upright(self) -> bool {
+        matches!(self, JointKind::Head | JointKind::Connection)
+    }
+}
 
 /// A rigid block (brick, stone).
 #[derive(Debug, Clone, PartialEq)]

@@ -140,7 +140,7 @@ fn is_done(folder: &Path, hash: &str) -> bool {
 
 /// As `concio run` does it; none when it was stopped.
 fn in_folder(prepared: &Prepared, folder: &Path, text: &str) -> Result<Option<StoredRun>, Failure> {
-    let look = |_: &run::Status| if stop::asked() { Control::Stop } else { Control::Continue };
+    let look = |_: &concio::simulate::Status| if stop::asked() { Control::Stop } else { Control::Continue };
     let finished = run::run(prepared, folder, &mut { look })?;
     let joints = run::joint_rows(&prepared.model);
     report::write(folder, &report::Content::of_run(folder, prepared, &joints, &finished, text))?;

@@ -142,7 +142,7 @@ fn joint_rows(model: &Model) -> Vec<Vec<String>> {
 /// The joints that are devices, law by law, after which nothing but their sum with the others is left; nothing where there are none.
 fn device_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
     let mut laws: Vec<DeviceLaw> = Vec::new();
-    let ratings = device::ratings(case, model)?;
+    let ratings = device::ratings(case, &model.wall, &model.joints)?;
     for device in &ratings {
         if !laws.contains(&device.law) {
             laws.push(device.law);
@@ -188,7 +188,7 @@ fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
     if model.bonds.is_empty() {
         return Ok(Vec::new());
     }
-    let given = bond::given(case, model)?;
+    let given = bond::given(case, &model.wall, &model.joints)?;
     let head = ["bonds", "number", "f_t or c", "tan φ", "G_f", "strength"];
     let mut rows = vec![head.map(String::from).to_vec()];
     for kind in KINDS {

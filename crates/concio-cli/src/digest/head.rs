@@ -1,8 +1,9 @@
 //! What is asked first of a run: how it failed, when it cracked, whether it fell, how far it leaned, what it bore.
 
+use concio::bond::BondRow;
 use concio::drift::BEAM;
-use concio::outcome::{BondRow, Outcome};
-use concio::planar::{Collapsed, Failure};
+use concio::failure::{Collapsed, Failure};
+use concio::outcome::Outcome;
 use concio::store::JointRow;
 use serde_json::Value;
 

@@ -2,7 +2,8 @@
 //! slid.
 
 use concio::InputError;
-use concio::moment::{JointMotion, Moment, Motion};
+use concio::moment::{JointMotion, Moment};
+use concio::record::Motion;
 use concio::wall::{Block, End, Joint};
 
 use super::Options;

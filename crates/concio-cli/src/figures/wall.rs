@@ -2,7 +2,8 @@
 
 use concio::InputError;
 use concio::case::JointKind;
-use concio::moment::{Moment, Motion};
+use concio::moment::Moment;
+use concio::record::Motion;
 
 use super::Options;
 use super::data::{Data, Instant};

@@ -2,9 +2,9 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use concio::bond::BondRow;
 use concio::case::Beam;
 use concio::ground::response_spectrum;
-use concio::outcome::BondRow;
 use concio::store::{FrictionRow, JointRow};
 use concio::wall::{Block, End};
 use serde_json::{Value, json};

@@ -5,6 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::quantity::{DampingConstant, Force, ForcePerLength, Length, Velocity};
 
+/// β and γ of (I5) unless given.
+pub(crate) const BETA: f64 = 0.5;
+/// See [`BETA`].
+pub(crate) const GAMMA: f64 = 0.5;
+
 /// A device in the place of the mortar of a joint: a law and the keys of that law. Values are those of the whole joint,
 /// whatever its overlap. It acts against the relative displacement of its sides in both directions, also where they
 /// would close a head joint.

@@ -10,7 +10,6 @@ use super::{
     Beam, Case, FrictionChange, FrictionLaw, JointBond, JointKind, Joints, ModelKind, Panel, Signal, Solver,
     SpringChange, SpringLaw, TopLoad,
 };
-use crate::planar;
 use crate::quantity::{Stiffness, shown};
 use crate::warning::{Warning, WarningKind};
 
@@ -321,7 +320,7 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
             doubts.add(WarningKind::StillMotion, text);
         }
         if let Signal::Tilt(tilt) = &case.motion.base {
-            let more = tilt.acceleration.si().abs() * planar::step(case) / tilt.rise.si() / crate::G;
+            let more = tilt.acceleration.si().abs() * case.planar_step() / tilt.rise.si() / crate::G;
             if more > STEEP {
                 let text = format!(
                     "motion.base.tilt grows by {} g in every step of this `quasi_static` run: what the wall bears is known no better, and a wall that \
@@ -333,7 +332,7 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
             }
         }
         if let Signal::Path(path) = &case.motion.top {
-            let way = path.speed.si() * planar::step(case);
+            let way = path.speed.si() * case.planar_step();
             if way > LONG_WAY {
                 let text = format!(
                     "motion.top.path.speed moves the top by {} mm in every step of this `quasi_static` run: forces depend on that, and may be far off. \

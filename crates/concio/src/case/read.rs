@@ -6,7 +6,6 @@ use std::path::Path;
 use super::document::{self, Document};
 use super::node::{Fault, Node, Value};
 use super::{Case, DeviceLaw, ModelKind, ParameterSet, change, de, plausible, sets, validate};
-use crate::wall::Wall;
 use crate::warning::Warning;
 use crate::{Error, InputError, Result};
 
@@ -99,11 +98,6 @@ impl CaseFile {
         let key = doubt.split(' ').next().filter(|word| word.contains('.') && !word.ends_with('.'))?;
         super::describe(key)?;
         self.place(InputError::new("").key(key)).line
-    }
-
-    /// The blocks of the wall ([`crate::pattern::lay`]), with file and line in errors.
-    pub fn wall(&self) -> Result<Wall> {
-        crate::pattern::lay(&self.case).map_err(|e| self.locate(e))
     }
 }
 

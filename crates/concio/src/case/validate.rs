@@ -216,9 +216,9 @@ fn output(f: &mut Findings, case: &Case) {
         f.quantity("output.interval", interval, Bound::Above0);
         if let Some(duration) = case.motion.duration
             && interval.si() > 0.0
-            && duration.si() / interval.si() > crate::run::MOST_SAMPLES
+            && duration.si() / interval.si() > crate::case::MOST_SAMPLES
         {
-            let allowed = format!("at least {} s for this duration", shown(duration.si() / crate::run::MOST_SAMPLES));
+            let allowed = format!("at least {} s for this duration", shown(duration.si() / crate::case::MOST_SAMPLES));
             f.push("output.interval", format!("{interval} gives more than 10,000,000 samples"), allowed);
         }
     }

@@ -20,7 +20,7 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
-use crate::case::Synthetic;
+use crate::case::{SYNTHETIC_SAMPLES, Synthetic};
 use crate::ground::process::integrate;
 use crate::ground::record::{Format, Record, interval_error};
 use crate::ground::spectrum::spectrum_at_samples;
@@ -42,8 +42,6 @@ const ATTEMPTS: u64 = 4;
 const ENVELOPE: [f64; 3] = [0.15, 0.6, 0.02];
 /// No motion below this frequency, all of it from twice the frequency on [Hz].
 const LOW_CUT: f64 = 0.1;
-/// Samples are fewer than this.
-pub(crate) const MOST_SAMPLES: f64 = 2e5;
 
 /// Elastic response spectrum (G1) [m/s²] for peak `pga` [m/s²] and corner periods T_B, T_C, T_D [s].
 pub fn elastic_spectrum(pga: f64, corners: [f64; 3], period: f64) -> f64 {
@@ -126,7 +124,7 @@ pub(super) fn check(input: &Synthetic) -> Result<()> {
         return Err(error.key("synthetic.dt").into());
     }
     range("synthetic.dt", dt, dt <= 0.02, "up to 0.02 s")?;
-    range("synthetic.duration", duration, duration / dt < MOST_SAMPLES, "fewer than 200,000 samples")?;
+    range("synthetic.duration", duration, duration / dt < SYNTHETIC_SAMPLES, "fewer than 200,000 samples")?;
     let ordered = corners[0] > 0.0 && corners.windows(2).all(|pair| pair[0] < pair[1]);
     range("synthetic.corners", corners[0], ordered && corners[2].is_finite(), "0 < T_B < T_C < T_D")
 }

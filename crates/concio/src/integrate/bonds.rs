@@ -5,9 +5,9 @@
 //! step changes nothing. Brittle bonds do not crack inside a step; the time loop ends steps where they do.
 
 use crate::bond::Bond;
+use crate::bond::BondState;
 use crate::integrate::joints::{Joints, Rubs};
 use crate::model::Model;
-use crate::state::BondState;
 
 /// What a bond has beyond the secant of its joint at some relative displacement.
 #[derive(Debug, Clone, Copy, Default)]

@@ -1,10 +1,11 @@
 //! What bonds become at the end of a step. Steps end where a brittle one cracks ([`events`](crate::integrate::events)).
 
+use crate::bond::BondState;
 use crate::bond::Bonded;
 use crate::integrate::events::reaches;
 use crate::model::Model;
 use crate::record::{Event, EventKind};
-use crate::state::{BondState, State};
+use crate::state::State;
 
 /// How far below its strength a bond cracks with one that reaches it, as a fraction: joints that are equal but for rounding
 /// crack together.

@@ -65,16 +65,6 @@ pub fn hermite(x: f64) -> [f64; 3] {
     [x * x * (3.0 - 2.0 * x), x * (1.0 - x) * (1.0 - x), x * x * (x - 1.0)]
 }
 
-/// Largest |z| inside a step of `h` [s] whose ends have displacements `z`, velocities `v`: that of the ends, or where
-/// the velocity, linear between them, passes zero.
-#[inline(always)]
-pub fn extreme(z: [f64; 2], v: [f64; 2], h: f64) -> f64 {
-    // θ of the turn if there is one; otherwise 0, where it is the start.
-    let turns = v[0] * v[1] < 0.0;
-    let at = if turns { v[0] / (v[0] - v[1]) } else { 0.0 };
-    z[0] + 0.5 * h * at * v[0]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,14 +92,5 @@ mod tests {
             let z: f64 = w.of_z.iter().zip(&v).map(|(w, v)| w * v).sum::<f64>() + w.of_end * h * h;
             assert!((z - (0.37 * h).powi(2)).abs() < 1e-15, "{scheme:?}: {z}");
         }
-    }
-
-    /// A parabola's turn is met exactly.
-    #[test]
-    fn turns_inside_a_step_are_seen() {
-        let (h, turn, peak) = (0.2, 0.07, 3.0);
-        let (z, v) = (|t: f64| peak - (t - turn).powi(2), |t: f64| -2.0 * (t - turn));
-        assert!((extreme([z(0.0), z(h)], [v(0.0), v(h)], h) - peak).abs() < 1e-15);
-        assert_eq!(extreme([1.0, 2.0], [0.5, 0.5], h), 1.0);
     }
 }

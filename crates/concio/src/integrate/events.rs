@@ -12,11 +12,10 @@
 //! would miss more than the step may be off, the step ends at the turn.
 
 use crate::device::Law;
+use crate::dynamics::TOUCHING;
 use crate::model::Model;
 use crate::state::State;
 
-/// How near to each other the sides of a rigid joint touch [m].
-pub const TOUCHING: f64 = 1e-13;
 /// By which fraction a brittle bond may exceed its strength when the step ends at which it cracks.
 const EXCEEDING: f64 = 1e-7;
 /// What sides that touched before may overlap by at last [m], and the least that they come nearer in an event.

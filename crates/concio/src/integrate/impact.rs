@@ -12,7 +12,7 @@
 //! (Chandrasekaran, Opsearch 7 (1970) 263); where connections branch a joint may have to be taken back, at last one at
 //! a time by least index (Murty, Linear Algebra Appl. 9 (1974) 65). The joints that bear are held as in a stage.
 
-use crate::integrate::events::TOUCHING;
+use crate::dynamics::TOUCHING;
 use crate::integrate::groups::Groups;
 use crate::integrate::linear::{Factoring, Matrix};
 use crate::model::Model;

@@ -99,7 +99,7 @@ const VERTICAL: f64 = 1e200;
 impl Rubs {
     pub fn new(model: &Model, joints: &Joints) -> Self {
         let rubs = || model.rubs.iter();
-        let at_once = |r: &crate::model::Rub| r.law.sticks() && r.law.slip_velocity == 0.0;
+        let at_once = |r: &crate::law::Rub| r.law.sticks() && r.law.slip_velocity == 0.0;
         Rubs {
             joint: rubs().map(|r| r.joint).collect(),
             sides: rubs().map(|r| joints.sides[r.joint as usize]).collect(),

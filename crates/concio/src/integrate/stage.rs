@@ -21,6 +21,7 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::bond::BondState;
 use crate::integrate::bonds::Bonds;
 use crate::integrate::devices::Devices;
 use crate::integrate::flips::Flips;
@@ -29,7 +30,7 @@ use crate::integrate::joints::{Contacts, Joints, Rubs};
 use crate::integrate::linear::{Factoring, MOST_LISTED, Matrix};
 use crate::law::Stribeck;
 use crate::model::Model;
-use crate::state::{BondState, DeviceState, Tangents};
+use crate::state::{DeviceState, Tangents};
 use crate::wall::Block;
 
 mod contacts;

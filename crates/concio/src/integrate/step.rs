@@ -9,19 +9,21 @@
 
 use pulp::Arch;
 
+use crate::bond::BondState;
 use crate::case::Scheme;
+use crate::dynamics::TOUCHING;
+use crate::dynamics::devices;
 use crate::dynamics::{Moving, power, stored_energy};
 use crate::excitation::Drive;
 use crate::integrate::cracks;
 use crate::integrate::dense::{hermite, weights};
-use crate::integrate::devices;
-use crate::integrate::events::TOUCHING;
 use crate::integrate::impact::Impacts;
 use crate::integrate::stage::{Failure, Stage};
 use crate::integrate::tableau::{STAGES, Tableau, tableau};
-use crate::model::{Model, Rub};
+use crate::law::Rub;
+use crate::model::Model;
 use crate::record::Energies;
-use crate::state::{BondState, DeviceState, Instant, Power, State, Tangents};
+use crate::state::{DeviceState, Instant, Power, State, Tangents};
 use crate::wide::wide;
 
 /// Scratch of a step; nothing here outlives it but the tangents, which belong to the state.

@@ -313,7 +313,7 @@ impl Settle<'_> {
     }
 }
 
-/// [`crate::integrate::dense::extreme`] in every lane; `half` the step.
+/// [`crate::dynamics::extreme`] in every lane; `half` the step.
 #[inline(always)]
 fn extreme<S: Simd>(z: V<S>, v: [V<S>; 2], half: V<S>) -> V<S> {
     let zero = V::splat(half.simd(), 0.0);

@@ -169,13 +169,13 @@ impl Topology {
             }
             joints.push(joint);
         }
-        let rub = |r: &crate::model::Rub| {
+        let rub = |r: &crate::law::Rub| {
             let joint = &joints[r.joint as usize];
             RubAt { sides: joint.sides, slot: joint.slot }
         };
         let rubs = model.rubs.iter().map(rub).collect();
         let rubs_at = |chosen: fn(&JointAt) -> bool| {
-            let at = |(r, _): (usize, &crate::model::Rub)| r as u32;
+            let at = |(r, _): (usize, &crate::law::Rub)| r as u32;
             let rubs = model.rubs.iter().enumerate();
             rubs.filter(|(_, rub)| chosen(&joints[rub.joint as usize])).map(at).collect::<Vec<u32>>()
         };

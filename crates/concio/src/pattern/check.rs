@@ -4,10 +4,10 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashSet};
 
 use super::place::Place;
-use super::{CONTACT_TOLERANCE, Courses, Found, Rect};
+use super::{Courses, Found, Rect};
 use crate::case::{Bond, Case, JointKind, Panel};
 use crate::quantity::{Length, shown};
-use crate::wall::{Block, End, Joint, Wall};
+use crate::wall::{Block, CONTACT_TOLERANCE, End, Joint, Wall};
 use crate::{InputError, Result, graph, polygon};
 
 /// Smallest block and largest coordinate, as parts and multiples of the panel's brick: between them rounding stays

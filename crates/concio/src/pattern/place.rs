@@ -5,10 +5,11 @@
 //! right to begin at (n + w) p: the clear width is w p + t_h. In a running bond both are faces of bricks in every second
 //! course and cut half bricks in the others, for n and w in halves.
 
-use super::{CONTACT_TOLERANCE, Courses, edge};
+use super::{Courses, edge};
 use crate::InputError;
 use crate::case::validate::tidy;
 use crate::case::{Bond, Extent, Opening, Panel};
+use crate::wall::CONTACT_TOLERANCE;
 
 /// How far off a bed joint a height may be, as a part of the brick's height: numbers copied from a message have been
 /// rounded.

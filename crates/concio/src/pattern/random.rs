@@ -8,9 +8,10 @@
 //!
 //! A course over which none can be laid is drawn again, and with repeated failures more of the courses below it.
 
-use super::{Courses, SLACK, stacked};
+use super::{Courses, stacked};
 use crate::case::{Panel, RandomTexture};
 use crate::dice::Dice;
+use crate::wall::SLACK;
 use crate::{InputError, Result};
 
 /// Uniform over some intervals together; over their points if they have no length. None of no interval.

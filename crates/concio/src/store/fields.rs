@@ -1,7 +1,9 @@
 //! Tables of the quantities a result holds: name on disk, unit, meaning, and where they are kept. Writer, reader and
 //! exports go through the same tables, so that none of them can forget a quantity that the others know.
 
-use crate::outcome::{BondRow, DriftRow, TieRow, Totals};
+use crate::bond::BondRow;
+use crate::drift::DriftRow;
+use crate::outcome::{TieRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Layout, Recording};
 use crate::store::{FrictionRow, JointRow};
 use crate::wall::{Block, PanelInfo};

@@ -5,9 +5,10 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::case::DeviceLaw;
+use crate::drift::DriftRow;
 use crate::error::{Error, Result};
 use crate::files;
-use crate::outcome::{Collapse, DriftRow, Outcome, TieRow};
+use crate::outcome::{Collapse, Outcome, TieRow};
 use crate::record::{Event, Layout, Recording};
 use crate::store::digest;
 use crate::store::fields::{self, Field, Frames};

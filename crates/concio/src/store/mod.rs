@@ -13,11 +13,12 @@ mod read;
 mod summary;
 pub mod vtkhdf;
 
+use crate::bond::BondRow;
 use crate::bond::Bonded;
 use crate::case::{DeviceLaw, FrictionLaw, SpringLaw};
+use crate::law::Elastic;
 use crate::law::spring_force;
-use crate::model::Elastic;
-use crate::outcome::{BondRow, Outcome};
+use crate::outcome::Outcome;
 use crate::wall::{Joint, Wall};
 
 pub use journal::{Journal, JournalHeader};

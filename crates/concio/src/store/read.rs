@@ -6,9 +6,11 @@ use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::{Error as KeywordError, StrDeserializer};
 
+use crate::bond::BondRow;
 use crate::case::{DeviceLaw, JointKind};
+use crate::drift::DriftRow;
 use crate::error::{Error, Result};
-use crate::outcome::{BondRow, Collapse, DriftRow, Outcome, TieRow, Totals};
+use crate::outcome::{Collapse, Outcome, TieRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording};
 use crate::store::fields::{self, Field, Frames};
 use crate::store::h5::Source;

@@ -6,9 +6,9 @@ use serde_json::{Value, json};
 
 use crate::case::JointKind;
 use crate::error::{Error, Result};
+use crate::failure;
 use crate::files::{self, LARGEST_INPUT, read_input};
 use crate::outcome::{Outcome, Push, TieRow};
-use crate::planar;
 use crate::record::Energies;
 use crate::store::{JointRow, Provenance, digest};
 use crate::wall::Wall;
@@ -81,8 +81,8 @@ pub fn summary(
         "top_force_rms": top_force_rms(outcome),
         "minimum_gap": totals.minimum_gap,
         "contact_residual": totals.contact_residual,
-        "collapse": planar::Collapsed::of(outcome, wall),
-        "failure": planar::failure(wall, &graph, &outcome.recording),
+        "collapse": failure::Collapsed::of(outcome, wall),
+        "failure": failure::failure(wall, &graph, &outcome.recording),
         "bonds": bonds(outcome, joints, facts.at_first_crack),
         "ties": ties(outcome),
         "devices": devices(outcome, joints),

@@ -8,8 +8,8 @@ use std::path::Path;
 
 use crate::error::Result;
 use crate::files;
-use crate::moment::Motion;
 use crate::outcome::Outcome;
+use crate::record::Motion;
 use crate::store::fields;
 use crate::store::h5::{Label, Sink, label};
 use crate::store::outlines::Outlines;

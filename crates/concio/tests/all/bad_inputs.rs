@@ -308,7 +308,7 @@ fn keys_and_values() -> Vec<Bad> {
 fn check(text: &str) -> Result<()> {
     let file: CaseFile = from_str(text, Syntax::Toml, Some(Path::new("wall.toml")))?;
     file.validate()?;
-    file.wall().map(|_| ())
+    concio::pattern::lay(&file.case).map(|_| ()).map_err(|e| file.locate(e))
 }
 
 fn input_error(result: Result<()>, title: &str) -> InputError {

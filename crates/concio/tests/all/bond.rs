@@ -457,7 +457,7 @@ fn the_first_crack_comes_at_strength_over_demand() {
     let linear = scaled(bond, 1e-3, tolerance);
     assert!(linear.bonds.iter().all(|b| b.damage == 0.0));
     // Of a head joint the gap, of the others the slip strains the bond.
-    let law = |b: &concio::outcome::BondRow| {
+    let law = |b: &concio::bond::BondRow| {
         let e = b.joint;
         let upright = linear.envelopes.joint_opening[e] > 0.0 || linear.envelopes.joint_closing[e] > 0.0;
         let strain = if upright { linear.envelopes.joint_opening[e] } else { linear.envelopes.joint_displacement[e] };

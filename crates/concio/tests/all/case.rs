@@ -218,12 +218,12 @@ fn templates_are_walls() {
     for model in [ModelKind::Shear, ModelKind::Planar] {
         let file = from_str(starter(model), Syntax::Toml, None).expect("a starter is read");
         file.validate().expect("a starter is valid");
-        file.wall().expect("a starter is laid");
+        concio::pattern::lay(&file.case).expect("a starter is laid");
         assert_eq!(file.case.model, model);
     }
     let example = example().expect("the built-in wall is read");
     example.validate().expect("the built-in wall is valid");
-    assert_eq!(example.wall().expect("the built-in wall is laid").blocks.len(), 27);
+    assert_eq!(concio::pattern::lay(&example.case).expect("the built-in wall is laid").blocks.len(), 27);
 }
 
 /// Every key of a case has a description, and the schema of the file's forms holds the words.

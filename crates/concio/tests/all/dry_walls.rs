@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use concio::case::{Syntax, from_str};
-use concio::planar::{Mode, failure};
+use concio::failure::{Mode, failure};
 use concio::run::{prepare, run_in_memory};
 use serde_json::Value;
 

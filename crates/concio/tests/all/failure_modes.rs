@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use concio::case::{Syntax, from_str};
-use concio::planar::{Failure, Mode, failure};
+use concio::failure::{Failure, Mode, failure};
 use concio::run::{prepare, run_in_memory};
 use concio_verified::agrees;
 

@@ -426,7 +426,7 @@ fn a_low_panel_does_not_carry_the_beam() {
     assert!(low.warnings.iter().any(|w| w.contains("p2") && w.contains("65 mm")), "{:?}", low.warnings);
     // Its base then carries its own weight alone.
     let base = |model: &Model| {
-        let of_panel = |r: &&concio::model::Rub| {
+        let of_panel = |r: &&concio::law::Rub| {
             let joint = &model.joints[r.joint as usize];
             joint.kind == concio::case::JointKind::Base && model.wall.blocks[joint.a].panel == 1
         };

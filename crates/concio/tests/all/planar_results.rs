@@ -6,8 +6,9 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::store_sample::{SMALL, Sample, Size, reshape, rows, sample};
-use concio::moment::{Moment, Motion};
+use concio::moment::Moment;
 use concio::record::EventKind;
+use concio::record::Motion;
 use concio::store::{self, Journal, JournalHeader, RunFacts, StoredRun, export, hdf5};
 
 const PLANAR: Size = Size { planar: true, ..SMALL };

@@ -131,7 +131,7 @@ fn a_panel_of_polygons_in_series() {
 fn polygons_that_cannot_be() {
     let refused = |blocks: &str| {
         let file = file(blocks, 0.0);
-        match file.validate().and_then(|()| file.wall().map(|_| ())) {
+        match file.validate().and_then(|()| concio::pattern::lay(&file.case).map(|_| ()).map_err(|e| file.locate(e))) {
             Err(concio::Error::Input(e)) => format!("{}: {}", e.key.clone().unwrap_or_default(), e),
             other => panic!("{other:?}"),
         }
@@ -152,7 +152,7 @@ fn arch(rise: f64, voussoirs: usize, more: &str) -> Wall {
     );
     let file = from_str(&text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}\n{text}"));
     file.validate().unwrap_or_else(|e| panic!("{e}"));
-    file.wall().unwrap_or_else(|e| panic!("{e}"))
+    concio::pattern::lay(&file.case).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// A ring of chords between the radii R and R + t over the angle 2 α has the area ½ n sin(2 α/n) ((R + t)² − R²).

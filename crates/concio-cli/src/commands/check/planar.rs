@@ -79,7 +79,7 @@ pub fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure
     if model.bonds.is_empty() {
         return Ok(Vec::new());
     }
-    let given = bond::given(case, model)?;
+    let given = bond::given(case, &model.wall, &model.joints)?;
     let mut rows = vec![["bonds", "number", "f_t", "c", "tan φ", "G_f^I", "G_f^II"].map(String::from).to_vec()];
     for kind in KINDS {
         let bonds = model.bonds.iter().filter(|b| model.joints[b.joint as usize].kind == kind);

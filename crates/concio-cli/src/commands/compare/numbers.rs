@@ -1,6 +1,6 @@
 //! The numbers of two runs beside each other, with difference and ratio.
 
-use concio::planar::{Collapsed, Failure};
+use concio::failure::{Collapsed, Failure};
 use concio_study::table::Table;
 use serde_json::{Value, json};
 

@@ -122,8 +122,8 @@ fn given(d: &Device, name: &str) -> bool {
 
 /// Outside of −β … β the law would give back more than it took; at −β it would never yield.
 fn gamma(f: &mut Findings, key: &str, d: &Device) {
-    let beta = d.beta.unwrap_or(crate::device::BETA);
-    let Some(gamma) = d.gamma.or((d.beta.is_some() && d.law == BoucWen).then_some(crate::device::GAMMA)) else {
+    let beta = d.beta.unwrap_or(crate::case::BETA);
+    let Some(gamma) = d.gamma.or((d.beta.is_some() && d.law == BoucWen).then_some(crate::case::GAMMA)) else {
         return;
     };
     if beta > 0.0 && !(gamma > -beta && gamma <= beta) {

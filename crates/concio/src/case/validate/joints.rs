@@ -67,7 +67,7 @@ struct Panels {
 
 impl Panels {
     fn of(case: &Case) -> Self {
-        let names: Vec<String> = (0..case.panels.len()).map(|p| crate::pattern::panel_name(case, p)).collect();
+        let names: Vec<String> = (0..case.panels.len()).map(|p| case.panel_name(p)).collect();
         let courses: HashMap<String, usize> = names.iter().cloned().zip(case.panels.iter().map(courses)).collect();
         let most_courses = courses.values().copied().max().unwrap_or(0);
         Panels { names, courses, most_courses }

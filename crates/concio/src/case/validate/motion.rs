@@ -1,10 +1,10 @@
 //! Motions of base and top.
 
 use super::{Bound, Findings};
+use crate::case::SYNTHETIC_SAMPLES;
 use crate::case::{
     Baseline, Case, DisplacementPath, Pulse, Ramp, RecordChannel, RecordInput, Signal, Sine, Sweep, Synthetic, Tilt,
 };
-use crate::ground::synthetic::MOST_SAMPLES;
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
     let m = &case.motion;
@@ -157,7 +157,7 @@ fn synthetic(f: &mut Findings, key: &str, s: &Synthetic) {
     if s.duration.si() <= 2.0 {
         f.push(format_args!("{key}.synthetic.duration"), format!("{} is out of range", s.duration), "above 2 s");
     }
-    let least = s.duration.si() / MOST_SAMPLES;
+    let least = s.duration.si() / SYNTHETIC_SAMPLES;
     if s.dt.si() > 0.0 && s.dt.si() <= least {
         let allowed = format!("above {least:e} s for this duration");
         f.push(format_args!("{key}.synthetic.dt"), format!("{} gives 200,000 samples or more", s.dt), allowed);

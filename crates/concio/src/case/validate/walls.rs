@@ -76,7 +76,7 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
 fn names(f: &mut Findings, case: &Case) {
     let mut seen: HashMap<String, usize> = HashMap::new();
     for (i, panel) in case.panels.iter().enumerate() {
-        let name = crate::pattern::panel_name(case, i);
+        let name = case.panel_name(i);
         if panel.name.as_deref().is_some_and(|n| n.trim().is_empty()) {
             f.push(format_args!("panel[{i}].name"), "the name is empty", "a name that is not blank");
         }
@@ -283,7 +283,7 @@ fn random(f: &mut Findings, i: usize, panel: &Panel, r: &RandomTexture) {
     }
     // The first head joints of two courses both lie between the shortest and the longest brick.
     let range = r.length[1].si() - r.length[0].si();
-    if r.stagger.si() > range * (1.0 + crate::pattern::SLACK)
+    if r.stagger.si() > range * (1.0 + crate::wall::SLACK)
         && panel.courses.is_some_and(|c| c > 1)
         && r.width > r.length[1]
     {
@@ -306,7 +306,7 @@ fn unfillable(panel: &Panel, r: &RandomTexture) -> Option<InputError> {
     let (mortar, width) = (panel.mortar.head.si(), r.width.si());
     let [low, high] = r.length.map(|l| l.si() + mortar);
     // n pitches between low and high make up width + mortar; n is the largest number that can.
-    let slack = 1.0 + crate::pattern::SLACK;
+    let slack = 1.0 + crate::wall::SLACK;
     let n = ((width + mortar) / low * slack).floor();
     if n >= 1.0 && n * high * slack >= width + mortar {
         return None;

@@ -5,7 +5,7 @@
 //! each other is closed.
 
 use super::{HOLD, STILL, Stage};
-use crate::integrate::events::TOUCHING;
+use crate::dynamics::TOUCHING;
 use crate::model::Model;
 use crate::state::Tangents;
 

@@ -1,8 +1,10 @@
 //! A made-up run for tests of the store: the values follow from their indices, so that a swapped row, column or array
 //! shows; they obey no mechanics.
 
+use concio::bond::BondRow;
 use concio::case::{DeviceLaw, FrictionLaw, JointKind, SpringLaw};
-use concio::outcome::{BondRow, Collapse, DriftRow, Outcome, TieRow, Totals};
+use concio::drift::DriftRow;
+use concio::outcome::{Collapse, Outcome, TieRow, Totals};
 use concio::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use concio::store::{FrictionRow, JointRow, Provenance};
 use concio::wall::{Block, End, Joint, PanelInfo, Shape, Wall};

@@ -1,34 +1,26 @@
 //! A planar wall in motion as a run sees it: its bodies' steps, and what of them goes into state and samples.
 
-use concio_planar::body::Body;
-use concio_planar::motion::{self, Forcing, Motion, Seen, Setting};
+use concio_planar::motion::{self, Forcing, Motion, Seen};
 use concio_planar::shape::Place;
 use concio_planar::tie;
 use serde::{Deserialize, Serialize};
 
-use crate::case::{JointKind, Tie};
-use crate::dynamics::Channels;
+use crate::bond::BondState;
+use crate::case::Tie;
+use crate::channels::Channels;
+use crate::channels::{Row, turned};
 use crate::excitation::Excitation;
+use crate::failure::is_down;
 use crate::ground::signal::GroundMotion;
 use crate::model::Model;
 use crate::outcome::{Collapse, TieRow};
-use crate::planar::collapse::is_down;
-use crate::planar::{Planar, Rest};
+use crate::planar::{Planar, standing};
 use crate::record::{Energies, Event, EventKind, Layout, Recording, StopReason};
-use crate::state::{BondState, State};
+use crate::state::State;
 use crate::wall::End;
 
 /// Depth from which a point counts as crushed [m]: less is rounding of a rigid point that bears all it may.
 const CRUSHED: f64 = 1e-9;
-
-/// Largest way of a body in a step without inertia at which the wall stands under its loads [m].
-const STANDS: f64 = 1e-10;
-/// Steps in which it has to come to that.
-const SETTLING: usize = 400;
-/// Way of a body over the least height of a block from which a wall that has not come to that is falling, and from which what has
-/// come to rest is no longer the wall.
-const FALLING: f64 = 0.01;
-const FELL: f64 = 0.25;
 
 /// A run of a planar wall.
 #[derive(Debug, Clone)]
@@ -164,46 +156,6 @@ impl Stride {
         self.from = t;
         &self.start
     }
-}
-
-/// What channels of a planar wall are read off.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Row<'a> {
-    pub t: f64,
-    pub z: &'a [f64],
-    pub v: &'a [f64],
-    pub a: &'a [f64],
-    pub vertical: &'a [f64],
-    pub rotation: &'a [f64],
-    pub seen: &'a [Seen],
-    pub bonds: &'a [BondState],
-    pub energies: &'a Energies,
-    /// Force of the beam, and horizontal force of the base, on the wall [N].
-    pub pull: f64,
-    pub shear: f64,
-}
-
-/// Force along a joint on its lower or left side, against its relative motion [N], of a force on its second side
-/// along its tangent; and slip of the way of the second side: base joints have the base as the first side, not the second.
-pub(crate) fn turned(kind: JointKind) -> f64 {
-    if kind == JointKind::Base { -1.0 } else { 1.0 }
-}
-
-/// The wall at rest under its loads, and how it takes them. What does not come to rest moves on in the run, from where it was laid.
-pub(super) fn standing(planar: &Planar) -> (Motion, Rest) {
-    let setting = Setting { still: planar.still, ..Setting::new(planar.step) };
-    let mut motion = Motion::new(&planar.system, setting.clone());
-    let least = planar.system.bodies.iter().map(Body::height).fold(f64::INFINITY, f64::min);
-    let most = if motion.stand(STANDS, SETTLING) { FELL } else { FALLING };
-    let settled = motion.strayed_by(&planar.system);
-    // What is no number has not stood.
-    if settled <= most * least {
-        let has_cracked = |e: &usize| motion.crack(*e).is_some_and(|crack| crack.cracked.is_finite());
-        let cracked = (0..planar.system.links.len()).filter(has_cracked).count();
-        return (motion, Rest::Stands { settled, cracked });
-    }
-    let rest = if settled <= FELL * least { Rest::Settles(settled) } else { Rest::Falls };
-    (Motion::new(&planar.system, setting), rest)
 }
 
 impl Run {

@@ -13,6 +13,11 @@ use crate::graph;
 use crate::record::{EventKind, Recording};
 use crate::wall::{End, Joint, Wall};
 
+mod collapse;
+
+pub use collapse::Collapsed;
+pub(crate) use collapse::is_down;
+
 /// Part of the top's displacement from which a mode is named.
 const NAMED: f64 = 0.25;
 /// Displacement of the top over the height of the wall below which it has not failed.

@@ -10,7 +10,7 @@ const FALLEN: f64 = 0.5;
 const TURNED: f64 = std::f64::consts::FRAC_PI_4;
 
 /// Whether a block of this height [m] that has turned and risen so far [rad, m] has turned over (true) or fallen (false); none where it stands.
-pub(super) fn is_down(turn: f64, rise: f64, height: f64) -> Option<bool> {
+pub(crate) fn is_down(turn: f64, rise: f64, height: f64) -> Option<bool> {
     if turn.abs() > TURNED { Some(true) } else { (-rise > FALLEN * height).then_some(false) }
 }
 
