@@ -90,7 +90,7 @@ fn below(file: &Path, place: &Place, items: Vec<Item>, parts: &mut Crate) -> Out
 }
 
 fn only_for_tests(attrs: &[Attribute]) -> bool {
-    attrs.iter().any(|a| a.path().is_ident("test") || a.path().is_ident("cfg") && quoted(a).contains("test"))
+    attrs.iter().any(|a| a.path().is_ident("test") || a.path().is_ident("cfg") && quoted(a) == "test")
 }
 
 fn quoted(attr: &Attribute) -> String {

@@ -88,8 +88,8 @@ impl Node {
         1.0 - self.left
     }
 
-    /// Whether it is broken, or intact and within its strengths where it is stretched by `w` and `s` [m].
-    fn holds(&self, [w, s]: [f64; 2], law: &Law, bond: &Bond) -> bool {
+    /// Whether being stretched by `w` and `s` [m] does nothing to it: it is broken already, or intact and within its strengths.
+    fn stays(&self, [w, s]: [f64; 2], law: &Law, bond: &Bond) -> bool {
         let Normal::Springs { both, press, .. } = law.normal else { return true };
         let pressure = (both + press) * (-w).max(0.0);
         self.damage() == 1.0
@@ -180,16 +180,16 @@ const PRESSED: usize = 1;
 const CRUSHED: usize = 2;
 const CRUSHING: usize = 3;
 
-/// What of the forces of a bond goes in a step, those that it would have at its end had nothing cracked in it.
+/// What a bond loses in a step, of the forces that it would bear at the step's end had nothing cracked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Softened {
     /// Tension [N], and its moment about the first end over the length of the joint.
     pub across: [f64; 2],
     /// Shear, in the sense of the slide [N].
     pub along: f64,
-    /// The part of its stiffness across and along with which each half of the joint goes on to resist.
+    /// The part of its stiffness across and along with which each of its two points goes on to resist.
     pub left: [[f64; 2]; 2],
-    /// What its springs store at the end of the step, those of friction that its breaking has stretched with them, and what they stored at its start [J].
+    /// Energy in its springs at the end of the step, with that in the springs of friction which breaking has stretched, and at its start [J].
     pub stored: [f64; 2],
 }
 
@@ -747,7 +747,7 @@ impl Crack {
             && pressed <= law.crushing
     }
 
-    /// What of the forces of a bond goes in a step that takes its ends as far apart as `line` says; none where nothing does.
+    /// What the bond loses in a step that ends with its ends as far apart as `line` says; none if it loses nothing.
     pub(crate) fn softened(&self, law: &Law, line: &[[f64; 2]; 2]) -> Option<Softened> {
         let (Normal::Springs { both, .. }, Some(bond)) = (law.normal, law.bond) else { return None };
         if self.is_gone() || self.is_far_from_cracking(law, line) {
@@ -756,37 +756,41 @@ impl Crack {
         let along = law.breaking_stiffness();
         let mut softened = Softened { left: [[0.0; 2]; 2], ..Softened::NOTHING };
         let (mut worn, mut held) = (false, [0.0; 2]);
+        let [near, far] = self.held_at();
+        let middle = 0.5 * (near + far);
         for n in 0..NODES {
             let x = place(n);
             let [w, s] = between(line, x);
             let (before, weight) = (self.nodes[n], weight(n, NODES));
-            let half = usize::from(x > 0.5);
+            let half = usize::from(x > middle);
             let had = weight * (1.0 - before.damage());
             let [opened, slid] = between(&self.line, x);
             held[half] += had;
             softened.stored[1] += 0.5 * had * (both * opened * opened + along * slid * slid);
-            if before.holds([w, s], law, &bond) {
+            let node = match before.stays([w, s], law, &bond) {
+                true => before,
+                false => self.worn(n, [w, s], between(&self.line, x), law, &bond).0,
+            };
+            if node == before {
                 softened.left.iter_mut().for_each(|left| left[half] += had);
                 softened.stored[0] += 0.5 * had * (both * w * w + along * s * s);
                 continue;
             }
-            let (node, _) = self.worn(n, [w, s], between(&self.line, x), law, &bond);
-            worn |= node != before;
+            worn = true;
             let gone = weight * (node.damage() - before.damage());
+            let keeps = weight * (1.0 - node.damage());
             let [had_rubbing, rubbing] = [before, node].map(|node| node.friction([w, s], law));
             let rubs = rubbing[0] - had_rubbing[0];
-            let keeps = weight * (1.0 - node.damage());
-            // What is pressed of what breaks stays pressed.
-            let bears = if w > 0.0 { keeps } else { had };
-            softened.stored[0] +=
-                0.5 * (bears * both * w * w + keeps * along * s * s) + weight * (rubbing[1] - had_rubbing[1]);
             let opens = gone * both * w.max(0.0) * beyond_rest(opened, w);
             softened.across = [softened.across[0] + opens, softened.across[1] + x * opens];
             softened.along += (gone * along * s - weight * rubs * s.signum()) * beyond_rest(slid, s);
-            // What softens bears the less the farther it is stretched: it resists nothing.
-            for (left, lost) in softened.left.iter_mut().zip([0, 1].map(|k| node.lost[k] > before.lost[k])) {
-                left[half] += if lost { 0.0 } else { weight * (1.0 - node.damage()) };
-            }
+            // What is pressed of what breaks stays pressed. What softens bears the less the farther it is stretched: it resists nothing.
+            let bears = if w > 0.0 { keeps } else { had };
+            let lost = [0, 1].map(|k| node.lost[k] > before.lost[k]);
+            softened.left[0][half] += if w > 0.0 && lost[0] { 0.0 } else { bears };
+            softened.left[1][half] += if lost[1] { 0.0 } else { keeps };
+            softened.stored[0] +=
+                0.5 * (bears * both * w * w + keeps * along * s * s) + weight * (rubbing[1] - had_rubbing[1]);
         }
         for left in &mut softened.left {
             *left = [0, 1].map(|half| if held[half] > 0.0 { left[half] / held[half] } else { 0.0 });
@@ -814,7 +818,7 @@ impl Crack {
             let [w, s] = self.stretched(x);
             let weight = weight(n, NODES);
             let pressure = (both + press) * (-w).max(0.0);
-            if self.nodes[n].holds([w, s], law, &bond) {
+            if self.nodes[n].stays([w, s], law, &bond) {
                 continue;
             }
             let then = between(&self.was, x);

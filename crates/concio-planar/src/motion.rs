@@ -215,7 +215,8 @@ pub struct Counters {
     pub rounds: u64,
     /// Steps taken again in two halves.
     pub halved: u64,
-    /// Steps whose contact was left with more than a hundred times the tolerance, without inertia with more than it.
+    /// Steps whose contact was left with more than a hundred times the tolerance, without inertia with more than it, and shortest steps whose bonds were
+    /// taken as they were at their start.
     pub unsolved: u64,
     /// Largest violation left [m/s].
     pub residual: f64,
@@ -416,7 +417,7 @@ pub struct Motion {
     bent: Vec<Bent>,
     /// Bonds that may soften in the step.
     softens: Vec<Softens>,
-    /// Whether what they bear was not found, or gives back more than they lose.
+    /// Whether what they bear was not found, or they give back more than they lose.
     astray: bool,
     free: Vec<Triple>,
     after: Vec<Triple>,
@@ -682,13 +683,14 @@ impl Motion {
         if self.astray && halved < HALVINGS {
             return false;
         }
-        let effort = if self.astray { self.solve_as_it_was(h) } else { effort };
+        let stale = self.astray;
+        let effort = if stale { self.solve_as_it_was(h) } else { effort };
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
         if halved < HALVINGS && !enough || halved < CROSSINGS && !self.follows_crushing(h) {
             return false;
         }
         self.counters.steps += 1;
-        self.counters.unsolved += u64::from(!enough);
+        self.counters.unsolved += u64::from(!enough || stale);
         self.counters.residual = worse(self.counters.residual, effort.residual);
         self.settle(h, forcing);
         if self.sudden {
@@ -705,6 +707,8 @@ impl Motion {
         let borne = [self.pull - self.resisted(h), self.base_shear()];
         let before = std::mem::replace(&mut self.borne, borne);
         let Some(part) = self.breaks_at.take() else { return };
+        let more = self.softened_by(h);
+        let borne = [0, 1].map(|k| borne[k] + more[k]);
         for (peak, (from, to)) in self.breaks.iter_mut().zip(before.into_iter().zip(borne)) {
             let then = from + part * (to - from);
             *peak = if then.abs() > peak.abs() { then } else { *peak };

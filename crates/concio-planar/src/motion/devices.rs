@@ -57,8 +57,9 @@ impl Motion {
             let part = self.setting.part(h);
             let solved = effort.residual <= part * self.setting.enough();
             self.astray = off > softening::OFF || self.gives();
-            let softened = off <= softening::OFF || round >= softening::MOST;
-            let ends = missed <= part * self.setting.tolerance && softened;
+            let most = if halves { softening::BETWEEN } else { softening::MOST };
+            let settled = off <= softening::OFF || round >= most;
+            let ends = missed <= part * self.setting.tolerance && settled;
             if !solved || ends || round == MOST {
                 effort.residual = worse(effort.residual, missed);
                 break;

@@ -1,7 +1,7 @@
 //! Bonds that soften in a step: solved with what is left of them at its end.
 //!
 //! A bond is known as a step begins, and its springs bear in it what that has. Where they would pass its strength, a body that a load pushes slowly
-//! would hang on to it, a little farther stretched after each step, while the load grows. What such a bond loses in the step is therefore taken from its
+//! would stay on it, a little farther stretched after each step, while the load grows. What such a bond loses in the step is therefore taken from its
 //! springs, which go on to resist with what does not soften, and the step is solved again, until both agree. Where they do not, or where the joint would give
 //! back more than its springs had, the step is taken in two halves; the shortest ones are solved with the bond as it was at their start.
 
@@ -9,12 +9,12 @@ use super::Motion;
 use crate::contact::{Effort, Linear, worse};
 use crate::crack::{HELD, Part, Softened};
 
-/// What the forces of a bond may be off by in a step, over what it would bear had nothing cracked.
+/// What the forces of a bond may be off by in a step, over what it would bear had nothing cracked, by the first solution.
 pub(super) const OFF: f64 = 1e-3;
-/// Solutions in which a bond resists with what does not soften, then half-way to what it had, and at most: where the first go in circles, as over stiff
+/// Rounds in which only what does not soften resists, rounds half-way to the whole stiffness, and most rounds: where the first go in circles, as over stiff
 /// springs in long steps, the others come nearer each time.
 const TANGENTS: usize = 4;
-const BETWEEN: usize = 16;
+pub(super) const BETWEEN: usize = 16;
 pub(super) const MOST: usize = 40;
 /// What a bond may give back, over what its springs store and bear.
 const GIVEN: f64 = 1e-3;
@@ -35,7 +35,7 @@ pub(super) struct Softens {
 }
 
 impl Motion {
-    /// Has what is left of a bond in mind, if its contacts, from `first` on, have some.
+    /// Keeps the bond of a joint for this step, if its contacts, from `first` on, begin with the two that stand for one.
     pub(super) fn begin_softening(&mut self, first: usize) {
         let held = self.owners[first..].iter().take_while(|owner| owner.part == Part::Held).count();
         let own = |k: usize| self.contacts[first + k].spring;
@@ -60,6 +60,7 @@ impl Motion {
         };
         let ends = crack.line_of_held([stretched(0), stretched(1)]);
         let softened = crack.softened(self.laws.of(pair.link), &ends);
+        let softens = softened.is_some();
         if softened.is_none() && acts == own {
             self.softens[bond].next = own;
             self.softens[bond].gives = false;
@@ -89,13 +90,14 @@ impl Motion {
                 self.softens[bond].next[k][d] = Linear { offset: bears + rho * u, rho };
             }
         }
-        let softens = &mut self.softens[bond];
-        if round == 0 {
-            softens.borne = all;
-        }
         let [after, before] = softened.stored;
-        softens.gives = work - (after - before) < -GIVEN * (works + after + before);
-        if softens.borne > 0.0 { missed / softens.borne } else { 0.0 }
+        let gives = softens && work - (after - before) < -GIVEN * (works + after + before);
+        let bond = &mut self.softens[bond];
+        bond.gives = gives;
+        if bond.borne == 0.0 {
+            bond.borne = all;
+        }
+        if bond.borne == 0.0 { 0.0 } else { missed / bond.borne }
     }
 
     /// Solves a step of `h` [s] with all bonds as they were at its start.
@@ -103,10 +105,27 @@ impl Motion {
         for Softens { contact: first, own, .. } in &self.softens {
             (0..HELD).for_each(|k| self.contacts[first + k].spring = own[k]);
         }
+        self.softens.clear();
         self.guess();
         let effort = self.solve(h, false);
+        let effort = self.follow_lines(h, false, effort);
         self.count(effort);
         effort
+    }
+
+    /// By how much the pull of what is held and the base shear would be larger had nothing cracked in a step of `h` [s] [N].
+    pub(super) fn softened_by(&self, h: f64) -> [f64; 2] {
+        let mut more = [0.0; 2];
+        for Softens { contact: first, own, .. } in &self.softens {
+            for k in 0..HELD {
+                let (contact, owner) = (&self.contacts[first + k], &self.owners[first + k]);
+                let u = contact.velocity(&self.after);
+                let lost = [0, 1].map(|d| (own[k][d].at(u[d]) - contact.spring[d].at(u[d])) / h);
+                more[0] -= lost[0] * owner.lever[0] + lost[1] * owner.lever[1];
+                more[1] -= if self.pairs[owner.pair].a.is_none() { lost[1] } else { 0.0 };
+            }
+        }
+        more
     }
 
     /// Whether a bond gives back more than it loses.

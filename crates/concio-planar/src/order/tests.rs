@@ -92,7 +92,7 @@ fn orders_are_eliminations() {
     is_elimination(2 * n, &pairs, &elimination(2 * n, &pairs, &at));
 }
 
-/// Products per block that walls take, a hundredth above those of decision 0011.
+/// Products per block that walls take, a hundredth above "products of elimination per block" of decision 0011.
 #[test]
 fn walls_take_no_more_products_than_they_did() {
     for (courses, bricks, most) in
