@@ -27,7 +27,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::joint::{Bond, Law, Normal, Point};
+use crate::joint::{Bond, Law, Normal, Part, Point};
 use crate::zone::{self, Local, Moments, Zone};
 
 /// Nodes of a joint: a crack advances by 1/128 of it.
@@ -107,19 +107,6 @@ impl Node {
         let borne = (self.chi() * goes_on).min(damage * along * s.abs());
         [borne, if borne > 0.0 { 0.5 * borne * borne / (damage * along) } else { 0.0 }]
     }
-}
-
-/// What a point of a bonded joint stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) enum Part {
-    /// The joint as it is, without bond.
-    Whole,
-    /// What is left of the bond.
-    Held,
-    /// What has cracked.
-    Dry,
-    /// The spring that stays beside friction.
-    Stays,
 }
 
 /// A contact point of a bonded joint.

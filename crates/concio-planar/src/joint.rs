@@ -19,7 +19,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::G;
 use crate::contact::{Contact, Linear, Status};
-use crate::crack::Part;
 
 /// Stiffness of what grips, over the square of the step and the larger of the mass that the point moves and that whose weight presses it. It yields μ g h²/10⁶ before
 /// it slides: 2.4 nm for μ = 0.6 and steps of 20 ms.
@@ -371,6 +370,19 @@ impl Law {
     fn in_line(&self) -> bool {
         self.shear.series && self.shear.stiffness > 0.0
     }
+}
+
+/// What a point of a bonded joint stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) enum Part {
+    /// The joint as it is, without bond.
+    Whole,
+    /// What is left of the bond.
+    Held,
+    /// What has cracked.
+    Dry,
+    /// The spring that stays beside friction.
+    Stays,
 }
 
 /// What has become of a contact point.

@@ -8,7 +8,7 @@ use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
 
-use super::scale::logarithmic_label;
+use super::scale::{logarithmic_label, prefix};
 use super::svg::mended;
 use super::thin;
 use crate::format::tick;
@@ -140,17 +140,6 @@ pub fn stack(figures: &[String]) -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{y}\" viewBox=\"0 0 {width} {y}\">\n{body}</svg>\n"
     )
-}
-
-/// The decimal prefix that brings `largest` between 1 and 1000, and its factor.
-pub fn prefix(largest: f64, unit: &str) -> (&'static str, f64) {
-    const PREFIXES: [(&str, f64); 7] =
-        [("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)];
-    // Accelerations are read in m/s² whatever their size, and numbers without unit bear no prefix.
-    if unit.is_empty() || unit.starts_with("m/s²") || largest == 0.0 {
-        return ("", 1.0);
-    }
-    PREFIXES.into_iter().find(|(_, f)| largest >= *f).unwrap_or(("n", 1e-9))
 }
 
 /// Width and height that a drawing declares.

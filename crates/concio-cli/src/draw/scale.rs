@@ -1,6 +1,5 @@
 //! Axes: prefix, range, ticks and their labels.
 
-use super::curves::prefix;
 use crate::format::fixed;
 
 /// Ticks of one axis in the unit it shows.
@@ -111,6 +110,17 @@ pub fn around<'a>(values: impl Iterator<Item = &'a f64>, room: f64) -> [f64; 2] 
         return [low - half, high + half];
     }
     [low - room * span, high + room * span]
+}
+
+/// The decimal prefix that brings `largest` between 1 and 1000, and its factor.
+pub fn prefix(largest: f64, unit: &str) -> (&'static str, f64) {
+    const PREFIXES: [(&str, f64); 7] =
+        [("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)];
+    // Accelerations are read in m/s² whatever their size, and numbers without unit bear no prefix.
+    if unit.is_empty() || unit.starts_with("m/s²") || largest == 0.0 {
+        return ("", 1.0);
+    }
+    PREFIXES.into_iter().find(|(_, f)| largest >= *f).unwrap_or(("n", 1e-9))
 }
 
 #[cfg(test)]

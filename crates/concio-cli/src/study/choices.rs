@@ -7,8 +7,14 @@ use concio_study::table::{Cells, Table};
 
 use super::interval_bars::{self, Group};
 use super::page::Figure;
-use super::sections::DRAWN;
 
+/// Measures that are drawn over the factors.
+pub const DRAWN: [(&str, &str, &str); 4] = [
+    ("peak_joint_displacement", "relative displacement", "m"),
+    ("peak_joint_acceleration", "relative acceleration", "m/s²"),
+    ("peak_drift", "drift", ""),
+    ("friction_energy", "friction work", "J"),
+];
 /// Width of a figure [pt].
 const WIDTH: f64 = 420.0;
 

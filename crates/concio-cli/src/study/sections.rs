@@ -3,18 +3,12 @@
 use concio_study::Plan;
 use concio_study::table::Table;
 
+use super::choices::DRAWN;
 use super::page::{Figure, Section};
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 
 /// Width of the figures [pt], and height of a plot.
 const SIZE: [f64; 2] = [510.0, 120.0];
-/// Measures that are drawn over the factors.
-pub const DRAWN: [(&str, &str, &str); 4] = [
-    ("peak_joint_displacement", "relative displacement", "m"),
-    ("peak_joint_acceleration", "relative acceleration", "m/s²"),
-    ("peak_drift", "drift", ""),
-    ("friction_energy", "friction work", "J"),
-];
 /// Factors that are drawn.
 const MOST_FACTORS: usize = 8;
 

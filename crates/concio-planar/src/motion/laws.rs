@@ -1,8 +1,7 @@
 //! Laws of joints: those that are alike are kept once.
 
 use super::Link;
-use crate::crack::Part;
-use crate::joint::Law;
+use crate::joint::{Law, Part};
 
 /// Laws among which one that is alike is looked for: a wall of bricks has a few, one of stones none that are alike.
 const KNOWN: usize = 64;

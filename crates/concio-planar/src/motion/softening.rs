@@ -7,7 +7,8 @@
 
 use super::Motion;
 use crate::contact::{Effort, Linear, worse};
-use crate::crack::{HELD, Part, Softened};
+use crate::crack::{HELD, Softened};
+use crate::joint::Part;
 
 /// What the forces of a bond may be off by in a step, over what it would bear had nothing cracked, by the first solution.
 pub(super) const OFF: f64 = 1e-3;

@@ -5,8 +5,8 @@ use concio::warning::Warning;
 use concio::quantity::shown;
 
 use super::Settings;
+use super::Way;
 use super::fragility::{Fragility, fit_clusters};
-use super::hunt::Way;
 use super::likelihood::Evidence;
 use crate::measures::{End, Row};
 

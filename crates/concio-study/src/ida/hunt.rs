@@ -1,28 +1,7 @@
 //! At which intensities a motion is run.
 
+use super::Way;
 use super::curve::Point;
-
-/// How intensities are chosen.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Way {
-    /// These, for every motion.
-    List(Vec<f64>),
-    /// Hunt and fill.
-    Hunt {
-        /// First intensity.
-        first: f64,
-        /// First step.
-        step: f64,
-        /// What each step is longer than the one before.
-        growth: f64,
-        /// Intensity that is not exceeded.
-        most: f64,
-        /// Runs per motion.
-        runs: usize,
-        /// Gap that holds a collapse or a limit, over the intensity below it, that is small enough.
-        resolution: f64,
-    },
-}
 
 impl Way {
     /// The intensities to run next, given those that were run, rising. Empty when the curve is done.

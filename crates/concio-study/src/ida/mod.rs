@@ -29,7 +29,6 @@ use crate::intensity::Intensity;
 use crate::measures::{MEASURES, Row, ends_with_collapse};
 use curve::{Curve, Point};
 use hazard::Hazard;
-use hunt::Way;
 
 /// Measures that do not grow with the shaking.
 const NO_DAMAGE: [&str; 5] = ["time_reached", "first_crack", "energy_residual", "steps", "collapse"];
@@ -124,6 +123,28 @@ fn runs() -> usize {
 }
 fn resolution() -> f64 {
     0.1
+}
+
+/// How intensities are chosen.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Way {
+    /// These, for every motion.
+    List(Vec<f64>),
+    /// Hunt and fill.
+    Hunt {
+        /// First intensity.
+        first: f64,
+        /// First step.
+        step: f64,
+        /// What each step is longer than the one before.
+        growth: f64,
+        /// Intensity that is not exceeded.
+        most: f64,
+        /// Runs per motion.
+        runs: usize,
+        /// Gap that holds a collapse or a limit, over the intensity below it, that is small enough.
+        resolution: f64,
+    },
 }
 
 /// `[ida]` in SI, checked.

@@ -1,9 +1,9 @@
 //! Fits of fragilities against known lognormals: medians, dispersions and bands that hold them as often as they say.
 
 use concio::dice::Dice;
+use concio_study::ida::Way;
 use concio_study::ida::curve::{Curve, Point};
 use concio_study::ida::fragility::{Fragility, fit, fit_clusters};
-use concio_study::ida::hunt::Way;
 use concio_study::ida::likelihood::{Evidence, phi};
 use concio_verified::agrees;
 

@@ -1,7 +1,7 @@
 //! Hunting, filling, interpolation and fractiles of curves whose answers are known.
 
+use concio_study::ida::Way;
 use concio_study::ida::curve::{Curve, Point, fractiles};
-use concio_study::ida::hunt::Way;
 use concio_study::ida::likelihood::Evidence;
 
 fn point(intensity: f64, collapsed: bool) -> Point {

@@ -5,8 +5,8 @@
 //! and most of these are alike. So a few iterations (M. R. Hestenes and E. Stiefel 1952) do, at the cost of a solution each,
 //! where a factorisation costs four and more. Factors that only lead may be rough: they are kept in single precision.
 
+use crate::integrate::dense_columns::NotPositive;
 use crate::integrate::fronts::Fronts;
-use crate::integrate::linear::NotPositive;
 
 /// Numbers that are added up side by side.
 const LANES: usize = 8;

@@ -8,7 +8,9 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Sub, SubAssign};
 
-use crate::integrate::linear::NotPositive;
+/// A pivot that is not positive, or not a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NotPositive;
 
 /// Numbers that loops go through at a time: rows start and end at multiples of it.
 pub const LANES: usize = 8;

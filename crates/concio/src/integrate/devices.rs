@@ -7,8 +7,7 @@
 
 use concio_device::{Law, Origin, Response};
 
-use crate::integrate::joints::Joints;
-use crate::integrate::stage::{FAR, MEETING, MOST_SEARCHED};
+use crate::integrate::joints::{FAR, Joints, MEETING, MOST_SEARCHED};
 use crate::integrate::tableau::STAGES;
 use crate::model::Model;
 use crate::state::DeviceState;

@@ -11,8 +11,8 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SymbolicSupernodalParams;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 
+use crate::integrate::dense_columns::NotPositive;
 use crate::integrate::dense_columns::{Dense, Left, Real, aligned, backward, forward, padded, scratch};
-use crate::integrate::linear::NotPositive;
 
 /// Groups are joined as long as they have at most so many columns and less than this part of zeros.
 const JOINED: [(usize, f64); 3] = [(4, 1.0), (16, 0.4), (48, 0.05)];

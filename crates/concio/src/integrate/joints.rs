@@ -7,6 +7,13 @@ use crate::elementary::{atan_of_positive, exp_of_negative};
 use crate::law::Stribeck;
 use crate::model::Model;
 
+/// Mismatch of tangent and law, as a fraction of μ_s, beyond which the next tangent is moved along the law.
+pub const FAR: f64 = 0.02;
+/// How near to the law, as a fraction of μ_s, that place has to be found.
+pub const MEETING: f64 = 0.01;
+/// Points of the law that are tried for it at most.
+pub const MOST_SEARCHED: usize = 20;
+
 /// Where a joint's coupling stands in the matrix, if it has one: joints with a support do not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Slot(u32);

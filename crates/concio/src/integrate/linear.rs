@@ -8,6 +8,7 @@
 //! a pivot that is not positive is reported instead of divided by. Nothing is allocated after [`Matrix::new`].
 
 use crate::integrate::conjugate::{Conjugate, largest};
+use crate::integrate::dense_columns::NotPositive;
 use crate::integrate::fronts::Fronts;
 use crate::integrate::order::{elimination_order, postordered};
 
@@ -80,10 +81,6 @@ const LIFTED: f64 = 1.0 + 1e-5;
 /// What a rough solution may leave, over the right side, and iterations for it at most.
 const ROUGH: f64 = 0.25;
 const MOST_ROUGH: usize = 8;
-
-/// A pivot that is not positive, or not a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NotPositive;
 
 impl Matrix {
     /// A matrix of order `n` with a diagonal and the pairs (i, j), i ≠ j, on both sides of it; `at` is where the first

@@ -26,7 +26,7 @@ use crate::integrate::bonds::Bonds;
 use crate::integrate::devices::Devices;
 use crate::integrate::flips::Flips;
 use crate::integrate::groups::Groups;
-use crate::integrate::joints::{Contacts, Joints, Rubs};
+use crate::integrate::joints::{Contacts, FAR, Joints, MEETING, MOST_SEARCHED, Rubs};
 use crate::integrate::linear::{Factoring, MOST_LISTED, Matrix};
 use crate::law::Stribeck;
 use crate::model::Model;
@@ -49,12 +49,6 @@ pub const MOST_ITERATIONS: usize = 8;
 const MOST_WITH_HELD: usize = 60;
 /// Iterations after which rigid joints open or close one at a time, by least index.
 const AT_ONCE: usize = 8;
-/// Mismatch of tangent and law, as a fraction of μ_s, beyond which the next tangent is moved along the law.
-pub const FAR: f64 = 0.02;
-/// How near to the law, as a fraction of μ_s, that place has to be found.
-pub const MEETING: f64 = 0.01;
-/// Points of the law that are tried for it at most.
-pub const MOST_SEARCHED: usize = 20;
 /// Stiffness that holds a sticking joint while its friction is sought, over the impedance that it sees: each iteration
 /// leaves about the inverse of it of the velocity.
 const HOLD: f64 = 1e6;

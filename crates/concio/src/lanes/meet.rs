@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use pulp::{Simd, WithSimd};
 
-use crate::integrate::stage::{MEETING, MOST_SEARCHED};
+use crate::integrate::joints::{MEETING, MOST_SEARCHED};
 use crate::lanes::rows::{Law, V, WIDTH, friction};
 use crate::lanes::work::{
     ALPHA, AT, DYNAMIC, EXCESS, MU, Miss, NORMALS, SLIP, SLOPE, SLOPE_AT_REST, STATIC, STEEP, TAU, WIDTH_AT_REST, Work,

@@ -7,7 +7,8 @@
 
 use pulp::{Simd, WithSimd};
 
-use crate::integrate::stage::{FAR, STILL};
+use crate::integrate::joints::FAR;
+use crate::integrate::stage::STILL;
 use crate::integrate::tableau::{STAGES, Tableau};
 use crate::lanes::rows::{Groups, Law, Mask, Read, Rows, V, WIDTH, friction};
 use crate::lanes::topology::{Incidence, NONE, SHARES, TO_A, TO_B, TO_DIAGONAL, Topology};
