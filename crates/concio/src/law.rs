@@ -124,7 +124,7 @@ pub struct Contact {
     pub restitution: f64,
 }
 
-/// What is joined to a support, by index in the lists of the [`Model`].
+/// What is joined to a support, by index in the lists of the [`crate::model::Model`].
 #[derive(Debug, Clone, Default)]
 pub struct Support {
     /// Joints.

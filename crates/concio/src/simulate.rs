@@ -687,7 +687,7 @@ pub struct Status {
     pub duration: f64,
     /// Steps taken, those before a resume included.
     pub steps: u64,
-    /// Time from which an unfinished run was taken up [s]; none of one that began at 0, or that was not taken up by [`run`].
+    /// Time from which an unfinished run was taken up [s]; none of one that began at 0, or that was not taken up by [`crate::run::run`].
     pub resumed_from: Option<f64>,
 }
 
