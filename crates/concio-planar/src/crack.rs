@@ -199,6 +199,11 @@ pub(crate) struct Worn {
     pub breaks_at: Option<f64>,
 }
 
+/// Opening and slide of the point that a spot stands for [m].
+fn ways(points: &[Point]) -> impl Fn(&Spot) -> [f64; 2] {
+    |spot| [points[spot.point].gap, points[spot.point].slide]
+}
+
 /// The part of the way from one stretch to another that lies beyond rest, 0 … 1: what is stretched the other way at first loses nothing until then.
 fn beyond_rest(from: f64, to: f64) -> f64 {
     if from * to < 0.0 { to / (to - from) } else { 1.0 }
@@ -668,7 +673,7 @@ impl Crack {
     pub(crate) fn follow(&mut self, points: &[Point]) {
         // Where nothing is left of the bond, all that has cracked moves alike.
         let part = if self.is_gone() { Part::Dry } else { Part::Held };
-        if let Some(line) = self.line_through(part, &|spot| [points[spot.point].gap, points[spot.point].slide]) {
+        if let Some(line) = self.line_through(part, &ways(points)) {
             self.was = std::mem::replace(&mut self.line, line);
         }
     }
@@ -837,9 +842,7 @@ impl Crack {
             self.nodes.fill(Node::GONE);
         }
         // What has cracked opens as the edges of the blocks stand, what is held by how far it was stretched: they differ by rounding and by turning.
-        let line = self
-            .line_through(Part::Dry, &|spot| [points[spot.point].gap, points[spot.point].slide])
-            .unwrap_or(self.line);
+        let line = self.line_through(Part::Dry, &ways(points)).unwrap_or(self.line);
         let crushed = self.crush(law, &line);
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
         // What the points have crushed in the step is told as theirs.
