@@ -50,6 +50,9 @@ const NEARLY: f64 = 1.0 / 32.0;
 const TOUCHING: f64 = 1e-12;
 /// How far apart sides are taken to be that face each other no more [m]: more than is ever crushed.
 const APART: f64 = 1e3;
+/// Parts of the length δ_c in which a node is followed on its way, and how closely it is found from where on it softens, over that way.
+const PARTS: f64 = 8.0;
+const CLOSELY: f64 = 1e-4;
 /// Part of a joint below which what is left of its bond is rounding.
 const NOTHING: f64 = 1e-9;
 /// Part of the strength up to which a joint that has not been crushed may come in a step without a look at whether its points bear what it does.
@@ -107,6 +110,156 @@ impl Node {
         let borne = (self.chi() * goes_on).min(damage * along * s.abs());
         [borne, if borne > 0.0 { 0.5 * borne * borne / (damage * along) } else { 0.0 }]
     }
+
+    /// What becomes of it on the straight way `from` one stretch `to` another [m], in so many parts as that takes.
+    fn on_the_way(self, from: [f64; 2], to: [f64; 2], law: &Law, bond: &Bond) -> Wear {
+        let stays = Wear { node: self, taken: 0.0, less: [[0.0; 2]; 2] };
+        if self.stays(to, law, bond) {
+            return stays;
+        }
+        let (at_once, taken) = self.worn(to, from, law, bond);
+        if at_once == self {
+            return stays;
+        }
+        let parts = parts(from, to, law, bond);
+        let Some(mut done) = (parts > 1.0).then(|| self.keeps_until(from, to, law, bond)) else {
+            let lost = self.lost_at(&at_once, to, law);
+            return Wear { node: at_once, taken, less: [lost.map(|lost| 0.5 * lost), lost] };
+        };
+        let (mut node, mut sum, mut was, mut mean, mut lost) =
+            (self, 0.0, between(&[from, to], done), [0.0; 2], [0.0; 2]);
+        while done < 1.0 {
+            let next = if node.damage() < 1.0 { (done + 1.0 / parts).min(1.0) } else { 1.0 };
+            let at = between(&[from, to], next);
+            let (worn, taken) = node.worn(at, was, law, bond);
+            let now = self.lost_at(&worn, at, law);
+            (0..2).for_each(|k| mean[k] += 0.5 * (next - done) * (lost[k] + now[k]));
+            (node, sum, was, lost, done) = (worn, sum + taken, at, now, next);
+        }
+        Wear { node, taken: sum, less: [mean, lost] }
+    }
+
+    /// Up to which part of the way it loses nothing, 0 … 1.
+    fn keeps_until(&self, from: [f64; 2], to: [f64; 2], law: &Law, bond: &Bond) -> f64 {
+        let (mut keeps, mut loses) = (0.0, 1.0);
+        while loses - keeps > CLOSELY {
+            let half = 0.5 * (keeps + loses);
+            let worn = self.worn(between(&[from, to], half), from, law, bond).0;
+            *if worn == *self { &mut keeps } else { &mut loses } = half;
+        }
+        keeps
+    }
+
+    /// What it bears less across and along where it is stretched by `w` and `s` once it has become `node` [N], but for what friction goes on to bear of it.
+    fn lost_at(&self, node: &Node, [w, s]: [f64; 2], law: &Law) -> [f64; 2] {
+        let Normal::Springs { both, .. } = law.normal else { return [0.0; 2] };
+        let gone = node.damage() - self.damage();
+        let [had, rubs] = [self, node].map(|node| node.friction([w, s], law)[0]);
+        [gone * both * w.max(0.0), gone * law.breaking_stiffness() * s - (rubs - had) * s.signum()]
+    }
+
+    /// What becomes of it where it is stretched by `w` and `s`, and was by `then` before [m], and what it lost, of a joint as it would be
+    /// everywhere [J].
+    fn worn(self, [w, s]: [f64; 2], then: [f64; 2], law: &Law, bond: &Bond) -> (Node, f64) {
+        let mut node = self;
+        let Normal::Springs { both, press, .. } = law.normal else { return (node, 0.0) };
+        let (damage, had) = (node.damage(), node.lost);
+        let along = law.breaking_stiffness();
+        let pressure = ((both + press) * -w).max(0.0);
+        // Tension takes from the strength along what it bears times tan φ: a slide that would bear that is added to the one there is.
+        let sheared = |node: &Node, [w, s]: [f64; 2]| {
+            let [opened, slid] = node.lost.map(|lost| 1.0 - lost);
+            let bears = (opened / slid).min(1.0);
+            s.abs() + bears * law.pulled(w)
+        };
+        let grown = [w - then[0], s.abs() - then[1].abs(), sheared(&node, [w, s]) - sheared(&node, then)];
+        let grown = grown.map(|way| way.max(0.0));
+        let (mut taken, mut passed) = (0.0, [false; 2]);
+        // A step that goes far beyond a limit goes far in the other direction too, where nothing bears any more by then.
+        let less = |from: f64, to: f64| from.abs().min(to.abs());
+        // `way` is how much farther it is stretched than before, `other` twice what the other direction would store.
+        let mut pass = |node: &mut Node,
+                        mode: usize,
+                        [stretch, way]: [f64; 2],
+                        k: f64,
+                        [strength, goes_on]: [f64; 2],
+                        other: f64| {
+            let before = node.damage();
+            if k == 0.0 || before == 1.0 {
+                return;
+            }
+            let from = strength * node.left;
+            let limit = from / (k * (1.0 - node.lost[mode]));
+            if !(stretch > limit) {
+                return;
+            }
+            passed[mode] = true;
+            // Of what the bond stores, and of what breaking takes from here on, the springs of friction keep a part.
+            let kept = |node: &Node| if mode == 1 { node.friction([w, s], law)[1] } else { 0.0 };
+            let (had, left) = (kept(node), node.left);
+            let capacity = bond.energy[mode] * node.rest[mode];
+            let stored = 0.5 * (from * limit - goes_on * goes_on / k) + had;
+            let decay = ((capacity - stored) / (from - BROKEN * strength)).max(0.0);
+            // What has no strength breaks at once.
+            let decay = if strength > 0.0 { decay } else { 0.0 };
+            // Where the limit has come to the stretch as pressure fell, the rest is no work of breaking.
+            let at = limit.max(stretch - way);
+            // Where the limit has come to the stretch and not the stretch to the limit, nothing has slid beyond it.
+            node.left *= if decay > 0.0 { (-(stretch - limit).min(way) / decay).exp() } else { 0.0 };
+            let to = strength * node.left;
+            if to > BROKEN * strength {
+                node.lost[mode] = 1.0 - to / (k * stretch);
+                let spent = decay * (from - to) - 0.5 * (to * stretch - from * at);
+                taken += spent;
+                if bond.energy[mode] > 0.0 {
+                    node.rest[mode] = (capacity - spent + kept(node) - had) / bond.energy[mode];
+                }
+                node.rest[1 - mode] *= node.left / left;
+            } else {
+                // What bears next to nothing bears nothing, and gives back nothing of what it stored.
+                *node = Node::GONE;
+                taken += decay * (from - BROKEN * strength).max(0.0) + 0.5 * from * at;
+            }
+            taken += 0.5 * (node.damage() - before) * other;
+        };
+        pass(&mut node, 0, [w - TOUCHING, grown[0]], both, [bond.tension, 0.0], along * less(then[1], s).powi(2));
+        let stretch = sheared(&node, [w, s]);
+        let opened = both * less(then[0].max(0.0), w.max(0.0)).powi(2);
+        pass(&mut node, 1, [stretch, grown[2]], along, law.shear_strengths(pressure), opened);
+        // Where both modes have lost some, one of them bears less than its limit. What springs bore on the way and do not store is taken then.
+        if passed[0] && (passed[1] || had[1] > 0.0) || passed[1] && (had[0] > 0.0 || law.pulled(w) > 0.0) {
+            let [w, s] = [w.max(0.0), s.abs()];
+            let both_ways = both * w * (w - grown[0]).max(0.0) + along * s * (s - grown[1]);
+            taken = 0.5 * (node.damage() - damage) * both_ways;
+        }
+        if pressure > law.crushing && node.damage() < 1.0 {
+            taken += 0.5 * (1.0 - node.damage()) * along * s * s;
+            node = Node::GONE;
+        }
+        (node, taken)
+    }
+}
+
+/// What becomes of a node in a step, of a joint as it would be everywhere.
+struct Wear {
+    node: Node,
+    /// What it lost [J].
+    taken: f64,
+    /// What it bore less across and along than had nothing cracked [N], in the mean and at the end.
+    less: [[f64; 2]; 2],
+}
+
+/// In how many parts a node is followed from one stretch to another, if it softens all the way.
+fn parts(from: [f64; 2], to: [f64; 2], law: &Law, bond: &Bond) -> f64 {
+    let Normal::Springs { both, press, .. } = law.normal else { return 1.0 };
+    let pressure = (both + press) * (-from[0].min(to[0])).max(0.0);
+    let of = |mode: usize, way: f64, strength: f64, k: f64| {
+        let length = (bond.energy[mode] / strength).max(strength / k);
+        if way > 0.0 && length > 0.0 { PARTS * way / length } else { 1.0 }
+    };
+    let opens = of(0, to[0] - from[0].max(0.0), bond.tension, both);
+    let [sheared, strength] = [law.sheared(to) - law.sheared(from), law.shear_strengths(pressure)[0]];
+    opens.max(of(1, sheared, strength, law.breaking_stiffness())).ceil()
 }
 
 /// A contact point of a bonded joint.
@@ -167,7 +320,7 @@ const PRESSED: usize = 1;
 const CRUSHED: usize = 2;
 const CRUSHING: usize = 3;
 
-/// What a bond loses in a step, of the forces that it would bear at the step's end had nothing cracked.
+/// What a bond loses in a step, in the mean over it or without inertia at its end, of the forces that it would bear had nothing cracked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Softened {
     /// Tension [N], and its moment about the first end over the length of the joint.
@@ -202,11 +355,6 @@ pub(crate) struct Worn {
 /// Opening and slide of the point that a spot stands for [m].
 fn ways(points: &[Point]) -> impl Fn(&Spot) -> [f64; 2] {
     |spot| [points[spot.point].gap, points[spot.point].slide]
-}
-
-/// The part of the way from one stretch to another that lies beyond rest, 0 … 1: what is stretched the other way at first loses nothing until then.
-fn beyond_rest(from: f64, to: f64) -> f64 {
-    if from * to < 0.0 { to / (to - from) } else { 1.0 }
 }
 
 /// Place of a node, 0 … 1.
@@ -740,7 +888,7 @@ impl Crack {
     }
 
     /// What the bond loses in a step that ends with its ends as far apart as `line` says; none if it loses nothing.
-    pub(crate) fn softened(&self, law: &Law, line: &[[f64; 2]; 2]) -> Option<Softened> {
+    pub(crate) fn softened(&self, law: &Law, line: &[[f64; 2]; 2], still: bool) -> Option<Softened> {
         let (Normal::Springs { both, .. }, Some(bond)) = (law.normal, law.bond) else { return None };
         if self.is_gone() || self.is_far_from_cracking(law, line) {
             return None;
@@ -759,30 +907,25 @@ impl Crack {
             let [opened, slid] = between(&self.line, x);
             held[half] += had;
             softened.stored[1] += 0.5 * had * (both * opened * opened + along * slid * slid);
-            let node = match before.stays([w, s], law, &bond) {
-                true => before,
-                false => self.worn(n, [w, s], between(&self.line, x), law, &bond).0,
-            };
+            let Wear { node, less, .. } = before.on_the_way([opened, slid], [w, s], law, &bond);
             if node == before {
                 softened.left.iter_mut().for_each(|left| left[half] += had);
                 softened.stored[0] += 0.5 * had * (both * w * w + along * s * s);
                 continue;
             }
             worn = true;
-            let gone = weight * (node.damage() - before.damage());
             let keeps = weight * (1.0 - node.damage());
-            let [had_rubbing, rubbing] = [before, node].map(|node| node.friction([w, s], law));
-            let rubs = rubbing[0] - had_rubbing[0];
-            let opens = gone * both * w.max(0.0) * beyond_rest(opened, w);
+            let [had_rubbing, rubbing] = [before, node].map(|node| node.friction([w, s], law)[1]);
+            let [opens, slides] = less[usize::from(still)].map(|lost| weight * lost);
             softened.across = [softened.across[0] + opens, softened.across[1] + x * opens];
-            softened.along += (gone * along * s - weight * rubs * s.signum()) * beyond_rest(slid, s);
+            softened.along += slides;
             // What is pressed of what breaks stays pressed. What softens bears the less the farther it is stretched: it resists nothing.
             let bears = if w > 0.0 { keeps } else { had };
             let lost = [0, 1].map(|k| node.lost[k] > before.lost[k]);
             softened.left[0][half] += if w > 0.0 && lost[0] { 0.0 } else { bears };
             softened.left[1][half] += if lost[1] { 0.0 } else { keeps };
             softened.stored[0] +=
-                0.5 * (bears * both * w * w + keeps * along * s * s) + weight * (rubbing[1] - had_rubbing[1]);
+                0.5 * (bears * both * w * w + keeps * along * s * s) + weight * (rubbing - had_rubbing);
         }
         for left in &mut softened.left {
             *left = [0, 1].map(|half| if held[half] > 0.0 { left[half] / held[half] } else { 0.0 });
@@ -810,12 +953,9 @@ impl Crack {
             let [w, s] = self.stretched(x);
             let weight = weight(n, NODES);
             let pressure = (both + press) * (-w).max(0.0);
-            if self.nodes[n].stays([w, s], law, &bond) {
-                continue;
-            }
             let then = between(&self.was, x);
             let before = self.nodes[n];
-            let (node, lost) = self.worn(n, [w, s], then, law, &bond);
+            let Wear { node, taken: lost, .. } = before.on_the_way(then, [w, s], law, &bond);
             // A crushed node may have taken nothing.
             if node == before {
                 continue;
@@ -929,91 +1069,6 @@ impl Crack {
         }
     }
 
-    /// What becomes of a node that is stretched by `w` and `s`, and was by `then` before this step [m], and what it lost, of a joint as it would be
-    /// everywhere [J].
-    fn worn(&self, n: usize, [w, s]: [f64; 2], then: [f64; 2], law: &Law, bond: &Bond) -> (Node, f64) {
-        let mut node = self.nodes[n];
-        let Normal::Springs { both, press, .. } = law.normal else { return (node, 0.0) };
-        let (damage, had) = (node.damage(), node.lost);
-        let along = law.breaking_stiffness();
-        let pressure = ((both + press) * -w).max(0.0);
-        // Tension takes from the strength along what it bears times tan φ: a slide that would bear that is added to the one there is.
-        let sheared = |node: &Node, [w, s]: [f64; 2]| {
-            let [opened, slid] = node.lost.map(|lost| 1.0 - lost);
-            let bears = (opened / slid).min(1.0);
-            s.abs() + bears * law.pulled(w)
-        };
-        let grown = [w - then[0], s.abs() - then[1].abs(), sheared(&node, [w, s]) - sheared(&node, then)];
-        let grown = grown.map(|way| way.max(0.0));
-        let (mut taken, mut passed) = (0.0, [false; 2]);
-        // A step that goes far beyond a limit goes far in the other direction too, where nothing bears any more by then.
-        let less = |from: f64, to: f64| from.abs().min(to.abs());
-        // `way` is how much farther it is stretched than before, `other` twice what the other direction would store.
-        let mut pass = |node: &mut Node,
-                        mode: usize,
-                        [stretch, way]: [f64; 2],
-                        k: f64,
-                        [strength, goes_on]: [f64; 2],
-                        other: f64| {
-            let before = node.damage();
-            if k == 0.0 || before == 1.0 {
-                return;
-            }
-            let from = strength * node.left;
-            let limit = from / (k * (1.0 - node.lost[mode]));
-            if !(stretch > limit) {
-                return;
-            }
-            passed[mode] = true;
-            // Of what the bond stores, and of what breaking takes from here on, the springs of friction keep a part.
-            let kept = |node: &Node| if mode == 1 { node.friction([w, s], law)[1] } else { 0.0 };
-            let (had, left) = (kept(node), node.left);
-            let capacity = bond.energy[mode] * node.rest[mode];
-            let stored = 0.5 * (from * limit - goes_on * goes_on / k) + had;
-            let decay = ((capacity - stored) / (from - BROKEN * strength)).max(0.0);
-            // What has no strength breaks at once.
-            let decay = if strength > 0.0 { decay } else { 0.0 };
-            // Where the limit has come to the stretch as pressure fell, the rest is no work of breaking.
-            let at = limit.max(stretch - way);
-            // Where the limit has come to the stretch and not the stretch to the limit, nothing has slid beyond it.
-            node.left *= if decay > 0.0 { (-(stretch - limit).min(way) / decay).exp() } else { 0.0 };
-            let to = strength * node.left;
-            if to > BROKEN * strength {
-                node.lost[mode] = 1.0 - to / (k * stretch);
-                let spent = decay * (from - to) - 0.5 * (to * stretch - from * at);
-                taken += spent;
-                if bond.energy[mode] > 0.0 {
-                    node.rest[mode] = (capacity - spent + kept(node) - had) / bond.energy[mode];
-                }
-                node.rest[1 - mode] *= node.left / left;
-            } else {
-                // What bears next to nothing bears nothing, and gives back nothing of what it stored.
-                *node = Node::GONE;
-                taken += decay * (from - BROKEN * strength).max(0.0) + 0.5 * from * at;
-            }
-            taken += 0.5 * (node.damage() - before) * other;
-        };
-        pass(&mut node, 0, [w - TOUCHING, grown[0]], both, [bond.tension, 0.0], along * less(then[1], s).powi(2));
-        let stretch = sheared(&node, [w, s]);
-        let opened = both * less(then[0].max(0.0), w.max(0.0)).powi(2);
-        pass(&mut node, 1, [stretch, grown[2]], along, law.shear_strengths(pressure), opened);
-        // Where both modes have lost some, one of them bears less than its limit. What springs bore on the way and do not store is taken then.
-        if passed[0] && (passed[1] || had[1] > 0.0) || passed[1] && (had[0] > 0.0 || law.pulled(w) > 0.0) {
-            let [w, s] = [w.max(0.0), s.abs()];
-            let both_ways = both * w * (w - grown[0]).max(0.0) + along * s * (s - grown[1]);
-            // A step far beyond the limits would count more than there was: at most what one of the modes lost, or what the springs stored before.
-            let gone = node.damage() - damage;
-            let stored = 0.5 * gone * (both * then[0].max(0.0).powi(2) + along * then[1] * then[1]);
-            let of = |mode: usize| bond.energy[mode] * (self.nodes[n].rest[mode] - node.rest[mode]);
-            taken = (0.5 * gone * both_ways).min(of(0).max(of(1)).max(stored));
-        }
-        if pressure > law.crushing && node.damage() < 1.0 {
-            taken += 0.5 * (1.0 - node.damage()) * along * s * s;
-            node = Node::GONE;
-        }
-        (node, taken)
-    }
-
     /// Breaks a rigid joint by what its points bear, or that slides, in a step that ended at `time` [s]; it bears `borne` across and along [N]. Returns how much of
     /// the change of its forces was over when it cracked or broke, 0 … 1; none where it did not.
     pub(crate) fn break_rigid(
@@ -1125,7 +1180,7 @@ mod tests {
 
     /// What the seventh node lost.
     fn wear_node(crack: &mut Crack, at: [f64; 2], was: [f64; 2], law: &Law, bond: &Bond) -> f64 {
-        let (node, lost) = crack.worn(7, at, was, law, bond);
+        let (node, lost) = crack.nodes[7].worn(at, was, law, bond);
         crack.nodes[7] = node;
         lost
     }

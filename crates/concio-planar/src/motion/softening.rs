@@ -40,7 +40,7 @@ impl Motion {
     pub(super) fn begin_softening(&mut self, first: usize) {
         let held = self.owners[first..].iter().take_while(|owner| owner.part == Part::Held).count();
         let own = |k: usize| self.contacts[first + k].spring;
-        if held == HELD && !self.setting.still && self.contacts[first].compliant[0] {
+        if held == HELD && self.contacts[first].compliant[0] {
             let own = [own(0), own(1)];
             self.softens.push(Softens { contact: first, own, next: own, borne: 0.0, gives: false });
         }
@@ -60,7 +60,7 @@ impl Motion {
             [0, 1].map(|d| before[d] + 0.5 * h * (owner.start.velocity[d] + after[k][d]))
         };
         let ends = crack.line_of_held([stretched(0), stretched(1)]);
-        let softened = crack.softened(self.laws.of(pair.link), &ends);
+        let softened = crack.softened(self.laws.of(pair.link), &ends, self.setting.still);
         let softens = softened.is_some();
         if softened.is_none() && acts == own {
             self.softens[bond].next = own;
@@ -70,14 +70,14 @@ impl Motion {
         let softened = softened.unwrap_or(Softened::NOTHING);
         let [near, far] = crack.held_at();
         let [whole, moment] = softened.across;
-        // The mean of what it bears at both ends of the step.
         let second = if far > near { (moment - near * whole) / (far - near) } else { 0.5 * whole };
-        let lost = [[whole - second, 0.5 * softened.along], [second, 0.5 * softened.along]];
+        let lost =
+            [[whole - second, 0.5 * softened.along], [second, 0.5 * softened.along]].map(|lost| lost.map(|f| h * f));
         let (mut missed, mut all, mut work, mut works) = (0.0, 0.0, 0.0, 0.0);
         for k in 0..HELD {
             for d in 0..2 {
                 let (own, u) = (own[k][d], after[k][d]);
-                let bears = own.at(u) + 0.5 * h * lost[k][d];
+                let bears = own.at(u) + lost[k][d];
                 let mean = 0.5 * (self.owners[first + k].start.velocity[d] + u);
                 (work, works) = (work - acts[k][d].at(u) * mean, works + (acts[k][d].at(u) * mean).abs());
                 missed = worse(missed, (bears - acts[k][d].at(u)).abs());
@@ -92,7 +92,7 @@ impl Motion {
             }
         }
         let [after, before] = softened.stored;
-        let gives = softens && work - (after - before) < -GIVEN * (works + after + before);
+        let gives = softens && !self.setting.still && work - (after - before) < -GIVEN * (works + after + before);
         let bond = &mut self.softens[bond];
         bond.gives = gives;
         if bond.borne == 0.0 {
