@@ -175,8 +175,6 @@ impl Node {
         let grown = [w - then[0], s.abs() - then[1].abs(), sheared(&node, [w, s]) - sheared(&node, then)];
         let grown = grown.map(|way| way.max(0.0));
         let (mut taken, mut passed) = (0.0, [false; 2]);
-        // A step that goes far beyond a limit goes far in the other direction too, where nothing bears any more by then.
-        let less = |from: f64, to: f64| from.abs().min(to.abs());
         // `way` is how much farther it is stretched than before, `other` twice what the other direction would store.
         let mut pass = |node: &mut Node,
                         mode: usize,
@@ -222,9 +220,9 @@ impl Node {
             }
             taken += 0.5 * (node.damage() - before) * other;
         };
-        pass(&mut node, 0, [w - TOUCHING, grown[0]], both, [bond.tension, 0.0], along * less(then[1], s).powi(2));
+        pass(&mut node, 0, [w - TOUCHING, grown[0]], both, [bond.tension, 0.0], along * s * s);
         let stretch = sheared(&node, [w, s]);
-        let opened = both * less(then[0].max(0.0), w.max(0.0)).powi(2);
+        let opened = both * w.max(0.0).powi(2);
         pass(&mut node, 1, [stretch, grown[2]], along, law.shear_strengths(pressure), opened);
         // Where both modes have lost some, one of them bears less than its limit. What springs bore on the way and do not store is taken then.
         if passed[0] && (passed[1] || had[1] > 0.0) || passed[1] && (had[0] > 0.0 || law.pulled(w) > 0.0) {

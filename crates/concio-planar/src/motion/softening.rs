@@ -14,8 +14,8 @@ use crate::joint::Part;
 pub(super) const OFF: f64 = 1e-3;
 /// Rounds in which only what does not soften resists, rounds half-way to the whole stiffness, and most rounds: where the first go in circles, as over stiff
 /// springs in long steps, the others come nearer each time.
-const TANGENTS: usize = 4;
-pub(super) const BETWEEN: usize = 16;
+const TANGENTS: usize = 16;
+pub(super) const BETWEEN: usize = 24;
 pub(super) const MOST: usize = 40;
 /// What a bond may give back, over what its springs store and bear.
 const GIVEN: f64 = 1e-3;
