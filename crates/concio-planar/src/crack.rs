@@ -327,14 +327,11 @@ pub(crate) struct Softened {
     pub along: f64,
     /// The part of its stiffness across and along with which each of its two points goes on to resist.
     pub left: [[f64; 2]; 2],
-    /// Energy in its springs at the end of the step, with that in the springs of friction which breaking has stretched, and at its start [J].
-    pub stored: [f64; 2],
 }
 
 impl Softened {
     /// Of a bond that bears all that it did.
-    pub(crate) const NOTHING: Softened =
-        Softened { across: [0.0; 2], along: 0.0, left: [[1.0; 2]; 2], stored: [0.0; 2] };
+    pub(crate) const NOTHING: Softened = Softened { across: [0.0; 2], along: 0.0, left: [[1.0; 2]; 2] };
 }
 
 /// What became of the bond in a step [J].
@@ -887,11 +884,10 @@ impl Crack {
 
     /// What the bond loses in a step that ends with its ends as far apart as `line` says; none if it loses nothing.
     pub(crate) fn softened(&self, law: &Law, line: &[[f64; 2]; 2], still: bool) -> Option<Softened> {
-        let (Normal::Springs { both, .. }, Some(bond)) = (law.normal, law.bond) else { return None };
+        let bond = law.bond?;
         if self.is_gone() || self.is_far_from_cracking(law, line) {
             return None;
         }
-        let along = law.breaking_stiffness();
         let mut softened = Softened { left: [[0.0; 2]; 2], ..Softened::NOTHING };
         let (mut worn, mut held) = (false, [0.0; 2]);
         let [near, far] = self.held_at();
@@ -904,16 +900,13 @@ impl Crack {
             let had = weight * (1.0 - before.damage());
             let [opened, slid] = between(&self.line, x);
             held[half] += had;
-            softened.stored[1] += 0.5 * had * (both * opened * opened + along * slid * slid);
             let Wear { node, less, .. } = before.on_the_way([opened, slid], [w, s], law, &bond);
             if node == before {
                 softened.left.iter_mut().for_each(|left| left[half] += had);
-                softened.stored[0] += 0.5 * had * (both * w * w + along * s * s);
                 continue;
             }
             worn = true;
             let keeps = weight * (1.0 - node.damage());
-            let [had_rubbing, rubbing] = [before, node].map(|node| node.friction([w, s], law)[1]);
             let [opens, slides] = less[usize::from(still)].map(|lost| weight * lost);
             softened.across = [softened.across[0] + opens, softened.across[1] + x * opens];
             softened.along += slides;
@@ -922,8 +915,6 @@ impl Crack {
             let lost = [0, 1].map(|k| node.lost[k] > before.lost[k]);
             softened.left[0][half] += if w > 0.0 && lost[0] { 0.0 } else { bears };
             softened.left[1][half] += if lost[1] { 0.0 } else { keeps };
-            softened.stored[0] +=
-                0.5 * (bears * both * w * w + keeps * along * s * s) + weight * (rubbing - had_rubbing);
         }
         for left in &mut softened.left {
             *left = [0, 1].map(|half| if held[half] > 0.0 { left[half] / held[half] } else { 0.0 });

@@ -17,8 +17,6 @@ pub(super) const OFF: f64 = 1e-3;
 const TANGENTS: usize = 16;
 pub(super) const BETWEEN: usize = 24;
 pub(super) const MOST: usize = 40;
-/// What a bond may give back, over what its springs store and bear.
-const GIVEN: f64 = 1e-3;
 
 /// What is left of a bond, at its two contact points.
 #[derive(Debug, Clone, Copy)]
@@ -31,8 +29,6 @@ pub(super) struct Softens {
     next: [[Linear; 2]; HELD],
     /// What they would bear had nothing cracked, as the step was solved first [N s].
     borne: f64,
-    /// Whether the joint gives back more than it loses.
-    gives: bool,
 }
 
 impl Motion {
@@ -42,7 +38,7 @@ impl Motion {
         let own = |k: usize| self.contacts[first + k].spring;
         if held == HELD && self.contacts[first].compliant[0] {
             let own = [own(0), own(1)];
-            self.softens.push(Softens { contact: first, own, next: own, borne: 0.0, gives: false });
+            self.softens.push(Softens { contact: first, own, next: own, borne: 0.0 });
         }
     }
 
@@ -61,10 +57,8 @@ impl Motion {
         };
         let ends = crack.line_of_held([stretched(0), stretched(1)]);
         let softened = crack.softened(self.laws.of(pair.link), &ends, self.setting.still);
-        let softens = softened.is_some();
         if softened.is_none() && acts == own {
             self.softens[bond].next = own;
-            self.softens[bond].gives = false;
             return 0.0;
         }
         let softened = softened.unwrap_or(Softened::NOTHING);
@@ -73,13 +67,11 @@ impl Motion {
         let second = if far > near { (moment - near * whole) / (far - near) } else { 0.5 * whole };
         let lost =
             [[whole - second, 0.5 * softened.along], [second, 0.5 * softened.along]].map(|lost| lost.map(|f| h * f));
-        let (mut missed, mut all, mut work, mut works) = (0.0, 0.0, 0.0, 0.0);
+        let (mut missed, mut all) = (0.0, 0.0);
         for k in 0..HELD {
             for d in 0..2 {
                 let (own, u) = (own[k][d], after[k][d]);
                 let bears = own.at(u) + lost[k][d];
-                let mean = 0.5 * (self.owners[first + k].start.velocity[d] + u);
-                (work, works) = (work - acts[k][d].at(u) * mean, works + (acts[k][d].at(u) * mean).abs());
                 missed = worse(missed, (bears - acts[k][d].at(u)).abs());
                 all += own.at(u).abs();
                 let rho = own.rho
@@ -91,10 +83,7 @@ impl Motion {
                 self.softens[bond].next[k][d] = Linear { offset: bears + rho * u, rho };
             }
         }
-        let [after, before] = softened.stored;
-        let gives = softens && !self.setting.still && work - (after - before) < -GIVEN * (works + after + before);
         let bond = &mut self.softens[bond];
-        bond.gives = gives;
         if bond.borne == 0.0 {
             bond.borne = all;
         }
@@ -127,11 +116,6 @@ impl Motion {
             }
         }
         more
-    }
-
-    /// Whether a bond gives back more than it loses.
-    pub(super) fn gives(&self) -> bool {
-        self.softens.iter().any(|softens| softens.gives)
     }
 
     /// Has all bonds bear what was found.
