@@ -621,9 +621,11 @@ impl Motion {
             if rests || enough && !cracks {
                 break;
             }
-            longer = ratio > SLOWLY && (ratio < 1.0 || way <= FAR * size) && step < LONGEST * h;
+            longer = !cracks && ratio > SLOWLY && (ratio < 1.0 || way <= FAR * size) && step < LONGEST * h;
             if longer {
                 step *= 2.0;
+            } else if cracks {
+                step = h;
             }
             self.worn = false;
             self.part(start + h - step, step, 0, &stays);
