@@ -417,7 +417,7 @@ pub struct Motion {
     bent: Vec<Bent>,
     /// Bonds that may soften in the step.
     softens: Vec<Softens>,
-    /// Whether what they bear was not found, or they give back more than they lose.
+    /// Whether what they bear was not found.
     astray: bool,
     free: Vec<Triple>,
     after: Vec<Triple>,

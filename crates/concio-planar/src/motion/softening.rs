@@ -1,9 +1,11 @@
-//! Bonds that soften in a step: solved with what is left of them at its end.
+//! Bonds that soften in a step, solved with what they lose in it.
 //!
-//! A bond is known as a step begins, and its springs bear in it what that has. Where they would pass its strength, a body that a load pushes slowly
-//! would stay on it, a little farther stretched after each step, while the load grows. What such a bond loses in the step is therefore taken from its
-//! springs, which go on to resist with what does not soften, and the step is solved again, until both agree. Where they do not, or where the joint would give
-//! back more than its springs had, the step is taken in two halves; the shortest ones are solved with the bond as it was at their start.
+//! A bond is known as a step begins. If its springs bore what that has, a body that a load pushes slowly would stay on it, a little
+//! farther stretched after each step, while the load grows. So what the bond loses on the straight way of the step
+//! ([`crate::crack`]) is taken from its springs, which go on to resist with what does not soften, and the step is solved again
+//! until both agree. With inertia it is the mean over the way, so that the work of the bond is what it stores and takes; without,
+//! that at the end. Where the two do not agree, the step is taken in two halves. The shortest steps are solved with the bond as
+//! it was at their start.
 
 use super::Motion;
 use crate::contact::{Effort, Linear, worse};
