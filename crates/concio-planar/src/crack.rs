@@ -139,6 +139,23 @@ impl Node {
         Wear { node, taken: sum, less: [mean, lost] }
     }
 
+    /// Up to which part of the way `from` one stretch `to` another it bore all that it did, 0 … 1, where it has become `node` on that way and breaks at
+    /// once.
+    fn breaks_at(&self, node: &Node, from: [f64; 2], to: [f64; 2], law: &Law) -> Option<f64> {
+        let Normal::Springs { both, press, .. } = law.normal else { return None };
+        if *self != Node::INTACT || *node != Node::GONE {
+            return None;
+        }
+        let pressure = (both + press) * (-to[0]).max(0.0);
+        let tension = law.bond.map_or(0.0, |bond| bond.tension);
+        let part = |from: f64, to: f64, strength: f64| {
+            if to > strength { ((strength - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 }
+        };
+        let sheared =
+            part(law.sheared(from), law.sheared(to), law.shear_strengths(pressure)[0] / law.breaking_stiffness());
+        Some(part(from[0], to[0], tension / both).min(sheared))
+    }
+
     /// Up to which part of the way it loses nothing, 0 … 1.
     fn keeps_until(&self, from: [f64; 2], to: [f64; 2], law: &Law, bond: &Bond) -> f64 {
         let (mut keeps, mut loses) = (0.0, 1.0);
@@ -247,6 +264,11 @@ struct Wear {
     less: [[f64; 2]; 2],
 }
 
+/// The first of two instants of which there may be none.
+pub(crate) fn earlier(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    a.into_iter().chain(b).reduce(f64::min)
+}
+
 /// In how many parts a node is followed from one stretch to another, if it softens all the way.
 fn parts(from: [f64; 2], to: [f64; 2], law: &Law, bond: &Bond) -> f64 {
     let Normal::Springs { both, press, .. } = law.normal else { return 1.0 };
@@ -327,11 +349,14 @@ pub(crate) struct Softened {
     pub along: f64,
     /// The part of its stiffness across and along with which each of its two points goes on to resist.
     pub left: [[f64; 2]; 2],
+    /// How much of the step was over when a part of it that breaks at once did so, 0 … 1; none where none did.
+    pub breaks_at: Option<f64>,
 }
 
 impl Softened {
     /// Of a bond that bears all that it did.
-    pub(crate) const NOTHING: Softened = Softened { across: [0.0; 2], along: 0.0, left: [[1.0; 2]; 2] };
+    pub(crate) const NOTHING: Softened =
+        Softened { across: [0.0; 2], along: 0.0, left: [[1.0; 2]; 2], breaks_at: None };
 }
 
 /// What became of the bond in a step [J].
@@ -906,6 +931,7 @@ impl Crack {
                 continue;
             }
             worn = true;
+            softened.breaks_at = earlier(softened.breaks_at, before.breaks_at(&node, [opened, slid], [w, s], law));
             let keeps = weight * (1.0 - node.damage());
             let [opens, slides] = less[usize::from(still)].map(|lost| weight * lost);
             softened.across = [softened.across[0] + opens, softened.across[1] + x * opens];
@@ -935,13 +961,11 @@ impl Crack {
         let mut taken = 0.0;
         let mut worn = false;
         let mut breaks_at: Option<f64> = None;
-        let breaks = law.breaking_stiffness();
         let bonded = if self.is_gone() { 0 } else { self.nodes.len() };
         for n in 0..bonded {
             let x = place(n);
             let [w, s] = self.stretched(x);
             let weight = weight(n, NODES);
-            let pressure = (both + press) * (-w).max(0.0);
             let then = between(&self.was, x);
             let before = self.nodes[n];
             let Wear { node, taken: lost, .. } = before.on_the_way(then, [w, s], law, &bond);
@@ -954,15 +978,7 @@ impl Crack {
             friction[0] -= weight * (keeps[0] - had[0]) * s.signum();
             friction[1] += weight * (keeps[1] - had[1]);
             worn = true;
-            if before == Node::INTACT && node == Node::GONE {
-                let strengths = [bond.tension / both, law.shear_strengths(pressure)[0] / breaks];
-                let parts = [0, 1].map(|k| {
-                    let (from, to) = [(then[0], w), (law.sheared(then), law.sheared([w, s]))][k];
-                    if to > strengths[k] { ((strengths[k] - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 }
-                });
-                let part = parts[0].min(parts[1]);
-                breaks_at = Some(breaks_at.map_or(part, |first| first.min(part)));
-            }
+            breaks_at = earlier(breaks_at, before.breaks_at(&node, then, [w, s], law));
             taken += weight * (lost - (keeps[1] - had[1]));
             self.reach = self.reach.max(w.max(s.abs()));
         }

@@ -479,8 +479,8 @@ pub(crate) fn inertia(residual: &mut [Triple], mass: &[Triple], free: &[Triple],
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::Solver;
     use crate::order::Orders;
+    use crate::solver::Solver;
 
     /// Numbers from −1 to 1.
     struct Draw(u64);

@@ -13,11 +13,12 @@ use smallvec::SmallVec;
 use crate::G;
 use crate::blocks::{Slot, Triple};
 use crate::body::Body;
-use crate::contact::{Contact, Effort, Known, Solver, worse};
+use crate::contact::{Contact, Effort, worse};
 use crate::crack::{self, Crack, Spot};
 use crate::joint::{Friction, Law, Part, Point, Start, slides};
 use crate::order::Orders;
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
+use crate::solver::{Known, Solver};
 use crate::tie::{Strain, Tie};
 use devices::Bent;
 use laws::Laws;
@@ -419,6 +420,8 @@ pub struct Motion {
     softens: Vec<Softens>,
     /// Whether what they bear was not found.
     astray: bool,
+    /// Without inertia: what the step would bear had nothing cracked, where a bond broke at once in it.
+    uncracked: Option<([f64; 2], f64)>,
     free: Vec<Triple>,
     after: Vec<Triple>,
 }
@@ -474,6 +477,7 @@ impl Motion {
             bent: Vec::new(),
             softens: Vec::new(),
             astray: false,
+            uncracked: None,
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
             rods: system.ties.iter().map(|tie| Rod::new(tie, &places)).collect(),
@@ -710,7 +714,7 @@ impl Motion {
         let before = std::mem::replace(&mut self.borne, borne);
         let Some(part) = self.breaks_at.take() else { return };
         let more = self.softened_by(h);
-        let borne = [0, 1].map(|k| borne[k] + more[k]);
+        let (borne, part) = self.uncracked.take().unwrap_or(([0, 1].map(|k| borne[k] + more[k]), part));
         for (peak, (from, to)) in self.breaks.iter_mut().zip(before.into_iter().zip(borne)) {
             let then = from + part * (to - from);
             *peak = if then.abs() > peak.abs() { then } else { *peak };

@@ -4,13 +4,22 @@ use std::array::from_fn;
 
 use pulp::Simd;
 
-use super::lanes::{Element, Lanes, PACK, Pack, Real};
-use super::lever::{ALL, Arms, Joined, PUSHES};
-use super::packs::{Joints, N};
+use super::lanes::{Element, Lanes, PACK, Pack, Real, brief, wide};
+use super::lever::{ALL, Arms, Bodies, Joined, PUSHES};
 use super::point::{Course, Kind, Laws, Left, Point, View, Way};
 use super::{INSIDE, Sums};
-use crate::blocks::Triple;
+use crate::blocks::{Slot, Triple};
 use crate::contact::Contact;
+
+/// Bounds of each.
+pub(super) const N: usize = 3;
+
+/// Where contacts push.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Joints {
+    pub bodies: Vec<Bodies>,
+    pub slots: Vec<[Option<Slot>; PACK]>,
+}
 
 /// What is small beside what it is added to, or soon to be, and has half of the digits whatever the rest has: a direction, and what is off. What rounding
 /// leaves of either is off in the next iteration, and 10⁻⁷ of it.
@@ -288,16 +297,6 @@ fn each<S: Simd, F: Element>(of: &[Lanes<S, F>; PACK]) -> Pack<f64> {
         of[part].put(&mut pack, part);
     }
     wide(pack)
-}
-
-#[inline(always)]
-pub(super) fn brief(pack: Pack<f64>) -> Pack<f32> {
-    pack.map(|x| x as f32)
-}
-
-#[inline(always)]
-pub(super) fn wide<F: Element>(pack: Pack<F>) -> Pack<f64> {
-    pack.map(F::wide)
 }
 
 impl<F: Element> Inside<F> {

@@ -351,6 +351,16 @@ impl<S: Simd, F: Element> Real for Lanes<S, F> {
     }
 }
 
+#[inline(always)]
+pub(super) fn brief(pack: Pack<f64>) -> Pack<f32> {
+    pack.map(|x| x as f32)
+}
+
+#[inline(always)]
+pub(super) fn wide<F: Element>(pack: Pack<F>) -> Pack<f64> {
+    pack.map(F::wide)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,8 +5,7 @@ use std::array::from_fn;
 use pulp::Simd;
 
 use super::Sums;
-use super::inside::brief;
-use super::lanes::{Element, Lanes, PACK, Pack, Real};
+use super::lanes::{Element, Lanes, PACK, Pack, Real, brief};
 use crate::blocks::{Slot, Triple};
 use crate::contact::{BASE, Rows};
 

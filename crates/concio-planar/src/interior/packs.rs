@@ -3,16 +3,13 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::inside::{Does, Given, Inside, Rest, brief, parts, put, put_at, wide};
-use super::lanes::{Lanes, PACK, Pack, Real};
+use super::inside::{Does, Given, Inside, Joints, N, Rest, parts, put, put_at};
+use super::lanes::{Lanes, PACK, Pack, Real, brief, wide};
 use super::lever::{ALL, Bodies, Joined, PUSHES};
 use super::point::{Course, Kind, Left, Point, View, is_dry};
 use super::{Method, Sums};
-use crate::blocks::{Digits, Slot, Triple};
+use crate::blocks::{Digits, Triple};
 use crate::contact::Contact;
-
-/// Bounds of each.
-pub(super) const N: usize = 3;
 
 /// Contacts in packs. Interior points go on with half of the digits, in half the room, for as long as directions do; Newton's method has all.
 #[derive(Debug, Clone)]
@@ -33,13 +30,6 @@ pub(super) struct Packs {
     leaps: bool,
     /// Impulses and what they are drawn to, before an attempt to end.
     before: Vec<[[Pack<f64>; 2]; 2]>,
-}
-
-/// Where contacts push.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Joints {
-    pub bodies: Vec<Bodies>,
-    pub slots: Vec<[Option<Slot>; PACK]>,
 }
 
 impl Default for Packs {

@@ -54,6 +54,9 @@ impl Motion {
             for k in 0..self.softens.len() {
                 off = worse(off, self.softened(k, h, round));
             }
+            if round == 0 && self.setting.still {
+                self.uncracked = self.uncracked(h);
+            }
             let part = self.setting.part(h);
             let solved = effort.residual <= part * self.setting.enough();
             self.astray = off > softening::OFF;

@@ -9,7 +9,7 @@
 
 use super::Motion;
 use crate::contact::{Effort, Linear, worse};
-use crate::crack::{HELD, Softened};
+use crate::crack::{HELD, Softened, earlier};
 use crate::joint::Part;
 
 /// What the forces of a bond may be off by in a step, over what it would bear had nothing cracked, by the first solution.
@@ -31,6 +31,8 @@ pub(super) struct Softens {
     next: [[Linear; 2]; HELD],
     /// What they would bear had nothing cracked, as the step was solved first [N s].
     borne: f64,
+    /// How much of the step was over when a part of it broke at once.
+    breaks_at: Option<f64>,
 }
 
 impl Motion {
@@ -40,7 +42,7 @@ impl Motion {
         let own = |k: usize| self.contacts[first + k].spring;
         if held == HELD && self.contacts[first].compliant[0] {
             let own = [own(0), own(1)];
-            self.softens.push(Softens { contact: first, own, next: own, borne: 0.0 });
+            self.softens.push(Softens { contact: first, own, next: own, borne: 0.0, breaks_at: None });
         }
     }
 
@@ -86,6 +88,7 @@ impl Motion {
             }
         }
         let bond = &mut self.softens[bond];
+        bond.breaks_at = softened.breaks_at;
         if bond.borne == 0.0 {
             bond.borne = all;
         }
@@ -103,6 +106,19 @@ impl Motion {
         let effort = self.follow_lines(h, false, effort);
         self.count(effort);
         effort
+    }
+
+    /// What a step of `h` [s] without inertia bears as it is solved first, had nothing cracked in it: pull of what is held and base shear [N], and how much
+    /// of it was over when a bond broke at once; none where none did.
+    pub(super) fn uncracked(&self, h: f64) -> Option<([f64; 2], f64)> {
+        let part = self.softens.iter().fold(None, |first, bond| earlier(first, bond.breaks_at))?;
+        let mut borne = [-self.resisted(h), 0.0];
+        for (contact, owner) in self.contacts.iter().zip(&self.owners) {
+            let [across, along] = contact.total(contact.velocity(&self.after));
+            borne[0] -= (across * owner.lever[0] + along * owner.lever[1]) / h;
+            borne[1] -= if self.pairs[owner.pair].a.is_none() { along / h } else { 0.0 };
+        }
+        Some((borne, part))
     }
 
     /// By how much the pull of what is held and the base shear would be larger had nothing cracked in a step of `h` [s] [N].
