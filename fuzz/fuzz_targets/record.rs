@@ -6,7 +6,9 @@ use std::path::Path;
 use concio::case::{HistoryLayout, HistoryQuantity, RecordChannel};
 use concio::ground::channel;
 use concio::ground::process::{resample, subtract_polynomial};
-use concio::ground::record::{INTERVAL_RANGE, MOST_SAMPLES, Record, TextOptions, parse};
+use concio::ground::formats::parse;
+use concio::ground::record::{INTERVAL_RANGE, Record, TextOptions};
+use concio::ground::MOST_SAMPLES;
 use concio::ground::signal::from_record;
 use libfuzzer_sys::fuzz_target;
 

@@ -7,8 +7,6 @@ use clap_complete::Shell;
 use concio::case::RecordChannel;
 use concio::quantity::{Length, Time};
 
-use crate::figures::{DOUBLE, Instant, SINGLE};
-
 /// In-plane earthquake response of block masonry.
 ///
 /// A wall file says in about twenty lines what the wall is, how its joints behave and how it is shaken.
@@ -414,6 +412,21 @@ fn channel(text: &str) -> Result<RecordChannel, String> {
         "" | "0" => Err("allowed: a number from 1, or a name".into()),
         name => Ok(RecordChannel::Name(name.into())),
     }
+}
+
+/// Width of one column of a journal [mm].
+pub const SINGLE: f64 = 85.0;
+/// Width of two columns [mm].
+pub const DOUBLE: f64 = 180.0;
+
+/// An instant of the run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Instant {
+    /// That of the frame with the largest displacement of a block relative to the base; for accelerations that with the
+    /// largest relative acceleration of a joint.
+    Peak,
+    /// This one [s]; the nearest frame is drawn.
+    At(f64),
 }
 
 fn instant(text: &str) -> Result<Instant, String> {

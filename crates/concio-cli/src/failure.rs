@@ -8,7 +8,7 @@ use anstyle::{AnsiColor, Style};
 use concio::files::{LARGEST_INPUT, read_input};
 use concio::{Error, InputError};
 
-use crate::files;
+use crate::format;
 
 /// Exit status of a run that stopped early or a file that could not be written.
 pub const STOPPED: u8 = 1;
@@ -96,7 +96,7 @@ fn remedy(kind: io::ErrorKind) -> Option<&'static str> {
 
 /// A part of a message: one line that a terminal shows as it is, and no more of it than somebody reads.
 fn shown(text: &str) -> String {
-    let text = files::line(text);
+    let text = format::line(text);
     match text.char_indices().nth(MOST_SHOWN) {
         None => text.into_owned(),
         Some((end, _)) => format!("{}… ({} characters more)", &text[..end], text[end..].chars().count()),
@@ -134,7 +134,7 @@ fn excerpt(error: &InputError) -> Option<String> {
     let bytes = read_input(error.file.as_ref()?, LARGEST_INPUT).ok()?;
     let line = bytes.split(|b| *b == b'\n').nth(number.checked_sub(1)?)?;
     // Tabs would shift the caret.
-    let line: Vec<char> = files::line(String::from_utf8_lossy(line).trim_end()).chars().collect();
+    let line: Vec<char> = format::line(String::from_utf8_lossy(line).trim_end()).chars().collect();
     let column = error.column.unwrap_or(1).saturating_sub(1).min(line.len());
     // Records have lines of thousands of characters: show the neighbourhood of the column.
     let from = column.saturating_sub(EXCERPT / 2).min(line.len().saturating_sub(EXCERPT));

@@ -1,7 +1,6 @@
 //! Files and streams that are written whole or not at all. All that goes to a terminal goes through here or
 //! [`crate::failure`]: text of files (titles, names, lines of records) must not command it.
 
-use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
@@ -9,33 +8,11 @@ use std::path::Path;
 use concio::{InputError, files};
 
 use crate::failure::Failure;
-
-/// Whether a terminal obeys a character instead of showing it: control characters, and marks that turn the order of what is
-/// read (Unicode Bidirectional Algorithm, 2.1 to 2.6), which make a text read as another.
-fn commands(c: char) -> bool {
-    let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    turns || (c.is_control() && !matches!(c, '\n' | '\t'))
-}
-
-/// A text that a terminal shows as it is; what it would obey is replaced by U+FFFD.
-pub fn plain(text: &str) -> Cow<'_, str> {
-    match text.contains(commands) {
-        false => text.into(),
-        true => text.replace(commands, "\u{fffd}").into(),
-    }
-}
-
-/// [`plain`] text of one line: ends of lines in a name must not make lines of our own.
-pub fn line(text: &str) -> Cow<'_, str> {
-    match text.contains(['\n', '\t']) {
-        false => plain(text),
-        true => plain(text).replace(['\n', '\t'], " ").into(),
-    }
-}
+use crate::format::{commands, line, plain_text};
 
 /// Prints to standard output.
 pub fn print(text: &str) -> Result<(), Failure> {
-    write_out(&plain(text))
+    write_out(&plain_text(text))
 }
 
 /// Prints a text of JSON: characters that a terminal would obey are escaped, so that programs read what files say.

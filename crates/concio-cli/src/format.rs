@@ -3,8 +3,6 @@
 
 use std::borrow::Cow;
 
-use crate::files::line;
-
 /// Size in SI, or of a pure number, from which it is one: what is less is rounding.
 pub const NOTHING: f64 = 1e-15;
 
@@ -148,6 +146,29 @@ pub fn width<'a>(rows: impl IntoIterator<Item = &'a (&'a str, String)>) -> usize
 /// Names, all as wide as the longest is to be, and values.
 pub fn padded(rows: &[(&str, String)], width: usize) -> String {
     rows.iter().map(|(name, value)| format!("  {name:<width$}  {}\n", line(value))).collect()
+}
+
+/// Whether a terminal obeys a character instead of showing it: control characters, and marks that turn the order of what is
+/// read (Unicode Bidirectional Algorithm, 2.1 to 2.6), which make a text read as another.
+pub fn commands(c: char) -> bool {
+    let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    turns || (c.is_control() && !matches!(c, '\n' | '\t'))
+}
+
+/// A text that a terminal shows as it is; what it would obey is replaced by U+FFFD.
+pub fn plain_text(text: &str) -> Cow<'_, str> {
+    match text.contains(commands) {
+        false => text.into(),
+        true => text.replace(commands, "\u{fffd}").into(),
+    }
+}
+
+/// [`plain_text`] of one line: ends of lines in a name must not make lines of our own.
+pub fn line(text: &str) -> Cow<'_, str> {
+    match text.contains(['\n', '\t']) {
+        false => plain_text(text),
+        true => plain_text(text).replace(['\n', '\t'], " ").into(),
+    }
 }
 
 #[cfg(test)]

@@ -19,6 +19,7 @@ mod progress;
 mod report;
 mod stop;
 mod study;
+mod warned;
 
 fn main() -> ExitCode {
     let cli = args::Cli::try_parse().unwrap_or_else(|_| misused().exit());
@@ -31,7 +32,7 @@ fn main() -> ExitCode {
 /// What is told of the arguments: help, or what is wrong with them. They are quoted there, so that it is told of them as a
 /// terminal can show them.
 fn misused() -> clap::Error {
-    let shown = |argument: std::ffi::OsString| files::line(&argument.to_string_lossy()).into_owned();
+    let shown = |argument: std::ffi::OsString| format::line(&argument.to_string_lossy()).into_owned();
     let arguments: Vec<String> = std::env::args_os().map(shown).collect();
     match args::Cli::try_parse_from(&arguments) {
         Err(error) => suggesting(error, arguments.get(1..).unwrap_or_default()),

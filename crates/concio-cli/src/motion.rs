@@ -5,7 +5,8 @@ use std::path::Path;
 use concio::Error;
 use concio::case::{Baseline, Beam, PulseShape, RecordInput, Signal};
 use concio::ground::coverage::{Coverage, coverage};
-use concio::ground::record::{self, Record, TextOptions};
+use concio::ground::formats;
+use concio::ground::record::{Record, TextOptions};
 use concio::ground::{Measures, channel, measure, process, synthetic};
 use concio::run::Prepared;
 
@@ -47,7 +48,7 @@ fn of_record(
     duration: f64,
 ) -> Result<(), Failure> {
     let path = folder.join(&input.record);
-    let mut channels = record::read(&path, &TextOptions::from(input))?;
+    let mut channels = formats::read(&path, &TextOptions::from(input))?;
     let place = channel::choose(&channels, input.channel.as_ref()).map_err(Error::from)?;
     let count = channels.len();
     let mut record = channels.swap_remove(place);

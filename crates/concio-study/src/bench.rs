@@ -4,8 +4,9 @@ use concio::Result;
 use concio::case::Case;
 use rayon::prelude::*;
 
-use crate::first_crack::{self, Answer, FirstCrackInput, Subject};
-use crate::interfaces::{Question, Target, with};
+use crate::file::analyses::{FirstCrackInput, Target};
+use crate::first_crack::{self, Answer, Subject};
+use crate::interfaces::{Question, with};
 use crate::limits::{Criterion, Rule};
 use crate::measures::{End, Row};
 use crate::plan::Plan;

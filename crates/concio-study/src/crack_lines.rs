@@ -12,16 +12,15 @@ use concio::model::Model;
 use concio::quantity::Length;
 use concio::wall::{Joint, Wall};
 use concio::{graph, pattern};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use crate::Plan;
 use crate::factors::Over;
-use crate::file::{PerJoint, StudyFile};
+use crate::file::StudyFile;
+use crate::file::analyses::CracksInput;
 use crate::first_crack::check_limit;
-use crate::limits::{Criterion, Limits, Rule};
+use crate::limits::{Criterion, Limits};
 use crate::measures::{End, Row};
-use crate::sensitivity::student;
+use crate::statistics::student;
 
 /// Slack of corners that meet, over the length of the wall.
 const SLACK: f64 = 1e-6;
@@ -30,40 +29,7 @@ const DEVIATIONS: f64 = 1.959_963_984_540_054;
 /// Confidence of such an interval.
 const CONFIDENCE: f64 = 0.95;
 
-/// `[cracks]` of a study file: how often and in which order joints crack, and which lines they form.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct CracksInput {
-    /// What counts as a crack; default `bond`.
-    pub criterion: Criterion,
-    /// `opening`, `slip`: limit [m], above 0; default 0.1 mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limit: Option<Length>,
-    /// Share of the runs in which a joint has to crack to be part of a line, above 0, to 1; default 0.5.
-    pub threshold: f64,
-}
-
-impl Default for CracksInput {
-    fn default() -> Self {
-        CracksInput { criterion: Criterion::default(), limit: None, threshold: 0.5 }
-    }
-}
-
 impl CracksInput {
-    /// What counts as a crack.
-    pub fn rule(&self) -> Rule {
-        Rule::new(self.criterion, self.limit.map(Length::si))
-    }
-
-    /// What has to be kept per joint.
-    pub fn keeps(&self) -> PerJoint {
-        match self.criterion {
-            Criterion::Bond => PerJoint::Cracked,
-            Criterion::Opening => PerJoint::Opening,
-            Criterion::Slip => PerJoint::Displacement,
-        }
-    }
-
     /// Says whether the numbers are in range and the question has a meaning for the walls of a plan.
     ///
     /// # Errors

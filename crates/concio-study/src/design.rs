@@ -14,8 +14,9 @@ use concio::dice::Dice;
 
 use crate::factors::{Factor, Over};
 use crate::file::{DesignKind, StudyFile};
-use crate::sensitivity::ranks;
 
+/// How many more runs than factors indices of ranks take: intervals of fewer miss up to two in five of what they estimate.
+pub const FREEDOM: usize = 4;
 /// Runs that a study may have: each takes some 2 kB before it is done.
 pub const MOST_RUNS: usize = 500_000;
 /// Values of factors that it may have over all runs.
@@ -271,7 +272,7 @@ pub fn scarce(kind: DesignKind, runs: usize, factors: usize) -> Option<String> {
         DesignKind::Morris => (FEWEST_TRAJECTORIES, ["trajectories hold a normal law at best", "two in five"]),
         DesignKind::Sobol => (FEWEST_BASE_POINTS, ["base points are too narrow", "one in eight"]),
         _ => {
-            let least = factors + ranks::FREEDOM;
+            let least = factors + FREEDOM;
             return (factors > 0 && runs < least)
                 .then(|| format!("{runs} runs give no rank coefficients of {factors} factors: it takes {least}"));
         }

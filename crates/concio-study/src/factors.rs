@@ -4,11 +4,12 @@ use std::collections::{BTreeSet, HashSet};
 
 use concio::Result;
 use concio::quantity::shown;
-use serde_json::{Number, Value};
+use serde_json::Value;
 use statrs::distribution::{ContinuousCDF, LogNormal, Normal};
 
 use crate::file::{Distribution, DistributionLaw, Follower, Spacing, StudyFile, Vary};
 use crate::motions;
+use crate::values::{Changes, amount, few, number, written};
 
 /// Factors that a study may have.
 const MOST_FACTORS: usize = 1000;
@@ -53,9 +54,6 @@ pub struct Level {
     /// that do not have one unit.
     pub place: Option<f64>,
 }
-
-/// Changes of a wall file: key paths and values.
-pub type Changes = Vec<(String, Value)>;
 
 /// A quantity with a distribution.
 #[derive(Debug, Clone, PartialEq)]
@@ -257,7 +255,7 @@ fn names(file: &StudyFile, factors: &[Factor]) -> Result<()> {
             let what = format!("`{}` is the name of two factors, here and at {}", factor.name, other.key);
             return Err(file.wrong(&factor.key, what, "a `name` of its own for each"));
         }
-        if crate::table::is_column(&factor.name) {
+        if crate::measures::is_column(&factor.name) {
             let what = format!("`{}` is a column that the table of runs has already", factor.name);
             return Err(file.wrong(&format!("{}.name", factor.key), what, "another `name`"));
         }
@@ -291,14 +289,6 @@ fn contradictions(file: &StudyFile, factors: &[Factor]) -> Result<()> {
         }
     }
     Ok(())
-}
-
-/// The error that `wrong` makes of it where there are more than `most` of what is said at a key.
-pub(crate) fn few(number: usize, most: usize, wrong: impl Fn(String, &str) -> concio::Error) -> Result<()> {
-    match number > most {
-        true => Err(wrong(format!("{number} of them are too many"), &format!("up to {most}"))),
-        false => Ok(()),
-    }
 }
 
 /// A key path in its parts.
@@ -636,36 +626,4 @@ fn one_unit<'v>(values: impl Iterator<Item = &'v Value>) -> Option<String> {
     let mut units = values.map(|value| amount(value).map(|(_, unit)| unit));
     let first = units.next()??;
     units.all(|unit| unit.as_ref() == Some(&first)).then_some(first)
-}
-
-/// Longest text that is looked at for a number [bytes].
-const LONGEST_AMOUNT: usize = 1000;
-
-/// A number and its unit, of a number or a text such as "10 mm".
-pub fn amount(value: &Value) -> Option<(f64, String)> {
-    match value {
-        Value::Number(n) => n.as_f64().map(|v| (v, String::new())),
-        Value::String(text) => {
-            let text = text.trim();
-            if text.len() > LONGEST_AMOUNT {
-                return None;
-            }
-            // The longest start that is a number: "1e3 m" and "2 e/s" differ in where the unit begins.
-            let cuts = text.char_indices().map(|(i, _)| i).chain([text.len()]).skip(1);
-            let end = cuts.filter(|&i| text[..i].trim().parse::<f64>().is_ok()).last()?;
-            let number: f64 = text[..end].trim().parse().ok()?;
-            number.is_finite().then(|| (number, text[end..].trim().to_string()))
-        }
-        _ => None,
-    }
-}
-
-/// A value as a wall file says it.
-pub(crate) fn written(value: f64, unit: &str) -> Value {
-    if unit.is_empty() { number(value) } else { Value::String(format!("{value:?} {unit}")) }
-}
-
-/// A number as JSON; null when it is none.
-pub fn number(value: f64) -> Value {
-    Number::from_f64(value).map_or(Value::Null, Value::Number)
 }

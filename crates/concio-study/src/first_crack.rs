@@ -8,13 +8,13 @@
 use std::path::Path;
 
 use concio::case::{Case, JointKind, Signal};
-use concio::quantity::{Length, Time, shown};
+use concio::quantity::{Length, shown};
 use concio::run::prepare;
 use concio::warning::Warning;
 use concio::{InputError, Result};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
+use crate::file::analyses::FirstCrackInput;
 use crate::file::{Keep, PerJoint};
 use crate::limits::{Criterion, Limits, Rule};
 use crate::measures::{End, Row};
@@ -38,34 +38,6 @@ const NEAR: f64 = 0.1;
 pub const INTERVAL: [f64; 2] = [1e-5, 1.0];
 /// Most lower factors.
 pub const MOST_CHECKS: usize = 100;
-
-/// `[first-crack]` of a study file: at which scale of each motion does a first joint crack? Takes the place of the
-/// study's runs; `scales` has no meaning beside it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct FirstCrackInput {
-    /// What counts as a crack; default `bond`.
-    pub criterion: Criterion,
-    /// `opening`, `slip`: limit [m], above 0; default 0.1 mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limit: Option<Length>,
-    /// Largest relative distance of the two scales between which the crack lies, 1e-5 … 1; default 0.01.
-    pub interval: f64,
-    /// How many lower scales are tried besides, 0 … 100; default 3. They lie evenly between 0 and the answer; a run of the
-    /// search within a tenth of their distance counts for one.
-    #[schemars(range(min = 0, max = 100))]
-    pub checks: usize,
-    /// Periods of the spectral accelerations that are told beside those at the wall's own first period [s], above 0;
-    /// default 0.1, 0.2 and 0.5 s.
-    pub periods: Vec<Time>,
-}
-
-impl Default for FirstCrackInput {
-    fn default() -> Self {
-        let periods = [0.1, 0.2, 0.5].map(Time::from_si).to_vec();
-        FirstCrackInput { criterion: Criterion::default(), limit: None, interval: 0.01, checks: 3, periods }
-    }
-}
 
 impl FirstCrackInput {
     /// The question, its numbers in range.

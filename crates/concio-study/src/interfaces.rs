@@ -3,184 +3,29 @@
 use std::path::Path;
 
 use concio::assign::select;
-use concio::case::{Beam, Selector};
+use concio::case::Beam;
 use concio::quantity::shown;
 use concio::wall::{End, Joint, Wall};
 use concio::{Error, Result, graph, pattern};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::factors::{Changes, amount, few, written};
+use crate::file::analyses::{Goal, Interfaces, ObjectiveInput, Over, ParameterInput, Target};
 use crate::file::{Spacing, StudyFile};
 use crate::measures::Row;
 use crate::placement::Places;
 use crate::plan::Plan;
 use crate::search::Design;
+use crate::values::{Changes, amount, few, written};
 
 /// Devices to choose from, and parameters of one.
 const MOST_DEVICES: usize = 100;
-
-/// Asks which joints to replace by which devices.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Interfaces {
-    /// Joints that may be replaced, chosen as by `joint.change` of a wall file; default all.
-    #[serde(default)]
-    pub at: Selector,
-    /// Most joints that are replaced, from 1. Either this or `share`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1))]
-    pub count: Option<usize>,
-    /// The same as a part of all joints of the wall, above 0 and up to 1, rounded down.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub share: Option<f64>,
-    /// What is to become small or large: one objective, or two.
-    #[serde(default, rename = "objective")]
-    pub objectives: Vec<ObjectiveInput>,
-    /// Alternatives to put in the place of mortar, at least one; all joints of a design have the same.
-    #[serde(default, rename = "device")]
-    pub devices: Vec<DeviceInput>,
-    /// Runs that the search may ask for; the greedy placements are tuned with as many again. At least one
-    /// generation: `population` designs of every device under every motion of the search.
-    #[schemars(range(min = 1))]
-    pub runs: usize,
-    /// Designs of a generation of each device, 4 … 1000. Default 16.
-    #[serde(default = "population")]
-    #[schemars(range(min = 4, max = 1000))]
-    pub population: usize,
-    /// Random placements to compare with, 1 … 10,000. Default 30.
-    #[serde(default = "draws")]
-    #[schemars(range(min = 1, max = 10_000))]
-    pub draws: usize,
-    /// Runs of each motion that differ by `perturbation` alone, for the scatter of what is compared, 4 … 1000. Default 8.
-    #[serde(default = "copies")]
-    #[schemars(range(min = 4, max = 1000))]
-    pub copies: usize,
-    /// Relative change of the motion from one of them to the next, above 0 and up to 0.01. Default 1e-6.
-    #[serde(default = "perturbation")]
-    pub perturbation: f64,
-    /// Best designs of the search that are run in `copies`, 1 … 100: the best mean of them is its answer; of two objectives
-    /// they are the front, from its ends inwards. Default 4.
-    #[serde(default = "finalists")]
-    #[schemars(range(min = 1, max = 100))]
-    pub finalists: usize,
-    /// `first_cracking`: scales that the first crack counts as where it lies below or above them, rising, above 0. Default
-    /// 0.02 to 20.
-    #[serde(default = "scales")]
-    pub crack_scales: [f64; 2],
-    /// `first_cracking`: width of the interval that it is found in, over its middle, above 0 and below 1. Default 0.02.
-    #[serde(default = "within")]
-    pub crack_within: f64,
-    /// Seed of everything that is drawn. Default 1.
-    #[serde(default = "seed")]
-    pub seed: u64,
-}
 
 /// Generations from which on a search learns from what it has seen.
 const GENERATIONS: usize = 10;
 /// Runs that a first crack takes, some less, some more.
 const SEARCHING: usize = 12;
 
-fn population() -> usize {
-    16
-}
-fn draws() -> usize {
-    30
-}
-fn copies() -> usize {
-    8
-}
-fn perturbation() -> f64 {
-    1e-6
-}
-fn finalists() -> usize {
-    4
-}
-fn scales() -> [f64; 2] {
-    [0.02, 20.0]
-}
-fn within() -> f64 {
-    0.02
-}
-fn seed() -> u64 {
-    1
-}
-
-/// An objective.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ObjectiveInput {
-    /// What is measured.
-    pub measure: Target,
-    /// How the motions are taken together. Default `mean`.
-    #[serde(default)]
-    pub over: Over,
-    /// Whether it is to be small or large; default what serves a wall: dissipated energy and the scale of the first crack
-    /// large, the others small.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub goal: Option<Goal>,
-}
-
-/// What an objective measures of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Target {
-    /// Largest |relative acceleration| of neighbouring blocks [m/s²].
-    PeakJointAcceleration,
-    /// Largest |relative displacement| of neighbouring blocks [m].
-    PeakJointDisplacement,
-    /// Largest |relative velocity| of neighbouring blocks [m/s].
-    PeakJointVelocity,
-    /// Largest |displacement| of a block of a top course over the height of its top.
-    PeakDrift,
-    /// Largest |force| of the top beam [N].
-    TopForcePeak,
-    /// Energy dissipated by friction, damping and devices [J]: not by cracks and impacts, which nobody wants more of.
-    DissipatedEnergy,
-    /// Scale of the motion at which the first bond cracks.
-    FirstCracking,
-}
-
 impl Target {
-    /// Its name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Target::PeakJointAcceleration => "peak_joint_acceleration",
-            Target::PeakJointDisplacement => "peak_joint_displacement",
-            Target::PeakJointVelocity => "peak_joint_velocity",
-            Target::PeakDrift => "peak_drift",
-            Target::TopForcePeak => "top_force_peak",
-            Target::DissipatedEnergy => "dissipated_energy",
-            Target::FirstCracking => "first_cracking",
-        }
-    }
-
-    /// What it is called in texts and at axes.
-    pub fn title(self) -> &'static str {
-        match self {
-            Target::PeakJointAcceleration => "peak relative acceleration",
-            Target::PeakJointDisplacement => "peak relative displacement",
-            Target::PeakJointVelocity => "peak relative velocity",
-            Target::PeakDrift => "peak drift",
-            Target::TopForcePeak => "peak force of the beam",
-            Target::DissipatedEnergy => "dissipated energy",
-            Target::FirstCracking => "scale of the first crack",
-        }
-    }
-
-    /// SI unit; empty for pure numbers.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Target::PeakJointAcceleration => "m/s²",
-            Target::PeakJointDisplacement => "m",
-            Target::PeakJointVelocity => "m/s",
-            Target::TopForcePeak => "N",
-            Target::DissipatedEnergy => "J",
-            Target::PeakDrift | Target::FirstCracking => "",
-        }
-    }
-
     /// Its value in a run; none where the run has none, and of `first_cracking`, which takes several runs.
     pub fn of(self, row: &Row) -> Option<f64> {
         match self {
@@ -192,59 +37,6 @@ impl Target {
             other => row.number(other.name()),
         }
     }
-}
-
-/// How the motions are taken together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Over {
-    /// Their mean.
-    #[default]
-    Mean,
-    /// The worst of them.
-    Worst,
-}
-
-/// Whether a measure is to be small or large.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Goal {
-    /// Small.
-    Minimise,
-    /// Large.
-    Maximise,
-}
-
-/// An alternative in the place of mortar.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DeviceInput {
-    /// Its name in tables and figures, unique.
-    pub name: String,
-    /// What the joints get: the keys of a `joint.change` of a wall file without its `at`.
-    #[serde(default)]
-    pub change: Map<String, Value>,
-    /// Its free parameters; none for a device as it is.
-    #[serde(default, rename = "parameter", skip_serializing_if = "Vec::is_empty")]
-    pub parameters: Vec<ParameterInput>,
-}
-
-/// A free parameter.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ParameterInput {
-    /// Key path within `change`: `friction.static`.
-    pub path: String,
-    /// Lower bound: a number, or a text with a unit.
-    pub from: Value,
-    /// Upper bound, in the same unit.
-    pub to: Value,
-    /// How the search sees the range. Default `linear`.
-    #[serde(default)]
-    pub spacing: Spacing,
-    /// Other keys of `change` that follow it in proportion: `dynamic` friction that is no less than `static`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub also: Vec<crate::file::Follower>,
 }
 
 /// An objective with its direction.

@@ -26,14 +26,17 @@ pub mod motions;
 pub mod pareto;
 pub mod placement;
 pub mod plan;
+mod questions;
 pub mod ranking;
 pub mod runner;
 pub mod search;
 pub mod sensitivity;
 pub mod shaking;
+mod statistics;
 pub mod store;
 pub mod table;
 pub mod until;
+pub mod values;
 pub mod warned;
 
 pub use file::StudyFile;

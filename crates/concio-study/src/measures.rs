@@ -200,6 +200,14 @@ fn largest(values: &[f64]) -> Option<usize> {
     above.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(i, _)| i)
 }
 
+/// Columns of the table of runs beside factors and measures.
+pub const OWN: [&str; 8] = ["run", "end", "peak_joint", "first_joint", "cause", "warnings", "warning_kinds", "id"];
+
+/// Whether the table of runs has a column of this name besides those of its factors.
+pub fn is_column(name: &str) -> bool {
+    OWN.contains(&name) || MEASURES.iter().any(|m| m.name == name)
+}
+
 fn numbers(prepared: &Prepared, outcome: &Outcome, joints: &[JointRow]) -> [f64; MEASURES.len()] {
     let (model, envelopes, totals, energies) =
         (&prepared.model, &outcome.envelopes, &outcome.totals, &outcome.energies);

@@ -10,9 +10,10 @@ use concio::{Error, InputError, Result};
 use serde_json::Value;
 
 use crate::design::{At, points};
-use crate::factors::{Changes, Factor, Over, factors};
+use crate::factors::{Factor, Over, factors};
 use crate::file::StudyFile;
-use crate::{groups, interfaces, motions};
+use crate::values::Changes;
+use crate::{groups, motions};
 
 /// A study with its runs.
 #[derive(Debug)]
@@ -34,45 +35,17 @@ const DIGITS: usize = 32;
 pub struct Records(Mutex<HashMap<PathBuf, String>>);
 
 impl Plan {
-    /// Reads a study file and settles its runs.
+    /// The runs that a study file describes, each level of each factor tried; what it asks of them is not looked at
+    /// ([`crate::questions`]).
     ///
     /// # Errors
     /// [`Error::Input`] with file and line.
-    pub fn read(path: &Path) -> Result<Self> {
-        Self::of(StudyFile::read(path)?)
-    }
-
-    /// The same of a file that was read already.
-    ///
-    /// # Errors
-    /// [`Error::Input`] with file and line.
-    pub fn of(file: StudyFile) -> Result<Self> {
+    pub(crate) fn laid_out(file: StudyFile) -> Result<Self> {
         let factors = factors(&file)?;
         let points = points(&file, &factors)?;
         let plan = Plan { file, factors, points, records: Records::default() };
         plan.try_levels()?;
-        crate::sensitivity::measures(&plan)?;
-        crate::ida::settings(&plan.file)?;
-        plan.questions()?;
         Ok(plan)
-    }
-
-    /// Refuses questions that this plan cannot answer.
-    fn questions(&self) -> Result<()> {
-        let study = &self.file.study;
-        if let Some(ranking) = &study.ranking {
-            ranking.check(&self.file)?;
-        }
-        if study.interfaces.is_some() {
-            return interfaces::question(self).map(|_| ());
-        }
-        match study.motions.iter().position(|m| m.held_out) {
-            Some(i) => {
-                let what = "is said of a motion where nothing is searched for";
-                Err(self.file.wrong(&format!("motion[{i}].held_out"), what, "beside a table `interfaces` only"))
-            }
-            None => Ok(()),
-        }
     }
 
     /// Each level alone, so that a message names the value at fault; their combinations are looked at by [`Plan::case`].
@@ -131,7 +104,7 @@ impl Plan {
     pub fn labels(&self, number: usize) -> Vec<Value> {
         let label = |(at, factor): (&At, &Factor)| match (&factor.over, at) {
             (Over::Levels(levels), At::Level(level)) => levels[*level].label.clone(),
-            (Over::Scales(scales), At::Level(level)) => crate::factors::number(scales[*level]),
+            (Over::Scales(scales), At::Level(level)) => crate::values::number(scales[*level]),
             (Over::Values(values), At::Share(share)) => values.level(*share).label,
             _ => Value::Null,
         };

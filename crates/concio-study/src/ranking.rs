@@ -3,34 +3,15 @@
 //! A joint's ratio in a run is its value over the largest of any joint of that run, as the report colours them in its
 //! Figure 27. The order is that of the ratios' mean over the runs, so that strong motions do not drown weak ones.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use concio::case::{Beam, Case};
 use concio::{Result, graph, pattern};
 use serde_json::Value;
 
+use crate::file::analyses::Ranking;
 use crate::file::{PerJoint, StudyFile, Vary};
 use crate::measures::Row;
-use crate::sensitivity::ranks::ranks as midranks;
+use crate::statistics::ranks as midranks;
 use crate::table::Table;
-
-/// Asks for the critical joints.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Ranking {
-    /// By what; default the report's relative acceleration, then relative displacement and dissipated energy.
-    pub by: Vec<PerJoint>,
-    /// Joints that the report of the study lists and draws as critical, from 1.
-    #[schemars(range(min = 1))]
-    pub listed: usize,
-}
-
-impl Default for Ranking {
-    fn default() -> Self {
-        Ranking { by: vec![PerJoint::Acceleration, PerJoint::Displacement, PerJoint::Dissipation], listed: 10 }
-    }
-}
 
 impl Ranking {
     /// Refuses what cannot be ranked by.

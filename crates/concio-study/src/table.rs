@@ -16,13 +16,10 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 use serde_json::Value;
 
-use crate::factors::amount;
 use crate::file::PerJoint;
-use crate::measures::{End, MEASURES, Row};
+use crate::measures::{End, MEASURES, OWN, Row};
 use crate::plan::Plan;
-
-/// Columns of the table of runs beside factors and measures.
-const OWN: [&str; 8] = ["run", "end", "peak_joint", "first_joint", "cause", "warnings", "warning_kinds", "id"];
+use crate::values::amount;
 
 /// A column.
 #[derive(Debug, Clone, PartialEq)]
@@ -123,11 +120,6 @@ pub fn of_plan(plan: &Plan, rows: &[Option<&Row>]) -> Table {
     table.texts(kinds, text(|r| crate::warned::kinds(&r.warnings)));
     table.texts(id, text(|r| Some(r.id.clone())));
     table
-}
-
-/// Whether the table of runs has a column of this name besides those of its factors.
-pub fn is_column(name: &str) -> bool {
-    OWN.contains(&name) || MEASURES.iter().any(|m| m.name == name)
 }
 
 /// Writes what was kept per joint, one line per run and joint, as `joints.csv` and `joints.parquet` into `folder`, each whole

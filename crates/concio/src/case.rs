@@ -15,6 +15,7 @@ mod forms;
 mod node;
 pub mod plausible;
 mod read;
+mod schema;
 mod sets;
 mod size;
 mod templates;
@@ -22,10 +23,11 @@ pub mod validate;
 
 pub(crate) use devices::{BETA, GAMMA};
 pub use devices::{Device, DeviceLaw};
-pub use document::Document;
+pub use document::{Document, LARGEST_FILE};
 pub use extent::Extent;
-pub use read::{CaseFile, LARGEST_FILE, Syntax, canonical_json, from_str, read};
-pub use templates::{describe, example, schema, starter};
+pub use node::Syntax;
+pub use read::{CaseFile, canonical_json, example, from_str, read};
+pub use templates::{describe, schema, starter};
 pub use validate::validate;
 
 pub use crate::wall::JointKind;

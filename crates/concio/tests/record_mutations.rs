@@ -3,7 +3,9 @@
 
 use std::path::Path;
 
-use concio::ground::record::{INTERVAL_RANGE, MOST_SAMPLES, TextOptions, parse};
+use concio::ground::MOST_SAMPLES;
+use concio::ground::formats::parse;
+use concio::ground::record::{INTERVAL_RANGE, TextOptions};
 use peak_alloc::PeakAlloc;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};

@@ -14,7 +14,7 @@ use super::wall_file;
 use crate::args::Check;
 use crate::draw::wall::{self, Paint, Subject, kind_name, mass};
 use crate::failure::Failure;
-use crate::format::{columns, pairs, plain, seconds, si, significant};
+use crate::format::{columns, line, pairs, plain, seconds, si, significant};
 use crate::{files, report};
 
 /// Most blocks of walls whose rest and first period are looked for.
@@ -30,7 +30,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let prepared = wall_file::prepare(&file)?;
     let model = &prepared.model;
     let motion = wall_file::motion(&file, &prepared)?;
-    wall_file::warn(&file, &model.warnings);
+    crate::warned::warn(&file, &model.warnings);
     if let Some(path) = &args.svg {
         let names = model.joint_names();
         let beam = report::beam_label(&prepared.case);
@@ -81,7 +81,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let table = |rows: &[Vec<String>]| if rows.is_empty() { String::new() } else { format!("{}\n", columns(rows)) };
     let list = if args.joints { format!("\n{}", columns(&joint_list(model))) } else { String::new() };
     let title = &case.title;
-    let title = if title.is_empty() { String::new() } else { format!("{}\n\n", files::line(title)) };
+    let title = if title.is_empty() { String::new() } else { format!("{}\n\n", line(title)) };
     let text = format!(
         "{title}{}\n{}{}\n{}{}{}{}\n{}{list}\n{} is a valid wall file.\n",
         columns(&panel_rows(model)),

@@ -7,7 +7,8 @@ use concio::InputError;
 use concio::case::{self, Case, CaseFile, RecordInput, Signal};
 use concio::quantity::{Length, Time};
 use concio::warning::Warning;
-use concio_study::first_crack::{FirstCrackInput, Question, Subject, objection};
+use concio_study::file::analyses::FirstCrackInput;
+use concio_study::first_crack::{Question, Subject, objection};
 use concio_study::limits::Criterion;
 use concio_study::warned::Told;
 
@@ -40,7 +41,7 @@ pub fn first_crack(args: &FirstCrack) -> Result<ExitCode, Failure> {
     let doubts = wall.unit_doubts().into_iter().filter(|w| !replaced(w));
     let of_file = |first: Warning| Told { first, name: String::new(), runs, same: true };
     before.warned.told.splice(0..0, doubts.map(of_file));
-    wall_file::warn_of_runs(&wall, &before.sentences());
+    crate::warned::warn_of_runs(&wall, &before.sentences());
     stop::listen()?;
     let title = if wall.case.title.is_empty() {
         "First cracking".into()

@@ -13,7 +13,7 @@ use crate::args::{HeadFriction, Limit, LimitLoad, Side};
 use crate::draw::mechanism;
 use crate::failure::{Failure, STOPPED};
 use crate::files;
-use crate::format::{fixed, pairs, si, significant};
+use crate::format::{fixed, line, pairs, si, significant};
 
 /// Names of the results in their folder.
 const RESULT: &str = "limit.json";
@@ -54,8 +54,7 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
     if args.json {
         files::print_json(&format!("{result:#}\n"))?;
     } else {
-        let title =
-            if file.case.title.is_empty() { String::new() } else { format!("{}\n\n", files::line(&file.case.title)) };
+        let title = if file.case.title.is_empty() { String::new() } else { format!("{}\n\n", line(&file.case.title)) };
         let names = |out: &Path| format!("\nopen {}\n", out.join(DRAWING).display());
         let written = args.out.as_deref().map(names).unwrap_or_default();
         files::print(&format!("{title}{}{written}", pairs(&rows(args, &weaker, other.as_ref()))))?;

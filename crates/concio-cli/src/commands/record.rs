@@ -4,8 +4,9 @@ use concio::Error;
 use concio::case::{HistoryLayout, HistoryQuantity};
 use concio::ground::channel;
 use concio::ground::coverage::{self, DRIFT, OFFSET};
+use concio::ground::formats;
 use concio::ground::process::integrate;
-use concio::ground::record::{self, Format, Record as History, TextOptions};
+use concio::ground::record::{Format, Record as History, TextOptions};
 use concio::ground::{Measures, Spectrum, measure, response_spectrum};
 use serde_json::json;
 
@@ -37,7 +38,7 @@ pub fn record(args: &Record) -> Result<(), Failure> {
             Layout::Rows => HistoryLayout::Rows,
         }),
     };
-    let channels = record::read(&args.file, &options).map_err(as_options)?;
+    let channels = formats::read(&args.file, &options).map_err(as_options)?;
     let place = channel::choose(&channels, args.channel.as_ref());
     let place = place.map_err(|error| Error::from(error.in_file(&args.file).key("--channel")))?;
     let history = &channels[place];

@@ -32,7 +32,7 @@ pub fn run(args: &Run) -> Result<ExitCode, Failure> {
     if args.fresh {
         concio::run::forget(&out)?;
     }
-    wall_file::warn(&file, &prepared.model.warnings);
+    crate::warned::warn(&file, &prepared.model.warnings);
     let finished = simulate(&prepared, &out)?;
     let joints = concio::run::joint_rows(&prepared.model);
     let mut content = report::Content::of_run(&out, &prepared, &joints, &finished, file.text());

@@ -15,7 +15,7 @@ use concio_study::{Plan, answer, file, first_crack, interfaces, table};
 use rayon::prelude::*;
 
 use super::run::refuse_a_file;
-use super::wall_file::{self, Kind};
+use super::wall_file::Kind;
 use crate::args::{StudyCheck, StudyCommand, StudyPlace, StudyRun};
 use crate::failure::{Failure, STOPPED};
 use crate::format::{columns, counted, pairs};
@@ -102,7 +102,7 @@ fn cases(plan: &Plan) -> Result<Vec<(String, Case)>> {
 /// Tells what the runs will warn of, as far as that is known before; what was told.
 fn warn(plan: &Plan) -> Warned {
     let before = asked::before(plan);
-    wall_file::warn_of_runs(&plan.file.wall, &before.sentences());
+    crate::warned::warn_of_runs(&plan.file.wall, &before.sentences());
     before.warned
 }
 
@@ -264,7 +264,7 @@ fn tell(plan: &Plan, found: &[Option<&Row>], known: &Warned) -> std::result::Res
     }
     let warned = asked::warned(plan, found);
     rows.extend(asked::counted_warnings(&warned).map(|told| ("warnings", told)));
-    wall_file::warn_of_runs(&plan.file.wall, &warned.sentences(known));
+    crate::warned::warn_of_runs(&plan.file.wall, &warned.sentences(known));
     let bad = found.iter().enumerate().filter_map(|(i, r)| r.as_ref().map(|r| (i, r)));
     for (number, row) in bad.filter(|(_, r)| r.end != End::Completed).take(MOST_NAMED) {
         let cause = row.cause.as_deref().unwrap_or("no cause is known");

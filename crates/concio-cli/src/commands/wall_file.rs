@@ -3,16 +3,14 @@
 use std::path::Path;
 
 use concio::case::{self, CaseFile, Document, Signal, plausible};
-use concio::ground::record::{self, TextOptions};
+use concio::ground::formats;
+use concio::ground::record::TextOptions;
 use concio::pattern;
 use concio::run::{self, Prepared};
-use concio::warning::Warning;
 use concio::{Error, InputError};
-use concio_study::warned::Sentence;
 use serde_json::{Map, Value};
 
 use crate::failure::Failure;
-use crate::files;
 use crate::motion;
 
 /// Reads and validates a wall file.
@@ -24,34 +22,6 @@ pub fn read(path: &Path) -> Result<CaseFile, Failure> {
     })?;
     let findings = file.findings();
     if findings.is_empty() { Ok(file) } else { Err(Failure::Input(findings)) }
-}
-
-/// Tells warnings, those about a key of the wall file with its line.
-pub fn warn(file: &CaseFile, warnings: &[Warning]) {
-    for warning in warnings {
-        files::note(&format!("warning: {warning}{}", place(file, warning)));
-    }
-}
-
-/// Tells what many runs of a wall file warn of.
-pub fn warn_of_runs(file: &CaseFile, told: &[Sentence]) {
-    for sentence in told.iter().take(MOST_SENTENCES) {
-        // Where it is not the same everywhere, it is not the wall file that says the number.
-        let place = if sentence.everywhere { place(file, &sentence.text) } else { String::new() };
-        files::note(&format!("warning: {sentence}{place}"));
-    }
-    if told.len() > MOST_SENTENCES {
-        files::note(&format!("warning: and {} more that differ", told.len() - MOST_SENTENCES));
-    }
-}
-
-/// Warnings of many runs that are told at most.
-const MOST_SENTENCES: usize = 12;
-
-/// Where in the wall file that stands which a warning begins with; empty where it begins with no key.
-fn place(file: &CaseFile, warning: &str) -> String {
-    let place = file.path().zip(file.line_of(warning)).map(|(path, line)| format!(" ({}:{line})", path.display()));
-    place.unwrap_or_default()
 }
 
 /// What a file in TOML or JSON is by its keys.
@@ -86,7 +56,7 @@ fn of_study(path: &Path) -> InputError {
 
 /// Whether a file that is no wall file can be read as an accelerogram.
 fn is_record(path: &Path) -> bool {
-    record::read(path, &TextOptions::default()).is_ok()
+    formats::read(path, &TextOptions::default()).is_ok()
 }
 
 fn of_record(error: Error) -> Error {
@@ -100,7 +70,7 @@ pub fn prepare(file: &CaseFile) -> Result<Prepared, Failure> {
     // A length in the wrong unit makes walls that cannot be laid.
     let doubts = || [file.unit_doubts(), plausible::doubts(&file.case)].concat();
     let mut prepared = prepared.map_err(|error| {
-        warn(file, &doubts());
+        crate::warned::warn(file, &doubts());
         all(file, error)
     })?;
     prepared.model.warnings.splice(0..0, file.unit_doubts());

@@ -8,6 +8,7 @@ use concio::case::{self, Case, Syntax};
 use concio::moment::{JointMotion, Moment};
 use concio::store::StoredRun;
 
+use crate::args::Instant;
 use crate::failure::Failure;
 use crate::format::{seconds, short};
 
@@ -42,16 +43,6 @@ pub struct Motion {
     pub velocity: Vec<f64>,
     /// Whether every sample was kept, and not only the frames.
     pub sampled: bool,
-}
-
-/// An instant of the run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Instant {
-    /// That of the frame with the largest displacement of a block relative to the base; for accelerations that with the
-    /// largest relative acceleration of a joint.
-    Peak,
-    /// This one [s]; the nearest frame is drawn.
-    At(f64),
 }
 
 impl<'a> Data<'a> {

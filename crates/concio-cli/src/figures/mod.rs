@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use concio::InputError;
 
-use crate::args::Figure;
+use crate::args::{Figure, Instant, SINGLE};
 use crate::draw::output::{Drawing, POINTS};
 
 mod data;
@@ -16,7 +16,7 @@ mod phase;
 mod top;
 mod wall;
 
-pub use data::{Data, Instant};
+pub use data::Data;
 
 #[cfg(test)]
 mod tests;
@@ -38,11 +38,6 @@ pub struct Options {
     /// Names of joints; chosen by the figure when none are given.
     pub joints: Vec<String>,
 }
-
-/// Width of one column of a journal [mm].
-pub const SINGLE: f64 = 85.0;
-/// Width of two columns [mm].
-pub const DOUBLE: f64 = 180.0;
 
 impl Default for Options {
     fn default() -> Self {

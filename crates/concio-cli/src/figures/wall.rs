@@ -6,7 +6,8 @@ use concio::moment::Moment;
 use concio::record::Motion;
 
 use super::Options;
-use super::data::{Data, Instant};
+use super::data::Data;
+use crate::args::Instant;
 use crate::draw::chart::LETTERS;
 use crate::draw::font;
 use crate::draw::output::Drawing;

@@ -11,8 +11,8 @@ use concio::run::prepare_with;
 use concio::warning::Warning;
 use concio_study::Plan;
 use concio_study::design::{scarce, unreached};
+use concio_study::file::analyses::{DeviceInput, ObjectiveInput, Over, Target};
 use concio_study::file::{Choice, Design, DesignKind, Distribution, DistributionLaw, Follower, Spacing, Study, Vary};
-use concio_study::interfaces::{DeviceInput, ObjectiveInput, Over, Target};
 use concio_study::measures::{End, Row};
 use concio_study::ranking;
 use concio_study::table::Table;
@@ -300,7 +300,7 @@ pub fn objective(objective: &ObjectiveInput) -> String {
         Over::Worst => "worst",
     };
     let large = match objective.goal {
-        Some(goal) => goal == concio_study::interfaces::Goal::Maximise,
+        Some(goal) => goal == concio_study::file::analyses::Goal::Maximise,
         None => matches!(objective.measure, Target::DissipatedEnergy | Target::FirstCracking),
     };
     format!("{over} {} as {} as can be", objective.measure.title(), if large { "large" } else { "small" })
@@ -308,7 +308,7 @@ pub fn objective(objective: &ObjectiveInput) -> String {
 
 /// The free parameters of a device with their bounds; `as it is` for one without.
 pub fn bounds(device: &DeviceInput) -> Vec<[String; 2]> {
-    let one = |p: &concio_study::interfaces::ParameterInput| {
+    let one = |p: &concio_study::file::analyses::ParameterInput| {
         let log = if p.spacing == Spacing::Log { ", at equal ratios" } else { "" };
         let also: String = p.also.iter().map(|f| format!("; {} × {}", f.path, plain(f.times))).collect();
         [p.path.clone(), format!("{} to {}{log}{also}", text(&p.from), text(&p.to))]

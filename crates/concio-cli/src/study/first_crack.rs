@@ -16,11 +16,11 @@ use serde_json::{Value, json};
 use super::asked;
 use super::bars::{Bar, Bars, bars};
 use super::page::{Figure, Section, shown};
-use crate::commands::wall_file::warn_of_runs;
 use crate::draw::output::Drawing;
 use crate::failure::{Failure, STOPPED};
 use crate::format::{columns, counted, si, significant};
 use crate::progress::Runs;
+use crate::warned::warn_of_runs;
 use crate::{files, stop};
 
 /// Which of the runs are done.

@@ -22,13 +22,13 @@ use concio_study::warned::Warned;
 use super::asked;
 use super::page::{Figure, Section, shown};
 use super::sections::label;
-use crate::commands::wall_file::warn_of_runs;
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::failure::{Failure, STOPPED};
 use crate::files;
 use crate::format::{counted, pairs, plain, significant};
 use crate::progress::Runs;
 use crate::stop;
+use crate::warned::warn_of_runs;
 
 /// Width of a figure and height of a plot [pt].
 const SIZE: [f64; 2] = [420.0, 210.0];

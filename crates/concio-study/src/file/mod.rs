@@ -9,13 +9,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::crack_lines::CracksInput;
-use crate::first_crack::FirstCrackInput;
-use crate::ida::Ida;
-use crate::interfaces::Interfaces;
 use crate::motions::MotionInput;
-use crate::ranking::Ranking;
-use crate::sensitivity::Sensitivity;
+use analyses::{CracksInput, FirstCrackInput, Ida, Interfaces, Ranking, Sensitivity};
+
+pub mod analyses;
 
 /// A study: a wall, what varies, which combinations are run, what is kept, what is asked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -8,9 +8,9 @@ use concio::{InputError, Result};
 use serde_json::Value;
 
 use super::{GROUPS, Reference, frequency, top_amplitude};
-use crate::factors::{Changes, number};
 use crate::intensity::Intensity;
 use crate::motions;
+use crate::values::{Changes, number};
 
 /// What the path of a group begins with.
 pub const PREFIX: &str = "group.";

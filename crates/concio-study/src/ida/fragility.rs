@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::sensitivity::student;
+use crate::statistics::student;
 
 use super::likelihood::{Evidence, Likelihood, Place, phi};
 

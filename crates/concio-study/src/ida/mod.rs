@@ -18,15 +18,14 @@ use std::collections::HashMap;
 use concio::Result;
 use concio::case::{Case, ModelKind, StopAt};
 use concio::quantity::{Acceleration, Length, Time, Velocity, shown};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::Plan;
-use crate::factors::few;
+use crate::file::analyses::{HazardInput, Ida};
 use crate::file::{DesignKind, StudyFile};
 use crate::intensity::Intensity;
 use crate::measures::{MEASURES, Row, ends_with_collapse};
+use crate::values::few;
 use curve::{Curve, Point};
 use hazard::Hazard;
 
@@ -36,94 +35,6 @@ const NO_DAMAGE: [&str; 5] = ["time_reached", "first_crack", "energy_residual", 
 const MOST_PER_CURVE: usize = 1000;
 /// Limit states.
 const MOST_LIMITS: usize = 100;
-
-/// `[ida]`: every motion of the study at rising intensity. Give `intensities` or `hunt`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Ida {
-    /// What intensity is measured by; default `pga`.
-    #[serde(default)]
-    pub intensity: Intensity,
-    /// T of `sa` [s], above 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub period: Option<Time>,
-    /// Measure of a run (docs/studies) that says how much the wall suffers: `peak_drift`, `largest_slip`,
-    /// `joints_cracked`, …
-    pub damage: String,
-    /// Limit states, at least one.
-    pub limits: Vec<Limit>,
-    /// Damage from which on the wall counts as collapsed, above 0, as in `limits`. A run that the solver could not finish, and
-    /// one of a planar wall of which a block fell, counts as collapse in any case.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub collapse: Option<Value>,
-    /// Intensities at which every motion is run, rising, each above 0: a number in SI or a text with its unit.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub intensities: Vec<Value>,
-    /// Intensities that are found motion by motion.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hunt: Option<Hunt>,
-    /// How often a year the intensities of the site are exceeded: makes annual rates of the fragilities.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hazard: Option<HazardInput>,
-    /// Confidence of intervals and bands, between 0 and 1; default 0.95.
-    #[serde(default = "confidence")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub confidence: f64,
-}
-
-fn confidence() -> f64 {
-    0.95
-}
-
-/// A hazard curve of the site, for the intensity that the analysis has.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct HazardInput {
-    /// Intensities, rising, two at least, each above 0: a number in SI or a text with its unit.
-    pub intensities: Vec<Value>,
-    /// At what rate each is exceeded [1/year], above 0, falling.
-    pub rates: Vec<f64>,
-}
-
-/// A limit state.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Limit {
-    /// Its name in tables and figures, unique.
-    pub name: String,
-    /// Damage at which it is reached, above 0: a number in SI, or a text with its unit.
-    pub value: Value,
-}
-
-/// Hunt and fill: growing steps up to collapse, then the gap below the collapse is closed, then the widest gaps are filled. Gaps that hold a limit are closed
-/// before that, and before the hunt goes on where the runs that are left would not do for both.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Hunt {
-    /// First intensity, above 0.
-    pub first: Value,
-    /// First step, above 0.
-    pub step: Value,
-    /// What each step is longer than the one before, from 0; default half of `step`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub growth: Option<Value>,
-    /// Intensity that is not exceeded, above `first`.
-    pub most: Value,
-    /// Runs per motion, 4 … 1,000; default 12.
-    #[serde(default = "runs")]
-    #[schemars(range(min = 4, max = 1000))]
-    pub runs: usize,
-    /// Gap that holds the collapse or a limit, over the intensity below it, that is small enough; above 0, default 0.1.
-    #[serde(default = "resolution")]
-    pub resolution: f64,
-}
-
-fn runs() -> usize {
-    12
-}
-fn resolution() -> f64 {
-    0.1
-}
 
 /// How intensities are chosen.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,31 +11,13 @@ pub mod tables;
 
 use concio::Result;
 use concio::quantity::shown;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::Plan;
 use crate::design::At;
 use crate::factors::Factor;
 use crate::file::DesignKind;
 use crate::measures::{End, MEASURES, Measure, Row};
-
-/// `[sensitivity]`: indices of the factors for some measures.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Sensitivity {
-    /// Measures of a run (docs/studies), at least one: `peak_joint_displacement`, `friction_energy`, …
-    pub of: Vec<String>,
-    /// Confidence of the intervals, between 0 and 1; default 0.95.
-    #[serde(default = "confidence")]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub confidence: f64,
-}
-
-fn confidence() -> f64 {
-    0.95
-}
+use crate::statistics::student;
 
 /// An index with its interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,11 +26,6 @@ pub struct Index {
     pub value: f64,
     /// Its interval.
     pub interval: [f64; 2],
-}
-
-/// By how many deviations an interval of that confidence lies on either side, by Student's law with so many degrees of freedom.
-pub(crate) fn student(freedom: f64, confidence: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |law| law.inverse_cdf(0.5 + 0.5 * confidence))
 }
 
 /// Parts that are left out one by one at most: of more, groups are.

@@ -17,7 +17,8 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::{Index, student};
+use super::Index;
+use crate::statistics::student;
 
 /// Effects of one factor.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,9 +11,8 @@
 use std::collections::BTreeMap;
 
 use super::{Index, jackknife};
-
-/// How many more runs than factors it takes: intervals of fewer miss up to two in five of what they estimate.
-pub const FREEDOM: usize = 4;
+use crate::design::FREEDOM;
+use crate::statistics::ranks;
 
 /// Coefficients of the factors that are `ordered`, none for the others, and R². Rows without value are left out. `motions` are those of the rows: where some
 /// share theirs, what is independent are the motions.
@@ -78,21 +77,6 @@ fn regression(columns: &[Vec<f64>], y: &[f64], rows: &[usize]) -> Option<Vec<f64
     let explained = b.iter().zip(&right).map(|(b, r)| b * r).sum();
     b.push(explained);
     Some(b)
-}
-
-/// Ranks from 1; equal values share the mean of theirs.
-pub fn ranks(values: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
-    let mut ranks = vec![0.0; values.len()];
-    let mut from = 0;
-    while from < order.len() {
-        let equal = order[from..].iter().take_while(|&&i| values[i] == values[order[from]]).count();
-        let rank = from as f64 + 0.5 * (equal as f64 + 1.0);
-        order[from..from + equal].iter().for_each(|&i| ranks[i] = rank);
-        from += equal;
-    }
-    ranks
 }
 
 fn standardised(values: &[f64]) -> Option<Vec<f64>> {

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use concio::dice::Dice;
-use concio::ground::record::{TextOptions, read};
+use concio::ground::formats::read;
+use concio::ground::record::TextOptions;
 use concio::ground::{measure, response_spectrum};
 use concio_study::cma::Cma;
 use concio_study::ida::fragility::fit;

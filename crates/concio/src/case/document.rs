@@ -6,12 +6,14 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use super::de;
-use super::node::{Node, Source, parse_json, parse_toml};
-use super::read::{LARGEST_FILE, Syntax, hinted};
+use super::node::{Node, Source, Syntax, parse_json, parse_toml};
+use super::schema::whole;
 use super::size;
-use super::templates::whole;
 use crate::files::{Unread, read_input};
-use crate::{InputError, Result};
+use crate::{Error, InputError, Result};
+
+/// Longest wall file that is read [bytes]: a hundred thousand blocks given by hand take a third of it.
+pub const LARGEST_FILE: u64 = 32 << 20;
 
 /// Said of a file without content.
 pub(super) const EMPTY: &str = "the file is empty";
@@ -118,4 +120,71 @@ impl Document {
             None => self.source.named(error),
         }
     }
+}
+
+/// Adds to an error of a parser what it is often owed to.
+fn hinted(error: Error, text: &str, syntax: Syntax) -> Error {
+    let Error::Input(mut error) = error else { return error };
+    if let (None, Some(number)) = (&error.help, error.line) {
+        let line = text.lines().nth(number - 1).unwrap_or("");
+        error.help = curly(line);
+        if error.help.is_some() || syntax == Syntax::Json {
+            return Error::Input(error);
+        }
+        let values = line.split(['=', '{']).skip(1);
+        error.help = values.map(str::trim).find_map(de::decimal_comma).or_else(|| {
+            if line.trim_start().starts_with("[panel]") {
+                return Some("panels stand under two brackets each: `[[panel]]`".into());
+            }
+            let opened = unclosed(text, number)?;
+            Some(format!("is the `{{` or `[` of line {opened} not closed?"))
+        });
+    }
+    Error::Input(error)
+}
+
+/// What to write instead of a line with quotes that word processors make, where they stand outside of a text.
+fn curly(line: &str) -> Option<String> {
+    let straight = |c: char| match c {
+        '“' | '”' | '„' | '‟' | '«' | '»' | '″' => Some('"'),
+        '‘' | '’' | '‚' | '‛' => Some('\''),
+        _ => None,
+    };
+    let mut quote = None;
+    let outside = line.chars().any(|c| {
+        match (quote, c) {
+            (Some(q), _) => quote = (q != c).then_some(q),
+            (None, '"' | '\'') => quote = Some(c),
+            _ => {}
+        }
+        quote.is_none() && straight(c).is_some()
+    });
+    let line: String = line.trim().chars().map(|c| straight(c).unwrap_or(c)).collect();
+    outside.then(|| format!("the line has curly quotes; texts stand in straight ones: {line}"))
+}
+
+/// Line of the innermost bracket that is opened before line `end` (from 1) and not closed by then. Texts and comments
+/// are passed over; texts of several lines are not known, for the hint is a question.
+fn unclosed(text: &str, end: usize) -> Option<usize> {
+    let mut open = Vec::new();
+    for (index, line) in text.lines().enumerate().take(end.saturating_sub(1)) {
+        let mut quote = None;
+        let mut letters = line.chars();
+        while let Some(c) = letters.next() {
+            match (quote, c) {
+                (Some('"'), '\\') => {
+                    letters.next();
+                }
+                (Some(q), _) => quote = (q != c).then_some(q),
+                (None, '"' | '\'') => quote = Some(c),
+                (None, '#') => break,
+                (None, '{' | '[') => open.push(index + 1),
+                (None, '}' | ']') => {
+                    open.pop();
+                }
+                _ => {}
+            }
+        }
+    }
+    open.pop()
 }

@@ -8,6 +8,27 @@ use toml::de::{DeTable, DeValue};
 
 use crate::InputError;
 
+/// Syntax of a wall file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Syntax {
+    /// TOML 1.1.
+    Toml,
+    /// JSON (RFC 8259), without comments.
+    Json,
+}
+
+impl Syntax {
+    /// By the extension (`.toml`, `.json`); with any other, a text that begins with `{` is JSON.
+    pub fn of(path: &Path, text: &str) -> Syntax {
+        match path.extension().and_then(|e| e.to_str()) {
+            Some(e) if e.eq_ignore_ascii_case("json") => Syntax::Json,
+            Some(e) if e.eq_ignore_ascii_case("toml") => Syntax::Toml,
+            _ if text.trim_start().starts_with('{') => Syntax::Json,
+            _ => Syntax::Toml,
+        }
+    }
+}
+
 /// Nesting beyond this is refused; the deepest documented key lies at 6.
 const DEPTH: usize = 24;
 

@@ -4,34 +4,10 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use super::document::{self, Document};
-use super::node::{Fault, Node, Value};
+use super::node::{Fault, Node, Syntax, Value};
 use super::{Case, DeviceLaw, ModelKind, ParameterSet, change, de, plausible, sets, validate};
 use crate::warning::Warning;
 use crate::{Error, InputError, Result};
-
-/// Longest wall file that is read [bytes]: a hundred thousand blocks given by hand take a third of it.
-pub const LARGEST_FILE: u64 = 32 << 20;
-
-/// Syntax of a wall file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Syntax {
-    /// TOML 1.1.
-    Toml,
-    /// JSON (RFC 8259), without comments.
-    Json,
-}
-
-impl Syntax {
-    /// By the extension (`.toml`, `.json`); with any other, a text that begins with `{` is JSON.
-    pub fn of(path: &Path, text: &str) -> Syntax {
-        match path.extension().and_then(|e| e.to_str()) {
-            Some(e) if e.eq_ignore_ascii_case("json") => Syntax::Json,
-            Some(e) if e.eq_ignore_ascii_case("toml") => Syntax::Toml,
-            _ if text.trim_start().starts_with('{') => Syntax::Json,
-            _ => Syntax::Toml,
-        }
-    }
-}
 
 /// A wall file that was read: the case, and where each of its keys stands.
 #[derive(Debug, Clone)]
@@ -126,71 +102,12 @@ fn starter(error: Error) -> Error {
     }
 }
 
-/// Adds to an error of a parser what it is often owed to.
-pub(super) fn hinted(error: Error, text: &str, syntax: Syntax) -> Error {
-    let Error::Input(mut error) = error else { return error };
-    if let (None, Some(number)) = (&error.help, error.line) {
-        let line = text.lines().nth(number - 1).unwrap_or("");
-        error.help = curly(line);
-        if error.help.is_some() || syntax == Syntax::Json {
-            return Error::Input(error);
-        }
-        let values = line.split(['=', '{']).skip(1);
-        error.help = values.map(str::trim).find_map(de::decimal_comma).or_else(|| {
-            if line.trim_start().starts_with("[panel]") {
-                return Some("panels stand under two brackets each: `[[panel]]`".into());
-            }
-            let opened = unclosed(text, number)?;
-            Some(format!("is the `{{` or `[` of line {opened} not closed?"))
-        });
-    }
-    Error::Input(error)
-}
-
-/// What to write instead of a line with quotes that word processors make, where they stand outside of a text.
-fn curly(line: &str) -> Option<String> {
-    let straight = |c: char| match c {
-        '“' | '”' | '„' | '‟' | '«' | '»' | '″' => Some('"'),
-        '‘' | '’' | '‚' | '‛' => Some('\''),
-        _ => None,
-    };
-    let mut quote = None;
-    let outside = line.chars().any(|c| {
-        match (quote, c) {
-            (Some(q), _) => quote = (q != c).then_some(q),
-            (None, '"' | '\'') => quote = Some(c),
-            _ => {}
-        }
-        quote.is_none() && straight(c).is_some()
-    });
-    let line: String = line.trim().chars().map(|c| straight(c).unwrap_or(c)).collect();
-    outside.then(|| format!("the line has curly quotes; texts stand in straight ones: {line}"))
-}
-
-/// Line of the innermost bracket that is opened before line `end` (from 1) and not closed by then. Texts and comments
-/// are passed over; texts of several lines are not known, for the hint is a question.
-fn unclosed(text: &str, end: usize) -> Option<usize> {
-    let mut open = Vec::new();
-    for (index, line) in text.lines().enumerate().take(end.saturating_sub(1)) {
-        let mut quote = None;
-        let mut letters = line.chars();
-        while let Some(c) = letters.next() {
-            match (quote, c) {
-                (Some('"'), '\\') => {
-                    letters.next();
-                }
-                (Some(q), _) => quote = (q != c).then_some(q),
-                (None, '"' | '\'') => quote = Some(c),
-                (None, '#') => break,
-                (None, '{' | '[') => open.push(index + 1),
-                (None, '}' | ']') => {
-                    open.pop();
-                }
-                _ => {}
-            }
-        }
-    }
-    open.pop()
+/// The built-in wall: a dry brick panel of six courses under a heavy floor, shaken by a synthetic record.
+///
+/// # Errors
+/// None in a released version: a test reads it.
+pub fn example() -> Result<CaseFile> {
+    from_str(include_str!("builtin.toml"), Syntax::Toml, None)
 }
 
 fn resolve(document: Document) -> Result<CaseFile> {
@@ -229,7 +146,7 @@ fn described(mut fault: Fault, tree: &Node) -> Fault {
         e.allowed = Some(format!("`law`, and of law `{}` {}", law.name(), validate::device_keys(law)));
     }
     if e.allowed.as_deref() == Some(de::WHOLE)
-        && let Some(range) = e.key.as_ref().and_then(|key| super::templates::whole(&super::schema(), key))
+        && let Some(range) = e.key.as_ref().and_then(|key| super::schema::whole(&super::schema(), key))
     {
         e.allowed = Some(range);
     }

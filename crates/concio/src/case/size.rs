@@ -4,7 +4,7 @@
 use toml_parser::Source;
 use toml_parser::lexer::TokenKind;
 
-use super::read::Syntax;
+use super::node::Syntax;
 use crate::InputError;
 
 /// Memory that a file may take to be read, about [bytes].

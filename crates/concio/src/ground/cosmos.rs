@@ -7,8 +7,7 @@
 
 use crate::Result;
 use crate::case::HistoryQuantity;
-use crate::ground::record::{Format as FileFormat, Raw, Record, Remark, finish};
-use crate::ground::remark::tell_fewer;
+use crate::ground::record::{Format as FileFormat, Raw, Record, Remark, finish, tell_fewer};
 use crate::ground::source::{
     CUT, Format, Source, after, channels_of_recorder, count, fixed_block, fortran_format, not_a_number, number,
     refuse_more, require_end_mark, unreadable, words,

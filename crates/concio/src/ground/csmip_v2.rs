@@ -9,8 +9,7 @@
 //! integrates the acceleration itself, so that the three agree. Where the header says that they follow, they must be there.
 
 use crate::Result;
-use crate::ground::record::{Format as FileFormat, Raw, Record, finish};
-use crate::ground::remark::{tell_fewer, tell_unmarked};
+use crate::ground::record::{Format as FileFormat, Raw, Record, finish, tell_fewer, tell_unmarked};
 use crate::ground::source::{
     CUT, Format, Source, after, channels_of_recorder, count, fixed_block, fixed_fields, fortran_format, is_marked,
     leading_number, refuse_more, require_end_mark, unreadable, words,

@@ -6,8 +6,7 @@
 //! W. J. Cousins, GNS accelerogram data files: standard format (2008).
 
 use crate::Result;
-use crate::ground::record::{Format as FileFormat, Raw, Record, finish};
-use crate::ground::remark::tell_fewer;
+use crate::ground::record::{Format as FileFormat, Raw, Record, finish, tell_fewer};
 use crate::ground::source::{
     CUT, Format, Source, after, fixed_block, leading_number, refuse_more, unreadable, whole, words,
 };

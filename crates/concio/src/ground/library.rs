@@ -6,7 +6,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::Result;
 use crate::case::{RecordInput, Synthetic};
-use crate::ground::record::{Record, TextOptions, read};
+use crate::ground::formats::read;
+use crate::ground::record::{Record, TextOptions};
 use crate::ground::{channel, process, synthetic};
 use crate::quantity::Acceleration;
 
@@ -49,6 +50,14 @@ pub struct Component {
     pub number: usize,
     /// The names of all components in the file; empty where it names none.
     pub names: Vec<String>,
+}
+
+/// Reads the channel of the file that `input` names, relative to `folder`, and prepares it.
+///
+/// # Errors
+/// [`crate::Error::Input`] as [`crate::ground::formats::read`] and [`process::prepare`], and when the file has no such channel.
+pub fn load(input: &RecordInput, folder: &Path) -> Result<Record> {
+    Library::default().record(input, folder)
 }
 
 impl Library {

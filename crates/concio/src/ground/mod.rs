@@ -1,11 +1,12 @@
 //! Ground motion: record files of the archives, their processing and measures, synthetic accelerograms, and the
 //! motion that the time integration asks for its value at any instant.
 //!
-//! Path of a record: [`record::read`] → [`process::prepare`] → [`measures`], or → [`signal::compile`]. Runs that share
+//! Path of a record: [`formats::read`] → [`process::prepare`] → [`measures`], or → [`signal::compile`]. Runs that share
 //! records get them from a [`Library`].
 
 pub mod channel;
 pub mod coverage;
+pub mod formats;
 pub mod library;
 pub mod measures;
 pub mod process;
@@ -38,5 +39,6 @@ pub use library::Library;
 pub use measures::{Measures, Peak, measure};
 pub use record::{Format, Record, Remark, TextOptions};
 pub use signal::{GroundMotion, Kinematics, Segment, compile};
+pub use source::MOST_SAMPLES;
 pub use spectrum::{Spectrum, response_spectrum};
 pub use units::STANDARD_GRAVITY;

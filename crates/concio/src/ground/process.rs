@@ -4,14 +4,12 @@
 //! D. M. Boore & S. Akkar, Earthquake Engng Struct. Dyn. 32 (2003) 2069; D. M. Boore, Bull. Seism. Soc. Am. 95 (2005) 745;
 //! R. Paolucci et al., Record processing in ITACA, in Earthquake Data in Engineering Seismology (Springer 2011) 99.
 
-use std::path::Path;
-
 use sci_rs::signal::filter::design::{DigitalFilter, FilterBandType, FilterOutputType, butter_dyn};
 use sci_rs::signal::filter::sosfiltfilt_dyn;
 
 use crate::case::{Baseline, RecordInput};
-use crate::ground::Library;
-use crate::ground::record::{MOST_SAMPLES, Record, interval_error};
+use crate::ground::record::{Record, interval_error};
+use crate::ground::source::MOST_SAMPLES;
 use crate::ground::spline::{self, Ends};
 use crate::quantity::shown;
 use crate::{InputError, Result};
@@ -27,14 +25,6 @@ const MOST_PAD: f64 = 1e6;
 const RISE: f64 = 0.5;
 /// Slack for times that are whole numbers of intervals but for rounding.
 const SLACK: f64 = 1e-9;
-
-/// Reads the channel of the file that `input` names, relative to `base`, and prepares it.
-///
-/// # Errors
-/// [`crate::Error::Input`] as [`crate::ground::record::read`] and [`prepare`], and when the file has no such channel.
-pub fn load(input: &RecordInput, base: &Path) -> Result<Record> {
-    Library::default().record(input, base)
-}
 
 /// Trims, reverses, corrects the baseline, resamples and scales as `input` says, in this order.
 ///

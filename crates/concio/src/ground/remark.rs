@@ -3,7 +3,6 @@
 use std::fmt;
 
 use crate::case::plausible::rounded;
-use crate::ground::record::Record;
 
 /// What a reader did to a file or found in it that the samples do not show any more.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,20 +47,6 @@ pub enum Remark {
         /// Channels in the file.
         found: usize,
     },
-}
-
-/// Tells of each channel that the file has no mark of an end behind any of them.
-pub(super) fn tell_unmarked(records: &mut [Record], marked: bool) {
-    if !marked {
-        records.iter_mut().for_each(|record| record.remarks.push(Remark::Unmarked));
-    }
-}
-
-/// Tells of each channel of a file that there are fewer than its instrument recorded.
-pub(super) fn tell_fewer(records: &mut [Record], recorded: Option<u64>) {
-    let found = records.len();
-    let Some(recorded) = recorded.filter(|recorded| *recorded > found as u64) else { return };
-    records.iter_mut().for_each(|record| record.remarks.push(Remark::Fewer { recorded, found }));
 }
 
 impl Remark {

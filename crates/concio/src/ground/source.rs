@@ -2,8 +2,11 @@
 
 use std::path::Path;
 
-use crate::ground::record::MOST_SAMPLES;
 use crate::{InputError, Result};
+
+/// Most samples that a file may hold, all its components together: as many as a run keeps of one channel, and fourteen hours of two
+/// components at 100 Hz. It bounds lines as well.
+pub const MOST_SAMPLES: usize = 10_000_000;
 
 /// The end of a file under DOS and CP/M, which fill the rest of it with the same, or with anything.
 const END_OF_FILE: char = '\u{1a}';

@@ -11,8 +11,8 @@
 //! M. D. Trifunac & V. W. Lee, Routine computer processing of strong-motion accelerograms, EERL 73-03 (1973).
 
 use crate::Result;
-use crate::ground::record::{Format as FileFormat, MOST_SAMPLES, Raw, Record, Remark, finish};
-use crate::ground::remark::{tell_fewer, tell_unmarked};
+use crate::ground::record::{Format as FileFormat, Raw, Record, Remark, finish, tell_fewer, tell_unmarked};
+use crate::ground::source::MOST_SAMPLES;
 use crate::ground::source::{
     CUT, Format, Source, after, channels_of_recorder, fixed_block, fortran_format, free_fields, is_marked,
     leading_number, not_a_number, number, refuse_more, require_end_mark, unreadable, whole, words,

@@ -2,40 +2,19 @@
 
 use std::path::Path;
 
-use serde::Serialize;
-
-use crate::case::DeviceLaw;
 use crate::drift::DriftRow;
 use crate::error::{Error, Result};
 use crate::files;
 use crate::outcome::{Collapse, Outcome, TieRow};
 use crate::record::{Event, Layout, Recording};
 use crate::store::digest;
-use crate::store::fields::{self, Field, Frames};
+use crate::store::fields::{self, FORMAT, Field, Frames, NO_FRICTION, check_lengths, device_name, keyword, other_side};
 use crate::store::h5::{Sink, label};
 use crate::store::outlines::{self, Outlines};
 use crate::store::{FrictionRow, JointRow, Provenance, SCHEMA_VERSION, vtkhdf};
-use crate::wall::{Block, End, PanelInfo, Wall};
+use crate::wall::{Block, PanelInfo, Wall};
 
 pub use crate::store::read::{inputs_hash, read};
-
-/// Value of the attribute `format` of a result file.
-pub(super) const FORMAT: &str = "concio-result";
-
-/// `b` of a joint on the base, and of one under the top beam.
-pub(super) const BASE: i64 = -1;
-/// See [`BASE`].
-pub(super) const TOP: i64 = -2;
-
-/// Friction of a joint that does not rub, as it is stored.
-pub(super) const NO_FRICTION: FrictionRow = FrictionRow {
-    law: crate::case::FrictionLaw::None,
-    static_: 0.0,
-    dynamic: 0.0,
-    slip_velocity: 0.0,
-    beta: 0.0,
-    alpha: 0.0,
-};
 
 /// Writes a run to `path`, its [`digest`] behind it: whole or not at all, replacing a file of that name. Equal arguments give
 /// equal bytes.
@@ -62,60 +41,6 @@ pub fn write(path: &Path, provenance: &Provenance, wall: &Wall, joints: &[JointR
         sink.close()?;
         digest::append(temporary).map_err(|e| Error::io(path, e))
     })
-}
-
-/// Name of a value of a closed set, as wall files spell it.
-pub(super) fn keyword<T: Serialize>(value: &T) -> String {
-    match serde_json::to_value(value) {
-        Ok(serde_json::Value::String(text)) => text,
-        // Only sets without data are stored, and those are texts.
-        _ => String::new(),
-    }
-}
-
-/// Nothing is written from an outcome whose arrays contradict each other.
-pub(super) fn check_lengths(path: &Path, wall: &Wall, joints: &[JointRow], outcome: &Outcome) -> Result<()> {
-    let (layout, recording) = (&outcome.layout, &outcome.recording);
-    let unknowns = layout.unknowns;
-    let refuse = |what: String| Err(Error::Store { path: path.to_path_buf(), what });
-    let expect = |what: &str, found: usize, expected: usize| {
-        let message = || format!("not written: {what} has {found} values where {expected} are expected");
-        if found == expected { Ok(()) } else { refuse(message()) }
-    };
-    if unknowns < wall.blocks.len() {
-        return refuse(format!("not written: {unknowns} unknowns for {} blocks", wall.blocks.len()));
-    }
-    expect("histories", recording.values.len(), recording.time.len() * layout.channels.len())?;
-    if let Some(what) = layout_against(layout, joints.len()) {
-        return refuse(format!("not written: {what}"));
-    }
-    for Frames { field, width } in &fields::FRAMES {
-        let expected = recording.frame_time.len() * width(layout);
-        expect(&format!("frames of {}", field.name), (field.get)(recording).len(), expected)?;
-    }
-    expect("list of bonds", outcome.bonds.len(), layout.bonded)?;
-    if let Some(bond) = outcome.bonds.iter().find(|b| b.joint >= joints.len()) {
-        return refuse(format!("not written: a bond of joint {} of {}", bond.joint, joints.len()));
-    }
-    if let Some(event) = recording.events.iter().find(|e| e.joint as usize >= joints.len()) {
-        return refuse(format!("not written: an event names joint {} of {}", event.joint, joints.len()));
-    }
-    for field in &fields::BLOCK_ENVELOPES {
-        expect(field.name, (field.get)(&outcome.envelopes).len(), unknowns)?;
-    }
-    for field in &fields::JOINT_ENVELOPES {
-        expect(field.name, (field.get)(&outcome.envelopes).len(), joints.len())?;
-    }
-    Ok(())
-}
-
-/// What contradicts itself in a layout for so many joints: either all of them, or all bodies, are held, or none.
-pub(super) fn layout_against(layout: &Layout, joints: usize) -> Option<String> {
-    let Layout { unknowns, turned, touching, .. } = *layout;
-    if turned != 0 && turned != unknowns {
-        return Some(format!("{turned} rotations for {unknowns} unknowns"));
-    }
-    (touching != 0 && touching != joints).then(|| format!("{touching} slips for {joints} joints"))
 }
 
 fn write_head(sink: &mut Sink, provenance: &Provenance, outcome: &Outcome) -> Result<()> {
@@ -179,23 +104,6 @@ fn write_joints(sink: &mut Sink, joints: &[JointRow]) -> Result<()> {
     let laws: Vec<String> = friction.iter().map(|f| keyword(&f.law)).collect();
     sink.texts("wall/joints/friction_law", &laws, "Friction law.")?;
     write_columns(sink, "wall/joints", &fields::FRICTION, &friction)
-}
-
-/// What a result calls the device of a joint without one.
-pub(super) const NO_DEVICE: &str = "none";
-
-/// What a result calls the device of a joint.
-pub(super) fn device_name(law: Option<DeviceLaw>) -> &'static str {
-    law.map_or(NO_DEVICE, DeviceLaw::name)
-}
-
-/// The index on disk of a joint's other side.
-pub(super) fn other_side(end: End) -> i64 {
-    match end {
-        End::Block(index) => index as i64,
-        End::Base => BASE,
-        End::Top => TOP,
-    }
 }
 
 fn names<T>(items: &[T], name: fn(&T) -> &String) -> Vec<&str> {

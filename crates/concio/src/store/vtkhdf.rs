@@ -10,10 +10,10 @@ use crate::error::Result;
 use crate::files;
 use crate::outcome::Outcome;
 use crate::record::Motion;
-use crate::store::fields;
+use crate::store::StoredRun;
+use crate::store::fields::{self, check_lengths};
 use crate::store::h5::{Label, Sink, label};
 use crate::store::outlines::Outlines;
-use crate::store::{StoredRun, hdf5};
 use crate::wall::{Block, Wall};
 
 /// VTK's numbers of the cell with four corners, and of that with any number of them.
@@ -26,7 +26,7 @@ const VTK_POLYGON: u8 = 7;
 /// # Errors
 /// [`Error::Io`](crate::Error::Io) or [`Error::Store`](crate::Error::Store) when it cannot be written.
 pub fn write(path: &Path, run: &StoredRun) -> Result<()> {
-    hdf5::check_lengths(path, &run.wall, &run.joints, &run.outcome)?;
+    check_lengths(path, &run.wall, &run.joints, &run.outcome)?;
     files::replace(path, |temporary| {
         let mut sink = Sink::create(temporary, path)?;
         write_group(&mut sink, &run.wall, &run.outcome)?;

@@ -7,8 +7,10 @@ use concio::case::{
     Baseline, DisplacementPath, HistoryQuantity, Pulse, PulseShape, Ramp, RecordChannel, RecordInput, Signal, Sine,
     Sweep, Synthetic, Tilt,
 };
+use concio::ground::formats::parse;
+use concio::ground::library;
 use concio::ground::process::{self, integrate, prepare};
-use concio::ground::record::{Format, Record, TextOptions, parse};
+use concio::ground::record::{Format, Record, TextOptions};
 use concio::ground::signal::{GroundMotion, compile, from_record};
 use concio::ground::{STANDARD_GRAVITY, measure, response_spectrum};
 use concio::quantity::{Acceleration, Frequency, Length, Time, Velocity};
@@ -757,11 +759,11 @@ fn signals_out_of_range_are_refused() {
     assert!(refused(Signal::Record(missing)).contains("no such file"));
     let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/records");
     let third = RecordInput { record: "csmip.v2".into(), channel: Some(RecordChannel::Number(3)), ..input() };
-    assert_eq!(process::load(&third, &base).unwrap().npts(), 150);
+    assert_eq!(library::load(&third, &base).unwrap().npts(), 150);
     let up = RecordInput { channel: Some(RecordChannel::Name("360 deg".into())), ..third.clone() };
-    assert_eq!(process::load(&up, &base).unwrap(), process::load(&third, &base).unwrap());
+    assert_eq!(library::load(&up, &base).unwrap(), library::load(&third, &base).unwrap());
     for channel in [RecordChannel::Number(0), RecordChannel::Number(4), RecordChannel::Name("U-D".into())] {
-        let error = process::load(&RecordInput { channel: Some(channel), ..third.clone() }, &base).unwrap_err();
+        let error = library::load(&RecordInput { channel: Some(channel), ..third.clone() }, &base).unwrap_err();
         assert!(
             error.to_string().contains("no channel") && error.to_string().contains("3 `CHAN 3: 360 DEG`"),
             "{error}"

@@ -7,9 +7,11 @@ use crate::record_texts::fixtures::*;
 use crate::record_texts::writers::*;
 use concio::InputError;
 use concio::case::{HistoryLayout, RecordChannel};
+use concio::ground::MOST_SAMPLES;
 use concio::ground::channel;
+use concio::ground::formats::{parse, read};
 use concio::ground::measure;
-use concio::ground::record::{Format, MOST_SAMPLES, Record, Remark, TextOptions, parse, read};
+use concio::ground::record::{Format, Record, Remark, TextOptions};
 
 fn read_text(text: &str) -> concio::Result<Vec<Record>> {
     parse(text.as_bytes(), Path::new("file"), &TextOptions::default())

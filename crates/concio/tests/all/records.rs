@@ -7,7 +7,8 @@ use crate::record_texts::fixtures::*;
 use crate::record_texts::writers::*;
 use concio::InputError;
 use concio::case::HistoryQuantity;
-use concio::ground::record::{Format, Record, TextOptions, parse, read};
+use concio::ground::formats::{parse, read};
+use concio::ground::record::{Format, Record, TextOptions};
 use proptest::prelude::*;
 
 fn fixture(name: &str) -> PathBuf {

@@ -4,7 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use concio::case::RecordChannel;
-use concio::ground::record::{Remark, TextOptions, parse, read};
+use concio::ground::formats::{parse, read};
+use concio::ground::record::{Remark, TextOptions};
 use concio::ground::{STANDARD_GRAVITY, channel, measure, response_spectrum};
 use serde_json::Value;
 

@@ -44,7 +44,7 @@ pub fn constrained(args: &Constrained) -> Result<(), Failure> {
     let stem = args.file.file_stem().unwrap_or(args.file.as_os_str()).to_string_lossy();
     let out = args.out.clone().unwrap_or_else(|| Path::new("concio-run").join(format!("{stem}-constrained")));
     refuse_a_file(&out)?;
-    wall_file::warn(&file, &prepared.model.warnings);
+    crate::warned::warn(&file, &prepared.model.warnings);
     // Wrong names are told before anything is run.
     let named = (!args.pairs.is_empty()).then(|| chosen(&prepared, &args.pairs)).transpose()?;
     let rigid = Heads::Rigid(args.restitution);
@@ -70,7 +70,7 @@ pub fn constrained(args: &Constrained) -> Result<(), Failure> {
     }
     let mut known = Warned::default();
     known.add(String::new, &prepared.model.warnings);
-    wall_file::warn_of_runs(&file, &warned(&runs).sentences(&known));
+    crate::warned::warn_of_runs(&file, &warned(&runs).sentences(&known));
     write(args, &out, &drawings, &summary(&runs, &pairs, &convergence, rate))?;
     files::print(&told(&runs, &pairs, &convergence, rate))
 }

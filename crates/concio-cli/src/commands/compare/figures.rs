@@ -1,6 +1,6 @@
 //! Histories of two runs over each other.
 
-use super::runs::Side;
+use super::side::Side;
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::study::page::Figure;
 

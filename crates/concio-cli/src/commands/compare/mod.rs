@@ -5,6 +5,7 @@ mod figures;
 mod inputs;
 mod numbers;
 mod runs;
+mod side;
 
 use crate::args::{Compare, Comparison};
 use crate::failure::Failure;

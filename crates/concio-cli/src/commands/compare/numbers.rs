@@ -4,7 +4,7 @@ use concio::failure::{Collapsed, Failure};
 use concio_study::table::Table;
 use serde_json::{Value, json};
 
-use super::runs::Side;
+use super::side::Side;
 use crate::format::{columns, si};
 use crate::study::page::shown;
 

@@ -10,8 +10,7 @@ use csv::Writer;
 use crate::error::{Error, Result};
 use crate::files;
 use crate::record::Envelopes;
-use crate::store::fields::{self, Field};
-use crate::store::hdf5::{NO_FRICTION, check_lengths, device_name, keyword};
+use crate::store::fields::{self, Field, NO_FRICTION, check_lengths, device_name, keyword};
 use crate::store::{FrictionRow, StoredRun};
 use crate::wall::{Block, End};
 
