@@ -96,7 +96,7 @@ fn build(root: &Path) -> Outcome {
 
 fn ci(root: &Path) -> Outcome {
     let python = python::environment(root)?;
-    let steps: [(&str, &dyn Fn() -> Outcome); 12] = [
+    let steps: [(&str, &dyn Fn() -> Outcome); 13] = [
         ("format", &|| run(cargo(root).args(["fmt", "--all", "--check"]))),
         ("lints", &|| {
             run(cargo(root).args([
@@ -110,6 +110,7 @@ fn ci(root: &Path) -> Outcome {
                 "warnings",
             ]))
         }),
+        ("modules", &|| modules::check(root)),
         ("build", &|| build(root)),
         ("tests", &|| tests(root, python.as_deref())),
         ("page of verification", &|| verification::check(root)),

@@ -279,3 +279,44 @@ fn circles_of(parts: &Crate) -> Vec<String> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn circles(text: &str) -> Vec<String> {
+        let mut parts = Crate::new();
+        let items = syn::parse_file(text).expect("Rust").items;
+        below(Path::new("lib.rs"), &Vec::new(), items, &mut parts).expect("modules");
+        circles_of(&parts)
+    }
+
+    /// Two modules that need each other are a circle; one that needs both is none of it.
+    #[test]
+    fn circles_are_found() {
+        let found = circles(
+            "mod a { use crate::b::B; } mod b { use super::a; fn f() { a::g(); } } mod c { use crate::{a, b}; }",
+        );
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].starts_with("modules: a, b in a circle"), "{found:?}");
+        // Through a third one, and in what a macro is given.
+        let found =
+            circles("mod a { use crate::b::B; } mod b { fn f() { m!(crate::c::C) } } mod c { use crate::a::A; }");
+        assert!(found[0].starts_with("modules: a, b, c in a circle"), "{found:?}");
+        // Below another module.
+        let found = circles("mod a { mod x { use super::y::Y; } mod y { use crate::a::x::X; } }");
+        assert!(found[0].starts_with("a: x, y in a circle"), "{found:?}");
+    }
+
+    /// What is handed on counts where it stands; what only tests use does not count.
+    #[test]
+    fn arrows_that_run_down_are_none() {
+        assert!(
+            circles("mod a { pub struct A; } mod b { pub use crate::a::A; } mod c { use crate::b::A; }").is_empty()
+        );
+        let handed = "mod a { use crate::b::C; } mod b { pub use crate::c::C; } mod c { use crate::a::A; }";
+        assert!(circles(handed)[0].starts_with("modules: a, c in a circle"));
+        let tested = "mod a { use crate::b::B; } mod b { #[cfg(test)] mod tests { use crate::a::A; } }";
+        assert!(circles(tested).is_empty());
+    }
+}
