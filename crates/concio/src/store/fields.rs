@@ -309,31 +309,6 @@ fn parents(path: &str) -> impl Iterator<Item = &str> {
     path.match_indices('/').map(|(at, _)| &path[..at])
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn paths_of(names: &[&str]) -> Vec<String> {
-        let channel = |n: &&str| Channel { name: n.to_string(), unit: "m".into(), description: String::new() };
-        channel_paths(&names.iter().map(channel).collect::<Vec<_>>())
-    }
-
-    #[test]
-    fn ordinary_names_are_paths() {
-        let names = ["top/displacement", "joint/p1c1b1|p1c2b1/slip", "energy/friction"];
-        assert_eq!(paths_of(&names), names);
-    }
-
-    #[test]
-    fn names_that_cannot_be_paths_are_numbered() {
-        assert_eq!(paths_of(&["a/b", "a", "a/b/c", "time"]), ["a/b", "channel-1", "channel-2", "channel-3"]);
-        assert_eq!(paths_of(&["", "/x", "a//b", "./a"]), ["channel-0", "channel-1", "channel-2", "channel-3"]);
-        assert_eq!(paths_of(&["a", "a", "a\0b"]), ["a", "channel-1", "channel-2"]);
-        assert_eq!(paths_of(&["channel-1", "channel-1"]), ["channel-1", "channel-1-"]);
-        assert_eq!(paths_of(&["channel-1/a", "channel-1", "channel-\0"]), ["channel-1/a", "channel-1-", "channel-2"]);
-    }
-}
-
 /// Value of the attribute `format` of a result file.
 pub(super) const FORMAT: &str = "concio-result";
 
@@ -415,4 +390,29 @@ pub(super) fn layout_against(layout: &Layout, joints: usize) -> Option<String> {
         return Some(format!("{turned} rotations for {unknowns} unknowns"));
     }
     (touching != 0 && touching != joints).then(|| format!("{touching} slips for {joints} joints"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn paths_of(names: &[&str]) -> Vec<String> {
+        let channel = |n: &&str| Channel { name: n.to_string(), unit: "m".into(), description: String::new() };
+        channel_paths(&names.iter().map(channel).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn ordinary_names_are_paths() {
+        let names = ["top/displacement", "joint/p1c1b1|p1c2b1/slip", "energy/friction"];
+        assert_eq!(paths_of(&names), names);
+    }
+
+    #[test]
+    fn names_that_cannot_be_paths_are_numbered() {
+        assert_eq!(paths_of(&["a/b", "a", "a/b/c", "time"]), ["a/b", "channel-1", "channel-2", "channel-3"]);
+        assert_eq!(paths_of(&["", "/x", "a//b", "./a"]), ["channel-0", "channel-1", "channel-2", "channel-3"]);
+        assert_eq!(paths_of(&["a", "a", "a\0b"]), ["a", "channel-1", "channel-2"]);
+        assert_eq!(paths_of(&["channel-1", "channel-1"]), ["channel-1", "channel-1-"]);
+        assert_eq!(paths_of(&["channel-1/a", "channel-1", "channel-\0"]), ["channel-1/a", "channel-1-", "channel-2"]);
+    }
 }
