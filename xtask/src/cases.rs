@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::command::{Outcome, run};
-use crate::concio;
+use crate::concio_dev;
 
 /// Replaces docs/report-cases.json and the pictures in docs/img/report; the tables follow with `cargo xtask docs`.
 pub fn make(root: &Path) -> Outcome {
@@ -13,7 +13,7 @@ pub fn make(root: &Path) -> Outcome {
     if out.exists() {
         fs::remove_dir_all(&out).map_err(|e| format!("{}: {e}", out.display()))?;
     }
-    run(Command::new(concio(root)).args(["cases", "--figures", "--out"]).arg(&out).current_dir(root))?;
+    run(Command::new(concio_dev(root)).args(["cases", "--figures", "--out"]).arg(&out).current_dir(root))?;
     copy(&out.join("findings.json"), &root.join("docs").join("report-cases.json"))?;
     let pictures = root.join("docs").join("img").join("report");
     fs::create_dir_all(&pictures).map_err(|e| format!("{}: {e}", pictures.display()))?;

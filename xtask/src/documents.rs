@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::command::{Outcome, read};
-use crate::{concio, equations, gallery, performance, shown, symbols};
+use crate::{concio, concio_dev, equations, gallery, performance, shown, symbols};
 
 /// Figures of docs/figures.md: example, options, name of the picture. Not compared by [`check`]: where joints stick and
 /// slip a run ends elsewhere with another mathematical library.
@@ -48,10 +48,10 @@ pub fn check(root: &Path) -> Outcome {
 }
 
 fn all(root: &Path) -> Result<Vec<(String, String)>, String> {
-    let print = |args: &[&str]| read(Command::new(concio(root)).args(args).current_dir(root));
-    let schema = print(&["schema"])?;
+    let of = |program: PathBuf, args: &[&str]| read(Command::new(program).args(args).current_dir(root));
+    let schema = of(concio(root), &["schema"])?;
     let mut all = vec![
-        ("docs/cli.md".into(), print(&["reference"])?),
+        ("docs/cli.md".into(), of(concio_dev(root), &["reference"])?),
         ("docs/symbols.md".into(), symbols::page(root, &schema)?),
         ("docs/wall.schema.json".into(), schema),
         ("docs/img/first-wall.svg".into(), drawing(root)?),
@@ -99,7 +99,7 @@ const TABLES: [&str; 2] = ["<!-- tables: made by cargo xtask docs -->\n", "<!-- 
 
 /// A page with what a command prints today as its tables.
 fn with_tables(root: &Path, page: &str, command: &[&str]) -> Result<String, String> {
-    let tables = read(Command::new(concio(root)).args(command).current_dir(root))?;
+    let tables = read(Command::new(concio_dev(root)).args(command).current_dir(root))?;
     let text = fs::read_to_string(root.join(page)).map_err(|e| format!("{page}: {e}"))?;
     let parts = text.split_once(TABLES[0]).and_then(|(head, rest)| Some((head, rest.split_once(TABLES[1])?.1)));
     let (head, tail) = parts.ok_or_else(|| format!("{page}: the lines around its tables are missing"))?;

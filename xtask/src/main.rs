@@ -86,12 +86,21 @@ fn root() -> PathBuf {
 
 /// The `concio` program of this tree.
 fn concio(root: &Path) -> PathBuf {
+    program(root, "concio")
+}
+
+/// The program of this tree that only its chores need.
+fn concio_dev(root: &Path) -> PathBuf {
+    program(root, "concio-dev")
+}
+
+fn program(root: &Path, name: &str) -> PathBuf {
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |d| root.join(d));
-    target.join("release").join(format!("concio{}", std::env::consts::EXE_SUFFIX))
+    target.join("release").join(format!("{name}{}", std::env::consts::EXE_SUFFIX))
 }
 
 fn build(root: &Path) -> Outcome {
-    run(cargo(root).args(["build", "--locked", "--release", "--package", "concio-cli"]))
+    run(cargo(root).args(["build", "--locked", "--release", "--package", "concio-cli", "--package", "concio-dev"]))
 }
 
 fn ci(root: &Path) -> Outcome {

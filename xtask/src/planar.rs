@@ -7,7 +7,7 @@ use std::process::Command;
 use serde_json::json;
 
 use crate::command::{Outcome, read};
-use crate::concio;
+use crate::{concio, concio_dev};
 
 /// Loads of the laboratory walls [kN/m] and the units that were tested under them (../shared/reference/dry-walls).
 const TESTED: [(u32, &[&str]); 4] = [
@@ -69,7 +69,7 @@ pub fn make(root: &Path) -> Outcome {
         });
         let file = scratch.join("chart.json");
         fs::write(&file, chart.to_string()).map_err(|e| format!("{}: {e}", file.display()))?;
-        let svg = read(Command::new(concio(root)).arg("chart").arg(&file))?;
+        let svg = read(Command::new(concio_dev(root)).arg("chart").arg(&file))?;
         let picture = images.join(format!("{name}.svg"));
         fs::write(&picture, svg).map_err(|e| format!("{}: {e}", picture.display()))?;
     }

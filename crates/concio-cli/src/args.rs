@@ -40,24 +40,10 @@ pub enum Command {
     Export(Export),
     Plot(Plot),
     Compare(Compare),
-    Cases(Cases),
     FirstCrack(FirstCrack),
     Limit(Limit),
     Study(Study),
     Completions(Completions),
-    /// Print this reference as Markdown.
-    #[command(hide = true)]
-    Reference {
-        /// Print the table of the measures of a run instead.
-        #[arg(long)]
-        measures: bool,
-    },
-    /// Print a diagram of measured points as SVG (docs/performance.md).
-    #[command(hide = true)]
-    Chart {
-        /// Title, labels of the axes and series of points, as JSON.
-        file: PathBuf,
-    },
 }
 
 /// Simulate a wall and write its results and report.
@@ -484,32 +470,6 @@ fn width(text: &str) -> Result<f64, String> {
         }
     };
     if (40.0..=400.0).contains(&width) { Ok(width) } else { Err("allowed: 40 mm to 400 mm, single, double".into()) }
-}
-
-/// Run the cases of the research report and answer its findings.
-///
-/// The five cases of the report's parametric analyses (its Figures 22 to 27) are built in; their wall files are those of
-/// examples/report. Each is run under several settings of what the report does not print, and each again with changes too
-/// small to mean anything, because stick-slip makes single trajectories chaotic. Every finding of the report is answered
-/// yes or no with the numbers that decide; docs/report-cases.md explains them.
-///
-/// Writes a folder per case as `concio run` does, findings.json and findings.md. What is done is not done again: after
-/// Ctrl-C or a kill the same command goes on.
-#[derive(Debug, Args)]
-#[command(after_help = "\
-Examples:
-  concio cases
-  concio cases --figures --out report-cases")]
-pub struct Cases {
-    /// Folder of the results.
-    #[arg(short, long, value_name = "DIR", default_value = "concio-run/report-cases", value_hint = ValueHint::DirPath)]
-    pub out: PathBuf,
-    /// Draw what the report's Figures 22 to 27 show, as SVG in DIR/figures.
-    #[arg(long)]
-    pub figures: bool,
-    /// Print the tables of a findings.json as Markdown and run nothing.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["out", "figures"])]
-    pub tables: Option<PathBuf>,
 }
 
 /// Set two runs side by side.

@@ -1,4 +1,4 @@
-//! Work–precision diagrams: error over time, a curve per program, drawn by the hidden command `concio chart`.
+//! Work–precision diagrams: error over time, a curve per program, drawn by the command `concio-dev chart`.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::cases::{self, Case, Judge};
 use super::measure::{Measured, Performance, Timed};
 use crate::command::{Outcome, read};
-use crate::concio;
+use crate::concio_dev;
 
 /// Draws all into a folder.
 pub fn draw(root: &Path, all: &Performance, folder: &Path) -> Outcome {
@@ -31,7 +31,7 @@ pub fn drawn(root: &Path, all: &Performance) -> Result<Vec<(String, String)>, St
         let chart = chart(&case, measured);
         let file = folder.join("chart.json");
         fs::write(&file, chart.to_string()).map_err(|e| format!("{}: {e}", file.display()))?;
-        let svg = read(Command::new(concio(root)).arg("chart").arg(&file))?;
+        let svg = read(Command::new(concio_dev(root)).arg("chart").arg(&file))?;
         diagrams.push((format!("{}.svg", case.name), svg));
     }
     Ok(diagrams)

@@ -5,8 +5,6 @@ use std::process::ExitCode;
 use crate::args::Command;
 use crate::failure::Failure;
 
-mod cases;
-mod chart;
 mod check;
 mod compare;
 mod completions;
@@ -16,7 +14,6 @@ mod limit;
 mod new;
 mod plot;
 mod record;
-mod reference;
 pub mod run;
 mod scale;
 mod schema;
@@ -28,7 +25,6 @@ pub mod wall_file;
 pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
     match command {
         Command::Run(args) => return run::run(&args),
-        Command::Cases(args) => return cases::cases(&args),
         Command::FirstCrack(args) => return first_crack::first_crack(&args),
         Command::Study(args) => return study::run_command(&args.what),
         Command::Limit(args) => return limit::limit(&args),
@@ -42,9 +38,6 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Export(args) => export::export(&args),
         Command::Plot(args) => plot::plot(&args),
         Command::Completions(args) => completions::completions(args.shell),
-        Command::Reference { measures: false } => reference::reference(),
-        Command::Reference { measures: true } => reference::measures(),
-        Command::Chart { file } => chart::chart(&file),
     }
     .map(|()| ExitCode::SUCCESS)
 }

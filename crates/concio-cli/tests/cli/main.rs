@@ -12,7 +12,6 @@ mod limit;
 mod messages;
 mod read_back;
 mod records;
-mod report_cases;
 mod smart;
 mod studies;
 mod study_runs;

@@ -3,9 +3,9 @@
 use clap::CommandFactory;
 use concio_study::measures::{MEASURES, Measure};
 
-use crate::args::Cli;
-use crate::failure::Failure;
-use crate::files;
+use concio_cli::args::Cli;
+use concio_cli::failure::Failure;
+use concio_cli::files;
 
 /// Prints the reference.
 pub fn reference() -> Result<(), Failure> {

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::Value;
 
-use crate::format::{self, columns, plain, significant};
+use concio_cli::format::{self, columns, plain, significant};
 
 /// For the terminal.
 pub fn text(findings: &Value) -> String {

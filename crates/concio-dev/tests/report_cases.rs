@@ -1,16 +1,16 @@
-//! `concio cases`: every number of the first run of each case is computed again here, from the frames and envelopes of
+//! `concio-dev cases`: every number of the first run of each case is computed again here, from the frames and envelopes of
 //! the result files, and every answer is held against the one that docs/report-cases.md gives.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use concio::store::{StoredRun, hdf5};
+use concio::store::{StoredRun, export, hdf5};
 use concio::wall::End;
 use serde_json::Value;
 use snapbox::cmd::Command;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_concio");
+const PROGRAM: &str = env!("CARGO_BIN_EXE_concio-dev");
 const NAMES: [&str; 5] =
     ["case-1-regular", "case-2-irregular", "case-3-undamped", "case-4-frictionless", "case-5-no-bed-stiffness"];
 /// δ_v [m/s].
@@ -48,7 +48,7 @@ fn wrong_files_are_told_before_anything_is_run() {
     fs::write(&file, "{}").expect("a file");
     let run = |args: [&str; 2]| Command::new(PROGRAM).arg("cases").args(args).env("NO_COLOR", "1").assert().code(2);
     let path = file.to_string_lossy().into_owned();
-    run(["--tables", &path]).stderr_eq("[..]is not a findings.json of `concio cases`\n");
+    run(["--tables", &path]).stderr_eq("[..]is not a findings.json of `concio-dev cases`\n");
     run(["--out", &path]).stderr_eq("[..]the folder for the results is a file\n...");
 }
 
@@ -302,8 +302,7 @@ fn with_mass(case: &Case) -> f64 {
 fn exported_gaps(findings: &Value, out: &Path) {
     let folder = out.join(NAMES[0]);
     let csv = folder.join("csv");
-    let export = folder.to_string_lossy().into_owned();
-    concio(&["export", &export, "--csv"], &csv);
+    export::csv(&hdf5::read(&folder.join("result.h5")).expect("a result"), &csv).expect("columns");
     let text = fs::read_to_string(csv.join("histories.csv")).expect("histories");
     let mut lines = text.lines();
     let heads: Vec<&str> = lines.next().expect("a header").split(',').collect();

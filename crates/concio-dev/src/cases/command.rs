@@ -1,4 +1,4 @@
-//! `concio cases`.
+//! `concio-dev cases`.
 
 use std::fs;
 use std::path::Path;
@@ -9,11 +9,11 @@ use concio_study::warned::Warned;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
 
-use super::run::refuse_a_file;
-use crate::args::Cases;
-use crate::cases::{answers, jobs, page, pictures};
-use crate::failure::{Failure, STOPPED};
-use crate::{files, stop};
+use super::{answers, jobs, page, pictures};
+use crate::Cases;
+use concio_cli::commands::run::refuse_a_file;
+use concio_cli::failure::{Failure, STOPPED};
+use concio_cli::{files, stop};
 
 /// Runs the cases of the report and answers its findings.
 pub fn cases(args: &Cases) -> Result<ExitCode, Failure> {
@@ -51,7 +51,7 @@ fn tables(file: &Path) -> Result<ExitCode, Failure> {
     let text = fs::read_to_string(file).map_err(|e| Error::io(file, e))?;
     let findings: Value = serde_json::from_str(&text).unwrap_or_default();
     if findings["format"] != answers::FORMAT {
-        let error = InputError::new("is not a findings.json of `concio cases`").in_file(file);
+        let error = InputError::new("is not a findings.json of `concio-dev cases`").in_file(file);
         return Err(error.into());
     }
     files::print(&page::markdown(&findings))?;

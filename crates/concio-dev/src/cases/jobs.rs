@@ -10,12 +10,12 @@ use std::thread;
 
 use super::measures::{self, Measures};
 use super::walls::{self, MEMBERS, Setting, Which};
-use crate::failure::Failure;
-use crate::{files, report, stop};
 use concio::Error;
 use concio::record::StopReason;
 use concio::run::{self, Control, Prepared};
 use concio::store::{SCHEMA_VERSION, StoredRun, digest, hdf5, read_summary};
+use concio_cli::failure::Failure;
+use concio_cli::{files, report, stop};
 use concio_study::warned::{Warned, of_summary};
 use serde::{Deserialize, Serialize};
 
@@ -152,7 +152,7 @@ fn in_folder(prepared: &Prepared, folder: &Path, text: &str) -> Result<Option<St
 
 fn stored(prepared: &Prepared, outcome: concio::outcome::Outcome) -> Result<StoredRun, Failure> {
     if outcome.stop_reason != StopReason::Completed {
-        let what = format!("{}: {}", prepared.case.title, crate::digest::why(outcome.stop_reason));
+        let what = format!("{}: {}", prepared.case.title, concio_cli::digest::why(outcome.stop_reason));
         return Err(Failure::Other(what, None));
     }
     Ok(StoredRun {

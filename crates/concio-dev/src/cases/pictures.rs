@@ -9,10 +9,10 @@ use concio::run;
 use concio::store::{StoredRun, hdf5};
 
 use super::walls::Which;
-use crate::args::Figure;
-use crate::failure::Failure;
-use crate::figures::{self, Data, Options};
-use crate::files;
+use concio_cli::args::Figure;
+use concio_cli::failure::Failure;
+use concio_cli::figures::{self, Data, Options};
+use concio_cli::files;
 
 /// The last cycle of the drive [s]: the report leaves the transient out of its portraits too.
 const PORTRAIT: [Option<f64>; 2] = [Some(0.2), None];
@@ -39,7 +39,7 @@ pub fn draw(out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-fn one(run: &StoredRun, figure: Figure) -> Result<crate::draw::output::Drawing, Failure> {
+fn one(run: &StoredRun, figure: Figure) -> Result<concio_cli::draw::output::Drawing, Failure> {
     let window = if figure == Figure::Phase { PORTRAIT } else { [None; 2] };
     let data = Data::new(run, window)?;
     let sampled =

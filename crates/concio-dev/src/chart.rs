@@ -6,10 +6,10 @@ use std::path::Path;
 use concio::{Error, InputError};
 use serde::Deserialize;
 
-use crate::draw::chart::{Axis, Line, Panel, Sheet, draw};
-use crate::draw::output::Drawing;
-use crate::failure::Failure;
-use crate::files;
+use concio_cli::draw::chart::{Axis, Line, Panel, Sheet, draw};
+use concio_cli::draw::output::Drawing;
+use concio_cli::failure::Failure;
+use concio_cli::files;
 
 /// Width and height of the plot [pt].
 const SIZE: [f64; 2] = [420.0, 230.0];

@@ -6,6 +6,7 @@
 //! what the report draws.
 
 pub mod answers;
+pub mod command;
 pub mod findings;
 pub mod jobs;
 pub mod measures;
