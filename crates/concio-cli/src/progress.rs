@@ -100,9 +100,9 @@ pub struct Runs {
     last: Mutex<Instant>,
 }
 
-impl Runs {
+impl Default for Runs {
     /// Nothing is shown yet.
-    pub fn new() -> Self {
+    fn default() -> Self {
         let terminal = io::stderr().is_terminal();
         let bar = if terminal { ProgressBar::new(LENGTH as u64) } else { ProgressBar::hidden() };
         if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}") {
@@ -110,7 +110,9 @@ impl Runs {
         }
         Runs { bar, terminal, last: Mutex::new(Instant::now()) }
     }
+}
 
+impl Runs {
     /// Shows how far the runs are; from any thread.
     pub fn show(&self, progress: &runner::Progress) {
         let text = line_of_runs(progress);

@@ -404,6 +404,8 @@ pub struct Point {
     pub rubbing: f64,
     /// Distance of the two sides [m].
     pub gap: f64,
+    /// Parting velocity before it landed in the last step, which left what closed it; 0 of one that did not [m/s].
+    pub approach: f64,
 }
 
 impl Default for Point {
@@ -417,6 +419,7 @@ impl Default for Point {
             internal: 0.0,
             rubbing: 1.0,
             gap: 0.0,
+            approach: 0.0,
         }
     }
 }
@@ -501,9 +504,13 @@ impl Law {
         };
         match self.normal {
             Normal::Rigid { restitution, .. } => {
-                // Open: what is left of the gap may be closed by the end of the step.
-                let left = gap + 0.5 * h * u_n;
-                contact.bias = if left > 0.0 { 2.0 * left / h } else { restitution * u_n.min(0.0) };
+                // Open: what is left of the gap may be closed by the end of the step. It rebounds in the next one, with the velocity of before.
+                let left = open(gap, u_n, h);
+                contact.bias = if left > 0.0 && point.approach == 0.0 {
+                    2.0 * left / h
+                } else {
+                    restitution * u_n.min(point.approach).min(0.0)
+                };
                 if let Some(bond) = &self.bond {
                     contact.pressure[0] = -share * bond.tension * h;
                 }
@@ -606,6 +613,11 @@ impl Law {
             works.impact -= after - stored(from, point.internal) + lost;
             point.internal = stride.internal;
         }
+        let lands = !self.is_compliant()
+            && point.approach == 0.0
+            && contact.impulse[0] > 0.0
+            && open(start.gap, start.velocity[0], h) > 0.0;
+        point.approach = if lands { start.velocity[0].min(0.0) } else { 0.0 };
         self.end_normal(point, share, normal, &mut works);
         self.end_shear(point, share, h, mean[1], (contact, linear[1]), &mut works);
         if self.grips(start.still) {
@@ -709,6 +721,11 @@ impl Law {
         works.damping += damping;
         works.impact += -linear * mean - (stored - before) - damping;
     }
+}
+
+/// What is left of a gap in the middle of a step of `h` [s] that begins with the parting velocity `u` [m], above 0 where it is open.
+fn open(gap: f64, u: f64, h: f64) -> f64 {
+    gap + 0.5 * h * u
 }
 
 /// How far a device is stretched at the start of a step [m].

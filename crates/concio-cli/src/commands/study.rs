@@ -160,7 +160,7 @@ fn run(plan: &Plan, args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     }
     stop::listen()?;
     let mine: Vec<Case> = cases.iter().skip(share - 1).step_by(of).map(|(_, case)| case.clone()).collect();
-    let bar = Runs::new();
+    let bar = Runs::default();
     let watch = |progress: &Progress| {
         bar.show(progress);
         if stop::asked() { Control::Stop } else { Control::Continue }

@@ -114,7 +114,7 @@ fn found(
     known_only: bool,
     tell: bool,
 ) -> Result<Option<Vec<Answer>>, Failure> {
-    let bar = Runs::new();
+    let bar = Runs::default();
     let watch = |progress: &Progress| {
         if stop::asked() {
             return Control::Stop;

@@ -50,7 +50,7 @@ pub fn run(
 ) -> std::result::Result<ExitCode, Failure> {
     let Some(mut analysis) = Analysis::new(plan)? else { return Ok(ExitCode::SUCCESS) };
     stop::listen()?;
-    let bar = Runs::new();
+    let bar = Runs::default();
     let watch = |progress: &Progress| {
         bar.show(progress);
         if stop::asked() { Control::Stop } else { Control::Continue }

@@ -60,7 +60,7 @@ impl Motion {
             let part = self.setting.part(h);
             let solved = effort.residual <= part * self.setting.enough();
             self.astray = off > softening::OFF;
-            let most = if halves { softening::BETWEEN } else { softening::MOST };
+            let most = self.ahead() + if halves { softening::BETWEEN } else { softening::MOST };
             let settled = off <= softening::OFF || round >= most;
             let ends = missed <= part * self.setting.tolerance && settled;
             if !solved || ends || round == MOST {

@@ -19,6 +19,8 @@ pub(super) const OFF: f64 = 1e-3;
 const TANGENTS: usize = 16;
 pub(super) const BETWEEN: usize = 24;
 pub(super) const MOST: usize = 40;
+/// Rounds with the whole stiffness ahead of these without inertia: they come to the nearest rest there is, which others may leap over.
+const WHOLE: usize = 12;
 
 /// What is left of a bond, at its two contact points.
 #[derive(Debug, Clone, Copy)]
@@ -36,6 +38,11 @@ pub(super) struct Softens {
 }
 
 impl Motion {
+    /// Rounds with the whole stiffness ahead of the others.
+    pub(super) fn ahead(&self) -> usize {
+        if self.setting.still { WHOLE } else { 0 }
+    }
+
     /// Keeps the bond of a joint for this step, if its contacts, from `first` on, begin with the two that stand for one.
     pub(super) fn begin_softening(&mut self, first: usize) {
         let held = self.owners[first..].iter().take_while(|owner| owner.part == Part::Held).count();
@@ -79,9 +86,9 @@ impl Motion {
                 missed = worse(missed, (bears - acts[k][d].at(u)).abs());
                 all += own.at(u).abs();
                 let rho = own.rho
-                    * match round {
-                        0..TANGENTS => softened.left[d][k],
-                        TANGENTS..BETWEEN => 0.5 * (1.0 + softened.left[d][k]),
+                    * match round.checked_sub(self.ahead()) {
+                        Some(0..TANGENTS) => softened.left[d][k],
+                        Some(TANGENTS..BETWEEN) => 0.5 * (1.0 + softened.left[d][k]),
                         _ => 1.0,
                     };
                 self.softens[bond].next[k][d] = Linear { offset: bears + rho * u, rho };

@@ -7,6 +7,7 @@ use concio_planar::body::Body;
 use concio_planar::joint::{Bond, Friction, Law, Normal, Shear};
 use concio_planar::motion::{Forcing, Link, Motion, Setting, System};
 use concio_planar::shape::Place;
+use concio_planar::tie::Tie;
 use concio_verified::{agrees, farthest};
 
 /// A block of `length` × `height` m, 0.3 m thick, of 20 kN/m³.
@@ -277,6 +278,60 @@ fn what_is_torn_takes_no_more_than_its_energy() {
             );
             let within = if tilt == 0.0 { 1e-3 } else { 2e-2 };
             agrees!(subject, "G_f A", "J", motion.account.bond, 40.0 * area, within);
+        }
+    }
+}
+
+/// A joint that two stiff ties let open a little beyond its strength, and that a load then shears, bears the same at steps of 20, 5 and 1.25 ms: no step
+/// without inertia leaps over a rest that there is.
+#[test]
+fn what_is_opened_and_then_sheared_bears_the_same_at_any_step() {
+    let size = [2.0, 0.2];
+    let area = 0.5 * size[0];
+    let weight = 40e3;
+    let body = Body::rectangle("block", [0.0, size[0]], [0.0, size[1]], weight / G);
+    let law = Law {
+        normal: Normal::Springs { both: 10e9 * area, press: 0.0, damping: 0.0 },
+        shear: Shear { stiffness: 10e9 / 2.0 * area, damping: 0.0, series: false },
+        bond: Some(Bond {
+            tension: 0.1e6 * area,
+            cohesion: 0.2e6 * area,
+            tan_angle: 0.6,
+            energy: [20.0 * area, 50.0 * area],
+            residual: 0.0,
+        }),
+        ..Law::dry(Some(Friction::coulomb(0.6)))
+    };
+    let tie = |x: f64| Tie {
+        a: None,
+        b: 0,
+        at: [[1.0 + x, -10.0], [x, 0.0]],
+        stiffness: 1e9,
+        yield_force: f64::INFINITY,
+        slack: 0.0,
+    };
+    for pull in [4.0, 5.5] {
+        let borne = [2e-2, 5e-3, 1.25e-3].map(|step| {
+            let tied = System { ties: vec![tie(-0.9), tie(0.9)], ..system(body.clone(), law) };
+            let mut motion = Motion::new(&tied, Setting { still: true, ..Setting::new(step) });
+            assert!(motion.stand(1e-12, 4000));
+            let mut borne = 0.0f64;
+            for number in 1..=(3.0 / step).round() as usize {
+                let t = number as f64 * step;
+                let acts = [3.0 * G * (t - 1.0).max(0.0), -pull * G * t.min(1.0)];
+                motion.go(step, &|from, to| Forcing { base: acts.map(|a| a * (to - from)), held: 0.0 });
+                if motion.crack(0).is_none_or(|crack| crack.is_gone()) {
+                    break;
+                }
+                borne = borne.max(motion.seen[0].shear.abs());
+            }
+            borne
+        });
+        // Of loads that grow by 2.4 kN in a step of 20 ms.
+        for (name, found) in ["20 ms", "5 ms"].iter().zip(borne) {
+            let subject =
+                format!("Bonds: joint opened by {pull} times its weight, then sheared, what it bears; steps of {name}");
+            agrees!(subject, "steps of 1.25 ms", "N", found, borne[2], abs: 2.4e3);
         }
     }
 }

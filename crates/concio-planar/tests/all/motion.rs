@@ -279,3 +279,51 @@ fn what_is_driven_slowly_bears_friction_at_rest_first() {
         agrees!(subject, "μ_d N", "N", last, 0.4 * pressed, 5e-3);
     }
 }
+
+/// A block that falls by h on a joint that gives back e of its velocity rises by e² h, wherever in a step it lands, and then by e⁴ h, but for the ways of
+/// steps.
+#[test]
+fn what_lands_within_a_step_rebounds_with_all_of_its_velocity() {
+    let body = Body::rectangle("block", [0.0, 1.0], [0.0, 0.5], 1000.0);
+    for (e, step) in [(0.3, 1e-3), (0.5, 1e-3), (0.8, 1e-3), (0.3, 2.5e-4), (0.5, 2.5e-4), (0.8, 2.5e-4)] {
+        let law =
+            Law { normal: Normal::Rigid { restitution: e, rocking: 1.0 }, ..Law::dry(Some(Friction::coulomb(0.6))) };
+        let mut farthest = [0.0f64; 2];
+        for phase in 0..12 {
+            // It lands a twelfth of a step later each time.
+            let time = 0.2 + step / 12.0 * f64::from(phase);
+            let high = 0.5 * G * time * time;
+            let system = System {
+                links: vec![Link::closed(None, 0, law)],
+                other: law,
+                ..System::dry(std::slice::from_ref(&body), 0.6)
+            };
+            let mut motion = Motion::new(&system, Setting::new(step));
+            let start = motion.places[0].centre[1];
+            motion.put(0, Place { centre: [0.5, start + high], angle: 0.0 });
+            let (mut peaks, mut landed, mut before) = ([0.0f64; 2], 0, 0.0);
+            while landed < 3 {
+                motion.step(Forcing::default());
+                let velocity = motion.velocities[0][1];
+                landed += usize::from(before < 0.0 && velocity > 0.0);
+                before = velocity;
+                if (1..3).contains(&landed) {
+                    let peak = &mut peaks[landed - 1];
+                    *peak = peak.max(motion.places[0].centre[1] - start);
+                }
+            }
+            for (k, found) in peaks.iter().enumerate() {
+                farthest[k] = farthest[k].max((found / (high * e.powi(2 * (k as i32 + 1))) - 1.0).abs());
+            }
+        }
+        for (k, rise) in ["e² h", "e⁴ h"].iter().enumerate() {
+            let subject = format!(
+                "Rigid contact: a fall on a joint with e = {e}, rise {}, largest error; steps of {step} s",
+                k + 1
+            );
+            // A way of v h over e² v²/(2 g) or e⁴ v²/(2 g).
+            let within = 1.5 * step * 2.0 * G / (e.powi(2 * k as i32 + 1) * G * 0.2);
+            agrees!(subject, rise, "", farthest[k], 0.0, abs: within);
+        }
+    }
+}
