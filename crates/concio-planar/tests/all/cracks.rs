@@ -282,6 +282,35 @@ fn what_is_torn_takes_no_more_than_its_energy() {
     }
 }
 
+/// A rigid bonded joint under a block whose base accelerates ever more breaks in the step in which it is asked for c A + N tan φ, or the one after, high blocks and low.
+#[test]
+fn a_rigid_bonded_joint_breaks_when_its_strength_is_reached() {
+    for size in [[1.0, 0.2], [1.0, 0.5], [0.5, 0.5]] {
+        let area = 0.3 * size[0];
+        let body = block(size);
+        let bond = Bond { tension: 2e6 * area, cohesion: 50e3 * area, tan_angle: 0.6, energy: [0.0; 2], residual: 0.0 };
+        let law = Law { bond: Some(bond), ..Law::dry(Some(Friction::coulomb(0.5))) };
+        let strength = bond.cohesion + 0.6 * body.mass * G;
+        for (rate, step) in [(300.0, 1e-3), (1000.0, 1e-3), (300.0, 5e-3), (37.0, 1e-3)] {
+            let mut motion = Motion::new(&system(body.clone(), law), Setting::new(step));
+            let due = strength / body.mass / rate;
+            let mut broken = f64::INFINITY;
+            for number in 0..(2.0 * due / step) as usize {
+                let t = number as f64 * step;
+                motion.go(step, &|from, to| Forcing { base: [0.5 * rate * (to * to - from * from), 0.0], held: 0.0 });
+                if motion.crack(0).is_some_and(|crack| crack.is_gone()) {
+                    broken = t + step;
+                    break;
+                }
+            }
+            assert!(
+                (0.0..1.6).contains(&((broken - due) / step)),
+                "{size:?} {rate} {step}: {broken} s instead of {due} s"
+            );
+        }
+    }
+}
+
 /// A joint that two stiff ties let open a little beyond its strength, and that a load then shears, bears the same at steps of 20, 5 and 1.25 ms: no step
 /// without inertia leaps over a rest that there is.
 #[test]
