@@ -613,7 +613,8 @@ impl Law {
             works.impact -= after - stored(from, point.internal) + lost;
             point.internal = stride.internal;
         }
-        let lands = !self.is_compliant()
+        let rebounds = matches!(self.normal, Normal::Rigid { restitution, .. } if restitution > 0.0);
+        let lands = rebounds
             && point.approach == 0.0
             && contact.impulse[0] > 0.0
             && open(start.gap, start.velocity[0], h) > 0.0;
