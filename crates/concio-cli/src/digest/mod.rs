@@ -19,7 +19,7 @@ const LARGE_SLIDE: f64 = 0.1;
 /// Displacement that is none [m]: the floor below which the solver sees no errors, unless the file gives another.
 const NOWHERE: f64 = 1e-14;
 
-/// Names and values of what is told after the [`head`].
+/// Names and values of what is told after the head.
 pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value) -> Vec<(&'static str, String)> {
     let (totals, energies) = (&outcome.totals, &outcome.energies);
     let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
