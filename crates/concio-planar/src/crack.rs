@@ -951,7 +951,9 @@ impl Crack {
     /// What the bond lost in a step of a joint with springs that ended at `time` [s], and what was crushed; its points are placed anew where it lost
     /// something or other parts of it are open, pressed or crushing.
     pub(crate) fn wear(&mut self, law: &Law, points: &mut [Point], still: bool, time: f64) -> Worn {
-        let Normal::Springs { .. } = law.normal else { return Worn::default() };
+        if !law.is_compliant() {
+            return Worn::default();
+        }
         let intact = self.cracked.is_infinite();
         if self.is_far_from_cracking(law, &self.line) {
             return Worn::default();
