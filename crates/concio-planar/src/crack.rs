@@ -22,6 +22,14 @@
 //!
 //! which is (B4) but for what the springs of friction keep. Where pressure changes as it breaks, δ_c is that with which the rest of G_f goes.
 //!
+//! Of two modes in turn (P9) makes, under no pressure and with a = tan φ k_n/k_t (or c/f_t for tan φ, where that is less): slid to s, then opened by w,
+//!
+//! (P11)  σ = e^−ξ min(f_t, c k_n w/(k_t q)),   q = s + a w,   ξ = (q − q_0)/δ_t + ⟨w − w_1⟩/δ_n,   k_t q_0 = c,   k_n w_1 = e^−ξ f_t
+//!
+//! and opened to w, then slid by s,
+//!
+//! (P12)  τ = e^−ξ min(c s/q, f_t k_t s/(k_n w)),   q = s + min(1, f_t k_t q/(c k_n w)) a w,   ξ = (w − w_0)/δ_n + s/δ_t,   k_n w_0 = f_t
+//!
 //! Rigid joints break by plane sections: the stress of the joint is the straight line that balances what its points bear, cracked parts pressing only;
 //! the crack runs as far as it is above f_t at its tip.
 
@@ -1174,6 +1182,7 @@ fn plane(normal: f64, moment: f64, first: usize, last: usize) -> Option<[f64; 2]
 mod tests {
     use super::*;
     use crate::joint::{Friction, Shear};
+    use concio_verified::agrees;
 
     /// One node of a joint of 0.3 m²: f_t 50 kPa, c 20 kPa, tan φ 0.6, 20 and 100 N/m.
     fn law() -> Law {
@@ -1283,6 +1292,62 @@ mod tests {
             let [least, most] = bond.energy;
             assert!(work > 0.5 * least && work < 1.001 * most, "{work} J along {path:?}");
             assert!((taken / work - 1.0).abs() < 0.02, "{taken} J booked of {work} J along {path:?}");
+        }
+    }
+
+    /// Both orders against what follows from (P9) by hand.
+    #[test]
+    fn modes_in_either_order_follow_their_closed_forms() {
+        let law = law();
+        let bond = law.bond.expect("a bond");
+        let (k, a) = (3e9, bond.tan_pulled());
+        let [f, c] = [bond.tension, bond.cohesion];
+        let softens = |mode: usize, strength: f64| {
+            (bond.energy[mode] - 0.5 * strength * strength / k) / ((1.0 - BROKEN) * strength)
+        };
+        let [opens, shears] = [softens(0, f), softens(1, c)];
+        let bears = |crack: &Crack, way: f64| (1.0 - crack.nodes[7].damage()) * k * way;
+
+        let mut crack = Crack::of(&law).expect("a bond");
+        let slid = 2e-3;
+        stretch(&mut crack, [0.0; 2], [0.0, slid], &law);
+        let sheared = |w: f64| (-(slid + a * w - c / k) / shears).exp();
+        // The opening at which it comes to its own limit: at w_1 = e^−ξ f_t/k_n, which the slide alone has set.
+        let limit = (0..50).fold(0.0, |w, _| sheared(w) * f / k);
+        let mut was = 0.0;
+        for w in [0.2e-3, 0.4e-3, 0.8e-3, 1.2e-3] {
+            stretch(&mut crack, [was, slid], [w, slid], &law);
+            let left = sheared(w) * (-(w - limit) / opens).exp();
+            let expected = left * f.min(c * w / (slid + a * w));
+            let found = bears(&crack, w);
+            let subject = format!("Bonds: a point that slides 2 mm and then opens; by {} mm", 1e3 * w);
+            agrees!(subject, "(P11) of docs/planar.md", "N", found, expected, 0.01);
+            was = w;
+        }
+
+        let mut crack = Crack::of(&law).expect("a bond");
+        let open = 0.3e-3;
+        stretch(&mut crack, [0.0; 2], [open, 0.0], &law);
+        let first = (-(open - f / k) / opens).exp();
+        // What its slide and the tension that it bears together ask of it.
+        let way = |slide: f64| {
+            let pulled = |q: f64| (f * q / (c * open)).min(1.0) * a * open;
+            let (mut less, mut more) = (slide, slide + a * open);
+            for _ in 0..60 {
+                let half = 0.5 * (less + more);
+                *if slide + pulled(half) > half { &mut less } else { &mut more } = half;
+            }
+            0.5 * (less + more)
+        };
+        let mut was = 0.0;
+        for s in [0.05e-3, 0.5e-3, 2e-3, 4e-3] {
+            stretch(&mut crack, [open, was], [open, s], &law);
+            let left = first * (-s / shears).exp();
+            let expected = left * (c * s / way(s)).min(f * s / open);
+            let found = bears(&crack, s);
+            let subject = format!("Bonds: a point that opens 0.3 mm and then slides; by {} mm", 1e3 * s);
+            agrees!(subject, "(P12) of docs/planar.md", "N", found, expected, 0.01);
+            was = s;
         }
     }
 
