@@ -2,9 +2,24 @@
 
 use std::path::Path;
 use std::process::Command;
+use std::sync::Mutex;
 
 /// What a chore comes to: nothing, or why it failed.
 pub type Outcome = Result<(), String>;
+
+/// Checks that this machine could not make.
+static SKIPPED: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+/// Says of a check that it cannot be made here, and counts it.
+pub fn skip(what: &str) {
+    println!("skipped: {what}");
+    SKIPPED.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(what.to_string());
+}
+
+/// Those that were said to be so far.
+pub fn skipped() -> Vec<String> {
+    SKIPPED.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).clone()
+}
 
 /// Cargo in the root of the repository.
 pub fn cargo(root: &Path) -> Command {

@@ -15,7 +15,9 @@ pub fn check(root: &Path) -> Outcome {
     let known = defined(&theory);
     let (mut cited, mut wrong) = (BTreeSet::new(), Vec::new());
     let mut files = Vec::new();
-    sources(&root.join("crates/concio/src"), &mut files)?;
+    for package in ["concio", "concio-law", "concio-shear"] {
+        sources(&root.join("crates").join(package).join("src"), &mut files)?;
+    }
     for (name, text) in &files {
         // A file may number an equation of its own, which then means nothing outside of it.
         let own = own(text);

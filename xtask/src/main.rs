@@ -25,13 +25,14 @@ mod shown;
 mod studies;
 mod symbols;
 mod verification;
+mod words;
 
-use command::{Outcome, cargo, run};
+use command::{Outcome, cargo, run, skipped};
 
 const USAGE: &str = "\
 cargo xtask ci         everything that CI does
 cargo xtask docs       make the generated documents (reference, schema, symbols, gallery, pictures)
-cargo xtask cases      run the cases of the report anew; docs/report-cases.md and its pictures follow from them
+cargo xtask cases      run the cases of the research report anew; docs/report-cases.md and its pictures follow from them
 cargo xtask studies    make the worked examples of docs/studies/ anew: runs, output, figures (or those named)
 cargo xtask planar     make the runs and pictures of docs/planar.md anew
 cargo xtask verification   make docs/verification.md anew of what tests find (--cargo-profile, --check, --recorded)
@@ -40,6 +41,7 @@ cargo xtask shown      try the wall files and commands that documents show
 cargo xtask equations  check the numbers of equations
 cargo xtask links      check the links of the documents
 cargo xtask modules    find circles between modules
+cargo xtask words      count the words of the documents, and of their sentences
 cargo xtask report-ui  build the program of the interactive report into the tree (needs Node.js)
 cargo xtask report-ui-check   its bundle is current, its tests pass, a browser shows the numbers of the result
 cargo xtask peers      compare with CVODE
@@ -62,6 +64,7 @@ fn main() -> ExitCode {
         "equations" => equations::check(&root),
         "links" => links::check(&root),
         "modules" => modules::check(&root),
+        "words" => words::check(&root),
         "report-ui" => report_ui::build(&root),
         "report-ui-check" => build(&root).and_then(|()| report_ui::check(&root)),
         "peers" => build(&root).and_then(|()| peers::compare(&root)),
@@ -105,7 +108,7 @@ fn build(root: &Path) -> Outcome {
 
 fn ci(root: &Path) -> Outcome {
     let python = python::environment(root)?;
-    let steps: [(&str, &dyn Fn() -> Outcome); 13] = [
+    let steps: [(&str, &dyn Fn() -> Outcome); 14] = [
         ("format", &|| run(cargo(root).args(["fmt", "--all", "--check"]))),
         ("lints", &|| {
             run(cargo(root).args([
@@ -126,19 +129,25 @@ fn ci(root: &Path) -> Outcome {
         ("API documentation", &|| api::check(root)),
         ("generated documents", &|| documents::check(root)),
         ("links", &|| links::check(root)),
+        ("words", &|| words::check(root)),
         ("examples", &|| examples::run_all(root)),
         ("readers of results", &|| python::read_results(root, python.as_deref())),
         ("interactive report", &|| report_ui::check(root)),
         ("comparison with CVODE", &|| peers::compare(root)),
     ];
     let start = Instant::now();
+    let mut took = Vec::new();
     for (name, step) in steps {
         println!("\n== {name}");
         let start = Instant::now();
         step().map_err(|why| format!("{name}: {why}"))?;
-        println!("   {:.0} s", start.elapsed().as_secs_f64());
+        took.push(format!("{name} {:.0}", start.elapsed().as_secs_f64()));
     }
-    println!("\nAll checks passed in {:.0} s.", start.elapsed().as_secs_f64());
+    let skipped: Vec<String> = skipped().into_iter().chain(verification::skipped(root)?).collect();
+    println!("\n{} checks were skipped{}", skipped.len(), if skipped.is_empty() { "." } else { ":" });
+    skipped.iter().for_each(|what| println!("  {what}"));
+    println!("Seconds: {}.", took.join(", "));
+    println!("All checks passed in {:.0} s.", start.elapsed().as_secs_f64());
     Ok(())
 }
 

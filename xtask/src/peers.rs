@@ -49,7 +49,10 @@ pub fn compare(root: &Path) -> Outcome {
         if Path::new("/usr/include/cvode/cvode.h").is_file() && Path::new("/usr/include/nlohmann/json.hpp").is_file() {
             return Err(format!("the libraries are there but the peer program does not compile: {why}"));
         }
-        println!("skipped: comparison with CVODE (it cannot be compiled here: {})", why.lines().next().unwrap_or(""));
+        crate::command::skip(&format!(
+            "comparison with CVODE (it cannot be compiled here: {})",
+            why.lines().next().unwrap_or("")
+        ));
         return Ok(());
     }
     let peak: (&str, f64) = ("peak_relative_displacement", 1e-3);
@@ -78,7 +81,7 @@ pub fn compare(root: &Path) -> Outcome {
             agree: vec![peak],
             histories: Some(5e-3),
         }),
-        Err(_) => println!("skipped: comparison with CVODE under ground shaking (shared/ not found)"),
+        Err(_) => crate::command::skip("comparison with CVODE under ground shaking (shared/ not found)"),
     }
     cases.iter().try_for_each(|case| one(root, &folder, &peer, case).map_err(|why| format!("{}: {why}", case.name)))
 }

@@ -51,7 +51,7 @@ pub fn make(root: &Path) -> Outcome {
             deformed(root, &run, &images, "ws-100-wall")?;
         }
         if !beside.is_dir() {
-            println!("skipped: figure {name} (measured curves not found)");
+            crate::command::skip(&format!("figure {name} (measured curves not found)"));
             continue;
         }
         let mut series = vec![json!({ "name": "Concio", "points": computed(root, &run)? })];

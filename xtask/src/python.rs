@@ -26,7 +26,7 @@ pub fn environment(root: &Path) -> Result<Option<PathBuf>, String> {
         return Ok(Some(python));
     }
     let skipped = |what: &str| {
-        println!("skipped: readers and peers in Python ({what})");
+        crate::command::skip(&format!("readers and peers in Python ({what})"));
         Ok(None)
     };
     if read(Command::new("python3").args(["-m", "venv"]).arg(&folder)).is_err() {
@@ -43,7 +43,7 @@ pub fn environment(root: &Path) -> Result<Option<PathBuf>, String> {
 /// Exports the result of an example in every format and reads all of them.
 pub fn read_results(root: &Path, python: Option<&Path>) -> Outcome {
     let Some(python) = python else {
-        println!("skipped: readers in Python (no environment)");
+        crate::command::skip("readers in Python (no environment)");
         return Ok(());
     };
     let result = folder(root, EXAMPLE);

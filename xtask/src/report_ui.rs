@@ -24,7 +24,7 @@ pub fn build(root: &Path) -> Outcome {
 /// Types, unit tests, the committed bundle against a fresh one, and the report in a browser.
 pub fn check(root: &Path) -> Outcome {
     if let Err(why) = install(root)? {
-        println!("skipped: interactive report ({why})");
+        crate::command::skip(&format!("interactive report ({why})"));
         return Ok(());
     }
     let fresh = root.join("target").join("report-ui");
@@ -40,7 +40,7 @@ pub fn check(root: &Path) -> Outcome {
     println!("{BUNDLE} is current");
     run(npm(root).args(["run", "--silent", "unit"]))?;
     let Some(browser) = browser() else {
-        println!("skipped: the report in a browser (no chromium; CHROMIUM names one elsewhere)");
+        crate::command::skip("the report in a browser (no chromium; CHROMIUM names one elsewhere)");
         return Ok(());
     };
     run(npm(root).args(["run", "--silent", "browser"]).env("CHROMIUM", browser).env("CONCIO", concio(root)))

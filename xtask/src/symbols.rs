@@ -46,36 +46,36 @@ const SYMBOLS: [Symbol; 75] = [
     row("ℓ", "overlap: contact length of a joint", "m", "", "wall.rs overlap", "section 1"),
     row("w", "overlap weight, 2 ℓ/L_ref", "1", "", "wall.rs weight", "(2) (4)"),
     row("x_i", "absolute displacement of block i", "m", "", "", "(1)"),
-    row("z_i", "displacement of block i relative to the base", "m", "", "record.rs block_displacement", "section 2"),
-    row("δ", "head joint: x_right − x_left, positive when it opens", "m", "", "record.rs joint_opening", "(3)"),
+    row("z_i", "displacement of block i relative to the base", "m", "", "law/account.rs block_displacement", "section 2"),
+    row("δ", "head joint: x_right − x_left, positive when it opens", "m", "", "law/account.rs joint_opening", "(3)"),
     row("U₀", "motion of the base", "m", "motion.base", "excitation.rs base", "section 2"),
     row("U₁", "motion of a driven top beam", "m", "motion.top", "excitation.rs top", "section 2"),
     row("K_H", "stiffness of the bed joint of a half-brick contact", "N/m", "joint.bed.stiffness joint.base.stiffness joint.top.stiffness", "case.rs stiffness", "(2)"),
     row("K_V", "stiffness of a head joint", "N/m", "joint.head.stiffness joint.connection.stiffness", "case.rs stiffness", "(3)"),
     row("κ", "how much stiffer a closed no-tension joint is", "1", "joint.head.rigidity", "case.rs rigidity", "(3)"),
     row("ζ", "damping ratio of an interface", "1", "joint.damping_ratio joint.bed.damping_ratio", "case.rs damping_ratio", "(4)"),
-    row("C", "damping constant, 2 ζ √(K M_ref)", "N s/m", "", "law.rs damping", "(4)"),
-    row("F^el", "elastic force of a joint", "N", "", "law.rs spring_force", "(2) (3)"),
-    row("F^v", "viscous force of a joint", "N", "", "dynamics.rs damping", "(4)"),
-    row("F^fr", "friction force of a joint", "N", "", "dynamics.rs friction", "(5)"),
+    row("C", "damping constant, 2 ζ √(K M_ref)", "N s/m", "", "shear/law.rs damping", "(4)"),
+    row("F^el", "elastic force of a joint", "N", "", "shear/law.rs spring_force", "(2) (3)"),
+    row("F^v", "viscous force of a joint", "N", "", "shear/dynamics.rs damping", "(4)"),
+    row("F^fr", "friction force of a joint", "N", "", "shear/dynamics.rs friction", "(5)"),
     row("N", "normal force of a joint", "N", "joint.friction.normal_force", "graph.rs load", "(5)"),
-    row("μ", "coefficient of friction at a slip velocity", "1", "joint.friction.law", "law.rs at", "(6)"),
-    row("μ_s", "static coefficient of friction", "1", "joint.friction.static", "law.rs static_", "(6)"),
-    row("μ_d", "dynamic coefficient of friction", "1", "joint.friction.dynamic", "law.rs dynamic", "(6)"),
-    row("δ_v", "slip velocity: beyond it a joint slips", "m/s", "joint.friction.slip_velocity", "law.rs slip_velocity", "(6)"),
-    row("β", "steepness of friction at rest", "1", "joint.friction.beta", "law.rs beta", "(6)"),
-    row("α", "growth of friction with the square of the velocity", "s²/m²", "joint.friction.alpha", "law.rs alpha", "(6)"),
+    row("μ", "coefficient of friction at a slip velocity", "1", "joint.friction.law", "law/friction.rs at", "(6)"),
+    row("μ_s", "static coefficient of friction", "1", "joint.friction.static", "law/friction.rs static_", "(6)"),
+    row("μ_d", "dynamic coefficient of friction", "1", "joint.friction.dynamic", "law/friction.rs dynamic", "(6)"),
+    row("δ_v", "slip velocity: beyond it a joint slips", "m/s", "joint.friction.slip_velocity", "law/friction.rs slip_velocity", "(6)"),
+    row("β", "steepness of friction at rest", "1", "joint.friction.beta", "law/friction.rs beta", "(6)"),
+    row("α", "growth of friction with the square of the velocity", "s²/m²", "joint.friction.alpha", "law/friction.rs alpha", "(6)"),
     row("f_t", "tensile strength of head joints and connections", "Pa", "joint.bond.tensile_strength", "case.rs tensile_strength", "(B2)"),
     row("c", "cohesion of bed and support joints", "Pa", "joint.bond.cohesion", "case.rs cohesion", "(B2)"),
     row("φ", "friction angle of the bond", "rad", "joint.bond.friction_angle", "case.rs friction_angle", "(B2)"),
     row("G_f^I, G_f^II", "fracture energies of opening and of shear", "N/m", "joint.bond.mode_1_energy joint.bond.mode_2_energy", "case.rs mode_2_energy", "(B4)"),
     row("η", "fraction of the stiffness that a cracked bed or support joint keeps", "1", "joint.bond.residual_stiffness", "case.rs residual_stiffness", "(B1)"),
     row("A", "area of a joint, overlap times thickness", "m²", "", "bond.rs area", "(B2)"),
-    row("F_0", "strength of a bonded joint", "N", "", "bond.rs strength", "(B2)"),
-    row("D", "damage: part of the stiffness that a bonded joint has lost", "1", "", "bond.rs damage", "(B1) (B3)"),
-    row("χ", "part of a bonded joint that rubs: share by which its strength has gone down", "1", "", "bond.rs rubbing", "(B1) (B3) (B5)"),
-    row("δ_m", "largest relative displacement or gap of a bonded joint so far", "m", "", "bond.rs reach", "(B3)"),
-    row("δ_0, δ_c", "relative displacement at the strength; length over which the strength falls", "m", "", "bond.rs decay", "(B3) (B4)"),
+    row("F_0", "strength of a bonded joint", "N", "", "law/bond.rs strength", "(B2)"),
+    row("D", "damage: part of the stiffness that a bonded joint has lost", "1", "", "law/bond.rs damage", "(B1) (B3)"),
+    row("χ", "part of a bonded joint that rubs: share by which its strength has gone down", "1", "", "law/bond.rs rubbing", "(B1) (B3) (B5)"),
+    row("δ_m", "largest relative displacement or gap of a bonded joint so far", "m", "", "law/bond.rs reach", "(B3)"),
+    row("δ_0, δ_c", "relative displacement at the strength; length over which the strength falls", "m", "", "law/bond.rs decay", "(B3) (B4)"),
     row("c", "constant of a device's dashpot", "N s/m", "joint.change.device.damping", "case/devices.rs damping", "(I1) (I2)"),
     row("α, v_0", "power of a dashpot; velocity at which its force is c v_0", "1, m/s", "joint.change.device.exponent joint.change.device.reference_velocity", "device.rs exponent", "(I1)"),
     row("k, k_1", "stiffness of a spring; of a re-centring device at rest", "N/m", "joint.change.device.stiffness", "case/devices.rs stiffness", "(I2) (I6)"),
@@ -83,31 +83,31 @@ const SYMBOLS: [Symbol; 75] = [
     row("F_y, d_y", "yield force and displacement of a hysteretic device", "N, m", "joint.change.device.yield_force joint.change.device.yield_displacement", "case/devices.rs yield_force", "(I4)"),
     row("a", "part of the stiffness that stays beyond yielding", "1", "joint.change.device.hardening", "case/devices.rs hardening", "(I4)"),
     row("A, β, γ, n", "shape of the hysteresis", "1", "joint.change.device.amplitude joint.change.device.beta joint.change.device.gamma joint.change.device.sharpness", "device.rs BoucWen", "(I5)"),
-    row("ζ", "hysteretic variable", "1", "", "state.rs internal", "(I5)"),
+    row("ζ", "hysteretic variable", "1", "", "shear/state.rs internal", "(I5)"),
     row("F_a, k_2", "activation force and stiffness beyond it of a re-centring device", "N, N/m", "joint.change.device.activation_force joint.change.device.post_stiffness", "case/devices.rs activation_force", "(I6)"),
     row("β_f", "height of the flag over F_a", "1", "joint.change.device.flag", "device.rs flag", "(I7)"),
-    row("s", "slip inside a re-centring device", "m", "", "state.rs internal", "(I7)"),
-    row("λ", "what the sides of a rigid joint press each other with", "N", "", "state.rs reaction", "(R2)"),
-    row("p_j", "impulse of an impact in a rigid joint", "N s", "", "integrate/impact.rs impulse", "(R3) (R4)"),
+    row("s", "slip inside a re-centring device", "m", "", "shear/state.rs internal", "(I7)"),
+    row("λ", "what the sides of a rigid joint press each other with", "N", "", "shear/state.rs reaction", "(R2)"),
+    row("p_j", "impulse of an impact in a rigid joint", "N s", "", "shear/integrate/impact.rs impulse", "(R3) (R4)"),
     row("e_j", "restitution of a rigid joint", "1", "joint.head.restitution joint.connection.restitution", "case.rs restitution", "(R4)"),
     row("q", "vertical load at the top, per length of brick", "N/m", "load.top", "case.rs top", "section 3"),
     row("P0_i", "load above block i, as the report has it", "N", "", "graph.rs overburden", "section 3"),
     row("M_b", "mass of the top beam", "kg", "load.beam.mass", "case.rs Mass", "section 2"),
-    row("E_kin", "kinetic energy, relative to the base", "J", "", "record.rs kinetic", "(7)"),
-    row("E_el", "elastic energy of the joints", "J", "", "record.rs elastic", "(7)"),
-    row("E_0", "energy at t = 0 that no work brought", "J", "", "record.rs initial", "(7)"),
-    row("D_damping", "dissipated by viscous damping", "J", "", "record.rs damping", "(7)"),
-    row("D_friction", "dissipated by friction", "J", "", "record.rs friction", "(7)"),
-    row("D_bond", "dissipated by the breaking of bonds", "J", "", "record.rs bond", "(7)"),
-    row("D_device", "dissipated by the hysteresis of devices", "J", "", "record.rs device", "(7)"),
-    row("D_impact", "lost in the impacts of rigid joints", "J", "", "record.rs impact", "(7)"),
-    row("D_nonreciprocal", "taken out by friction whose action differs from its reaction", "J", "", "record.rs nonreciprocal", "(7)"),
-    row("W_base", "work of the base motion on the relative motion", "J", "", "record.rs input_base", "(7)"),
-    row("W_top", "work of the driven top beam", "J", "", "record.rs input_top", "(7)"),
-    row("R", "residual of the energy account", "J", "", "outcome.rs peak_residual", "(7)"),
-    row("h", "length of a step", "s", "solver.max_step", "integrate/step.rs h", "(S1)"),
-    row("τ", "γ h of the scheme, length of a stage", "s", "", "integrate/stage.rs τ", "(T1)"),
-    row("e", "estimated local error", "m, m/s", "solver.tolerance solver.floor", "integrate/step.rs error", "(P1)"),
+    row("E_kin", "kinetic energy, relative to the base", "J", "", "law/account.rs kinetic", "(7)"),
+    row("E_el", "elastic energy of the joints", "J", "", "law/account.rs elastic", "(7)"),
+    row("E_0", "energy at t = 0 that no work brought", "J", "", "law/account.rs initial", "(7)"),
+    row("D_damping", "dissipated by viscous damping", "J", "", "law/account.rs damping", "(7)"),
+    row("D_friction", "dissipated by friction", "J", "", "law/account.rs friction", "(7)"),
+    row("D_bond", "dissipated by the breaking of bonds", "J", "", "law/account.rs bond", "(7)"),
+    row("D_device", "dissipated by the hysteresis of devices", "J", "", "law/account.rs device", "(7)"),
+    row("D_impact", "lost in the impacts of rigid joints", "J", "", "law/account.rs impact", "(7)"),
+    row("D_nonreciprocal", "taken out by friction whose action differs from its reaction", "J", "", "law/account.rs nonreciprocal", "(7)"),
+    row("W_base", "work of the base motion on the relative motion", "J", "", "law/account.rs input_base", "(7)"),
+    row("W_top", "work of the driven top beam", "J", "", "law/account.rs input_top", "(7)"),
+    row("R", "residual of the energy account", "J", "", "law/account.rs peak_residual", "(7)"),
+    row("h", "length of a step", "s", "solver.max_step", "shear/integrate/step.rs h", "(S1)"),
+    row("τ", "γ h of the scheme, length of a stage", "s", "", "shear/integrate/stage.rs τ", "(T1)"),
+    row("e", "estimated local error", "m, m/s", "solver.tolerance solver.floor", "shear/integrate/step.rs error", "(P1)"),
 ];
 
 const HEAD: &str = "\
@@ -116,7 +116,7 @@ const HEAD: &str = "\
 <!-- Made by `cargo xtask docs` from the table in xtask/src/symbols.rs. -->
 
 Numbers in brackets are the equations of [theory.md](theory.md), sections those of that page; the wall file is described in
-[wall-file.md](wall-file.md). Code is a file of `crates/concio/src/` and the name in it. In the wall file a number
+[wall-file.md](wall-file.md). Code is a file and the name in it: of `crates/concio/src/`, after `law/` and `shear/` of `crates/concio-law/src/` and `crates/concio-shear/src/`. In the wall file a number
 without a unit is in the unit given here (SI).
 
 | symbol | meaning | unit | wall file | code | source |
@@ -173,7 +173,11 @@ fn code(root: &Path, s: &Symbol) -> Result<(), String> {
         return Ok(());
     }
     let (file, word) = s.code.split_once(' ').ok_or_else(|| format!("`{}` names no word", s.code))?;
-    let path = root.join("crates/concio/src").join(file);
+    let (package, own) = match file.split_once('/') {
+        Some((package @ ("law" | "shear"), own)) => (format!("concio-{package}"), own),
+        _ => ("concio".to_string(), file),
+    };
+    let path = root.join("crates").join(package).join("src").join(own);
     let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     let found = text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|w| w == word);
     if found { Ok(()) } else { Err(format!("`{word}` does not stand in {file}")) }

@@ -9,8 +9,10 @@ use serde::Deserialize;
 
 use crate::command::{Outcome, cargo, run};
 
+/// Where tests say what they left out, as crates/concio-verified does.
+const SKIPPED: &str = "skipped.txt";
 const PAGE: &str = "docs/verification.md";
-const PACKAGES: [&str; 5] = ["concio-device", "concio-limit", "concio-planar", "concio", "concio-study"];
+const PACKAGES: [&str; 6] = ["concio-law", "concio-limit", "concio-planar", "concio-shear", "concio", "concio-study"];
 const HEADER: &str = "| Subject | Held against | Expected | Found | Off by | The test allows | Command |";
 
 /// Sections of the page in their order; the first half of a record's subject is one of them.
@@ -75,6 +77,16 @@ pub fn folder(root: &Path) -> Result<PathBuf, String> {
     }
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     Ok(folder)
+}
+
+/// Checks that tests left out in the run that filled the folder, each once.
+pub fn skipped(root: &Path) -> Result<BTreeSet<String>, String> {
+    let path = root.join("target").join("verified").join(SKIPPED);
+    if !path.exists() {
+        return Ok(BTreeSet::new());
+    }
+    let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    Ok(text.lines().map(String::from).collect())
 }
 
 /// Runs the tests that record, built with a profile (`release` where none is named), and writes the page; with `--check` it only compares
@@ -174,6 +186,9 @@ fn page(root: &Path) -> Result<String, String> {
     let mut sections: BTreeMap<usize, BTreeMap<String, Vec<Record>>> = BTreeMap::new();
     for entry in fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))? {
         let path = entry.map_err(|e| format!("{}: {e}", folder.display()))?.path();
+        if path.extension().is_none_or(|e| e != "json") {
+            continue;
+        }
         let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
         let record: Record = serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))?;
         let name = record.subject.split(": ").next().unwrap_or_default();

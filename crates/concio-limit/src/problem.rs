@@ -226,7 +226,7 @@ fn sides(case: &Case, model: &Model) -> Result<Vec<Sides>> {
 
 fn friction(case: &Case, model: &Model, assembly: &Assembly, sides: &[Sides], heads: Heads) -> Result<Vec<f64>> {
     let mut of_joint = vec![0.0; model.joints.len()];
-    for rub in &model.rubs {
+    for rub in &model.shear.rubs {
         of_joint[rub.joint as usize] = rub.law.static_;
     }
     // What comes to touch rubs as joints of its kind do, in a run too.

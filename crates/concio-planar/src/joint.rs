@@ -14,7 +14,7 @@
 //! the midpoint, θ = ½, which keeps energy whatever the step: the modes of a mortared wall are slower than its joints alone, and
 //! would be damped with them.
 
-use concio_device as device;
+use concio_law::device;
 use serde::{Deserialize, Serialize};
 
 use crate::G;

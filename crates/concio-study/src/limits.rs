@@ -74,7 +74,8 @@ impl Rule {
 /// springs. A head joint that opens is unloaded, and a bond's limit is an elastic one by itself.
 pub fn counts_deformation(model: &Model, rule: &Rule) -> bool {
     let lies = |e: usize| !model.joints[e].kind.is_upright();
-    rule.criterion == Criterion::Slip && model.elastic.iter().enumerate().any(|(e, law)| lies(e) && law.stiffness > 0.0)
+    rule.criterion == Criterion::Slip
+        && model.shear.elastic.iter().enumerate().any(|(e, law)| lies(e) && law.stiffness > 0.0)
 }
 
 /// How far each joint of a wall may move.
@@ -94,7 +95,7 @@ impl Limits {
         let of_joint: Vec<f64> = match rule.criterion {
             Criterion::Bond => {
                 let mut all = vec![f64::INFINITY; model.joints.len()];
-                for bond in &model.bonds {
+                for bond in &model.shear.bonds {
                     all[bond.joint as usize] = bond.law.limit();
                 }
                 all
@@ -120,7 +121,7 @@ impl Limits {
     }
 
     /// Whether a run has come to a crack.
-    pub fn reached(&self, state: &State) -> bool {
+    pub fn reached(&self, state: &State<'_>) -> bool {
         match self.criterion {
             // The solver itself says when: it ends steps where a brittle bond breaks.
             Criterion::Bond => state.bonds.iter().any(|b| b.cracked.is_finite()),

@@ -218,11 +218,11 @@ fn numbers(prepared: &Prepared, outcome: &Outcome, joints: &[JointRow]) -> [f64;
     let moved = blocks.iter().zip(&envelopes.block_displacement).filter(|(b, _)| tops[b.panel] == Some(b.course));
     let drift = moved.fold(0.0f64, |m, (b, u)| m.max(u / b.y[1]));
     // Dashpots of planar walls act while their joint is pressed, which envelopes do not tell.
-    let viscous = match model.planar {
+    let viscous = match model.planar() {
         Some(_) => f64::NAN,
         None => joints.iter().zip(&envelopes.joint_velocity).fold(0.0f64, |most, (j, v)| most.max(j.damping * v)),
     };
-    let inertia = model.mass.iter().zip(&envelopes.block_acceleration).map(|(m, a)| m * a);
+    let inertia = model.shear.mass.iter().zip(&envelopes.block_acceleration).map(|(m, a)| m * a);
     let max = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, f64::max);
     let cracked = |test: &dyn Fn(&BondRow) -> bool| outcome.bonds.iter().filter(|b| test(b)).count() as f64;
     [

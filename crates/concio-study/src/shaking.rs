@@ -55,34 +55,35 @@ impl Shaking {
 /// Inverse iteration with the Rayleigh quotient; the systems are solved by conjugate gradients, preconditioned by the
 /// diagonal (e.g. J. Nocedal, S. Wright, Numerical Optimization, 2nd ed. 2006, algorithm 5.3).
 pub fn first_mode(model: &Model) -> Option<Mode> {
-    if let Some(planar) = &model.planar {
+    if let Some(planar) = model.planar() {
         let of = |v: Vibration| Mode { period: 2.0 * std::f64::consts::PI / v.frequency, damping: v.damping };
         return planar.slowest().map(of);
     }
     let n = model.unknowns();
-    let mut stiffness: Vec<f64> = model.elastic.iter().map(|e| if e.unilateral { 0.0 } else { e.stiffness }).collect();
-    for bond in &model.bonds {
+    let mut stiffness: Vec<f64> =
+        model.shear.elastic.iter().map(|e| if e.unilateral { 0.0 } else { e.stiffness }).collect();
+    for bond in &model.shear.bonds {
         stiffness[bond.joint as usize] = bond.law.stiffness;
     }
-    for device in &model.nonlinear {
+    for device in &model.shear.nonlinear {
         stiffness[device.joint as usize] += device.law.initial_stiffness();
     }
     let springs = Springs { model, stiffness };
     let mut x = vec![1.0; n];
     let mut before = f64::INFINITY;
     for _ in 0..ROUNDS {
-        let load: Vec<f64> = model.mass.iter().zip(&x).map(|(m, x)| m * x).collect();
+        let load: Vec<f64> = model.shear.mass.iter().zip(&x).map(|(m, x)| m * x).collect();
         x = springs.solve(&load)?;
         let top: f64 = x.iter().zip(&load).map(|(x, f)| x * f).sum();
-        let bottom: f64 = x.iter().zip(&model.mass).map(|(x, m)| m * x * x).sum();
+        let bottom: f64 = x.iter().zip(&model.shear.mass).map(|(x, m)| m * x * x).sum();
         // K x = M x_old: the quotient of x is xᵀ K x / xᵀ M x.
         let square = top / bottom;
         if !(square.is_finite() && square > 0.0) {
             return None;
         }
         if (square - before).abs() <= SETTLED * square {
-            let damping = |e: usize| model.elastic[e].damping * springs.stretch(&x, e).powi(2);
-            let damped: f64 = (0..model.elastic.len()).map(damping).sum();
+            let damping = |e: usize| model.shear.elastic[e].damping * springs.stretch(&x, e).powi(2);
+            let damped: f64 = (0..model.shear.elastic.len()).map(damping).sum();
             let omega = square.sqrt();
             let period = 2.0 * std::f64::consts::PI / omega;
             return Some(Mode { period, damping: damped / (2.0 * omega * bottom) });
@@ -102,13 +103,13 @@ struct Springs<'m> {
 impl Springs<'_> {
     /// Relative displacement of joint `e`.
     fn stretch(&self, x: &[f64], e: usize) -> f64 {
-        let [a, b] = self.model.sides[e].map(|i| x.get(i as usize).copied().unwrap_or(0.0));
+        let [a, b] = self.model.shear.sides[e].map(|i| x.get(i as usize).copied().unwrap_or(0.0));
         a - b
     }
 
     fn times(&self, x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; x.len()];
-        for (e, (k, [a, b])) in self.stiffness.iter().zip(&self.model.sides).enumerate() {
+        for (e, (k, [a, b])) in self.stiffness.iter().zip(&self.model.shear.sides).enumerate() {
             let force = k * self.stretch(x, e);
             for (side, sign) in [(a, 1.0), (b, -1.0)] {
                 if let Some(y) = y.get_mut(*side as usize) {
@@ -122,7 +123,7 @@ impl Springs<'_> {
     fn solve(&self, load: &[f64]) -> Option<Vec<f64>> {
         let n = load.len();
         let mut diagonal = vec![0.0; n];
-        for (k, sides) in self.stiffness.iter().zip(&self.model.sides) {
+        for (k, sides) in self.stiffness.iter().zip(&self.model.shear.sides) {
             for side in sides {
                 if let Some(d) = diagonal.get_mut(*side as usize) {
                     *d += k;

@@ -81,7 +81,7 @@ impl Batch<'_> {
             if let Progress::Ended(reason) = progress {
                 break reason;
             }
-            if limits.as_ref().is_some_and(|l| l.reached(run.state())) {
+            if limits.as_ref().is_some_and(|l| l.reached(&run.state())) {
                 break StopReason::Completed;
             }
             let status = run.status();

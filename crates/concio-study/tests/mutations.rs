@@ -39,7 +39,7 @@ fn checked(path: &Path) -> concio::Result<()> {
     let prepared = prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(e))?;
     let model = &prepared.model;
     if model.wall.blocks.len() <= TRIED {
-        model.planar.as_ref().map(|planar| planar.rest());
+        model.planar().map(|planar| planar.rest());
         first_mode(model);
     }
     assert_eq!(model.joint_names().len(), concio::run::joint_rows(model).len());

@@ -10,7 +10,7 @@ use concio::law::Stribeck;
 use concio::run::{Prepared, prepare};
 use concio::samples::sharp_friction;
 use concio::simulate::Simulation;
-use concio::{Part, Parts};
+use concio_shear::{Part, Parts};
 use divan::Bencher;
 use divan::counter::ItemsCount;
 
@@ -63,8 +63,8 @@ fn law(bencher: Bencher, velocity: f64) {
 #[divan::bench(args = NAMES)]
 fn laws_one_by_one(bencher: Bencher, wall: &str) {
     in_the_middle(wall, |prepared, run| {
-        let rubs = &prepared.model.rubs;
-        let velocity = &run.state().tangents.velocity;
+        let rubs = &prepared.model.shear.rubs;
+        let velocity = &run.shear().expect("a shear wall").state.tangents.velocity;
         bencher.counter(ItemsCount::new(rubs.len())).bench_local(|| {
             rubs.iter()
                 .zip(velocity)
@@ -76,7 +76,7 @@ fn laws_one_by_one(bencher: Bencher, wall: &str) {
 
 fn part(bencher: Bencher, wall: &str, part: Part, items: fn(&Prepared) -> usize) {
     in_the_middle(wall, |prepared, run| {
-        let mut parts = Parts::of(&prepared.model, run.state());
+        let mut parts = Parts::of(&prepared.model.shear, &run.shear().expect("a shear wall").state);
         assert!(parts.run(Part::Factors), "a matrix that is not positive is given up half way: nothing to measure");
         bencher.counter(ItemsCount::new(items(prepared))).bench_local(|| parts.run(part));
     });
@@ -84,7 +84,7 @@ fn part(bencher: Bencher, wall: &str, part: Part, items: fn(&Prepared) -> usize)
 
 #[divan::bench(args = NAMES)]
 fn laws(bencher: Bencher, wall: &str) {
-    part(bencher, wall, Part::Laws, |p| p.model.rubs.len());
+    part(bencher, wall, Part::Laws, |p| p.model.shear.rubs.len());
 }
 
 #[divan::bench(args = NAMES)]

@@ -10,8 +10,8 @@ use crate::case::{
 };
 use crate::error::{InputError, Result};
 use crate::graph;
-use crate::law::Stribeck;
 use crate::wall::{Joint, Wall};
+use concio_law::friction::Stribeck;
 
 /// Which joints rub and where their normal force comes from, the preset taken into account.
 pub(crate) fn friction_choice(friction: &Friction) -> (FrictionOn, NormalForce) {
@@ -71,7 +71,7 @@ impl BondValues {
 impl JointLaw {
     /// Whether there is nothing between the sides: neither mortar nor a device.
     pub fn is_open(&self) -> bool {
-        self.spring.law == SpringLaw::None && self.device.is_none()
+        self.spring.law.is_open() && self.device.is_none()
     }
 
     /// Stiffness of the whole joint [N/m], overlap weight or area taken into account: neither is to be multiplied to it
@@ -88,12 +88,12 @@ impl JointLaw {
     /// Whether its springs have no stiffness.
     fn lacks_stiffness(&self) -> bool {
         let Spring { law, stiffness, stiffness_factor, .. } = self.spring;
-        matches!(law, SpringLaw::Elastic | SpringLaw::NoTension) && stiffness.amount() * stiffness_factor == 0.0
+        law.has_springs() && stiffness.amount() * stiffness_factor == 0.0
     }
 
     /// Whether it bears pressure up to a strength.
     fn crushes(&self) -> bool {
-        self.spring.compressive_strength.is_some() && self.spring.law != SpringLaw::None
+        self.spring.compressive_strength.is_some() && !self.spring.law.is_open()
     }
 
     /// The joint's device, if it has one.
@@ -141,8 +141,8 @@ pub fn resolve(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<JointLa
         let chosen = choice.of(&change.at).map_err(|e| e.key(format!("joint.change[{number}].at")))?;
         let rocks = change.spring.is_some_and(|c| c.rocking_restitution.is_some());
         let rigid = |e: &usize| match change.spring.and_then(|c| c.law) {
-            Some(law) => law == SpringLaw::Rigid,
-            None => laws[*e].spring.law == SpringLaw::Rigid,
+            Some(law) => law.is_rigid(),
+            None => laws[*e].spring.law.is_rigid(),
         };
         if rocks && !chosen.iter().any(rigid) {
             let error = InputError::new("none of the joints that this changes is `rigid`");
@@ -211,7 +211,7 @@ fn bears(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Resul
             "`stiffness` and `stiffness_factor` above 0; `law = \"none\"` where there is nothing between them",
         ),
         (
-            |law| law.crushes() && law.spring.law == SpringLaw::Elastic && law.strong_bond().is_none(),
+            |law| law.crushes() && law.spring.law.is_elastic() && law.strong_bond().is_none(),
             "a joint of law `elastic` without a bond pulls without limit, and cannot crush",
             "`law = \"no-tension\"`, a `bond`, or no `compressive_strength`",
         ),

@@ -32,6 +32,7 @@ pub use validate::validate;
 
 pub use crate::wall::JointKind;
 
+pub use concio_shear::system::Scheme;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -519,6 +520,33 @@ pub enum SpringLaw {
     Rigid,
     /// No elastic force and no damping.
     None,
+}
+
+impl SpringLaw {
+    /// Whether it is [`SpringLaw::Elastic`].
+    pub fn is_elastic(self) -> bool {
+        self == SpringLaw::Elastic
+    }
+    /// Whether it is [`SpringLaw::NoTension`].
+    pub fn is_no_tension(self) -> bool {
+        self == SpringLaw::NoTension
+    }
+    /// Whether it is [`SpringLaw::Rigid`].
+    pub fn is_rigid(self) -> bool {
+        self == SpringLaw::Rigid
+    }
+    /// Whether it is [`SpringLaw::None`].
+    pub fn is_open(self) -> bool {
+        self == SpringLaw::None
+    }
+    /// Whether it is one of springs.
+    pub fn has_springs(self) -> bool {
+        self.is_elastic() || self.is_no_tension()
+    }
+    /// Whether its sides part freely.
+    pub fn parts(self) -> bool {
+        self.is_no_tension() || self.is_rigid()
+    }
 }
 
 /// Friction of the joints.
@@ -1195,16 +1223,6 @@ impl Default for Solver {
     fn default() -> Self {
         Solver { scheme: Scheme::TrBdf2, tolerance: 1e-2, floor: Length::from_si(1e-14), max_step: None, step: None }
     }
-}
-
-/// Integration schemes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Scheme {
-    /// TR-BDF2: order 2, L-stable.
-    TrBdf2,
-    /// ESDIRK4(3)6L\[2\]SA: order 4, L-stable; for smooth motion and tight tolerances.
-    Esdirk4,
 }
 
 /// What a run keeps. Envelopes and energies are always kept.

@@ -2,16 +2,16 @@
 
 use std::collections::HashMap;
 
+use concio_law::motion::{Drive, Excitation as _};
 use concio_planar::motion::Seen;
+use concio_shear::dynamics::{Acting, borne_by, joint_forces, peak};
+use concio_shear::state::View;
 
 use crate::bond::BondState;
 use crate::case::DeviceLaw;
-use crate::dynamics::{Acting, borne_by, joint_forces, peak};
 use crate::error::{InputError, Result};
-use crate::excitation::Drive;
 use crate::model::Model;
 use crate::record::{Channel, Energies};
-use crate::state::View;
 use crate::wall::JointKind;
 
 /// A selected history beyond the ones that are always kept.
@@ -96,8 +96,9 @@ impl Channels {
         let joint_names = model.joint_names();
         let mut watched: Vec<Watched> =
             chosen("output.blocks", "block", blocks, &block_names)?.into_iter().map(Watched::Block).collect();
-        let (rub, contact, bond) = (model.rub_of_joint(), model.contact_of_joint(), model.bond_of_joint());
-        let device = model.nonlinear_of_joint();
+        let system = &model.shear;
+        let (rub, contact, bond) = (system.rub_of_joint(), system.contact_of_joint(), system.bond_of_joint());
+        let device = system.nonlinear_of_joint();
         let joint = |e: usize| Watched::Joint(e, [rub[e], contact[e], device[e]], bond[e]);
         watched.extend(chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(joint));
         let channel =
@@ -107,7 +108,7 @@ impl Channels {
         for w in &watched {
             match *w {
                 Watched::Block(i) => {
-                    let of_planar = model.planar.iter().flat_map(|_| &PLANAR_BLOCK);
+                    let of_planar = model.planar().into_iter().flat_map(|_| &PLANAR_BLOCK);
                     let name = &block_names[i];
                     list.extend(
                         BLOCK.iter().chain(of_planar).map(|(n, u, d)| channel(format!("block/{name}/{n}"), u, d)),
@@ -115,7 +116,7 @@ impl Channels {
                 }
                 Watched::Joint(e, _, bond) => {
                     let of_bond = bond.map(|_| &DAMAGE);
-                    let of_planar = model.planar.iter().flat_map(|_| &PLANAR_JOINT);
+                    let of_planar = model.planar().into_iter().flat_map(|_| &PLANAR_JOINT);
                     list.extend(
                         JOINT
                             .iter()
@@ -131,7 +132,7 @@ impl Channels {
 
     /// [`Channels::sample`] of a planar wall.
     pub(crate) fn sample_planar(&self, model: &Model, at: Row, row: &mut Vec<f64>) {
-        let mean = |values: &[f64]| model.tops.of_courses(|i| values[i]);
+        let mean = |values: &[f64]| model.shear.tops.of_courses(|i| values[i]);
         let base = model.excitation.drive(at.t).base(at.t);
         row.extend([base.a, base.u, at.shear, mean(at.z), mean(at.v), at.pull]);
         row.extend(model.floating_beam().map_or([0.0; 3], |beam| [at.z[beam], at.v[beam], at.a[beam]]));
@@ -169,10 +170,11 @@ impl Channels {
 
     /// Appends one row of values.
     pub fn sample(&self, model: &Model, drive: &Drive, at: View, row: &mut Vec<f64>) {
-        let beam = model.floating_beam().unwrap_or(model.top());
+        let system = &model.shear;
+        let beam = model.floating_beam().unwrap_or(system.top());
         let [shear, pull] =
-            [&model.on_base, &model.on_beam].map(|support| 0.0 - borne_by(model, support, Acting::of(at)));
-        let mean = |values: &[f64]| model.tops.of_courses(|i| values[i]);
+            [&system.on_base, &system.on_beam].map(|support| 0.0 - borne_by(system, support, Acting::of(at)));
+        let mean = |values: &[f64]| system.tops.of_courses(|i| values[i]);
         let base = drive.base(at.t);
         let energies = at.energies;
         row.extend([base.a, base.u, shear, mean(at.z), mean(at.v), pull]);
@@ -183,12 +185,12 @@ impl Channels {
             match *w {
                 Watched::Block(i) => row.extend([at.z[i], at.v[i], at.a[i]]),
                 Watched::Joint(e, index, bond) => {
-                    let [a, b] = model.sides[e].map(|s| s as usize);
+                    let [a, b] = system.sides[e].map(|s| s as usize);
                     let sign = if model.joints[e].kind.is_upright() { -1.0 } else { 1.0 };
-                    let (elastic, viscous, friction) = joint_forces(model, at, index, e);
+                    let (elastic, viscous, friction) = joint_forces(system, at, index, e);
                     let (d, v) = (at.z[a] - at.z[b], at.v[a] - at.v[b]);
-                    let bond = bond.map(|b| (&model.bonds[b], at.bonds[b].damage));
-                    let elastic = bond.map_or(elastic, |(bond, damage)| bond.force(&model.elastic[e], damage, d));
+                    let bond = bond.map(|b| (&system.bonds[b], at.bonds[b].damage));
+                    let elastic = bond.map_or(elastic, |(bond, damage)| bond.force(&system.elastic[e], damage, d));
                     row.extend([sign * d, sign * v, elastic, viscous, friction]);
                     row.extend(bond.map(|(_, damage)| damage));
                 }

@@ -27,7 +27,7 @@ pub enum Heads {
 /// The wall is planar, no joint of it has one of these laws, or head joints are bonded.
 pub fn with_heads(prepared: &Prepared, heads: Heads) -> Result<Prepared> {
     prepared.model.shear_only("the comparison of free and constrained head joints")?;
-    if prepared.model.bonds.iter().any(|bond| bond.law.opens) {
+    if prepared.model.shear.bonds.iter().any(|bond| bond.law.opens) {
         let what = "head joints of this wall are bonded: free and rigid ones have no bond to compare with";
         let error = InputError::new(what).key("joint.bond.tensile_strength").allowed("0");
         return Err(error.help("leave out `head` and `connection` in `on` of [joint.bond]").into());
@@ -45,12 +45,12 @@ pub fn with_heads(prepared: &Prepared, heads: Heads) -> Result<Prepared> {
         }
     });
     let mut model = Model::compile(&case, prepared.model.wall.clone(), prepared.model.excitation.clone())?;
-    if model.contacts.is_empty() && !model.elastic.iter().any(|law| law.unilateral) {
+    if model.shear.contacts.is_empty() && !model.shear.elastic.iter().any(|law| law.unilateral) {
         let what = "no joint of this wall is `no-tension` or `rigid`: there is nothing to compare";
         return Err(InputError::new(what).key("joint.head.law").allowed("no-tension, rigid").into());
     }
     if heads == Heads::Free {
-        for law in model.elastic.iter_mut().filter(|law| law.unilateral) {
+        for law in model.shear.elastic.iter_mut().filter(|law| law.unilateral) {
             (law.stiffness, law.unilateral) = (0.0, false);
         }
     }

@@ -1,13 +1,14 @@
 //! Devices in the place of mortar (theory, section 3), as a wall file gives them: springs, dashpots, friction and what is left, a law of
-//! `concio_device`, whose equations (I1) to (I7) are.
+//! `concio_law::device`, whose equations (I1) to (I7) are.
 
-pub use concio_device::{BoucWen, Law, Power, ReCentring};
+pub use concio_law::device::{BoucWen, Law, Power, ReCentring};
+
+use concio_law::friction::Stribeck;
+use concio_shear::law::{Elastic, Nonlinear, Rub};
 
 use crate::assign::{JointLaw, resolve};
 use crate::case::{BETA, Case, Device as Given, DeviceLaw, GAMMA};
 use crate::error::Result;
-use crate::law::Stribeck;
-use crate::law::{Elastic, Rub};
 use crate::wall::{Joint, Wall};
 
 const SHARPNESS: f64 = 2.0;
@@ -60,15 +61,6 @@ impl Rating {
 pub fn ratings(case: &Case, wall: &Wall, joints: &[Joint]) -> Result<Vec<Rating>> {
     let laws = resolve(case, wall, joints)?;
     Ok(laws.iter().filter_map(|law| law.device(case)).map(Rating::of).collect())
-}
-
-/// What a device does beyond a spring, a dashpot and friction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nonlinear {
-    /// Index of the joint.
-    pub joint: u32,
-    /// The law.
-    pub law: Law,
 }
 
 /// Spring and dashpot of a device.
@@ -153,15 +145,6 @@ pub(crate) fn compile(case: &Case, laws: &[JointLaw], elastic: &mut [Elastic]) -
     (devices, rest)
 }
 
-/// Springs with the stiffness at rest of the devices beside them: the time scale of the model.
-pub(crate) fn at_rest(elastic: &[Elastic], nonlinear: &[Nonlinear]) -> Vec<Elastic> {
-    let mut stiff = elastic.to_vec();
-    for device in nonlinear {
-        stiff[device.joint as usize].stiffness += device.law.initial_stiffness();
-    }
-    stiff
-}
-
 #[cfg(test)]
 mod tests {
     /// Devices that are springs, dashpots and friction share lanes, those with laws of their own do not.
@@ -186,7 +169,7 @@ mod tests {
             file.validate().unwrap();
             let model = crate::run::prepare(file.case.clone(), std::path::Path::new("")).unwrap().model;
             assert_eq!(model.devices.len(), 1);
-            crate::lanes::Kind::of(&model, Scheme::TrBdf2)
+            concio_shear::lanes::Kind::of(&model.shear, Scheme::TrBdf2)
         };
         let dashpot = kind(r#"{ law = "viscous", damping = 10 }"#);
         assert!(dashpot.is_some() && dashpot == kind(r#"{ law = "elastic", stiffness = 1e6, damping = 3 }"#));

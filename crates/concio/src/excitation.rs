@@ -1,10 +1,12 @@
 //! The motion of base and top beam as the equations see it: in coordinates relative to the base (theory, section 2).
 
+pub use concio_law::motion::Drive;
+use concio_law::motion::Excitation as Motion;
 use serde_json::{Value, json};
 
 use crate::case::{Beam, Sine};
 use crate::error::{InputError, Result};
-use crate::ground::signal::{GroundMotion, Kinematics, Segment};
+use crate::ground::signal::{GroundMotion, Segment};
 
 /// Samples per period when a closed form is printed for another solver.
 const PRINTED_PER_PERIOD: f64 = 100.0;
@@ -29,43 +31,6 @@ pub struct Excitation {
     pub duration: f64,
 }
 
-/// The motion inside one smooth piece.
-#[derive(Debug, Clone, Copy)]
-pub struct Drive {
-    base: Segment,
-    top: Option<Segment>,
-    vertical: Segment,
-    /// Last instant of the piece [s].
-    pub end: f64,
-}
-
-impl Drive {
-    /// Base acceleration at `t` [m/s²].
-    #[inline]
-    pub fn base_acceleration(&self, t: f64) -> f64 {
-        self.base.acceleration(t)
-    }
-    /// Absolute motion of the base.
-    pub fn base(&self, t: f64) -> Kinematics {
-        self.base.at(t)
-    }
-    /// Absolute vertical motion of the base, positive upwards.
-    pub fn vertical(&self, t: f64) -> Kinematics {
-        self.vertical.at(t)
-    }
-    /// Motion of the top support relative to the base.
-    #[inline]
-    pub fn top(&self, t: f64) -> Kinematics {
-        match self.top {
-            None => Kinematics::default(),
-            Some(top) => {
-                let (top, base) = (top.at(t), self.base.at(t));
-                Kinematics { u: top.u - base.u, v: top.v - base.v, a: top.a - base.a }
-            }
-        }
-    }
-}
-
 impl Excitation {
     /// A motion of the base alone.
     pub fn of_base(base: GroundMotion, duration: f64) -> Self {
@@ -76,24 +41,6 @@ impl Excitation {
     pub fn of_top(top: GroundMotion, duration: f64) -> Self {
         let (base, vertical) = (GroundMotion::AtRest, GroundMotion::AtRest);
         Excitation { base, top, vertical, driven: true, top_sine: None, duration }
-    }
-
-    /// The motion just after `t`.
-    pub fn drive(&self, t: f64) -> Drive {
-        let base = piece(&self.base, t);
-        let top = self.driven.then(|| piece(&self.top, t));
-        let vertical = piece(&self.vertical, t);
-        let end = base.end.min(top.map_or(f64::INFINITY, |s| s.end)).min(vertical.end).min(self.duration);
-        Drive { base, top, vertical, end }
-    }
-    /// Longest step that resolves the motion [s].
-    pub fn longest_step(&self) -> f64 {
-        let top = if self.driven { self.top.longest_useful_step() } else { f64::INFINITY };
-        self.base.longest_useful_step().min(self.vertical.longest_useful_step()).min(top)
-    }
-    /// Jump of the base's velocity at `t` [m/s].
-    pub fn base_velocity_jump(&self, t: f64) -> f64 {
-        self.base.velocity_jump(t)
     }
 
     /// Motions of base and top as `concio system` prints them. What is not a record is sampled, 100 points a period.
@@ -127,6 +74,26 @@ impl Excitation {
             }
             _ => Err(refuse("this motion of the top").into()),
         }
+    }
+}
+
+impl Motion for Excitation {
+    fn drive(&self, t: f64) -> Drive {
+        let base = piece(&self.base, t);
+        let top = self.driven.then(|| piece(&self.top, t));
+        let vertical = piece(&self.vertical, t);
+        let end = base.end.min(top.map_or(f64::INFINITY, |s| s.end)).min(vertical.end).min(self.duration);
+        Drive { base, top, vertical, end }
+    }
+    fn longest_step(&self) -> f64 {
+        let top = if self.driven { self.top.longest_useful_step() } else { f64::INFINITY };
+        self.base.longest_useful_step().min(self.vertical.longest_useful_step()).min(top)
+    }
+    fn base_velocity_jump(&self, t: f64) -> f64 {
+        self.base.velocity_jump(t)
+    }
+    fn duration(&self) -> f64 {
+        self.duration
     }
 }
 

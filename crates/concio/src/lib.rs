@@ -46,16 +46,13 @@ pub mod constrained;
 pub mod device;
 pub mod dice;
 pub mod drift;
-mod dynamics;
-mod elementary;
 pub mod error;
 pub mod excitation;
 pub mod failure;
 pub mod files;
 pub mod graph;
 pub mod ground;
-mod integrate;
-mod lanes;
+mod keeper;
 pub mod law;
 pub mod many;
 pub mod model;
@@ -75,11 +72,8 @@ pub mod store;
 pub mod system;
 pub mod wall;
 pub mod warning;
-mod wide;
 
 pub use error::{Error, InputError, Result};
-#[doc(hidden)]
-pub use integrate::stage::{Part, Parts};
 
 /// Acceleration of gravity [m/s²] (theory).
 pub const G: f64 = 9.81;

@@ -14,10 +14,15 @@ use std::sync::{Condvar, Mutex, MutexGuard};
 
 use crate::case::Solver;
 use crate::error::Result;
-use crate::lanes::{Desk, Gang, Kind};
+use concio_law::motion::Drive;
+use concio_shear::lanes::{self, Desk, Gang, Kind};
+use concio_shear::run::{Keep, Run};
+use concio_shear::state::View;
+
+use crate::keeper::Keeper;
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::record::{Recording, StopReason};
+use crate::record::{Event, Recording, StopReason};
 use crate::run::{Control, Prepared};
 use crate::simulate::{Progress, Sampling, Simulation};
 
@@ -119,7 +124,7 @@ fn queues(jobs: &[Job], threads: usize) -> Vec<Queue> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     let mut group_of: HashMap<Kind, usize> = HashMap::new();
     for (number, job) in jobs.iter().enumerate() {
-        match Kind::of(job.model, job.solver.scheme) {
+        match job.model.planar().map_or_else(|| Kind::of(&job.model.shear, job.solver.scheme), |_| None) {
             Some(kind) => {
                 let group = *group_of.entry(kind).or_insert(groups.len());
                 if group == groups.len() {
@@ -134,8 +139,8 @@ fn queues(jobs: &[Job], threads: usize) -> Vec<Queue> {
     let mut queues: Vec<Queue> = Vec::new();
     for group in groups {
         // No thread takes so many that another has none.
-        let lanes = group.len().div_ceil(threads).min(crate::lanes::WIDTH);
-        if lanes < crate::lanes::FEWEST { alone.extend(group) } else { queues.push(queue(group, lanes)) }
+        let lanes = group.len().div_ceil(threads).min(lanes::WIDTH);
+        if lanes < lanes::FEWEST { alone.extend(group) } else { queues.push(queue(group, lanes)) }
     }
     queues.push(queue(alone, 1));
     queues
@@ -219,13 +224,15 @@ impl Drop for Busy<'_, '_> {
 impl<'a> Batch<'a> {
     fn work(&self, thread: usize, busy: Busy) {
         for queue in &self.queues {
-            let mut seat = Seat { batch: self, queue, thread };
-            while let Some((number, run)) = seat.next() {
-                if queue.lanes > 1 {
+            if queue.lanes > 1 {
+                let mut seat = Seat { batch: self, queue, thread, lanes: Vec::new() };
+                while let Some((number, run)) = seat.next() {
                     // The first run says what kind the group is of, and takes the first lane.
                     Gang::new(&run, queue.lanes).start((number, run), &mut seat);
                     self.reached().under_way[thread] = 0.0;
-                } else {
+                }
+            } else {
+                while let Some((number, run)) = self.take(queue) {
                     self.alone(thread, Under { number, run, rows: Recording::default() });
                 }
             }
@@ -237,6 +244,20 @@ impl<'a> Batch<'a> {
         while let Some(under) = self.next_left() {
             self.alone(thread, under);
         }
+    }
+
+    /// The next run of a queue, and its number.
+    fn take(&self, queue: &Queue) -> Option<(usize, Simulation<'a>)> {
+        while !self.stopped.load(Ordering::Relaxed) {
+            let at = queue.taken.fetch_add(1, Ordering::Relaxed);
+            let number = *queue.jobs.get(at)?;
+            let job = self.jobs[number];
+            match Simulation::new(job.model, job.solver, job.sampling) {
+                Ok(run) => return Some((number, run)),
+                Err(error) => self.give(number, Err(error)),
+            }
+        }
+        None
     }
 
     fn rest(&self) -> MutexGuard<'_, Rest<'a>> {
@@ -304,33 +325,71 @@ impl<'a> Batch<'a> {
     }
 }
 
-/// A thread at a queue.
+/// A thread at a queue of runs for lanes.
 struct Seat<'b, 'a> {
     batch: &'b Batch<'a>,
     queue: &'b Queue,
     thread: usize,
+    /// What keeps the runs in its lanes.
+    lanes: Vec<InLane<'a>>,
+}
+
+/// What keeps a run in a lane: its buffer, emptied into rows when it is full.
+struct InLane<'a> {
+    number: usize,
+    keeper: Keeper<'a>,
+    rows: Recording,
+}
+
+impl Keep for InLane<'_> {
+    fn sample(&mut self, k: u64, drive: &Drive, at: View<'_>) {
+        self.keeper.sample(k, drive, at);
+        self.keeper.spill_into(&mut self.rows);
+    }
+
+    fn events(&mut self) -> &mut Vec<Event> {
+        self.keeper.events()
+    }
+}
+
+impl<'a> Seat<'_, 'a> {
+    /// A run that has left its lane, and what it has recorded.
+    fn out(&mut self, number: usize, run: Run<'a>) -> Option<Under<'a>> {
+        let at = self.lanes.iter().position(|lane| lane.number == number)?;
+        let InLane { mut keeper, mut rows, .. } = self.lanes.swap_remove(at);
+        keeper.empty_into(&mut rows);
+        Some(Under { number, run: Simulation::together(keeper, run), rows })
+    }
 }
 
 impl<'a> Desk<'a> for Seat<'_, 'a> {
-    fn next(&mut self) -> Option<(usize, Simulation<'a>)> {
-        while !self.batch.stopped.load(Ordering::Relaxed) {
-            let at = self.queue.taken.fetch_add(1, Ordering::Relaxed);
-            let number = *self.queue.jobs.get(at)?;
-            let job = self.batch.jobs[number];
-            match Simulation::new(job.model, job.solver, job.sampling) {
-                Ok(run) => return Some((number, run)),
-                Err(error) => self.batch.give(number, Err(error)),
+    fn next(&mut self) -> Option<(usize, Run<'a>)> {
+        loop {
+            let (number, run) = self.batch.take(self.queue)?;
+            match run.apart() {
+                Ok((keeper, run)) => {
+                    self.lanes.push(InLane { number, keeper, rows: Recording::default() });
+                    return Some((number, run));
+                }
+                // Of one kind with the others, it is of the shear model.
+                Err(run) => self.batch.alone(self.thread, Under { number, run, rows: Recording::default() }),
             }
         }
-        None
     }
 
-    fn ended(&mut self, number: usize, outcome: Outcome) {
-        self.batch.give(number, Ok(outcome));
+    fn keeper(&mut self, number: usize) -> &mut dyn Keep {
+        let at = self.lanes.iter().position(|lane| lane.number == number).unwrap_or(0);
+        &mut self.lanes[at]
     }
 
-    fn left(&mut self, number: usize, run: Simulation<'a>, rows: Recording) {
-        let under = Under { number, run, rows };
+    fn ended(&mut self, number: usize, run: Run<'a>, reason: StopReason) {
+        if let Some(under) = self.out(number, run) {
+            self.batch.give(number, Ok(under.run.outcome(under.rows, reason)));
+        }
+    }
+
+    fn left(&mut self, number: usize, run: Run<'a>) {
+        let Some(under) = self.out(number, run) else { return };
         let share = under.share();
         self.batch.reached().under_way[self.thread] -= share;
         self.batch.rest().runs.push(under);

@@ -1,16 +1,18 @@
-//! The compiled system: immutable arrays that the time loop reads. One horizontal degree of freedom per block, and one for
-//! a top beam with mass (theory, sections 2 and 3).
+//! The compiled wall: its blocks and joints, what moves it, and the mechanics of the model that its file names.
+
+use concio_planar::joint::Normal;
+use concio_shear::law::{Contact, Elastic, Rub};
+use concio_shear::system as shear;
 
 use crate::G;
 use crate::assign::{JointLaw, friction_choice, load_masses, resolve};
-use crate::bond::{self, Bonded};
+use crate::bond;
 use crate::case::{Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, Signal, SpringLaw, plausible};
-use crate::device::{self, Device, Nonlinear};
-use crate::drift::{self, Tops};
+use crate::device::{self, Device};
+use crate::drift;
 use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::graph;
-use crate::law::{Contact, Elastic, Rub, Support};
 use crate::planar::{self, Planar};
 use crate::quantity::Length;
 use crate::wall::{Block, End, Joint, Wall};
@@ -21,77 +23,43 @@ use crate::warning::{Warning, WarningKind};
 pub struct Model {
     /// The blocks.
     pub wall: Wall,
-    /// Where its tops are.
-    pub tops: Tops,
-    /// The joints, in the order of the arrays below.
+    /// The joints.
     pub joints: Vec<Joint>,
     /// What the top beam does.
     pub beam: Beam,
     /// What `load.top` brings to the wall, the weight of a beam with it [N].
     pub top_load: f64,
-    /// Mass of that load on the blocks of a wall without a beam, which is in `mass` too [kg].
+    /// Mass of that load on the blocks of a wall without a beam, which is in the masses of the system too [kg].
     pub load_mass: f64,
-    /// Mass of every unknown [kg]: blocks, then the beam if it has mass.
-    pub mass: Vec<f64>,
-    /// Both sides of each joint as indices of unknowns; [`Model::base`] and [`Model::top`] stand for the supports.
-    pub sides: Vec<[u32; 2]>,
-    /// Elastic part of each joint.
-    pub elastic: Vec<Elastic>,
-    /// Frictional part of the joints that rub.
-    pub rubs: Vec<Rub>,
-    /// The joints whose mortar holds until it cracks; `elastic` has their springs as they are before.
-    pub bonds: Vec<Bonded>,
     /// The joints with a device in the place of mortar, in the order of the joints.
     pub devices: Vec<Device>,
-    /// What some of them do beyond the springs and dashpots in `elastic` and the friction in `rubs`.
-    pub nonlinear: Vec<Nonlinear>,
-    /// The rigid unilateral joints, in the order of the joints.
-    pub contacts: Vec<Contact>,
-    /// What is joined to the base, and to the top beam, be it driven, tied or one with mass.
-    pub on_base: Support,
-    /// See above.
-    pub on_beam: Support,
     /// Motion of base and top, and the end of the run.
     pub excitation: Excitation,
-    /// True when every joint's normal force is the same on both sides: the stage matrices are symmetric then.
-    pub reciprocal: bool,
-    /// Largest ω² = Σk/m of a block over its bilateral joints [1/s²], never 0: the time scale of the first step and
-    /// of the floor of the velocities.
-    pub stiffest: f64,
-    /// What the blocks of a planar wall are and do; none in the shear model, which the arrays above are of.
-    pub planar: Option<Planar>,
+    /// Masses and joints as the shear model has them, which results of all models list.
+    pub shear: shear::System,
+    /// What moves, by the model that the wall file names.
+    pub system: System,
     /// Things a user should know before believing the result.
     pub warnings: Vec<Warning>,
 }
 
-impl Support {
-    /// Of the support with number `side` in `sides`.
-    pub(crate) fn of(
-        side: usize,
-        sides: &[[u32; 2]],
-        rubs: &[Rub],
-        bonds: &[Bonded],
-        contacts: &[Contact],
-        nonlinear: &[Nonlinear],
-    ) -> Self {
-        fn those(joints: impl Iterator<Item = u32>, on: impl Fn(u32) -> bool) -> Vec<u32> {
-            joints.enumerate().filter(|(_, e)| on(*e)).map(|(k, _)| k as u32).collect()
-        }
-        let on = |e: u32| sides[e as usize][1] as usize == side;
-        Support {
-            joints: those(0..sides.len() as u32, on),
-            rubs: those(rubs.iter().map(|r| r.joint), on),
-            bonds: those(bonds.iter().map(|b| b.joint), on),
-            contacts: those(contacts.iter().map(|c| c.joint), on),
-            devices: those(nonlinear.iter().map(|d| d.joint), on),
-        }
-    }
+/// The mechanics of a wall.
+#[derive(Debug, Clone)]
+pub enum System {
+    /// Blocks that slide in level planes: [`Model::shear`].
+    Shear,
+    /// Blocks that rise and turn too.
+    Planar(Box<Planar>),
 }
 
 impl Model {
-    /// Number of unknowns.
+    /// What a planar wall is; none of the shear model.
+    pub fn planar(&self) -> Option<&Planar> {
+        if let System::Planar(planar) = &self.system { Some(planar) } else { None }
+    }
+    /// Number of bodies.
     pub fn unknowns(&self) -> usize {
-        self.mass.len()
+        self.shear.unknowns()
     }
     /// Weight of all that has mass: blocks, the load on them, and the top beam where it has one [N].
     pub fn weight(&self) -> f64 {
@@ -103,15 +71,6 @@ impl Model {
     pub fn base_load(&self) -> f64 {
         self.wall.blocks.iter().map(Block::weight).sum::<f64>() + self.top_load
     }
-    /// Index that stands for the base in [`Model::sides`].
-    pub fn base(&self) -> usize {
-        self.mass.len()
-    }
-    /// Index that stands for a driven or tied top in [`Model::sides`].
-    pub fn top(&self) -> usize {
-        self.mass.len() + 1
-    }
-
     /// Compiles a wall, its laws and its motion.
     ///
     /// # Errors
@@ -166,8 +125,8 @@ impl Model {
             true => planar::bonds(&wall, &joints, &laws),
             false => bond::compile(&wall, &joints, &laws, &normal, &rubs, &mut elastic)?,
         };
-        let reciprocal = rubs.iter().all(|r| sides[r.joint as usize][1] as usize >= n || r.normal[0] == r.normal[1]);
-        let stiffest = stiffest(&mass, &sides, &device::at_rest(&elastic, &nonlinear), excitation.duration);
+        let both = |r: &Rub| sides[r.joint as usize][1] as usize >= n || r.normal[0] == r.normal[1];
+        let reciprocal = rubs.iter().all(both);
         let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
         let mut warnings = warnings(case, &wall, rubs.len(), if turns { 0 } else { idle }, reciprocal);
         let massless = massless(case, top_load, &mass[..wall.blocks.len()]);
@@ -180,69 +139,50 @@ impl Model {
         warnings.extend(wide.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
         let detached = planar::detached(case, &wall).into_iter();
         warnings.extend(detached.map(|text| Warning::new(WarningKind::DetachedTie, text)));
-        let planar = turns.then(|| planar::compile(case, &wall, &joints, &laws, &normal)).transpose()?;
-        let rigid = |(e, law): (usize, &JointLaw)| {
-            let spring = &law.spring;
-            (spring.law == SpringLaw::Rigid)
-                .then_some(Contact { joint: e as u32, restitution: spring.restitution.unwrap_or(0.0) })
-        };
-        let contacts: Vec<Contact> = laws.iter().enumerate().filter_map(rigid).collect();
-        let support = |side| Support::of(side, &sides, &rubs, &bonds, &contacts, &nonlinear);
-        let (on_base, on_beam) = (support(n), support(floating.unwrap_or(n + 1)));
         // A tied beam stays where the base is.
         let moves = matches!(beam, Beam::Driven | Beam::Mass(_));
-        let tops = Tops::of(&wall, &joints, moves.then_some(floating.unwrap_or(n + 1)));
-        Ok(Model {
-            tops,
-            wall,
-            joints,
-            beam,
-            top_load,
-            load_mass: laden.iter().sum(),
+        let tops = drift::tops(&wall, &joints, moves.then_some(floating.unwrap_or(n + 1)));
+        let settles = drift::settles(excitation.duration, turns && case.motion.quasi_static);
+        let rigid = |(e, law): (usize, &JointLaw)| {
+            let spring = &law.spring;
+            spring.law.is_rigid().then_some(Contact { joint: e as u32, restitution: spring.restitution.unwrap_or(0.0) })
+        };
+        let system = match turns {
+            true => System::Planar(Box::new(planar::compile(case, &wall, &joints, &laws, &normal)?)),
+            false => System::Shear,
+        };
+        let shear = shear::System {
+            blocks: wall.blocks.len(),
             mass,
             sides,
+            upright: joints.iter().map(|joint| joint.kind.is_upright()).collect(),
             elastic,
             rubs,
             bonds,
-            devices,
             nonlinear,
-            contacts,
-            on_base,
-            on_beam,
-            excitation,
-            reciprocal,
-            stiffest,
-            planar,
-            warnings,
-        })
-    }
-
-    /// Whether a joint has a law that is no function of the motion: friction that sticks truly, or rigid contact.
-    pub fn set_valued(&self) -> bool {
-        !self.contacts.is_empty() || self.sticks()
-    }
-
-    /// Index in [`Model::contacts`] of every rigid joint.
-    pub fn contact_of_joint(&self) -> Vec<Option<usize>> {
-        let mut index = vec![None; self.joints.len()];
-        for (c, contact) in self.contacts.iter().enumerate() {
-            index[contact.joint as usize] = Some(c);
+            contacts: laws.iter().enumerate().filter_map(rigid).collect(),
+            centres: wall.blocks.iter().map(|b| [0.5 * (b.x[0] + b.x[1]), 0.5 * (b.y[0] + b.y[1])]).collect(),
+            tops,
+            settles,
+            ..shear::System::default()
         }
-        index
+        .completed(excitation.duration);
+        let load_mass = laden.iter().sum();
+        Ok(Model { wall, joints, beam, top_load, load_mass, devices, excitation, shear, system, warnings })
     }
 
-    /// Whether a joint has a set-valued friction law.
-    pub fn sticks(&self) -> bool {
-        self.rubs.iter().any(|r| r.law.sticks())
-    }
-
-    /// Index in [`Model::bonds`] of every bonded joint.
-    pub fn bond_of_joint(&self) -> Vec<Option<usize>> {
-        let mut index = vec![None; self.joints.len()];
-        for (b, bond) in self.bonds.iter().enumerate() {
-            index[bond.joint as usize] = Some(b);
+    /// How a joint resists as compiled, be it `rigid` or not: bond, device and factors included.
+    pub fn acting_law(&self, joint: usize, rigid: bool) -> SpringLaw {
+        let law = &self.shear.elastic[joint];
+        // Bed joints bear no tension in planar walls alone.
+        let planar = self.planar().map(|planar| planar.system.links[joint].law.normal);
+        let presses = matches!(planar, Some(Normal::Springs { both: 0.0, press, .. }) if press > 0.0);
+        match law {
+            _ if rigid => SpringLaw::Rigid,
+            l if l.unilateral || presses => SpringLaw::NoTension,
+            l if l.stiffness == 0.0 && l.damping == 0.0 => SpringLaw::None,
+            _ => SpringLaw::Elastic,
         }
-        index
     }
 
     /// Law of the device of every joint that has one.
@@ -259,7 +199,7 @@ impl Model {
     /// # Errors
     /// The wall is planar.
     pub fn shear_only(&self, what: &str) -> Result<()> {
-        match self.planar {
+        match self.planar() {
             None => Ok(()),
             Some(_) => {
                 Err(InputError::new(format!("{what} knows no planar walls")).key("model").allowed("shear").into())
@@ -267,52 +207,14 @@ impl Model {
         }
     }
 
-    /// Index in [`Model::nonlinear`] of every joint with such a device.
-    pub fn nonlinear_of_joint(&self) -> Vec<Option<usize>> {
-        let mut index = vec![None; self.joints.len()];
-        for (k, device) in self.nonlinear.iter().enumerate() {
-            index[device.joint as usize] = Some(k);
-        }
-        index
-    }
-
-    /// Index in [`Model::rubs`] of every joint that rubs.
-    pub fn rub_of_joint(&self) -> Vec<Option<usize>> {
-        let mut index = vec![None; self.joints.len()];
-        for (r, rub) in self.rubs.iter().enumerate() {
-            index[rub.joint as usize] = Some(r);
-        }
-        index
-    }
     /// Name of every joint.
     pub fn joint_names(&self) -> Vec<String> {
         self.joints.iter().map(|j| graph::name(&self.wall, j)).collect()
     }
-    /// When the last part of a run begins, over which residual drifts are means [s].
-    pub fn settles(&self) -> f64 {
-        drift::settles(self.excitation.duration, self.planar.as_ref().is_some_and(|planar| planar.still))
-    }
     /// Index of the beam's unknown.
     pub fn floating_beam(&self) -> Option<usize> {
-        (self.mass.len() > self.wall.blocks.len()).then_some(self.wall.blocks.len())
+        self.shear.floating_beam()
     }
-}
-
-/// Largest ω² = Σk/m of an unknown over its bilateral joints; where there are none, over the closed unilateral ones;
-/// and no less than one swing in the run, so that a wall without stiffness has a time scale too.
-pub(crate) fn stiffest(mass: &[f64], sides: &[[u32; 2]], elastic: &[Elastic], duration: f64) -> f64 {
-    let n = mass.len();
-    let over = |unilateral: bool| {
-        let mut sum = vec![0.0; n + 2];
-        for (side, law) in sides.iter().zip(elastic).filter(|(_, law)| law.unilateral == unilateral) {
-            sum[side[0] as usize] += law.stiffness;
-            sum[side[1] as usize] += law.stiffness;
-        }
-        mass.iter().zip(&sum).map(|(m, k)| k / m).fold(0.0, f64::max)
-    };
-    let bilateral = over(false);
-    let largest = if bilateral > 0.0 { bilateral } else { over(true) };
-    largest.max((std::f64::consts::TAU / duration).powi(2))
 }
 
 fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {

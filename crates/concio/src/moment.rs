@@ -3,10 +3,10 @@
 //! frame holds them. Signs are those of the sampled channels.
 
 use crate::bond::BondRow;
-use crate::law::Stribeck;
 use crate::record::Motion;
 use crate::store::{FrictionRow, StoredRun};
 use crate::wall::End;
+use concio_law::friction::Stribeck;
 
 /// Relative motion and forces of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,6 +1,7 @@
 //! What a run gives back.
 
-use serde::{Deserialize, Serialize};
+pub use concio_law::account::{Collapse, Totals};
+use serde::Serialize;
 
 use crate::bond::{Bond, BondRow};
 use crate::drift::DriftRow;
@@ -114,51 +115,4 @@ impl BondRow {
         let BondRow { strength, stiffness, residual_stiffness, decay, .. } = *self;
         Bond { strength, stiffness, residual: residual_stiffness, decay, opens }
     }
-}
-
-/// Numbers that sum a run up; taken at every accepted step.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Totals {
-    /// Largest |displacement| of a block relative to the base [m].
-    pub peak_relative_displacement: f64,
-    /// Largest |relative velocity| of a bed or support joint [m/s].
-    pub peak_slip_velocity: f64,
-    /// Largest |friction force| in a joint [N], on the side that it is larger on; of a bonded joint that of its cracked
-    /// part, none while it is intact; of one that sticks what it holds. 0 where nothing rubs.
-    pub peak_friction_force: f64,
-    /// Largest |horizontal force of the base on the wall| [N]; of a planar wall the mean over a step, impacts among it, until a collapse,
-    /// and without inertia the largest against the load.
-    pub base_shear_peak: f64,
-    /// When it first came within 10⁻⁴ of that [s]: where a wall slides, its largest shear lasts, but for rounding.
-    pub base_shear_time: f64,
-    /// Displacement of the top relative to the base then [m]: of a beam that moves, else the mean of the top courses.
-    pub base_shear_displacement: f64,
-    /// Largest |force| that the top beam exerts on the wall [N]; 0 without a beam.
-    pub top_force_peak: f64,
-    /// ∫ F² dt of that force [N² s], until a collapse; its rms is √(this / that time).
-    pub top_force_square: f64,
-    /// Most negative gap of a head joint or connection [m], from 0 down.
-    pub minimum_gap: f64,
-    /// Largest relative velocity that rigid contact was left with where it should be 0, over all steps and impacts
-    /// [m/s]: the residual of the contact problem.
-    pub contact_residual: f64,
-    /// Largest |work done on the wall| so far [J].
-    pub peak_input: f64,
-    /// Largest |residual of the energy account| so far [J].
-    pub peak_residual: f64,
-    /// Of a planar wall, the first block that had fallen or turned over; none where none did.
-    pub collapse: Option<Collapse>,
-}
-
-/// What a planar wall counts as collapsed by.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Collapse {
-    /// When [s].
-    pub time: f64,
-    /// The block, by its index.
-    pub block: usize,
-    /// Its displacement [m].
-    pub way: f64,
-    /// Whether it had turned over; else it had fallen.
-    pub turned: bool,
 }

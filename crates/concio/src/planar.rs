@@ -5,20 +5,20 @@
 
 use std::collections::{BTreeMap, HashSet};
 
+use concio_law::friction::Stribeck;
 use concio_planar::body::Body;
 use concio_planar::joint::{self, Bond as PointBond, Friction, Law, Normal, Shear};
 use concio_planar::motion::{Link, Motion, Setting, System};
 use concio_planar::shape::{Place, Polygon, touches};
 use concio_planar::tie::Tie as Rod;
+use concio_shear::law::{Bonded, Elastic};
 
 use crate::assign::JointLaw;
 use crate::assign::load_masses;
-use crate::bond::{Bond, Bonded, Snap, Snaps};
+use crate::bond::{Bond, Snap, Snaps};
 use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw, StopAt, Tie};
 use crate::device;
 use crate::error::{InputError, Result};
-use crate::law::Elastic;
-use crate::law::Stribeck;
 use crate::wall::{End, Joint, Wall};
 
 pub use concio_planar::motion::Vibration;
@@ -217,7 +217,8 @@ pub(crate) fn compile(
     let system = System { bodies, links, ties, other, load: loads, held, shaken };
     let open = laws.iter().map(JointLaw::is_open).collect();
     let after_collapse = case.motion.stop_at.map(|StopAt::Collapse(after)| after.si());
-    Ok(Planar { system, offset, open, step: case.planar_step(), still: case.motion.quasi_static, after_collapse })
+    let (step, still) = (case.planar_step(), case.motion.quasi_static);
+    Ok(Planar { system, offset, open, step, still, after_collapse })
 }
 
 /// Ties as rods between bodies; the base is the first of the two.
@@ -469,7 +470,7 @@ fn softening(wall: &Wall, joints: &[Joint], laws: &[JointLaw], normal: &[[f64; 2
     let mut snaps = Snaps::default();
     for (number, (joint, law)) in joints.iter().zip(laws).enumerate() {
         let stiffness = law.stiffness(joint, wall) * law.spring.stiffness_factor;
-        let springs = matches!(law.spring.law, SpringLaw::Elastic | SpringLaw::NoTension) && stiffness > 0.0;
+        let springs = law.spring.law.has_springs() && stiffness > 0.0;
         let Some(values) = law.strong_bond().filter(|_| springs) else { continue };
         let (area, ways) = (joint.area(wall), ways(joint, law));
         let pressure = if joint.kind.is_upright() { 0.0 } else { normal[number][0] / area };

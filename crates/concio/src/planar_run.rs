@@ -1,5 +1,6 @@
 //! A planar wall in motion as a run sees it: its bodies' steps, and what of them goes into state and samples.
 
+use concio_law::drift::Lean;
 use concio_planar::motion::{self, Forcing, Motion, Seen};
 use concio_planar::shape::Place;
 use concio_planar::tie;
@@ -13,10 +14,10 @@ use crate::excitation::Excitation;
 use crate::failure::is_down;
 use crate::ground::signal::GroundMotion;
 use crate::model::Model;
-use crate::outcome::{Collapse, TieRow};
+use crate::outcome::{Collapse, TieRow, Totals};
 use crate::planar::{Planar, standing};
-use crate::record::{Energies, Event, EventKind, Layout, Recording, StopReason};
-use crate::state::State;
+use crate::record::{Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
+use crate::state;
 use crate::wall::End;
 
 /// Depth from which a point counts as crushed [m]: less is rounding of a rigid point that bears all it may.
@@ -25,6 +26,147 @@ const CRUSHED: f64 = 1e-9;
 /// A run of a planar wall.
 #[derive(Debug, Clone)]
 pub(crate) struct Run {
+    bodies: Bodies,
+    state: State,
+}
+
+/// Motion and account after a step.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(crate) struct State {
+    t: f64,
+    z: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
+    /// Force of the top beam on the wall after the last step, its sign turned [N].
+    pull: f64,
+    bonds: Vec<BondState>,
+    /// Base shear at `totals.base_shear_time` [N].
+    marked_shear: f64,
+    /// How the tops have gone.
+    pub leans: Vec<Lean>,
+    samples: u64,
+    energies: Energies,
+    envelopes: Envelopes,
+    totals: Totals,
+    counters: Counters,
+}
+
+impl State {
+    fn at_rest(model: &Model) -> Self {
+        let (n, e) = (model.unknowns(), model.joints.len());
+        State {
+            z: vec![0.0; n],
+            v: vec![0.0; n],
+            a: vec![0.0; n],
+            bonds: vec![BondState::INTACT; model.shear.bonds.len()],
+            leans: model.shear.tops.at_rest(),
+            envelopes: Envelopes::at_rest(n, e, 0),
+            ..State::default()
+        }
+    }
+
+    fn fits(&self, model: &Model) -> bool {
+        let (n, e) = (model.unknowns(), model.joints.len());
+        [&self.z, &self.v, &self.a].iter().all(|x| x.len() == n)
+            && self.bonds.len() == model.shear.bonds.len()
+            && self.leans.len() == model.shear.tops.at_rest().len()
+            && self.envelopes.fits(n, e, 0)
+    }
+
+    /// As a run shows it.
+    pub fn shown(&self) -> state::State<'_> {
+        let State { t, z, v, a, bonds, energies, envelopes, totals, counters, .. } = self;
+        state::State { t: *t, z, v, a, bonds, energies, envelopes, totals, counters }
+    }
+}
+
+impl Run {
+    /// At rest under its loads.
+    pub fn new(model: &Model, planar: &Planar, longest: f64) -> Self {
+        let bodies = Bodies::new(model, planar, longest);
+        let mut state = State::at_rest(model);
+        bodies.begin(&mut state);
+        Run { bodies, state }
+    }
+
+    /// Motion and account after the last step.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// What became of the ties.
+    pub fn ties(&self, model: &Model) -> Vec<TieRow> {
+        self.bodies.ties(model)
+    }
+
+    /// Whether it has gone on after a collapse for as long as it was to.
+    pub fn collapsed(&self, model: &Model) -> bool {
+        let after = model.planar().and_then(|planar| planar.after_collapse);
+        let ends = self.state.totals.collapse.zip(after).map(|(collapse, after)| collapse.time + after);
+        ends.is_some_and(|ends| self.bodies.told_until() >= ends)
+    }
+
+    /// One step, and the samples of which all is known after it.
+    ///
+    /// # Errors
+    /// Why the run goes no further.
+    pub fn step(
+        &mut self,
+        model: &Model,
+        channels: &Channels,
+        layout: &Layout,
+        recording: &mut Recording,
+    ) -> Result<(), StopReason> {
+        let due = self.sample_time(model, layout);
+        let Run { bodies, state } = self;
+        let heard = &mut recording.events;
+        let from = heard.len();
+        let stepped = bodies.step(model, state, due, |event| heard.push(event));
+        Event::sort(&mut heard[from..]);
+        let ends = stepped.is_ok() && state.t >= model.excitation.duration;
+        let until = 1e-9 * layout.interval + if ends { state.t } else { bodies.told_until() };
+        while self.sample_time(model, layout) <= until {
+            self.sample(model, channels, layout, recording);
+        }
+        stepped
+    }
+
+    /// When the next sample is due [s]; +∞ after the last.
+    fn sample_time(&self, model: &Model, layout: &Layout) -> f64 {
+        let k = self.state.samples;
+        if k >= layout.samples as u64 {
+            return f64::INFINITY;
+        }
+        (k as f64 * layout.interval).min(model.excitation.duration)
+    }
+
+    /// Takes the next sample.
+    pub fn sample(&mut self, model: &Model, channels: &Channels, layout: &Layout, recording: &mut Recording) {
+        let at = self.sample_time(model, layout);
+        self.bodies.sample(model, channels, layout, &self.state, (self.state.samples, at), recording);
+        self.state.samples += 1;
+    }
+
+    /// The state as bytes.
+    pub fn keep(&self) -> Vec<u8> {
+        // Plain vectors of numbers into memory: nothing that could fail.
+        postcard::to_stdvec(&(&self.state, self.bodies.keep())).unwrap_or_default()
+    }
+
+    /// Goes back to a state that was kept; false where it is not one of this wall, and the run is then to be made anew.
+    pub fn take_up(&mut self, model: &Model, bytes: &[u8]) -> bool {
+        let Ok((state, bodies)) = postcard::from_bytes::<(State, Kept)>(bytes) else { return false };
+        if !state.fits(model) || !self.bodies.take_up(bodies) {
+            return false;
+        }
+        self.state = state;
+        true
+    }
+}
+
+/// The bodies of a planar wall under way.
+#[derive(Debug, Clone)]
+struct Bodies {
     motion: Motion,
     step: f64,
     still: bool,
@@ -51,7 +193,7 @@ pub(crate) struct Run {
 
 /// What is kept of a run beside its state.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(crate) struct Kept {
+struct Kept {
     motion: motion::Kept,
     origin: Vec<Place>,
     before: Vec<f64>,
@@ -158,13 +300,12 @@ impl Stride {
     }
 }
 
-impl Run {
-    /// At rest under its loads.
-    pub fn new(model: &Model, planar: &Planar, longest: f64) -> Self {
+impl Bodies {
+    fn new(model: &Model, planar: &Planar, longest: f64) -> Self {
         let (motion, _) = standing(planar);
         let n = motion.places.len();
         let never = Stride { to: f64::NEG_INFINITY, ..Stride::none(n, &motion.seen) };
-        let mut run = Run {
+        let mut run = Bodies {
             origin: motion.places.clone(),
             aside: planar.offset.iter().copied().enumerate().filter(|(_, offset)| *offset != [0.0; 2]).collect(),
             crushable: (0..model.joints.len()).filter(|e| planar.system.links[*e].law.crushing.is_finite()).collect(),
@@ -179,7 +320,7 @@ impl Run {
                 stride: never,
                 a: vec![0.0; n],
                 seen: motion.seen.clone(),
-                bonds: vec![BondState::INTACT; model.bonds.len()],
+                bonds: vec![BondState::INTACT; model.shear.bonds.len()],
                 energies: Energies::default(),
                 pull: 0.0,
             },
@@ -193,7 +334,7 @@ impl Run {
     }
 
     /// What became of the ties.
-    pub fn ties(&self, model: &Model) -> Vec<TieRow> {
+    fn ties(&self, model: &Model) -> Vec<TieRow> {
         let name = |body: usize| model.wall.blocks[body].name.clone();
         let row = |((tie, _), borne): ((&tie::Tie, &tie::Strain), &Borne)| TieRow {
             from: tie.a.map_or_else(|| Tie::BASE.into(), name),
@@ -217,7 +358,7 @@ impl Run {
     }
 
     /// Energies at the start.
-    pub fn begin(&self, state: &mut State) {
+    fn begin(&self, state: &mut State) {
         // What is held bears its part of the loads before anything moves.
         state.pull = self.motion.pull;
         state.energies.elastic = self.motion.account.elastic;
@@ -225,13 +366,13 @@ impl Run {
     }
 
     /// What has to be kept beside the state.
-    pub fn keep(&self) -> Kept {
+    fn keep(&self) -> Kept {
         let (origin, before, crushed) = (self.origin.clone(), self.before.clone(), self.crushed.clone());
         Kept { motion: self.motion.keep(), origin, before, crushed, ties: self.ties.clone(), last: self.last.clone() }
     }
 
     /// Goes on from what was kept; false where it is not of this wall.
-    pub fn take_up(&mut self, kept: Kept) -> bool {
+    fn take_up(&mut self, kept: Kept) -> bool {
         let Kept { motion, origin, before, crushed, ties, mut last } = kept;
         let n = self.a.len();
         let fits = origin.len() == self.origin.len()
@@ -250,7 +391,7 @@ impl Run {
     }
 
     /// One step, to the end of the run at the farthest. The next sample is due at `due` [s].
-    pub fn step(
+    fn step(
         &mut self,
         model: &Model,
         state: &mut State,
@@ -309,7 +450,7 @@ impl Run {
     }
 
     /// Until when forces are known [s].
-    pub fn told_until(&self) -> f64 {
+    fn told_until(&self) -> f64 {
         if self.last.middle.is_finite() { self.last.middle } else { self.last.began }
     }
 
@@ -341,8 +482,9 @@ impl Run {
         let shear = [self.last.shear, broken_shear].map(|shear| self.borne(model, state.t, shear));
         let shear = shear[0].max(shear[1]);
         if state.totals.collapse.is_none() {
-            state.raise_base_shear(shear, model.tops.of_wall(|i| state.z[i]));
-            model.tops.follow(&mut state.leans, [state.t - h, state.t], model.settles(), |i| state.z[i]);
+            let top = model.shear.tops.of_wall(|i| state.z[i]);
+            state.totals.raise_base_shear(&mut state.marked_shear, shear, state.t, top);
+            model.shear.tops.follow(&mut state.leans, [state.t - h, state.t], model.shear.settles, |i| state.z[i]);
             let totals = &mut state.totals;
             totals.top_force_peak = totals.top_force_peak.max(pull.abs()).max(broken_pull.abs());
             totals.top_force_square += 0.5 * h * (state.pull * state.pull + pull * pull);
@@ -421,14 +563,14 @@ impl Run {
             Some(beam) if matches!(model.beam, crate::case::Beam::Mass(_)) => {
                 let base = &model.excitation.base;
                 let ground = velocity(base, state.t) - velocity(base, self.last.began);
-                -model.mass[beam] * (state.a[beam] + ground / h)
+                -model.shear.mass[beam] * (state.a[beam] + ground / h)
             }
             Some(_) => self.motion.pull,
         }
     }
 
     fn cracks(&self, model: &Model, state: &mut State, tell: &mut impl FnMut(Event)) {
-        for (bond, held) in model.bonds.iter().zip(&mut state.bonds) {
+        for (bond, held) in model.shear.bonds.iter().zip(&mut state.bonds) {
             let e = bond.joint as usize;
             let Some(crack) = self.motion.crack(e) else { continue };
             let (first, last, reach) = (crack.cracked, crack.broken, crack.reach);
@@ -476,7 +618,7 @@ impl Run {
 
     /// Appends sample `k` at `t` [s], and the frame if one is due. Forces and accelerations between the middles of two steps are those on the
     /// line from one to the other, beyond the last middle those of the last step.
-    pub fn sample(
+    fn sample(
         &mut self,
         model: &Model,
         channels: &Channels,
@@ -485,7 +627,7 @@ impl Run {
         (k, t): (u64, f64),
         recording: &mut Recording,
     ) {
-        let Run { motion, last, past, seen, a, .. } = self;
+        let Bodies { motion, last, past, seen, a, .. } = self;
         let (from, to) = (past.stride.middle, last.middle);
         let share = if past.stride.to == last.began { part_of(from, t, to) } else { 1.0 };
         // What is no number after a step that fails is not asked.

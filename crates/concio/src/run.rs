@@ -3,8 +3,10 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use concio_planar::joint::{Law, Normal};
+use concio_planar::joint::Law;
 use serde_json::Value;
+
+use concio_law::motion::Excitation as _;
 
 use crate::case::{Beam, Case, MOST_SAMPLES, Signal, canonical_json, plausible};
 use crate::error::{Error, InputError, Result};
@@ -12,7 +14,6 @@ use crate::excitation::Excitation;
 use crate::files;
 use crate::ground::signal::compile_with;
 use crate::ground::{Library, coverage};
-use crate::law::Rub;
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::pattern;
@@ -21,6 +22,7 @@ use crate::record::StopReason;
 use crate::simulate::{Progress, Sampling, Simulation, Status};
 use crate::store::{self, JointRow, Journal, JournalHeader, Provenance, RunFacts};
 use crate::warning::{Warning, WarningKind};
+use concio_shear::law::Rub;
 
 mod warnings;
 
@@ -105,7 +107,7 @@ pub fn prepare_with(case: Case, folder: &Path, library: &Library) -> Result<Prep
 fn endless(case: &Case, model: &Model) -> Option<Warning> {
     let asked = case.solver.max_step.map_or(f64::INFINITY, |h| h.si());
     let resolves = model.excitation.longest_step();
-    let (step, why) = match &model.planar {
+    let (step, why) = match model.planar() {
         Some(planar) => (planar.step, "solver.step"),
         None if asked < resolves => (asked, "solver.max_step"),
         None => (resolves, "what the motion changes within"),
@@ -339,7 +341,7 @@ fn write(
 ) -> Result<Value> {
     let (model, provenance, joints) = (&prepared.model, prepared.provenance(), joint_rows(&prepared.model));
     let warnings = warnings::all(model, &joints, outcome);
-    let pushes = model.excitation.driven || model.planar.as_ref().is_some_and(|planar| planar.still);
+    let pushes = model.excitation.driven || model.planar().is_some_and(|planar| planar.still);
     let facts = RunFacts {
         push: if pushes { outcome.push() } else { None },
         duration: model.excitation.duration,
@@ -364,13 +366,8 @@ fn moving(model: &Model, t: f64) -> store::Moving {
 
 /// The joints of a model with their compiled numbers, as results keep them.
 pub fn joint_rows(model: &Model) -> Vec<JointRow> {
-    use crate::case::{FrictionLaw, SpringLaw};
-    let (contact, device) = (model.contact_of_joint(), model.device_of_joint());
-    // Bed joints bear no tension in planar walls alone.
-    let only_presses = |e: usize| {
-        let law = model.planar.as_ref().map(|planar| planar.system.links[e].law.normal);
-        matches!(law, Some(Normal::Springs { both: 0.0, press, .. }) if press > 0.0)
-    };
+    use crate::case::FrictionLaw;
+    let (contact, device) = (model.shear.contact_of_joint(), model.device_of_joint());
     let of_shear = |r: &Rub| store::FrictionRow {
         law: match r.law.sticks() {
             false => FrictionLaw::Stribeck,
@@ -385,7 +382,7 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
     };
     // Friction of planar walls sticks truly, that of upright joints too, under the pressure of the moment.
     let of_planar = |e: usize| {
-        let rubs = model.planar.as_ref().filter(|planar| !planar.open[e])?.system.links[e].law.friction?;
+        let rubs = model.planar().filter(|planar| !planar.open[e])?.system.links[e].law.friction?;
         Some(store::FrictionRow {
             law: if rubs.slip_velocity == 0.0 { FrictionLaw::Coulomb } else { FrictionLaw::StribeckStick },
             static_: rubs.static_,
@@ -397,31 +394,26 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
     };
     // Joints of planar walls have stiffnesses of their own, along and across, which rigidity does not touch along.
     let own = |e: usize| {
-        let planar = model.planar.as_ref().filter(|planar| !planar.open[e] && device[e].is_none())?;
+        let planar = model.planar().filter(|planar| !planar.open[e] && device[e].is_none())?;
         Some(&planar.system.links[e].law)
     };
     let row = |(e, rub): (usize, Option<usize>)| {
-        let rub = rub.map(|r| &model.rubs[r]);
-        let (joint, law) = (&model.joints[e], &model.elastic[e]);
+        let rub = rub.map(|r| &model.shear.rubs[r]);
+        let (joint, law) = (&model.joints[e], &model.shear.elastic[e]);
         JointRow {
             joint: joint.clone(),
             name: crate::graph::name(&model.wall, joint),
-            law: match law {
-                _ if contact[e].is_some() => SpringLaw::Rigid,
-                l if l.unilateral || only_presses(e) => SpringLaw::NoTension,
-                l if l.stiffness == 0.0 && l.damping == 0.0 => SpringLaw::None,
-                _ => SpringLaw::Elastic,
-            },
+            law: model.acting_law(e, contact[e].is_some()),
             stiffness: own(e).map_or(law.stiffness, |own| own.shear.stiffness),
             normal_stiffness: own(e).map_or(0.0, Law::normal_stiffness),
             damping: own(e).map_or(law.damping, |own| own.shear.damping),
-            restitution: contact[e].map_or(0.0, |c| model.contacts[c].restitution),
+            restitution: contact[e].map_or(0.0, |c| model.shear.contacts[c].restitution),
             device: device[e],
             normal_force: rub.map_or([0.0; 2], |r| r.normal),
-            friction: if model.planar.is_some() { of_planar(e) } else { rub.map(of_shear) },
+            friction: if model.planar().is_some() { of_planar(e) } else { rub.map(of_shear) },
         }
     };
-    model.rub_of_joint().into_iter().enumerate().map(row).collect()
+    model.shear.rub_of_joint().into_iter().enumerate().map(row).collect()
 }
 
 /// Runs to the end in memory, without files.

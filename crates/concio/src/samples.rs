@@ -1,68 +1,30 @@
 //! Reference problems with known answers: small systems of masses and joints without a wall. Used by tests,
 //! benches and documents.
 
-use crate::bond::{Bond, Bonded};
+use concio_law::device::Law;
+use concio_law::friction::Stribeck;
+use concio_shear::samples::lumped as compile_links;
+pub use concio_shear::samples::{Link, Side};
+
 use crate::case::{Beam, DeviceLaw, JointKind, Signal, Sine, Solver};
-use crate::device::{self, Device, Law, Nonlinear};
-use crate::drift::Tops;
+use crate::device::Device;
+use crate::drift;
 use crate::error::Result;
 use crate::excitation::Excitation;
 use crate::ground::signal::{GroundMotion, compile};
-use crate::law::Stribeck;
-use crate::law::{Contact, Elastic, Rub, Support};
-use crate::model::{Model, stiffest};
+use crate::model::{Model, System};
 use crate::quantity::{Length, Time};
 use crate::record::StopReason;
 use crate::simulate::{Sampling, Simulation};
 use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 
-/// A joint of a sample: which sides, which laws.
-#[derive(Debug, Clone, Copy)]
-pub struct Link {
-    /// Mass on side a.
-    pub a: usize,
-    /// Side b.
-    pub b: End,
-    /// Elastic and viscous part.
-    pub elastic: Elastic,
-    /// Friction: law and normal force [N].
-    pub friction: Option<(Stribeck, f64)>,
-    /// Bond; its stiffness is that of `elastic`, whose compression stays to one that opens.
-    pub bond: Option<Bond>,
-    /// Restitution of a rigid unilateral joint.
-    pub rigid: Option<f64>,
-    /// What a device does beyond `elastic` and `friction`.
-    pub device: Option<Law>,
-}
-
-impl Link {
-    /// A spring k [N/m] and dashpot c [N s/m].
-    pub fn spring(a: usize, b: End, stiffness: f64, damping: f64) -> Self {
-        let elastic = Elastic { stiffness, damping, unilateral: false };
-        Link { a, b, elastic, friction: None, rigid: None, bond: None, device: None }
-    }
-    /// A spring that acts for x_a > x_b alone.
-    pub fn unilateral(a: usize, b: End, stiffness: f64) -> Self {
-        let elastic = Elastic { stiffness, damping: 0.0, unilateral: true };
-        Link { elastic, ..Link::spring(a, b, stiffness, 0.0) }
-    }
-    /// A rigid contact that never lets x_a exceed x_b, with restitution e.
-    pub fn rigid(a: usize, b: End, restitution: f64) -> Self {
-        Link { rigid: Some(restitution), ..Link::spring(a, b, 0.0, 0.0) }
-    }
-    /// A joint that is bonded and rubs, once cracked, under a normal force [N].
-    pub fn bonded(a: usize, b: End, bond: Bond, friction: Option<(Stribeck, f64)>) -> Self {
-        let elastic = Elastic { stiffness: bond.stiffness, damping: 0.0, unilateral: bond.opens };
-        Link { elastic, friction, bond: Some(bond), ..Link::spring(a, b, bond.stiffness, 0.0) }
-    }
-    /// Friction under a normal force [N].
-    pub fn friction(a: usize, b: End, law: Stribeck, normal: f64) -> Self {
-        let elastic = Elastic { stiffness: 0.0, damping: 0.0, unilateral: false };
-        Link { elastic, friction: Some((law, normal)), ..Link::spring(a, b, 0.0, 0.0) }
-    }
-    /// A device beside a spring k [N/m] and a dashpot c [N s/m].
-    pub fn device(a: usize, b: End, law: Law, stiffness: f64, damping: f64) -> Self {
-        Link { device: Some(law), ..Link::spring(a, b, stiffness, damping) }
+impl From<End> for Side {
+    fn from(end: End) -> Side {
+        match end {
+            End::Block(b) => Side::Block(b),
+            End::Base => Side::Base,
+            End::Top => Side::Top,
+        }
     }
 }
 
@@ -86,13 +48,12 @@ pub fn shaking(acceleration: f64, frequency: f64) -> Result<GroundMotion> {
     compile(&Signal::Sine(sine), std::path::Path::new(""))
 }
 
-/// Compiles masses [kg] and links.
+/// Masses [kg] and links as a wall of one block for each mass.
 pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
-    let n = masses.len();
-    let side = |b: End| match b {
-        End::Block(b) => b,
-        End::Base => n,
-        End::Top => n + 1,
+    let end = |side: Side| match side {
+        Side::Block(b) => End::Block(b),
+        Side::Base => End::Base,
+        Side::Top => End::Top,
     };
     let block = |i: usize| Block {
         name: format!("m{}", i + 1),
@@ -114,64 +75,35 @@ pub fn lumped(masses: &[f64], links: &[Link], excitation: Excitation) -> Model {
         connection: 0.0,
     };
     let kind = |link: &Link| match link.b {
-        _ if link.elastic.unilateral || link.rigid.is_some() => JointKind::Head,
-        End::Base => JointKind::Base,
-        End::Top => JointKind::Top,
-        End::Block(_) => JointKind::Bed,
+        _ if link.is_upright() => JointKind::Head,
+        Side::Base => JointKind::Base,
+        Side::Top => JointKind::Top,
+        Side::Block(_) => JointKind::Bed,
     };
     let joint =
-        |link: &Link| Joint { kind: kind(link), a: link.a, b: link.b, weight: 1.0, overlap: 1.0, line: [0.0; 4] };
-    let rub = |(e, link): (usize, &Link)| {
-        link.friction.map(|(law, normal)| Rub { joint: e as u32, normal: [normal; 2], law })
-    };
-    let rubs: Vec<Rub> = links.iter().enumerate().filter_map(rub).collect();
-    let bonded = |(e, link): (usize, &Link)| {
-        let rub = rubs.iter().position(|r| r.joint as usize == e).map(|r| r as u32);
-        link.bond.map(|law| Bonded { joint: e as u32, rub, law })
-    };
-    let bonds: Vec<Bonded> = links.iter().enumerate().filter_map(bonded).collect();
-    let rigid = |(e, link): (usize, &Link)| link.rigid.map(|restitution| Contact { joint: e as u32, restitution });
-    let sides: Vec<[u32; 2]> = links.iter().map(|l| [l.a as u32, side(l.b) as u32]).collect();
-    let elastic: Vec<Elastic> = links.iter().map(|l| l.elastic).collect();
+        |link: &Link| Joint { kind: kind(link), a: link.a, b: end(link.b), weight: 1.0, overlap: 1.0, line: [0.0; 4] };
     let named = |(e, link): (usize, &Link)| {
-        let joint = e as u32;
         let law = match link.device? {
             Law::Power(_) => DeviceLaw::Viscous,
             Law::BoucWen(_) => DeviceLaw::BoucWen,
             Law::ReCentring(_) => DeviceLaw::ReCentring,
         };
-        Some(Device { joint, law })
+        Some(Device { joint: e as u32, law })
     };
-    let nonlinear = |(e, link): (usize, &Link)| link.device.map(|law| Nonlinear { joint: e as u32, law });
-    let devices = links.iter().enumerate().filter_map(named).collect();
-    let nonlinear: Vec<Nonlinear> = links.iter().enumerate().filter_map(nonlinear).collect();
-    let stiffest = stiffest(masses, &sides, &device::at_rest(&elastic, &nonlinear), excitation.duration);
-    let contacts: Vec<Contact> = links.iter().enumerate().filter_map(rigid).collect();
-    let support = |side| Support::of(side, &sides, &rubs, &bonds, &contacts, &nonlinear);
-    let (on_base, on_beam) = (support(n), support(n + 1));
-    let wall = Wall { panels: vec![panel], blocks: (0..n).map(block).collect() };
+    let wall = Wall { panels: vec![panel], blocks: (0..masses.len()).map(block).collect() };
     let joints: Vec<Joint> = links.iter().map(joint).collect();
+    let tops = drift::tops(&wall, &joints, excitation.driven.then_some(masses.len() + 1));
+    let shear = concio_shear::system::System { tops, ..compile_links(masses, links, excitation.duration) };
     Model {
-        tops: Tops::of(&wall, &joints, excitation.driven.then_some(n + 1)),
         wall,
         joints,
         beam: if excitation.driven { Beam::Driven } else { Beam::Free },
         top_load: 0.0,
         load_mass: 0.0,
-        mass: masses.to_vec(),
-        sides,
-        elastic,
-        bonds,
-        devices,
-        nonlinear,
-        rubs,
-        contacts,
-        on_base,
-        on_beam,
+        devices: links.iter().enumerate().filter_map(named).collect(),
         excitation,
-        reciprocal: true,
-        stiffest,
-        planar: None,
+        shear,
+        system: System::Shear,
         warnings: Vec::new(),
     }
 }

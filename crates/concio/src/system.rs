@@ -12,27 +12,27 @@ use crate::model::Model;
 /// friction, rigid joints, bonds and devices with laws of their own, which the format cannot express.
 pub fn system(model: &Model) -> Result<Value> {
     model.shear_only("the system for other solvers")?;
-    if let Some(contact) = model.contacts.first() {
+    if let Some(contact) = model.shear.contacts.first() {
         let name = crate::graph::name(&model.wall, &model.joints[contact.joint as usize]);
         let error = InputError::new(format!("the rigid joint {name} has no place in the system for other solvers"));
         return Err(error.key("joint.head.law").allowed("`no-tension`, `elastic`").into());
     }
-    if model.sticks() {
+    if model.shear.sticks() {
         let error = InputError::new("set-valued friction has no place in the system for other solvers");
         return Err(error.key("joint.friction.law").allowed("`stribeck`, `none`").into());
     }
-    if !model.bonds.is_empty() {
+    if !model.shear.bonds.is_empty() {
         let error = InputError::new("bonds have no place in the system for other solvers");
         return Err(error.key("joint.bond").allowed("joints without bond").into());
     }
-    if let Some(device) = model.nonlinear.first() {
+    if let Some(device) = model.shear.nonlinear.first() {
         let name = crate::graph::name(&model.wall, &model.joints[device.joint as usize]);
         let error = InputError::new(format!("the device of joint {name} has no place in the system for other solvers"));
         let allowed = "linear `viscous`, `elastic` and `friction-damper` devices";
         return Err(error.key("joint.change").allowed(allowed).into());
     }
-    let (base, top) = (model.base(), model.top());
-    let rub: Vec<_> = model.rub_of_joint().into_iter().map(|r| r.map(|r| &model.rubs[r])).collect();
+    let (base, top) = (model.shear.base(), model.shear.top());
+    let rub: Vec<_> = model.shear.rub_of_joint().into_iter().map(|r| r.map(|r| &model.shear.rubs[r])).collect();
     let side = |b: usize| {
         if b == base {
             json!("base")
@@ -43,9 +43,10 @@ pub fn system(model: &Model) -> Result<Value> {
         }
     };
     let joints: Vec<Value> = model
+        .shear
         .elastic
         .iter()
-        .zip(&model.sides)
+        .zip(&model.shear.sides)
         .zip(&rub)
         .map(|((law, &[a, b]), rub)| {
             json!({
@@ -67,7 +68,7 @@ pub fn system(model: &Model) -> Result<Value> {
         .collect();
     let (base, top) = model.excitation.system_motions(model.beam)?;
     Ok(json!({
-        "mass": model.mass,
+        "mass": model.shear.mass,
         "joints": joints,
         "base": base,
         "top": top,

@@ -117,7 +117,7 @@ struct Desk {
 pub fn case(root: &Path, folder: &Path, case: &Case, programs: &[Program]) -> Result<Option<Measured>, String> {
     println!("\n== {}: {}", case.name, case.title);
     let Some(wall) = wall(root, case)? else {
-        println!("skipped: {} (its record is not beside the project)", case.name);
+        crate::command::skip(&format!("{} (its record is not beside the project)", case.name));
         return Ok(None);
     };
     let desk = desk(root, folder, case, wall)?;

@@ -96,7 +96,7 @@ fn bench_of(name: &str) -> Option<&str> {
 /// Runs a benchmark on `processor`; what it printed.
 fn bench(root: &Path, name: &str, processor: &str) -> Result<Option<(String, measure::Printed)>, String> {
     if !root.join("crates/concio/benches").join(format!("{name}.rs")).is_file() {
-        println!("skipped: benchmark {name} (it is not there)");
+        crate::command::skip(&format!("benchmark {name} (it is not there)"));
         return Ok(None);
     }
     println!("\n== benchmark {name}");

@@ -105,7 +105,7 @@ pub fn ready(root: &Path, folder: &Path, names: &[String]) -> Result<Vec<Program
         if wanted(name) {
             match make(root) {
                 Ok(program) => all.push(program),
-                Err(why) => println!("skipped: {name} ({})", why.lines().last().unwrap_or("")),
+                Err(why) => crate::command::skip(&format!("{name} ({})", why.lines().last().unwrap_or(""))),
             }
         }
     }

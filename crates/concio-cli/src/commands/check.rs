@@ -40,19 +40,19 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let duration = model.excitation.duration;
     let samples = (duration / prepared.sampling.interval).floor() as u64 + 1;
     let mut general = vec![
-        ("unknowns", (model.unknowns() * if model.planar.is_some() { 3 } else { 1 }).to_string()),
+        ("unknowns", (model.unknowns() * if model.planar().is_some() { 3 } else { 1 }).to_string()),
         ("mass", masses(model)),
     ];
     if model.top_load > 0.0 {
         general.push(("load on top", load_on_top(model)));
     }
     if model.wall.blocks.len() <= TRIED {
-        if let Some(own) = &model.planar {
+        if let Some(own) = model.planar() {
             let rest = own.rest();
             if rest == Rest::Falls {
                 planar::warn_of_fall(own);
             }
-            general.push(("under its loads", planar::rest(rest, model.bonds.len())));
+            general.push(("under its loads", planar::rest(rest, model.shear.bonds.len())));
         }
         let mode = first_mode(model);
         let told = |m: Mode| {
@@ -70,7 +70,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
         .stop_at
         .map_or(String::new(), |StopAt::Collapse(after)| format!("; ends {} after a collapse", seconds(after.si())));
     general.push(("duration", format!("{}, {samples} samples kept{stops}", seconds(duration))));
-    let (mut joints, bonds, ties) = match &model.planar {
+    let (mut joints, bonds, ties) = match model.planar() {
         None => (joint_rows(model), bond_rows(case, model)?, Vec::new()),
         Some(own) => (planar::joint_rows(model, own), planar::bond_rows(case, model)?, planar::tie_rows(case, own)),
     };
@@ -125,7 +125,7 @@ fn joint_rows(model: &Model) -> Vec<Vec<String>> {
         if members.is_empty() {
             continue;
         }
-        let rubs: Vec<_> = model.rubs.iter().filter(|r| is_one(&(r.joint as usize))).collect();
+        let rubs: Vec<_> = model.shear.rubs.iter().filter(|r| is_one(&(r.joint as usize))).collect();
         let friction = range(rubs.iter().map(|r| r.law.static_), |v| significant(v, 3));
         let normal = range(rubs.iter().flat_map(|r| r.normal), |v| si(v, "N"));
         rows.push(vec![
@@ -169,15 +169,17 @@ fn device_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> 
 
 /// Stiffnesses of the joints that have one, restitution of the rigid ones.
 fn stiffness(model: &Model, members: &[usize]) -> String {
-    let contacts = model.contact_of_joint();
+    let contacts = model.shear.contact_of_joint();
     let (rigid, springs): (Vec<usize>, Vec<usize>) = members.iter().partition(|&e| contacts[*e].is_some());
-    let restitution = range(rigid.iter().filter_map(|&e| contacts[e]).map(|c| model.contacts[c].restitution), plain);
+    let restitution =
+        range(rigid.iter().filter_map(|&e| contacts[e]).map(|c| model.shear.contacts[c].restitution), plain);
     let rigid = (!rigid.is_empty()).then(|| format!("rigid, e = {restitution}"));
-    let stiffness = range(springs.iter().map(|&e| model.elastic[e].stiffness), |v| si(v, "N/m"));
+    let stiffness = range(springs.iter().map(|&e| model.shear.elastic[e].stiffness), |v| si(v, "N/m"));
     // Bonds make springs one-sided whose law is not.
-    let bonded = model.bond_of_joint();
-    let by_bond = |e: usize| bonded[e].is_some_and(|b| model.bonds[b].law.stiffness == model.elastic[e].stiffness);
-    let unilateral = springs.iter().any(|&e| model.elastic[e].unilateral && !by_bond(e));
+    let bonded = model.shear.bond_of_joint();
+    let by_bond =
+        |e: usize| bonded[e].is_some_and(|b| model.shear.bonds[b].law.stiffness == model.shear.elastic[e].stiffness);
+    let unilateral = springs.iter().any(|&e| model.shear.elastic[e].unilateral && !by_bond(e));
     let unit = if unilateral { " (κ K_V)" } else { "" };
     let springs = (!springs.is_empty()).then(|| format!("{stiffness}{unit}"));
     springs.into_iter().chain(rigid).collect::<Vec<_>>().join(" or ")
@@ -185,14 +187,14 @@ fn stiffness(model: &Model, members: &[usize]) -> String {
 
 /// What holds the bonded joints, kind by kind; nothing where there are none.
 fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
-    if model.bonds.is_empty() {
+    if model.shear.bonds.is_empty() {
         return Ok(Vec::new());
     }
     let given = bond::given(case, &model.wall, &model.joints)?;
     let head = ["bonds", "number", "f_t or c", "tan φ", "G_f", "strength"];
     let mut rows = vec![head.map(String::from).to_vec()];
     for kind in KINDS {
-        let bonds = || model.bonds.iter().filter(|b| model.joints[b.joint as usize].kind == kind);
+        let bonds = || model.shear.bonds.iter().filter(|b| model.joints[b.joint as usize].kind == kind);
         let values = || bonds().filter_map(|b| given[b.joint as usize]);
         let upright = kind.is_upright();
         let holds = range(values().map(|b| if upright { b.tensile_strength } else { b.cohesion }), |v| si(v, "Pa"));
@@ -204,7 +206,7 @@ fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
             rows.push(vec![kind_name(kind).into(), bonds().count().to_string(), holds, angle, energy, strength]);
         }
     }
-    rows.push(vec!["all".into(), model.bonds.len().to_string()]);
+    rows.push(vec!["all".into(), model.shear.bonds.len().to_string()]);
     Ok(rows)
 }
 
@@ -238,13 +240,13 @@ fn joint_list(model: &Model) -> Vec<Vec<String>> {
     if !model.devices.is_empty() {
         rows[0].push("device".into());
     }
-    let rubs = model.rub_of_joint();
+    let rubs = model.shear.rub_of_joint();
     // Statics by columns knows upright sides alone.
     let upright = model.wall.blocks.iter().all(concio::wall::Block::is_rectangle);
     for (((joint, name), rub), device) in model.joints.iter().zip(model.joint_names()).zip(rubs).zip(devices) {
         // A friction damper slips at a force of its own, whatever presses it.
         let rub = rub.filter(|_| device.is_none() && upright);
-        let normal = rub.map_or("–".into(), |r| range(model.rubs[r].normal.into_iter(), |v| si(v, "N")));
+        let normal = rub.map_or("–".into(), |r| range(model.shear.rubs[r].normal.into_iter(), |v| si(v, "N")));
         let course = joint.course(&model.wall).to_string();
         let mut row = vec![name, kind_name(joint.kind).into(), course, significant(joint.weight, 4), normal];
         if !model.devices.is_empty() {

@@ -343,8 +343,7 @@ pub(super) fn line_key(canvas: &mut Canvas, width: f64, y: f64, attributes: &str
 
 /// What accelerations depend on where joints close with a hit; empty without such joints.
 fn hits(data: &Data) -> String {
-    use concio::case::SpringLaw;
-    if !data.run.joints.iter().any(|j| j.law == SpringLaw::NoTension) {
+    if !data.run.joints.iter().any(|j| j.law.is_no_tension()) {
         return String::new();
     }
     format!(

@@ -233,7 +233,7 @@ fn shared() -> Option<PathBuf> {
     let folder = std::env::var_os("CONCIO_SHARED").map_or(beside, PathBuf::from).join("records");
     let found = folder.join("manifest.json").is_file();
     if !found {
-        println!("skipped: real accelerograms (shared/ not found)");
+        concio_verified::skip("real accelerograms (shared/ not found)");
     }
     found.then_some(folder)
 }

@@ -138,11 +138,11 @@ fn shards_do_one_study_together() {
 #[test]
 fn gnu_parallel_does_the_shards() {
     let Ok(version) = Command::new("parallel").arg("--version").output() else {
-        println!("skipped: GNU parallel is not installed");
+        concio_verified::skip("GNU parallel is not installed");
         return;
     };
     if !text(&version).contains("GNU parallel") {
-        println!("skipped: `parallel` is another program");
+        concio_verified::skip("`parallel` is another program");
         return;
     }
     let (folder, study) = short();

@@ -28,7 +28,8 @@ pub fn text(findings: &Value) -> String {
 
 /// The tables of docs/report-cases.md.
 pub fn markdown(findings: &Value) -> String {
-    let mut out = String::from("| | figure | the report finds | here | runs that say so |\n|---|---|---|---|---|\n");
+    let mut out =
+        String::from("| | figure | the research report finds | here | runs that say so |\n|---|---|---|---|---|\n");
     for (k, finding) in list(findings, "findings").enumerate() {
         let [figure, claim, answer] = ["figure", "claim", "answer"].map(|key| word(finding, key));
         let _ = writeln!(out, "| {} | {figure} | {claim} | **{answer}** | {} |", k + 1, votes(finding));

@@ -90,8 +90,8 @@ impl Setting {
     pub fn name(self) -> &'static str {
         match self {
             Setting::Files => "as in the wall files",
-            Setting::ReportFriction => "the report's friction",
-            Setting::ReportFrictionLightLoad => "the report's friction, q = 10 kN/m",
+            Setting::ReportFriction => "the research report's friction",
+            Setting::ReportFrictionLightLoad => "the research report's friction, q = 10 kN/m",
             Setting::LightLoad => "q = 10 kN/m",
             Setting::LargeDrive => "top 5 mm at 2 Hz",
             Setting::LowFriction => "μ_s = 0.4, μ_d = 0.28",

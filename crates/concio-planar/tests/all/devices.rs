@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use concio_device::{BoucWen, Law as DeviceLaw, Power, ReCentring};
+use concio_law::device::{BoucWen, Law as DeviceLaw, Power, ReCentring};
 use concio_planar::body::Body;
 use concio_planar::joint::{Device, Friction, Law, Normal, Shear};
 use concio_planar::motion::{Forcing, Link, Motion, Setting, System};

@@ -111,7 +111,7 @@ fn reference(name: &str) -> Option<Value> {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
     let folder = std::env::var_os("CONCIO_SHARED").map_or(beside, PathBuf::from);
     let Ok(text) = std::fs::read_to_string(folder.join("reference").join(name)) else {
-        println!("skipped: {name} (shared/ not found)");
+        concio_verified::skip(&format!("{name} (shared/ not found)"));
         return None;
     };
     Some(serde_json::from_str(&text).expect("JSON"))

@@ -112,7 +112,7 @@ fn resolution() -> f64 {
 }
 
 /// `[first-crack]` of a study file: at which scale of each motion does a first joint crack? Takes the place of the
-/// study's runs; `scales` has no meaning beside it.
+/// study's runs; `scales` beside it is an error.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FirstCrackInput {

@@ -16,7 +16,7 @@ pub mod table1;
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use concio::case::{Beam, Brick, Case, Signal, SpringLaw};
+use concio::case::{Beam, Brick, Case, Signal};
 use concio::model::Model;
 use concio::{InputError, Result};
 use serde::Serialize;
@@ -51,9 +51,9 @@ impl Reference {
         let brick = panel.brick;
         let sides = brick.length.si() * brick.height.si() * brick.thickness.si();
         let mass = brick.specific_weight.si() * sides / concio::G;
-        let of = |spring: &concio::case::Spring, area: f64| match spring.law {
-            SpringLaw::None => 0.0,
-            _ => spring.stiffness.over(area),
+        let of = |spring: &concio::case::Spring, area: f64| match spring.law.is_open() {
+            true => 0.0,
+            false => spring.stiffness.over(area),
         };
         let [bed, head] = areas(&brick);
         let stiffness = [of(&case.joint.bed, bed), of(&case.joint.head, head)].into_iter().find(|k| *k > 0.0);
@@ -119,14 +119,15 @@ pub fn groups(case: &Case, model: &Model, folder: &Path, reference: &Reference) 
     let one = |v: f64| Some([v, v]);
     let blocks = model.wall.blocks.len();
     let springs = |kind: fn(concio::case::JointKind) -> bool| {
-        let chosen = model.joints.iter().zip(&model.elastic).filter(move |(j, _)| kind(j.kind));
+        let chosen = model.joints.iter().zip(&model.shear.elastic).filter(move |(j, _)| kind(j.kind));
         of(&mut chosen.map(|(_, e)| e.stiffness / r.stiffness))
     };
-    let damping = of(&mut model.elastic.iter().map(|e| e.damping / (2.0 * r.frequency * r.mass)).filter(|x| *x > 0.0));
-    let normal = of(&mut model.rubs.iter().flat_map(|rub| rub.normal).map(|n| n / r.force()));
+    let damping =
+        of(&mut model.shear.elastic.iter().map(|e| e.damping / (2.0 * r.frequency * r.mass)).filter(|x| *x > 0.0));
+    let normal = of(&mut model.shear.rubs.iter().flat_map(|rub| rub.normal).map(|n| n / r.force()));
     let brick = case.panels[0].brick.length.si();
     let beam = if let Beam::Mass(m) = case.load.beam { one(m.si() / r.mass) } else { None };
-    let rubs = (!model.rubs.is_empty()).then_some(joint.friction);
+    let rubs = (!model.shear.rubs.is_empty()).then_some(joint.friction);
     let smooth = rubs.filter(|f| f.law == concio::case::FrictionLaw::Stribeck);
     let base = base_motion(case, folder, r)?;
     let top = top_amplitude(case).map(|u| u / r.length);
@@ -134,7 +135,7 @@ pub fn groups(case: &Case, model: &Model, folder: &Path, reference: &Reference) 
         .iter()
         .map(|&(name, formula, realised_by)| {
             let value = match name {
-                "mass" => of(&mut model.mass[..blocks].iter().map(|m| m / r.mass)),
+                "mass" => of(&mut model.shear.mass[..blocks].iter().map(|m| m / r.mass)),
                 "weight" => one(r.mass * concio::G / r.force()),
                 "beam_mass" => beam,
                 "stiffness" => springs(|k| !k.is_upright()),

@@ -85,7 +85,7 @@ fn solve(file: &CaseFile, name: &str, amount: f64, folder: &Path) -> Result<Valu
 /// κ where head joints bear compression alone, else 1.
 fn head_rigidity(file: &CaseFile) -> f64 {
     let head = &file.case.joint.head;
-    if head.law == concio::case::SpringLaw::NoTension { head.rigidity } else { 1.0 }
+    if head.law.is_no_tension() { head.rigidity } else { 1.0 }
 }
 
 fn with_frequency(signal: &Signal, omega: f64) -> Result<Signal> {

@@ -37,17 +37,17 @@ fn strength_over_demand(subject: &Subject) -> Result<f64> {
     assert_eq!(case.joint.head.law, SpringLaw::Elastic);
     case.joint.bond = None;
     let linear = prepare(case, Path::new(""))?;
-    assert!(linear.model.bonds.is_empty() && linear.model.rubs.is_empty());
+    assert!(linear.model.shear.bonds.is_empty() && linear.model.shear.rubs.is_empty());
     let mut run = Simulation::new(&linear.model, &linear.case.solver, &linear.sampling)?;
     let (rows, reason) = run.run_to_end();
     let peaks = run.outcome(rows, reason).envelopes;
-    let quotient = |bond: &concio::bond::Bonded| {
+    let quotient = |bond: &concio::law::Bonded| {
         let e = bond.joint as usize;
         // A head joint is strained by opening alone; the envelope of its force has compression too.
         let demand = if bond.law.opens { bond.law.stiffness * peaks.joint_opening[e] } else { peaks.joint_force[e] };
         bond.law.strength / demand
     };
-    Ok(bonded.bonds.iter().map(quotient).fold(f64::INFINITY, f64::min))
+    Ok(bonded.shear.bonds.iter().map(quotient).fold(f64::INFINITY, f64::min))
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn limits_of_opening_and_slip_are_met() -> Result<()> {
 #[test]
 fn the_panel_cracks_under_real_records() -> Result<()> {
     let Some(records) = shared_records() else {
-        println!("skipped: real accelerograms (shared/ not found)");
+        concio_verified::skip("real accelerograms (shared/ not found)");
         return Ok(());
     };
     let wall = case::read(&examples().join("bonded-panel.toml"))?.case;

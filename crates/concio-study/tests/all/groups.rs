@@ -58,8 +58,8 @@ fn response(model: &Model, solver: &Solver, r: &Reference) -> (Vec<f64>, f64) {
     let u = h.displacement.concat().into_iter().map(|x| x / r.length);
     let v: Vec<f64> = h.velocity.concat().into_iter().map(|v| v / r.velocity()).collect();
     let n = model.unknowns();
-    let slip = model.rubs.iter().map(|rub| {
-        let [a, b] = model.sides[rub.joint as usize].map(|s| s as usize);
+    let slip = model.shear.rubs.iter().map(|rub| {
+        let [a, b] = model.shear.sides[rub.joint as usize].map(|s| s as usize);
         let at = |row: usize, i: usize| if i < n { v[row * n + i] } else { 0.0 };
         let most = (0..v.len() / n).map(|row| (at(row, a) - at(row, b)).abs()).fold(0.0, f64::max);
         most * r.velocity() / rub.law.slip_velocity
@@ -76,16 +76,16 @@ fn differs(a: &[f64], b: &[f64]) -> f64 {
 /// Equation (G1) as a system of its own: every number of the model over its unit.
 fn dimensionless(prepared: &Prepared, r: &Reference) -> Model {
     let mut model = prepared.model.clone();
-    model.mass.iter_mut().for_each(|m| *m /= r.mass);
-    for e in &mut model.elastic {
+    model.shear.mass.iter_mut().for_each(|m| *m /= r.mass);
+    for e in &mut model.shear.elastic {
         e.stiffness /= r.stiffness;
         e.damping /= r.frequency * r.mass;
     }
-    for rub in &mut model.rubs {
+    for rub in &mut model.shear.rubs {
         rub.normal = rub.normal.map(|n| n / r.force());
         rub.law.slip_velocity /= r.velocity();
     }
-    model.stiffest /= r.frequency * r.frequency;
+    model.shear.stiffest /= r.frequency * r.frequency;
     let Signal::Sine(mut sine) = prepared.case.motion.base.clone() else { panic!("a sine") };
     sine.acceleration = sine.acceleration.map(|a| (a.si() / r.acceleration()).into());
     sine.frequency = (sine.frequency.si() / r.frequency).into();

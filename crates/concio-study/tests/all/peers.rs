@@ -20,7 +20,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 /// What the peers answer; none where there is no Python.
 fn peers<T: DeserializeOwned>(question: &Value) -> Option<T> {
     let Some(python) = std::env::var_os("CONCIO_PYTHON") else {
-        println!("skipped: {} of other programs (CONCIO_PYTHON is not set)", question["what"]);
+        concio_verified::skip(&format!("{} of other programs (CONCIO_PYTHON is not set)", question["what"]));
         return None;
     };
     let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/python/peers.py");

@@ -200,7 +200,7 @@ fn a_run_that_panics_is_recorded_and_the_others_go_on() -> Anyhow {
         watch: &(dyn Fn(Standing) -> Control + Sync),
         keep: &(dyn Fn(usize, concio::Result<Outcome>) + Sync),
     ) {
-        let bad = |job: &Job| job.model.rubs.iter().any(|r| r.normal[0] > 7e3);
+        let bad = |job: &Job| job.model.shear.rubs.iter().any(|r| r.normal[0] > 7e3);
         if let Some(place) = jobs.iter().position(bad) {
             simulate_each(&jobs[..place], threads, watch, keep);
             panic!("one too heavy");

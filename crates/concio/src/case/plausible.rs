@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use super::node::{Node, Value};
 use super::{
     Beam, Case, FrictionChange, FrictionLaw, JointBond, JointKind, Joints, ModelKind, Panel, Signal, Solver,
-    SpringChange, SpringLaw, TopLoad,
+    SpringChange, TopLoad,
 };
 use crate::quantity::{Stiffness, shown};
 use crate::warning::{Warning, WarningKind};
@@ -301,7 +301,7 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
         doubts.add(WarningKind::IdleKey, text);
     }
     let joint = &case.joint;
-    if joint.bed.law == SpringLaw::NoTension && joint.bed.rigidity > STIFFER {
+    if joint.bed.law.is_no_tension() && joint.bed.rigidity > STIFFER {
         let text = format!(
             "joint.bed is `no-tension`: pressed bed joints of this planar wall are rigidity = {} times as stiff as `stiffness` \
              says; `rigidity = 1` makes them as stiff as that",
@@ -346,14 +346,14 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
     let changed = joint.changes.iter().any(|change| change.bond.is_some());
     let beds = |kinds: &[JointKind]| kinds.is_empty() || kinds.contains(&JointKind::Bed);
     let bonds_beds = joint.changes.iter().any(|change| change.bond.is_some() && beds(&change.at.kind));
-    let dry = joint.bond.is_none() && joint.bed.law != SpringLaw::Elastic && !changed;
+    let dry = joint.bond.is_none() && !joint.bed.law.is_elastic() && !changed;
     let rubs = joint.changes.iter().any(|change| change.friction.is_some());
     if dry && joint.friction.law == FrictionLaw::None && joint.friction.preset.is_none() && !rubs {
         let text = "joint.friction is missing or of law `none`: dry joints of this planar wall slide at the least push; stones have a `static` of 0.4 to 0.8";
         doubts.add(WarningKind::UnlikelyJoint, text);
     }
     match &joint.bond {
-        None if joint.bed.law == SpringLaw::Elastic && !bonds_beds => doubts.add(
+        None if joint.bed.law.is_elastic() && !bonds_beds => doubts.add(
             WarningKind::UnlikelyJoint,
             "joint.bed is `elastic` without a bond: in a planar wall such joints pull without limit, and bear shear without limit beside \
              friction; dry joints are `no-tension` with `rigidity = 1`, or `rigid`",

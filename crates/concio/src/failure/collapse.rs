@@ -1,5 +1,6 @@
 //! When a planar wall counts as collapsed, and what is told of it.
 
+use concio_law::account::collapsed;
 use serde::{Deserialize, Serialize};
 
 use crate::outcome::{Collapse, Outcome};
@@ -12,18 +13,6 @@ const TURNED: f64 = std::f64::consts::FRAC_PI_4;
 /// Whether a block of this height [m] that has turned and risen so far [rad, m] has turned over (true) or fallen (false); none where it stands.
 pub(crate) fn is_down(turn: f64, rise: f64, height: f64) -> Option<bool> {
     if turn.abs() > TURNED { Some(true) } else { (-rise > FALLEN * height).then_some(false) }
-}
-
-impl Collapse {
-    /// What its block did.
-    pub fn what(&self) -> &'static str {
-        what(self.turned)
-    }
-}
-
-/// As [`is_down`] tells it.
-fn what(turned: bool) -> &'static str {
-    if turned { "turned by 45°" } else { "had fallen by half of its height" }
 }
 
 /// A collapse as the summary of a run tells it.
@@ -52,7 +41,7 @@ impl Collapsed {
 
     /// What its block did.
     pub fn what(&self) -> &'static str {
-        what(self.turned)
+        collapsed(self.turned)
     }
 }
 

@@ -23,7 +23,7 @@ mod knet;
 mod knet_csv;
 mod nsmn;
 mod peer_at2;
-mod pieces;
+
 mod remark;
 mod resemblance;
 mod source;

@@ -21,13 +21,13 @@ use std::path::Path;
 
 use crate::case;
 use crate::ground::library::Library;
-use crate::ground::pieces::{Form, Pieces};
-pub use crate::ground::pieces::{Kinematics, Segment};
 use crate::ground::process::integrate;
 use crate::ground::record::Record;
 use crate::ground::spline;
 use crate::quantity::shown;
 use crate::{InputError, Result};
+use concio_law::motion::{Form, Pieces};
+pub use concio_law::motion::{Kinematics, Segment};
 
 /// Longest step of a sine, as a fraction of its period.
 const STEP_PER_PERIOD: f64 = 1.0 / 20.0;

@@ -4,12 +4,12 @@ use crate::G;
 use crate::case::plausible::rounded;
 use crate::case::{Beam, JointKind};
 use crate::graph;
-use crate::law::Rub;
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::planar::{Planar, Rest};
 use crate::store::{JointRow, residual_relative};
 use crate::warning::{Warning, WarningKind};
+use concio_shear::law::Rub;
 
 /// Relative displacement of a joint, as a fraction of its overlap, from which its geometry should not be taken as
 /// unchanged any more.
@@ -51,7 +51,7 @@ pub fn all(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning
 
 /// Those of the result, the gravest first.
 fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
-    let balance = match &model.planar {
+    let balance = match model.planar() {
         None => unbalanced(outcome, "lower solver.tolerance"),
         // Contacts that slip at once give back nothing here: what they set free is lost without inertia.
         Some(planar) if planar.still => unbalanced(outcome, STILL),
@@ -86,7 +86,7 @@ fn unbalanced(outcome: &Outcome, remedy: &str) -> Option<String> {
 
 /// Impacts only take energy. Where slides turn round faster than steps resolve, friction pushes along them, and more comes back than they took.
 fn given_back(model: &Model, outcome: &Outcome) -> Option<String> {
-    let weight = G * model.mass.iter().sum::<f64>();
+    let weight = G * model.shear.mass.iter().sum::<f64>();
     let most = outcome.totals.peak_input.max(outcome.energies.initial.abs()).max(NOTHING * weight);
     let back = -outcome.energies.impact;
     (back > GIVEN_BACK * most).then(|| {
@@ -123,7 +123,7 @@ fn moving(outcome: &Outcome) -> Option<String> {
 
 /// Says of a wall that is pushed by its own weight, without inertia, that its largest base shear came as it fell.
 fn peak_in_fall(model: &Model, outcome: &Outcome) -> Option<String> {
-    if !model.planar.as_ref()?.still || matches!(model.beam, Beam::Driven) {
+    if !model.planar()?.still || matches!(model.beam, Beam::Driven) {
         return None;
     }
     let height = model.wall.blocks.iter().map(|b| b.y[1]).fold(0.0, f64::max);
@@ -142,16 +142,16 @@ fn peak_in_fall(model: &Model, outcome: &Outcome) -> Option<String> {
 fn beyond_friction(model: &Model, outcome: &Outcome) -> Option<String> {
     let base = |e: &usize| model.joints[*e].kind == JointKind::Base;
     let joints: Vec<usize> = (0..model.joints.len()).filter(base).collect();
-    if model.planar.as_ref().is_some_and(|planar| joints.iter().all(|e| slides(planar, *e))) {
+    if model.planar().is_some_and(|planar| joints.iter().all(|e| slides(planar, *e))) {
         return beyond_own_friction(model, outcome);
     }
     if joints.iter().any(|&e| model.device_of_joint()[e].is_some()) {
         return beyond_own_friction(model, outcome);
     }
-    let (rubs, bonds) = (model.rub_of_joint(), model.bond_of_joint());
+    let (rubs, bonds) = (model.shear.rub_of_joint(), model.shear.bond_of_joint());
     let bears = |&e: &usize| {
         let friction = rubs[e].map_or(0.0, |r| most_friction(model, r, outcome.envelopes.joint_velocity[e]));
-        let bond = bonds[e].map_or(0.0, |b| model.bonds[b].law.strength);
+        let bond = bonds[e].map_or(0.0, |b| model.shear.bonds[b].law.strength);
         [friction, bond]
     };
     let [friction, bond] = joints.iter().map(bears).fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
@@ -168,7 +168,7 @@ fn beyond_friction(model: &Model, outcome: &Outcome) -> Option<String> {
         (false, false) => format!("the {borne} that friction can bear (μ_s N)"),
         (false, true) => format!("the {borne} that bond and friction can bear (c A + N tan φ, or μ_s N)"),
     };
-    let sprung = |e: &usize| bonds[*e].is_none() && model.elastic[*e].stiffness > 0.0;
+    let sprung = |e: &usize| bonds[*e].is_none() && model.shear.elastic[*e].stiffness > 0.0;
     Some(match joints.iter().any(sprung) {
         true => format!("the largest base shear, {shear}, is above {bears}: {SPRUNG}"),
         false => format!(
@@ -186,18 +186,18 @@ fn slides(planar: &Planar, joint: usize) -> bool {
 
 /// Most that friction bears in a joint that slides as fast as `speed` [m/s], in N.
 fn most_friction(model: &Model, rub: usize, speed: f64) -> f64 {
-    let Rub { law, normal, .. } = &model.rubs[rub];
+    let Rub { law, normal, .. } = &model.shear.rubs[rub];
     law.static_.max(law.dynamic + law.alpha * speed * speed) * normal[0]
 }
 
 /// The spring of an unbonded bed joint that bears far more than its friction can, where the sum over the base does not show it.
 fn beyond_own_friction(model: &Model, outcome: &Outcome) -> Option<String> {
-    let (rubs, bonds, devices) = (model.rub_of_joint(), model.bond_of_joint(), model.device_of_joint());
+    let (rubs, bonds, devices) = (model.shear.rub_of_joint(), model.shear.bond_of_joint(), model.device_of_joint());
     let free = |e: &usize| !model.joints[*e].kind.is_upright() && bonds[*e].is_none() && devices[*e].is_none();
     let over = |e: usize| {
         let rub = rubs[e]?;
         let envelopes = &outcome.envelopes;
-        let force = match &model.planar {
+        let force = match model.planar() {
             Some(planar) if slides(planar, e) => return None,
             Some(planar) => planar.system.links[e].law.shear.stiffness * envelopes.joint_displacement[e],
             None => envelopes.joint_force[e],
@@ -218,7 +218,7 @@ fn beyond_own_friction(model: &Model, outcome: &Outcome) -> Option<String> {
 
 /// Bonds of planar walls that are cracked before anything moves.
 fn cracked_at_rest(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Option<String> {
-    let planar = model.planar.as_ref()?;
+    let planar = model.planar()?;
     let at_rest = || outcome.bonds.iter().filter(|bond| bond.cracked == 0.0);
     let first = at_rest().next()?;
     let rigid = at_rest().any(|bond| !planar.system.links[bond.joint].law.is_compliant());
@@ -241,7 +241,7 @@ fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
     let collapse = outcome.totals.collapse?;
     let (name, time, did) = (&model.wall.blocks.get(collapse.block)?.name, collapse.time, collapse.what());
     // Asked only of walls that fall: to settle takes a while.
-    let alone = model.planar.as_ref().is_some_and(|planar| planar.rest() == Rest::Falls);
+    let alone = model.planar().is_some_and(|planar| planar.rest() == Rest::Falls);
     let alone = if alone { "the wall does not stand under its own loads, whatever the motion: " } else { "" };
     let what = "peaks and slips are those of the time before, cracks and energies those of the whole run; with another step \
                 time and block may differ";
@@ -250,8 +250,8 @@ fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
 
 /// What becomes of a wall that has yet to come to rest or to fall is not seen.
 fn moves_on(model: &Model, outcome: &Outcome) -> Option<String> {
-    model.planar.as_ref().filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
-    let weight = G * model.mass.iter().sum::<f64>();
+    model.planar().filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
+    let weight = G * model.shear.mass.iter().sum::<f64>();
     let (kinetic, work) = (outcome.energies.kinetic, outcome.totals.peak_input.max(outcome.energies.initial.abs()));
     (kinetic > UNDER_WAY * work && kinetic > NOTHING * weight).then(|| {
         format!(
@@ -264,13 +264,13 @@ fn moves_on(model: &Model, outcome: &Outcome) -> Option<String> {
 
 /// Springs keep what they take: where all joints have some, what impacts take is what steps leave out.
 fn unresolved(model: &Model, outcome: &Outcome) -> Option<String> {
-    let planar = model.planar.as_ref().filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
+    let planar = model.planar().filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
     let mut joints = planar.system.links.iter().zip(&planar.open);
     if !joints.all(|(link, open)| *open || link.law.is_compliant()) {
         return None;
     }
     let (lost, impact) = (outcome.energies.dissipated(), outcome.energies.impact);
-    let weight = G * model.mass.iter().sum::<f64>();
+    let weight = G * model.shear.mass.iter().sum::<f64>();
     let resolving = planar.resolving_step();
     let what = if planar.step > resolving {
         format!(
@@ -597,7 +597,7 @@ step = {step}
 "#
             );
             let (prepared, outcome) = ran(&text);
-            (prepared.model.planar.as_ref().unwrap().resolving_step(), unresolved(&prepared.model, &outcome))
+            (prepared.model.planar().unwrap().resolving_step(), unresolved(&prepared.model, &outcome))
         };
         // √(k/m) of 10 N/mm³ below 20 kN/m³ × 0.2 m.
         let resolving = 2.18 / (10e9 * G / 4e3_f64).sqrt();

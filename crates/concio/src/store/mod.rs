@@ -14,12 +14,12 @@ mod summary;
 pub mod vtkhdf;
 
 use crate::bond::BondRow;
-use crate::bond::Bonded;
 use crate::case::{DeviceLaw, FrictionLaw, SpringLaw};
-use crate::law::Elastic;
-use crate::law::spring_force;
+use crate::law::Bonded;
 use crate::outcome::Outcome;
 use crate::wall::{Joint, Wall};
+use concio_shear::law::Elastic;
+use concio_shear::law::spring_force;
 
 pub use journal::{Journal, JournalHeader};
 pub use summary::{
@@ -72,7 +72,7 @@ impl JointRow {
     /// joint's bond, if it has one, and its damage.
     pub fn elastic_force(&self, d: f64, bond: Option<(&BondRow, f64)>) -> f64 {
         let upright = self.joint.kind.is_upright();
-        let unilateral = upright && matches!(self.law, SpringLaw::NoTension | SpringLaw::Rigid);
+        let unilateral = upright && self.law.parts();
         match bond {
             None => spring_force(unilateral, self.stiffness, d),
             Some((bond, damage)) => {

@@ -59,7 +59,7 @@ fn stiffness_per_area_is_that_of_the_contact() {
     let (wall, joints, laws) = laws(&case);
     let model = model(WALL);
     let mut kinds = std::collections::BTreeSet::new();
-    for ((joint, law), elastic) in joints.iter().zip(&laws).zip(&model.elastic) {
+    for ((joint, law), elastic) in joints.iter().zip(&laws).zip(&model.shear.elastic) {
         let thickness = if wall.blocks[joint.a].panel == 0 { 0.12 } else { 0.2 };
         let upright = joint.kind.is_upright();
         let expected = if upright { 15e9 } else { 36e9 } * joint.overlap * thickness;
@@ -81,15 +81,15 @@ fn per_area_and_per_joint_say_the_same_of_one_brick() {
     let per_joint =
         one.replace("\"36 N/mm3\"", &format!("{bed:?}")).replace("\"15 MPa/mm\"", &format!("\"{head:?} N/m\""));
     let (a, b) = (model(&one), model(&per_joint));
-    for (a, b) in a.elastic.iter().zip(&b.elastic) {
+    for (a, b) in a.shear.elastic.iter().zip(&b.shear.elastic) {
         assert!((a.stiffness / b.stiffness - 1.0).abs() < 1e-13, "{a:?} {b:?}");
         assert!((a.damping / b.damping - 1.0).abs() < 1e-13 && a.damping > 0.0, "{a:?} {b:?}");
     }
     // A bond knows the same stiffness as the spring that it takes the place of.
     let bonded = model(&one.replace("[load]", "[joint.bond]\ncohesion = 1e5\ntensile_strength = 5e4\n[load]"));
-    assert!(bonded.bonds.len() > 20);
-    for bond in &bonded.bonds {
-        let expected = a.elastic[bond.joint as usize].stiffness / if bond.law.opens { 100.0 } else { 1.0 };
+    assert!(bonded.shear.bonds.len() > 20);
+    for bond in &bonded.shear.bonds {
+        let expected = a.shear.elastic[bond.joint as usize].stiffness / if bond.law.opens { 100.0 } else { 1.0 };
         assert!((bond.law.stiffness / expected - 1.0).abs() < 1e-13);
     }
 }

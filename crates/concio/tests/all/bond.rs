@@ -360,14 +360,14 @@ fn strengths_are_mohr_coulombs() {
         bond = { cohesion = "0.3 MPa", residual_stiffness = 0.1 }"#,
     )
     .model;
-    assert_eq!(model.bonds.len(), model.joints.len());
+    assert_eq!(model.shear.bonds.len(), model.joints.len());
     let normal: Vec<f64> = {
         let mut normal = vec![0.0; model.joints.len()];
-        model.rubs.iter().for_each(|r| normal[r.joint as usize] = r.normal[0]);
+        model.shear.rubs.iter().for_each(|r| normal[r.joint as usize] = r.normal[0]);
         normal
     };
     let (mut changed, mut strengths) = (0, Vec::new());
-    for bond in &model.bonds {
+    for bond in &model.shear.bonds {
         let e = bond.joint as usize;
         let joint = &model.joints[e];
         let area = joint.overlap * 0.12;

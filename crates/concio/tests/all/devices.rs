@@ -575,13 +575,13 @@ fn a_device_replaces_the_mortar() {
     assert_eq!(rows[head].device, Some(DeviceLaw::FrictionDamper));
     assert_eq!((rows[head].normal_force, rows[head].stiffness, rows[head].damping), ([2e3; 2], 0.0, 0.0));
     assert_eq!(rows.iter().filter(|r| r.device.is_some()).count(), 2);
-    let bonded: Vec<usize> = p.model.bonds.iter().map(|b| b.joint as usize).collect();
+    let bonded: Vec<usize> = p.model.shear.bonds.iter().map(|b| b.joint as usize).collect();
     assert!(!bonded.contains(&bed) && !bonded.contains(&head));
-    assert!(p.model.contacts.iter().all(|c| c.joint as usize != head));
+    assert!(p.model.shear.contacts.iter().all(|c| c.joint as usize != head));
     // The weight on the other joints is the same.
     let plain = prepared(&PANEL.replace("CHANGES", ""));
-    for rub in &p.model.rubs {
-        let same = plain.model.rubs.iter().find(|r| r.joint == rub.joint);
+    for rub in &p.model.shear.rubs {
+        let same = plain.model.shear.rubs.iter().find(|r| r.joint == rub.joint);
         assert!(rub.joint as usize == head || same.unwrap().normal == rub.normal);
     }
 }
@@ -591,7 +591,7 @@ fn a_device_replaces_the_mortar() {
 fn an_elastic_device_like_the_mortar_gives_its_bits() {
     let plain = prepared(&PANEL.replace("CHANGES", "").replace("law = \"stribeck\"", "law = \"none\""));
     let e = plain.model.joint_names().iter().position(|n| n == "p1c1b1|p1c2b2").unwrap();
-    let law = plain.model.elastic[e];
+    let law = plain.model.shear.elastic[e];
     let change = format!(
         r#"[[joint.change]]
         at = {{ joints = ["p1c1b1|p1c2b2"] }}

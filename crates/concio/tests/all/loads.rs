@@ -321,7 +321,7 @@ duration = "1 s"
             let length: f64 = whole.wall.loaded().iter().sum();
             let per_length = prepared(&text.replace("{ force = \"150 kN\" }", &(150e3 / length).to_string())).model;
             close(per_length.top_load, 150e3, 1e-14);
-            let mass = |model: &concio::model::Model| model.mass.iter().sum::<f64>();
+            let mass = |model: &concio::model::Model| model.shear.mass.iter().sum::<f64>();
             close(mass(&whole), mass(&per_length), 1e-14);
         }
     }

@@ -34,7 +34,7 @@ fn compiled(mut case: Case, model: ModelKind) -> Model {
 
 /// Displacements of the locked planar wall after each step.
 fn locked(model: &Model, steps: usize) -> Vec<Vec<f64>> {
-    let mut system = model.planar.as_ref().expect("a planar wall").system.clone();
+    let mut system = model.planar().expect("a planar wall").system.clone();
     system.held.fill([false, true, true]);
     system.load.fill([0.0; 2]);
     let start: Vec<f64> = system.bodies.iter().map(|b| b.centre[0]).collect();
@@ -67,14 +67,14 @@ impl Spring {
 /// a sixth, two thirds and a sixth of a joint where they let go. Displacements after each step, and how many springs let go or took
 /// up within one.
 fn sheared(model: &Model, steps: usize) -> (Vec<Vec<f64>>, usize) {
-    let n = model.mass.len();
+    let n = model.shear.mass.len();
     let (mut z, mut v) = (vec![0.0; n], vec![0.0; n]);
     let at = |x: &[f64], i: usize| x.get(i).copied().unwrap_or(0.0);
     let (mut acts, mut changes) = (Vec::new(), 0);
     let mut history = Vec::with_capacity(steps);
     for k in 0..steps {
         let mut springs = Vec::new();
-        for (law, &sides) in model.elastic.iter().zip(&model.sides) {
+        for (law, &sides) in model.shear.elastic.iter().zip(&model.shear.sides) {
             let sides = sides.map(|i| i as usize);
             let (gap, u) = (at(&z, sides[1]) - at(&z, sides[0]), at(&v, sides[1]) - at(&v, sides[0]));
             if !law.unilateral {
@@ -83,7 +83,7 @@ fn sheared(model: &Model, steps: usize) -> (Vec<Vec<f64>>, usize) {
                 continue;
             }
             assert!(law.damping == 0.0);
-            let light = sides.iter().filter_map(|i| model.mass.get(*i)).map(|m| 1.0 / m).sum::<f64>();
+            let light = sides.iter().filter_map(|i| model.shear.mass.get(*i)).map(|m| 1.0 / m).sum::<f64>();
             for share in [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0] {
                 let stiffness = share * law.stiffness;
                 let x = STEP * STEP * law.stiffness * light / 16.0;
@@ -96,8 +96,8 @@ fn sheared(model: &Model, steps: usize) -> (Vec<Vec<f64>>, usize) {
         let before = acts.clone();
         let after = loop {
             let mut matrix = vec![vec![0.0; n]; n];
-            let mut right: Vec<f64> = (0..n).map(|i| model.mass[i] * (v[i] - push(k))).collect();
-            (0..n).for_each(|i| matrix[i][i] = model.mass[i]);
+            let mut right: Vec<f64> = (0..n).map(|i| model.shear.mass[i] * (v[i] - push(k))).collect();
+            (0..n).for_each(|i| matrix[i][i] = model.shear.mass[i]);
             for spring in springs.iter().zip(&acts).filter(|(_, acts)| **acts).map(|(spring, _)| spring) {
                 let [a, b] = spring.sides;
                 for (i, j, sign) in [(a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)] {

@@ -59,14 +59,14 @@ fn variants(text: &str, count: usize) -> Vec<Prepared> {
     let vary = |k: usize| {
         let mut prepared = ready(text);
         let change = 1.0 + 0.07 * k as f64;
-        for elastic in &mut prepared.model.elastic {
+        for elastic in &mut prepared.model.shear.elastic {
             elastic.stiffness *= change;
         }
-        for rub in &mut prepared.model.rubs {
+        for rub in &mut prepared.model.shear.rubs {
             rub.law.static_ *= 1.0 / change;
             rub.normal = rub.normal.map(|n| n * change);
         }
-        for mass in &mut prepared.model.mass {
+        for mass in &mut prepared.model.shear.mass {
             *mass *= change;
         }
         prepared.case.solver.tolerance *= if k % 3 == 1 { 3.0 } else { 1.0 };
@@ -149,7 +149,7 @@ fn a_run_that_fails_does_not_hurt_the_others() {
     let mut runs = variants(&format!("{PANEL}{FRICTION}{DRIVEN}"), 10);
     let singles = alone(&runs);
     runs[2].sampling.blocks = vec!["no such block".into()];
-    runs[5].model.elastic[3].damping = f64::NAN;
+    runs[5].model.shear.elastic[3].damping = f64::NAN;
     let jobs: Vec<Job> = runs.iter().map(Job::from).collect();
     for (k, (many, single)) in simulate_many(&jobs, 1).into_iter().zip(&singles).enumerate() {
         match k {

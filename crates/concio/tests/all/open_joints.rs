@@ -143,7 +143,7 @@ fn courses_sink_through_open_bed_joints() {
     let rigid = r#"law = "rigid""#;
     let none = r#"law = "none""#;
     for (bed, base, settled) in [(none, rigid, 0.02), (rigid, none, 0.01), (none, none, 0.03), (rigid, rigid, 0.0)] {
-        let Rest::Stands { settled: found, .. } = prepared(&courses(bed, base, 0.01)).model.planar.unwrap().rest()
+        let Rest::Stands { settled: found, .. } = prepared(&courses(bed, base, 0.01)).model.planar().unwrap().rest()
         else {
             panic!("{bed}, {base}: it stands")
         };
@@ -162,7 +162,7 @@ fn an_open_joint_beside_a_filled_one_is_as_far_open_as_it_is_laid() {
         courses(r#"law = "rigid""#, r#"law = "rigid""#, 0.01)
     );
     let model = prepared(&text).model;
-    let planar = model.planar.as_ref().unwrap();
+    let planar = model.planar().unwrap();
     let names = model.joint_names();
     let open: Vec<&String> = names.iter().zip(&planar.open).filter(|(_, open)| **open).map(|(name, _)| name).collect();
     let heads = |name: &&&String| name.contains("c1b1|p1c1") || name.contains("c2b") || name.contains("c3b1|p1c3");
@@ -185,7 +185,7 @@ fn an_open_joint_has_no_law_of_any_kind() {
     for row in heads {
         assert_eq!((row.law, row.friction), (concio::case::SpringLaw::None, None));
     }
-    let bonded = prepared.model.bond_of_joint();
+    let bonded = prepared.model.shear.bond_of_joint();
     assert!(rows.iter().zip(bonded).all(|(row, bond)| row.joint.kind.is_upright() == bond.is_none()));
 }
 

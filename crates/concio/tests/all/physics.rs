@@ -95,6 +95,7 @@ fn transmitted_loads_add_up_to_weight_and_top_load() {
             .map(|b| b.length() * 1e4)
             .sum();
         let base: f64 = model
+            .shear
             .rubs
             .iter()
             .filter(|r| model.joints[r.joint as usize].kind == concio::case::JointKind::Base)
@@ -119,7 +120,7 @@ fn base_shear_balances_inertia() {
     });
     let out = run_in_memory(&p).unwrap();
     let shear = *channel(&out, "base/shear").last().unwrap();
-    let mass: f64 = p.model.mass.iter().sum();
+    let mass: f64 = p.model.shear.mass.iter().sum();
     // Mass times base acceleration; blocks are at rest relative to the base by then.
     let subject = "Integration: 6 × 4 panel under a constant acceleration, base shear";
     agrees!(subject, "m a", "N", shear, mass * 0.981, 1e-6);
@@ -256,7 +257,7 @@ fn a_stiffness_factor_of_zero_leaves_the_damping() {
     let text = format!("{PANEL}{SLIPPING}");
     let model = |factor: f64| edited(&text, |c| c.joint.bed.stiffness_factor = factor).model;
     let (with, without): (Model, Model) = (model(1.0), model(0.0));
-    for ((a, b), joint) in with.elastic.iter().zip(&without.elastic).zip(&with.joints) {
+    for ((a, b), joint) in with.shear.elastic.iter().zip(&without.shear.elastic).zip(&with.joints) {
         assert_eq!(a.damping, b.damping);
         assert_eq!(b.stiffness == 0.0, joint.kind != concio::case::JointKind::Head, "{joint:?}");
     }
@@ -324,7 +325,7 @@ fn a_driven_beam_has_its_acceleration() {
     // At 1.75 cycles the sine is at its trough: a = A ω².
     let beam = 1e-3 * (2.0 * std::f64::consts::PI * 4.0f64).powi(2);
     let a = &run.state().a;
-    let found = a[p.model.top()];
+    let found = a[p.model.shear.top()];
     agrees!("Integration: beam driven by a sine, acceleration at its trough", "A ω²", "m/s²", found, beam, 1e-9);
     for joint in p.model.joints.iter().filter(|j| j.kind == concio::case::JointKind::Top) {
         // Seven springs in a row, nearly equal: the top course has about 6/7 of the motion of the beam.
@@ -393,7 +394,8 @@ fn a_change_may_let_head_joints_rub() {
     );
     let text = text.replace("dynamic = 0.42", "dynamic = 0.42, normal_force = \"overburden\"");
     let model = ready(&text).model;
-    let heads = model.rubs.iter().filter(|r| model.joints[r.joint as usize].kind == concio::case::JointKind::Head);
+    let heads =
+        model.shear.rubs.iter().filter(|r| model.joints[r.joint as usize].kind == concio::case::JointKind::Head);
     assert_eq!(heads.count(), 3);
 }
 
@@ -430,7 +432,7 @@ fn a_low_panel_does_not_carry_the_beam() {
             let joint = &model.joints[r.joint as usize];
             joint.kind == concio::case::JointKind::Base && model.wall.blocks[joint.a].panel == 1
         };
-        model.rubs.iter().filter(of_panel).map(|r| r.normal[0]).sum::<f64>()
+        model.shear.rubs.iter().filter(of_panel).map(|r| r.normal[0]).sum::<f64>()
     };
     let weight: f64 = low.wall.blocks.iter().filter(|b| b.panel == 1).map(|b| b.weight()).sum();
     assert!((base(&low) / weight - 1.0).abs() < 1e-12);
@@ -486,7 +488,7 @@ fn a_moment_of_a_stored_run_is_what_was_sampled() {
                 let motion = moment.block(i);
                 assert_eq!([motion.displacement, motion.velocity], [of("displacement"), of("velocity")]);
                 assert_eq!(motion.acceleration, of("acceleration"));
-                let expected = force[i] / p.model.mass[i] - value("base/acceleration".into());
+                let expected = force[i] / p.model.shear.mass[i] - value("base/acceleration".into());
                 let scale = out.envelopes.block_acceleration[i];
                 // The iteration on the laws leaves a mismatch of forces, below the tolerance of the step.
                 let error = (motion.acceleration - expected).abs() / scale;
@@ -506,7 +508,7 @@ fn what_sticks_does_not_move() {
         assert_eq!(out.totals.peak_relative_displacement, 0.0, "{law}");
         assert_eq!(out.energies.friction, 0.0);
         // The joints carry what it takes to go along with the base.
-        let mass: f64 = ready(&text).model.mass.iter().sum();
+        let mass: f64 = ready(&text).model.shear.mass.iter().sum();
         let (shear, base) = (channel(&out, "base/shear"), channel(&out, "base/acceleration"));
         for (f, a) in shear.iter().zip(&base) {
             assert!((f - mass * a).abs() <= 1e-6 * mass * 0.981, "{f} against {}", mass * a);

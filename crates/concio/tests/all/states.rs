@@ -45,7 +45,7 @@ fn six_examples_keep_their_bits() {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     let file = package.join("tests/data/states.txt");
     if !of_this_machine() {
-        println!("skipped: bits of the examples (not x86-64 Linux with glibc and fused multiplication)");
+        concio_verified::skip("bits of the examples (not x86-64 Linux with glibc and fused multiplication)");
         return;
     }
     let mut found = String::new();

@@ -771,7 +771,7 @@ fn csv_holds_every_number_with_its_unit() {
 #[test]
 fn other_readers_agree() {
     let Some(python) = std::env::var_os("CONCIO_PYTHON") else {
-        println!("skipped: readers in Python (CONCIO_PYTHON is not set)");
+        concio_verified::skip("readers in Python (CONCIO_PYTHON is not set)");
         return;
     };
     let sizes = [

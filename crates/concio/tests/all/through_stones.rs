@@ -32,10 +32,10 @@ fn a_tall_block_bears_what_lies_on_it() {
         for name in ["p1c1b1|p1c3b1", "p1c1b1|p1c2b1", "p1c1b1|p1c1b2", "p1c2b1|p1c3b1"] {
             assert!(names.iter().any(|n| n == name), "{name}: {names:?}");
         }
-        let planar = model.planar.is_some();
+        let planar = model.planar().is_some();
         for (name, force) in [("base|p1c1b1", 3577.0), ("base|p1c1b2", 3571.0)] {
             let e = names.iter().position(|n| n == name).expect("a joint");
-            let rub = model.rubs.iter().find(|r| r.joint as usize == e).expect("friction");
+            let rub = model.shear.rubs.iter().find(|r| r.joint as usize == e).expect("friction");
             let model = if planar { "planar" } else { "shear" };
             let subject = format!(
                 "Walls and loads: stone as high as two courses, what the base bears; {model} model, {}",

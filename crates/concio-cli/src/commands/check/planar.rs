@@ -76,13 +76,13 @@ fn pressed(laws: &[&Law], open: &[f64]) -> String {
 
 /// What holds the bonded joints, which part and slide, kind by kind; nothing where there are none.
 pub fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
-    if model.bonds.is_empty() {
+    if model.shear.bonds.is_empty() {
         return Ok(Vec::new());
     }
     let given = bond::given(case, &model.wall, &model.joints)?;
     let mut rows = vec![["bonds", "number", "f_t", "c", "tan φ", "G_f^I", "G_f^II"].map(String::from).to_vec()];
     for kind in KINDS {
-        let bonds = model.bonds.iter().filter(|b| model.joints[b.joint as usize].kind == kind);
+        let bonds = model.shear.bonds.iter().filter(|b| model.joints[b.joint as usize].kind == kind);
         let values: Vec<_> = bonds.filter_map(|b| given[b.joint as usize]).collect();
         if values.is_empty() {
             continue;
@@ -98,7 +98,7 @@ pub fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure
             range(values.iter().map(|b| b.energy[1]), tough),
         ]);
     }
-    rows.push(vec!["all".into(), model.bonds.len().to_string()]);
+    rows.push(vec!["all".into(), model.shear.bonds.len().to_string()]);
     Ok(rows)
 }
 

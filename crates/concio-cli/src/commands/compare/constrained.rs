@@ -115,7 +115,7 @@ fn pairs_of(prepared: &Prepared) -> Vec<Pair> {
     let upright = |e: &usize| model.joints[*e].kind.is_upright();
     let names = model.joint_names();
     let pair = |e: usize| {
-        let blocks = model.sides[e].map(|b| model.wall.blocks[b as usize].name.clone());
+        let blocks = model.shear.sides[e].map(|b| model.wall.blocks[b as usize].name.clone());
         Pair { joint: names[e].clone(), index: e, blocks }
     };
     (0..model.joints.len()).filter(upright).map(pair).collect()

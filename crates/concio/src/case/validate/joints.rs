@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use super::{Bound, Findings, devices};
 use crate::case::{
     Bond, BondChange, Case, Friction, FrictionChange, FrictionLaw, JointBond, JointChange, Panel, Selector, Spring,
-    SpringLaw,
 };
 use crate::quantity::shown;
 use crate::{InputError, case::de::suggestion};
@@ -95,7 +94,7 @@ fn spring(f: &mut Findings, kind: &str, s: &Spring) {
     f.number(format_args!("joint.{kind}.rigidity"), s.rigidity, Bound::Above0);
     f.number(format_args!("joint.{kind}.stiffness_factor"), s.stiffness_factor, Bound::From0);
     for (name, given) in [RESTITUTION, ROCKING].into_iter().zip([s.restitution, s.rocking_restitution]) {
-        restitution(f, (&format!("joint.{kind}"), name), given, Some(s.law));
+        restitution(f, (&format!("joint.{kind}"), name), given, Some(s.law.is_rigid()));
     }
     if let Some(ratio) = s.damping_ratio {
         f.number(format_args!("joint.{kind}.damping_ratio"), ratio, DAMPING);
@@ -109,11 +108,11 @@ fn spring(f: &mut Findings, kind: &str, s: &Spring) {
 const RESTITUTION: &str = "restitution";
 const ROCKING: &str = "rocking_restitution";
 
-/// What a joint gives back, by its table and name, where the law of it is `law`, if that is known here.
-fn restitution(f: &mut Findings, (table, name): (&str, &str), given: Option<f64>, law: Option<SpringLaw>) {
+/// What a joint gives back, by its table and name, where it is known here whether its law is `rigid`.
+fn restitution(f: &mut Findings, (table, name): (&str, &str), given: Option<f64>, rigid: Option<bool>) {
     let Some(e) = given else { return };
     let key = format!("{table}.{name}");
-    if law.is_some_and(|law| law != SpringLaw::Rigid) {
+    if rigid == Some(false) {
         f.push(key, "is for law `rigid` alone", format!("law = \"rigid\", or no `{name}`"));
     } else {
         f.number(key, e, Bound::Between(0.0, 1.0));
@@ -192,7 +191,7 @@ fn change(f: &mut Findings, i: usize, change: &JointChange) {
     if let Some(s) = &change.spring {
         // Without a law the joint keeps its own, which is not known here: a restitution of no rigid joint has no effect.
         for (name, given) in [RESTITUTION, ROCKING].into_iter().zip([s.restitution, s.rocking_restitution]) {
-            restitution(f, (&format!("joint.change[{i}].spring"), name), given, s.law);
+            restitution(f, (&format!("joint.change[{i}].spring"), name), given, s.law.map(|law| law.is_rigid()));
         }
         if let Some(v) = s.stiffness {
             f.stiffness(format_args!("joint.change[{i}].spring.stiffness"), v);
