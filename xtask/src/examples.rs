@@ -1,4 +1,4 @@
-//! Runs every wall file in examples/ and looks at its energy account.
+//! Runs every wall file in examples/ and looks at its energy account; runs the programs of the library.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::command::{Outcome, read};
+use crate::command::{Outcome, cargo, read};
 use crate::concio;
 
 /// Largest residual of the energy account over the largest work.
@@ -31,7 +31,23 @@ pub fn run_all(root: &Path) -> Outcome {
     for file in ["large/facade.toml", "laboratory/ispra-low.toml", "laboratory/ispra-high.toml"] {
         read(Command::new(concio(root)).arg("check").arg(format!("examples/{file}")).current_dir(root))?;
     }
+    in_rust(root)?;
     studies(root)
+}
+
+/// Runs the programs of crates/concio/examples.
+fn in_rust(root: &Path) -> Outcome {
+    let folder = root.join("crates").join("concio").join("examples");
+    let entries = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let mut names: Vec<PathBuf> = entries.filter_map(|e| e.ok().map(|e| e.path())).collect();
+    names.sort();
+    for name in names.iter().filter_map(|path| path.file_stem()) {
+        let mut example = cargo(root);
+        example.args(["run", "--quiet", "--locked", "--release", "--package", "concio", "--example"]).arg(name);
+        read(&mut example)?;
+    }
+    println!("{} programs of crates/concio/examples run", names.len());
+    if names.is_empty() { Err("there are no programs".into()) } else { Ok(()) }
 }
 
 /// Checks the study files of examples/studies/ and the walls that they start from; `cargo xtask studies` runs them.

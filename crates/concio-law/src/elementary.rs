@@ -2,6 +2,7 @@
 //! the system's mathematical library, so that every machine gets the same bits.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LOG2_E};
+use std::ops::{Add, Div, Mul, Sub};
 
 /// Adding it to a number of at most 2⁵¹ leaves the nearest integer in the low bits.
 pub const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 · 2⁵²
@@ -44,6 +45,25 @@ pub const ATAN_DENOMINATOR: [f64; 5] = [
     485.390_399_635_913_7,
     194.550_657_148_261_4,
 ];
+
+/// A number, or one in every lane of a vector, with the functions of this module.
+pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
+    /// e^(−x) for x ≥ 0.
+    fn exp_of_negative(self) -> Self;
+    /// arctan z for z ≥ 0.
+    fn atan_of_positive(self) -> Self;
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn exp_of_negative(self) -> f64 {
+        exp_of_negative(self)
+    }
+    #[inline(always)]
+    fn atan_of_positive(self) -> f64 {
+        atan_of_positive(self)
+    }
+}
 
 /// e^(−x) for x ≥ 0; relative error below 4·10⁻¹⁶.
 ///

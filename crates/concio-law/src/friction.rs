@@ -2,8 +2,9 @@
 //! (6) μ(v) = (2/π) arctan(β v/δ_v) [(μ_s − μ_d) e^{−|v|/δ_v} + μ_d] + α |v| v.
 
 use std::f64::consts::FRAC_2_PI;
+use std::ops::{Add, Mul};
 
-use crate::elementary::{atan_of_positive, exp_of_negative};
+use crate::elementary::{Number, exp_of_negative};
 
 /// Velocity-dependent dry friction (6).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,14 +36,9 @@ impl Stribeck {
             let (level, slope) = self.in_slip(speed);
             return (if v == 0.0 { 0.0 } else { level.copysign(v) }, slope);
         }
-        let steep = self.beta / self.slip_velocity;
-        let z = speed * steep;
-        let decay = (self.static_ - self.dynamic) * exp_of_negative(speed / self.slip_velocity);
-        let level = decay + self.dynamic;
-        let angle = FRAC_2_PI * atan_of_positive(z);
-        let value = angle * level + self.alpha * speed * speed;
-        let slope =
-            FRAC_2_PI * steep / (1.0 + z * z) * level - angle * decay / self.slip_velocity + 2.0 * self.alpha * speed;
+        let Stribeck { static_, dynamic, slip_velocity, beta, alpha } = *self;
+        let law = Smooth { excess: static_ - dynamic, dynamic, slip_velocity, steep: beta / slip_velocity, alpha };
+        let (value, slope) = law.at(speed);
         (value.copysign(v), slope)
     }
 
@@ -72,6 +68,39 @@ impl Stribeck {
     /// Slope at rest, (2/π) β μ_s/δ_v [s/m]: the steepest.
     pub fn slope_at_rest(&self) -> f64 {
         FRAC_2_PI * self.beta / self.slip_velocity * self.static_
+    }
+}
+
+/// The numbers of (6) as it is computed, of one joint or of several in the lanes of a vector.
+#[derive(Debug, Clone, Copy)]
+pub struct Smooth<N> {
+    /// μ_s − μ_d.
+    pub excess: N,
+    /// μ_d.
+    pub dynamic: N,
+    /// δ_v [m/s].
+    pub slip_velocity: N,
+    /// β/δ_v [s/m].
+    pub steep: N,
+    /// α [s²/m²].
+    pub alpha: N,
+}
+
+impl<N: Number> Smooth<N>
+where
+    f64: Add<N, Output = N> + Mul<N, Output = N>,
+{
+    /// |μ| and dμ/dv [s/m] at a speed [m/s], from 0.
+    #[inline(always)]
+    pub fn at(&self, speed: N) -> (N, N) {
+        let Smooth { excess, dynamic, slip_velocity, steep, alpha } = *self;
+        let z = speed * steep;
+        let decay = excess * (speed / slip_velocity).exp_of_negative();
+        let level = decay + dynamic;
+        let angle = FRAC_2_PI * z.atan_of_positive();
+        let value = angle * level + alpha * speed * speed;
+        let slope = FRAC_2_PI * steep / (1.0 + z * z) * level - angle * decay / slip_velocity + 2.0 * alpha * speed;
+        (value, slope)
     }
 }
 

@@ -88,7 +88,7 @@ impl Problem {
     /// Beams that something else holds, devices in joints, walls that cannot be laid.
     pub fn of(given: &Case, options: Options) -> Result<Problem> {
         let case = at_rest(given)?;
-        let model = run::prepare(case.clone(), std::path::Path::new("."))?.model;
+        let model = run::prepare_case(case.clone(), std::path::Path::new("."))?.model;
         let sides = sides(&case, &model)?;
         let laden = assign::load_masses(&case, &model.wall);
         let mut assembly = Assembly::of(&model.wall, &model.joints, |e| sides[e] != Sides::Apart, &laden);

@@ -15,6 +15,7 @@
 //! would be damped with them.
 
 use concio_law::device;
+use concio_law::friction::Stribeck;
 use serde::{Deserialize, Serialize};
 
 use crate::G;
@@ -133,8 +134,15 @@ impl Friction {
         if speed == 0.0 {
             return self.static_;
         }
-        let fallen = if self.slip_velocity > 0.0 { (-speed / self.slip_velocity).exp() } else { 0.0 };
-        self.dynamic + (self.static_ - self.dynamic) * fallen + self.alpha * speed * speed
+        Stribeck {
+            beta: f64::INFINITY,
+            static_: self.static_,
+            dynamic: self.dynamic,
+            slip_velocity: self.slip_velocity,
+            alpha: self.alpha,
+        }
+        .in_slip(speed)
+        .0
     }
 }
 

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use concio::case::Case;
 use concio::many::{Job, simulate_many};
-use concio::run::{Control, prepare};
+use concio::run::{Control, prepare_case};
 use concio_study::file::Keep;
 use concio_study::runner::{Progress, Runner};
 use concio_study::{Plan, StudyFile};
@@ -40,7 +40,7 @@ fn study(path: &Path, runs: Range<usize>, threads: usize) -> Result<f64, Box<dyn
 /// Time of the solver alone.
 fn solver(path: &Path, runs: Range<usize>, threads: usize) -> Result<f64, Box<dyn std::error::Error>> {
     let cases = cases(path, runs)?;
-    let prepared = cases.iter().map(|c| prepare(c.clone(), Path::new(""))).collect::<concio::Result<Vec<_>>>()?;
+    let prepared = cases.iter().map(|c| prepare_case(c.clone(), Path::new(""))).collect::<concio::Result<Vec<_>>>()?;
     let jobs: Vec<Job> = prepared.iter().map(Job::from).collect();
     let begun = Instant::now();
     simulate_many(&jobs, threads);

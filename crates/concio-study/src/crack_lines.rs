@@ -61,7 +61,8 @@ impl CracksInput {
                 ));
             }
         }
-        let prepared = concio::run::prepare(first, std::path::Path::new("")).map_err(|e| file.of_wall("cracks", e))?;
+        let prepared =
+            concio::run::prepare_case(first, std::path::Path::new("")).map_err(|e| file.of_wall("cracks", e))?;
         if Limits::of(&prepared.model, &self.rule()).is_none() {
             let what = format!("criterion `{}` looks at no joint of this wall", self.criterion.name());
             let allowed =
@@ -329,7 +330,7 @@ mod tests {
 
     fn model() -> Result<Model> {
         let case = concio::case::example()?.case;
-        Ok(concio::run::prepare(case, std::path::Path::new(""))?.model)
+        Ok(concio::run::prepare_case(case, std::path::Path::new(""))?.model)
     }
 
     /// In a running bond a head joint meets the bed joints left and right of its two ends, and no head joint of the next

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use concio::case::{Case, JointKind, Signal};
 use concio::quantity::{Length, shown};
-use concio::run::prepare;
+use concio::run::prepare_case;
 use concio::warning::Warning;
 use concio::{InputError, Result};
 use serde::Serialize;
@@ -211,7 +211,7 @@ pub fn objection(question: &Question, subject: &Subject) -> Result<Option<InputE
         let what = "there is no motion: the base is at rest, and its motion is what is scaled";
         return Ok(Some(InputError::new(what).key("motion").allowed("a `base` motion, or records")));
     }
-    let model = prepare(subject.case.clone(), Path::new(""))?.model;
+    let model = prepare_case(subject.case.clone(), Path::new(""))?.model;
     if Limits::of(&model, &question.rule).is_some() {
         return Ok(None);
     }
@@ -271,7 +271,7 @@ struct Seek<'a> {
 
 impl<'a> Seek<'a> {
     fn new(question: &'a Question, subject: &'a Subject) -> Result<Self> {
-        let prepared = prepare(subject.case.clone(), Path::new(""))?;
+        let prepared = prepare_case(subject.case.clone(), Path::new(""))?;
         let model = &prepared.model;
         let mode = first_mode(model);
         let shaking = Shaking::of(&model.excitation, &question.periods, mode);

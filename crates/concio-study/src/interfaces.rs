@@ -495,7 +495,7 @@ fn try_devices(plan: &Plan, question: &Question) -> Result<()> {
             changes.push(("joint.change".into(), with(&question.scenes[0], device.change(&shares, &names))));
             let key = format!("interfaces.device[{i}].change");
             let case = plan.changed(&changes, 1.0).map_err(|e| plan.file.of_wall(&key, e))?;
-            concio::run::prepare(case, Path::new("")).map_err(|e| plan.file.of_wall(&key, e))?;
+            concio::run::prepare_case(case, Path::new("")).map_err(|e| plan.file.of_wall(&key, e))?;
         }
     }
     Ok(())

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use concio::case;
 use concio::dice::Dice;
-use concio::run::prepare;
+use concio::run::prepare_case;
 use concio::{bond, device};
 use concio_study::shaking::first_mode;
 use concio_study::{Plan, first_crack, interfaces};
@@ -36,7 +36,7 @@ fn checked(path: &Path) -> concio::Result<()> {
         assert!(finding.line.is_some() && finding.key.is_some(), "{finding}");
     }
     file.validate()?;
-    let prepared = prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(e))?;
+    let prepared = prepare_case(file.case.clone(), file.folder()).map_err(|e| file.locate(e))?;
     let model = &prepared.model;
     if model.wall.blocks.len() <= TRIED {
         model.planar().map(|planar| planar.rest());

@@ -8,7 +8,7 @@ use std::time::Instant;
 use concio::case::{Syntax, from_str};
 use concio::many::{Job, simulate_many};
 use concio::outcome::Outcome;
-use concio::run::{Prepared, prepare, run_in_memory};
+use concio::run::{Prepared, prepare_case, run_in_memory};
 
 const PANEL: &str = include_str!("../../../xtask/walls/driven-top.toml");
 /// Rounds in which the ways take turns; the median counts.
@@ -46,7 +46,7 @@ fn panel(k: usize, runs: usize, tolerance: f64) -> Option<Prepared> {
     let law = format!("static = {mu}, dynamic = {}", 0.7 * mu);
     let mut case = from_str(&PANEL.replace("static = 0.6, dynamic = 0.42", &law), Syntax::Toml, None).ok()?.case;
     case.solver.tolerance = tolerance;
-    prepare(case, Path::new("")).ok()
+    prepare_case(case, Path::new("")).ok()
 }
 
 fn mean_work(outcomes: Vec<concio::Result<Outcome>>) -> f64 {

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use concio::Result;
 use concio::case::{Syntax, from_str};
-use concio::run::{Prepared, prepare};
+use concio::run::{Prepared, prepare_case};
 use concio::simulate::{Progress, Simulation};
 
 const ROUNDS: usize = 3;
@@ -44,7 +44,7 @@ fn facade(times: usize) -> Result<Prepared> {
     text += &replaced(rest, "1.6 g", "0.4 g");
     let file = from_str(&text, Syntax::Toml, None)?;
     file.validate()?;
-    prepare(file.case, Path::new(""))
+    prepare_case(file.case, Path::new(""))
 }
 
 /// Seconds per block and step, and iterations per step; halves of a step are part of it.

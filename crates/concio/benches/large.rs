@@ -17,7 +17,7 @@ use std::time::Instant;
 
 use concio::Result;
 use concio::case::{Syntax, from_str};
-use concio::run::{Prepared, prepare};
+use concio::run::{Prepared, prepare_case};
 use concio::simulate::Simulation;
 use peak_alloc::PeakAlloc;
 
@@ -77,7 +77,7 @@ impl Laid {
         let start = Instant::now();
         let file = from_str(&wall(courses, bricks, friction), Syntax::Toml, None)?;
         file.validate()?;
-        let prepared = prepare(file.case, Path::new(""))?;
+        let prepared = prepare_case(file.case, Path::new(""))?;
         Ok(Laid { prepared, seconds: start.elapsed().as_secs_f64(), bytes: MEMORY.current_usage() - before })
     }
 }
@@ -151,7 +151,7 @@ fn in_turn(count: u64, friction: &str, steps: u64, smallest: Option<f64>) -> Res
     for seed in 0..count {
         let file =
             from_str(&wall(25, 40, friction).replace("seed = 3", &format!("seed = {seed}")), Syntax::Toml, None)?;
-        all.push(prepare(file.case, Path::new(""))?);
+        all.push(prepare_case(file.case, Path::new(""))?);
     }
     let mut runs = Vec::new();
     for prepared in &all {

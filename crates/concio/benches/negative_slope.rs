@@ -5,7 +5,7 @@ use std::path::Path;
 
 use concio::case::{Case, Syntax, from_str};
 use concio::record::StopReason;
-use concio::run::{prepare, run_in_memory};
+use concio::run::{prepare_case, run_in_memory};
 
 /// The panel of examples/02, and how it is run.
 const PANEL: &str = include_str!("../../../xtask/walls/driven-top.toml");
@@ -31,7 +31,7 @@ fn run(slip_velocity: f64, tolerance: f64, max_step: Option<f64>, member: usize)
     case.solver.max_step = max_step.map(Into::into);
     let text = toml_of(&case, slip_velocity, factor);
     let case = from_str(&text, Syntax::Json, None).ok()?.case;
-    let prepared = prepare(case, Path::new("")).ok()?;
+    let prepared = prepare_case(case, Path::new("")).ok()?;
     let out = run_in_memory(&prepared).ok()?;
     (out.stop_reason == StopReason::Completed).then(|| Answer {
         work: out.energies.input_top,

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use concio::case::{Syntax, from_str};
 use concio::law::Stribeck;
-use concio::run::{Prepared, prepare};
+use concio::run::{Prepared, prepare_case};
 use concio::samples::sharp_friction;
 use concio::simulate::Simulation;
 use concio_shear::{Part, Parts};
@@ -43,7 +43,7 @@ fn in_the_middle(name: &str, measure: impl FnOnce(&Prepared, Simulation)) {
     let (_, text, until) = WALLS.iter().find(|w| w.0 == name).expect("one of the names");
     let file = from_str(text, Syntax::Toml, None).expect("a wall file");
     file.validate().expect("a valid one");
-    let prepared = prepare(file.case, Path::new("")).expect("a wall that stands");
+    let prepared = prepare_case(file.case, Path::new("")).expect("a wall that stands");
     let mut run = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling).expect("no names");
     while run.time() < *until {
         run.advance(100);

@@ -6,6 +6,7 @@
 
 use std::path::{Path, PathBuf};
 
+mod build;
 mod change;
 pub(crate) mod de;
 mod devices;

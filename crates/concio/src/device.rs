@@ -167,7 +167,7 @@ mod tests {
             );
             let file = from_str(&text, Syntax::Toml, None).unwrap();
             file.validate().unwrap();
-            let model = crate::run::prepare(file.case.clone(), std::path::Path::new("")).unwrap().model;
+            let model = crate::run::prepare_case(file.case.clone(), std::path::Path::new("")).unwrap().model;
             assert_eq!(model.devices.len(), 1);
             concio_shear::lanes::Kind::of(&model.shear, Scheme::TrBdf2)
         };

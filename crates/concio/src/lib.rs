@@ -1,12 +1,33 @@
 //! Concio: the in-plane earthquake response of block masonry.
 //!
-//! Main path: [`case`] → [`pattern`] → [`graph`] → [`model`] → [`simulate`] → [`outcome`].
+//! ```
+//! use concio::run::{prepare, run_in_memory};
 //!
-//! A wall is a text, or a file read by [`case::read`]; a run gives histories, peaks and energies in SI units:
+//! let wall = concio::case::example()?;                   // or case::read, case::from_str, CaseFile::of
+//! let outcome = run_in_memory(&prepare(&wall)?)?;
+//! assert!(outcome.totals.base_shear_peak > 5e3);         // N; everything is SI
+//! # Ok::<(), concio::Error>(())
+//! ```
+//!
+//! A run gives histories, peaks and energies ([`outcome`]). [`run::run`] writes them into a folder and resumes what was interrupted,
+//! [`run::run_watched`] lets a monitor look on, [`many`] does many runs at once. Three programs to start from are in `crates/concio/examples`:
+//! `run.rs`; `sweep.rs`, a wall built without a file; `own_motion.rs`, a motion of one's own.
+//!
+//! | what | where |
+//! |---|---|
+//! | wall files, and walls built in Rust | [`case`], [`quantity`], [`error`] |
+//! | records, filters, spectra, motions | [`ground`], [`excitation`] |
+//! | blocks and joints | [`pattern`], [`wall`], [`graph`] |
+//! | which law each joint has | [`assign`], [`law`], [`bond`], [`device`] |
+//! | the compiled wall | [`model`], [`planar`] |
+//! | steps | [`simulate`], [`state`]; mechanics in `concio_shear` and `concio_planar` |
+//! | what a run gives | [`outcome`], [`record`], [`drift`], [`failure`], [`moment`] |
+//! | from a file to a folder of results | [`run`], [`store`], [`warning`], [`files`] |
+//! | many runs, other uses | [`many`], [`constrained`], [`system`], [`samples`], [`dice`] |
+//!
+//! A wall of a text:
 //!
 //! ```
-//! use std::path::Path;
-//!
 //! use concio::case::{Syntax, from_str};
 //! use concio::run::{prepare, run_in_memory};
 //!
@@ -31,8 +52,7 @@
 //!     Syntax::Toml,
 //!     None,
 //! )?;
-//! wall.validate()?;
-//! let outcome = run_in_memory(&prepare(wall.case, Path::new("."))?)?;
+//! let outcome = run_in_memory(&prepare(&wall)?)?;
 //! // A block of 4 kN that slides on its base bears μ N.
 //! assert!((outcome.totals.base_shear_peak / 1.2e3 - 1.0).abs() < 1e-2);
 //! # Ok::<(), concio::Error>(())

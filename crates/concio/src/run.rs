@@ -3,26 +3,26 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use concio_law::motion::Excitation as _;
 use concio_planar::joint::Law;
+use concio_shear::law::Rub;
 use serde_json::Value;
 
-use concio_law::motion::Excitation as _;
-
-use crate::case::{Beam, Case, MOST_SAMPLES, Signal, canonical_json, plausible};
+use crate::case::{Beam, Case, CaseFile, MOST_SAMPLES, Signal, canonical_json, plausible};
 use crate::error::{Error, InputError, Result};
 use crate::excitation::Excitation;
 use crate::files;
-use crate::ground::signal::compile_with;
+use crate::ground::signal::{GroundMotion, compile_with};
 use crate::ground::{Library, coverage};
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::pattern;
 use crate::quantity::shown;
-use crate::record::StopReason;
+use crate::record::{Recording, StopReason};
 use crate::simulate::{Progress, Sampling, Simulation, Status};
 use crate::store::{self, JointRow, Journal, JournalHeader, Provenance, RunFacts};
+use crate::wall::Wall;
 use crate::warning::{Warning, WarningKind};
-use concio_shear::law::Rub;
 
 mod warnings;
 
@@ -75,26 +75,66 @@ const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(1);
 /// Steps of which there are hardly meant to be more: of a hundred blocks hours, of a thousand days.
 const ENDLESS: f64 = 1e8;
 
-/// Lays the wall, compiles motion and model; numbers that are hardly meant and records that the run cuts or outlasts join
-/// the model's warnings. `folder` is where relative record paths start. The case must be valid
-/// ([`crate::case::CaseFile::validate`]).
+/// Makes a wall file ready to run: validates it, lays the wall, reads its records, compiles motion and model. Numbers that are hardly meant and
+/// records that the run cuts or outlasts join the model's warnings.
 ///
 /// # Errors
-/// Records that cannot be read, walls that do not stand, names that nothing bears.
-pub fn prepare(case: Case, folder: &Path) -> Result<Prepared> {
+/// What the file may not say, records that cannot be read, walls that do not stand, names that nothing bears; each with file, line and key.
+pub fn prepare(file: &CaseFile) -> Result<Prepared> {
+    file.validate()?;
+    prepare_case(file.case.clone(), file.folder()).map_err(|error| file.locate(error))
+}
+
+/// [`prepare`] with a motion of the base that no file gives, over `motion.duration`.
+///
+/// # Errors
+/// As [`prepare`]; a wall file that moves its base or top too, or gives no duration.
+pub fn prepare_moved(file: &CaseFile, base: GroundMotion) -> Result<Prepared> {
+    file.validate()?;
+    let case = file.case.clone();
+    let moves = case.motion.signals().into_iter().find(|(_, signal)| **signal != Signal::None);
+    if let Some((name, _)) = moves {
+        let error = InputError::new("the motion is given beside the wall file").key(format!("motion.{name}"));
+        return Err(file.locate(error.allowed("none").into()));
+    }
+    let Some(duration) = case.motion.duration else {
+        let error = InputError::new("the run has no end").key("motion.duration").allowed("above 0");
+        return Err(file.locate(error.into()));
+    };
+    let inputs_hash = hash(&[canonical_json(&case).into_bytes(), format!("{base:?}").into_bytes()]);
+    let excitation = Excitation::of_base(base, duration.si());
+    let parts = pattern::lay(&case).and_then(|wall| Ok((wall, sampling(&case, &excitation)?)));
+    let (wall, sampling) = parts.map_err(|error| file.locate(error))?;
+    compiled(case, (wall, excitation, sampling), Vec::new(), inputs_hash).map_err(|error| file.locate(error))
+}
+
+/// [`prepare`] of a case that is valid; `folder` is where relative record paths start.
+///
+/// # Errors
+/// As [`prepare`], by key alone.
+pub fn prepare_case(case: Case, folder: &Path) -> Result<Prepared> {
     prepare_with(case, folder, &Library::default())
 }
 
-/// [`prepare`] for one of many runs: accelerograms are taken from `library`.
+/// [`prepare_case`] for one of many runs: accelerograms are taken from `library`.
 ///
 /// # Errors
-/// As [`prepare`].
+/// As [`prepare_case`].
 pub fn prepare_with(case: Case, folder: &Path, library: &Library) -> Result<Prepared> {
     let wall = pattern::lay(&case)?;
     let excitation = excitation(&case, folder, library)?;
     let sampling = sampling(&case, &excitation)?;
     let inputs_hash = inputs_hash(&case, folder)?;
     let of_records = coverage::warnings(&case, folder, excitation.duration, library)?;
+    compiled(case, (wall, excitation, sampling), of_records, inputs_hash)
+}
+
+fn compiled(
+    case: Case,
+    (wall, excitation, sampling): (Wall, Excitation, Sampling),
+    of_records: Vec<Warning>,
+    inputs_hash: String,
+) -> Result<Prepared> {
     let mut model = Model::compile(&case, wall, excitation)?;
     model.warnings.splice(0..0, plausible::doubts(&case));
     model.warnings.extend(of_records);
@@ -421,7 +461,28 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
 /// # Errors
 /// As [`Simulation::new`].
 pub fn run_in_memory(prepared: &Prepared) -> Result<Outcome> {
+    run_watched(prepared, &mut |_| Control::Continue)
+}
+
+/// [`run_in_memory`]; `monitor` is called after every step, and may stop the run there.
+///
+/// # Errors
+/// As [`Simulation::new`].
+pub fn run_watched(prepared: &Prepared, monitor: &mut dyn FnMut(&Simulation) -> Control) -> Result<Outcome> {
     let mut simulation = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling)?;
-    let (rows, reason) = simulation.run_to_end();
+    let mut rows = Recording::default();
+    let reason = loop {
+        let ended = match simulation.advance(1) {
+            Progress::Ended(reason) => Some(reason),
+            Progress::Running => (monitor(&simulation) == Control::Stop).then_some(StopReason::Interrupted),
+        };
+        if ended.is_some() || simulation.buffer_is_full() {
+            rows.append(simulation.recording());
+            simulation.clear_recording();
+        }
+        if let Some(reason) = ended {
+            break reason;
+        }
+    };
     Ok(simulation.outcome(rows, reason))
 }

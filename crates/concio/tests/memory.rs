@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use concio::case::{Syntax, from_str};
-use concio::run::prepare;
+use concio::run::prepare_case;
 use concio::simulate::{Progress, Simulation};
 use peak_alloc::PeakAlloc;
 
@@ -35,7 +35,7 @@ fn memory_per_block() {
     let before = MEMORY.current_usage();
     let file = from_str(WALL, Syntax::Toml, None).unwrap();
     file.validate().unwrap();
-    let p = prepare(file.case.clone(), Path::new("")).unwrap();
+    let p = prepare_case(file.case.clone(), Path::new("")).unwrap();
     let blocks = p.model.wall.blocks.len();
     assert_eq!(blocks, 100_125);
     let mut run = Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
@@ -75,7 +75,7 @@ frames = "0 s"
 fn planar() {
     let file = from_str(DRY, Syntax::Toml, None).unwrap();
     file.validate().unwrap();
-    let p = prepare(file.case.clone(), Path::new("")).unwrap();
+    let p = prepare_case(file.case.clone(), Path::new("")).unwrap();
     let mut run = Simulation::new(&p.model, &p.case.solver, &p.sampling).unwrap();
     assert_eq!(run.advance(100), Progress::Running);
     let ready = MEMORY.current_usage();

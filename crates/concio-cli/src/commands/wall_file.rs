@@ -66,7 +66,7 @@ fn of_record(error: Error) -> Error {
 
 /// Lays the wall, compiles the system, reads the records.
 pub fn prepare(file: &CaseFile) -> Result<Prepared, Failure> {
-    let prepared = run::prepare(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)));
+    let prepared = run::prepare_case(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)));
     // A length in the wrong unit makes walls that cannot be laid.
     let doubts = || [file.unit_doubts(), plausible::doubts(&file.case)].concat();
     let mut prepared = prepared.map_err(|error| {

@@ -32,7 +32,7 @@ frames = "0.1 ms"
 
 fn stored(output: &str) -> StoredRun {
     let file = case::from_str(&format!("{WALL}{output}"), Syntax::Toml, None).expect("a wall");
-    let prepared = run::prepare(file.case, std::path::Path::new(".")).expect("a system");
+    let prepared = run::prepare_case(file.case, std::path::Path::new(".")).expect("a system");
     let outcome = run::run_in_memory(&prepared).expect("a run");
     let joints = run::joint_rows(&prepared.model);
     let (provenance, wall) = (prepared.provenance(), prepared.model.wall);

@@ -517,7 +517,7 @@ mod tests {
     fn frames_of_planar_runs_bring_rotations_and_joints() {
         use concio::record::{Event, EventKind};
         let file = concio::case::from_str(WALL, concio::case::Syntax::Toml, None).expect("a wall");
-        let prepared = concio::run::prepare(file.case, std::path::Path::new(".")).expect("a system");
+        let prepared = concio::run::prepare_case(file.case, std::path::Path::new(".")).expect("a system");
         let mut outcome = concio::run::run_in_memory(&prepared).expect("a run");
         let (rows, frames) = (concio::run::joint_rows(&prepared.model), outcome.recording.frame_time.len());
         let (columns, joints) = (prepared.model.wall.blocks.len() + 1, rows.len());
@@ -591,7 +591,7 @@ mod tests {
     fn outlines_of_polygons_come_with_the_page() {
         let data_of = |text: &str| {
             let file = concio::case::from_str(text, concio::case::Syntax::Toml, None).expect("a wall");
-            let prepared = concio::run::prepare(file.case, std::path::Path::new(".")).expect("a system");
+            let prepared = concio::run::prepare_case(file.case, std::path::Path::new(".")).expect("a system");
             let outcome = concio::run::run_in_memory(&prepared).expect("a run");
             let rows = concio::run::joint_rows(&prepared.model);
             let content = Content {
@@ -631,7 +631,8 @@ mod tests {
     #[test]
     fn data_without_room_are_rounded_and_then_thinned() {
         let file = concio::case::from_str(&ARCH.replace("0.01 s", "0.5 s"), concio::case::Syntax::Toml, None);
-        let prepared = concio::run::prepare(file.expect("a wall").case, std::path::Path::new(".")).expect("a system");
+        let prepared =
+            concio::run::prepare_case(file.expect("a wall").case, std::path::Path::new(".")).expect("a system");
         let mut outcome = concio::run::run_in_memory(&prepared).expect("a run");
         let rows = concio::run::joint_rows(&prepared.model);
         let recording = &mut outcome.recording;

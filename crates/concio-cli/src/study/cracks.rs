@@ -21,7 +21,7 @@ const MOST_MAPS: usize = 6;
 /// Counts the cracks of a study that asks for them, writes `cracks.csv` and `crack-lines.csv`; its part of the report.
 pub fn section(plan: &Plan, case: &Case, rows: &[Option<&Row>], out: &Path) -> Result<Option<Section>, Failure> {
     let Some(input) = &plan.file.study.cracks else { return Ok(None) };
-    let model = concio::run::prepare(case.clone(), Path::new(""))?.model;
+    let model = concio::run::prepare_case(case.clone(), Path::new(""))?.model;
     let groups = count(input, plan, &model, rows);
     let (joints, lines) = (of_joints(&model, &groups), of_lines(&model, &groups));
     table::write_csv(&joints, &out.join("cracks.csv"))?;

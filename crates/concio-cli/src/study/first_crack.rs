@@ -139,7 +139,7 @@ const DEFORMATION: &str = "criterion slip compares the whole displacement of a j
 /// Whether elastic deformation counts for what is asked of these walls.
 fn deforms(question: &Question, subjects: &[Subject]) -> concio::Result<bool> {
     let Some(subject) = subjects.first() else { return Ok(false) };
-    let model = concio::run::prepare(subject.case.clone(), Path::new(""))?.model;
+    let model = concio::run::prepare_case(subject.case.clone(), Path::new(""))?.model;
     Ok(counts_deformation(&model, &question.rule))
 }
 

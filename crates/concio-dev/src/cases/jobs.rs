@@ -106,7 +106,7 @@ fn one(job: Job, out: &Path, kept: &Mutex<Kept>) -> Result<Option<Measures>, Fai
         return Ok(None);
     }
     let file = walls::file(job.which, job.setting, job.member)?;
-    let prepared = run::prepare(file.case.clone(), file.folder())?;
+    let prepared = run::prepare_case(file.case.clone(), file.folder())?;
     let folder = job.folder(out);
     let hash = &prepared.inputs_hash;
     let known = locked(kept).measures.iter().find(|m| m.inputs_hash == *hash).cloned();

@@ -187,7 +187,7 @@ mod tests {
                 for member in 0..MEMBERS {
                     let file = file(which, setting, member).expect("a wall file");
                     assert_eq!(file.findings(), [], "{} {}", which.name(), setting.name());
-                    let prepared = concio::run::prepare(file.case, file_folder()).expect("a wall");
+                    let prepared = concio::run::prepare_case(file.case, file_folder()).expect("a wall");
                     hashes.insert(prepared.inputs_hash);
                 }
             }

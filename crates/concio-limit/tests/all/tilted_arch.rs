@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use concio::case::{Syntax, from_str};
-use concio::run::prepare;
+use concio::run::prepare_case;
 use concio::simulate::{Progress, Simulation};
 use concio_limit::{Options, Problem, analyse};
 use concio_verified::agrees;
@@ -24,7 +24,7 @@ fn a_tilted_arch_falls_at_its_multiplier() {
     let limit = analyse(&Problem::of(&case, Options::default()).expect("an arch")).expect("a limit");
     let [lower, upper] = limit.bounds;
     assert!((upper - lower).abs() <= 1e-9, "{lower} … {upper}");
-    let prepared = prepare(case, Path::new(".")).expect("an arch");
+    let prepared = prepare_case(case, Path::new(".")).expect("an arch");
     let mut run = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling).expect("a run");
     while run.state().totals.peak_relative_displacement < MOVING {
         assert_eq!(run.advance(1), Progress::Running, "it moves");

@@ -1,11 +1,8 @@
 //! The joints of a system as the stage reads them: one array per quantity, unknowns by their place in the elimination
 //! order.
 
-use std::f64::consts::FRAC_2_PI;
-
 use crate::system::System;
-use concio_law::elementary::{atan_of_positive, exp_of_negative};
-use concio_law::friction::Stribeck;
+use concio_law::friction::{Smooth, Stribeck};
 
 /// Mismatch of tangent and law, as a fraction of μ_s, beyond which the next tangent is moved along the law.
 pub const FAR: f64 = 0.02;
@@ -169,13 +166,15 @@ impl Rubs {
         let (steep, alpha) = (&self.steep[..n], &self.alpha[..n]);
         let (mu, slope) = (&mut mu[..n], &mut slope[..n]);
         for r in 0..n {
-            let speed = w[r].abs();
-            let z = speed * steep[r];
-            let decay = excess[r] * exp_of_negative(speed / slip[r]);
-            let level = decay + dynamic[r];
-            let angle = FRAC_2_PI * atan_of_positive(z);
-            let value = angle * level + alpha[r] * speed * speed;
-            slope[r] = FRAC_2_PI * steep[r] / (1.0 + z * z) * level - angle * decay / slip[r] + 2.0 * alpha[r] * speed;
+            let law = Smooth {
+                excess: excess[r],
+                dynamic: dynamic[r],
+                slip_velocity: slip[r],
+                steep: steep[r],
+                alpha: alpha[r],
+            };
+            let value;
+            (value, slope[r]) = law.at(w[r].abs());
             mu[r] = value.copysign(w[r]);
         }
     }

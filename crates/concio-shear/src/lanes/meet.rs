@@ -98,7 +98,7 @@ impl Pack {
     fn search<S: Simd>(&self, simd: S) -> [[f64; WIDTH]; 3] {
         let row = |values: [f64; WIDTH]| V::of(simd, values);
         let [excess, dynamic, slip, steep, alpha] = self.law.map(row);
-        let law = Law { excess, dynamic, slip, steep, alpha };
+        let law = Law { excess, dynamic, slip_velocity: slip, steep, alpha };
         let (zero, one) = (V::splat(simd, 0.0), V::splat(simd, 1.0));
         let [at_a, at_b] = self.diagonals.map(row);
         let free = 1.0 / at_a + 1.0 / at_b;

@@ -8,8 +8,11 @@ use std::ops::{Add, Div, Mul, Sub};
 
 use pulp::Simd;
 
-use concio_law::elementary::{ATAN_DENOMINATOR, ATAN_NUMERATOR, EXP_LARGEST, EXP_TAYLOR, LN_2_HIGH, LN_2_LOW, ROUND};
-use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LOG2_E};
+use concio_law::elementary::{
+    ATAN_DENOMINATOR, ATAN_NUMERATOR, EXP_LARGEST, EXP_TAYLOR, LN_2_HIGH, LN_2_LOW, Number, ROUND,
+};
+use concio_law::friction::Smooth;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LOG2_E};
 
 /// Lanes of a row.
 pub const WIDTH: usize = 8;
@@ -441,30 +444,23 @@ pub fn atan_of_positive<S: Simd>(z: V<S>) -> V<S> {
     turned + (t + t * s * (p / q))
 }
 
-/// Parameters of (6) as [`friction`] reads them.
-#[derive(Clone, Copy)]
-pub struct Law<S: Simd> {
-    /// μ_s − μ_d.
-    pub excess: V<S>,
-    /// μ_d.
-    pub dynamic: V<S>,
-    /// δ_v [m/s].
-    pub slip: V<S>,
-    /// β/δ_v [s/m].
-    pub steep: V<S>,
-    /// α [s²/m²].
-    pub alpha: V<S>,
+impl<S: Simd> Number for V<S> {
+    #[inline(always)]
+    fn exp_of_negative(self) -> Self {
+        exp_of_negative(self)
+    }
+    #[inline(always)]
+    fn atan_of_positive(self) -> Self {
+        atan_of_positive(self)
+    }
 }
 
-/// μ(v) and its slope in every lane: the operations of [`concio_law::friction::Stribeck::at`], and so its bits.
+/// Parameters of (6) in every lane.
+pub type Law<S> = Smooth<V<S>>;
+
+/// μ(v) and its slope in every lane.
 #[inline(always)]
 pub fn friction<S: Simd>(law: Law<S>, v: V<S>) -> (V<S>, V<S>) {
-    let speed = v.abs();
-    let z = speed * law.steep;
-    let decay = law.excess * exp_of_negative(speed / law.slip);
-    let level = decay + law.dynamic;
-    let angle = FRAC_2_PI * atan_of_positive(z);
-    let value = angle * level + law.alpha * speed * speed;
-    let slope = FRAC_2_PI * law.steep / (1.0 + z * z) * level - angle * decay / law.slip + 2.0 * law.alpha * speed;
+    let (value, slope) = law.at(v.abs());
     (value.with_sign_of(v), slope)
 }

@@ -397,7 +397,7 @@ impl Work {
             let law = Law {
                 excess: rub.row(EXCESS),
                 dynamic: rub.row(DYNAMIC),
-                slip: rub.row(SLIP),
+                slip_velocity: rub.row(SLIP),
                 steep: rub.row(STEEP),
                 alpha: rub.row(ALPHA),
             };

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use concio::Result;
 use concio::case::{self, RecordInput, Signal, SpringLaw};
 use concio::ground::{Library, measure};
-use concio::run::{Control, prepare};
+use concio::run::{Control, prepare_case};
 use concio::simulate::Simulation;
 use concio_study::first_crack::{Answer, Question, Subject, keep, of_study, search};
 use concio_study::limits::{Criterion, Rule};
@@ -32,11 +32,11 @@ fn assert_certified(answer: &Answer, interval: f64, checks: usize) {
 
 /// Least strength over demand of a linear run: the wall without bonds, whose joints are as stiff.
 fn strength_over_demand(subject: &Subject) -> Result<f64> {
-    let bonded = prepare(subject.case.clone(), Path::new(""))?.model;
+    let bonded = prepare_case(subject.case.clone(), Path::new(""))?.model;
     let mut case = subject.case.clone();
     assert_eq!(case.joint.head.law, SpringLaw::Elastic);
     case.joint.bond = None;
-    let linear = prepare(case, Path::new(""))?;
+    let linear = prepare_case(case, Path::new(""))?;
     assert!(linear.model.shear.bonds.is_empty() && linear.model.shear.rubs.is_empty());
     let mut run = Simulation::new(&linear.model, &linear.case.solver, &linear.sampling)?;
     let (rows, reason) = run.run_to_end();

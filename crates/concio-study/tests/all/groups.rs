@@ -5,7 +5,7 @@ use std::path::Path;
 use concio::case::{CaseFile, Scheme, Signal, Solver, Syntax, from_str};
 use concio::ground::signal::compile;
 use concio::model::Model;
-use concio::run::{Prepared, prepare};
+use concio::run::{Prepared, prepare_case};
 use concio::samples::respond;
 use concio_study::groups::{Group, Reference, groups};
 
@@ -43,7 +43,7 @@ fn read(text: &str) -> CaseFile {
 }
 
 fn ready(file: &CaseFile) -> Prepared {
-    prepare(file.case.clone(), Path::new("")).expect("a wall that stands")
+    prepare_case(file.case.clone(), Path::new("")).expect("a wall that stands")
 }
 
 fn solver(length: f64) -> Solver {
@@ -182,7 +182,7 @@ fn two_walls_with_equal_groups_move_alike() -> concio::Result<()> {
     assert!((case.joint.damping_ratio, case.joint.friction.static_) == (0.05, 0.6));
     assert!((case.panels[0].brick.specific_weight.si() / 15e3 - 1.0).abs() > 0.1);
     case.output = first.case.output.clone();
-    let second = prepare(case, Path::new(""))?;
+    let second = prepare_case(case, Path::new(""))?;
     let s = Reference::of(&second.case, None)?;
     assert!(s.length == 0.4 && (s.mass / r.mass - 1.0).abs() > 1.0 && (s.frequency / r.frequency - 1.0).abs() > 0.1);
     for (a, b) in wanted.iter().zip(groups(&second.case, &second.model, Path::new(""), &s)?) {

@@ -341,7 +341,7 @@ mod tests {
     use crate::excitation::Excitation;
     use crate::ground::signal::GroundMotion;
     use crate::outcome::Collapse;
-    use crate::run::{Prepared, prepare, run_in_memory};
+    use crate::run::{Prepared, prepare_case, run_in_memory};
     use crate::samples::{Link, lumped, solver};
     use crate::simulate::{Sampling, Simulation};
     use crate::wall::End;
@@ -490,7 +490,7 @@ step = "2 ms"
 
     fn ran(text: &str) -> (Prepared, Outcome) {
         let file = crate::case::from_str(text, crate::case::Syntax::Toml, None).unwrap();
-        let prepared = prepare(file.case, std::path::Path::new(".")).unwrap();
+        let prepared = prepare_case(file.case, std::path::Path::new(".")).unwrap();
         let outcome = run_in_memory(&prepared).unwrap();
         (prepared, outcome)
     }

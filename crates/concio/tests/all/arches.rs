@@ -5,7 +5,7 @@ use std::path::Path;
 
 use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
-use concio::run::{Prepared, prepare, run_in_memory};
+use concio::run::{Prepared, prepare_case, run_in_memory};
 use concio_verified::agrees;
 
 /// Least thickness of a semicircle over the radius of its centre line (Milankovitch 1907; Heyman 1969 has 0.106 with weights
@@ -37,7 +37,7 @@ frames = "10 ms"
     );
     let file = from_str(&text, Syntax::Toml, None).expect("a wall file");
     file.validate().expect("a valid wall");
-    let prepared = prepare(file.case, Path::new(".")).expect("an arch");
+    let prepared = prepare_case(file.case, Path::new(".")).expect("an arch");
     let outcome = run_in_memory(&prepared).expect("a run");
     (prepared, outcome)
 }

@@ -4,7 +4,7 @@ use concio::assign::{JointLaw, resolve};
 use concio::case::{Case, JointKind, SpringLaw, Syntax, from_str};
 use concio::model::Model;
 use concio::pattern::lay;
-use concio::run::prepare;
+use concio::run::prepare_case;
 use concio::wall::{Joint, Wall};
 use concio::{Error, graph};
 
@@ -48,7 +48,7 @@ fn laws(case: &Case) -> (Wall, Vec<Joint>, Vec<JointLaw>) {
 }
 
 fn model(text: &str) -> Model {
-    prepare(case(text), std::path::Path::new("")).unwrap_or_else(|e| panic!("{e}")).model
+    prepare_case(case(text), std::path::Path::new("")).unwrap_or_else(|e| panic!("{e}")).model
 }
 
 /// k A of every joint, whatever its kind: the overlap weight must not come in a second time. Between panels of different

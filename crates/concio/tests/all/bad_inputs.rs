@@ -515,7 +515,7 @@ fn files_that_cannot_be_read() {
 fn frames_are_taken_with_samples() {
     let prepared = |output: &str| {
         let file = from_str(&format!("{GOOD}[output]\n{output}"), Syntax::Toml, None).expect("a wall file");
-        concio::run::prepare(file.case, Path::new(""))
+        concio::run::prepare_case(file.case, Path::new(""))
     };
     let refused = prepared("interval = \"0.1 s\"\nframes = \"0.25 s\"\n").map(|_| ());
     let told = input_error(refused, "frames between samples").to_string();
@@ -532,7 +532,7 @@ fn frames_are_taken_with_samples() {
     let arch = arch.expect("the example").replace("duration = \"3.2 s\"", "duration = \"200 s\"\nquasi_static = true");
     for (frames, interval) in [("10 ms", 0.01), ("0.5 s", 0.1), ("1 s", 0.1)] {
         let file = from_str(&arch.replace("\"10 ms\"", &format!("\"{frames}\"")), Syntax::Toml, None).expect("a file");
-        let sampling = concio::run::prepare(file.case, Path::new("")).expect("a run").sampling;
+        let sampling = concio::run::prepare_case(file.case, Path::new("")).expect("a run").sampling;
         assert!((sampling.interval - interval).abs() < 1e-12, "{frames}: {sampling:?}");
     }
 }

@@ -11,7 +11,7 @@ use concio::law::Stribeck;
 use concio::model::Model;
 use concio::outcome::Outcome;
 use concio::record::{EventKind, StopReason};
-use concio::run::{Prepared, prepare, run_in_memory};
+use concio::run::{Prepared, prepare_case, run_in_memory};
 use concio::samples::{Link, lumped, solver};
 use concio::simulate::{Sampling, Simulation};
 use concio::wall::End;
@@ -31,7 +31,7 @@ fn no_event_is_lost_between_samples() {
                 [joint]\nbond = { cohesion = \"2 kPa\", tensile_strength = \"2 kPa\" }\n[load]\nbeam = \"free\"\n[motion]\nduration = \"1.5 s\"\n\
                 base = { sine = { acceleration = \"1 g\", frequency = 3, ramp = \"1 s\" } }\n[output]\ninterval = \"1 s\"\n";
     let case = from_str(text, Syntax::Toml, None).unwrap().case;
-    let prepared = prepare(case, Path::new("")).unwrap();
+    let prepared = prepare_case(case, Path::new("")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let kept = concio::run::run(&prepared, folder.path(), &mut |_| concio::run::Control::Continue).unwrap();
     let expected = run_in_memory(&prepared).unwrap().recording.events;
@@ -344,7 +344,7 @@ fn prepared(bond: &str) -> Prepared {
 fn refused(bond: &str) -> concio::InputError {
     let file = from_str(&PANEL.replace("BOND", bond), Syntax::Toml, None).unwrap();
     file.validate().unwrap();
-    match prepare(file.case.clone(), Path::new("")) {
+    match prepare_case(file.case.clone(), Path::new("")) {
         Err(Error::Input(error)) => *error,
         other => panic!("{other:?}"),
     }
@@ -395,7 +395,7 @@ fn a_bond_that_holds_is_an_elastic_wall() {
     let bonded = run_in_memory(&prepared(r#"bond = { cohesion = "1e11 Pa" }"#)).unwrap();
     let mut elastic = prepared("");
     elastic.case.joint.friction.law = concio::case::FrictionLaw::None;
-    let elastic = run_in_memory(&prepare(elastic.case, Path::new("")).unwrap()).unwrap();
+    let elastic = run_in_memory(&prepare_case(elastic.case, Path::new("")).unwrap()).unwrap();
     assert_eq!(bonded.energies.bond, 0.0);
     assert_eq!(bonded.recording.values, elastic.recording.values);
     assert_eq!(bonded.recording.frame_displacement, elastic.recording.frame_displacement);
@@ -409,7 +409,7 @@ fn nothing_slips_before_its_bond_cracks() {
     let mut case = prepared(r#"bond = { cohesion = "1e11 Pa" }"#).case;
     let Signal::Pulse(pulse) = &mut case.motion.base else { panic!("the wall of these tests has a pulse") };
     pulse.acceleration = (100.0 * pulse.acceleration.si()).into();
-    let outcome = run_in_memory(&prepare(case, Path::new("")).unwrap()).unwrap();
+    let outcome = run_in_memory(&prepare_case(case, Path::new("")).unwrap()).unwrap();
     assert!(outcome.totals.peak_slip_velocity > 2e-3, "{}", outcome.totals.peak_slip_velocity);
     assert!(outcome.envelopes.joint_slip.iter().all(|s| *s == 0.0));
 }
@@ -434,7 +434,7 @@ fn a_bond_without_strength_is_a_dry_joint() {
     let weak = bits(r#"bond = { cohesion = "1e-6 Pa", residual_stiffness = 0.5 }"#);
     let mut half = prepared("").case;
     half.joint.bed.stiffness_factor = 0.5;
-    let half = run_in_memory(&prepare(half, Path::new("")).unwrap()).unwrap();
+    let half = run_in_memory(&prepare_case(half, Path::new("")).unwrap()).unwrap();
     let (a, b) = (weak.totals.peak_relative_displacement, half.totals.peak_relative_displacement);
     assert!((a / b - 1.0).abs() < 1e-3 && (a / dry.totals.peak_relative_displacement - 1.0).abs() > 0.01, "{a} {b}");
     assert!(weak.bonds.iter().all(|b| b.damage == 1.0));
@@ -450,7 +450,7 @@ fn the_first_crack_comes_at_strength_over_demand() {
         if let Signal::Pulse(pulse) = &mut case.motion.base {
             pulse.acceleration = (scale * pulse.acceleration.si()).into();
         }
-        run_in_memory(&prepare(case, Path::new("")).unwrap()).unwrap()
+        run_in_memory(&prepare_case(case, Path::new("")).unwrap()).unwrap()
     };
     // Far below the strengths, but with the same laws: head joints bear tension as long as they are bonded.
     let tolerance = 1e-6;
@@ -489,7 +489,7 @@ fn a_cracking_wall_keeps_its_energy_and_its_bits() {
                 if law == "coulomb" {
                     case.joint.friction.law = concio::case::FrictionLaw::Coulomb;
                 }
-                prepare(case, Path::new("")).unwrap()
+                prepare_case(case, Path::new("")).unwrap()
             };
             let whole = run_in_memory(&p).unwrap();
             assert_eq!(whole.stop_reason, StopReason::Completed);

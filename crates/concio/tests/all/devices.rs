@@ -8,7 +8,7 @@ use concio::case::{DeviceLaw, Scheme, Syntax, from_str};
 use concio::many::{Job, simulate_many};
 use concio::outcome::Outcome;
 use concio::record::{Recording, StopReason};
-use concio::run::{Prepared, joint_rows, prepare, run_in_memory};
+use concio::run::{Prepared, joint_rows, prepare_case, run_in_memory};
 use concio::simulate::{Progress, Simulation};
 use concio_verified::{agrees, farthest};
 
@@ -85,7 +85,7 @@ impl Run {
 fn prepared(text: &str) -> Prepared {
     let file = from_str(text, Syntax::Toml, None).unwrap();
     file.validate().unwrap();
-    prepare(file.case.clone(), Path::new("")).unwrap()
+    prepare_case(file.case.clone(), Path::new("")).unwrap()
 }
 
 fn go(p: &Prepared, z: f64, v: f64) -> Outcome {
@@ -613,7 +613,7 @@ fn a_device_needs_a_joint() {
             "[[joint.change]]\nat = {{ joints = [\"{name}\"] }}\ndevice = {{ law = \"viscous\", damping = 100 }}"
         );
         let file = from_str(&PANEL.replace("CHANGES", &change), Syntax::Toml, None).unwrap();
-        match prepare(file.case.clone(), Path::new("")) {
+        match prepare_case(file.case.clone(), Path::new("")) {
             Err(Error::Input(e)) => {
                 assert_eq!(e.key.as_deref(), Some("joint.change[0].at"));
                 assert!(e.what.contains(&format!("no joint is named `{name}`")), "{e}");

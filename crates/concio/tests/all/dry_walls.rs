@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use concio::case::{Syntax, from_str};
 use concio::failure::{Mode, failure};
-use concio::run::{prepare, run_in_memory};
+use concio::run::{prepare_case, run_in_memory};
 use serde_json::Value;
 
 const WALL: &str = include_str!("../../../../examples/15-dry-shear-wall.toml");
@@ -25,7 +25,7 @@ fn reference() -> Option<Vec<Value>> {
 fn pushed(load: f64) -> (f64, Vec<Mode>) {
     let mut file = from_str(WALL, Syntax::Toml, None).expect("the example");
     file.case.load.top = load.into();
-    let prepared = prepare(file.case, Path::new(".")).expect("a wall");
+    let prepared = prepare_case(file.case, Path::new(".")).expect("a wall");
     let outcome = run_in_memory(&prepared).expect("a run");
     assert!(outcome.totals.contact_residual < 1e-6, "{:e}", outcome.totals.contact_residual);
     let failed = failure(&prepared.model.wall, &prepared.model.joints, &outcome.recording).expect("frames");

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use concio::case::{Syntax, from_str};
 use concio::failure::{Failure, Mode, failure};
-use concio::run::{prepare, run_in_memory};
+use concio::run::{prepare_case, run_in_memory};
 use concio_verified::agrees;
 
 const PANEL: &str = include_str!("../../../../examples/16-shear-panel.toml");
@@ -14,7 +14,7 @@ fn pushed(bricks: usize, courses: usize, load: f64) -> Failure {
     let panel = &mut file.case.panels[0];
     (panel.bricks, panel.courses) = (Some(bricks), Some(courses));
     file.case.load.top = load.into();
-    let prepared = prepare(file.case, Path::new(".")).expect("a wall");
+    let prepared = prepare_case(file.case, Path::new(".")).expect("a wall");
     let outcome = run_in_memory(&prepared).expect("a run");
     failure(&prepared.model.wall, &prepared.model.joints, &outcome.recording).expect("frames")
 }
@@ -70,7 +70,7 @@ quasi_static = true
         None,
     )
     .expect("a wall file");
-    let prepared = prepare(file.case, Path::new(".")).expect("a wall");
+    let prepared = prepare_case(file.case, Path::new(".")).expect("a wall");
     let outcome = run_in_memory(&prepared).expect("a run");
     let found = failure(&prepared.model.wall, &prepared.model.joints, &outcome.recording).expect("frames");
     assert_eq!(found.modes, [Mode::Diagonal], "{found:?}");
@@ -88,7 +88,7 @@ const ISPRA: [(&str, f64, Mode); 2] = [
 fn the_walls_of_ispra_bear_what_they_bore_in_the_laboratory() {
     for (text, measured, mode) in ISPRA {
         let file = from_str(text, Syntax::Toml, None).expect("the example");
-        let prepared = prepare(file.case, Path::new(".")).expect("a wall");
+        let prepared = prepare_case(file.case, Path::new(".")).expect("a wall");
         let outcome = run_in_memory(&prepared).expect("a run");
         let found = failure(&prepared.model.wall, &prepared.model.joints, &outcome.recording).expect("frames");
         let peak = outcome.totals.base_shear_peak;

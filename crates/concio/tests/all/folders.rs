@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
 
 use concio::case::{Syntax, from_str};
-use concio::run::{Control, Prepared, REPORT, RESULT, SUMMARY, prepare, run};
+use concio::run::{Control, Prepared, REPORT, RESULT, SUMMARY, prepare_case, run};
 use concio::store::hdf5;
 
 fn wall(title: &str) -> Prepared {
@@ -27,7 +27,7 @@ top = {{ sine = {{ amplitude = "2 mm", frequency = "2 Hz", ramp = "0.05 s" }} }}
 "#
     );
     let file = from_str(&text, Syntax::Toml, None).unwrap();
-    prepare(file.case.clone(), Path::new("")).unwrap()
+    prepare_case(file.case.clone(), Path::new("")).unwrap()
 }
 
 /// A run whose process is gone at its first look around.

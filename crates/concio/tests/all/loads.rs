@@ -5,14 +5,14 @@ use std::path::Path;
 use concio::G;
 use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
-use concio::run::{Control, Prepared, prepare, run, run_in_memory};
+use concio::run::{Control, Prepared, prepare_case, run, run_in_memory};
 use concio::warning::WarningKind;
 use concio_verified::{agrees, farthest};
 
 fn prepared(text: &str) -> Prepared {
     let file = from_str(text, Syntax::Toml, None).expect("a wall file");
     file.validate().expect("a valid wall");
-    prepare(file.case, Path::new(".")).expect("a wall that stands")
+    prepare_case(file.case, Path::new(".")).expect("a wall that stands")
 }
 
 fn ran(text: &str) -> (Prepared, Outcome) {
@@ -347,7 +347,7 @@ fn what_is_crushed_at_rest_is_told() {
         );
         let text = block("planar", &joint, &format!("top = {}", q / b), "duration = 1");
         let file = from_str(&text, Syntax::Toml, None).expect("a wall file");
-        let warnings = prepare(file.case, Path::new(".")).expect("a wall").model.warnings.clone();
+        let warnings = prepare_case(file.case, Path::new(".")).expect("a wall").model.warnings.clone();
         let told = warnings.iter().find(|warning| warning.contains("compressive_strength is"));
         assert_eq!(told.is_some(), part.is_some(), "{strength}: {warnings:?}");
         assert!(told.is_none_or(|told| told.contains(part.unwrap_or_default())), "{told:?}");

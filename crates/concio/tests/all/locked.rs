@@ -6,7 +6,7 @@ use std::path::Path;
 
 use concio::case::{Beam, Case, FrictionLaw, ModelKind, Signal, SpringLaw, Syntax, from_str};
 use concio::model::Model;
-use concio::run::prepare;
+use concio::run::prepare_case;
 use concio_planar::motion::{Forcing, Motion, Setting};
 
 const STEP: f64 = 1e-4;
@@ -29,7 +29,7 @@ fn compiled(mut case: Case, model: ModelKind) -> Model {
     case.joint.friction.law = FrictionLaw::None;
     case.joint.friction.preset = None;
     case.motion.duration = Some(concio::quantity::Time::from_si(1.0));
-    prepare(case, Path::new("examples")).expect("a wall").model
+    prepare_case(case, Path::new("examples")).expect("a wall").model
 }
 
 /// Displacements of the locked planar wall after each step.

@@ -7,7 +7,7 @@ use concio::case::{Scheme, Syntax, from_str};
 use concio::many::{Job, simulate_each, simulate_many};
 use concio::outcome::Outcome;
 use concio::record::StopReason;
-use concio::run::{Control, Prepared, prepare, run_in_memory};
+use concio::run::{Control, Prepared, prepare_case, run_in_memory};
 
 const PANEL: &str = r#"
 model = "shear"
@@ -51,7 +51,7 @@ fn ready(text: &str) -> Prepared {
     let mut case = file.case.clone();
     case.output.joints = vec!["all".into()];
     case.output.blocks = vec!["all".into()];
-    prepare(case, Path::new("")).unwrap()
+    prepare_case(case, Path::new("")).unwrap()
 }
 
 /// Runs that differ in everything that runs side by side may differ in.

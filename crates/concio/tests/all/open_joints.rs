@@ -5,13 +5,13 @@ use std::path::Path;
 use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
 use concio::planar::Rest;
-use concio::run::{Prepared, prepare, run_in_memory};
+use concio::run::{Prepared, prepare_case, run_in_memory};
 use concio_verified::agrees;
 
 fn prepared(text: &str) -> Prepared {
     let file = from_str(text, Syntax::Toml, None).expect("a wall file");
     file.validate().expect("a valid wall");
-    prepare(file.case, Path::new(".")).expect("a wall that stands")
+    prepare_case(file.case, Path::new(".")).expect("a wall that stands")
 }
 
 fn ran(text: &str) -> (Prepared, Outcome) {
@@ -194,7 +194,7 @@ fn an_open_joint_has_no_law_of_any_kind() {
 fn springs_without_stiffness_are_refused() {
     let refused = |text: &str| {
         let file = from_str(text, Syntax::Toml, None).expect("a wall file");
-        prepare(file.case, Path::new(".")).expect_err("no stiffness").to_string()
+        prepare_case(file.case, Path::new(".")).expect_err("no stiffness").to_string()
     };
     let bed = courses(r#"law = "elastic", stiffness = "0 N/m""#, r#"law = "rigid""#, 0.0);
     assert!(refused(&bed).contains("joint.bed: a joint without stiffness"), "{}", refused(&bed));

@@ -7,7 +7,7 @@ use concio::model::Model;
 use concio::moment::Moment;
 use concio::outcome::Outcome;
 use concio::record::StopReason;
-use concio::run::{joint_rows, prepare, run_in_memory};
+use concio::run::{joint_rows, prepare_case, run_in_memory};
 use concio::simulate::Simulation;
 use concio::store::{StoredRun, residual_relative};
 use concio_verified::{agrees, farthest};
@@ -404,7 +404,7 @@ fn a_one_way_law_on_bed_joints_is_refused() {
     for line in ["bed = { law = \"no-tension\", stiffness = 1e7 }", "top = { law = \"no-tension\", stiffness = 1e7 }"] {
         let text = format!("{PANEL}{SLIPPING}").replace("[joint]", &format!("[joint]\n{line}"));
         let file = from_str(&text, Syntax::Toml, None).unwrap();
-        let refused = file.validate().and_then(|()| prepare(file.case.clone(), Path::new("")).map(|_| ()));
+        let refused = file.validate().and_then(|()| prepare_case(file.case.clone(), Path::new("")).map(|_| ()));
         let message = refused.unwrap_err().to_string();
         assert!(message.contains("no-tension") && message.contains("elastic"), "{message}");
     }

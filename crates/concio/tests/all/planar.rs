@@ -5,14 +5,14 @@ use std::path::Path;
 use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
 use concio::record::EventKind;
-use concio::run::{Prepared, prepare, run_in_memory};
+use concio::run::{Prepared, prepare_case, run_in_memory};
 use concio::wall::End;
 use concio_verified::{agrees, farthest};
 
 fn prepared(text: &str) -> Prepared {
     let file = from_str(text, Syntax::Toml, None).expect("a wall file");
     file.validate().expect("a valid wall");
-    prepare(file.case, Path::new(".")).expect("a wall that stands")
+    prepare_case(file.case, Path::new(".")).expect("a wall that stands")
 }
 
 fn ran(text: &str) -> (Prepared, Outcome) {
@@ -146,7 +146,7 @@ fn bonds_that_snap_back_are_refused() {
         ));
         let file = from_str(&text, Syntax::Toml, None).expect("a wall file");
         file.validate().expect("a valid wall");
-        prepare(file.case, Path::new(".")).map(|_| ()).map_err(|e| e.to_string())
+        prepare_case(file.case, Path::new(".")).map(|_| ()).map_err(|e| e.to_string())
     };
     // f_t²/(2 k_n) = 1 N/m and c²/(2 k_s) = 4.5 N/m.
     assert_eq!(of("mode_1_energy = 1.01, mode_2_energy = 4.51"), Ok(()));
@@ -830,7 +830,7 @@ duration = "0.1 s"
 "#,
     );
     let file = from_str(&stone, Syntax::Toml, None).expect("a wall file");
-    let error = prepare(file.case, Path::new(".")).expect_err("no joint rocks").to_string();
+    let error = prepare_case(file.case, Path::new(".")).expect_err("no joint rocks").to_string();
     assert!(error.contains("joint.change[0].spring.rocking_restitution") && error.contains("rigid"), "{error}");
 }
 
@@ -1172,7 +1172,7 @@ fn stones_in_the_air_are_refused() {
         let text = format!("{panel}\nmortar = {{ bed = \"10 mm\", head = 0 }}\nblock = [{stones}]\n{joint}");
         let file = from_str(&text, Syntax::Toml, None).expect("a wall file");
         file.validate().expect("a valid wall");
-        prepare(file.case, Path::new(".")).map(|_| ()).map_err(|e| e.to_string())
+        prepare_case(file.case, Path::new(".")).map(|_| ()).map_err(|e| e.to_string())
     };
     for bevel in [false, true] {
         assert_eq!(told(0.0, 0.31, bevel), Ok(()));

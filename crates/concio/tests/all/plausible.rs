@@ -118,7 +118,7 @@ fn each_mistake_of_unit_is_told_with_a_guess() {
 #[test]
 fn the_doubts_are_warnings_of_a_prepared_run() {
     let prepared =
-        concio::run::prepare(case(&WALL.replace("mass = 4000", "mass = 4")), Path::new(".")).expect("a wall");
+        concio::run::prepare_case(case(&WALL.replace("mass = 4000", "mass = 4")), Path::new(".")).expect("a wall");
     assert!(prepared.model.warnings.iter().any(|w| w.starts_with("load.beam.mass is 4 kg")));
 }
 
@@ -126,7 +126,7 @@ fn the_doubts_are_warnings_of_a_prepared_run() {
 #[test]
 fn runs_without_end_are_told() {
     let told = |wall: &str| {
-        let prepared = concio::run::prepare(case(wall), Path::new(".")).expect("a wall");
+        let prepared = concio::run::prepare_case(case(wall), Path::new(".")).expect("a wall");
         prepared.model.warnings.iter().find(|w| w.starts_with("motion.duration: ")).cloned()
     };
     assert_eq!(told(WALL), None);

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use concio::case::read;
 use concio::outcome::Outcome;
-use concio::run::{prepare, run_in_memory};
+use concio::run::{prepare_case, run_in_memory};
 
 /// Shear: stribeck friction, true stick, bonds, devices. Planar: a dry wall that is pushed, an arch that is tilted.
 const EXAMPLES: [&str; 6] =
@@ -52,7 +52,7 @@ fn six_examples_keep_their_bits() {
     for name in EXAMPLES {
         let path = package.join("../../examples").join(name).with_extension("toml");
         let case = read(&path).expect("an example").case.clone();
-        let prepared = prepare(case, path.parent().expect("a folder")).expect("a model");
+        let prepared = prepare_case(case, path.parent().expect("a folder")).expect("a model");
         let outcome = run_in_memory(&prepared).expect("a run");
         writeln!(found, "{name} {:016x}", hash(&outcome)).expect("text");
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use concio::case::{Signal, Syntax, canonical_json, from_str};
 use concio::quantity::Acceleration;
 use concio::record::StopReason;
-use concio::run::{Control, Prepared, RESULT, prepare, run, run_in_memory};
+use concio::run::{Control, Prepared, RESULT, prepare_case, run, run_in_memory};
 use concio::store::hdf5;
 
 /// A slender stone that turns over: from 0.2 g on, here under 0.3 g.
@@ -36,7 +36,7 @@ frames = "20 ms"
     file.validate().unwrap_or_else(|e| panic!("{e}"));
     // What is kept of the input says the same.
     assert_eq!(from_str(&canonical_json(&file.case), Syntax::Json, None).expect("a case").case, file.case);
-    prepare(file.case, Path::new(".")).expect("a wall")
+    prepare_case(file.case, Path::new(".")).expect("a wall")
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn a_run_ends_after_its_collapse_with_the_bits_of_one_that_goes_on() {
     let mut case = stone("stop_at = \"collapse\"").case;
     let Signal::Tilt(tilt) = &mut case.motion.base else { panic!("{:?}", case.motion.base) };
     tilt.acceleration = Acceleration::from_si(0.09 * concio::G);
-    let out = run_in_memory(&prepare(case, Path::new(".")).expect("a wall")).expect("a run");
+    let out = run_in_memory(&prepare_case(case, Path::new(".")).expect("a wall")).expect("a run");
     assert_eq!((out.stop_reason, out.totals.collapse), (StopReason::Completed, None));
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use concio::case::{Syntax, from_str};
-use concio::run::prepare;
+use concio::run::prepare_case;
 use concio_verified::agrees;
 
 /// Beam and load of 6363.5 N on two equal seats: 3577 N on the base under the tall stone, 3571 N under the two beside it.
@@ -27,7 +27,7 @@ fn a_tall_block_bears_what_lies_on_it() {
             blocks.concat()
         );
         let file = from_str(&text, Syntax::Toml, None).expect("a wall file");
-        let model = prepare(file.case, Path::new(".")).expect("a wall").model;
+        let model = prepare_case(file.case, Path::new(".")).expect("a wall").model;
         let names = model.joint_names();
         for name in ["p1c1b1|p1c3b1", "p1c1b1|p1c2b1", "p1c1b1|p1c1b2", "p1c2b1|p1c3b1"] {
             assert!(names.iter().any(|n| n == name), "{name}: {names:?}");

@@ -5,7 +5,7 @@ use std::path::Path;
 use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
 use concio::record::{Recording, StopReason};
-use concio::run::{Prepared, prepare, run_in_memory};
+use concio::run::{Prepared, prepare_case, run_in_memory};
 use concio::simulate::Simulation;
 use concio::store::{self, hdf5};
 use concio_verified::agrees;
@@ -13,7 +13,7 @@ use concio_verified::agrees;
 fn prepared(text: &str) -> Prepared {
     let file = from_str(text, Syntax::Toml, None).expect("a wall file");
     file.validate().expect("a valid wall");
-    prepare(file.case, Path::new(".")).expect("a wall that stands")
+    prepare_case(file.case, Path::new(".")).expect("a wall that stands")
 }
 
 fn ran(text: &str) -> Outcome {
@@ -191,7 +191,7 @@ fn results_hold_the_rods() {
 fn rods_without_length_are_refused_and_detached_ones_doubted() {
     let wrong = held("[[tie]]\nfrom = \"base\"\nat = [2.5, 0.125]\nto = \"stone\"\nstiffness = 1e6");
     let file = from_str(&wrong, Syntax::Toml, None).expect("a wall file");
-    let error = prepare(file.case, Path::new(".")).expect_err("no length").to_string();
+    let error = prepare_case(file.case, Path::new(".")).expect_err("no length").to_string();
     assert!(error.contains("tie[0].to_at") && error.contains("at the same place"), "{error}");
     let doubts = |at: f64| {
         let tie = format!("[[tie]]\nfrom = \"base\"\nto = \"stone\"\nto_at = [{at}, 0]\nstiffness = 1e6");

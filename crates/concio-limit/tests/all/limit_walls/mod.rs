@@ -5,7 +5,7 @@ use std::path::Path;
 
 use concio::case::{Beam, Case, ModelKind, Spring, SpringLaw, Syntax, from_str};
 use concio::quantity::{Length, Time};
-use concio::run::prepare;
+use concio::run::prepare_case;
 use concio::simulate::{Progress, Simulation};
 use concio_limit::{Heads, Limit, Options, Problem, Push, Towards, analyse};
 
@@ -129,7 +129,7 @@ fn planar(wall: &DryWall, motion: &str) -> Case {
 }
 
 fn simulation(case: Case, each: impl FnMut(&mut Simulation) -> bool) {
-    let prepared = prepare(case, Path::new(".")).expect("a wall");
+    let prepared = prepare_case(case, Path::new(".")).expect("a wall");
     let mut run = Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling).expect("a run");
     let mut each = each;
     while each(&mut run) {

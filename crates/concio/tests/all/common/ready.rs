@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use concio::case::{Case, Syntax, from_str};
-use concio::run::{Prepared, prepare};
+use concio::run::{Prepared, prepare_case};
 
 /// A wall file made ready to run.
 pub fn ready(text: &str) -> Prepared {
@@ -16,5 +16,5 @@ pub fn edited(text: &str, edit: impl FnOnce(&mut Case)) -> Prepared {
     file.validate().unwrap();
     let mut case = file.case.clone();
     edit(&mut case);
-    prepare(case, Path::new("")).unwrap()
+    prepare_case(case, Path::new("")).unwrap()
 }
