@@ -13,7 +13,7 @@ use crate::command::{Outcome, cargo, run};
 const SKIPPED: &str = "skipped.txt";
 const PAGE: &str = "docs/verification.md";
 const PACKAGES: [&str; 6] = ["concio-law", "concio-limit", "concio-planar", "concio-shear", "concio", "concio-study"];
-const HEADER: &str = "| Subject | Held against | Expected | Found | Off by | The test allows | Command |";
+const HEADER: &str = "| Subject | Held against | Expected | Found | Off by | The test allows | Test |";
 
 /// Sections of the page in their order; the first half of a record's subject is one of them.
 const SECTIONS: [(&str, &str); 15] = [
@@ -48,7 +48,7 @@ How to read a row:
 
 - *Off by* is the distance from the answer, as a part of the answer, rounded up. Where *The test allows* begins with ±, it is the distance itself.
 - *The test allows* is the bound that the test asserts. Beyond it the test fails.
-- *Command* repeats the test. It needs nothing outside of the repository.
+- *Test* is package and test: `cargo test -p PACKAGE TEST` repeats it. It needs nothing outside of the repository.
 - A row of several cases shows the least and the largest number of each column, and of *Off by* the largest.
 - A row of a largest error has the answer 0. What it is the error of, and over what it is taken, is in the subject.
 
@@ -61,7 +61,6 @@ struct Record {
     against: String,
     unit: String,
     package: String,
-    target: String,
     test: String,
     kind: String,
     found: f64,
@@ -232,11 +231,7 @@ impl Record {
     }
 
     fn command(&self) -> String {
-        let target = match self.target == self.package.replace('-', "_") {
-            true => "--lib".to_string(),
-            false => format!("--test {}", self.target),
-        };
-        format!("`cargo test -p {} {target} {}`", self.package, self.test)
+        format!("`{} {}`", self.package, self.test)
     }
 }
 
@@ -358,7 +353,6 @@ mod tests {
             against: "|θ| = α".into(),
             unit: "m".into(),
             package: "concio-planar".into(),
-            target: "rocking".into(),
             test: "a_block_rocks".into(),
             kind: "relative".into(),
             found: 1.0012,
@@ -391,11 +385,11 @@ mod tests {
         assert_eq!(one.key(), other.key());
         assert!(
             row(&[case("high", 2.0)])
-                .starts_with("| a block, high | \\|θ\\| = α | 2 m | 2.002 m | 1e-3 | 1e-2 | `cargo")
+                .starts_with("| a block, high | \\|θ\\| = α | 2 m | 2.002 m | 1e-3 | 1e-2 | `")
         );
         let both = row(&[one, other]);
         assert!(
-            both.starts_with("| a block, 2 cases | \\|θ\\| = α | 0.5 … 2 m | 0.5005 … 2.002 m | 1e-3 | 1e-2 | `cargo"),
+            both.starts_with("| a block, 2 cases | \\|θ\\| = α | 0.5 … 2 m | 0.5005 … 2.002 m | 1e-3 | 1e-2 | `"),
             "{both}"
         );
         let told = rows(&both).expect("rows");

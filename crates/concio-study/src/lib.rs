@@ -35,7 +35,6 @@ pub mod shaking;
 mod statistics;
 pub mod store;
 pub mod table;
-pub mod until;
 pub mod values;
 pub mod warned;
 

@@ -3,6 +3,7 @@
 //! Demand over limit is a ratio of relative displacements: of a bond, whose joint is elastic while it is intact, that is
 //! force over strength (B2). Sources of the default limits: [`CRACK_WIDTH`], [`SLIP`].
 
+use concio::many::Until;
 use concio::model::Model;
 use concio::state::State;
 use schemars::JsonSchema;
@@ -76,6 +77,18 @@ pub fn counts_deformation(model: &Model, rule: &Rule) -> bool {
     let lies = |e: usize| !model.joints[e].kind.is_upright();
     rule.criterion == Criterion::Slip
         && model.shear.elastic.iter().enumerate().any(|(e, law)| lies(e) && law.stiffness > 0.0)
+}
+
+impl Rule {
+    /// Ends runs with their first crack. What a wall does once it has cracked is not asked, and has no bound: friction that lets go and sticks
+    /// again takes small steps. Lanes are no faster here: docs/studies/first-cracking.md.
+    pub fn until(&self) -> Box<Until> {
+        let rule = *self;
+        Box::new(move |job| {
+            let limits = Limits::of(job.model, &rule);
+            Box::new(move |state| limits.as_ref().is_some_and(|limits| limits.reached(state)))
+        })
+    }
 }
 
 /// How far each joint of a wall may move.

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use concio::case::Case;
 use concio::ground::{GroundMotion, Library};
-use concio::many::{Job, Standing, simulate_each};
+use concio::many::{Job, Standing, Until, simulate_each};
 use concio::model::Model;
 use concio::outcome::Outcome;
 use concio::record::StopReason;
@@ -27,7 +27,6 @@ use crate::limits::Rule;
 use crate::measures::{End, Row, row};
 use crate::plan::Records;
 use crate::store::Store;
-use crate::until::simulate_until;
 use crate::warned::Warned;
 
 /// Threads wait for each other where one set of runs ends and the next begins, so sets are large; but no larger than this
@@ -57,7 +56,8 @@ pub struct Progress {
 }
 
 /// Solves a set of jobs: [`simulate_each`], or a stand-in in tests.
-pub type Solve = fn(&[Job], usize, &(dyn Fn(Standing) -> Control + Sync), &(dyn Fn(usize, Result<Outcome>) + Sync));
+pub type Solve =
+    fn(&[Job], usize, Option<&Until>, &(dyn Fn(Standing) -> Control + Sync), &(dyn Fn(usize, Result<Outcome>) + Sync));
 
 /// Does runs and keeps what was measured of them.
 pub struct Runner<'a> {
@@ -252,13 +252,11 @@ impl<'a> Runner<'a> {
         let watch = |standing: Standing| {
             desk.watch(self.watch, tally, standing.share * jobs.len() as f64 - standing.ended as f64)
         };
+        let until = self.until.as_ref().map(Rule::until);
         let run = |some: &[(&str, &Prepared)], threads: usize| {
             let list: Vec<Job> = some.iter().map(|(_, p)| Job::from(*p)).collect();
             let keep = |number: usize, outcome: Result<Outcome>| desk.keep(some[number], outcome, tally);
-            catch_unwind(AssertUnwindSafe(|| match &self.until {
-                Some(rule) => simulate_until(&list, rule, threads, &watch, &keep),
-                None => (self.solve)(&list, threads, &watch, &keep),
-            }))
+            catch_unwind(AssertUnwindSafe(|| (self.solve)(&list, threads, until.as_deref(), &watch, &keep)))
         };
         if run(jobs, self.threads).is_err() {
             for job in jobs {

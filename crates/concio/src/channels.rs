@@ -99,6 +99,7 @@ impl Channels {
         let system = &model.shear;
         let (rub, contact, bond) = (system.rub_of_joint(), system.contact_of_joint(), system.bond_of_joint());
         let device = system.nonlinear_of_joint();
+        let turns = model.planar().is_some();
         let joint = |e: usize| Watched::Joint(e, [rub[e], contact[e], device[e]], bond[e]);
         watched.extend(chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(joint));
         let channel =
@@ -108,7 +109,7 @@ impl Channels {
         for w in &watched {
             match *w {
                 Watched::Block(i) => {
-                    let of_planar = model.planar().into_iter().flat_map(|_| &PLANAR_BLOCK);
+                    let of_planar = turns.then_some(&PLANAR_BLOCK).into_iter().flatten();
                     let name = &block_names[i];
                     list.extend(
                         BLOCK.iter().chain(of_planar).map(|(n, u, d)| channel(format!("block/{name}/{n}"), u, d)),
@@ -116,7 +117,7 @@ impl Channels {
                 }
                 Watched::Joint(e, _, bond) => {
                     let of_bond = bond.map(|_| &DAMAGE);
-                    let of_planar = model.planar().into_iter().flat_map(|_| &PLANAR_JOINT);
+                    let of_planar = turns.then_some(&PLANAR_JOINT).into_iter().flatten();
                     list.extend(
                         JOINT
                             .iter()

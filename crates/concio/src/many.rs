@@ -25,6 +25,7 @@ use crate::outcome::Outcome;
 use crate::record::{Event, Recording, StopReason};
 use crate::run::{Control, Prepared};
 use crate::simulate::{Progress, Sampling, Simulation};
+use crate::state::State;
 
 /// A run of a batch.
 #[derive(Debug, Clone, Copy)]
@@ -42,6 +43,9 @@ impl<'a> From<&'a Prepared> for Job<'a> {
         Job { model: &prepared.model, solver: &prepared.case.solver, sampling: &prepared.sampling }
     }
 }
+
+/// Makes of a run what says whether it is over.
+pub type Until = dyn Fn(&Job) -> Box<dyn Fn(&State) -> bool> + Sync;
 
 /// How far a batch is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +69,7 @@ pub fn simulate_many(jobs: &[Job], threads: usize) -> Vec<Result<Outcome>> {
         let mut outcomes = outcomes.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         outcomes[number] = Some(outcome);
     };
-    simulate_each(jobs, threads, &|_| Control::Continue, &keep);
+    simulate_each(jobs, threads, None, &|_| Control::Continue, &keep);
     // Every job is handed to `keep` once.
     outcomes.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner()).into_iter().flatten().collect()
 }
@@ -74,9 +78,13 @@ pub fn simulate_many(jobs: &[Job], threads: usize) -> Vec<Result<Outcome>> {
 /// as it ends and on the thread that ended it: no more results are held than runs are under way. `watch` is called a few
 /// times a second on every thread that has a run; after [`Control::Stop`] the runs under way end as
 /// [`StopReason::Interrupted`] where they are, and those that have not begun are left out.
+///
+/// Where `until` says of a run that it is over after a step, it ends there, as [`StopReason::Completed`] with the time that it has reached; no
+/// histories are kept, and no lanes are used, which cannot drop one of their runs.
 pub fn simulate_each(
     jobs: &[Job],
     threads: usize,
+    until: Option<&Until>,
     watch: &(dyn Fn(Standing) -> Control + Sync),
     keep: &(dyn Fn(usize, Result<Outcome>) + Sync),
 ) {
@@ -86,7 +94,8 @@ pub fn simulate_each(
     };
     let batch = Batch {
         jobs,
-        queues: queues(jobs, threads),
+        queues: queues(jobs, threads, until.is_none()),
+        until,
         rest: Mutex::new(Rest { runs: Vec::new(), busy: 0 }),
         more: Condvar::new(),
         waiting: AtomicUsize::new(0),
@@ -119,12 +128,13 @@ struct Queue {
     lanes: usize,
 }
 
-fn queues(jobs: &[Job], threads: usize) -> Vec<Queue> {
+fn queues(jobs: &[Job], threads: usize, share: bool) -> Vec<Queue> {
     let mut alone = Vec::new();
     let mut groups: Vec<Vec<usize>> = Vec::new();
     let mut group_of: HashMap<Kind, usize> = HashMap::new();
     for (number, job) in jobs.iter().enumerate() {
-        match job.model.planar().map_or_else(|| Kind::of(&job.model.shear, job.solver.scheme), |_| None) {
+        let shares = share && job.model.planar().is_none();
+        match shares.then(|| Kind::of(&job.model.shear, job.solver.scheme)).flatten() {
             Some(kind) => {
                 let group = *group_of.entry(kind).or_insert(groups.len());
                 if group == groups.len() {
@@ -154,6 +164,27 @@ struct Under<'a> {
 }
 
 impl Under<'_> {
+    /// Some steps; why it ended, if it did.
+    fn advance(&mut self) -> Option<StopReason> {
+        let progress = self.run.advance(BETWEEN_LOOKS);
+        self.rows.append(self.run.recording());
+        self.run.clear_recording();
+        if let Progress::Ended(reason) = progress { Some(reason) } else { None }
+    }
+    /// Likewise, without histories; it also ends after a step that it is over with.
+    fn advance_until(&mut self, over: &dyn Fn(&State) -> bool) -> Option<StopReason> {
+        for _ in 0..BETWEEN_LOOKS {
+            let progress = self.run.advance(1);
+            self.run.clear_recording();
+            if let Progress::Ended(reason) = progress {
+                return Some(reason);
+            }
+            if over(&self.run.state()) {
+                return Some(StopReason::Completed);
+            }
+        }
+        None
+    }
     fn share(&self) -> f64 {
         self.run.status().share()
     }
@@ -195,6 +226,7 @@ struct Batch<'a> {
     rest: Mutex<Rest<'a>>,
     /// Told when there is more in `rest`, or less to come.
     more: Condvar,
+    until: Option<&'a Until>,
     /// Threads that wait for it.
     waiting: AtomicUsize,
     watch: &'a (dyn Fn(Standing) -> Control + Sync),
@@ -281,14 +313,16 @@ impl<'a> Batch<'a> {
     }
 
     fn alone(&self, thread: usize, mut under: Under<'a>) {
+        let over = self.until.map(|until| until(&self.jobs[under.number]));
         let reason = loop {
             if self.stopped.load(Ordering::Relaxed) {
                 break StopReason::Interrupted;
             }
-            let progress = under.run.advance(BETWEEN_LOOKS);
-            under.rows.append(under.run.recording());
-            under.run.clear_recording();
-            if let Progress::Ended(reason) = progress {
+            let ended = match &over {
+                None => under.advance(),
+                Some(over) => under.advance_until(over),
+            };
+            if let Some(reason) = ended {
                 break reason;
             }
             self.goes_on(thread, under.share());

@@ -408,6 +408,7 @@ fn moving(model: &Model, t: f64) -> store::Moving {
 pub fn joint_rows(model: &Model) -> Vec<JointRow> {
     use crate::case::FrictionLaw;
     let (contact, device) = (model.shear.contact_of_joint(), model.device_of_joint());
+    let planar = model.planar();
     let of_shear = |r: &Rub| store::FrictionRow {
         law: match r.law.sticks() {
             false => FrictionLaw::Stribeck,
@@ -422,7 +423,7 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
     };
     // Friction of planar walls sticks truly, that of upright joints too, under the pressure of the moment.
     let of_planar = |e: usize| {
-        let rubs = model.planar().filter(|planar| !planar.open[e])?.system.links[e].law.friction?;
+        let rubs = planar.filter(|planar| !planar.open[e])?.system.links[e].law.friction?;
         Some(store::FrictionRow {
             law: if rubs.slip_velocity == 0.0 { FrictionLaw::Coulomb } else { FrictionLaw::StribeckStick },
             static_: rubs.static_,
@@ -434,7 +435,7 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
     };
     // Joints of planar walls have stiffnesses of their own, along and across, which rigidity does not touch along.
     let own = |e: usize| {
-        let planar = model.planar().filter(|planar| !planar.open[e] && device[e].is_none())?;
+        let planar = planar.filter(|planar| !planar.open[e] && device[e].is_none())?;
         Some(&planar.system.links[e].law)
     };
     let row = |(e, rub): (usize, Option<usize>)| {
@@ -450,7 +451,7 @@ pub fn joint_rows(model: &Model) -> Vec<JointRow> {
             restitution: contact[e].map_or(0.0, |c| model.shear.contacts[c].restitution),
             device: device[e],
             normal_force: rub.map_or([0.0; 2], |r| r.normal),
-            friction: if model.planar().is_some() { of_planar(e) } else { rub.map(of_shear) },
+            friction: if planar.is_some() { of_planar(e) } else { rub.map(of_shear) },
         }
     };
     model.shear.rub_of_joint().into_iter().enumerate().map(row).collect()

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use concio::case::{Case, Signal};
 use concio::dice::Dice;
-use concio::many::{Job, Standing, simulate_each};
+use concio::many::{Job, Standing, Until, simulate_each};
 use concio::outcome::Outcome;
 use concio::run::Control;
 use concio_study::Plan;
@@ -102,11 +102,12 @@ fn what_is_known_is_not_run_again_unless_more_is_kept() -> Anyhow {
     fn counted(
         jobs: &[Job],
         threads: usize,
+        until: Option<&Until>,
         watch: &(dyn Fn(Standing) -> Control + Sync),
         keep: &(dyn Fn(usize, concio::Result<Outcome>) + Sync),
     ) {
         RUNS.fetch_add(jobs.len(), Ordering::Relaxed);
-        simulate_each(jobs, threads, watch, keep);
+        simulate_each(jobs, threads, until, watch, keep);
     }
     let desk = Desk::new(WALL);
     let plan = desk.plan(TWENTY)?;
@@ -136,11 +137,12 @@ fn kept_results_that_are_not_what_was_written_are_made_again() -> Anyhow {
     fn counted(
         jobs: &[Job],
         threads: usize,
+        until: Option<&Until>,
         watch: &(dyn Fn(Standing) -> Control + Sync),
         keep: &(dyn Fn(usize, concio::Result<Outcome>) + Sync),
     ) {
         RUNS.fetch_add(jobs.len(), Ordering::Relaxed);
-        simulate_each(jobs, threads, watch, keep);
+        simulate_each(jobs, threads, until, watch, keep);
     }
     let desk = Desk::new(WALL);
     let plan = desk.plan(TWENTY)?;
@@ -197,15 +199,16 @@ fn a_run_that_panics_is_recorded_and_the_others_go_on() -> Anyhow {
     fn panicking(
         jobs: &[Job],
         threads: usize,
+        until: Option<&Until>,
         watch: &(dyn Fn(Standing) -> Control + Sync),
         keep: &(dyn Fn(usize, concio::Result<Outcome>) + Sync),
     ) {
         let bad = |job: &Job| job.model.shear.rubs.iter().any(|r| r.normal[0] > 7e3);
         if let Some(place) = jobs.iter().position(bad) {
-            simulate_each(&jobs[..place], threads, watch, keep);
+            simulate_each(&jobs[..place], threads, until, watch, keep);
             panic!("one too heavy");
         }
-        simulate_each(jobs, threads, watch, keep);
+        simulate_each(jobs, threads, until, watch, keep);
     }
     let desk = Desk::new(WALL);
     let text = TWENTY.replace("runs = 20", "runs = 6");

@@ -51,7 +51,8 @@ pub fn all(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning
 
 /// Those of the result, the gravest first.
 fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
-    let balance = match model.planar() {
+    let planar = model.planar();
+    let balance = match planar {
         None => unbalanced(outcome, "lower solver.tolerance"),
         // Contacts that slip at once give back nothing here: what they set free is lost without inertia.
         Some(planar) if planar.still => unbalanced(outcome, STILL),
@@ -61,12 +62,12 @@ fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
         (WarningKind::Energy, balance),
         (WarningKind::Unsolved, unsolved(outcome)),
         (WarningKind::Moving, moving(outcome)),
-        (WarningKind::PeakInFall, peak_in_fall(model, outcome)),
-        (WarningKind::BeyondFriction, beyond_friction(model, outcome)),
-        (WarningKind::CrackedAtRest, cracked_at_rest(model, joints, outcome)),
-        (WarningKind::Collapse, collapsed(model, outcome)),
-        (WarningKind::UnderWay, moves_on(model, outcome)),
-        (WarningKind::Unresolved, unresolved(model, outcome)),
+        (WarningKind::PeakInFall, peak_in_fall(model, planar, outcome)),
+        (WarningKind::BeyondFriction, beyond_friction(model, planar, outcome)),
+        (WarningKind::CrackedAtRest, cracked_at_rest(planar, joints, outcome)),
+        (WarningKind::Collapse, collapsed(model, planar, outcome)),
+        (WarningKind::UnderWay, moves_on(model, planar, outcome)),
+        (WarningKind::Unresolved, unresolved(model, planar, outcome)),
         (WarningKind::LargeSlip, large_slips(model, outcome)),
         (WarningKind::Creep, creep(joints, outcome)),
     ];
@@ -122,8 +123,8 @@ fn moving(outcome: &Outcome) -> Option<String> {
 }
 
 /// Says of a wall that is pushed by its own weight, without inertia, that its largest base shear came as it fell.
-fn peak_in_fall(model: &Model, outcome: &Outcome) -> Option<String> {
-    if !model.planar()?.still || matches!(model.beam, Beam::Driven) {
+fn peak_in_fall(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
+    if !planar?.still || matches!(model.beam, Beam::Driven) {
         return None;
     }
     let height = model.wall.blocks.iter().map(|b| b.y[1]).fold(0.0, f64::max);
@@ -139,14 +140,14 @@ fn peak_in_fall(model: &Model, outcome: &Outcome) -> Option<String> {
 }
 
 /// What springs and dashpots in no need of friction bear beyond it. Joints of planar walls that slide, and bonded ones, bear no more than they can.
-fn beyond_friction(model: &Model, outcome: &Outcome) -> Option<String> {
+fn beyond_friction(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
     let base = |e: &usize| model.joints[*e].kind == JointKind::Base;
     let joints: Vec<usize> = (0..model.joints.len()).filter(base).collect();
-    if model.planar().is_some_and(|planar| joints.iter().all(|e| slides(planar, *e))) {
-        return beyond_own_friction(model, outcome);
+    if planar.is_some_and(|planar| joints.iter().all(|e| slides(planar, *e))) {
+        return beyond_own_friction(model, planar, outcome);
     }
     if joints.iter().any(|&e| model.device_of_joint()[e].is_some()) {
-        return beyond_own_friction(model, outcome);
+        return beyond_own_friction(model, planar, outcome);
     }
     let (rubs, bonds) = (model.shear.rub_of_joint(), model.shear.bond_of_joint());
     let bears = |&e: &usize| {
@@ -160,7 +161,7 @@ fn beyond_friction(model: &Model, outcome: &Outcome) -> Option<String> {
     let borne = if bare { model.base_load() } else { joints.iter().map(bears).map(|[f, b]| f.max(b)).sum() };
     let shear = outcome.totals.base_shear_peak;
     if !(shear > BEYOND * borne) {
-        return beyond_own_friction(model, outcome);
+        return beyond_own_friction(model, planar, outcome);
     }
     let [shear, borne] = [shear, borne].map(|force| format!("{:.2} kN", 1e-3 * force));
     let bears = match (bare, bond > 0.0) {
@@ -191,13 +192,13 @@ fn most_friction(model: &Model, rub: usize, speed: f64) -> f64 {
 }
 
 /// The spring of an unbonded bed joint that bears far more than its friction can, where the sum over the base does not show it.
-fn beyond_own_friction(model: &Model, outcome: &Outcome) -> Option<String> {
+fn beyond_own_friction(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
     let (rubs, bonds, devices) = (model.shear.rub_of_joint(), model.shear.bond_of_joint(), model.device_of_joint());
     let free = |e: &usize| !model.joints[*e].kind.is_upright() && bonds[*e].is_none() && devices[*e].is_none();
     let over = |e: usize| {
         let rub = rubs[e]?;
         let envelopes = &outcome.envelopes;
-        let force = match model.planar() {
+        let force = match planar {
             Some(planar) if slides(planar, e) => return None,
             Some(planar) => planar.system.links[e].law.shear.stiffness * envelopes.joint_displacement[e],
             None => envelopes.joint_force[e],
@@ -217,8 +218,8 @@ fn beyond_own_friction(model: &Model, outcome: &Outcome) -> Option<String> {
 }
 
 /// Bonds of planar walls that are cracked before anything moves.
-fn cracked_at_rest(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Option<String> {
-    let planar = model.planar()?;
+fn cracked_at_rest(planar: Option<&Planar>, joints: &[JointRow], outcome: &Outcome) -> Option<String> {
+    let planar = planar?;
     let at_rest = || outcome.bonds.iter().filter(|bond| bond.cracked == 0.0);
     let first = at_rest().next()?;
     let rigid = at_rest().any(|bond| !planar.system.links[bond.joint].law.is_compliant());
@@ -237,11 +238,11 @@ fn cracked_at_rest(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Opt
 }
 
 /// A wall that fell is no result of the forces that it bore before.
-fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
+fn collapsed(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
     let collapse = outcome.totals.collapse?;
     let (name, time, did) = (&model.wall.blocks.get(collapse.block)?.name, collapse.time, collapse.what());
     // Asked only of walls that fall: to settle takes a while.
-    let alone = model.planar().is_some_and(|planar| planar.rest() == Rest::Falls);
+    let alone = planar.is_some_and(|planar| planar.rest() == Rest::Falls);
     let alone = if alone { "the wall does not stand under its own loads, whatever the motion: " } else { "" };
     let what = "peaks and slips are those of the time before, cracks and energies those of the whole run; with another step \
                 time and block may differ";
@@ -249,8 +250,8 @@ fn collapsed(model: &Model, outcome: &Outcome) -> Option<String> {
 }
 
 /// What becomes of a wall that has yet to come to rest or to fall is not seen.
-fn moves_on(model: &Model, outcome: &Outcome) -> Option<String> {
-    model.planar().filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
+fn moves_on(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
+    planar.filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
     let weight = G * model.shear.mass.iter().sum::<f64>();
     let (kinetic, work) = (outcome.energies.kinetic, outcome.totals.peak_input.max(outcome.energies.initial.abs()));
     (kinetic > UNDER_WAY * work && kinetic > NOTHING * weight).then(|| {
@@ -263,8 +264,8 @@ fn moves_on(model: &Model, outcome: &Outcome) -> Option<String> {
 }
 
 /// Springs keep what they take: where all joints have some, what impacts take is what steps leave out.
-fn unresolved(model: &Model, outcome: &Outcome) -> Option<String> {
-    let planar = model.planar().filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
+fn unresolved(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
+    let planar = planar.filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
     let mut joints = planar.system.links.iter().zip(&planar.open);
     if !joints.all(|(link, open)| *open || link.law.is_compliant()) {
         return None;
@@ -467,7 +468,7 @@ step = "2 ms"
         }
         outcome.energies.impact = 0.0;
         outcome.energies.kinetic = 90.0;
-        assert_eq!(moves_on(&model, &outcome), None, "the shear model does not fall");
+        assert_eq!(moves_on(&model, None, &outcome), None, "the shear model does not fall");
         outcome.energies.kinetic = 0.0;
         outcome.counters.unsolved = 11;
         outcome.totals.collapse = Some(Collapse { time: 0.25, block: 1, way: 0.1, turned: true });
@@ -522,7 +523,7 @@ base = {{ sine = {{ acceleration = 20, frequency = 2 }} }}
         };
         let told = |bonds: &str| {
             let (prepared, outcome) = ran(&wall(bonds));
-            beyond_friction(&prepared.model, &outcome)
+            beyond_friction(&prepared.model, prepared.model.planar(), &outcome)
         };
         let bonded = "bond = { tensile_strength = \"1 MPa\", cohesion = \"1 MPa\", on = [\"base\"] }";
         let beds = told(bonded).expect("a warning");
@@ -562,7 +563,7 @@ base = {{ tilt = {{ acceleration = {acceleration}, rise = 0.01 }} }}
 "#
             );
             let (prepared, outcome) = ran(&text);
-            moves_on(&prepared.model, &outcome)
+            moves_on(&prepared.model, prepared.model.planar(), &outcome)
         };
         // It turns over from 0.2 g on.
         assert_eq!(told(0.19 * G, 0.4), None);
@@ -597,7 +598,10 @@ step = {step}
 "#
             );
             let (prepared, outcome) = ran(&text);
-            (prepared.model.planar().unwrap().resolving_step(), unresolved(&prepared.model, &outcome))
+            (
+                prepared.model.planar().unwrap().resolving_step(),
+                unresolved(&prepared.model, prepared.model.planar(), &outcome),
+            )
         };
         // √(k/m) of 10 N/mm³ below 20 kN/m³ × 0.2 m.
         let resolving = 2.18 / (10e9 * G / 4e3_f64).sqrt();

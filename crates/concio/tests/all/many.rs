@@ -179,7 +179,7 @@ fn a_batch_can_be_watched_and_stopped() {
         shares.lock().unwrap().push(standing.share);
         if shares.lock().unwrap().len() > 1 { Control::Stop } else { Control::Continue }
     };
-    simulate_each(&jobs, 1, &watch, &|k, out| ended.lock().unwrap().push((k, out.unwrap())));
+    simulate_each(&jobs, 1, None, &watch, &|k, out| ended.lock().unwrap().push((k, out.unwrap())));
     let shares = shares.into_inner().unwrap();
     assert!(shares[0] == 0.0 && shares[1] > 0.0 && shares[1] < 1.0, "{shares:?}");
     let ended = ended.into_inner().unwrap();
@@ -212,7 +212,7 @@ fn last_runs_leave_their_lanes() {
             true => Control::Stop,
             false => Control::Continue,
         };
-        simulate_each(&jobs, 2, &watch, &|k, out| told.lock().unwrap().push((k, out.unwrap())));
+        simulate_each(&jobs, 2, None, &watch, &|k, out| told.lock().unwrap().push((k, out.unwrap())));
         let mut told = told.into_inner().unwrap();
         told.sort_by_key(|(k, _)| *k);
         assert!(told.windows(2).all(|pair| pair[0].0 < pair[1].0), "a run is told twice");
