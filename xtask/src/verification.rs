@@ -384,8 +384,7 @@ mod tests {
         let (one, other) = (case("high", 2.0), case("low", 0.5));
         assert_eq!(one.key(), other.key());
         assert!(
-            row(&[case("high", 2.0)])
-                .starts_with("| a block, high | \\|θ\\| = α | 2 m | 2.002 m | 1e-3 | 1e-2 | `")
+            row(&[case("high", 2.0)]).starts_with("| a block, high | \\|θ\\| = α | 2 m | 2.002 m | 1e-3 | 1e-2 | `")
         );
         let both = row(&[one, other]);
         assert!(

@@ -265,14 +265,10 @@ fn looks(settings: &Joints, joints: usize) -> Result<()> {
 /// Bed and support joints of shear walls slide both ways and do nothing else: a law for one direction has no meaning
 /// there.
 fn check_spring(model: ModelKind, kind: JointKind, law: SpringLaw) -> std::result::Result<(), InputError> {
-    let name = match law {
-        SpringLaw::NoTension => "no-tension",
-        SpringLaw::Rigid => "rigid",
-        SpringLaw::Elastic | SpringLaw::None => return Ok(()),
-    };
-    if kind.is_upright() || model == ModelKind::Planar {
+    if kind.is_upright() || model == ModelKind::Planar || !law.parts() {
         return Ok(());
     }
+    let name = if law.is_rigid() { "rigid" } else { "no-tension" };
     let what = format!("law `{name}` is for head joints and connections; this joint slides in both directions");
     Err(InputError::new(what).allowed("elastic, none; with `model = \"planar\"` every law"))
 }

@@ -523,6 +523,34 @@ pub enum SpringLaw {
     None,
 }
 
+/// What a law means to either model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Acts {
+    /// Nothing acts.
+    Not,
+    /// Sides part freely and never overlap.
+    Rigidly,
+    /// Springs with so many times the stiffness act in compression, and in tension if they pull.
+    ByStiffness {
+        /// Factor on the stiffness.
+        times: f64,
+        /// Whether they act in tension too.
+        pulls: bool,
+    },
+}
+
+impl Spring {
+    /// What its law means.
+    pub fn acts(&self) -> Acts {
+        match self.law {
+            SpringLaw::None => Acts::Not,
+            SpringLaw::Rigid => Acts::Rigidly,
+            SpringLaw::Elastic => Acts::ByStiffness { times: 1.0, pulls: true },
+            SpringLaw::NoTension => Acts::ByStiffness { times: self.rigidity, pulls: false },
+        }
+    }
+}
+
 impl SpringLaw {
     /// Whether it is [`SpringLaw::Elastic`].
     pub fn is_elastic(self) -> bool {
@@ -542,7 +570,7 @@ impl SpringLaw {
     }
     /// Whether it is one of springs.
     pub fn has_springs(self) -> bool {
-        self.is_elastic() || self.is_no_tension()
+        !self.is_rigid() && !self.is_open()
     }
     /// Whether its sides part freely.
     pub fn parts(self) -> bool {

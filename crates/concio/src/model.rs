@@ -7,7 +7,7 @@ use concio_shear::system as shear;
 use crate::G;
 use crate::assign::{JointLaw, friction_choice, load_masses, resolve};
 use crate::bond;
-use crate::case::{Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, Signal, SpringLaw, plausible};
+use crate::case::{Acts, Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, Signal, SpringLaw, plausible};
 use crate::device::{self, Device};
 use crate::drift;
 use crate::error::{InputError, Result};
@@ -220,12 +220,11 @@ impl Model {
 fn compile_elastic(wall: &Wall, joint: &Joint, law: &JointLaw) -> Elastic {
     let (spring, nominal) = (&law.spring, law.nominal_stiffness(joint, wall));
     let upright = joint.kind.is_upright();
-    let (stiffness, damping, unilateral) = match spring.law {
-        SpringLaw::None => (0.0, 0.0, false),
-        SpringLaw::Elastic => (nominal, law.damping_ratio, false),
-        SpringLaw::NoTension => (nominal * spring.rigidity, law.damping_ratio, upright),
+    let (stiffness, damping, unilateral) = match spring.acts() {
+        Acts::Not => (0.0, 0.0, false),
         // What it bears follows from the motion of its sides, not from a stiffness.
-        SpringLaw::Rigid => (0.0, law.damping_ratio, false),
+        Acts::Rigidly => (0.0, law.damping_ratio, false),
+        Acts::ByStiffness { times, pulls } => (nominal * times, law.damping_ratio, upright && !pulls),
     };
     let reference = wall.panels[wall.blocks[joint.a].panel].reference_mass;
     Elastic {

@@ -16,7 +16,7 @@ use concio_shear::law::{Bonded, Elastic};
 use crate::assign::JointLaw;
 use crate::assign::load_masses;
 use crate::bond::{Bond, Snap, Snaps};
-use crate::case::{Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, SpringLaw, StopAt, Tie};
+use crate::case::{Acts, Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, Spring, StopAt, Tie};
 use crate::device;
 use crate::error::{InputError, Result};
 use crate::wall::{End, Joint, Wall};
@@ -402,6 +402,11 @@ fn pressed_in(case: &Case) -> f64 {
     if case.motion.quasi_static { 0.1 * PRESSED_IN } else { PRESSED_IN }
 }
 
+/// Factor on the stiffness of springs in both directions; along a joint that does not pull there is none.
+fn pulling(spring: &Spring) -> f64 {
+    if let Acts::ByStiffness { times, pulls: true } = spring.acts() { times } else { 1.0 }
+}
+
 fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
     if let Some(device) = law.device(case) {
         return device_law(joint, device);
@@ -424,29 +429,29 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
     let crushing = spring.compressive_strength.map_or(f64::INFINITY, |f| f.si() * area);
     let rigid = crushing / (PRESSED_IN * joint.overlap);
     let stiffest = crushing / (pressed_in(case) * joint.overlap);
-    let (normal, series) = match spring.law {
-        SpringLaw::Rigid if crushing.is_finite() => {
+    let (normal, series) = match spring.acts() {
+        Acts::Rigidly if crushing.is_finite() => {
             let (both, press) = if bond.is_some() { (rigid, 0.0) } else { (0.0, rigid) };
             (Normal::Springs { both, press, damping: 0.0 }, true)
         }
-        SpringLaw::Rigid => {
+        Acts::Rigidly => {
             let (restitution, rocking) = (spring.restitution, spring.rocking_restitution);
             (Normal::Rigid { restitution: restitution.unwrap_or(0.0), rocking: rocking.unwrap_or(1.0) }, false)
         }
-        SpringLaw::Elastic | SpringLaw::None => {
-            let both = (across * stiffness).min(stiffest);
-            (Normal::Springs { both, press: 0.0, damping: dashpot(across * given) }, false)
-        }
-        SpringLaw::NoTension => {
-            let [own, closed] = [1.0, spring.rigidity].map(|k| (across * stiffness * k).min(stiffest));
+        Acts::ByStiffness { times, pulls: false } => {
+            let [own, closed] = [1.0, times].map(|k| (across * stiffness * k).min(stiffest));
             let (both, press) = if bond.is_some() { (own, (closed - own).max(0.0)) } else { (0.0, closed) };
             (Normal::Springs { both, press, damping: dashpot(across * given) }, true)
         }
+        Acts::ByStiffness { .. } | Acts::Not => {
+            let both = (across * stiffness * pulling(spring)).min(stiffest);
+            (Normal::Springs { both, press: 0.0, damping: dashpot(across * given) }, false)
+        }
     };
-    let shear = match spring.law {
-        SpringLaw::Rigid if crushing.is_finite() => Shear { stiffness: rigid, damping: 0.0, series },
-        SpringLaw::Rigid => Shear { stiffness: 0.0, damping: 0.0, series: false },
-        _ => Shear { stiffness: along * stiffness, damping: dashpot(along * given), series },
+    let shear = match spring.acts() {
+        Acts::Rigidly if crushing.is_finite() => Shear { stiffness: rigid, damping: 0.0, series },
+        Acts::Rigidly => Shear { stiffness: 0.0, damping: 0.0, series: false },
+        _ => Shear { stiffness: along * stiffness * pulling(spring), damping: dashpot(along * given), series },
     };
     Law {
         normal,
