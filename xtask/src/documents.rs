@@ -90,7 +90,7 @@ fn drawing(root: &Path) -> Result<String, String> {
     fs::read_to_string(&out).map_err(|e| format!("{}: {e}", out.display()))
 }
 
-/// Pages with tables that the program prints: the cases of the report, of docs/report-cases.json, which a test of the command
+/// Pages with tables that the program prints: the cases of the research report, of docs/report-cases.json, which a test of the command
 /// line holds against new runs; the measures of a study's runs.
 const CASES: &str = "docs/report-cases.md";
 const STUDIES: &str = "docs/studies.md";

@@ -91,7 +91,7 @@ const SYMBOLS: [Symbol; 75] = [
     row("p_j", "impulse of an impact in a rigid joint", "N s", "", "shear/integrate/impact.rs impulse", "(R3) (R4)"),
     row("e_j", "restitution of a rigid joint", "1", "joint.head.restitution joint.connection.restitution", "case.rs restitution", "(R4)"),
     row("q", "vertical load at the top, per length of brick", "N/m", "load.top", "case.rs top", "section 3"),
-    row("P0_i", "load above block i, as the report has it", "N", "", "graph.rs overburden", "section 3"),
+    row("P0_i", "load above block i, as the research report has it", "N", "", "graph.rs overburden", "section 3"),
     row("M_b", "mass of the top beam", "kg", "load.beam.mass", "case.rs Mass", "section 2"),
     row("E_kin", "kinetic energy, relative to the base", "J", "", "law/account.rs kinetic", "(7)"),
     row("E_el", "elastic energy of the joints", "J", "", "law/account.rs elastic", "(7)"),

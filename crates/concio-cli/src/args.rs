@@ -18,7 +18,7 @@ First steps:
   concio run                    the built-in wall, to see a result
   concio new wall.toml          a wall file to change
   concio check wall.toml        what it describes, or what is wrong with it
-  concio run wall.toml          the run; the report is concio-run/wall/report.html
+  concio run wall.toml          the run; its page is concio-run/wall/report.html
 
 Exit status: 0 done, 1 the run stopped early or a file could not be written, 2 the input is wrong.")]
 pub struct Cli {
@@ -248,7 +248,7 @@ pub struct Export {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  concio plot concio-run/wall                                      the report
+  concio plot concio-run/wall                                      report.html
   concio plot concio-run/wall --figure all                         every figure, SVG in concio-run/wall/figures
   concio plot concio-run/wall --figure deformed --at \"1.25 s\" --scale 5000 --format pdf
   concio plot concio-run/wall --figure phase --blocks p1c6b1,p1c3b2 --width double

@@ -36,9 +36,9 @@ enum Command {
 
 /// Run the cases of the research report and answer its findings.
 ///
-/// The five cases of the report's parametric analyses (its Figures 22 to 27) are built in; their wall files are those of
-/// examples/report. Each is run under several settings of what the report does not print, and each again with changes too
-/// small to mean anything, because stick-slip makes single trajectories chaotic. Every finding of the report is answered
+/// The five cases of the research report's parametric analyses (its Figures 22 to 27) are built in; their wall files are those of
+/// examples/report. Each is run under several settings of what the research report does not print, and each again with changes too
+/// small to mean anything, because stick-slip makes single trajectories chaotic. Every finding of the research report is answered
 /// yes or no with the numbers that decide; docs/report-cases.md explains them.
 ///
 /// Writes a folder per case as `concio run` does, findings.json and findings.md. What is done is not done again: after
@@ -52,7 +52,7 @@ pub struct Cases {
     /// Folder of the results.
     #[arg(short, long, value_name = "DIR", default_value = "concio-run/report-cases", value_hint = ValueHint::DirPath)]
     pub out: PathBuf,
-    /// Draw what the report's Figures 22 to 27 show, as SVG in DIR/figures.
+    /// Draw what the research report's Figures 22 to 27 show, as SVG in DIR/figures.
     #[arg(long)]
     pub figures: bool,
     /// Print the tables of a findings.json as Markdown and run nothing.

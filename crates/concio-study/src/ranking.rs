@@ -1,6 +1,6 @@
 //! Critical joints: the joints of a wall in the order of what they suffer.
 //!
-//! A joint's ratio in a run is its value over the largest of any joint of that run, as the report colours them in its
+//! A joint's ratio in a run is its value over the largest of any joint of that run, as the research report colours them in its
 //! Figure 27. The order is that of the ratios' mean over the runs, so that strong motions do not drown weak ones.
 
 use concio::case::{Beam, Case};

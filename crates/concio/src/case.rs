@@ -61,7 +61,7 @@ pub struct Case {
     pub title: String,
     /// Which unknowns a block has.
     pub model: ModelKind,
-    /// A named parameter set of the report, from which brick, mortar, stiffness and friction are taken where the
+    /// A named parameter set of the research report, from which brick, mortar, stiffness and friction are taken where the
     /// file does not give them: `"report"` (section 4.2), `"p1"` … `"p4"` (Table 1).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub set: Option<ParameterSet>,
@@ -91,7 +91,7 @@ pub struct Case {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ModelKind {
-    /// One horizontal degree of freedom per block (the report's model).
+    /// One horizontal degree of freedom per block (the research report's model).
     Shear,
     /// Horizontal, vertical and rotation: blocks rock, lift off and slide.
     Planar,
@@ -120,7 +120,7 @@ pub struct ParameterSet {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SetName {
-    /// Section 4.2 of the report.
+    /// Section 4.2 of the research report.
     Report,
     /// Table 1, column p1.
     P1,
@@ -659,7 +659,7 @@ pub enum FrictionOn {
     /// Bed and support joints.
     #[default]
     Bed,
-    /// All joints, head joints too (the report's equation 3.1).
+    /// All joints, head joints too (the research report's equation 3.1).
     All,
 }
 
@@ -719,7 +719,7 @@ pub enum NormalForce {
     /// The load carried by the joint, from statics; action equals reaction.
     #[default]
     Transmitted,
-    /// The report's 3.1: in block i's equation every joint carries w_ij (m_i g + P0_i).
+    /// The research report's 3.1: in block i's equation every joint carries w_ij (m_i g + P0_i).
     Overburden,
 }
 

@@ -380,7 +380,7 @@ fn transmitted(wall: &Wall, joints: &[Joint], loads: &[f64]) -> Vec<[f64; 2]> {
     forces
 }
 
-/// The report's 3.1: every joint of block i carries w (m_i g + P0_i) in block i's equation, with
+/// The research report's 3.1: every joint of block i carries w (m_i g + P0_i) in block i's equation, with
 /// P0_i = q L_i + γ B L_i (y_max − y_i); y are centres of gravity, y_max that of the panel's top course.
 fn overburden(wall: &Wall, joints: &[Joint], loads: &[f64]) -> Vec<[f64; 2]> {
     let centre = |b: &Block| 0.5 * (b.y[0] + b.y[1]);

@@ -15,7 +15,7 @@ use concio_cli::commands::run::refuse_a_file;
 use concio_cli::failure::{Failure, STOPPED};
 use concio_cli::{files, stop};
 
-/// Runs the cases of the report and answers its findings.
+/// Runs the cases of the research report and answers its findings.
 pub fn cases(args: &Cases) -> Result<ExitCode, Failure> {
     if let Some(file) = &args.tables {
         return tables(file);

@@ -1,4 +1,4 @@
-//! The findings of the report and by what each is decided. A criterion holds for every setting alike; docs/report-cases.md
+//! The findings of the research report and by what each is decided. A criterion holds for every setting alike; docs/report-cases.md
 //! says what came of each, and where a measure replaced one that had been tried before.
 
 use super::measures::{Measures, largest, median, rank_correlation};
@@ -31,14 +31,14 @@ pub struct Number {
     pub value: f64,
 }
 
-/// A finding of the report.
+/// A finding of the research report.
 #[derive(Debug, Clone, Copy)]
 pub struct Finding {
     /// Short name.
     pub id: &'static str,
-    /// Where the report shows it.
+    /// Where the research report shows it.
     pub figure: &'static str,
-    /// What the report finds, in our words.
+    /// What the research report finds, in our words.
     pub claim: &'static str,
     /// What has to hold for a yes.
     pub criterion: &'static str,
@@ -48,7 +48,7 @@ pub struct Finding {
     pub holds: fn(&[f64]) -> bool,
 }
 
-/// All of them, in the order of the report.
+/// All of them, in the order of the research report.
 pub const FINDINGS: [Finding; 11] = [
     Finding {
         id: "jumps-from-stick-slip",

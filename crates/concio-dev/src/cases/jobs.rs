@@ -27,7 +27,7 @@ const MEANING: u32 = 2;
 /// One run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Job {
-    /// What the report leaves open.
+    /// What the research report leaves open.
     pub setting: Setting,
     /// The case.
     pub which: Which,

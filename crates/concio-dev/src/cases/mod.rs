@@ -3,7 +3,7 @@
 //!
 //! `jobs` runs `walls`, `measures` reads numbers off a run, `findings` says what decides, `answers` applies it to all
 //! settings and members, `page` writes it down and `pictures` draws
-//! what the report draws.
+//! what the research report draws.
 
 pub mod answers;
 pub mod command;

@@ -1,4 +1,4 @@
-//! What the report's Figures 22 to 27 show of its cases, drawn from our runs.
+//! What the research report's Figures 22 to 27 show of its cases, drawn from our runs.
 
 use std::fs;
 use std::path::Path;
@@ -14,7 +14,7 @@ use concio_cli::failure::Failure;
 use concio_cli::figures::{self, Data, Options};
 use concio_cli::files;
 
-/// The last cycle of the drive [s]: the report leaves the transient out of its portraits too.
+/// The last cycle of the drive [s]: the research report leaves the transient out of its portraits too.
 const PORTRAIT: [Option<f64>; 2] = [Some(0.2), None];
 
 /// Draws them into `out/figures`; the runs are those in `out`.

@@ -1,4 +1,4 @@
-//! The runs: five cases of the report, each under several settings that the report does not print, and each again
+//! The runs: five cases of the research report, each under several settings that the research report does not print, and each again
 //! with a change too small to mean anything, because its trajectories are chaotic.
 
 use concio::case::{self, Beam, CaseFile, FrictionOn, NormalForce, Signal, Sine, Syntax};
@@ -49,12 +49,12 @@ impl Which {
     }
 }
 
-/// What the report leaves open, set one way or another. The first is that of the wall files.
+/// What the research report leaves open, set one way or another. The first is that of the wall files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Setting {
     /// The wall files as they are.
     Files,
-    /// Equation 3.1 of the report: every joint rubs, under the overburden of the blocks.
+    /// Equation 3.1 of the research report: every joint rubs, under the overburden of the blocks.
     ReportFriction,
     /// The same under a third of the load.
     ReportFrictionLightLoad,

@@ -178,7 +178,7 @@ impl CracksInput {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ranking {
-    /// By what; default the report's relative acceleration, then relative displacement and dissipated energy.
+    /// By what; default the research report's relative acceleration, then relative displacement and dissipated energy.
     pub by: Vec<PerJoint>,
     /// Joints that the report of the study lists and draws as critical, from 1.
     #[schemars(range(min = 1))]

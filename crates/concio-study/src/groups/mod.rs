@@ -1,7 +1,7 @@
 //! The dimensionless form of the equations of motion.
 //!
 //! With a mass M, a stiffness K, Ω = √(K/M), a length Λ, and u = x/Λ, τ = Ω t, μ_i = m_i/M, k_ij = K_ij/K,
-//! γ_ij = C_ij/C, C = 2ξΩM, equation (1) of the theory becomes (Buckingham; the report's 4.6)
+//! γ_ij = C_ij/C, C = 2ξΩM, equation (1) of the theory becomes (Buckingham; the research report's 4.6)
 //!
 //! (G1)  μ_i u_i″ + 2ξ Σ γ_ij (u_i′ − u_j′) + Σ k_ij (u_i − u_j) + Σ n_ij μ(ΛΩ (u_i′ − u_j′)) = −μ_i A(τ)
 //!
@@ -97,8 +97,8 @@ pub struct Group {
     pub formula: &'static str,
     /// Least and largest value in the wall; none where the wall has no such thing.
     pub value: Option<[f64; 2]>,
-    /// Range over the sets of Table 1, or section 4.2, of the report; none where it prints no numbers. Where Λ is not the
-    /// length of the wall's reference brick, the bricks of the report are as many Λ long.
+    /// Range over the sets of Table 1, or section 4.2, of the research report; none where it prints no numbers. Where Λ is not the
+    /// length of the wall's reference brick, the bricks of the research report are as many Λ long.
     pub table1: Option<[f64; 2]>,
     /// Key of the wall file that a study changes to realise a value of the group; none where it cannot be varied.
     pub realised_by: Option<&'static str>,
@@ -110,7 +110,7 @@ pub struct Group {
 /// As [`Reference::of`]; a record that cannot be read.
 pub fn groups(case: &Case, model: &Model, folder: &Path, reference: &Reference) -> Result<Vec<Group>> {
     let range = table1::ranges();
-    // Λ over the brick's length: of the report's walls as of this one.
+    // Λ over the brick's length: of the research report's walls as of this one.
     let units = reference.length / Reference::of(case, None)?.length;
     let (r, joint) = (reference, &case.joint);
     let of = |values: &mut dyn Iterator<Item = f64>| {

@@ -1,4 +1,4 @@
-//! What the report's Table 1 and section 4.2 make of the groups.
+//! What the research report's Table 1 and section 4.2 make of the groups.
 
 use concio::case::{Case, SetName, Syntax, from_str};
 

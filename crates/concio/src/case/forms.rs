@@ -92,7 +92,8 @@ impl JsonSchema for ParameterSet {
         "ParameterSet".into()
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let about = "A named parameter set of the report, at the middle of its printed ranges or where `at` says.";
+        let about =
+            "A named parameter set of the research report, at the middle of its printed ranges or where `at` says.";
         word_or_table::<SetTable>(generator, about, &["report", "p1", "p2", "p3", "p4"])
     }
 }

@@ -1,4 +1,4 @@
-//! The report's parameter sets: keys that the file leaves out are filled in the tree, before it is read as a `Case`.
+//! The research report's parameter sets: keys that the file leaves out are filled in the tree, before it is read as a `Case`.
 //! So the file wins key by key, and a missing key of a set is an error with a place like any other.
 
 use super::node::{Fault, Node, Value};
@@ -8,7 +8,7 @@ use crate::InputError;
 /// A printed range; a single number has equal ends.
 type Range = [f64; 2];
 
-/// What the report prints of a set (Table 1 and section 4.2), in SI.
+/// What the research report prints of a set (Table 1 and section 4.2), in SI.
 struct Printed {
     /// L, B, H of the brick [m].
     brick: [f64; 3],

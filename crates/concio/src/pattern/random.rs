@@ -1,4 +1,4 @@
-//! Irregular texture drawn from a seeded distribution (the report's Figure 14).
+//! Irregular texture drawn from a seeded distribution (the research report's Figure 14).
 //!
 //! Course heights are uniform between their bounds. A course is drawn from left to right: the end of a brick is uniform
 //! over the places from which the course can still be completed, so no draw leads into a dead end. These places are

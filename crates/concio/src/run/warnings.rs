@@ -132,7 +132,7 @@ fn peak_in_fall(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Op
     (way > FALLING * height).then(|| {
         format!(
             "the largest base shear came when the top was {} mm away, {:.0} % of the height: the wall was falling, and bore less before. What it bears is \
-             the base shear at which the top begins to run away, in the loop of the report; a slower tilt comes nearer to it",
+             the base shear at which the top begins to run away, in the loop that report.html draws; a slower tilt comes nearer to it",
             rounded(1e3 * way, 3),
             100.0 * way / height
         )

@@ -123,7 +123,7 @@ fn told(names: [&str; 2], sides: &[Side; 2], differences: &[Difference]) -> Stri
         differences.iter().take(MOST_SHOWN).map(|d| vec![d.key.clone(), cell(&d.values[0]), cell(&d.values[1])]),
     );
     let more = match differences.len().checked_sub(MOST_SHOWN) {
-        Some(more) if more > 0 => format!("  and {more} more, which the report lists\n"),
+        Some(more) if more > 0 => format!("  and {more} more, which report.html lists\n"),
         _ => String::new(),
     };
     columns(&rows) + &more
