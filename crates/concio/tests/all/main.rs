@@ -16,6 +16,7 @@ mod folders;
 mod ground_motion;
 mod head;
 mod large_walls;
+mod library;
 mod loads;
 mod locked;
 mod many;
