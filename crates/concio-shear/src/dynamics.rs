@@ -1,4 +1,4 @@
-//! Forces, envelopes and sampled channels from a state.
+//! Forces, envelopes and energies of a state.
 
 use crate::law::spring_force;
 use crate::law::{Elastic, Support};

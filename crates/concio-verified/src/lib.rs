@@ -75,7 +75,7 @@ pub fn farthest(pairs: impl IntoIterator<Item = (f64, f64)>) -> f64 {
     pairs.into_iter().map(|(a, b)| (a - b).abs()).fold(0.0, larger)
 }
 
-/// File in [`FOLDER`] with a line for every check that a test left out.
+/// File in [`FOLDER`] with a line for every check that was left out, and its test.
 pub const SKIPPED: &str = "skipped.txt";
 
 /// Says of a check that it cannot be made here; leaves a record of it where [`FOLDER`] names a folder.
@@ -88,7 +88,9 @@ pub fn skip(what: &str) {
     if let Some(folder) = std::env::var_os(FOLDER) {
         let path = Path::new(&folder).join(SKIPPED);
         let file = std::fs::OpenOptions::new().append(true).create(true).open(&path);
-        let written = file.and_then(|mut file| file.write_all(format!("{what}\n").as_bytes()));
+        let thread = std::thread::current();
+        let line = format!("{what} ({})\n", thread.name().unwrap_or_default());
+        let written = file.and_then(|mut file| file.write_all(line.as_bytes()));
         written.unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     }
 }

@@ -17,7 +17,7 @@ fn main() -> concio::Result<()> {
     // Samples of an acceleration that grows, every 5 ms [m/s²].
     let dt = 5e-3;
     let samples: Vec<f64> = (0..600).map(|k| f64::from(k) * dt).map(|t| 3.0 * t * (12.0 * t).sin()).collect();
-    let prepared = prepare_moved(&wall, GroundMotion::sampled(dt, &samples))?;
+    let prepared = prepare_moved(&wall, GroundMotion::sampled(dt, &samples)?)?;
 
     let outcome = run_watched(&prepared, &mut |run| match run.state().z[0].abs() > 20e-3 {
         true => Control::Stop,

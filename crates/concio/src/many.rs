@@ -6,7 +6,7 @@
 //! joints are one-sided and the scheme is the same; masses, stiffnesses, normal forces, laws, motions, durations,
 //! tolerances and samplings may differ. What lanes do not take runs alone in the same call: set-valued friction,
 //! bonds, devices with laws of their own (`bouc-wen`, `re-centring`, a dashpot with a power of the velocity), and normal
-//! forces that differ in action and reaction (`overburden`).
+//! forces that differ in action and reaction (`overburden`), and planar walls.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -44,7 +44,7 @@ impl<'a> From<&'a Prepared> for Job<'a> {
     }
 }
 
-/// Makes of a run what says whether it is over.
+/// Builds, for a job, the test that ends its run.
 pub type Until = dyn Fn(&Job) -> Box<dyn Fn(&State) -> bool> + Sync;
 
 /// How far a batch is.
@@ -164,7 +164,7 @@ struct Under<'a> {
 }
 
 impl Under<'_> {
-    /// Some steps; why it ended, if it did.
+    /// Takes some steps; why the run ended, where it did.
     fn advance(&mut self) -> Option<StopReason> {
         let progress = self.run.advance(BETWEEN_LOOKS);
         self.rows.append(self.run.recording());
@@ -314,6 +314,8 @@ impl<'a> Batch<'a> {
 
     fn alone(&self, thread: usize, mut under: Under<'a>) {
         let over = self.until.map(|until| until(&self.jobs[under.number]));
+        // Runs may be shorter than what lies between two looks.
+        self.goes_on(thread, under.share());
         let reason = loop {
             if self.stopped.load(Ordering::Relaxed) {
                 break StopReason::Interrupted;
@@ -392,7 +394,7 @@ impl<'a> Seat<'_, 'a> {
         let at = self.lanes.iter().position(|lane| lane.number == number)?;
         let InLane { mut keeper, mut rows, .. } = self.lanes.swap_remove(at);
         keeper.empty_into(&mut rows);
-        Some(Under { number, run: Simulation::together(keeper, run), rows })
+        Some(Under { number, run: Simulation::from_parts(keeper, run), rows })
     }
 }
 
@@ -400,7 +402,7 @@ impl<'a> Desk<'a> for Seat<'_, 'a> {
     fn next(&mut self) -> Option<(usize, Run<'a>)> {
         loop {
             let (number, run) = self.batch.take(self.queue)?;
-            match run.apart() {
+            match run.into_parts() {
                 Ok((keeper, run)) => {
                     self.lanes.push(InLane { number, keeper, rows: Recording::default() });
                     return Some((number, run));
@@ -412,8 +414,8 @@ impl<'a> Desk<'a> for Seat<'_, 'a> {
     }
 
     fn keeper(&mut self, number: usize) -> &mut dyn Keep {
-        let at = self.lanes.iter().position(|lane| lane.number == number).unwrap_or(0);
-        &mut self.lanes[at]
+        let lane = self.lanes.iter_mut().find(|lane| lane.number == number);
+        lane.expect("what keeps a run is there as long as the run is in a lane")
     }
 
     fn ended(&mut self, number: usize, run: Run<'a>, reason: StopReason) {

@@ -7,12 +7,13 @@ use concio_shear::system as shear;
 use crate::G;
 use crate::assign::{JointLaw, friction_choice, load_masses, resolve};
 use crate::bond;
-use crate::case::{Acts, Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, Signal, SpringLaw, plausible};
+use crate::case::{Acts, Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, SpringLaw, plausible};
 use crate::device::{self, Device};
 use crate::drift;
 use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::graph;
+use crate::ground::signal::GroundMotion;
 use crate::planar::{self, Planar};
 use crate::quantity::Length;
 use crate::wall::{Block, End, Joint, Wall};
@@ -29,7 +30,7 @@ pub struct Model {
     pub beam: Beam,
     /// What `load.top` brings to the wall, the weight of a beam with it [N].
     pub top_load: f64,
-    /// Mass of that load on the blocks of a wall without a beam, which is in the masses of the system too [kg].
+    /// Mass of that load on the blocks of a wall without a beam, which is in the masses of `shear` too [kg].
     pub load_mass: f64,
     /// The joints with a device in the place of mortar, in the order of the joints.
     pub devices: Vec<Device>,
@@ -125,20 +126,6 @@ impl Model {
             true => planar::bonds(&wall, &joints, &laws),
             false => bond::compile(&wall, &joints, &laws, &normal, &rubs, &mut elastic)?,
         };
-        let both = |r: &Rub| sides[r.joint as usize][1] as usize >= n || r.normal[0] == r.normal[1];
-        let reciprocal = rubs.iter().all(both);
-        let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
-        let mut warnings = warnings(case, &wall, rubs.len(), if turns { 0 } else { idle }, reciprocal);
-        let massless = massless(case, top_load, &mass[..wall.blocks.len()]);
-        warnings.extend(massless.map(|text| Warning::new(WarningKind::MasslessLoad, text)));
-        let stronger = stronger_cracked(&wall, &joints, &laws, &normal);
-        warnings.extend(stronger.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
-        let crushed = crushed_at_rest(&wall, &joints, &laws, &normal).filter(|_| turns);
-        warnings.extend(crushed.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
-        let wide = wide_joint(case, &wall, &joints, &laws);
-        warnings.extend(wide.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
-        let detached = planar::detached(case, &wall).into_iter();
-        warnings.extend(detached.map(|text| Warning::new(WarningKind::DetachedTie, text)));
         // A tied beam stays where the base is.
         let moves = matches!(beam, Beam::Driven | Beam::Mass(_));
         let tops = drift::tops(&wall, &joints, moves.then_some(floating.unwrap_or(n + 1)));
@@ -146,10 +133,6 @@ impl Model {
         let rigid = |(e, law): (usize, &JointLaw)| {
             let spring = &law.spring;
             spring.law.is_rigid().then_some(Contact { joint: e as u32, restitution: spring.restitution.unwrap_or(0.0) })
-        };
-        let system = match turns {
-            true => System::Planar(Box::new(planar::compile(case, &wall, &joints, &laws, &normal)?)),
-            false => System::Shear,
         };
         let shear = shear::System {
             blocks: wall.blocks.len(),
@@ -167,6 +150,22 @@ impl Model {
             ..shear::System::default()
         }
         .completed(excitation.duration);
+        let idle = laws.iter().zip(&normal).filter(|(law, n)| law.rubs().is_some() && n[0] == 0.0).count();
+        let mut warnings = warnings(case, &wall, shear.rubs.len(), if turns { 0 } else { idle }, shear.reciprocal);
+        let massless = massless(case, &excitation, top_load, &shear.mass[..wall.blocks.len()]);
+        warnings.extend(massless.map(|text| Warning::new(WarningKind::MasslessLoad, text)));
+        let stronger = stronger_cracked(&wall, &joints, &laws, &normal);
+        warnings.extend(stronger.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
+        let crushed = crushed_at_rest(&wall, &joints, &laws, &normal).filter(|_| turns);
+        warnings.extend(crushed.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
+        let wide = wide_joint(case, &wall, &joints, &laws);
+        warnings.extend(wide.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
+        let detached = planar::detached(case, &wall).into_iter();
+        warnings.extend(detached.map(|text| Warning::new(WarningKind::DetachedTie, text)));
+        let system = match turns {
+            true => System::Planar(Box::new(planar::compile(case, &wall, &joints, &laws, &normal)?)),
+            false => System::Shear,
+        };
         let load_mass = laden.iter().sum();
         Ok(Model { wall, joints, beam, top_load, load_mass, devices, excitation, shear, system, warnings })
     }
@@ -326,9 +325,9 @@ const LACKING: f64 = 0.05;
 
 /// Says of a load that it has no mass, or too little, where the base moves: what it presses with is not what shakes the wall. `blocks` are the masses
 /// of the blocks with what lies on them [kg].
-fn massless(case: &Case, top_load: f64, blocks: &[f64]) -> Option<String> {
-    let upright = case.motion.vertical != Signal::None;
-    let sideways = case.motion.base != Signal::None;
+fn massless(case: &Case, excitation: &Excitation, top_load: f64, blocks: &[f64]) -> Option<String> {
+    let upright = excitation.vertical != GroundMotion::AtRest;
+    let sideways = excitation.base != GroundMotion::AtRest;
     let of_blocks: f64 = blocks.iter().sum();
     let (shaken, has, remedy) = match case.load.beam {
         Beam::Free => {

@@ -79,16 +79,40 @@ const ENDLESS: f64 = 1e8;
 /// records that the run cuts or outlasts join the model's warnings.
 ///
 /// # Errors
-/// What the file may not say, records that cannot be read, walls that do not stand, names that nothing bears; each with file, line and key.
+/// What the file may not say, records that cannot be read, walls that do not stand, names that nothing bears; each with file, line and key, of a record
+/// with where it is named.
 pub fn prepare(file: &CaseFile) -> Result<Prepared> {
     file.validate()?;
-    prepare_case(file.case.clone(), file.folder()).map_err(|error| file.locate(error))
+    let prepared = prepare_case(file.case.clone(), file.folder());
+    let mut prepared = prepared.map_err(|error| file.locate(named(file, error)))?;
+    prepared.model.warnings.splice(0..0, file.unit_doubts());
+    Ok(prepared)
 }
 
-/// [`prepare`] with a motion of the base that no file gives, over `motion.duration`.
+/// Adds to an error in a record where the wall file names that record.
+fn named(file: &CaseFile, error: Error) -> Error {
+    let Error::Input(mut error) = error else { return error };
+    let found = file.case.motion.signals().into_iter().find(|(_, signal)| {
+        let Signal::Record(input) = signal else { return false };
+        error.file.as_deref() == Some(file.folder().join(&input.record).as_path())
+    });
+    if let Some((key, _)) = found {
+        let key = format!("motion.{key}.record");
+        let place = match file.locate(InputError::new("").key(&*key).into()) {
+            Error::Input(at) => at.file.zip(at.line).map(|(path, line)| format!("{}:{line}", path.display())),
+            _ => None,
+        };
+        let place = format!("the record is named in {} as {key}", place.unwrap_or_else(|| "the wall file".into()));
+        error.help = Some(error.help.take().map_or_else(|| place.clone(), |help| format!("{help}; {place}")));
+    }
+    Error::Input(error)
+}
+
+/// [`prepare`] with a motion of the base that no file gives, over `motion.duration`. Results know it by [`Prepared::inputs_hash`] alone: keep the
+/// motion beside them.
 ///
 /// # Errors
-/// As [`prepare`]; a wall file that moves its base or top too, or gives no duration.
+/// As [`prepare`]; a wall file that moves base or top too.
 pub fn prepare_moved(file: &CaseFile, base: GroundMotion) -> Result<Prepared> {
     file.validate()?;
     let case = file.case.clone();
@@ -97,15 +121,13 @@ pub fn prepare_moved(file: &CaseFile, base: GroundMotion) -> Result<Prepared> {
         let error = InputError::new("the motion is given beside the wall file").key(format!("motion.{name}"));
         return Err(file.locate(error.allowed("none").into()));
     }
-    let Some(duration) = case.motion.duration else {
-        let error = InputError::new("the run has no end").key("motion.duration").allowed("above 0");
-        return Err(file.locate(error.into()));
-    };
+    let duration = case.motion.duration.map_or(0.0, |duration| duration.si());
     let inputs_hash = hash(&[canonical_json(&case).into_bytes(), format!("{base:?}").into_bytes()]);
-    let excitation = Excitation::of_base(base, duration.si());
+    let excitation = Excitation::of_base(base, duration);
     let parts = pattern::lay(&case).and_then(|wall| Ok((wall, sampling(&case, &excitation)?)));
-    let (wall, sampling) = parts.map_err(|error| file.locate(error))?;
-    compiled(case, (wall, excitation, sampling), Vec::new(), inputs_hash).map_err(|error| file.locate(error))
+    let prepared =
+        parts.and_then(|(wall, sampling)| compiled(case, (wall, excitation, sampling), Vec::new(), inputs_hash));
+    prepared.map_err(|error| file.locate(error))
 }
 
 /// [`prepare`] of a case that is valid; `folder` is where relative record paths start.

@@ -134,10 +134,10 @@ impl<'m> Simulation<'m> {
     }
 
     /// Starts a wall of the shear model from displacements and velocities relative to the base instead of rest; before the first step.
-    /// `z` and `v` have one value per unknown.
+    /// `z` and `v` have one value per unknown. Planar walls start where they rest under their loads, whatever is asked.
     pub fn start_from(&mut self, z: &[f64], v: &[f64]) {
-        self.clear_recording();
         if let Mechanics::Shear(run) = &mut self.mechanics {
+            self.keeper.recording.clear();
             run.start_from(z, v, &mut self.keeper);
         }
     }
@@ -233,15 +233,15 @@ impl<'m> Simulation<'m> {
         }
     }
 
-    /// What keeps it and what moves in it, which the lanes of a batch take apart; none of a planar wall.
-    pub(crate) fn apart(self) -> std::result::Result<(Keeper<'m>, shear::Run<'m>), Self> {
+    /// What keeps it and what moves in it, which the lanes of a batch take apart; the run itself, if it is of a planar wall.
+    pub(crate) fn into_parts(self) -> std::result::Result<(Keeper<'m>, shear::Run<'m>), Self> {
         match self {
             Simulation { keeper, mechanics: Mechanics::Shear(run) } => Ok((keeper, *run)),
             planar => Err(planar),
         }
     }
-    /// The reverse of [`Simulation::apart`].
-    pub(crate) fn together(keeper: Keeper<'m>, run: shear::Run<'m>) -> Self {
+    /// The reverse of [`Simulation::into_parts`].
+    pub(crate) fn from_parts(keeper: Keeper<'m>, run: shear::Run<'m>) -> Self {
         Simulation { keeper, mechanics: Mechanics::Shear(Box::new(run)) }
     }
 

@@ -9,7 +9,7 @@ use crate::record::{Counters, Energies, Envelopes};
 pub struct State<'a> {
     /// Time [s].
     pub t: f64,
-    /// Displacement, velocity and acceleration relative to the base: bodies, then base (0) and top [m, m/s, m/s²].
+    /// Displacement, velocity and acceleration relative to the base: bodies; of shear walls base (0) and top follow [m, m/s, m/s²].
     pub z: &'a [f64],
     /// See above.
     pub v: &'a [f64],

@@ -61,7 +61,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
         };
         general.push((
             "first period",
-            mode.map_or_else(|| "none: joints are rigid, or nothing holds a block".into(), told),
+            mode.map_or_else(|| "none: joints are rigid, nothing holds a block, or the wall falls".into(), told),
         ));
     }
     let case = &prepared.case;

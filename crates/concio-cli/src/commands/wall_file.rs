@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use concio::case::{self, CaseFile, Document, Signal, plausible};
+use concio::case::{self, CaseFile, Document, plausible};
 use concio::ground::formats;
 use concio::ground::record::TextOptions;
 use concio::pattern;
@@ -66,15 +66,11 @@ fn of_record(error: Error) -> Error {
 
 /// Lays the wall, compiles the system, reads the records.
 pub fn prepare(file: &CaseFile) -> Result<Prepared, Failure> {
-    let prepared = run::prepare_case(file.case.clone(), file.folder()).map_err(|e| file.locate(named(file, e)));
-    // A length in the wrong unit makes walls that cannot be laid.
-    let doubts = || [file.unit_doubts(), plausible::doubts(&file.case)].concat();
-    let mut prepared = prepared.map_err(|error| {
-        crate::warned::warn(file, &doubts());
+    run::prepare(file).map_err(|error| {
+        // A length in the wrong unit makes walls that cannot be laid.
+        crate::warned::warn(file, &[file.unit_doubts(), plausible::doubts(&file.case)].concat());
         all(file, error)
-    })?;
-    prepared.model.warnings.splice(0..0, file.unit_doubts());
-    Ok(prepared)
+    })
 }
 
 /// All that is wrong with the geometry of a wall that cannot be laid; else what is wrong.
@@ -91,23 +87,4 @@ pub fn all(file: &CaseFile, error: Error) -> Failure {
 /// What moves the wall: names and values.
 pub fn motion(file: &CaseFile, prepared: &Prepared) -> Result<Vec<(&'static str, String)>, Failure> {
     motion::describe(prepared, file.folder())
-}
-
-/// Adds to an error in a record where the wall file names that record.
-fn named(file: &CaseFile, error: Error) -> Error {
-    let Error::Input(mut error) = error else { return error };
-    let found = file.case.motion.signals().into_iter().find(|(_, signal)| {
-        let Signal::Record(input) = signal else { return false };
-        error.file.as_deref() == Some(file.folder().join(&input.record).as_path())
-    });
-    if let Some((key, _)) = found {
-        let key = format!("motion.{key}.record");
-        let place = match file.locate(InputError::new("").key(&*key).into()) {
-            Error::Input(at) => at.file.zip(at.line).map(|(path, line)| format!("{}:{line}", path.display())),
-            _ => None,
-        };
-        let place = format!("the record is named in {} as {key}", place.unwrap_or_else(|| "the wall file".into()));
-        error.help = Some(error.help.take().map_or_else(|| place.clone(), |help| format!("{help}; {place}")));
-    }
-    Error::Input(error)
 }

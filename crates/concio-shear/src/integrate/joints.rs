@@ -57,7 +57,7 @@ impl Joints {
 pub struct Contacts {
     /// Both sides by place, and in the order of the system.
     pub sides: Vec<[u32; 2]>,
-    pub of_model: Vec<[u32; 2]>,
+    pub of_system: Vec<[u32; 2]>,
     pub slot: Vec<Slot>,
 }
 
@@ -66,7 +66,7 @@ impl Contacts {
         let indices = || system.contacts.iter().map(|c| c.joint as usize);
         Contacts {
             sides: indices().map(|e| joints.sides[e]).collect(),
-            of_model: indices().map(|e| system.sides[e]).collect(),
+            of_system: indices().map(|e| system.sides[e]).collect(),
             slot: indices().map(|e| joints.slot[e]).collect(),
         }
     }

@@ -422,8 +422,8 @@ impl Stage {
             *load = -tau * m * ground;
         }
         let j = &self.joints;
-        for (e, (&[a, b], of_model)) in j.sides.iter().zip(&system.sides).enumerate() {
-            let [i, k] = of_model.map(|s| s as usize);
+        for (e, (&[a, b], of_system)) in j.sides.iter().zip(&system.sides).enumerate() {
+            let [i, k] = of_system.map(|s| s as usize);
             let w = v[i] - v[k];
             let elastic = if self.closed[e] { j.stiffness[e] * (z[i] - z[k] + tau * w) } else { 0.0 };
             let f = tau * (system.elastic[e].damping * w + elastic);

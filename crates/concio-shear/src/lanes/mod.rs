@@ -306,7 +306,8 @@ struct Marks {
 
 #[cfg(test)]
 mod tests {
-    use concio_law::account::{Event, Totals};
+    use concio_law::account::{Counters, Energies, Envelopes, Event, Totals};
+    use concio_law::drift::Lean;
     use concio_law::friction::Stribeck;
     use concio_law::motion::Drive;
 
@@ -316,7 +317,7 @@ mod tests {
     use crate::state::{State, View};
     use crate::system::{Scheme, System};
 
-    /// Displacements and accelerations at the samples of a run.
+    /// Motion and friction at the samples of a run.
     #[derive(Default, PartialEq)]
     struct Rows {
         values: Vec<f64>,
@@ -325,11 +326,21 @@ mod tests {
 
     impl Keep for Rows {
         fn sample(&mut self, _: u64, _: &Drive, at: View<'_>) {
-            self.values.extend(at.z.iter().chain(at.a).chain(at.mu));
+            self.values.extend(at.z.iter().chain(at.v).chain(at.a).chain(at.mu));
         }
         fn events(&mut self) -> &mut Vec<Event> {
             &mut self.events
         }
+    }
+
+    /// What a run leaves.
+    #[derive(PartialEq)]
+    struct Ended {
+        energies: Energies,
+        envelopes: Envelopes,
+        totals: Totals,
+        counters: Counters,
+        leans: Vec<Lean>,
     }
 
     struct Pile<'m> {
@@ -382,8 +393,8 @@ mod tests {
         (0..11).map(wall).collect()
     }
 
-    /// Histories and envelopes of all.
-    fn by<S: Simd>(simd: S, walls: &[(System, Base)]) -> Vec<(Rows, Totals)> {
+    /// Histories, peaks and account of all.
+    fn by<S: Simd>(simd: S, walls: &[(System, Base)]) -> Vec<(Rows, Ended)> {
         let control = Control { scheme: Scheme::TrBdf2, tolerance: 1e-4, floor: 1e-15, longest_step: f64::INFINITY };
         let schedule = Schedule { interval: 1e-3, samples: 201, frame_every: 10 };
         let mut rows: Vec<Rows> = walls.iter().map(|_| Rows::default()).collect();
@@ -395,8 +406,11 @@ mod tests {
         let gang = Gang::new(&runs[0], WIDTH);
         let mut pile = Pile { runs, rows, ends: walls.iter().map(|_| None).collect() };
         gang.drive(simd, &mut pile);
-        let totals = pile.ends.into_iter().map(|state| state.expect("every run ends").totals);
-        pile.rows.into_iter().zip(totals).collect()
+        let ended = pile.ends.into_iter().map(|state| {
+            let State { energies, envelopes, totals, counters, leans, .. } = state.expect("every run ends");
+            Ended { energies, envelopes, totals, counters, leans }
+        });
+        pile.rows.into_iter().zip(ended).collect()
     }
 
     /// Wide, halved and single instructions give the same bits.
@@ -404,8 +418,8 @@ mod tests {
     fn all_instructions_give_the_same_bits() {
         let walls = walls();
         let plain = by(pulp::Scalar512b, &walls);
-        assert!(plain.len() == 11 && plain.iter().all(|(rows, _)| rows.values.len() == 201 * (6 + 6 + 2)));
-        assert!(plain.iter().all(|(_, totals)| totals.peak_slip_velocity > 1e-3 && totals.minimum_gap < -1e-6));
+        assert!(plain.len() == 11 && plain.iter().all(|(rows, _)| rows.values.len() == 201 * (6 + 6 + 6 + 2)));
+        assert!(plain.iter().all(|(_, end)| end.totals.peak_slip_velocity > 1e-3 && end.totals.minimum_gap < -1e-6));
         #[cfg(target_arch = "x86_64")]
         {
             if let Some(simd) = pulp::x86::V3::try_new() {

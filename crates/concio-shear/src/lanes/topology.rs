@@ -20,7 +20,7 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// None for models that lanes do not take: set-valued laws, bonds, devices with laws of their own, action that
+    /// None for systems that lanes do not take: set-valued laws, bonds, devices with laws of their own, action that
     /// differs from reaction, and walls so large that a single run factorises in another way and vectors are full
     /// without lanes.
     pub fn of(system: &System, scheme: Scheme) -> Option<Self> {

@@ -89,7 +89,9 @@ const BEAM: Expected =
     Expected { limits: [10.0, 1e7], usual: [100.0, 1e6], unit: "kg", slips: &[(1e3, "t", 1e3), (1e-3, "t", 1e3)] };
 /// The largest peak acceleration ever recorded is some 4 g.
 const SHAKING: Expected =
-    Expected { limits: [1e-4, 60.0], usual: [0.05, 20.0], unit: "m/s2", slips: &[(1e-2, "cm/s2", 1e-2)] };
+    Expected { limits: [1e-4, 45.0], usual: [0.05, 20.0], unit: "m/s2", slips: &[(1e-2, "cm/s2", 1e-2)] };
+/// Of a bed joint given as a whole, below which it is softer than a sheet of rubber [N/m³].
+const SOFTEST: f64 = 1e7;
 /// Ground displacements and strokes of actuators.
 const STROKE: Expected = Expected { limits: [1e-8, 3.0], usual: [1e-4, 0.5], unit: "m", slips: &[FROM_MM, FROM_CM] };
 /// Sample intervals of records.
@@ -409,6 +411,23 @@ fn of_bond(doubts: &mut Doubts, joint: &Joints, bond: &JointBond) {
     }
 }
 
+/// What a stiffness of the half-brick bed joint is per area, where that is too little to be meant.
+fn of_whole_joint(doubts: &mut Doubts, whole: f64, brick: [f64; 2]) {
+    let area = 0.5 * brick[0] * brick[1];
+    let within = |x: f64, expected: &Expected| (expected.limits[0]..=expected.limits[1]).contains(&x);
+    // What is doubted by itself says nothing here.
+    let known = within(whole, &STIFFNESS) && brick.into_iter().all(|side| within(side, &BRICK));
+    if known && whole < SOFTEST * area {
+        let text = format!(
+            "joint.bed.stiffness is {} N/m of a bed joint of half a brick, {} N/mm3, softer than rubber; did you mean \"{} N/mm3\"?",
+            shown(rounded(whole, 6)),
+            shown(rounded(1e-9 * whole / area, 2)),
+            shown(rounded(1e-3 * whole, 6)),
+        );
+        doubts.add(WarningKind::UnlikelyNumber, text);
+    }
+}
+
 fn of_joints(doubts: &mut Doubts, case: &Case) {
     let joint = &case.joint;
     let others = [("base", joint.base), ("top", joint.top), ("connection", joint.connection)];
@@ -416,6 +435,11 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
     for (kind, spring) in springs {
         if let Some(spring) = spring {
             doubts.look_at_stiffness(&format!("joint.{kind}.stiffness"), spring.stiffness);
+            if kind == "bed"
+                && let (Stiffness::PerJoint(whole), Some(panel)) = (spring.stiffness, case.panels.first())
+            {
+                of_whole_joint(doubts, whole.si(), [panel.brick.length.si(), panel.brick.thickness.si()]);
+            }
             if let Some(strength) = spring.compressive_strength {
                 doubts.look(&format!("joint.{kind}.compressive_strength"), strength.si(), &COMPRESSION);
             }

@@ -57,11 +57,19 @@ pub struct Samples {
 
 impl GroundMotion {
     /// An acceleration [m/s²] at samples from t = 0, `dt` [s] apart, linear in between; from rest, and no acceleration after the last.
-    pub fn sampled(dt: f64, acceleration: &[f64]) -> Self {
+    ///
+    /// # Errors
+    /// An interval that is not above 0, fewer than two samples, a sample that is no number.
+    pub fn sampled(dt: f64, acceleration: &[f64]) -> Result<Self> {
+        let dt = positive("dt", dt, "s")?;
+        if acceleration.len() < 2 {
+            return Err(InputError::new(format!("{} samples", acceleration.len())).allowed("2 or more").into());
+        }
+        acceleration.iter().try_for_each(|a| finite("acceleration", *a).map(|_| ()))?;
         let (velocity, displacement) = integrate(dt, acceleration, 0.0, 0.0);
         let rows = displacement.into_iter().zip(velocity).zip(acceleration);
         let motion = rows.map(|((u, v), &a)| Kinematics { u, v, a }).collect();
-        GroundMotion::Samples(Samples { dt, motion })
+        Ok(GroundMotion::Samples(Samples { dt, motion }))
     }
 
     /// The piece that is active just after `t`. An instant that is a break but for rounding counts as the break.
@@ -337,7 +345,7 @@ fn compile_sweep(sweep: &case::Sweep) -> Result<GroundMotion> {
     let value = |k: usize| peak * (2.0 * PI * cycles(k as f64 / intervals)).sin();
     let acceleration: Vec<f64> = (0..=intervals as usize).map(value).collect();
     let dt = length / intervals;
-    Ok(GroundMotion::sampled(dt, &acceleration))
+    GroundMotion::sampled(dt, &acceleration)
 }
 
 fn positive(key: &'static str, value: f64, unit: &str) -> Result<f64> {

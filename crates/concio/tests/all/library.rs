@@ -22,7 +22,7 @@ fn stone(duration: f64) -> Case {
 fn pushed(duration: f64) -> Prepared {
     let samples: Vec<f64> = (0..=400).map(|_| 0.5 * concio::G).collect();
     let wall = CaseFile::of(&stone(duration)).expect("a wall");
-    prepare_moved(&wall, GroundMotion::sampled(1e-3, &samples)).expect("a run")
+    prepare_moved(&wall, GroundMotion::sampled(1e-3, &samples).expect("a motion")).expect("a run")
 }
 
 #[test]
@@ -66,7 +66,8 @@ fn a_motion_of_ones_own_moves_the_wall() {
 #[test]
 fn a_motion_of_ones_own_is_part_of_what_a_run_is_known_by() {
     let wall = CaseFile::of(&stone(1.0)).expect("a wall");
-    let hash = |a: f64| prepare_moved(&wall, GroundMotion::sampled(1e-3, &[a, a])).expect("a run").inputs_hash;
+    let motion = |a: f64| GroundMotion::sampled(1e-3, &[a, a]).expect("a motion");
+    let hash = |a: f64| prepare_moved(&wall, motion(a)).expect("a run").inputs_hash;
     assert_eq!(hash(1.0), hash(1.0));
     assert_ne!(hash(1.0), hash(1.5));
 }
@@ -123,8 +124,18 @@ fn preparing_says_where_a_wall_is_wrong() {
     )]);
     let error = prepare_moved(&moving.expect("a wall"), GroundMotion::AtRest).expect_err("two motions").to_string();
     assert!(error.contains("motion.base"), "{error}");
-    let mut endless = stone(1.0);
-    endless.motion.duration = None;
-    let error = prepare_moved(&CaseFile::of(&endless).expect("a wall"), GroundMotion::AtRest).expect_err("no end");
-    assert!(error.to_string().contains("motion.duration"), "{error}");
+    for (dt, samples) in [(0.0, vec![1.0; 3]), (1e-3, vec![1.0]), (1e-3, vec![1.0, f64::NAN])] {
+        assert!(GroundMotion::sampled(dt, &samples).is_err(), "{dt} {samples:?}");
+    }
+}
+
+/// A load that has no mass is missing under a motion of one's own too.
+#[test]
+fn a_motion_of_ones_own_asks_for_the_mass_of_loads() {
+    let mut wall = stone(1.0);
+    (wall.load.top, wall.load.mass) = (40e3.into(), Some(0.0.into()));
+    let motion = GroundMotion::sampled(1e-3, &[1.0, 1.0]).expect("a motion");
+    let prepared = prepare_moved(&CaseFile::of(&wall).expect("a wall"), motion).expect("a run");
+    let kinds: Vec<_> = prepared.model.warnings.iter().map(|warning| warning.kind).collect();
+    assert!(kinds.contains(&concio::warning::WarningKind::MasslessLoad), "{kinds:?}");
 }

@@ -98,6 +98,11 @@ fn each_mistake_of_unit_is_told_with_a_guess() {
             "joint.bed.stiffness is 36 N/m3, less than 1000000 N/m3; did you mean \"36 N/mm3\"?",
         ),
         (
+            "stiffness = 5.4e7 }\nhead",
+            "stiffness = \"10 N/mm\" }\nhead",
+            "joint.bed.stiffness is 10000 N/m of a bed joint of half a brick, 0.00067 N/mm3, softer than rubber; did you mean \"10 N/mm3\"?",
+        ),
+        (
             "static = 0.6",
             "static = 30",
             "joint.friction.static is 30, more than 2; did you mean 0.58, the tangent of 30 degrees?",
@@ -105,7 +110,7 @@ fn each_mistake_of_unit_is_told_with_a_guess() {
         ("slip_velocity = 0.001", "slip_velocity = 1", "more than 0.1 m/s; did you mean \"1 mm/s\"?"),
         ("top = 40000", "top = 40", "load.top is 40 N/m, less than 300 N/m; did you mean \"40 kN/m\"?"),
         ("mass = 4000", "mass = 4", "load.beam.mass is 4 kg, less than 10 kg; did you mean \"4 t\"?"),
-        ("pga = 3.0", "pga = 300", "pga is 300 m/s2, more than 60 m/s2; did you mean \"300 cm/s2\"?"),
+        ("pga = 3.0", "pga = 300", "pga is 300 m/s2, more than 45 m/s2; did you mean \"300 cm/s2\"?"),
         ("dt = 0.005", "dt = 0.5", "motion.base.synthetic.dt is 0.5 s, more than 0.2 s"),
     ] {
         assert!(WALL.contains(right), "{right}");

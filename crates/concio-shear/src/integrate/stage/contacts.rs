@@ -27,7 +27,7 @@ impl Stage {
         for (c, &[a, b]) in self.contacts.sides.iter().enumerate() {
             let free = self.diagonal[a as usize].recip() + self.diagonal.get(b as usize).map_or(0.0, |d| d.recip());
             self.clamp = self.clamp.max(HOLD / (self.tau * free));
-            let [i, k] = self.contacts.of_model[c].map(|s| s as usize);
+            let [i, k] = self.contacts.of_system[c].map(|s| s as usize);
             self.parting[c] = self.v[i] - self.v[k];
             let touches = tangents.contact[c] || self.z[i] - self.z[k] >= -TOUCHING;
             self.touching[c] = self.eligible[c] && touches;
