@@ -46,10 +46,12 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     if model.top_load > 0.0 {
         general.push(("load on top", load_on_top(model)));
     }
+    let mut falls = false;
     if model.wall.blocks.len() <= TRIED {
         if let Some(own) = model.planar() {
             let rest = own.rest();
-            if rest == Rest::Falls {
+            falls = rest == Rest::Falls;
+            if falls {
                 planar::warn_of_fall(own);
             }
             general.push(("under its loads", planar::rest(rest, model.shear.bonds.len())));
@@ -82,8 +84,9 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let list = if args.joints { format!("\n{}", columns(&joint_list(model))) } else { String::new() };
     let title = &case.title;
     let title = if title.is_empty() { String::new() } else { format!("{}\n\n", line(title)) };
+    let but = if falls { ", but its wall does not stand under its loads" } else { "" };
     let text = format!(
-        "{title}{}\n{}{}\n{}{}{}{}\n{}{list}\n{} is a valid wall file.\n",
+        "{title}{}\n{}{}\n{}{}{}{}\n{}{list}\n{} is a valid wall file{but}.\n",
         columns(&panel_rows(model)),
         openings::told(case)?,
         columns(&joints),
