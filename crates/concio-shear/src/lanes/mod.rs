@@ -1,7 +1,7 @@
 //! Runs side by side in the lanes of vector instructions.
 //!
-//! Every lane is at its own time, step, stage and iteration; each turn of [`Gang::drive`] makes one iteration in all
-//! of them at once. What depends on a lane alone (size of the step, what comes next) is decided by [`lane`] with plain
+//! Every lane is at its own time, step, stage and iteration; each turn of `Gang::drive` makes one iteration in all
+//! of them at once. What depends on a lane alone (size of the step, what comes next) is decided by `lane.rs` with plain
 //! numbers. No number of a lane depends on what runs beside it.
 
 mod account;
