@@ -31,7 +31,11 @@ frames = "0.1 ms"
 "#;
 
 fn stored(output: &str) -> StoredRun {
-    let file = case::from_str(&format!("{WALL}{output}"), Syntax::Toml, None).expect("a wall");
+    run_of(&format!("{WALL}{output}"))
+}
+
+fn run_of(wall: &str) -> StoredRun {
+    let file = case::from_str(wall, Syntax::Toml, None).expect("a wall");
     let prepared = run::prepare_case(file.case, std::path::Path::new(".")).expect("a system");
     let outcome = run::run_in_memory(&prepared).expect("a run");
     let joints = run::joint_rows(&prepared.model);
@@ -97,6 +101,27 @@ fn windows_cut_histories() {
     assert_eq!((history.time.len(), history.values.len()), (501, 501));
     assert!((history.time[0] - 0.005).abs() < 1e-12 && (history.time[500] - 0.01).abs() < 1e-12);
     assert!(Data::new(&run, [Some(0.01), Some(0.005)]).is_err());
+}
+
+/// A spectrum is of the whole motion as it was given, whatever time is shown and however seldom the run kept it.
+#[test]
+fn spectra_are_those_of_the_whole_motion() {
+    let base = "base = { synthetic = { seed = 1, pga = \"0.3 g\", duration = \"3 s\" } }";
+    let moved = WALL.replace("top = { sine = { amplitude = \"2 mm\", frequency = \"20 Hz\" } }", base);
+    let moved = moved.replace("beam = \"driven\"", "beam = \"free\"").replace("duration = \"0.02 s\"", "");
+    let run = |interval: &str| run_of(&moved.replace("\"0.01 ms\"", interval).replace("frames = \"0.1 ms\"", ""));
+    let curve = |run: &StoredRun, window: [Option<f64>; 2]| {
+        let svg =
+            draw(Figure::Motion, &Data::new(run, window).expect("data"), &Options::default()).expect("a figure").body;
+        let (_, last) = svg.rsplit_once("d=\"M").expect("the curve of the last panel");
+        let (curve, _) = last.split_once('"').expect("its end");
+        assert!(curve.len() > 500, "{curve}");
+        curve.to_string()
+    };
+    let [fine, coarse] = [run("\"5 ms\""), run("\"50 ms\"")];
+    let whole = curve(&fine, [None; 2]);
+    assert_eq!(curve(&fine, [Some(1.6), None]), whole);
+    assert_eq!(curve(&coarse, [None; 2]), whole);
 }
 
 /// In the deformed wall a block lies where its displacement times the scale puts it.

@@ -346,6 +346,28 @@ fn system_is_the_wall_in_numbers() {
     assert_eq!(system["duration"].as_f64(), Some(0.05));
 }
 
+/// What is printed ends with the last sample of the record, as the run does. A run that goes on after it has a jump there.
+#[test]
+fn system_ends_with_the_last_sample() {
+    let desk = Desk::new();
+    desk.put("r.txt", "0\n1\n2\n3\n");
+    let top = "top = { sine = { amplitude = \"2 mm\", frequency = \"2 Hz\", ramp = \"0.05 s\" } }";
+    let base = "base = { record = \"r.txt\", dt = \"0.1 s\", units = \"m/s2\" }";
+    let wall = desk.get("wall.toml").replace("beam = \"driven\"", "beam = \"free\"").replace(top, base);
+    desk.put("longer.toml", wall.replace("duration = \"0.05 s\"", "duration = \"0.5 s\""));
+    desk.concio("system longer.toml").assert().code(2);
+    desk.put("wall.toml", wall.replace("duration = \"0.05 s\"", ""));
+    let printed = desk.concio("system wall.toml").assert().success();
+    let system: Value = serde_json::from_slice(&printed.get_output().stdout).expect("JSON");
+    let samples: Vec<f64> =
+        system["base"]["acceleration"].as_array().expect("samples").iter().filter_map(Value::as_f64).collect();
+    assert!(
+        samples.iter().zip([0.0, 1.0, 2.0, 3.0]).all(|(found, right)| (found - right).abs() < 1e-12),
+        "{samples:?}"
+    );
+    assert!(samples.len() >= 4 && samples[4..].iter().all(|a| *a == 0.0), "{samples:?}");
+}
+
 /// What the format cannot say is not said wrongly.
 #[test]
 fn system_refuses_what_it_cannot_say() {

@@ -99,6 +99,18 @@ fn a_search_that_has_not_ended_is_said_to_go_on() {
     assert!(!desk.get("out/report.html").contains("Smart interfaces"));
 }
 
+/// Six designs of one device under one motion are a generation: 60 runs are ten, and 59 too few to learn from.
+#[test]
+fn a_search_of_few_generations_is_warned_of() {
+    for (runs, warned) in [("59", true), ("60", false)] {
+        let desk = desk(&STUDY.replace("runs = 60", &format!("runs = {runs}")));
+        let output = desk.concio("study check study.toml").output().expect("an end");
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{text}");
+        assert_eq!(text.contains("9 generations") && text.contains("10 generations take 60 runs"), warned, "{text}");
+    }
+}
+
 #[test]
 fn wrong_questions_end_with_status_2_before_anything_is_run() {
     for (from, to, says) in [

@@ -126,6 +126,14 @@ fn threads_and_interruptions_change_nothing() {
     assert_eq!((question.names.len(), question.places.most), (question.joints.len(), 3));
     let found = one.search[one.chosen].design.as_ref().expect("a design");
     assert!((1..=3).contains(&found.joints.len()));
+    // Greedy places are tuned with no less than a generation short of what the search has, all rankings together, and stand
+    // beside it with its own device too, in the same joints.
+    assert!(greedy + 3 * 2 * 8 * 2 >= search, "{:?}", one.runs);
+    let (tuned, alike) = one.greedy.split_at(3);
+    for (tuned, alike) in tuned.iter().zip(alike) {
+        let [tuned, alike] = [tuned, alike].map(|l| l.design.as_ref().expect("a design"));
+        assert_eq!((&tuned.joints, alike.device, &alike.shares), (&alike.joints, found.device, &found.shares));
+    }
     // The search starts from the greedy designs and can only gain on the motions that it sees.
     let verdict = one.verdict(&question, 0, false).expect("a verdict");
     assert!(
