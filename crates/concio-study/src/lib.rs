@@ -8,6 +8,7 @@
 //! run under its id, so nothing is ever run twice: a study that is taken up again, a shard, a search that asks for a
 //! wall it has seen before all read the store first.
 
+pub mod alike;
 pub mod answer;
 pub mod bench;
 pub mod cma;

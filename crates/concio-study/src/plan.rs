@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use concio::case::{Case, CaseFile, Signal, canonical_json};
+use concio::ground::Library;
 use concio::quantity::Time;
 use concio::{Error, InputError, Result};
 use serde_json::Value;
@@ -24,6 +25,10 @@ pub struct Plan {
     pub factors: Vec<Factor>,
     /// Per run, where each factor stands.
     pub points: Vec<Vec<At>>,
+    /// What is to be known of its motions before its answers are believed.
+    pub doubts: Vec<String>,
+    /// Accelerograms that were read for checks.
+    pub library: Library,
     records: Records,
 }
 
@@ -43,7 +48,14 @@ impl Plan {
     pub(crate) fn laid_out(file: StudyFile) -> Result<Self> {
         let factors = factors(&file)?;
         let points = points(&file, &factors)?;
-        let plan = Plan { file, factors, points, records: Records::default() };
+        let plan = Plan {
+            file,
+            factors,
+            points,
+            doubts: Vec::new(),
+            library: Library::default(),
+            records: Records::default(),
+        };
         plan.try_levels()?;
         Ok(plan)
     }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use concio::Result;
 
+use crate::alike::{self, Pair};
 use crate::file::StudyFile;
 use crate::plan::Plan;
 use crate::{ida, interfaces, sensitivity};
@@ -22,10 +23,11 @@ impl Plan {
     /// # Errors
     /// [`concio::Error::Input`] with file and line.
     pub fn of(file: StudyFile) -> Result<Self> {
-        let plan = Self::laid_out(file)?;
+        let mut plan = Self::laid_out(file)?;
         sensitivity::measures(&plan)?;
         ida::settings(&plan.file)?;
         questions(&plan)?;
+        plan.doubts = repeated(&plan)?;
         Ok(plan)
     }
 }
@@ -46,4 +48,46 @@ fn questions(plan: &Plan) -> Result<()> {
         }
         None => Ok(()),
     }
+}
+
+/// Refuses motions that would count twice; what is to be known of those that resemble each other.
+fn repeated(plan: &Plan) -> Result<Vec<String>> {
+    let study = &plan.file.study;
+    let independent = study.ida.is_some() || study.first_crack.is_some() || study.cracks.is_some();
+    if !independent && study.interfaces.is_none() && study.sensitivity.is_none() && study.ranking.is_none() {
+        return Ok(Vec::new());
+    }
+    let mut doubts = Vec::new();
+    for pair in alike::pairs(plan) {
+        let [first, second] = pair.motions.map(|m| &study.motions[m]);
+        let (a, b) = (&first.name, &second.name);
+        let leaks = first.held_out != second.held_out;
+        let once = alike::of_one_wall(plan, pair.motions);
+        let scaled = study.ida.is_some() && pair.is_one() && pair.factor > 0.0;
+        if once && (pair.is_equal() || scaled) {
+            let what = match (scaled && !pair.is_equal(), leaks) {
+                (true, _) => format!("`{a}` and `{b}` are one motion once they are scaled: it would count twice"),
+                (_, true) => format!("`{a}` and `{b}` are one motion: what is held out would be known to the search"),
+                _ => format!("`{a}` and `{b}` are one motion: it would count twice"),
+            };
+            let allowed = "motions that differ by more than strength, silence, sampling and the length of the run";
+            let allowed = if scaled { allowed } else { "motions that differ" };
+            return Err(plan.file.wrong(&format!("motion[{}].base", pair.motions[1]), what, allowed));
+        }
+        if independent || leaks {
+            doubts.push(resemblance(a, b, &pair));
+        }
+    }
+    Ok(doubts)
+}
+
+fn resemblance(a: &str, b: &str, pair: &Pair) -> String {
+    let percent = (1e4 * pair.correlation).floor() / 1e2;
+    let by = match (pair.is_one(), pair.is_equal(), pair.factor < 0.0) {
+        (false, ..) => format!("resemble each other with a correlation of {percent} %"),
+        (_, true, _) => "are one".into(),
+        (.., true) => "are one but for their sign, which a symmetric wall does not tell".into(),
+        _ => "are one but for their strength".into(),
+    };
+    format!("motions `{a}` and `{b}` {by}: they are no two independent ones")
 }

@@ -5,7 +5,6 @@ use std::path::Path;
 
 use concio::case::plausible::rounded;
 use concio::case::{Baseline, Case, ModelKind, Signal, TopLoad};
-use concio::ground::Library;
 use concio::ground::coverage::{Coverage, coverage};
 use concio::run::prepare_with;
 use concio::warning::Warning;
@@ -198,8 +197,8 @@ fn cut(plan: &Plan, number: usize, place: usize) -> concio::Result<Option<String
         // That of the run starts from the working directory.
         (base.motion, start) = (case.motion.clone(), Path::new(""));
     }
-    let library = Library::default();
-    let from = |case: Case, start| prepare_with(case, start, &library).map(|prepared| (prepared, start));
+    let library = &plan.library;
+    let from = |case: Case, start| prepare_with(case, start, library).map(|prepared| (prepared, start));
     // A wall file may leave to the factors what a run cannot do without.
     let prepared = from(base, start).or_else(|_| from(case, Path::new("")));
     let key = if of_study { format!("motion[{place}]") } else { "wall".to_string() };
@@ -241,7 +240,8 @@ fn of_design(plan: &Plan) -> Vec<String> {
     };
     let ordered = plan.factors.iter().filter(|factor| factor.is_ordered() && factor.levels() != Some(1)).count();
     let few = study.sensitivity.is_some().then(|| scarce(study.design.kind, runs, ordered)).flatten();
-    unreached(&plan.factors, &plan.points).into_iter().chain(few).chain(question.and_then(|q| q.too_few())).collect()
+    let doubts = plan.doubts.iter().cloned().chain(unreached(&plan.factors, &plan.points));
+    doubts.chain(few).chain(question.and_then(|q| q.too_few())).collect()
 }
 
 /// What the runs that are known warn of.

@@ -222,7 +222,7 @@ const WRONG: [(&str, &[&str], &str, &[&str]); 18] = [
             "[[motion]]\nname = \"b\"\nbase = { sine = { acceleration = 2, frequency = 3, cycles = 2 } }\n",
             IDA,
         ],
-        "study.toml:2:",
+        "study.toml:7:",
         &["`a` and `b` are one motion"],
     ),
     ("nothing that varies", &["vary = []\n"], "study.toml:2:", &["vary"]),

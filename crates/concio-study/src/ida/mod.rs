@@ -100,6 +100,10 @@ pub fn settings(file: &StudyFile) -> Result<Option<Settings>> {
             "`group.acceleration` and `[ida]` contradict each other: an incremental analysis scales the motions itself";
         return Err(file.wrong(&format!("vary[{i}].path"), what, "another path, or no `[ida]`"));
     }
+    if let DesignKind::Sobol | DesignKind::Morris = study.design.kind {
+        let what = "takes each value again in several runs, and `[ida]` takes draws as independent";
+        return Err(file.wrong("design.kind", what, "`random`, `latin-hypercube`, `grid` or `list`"));
+    }
     if study.sensitivity.is_some() {
         let what = "`[sensitivity]` and `[ida]` contradict each other: one looks at the runs of the design as they are";
         return Err(file.wrong("sensitivity", what, "one of both"));

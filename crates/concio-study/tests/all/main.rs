@@ -1,5 +1,6 @@
 //! Tests of the studies, one program.
 
+mod alike;
 mod analyses;
 mod common;
 mod first_crack;
