@@ -49,6 +49,8 @@ pub struct Line {
     pub held_out: Vec<Spread>,
     /// Per scene and objective, the mean over the copies.
     pub scenes: Vec<Vec<f64>>,
+    /// The same in the first copy, the only one of random placements.
+    pub first: Vec<Vec<f64>>,
 }
 
 /// The answer.
@@ -59,8 +61,10 @@ pub struct Answer {
     /// The wall as it is.
     pub unreinforced: Line,
     /// The devices in the joints of highest rank, parameters tuned: one line per ranking, or with two objectives the ends
-    /// of its front and its knee. Then, per ranking, with the device and the parameters of the chosen design.
+    /// of its front and its knee.
     pub greedy: Vec<Line>,
+    /// The joints of highest rank, one line per ranking, with the device and the parameters of the chosen design.
+    pub greedy_as_found: Vec<Line>,
     /// What the search found: one line, or with two objectives the front, in the order of the first.
     pub search: Vec<Line>,
     /// The line of the search that stands for it: of a front the knee.
@@ -140,10 +144,11 @@ pub fn answer(plan: &Plan, question: &Question, rows: &[&Row], runner: &mut Runn
     let chosen = pareto::knee(&costs).unwrap_or(0);
     let Some(design) = search.get(chosen).and_then(|l| l.design.clone()) else { return Ok(None) };
     let as_the_search = |rank: &Ranks| Design { joints: top(&question, rank, question.places.most), ..design.clone() };
+    let mut greedy_as_found = Vec::new();
     for rank in &ranks {
         let name = format!("greedy by {}, device of the search", crate::ranking::name(rank.by));
         let Some(line) = judge.line(&name, Some(&as_the_search(rank)), true)? else { return Ok(None) };
-        greedy.push(line);
+        greedy_as_found.push(line);
     }
     let Some(random) = judge.random(None)? else { return Ok(None) };
     let Some(placed) = judge.random(Some(&design))? else { return Ok(None) };
@@ -159,7 +164,19 @@ pub fn answer(plan: &Plan, question: &Question, rows: &[&Row], runner: &mut Runn
     }
     let trace = found.trace.iter().map(by_runs).collect();
     let runs = [greedy_runs, search_runs, bench.runs];
-    Ok(Some(Answer { ranks, unreinforced, greedy, search, chosen, random, placed, trace, greedy_trace, runs }))
+    Ok(Some(Answer {
+        ranks,
+        unreinforced,
+        greedy,
+        greedy_as_found,
+        search,
+        chosen,
+        random,
+        placed,
+        trace,
+        greedy_trace,
+        runs,
+    }))
 }
 
 /// Runs that the comparison takes besides the search, at most: the wall as it is, the greedy placements and the finalists in
@@ -281,6 +298,7 @@ impl Judge<'_, '_, '_> {
                 training: self.spreads(values, false),
                 held_out: self.spreads(values, true),
                 scenes: self.by_scene(values),
+                first: values.first().cloned().unwrap_or_default(),
             });
         }
         Ok(Some(lines))
@@ -343,55 +361,103 @@ impl Judge<'_, '_, '_> {
     }
 }
 
-/// How the search did for one objective under one kind of motions.
+/// Scatter of copies over the value, from which on it is evidence: below, copies hardly differ, and it says nothing.
+const TELLING: f64 = 1e-3;
+
+/// The best and the median of some random placements; the best is that under the motions of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Verdict {
+pub struct Draws {
+    /// The best one.
+    pub best: f64,
+    /// Half of them lie below.
+    pub median: f64,
+}
+
+/// How the search did for one objective under one kind of motions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verdict<'a> {
     /// The wall as it is.
     pub unreinforced: Spread,
-    /// The search's best design for this objective, as the motions of the search show it.
-    pub search: Spread,
-    /// The greedy placement that is best under the motions of the search.
-    pub greedy: Spread,
-    /// The random placement that is best under the motions of the search, and the median one under these, of both kinds.
-    pub random: [f64; 2],
-    /// Whether the search is better than the wall as it is and than both of them.
-    pub beats: bool,
-    /// By how many scatters (of search and rival together) it is better than the best of the three; negative where it is not.
-    pub lead: f64,
+    /// The place of the search's best design for this objective, as the motions of the search show it, and its value.
+    pub search: (usize, Spread),
+    /// The best under the motions of the search of the greedy placements with parameters of their own, and of those with the
+    /// device of the search.
+    pub greedy: [Option<(&'a Line, Spread)>; 2],
+    /// Random placements, and random places of the found device.
+    pub random: [Option<Draws>; 2],
+    /// Lines whose design is that of the search: they are no rivals.
+    pub same: Vec<&'a Line>,
+    /// The best of all others.
+    pub rival: &'a Line,
+    /// By what part of the rival's value the search is better; negative where it is not. A rival of one copy is compared with
+    /// that copy of the search.
+    pub gain: f64,
+    /// The same in scatters of the difference of two copies; none where that is below a thousandth of the value.
+    pub scatters: Option<f64>,
+    /// Under how many motions the search is better than the rival, and of how many.
+    pub motions: [usize; 2],
 }
 
 impl Answer {
     /// How the search did for an objective under the motions of the search or the held-out ones; none where there are none.
-    pub fn verdict(&self, question: &Question, objective: usize, held_out: bool) -> Option<Verdict> {
+    pub fn verdict(&self, question: &Question, objective: usize, held_out: bool) -> Option<Verdict<'_>> {
         let goal = question.objectives[objective];
+        let scenes = question.of(held_out);
         let of = |line: &Line| {
             let spreads = if held_out { &line.held_out } else { &line.training };
             spreads.get(objective).copied()
         };
         let cost = |line: &Line| of(line).map_or(f64::INFINITY, |s| goal.cost(s.mean));
-        let training = |line: &Line| line.training.get(objective).map_or(f64::INFINITY, |s| goal.cost(s.mean));
         // Each strategy is asked for its best under the motions of the search: what does best under others nobody knows beforehand.
-        let by_training = |a: &&Line, b: &&Line| training(a).total_cmp(&training(b));
-        let drawn = || self.random.iter().chain(&self.placed);
-        let best = self.search.iter().min_by(by_training)?;
-        let greedy = of(self.greedy.iter().min_by(by_training)?)?;
-        let random = drawn().min_by(by_training).map_or(f64::INFINITY, cost);
-        let (search, unreinforced) = (of(best)?, of(&self.unreinforced)?);
-        let alike = |spread: Spread| (goal.cost(spread.mean), spread.deviation);
-        let rivals = [alike(unreinforced), alike(greedy), (random, search.deviation)];
-        let rival = rivals.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let gain = rival.0 - goal.cost(search.mean);
-        let scatter = search.deviation.hypot(rival.1);
-        let costs: Vec<f64> = drawn().map(cost).collect();
+        let training = |line: &Line| line.training.get(objective).map_or(f64::INFINITY, |s| goal.cost(s.mean));
+        let best = least(&self.search, &training)?;
+        let place = self.search.iter().position(|line| std::ptr::eq(line, best))?;
+        let search = of(best)?;
+        let is_same = |line: &&Line| match (&line.design, &best.design) {
+            (Some(a), Some(b)) => question.is_same(a, b),
+            _ => false,
+        };
+        let (greedy, drawn) = ([&self.greedy, &self.greedy_as_found], [&self.random, &self.placed]);
+        let kinds = || greedy.into_iter().chain(drawn);
+        let rivals = kinds().filter_map(|lines| least(lines.iter().filter(|line| !is_same(line)), &training));
+        let rival = least(std::iter::once(&self.unreinforced).chain(rivals), &cost)?;
+        // A rival that was run once is compared with the same copy of the search, and taken to scatter as that does.
+        let single = drawn.into_iter().flatten().any(|line| std::ptr::eq(line, rival));
+        let by_scene = |line: &Line| -> Vec<f64> {
+            let values = if single { &line.first } else { &line.scenes };
+            scenes.iter().filter_map(|&s| values.get(s)?.get(objective).copied()).collect()
+        };
+        let [ours, theirs] = [best, rival].map(by_scene);
+        let [of_search, of_rival] = match single {
+            true => [goal.over(&ours), goal.over(&theirs)],
+            false => [search.mean, of(rival)?.mean],
+        };
+        let scatter = search.deviation.hypot(if single { search.deviation } else { of(rival)?.deviation });
+        let gain = goal.cost(of_rival) - goal.cost(of_search);
+        let better = ours.iter().zip(&theirs).filter(|(a, b)| goal.cost(**a) < goal.cost(**b)).count();
+        let draws = |lines: &Vec<Line>| {
+            let costs: Vec<f64> = lines.iter().map(cost).collect();
+            let best = cost(least(lines, &training)?);
+            Some(Draws { best: goal.cost(best), median: goal.cost(quantile(&costs, 0.5)?) })
+        };
+        let with_value = |line| Some((line, of(line)?));
         Some(Verdict {
-            unreinforced,
-            search,
-            greedy,
-            random: [goal.cost(random), goal.cost(quantile(&costs, 0.5)?)],
-            beats: gain > 0.0,
-            lead: if gain == 0.0 { 0.0 } else { gain / scatter },
+            unreinforced: of(&self.unreinforced)?,
+            search: (place, search),
+            greedy: greedy.map(|lines| least(lines, &training).and_then(with_value)),
+            random: drawn.map(draws),
+            same: kinds().flatten().filter(is_same).collect(),
+            rival,
+            gain: if of_rival.is_finite() { gain / of_rival.abs() } else { gain },
+            scatters: (scatter >= TELLING * of_search.abs()).then(|| gain / scatter),
+            motions: [better, scenes.len()],
         })
     }
+}
+
+/// The line of least cost, of equal ones the first.
+fn least<'l>(lines: impl IntoIterator<Item = &'l Line>, cost: &dyn Fn(&Line) -> f64) -> Option<&'l Line> {
+    lines.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b)))
 }
 
 /// The value below which lies a share of some numbers, linear between them; none of none.

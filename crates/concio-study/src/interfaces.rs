@@ -22,6 +22,8 @@ const MOST_DEVICES: usize = 100;
 
 /// Generations from which on a search learns from what it has seen.
 const GENERATIONS: usize = 10;
+/// Part of a range, in its spacing, at whose ends a parameter is at its bound.
+const AT_BOUND: f64 = 0.01;
 /// Runs that a first crack takes, some less, some more.
 const SEARCHING: usize = 12;
 
@@ -101,6 +103,11 @@ pub struct Parameter {
 }
 
 impl Parameter {
+    /// The last key of its path.
+    fn key(&self) -> &str {
+        self.path.rsplit('.').next().unwrap_or(&self.path)
+    }
+
     /// The value at a share of the range, 0 … 1, to four digits: designs are to be written down.
     pub fn value(&self, share: f64) -> f64 {
         let [low, high] = self.ends;
@@ -124,12 +131,25 @@ impl Device {
         change
     }
 
+    /// Its parameters that lie within a hundredth of their range of an end: `damping is at its upper bound, 100 kN s/m`.
+    pub fn at_bounds(&self, shares: &[f64]) -> Vec<String> {
+        let one = |(p, share): (&Parameter, &f64)| {
+            let (which, end) = match *share {
+                share if share <= AT_BOUND => ("lower", p.ends[0]),
+                share if share >= 1.0 - AT_BOUND => ("upper", p.ends[1]),
+                _ => return None,
+            };
+            let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
+            Some(format!("{} is at its {which} bound, {end}{unit}", p.key()))
+        };
+        self.parameters.iter().zip(shares).filter_map(one).collect()
+    }
+
     /// Its parameters in words: `damping = 12000 N s/m`.
     pub fn label(&self, shares: &[f64]) -> String {
         let one = |(p, share): (&Parameter, &f64)| {
-            let key = p.path.rsplit('.').next().unwrap_or(&p.path);
             let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
-            format!("{key} = {}{unit}", p.value(*share))
+            format!("{} = {}{unit}", p.key(), p.value(*share))
         };
         self.parameters.iter().zip(shares).map(one).collect::<Vec<_>>().join(", ")
     }
@@ -192,6 +212,14 @@ impl Question {
     /// Names of the joints of a design.
     pub fn names(&self, design: &Design) -> Vec<&str> {
         design.joints.iter().map(|&e| self.names[self.eligible[e]].as_str()).collect()
+    }
+
+    /// Whether two designs are one: the same device in the same joints, its parameters equal in all digits that are used.
+    pub fn is_same(&self, a: &Design, b: &Design) -> bool {
+        let values = |d: &Design| -> Vec<f64> {
+            self.devices[d.device].parameters.iter().zip(&d.shares).map(|(p, share)| p.value(*share)).collect()
+        };
+        a.device == b.device && a.joints == b.joints && values(a) == values(b)
     }
 
     /// The scenes of the search, or the held-out ones.

@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
-use concio_study::answer::{Answer, Line, Spread, Verdict, quantile};
+use concio_study::answer::{Answer, Draws, Line, Spread, Verdict, quantile};
 use concio_study::interfaces::Question;
+use concio_study::search::Design;
 use concio_study::table::{self, Table};
 
 use super::page::{Figure, Section, shown};
 use super::wall_map::{self, Map};
 use crate::draw::chart::{self, Axis, Panel, Sheet};
 use crate::failure::Failure;
-use crate::format::{columns, counted, plain, short, significant};
+use crate::format::{columns, counted, percent, plain, short, significant};
 
 /// Width of the figures [pt], and height of a plot.
 const SIZE: [f64; 2] = [510.0, 170.0];
@@ -29,11 +30,11 @@ pub fn section(question: &Question, answer: &Answer, out: &Path) -> Result<Secti
         table::write_csv(lines, &out.join(format!("{name}.csv")))?;
     }
     let mut text = vec![asked(question, answer)];
-    text.extend(answer.search.get(answer.chosen).map(|line| found(question, line)));
+    text.push(found(question, answer));
     for k in 0..question.objectives.len() {
         let kinds = [(false, "the motions of the search"), (true, "motions held out")];
         let verdicts = kinds.into_iter().filter_map(|(held, name)| Some((name, answer.verdict(question, k, held)?)));
-        text.extend(verdicts.map(|(name, v)| judged(question, k, name, &v)));
+        text.extend(verdicts.map(|(name, v)| judged(question, answer, k, name, &v)));
     }
     let mut figures = vec![convergence(question, answer), placement(question, answer)];
     if question.objectives.len() == 2 {
@@ -74,9 +75,7 @@ fn brief(question: &Question, answer: &Answer) -> String {
         }
         lines.push(line);
     }
-    let chosen =
-        answer.search.get(answer.chosen).map_or(String::new(), |line| format!("  {}\n", found(question, line)));
-    columns(&lines) + &chosen
+    columns(&lines) + &format!("  {}\n", found(question, answer))
 }
 
 fn asked(question: &Question, answer: &Answer) -> String {
@@ -103,50 +102,105 @@ fn asked(question: &Question, answer: &Answer) -> String {
     )
 }
 
-fn found(question: &Question, line: &Line) -> String {
-    let Some(design) = &line.design else { return String::new() };
+/// What was found, of a front its knee; parameters at their bounds.
+fn found(question: &Question, answer: &Answer) -> String {
+    let designs: Vec<&Design> = answer.search.iter().filter_map(|line| line.design.as_ref()).collect();
+    let Some(design) = designs.get(answer.chosen) else { return String::new() };
     let device = &question.devices[design.device];
     let label = device.label(&design.shares);
     let label = if label.is_empty() { label } else { format!(" ({label})") };
-    format!(
-        "Found: {}{label} in {}: {}.",
-        device.name,
-        counted(design.joints.len(), "joint"),
-        question.names(design).join(", ")
-    )
+    let joints = counted(design.joints.len(), "joint");
+    let of = match designs.len() {
+        1 => String::new(),
+        n => format!(
+            "{n} designs, none of which another beats in both objectives. Design {}, nearest to the best of both (the knee): ",
+            answer.chosen + 1
+        ),
+    };
+    let bounds = designs.iter().enumerate().flat_map(|(number, design)| {
+        let name = if designs.len() > 1 { format!("design {}, ", number + 1) } else { String::new() };
+        let device = &question.devices[design.device];
+        device.at_bounds(&design.shares).into_iter().map(move |told| format!(" {}.", capital(&format!("{name}{told}"))))
+    });
+    let names = question.names(design).join(", ");
+    format!("Found: {of}{}{label} in {joints}: {names}.{}", device.name, bounds.collect::<String>())
 }
 
-fn judged(question: &Question, k: usize, motions: &str, v: &Verdict) -> String {
-    let unit = question.objectives[k].target.unit();
+fn judged(question: &Question, answer: &Answer, k: usize, motions: &str, v: &Verdict) -> String {
+    let objective = &question.objectives[k];
+    let unit = objective.target.unit();
     let of = |value: f64| {
         let share = format!("{} of it", significant(value / v.unreinforced.mean, 3));
         format!("{} ({share})", said(value, unit))
     };
     let scatter = |s: &Spread| format!("{} ± {}", of(s.mean), said(s.deviation, unit));
-    let apart = significant(v.lead.abs(), 2);
-    let against = match (v.beats, v.lead == 0.0) {
-        (true, _) => format!("better than all of them, by {apart} scatters"),
-        (false, true) => "as good as the best of them".to_string(),
-        (false, false) => format!("worse than the best of them, by {apart} scatters"),
+    let (place, search) = &v.search;
+    let number = if answer.search.len() > 1 { format!(", design {},", place + 1) } else { String::new() };
+    let greedy = |found: &Option<(&Line, Spread)>, what: &str| {
+        let told = |(line, spread): &(&Line, Spread)| format!("; {what} ({}) {}", line.name, scatter(spread));
+        found.as_ref().map_or(String::new(), told)
     };
-    let cost = |value: f64| question.objectives[k].cost(value);
-    let others = [v.search.mean, v.greedy.mean, v.random[0]].map(cost);
-    let nothing = if others.iter().all(|other| cost(v.unreinforced.mean) <= *other) {
-        " The wall does best without any device."
-    } else {
-        ""
+    let [tuned, as_found] = &v.greedy;
+    let drawn = |draws: &Option<Draws>, lines: &[Line], what: &str| {
+        let told =
+            |d: &Draws| format!("; of {} {what} the best {}, the median {}", lines.len(), of(d.best), of(d.median));
+        draws.as_ref().map_or(String::new(), told)
+    };
+    let [random, placed] = &v.random;
+    let cost = |value: f64| objective.cost(value);
+    let others = [tuned, as_found].into_iter().flatten().map(|(_, s)| s.mean);
+    let others = others.chain([random, placed].into_iter().flatten().map(|d| d.best)).chain([search.mean]);
+    let nothing = match others.map(cost).all(|other| cost(v.unreinforced.mean) <= other) {
+        true => " The wall does best without any device.",
+        false => "",
     };
     format!(
-        "{}, {motions}: the wall as it is {} ± {}; the search {}; greedy {}; the best random placement {}, the median one \
-         {}. The search is {against}.{nothing}",
-        capital(&question.objectives[k].title()),
+        "{}, {motions}: the wall as it is {} ± {}; the search{number} {}{}{}{}{}. {}{}{nothing}",
+        capital(&objective.title()),
         said(v.unreinforced.mean, unit),
         said(v.unreinforced.deviation, unit),
-        scatter(&v.search),
-        scatter(&v.greedy),
-        of(v.random[0]),
-        of(v.random[1]),
+        scatter(search),
+        greedy(tuned, "the best tuned greedy placement"),
+        greedy(as_found, "the best with the device found"),
+        drawn(random, &answer.random, "random placements"),
+        drawn(placed, &answer.placed, "random places of the device found"),
+        against(answer, v),
+        again(answer, v),
     )
+}
+
+/// The search beside its best rival.
+fn against(answer: &Answer, v: &Verdict) -> String {
+    let rival = match (&answer.random, &answer.placed) {
+        _ if std::ptr::eq(v.rival, &answer.unreinforced) => "the wall as it is".to_string(),
+        (lines, _) if lines.iter().any(|line| std::ptr::eq(line, v.rival)) => "a random placement".into(),
+        (_, lines) if lines.iter().any(|line| std::ptr::eq(line, v.rival)) => {
+            "a random placement of the device found".into()
+        }
+        _ => v.rival.name.clone(),
+    };
+    let part = if v.gain.is_finite() { format!(", by {}", percent(v.gain.abs())) } else { String::new() };
+    let scatters = v.scatters.map_or(String::new(), |n| format!(", {} scatters", significant(n.abs(), 2)));
+    let [better, all] = v.motions;
+    let what = match v.gain {
+        gain if gain > 0.0 => format!("better than the best other design, {rival}{part}{scatters}"),
+        gain if gain < 0.0 => format!("worse than the best other design, {rival}{part}{scatters}"),
+        _ => format!("as good as the best other design, {rival}"),
+    };
+    let silent = match (v.scatters, v.gain == 0.0) {
+        (None, false) => " Copies hardly differ, so their scatter says nothing of it.",
+        _ => "",
+    };
+    format!("The search is {what}; it is the better one under {better} of {}.{silent}", counted(all, "motion"))
+}
+
+/// Where else the design of the search was found.
+fn again(answer: &Answer, v: &Verdict) -> String {
+    let is_drawn = |line: &Line| answer.random.iter().chain(&answer.placed).any(|drawn| std::ptr::eq(drawn, line));
+    let (drawn, ranked): (Vec<&Line>, Vec<&Line>) = v.same.iter().partition(|line| is_drawn(line));
+    let mut told: Vec<&str> = ranked.iter().map(|line| line.name.as_str()).collect();
+    told.extend((!drawn.is_empty()).then_some("found at random too"));
+    if told.is_empty() { String::new() } else { format!(" The same design, and no rival: {}.", told.join("; ")) }
 }
 
 /// A value with its unit; a pure number with four digits.
@@ -215,7 +269,8 @@ fn entries(question: &Question, answer: &Answer) -> Vec<Entry> {
     let mut entries = vec![entry(question, &answer.unreinforced)];
     entries.extend(quantiles(question, "random", &answer.random));
     entries.extend(quantiles(question, "random places of the found device", &answer.placed));
-    entries.extend(answer.greedy.iter().chain(&answer.search).map(|l| entry(question, l)));
+    let lines = answer.greedy.iter().chain(&answer.greedy_as_found).chain(&answer.search);
+    entries.extend(lines.map(|l| entry(question, l)));
     entries
 }
 
@@ -245,7 +300,7 @@ fn comparison(question: &Question, answer: &Answer) -> Table {
 
 fn by_motion(question: &Question, answer: &Answer) -> Table {
     let mut lines = vec![&answer.unreinforced];
-    lines.extend(&answer.greedy);
+    lines.extend(answer.greedy.iter().chain(&answer.greedy_as_found));
     lines.extend(answer.search.get(answer.chosen));
     let mut table = Table::default();
     table.texts("motion", question.scenes.iter().map(|s| Some(s.name.clone())).collect());
@@ -330,7 +385,7 @@ fn placement(question: &Question, answer: &Answer) -> Figure {
         Map { heading: format!("{}: {device}", line.name), values: Vec::new(), marked: joints }
     };
     let mut lines: Vec<&Line> = answer.search.get(answer.chosen).into_iter().collect();
-    for line in &answer.greedy {
+    for line in answer.greedy.iter().chain(&answer.greedy_as_found) {
         if !lines.iter().any(|l| l.name == line.name) {
             lines.push(line);
         }
@@ -355,9 +410,10 @@ fn front(question: &Question, answer: &Answer) -> Figure {
         chart::Line { x: vec![at(0)].into(), y: vec![at(1)].into(), style }
     };
     let panel = |(held, heading): (bool, &str)| {
-        let groups: [(&[Line], usize); 4] = [
+        let groups: [(&[Line], usize); 5] = [
             (&answer.random, 2),
             (&answer.greedy, 3),
+            (&answer.greedy_as_found, 3),
             (std::slice::from_ref(&answer.unreinforced), 1),
             (&answer.search, 0),
         ];

@@ -79,6 +79,23 @@ fn a_search_ends_with_report_tables_and_figures() {
     assert!(compared.lines().next().is_some_and(|l| l.ends_with("which joints")), "{compared}");
     let greedy = compared.lines().find(|l| l.starts_with("greedy by"));
     assert!(greedy.is_some_and(|l| l.contains("p1c")), "{compared}");
+    // Sentences say what the table says, kind by kind.
+    let table: Vec<Vec<String>> = compared.lines().map(cells).collect();
+    for (row, what) in [
+        ("random, median of 3", "random placements"),
+        ("random places of the found device, median of 3", "random places of the device found"),
+    ] {
+        let line = table.iter().find(|cells| cells[0] == row).expect("a row");
+        let told = page.split(&format!("of 3 {what} the best ")).nth(1).and_then(|t| t.split("the median ").nth(1));
+        let told: f64 = told.and_then(|t| t.split(' ').next()).and_then(|t| t.parse().ok()).expect("a number");
+        let value: f64 = line[4].parse().expect("a number");
+        assert!((told / value - 1.0).abs() < 6e-4, "{row}: {told} {value}");
+    }
+    for text in ["the best tuned greedy placement (greedy by ", "the better one under ", "of 1 motion."] {
+        assert!(page.contains(text), "{text}");
+    }
+    let designs = compared.lines().filter(|l| l.starts_with("search,")).count();
+    assert_eq!(page.contains("(the knee)"), designs > 1);
     // All is in the store: the report is made again, to the last byte, without a run.
     let parts = || std::fs::read_dir(desk.path("out/runs")).map(Iterator::count).unwrap_or(0);
     let before = parts();
@@ -126,4 +143,18 @@ fn wrong_questions_end_with_status_2_before_anything_is_run() {
         assert!(text.contains("study.toml:") && text.contains(says) && text.contains("allowed:"), "{text}");
         assert!(!desk.path("out").exists());
     }
+}
+
+/// The cells of a line of CSV.
+fn cells(line: &str) -> Vec<String> {
+    let mut cells = vec![String::new()];
+    let mut quoted = false;
+    for c in line.chars() {
+        match c {
+            '"' => quoted = !quoted,
+            ',' if !quoted => cells.push(String::new()),
+            c => cells.last_mut().into_iter().for_each(|cell| cell.push(c)),
+        }
+    }
+    cells
 }

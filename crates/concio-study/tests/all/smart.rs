@@ -7,10 +7,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use concio::run::Control;
 use concio::{Error, InputError};
 use concio_study::Plan;
-use concio_study::answer::{Answer, answer};
+use concio_study::answer::{Answer, Line, Spread, answer};
 use concio_study::interfaces::{self, Question};
 use concio_study::measures::Row;
 use concio_study::runner::{Progress, Runner};
+use concio_study::search::Design;
 
 use crate::common::Desk;
 
@@ -122,26 +123,107 @@ fn threads_and_interruptions_change_nothing() {
     // Runs are counted: 2 motions a design; 8 designs, and those known from the greedy placements, of 2 devices at a time.
     let [greedy, search, all] = one.runs;
     assert!(search <= 400 && greedy <= 400 && all > search + greedy, "{:?}", one.runs);
-    assert_eq!((one.random.len(), one.placed.len(), one.greedy.len()), (5, 5, 6));
+    assert_eq!((one.random.len(), one.placed.len(), one.greedy.len(), one.greedy_as_found.len()), (5, 5, 3, 3));
     assert_eq!((question.names.len(), question.places.most), (question.joints.len(), 3));
     let found = one.search[one.chosen].design.as_ref().expect("a design");
     assert!((1..=3).contains(&found.joints.len()));
     // Greedy places are tuned with no less than a generation short of what the search has, all rankings together, and stand
     // beside it with its own device too, in the same joints.
     assert!(greedy + 3 * 2 * 8 * 2 >= search, "{:?}", one.runs);
-    let (tuned, alike) = one.greedy.split_at(3);
-    for (tuned, alike) in tuned.iter().zip(alike) {
+    for (tuned, alike) in one.greedy.iter().zip(&one.greedy_as_found) {
         let [tuned, alike] = [tuned, alike].map(|l| l.design.as_ref().expect("a design"));
         assert_eq!((&tuned.joints, alike.device, &alike.shares), (&alike.joints, found.device, &found.shares));
     }
     // The search starts from the greedy designs and can only gain on the motions that it sees.
     let verdict = one.verdict(&question, 0, false).expect("a verdict");
-    assert!(
-        verdict.search.mean <= verdict.greedy.mean && verdict.search.mean < verdict.unreinforced.mean,
-        "{verdict:?}"
-    );
+    let (_, tuned) = verdict.greedy[0].expect("a tuned placement");
+    let (_, search) = verdict.search;
+    assert!(search.mean <= tuned.mean && search.mean < verdict.unreinforced.mean, "{verdict:?}");
     assert!(one.verdict(&question, 0, true).is_some_and(|v| v.unreinforced.mean > 0.0));
     assert!(one.search.iter().all(|l| l.scenes.len() == 3 && l.held_out.len() == 1));
+}
+
+/// A line with the values of each copy under the two known motions; the held-out one has that of the second.
+fn line(question: &Question, name: &str, design: Option<(usize, f64)>, copies: &[[f64; 2]]) -> Line {
+    let spread = |of: &dyn Fn(&[f64; 2]) -> f64| {
+        let n = copies.len() as f64;
+        let mean = copies.iter().map(of).sum::<f64>() / n;
+        let square: f64 = copies.iter().map(|copy| (of(copy) - mean).powi(2)).sum();
+        Spread { mean, deviation: if n > 1.0 { (square / (n - 1.0)).sqrt() } else { 0.0 } }
+    };
+    let scene = |k: usize| vec![spread(&|copy| copy[k]).mean];
+    assert_eq!(question.of(true), [2]);
+    Line {
+        name: name.into(),
+        design: design.map(|(joint, share)| Design { device: 0, joints: vec![joint], shares: vec![share] }),
+        training: vec![spread(&|copy| 0.5 * (copy[0] + copy[1]))],
+        held_out: vec![spread(&|copy| copy[1])],
+        scenes: [0, 1, 1].map(scene).to_vec(),
+        first: [0, 1, 1].map(|k| vec![copies[0][k]]).to_vec(),
+    }
+}
+
+/// The design of the search drawn again is no rival; a design that was run once is compared with the same copy of the search;
+/// a scatter below a thousandth is none to count in.
+#[test]
+fn verdicts_compare_like_with_like() {
+    let desk = Desk::new(&dry());
+    let plan = desk.plan(STUDY).expect("a plan");
+    let question = interfaces::question(&plan).expect("a question");
+    let line = |name: &str, design, copies: &[[f64; 2]]| line(&question, name, design, copies);
+    let wide = [[1.0, 1.0], [1.1, 1.1], [1.2, 1.2], [1.3, 1.3]];
+    let mut answer = Answer {
+        ranks: Vec::new(),
+        unreinforced: line("unreinforced", None, &[[3.0, 3.0]; 4]),
+        greedy: vec![
+            line("greedy a", Some((1, 0.3)), &[[1.5, 1.5]; 4]),
+            line("greedy b", Some((2, 0.3)), &[[1.4, 1.4]; 4]),
+        ],
+        greedy_as_found: vec![line("greedy a, found", Some((1, 0.5)), &[[1.6, 1.6]; 4])],
+        search: vec![line("search", Some((0, 0.5)), &wide)],
+        chosen: 0,
+        random: vec![line("random 1", Some((3, 0.1)), &[[2.0, 0.5]]), line("random 2", Some((4, 0.1)), &[[9.0, 9.0]])],
+        placed: vec![line("random 1", Some((0, 0.5)), &[[0.9, 0.9]]), line("random 2", Some((5, 0.5)), &[[1.2, 0.9]])],
+        trace: Vec::new(),
+        greedy_trace: Vec::new(),
+        runs: [0; 3],
+    };
+    let deviation = f64::sqrt(0.05 / 3.0);
+    let v = answer.verdict(&question, 0, false).expect("a verdict");
+    assert_eq!(v.same.iter().map(|l| l.name.as_str()).collect::<Vec<_>>(), ["random 1"]);
+    let near = |found: f64, right: f64| assert!((found - right).abs() < 1e-12, "{found} {right}");
+    // Copy 1: 1.05 against 1.0, although the mean of the search is 1.15.
+    assert_eq!((v.rival.name.as_str(), v.motions), ("random 2", [1, 2]));
+    near(v.gain, 0.05 / 1.05);
+    near(v.scatters.expect("copies that differ"), 0.05 / (2f64.sqrt() * deviation));
+    let [tuned, as_found] = v.greedy.map(|g| g.expect("a placement").0.name.clone());
+    assert_eq!([tuned.as_str(), as_found.as_str()], ["greedy b", "greedy a, found"]);
+    let [random, placed] = v.random.map(|d| d.expect("draws"));
+    assert_eq!([random.best, random.median], [1.25, 5.125]);
+    near(placed.median, 0.975);
+    // Held out: 0.9 of the same copy, where the search has 1.0; 0.5 of the one that is best in the search's motions.
+    let v = answer.verdict(&question, 0, true).expect("a verdict");
+    near(v.gain, (0.5 - 1.0) / 0.5);
+    assert_eq!(v.motions, [0, 1]);
+    // Copies that hardly differ, and a rival in copies.
+    answer.search = vec![line("search", Some((0, 0.5)), &[[1.0, 1.0], [1.0, 1.0 + 1e-6], [1.0, 1.0], [1.0, 1.0]])];
+    answer.random.clear();
+    answer.placed.clear();
+    let v = answer.verdict(&question, 0, false).expect("a verdict");
+    assert_eq!((v.rival.name.as_str(), v.scatters, v.motions), ("greedy b", None, [2, 2]));
+    assert!((v.gain - 0.4 / 1.4).abs() < 1e-6 && v.random == [None; 2], "{v:?}");
+}
+
+/// Within a hundredth of the range in its spacing: 10^(6 + 6 share) N/m.
+#[test]
+fn parameters_at_their_bounds_are_told() {
+    let desk = Desk::new(&dry());
+    let question = interfaces::question(&desk.plan(STUDY).expect("a plan")).expect("a question");
+    let of = |device: usize, share: f64| question.devices[device].at_bounds(&[share]).join("");
+    assert_eq!(of(0, 0.995), "stiffness is at its upper bound, 1000000000000 N/m");
+    assert_eq!(of(0, 0.005), "stiffness is at its lower bound, 1000000 N/m");
+    assert_eq!(of(1, 0.0), "static is at its lower bound, 0.1");
+    assert_eq!(of(0, 0.011) + &of(0, 0.989), "");
 }
 
 #[test]
