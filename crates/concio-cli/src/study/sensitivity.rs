@@ -23,7 +23,7 @@ pub fn section(plan: &Plan, rows: &[Option<&Row>]) -> Result<Option<(Section, Ta
         return Ok(None);
     }
     let table = tables::table(plan, &found);
-    let text = text(&found);
+    let text = text(plan, &found);
     let figures = figure(plan, &found).into_iter().collect();
     let caption = "Indices with their intervals".to_string();
     let tables = vec![(caption, table.clone())];
@@ -70,10 +70,23 @@ fn brief(plan: &Plan, found: &[Found]) -> String {
             lines.push([f.measure.name.to_string(), factor.name.clone()].into_iter().chain(cells).collect());
         }
     }
-    columns(&lines) + &notes
+    let told = found.iter().filter_map(|f| Some(format!("  {}\n", regression(plan, f)?)));
+    columns(&lines) + &notes + &told.collect::<String>()
 }
 
-fn text(found: &[Found]) -> Vec<String> {
+/// What a rank regression explains, and of which factors it is; none of other indices.
+fn regression(plan: &Plan, found: &Found) -> Option<String> {
+    let indices = found.indices.as_ref().ok()?;
+    let Indices::Ranks { explained, .. } = indices else { return None };
+    let out = match tables::left_out(plan, indices) {
+        out if out.is_empty() => String::new(),
+        out => format!("; it leaves out {}, whose values have no order", out.join(", ")),
+    };
+    let percent = 100.0 * explained;
+    Some(format!("{}: the regression explains {percent:.0} % of the ranks' variance{out}", found.measure.name))
+}
+
+fn text(plan: &Plan, found: &[Found]) -> Vec<String> {
     let kind = found.iter().find_map(|f| f.indices.as_ref().ok());
     let mut text = vec![match kind {
         Some(Indices::Morris(_)) => "Elementary effects (Morris): μ* is the mean size of a factor's effect over its whole \
@@ -90,8 +103,7 @@ fn text(found: &[Found]) -> Vec<String> {
     for f in found {
         match &f.indices {
             Err(cause) => text.push(format!("{}: no indices, {cause}.", f.measure.name)),
-            Ok(Indices::Ranks { explained, coefficients }) => {
-                let percent = 100.0 * explained;
+            Ok(Indices::Ranks { coefficients, .. }) => {
                 let unknown = coefficients.iter().flatten().any(|index| index.interval[0].is_nan());
                 let why = match unknown {
                     true => {
@@ -99,10 +111,7 @@ fn text(found: &[Found]) -> Vec<String> {
                     }
                     false => "",
                 };
-                text.push(format!(
-                    "{}: the regression explains {percent:.0} % of the ranks' variance.{why}",
-                    f.measure.name
-                ));
+                text.extend(regression(plan, f).map(|told| format!("{told}.{why}")));
             }
             Ok(_) => {}
         }

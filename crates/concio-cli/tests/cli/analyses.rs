@@ -192,3 +192,59 @@ fn groups_of_a_wall() {
     assert_eq!(long["reference"]["length"], 2.5);
     desk.concio("scale wall.toml --length 3").assert().code(2);
 }
+
+/// Names have no rank: table and terminal say that the regression is one without them, and how much it explains, with one
+/// factor the square of its coefficient.
+#[test]
+fn a_rank_regression_says_what_it_explains_and_leaves_out() {
+    let desk = Desk::new();
+    desk.put("sliding.toml", SLIDING);
+    let name =
+        |n: usize| format!("{{ name = \"{n}\", set = {{ \"joint.friction.dynamic\" = {} }} }}", 0.2 - 0.02 * n as f64);
+    let choices = (0..3).map(name).collect::<Vec<_>>().join(", ");
+    let study = format!(
+        "wall = \"sliding.toml\"\n[[vary]]\nname = \"case\"\nchoices = [{choices}]\n[[vary]]\nname = \"A\"\n\
+         path = \"motion.base.pulse.acceleration\"\nfrom = \"0.5 g\"\nto = \"0.9 g\"\ncount = 5\n\
+         [sensitivity]\nof = [\"largest_slip\"]\n"
+    );
+    desk.put("s.toml", study);
+    let output = desk.concio("study run s.toml --out out").assert().success().get_output().stdout.clone();
+    let table = desk.get("out/sensitivity.csv");
+    let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(lines[0][5..], ["r_squared", "note"], "{table}");
+    assert!(table.contains("its values are names"), "{table}");
+    assert_eq!(lines[2][6], "of a regression without case", "{table}");
+    let [coefficient, explained] = [2, 5].map(|k| lines[2][k].parse::<f64>().expect("a number"));
+    assert!((explained - coefficient * coefficient).abs() < 1e-12 && explained > 0.5, "{table}");
+    let percent = format!("the regression explains {:.0} %", 1e2 * explained);
+    for text in [String::from_utf8_lossy(&output).into_owned(), desk.get("out/report.html")] {
+        assert!(text.contains(&percent) && text.contains("it leaves out case, whose values have no order"), "{text}");
+    }
+}
+
+/// Reversed motions are told by check and by the report; those that are one are refused.
+#[test]
+fn motions_that_resemble_each_other_are_told() {
+    let desk = Desk::new();
+    desk.put("sliding.toml", SLIDING);
+    let second = "acceleration = \"0.5 g\", duration = \"0.2 s\" } }\n[[motion]]\nname = \"half sine\"";
+    let other = |acceleration: &str| {
+        let text = IDA.replacen(
+            "shape = \"half-sine\", acceleration = \"0.5 g\"",
+            &format!("shape = \"rectangular\", acceleration = \"{acceleration}\""),
+            1,
+        );
+        assert!(text.contains(second));
+        text
+    };
+    desk.put("s.toml", other("-0.5 g"));
+    let told = "`rectangle` and `half sine` are one but for their sign";
+    let checked = desk.concio("study check s.toml").assert().success().get_output().stderr.clone();
+    assert!(String::from_utf8_lossy(&checked).contains(told));
+    desk.concio("study run s.toml --out out").assert().success();
+    assert!(desk.get("out/report.html").contains(told));
+    desk.put("s.toml", other("0.7 g"));
+    let refused = desk.concio("study check s.toml").assert().code(2).get_output().stderr.clone();
+    let refused = String::from_utf8_lossy(&refused).into_owned();
+    assert!(refused.contains("s.toml:8:") && refused.contains("are one motion once they are scaled"), "{refused}");
+}

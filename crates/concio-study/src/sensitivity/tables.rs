@@ -2,7 +2,6 @@
 
 use super::{Found, Index, Indices};
 use crate::Plan;
-use crate::factors::Factor;
 use crate::table::Table;
 
 /// Names of the indices of a design, in the order of [`rows`].
@@ -23,18 +22,29 @@ pub fn rows(indices: &Indices) -> Vec<Vec<Option<Index>>> {
     }
 }
 
-/// Why a factor has no index beside others that have one.
-fn silent(indices: &Indices, place: usize, factor: &Factor) -> Option<String> {
+/// Factors that a rank regression leaves out since their values have no order.
+pub fn left_out<'p>(plan: &'p Plan, indices: &Indices) -> Vec<&'p str> {
     match indices {
-        Indices::Ranks { coefficients, .. } if coefficients[place].is_none() => Some(match factor.is_ordered() {
-            true => "it has one value in the runs that could be used".into(),
-            false => "its values are names, or have several units: ranks of them mean nothing".into(),
-        }),
-        _ => None,
+        Indices::Ranks { .. } => plan.factors.iter().filter(|f| !f.is_ordered()).map(|f| f.name.as_str()).collect(),
+        _ => Vec::new(),
     }
 }
 
-/// All indices with their intervals. Elementary effects have the unit of their measure, given in a column of its own.
+/// What is to be known of a factor's index: why there is none, or what is left out of it.
+fn note(plan: &Plan, indices: &Indices, place: usize) -> Option<String> {
+    let Indices::Ranks { coefficients, .. } = indices else { return None };
+    if coefficients[place].is_some() {
+        let out = left_out(plan, indices);
+        return (!out.is_empty()).then(|| format!("of a regression without {}", out.join(", ")));
+    }
+    Some(match plan.factors[place].is_ordered() {
+        true => "it has one value in the runs that could be used".into(),
+        false => "its values are names, or have several units: ranks of them mean nothing".into(),
+    })
+}
+
+/// All indices with their intervals. Elementary effects have the unit of their measure, given in a column of its own; beside rank
+/// coefficients stands R² of their regression.
 pub fn table(plan: &Plan, found: &[Found]) -> Table {
     let mut table = Table::default();
     let Some(kinds) = found.iter().find_map(|f| f.indices.as_ref().ok()).map(names) else {
@@ -42,7 +52,8 @@ pub fn table(plan: &Plan, found: &[Found]) -> Table {
         table.texts("note", found.iter().map(|f| f.indices.as_ref().err().cloned()).collect());
         return table;
     };
-    let (mut measure, mut unit, mut factor, mut note) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut measure, mut unit, mut factor, mut notes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut explained: Vec<Option<f64>> = Vec::new();
     let mut cells: Vec<Vec<Option<f64>>> = vec![Vec::new(); 3 * kinds.len()];
     for f in found {
         let rows = f.indices.as_ref().map(rows).unwrap_or_default();
@@ -50,7 +61,11 @@ pub fn table(plan: &Plan, found: &[Found]) -> Table {
             measure.push(Some(f.measure.name.to_string()));
             unit.push(Some(f.measure.unit.to_string()));
             factor.push(Some(of.name.clone()));
-            note.push(f.indices.as_ref().map_or_else(|cause| Some(cause.clone()), |i| silent(i, k, of)));
+            notes.push(f.indices.as_ref().map_or_else(|cause| Some(cause.clone()), |i| note(plan, i, k)));
+            explained.push(match f.indices {
+                Ok(Indices::Ranks { explained, .. }) => Some(explained),
+                _ => None,
+            });
             for i in 0..kinds.len() {
                 let index = rows.get(k).and_then(|r| r[i]);
                 let all = index.map(|x| [x.value, x.interval[0], x.interval[1]]);
@@ -71,6 +86,9 @@ pub fn table(plan: &Plan, found: &[Found]) -> Table {
             table.numbers(format!("{name}{part}"), "", cells.next().unwrap_or_default());
         }
     }
-    table.texts("note", note);
+    if matches!(kinds, ["rank_coefficient"]) {
+        table.numbers("r_squared", "", explained);
+    }
+    table.texts("note", notes);
     table
 }
