@@ -34,10 +34,6 @@ pub enum EventKind {
 }
 
 impl EventKind {
-    /// All kinds; the place in the list is the number that a journal keeps.
-    const ALL: [EventKind; 5] =
-        [EventKind::Impact, EventKind::Crack, EventKind::Break, EventKind::Collapse, EventKind::Crush];
-
     /// Unit of [`Event::value`].
     pub fn unit(self) -> &'static str {
         match self {
@@ -52,17 +48,6 @@ impl Event {
     pub fn sort(events: &mut [Event]) {
         let rank = |event: &Event| (event.joint, event.kind as u8);
         events.sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then_with(|| rank(a).cmp(&rank(b))));
-    }
-
-    /// Time, joint, kind, value as a journal keeps them.
-    pub fn row(&self) -> [f64; 4] {
-        let kind = EventKind::ALL.iter().position(|k| *k == self.kind).unwrap_or(usize::MAX);
-        [self.time, f64::from(self.joint), kind as f64, self.value]
-    }
-
-    /// The reverse of [`Event::row`]; none for a kind that there is not.
-    pub fn of_row([time, joint, kind, value]: [f64; 4]) -> Option<Self> {
-        Some(Event { time, joint: joint as u32, kind: *EventKind::ALL.get(kind as usize)?, value })
     }
 }
 

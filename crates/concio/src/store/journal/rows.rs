@@ -1,7 +1,11 @@
 //! Rows of a recording as bytes: counts of samples, frames and events, then the arrays, then four numbers for every
 //! event, little-endian.
 
-use crate::record::{Event, Layout, Recording};
+use crate::record::{Event, EventKind, Layout, Recording};
+
+/// All kinds of event; the place in the list is the number that stands for one.
+const KINDS: [EventKind; 5] =
+    [EventKind::Impact, EventKind::Crack, EventKind::Break, EventKind::Collapse, EventKind::Crush];
 
 /// Adds the bytes of `rows`; an error when their lengths do not fit the layout.
 pub(super) fn encode(rows: &Recording, layout: &Layout, bytes: &mut Vec<u8>) -> Result<(), String> {
@@ -24,7 +28,7 @@ pub(super) fn encode(rows: &Recording, layout: &Layout, bytes: &mut Vec<u8>) -> 
             *into = value.to_le_bytes();
         }
     }
-    bytes.extend(rows.events.iter().flat_map(Event::row).flat_map(f64::to_le_bytes));
+    bytes.extend(rows.events.iter().flat_map(numbers).flat_map(f64::to_le_bytes));
     Ok(())
 }
 
@@ -43,9 +47,20 @@ pub(super) fn decode(bytes: &[u8], layout: &Layout, to: &mut Recording) -> Optio
     bytes = take(bytes, events.checked_mul(4)?, &mut rows)?;
     let (rows, _) = rows.as_chunks::<4>();
     for row in rows {
-        to.events.push(Event::of_row(*row)?);
+        to.events.push(event(*row)?);
     }
     bytes.is_empty().then_some(())
+}
+
+/// Time, joint, kind and value of an event.
+fn numbers(event: &Event) -> [f64; 4] {
+    let kind = KINDS.iter().position(|kind| *kind == event.kind).unwrap_or(usize::MAX);
+    [event.time, f64::from(event.joint), kind as f64, event.value]
+}
+
+/// The reverse of [`numbers`]; none for a kind that there is not.
+fn event([time, joint, kind, value]: [f64; 4]) -> Option<Event> {
+    Some(Event { time, joint: joint as u32, kind: *KINDS.get(kind as usize)?, value })
 }
 
 /// Moves `count` numbers from the front of `bytes` to `array`; what is left.
@@ -65,4 +80,20 @@ pub(super) fn with_capacity(layout: &Layout, bytes: u64) -> Recording {
     let in_frame: usize =
         Recording::shapes(layout, 0, 1).iter().filter(|(rows, _)| *rows > 0).map(|(_, width)| width).sum();
     Recording::with_room(layout, limit(layout.samples, layout.channels.len()), limit(frames, in_frame), 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_of_event_is_read_as_it_was_written() {
+        for (number, kind) in KINDS.into_iter().enumerate() {
+            let written = Event { time: 0.25, joint: 7, kind, value: -1.5 };
+            assert_eq!((numbers(&written)[2], event(numbers(&written))), (number as f64, Some(written)));
+            // Numbers stand in journals: the list is that of the kinds, none twice.
+            assert_eq!(kind as usize, number);
+        }
+        assert_eq!(event([0.0, 0.0, KINDS.len() as f64, 0.0]), None);
+    }
 }
