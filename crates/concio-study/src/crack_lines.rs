@@ -134,9 +134,9 @@ pub fn count(input: &CracksInput, plan: &Plan, model: &Model, rows: &[Option<&Ro
     let scales = plan.factors.iter().position(|f| matches!(f.over, Over::Scales(_)));
     let all: Vec<(usize, &Row)> = rows.iter().enumerate().filter_map(|(i, r)| Some((i, (*r)?))).collect();
     let done: Vec<(usize, &Row)> = all.into_iter().filter(|(_, r)| r.end == End::Completed).collect();
+    let motions = plan.motions();
     let rows_of = |some: &[(usize, &Row)]| {
-        let motion = |number: usize| plan.motion(number).unwrap_or(number);
-        some.iter().map(|(number, r)| (motion(*number), times(input, model, r))).unzip::<_, _, Vec<_>, Vec<_>>()
+        some.iter().map(|(number, r)| (motions[*number], times(input, model, r))).unzip::<_, _, Vec<_>, Vec<_>>()
     };
     let mut groups = vec![group("all runs", input, model, &rows_of(&done))];
     if let Some(place) = scales
@@ -212,28 +212,56 @@ fn order(times: &[f64]) -> Vec<Option<f64>> {
     times.iter().map(|t| t.is_finite().then(|| place(*t))).collect()
 }
 
-/// 95 % interval of the probability of what runs tell, `motions` being the motion of each.
+/// 95 % interval of the probability of what runs tell, `motions` being the motion of each; of one motion nothing is known.
 ///
 /// Runs under one motion are alike: with the variance of the shares by motion, n runs tell as much as n p (1 − p)/(n V) independent ones (L. Kish, Survey Sampling, 1965), and as many
-/// motions less one are the degrees of freedom. Where all runs say the same, they count as one for each motion.
+/// motions less one are the degrees of freedom. Where all runs say the same, they count as one for each motion. Few cracks tell little of how alike runs are: the upper end is the largest of
+/// those cracks and of fewer, taken away from the motions of the smallest shares first, down to none; so more cracks have no lower one. The lower end is the same of what did not crack.
 pub fn interval(motions: &[usize], runs: &[bool]) -> [f64; 2] {
-    let (n, hits) = (runs.len() as f64, runs.iter().filter(|hit| **hit).count() as f64);
-    if runs.is_empty() {
-        return [0.0, 1.0];
-    }
     let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
     for (motion, hit) in motions.iter().zip(runs) {
         let sum = sums.entry(*motion).or_default();
         *sum = [sum[0] + f64::from(u8::from(*hit)), sum[1] + 1.0];
     }
-    let (m, p) = (sums.len() as f64, hits / n);
-    if sums.len() == runs.len() || sums.len() < 2 {
-        return wilson(p, n, DEVIATIONS);
+    let n = runs.len() as f64;
+    if sums.len() < 2 {
+        return [0.0, 1.0];
     }
-    let variance = m / (m - 1.0) * sums.values().map(|[hits, of]| (hits - p * of).powi(2)).sum::<f64>() / (n * n);
-    let alone = p * (1.0 - p);
-    let telling = if alone > 0.0 { (alone / variance).min(n) } else { m };
-    wilson(p, telling, student(m - 1.0, CONFIDENCE))
+    if sums.len() == runs.len() {
+        return wilson(sums.values().map(|[hits, _]| hits).sum::<f64>() / n, n, DEVIATIONS);
+    }
+    let mut sums: Vec<[f64; 2]> = sums.into_values().collect();
+    let high = highest(&mut sums);
+    sums.iter_mut().for_each(|sum| sum[0] = sum[1] - sum[0]);
+    [1.0 - highest(&mut sums), high]
+}
+
+/// The upper end of [`interval`] of motions with so many cracks and runs each, two at least; sorts them.
+fn highest(sums: &mut [[f64; 2]]) -> f64 {
+    sums.sort_by(|a, b| (b[0] * a[1]).total_cmp(&(a[0] * b[1])));
+    let (m, n) = (sums.len() as f64, sums.iter().map(|[_, of]| of).sum::<f64>());
+    let t = student(m - 1.0, CONFIDENCE);
+    let squares: f64 = sums.iter().map(|[_, of]| of * of).sum();
+    // Σ hits, Σ hits² and Σ hits × runs of the motions before.
+    let mut before = [0.0; 3];
+    let mut high = wilson(0.0, m, DEVIATIONS)[1];
+    for [most, of] in sums.iter() {
+        for some in 1..=*most as usize {
+            let some = some as f64;
+            let [hits, of_squares, mixed] = [before[0] + some, before[1] + some * some, before[2] + some * of];
+            let p = hits / n;
+            // Σ (hits − p runs)² over all motions, those without cracks included.
+            let variance = m / (m - 1.0) * (of_squares - 2.0 * p * mixed + p * p * squares).max(0.0) / (n * n);
+            let alone = p * (1.0 - p);
+            let end = match alone > 0.0 {
+                true => wilson(p, (alone / variance).min(n), t)[1],
+                false => wilson(p, m, DEVIATIONS)[1],
+            };
+            high = high.max(end);
+        }
+        before = [before[0] + most, before[1] + most * most, before[2] + most * of];
+    }
+    high
 }
 
 /// Interval of a probability that a share `p` of `n` independent runs estimates, to `z` deviations.
@@ -323,9 +351,36 @@ mod tests {
         let each: Vec<usize> = (0..10).collect();
         let [low, high] = interval(&each, &runs);
         assert!((low - 0.490_162_5).abs() < 1e-7 && (high - 0.943_317_8).abs() < 1e-7, "{low} {high}");
-        assert_eq!(interval(&[0; 10], &runs), [low, high], "one motion: the runs are the sample");
+        assert_eq!(interval(&[0; 10], &runs), [0.0, 1.0], "one motion is no sample of motions");
         assert_eq!(interval(&each, &[false; 10])[0], 0.0);
         assert_eq!(interval(&[], &[]), [0.0, 1.0]);
+    }
+
+    /// One more crack, under whatever motion, lowers neither end, of five motions with up to five runs each; no cracks under six motions may be up to 1 − 6/(6 + 1.96²) as often as the runs.
+    #[test]
+    fn more_cracks_are_no_rarer() {
+        let of = |hits: &[usize; 5]| {
+            let runs = hits.iter().enumerate().flat_map(|(motion, hits)| (0..5).map(move |run| (motion, run < *hits)));
+            let (motions, runs): (Vec<_>, Vec<_>) = runs.unzip();
+            interval(&motions, &runs)
+        };
+        for pattern in 0..6usize.pow(5) {
+            let hits = [0, 1, 2, 3, 4].map(|k| pattern / 6usize.pow(k) % 6);
+            let [low, high] = of(&hits);
+            for more in (0..5).filter(|k| hits[*k] < 5) {
+                let mut hits = hits;
+                hits[more] += 1;
+                let next = of(&hits);
+                assert!(next[0] >= low - 1e-12 && next[1] >= high - 1e-12, "{hits:?} {low} {high} {next:?}");
+            }
+        }
+        let six: Vec<usize> = (0..60).map(|run| run % 6).collect();
+        let none = 1.0 - 6.0 / (6.0 + DEVIATIONS * DEVIATIONS);
+        for cracks in 0..60 {
+            let [_, high] = interval(&six, &(0..60).map(|run| run < cracks).collect::<Vec<_>>());
+            assert!(high >= none - 1e-12, "{cracks}: {high} {none}");
+        }
+        assert!((interval(&six, &[false; 60])[1] - none).abs() < 1e-12);
     }
 
     fn model() -> Result<Model> {

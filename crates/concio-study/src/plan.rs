@@ -193,6 +193,34 @@ impl Plan {
         }
     }
 
+    /// Per run a number that it shares with the runs under the same motion, however strong: of the same `[[motion]]`, or of the wall file, with the same changes of what shakes the base.
+    pub fn motions(&self) -> Vec<usize> {
+        let mut known: HashMap<String, usize> = HashMap::new();
+        let of = |number: usize| {
+            let shakes = |(path, _): &&(String, Value)| {
+                let strength =
+                    ["pga", "acceleration", "amplitude", "scale"].contains(&path.rsplit('.').next().unwrap_or(path));
+                let moves =
+                    ["motion.base", "motion.vertical", "group.frequency"].iter().any(|key| path.starts_with(key));
+                path == "motion" || moves && !strength
+            };
+            let told: Vec<String> =
+                self.setting(number).0.iter().filter(shakes).map(|(path, value)| format!("{path} {value}")).collect();
+            let next = known.len();
+            *known.entry(told.join("\n")).or_insert(next)
+        };
+        (0..self.points.len()).map(of).collect()
+    }
+
+    /// What is to be known of answers that take motions as a sample where all runs are under one.
+    pub fn one_motion(&self) -> Option<String> {
+        let study = &self.file.study;
+        let sampled = (study.ida.is_some() || study.cracks.is_some()) && self.points.len() > 1;
+        (sampled && self.motions().iter().all(|motion| *motion == 0)).then(|| {
+            "all runs are under one motion: the scatter between records is not in what they tell, and intervals have no ends; more [[motion]] give them".into()
+        })
+    }
+
     /// The study's wall with some changes; groups among them are solved for when all else is as it will be.
     fn laid(&self, changes: &Changes) -> Result<CaseFile> {
         let (of_groups, plain): (Changes, Changes) =

@@ -118,7 +118,7 @@ pub fn measures(plan: &Plan) -> Result<Vec<&'static Measure>> {
 pub fn sensitivity(plan: &Plan, rows: &[Option<&Row>]) -> Result<Vec<Found>> {
     let measures = measures(plan)?;
     let Some(asked) = &plan.file.study.sensitivity else { return Ok(Vec::new()) };
-    let motions: Vec<usize> = (0..rows.len()).map(|number| plan.motion(number).unwrap_or_default()).collect();
+    let motions = plan.motions();
     let levels: Vec<Vec<f64>> = plan.factors.iter().map(Factor::places).collect();
     let ordered: Vec<bool> = plan.factors.iter().map(Factor::is_ordered).collect();
     let shares: Vec<Vec<f64>> = plan.points.iter().map(|row| places(row, &levels)).collect();
