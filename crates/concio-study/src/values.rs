@@ -1,6 +1,7 @@
 //! Values as a study file gives them: numbers, amounts with a unit, and changes of a wall file.
 
 use concio::Result;
+use concio::quantity::shown;
 use serde_json::{Number, Value};
 
 /// Changes of a wall file: key paths and values.
@@ -39,6 +40,11 @@ pub fn amount(value: &Value) -> Option<(f64, String)> {
 /// A value as a wall file says it.
 pub(crate) fn written(value: f64, unit: &str) -> Value {
     if unit.is_empty() { number(value) } else { Value::String(format!("{value:?} {unit}")) }
+}
+
+/// A number with four digits, for sentences.
+pub(crate) fn short(value: f64) -> String {
+    shown(format!("{value:.3e}").parse().unwrap_or(value))
 }
 
 /// A number as JSON; null when it is none.

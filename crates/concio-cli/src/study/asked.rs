@@ -12,6 +12,7 @@ use concio_study::Plan;
 use concio_study::design::{scarce, unreached};
 use concio_study::file::analyses::{DeviceInput, ObjectiveInput, Over, Target};
 use concio_study::file::{Choice, Design, DesignKind, Distribution, DistributionLaw, Follower, Spacing, Study, Vary};
+use concio_study::ida::pooled;
 use concio_study::measures::{End, Row};
 use concio_study::ranking;
 use concio_study::table::Table;
@@ -240,7 +241,13 @@ fn of_design(plan: &Plan) -> Vec<String> {
     };
     let ordered = plan.factors.iter().filter(|factor| factor.is_ordered() && factor.levels() != Some(1)).count();
     let few = study.sensitivity.is_some().then(|| scarce(study.design.kind, runs, ordered)).flatten();
-    let doubts = plan.doubts.iter().cloned().chain(unreached(&plan.factors, &plan.points));
+    let doubts = plan
+        .doubts
+        .iter()
+        .cloned()
+        .chain(plan.one_motion())
+        .chain(pooled(plan))
+        .chain(unreached(&plan.factors, &plan.points));
     doubts.chain(few).chain(question.and_then(|q| q.too_few())).collect()
 }
 

@@ -226,21 +226,29 @@ fn often(hazard: &Hazard, fit: &Fragility) -> String {
     told + &rate.doubt().map_or(String::new(), |doubt| format!("; {doubt}"))
 }
 
+/// An interval of a fit: without an end it begins at 0, or does not end.
+fn ends([low, high]: [f64; 2]) -> String {
+    match (low > 0.0, high.is_finite()) {
+        (false, false) => "no interval".into(),
+        (_, false) => format!("{} … no end", shown(low)),
+        _ => format!("{} … {}", shown(low), shown(high)),
+    }
+}
+
 /// A fit in a line.
 fn line(settings: &Settings, found: &Found) -> String {
     let unit = settings.intensity.unit();
     match &found.fit {
         Ok(f) => format!(
-            "  {} ({}): median {} {unit} ({} … {}), dispersion {} ({} … {}){}\n",
+            "  {} ({}): median {} {unit} ({}), dispersion {} ({}){}{}\n",
             found.limit,
             found.method,
             shown(f.median),
-            shown(f.median_interval[0]),
-            shown(f.median_interval[1]),
+            ends(f.median_interval),
             shown(f.dispersion),
-            shown(f.dispersion_interval[0]),
-            shown(f.dispersion_interval[1]),
+            ends(f.dispersion_interval),
             settings.hazard.as_ref().map_or(String::new(), |hazard| often(hazard, f)),
+            f.doubt().map_or(String::new(), |doubt| format!("; {doubt}")),
         ),
         Err(cause) => format!("  {} ({}): {cause}\n", found.limit, found.method),
     }

@@ -36,6 +36,35 @@ collapse = "0.3 m"
 hunt = { first = "0.15 g", step = "0.15 g", most = "2 g", runs = 8 }
 "#;
 
+/// What is no sample is told by check, run, table and report: a factor on a grid, and one motion, whose intervals have no ends.
+#[test]
+fn what_is_no_sample_is_told() {
+    let desk = Desk::new();
+    desk.put("sliding.toml", SLIDING);
+    let friction = "[[vary]]\nname = \"mu\"\npath = \"joint.friction.static\"\nalso = [{ path = \"joint.friction.dynamic\", times = 1 }]\n";
+    desk.put("grid.toml", format!("{IDA}{friction}values = [0.2, 0.25]\n"));
+    let parts: Vec<&str> = IDA.split("[[motion]]").collect();
+    let one = [parts[0], "[[motion]]", parts[1], &IDA[IDA.find("[ida]").unwrap_or_default()..]].concat();
+    let drawn = format!("{one}\n[design]\nkind = \"random\"\nruns = 6\n{friction}from = 0.18\nto = 0.25\n");
+    desk.put("one.toml", &drawn);
+    for (file, told, line) in [
+        ("grid", "`mu` are chosen, not drawn", "dispersion"),
+        ("one", "the scatter between records is not in", "(no interval), dispersion"),
+    ] {
+        let checked = desk.concio(&format!("study check {file}.toml")).assert().success().get_output().stderr.clone();
+        assert!(String::from_utf8_lossy(&checked).contains(told), "{checked:?}");
+        let run = desk.concio(&format!("study run {file}.toml --out {file}")).assert().success().get_output().clone();
+        let [out, err] = [run.stdout, run.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+        assert!(err.contains(told) && out.contains(line), "{err} {out}");
+        let page = desk.get(&format!("{file}/report.html"));
+        assert!(page.contains(told), "{file}");
+    }
+    let fits = desk.get("one/fragility.csv");
+    let cells: Vec<&str> = fits.lines().nth(1).unwrap_or_default().split(',').collect();
+    assert_eq!((cells[7], cells[8], cells[10], cells[11]), ("", "", "", ""), "{fits}");
+    assert!(fits.contains("the scatter between records is not in it"), "{fits}");
+}
+
 #[test]
 fn an_incremental_analysis_by_shards_is_that_of_one_process() {
     let desk = Desk::new();

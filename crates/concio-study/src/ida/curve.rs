@@ -56,7 +56,7 @@ impl Point {
 pub struct Curve {
     /// Its name.
     pub name: String,
-    /// Curves with the same number belong together: those of one motion, if there are several motions.
+    /// Curves with the same number belong together: those of one motion.
     pub motion: usize,
     /// Number of the run of the design that it scales, from 0.
     pub number: usize,

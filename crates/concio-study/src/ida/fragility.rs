@@ -5,8 +5,16 @@
 //! - Fixed stripes, binomial: J. W. Baker, Earthquake Spectra 31 (2015) 579.
 //! - Intervals are where twice the likelihood's fall from its maximum stays below c: 3.84 for 95 %, the quantile of χ²;
 //!   where n capacities were found, n ln(1 + t²/(n − 1)) with Student's t, which is exact for the median of capacities
-//!   that were all found. Where a motion has several curves, or one curve counts at several intensities, n is the number of motions, and the fall is larger by
-//!   what the variance is larger for it ([`Likelihood::clustered`]).
+//!   that were all found.
+//! - Where a motion has several curves, what is independent are the motions, by one-way random effects on the expected ln y
+//!   of the curves: ([`Falls::of_motions`])
+//!
+//! (F5)  β² ~ A + B,   A = MSB/m,   B = (1 − 1/m) MSW
+//!
+//!   with the mean squares MSB between J motions of m curves each and MSW within. The median has MSB and J − 1 degrees of freedom; the ends of β are
+//!   those of F. A. Graybill, C.-M. Wang (J. Am. Stat. Assoc. 75 (1980) 869), A + B ± √(h_A² A² + h_B² B²), where A alone and B alone have the ends (1 ± h) of as many
+//!   independent capacities as they have degrees of freedom, and one more. Curves of a motion that are all the same are as one.
+//! - Where one curve counts at several intensities, the fall is larger by what the variance of the motions' scores is larger ([`Likelihood::clustered`]).
 
 use std::f64::consts::PI;
 
@@ -30,15 +38,25 @@ pub struct Fragility {
     likelihood: Likelihood,
     place: Place,
     largest: f64,
-    fall: f64,
-    /// Cluster of each entry of the evidence, and how many there are; none where all are independent.
-    clusters: Option<(Vec<usize>, usize)>,
+    falls: Falls,
+    one_motion: bool,
+}
+
+/// How far the likelihood may fall from its maximum.
+#[derive(Debug, Clone, Copy)]
+struct Falls {
+    median: f64,
+    /// Towards smaller dispersions and towards larger ones.
+    dispersion: [f64; 2],
 }
 
 /// Directions in which the end of the plausible region is looked for.
 const DIRECTIONS: usize = 96;
 /// How far from the best value an interval is looked for: that many of the first steps, doubled each.
 const DOUBLINGS: usize = 30;
+/// How far an end of a median may lie off it, as a factor, and how large a dispersion may be: what lies beyond is no end.
+const FARTHEST: f64 = 1e6;
+const WIDEST: f64 = 100.0;
 
 /// Fits (F1) to independent records; `confidence` is that of the intervals, between 0 and 1.
 ///
@@ -68,10 +86,13 @@ pub fn fit_clusters(evidence: &[Evidence], of: &[usize], confidence: f64) -> Res
     if evidence.iter().all(at_once) {
         return Err("every record reaches the limit at its lowest intensity");
     }
+    let located = |e: &Evidence| matches!(e, Evidence::At(_) | Evidence::Within(_));
     if !overlap(evidence) {
-        return Err(
-            "what reaches the limit and what does not do not overlap: the dispersion is not determined, and intensities between would tell it",
-        );
+        return Err(if evidence.iter().any(located) {
+            "one intensity may be the capacity of all records, as far as their runs tell: the dispersion is not determined, and runs between would tell it"
+        } else {
+            "what reaches the limit and what does not do not overlap: the dispersion is not determined, and intensities between would tell it"
+        });
     }
     let likelihood = Likelihood::new(evidence);
     let place = likelihood.largest()?;
@@ -79,24 +100,36 @@ pub fn fit_clusters(evidence: &[Evidence], of: &[usize], confidence: f64) -> Res
     names.sort_unstable();
     names.dedup();
     let known = |name: &usize| names.binary_search(name).unwrap_or(0);
-    let clusters = (names.len() < evidence.len()).then(|| (of.iter().map(known).collect(), names.len()));
-    // Clusters that tell of a capacity; where none does, as of stripes, all.
-    let located = |e: &Evidence| matches!(e, Evidence::At(_) | Evidence::Within(_));
+    let clusters: Vec<usize> = of.iter().map(known).collect();
+    let found = evidence.iter().filter(|e| located(e)).count() as f64;
+    // Clusters that tell of a capacity.
     let mut telling: Vec<usize> = evidence.iter().zip(of).filter(|(e, _)| located(e)).map(|(_, of)| *of).collect();
     telling.sort_unstable();
     telling.dedup();
-    let n = if clusters.is_some() && telling.is_empty() { names.len() } else { telling.len() } as f64;
+    let telling = telling.len() as f64;
     let [a, b] = place;
+    let falls = if names.len() == evidence.len() {
+        Falls::alike(0.5 * threshold(found, confidence))
+    } else if names.len() < 2 || found > 0.0 && telling < 2.0 {
+        Falls::alike(f64::INFINITY)
+    } else if found > 0.0 {
+        let z: Vec<f64> = likelihood.scores(place).iter().map(|score| -score[0]).collect();
+        Falls::of_motions(&z, (&clusters, names.len()), [found, telling], confidence)
+    } else {
+        let fall = 0.5 * threshold(names.len() as f64, confidence);
+        let wider = |by| fall * likelihood.clustered(place, by, &clusters, names.len());
+        Falls { median: wider([-1.0 / b, a / (b * b)]), dispersion: [wider([0.0, 1.0 / b]); 2] }
+    };
     let mut fit = Fragility {
         median: (likelihood.centre - a / b).exp(),
         dispersion: 1.0 / b,
         median_interval: [0.0, f64::INFINITY],
         dispersion_interval: [0.0, f64::INFINITY],
         largest: likelihood.at(place),
-        fall: 0.5 * threshold(n, clusters.is_some(), confidence),
+        falls,
         likelihood,
         place,
-        clusters,
+        one_motion: names.len() < 2,
     };
     fit.median_interval = fit.interval_of_median();
     fit.dispersion_interval = fit.interval_of_dispersion();
@@ -123,14 +156,74 @@ fn overlap(evidence: &[Evidence]) -> bool {
 }
 
 /// How far twice the likelihood falls: of `n` capacities or clusters. What is known of no capacity falls as that of many, one alone as that of two.
-fn threshold(n: f64, clustered: bool, confidence: f64) -> f64 {
-    if n < 1.0 || n < 2.0 && clustered {
-        let chi = ChiSquared::new(1.0).map_or(f64::NAN, |d| d.inverse_cdf(confidence));
-        return if clustered { f64::INFINITY } else { chi };
+fn threshold(n: f64, confidence: f64) -> f64 {
+    if n < 1.0 {
+        return ChiSquared::new(1.0).map_or(f64::NAN, |d| d.inverse_cdf(confidence));
     }
     let n = n.max(2.0);
-    let t = student(n - 1.0, confidence);
-    n * (t * t / (n - 1.0)).ln_1p()
+    n * relative(n - 1.0, confidence)
+}
+
+/// ln(1 + t²/ν): how far twice the likelihood of ν + 1 capacities falls, for each.
+fn relative(freedom: f64, confidence: f64) -> f64 {
+    let t = student(freedom, confidence);
+    (t * t / freedom).ln_1p()
+}
+
+/// The ends of a variance over its unbiased estimate with so many degrees of freedom, as the likelihood of one capacity more has them: r − ln r = 1 + ln(1 + t²/ν) with
+/// r = (s²/σ²) ν/(ν + 1).
+fn ends(freedom: f64, confidence: f64) -> [f64; 2] {
+    let c = 1.0 + relative(freedom, confidence);
+    let root = |mut inside: f64, mut outside: f64| {
+        for _ in 0..100 {
+            let middle: f64 = 0.5 * (inside + outside);
+            if middle.exp() - middle < c { inside = middle } else { outside = middle }
+        }
+        inside
+    };
+    let share = freedom / (freedom + 1.0);
+    [share * (-root(0.0, 2.0 * c)).exp(), share * (-root(0.0, -c)).exp()]
+}
+
+impl Falls {
+    fn alike(fall: f64) -> Self {
+        Falls { median: fall, dispersion: [fall; 2] }
+    }
+
+    /// Of curves with the expected z, each `of` one of so many motions, two at least; as many curves are `found` as tell of a capacity, and as many motions are `telling` as have such curves.
+    fn of_motions(z: &[f64], (of, motions): (&[usize], usize), [found, telling]: [f64; 2], confidence: f64) -> Self {
+        let mut sums = vec![[0.0; 2]; motions];
+        for (z, of) in z.iter().zip(of) {
+            sums[*of] = [sums[*of][0] + z, sums[*of][1] + 1.0];
+        }
+        let (n, j) = (z.len() as f64, motions as f64);
+        let over = |f: fn(&[f64; 2]) -> f64| sums.iter().map(f).sum::<f64>();
+        let total: f64 = z.iter().map(|z| z * z).sum();
+        let between = over(|[sum, count]| sum * sum / count);
+        let each = (n - over(|[_, count]| count * count) / n) / (j - 1.0);
+        let few = telling / (telling - 1.0);
+        // A and B of (F5), over z; of motions that do not tell of a capacity there are no degrees of freedom.
+        let a = few * between / (each * j);
+        let b = (1.0 - 1.0 / each) * (total - between).max(0.0) / (n - j);
+        let [of_a, of_b] = [telling - 1.0, ((n - j) * found / n).max(1.0)].map(|freedom| ends(freedom, confidence));
+        let end = |k: usize, sign: f64| a + b + sign * ((of_a[k] - 1.0) * a).hypot((of_b[k] - 1.0) * b);
+        // The fall of `found` capacities whose variance is total/n to one that is `end`.
+        let fall = |end: f64, within: fn(f64, f64) -> f64| {
+            let r = within(total / n / end, 1.0);
+            0.5 * found * (r - 1.0 - r.ln())
+        };
+        let t = student(telling - 1.0, confidence);
+        let together = few * over(|[sum, _]| sum * sum) / total;
+        Falls {
+            median: 0.5 * found * (t * t * together / found).ln_1p(),
+            dispersion: [fall(end(0, -1.0), f64::max), fall(end(1, 1.0), f64::min)],
+        }
+    }
+
+    /// Towards dispersions that are larger by a number above 0, or smaller.
+    fn of_dispersion(&self, larger: f64) -> f64 {
+        self.dispersion[usize::from(larger > 0.0)]
+    }
 }
 
 impl Fragility {
@@ -146,8 +239,13 @@ impl Fragility {
         let z = a + b * x;
         // a + b x = z fixed: a line with direction (−x, 1).
         let profile = |z: f64| self.likelihood.on_line([z - b * x, b], [-x, 1.0]);
-        let fall = self.fall([1.0, x]);
-        let ends = [-1.0, 1.0].map(|sign| self.end(z, 0.1 * sign, fall, &profile));
+        // Of z the median over β has the variance 1/n and β z²/(2 n); a larger z is that of a smaller β above the median, and of a larger one below.
+        let fall = |sign: f64| {
+            let part = 0.5 * z * z;
+            (self.falls.median + part * self.falls.of_dispersion(-sign * z)) / (1.0 + part)
+        };
+        let end = |sign: f64| self.end(z, 0.1 * sign, fall(sign), &profile);
+        let ends = [-1.0, 1.0].map(end);
         [ends[0].map_or(0.0, phi), ends[1].map_or(1.0, phi)]
     }
 
@@ -155,8 +253,8 @@ impl Fragility {
         let [a, b] = self.place;
         let x = -a / b;
         let profile = |x: f64| self.likelihood.on_line([-b * x, b], [-x, 1.0]);
-        let fall = self.fall([-1.0 / b, a / (b * b)]);
-        let ends = [-1.0, 1.0].map(|sign| self.end(x, 0.1 * sign * self.dispersion, fall, &profile));
+        let end = |sign: f64| self.end(x, 0.1 * sign * self.dispersion, self.falls.median, &profile);
+        let ends = [-1.0, 1.0].map(|sign| end(sign).filter(|end| (end - x).abs() < FARTHEST.ln()));
         let of = |x: Option<f64>, none: f64| x.map_or(none, |x| (x + self.likelihood.centre).exp());
         [of(ends[0], 0.0), of(ends[1], f64::INFINITY)]
     }
@@ -168,9 +266,8 @@ impl Fragility {
             // Along a alone; the start keeps the median.
             self.likelihood.on_line([a / b * other, other], [1.0, 0.0])
         };
-        let fall = self.fall([0.0, 1.0 / b]);
-        let ends = [-1.0, 1.0].map(|sign| self.end(-b.ln(), 0.1 * sign, fall, &profile));
-        [ends[0].map_or(0.0, f64::exp), ends[1].map_or(f64::INFINITY, f64::exp)]
+        let ends = [0, 1].map(|k| self.end(-b.ln(), [-0.1, 0.1][k], self.falls.dispersion[k], &profile).map(f64::exp));
+        [ends[0].unwrap_or(0.0), ends[1].filter(|end| *end < WIDEST).unwrap_or(f64::INFINITY)]
     }
 
     /// Medians and dispersions around the region that the confidence allows, for the interval of whatever follows from both; none where it has no end.
@@ -180,8 +277,6 @@ impl Fragility {
             return None;
         }
         let [a, b] = self.place;
-        // Of the two the wider, where runs share their motions.
-        let fall = self.fall([-1.0 / b, a / (b * b)]).max(self.fall([0.0, 1.0 / b]));
         let direction = |k: usize| {
             let turn = 2.0 * PI * k as f64 / DIRECTIONS as f64;
             // Of the median, in dispersions, and of ln β.
@@ -193,6 +288,9 @@ impl Fragility {
         };
         let one = |k: usize| {
             let direction = direction(k);
+            // An ellipse whose axes end where the two intervals do, in the measure of the likelihood.
+            let [m, d] = [direction[0].powi(2), 2.0 * direction[1].powi(2)];
+            let fall = (m + d) / (m / self.falls.median + d / self.falls.of_dispersion(direction[1]));
             let end = self.end(0.0, 0.1, fall, &|way| self.likelihood.at(at(direction, way)))?;
             let [a, b] = at(direction, end);
             Some([(self.likelihood.centre - a / b).exp(), 1.0 / b])
@@ -200,14 +298,10 @@ impl Fragility {
         (0..DIRECTIONS).map(one).collect()
     }
 
-    /// How far the profile of a quantity with these derivatives by a and b may fall.
-    fn fall(&self, by: [f64; 2]) -> f64 {
-        match &self.clusters {
-            Some((of, clusters)) if *clusters > 1 => {
-                self.fall * self.likelihood.clustered(self.place, by, of, *clusters)
-            }
-            _ => self.fall,
-        }
+    /// What median and dispersion do not hold.
+    pub fn doubt(&self) -> Option<&'static str> {
+        self.one_motion
+            .then_some("one motion: the scatter between records is not in it, and nothing tells how far off it is")
     }
 
     /// Where the profile has fallen by that much; none when it does not within reach.

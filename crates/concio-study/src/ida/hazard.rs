@@ -9,10 +9,9 @@
 //!
 //! Nothing is known beyond the ends. Above the last point shaking counts as if it were that of the last, which is the least that it does; below the first it counts for nothing.
 
-use concio::quantity::shown;
-
 use super::fragility::Fragility;
 use super::likelihood::phi;
+use crate::values::short;
 
 /// A hazard curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,10 +38,10 @@ impl Rate {
     pub fn doubt(&self) -> Option<String> {
         let mut told = Vec::new();
         if self.beyond > FROM_BEYOND * self.value {
-            told.push(format!("shaking beyond the hazard curve may add {} a year", shown(self.beyond)));
+            told.push(format!("shaking beyond the hazard curve may add {} a year", short(self.beyond)));
         }
         if self.first > FROM_FIRST {
-            let percent = shown(1e2 * self.first);
+            let percent = short(1e2 * self.first);
             told.push(format!(
                 "{percent} % reach the limit at the first intensity of the hazard curve already: the rate is a lower bound, for what is below is left out"
             ));

@@ -120,12 +120,16 @@ impl Likelihood {
         (l, g, h)
     }
 
+    /// What each entry adds to the derivatives of l by a and b. That by a is less the expected z of an entry, given what it tells: of a capacity that was found its own.
+    pub fn scores(&self, place: Place) -> Vec<[f64; 2]> {
+        self.terms.iter().map(|t| t.of(place).1).collect()
+    }
+
     /// By what factor the variance of a quantity with the derivatives `by` a and b is larger than that of independent terms where terms of one cluster are
     /// not: `of` is the cluster of each term, and there are `clusters` of them, two at least (the sandwich of P. J. Huber, 1967, by clusters).
     pub fn clustered(&self, place: Place, by: [f64; 2], of: &[usize], clusters: usize) -> f64 {
         let mut scores = vec![[0.0; 2]; clusters];
-        for (t, cluster) in self.terms.iter().zip(of) {
-            let (_, first, _) = t.of(place);
+        for (first, cluster) in self.scores(place).into_iter().zip(of) {
             scores[*cluster] = [0, 1].map(|k| scores[*cluster][k] + first[k]);
         }
         let (_, _, [aa, ab, bb]) = self.sums(place);
@@ -168,7 +172,7 @@ impl Likelihood {
             place = self.rise(place, step, l);
             if place[1] * self.spread > 1e4 {
                 return Err(
-                    "what reaches the limit and what does not do not overlap: the dispersion is not determined",
+                    "one intensity may be the capacity of all records, as far as their runs tell: the dispersion is not determined, and runs between would tell it",
                 );
             }
             if place[1] * self.spread < 1e-4 {

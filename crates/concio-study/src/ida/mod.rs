@@ -21,6 +21,7 @@ use concio::quantity::{Acceleration, Length, Time, Velocity, shown};
 use serde_json::Value;
 
 use crate::Plan;
+use crate::factors::Factor;
 use crate::file::analyses::{HazardInput, Ida};
 use crate::file::{DesignKind, StudyFile};
 use crate::intensity::Intensity;
@@ -284,11 +285,17 @@ impl<'a> Analysis<'a> {
     /// As [`settings`]; a motion that does not shake.
     pub fn new(plan: &'a Plan) -> Result<Option<Self>> {
         let Some(settings) = settings(&plan.file)? else { return Ok(None) };
+        let motions = plan.motions();
         let curve = |number: usize| -> Result<Curve> {
             let unit = settings.intensity.of(&plan.case(number)?, settings.period)?;
-            // With one motion the sample is that of the parameters.
-            let motion = plan.motion(number).filter(|_| plan.file.study.motions.len() > 1).unwrap_or(number);
-            Ok(Curve { name: name(plan, number), motion, number, unit, points: Vec::new(), failed: None })
+            Ok(Curve {
+                name: name(plan, number),
+                motion: motions[number],
+                number,
+                unit,
+                points: Vec::new(),
+                failed: None,
+            })
         };
         let curves = (0..plan.points.len()).map(curve).collect::<Result<Vec<_>>>()?;
         let mut seen = HashMap::new();
@@ -347,6 +354,21 @@ impl<'a> Analysis<'a> {
             Err(cause) => curve.failed = Some(cause),
         }
     }
+}
+
+/// What is to be known of fragilities over factors whose values are chosen, not drawn.
+pub fn pooled(plan: &Plan) -> Option<String> {
+    let study = &plan.file.study;
+    let chosen = study.ida.is_some() && matches!(study.design.kind, DesignKind::Grid | DesignKind::List);
+    let several = |factor: &&Factor| factor.key != "motion" && factor.levels().is_some_and(|levels| levels > 1);
+    let names: Vec<String> =
+        plan.factors.iter().filter(|_| chosen).filter(several).map(|factor| format!("`{}`", factor.name)).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "the values of {} are chosen, not drawn, and all count in one fragility: its dispersion holds their spread; a study of each value tells them apart",
+            names.join(", ")
+        )
+    })
 }
 
 /// What the run of a design is called: its motion, or all its values.

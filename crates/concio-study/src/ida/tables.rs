@@ -96,7 +96,8 @@ pub fn fits(settings: &Settings, found: &[Found]) -> Table {
     table.numbers("between runs", "", count(|e| matches!(e, Evidence::Within(_))));
     table.numbers("not reached", "", count(|e| matches!(e, Evidence::Above(_))));
     let mut numbers = |name: &str, unit: &str, pick: &dyn Fn(&super::fragility::Fragility) -> f64| {
-        let cell = |f: &Found| f.fit.as_ref().ok().map(pick).filter(|v| v.is_finite());
+        // An end that there is none of is empty.
+        let cell = |f: &Found| f.fit.as_ref().ok().map(pick).filter(|v| *v > 0.0 && v.is_finite());
         table.numbers(name, unit, found.iter().map(cell).collect());
     };
     numbers("median", unit, &|f| f.median);
@@ -117,7 +118,10 @@ pub fn fits(settings: &Settings, found: &[Found]) -> Table {
         column("annual rate beyond", |rate| Some(rate.beyond));
     }
     let note = |(f, rate): (&Found, &Option<Rate>)| match &f.fit {
-        Ok(_) => rate.and_then(|rate| rate.doubt()),
+        Ok(fit) => {
+            let all = [fit.doubt().map(String::from), rate.and_then(|rate| rate.doubt())];
+            Some(all.into_iter().flatten().collect::<Vec<_>>().join("; ")).filter(|note| !note.is_empty())
+        }
         Err(cause) => Some((*cause).to_string()),
     };
     table.texts("note", found.iter().zip(&rates).map(note).collect());

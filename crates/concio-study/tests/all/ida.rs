@@ -5,9 +5,10 @@ use std::path::Path;
 use concio::run::Control;
 use concio_study::Runner;
 use concio_study::file::Keep;
-use concio_study::ida::Analysis;
 use concio_study::ida::curve::{fractiles, fragilities};
 use concio_study::ida::likelihood::Evidence;
+use concio_study::ida::{Analysis, pooled, tables};
+use concio_study::table::Cells;
 
 use crate::common::Desk;
 
@@ -205,6 +206,50 @@ fn curves_are_the_runs_of_the_design() -> concio::Result<()> {
     run(&mut analysis, &desk.path("out"))?;
     assert!(analysis.curves.iter().all(|c| c.points.len() == 3 && c.name.contains(", ")));
     assert_eq!(analysis.curves.iter().filter(|c| c.name.ends_with("rectangle")).count(), 3);
+    Ok(())
+}
+
+/// Under one motion draws tell of themselves alone: no end of an interval is known, and a study says so. Motions that a factor changes are motions of their own.
+#[test]
+fn one_motion_is_no_sample_of_records() -> concio::Result<()> {
+    let desk = Desk::new(BLOCK);
+    let pulse = PULSES.split("[[motion]]\nname = \"half").next().unwrap_or_default();
+    let asked = "[ida]\ndamage = \"peak_joint_displacement\"\nlimits = [{ name = \"a\", value = \"20 mm\" }]\n\
+                 hunt = { first = \"0.1 g\", step = \"0.2 g\", most = \"3 g\", runs = 10 }\n";
+    let of =
+        |design: &str, vary: &str| desk.plan(&format!("{pulse}[design]\nkind = {design}\n[[vary]]\n{vary}\n{asked}"));
+    let drawn = "\"latin-hypercube\"\nruns = 8";
+    let friction = of(drawn, "path = \"joint.friction.dynamic\"\nfrom = 0.1\nto = 0.2")?;
+    assert_eq!(friction.motions(), [0; 8]);
+    assert!(friction.one_motion().is_some_and(|told| told.contains("the scatter between records is not in")));
+    assert_eq!(pooled(&friction), None);
+    let two = desk.plan(&format!("{PULSES}{asked}"))?;
+    assert_eq!((two.motions(), two.one_motion()), (vec![0, 1], None));
+    let shaken = "base = { pulse = { shape = \"half-sine\", acceleration = 4, duration = \"0.2 s\" } }";
+    let of_wall = |path: &str| {
+        let rest = "from = 1\nto = 2\n[cracks]\ncriterion = \"slip\"\n";
+        let vary = format!("[[vary]]\npath = \"motion.base.pulse.{path}\"\n{rest}");
+        let study = format!("wall = \"wall.toml\"\n[design]\nkind = {drawn}\n{vary}");
+        Desk::new(&BLOCK.replace("base = \"none\"", shaken)).plan(&study)
+    };
+    let (long, strong) = (of_wall("duration")?, of_wall("acceleration")?);
+    assert_eq!((long.motions(), long.one_motion()), ((0..8).collect(), None));
+    assert!(strong.motions() == [0; 8] && strong.one_motion().is_some());
+    for (plan, ends) in [(&friction, false), (&two, true)] {
+        let mut analysis = Analysis::new(plan)?.expect("the study has [ida]");
+        run(&mut analysis, &desk.path(if ends { "two" } else { "friction" }))?;
+        let found = fragilities(&analysis.settings, &analysis.curves.iter().collect::<Vec<_>>());
+        let fit = found[0].fit.as_ref().expect("a fit");
+        assert_eq!(fit.dispersion_interval[1].is_finite(), ends, "{found:?}");
+        let told = tables::fits(&analysis.settings, &found).columns.into_iter().find(|c| c.name == "note");
+        let Some(Cells::Texts(notes)) = told.map(|c| c.cells) else { panic!("no notes") };
+        assert_eq!(notes[0].as_ref().is_some_and(|note| note.contains("scatter between records")), !ends, "{notes:?}");
+    }
+    // Values of a grid are no sample.
+    let grid = of("\"grid\"", "path = \"joint.friction.dynamic\"\nvalues = [0.1, 0.15, 0.2]")?;
+    assert!(pooled(&grid).is_some_and(
+        |told| told.contains("`joint.friction.dynamic`") && told.contains("its dispersion holds their spread")
+    ));
     Ok(())
 }
 
