@@ -114,7 +114,7 @@ pub fn points(file: &StudyFile, factors: &[Factor]) -> Result<Vec<Vec<At>>> {
 const ATTEMPTS: usize = 50;
 /// Trajectories and base points from which on 95 % intervals hold nine in ten of what they estimate.
 const FEWEST_TRAJECTORIES: usize = 5;
-const FEWEST_BASE_POINTS: usize = 12;
+const FEWEST_BASE_POINTS: usize = 32;
 
 /// Trajectories move every factor, and go to the ends of its range.
 fn suits_morris(file: &StudyFile, factors: &[Factor]) -> Result<()> {
@@ -270,7 +270,7 @@ fn morris(trajectories: usize, grids: &[Grid], seed: u64) -> Vec<Vec<At>> {
 pub fn scarce(kind: DesignKind, runs: usize, factors: usize) -> Option<String> {
     let (least, told) = match kind {
         DesignKind::Morris => (FEWEST_TRAJECTORIES, ["trajectories hold a normal law at best", "two in five"]),
-        DesignKind::Sobol => (FEWEST_BASE_POINTS, ["base points are too narrow", "one in eight"]),
+        DesignKind::Sobol => (FEWEST_BASE_POINTS, ["base points may be too narrow", "one in five"]),
         _ => {
             let least = factors + FREEDOM;
             return (factors > 0 && runs < least)

@@ -46,7 +46,10 @@ pub fn effects(
     let trajectories: Vec<Vec<f64>> =
         shares.chunks(k + 1).zip(values.chunks(k + 1)).filter_map(|(x, y)| elementary(x, y, ordered)).collect();
     if trajectories.len() < 2 {
-        return Err(format!("only {} trajectories are complete; it takes two", trajectories.len()));
+        return Err(format!(
+            "{} complete; it takes two",
+            ["no trajectory is", "one trajectory is"][trajectories.len()]
+        ));
     }
     let of = |factor: usize| {
         let effects: Vec<f64> = trajectories.iter().map(|t| t[factor]).collect();

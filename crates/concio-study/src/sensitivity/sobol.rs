@@ -29,7 +29,7 @@ pub fn shares(values: &[Option<f64>], k: usize, confidence: f64) -> Result<Vec<S
     let point = |i: usize| (0..k + 2).map(|block| values[block * n + i]).collect::<Option<Vec<f64>>>();
     let points: Vec<Vec<f64>> = (0..n).filter_map(point).collect();
     if points.len() < 2 {
-        return Err(format!("only {} base points are complete; it takes two", points.len()));
+        return Err(format!("{} complete; it takes two", ["no base point is", "one base point is"][points.len()]));
     }
     let first = points[0][0];
     if points.iter().all(|p| p[0] == first && p[1] == first) {
