@@ -141,7 +141,9 @@ fn ranks_are_those_of_values_and_names_have_none() {
     let table = tables::table(&study, std::slice::from_ref(&found));
     let note = table.columns.iter().find(|c| c.name == "note").map(|c| &c.cells);
     let Some(Cells::Texts(notes)) = note else { panic!("{note:?}") };
-    assert!(notes[0].is_none() && notes[2].is_none(), "{notes:?}");
+    assert!([0, 2].iter().all(|k| notes[*k].as_deref() == Some("of a regression without case")), "{notes:?}");
+    let squares = table.column("r_squared").map(<[_]>::to_vec).unwrap_or_default();
+    assert!(squares.iter().flatten().filter(|r| (**r - 1.0).abs() < 1e-9).count() == 3, "{squares:?}");
     assert!(notes[1].as_ref().is_some_and(|n| n.contains("names") && n.contains("mean nothing")), "{notes:?}");
 }
 
