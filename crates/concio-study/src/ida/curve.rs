@@ -6,7 +6,7 @@ use concio::quantity::shown;
 
 use super::Settings;
 use super::Way;
-use super::fragility::{Fragility, fit_clusters};
+use super::fragility::{Fragility, fit_clusters, fit_curves};
 use super::likelihood::Evidence;
 use crate::measures::{End, Row};
 
@@ -212,15 +212,16 @@ pub fn fragilities(settings: &Settings, curves: &[&Curve]) -> Vec<Found> {
                 of: curves.len(),
             };
             // A motion is the same at all intensities: what each of its runs says is one entry.
-            let each = |c: &&Curve| {
+            let each = |(curve, c): (usize, &&Curve)| {
                 let entry = |p: &Point| match p.reaches(*value) {
                     true => Evidence::Below(p.intensity),
                     false => Evidence::Above(p.intensity),
                 };
-                c.points.iter().map(|p| (entry(p), c.motion)).collect::<Vec<_>>()
+                c.points.iter().map(|p| (entry(p), (curve, c.motion))).collect::<Vec<_>>()
             };
-            let (entries, of): (Vec<Evidence>, Vec<usize>) = curves.iter().flat_map(each).unzip();
-            let fit = fit_clusters(&entries, &of, settings.confidence);
+            let (entries, of): (Vec<Evidence>, Vec<_>) = curves.iter().enumerate().flat_map(each).unzip();
+            let (each, of): (Vec<usize>, Vec<usize>) = of.into_iter().unzip();
+            let fit = fit_curves(&entries, [&each, &of], settings.confidence);
             add("stripes", list.iter().enumerate().map(stripe).collect(), fit);
         }
     }

@@ -7,14 +7,15 @@
 //!   where n capacities were found, n ln(1 + t²/(n − 1)) with Student's t, which is exact for the median of capacities
 //!   that were all found.
 //! - Where a motion has several curves, what is independent are the motions, by one-way random effects on the expected ln y
-//!   of the curves: ([`Falls::of_motions`])
+//!   of the curves (`Falls::of_motions`):
 //!
 //! (F5)  β² ~ A + B,   A = MSB/m,   B = (1 − 1/m) MSW
 //!
 //!   with the mean squares MSB between J motions of m curves each and MSW within. The median has MSB and J − 1 degrees of freedom; the ends of β are
 //!   those of F. A. Graybill, C.-M. Wang (J. Am. Stat. Assoc. 75 (1980) 869), A + B ± √(h_A² A² + h_B² B²), where A alone and B alone have the ends (1 ± h) of as many
 //!   independent capacities as they have degrees of freedom, and one more. Curves of a motion that are all the same are as one.
-//! - Where one curve counts at several intensities, the fall is larger by what the variance of the motions' scores is larger ([`Likelihood::clustered`]).
+//! - Where one curve counts at several intensities, the fall is larger by what the variance of the curves' scores is larger ([`Likelihood::clustered`]), and where a motion has several
+//!   curves, by as much more as with one z of each curve, the sum of its own.
 
 use std::f64::consts::PI;
 
@@ -71,6 +72,18 @@ pub fn fit(evidence: &[Evidence], confidence: f64) -> Result<Fragility, &'static
 /// # Errors
 /// As [`fit`].
 pub fn fit_clusters(evidence: &[Evidence], of: &[usize], confidence: f64) -> Result<Fragility, &'static str> {
+    fit_curves(evidence, [of, of], confidence)
+}
+
+/// The same of curves that count at several intensities: the curve of each entry, and its motion.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_curves(
+    evidence: &[Evidence],
+    [curves, of]: [&[usize]; 2],
+    confidence: f64,
+) -> Result<Fragility, &'static str> {
     if evidence.len() < 2 {
         return Err("fewer than two records or stripes");
     }
@@ -96,11 +109,7 @@ pub fn fit_clusters(evidence: &[Evidence], of: &[usize], confidence: f64) -> Res
     }
     let likelihood = Likelihood::new(evidence);
     let place = likelihood.largest()?;
-    let mut names = of.to_vec();
-    names.sort_unstable();
-    names.dedup();
-    let known = |name: &usize| names.binary_search(name).unwrap_or(0);
-    let clusters: Vec<usize> = of.iter().map(known).collect();
+    let (clusters, names) = numbered(of);
     let found = evidence.iter().filter(|e| located(e)).count() as f64;
     // Clusters that tell of a capacity.
     let mut telling: Vec<usize> = evidence.iter().zip(of).filter(|(e, _)| located(e)).map(|(_, of)| *of).collect();
@@ -108,17 +117,23 @@ pub fn fit_clusters(evidence: &[Evidence], of: &[usize], confidence: f64) -> Res
     telling.dedup();
     let telling = telling.len() as f64;
     let [a, b] = place;
-    let falls = if names.len() == evidence.len() {
+    let z = || likelihood.scores(place).into_iter().map(|score| -score[0]);
+    let falls = if names == evidence.len() {
         Falls::alike(0.5 * threshold(found, confidence))
-    } else if names.len() < 2 || found > 0.0 && telling < 2.0 {
+    } else if names < 2 || found > 0.0 && telling < 2.0 {
         Falls::alike(f64::INFINITY)
     } else if found > 0.0 {
-        let z: Vec<f64> = likelihood.scores(place).iter().map(|score| -score[0]).collect();
-        Falls::of_motions(&z, (&clusters, names.len()), [found, telling], confidence)
+        Falls::of_motions(&z().collect::<Vec<_>>(), (&clusters, names), [found, telling], confidence)
     } else {
-        let fall = 0.5 * threshold(names.len() as f64, confidence);
-        let wider = |by| fall * likelihood.clustered(place, by, &clusters, names.len());
-        Falls { median: wider([-1.0 / b, a / (b * b)]), dispersion: [wider([0.0, 1.0 / b]); 2] }
+        let (curves, count) = numbered(curves);
+        let (mut sums, mut motions) = (vec![0.0; count], vec![0; count]);
+        for ((z, curve), motion) in z().zip(&curves).zip(&clusters) {
+            (sums[*curve], motions[*curve]) = (sums[*curve] + z, *motion);
+        }
+        let falls = Falls::of_motions(&sums, (&motions, names), [count, names].map(|n| n as f64), confidence);
+        let wider = |by| likelihood.clustered(place, by, &curves, [count, names]);
+        let [of_median, of_dispersion] = [wider([-1.0 / b, a / (b * b)]), wider([0.0, 1.0 / b])];
+        Falls { median: of_median * falls.median, dispersion: falls.dispersion.map(|fall| of_dispersion * fall) }
     };
     let mut fit = Fragility {
         median: (likelihood.centre - a / b).exp(),
@@ -129,11 +144,19 @@ pub fn fit_clusters(evidence: &[Evidence], of: &[usize], confidence: f64) -> Res
         falls,
         likelihood,
         place,
-        one_motion: names.len() < 2,
+        one_motion: names < 2,
     };
     fit.median_interval = fit.interval_of_median();
     fit.dispersion_interval = fit.interval_of_dispersion();
     Ok(fit)
+}
+
+/// Names as numbers from 0, and how many there are.
+fn numbered(names: &[usize]) -> (Vec<usize>, usize) {
+    let mut known = names.to_vec();
+    known.sort_unstable();
+    known.dedup();
+    (names.iter().map(|name| known.binary_search(name).unwrap_or(0)).collect(), known.len())
 }
 
 /// Whether a limit is not reached at some intensity at or above one at which it is: otherwise every dispersion down to 0 is more likely than the one above it.
@@ -204,7 +227,7 @@ impl Falls {
         let few = telling / (telling - 1.0);
         // A and B of (F5), over z; of motions that do not tell of a capacity there are no degrees of freedom.
         let a = few * between / (each * j);
-        let b = (1.0 - 1.0 / each) * (total - between).max(0.0) / (n - j);
+        let b = (1.0 - 1.0 / each) * (total - between).max(0.0) / (n - j).max(1.0);
         let [of_a, of_b] = [telling - 1.0, ((n - j) * found / n).max(1.0)].map(|freedom| ends(freedom, confidence));
         let end = |k: usize, sign: f64| a + b + sign * ((of_a[k] - 1.0) * a).hypot((of_b[k] - 1.0) * b);
         // The fall of `found` capacities whose variance is total/n to one that is `end`.

@@ -126,8 +126,8 @@ impl Likelihood {
     }
 
     /// By what factor the variance of a quantity with the derivatives `by` a and b is larger than that of independent terms where terms of one cluster are
-    /// not: `of` is the cluster of each term, and there are `clusters` of them, two at least (the sandwich of P. J. Huber, 1967, by clusters).
-    pub fn clustered(&self, place: Place, by: [f64; 2], of: &[usize], clusters: usize) -> f64 {
+    /// not: `of` is the cluster of each term, and there are `clusters` of them, of which `alone` are independent, two at least (the sandwich of P. J. Huber, 1967, by clusters).
+    pub fn clustered(&self, place: Place, by: [f64; 2], of: &[usize], [clusters, alone]: [usize; 2]) -> f64 {
         let mut scores = vec![[0.0; 2]; clusters];
         for (first, cluster) in self.scores(place).into_iter().zip(of) {
             scores[*cluster] = [0, 1].map(|k| scores[*cluster][k] + first[k]);
@@ -137,7 +137,7 @@ impl Likelihood {
         // (−H)⁻¹ by.
         let row = [-(bb * by[0] - ab * by[1]) / det, -(aa * by[1] - ab * by[0]) / det];
         let independent = row[0] * by[0] + row[1] * by[1];
-        let few = clusters as f64 / (clusters as f64 - 1.0);
+        let few = alone as f64 / (alone as f64 - 1.0);
         let together: f64 = scores.iter().map(|g| (row[0] * g[0] + row[1] * g[1]).powi(2)).sum();
         (few * together / independent).max(1.0)
     }

@@ -3,7 +3,7 @@
 use concio::dice::Dice;
 use concio_study::ida::Way;
 use concio_study::ida::curve::{Curve, Point};
-use concio_study::ida::fragility::{Fragility, fit, fit_clusters};
+use concio_study::ida::fragility::{Fragility, fit, fit_clusters, fit_curves};
 use concio_study::ida::likelihood::{Evidence, phi};
 use concio_verified::agrees;
 
@@ -159,6 +159,16 @@ fn draws_that_change_nothing_add_nothing() {
         let most = |f: &Fragility| f.plausible().expect("ends").into_iter().map(|[_, d]| d).fold(0.0, f64::max);
         assert!((most(&again) / most(&once) - 1.0).abs() < 1e-6);
     }
+    // At equal intensities too.
+    let curves = |times: usize| {
+        let records = [0.2, 0.31, 0.38, 0.42, 0.6, 1.2];
+        let entries = (0..6 * times).flat_map(|curve| at_stripes(records[curve % 6]).map(|e| (e, (curve, curve % 6))));
+        let (entries, of): (Vec<Evidence>, Vec<_>) = entries.unzip();
+        let (each, motions): (Vec<usize>, Vec<usize>) = of.into_iter().unzip();
+        fit_curves(&entries, [&each, &motions], 0.95).expect("a fit")
+    };
+    let [once, again] = [curves(1), curves(20)].map(|f| [f.median_interval, f.dispersion_interval].concat());
+    assert!(once.iter().zip(&again).all(|(once, again)| (again / once - 1.0).abs() < 1e-6), "{once:?} {again:?}");
     let (evidence, of) = draws(&mut Dice::new(3), [40, 40], 0.0);
     let [motions, alone] = [fit_clusters(&evidence, &of, 0.95), fit(&evidence, 0.95)].map(|f| f.expect("a fit"));
     for (a, b) in motions.dispersion_interval.into_iter().zip(alone.dispersion_interval) {
@@ -215,18 +225,21 @@ fn intervals_of_crack_maps_cover() {
     }
 }
 
+/// The intensities of stripes.
+const STRIPES: [f64; 6] = [0.15, 0.25, 0.35, 0.5, 0.7, 1.0];
+
+/// What a record says that reaches the limit at `own`.
+fn at_stripes(own: f64) -> [Evidence; 6] {
+    STRIPES.map(|y| if own <= y { Evidence::Below(y) } else { Evidence::Above(y) })
+}
+
 /// All records at the same intensities: what a record does at one of them is not independent of what it does at the next.
 #[test]
 fn intervals_of_stripes_cover() {
-    let intensities = [0.15, 0.25, 0.35, 0.5, 0.7, 1.0];
     for n in [12, 40] {
         let mut dice = Dice::new(13);
         let mut fitted = || {
-            let of = |record: usize, dice: &mut Dice| {
-                let own = capacity(dice);
-                let entry = |y: f64| if own <= y { Evidence::Below(y) } else { Evidence::Above(y) };
-                intensities.map(|y| (entry(y), record))
-            };
+            let of = |record: usize, dice: &mut Dice| at_stripes(capacity(dice)).map(|entry| (entry, record));
             let (entries, of): (Vec<_>, Vec<_>) = (0..n).flat_map(|record| of(record, &mut dice)).unzip();
             fit_clusters(&entries, &of, 0.95).ok()
         };
@@ -234,6 +247,25 @@ fn intervals_of_stripes_cover() {
         assert!(all >= 396, "{all}");
         for (subject, share) in covering("stripes of the same records", &format!("{n} records"), shares) {
             agrees!(subject, "0.90 to 0.98", "", share, 0.94, abs: 0.04);
+        }
+    }
+    // Eight draws under each motion, whose own variance is three quarters of all.
+    for motions in [4, 8] {
+        let mut dice = Dice::new(19);
+        let mut fitted = || {
+            let (found, of) = draws(&mut dice, [motions, 8], 0.75);
+            let own = |e: &Evidence| if let Evidence::At(y) = e { *y } else { f64::NAN };
+            let entries: Vec<Evidence> = found.iter().flat_map(|e| at_stripes(own(e))).collect();
+            let curves: Vec<usize> = (0..entries.len()).map(|entry| entry / 6).collect();
+            let of: Vec<usize> = curves.iter().map(|curve| of[*curve]).collect();
+            fit_curves(&entries, [&curves, &of], 0.95).ok()
+        };
+        let (shares, all) = held(200, &mut fitted);
+        assert!(all >= 198, "{all}");
+        for (subject, share) in
+            covering("stripes, draws under each motion", &format!("{motions} motions, 8 draws each"), shares)
+        {
+            agrees!(subject, "0.90 to 1.00", "", share, 0.95, abs: 0.05);
         }
     }
 }
