@@ -217,7 +217,7 @@ impl Plan {
         let study = &self.file.study;
         let sampled = (study.ida.is_some() || study.cracks.is_some()) && self.points.len() > 1;
         (sampled && self.motions().iter().all(|motion| *motion == 0)).then(|| {
-            "all runs are under one motion: the scatter between records is not in what they tell, and intervals have no ends; more [[motion]] give them".into()
+            "all runs are under one motion: the scatter between records is not in what they tell, nor in any interval; more [[motion]] bring it in".into()
         })
     }
 

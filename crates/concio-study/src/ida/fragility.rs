@@ -118,9 +118,9 @@ pub fn fit_curves(
     let telling = telling.len() as f64;
     let [a, b] = place;
     let z = || likelihood.scores(place).into_iter().map(|score| -score[0]);
-    let falls = if names == evidence.len() {
+    let falls = if names == evidence.len() || names < 2 {
         Falls::alike(0.5 * threshold(found, confidence))
-    } else if names < 2 || found > 0.0 && telling < 2.0 {
+    } else if found > 0.0 && telling < 2.0 {
         Falls::alike(f64::INFINITY)
     } else if found > 0.0 {
         Falls::of_motions(&z().collect::<Vec<_>>(), (&clusters, names), [found, telling], confidence)
@@ -293,10 +293,11 @@ impl Fragility {
         [ends[0].unwrap_or(0.0), ends[1].filter(|end| *end < WIDEST).unwrap_or(f64::INFINITY)]
     }
 
-    /// Medians and dispersions around the region that the confidence allows, for the interval of whatever follows from both; none where it has no end.
+    /// Medians and dispersions around the region that the confidence allows, for the interval of whatever follows from both; none where it has no end, or draws
+    /// under one motion say nothing of others.
     pub fn plausible(&self) -> Option<Vec<[f64; 2]>> {
         let ends = [self.median_interval, self.dispersion_interval];
-        if ends.iter().any(|[low, high]| !(*low > 0.0 && high.is_finite())) {
+        if self.one_motion || ends.iter().any(|[low, high]| !(*low > 0.0 && high.is_finite())) {
             return None;
         }
         let [a, b] = self.place;
@@ -323,8 +324,9 @@ impl Fragility {
 
     /// What median and dispersion do not hold.
     pub fn doubt(&self) -> Option<&'static str> {
-        self.one_motion
-            .then_some("one motion: the scatter between records is not in it, and nothing tells how far off it is")
+        self.one_motion.then_some(
+            "one motion: the intervals are those of the draws under it, and the scatter between records is not in them",
+        )
     }
 
     /// Where the profile has fallen by that much; none when it does not within reach.
