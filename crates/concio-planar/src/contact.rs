@@ -264,11 +264,11 @@ impl Contact {
 /// How a step was solved.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Effort {
-    /// Linear systems solved, or rounds through the contacts.
+    /// Linear systems solved.
     pub iterations: usize,
     /// Matrices factorised.
     pub factorisations: usize,
-    /// Largest violation of (P2) and (P3) [m/s].
+    /// Largest violation of (P4) [m/s].
     pub residual: f64,
     /// Whether it came below what was asked for.
     pub converged: bool,

@@ -66,8 +66,9 @@ struct Attempt {
 enum Begins {
     /// Newton's method, from what contacts did in the last step.
     AsBefore,
-    /// Interior points: from the velocities of the last step, and from where the last attempt came to, away from the bounds.
+    /// Interior points from the velocities of the last step.
     AtGuess,
+    /// Interior points from where the last attempt came to, away from the bounds.
     Anew,
 }
 

@@ -497,7 +497,7 @@ impl Law {
             offset: -h * (k * (g + 0.5 * theta * h * u) + 0.5 * c * u),
             rho: 0.5 * h * (k * theta * h + c),
         };
-        // What has no spring bears what it did, less what it yields by.
+        // ρ of what has no spring, both ways by the mass that moves across [kg]: along, stiffer ones take more iterations.
         let resists = firm * contact.moved[0];
         match self.normal {
             Normal::Rigid { restitution, .. } => {

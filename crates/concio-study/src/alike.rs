@@ -2,7 +2,8 @@
 //! twice.
 //!
 //! Compared is what moves the base, as the runs have it. Two accelerograms are alike where one is the other times a
-//! factor over what they have in common, at whatever time and in whatever intervals each has it. Motions in closed form
+//! factor over what they have in common, in whatever intervals each has it, where both begin together or their largest
+//! samples fall together. Motions in closed form
 //! are alike where their numbers are, but for strength and start.
 
 use std::path::Path;
@@ -38,7 +39,7 @@ const ROUNDS: usize = 20;
 pub struct Pair {
     /// Places in the study file, rising.
     pub motions: [usize; 2],
-    /// The second over the first; below 0 where one is the other reversed.
+    /// Strength of the second over that of the first; below 0 where one is the other with its sign turned.
     pub factor: f64,
     /// Their correlation, 1 of one motion.
     pub correlation: f64,
@@ -138,6 +139,9 @@ impl Shape {
 
     /// The other over this one, and their correlation; none where they are not alike.
     fn likeness(&self, other: &Shape) -> Option<[f64; 2]> {
+        if let (Part::None, Part::None) = (&self.base, &other.base) {
+            return self.vertical.likeness(&other.vertical);
+        }
         let base = self.base.likeness(&other.base)?;
         if let (Part::None, Part::None) = (&self.vertical, &other.vertical) {
             return Some(base);

@@ -367,9 +367,9 @@ const TELLING: f64 = 1e-3;
 /// The best and the median of some random placements; the best is that under the motions of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Draws {
-    /// The best one.
+    /// The best one, in the objective's unit.
     pub best: f64,
-    /// Half of them lie below.
+    /// Half of them lie below, in the same.
     pub median: f64,
 }
 
@@ -448,8 +448,8 @@ impl Answer {
             random: drawn.map(draws),
             same: kinds().flatten().filter(is_same).collect(),
             rival,
-            gain: if of_rival.is_finite() { gain / of_rival.abs() } else { gain },
-            scatters: (scatter >= TELLING * of_search.abs()).then(|| gain / scatter),
+            gain: if of_rival.is_finite() && of_rival != 0.0 { gain / of_rival.abs() } else { gain },
+            scatters: (scatter > 0.0 && scatter >= TELLING * of_search.abs()).then(|| gain / scatter),
             motions: [better, scenes.len()],
         })
     }

@@ -50,7 +50,7 @@ fn questions(plan: &Plan) -> Result<()> {
     }
 }
 
-/// Refuses motions that would count twice; what is to be known of those that resemble each other.
+/// Refuses motions that would count twice; tells of others that resemble each other.
 fn repeated(plan: &Plan) -> Result<Vec<String>> {
     let study = &plan.file.study;
     let independent = study.ida.is_some() || study.first_crack.is_some() || study.cracks.is_some();
@@ -62,10 +62,10 @@ fn repeated(plan: &Plan) -> Result<Vec<String>> {
         let [first, second] = pair.motions.map(|m| &study.motions[m]);
         let (a, b) = (&first.name, &second.name);
         let leaks = first.held_out != second.held_out;
-        let once = alike::of_one_wall(plan, pair.motions);
+        let same_wall = alike::of_one_wall(plan, pair.motions);
         let scaled = study.ida.is_some() && pair.is_one() && pair.factor > 0.0;
         // Runs of one motion that end at other times may be meant to be compared.
-        let once = once && first.duration == second.duration;
+        let once = same_wall && first.duration == second.duration;
         if once && (pair.is_equal() || scaled) {
             let what = match (scaled && !pair.is_equal(), leaks) {
                 (true, _) => format!("`{a}` and `{b}` are one motion once they are scaled: it would count twice"),
@@ -91,5 +91,5 @@ fn resemblance(a: &str, b: &str, pair: &Pair) -> String {
         (.., true) => "are one but for their sign, which a symmetric wall does not tell".into(),
         _ => "are one but for their strength".into(),
     };
-    format!("motions `{a}` and `{b}` {by}: they are no two independent ones")
+    format!("motions `{a}` and `{b}` {by}: they do not count as two independent motions")
 }

@@ -63,15 +63,15 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
         let names = |out: &Path| format!("\nopen {}\n", out.join(DRAWING).display());
         let written = args.out.as_deref().map(names).unwrap_or_default();
         let mut rows = rows(args, &weaker, other.as_ref());
-        if falls {
-            rows.push(("but", "stones that yield by a nanometre fall under their own loads: see the warning".into()));
+        if falls == Some(true) {
+            rows.push(("but", "the wall falls under its own loads: see the warning".into()));
         }
         files::print(&format!("{title}{}{written}", pairs(&rows)))?;
     }
-    if falls {
+    if falls == Some(true) {
         files::note(
-            "warning: λ does not hold: the same wall falls under its own loads in `concio check` and `concio run`. Rigid joints may bear any pair of \
-             forces that cancel, so friction that nothing presses counts here, and limit analysis cannot decide whether such a wall stands",
+            "warning: λ does not hold: with the joints of the file the wall falls under its own loads, as `concio check` tells. Where these are rigid, \
+             friction that nothing presses may hold it in limit analysis, which takes any pair of forces that cancel",
         );
     }
     let estimates = [Some(&weaker), other.as_ref()].map(|p| {
@@ -96,13 +96,13 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
     Ok(if open.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
 }
 
-/// Whether the wall falls by itself once its stones yield, which self-stress of rigid ones may hide; not asked of walls that cannot be run, nor of shear walls.
-fn falls(file: &CaseFile) -> bool {
+/// Whether the wall falls by itself, which self-stress of rigid stones may hide; none of shear walls, large ones, and walls that cannot be run.
+fn falls(file: &CaseFile) -> Option<bool> {
     let asked = |Prepared { model, .. }: Prepared| {
         let tried = model.wall.blocks.len() <= TRIED;
         model.planar().filter(|_| tried).map(|own| own.rest())
     };
-    prepare(file).ok().and_then(asked) == Some(Rest::Falls)
+    prepare(file).ok().and_then(asked).map(|rest| rest == Rest::Falls)
 }
 
 /// What was found for one way.

@@ -1,4 +1,4 @@
-//! The end of a solution: Newton's method on (P2) and (P3) as they are, from an iterate of the interior point method, or from what was borne before.
+//! The end of a solution: Newton's method on (P4) as it is, from an iterate of the interior point method, or from what was borne before.
 //!
 //! Near the solution it is known of nearly every bound whether it holds. With that taken for granted, the laws are linear; what then pulls at a
 //! bound lets go, what passes one is held, and the next iterate solves again. A bound that neither holds nor is far away, as where a joint

@@ -214,7 +214,7 @@ impl<const N: usize> Point<N> {
         self.gauge(&laws, view, left);
     }
 
-    /// What it leaves of (P2) and (P3) at the velocity `u`, and what impulses do where the bounds hold that hold by impulses and velocities now,
+    /// What it leaves of (P4) at the velocity `u`, and what impulses do where the bounds hold that hold by impulses and velocities now,
     /// or by the last direction.
     #[inline(always)]
     fn choose(

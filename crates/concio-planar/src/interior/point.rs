@@ -425,7 +425,7 @@ impl<const N: usize, T: Real> Point<N, T> {
         led
     }
 
-    /// What it leaves of (P2) at the velocity `u_n`, and what the impulse across does where the bound holds that holds by it and the
+    /// What it leaves of (P4) across at the velocity `u_n`, and what the impulse across does where the bound holds that holds by it and the
     /// velocity now, or by the last direction.
     #[inline(always)]
     pub fn choose_across(
@@ -452,7 +452,7 @@ impl<const N: usize, T: Real> Point<N, T> {
         view.right[0] = T::pick(lets_go, least - self.p[0], T::pick(crushes, most - self.p[0], by_law));
     }
 
-    /// The same of (P3) and the impulse along, after [`Point::choose_across`]; `mu` is that of a contact that is pressed.
+    /// The same of (P4) along and the impulse there, after [`Point::choose_across`]; `mu` is that of a contact that is pressed.
     #[inline(always)]
     pub fn choose_along(
         &self,

@@ -118,9 +118,12 @@ pub fn fit_curves(
     let telling = telling.len() as f64;
     let [a, b] = place;
     let z = || likelihood.scores(place).into_iter().map(|score| -score[0]);
-    let falls = if names == evidence.len() || names < 2 {
+    let one_motion = names < 2;
+    // Under one motion its curves are independent, each of which counts once at several intensities.
+    let (clusters, names) = if one_motion && found == 0.0 { numbered(curves) } else { (clusters, names) };
+    let falls = if names == evidence.len() || one_motion && found > 0.0 {
         Falls::alike(0.5 * threshold(found, confidence))
-    } else if found > 0.0 && telling < 2.0 {
+    } else if names < 2 || found > 0.0 && telling < 2.0 {
         Falls::alike(f64::INFINITY)
     } else if found > 0.0 {
         Falls::of_motions(&z().collect::<Vec<_>>(), (&clusters, names), [found, telling], confidence)
@@ -144,7 +147,7 @@ pub fn fit_curves(
         falls,
         likelihood,
         place,
-        one_motion: names < 2,
+        one_motion,
     };
     fit.median_interval = fit.interval_of_median();
     fit.dispersion_interval = fit.interval_of_dispersion();

@@ -476,6 +476,17 @@ fn one_motion_is_told() {
     assert_eq!(found.plausible(), None);
     assert!(found.doubt().is_some_and(|doubt| doubt.contains("the scatter between records is not in them")));
     assert_eq!(fit(&evidence, 0.95).expect("a fit").doubt(), None);
+    // Curves under it count once, however many intensities each was run at.
+    let limits = [0.15, 0.35, 0.5, 0.55, 0.7];
+    let runs = || (0..5).flat_map(|curve| [0.2, 0.4, 0.6, 0.8].map(|y| (curve, y)));
+    let at =
+        |(curve, y): (usize, f64)| Evidence::Stripe { intensity: y, reached: usize::from(y > limits[curve]), of: 1 };
+    let (stripes, each): (Vec<Evidence>, Vec<usize>) =
+        (runs().map(at).collect(), runs().map(|(curve, _)| curve).collect());
+    let of_motions = |motions: &[usize]| fit_curves(&stripes, [&each, motions], 0.95).expect("a fit");
+    let [alone, under_one] = [of_motions(&each), of_motions(&[0; 20])];
+    assert_eq!(alone.median_interval, under_one.median_interval);
+    assert_eq!(alone.dispersion_interval, under_one.dispersion_interval);
     // Two motions that reach the limit are two, whatever others do not.
     let mut many = vec![Evidence::At(0.3), Evidence::At(0.6)];
     many.extend([Evidence::Above(0.35); 8]);
