@@ -73,6 +73,7 @@ impl Motion {
         let of = &self.contacts[opens];
         let line = of.rows.normal.map(|row| row.map(|x| 0.0 - x));
         let mut contact = Contact::along((of.rows.first(), of.rows.second()), of.slot, line, &self.inverse, 0.0);
+        contact.law[0].rho = self.setting.firm(h) * contact.moved[0];
         contact.drift[0] = -of.drift[0];
         contact.bias = parting + rocking * lost - self.contacts[lands].bias.min(0.0);
         Some((contact, Hold { opens, before: -end.start.velocity[0], lever: -end.lever[0] }))
