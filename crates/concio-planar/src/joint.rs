@@ -471,7 +471,7 @@ pub struct Works {
 impl Law {
     /// Makes a contact one of this law: `share` is the part of the joint that it stands for, `h` the step [s], `gap` and
     /// `velocity` the state at its start. Without inertia (`still`) springs are those of the end of the step. `firm` is ρ of (P4) over the mass that
-    /// a point moves, where nothing else yields.
+    /// a point moves, or whose weight presses it, where nothing else yields.
     pub fn begin(
         &self,
         point: &Point,
@@ -497,8 +497,10 @@ impl Law {
             offset: -h * (k * (g + 0.5 * theta * h * u) + 0.5 * c * u),
             rho: 0.5 * h * (k * theta * h + c),
         };
-        // ρ of what has no spring, both ways by the mass that moves across [kg]: along, stiffer ones take more iterations.
-        let resists = firm * contact.moved[0];
+        // ρ of what has no spring, both ways by the mass that moves across, or that whose weight presses it [kg]: along, stiffer ones take more
+        // iterations.
+        let pressed = point.force[0].max(-(both + press) * (gap + point.crushed));
+        let resists = firm * contact.moved[0].max(pressed / G);
         match self.normal {
             Normal::Rigid { restitution, .. } => {
                 contact.law[0] = Linear { offset: h * point.force[0], rho: resists };
@@ -531,8 +533,6 @@ impl Law {
             let line = over(shear, share * self.shear.damping, 0.0, u_t, theta(self.shear.stiffness, contact.moved[1]));
             contact.law[1] = Linear { offset: line.offset + h * point.bearing, rho: line.rho };
         } else {
-            let pressed = point.force[0].max(-(both + press) * (gap + point.crushed));
-            let resists = if still { resists.max(firm * pressed / G) } else { resists };
             contact.law[1] = Linear { offset: h * point.bearing, rho: resists };
             if still {
                 contact.tight = resists / contact.moved[1];
@@ -547,7 +547,7 @@ impl Law {
             (contact.friction, contact.hold) = (bond.tan_angle, share * bond.cohesion * h);
             // Solved so closely that no slide is taken for sticking: it must be seen to break.
             if still && !self.is_compliant() {
-                contact.tight = 0.5 * firm;
+                contact.tight = contact.tight.max(0.5 * firm);
             }
         }
         Start { gap, velocity, still, slipped: false, edge: false }

@@ -64,8 +64,8 @@ const FALLING: f64 = 1e-2;
 const LONGEST: f64 = 16.0;
 /// What contact may be violated by, over the velocity that gravity gives in a step.
 const ACCURACY: f64 = 1e-6;
-/// ρ of what has no spring over the mass that its point moves, in a whole step: of 1 ms, it yields by 1 nm under the weight of that. A quarter
-/// lets bricks that slide together drift apart by 0.4 % of their slip instead of 0.1 %.
+/// ρ of what has no spring over the mass that its point moves, or that whose weight presses it, in a whole step: of 1 ms, it yields by 1 nm under that
+/// weight. A quarter lets bricks that slide together drift apart by 0.4 % of their slip instead of 0.1 %.
 const FIRM: f64 = 1e4;
 /// By which it yields at most under that weight [m], however long the step; and without inertia, where what a stone turns by shows in the pressures of
 /// the joint below it.
@@ -171,7 +171,7 @@ impl Setting {
         if self.still { self.tolerance } else { ENOUGH * self.tolerance }
     }
 
-    /// ρ of what has no spring in a step of `h` [s], over the mass that its point moves: parts of a step have the stiffness of the whole.
+    /// ρ of what has no spring in a step of `h` [s], over the mass that its point moves or bears: parts of a step have the stiffness of the whole.
     fn firm(&self, h: f64) -> f64 {
         let yields = if self.still { YIELDS_AT_REST } else { YIELDS.min(G * self.step * self.step / FIRM) };
         G * h * h / yields
