@@ -73,10 +73,8 @@ enum Begins {
 }
 
 /// Largest 1/E, with springs beside, over the mass that a contact moves where half of the digits tell directions, which are off by some 6·10⁻⁸
-/// of that.
-const YIELDING: f64 = 1e5;
-/// The same where they also keep what is left of a matrix when contacts let go: some 6·10⁻⁸ of what those were.
-const KEEPING: f64 = 2e4;
+/// of that, and keep what is left of a matrix when contacts let go: some 6·10⁻⁸ of what those were.
+const YIELDING: f64 = 5e3;
 /// Least distance from the bounds at the start, over what is out of balance, and over what was borne before.
 const FLOOR: f64 = 1.0;
 const SHARE: f64 = 0.02;
@@ -182,11 +180,6 @@ impl Survey {
     /// Whether half of the digits tell directions.
     fn yields(&self) -> bool {
         self.stiffest <= YIELDING
-    }
-
-    /// Whether they also keep what is left of a matrix that changes by differences.
-    fn keeps(&self) -> bool {
-        self.stiffest <= KEEPING
     }
 }
 

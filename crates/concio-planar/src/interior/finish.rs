@@ -32,8 +32,7 @@ impl Interior {
         led: bool,
     ) -> Effort {
         let mut effort = Effort::default();
-        // What half of the digits keep of a matrix that changes by differences.
-        let differs = digits == Digits::Half && survey.keeps();
+        let differs = digits == Digits::Half && survey.yields();
         let mut refined = false;
         self.before.clear();
         self.before.extend_from_slice(v);
