@@ -69,7 +69,7 @@ const ACCURACY: f64 = 1e-6;
 const FIRM: f64 = 1e4;
 /// By which it yields at most under that weight [m], however long the step; and without inertia, where what a stone turns by shows in the pressures of
 /// the joint below it.
-const YIELDS: f64 = 4e-9;
+const YIELDS: f64 = 1e-8;
 const YIELDS_AT_REST: f64 = 1e-10;
 /// What is left at most, over the tolerance, of a step that is not taken again in two halves.
 const ENOUGH: f64 = 100.0;

@@ -16,6 +16,9 @@ pub(super) const AGAIN: f64 = 0.1;
 /// a large wall what is left is that of one place, and rises there while the others settle.
 const MOST: usize = 12;
 const FREELY: usize = 3;
+/// The look from which on no more than one of so many contacts may do something else than in the last: where more do, hardly any is solved.
+const SETTLING: usize = 2;
+const SETTLED: usize = 10;
 /// What half of the digits may leave, over the tolerance, without another solution with the same factors.
 const ROUNDED: f64 = 0.1;
 
@@ -64,7 +67,8 @@ impl Interior {
                 effort.converged = true;
                 return effort;
             }
-            let falls = k <= FREELY || left < last || changed < fewest;
+            let far = k >= SETTLING && changed * SETTLED > contacts.len();
+            let falls = !far && (k <= FREELY || left < last || changed < fewest);
             if k > 0 {
                 fewest = fewest.min(changed);
             }

@@ -466,9 +466,10 @@ impl<const N: usize, T: Real> Point<N, T> {
         let pressed = self.p[0] + laws.beside;
         let bound = (mu * pressed).larger(zero) + laws.hold;
         let off = u_t + self.shift(1);
-        let tends = self.p[1] - laws.along * off;
-        left.residual =
-            left.residual.worse((self.p[1] - tends.between(-bound, bound)).size() * laws.tight / laws.along);
+        // More than the law answers would take what slid one way to slide the other, and never to stick.
+        let scale = laws.along.smaller(zero.alike(1.0) / self.soft[1]);
+        let tends = self.p[1] - scale * off;
+        left.residual = left.residual.worse((self.p[1] - tends.between(-bound, bound)).size() * laws.tight / scale);
         // Where both are led to, it goes where it tends to.
         let ([forth, back], both) = match led {
             Some(led) => ([led[0], led[1]], zero.below(tends)),
