@@ -264,10 +264,8 @@ impl Contact {
 /// How a step was solved.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Effort {
-    /// Linear systems solved.
+    /// Linear systems solved, each with factors of its own.
     pub iterations: usize,
-    /// Matrices factorised.
-    pub factorisations: usize,
     /// Largest violation of (P4) [m/s].
     pub residual: f64,
     /// Whether it came below what was asked for.
@@ -277,11 +275,7 @@ pub struct Effort {
 impl Effort {
     /// This one, and another that ended it.
     pub(crate) fn then(self, last: Effort) -> Effort {
-        Effort {
-            iterations: self.iterations + last.iterations,
-            factorisations: self.factorisations + last.factorisations,
-            ..last
-        }
+        Effort { iterations: self.iterations + last.iterations, ..last }
     }
 }
 

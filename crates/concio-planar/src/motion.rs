@@ -918,7 +918,7 @@ impl Motion {
 
     fn count(&mut self, effort: Effort) {
         self.counters.iterations += effort.iterations as u64;
-        self.counters.factorisations += effort.factorisations as u64;
+        self.counters.factorisations += effort.iterations as u64;
     }
 
     /// Keeps what the points have come to for the next step, and accounts for the energy of this one.

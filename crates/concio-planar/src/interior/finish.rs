@@ -67,7 +67,7 @@ impl Interior {
                 effort.converged = true;
                 return effort;
             }
-            let far = k >= SETTLING && changed * SETTLED > contacts.len();
+            let far = !led && k >= SETTLING && changed * SETTLED > contacts.len();
             let falls = !far && (k <= FREELY || left < last || changed < fewest);
             if k > 0 {
                 fewest = fewest.min(changed);

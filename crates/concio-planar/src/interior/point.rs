@@ -1,7 +1,7 @@
 //! The laws of a contact about an iterate: of one, or of as many side by side as a register holds.
 
 use super::lanes::Real;
-use super::{FLOOR, GRIP, SHARE};
+use super::{GRIP, SHARE};
 use crate::contact::{Contact, Status};
 use crate::interior::CRACK;
 
@@ -191,7 +191,7 @@ pub(super) fn soft(contact: &Contact, k: usize) -> f64 {
 /// Whether friction follows from pressure alone.
 pub(super) fn is_dry(contact: &Contact) -> bool {
     let alone = contact.pressure[0] == 0.0 && contact.hold == 0.0 && contact.spring[0] == Default::default();
-    alone && contact.friction > 0.0 && !is_fixed(contact) && contact.moved[1].is_finite()
+    alone && contact.friction > 0.0 && !is_fixed(contact)
 }
 
 /// Whether what presses stays whatever moves.
@@ -243,7 +243,7 @@ impl<const N: usize, T: Real> Point<N, T> {
     pub fn enter(&mut self, on: &[bool; N], laws: &Laws<T>, u: [T; 2], scale: f64) {
         let zero = self.mass.alike(0.0);
         let half = zero.alike(0.5);
-        let floor = zero.alike(FLOOR * scale) * self.mass + zero.alike(SHARE) * self.p[0].size();
+        let floor = zero.alike(scale) * self.mass + zero.alike(SHARE) * self.p[0].size();
         let [least, most] = laws.pressure;
         let inside = floor.smaller(half * (most - least));
         if on[2] {
@@ -260,7 +260,7 @@ impl<const N: usize, T: Real> Point<N, T> {
             (self.s[i], self.lambda[i]) = (zero.alike(ABSENT.0), zero.alike(ABSENT.1));
             if on[i] {
                 self.s[i] = far[i].larger(floor);
-                let least = zero.alike(CRACK * FLOOR * scale) * floor / self.s[i];
+                let least = zero.alike(CRACK * scale) * floor / self.s[i];
                 self.lambda[i] = (zero.alike(SENSE[i]) * pulls[DIRECTION[i]]).larger(least);
             }
         }
@@ -466,10 +466,11 @@ impl<const N: usize, T: Real> Point<N, T> {
         let pressed = self.p[0] + laws.beside;
         let bound = (mu * pressed).larger(zero) + laws.hold;
         let off = u_t + self.shift(1);
-        // More than the law answers would take what slid one way to slide the other, and never to stick.
-        let scale = laws.along.smaller(zero.alike(1.0) / self.soft[1]);
-        let tends = self.p[1] - scale * off;
-        left.residual = left.residual.worse((self.p[1] - tends.between(-bound, bound)).size() * laws.tight / scale);
+        let by = |mass: T| self.p[1] - mass * off;
+        let wanted = by(laws.along).between(-bound, bound);
+        left.residual = left.residual.worse((self.p[1] - wanted).size() * laws.tight / laws.along);
+        // By more than the law answers what slid one way would slide the other, and never stick.
+        let tends = by(laws.along.smaller(zero.alike(1.0) / self.soft[1]));
         // Where both are led to, it goes where it tends to.
         let ([forth, back], both) = match led {
             Some(led) => ([led[0], led[1]], zero.below(tends)),
@@ -492,7 +493,7 @@ impl<const N: usize> Point<N> {
         let p_n = if fixed { contact.law[0].offset } else { contact.impulse[0] }.clamp(least, most);
         let bound = contact.bound(p_n, u[0]);
         let p = [p_n, contact.impulse[1].clamp(-bound, bound)];
-        let rubs = (contact.friction > 0.0 || contact.hold > 0.0) && contact.moved[1].is_finite();
+        let rubs = contact.friction > 0.0 || contact.hold > 0.0;
         let moves = [!fixed, rubs && (bound > 0.0 || is_dry(contact))];
         let bounds = [moves[1], moves[1], !fixed && least.is_finite(), !fixed && most.is_finite()];
         let point = Point {
