@@ -196,7 +196,7 @@ impl Contact {
             1.0 / (a.map_or(0.0, |a| one(rows[0], a)) + one(rows[1], b))
         };
         let all = [of(normal), of(tangent)];
-        // What is held moves no mass: it is measured by that of the other direction.
+        // A push against what is held moves nothing: the mass of the other direction stands for it.
         let known = all.into_iter().find(|m| m.is_finite()).unwrap_or(1.0);
         let moved = all.map(|m| if m.is_finite() { m } else { known });
         Contact {

@@ -64,11 +64,11 @@ const FALLING: f64 = 1e-2;
 const LONGEST: f64 = 16.0;
 /// What contact may be violated by, over the velocity that gravity gives in a step.
 const ACCURACY: f64 = 1e-6;
-/// ρ of what has no spring over the mass that its point moves, or that whose weight presses it, in a whole step: of 1 ms, it yields by 1 nm under that
-/// weight. A quarter lets bricks that slide together drift apart by 0.4 % of their slip instead of 0.1 %.
+/// ρ of what has no spring over the mass that its point moves, or a tenth of what weighs as much as presses it, in a whole step. In 1 ms a point yields by
+/// 1 nm under that weight. With a quarter, bricks that slide together drift apart by 0.4 % of their slip instead of 0.1 %.
 const FIRM: f64 = 1e4;
-/// By which it yields at most under that weight [m], however long the step; and without inertia, where what a stone turns by shows in the pressures of
-/// the joint below it.
+/// What a point yields by at most under that weight [m], however long the step; and without inertia, where its turn shows in the pressures of the joint
+/// below.
 const YIELDS: f64 = 1e-8;
 const YIELDS_AT_REST: f64 = 1e-10;
 /// What is left at most, over the tolerance, of a step that is not taken again in two halves.

@@ -1,4 +1,4 @@
-//! Velocities at the end of a step that satisfy (P1) to (P4) of [`crate::contact`].
+//! Velocities at the end of a step that satisfy (P1) and (P4) of [`crate::contact`].
 
 use crate::blocks::{Blocks, Triple};
 use crate::contact::{Contact, Effort};

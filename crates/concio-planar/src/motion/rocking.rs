@@ -6,18 +6,18 @@
 //!
 //! (P8)  u_n − u_n^ℓ ≤ max(u_n⁻, 0) + η ℓ + b
 //!
-//! at the other one, which bears in the impact the pull that this takes, against the motion. For a block on its base η is what
+//! at the other one, which is pulled in the impact as the end that lands is pushed, against the motion. For a block on its base η is what
 //! is left of its angular velocity, unless the impact itself leaves less; more it cannot leave.
 
 use super::Motion;
 use crate::G;
 use crate::contact::Contact;
 
-/// Approach of an end that stands, over the velocity that gravity gives in a step or with which the other end parts: far above what contact may be
-/// violated by, and what stones yield by.
+/// Approach of an end that stands, over the velocity that gravity gives in a step or with which the other end parts: above what contact may be
+/// violated by, and ten times what stones yield by under their own weight.
 const STANDING: f64 = 1e-3;
 
-/// What holds an end of a joint back during one step.
+/// What holds the turn of a joint back during one step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hold {
     /// Its contact among the others.
@@ -93,7 +93,6 @@ impl Motion {
             self.pull -= contact.impulse[0] * hold.lever / h;
             if let Some(link) = self.pairs[self.owners[hold.opens].pair].link {
                 self.seen[link].taken += taken;
-                self.seen[link].pressure -= contact.impulse[0] / h;
             }
         }
     }

@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::format::{plain, si, significant};
 
-/// What rigid joints settle by: what stones yield by [m].
+/// Up to this rigid joints do not count as settled: 1 nm in each of a hundred courses [m].
 const ROUNDED: f64 = 1e-7;
 
 /// Stiffnesses of pressed joints across, of sticking ones along, and friction, kind by kind.
