@@ -54,6 +54,8 @@ const WHOLE: Moments = [1.0, 0.5, 1.0 / 3.0];
 const BROKEN: f64 = 1e-3;
 /// Part of the least zone by which zones may grow or shrink before points are placed anew.
 const NEARLY: f64 = 1.0 / 32.0;
+/// The same with inertia, where the end of what is open has a point: what it bears is to go once blocks rest.
+const PLACED: f64 = 1.0 / 4096.0;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
 /// How far apart sides are taken to be that face each other no more [m]: more than is ever crushed.
@@ -773,13 +775,14 @@ impl Crack {
     }
 
     /// Whether its points stand for these zones still.
-    fn stand(&self, zones: &[Zone; ZONES]) -> bool {
+    fn stand(&self, zones: &[Zone; ZONES], still: bool) -> bool {
+        let nearly = if still { NEARLY } else { PLACED };
         let there = |part: f64| part > zone::LEAST;
         let parts = self.placed.iter().map(|placed| placed[0]);
         let least = parts.filter(|part| there(*part)).fold(f64::INFINITY, f64::min);
         zones.iter().zip(self.placed).all(|(zone, placed)| {
             there(zone.acts[0]) == there(placed[0])
-                && (0..2).all(|k| (zone.acts[k] - placed[k]).abs() <= NEARLY * least)
+                && (0..2).all(|k| (zone.acts[k] - placed[k]).abs() <= nearly * least)
         })
     }
 
@@ -1018,7 +1021,7 @@ impl Crack {
             self.broken = time;
         }
         let zones = self.zones(law, &line);
-        if !new && self.stand(&zones) {
+        if !new && self.stand(&zones, still) {
             return Worn::default();
         }
         taken += crushed - if told > 0.0 { law.crushing * told } else { 0.0 };
