@@ -368,13 +368,6 @@ impl Pattern<'_> {
     }
 }
 
-/// Factors of a symmetric matrix, to be kept: what is right of the diagonal of 𝓤.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Factors {
-    right: Vec<Block>,
-    pivots: Vec<Pivot>,
-}
-
 /// Where the block of a pair of bodies stands, and whether the second of them is eliminated first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Slot {
@@ -660,27 +653,6 @@ impl Blocks {
             let value = [0, 1, 2].map(|i| work[k][i] - (sums[i][0] + sums[i][1] + sums[i][2]));
             work[k] = self.pivots[k].back(value);
         }
-    }
-
-    /// The factors of a symmetric matrix as they are.
-    pub fn keep(&self) -> Factors {
-        debug_assert!(self.is_symmetric);
-        Factors { right: self.beside.iter().map(Both::<f64>::right).collect(), pivots: self.pivots.clone() }
-    }
-
-    /// Takes factors of this pattern; false where they are of another.
-    pub fn take_up(&mut self, factors: Factors) -> bool {
-        let Factors { right, pivots } = factors;
-        let fits = right.len() == self.beside.len() && pivots.len() == self.pivots.len();
-        if fits {
-            for (both, right) in self.beside.iter_mut().zip(&right) {
-                both.0.iter_mut().zip(right).for_each(|(both, row)| both[..4].copy_from_slice(row));
-            }
-            (self.pivots, self.is_symmetric, self.digits) = (pivots, true, Digits::All);
-            // They are of another matrix than what is given.
-            self.changed.fill(true);
-        }
-        fits
     }
 
     /// Blocks right of the diagonal, fill included.

@@ -1,30 +1,23 @@
-//! Contact with dry friction in a step, without penalty: what a contact point is, and what it bears at a velocity.
+//! Contact with dry friction in a step: what a contact point is, and what it bears at a velocity.
 //!
 //! With v the velocities after the step, v_f what they would be without contact, u_n and u_t the velocities with which the
 //! two sides of a contact point part and slide, p_n and p_t the impulses there:
 //!
 //! (P1)  M (v − v_f) = Σ Hᵀ p
 //!
+//! (P4)  p_n = [p_n⁰ − ρ (u_n + b)]₊,   p_t = clamp(p_t⁰ − ρ u_t, ±μ p_n)
+//!
+//! b is e u_n of before for a restitution e, or what a gap that is still open allows. ρ is that of a spring over the step, and p⁰ what the spring bears
+//! where nothing moves. Between stones ρ is so large that they hardly yield, and p⁰ is what they bore before: for ρ → ∞ this is
+//!
 //! (P2)  0 ≤ u_n + b ⊥ p_n ≥ 0
 //!
 //! (P3)  |p_t| ≤ μ p_n, and p_t = −μ p_n sign(u_t) where u_t ≠ 0
 //!
-//! b is e u_n of before for a restitution e, or what a gap that is still open allows. (P2) and (P3) are the fixed points of
-//!
-//! (P4)  p_n = [p_n − ρ (u_n + b)]₊,   p_t = clamp(p_t − ρ u_t, ±μ p_n)
-//!
-//! for any ρ > 0 (Alart and Curnier 1991). Where a contact is compliant, ρ is that of its spring over the step, and what is
-//! p on the right is what the spring bore before; bounds of tension and crushing are further limits of p_n, linear springs
-//! further terms of (P1).
+//! (Alart and Curnier 1991), whose impulses are not unique where a wall holds more contacts than its stones can move; those of (P4) are.
+//! Bounds of tension and crushing are further limits of p_n, linear springs further terms of (P1).
 
 use crate::blocks::{Blocks, Slot, Triple};
-
-/// ρ over the mass that a contact moves: large for few repetitions, small enough for 16 digits.
-pub(crate) const STIFFENING: f64 = 1e4;
-
-/// Share of its bound by which an impulse may miss it and was held by it all the same: pressure rises with friction bounded by that of the
-/// iterate before, until what is out of balance counts as solved.
-const HELD: f64 = 1e-5;
 
 /// What a contact point does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -170,8 +163,6 @@ pub struct Contact {
     pub bias: f64,
     /// (P4) of normal and tangent: p of before and ρ.
     pub law: [Linear; 2],
-    /// Whether these are springs, which stay as they are; otherwise p is taken anew until it stays.
-    pub compliant: [bool; 2],
     /// By how many times nearer than others its law along is to be met: a force of what is very stiff is known no better than its length.
     pub tight: f64,
     /// What acts beside them, normal and along the tangent.
@@ -184,20 +175,11 @@ pub struct Contact {
     pub status: Status,
 }
 
-/// What (P4) says of a contact at some velocity.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Answer {
-    pub impulse: [f64; 2],
-    pub status: Status,
-    /// Whether p_n lies between its bounds.
-    pub yields: bool,
-}
-
 impl Contact {
-    /// Of a rigid contact of a body with another, or with the base, that bore `impulse` [N s] before. Derivatives of the parting and
+    /// Of a body with another, or with the base, that bore `impulse` [N s] before and has no law yet. Derivatives of the parting and
     /// of the sliding velocity by the velocities of both, those that are prescribed left out; masses say what a push moves. It has its bodies in
     /// the order of elimination, with their derivatives, so that no go through the contacts has to look.
-    pub fn rigid(
+    pub fn new(
         (mut a, mut b): (Option<usize>, usize),
         mut slot: Option<Slot>,
         [mut normal, mut tangent]: [[Triple; 2]; 2],
@@ -213,8 +195,10 @@ impl Contact {
             let one = |row: Triple, body: usize| (0..3).map(|k| row[k] * row[k] * inverse_mass[body][k]).sum::<f64>();
             1.0 / (a.map_or(0.0, |a| one(rows[0], a)) + one(rows[1], b))
         };
-        let moved = [of(normal), of(tangent)];
-        let law = [0, 1].map(|k| Linear { offset: impulse[k], rho: STIFFENING * moved[k] });
+        let all = [of(normal), of(tangent)];
+        // A push against what is held moves nothing: the mass of the other direction stands for it.
+        let known = all.into_iter().find(|m| m.is_finite()).unwrap_or(1.0);
+        let moved = all.map(|m| if m.is_finite() { m } else { known });
         Contact {
             rows: Rows { a: a.map_or(BASE, |a| a as u32), b: b as u32, normal, tangent },
             slot,
@@ -223,8 +207,7 @@ impl Contact {
             hold: 0.0,
             pressure: [0.0, f64::INFINITY],
             bias: 0.0,
-            law,
-            compliant: [false; 2],
+            law: [Linear::default(); 2],
             tight: 1.0,
             spring: [Linear::default(); 2],
             moved,
@@ -241,13 +224,8 @@ impl Contact {
         inverse_mass: &[Triple],
         impulse: f64,
     ) -> Self {
-        let own = Contact::rigid(bodies, slot, [line, line], inverse_mass, [impulse, 0.0]);
+        let own = Contact::new(bodies, slot, [line, line], inverse_mass, [impulse, 0.0]);
         Contact { rows: Rows { tangent: [[0.0; 3]; 2], ..own.rows }, ..own }
-    }
-
-    /// (P4) of a rigid direction, 0 normal and 1 tangent, that bore `impulse` [N s] before.
-    pub fn rigid_law(&self, direction: usize, impulse: f64) -> Linear {
-        Linear { offset: impulse, rho: STIFFENING * self.moved[direction] }
     }
 
     /// Parting and sliding velocity [m/s].
@@ -255,47 +233,6 @@ impl Contact {
     pub fn velocity(&self, v: &[Triple]) -> [f64; 2] {
         let change = self.rows.change(v);
         [change[0] + self.drift[0], change[1] + self.drift[1]]
-    }
-
-    /// The right side of (P4), friction bounded by `bound`.
-    #[inline]
-    pub(crate) fn answer(&self, [u_n, u_t]: [f64; 2], bound: f64) -> Answer {
-        let [least, most] = self.pressure;
-        let free = self.law[0].at(u_n + self.bias);
-        let p_n = free.max(least).min(most);
-        let p_t = self.law[1].at(u_t);
-        let yields = free > least && free < most;
-        if p_n == 0.0 && !(bound > 0.0) {
-            Answer { yields, ..Answer::default() }
-        } else if p_t > bound {
-            Answer { impulse: [p_n, bound], status: Status::Forth, yields }
-        } else if p_t < -bound {
-            Answer { impulse: [p_n, -bound], status: Status::Back, yields }
-        } else {
-            Answer { impulse: [p_n, p_t], status: Status::Stick, yields }
-        }
-    }
-
-    /// (P4) of what it did before, whatever that is at the velocity `u`: what bore bears or pulls, what slid slides or is held back.
-    pub(crate) fn goes_on(&self, u: [f64; 2], bound: f64) -> Answer {
-        let [least, most] = self.pressure;
-        let [normal, tangent] = self.law;
-        let yields = normal.offset > least * (1.0 - HELD) && normal.offset < most * (1.0 - HELD);
-        let p_n = if yields { normal.at(u[0] + self.bias) } else { normal.offset.clamp(least, most) };
-        let slid = bound * (1.0 - HELD);
-        let (p_t, status) = match tangent.offset {
-            _ if !(bound > 0.0) && p_n == 0.0 => (0.0, Status::Open),
-            // Friction that can bear nothing slides by the velocity, as in `answer`; across a tie there is none.
-            _ if !(bound > 0.0) => match tangent.at(u[1]) {
-                p if p > 0.0 => (0.0, Status::Forth),
-                p if p < 0.0 => (0.0, Status::Back),
-                _ => (0.0, Status::Stick),
-            },
-            p if p >= slid => (bound, Status::Forth),
-            p if p <= -slid => (-bound, Status::Back),
-            _ => (tangent.at(u[1]), Status::Stick),
-        };
-        Answer { impulse: [p_n, p_t], status, yields }
     }
 
     /// What bounds friction where p_n is what it is at the velocity `u_n` [m/s], in N s.
@@ -327,13 +264,9 @@ impl Contact {
 /// How a step was solved.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Effort {
-    /// Linear systems solved, or rounds through the contacts.
+    /// Linear systems solved, each with factors of its own.
     pub iterations: usize,
-    /// Matrices factorised.
-    pub factorisations: usize,
-    /// Times that impulses were taken anew.
-    pub rounds: usize,
-    /// Largest violation of (P2) and (P3) [m/s].
+    /// Largest violation of (P4) [m/s].
     pub residual: f64,
     /// Whether it came below what was asked for.
     pub converged: bool,
@@ -342,12 +275,7 @@ pub struct Effort {
 impl Effort {
     /// This one, and another that ended it.
     pub(crate) fn then(self, last: Effort) -> Effort {
-        Effort {
-            iterations: self.iterations + last.iterations,
-            factorisations: self.factorisations + last.factorisations,
-            rounds: self.rounds + last.rounds,
-            ..last
-        }
+        Effort { iterations: self.iterations + last.iterations, ..last }
     }
 }
 

@@ -54,6 +54,8 @@ const WHOLE: Moments = [1.0, 0.5, 1.0 / 3.0];
 const BROKEN: f64 = 1e-3;
 /// Part of the least zone by which zones may grow or shrink before points are placed anew.
 const NEARLY: f64 = 1.0 / 32.0;
+/// The same with inertia, where the end of what is open has a point: what it bears is to go once blocks rest.
+const PLACED: f64 = 1.0 / 4096.0;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
 /// How far apart sides are taken to be that face each other no more [m]: more than is ever crushed.
@@ -447,7 +449,7 @@ impl Crack {
             peak: [0.0; 2],
             spots: Vec::with_capacity(POINTS),
         };
-        crack.place(law, &[[0.0; 2]; 2], &crack.zones(law, &[[0.0; 2]; 2]));
+        crack.place(law, &[[0.0; 2]; 2], &crack.zones(law, &[[0.0; 2]; 2]), true);
         Some(crack)
     }
 
@@ -507,7 +509,7 @@ impl Crack {
         let lost = self.hidden;
         let apart = [[APART, 0.0]; 2];
         let zones = self.zones(law, &apart);
-        self.place(law, &apart, &zones);
+        self.place(law, &apart, &zones, true);
         for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
             points[spot.point] = Point { crushed: spot.crushed, ..Point::default() };
         }
@@ -631,13 +633,13 @@ impl Crack {
         }
     }
 
-    /// Takes the points from its zones, its ends being as far apart as `line` says.
-    fn place(&mut self, law: &Law, line: &[[f64; 2]; 2], zones: &[Zone; ZONES]) {
+    /// Takes the points from its zones, its ends being as far apart as `line` says; without inertia (`still`) what opens and closes is found by steps that follow.
+    fn place(&mut self, law: &Law, line: &[[f64; 2]; 2], zones: &[Zone; ZONES], still: bool) {
         let mut spots = std::mem::take(&mut self.spots);
         spots.clear();
         match law.normal {
             Normal::Rigid { .. } => self.place_rigid(&mut spots),
-            Normal::Springs { .. } => self.place_springs(law, line, zones, &mut spots),
+            Normal::Springs { .. } => self.place_springs(law, (line, zones), still, &mut spots),
         }
         self.spots = spots;
     }
@@ -678,7 +680,13 @@ impl Crack {
         }
     }
 
-    fn place_springs(&mut self, law: &Law, line: &[[f64; 2]; 2], zones: &[Zone; ZONES], spots: &mut Vec<Spot>) {
+    fn place_springs(
+        &mut self,
+        law: &Law,
+        (line, zones): (&[[f64; 2]; 2], &[Zone; ZONES]),
+        still: bool,
+        spots: &mut Vec<Spot>,
+    ) {
         let Normal::Springs { both, press, .. } = law.normal else { return };
         let stiffness = both + press;
         let spot = |point: usize, part: Part, at: f64, share: f64| Spot {
@@ -725,6 +733,8 @@ impl Crack {
             let corners = zone.between.iter().all(|at| -gap(*at) < WELL_BELOW * law.crushing / stiffness);
             let points = match (corners, alone) {
                 (true, true) => zone.three(ends),
+                // Without inertia nothing is gained: what follows a step puts it right.
+                _ if kind == OPEN && !still => zone.ends(),
                 (true, false) => zone.two(Some(ends)),
                 (false, _) => zone.two(None),
             };
@@ -765,13 +775,14 @@ impl Crack {
     }
 
     /// Whether its points stand for these zones still.
-    fn stand(&self, zones: &[Zone; ZONES]) -> bool {
+    fn stand(&self, zones: &[Zone; ZONES], still: bool) -> bool {
+        let nearly = if still { NEARLY } else { PLACED };
         let there = |part: f64| part > zone::LEAST;
         let parts = self.placed.iter().map(|placed| placed[0]);
         let least = parts.filter(|part| there(*part)).fold(f64::INFINITY, f64::min);
         zones.iter().zip(self.placed).all(|(zone, placed)| {
             there(zone.acts[0]) == there(placed[0])
-                && (0..2).all(|k| (zone.acts[k] - placed[k]).abs() <= NEARLY * least)
+                && (0..2).all(|k| (zone.acts[k] - placed[k]).abs() <= nearly * least)
         })
     }
 
@@ -1010,7 +1021,7 @@ impl Crack {
             self.broken = time;
         }
         let zones = self.zones(law, &line);
-        if !new && self.stand(&zones) {
+        if !new && self.stand(&zones, still) {
             return Worn::default();
         }
         taken += crushed - if told > 0.0 { law.crushing * told } else { 0.0 };
@@ -1020,7 +1031,7 @@ impl Crack {
         // Points go on with the speed of the nearest one.
         let mut speeds = [[f64::NAN; 2]; DRY];
         dry().zip(&mut speeds).for_each(|(spot, speed)| *speed = [spot.at, points[spot.point].speed]);
-        self.place(law, &line, &zones);
+        self.place(law, &line, &zones, still);
         for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
             let [gap, slide] = between(&line, spot.at);
             let nearest = speeds.iter().filter(|speed| !speed[0].is_nan()).min_by(|a, b| {
@@ -1032,6 +1043,11 @@ impl Crack {
         }
         self.set(points);
         self.share_friction(law, points, still, [borne + friction[0], stored + friction[1]]);
+        // What the next step takes them to bear before it knows better.
+        for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
+            let point = &mut points[spot.point];
+            point.force = [spot.share * law.normal_stiffness() * (-point.gap - point.crushed).max(0.0), point.bearing];
+        }
         let lost = before - self.stored(law, points);
         let [_, keeps] = self.friction_borne(law, points);
         let rubbed = stored + friction[1] - keeps;
@@ -1143,7 +1159,7 @@ impl Crack {
         if gone {
             self.broken = self.broken.min(time);
         }
-        self.place(law, &self.line.clone(), &[Zone::default(); ZONES]);
+        self.place(law, &self.line.clone(), &[Zone::default(); ZONES], true);
         self.set(points);
         Some(part)
     }
@@ -1368,7 +1384,7 @@ mod tests {
         for cracked in [5, 20, 40, NODES] {
             crack.nodes[..cracked].fill(Node::GONE);
             crack.broken = if cracked == NODES { 0.0 } else { f64::INFINITY };
-            crack.place(&law, &[[0.0; 2]; 2], &crack.zones(&law, &[[0.0; 2]; 2]));
+            crack.place(&law, &[[0.0; 2]; 2], &crack.zones(&law, &[[0.0; 2]; 2]), true);
             close(moments(&crack), 4e-3);
             let weights: f64 = crack.spots().iter().map(|s| s.weight).sum();
             assert!((weights - 1.0).abs() < 1e-2, "{weights}");

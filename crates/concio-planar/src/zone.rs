@@ -2,7 +2,7 @@
 //!
 //! What is open of a joint bears nothing, what is pressed bears as its springs do, what is pressed as hard as it can bears that. Blocks are rigid, so that over a step
 //! the opening of a joint changes by a straight line along it. Two points with the first three moments of such a part (Gauss; Radau where it ends at
-//! the end of the joint) bear what it does, to second order in how far its own ends move meanwhile. A zone that is alone has three, to be there wherever blocks come to touch next.
+//! the end of the joint) bear what it does, to second order in how far its own ends move meanwhile. With inertia, what is open has its points at its ends. A zone that is alone has three, to be there wherever blocks come to touch next.
 
 /// ∫ f x^k over a part of the joint for k of 0, 1 and 2, x going from 0 to 1 along the joint.
 pub(crate) type Moments = [f64; 3];
@@ -100,6 +100,14 @@ impl Zone {
         let [first, second] = [first - edge * all, second - edge * (2.0 * first - edge * all)];
         let [inside, at] = if second > 0.0 { [first * first / second, second / first] } else { [0.0; 2] };
         [[edge, all - inside], [edge + at, inside], [edge, 0.0]]
+    }
+
+    /// Two points at its ends, which bear no less than the zone wherever it closes: the energy of a spring without tension is convex along the joint. Other points
+    /// are pressed in too late, and the joint would store energy that nothing gave. A zone that is there is longer than [`LEAST`].
+    pub fn ends(&self) -> [[f64; 2]; 3] {
+        let ([from, to], [all, first, _]) = (self.between, self.acts);
+        let last = (first - from * all) / (to - from);
+        [[from, all - last], [to, last], [from, 0.0]]
     }
 
     /// Three points with its moments, where it is all there is between these ends: at either end, wherever blocks come to touch next, and in the middle. Two where one of them would pull.

@@ -18,7 +18,7 @@ use crate::format::{columns, line, pairs, plain, seconds, si, significant};
 use crate::{files, report};
 
 /// Most blocks of walls whose rest and first period are looked for.
-const TRIED: usize = 2_000;
+pub(super) const TRIED: usize = 2_000;
 const KINDS: [JointKind; 5] = [JointKind::Base, JointKind::Bed, JointKind::Head, JointKind::Connection, JointKind::Top];
 
 /// Validates a wall file and prints what it describes.

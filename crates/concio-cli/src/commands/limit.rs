@@ -4,11 +4,14 @@ use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
+use concio::case::CaseFile;
+use concio::planar::Rest;
+use concio::run::{Prepared, prepare};
 use concio::{Error, InputError};
 use concio_limit::{self as limit, JointMotion, LimitError, NonAssociative, Options, Problem, Stop};
 use serde_json::{Value, json};
 
-use super::{run::refuse_a_file, wall_file};
+use super::{check::TRIED, run::refuse_a_file, wall_file};
 use crate::args::{HeadFriction, Limit, LimitLoad, Side};
 use crate::draw::mechanism;
 use crate::failure::{Failure, STOPPED};
@@ -44,7 +47,9 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
     }
     let (weaker, other) = weaker(pushed);
     let Pushed { problem, found, .. } = &weaker;
-    let result = result(args, &weaker, other.as_ref());
+    let falls = falls(&file);
+    let mut result = result(args, &weaker, other.as_ref());
+    result["falls_by_itself"] = json!(falls);
     if let Some(out) = &args.out {
         fs::create_dir_all(out).map_err(|e| Failure::from(Error::io(out, e)))?;
         files::write(&out.join(RESULT), &format!("{result:#}\n"))?;
@@ -57,7 +62,17 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
         let title = if file.case.title.is_empty() { String::new() } else { format!("{}\n\n", line(&file.case.title)) };
         let names = |out: &Path| format!("\nopen {}\n", out.join(DRAWING).display());
         let written = args.out.as_deref().map(names).unwrap_or_default();
-        files::print(&format!("{title}{}{written}", pairs(&rows(args, &weaker, other.as_ref()))))?;
+        let mut rows = rows(args, &weaker, other.as_ref());
+        if falls == Some(true) {
+            rows.push(("but", "the wall falls under its own loads: see the warning".into()));
+        }
+        files::print(&format!("{title}{}{written}", pairs(&rows)))?;
+    }
+    if falls == Some(true) {
+        files::note(
+            "warning: λ does not hold: with the joints of the file the wall falls under its own loads, as `concio check` tells. Where these are rigid, \
+             friction that nothing presses may hold it in limit analysis, which takes any pair of forces that cancel",
+        );
     }
     let estimates = [Some(&weaker), other.as_ref()].map(|p| {
         let found = &p?.found.non_associative;
@@ -79,6 +94,15 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
         files::note(&format!("no certificate to the {side}: the bounds are {wide} of λ apart, {most} are allowed"));
     }
     Ok(if open.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
+}
+
+/// Whether the wall falls by itself, which self-stress of rigid stones may hide; none of shear walls, large ones, and walls that cannot be run.
+fn falls(file: &CaseFile) -> Option<bool> {
+    let asked = |Prepared { model, .. }: Prepared| {
+        let tried = model.wall.blocks.len() <= TRIED;
+        model.planar().filter(|_| tried).map(|own| own.rest())
+    };
+    prepare(file).ok().and_then(asked).map(|rest| rest == Rest::Falls)
 }
 
 /// What was found for one way.

@@ -148,3 +148,42 @@ fn the_example_has_its_published_multiplier() {
     let frictionless = of("limit wall.toml --json --heads frictionless");
     assert!((multiplier(&frictionless) - 0.56296).abs() < 1e-4, "{}", frictionless["multiplier"]);
 }
+
+/// A stone between two others, over nothing: rigid friction holds it by forces that cancel, and once stones yield it falls. `check`, `run` and `limit` all
+/// say so.
+#[test]
+fn a_stone_that_nothing_presses_falls() {
+    let desk = Desk::new();
+    let stone = |id: &str, x: f64, y: f64| {
+        format!(
+            "[[panel.block]]\nid = \"{id}\"\ncourse = 1\ncorners = [[{x}, {y}], [{r}, {y}], [{r}, 0.9], [{m}, 1], [{x}, 0.9]]\n",
+            r = x + 0.5,
+            m = x + 0.25
+        )
+    };
+    let wall = format!(
+        "model = \"planar\"\n[[panel]]\nbond = \"explicit\"\n\
+         brick = {{ length = 0.5, height = 0.5, thickness = 0.5, specific_weight = 20e3 }}\nmortar = {{ bed = 0, head = 0 }}\n{}{}{}\
+         [joint]\nbed = {{ law = \"rigid\" }}\nhead = {{ law = \"rigid\" }}\n\
+         friction = {{ law = \"coulomb\", static = 0.7, dynamic = 0.7, on = \"all\" }}\n[motion]\nduration = 0.6\nbase = \"none\"\n",
+        stone("left", 0.0, 0.0),
+        stone("middle", 0.5, 0.6),
+        stone("right", 1.0, 0.0)
+    );
+    desk.put("hangs.toml", wall);
+    let said = |line: &str, status: i32| {
+        let output = desk.concio(line).assert().code(status).get_output().clone();
+        [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned()).concat()
+    };
+    assert!(said("check hangs.toml", 0).contains("does not stand"));
+    assert!(said("run hangs.toml --out out", 0).contains("block middle had fallen"));
+    let limit = said("limit hangs.toml --out limits", 0);
+    assert!(limit.contains("λ does not hold") && limit.contains("falls under its own loads"), "{limit}");
+    assert_eq!(desk.json("limits/limit.json")["falls_by_itself"], true);
+    desk.put("block.toml", block(0.7, "").replace("shear", "planar"));
+    let limit = said("limit block.toml --out stands", 0);
+    assert!(
+        !limit.contains("λ does not hold") && desk.json("stands/limit.json")["falls_by_itself"] == false,
+        "{limit}"
+    );
+}

@@ -1,13 +1,12 @@
-//! The end of a solution: Newton's method on (P2) and (P3) as they are, from an iterate of the interior point method, or from what was borne before.
+//! The end of a solution: Newton's method on (P4) as it is, from an iterate of the interior point method, or from what was borne before.
 //!
 //! Near the solution it is known of nearly every bound whether it holds. With that taken for granted, the laws are linear; what then pulls at a
 //! bound lets go, what passes one is held, and the next iterate solves again. A bound that neither holds nor is far away, as where a joint
-//! is about to slide, costs the interior point method half a digit in each iteration, and here nothing. From afar this goes in circles, and
-//! rigid contacts, which share impulses out among them, hold more bounds than there are velocities.
+//! is about to slide, costs the interior point method half a digit in each iteration, and here nothing. From afar this goes in circles.
 
-use super::{Interior, Method, Whole};
+use super::{Interior, Method, Step, Whole};
 use crate::blocks::{Blocks, Digits, Triple};
-use crate::contact::{Contact, Effort, worse};
+use crate::contact::{Contact, Effort};
 
 /// What may be left where it begins, over the tolerance.
 pub(super) const NEAR: f64 = 1e4;
@@ -17,24 +16,26 @@ pub(super) const AGAIN: f64 = 0.1;
 /// a large wall what is left is that of one place, and rises there while the others settle.
 const MOST: usize = 12;
 const FREELY: usize = 3;
+/// The look from which on no more than one of so many contacts may do something else than in the last: where more do, hardly any is solved.
+const SETTLING: usize = 2;
+const SETTLED: usize = 10;
 /// What half of the digits may leave, over the tolerance, without another solution with the same factors.
-const ROUNDED: f64 = 1e-6;
+const ROUNDED: f64 = 0.1;
 
 impl Interior {
-    /// Solves a step to `tolerance` [m/s] from where it is, with the bounds at first that the last direction tells (`led`), and a matrix that changes
-    /// by differences if it `keeps` what it was. Where it does not
+    /// Solves a step from where it is, with the bounds at first that the last direction tells (`led`). Where it does not
     /// converge, `v` and the points are as they were, but not what a look makes of them, nor impulses with all digits of packs that have half.
     pub(super) fn finish(
         &mut self,
         matrix: &mut Blocks,
-        (mass, free): (&[Triple], &[Triple]),
+        &Step { bodies: (mass, free), survey, tolerance, .. }: &Step,
         contacts: &[Contact],
         v: &mut [Triple],
-        (tolerance, digits): (f64, Digits),
-        (led, keeps): (bool, bool),
+        digits: Digits,
+        led: bool,
     ) -> Effort {
         let mut effort = Effort::default();
-        let differs = digits == Digits::Half && keeps;
+        let differs = digits == Digits::Half && survey.yields();
         let mut refined = false;
         self.before.clear();
         self.before.extend_from_slice(v);
@@ -47,35 +48,27 @@ impl Interior {
                 0 => Method::AtBounds { led },
                 _ => Method::Onwards { whole: !differs },
             };
-            let Whole { residual: left, drawn, changed, .. } =
-                self.look((matrix, digits), (mass, free), contacts, v, method);
+            let Whole { residual: left, changed, .. } = self.look((matrix, digits), (mass, free), contacts, v, method);
             if left <= tolerance {
-                effort.residual = worse(left, drawn);
-                if drawn <= tolerance {
-                    let rough = digits == Digits::Half && effort.iterations > 0 && left > ROUNDED * tolerance;
-                    if rough && !refined && k < MOST {
-                        refined = true;
-                        last = f64::INFINITY;
-                        self.begin_right_side();
-                        effort.iterations += usize::from(!differs || changed > 0);
-                        matrix.factorise_and_solve(&mut self.step, &mut self.work);
-                        self.leap(v);
-                        continue;
-                    }
-                    self.plain.settle(v);
-                    self.usual.settle(contacts, v);
-                    self.limited.settle(contacts, v);
-                    effort.converged = true;
-                    return effort;
+                effort.residual = left;
+                let rough = digits == Digits::Half && effort.iterations > 0 && left > ROUNDED * tolerance;
+                if rough && !refined && k < MOST {
+                    refined = true;
+                    last = f64::INFINITY;
+                    self.begin_right_side();
+                    effort.iterations += usize::from(!differs || changed > 0);
+                    matrix.factorise_and_solve(&mut self.step, &mut self.work);
+                    self.leap(v);
+                    continue;
                 }
-                self.plain.anchor();
-                self.usual.anchor(contacts);
-                self.limited.anchor(contacts);
-                effort.rounds += 1;
-                last = f64::INFINITY;
-                continue;
+                self.plain.settle(v);
+                self.usual.settle(contacts, v);
+                self.limited.settle(contacts, v);
+                effort.converged = true;
+                return effort;
             }
-            let falls = k <= FREELY || left < last || changed < fewest;
+            let far = !led && k >= SETTLING && changed * SETTLED > contacts.len();
+            let falls = !far && (k <= FREELY || left < last || changed < fewest);
             if k > 0 {
                 fewest = fewest.min(changed);
             }
@@ -92,7 +85,7 @@ impl Interior {
         self.plain.restore();
         self.usual.restore();
         self.limited.restore();
-        effort
+        Effort { residual: f64::INFINITY, ..effort }
     }
 
     /// Goes all of the direction.

@@ -22,8 +22,8 @@ pub(super) struct Group<const N: usize> {
     second: Vec<[f64; N]>,
     /// Changes along the last direction.
     ways: Vec<Way<N>>,
-    /// Impulses, what they are drawn to and E, before an attempt to end.
-    before: Vec<[[f64; 2]; 3]>,
+    /// Impulses and E, before an attempt to end.
+    before: Vec<[[f64; 2]; 2]>,
 }
 
 impl<const N: usize> Default for Group<N> {
@@ -149,22 +149,14 @@ impl<const N: usize> Group<N> {
         }
     }
 
-    /// Draws rigid contacts to what they bear now.
-    pub fn anchor(&mut self, contacts: &[Contact]) {
-        for (point, which) in self.points.iter_mut().zip(&self.which) {
-            let contact = &contacts[*which as usize];
-            (0..2).filter(|k| !contact.compliant[*k]).for_each(|k| point.anchor[k] = point.p[k]);
-        }
-    }
-
     pub fn keep(&mut self) {
         self.before.clear();
-        self.before.extend(self.points.iter().map(|point| [point.p, point.anchor, point.soft]));
+        self.before.extend(self.points.iter().map(|point| [point.p, point.soft]));
     }
 
     pub fn restore(&mut self) {
         for (point, before) in self.points.iter_mut().zip(&self.before) {
-            [point.p, point.anchor, point.soft] = *before;
+            [point.p, point.soft] = *before;
         }
     }
 
@@ -222,7 +214,7 @@ impl<const N: usize> Point<N> {
         self.gauge(&laws, view, left);
     }
 
-    /// What it leaves of (P2) and (P3) at the velocity `u`, and what impulses do where the bounds hold that hold by impulses and velocities now,
+    /// What it leaves of (P4) at the velocity `u`, and what impulses do where the bounds hold that hold by impulses and velocities now,
     /// or by the last direction.
     #[inline(always)]
     fn choose(

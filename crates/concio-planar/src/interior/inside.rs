@@ -39,7 +39,6 @@ pub(super) struct Given<F> {
 /// What laws say that is seldom asked for, as in [`Laws`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rest {
-    pub firm: [Pack<f64>; 2],
     along: Pack<f64>,
 }
 
@@ -123,7 +122,7 @@ impl Given<f64> {
             bias: laws.map(|laws| laws.bias),
             arms,
         };
-        (given, Rest { firm: from_fn(|k| laws.map(|laws| laws.firm[k])), along: laws.map(|laws| laws.along) })
+        (given, Rest { along: laws.map(|laws| laws.along) })
     }
 
     /// With half of the digits.
@@ -160,7 +159,7 @@ impl<F: Element> Given<F> {
         }
     }
 
-    /// Without the rest nothing is rigid, and what moves along is not known.
+    /// Without the rest what moves along is not known.
     #[inline(always)]
     pub fn laws<S: Simd>(&self, rest: Option<&Rest>, (simd, part): (S, usize)) -> Laws<Lanes<S, F>> {
         let zero = Lanes::all(simd, 0.0);
@@ -171,7 +170,6 @@ impl<F: Element> Given<F> {
             beside: zero,
             pressure: [zero, zero.alike(f64::INFINITY)],
             bias: Lanes::of(simd, &self.bias, part),
-            firm: if let Some(rest) = rest { [of(&rest.firm[0]), of(&rest.firm[1])] } else { [zero; 2] },
             along: if let Some(rest) = rest { of(&rest.along) } else { zero },
             tight: zero.alike(1.0),
         }
@@ -526,11 +524,9 @@ impl Left {
     #[inline(always)]
     pub fn join<S: Simd, F: Element>(&mut self, lanes: &[Left<Lanes<S, F>>; PACK]) {
         let residual = each(&lanes.map(|l| l.residual));
-        let drawn = each(&lanes.map(|l| l.drawn));
         let products = each(&lanes.map(|l| l.products));
         for k in 0..PACK {
             self.residual = self.residual.worse(residual[k]);
-            self.drawn = self.drawn.larger(drawn[k]);
             self.products += products[k];
         }
     }

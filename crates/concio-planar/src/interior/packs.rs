@@ -22,14 +22,12 @@ pub(super) struct Packs {
     rough: Inside<f32>,
     fine: Inside<f64>,
     rests: Vec<Rest>,
-    /// Whether any is rigid across or along.
-    any_firm: bool,
     /// What contacts do by Newton's method, and what impulses change by where velocities stay.
     does: Vec<(Does, [Pack<f64>; 2])>,
     /// Whether a direction of Newton's method has yet to be gone.
     leaps: bool,
-    /// Impulses and what they are drawn to, before an attempt to end.
-    before: Vec<[[Pack<f64>; 2]; 2]>,
+    /// Impulses before an attempt to end.
+    before: Vec<[Pack<f64>; 2]>,
 }
 
 impl Default for Packs {
@@ -41,7 +39,6 @@ impl Default for Packs {
             rough: Inside::default(),
             fine: Inside::default(),
             rests: Vec::new(),
-            any_firm: false,
             does: Vec::new(),
             leaps: false,
             before: Vec::new(),
@@ -65,7 +62,6 @@ impl Packs {
         self.rough.clear();
         self.fine.clear();
         self.rests.clear();
-        self.any_firm = false;
     }
 
     /// Takes a pack of plain contacts of these numbers; what each is taken to bear.
@@ -77,11 +73,9 @@ impl Packs {
         self.joints.bodies.push(bodies);
         self.joints.slots.push(own.map(|contact| contact.slot));
         let (given, rest) = Given::of(own, &points, arms);
-        self.any_firm |= rest.firm != [[0.0; PACK]; 2];
         self.rests.push(rest);
         let p = [0, 1].map(|k| points.map(|point| point.p[k]));
         if self.digits == Digits::Half {
-            debug_assert!(!self.any_firm, "half of the digits are for springs alone");
             self.rough.add(given.brief(), p.map(brief));
         }
         self.fine.add(given, p);
@@ -202,30 +196,19 @@ impl Packs {
         self.leaps = true;
     }
 
-    /// Draws rigid contacts to what they bear now; none is where half of the digits do.
-    pub fn anchor(&mut self) {
-        for ((given, p), rest) in self.fine.given.iter_mut().zip(&self.fine.p).zip(&self.rests) {
-            for (k, lane) in (0..2).flat_map(|k| (0..PACK).map(move |lane| (k, lane))) {
-                if rest.firm[k][lane] > 0.0 {
-                    given.anchor[k][lane] = p[k][lane];
-                }
-            }
-        }
-    }
-
     /// What goes back to half of the digits need not be kept: they stay.
     pub fn keep(&mut self) {
         self.before.clear();
         if self.digits == Digits::Half {
             return;
         }
-        self.before.extend(self.fine.given.iter().zip(&self.fine.p).map(|(given, p)| [*p, given.anchor]));
+        self.before.extend_from_slice(&self.fine.p);
     }
 
     pub fn restore(&mut self) {
         self.leaps = false;
-        for ((given, p), before) in self.fine.given.iter_mut().zip(&mut self.fine.p).zip(&self.before) {
-            [*p, given.anchor] = *before;
+        for (p, before) in self.fine.p.iter_mut().zip(&self.before) {
+            *p = *before;
         }
     }
 
@@ -258,10 +241,10 @@ impl WithSimd for Look<'_, '_> {
         let Look { packs, v, gone, method, sums } = self;
         match method {
             Method::Inside { share } => {
-                let Packs { joints, rough, fine, rests, any_firm, .. } = packs;
+                let Packs { joints, rough, fine, .. } = packs;
                 match packs.digits {
                     Digits::Half => rough.look(simd, joints, v, share, None, sums),
-                    Digits::All => fine.look(simd, joints, v, share, any_firm.then_some(&rests[..]), sums),
+                    Digits::All => fine.look(simd, joints, v, share, None, sums),
                 }
             }
             Method::AtBounds { led } => packs.choose(simd, (v, gone), (led, true, true), sums),

@@ -1,9 +1,9 @@
 //! The laws of a contact about an iterate: of one, or of as many side by side as a register holds.
 
 use super::lanes::Real;
-use super::{FLOOR, GRIP, SHARE};
+use super::{GRIP, SHARE};
 use crate::contact::{Contact, Status};
-use crate::interior::{CRACK, FIRM};
+use crate::interior::CRACK;
 
 /// How the multiplier of each bound stands in (P5a), and in which direction: 0 across, 1 along.
 const SENSE: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
@@ -18,7 +18,7 @@ pub(super) struct Point<const N: usize, T = f64> {
     /// How far each bound is away, and its multiplier, 1 and 0 where there is no such bound: friction forth and back, least and most p_n.
     pub s: [T; N],
     pub lambda: [T; N],
-    /// Impulses, and those that it is drawn to, p⁰.
+    /// Impulses, and those of the laws where nothing moves, p⁰.
     pub p: [T; 2],
     pub anchor: [T; 2],
     /// Diagonal of E, 0 where the impulse does not change.
@@ -56,8 +56,6 @@ pub(super) struct Laws<T = f64> {
     pub pressure: [T; 2],
     /// b [m/s].
     pub bias: T,
-    /// 1 where E is that of a rigid contact, 0 of a spring.
-    pub firm: [T; 2],
     /// Mass that a push along moves [kg].
     pub along: T,
     /// By how many times nearer than others the law along is to be met.
@@ -73,7 +71,6 @@ impl Laws {
             beside: contact.spring[0].at(u[0]),
             pressure: contact.pressure,
             bias: contact.bias,
-            firm: contact.compliant.map(|c| if c { 0.0 } else { 1.0 }),
             along: contact.moved[1],
             tight: contact.tight,
         }
@@ -137,8 +134,6 @@ impl<const N: usize, T: Copy> Way<N, T> {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Left<T = f64> {
     pub residual: T,
-    /// Largest E (p − p⁰) of a rigid contact.
-    pub drawn: T,
     /// Sum of the products λ s.
     pub products: T,
 }
@@ -146,7 +141,7 @@ pub(super) struct Left<T = f64> {
 impl<T: Real> Left<T> {
     #[inline(always)]
     pub fn none(zero: T) -> Self {
-        Left { residual: zero, drawn: zero, products: zero }
+        Left { residual: zero, products: zero }
     }
 }
 
@@ -190,18 +185,18 @@ impl<T: Real> Course<T> {
 
 /// E of a contact across or along.
 pub(super) fn soft(contact: &Contact, k: usize) -> f64 {
-    1.0 / (contact.law[k].rho * if contact.compliant[k] { 1.0 } else { FIRM })
+    1.0 / contact.law[k].rho
 }
 
 /// Whether friction follows from pressure alone.
 pub(super) fn is_dry(contact: &Contact) -> bool {
     let alone = contact.pressure[0] == 0.0 && contact.hold == 0.0 && contact.spring[0] == Default::default();
-    alone && contact.friction > 0.0 && !is_fixed(contact) && contact.moved[1].is_finite()
+    alone && contact.friction > 0.0 && !is_fixed(contact)
 }
 
 /// Whether what presses stays whatever moves.
 fn is_fixed(contact: &Contact) -> bool {
-    contact.compliant[0] && contact.law[0].rho == 0.0
+    contact.law[0].rho == 0.0
 }
 
 /// The bounds that there are, of four.
@@ -248,7 +243,7 @@ impl<const N: usize, T: Real> Point<N, T> {
     pub fn enter(&mut self, on: &[bool; N], laws: &Laws<T>, u: [T; 2], scale: f64) {
         let zero = self.mass.alike(0.0);
         let half = zero.alike(0.5);
-        let floor = zero.alike(FLOOR * scale) * self.mass + zero.alike(SHARE) * self.p[0].size();
+        let floor = zero.alike(scale) * self.mass + zero.alike(SHARE) * self.p[0].size();
         let [least, most] = laws.pressure;
         let inside = floor.smaller(half * (most - least));
         if on[2] {
@@ -265,7 +260,7 @@ impl<const N: usize, T: Real> Point<N, T> {
             (self.s[i], self.lambda[i]) = (zero.alike(ABSENT.0), zero.alike(ABSENT.1));
             if on[i] {
                 self.s[i] = far[i].larger(floor);
-                let least = zero.alike(CRACK * FLOOR * scale) * floor / self.s[i];
+                let least = zero.alike(CRACK * scale) * floor / self.s[i];
                 self.lambda[i] = (zero.alike(SENSE[i]) * pulls[DIRECTION[i]]).larger(least);
             }
         }
@@ -332,7 +327,6 @@ impl<const N: usize, T: Real> Point<N, T> {
         for k in 0..2 {
             let off = view.off[k].size();
             left.residual = left.residual.worse(if k == 1 { off * laws.tight } else { off });
-            left.drawn = left.drawn.larger(laws.firm[k] * self.shift(k).size());
         }
     }
 
@@ -431,7 +425,7 @@ impl<const N: usize, T: Real> Point<N, T> {
         led
     }
 
-    /// What it leaves of (P2) at the velocity `u_n`, and what the impulse across does where the bound holds that holds by it and the
+    /// What it leaves of (P4) across at the velocity `u_n`, and what the impulse across does where the bound holds that holds by it and the
     /// velocity now, or by the last direction.
     #[inline(always)]
     pub fn choose_across(
@@ -456,10 +450,9 @@ impl<const N: usize, T: Real> Point<N, T> {
         view.response[0] = T::pick(lets_go, zero, T::pick(crushes, zero, stiffness));
         let by_law = -off * stiffness;
         view.right[0] = T::pick(lets_go, least - self.p[0], T::pick(crushes, most - self.p[0], by_law));
-        left.drawn = left.drawn.larger(laws.firm[0] * self.shift(0).size());
     }
 
-    /// The same of (P3) and the impulse along, after [`Point::choose_across`]; `mu` is that of a contact that is pressed.
+    /// The same of (P4) along and the impulse there, after [`Point::choose_across`]; `mu` is that of a contact that is pressed.
     #[inline(always)]
     pub fn choose_along(
         &self,
@@ -473,9 +466,11 @@ impl<const N: usize, T: Real> Point<N, T> {
         let pressed = self.p[0] + laws.beside;
         let bound = (mu * pressed).larger(zero) + laws.hold;
         let off = u_t + self.shift(1);
-        let tends = self.p[1] - laws.along * off;
-        left.residual =
-            left.residual.worse((self.p[1] - tends.between(-bound, bound)).size() * laws.tight / laws.along);
+        let by = |mass: T| self.p[1] - mass * off;
+        let wanted = by(laws.along).between(-bound, bound);
+        left.residual = left.residual.worse((self.p[1] - wanted).size() * laws.tight / laws.along);
+        // By more than the law answers what slid one way would slide the other, and never stick.
+        let tends = by(laws.along.smaller(zero.alike(1.0) / self.soft[1]));
         // Where both are led to, it goes where it tends to.
         let ([forth, back], both) = match led {
             Some(led) => ([led[0], led[1]], zero.below(tends)),
@@ -487,7 +482,6 @@ impl<const N: usize, T: Real> Point<N, T> {
         view.response[1] = slides.of([zero, zero], stiffness);
         view.response[2] = slides.of([-mu, mu], zero);
         view.right[1] = slides.of([grip - self.p[1] + tilt, -grip - self.p[1] - tilt], -off * stiffness);
-        left.drawn = left.drawn.larger(laws.firm[1] * self.shift(1).size());
     }
 }
 
@@ -499,7 +493,7 @@ impl<const N: usize> Point<N> {
         let p_n = if fixed { contact.law[0].offset } else { contact.impulse[0] }.clamp(least, most);
         let bound = contact.bound(p_n, u[0]);
         let p = [p_n, contact.impulse[1].clamp(-bound, bound)];
-        let rubs = (contact.friction > 0.0 || contact.hold > 0.0) && contact.moved[1].is_finite();
+        let rubs = contact.friction > 0.0 || contact.hold > 0.0;
         let moves = [!fixed, rubs && (bound > 0.0 || is_dry(contact))];
         let bounds = [moves[1], moves[1], !fixed && least.is_finite(), !fixed && most.is_finite()];
         let point = Point {
@@ -509,7 +503,7 @@ impl<const N: usize> Point<N> {
             mass: contact.moved[0],
             rho: contact.spring[0].rho,
             p,
-            anchor: [0, 1].map(|k| if contact.compliant[k] { contact.law[k].offset } else { p[k] }),
+            anchor: contact.law.map(|law| law.offset),
         };
         (point, Kind { moves, rubs, dry: is_dry(contact), on: std::array::from_fn(|i| bounds[i]) })
     }
@@ -524,11 +518,7 @@ impl<const N: usize> Point<N> {
     #[inline(always)]
     fn tends(&self, contact: &Contact, u_n: f64) -> f64 {
         let [least, most] = contact.pressure;
-        let free = match contact.compliant[0] {
-            true => contact.law[0].at(u_n + contact.bias),
-            false => self.p[0] - self.mass * (u_n + contact.bias),
-        };
-        free.clamp(least, most)
+        contact.law[0].at(u_n + contact.bias).clamp(least, most)
     }
 
     /// Friction that may bear nothing is left out until it may bear something again.
@@ -546,7 +536,7 @@ impl<const N: usize> Point<N> {
                 self.lambda[i] = GRIP * bound / contact.moved[1];
                 (way.s[i], way.lambda[i]) = (0.0, 0.0);
             }
-            self.anchor[1] = if contact.compliant[1] { contact.law[1].offset } else { 0.0 };
+            self.anchor[1] = contact.law[1].offset;
             self.soft[1] = soft(contact, 1);
         }
         (kind.moves[1], kind.on[0], kind.on[1]) = (grips, grips, grips);
@@ -569,10 +559,5 @@ impl<const N: usize> Point<N> {
             [false, true] => ([p_n, p_t], Status::Back),
             _ => ([p_n, p_t], Status::Stick),
         };
-        for k in 0..2 {
-            if !contact.compliant[k] {
-                contact.law[k].offset = contact.impulse[k];
-            }
-        }
     }
 }

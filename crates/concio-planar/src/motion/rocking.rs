@@ -2,21 +2,22 @@
 //!
 //! Where no end rebounds and none slides, an impact leaves (i + cos 2α)/(1 + i) of the angular velocity of a block (Housner
 //! 1963), because the push acts at the end that lands. Where less is known to be left, the end that opens is held back: with
-//! ℓ the approach that the laws take from the landing end in a step, and r ≥ 0 the velocity with which it rebounds,
+//! ℓ the approach that the laws take from the landing end in a step, u_n^ℓ the parting velocity there and b ≥ 0 what its gap allows,
 //!
-//! (P8)  u_n ≤ max(u_n⁻, 0) + η ℓ + r
+//! (P8)  u_n − u_n^ℓ ≤ max(u_n⁻, 0) + η ℓ + b
 //!
-//! at the other one, which bears in the impact the pull that this takes, against the motion. For a block on its base η is what
+//! at the other one, which is pulled in the impact as the end that lands is pushed, against the motion. For a block on its base η is what
 //! is left of its angular velocity, unless the impact itself leaves less; more it cannot leave.
 
 use super::Motion;
 use crate::G;
 use crate::contact::Contact;
 
-/// Approach of an end that stands, over the velocity that gravity gives in a step: far above what contact may be violated by.
+/// Approach of an end that stands, over the velocity that gravity gives in a step or with which the other end parts: above what contact may be
+/// violated by, and ten times what stones yield by under their own weight.
 const STANDING: f64 = 1e-3;
 
-/// What holds an end of a joint back during one step.
+/// What holds the turn of a joint back during one step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hold {
     /// Its contact among the others.
@@ -63,19 +64,23 @@ impl Motion {
             if u < 0.0 { -u - self.contacts[k].bias.max(0.0) } else { 0.0 }
         };
         let lost = approach(lands);
-        let slow = STANDING * G * h;
         let end = &self.owners[opens];
         let parting = end.start.velocity[0].max(0.0);
+        let slow = STANDING * parting.max(G * h);
         let near = end.start.gap <= h * (parting - self.owners[lands].start.velocity[0]);
         if !(lost > slow && approach(opens) <= slow && near) {
             return None;
         }
-        let of = &self.contacts[opens];
-        let line = of.rows.normal.map(|row| row.map(|x| 0.0 - x));
-        let mut contact = Contact::along((of.rows.first(), of.rows.second()), of.slot, line, &self.inverse, 0.0);
-        contact.drift[0] = -of.drift[0];
-        contact.bias = parting + rocking * lost - self.contacts[lands].bias.min(0.0);
-        Some((contact, Hold { opens, before: -end.start.velocity[0], lever: -end.lever[0] }))
+        // By how much faster the end that lands parts than the one that opens.
+        let [to, from] = [&self.contacts[lands], &self.contacts[opens]];
+        let line = [0, 1].map(|body| std::array::from_fn(|k| to.rows.normal[body][k] - from.rows.normal[body][k]));
+        let mut contact = Contact::along((from.rows.first(), from.rows.second()), from.slot, line, &self.inverse, 0.0);
+        contact.law[0].rho = self.setting.firm(h) * contact.moved[0];
+        contact.drift[0] = to.drift[0] - from.drift[0];
+        contact.bias = parting + rocking * lost + to.bias.max(0.0);
+        let [to, from] = [&self.owners[lands], end];
+        let before = to.start.velocity[0] - from.start.velocity[0];
+        Some((contact, Hold { opens, before, lever: to.lever[0] - from.lever[0] }))
     }
 
     /// Accounts for what holds take, and tells it of their joints.
@@ -88,7 +93,6 @@ impl Motion {
             self.pull -= contact.impulse[0] * hold.lever / h;
             if let Some(link) = self.pairs[self.owners[hold.opens].pair].link {
                 self.seen[link].taken += taken;
-                self.seen[link].pressure -= contact.impulse[0] / h;
             }
         }
     }

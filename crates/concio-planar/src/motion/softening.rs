@@ -47,7 +47,7 @@ impl Motion {
     pub(super) fn begin_softening(&mut self, first: usize) {
         let held = self.owners[first..].iter().take_while(|owner| owner.part == Part::Held).count();
         let own = |k: usize| self.contacts[first + k].spring;
-        if held == HELD && self.contacts[first].compliant[0] {
+        if held == HELD && self.laws.of(self.pairs[self.owners[first].pair].link).is_compliant() {
             let own = [own(0), own(1)];
             self.softens.push(Softens { contact: first, own, next: own, borne: 0.0, breaks_at: None });
         }

@@ -62,8 +62,14 @@ impl Motion {
         contact.drift[0] = lever * held[1];
         let closing = on_a.velocity + on_b.velocity + lever * held[0];
         let (_, length) = between(ends_of(tie, tie.a.map(|a| &self.places[a]), &self.places[tie.b]))?;
-        let start =
-            law.begin(&strain.point, 1.0, h, self.setting.still, (reach - length, [closing, 0.0]), &mut contact);
+        let start = law.begin(
+            &strain.point,
+            1.0,
+            h,
+            (self.setting.still, self.setting.firm(h)),
+            (reach - length, [closing, 0.0]),
+            &mut contact,
+        );
         Some((contact, Pull { rod: number, start, line, lever }))
     }
 

@@ -14,8 +14,8 @@ const NEAR: f64 = 1e-6;
 const RIGID: [f64; 2] = [1e6, 1e9];
 /// The part of a vibration's energy in rigid contacts above which they are not stiff enough, or nothing else swings.
 const ALL: f64 = 1e-3;
-/// Part of what the contact that bears most does up to which one bears nothing but rounding.
-const NOTHING: f64 = 1e-9;
+/// Share of the largest impulse below which a contact counts as bearing nothing: rounding, and what a solution leaves.
+const NOTHING: f64 = 1e-7;
 
 /// A small vibration.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use concio_planar::G;
 use concio_planar::body::Body;
 use concio_planar::joint::{Bond, Friction, Law, Normal, Shear};
-use concio_planar::motion::{Forcing, Link, Method, Motion, Setting, System};
+use concio_planar::motion::{Forcing, Link, Motion, Setting, System};
 use concio_planar::shape::Place;
 use concio_verified::{agrees, farthest};
 
@@ -69,11 +69,12 @@ fn a_wall_slides_as_newmark_says() {
         let counters = &motion.counters;
         assert_eq!(counters.unsolved, 0, "{h}");
         assert!(counters.iterations <= most * counters.steps, "{h}: {counters:?}");
-        // Blocks move as one.
+        // Blocks move as one, but for what is left of a micrometre at each of a dozen slides.
         let moved = |k: usize| motion.places[k].centre[0] - motion.places[0].centre[0];
         let start = wall(10, 10);
         let apart = |k: usize| (moved(k) - start[k].centre[0] + start[0].centre[0]).abs();
-        assert!((0..start.len()).map(apart).fold(0.0, f64::max) < 1e-5);
+        let most = (0..start.len()).map(apart).fold(0.0, f64::max);
+        assert!(most < 2e-5, "{h}: {most:e}");
     }
 }
 
@@ -98,20 +99,38 @@ fn newmark(a: f64, mu: f64, f: f64, end: f64) -> f64 {
 #[test]
 fn below_friction_nothing_moves() {
     let (peak, motion) = shaken(&wall(10, 10), 0.3 * G, 0.6, Setting::new(1e-3));
-    assert!(peak < 1e-10, "{peak:e}");
+    // Firm contacts yield by nanometres.
+    assert!(peak < 1e-8, "{peak:e}");
     assert_eq!(motion.counters.unsolved, 0);
     let start = wall(10, 10);
     let sunk = motion.places.iter().zip(&start).map(|(p, b)| (p.centre[1] - b.centre[1]).abs()).fold(0.0, f64::max);
-    assert!(sunk < 1e-9, "{sunk:e}");
+    assert!(sunk < 1e-7, "{sunk:e}");
 }
 
+/// A minute at rest moves nothing: what is firm bears what it did.
 #[test]
-fn both_methods_find_the_same_motion() {
-    let setting = Setting { tolerance: 1e-9, ..Setting::new(1e-3) };
-    let seidel = Setting { method: Method::GaussSeidel(20_000), ..setting.clone() };
-    let [a, b] = [setting, seidel].map(|s| shaken(&wall(3, 3), 0.8 * G, 0.6, s));
-    assert!((a.0 / b.0 - 1.0).abs() < 1e-5, "{} {}", a.0, b.0);
-    assert!(a.1.counters.iterations * 5 < b.1.counters.iterations);
+fn what_rests_does_not_creep() {
+    let mut motion = Motion::new(&System::dry(&wall(6, 5), 0.6), Setting::new(1e-2));
+    assert!(motion.stand(1e-12, 4000));
+    let start = motion.places.clone();
+    (0..6000).for_each(|_| motion.step(Forcing::default()));
+    let moved =
+        motion.places.iter().zip(&start).map(|(a, b)| (a.centre[0] - b.centre[0]).hypot(a.centre[1] - b.centre[1]));
+    let most = moved.fold(0.0, f64::max);
+    assert!(most < 1e-12, "{most:e}");
+    assert_eq!(motion.counters.unsolved, 0);
+}
+
+/// A stone between two others that nothing presses together falls as if it were alone: rigid joints could hold it by any pair of forces.
+#[test]
+fn nothing_hangs_in_friction_that_nothing_presses() {
+    let bodies = [0.0, 0.4, 0.8].map(|x| brick("stone", [x, x + 0.4], [1.0, 1.2], 2e4));
+    let mut system = System::dry(&bodies, 0.6);
+    (system.held[0], system.held[2]) = ([true; 3], [true; 3]);
+    let mut motion = Motion::new(&system, Setting::new(1e-3));
+    (0..200).for_each(|_| motion.step(Forcing::default()));
+    let fallen = 1.1 - motion.places[1].centre[1];
+    assert!((fallen / (0.5 * G * 0.2 * 0.2) - 1.0).abs() < 0.01, "{fallen}");
 }
 
 #[test]

@@ -253,7 +253,8 @@ fn a_block_lifts_above_its_slenderness() {
             }
             most
         };
-        assert!(turned(0.9999) < 1e-12, "{:e}", turned(0.9999));
+        // By what its edge yields under all of the weight.
+        assert!(turned(0.9999) < 2e-8, "{:e}", turned(0.9999));
         assert!(turned(1.0001) > 1e-6, "{:e}", turned(1.0001));
     }
 }

@@ -93,7 +93,7 @@ fn given_back(model: &Model, outcome: &Outcome) -> Option<String> {
     (back > GIVEN_BACK * most).then(|| {
         format!(
             "contacts gave back {:.1} % of the largest work, which nothing had put into them: do not use the result, lower \
-             solver.step",
+             solver.step, or take `rigid` for joints as stiff as stones",
             100.0 * back / most
         )
     })
@@ -105,7 +105,7 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
     (unsolved as f64 > UNSOLVED * steps as f64).then(|| {
         format!(
             "the contact of {unsolved} of {steps} steps was left unsolved: blocks may overlap and forces may be wrong there; contact velocities \
-             are off by up to {:.1e} m/s; where all joints are rigid, give them a stiffness, else lower solver.step",
+             are off by up to {:.1e} m/s; lower solver.step",
             outcome.totals.contact_residual
         )
     })

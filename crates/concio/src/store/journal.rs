@@ -27,7 +27,7 @@ mod rows;
 
 /// First bytes of both files; the digit is the version of their format.
 const JOURNAL_MAGIC: [u8; 8] = *b"concioJ1";
-const CHECKPOINT_MAGIC: [u8; 8] = *b"concioC8";
+const CHECKPOINT_MAGIC: [u8; 8] = *b"concioC9";
 const HEADER: u8 = b'H';
 const ROWS: u8 = b'R';
 const STATE: u8 = b'S';
