@@ -1,0 +1,1 @@
+//! The equivalent continuum of a wall.

@@ -1,0 +1,1 @@
+//! Mechanisms out of the plane of a wall.
