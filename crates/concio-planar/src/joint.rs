@@ -503,7 +503,7 @@ impl Law {
         // ρ of what has no spring, both ways by the mass that moves across, or a part of that whose weight presses it [kg]: along, stiffer ones take more
         // iterations.
         let pressed = point.force[0].max(-(both + press) * (gap + point.crushed));
-        let resists = firm * contact.moved[0].max(LOADED * pressed / G);
+        let resists = firm * contact.moved[0].max(if still { 1.0 } else { LOADED } * pressed / G);
         match self.normal {
             Normal::Rigid { restitution, .. } => {
                 contact.law[0] = Linear { offset: h * point.force[0], rho: resists };

@@ -14,10 +14,9 @@ pub(super) const NEAR: f64 = 1e4;
 pub(super) const AGAIN: f64 = 0.1;
 /// Iterations at most, and those after which each has to leave less than the last, or let fewer contacts do something else than all before: in
 /// a large wall what is left is that of one place, and rises there while the others settle.
-const MOST: usize = 12;
+pub(super) const MOST: usize = 12;
 const FREELY: usize = 3;
-/// The look from which on no more than one of so many contacts may do something else than in the last: where more do, hardly any is solved.
-const SETTLING: usize = 2;
+/// No more than one of so many contacts may do something else than in the last look once patience is over: where more do, hardly any is solved.
 const SETTLED: usize = 10;
 /// What half of the digits may leave, over the tolerance, without another solution with the same factors.
 const ROUNDED: f64 = 0.1;
@@ -32,7 +31,7 @@ impl Interior {
         contacts: &[Contact],
         v: &mut [Triple],
         digits: Digits,
-        led: bool,
+        (led, patience): (bool, usize),
     ) -> Effort {
         let mut effort = Effort::default();
         let differs = digits == Digits::Half && survey.yields();
@@ -67,7 +66,7 @@ impl Interior {
                 effort.converged = true;
                 return effort;
             }
-            let far = !led && k >= SETTLING && changed * SETTLED > contacts.len();
+            let far = k >= patience && changed * SETTLED > contacts.len();
             let falls = !far && (k <= FREELY || left < last || changed < fewest);
             if k > 0 {
                 fewest = fewest.min(changed);
