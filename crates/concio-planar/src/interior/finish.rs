@@ -5,7 +5,7 @@
 //! is about to slide, costs the interior point method half a digit in each iteration, and here nothing. From afar this goes in circles.
 
 use super::{Interior, Method, Step, Whole};
-use crate::blocks::{Blocks, Digits, Triple};
+use crate::blocks::{Blocks, Triple};
 use crate::contact::{Contact, Effort};
 
 /// What may be left where it begins, over the tolerance.
@@ -18,24 +18,19 @@ pub(super) const MOST: usize = 12;
 const FREELY: usize = 3;
 /// No more than one of so many contacts may do something else than in the last look once patience is over: where more do, hardly any is solved.
 const SETTLED: usize = 10;
-/// What half of the digits may leave, over the tolerance, without another solution with the same factors.
-const ROUNDED: f64 = 0.1;
 
 impl Interior {
     /// Solves a step from where it is, with the bounds at first that the last direction tells (`led`). Where it does not
-    /// converge, `v` and the points are as they were, but not what a look makes of them, nor impulses with all digits of packs that have half.
+    /// converge, `v` and the points are as they were.
     pub(super) fn finish(
         &mut self,
         matrix: &mut Blocks,
-        &Step { bodies: (mass, free), survey, tolerance, .. }: &Step,
+        &Step { bodies: (mass, free), tolerance, .. }: &Step,
         contacts: &[Contact],
         v: &mut [Triple],
-        digits: Digits,
         (led, patience): (bool, usize),
     ) -> Effort {
         let mut effort = Effort::default();
-        let differs = digits == Digits::Half && survey.yields();
-        let mut refined = false;
         self.before.clear();
         self.before.extend_from_slice(v);
         self.plain.keep();
@@ -45,21 +40,11 @@ impl Interior {
         for k in 0..=MOST {
             let method = match k {
                 0 => Method::AtBounds { led },
-                _ => Method::Onwards { whole: !differs },
+                _ => Method::Onwards,
             };
-            let Whole { residual: left, changed, .. } = self.look((matrix, digits), (mass, free), contacts, v, method);
+            let Whole { residual: left, changed, .. } = self.look(matrix, (mass, free), contacts, v, method);
             if left <= tolerance {
                 effort.residual = left;
-                let rough = digits == Digits::Half && effort.iterations > 0 && left > ROUNDED * tolerance;
-                if rough && !refined && k < MOST {
-                    refined = true;
-                    last = f64::INFINITY;
-                    self.begin_right_side();
-                    effort.iterations += usize::from(!differs || changed > 0);
-                    matrix.factorise_and_solve(&mut self.step, &mut self.work);
-                    self.leap(v);
-                    continue;
-                }
                 self.plain.settle(v);
                 self.usual.settle(contacts, v);
                 self.limited.settle(contacts, v);

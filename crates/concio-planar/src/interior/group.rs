@@ -94,7 +94,7 @@ impl<const N: usize> Group<N> {
                     view.right = point.aim(view, 0.0, &[0.0; N]);
                 }
                 Method::AtBounds { led } => point.choose(kind, contact, u, led.then_some(&*way), view, &mut sums.left),
-                Method::Onwards { .. } => point.choose(kind, contact, u, None, view, &mut sums.left),
+                Method::Onwards => point.choose(kind, contact, u, None, view, &mut sums.left),
             }
             contact.push(sums.residual, contact.whole(point.p, u));
             contact.rows.push(sums.step, view.right);

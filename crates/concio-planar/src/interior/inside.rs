@@ -1,10 +1,10 @@
-//! Interior points of contacts in packs, with all digits or with half of them.
+//! Interior points of contacts in packs.
 
 use std::array::from_fn;
 
 use pulp::Simd;
 
-use super::lanes::{Element, Lanes, PACK, Pack, Real, brief, wide};
+use super::lanes::{Lanes, PACK, Pack, Real};
 use super::lever::{ALL, Arms, Bodies, Joined, PUSHES};
 use super::point::{Course, Kind, Laws, Left, Point, View, Way};
 use super::{INSIDE, Sums};
@@ -21,59 +21,55 @@ pub(super) struct Joints {
     pub slots: Vec<[Option<Slot>; PACK]>,
 }
 
-/// What is small beside what it is added to, or soon to be, and has half of the digits whatever the rest has: a direction, and what is off. What rounding
-/// leaves of either is off in the next iteration, and 10⁻⁷ of it.
-type Brief = Pack<f32>;
-
 /// What stays of a pack during a solution: of each [`Point`] what does, what its laws say, and its arms.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Given<F> {
-    pub anchor: [Pack<F>; 2],
-    soft: [Pack<F>; 2],
-    mass: Pack<F>,
-    friction: Pack<F>,
-    bias: Pack<F>,
-    pub arms: Arms<Pack<F>>,
+pub(super) struct Given {
+    pub anchor: [Pack; 2],
+    soft: [Pack; 2],
+    mass: Pack,
+    friction: Pack,
+    bias: Pack,
+    pub arms: Arms<Pack>,
 }
 
 /// What laws say that is seldom asked for, as in [`Laws`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rest {
-    along: Pack<f64>,
+    along: Pack,
 }
 
 /// Distances from the bounds, and multipliers.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Bounds<F> {
-    s: [Pack<F>; N],
-    lambda: [Pack<F>; N],
+pub(super) struct Bounds {
+    s: [Pack; N],
+    lambda: [Pack; N],
 }
 
 /// What stays of a look for the directions from there; the rest is made again, which takes less time than to fetch it.
 #[derive(Debug, Clone, Copy)]
 struct Stray {
-    astray: [Brief; N],
-    off: [Brief; 2],
+    astray: [Pack; N],
+    off: [Pack; 2],
 }
 
 /// Packs of contacts. What is fetched and what is written in each go through them lies apart.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Inside<F> {
-    pub given: Vec<Given<F>>,
-    pub p: Vec<[Pack<F>; 2]>,
-    bounds: Vec<Bounds<F>>,
+pub(super) struct Inside {
+    pub given: Vec<Given>,
+    pub p: Vec<[Pack; 2]>,
+    bounds: Vec<Bounds>,
     /// By how much (P5) and (P5a) are off.
     strays: Vec<Stray>,
     /// Second-order part of the products.
-    second: Vec<[Brief; N]>,
+    second: Vec<[Pack; N]>,
     /// Changes along the last direction.
-    ways: Vec<Way<N, Brief>>,
+    ways: Vec<Way<N, Pack>>,
 }
 
 /// What contacts of a pack do by Newton's method, from which their response follows: across 1 where springs bear and 0 where nothing does, along
 /// 0 where they do, 1 where the contact slides forth and −1 back.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Does([Brief; 2]);
+pub(super) struct Does([Pack; 2]);
 
 impl Default for Does {
     fn default() -> Self {
@@ -84,35 +80,35 @@ impl Default for Does {
 impl Does {
     /// By a response, [`View::response`].
     #[inline(always)]
-    pub fn put<S: Simd, F: Element>(&mut self, [across, _, tilt]: [Lanes<S, F>; 3], part: usize) {
+    pub fn put<S: Simd>(&mut self, [across, _, tilt]: [Lanes<S>; 3], part: usize) {
         let (zero, one) = (across.alike(0.0), across.alike(1.0));
         let bears = Real::pick(zero.below(across), one, zero);
         let back = Real::pick(zero.below(tilt), -one, zero);
-        put_brief(&mut self.0, [bears, Real::pick(tilt.below(zero), one, back)], part);
+        put(&mut self.0, [bears, Real::pick(tilt.below(zero), one, back)], part);
     }
 
     #[inline(always)]
-    pub fn one(&self, k: usize) -> [f32; 2] {
+    pub fn one(&self, k: usize) -> [f64; 2] {
         self.0.map(|does| does[k])
     }
 
     /// That response of a point.
     #[inline(always)]
-    pub fn response<S: Simd, F: Element>(
+    pub fn response<S: Simd>(
         &self,
-        point: &Point<N, Lanes<S, F>>,
-        friction: Lanes<S, F>,
+        point: &Point<N, Lanes<S>>,
+        friction: Lanes<S>,
         (simd, part): (S, usize),
-    ) -> [Lanes<S, F>; 3] {
-        let [across, along] = widened(simd, &self.0, part);
+    ) -> [Lanes<S>; 3] {
+        let [across, along] = parts(simd, &self.0, part);
         let (zero, one) = (across.alike(0.0), across.alike(1.0));
         let sticks = Real::pick(zero.below(along.size()), zero, one / point.soft[1]);
         [across * (one / point.soft[0]), sticks, -along * friction]
     }
 }
 
-impl Given<f64> {
-    pub fn of(own: [&Contact; PACK], points: &[Point<N>; PACK], arms: Arms<Pack<f64>>) -> (Self, Rest) {
+impl Given {
+    pub fn of(own: [&Contact; PACK], points: &[Point<N>; PACK], arms: Arms<Pack>) -> (Self, Rest) {
         let laws = own.map(|contact| Laws::of(contact, [0.0; 2]));
         let given = Given {
             anchor: from_fn(|k| points.map(|point| point.anchor[k])),
@@ -125,28 +121,14 @@ impl Given<f64> {
         (given, Rest { along: laws.map(|laws| laws.along) })
     }
 
-    /// With half of the digits.
-    pub fn brief(&self) -> Given<f32> {
-        Given {
-            anchor: self.anchor.map(brief),
-            soft: self.soft.map(brief),
-            mass: brief(self.mass),
-            friction: brief(self.friction),
-            bias: brief(self.bias),
-            arms: self.arms.brief(),
-        }
-    }
-}
-
-impl<F: Element> Given<F> {
     /// Points of a part; without `bounds` where none is asked for.
     #[inline(always)]
     pub fn point<S: Simd>(
         &self,
-        p: &[Pack<F>; 2],
-        bounds: Option<&Bounds<F>>,
+        p: &[Pack; 2],
+        bounds: Option<&Bounds>,
         (simd, part): (S, usize),
-    ) -> Point<N, Lanes<S, F>> {
+    ) -> Point<N, Lanes<S>> {
         let zero = Lanes::all(simd, 0.0);
         Point {
             s: if let Some(bounds) = bounds { parts(simd, &bounds.s, part) } else { [zero; N] },
@@ -161,9 +143,9 @@ impl<F: Element> Given<F> {
 
     /// Without the rest what moves along is not known.
     #[inline(always)]
-    pub fn laws<S: Simd>(&self, rest: Option<&Rest>, (simd, part): (S, usize)) -> Laws<Lanes<S, F>> {
+    pub fn laws<S: Simd>(&self, rest: Option<&Rest>, (simd, part): (S, usize)) -> Laws<Lanes<S>> {
         let zero = Lanes::all(simd, 0.0);
-        let of = |pack: &Pack<f64>| Lanes::of(simd, &pack.map(F::of), part);
+        let of = |pack: &Pack| Lanes::of(simd, pack, part);
         Laws {
             friction: Lanes::of(simd, &self.friction, part),
             hold: zero,
@@ -176,9 +158,9 @@ impl<F: Element> Given<F> {
     }
 }
 
-impl<F: Element> Bounds<F> {
+impl Bounds {
     #[inline(always)]
-    fn put<S: Simd>(&mut self, of: &Point<N, Lanes<S, F>>, part: usize) {
+    fn put<S: Simd>(&mut self, of: &Point<N, Lanes<S>>, part: usize) {
         put(&mut self.s, of.s, part);
         put(&mut self.lambda, of.lambda, part);
     }
@@ -187,23 +169,23 @@ impl<F: Element> Bounds<F> {
 impl Stray {
     /// What the look made of a point.
     #[inline(always)]
-    fn view<S: Simd, F: Element>(
+    fn view<S: Simd>(
         &self,
-        point: &Point<N, Lanes<S, F>>,
-        friction: &Pack<F>,
+        point: &Point<N, Lanes<S>>,
+        friction: &Pack,
         (simd, part): (S, usize),
-    ) -> View<N, Lanes<S, F>> {
+    ) -> View<N, Lanes<S>> {
         let mut view = point.view(Lanes::of(simd, friction, part));
-        view.astray = widened(simd, &self.astray, part);
-        view.off = widened(simd, &self.off, part);
+        view.astray = parts(simd, &self.astray, part);
+        view.off = parts(simd, &self.off, part);
         view
     }
 }
 
-impl<S: Simd, F: Element> Point<N, Lanes<S, F>> {
+impl<S: Simd> Point<N, Lanes<S>> {
     /// How near bounds are, and what impulses answer.
     #[inline(always)]
-    fn view(&self, friction: Lanes<S, F>) -> View<N, Lanes<S, F>> {
+    fn view(&self, friction: Lanes<S>) -> View<N, Lanes<S>> {
         let zero = friction.alike(0.0);
         let mut view = View::none(zero);
         view.mu = friction;
@@ -215,26 +197,22 @@ impl<S: Simd, F: Element> Point<N, Lanes<S, F>> {
     }
 }
 
-impl Way<N, Brief> {
+impl Way<N, Pack> {
     #[inline(always)]
-    fn part<S: Simd, F: Element>(&self, simd: S, part: usize) -> Way<N, Lanes<S, F>> {
-        Way {
-            p: widened(simd, &self.p, part),
-            s: widened(simd, &self.s, part),
-            lambda: widened(simd, &self.lambda, part),
-        }
+    fn part<S: Simd>(&self, simd: S, part: usize) -> Way<N, Lanes<S>> {
+        Way { p: parts(simd, &self.p, part), s: parts(simd, &self.s, part), lambda: parts(simd, &self.lambda, part) }
     }
 
     #[inline(always)]
-    fn put<S: Simd, F: Element>(&mut self, of: &Way<N, Lanes<S, F>>, part: usize) {
-        put_brief(&mut self.p, of.p, part);
-        put_brief(&mut self.s, of.s, part);
-        put_brief(&mut self.lambda, of.lambda, part);
+    fn put<S: Simd>(&mut self, of: &Way<N, Lanes<S>>, part: usize) {
+        put(&mut self.p, of.p, part);
+        put(&mut self.s, of.s, part);
+        put(&mut self.lambda, of.lambda, part);
     }
 }
 
 #[inline(always)]
-pub(super) fn parts<S: Simd, F: Element, const K: usize>(simd: S, of: &[Pack<F>; K], part: usize) -> [Lanes<S, F>; K] {
+pub(super) fn parts<S: Simd, const K: usize>(simd: S, of: &[Pack; K], part: usize) -> [Lanes<S>; K] {
     let mut own = [Lanes::all(simd, 0.0); K];
     for (own, pack) in own.iter_mut().zip(of) {
         *own = Lanes::of(simd, pack, part);
@@ -243,43 +221,18 @@ pub(super) fn parts<S: Simd, F: Element, const K: usize>(simd: S, of: &[Pack<F>;
 }
 
 #[inline(always)]
-pub(super) fn put<S: Simd, F: Element, const K: usize>(to: &mut [Pack<F>; K], of: [Lanes<S, F>; K], part: usize) {
+pub(super) fn put<S: Simd, const K: usize>(to: &mut [Pack; K], of: [Lanes<S>; K], part: usize) {
     for (pack, own) in to.iter_mut().zip(of) {
         own.put(pack, part);
     }
 }
 
-/// Numbers of this part of what is brief.
-#[inline(always)]
-fn widened<S: Simd, F: Element, const K: usize>(simd: S, of: &[Brief; K], part: usize) -> [Lanes<S, F>; K] {
-    let mut own = [Lanes::all(simd, 0.0); K];
-    for (own, brief) in own.iter_mut().zip(of) {
-        let mut pack = [F::default(); PACK];
-        for k in Lanes::<S, F>::own(part) {
-            pack[k] = F::of_short(brief[k]);
-        }
-        *own = Lanes::of(simd, &pack, part);
-    }
-    own
-}
-
-#[inline(always)]
-fn put_brief<S: Simd, F: Element, const K: usize>(to: &mut [Brief; K], of: [Lanes<S, F>; K], part: usize) {
-    for (brief, own) in to.iter_mut().zip(of) {
-        let mut pack = [F::default(); PACK];
-        own.put(&mut pack, part);
-        for k in Lanes::<S, F>::own(part) {
-            brief[k] = pack[k].short();
-        }
-    }
-}
-
 /// [`put`] into some of many.
 #[inline(always)]
-pub(super) fn put_at<S: Simd, F: Element, const K: usize, const MOST: usize>(
-    to: &mut [Pack<F>; MOST],
+pub(super) fn put_at<S: Simd, const K: usize, const MOST: usize>(
+    to: &mut [Pack; MOST],
     from: usize,
-    of: [Lanes<S, F>; K],
+    of: [Lanes<S>; K],
     part: usize,
 ) {
     for k in 0..K {
@@ -289,33 +242,33 @@ pub(super) fn put_at<S: Simd, F: Element, const K: usize, const MOST: usize>(
 
 /// Of all lanes, in the order of contacts.
 #[inline(always)]
-fn each<S: Simd, F: Element>(of: &[Lanes<S, F>; PACK]) -> Pack<f64> {
-    let mut pack = [F::default(); PACK];
-    for part in 0..Lanes::<S, F>::PARTS {
+fn each<S: Simd>(of: &[Lanes<S>; PACK]) -> Pack {
+    let mut pack = [0.0; PACK];
+    for part in 0..Lanes::<S>::PARTS {
         of[part].put(&mut pack, part);
     }
-    wide(pack)
+    pack
 }
 
-impl<F: Element> Inside<F> {
+impl Inside {
     pub fn clear(&mut self) {
         self.given.clear();
         self.p.clear();
     }
 
     /// Another pack that bears `p`.
-    pub fn add(&mut self, given: Given<F>, p: [Pack<F>; 2]) {
+    pub fn add(&mut self, given: Given, p: [Pack; 2]) {
         self.given.push(given);
         self.p.push(p);
     }
 
     /// For all that changes, also where it only settles: no later step has to ask for more.
     fn make_room(&mut self) {
-        let (packs, none, brief) = (self.given.len(), [F::default(); PACK], [0.0; PACK]);
+        let (packs, none) = (self.given.len(), [0.0; PACK]);
         self.bounds.resize(packs, Bounds { s: [none; N], lambda: [none; N] });
-        self.strays.resize(packs, Stray { astray: [brief; N], off: [brief; 2] });
-        self.second.resize(packs, [brief; N]);
-        self.ways.resize(packs, Way::none(brief));
+        self.strays.resize(packs, Stray { astray: [none; N], off: [none; 2] });
+        self.second.resize(packs, [none; N]);
+        self.ways.resize(packs, Way::none(none));
     }
 
     /// [`Point::enter`].
@@ -329,8 +282,8 @@ impl<F: Element> Inside<F> {
     fn place<S: Simd>(&mut self, simd: S, joints: &Joints, v: &[Triple], scale: Option<f64>) {
         let points = self.given.iter().zip(&mut self.p).zip(&mut self.bounds);
         for (((given, p), bounds), bodies) in points.zip(&joints.bodies) {
-            let u = bodies.gather::<F>(v);
-            for part in 0..Lanes::<S, F>::PARTS {
+            let u = bodies.gather(v);
+            for part in 0..Lanes::<S>::PARTS {
                 let (mut point, laws) = (given.point(p, None, (simd, part)), given.laws(None, (simd, part)));
                 let u = given.arms.part(simd, part).change(parts(simd, &u, part));
                 match scale {
@@ -354,16 +307,16 @@ impl<F: Element> Inside<F> {
         rests: Option<&[Rest]>,
         sums: &mut Sums,
     ) {
-        let zero = Lanes::<S, F>::all(simd, 0.0);
+        let zero = Lanes::<S>::all(simd, 0.0);
         let mut left = [Left::none(zero); PACK];
-        let mut joined = Joined::<F, ALL>::none();
+        let mut joined = Joined::<ALL>::none();
         let points = self.given.iter().zip(&mut self.p).zip(&mut self.bounds).zip(&mut self.strays).zip(&self.ways);
         let each = points.zip(joints.bodies.iter().zip(&joints.slots)).enumerate();
         for (at, (((((given, p), bounds), strays), ways), (bodies, slots))) in each {
-            let u = bodies.gather::<F>(v);
+            let u = bodies.gather(v);
             let rest = rests.map(|rests| &rests[at]);
-            let mut numbers = [[F::default(); PACK]; ALL];
-            for part in 0..Lanes::<S, F>::PARTS {
+            let mut numbers = [[0.0; PACK]; ALL];
+            for part in 0..Lanes::<S>::PARTS {
                 let laws = given.laws(rest, (simd, part));
                 let (mut point, arms) = (given.point(p, Some(bounds), (simd, part)), given.arms.part(simd, part));
                 let (u, left) = (arms.change(parts(simd, &u, part)), &mut left[part]);
@@ -377,18 +330,15 @@ impl<F: Element> Inside<F> {
                 point.gauge(&laws, &view, left);
                 put(p, point.p, part);
                 bounds.put(&point, part);
-                put_brief(&mut strays.astray, view.astray, part);
-                put_brief(&mut strays.off, view.off, part);
-                // As the directions have them.
-                view.astray = widened(simd, &strays.astray, part);
-                view.off = widened(simd, &strays.off, part);
+                put(&mut strays.astray, view.astray, part);
+                put(&mut strays.off, view.off, part);
                 view.right = point.aim(&view, zero, &[zero; N]);
                 // What answers to velocities: across and along to the same, and along to across.
                 let [across, along, tilt] = view.response;
                 let answer = [across, along, -(tilt * across)];
-                put_at::<S, F, 4, ALL>(&mut numbers, 0, arms.thrust([-point.p[0], -point.p[1]]), part);
-                put_at::<S, F, 4, ALL>(&mut numbers, 4, arms.thrust(view.right), part);
-                put_at::<S, F, 16, ALL>(&mut numbers, PUSHES, arms.couple(answer), part);
+                put_at::<S, 4, ALL>(&mut numbers, 0, arms.thrust([-point.p[0], -point.p[1]]), part);
+                put_at::<S, 4, ALL>(&mut numbers, 4, arms.thrust(view.right), part);
+                put_at::<S, 16, ALL>(&mut numbers, PUSHES, arms.couple(answer), part);
             }
             for k in 0..PACK {
                 let own = bodies.each(k);
@@ -413,14 +363,14 @@ impl<F: Element> Inside<F> {
         [on, rise]: &mut [Vec<Triple>; 2],
         course: &mut Course,
     ) {
-        let zero = Lanes::<S, F>::all(simd, 0.0);
+        let zero = Lanes::<S>::all(simd, 0.0);
         let mut courses = [Course::begin(zero); PACK];
-        let mut joined = Joined::<F, PUSHES>::none();
+        let mut joined = Joined::<PUSHES>::none();
         let points = self.given.iter().zip(&self.p).zip(&self.bounds).zip(&self.strays).zip(&mut self.second);
         for (((((given, p), bounds), strays), second), bodies) in points.zip(&joints.bodies) {
-            let du = bodies.gather::<F>(step);
-            let mut numbers = [[F::default(); PACK]; PUSHES];
-            for part in 0..Lanes::<S, F>::PARTS {
+            let du = bodies.gather(step);
+            let mut numbers = [[0.0; PACK]; PUSHES];
+            for part in 0..Lanes::<S>::PARTS {
                 let (point, arms) = (given.point(p, Some(bounds), (simd, part)), given.arms.part(simd, part));
                 let view = strays.view(&point, &given.friction, (simd, part));
                 let right = point.aim(&view, zero, &[zero; N]);
@@ -430,9 +380,9 @@ impl<F: Element> Inside<F> {
                 for i in 0..N {
                     own[i] = way.s[i] * way.lambda[i];
                 }
-                put_brief(second, own, part);
-                put_at::<S, F, 4, PUSHES>(&mut numbers, 0, arms.thrust(point.aim(&view, zero, &own)), part);
-                put_at::<S, F, 4, PUSHES>(&mut numbers, 4, arms.thrust(point.rise(&view)), part);
+                put(second, own, part);
+                put_at::<S, 4, PUSHES>(&mut numbers, 0, arms.thrust(point.aim(&view, zero, &own)), part);
+                put_at::<S, 4, PUSHES>(&mut numbers, 4, arms.thrust(point.rise(&view)), part);
             }
             for k in 0..PACK {
                 let own = bodies.each(k);
@@ -451,17 +401,17 @@ impl<F: Element> Inside<F> {
 
     #[inline(always)]
     pub fn turn<S: Simd>(&mut self, simd: S, joints: &Joints, step: &[Triple], target: f64, course: &mut Course) {
-        let zero = Lanes::<S, F>::all(simd, 0.0);
+        let zero = Lanes::<S>::all(simd, 0.0);
         let (target, inside) = (zero.alike(target), zero.alike(INSIDE));
         let mut courses = [Course::begin(zero); PACK];
         let points = self.given.iter().zip(&self.p).zip(&self.bounds).zip(&self.strays).zip(&self.second);
         for ((((((given, p), bounds), strays), second), ways), bodies) in points.zip(&mut self.ways).zip(&joints.bodies)
         {
-            let du = bodies.gather::<F>(step);
-            for part in 0..Lanes::<S, F>::PARTS {
+            let du = bodies.gather(step);
+            for part in 0..Lanes::<S>::PARTS {
                 let (point, arms) = (given.point(p, Some(bounds), (simd, part)), given.arms.part(simd, part));
                 let view = strays.view(&point, &given.friction, (simd, part));
-                let second = widened(simd, second, part);
+                let second = parts(simd, second, part);
                 let right = point.aim(&view, target, &second);
                 let way = point.way(&view, arms.change(parts(simd, &du, part)), right, target, &second);
                 courses[part].meet(&point, &way, inside);
@@ -473,30 +423,16 @@ impl<F: Element> Inside<F> {
 
     /// Above 0 for each bound of a pack that holds by the last direction.
     #[inline(always)]
-    pub fn leads<S: Simd>(&self, simd: S, at: usize) -> [Pack<f64>; N] {
-        let mut leads = [[F::default(); PACK]; N];
-        for part in 0..Lanes::<S, F>::PARTS {
-            let point = self.given[at].point(&[[F::default(); PACK]; 2], Some(&self.bounds[at]), (simd, part));
+    pub fn leads<S: Simd>(&self, simd: S, at: usize) -> [Pack; N] {
+        let mut leads = [[0.0; PACK]; N];
+        for part in 0..Lanes::<S>::PARTS {
+            let point = self.given[at].point(&[[0.0; PACK]; 2], Some(&self.bounds[at]), (simd, part));
             let zero = point.mass.alike(0.0);
             let led = point.led(&self.ways[at].part(simd, part));
             put(&mut leads, led.map(|led| Real::pick(led, zero.alike(1.0), zero)), part);
         }
-        leads.map(wide)
+        leads
     }
-}
-
-impl Inside<f64> {
-    /// From where others went with half of the digits.
-    pub fn take_over(&mut self, other: &mut Inside<f32>) {
-        self.make_room();
-        std::mem::swap(&mut self.ways, &mut other.ways);
-        let from = other.p.iter().zip(&other.bounds);
-        for ((p, bounds), (other, others)) in self.p.iter_mut().zip(&mut self.bounds).zip(from) {
-            *p = other.map(wide);
-            *bounds = Bounds { s: others.s.map(wide), lambda: others.lambda.map(wide) };
-        }
-    }
-
     /// [`Point::settle`].
     #[inline(always)]
     pub fn settle<S: Simd>(&mut self, simd: S, joints: &Joints, v: &[Triple]) {
@@ -522,7 +458,7 @@ impl Inside<f64> {
 impl Left {
     /// Takes up what is left in each lane.
     #[inline(always)]
-    pub fn join<S: Simd, F: Element>(&mut self, lanes: &[Left<Lanes<S, F>>; PACK]) {
+    pub fn join<S: Simd>(&mut self, lanes: &[Left<Lanes<S>>; PACK]) {
         let residual = each(&lanes.map(|l| l.residual));
         let products = each(&lanes.map(|l| l.products));
         for k in 0..PACK {
@@ -535,7 +471,7 @@ impl Left {
 impl Course {
     /// Takes up what each lane comes to.
     #[inline(always)]
-    fn join<S: Simd, F: Element>(&mut self, lanes: &[Course<Lanes<S, F>>; PACK]) {
+    fn join<S: Simd>(&mut self, lanes: &[Course<Lanes<S>>; PACK]) {
         let share = each(&lanes.map(|c| c.share));
         let growth = [0, 1].map(|k| each(&lanes.map(|c| c.growth[k])));
         for k in 0..PACK {

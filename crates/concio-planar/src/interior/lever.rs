@@ -5,7 +5,7 @@ use std::array::from_fn;
 use pulp::Simd;
 
 use super::Sums;
-use super::lanes::{Element, Lanes, PACK, Pack, Real, brief};
+use super::lanes::{Lanes, PACK, Pack, Real};
 use crate::blocks::{Slot, Triple};
 use crate::contact::{BASE, Rows};
 
@@ -16,8 +16,8 @@ pub(super) const ALL: usize = PUSHES + 16;
 /// The bodies of contacts that are taken together.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bodies {
-    first: Pack<u32>,
-    second: Pack<u32>,
+    first: [u32; PACK],
+    second: [u32; PACK],
 }
 
 /// The normal on the second body, and the arms of normal and tangent on the first and on the second: the tangent is the normal turned, and
@@ -31,7 +31,7 @@ pub(super) struct Arms<T> {
 
 impl Bodies {
     /// Of rows that have levers, with their arms.
-    pub fn of(rows: [&Rows; PACK]) -> (Self, Arms<Pack<f64>>) {
+    pub fn of(rows: [&Rows; PACK]) -> (Self, Arms<Pack>) {
         let each = rows.map(|rows| rows.levers().expect("rows that have levers"));
         let [first, second] = [0, 1].map(|i| each.map(|lever| lever.bodies[i]));
         let arms = Arms {
@@ -49,8 +49,8 @@ impl Bodies {
 
     /// By how much the second body of each moves away from the first, and how both turn.
     #[inline(always)]
-    pub fn gather<F: Element>(&self, v: &[Triple]) -> [Pack<F>; 4] {
-        let mut all = [[F::default(); PACK]; 4];
+    pub fn gather(&self, v: &[Triple]) -> [Pack; 4] {
+        let mut all = [[0.0; PACK]; 4];
         for k in 0..PACK {
             let [mut x, mut y, turn] = v[self.second[k] as usize];
             let mut before = 0.0;
@@ -60,23 +60,15 @@ impl Bodies {
                 y -= first[1];
                 before = first[2];
             }
-            (all[0][k], all[1][k], all[2][k], all[3][k]) = (F::of(x), F::of(y), F::of(before), F::of(turn));
+            (all[0][k], all[1][k], all[2][k], all[3][k]) = (x, y, before, turn);
         }
         all
     }
 }
 
-impl Arms<Pack<f64>> {
-    /// With half of the digits.
-    pub fn brief(&self) -> Arms<Pack<f32>> {
-        let [n, across, along] = [self.n, self.across, self.along].map(|two| two.map(brief));
-        Arms { n, across, along }
-    }
-}
-
-impl<F: Element> Arms<Pack<F>> {
+impl Arms<Pack> {
     #[inline(always)]
-    pub fn part<S: Simd>(&self, simd: S, part: usize) -> Arms<Lanes<S, F>> {
+    pub fn part<S: Simd>(&self, simd: S, part: usize) -> Arms<Lanes<S>> {
         let Arms { n, across, along } = self;
         Arms {
             n: [Lanes::of(simd, &n[0], part), Lanes::of(simd, &n[1], part)],
@@ -126,16 +118,16 @@ impl<T: Real> Arms<T> {
 }
 
 /// What contacts of one pair that follow each other add to its bodies, and to the matrix: each is gone to once for all.
-pub(super) struct Joined<F, const NUMBERS: usize> {
+pub(super) struct Joined<const NUMBERS: usize> {
     pub bodies: [u32; 2],
     slot: Option<Slot>,
-    sums: [F; NUMBERS],
+    sums: [f64; NUMBERS],
     resists: bool,
 }
 
-impl<F: Element, const NUMBERS: usize> Joined<F, NUMBERS> {
+impl<const NUMBERS: usize> Joined<NUMBERS> {
     pub fn none() -> Self {
-        Joined { bodies: [BASE; 2], slot: None, sums: [F::default(); NUMBERS], resists: false }
+        Joined { bodies: [BASE; 2], slot: None, sums: [0.0; NUMBERS], resists: false }
     }
 
     #[inline(always)]
@@ -145,7 +137,7 @@ impl<F: Element, const NUMBERS: usize> Joined<F, NUMBERS> {
 
     /// The first so many numbers of a contact.
     #[inline(always)]
-    pub fn add(&mut self, numbers: &[Pack<F>; NUMBERS], k: usize, many: usize) {
+    pub fn add(&mut self, numbers: &[Pack; NUMBERS], k: usize, many: usize) {
         for (sum, pack) in self.sums[..PUSHES].iter_mut().zip(numbers) {
             *sum += pack[k];
         }
@@ -164,7 +156,7 @@ impl<F: Element, const NUMBERS: usize> Joined<F, NUMBERS> {
         if second == BASE {
             return;
         }
-        let push: [f64; 4] = from_fn(|k| self.sums[from + k].wide());
+        let push: [f64; 4] = from_fn(|k| self.sums[from + k]);
         let body = &mut balance[second as usize];
         *body = [body[0] + push[0], body[1] + push[1], body[2] + push[3]];
         if first != BASE {
@@ -174,7 +166,7 @@ impl<F: Element, const NUMBERS: usize> Joined<F, NUMBERS> {
     }
 }
 
-impl<F: Element> Joined<F, ALL> {
+impl Joined<ALL> {
     /// All to where it belongs.
     #[inline(always)]
     pub fn end_look(&self, sums: &mut Sums) {
@@ -184,7 +176,7 @@ impl<F: Element> Joined<F, ALL> {
             return;
         }
         // By what moves and what that pushes: x, y, turns of the first and of the second.
-        let at = |by: usize, on: usize| self.sums[PUSHES + 4 * by + on].wide();
+        let at = |by: usize, on: usize| self.sums[PUSHES + 4 * by + on];
         let [xx, xy, yx, yy] = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
         let own = |k: usize, sign: f64| {
             [

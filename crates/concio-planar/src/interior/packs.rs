@@ -4,46 +4,27 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::inside::{Does, Given, Inside, Joints, N, Rest, parts, put, put_at};
-use super::lanes::{Lanes, PACK, Pack, Real, brief, wide};
+use super::lanes::{Lanes, PACK, Pack, Real};
 use super::lever::{ALL, Bodies, Joined, PUSHES};
 use super::point::{Course, Kind, Left, Point, View, is_dry};
 use super::{Method, Sums};
-use crate::blocks::{Digits, Triple};
+use crate::blocks::Triple;
 use crate::contact::Contact;
 
-/// Contacts in packs. Interior points go on with half of the digits, in half the room, for as long as directions do; Newton's method has all.
-#[derive(Debug, Clone)]
+/// Contacts in packs.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Packs {
     /// Their numbers, one after the other.
     which: Vec<u32>,
     joints: Joints,
-    /// What interior points go on with: `rough`, or with all digits `fine`, where Newton's method too has what the laws say and the impulses.
-    digits: Digits,
-    rough: Inside<f32>,
-    fine: Inside<f64>,
+    inside: Inside,
     rests: Vec<Rest>,
     /// What contacts do by Newton's method, and what impulses change by where velocities stay.
-    does: Vec<(Does, [Pack<f64>; 2])>,
+    does: Vec<(Does, [Pack; 2])>,
     /// Whether a direction of Newton's method has yet to be gone.
     leaps: bool,
     /// Impulses before an attempt to end.
-    before: Vec<[Pack<f64>; 2]>,
-}
-
-impl Default for Packs {
-    fn default() -> Self {
-        Packs {
-            which: Vec::new(),
-            joints: Joints::default(),
-            digits: Digits::All,
-            rough: Inside::default(),
-            fine: Inside::default(),
-            rests: Vec::new(),
-            does: Vec::new(),
-            leaps: false,
-            before: Vec::new(),
-        }
-    }
+    before: Vec<[Pack; 2]>,
 }
 
 /// Whether a contact is of this kind.
@@ -53,14 +34,12 @@ pub(super) fn is_plain(contact: &Contact) -> bool {
 }
 
 impl Packs {
-    /// None yet, of those that interior points will have with these digits.
-    pub fn begin(&mut self, digits: Digits) {
+    /// None yet.
+    pub fn clear(&mut self) {
         self.which.clear();
         self.joints.bodies.clear();
         self.joints.slots.clear();
-        self.digits = digits;
-        self.rough.clear();
-        self.fine.clear();
+        self.inside.clear();
         self.rests.clear();
     }
 
@@ -75,19 +54,8 @@ impl Packs {
         let (given, rest) = Given::of(own, &points, arms);
         self.rests.push(rest);
         let p = [0, 1].map(|k| points.map(|point| point.p[k]));
-        if self.digits == Digits::Half {
-            self.rough.add(given.brief(), p.map(brief));
-        }
-        self.fine.add(given, p);
+        self.inside.add(given, p);
         points.map(|p| p.p)
-    }
-
-    /// All digits from here on.
-    pub fn refine(&mut self) {
-        if self.digits == Digits::Half {
-            self.fine.take_over(&mut self.rough);
-            self.digits = Digits::All;
-        }
     }
 
     /// [`Point::enter`].
@@ -112,41 +80,36 @@ impl Packs {
         &mut self,
         simd: S,
         (v, gone): (&[Triple], &[Triple]),
-        (by_way, first, whole): (bool, bool, bool),
+        (by_way, first): (bool, bool),
         sums: &mut Sums,
     ) {
         let zero = Lanes::all(simd, 0.0);
         let mut left = [Left::none(zero); PACK];
-        let mut joined = Joined::<f64, ALL>::none();
-        let rough = self.digits == Digits::Half;
+        let mut joined = Joined::<ALL>::none();
         let leaps = std::mem::take(&mut self.leaps);
         if first {
-            self.does.resize(self.fine.given.len(), (Does::default(), [[0.0; PACK]; 2]));
-            if rough {
-                self.fine.p.iter_mut().zip(&self.rough.p).for_each(|(fine, rough)| *fine = rough.map(wide));
-            }
+            self.does.resize(self.inside.given.len(), (Does::default(), [[0.0; PACK]; 2]));
         }
-        let mut impulses = std::mem::take(&mut self.fine.p);
-        let points = self.fine.given.iter().zip(&mut impulses).zip(&mut self.does).zip(&self.rests);
+        let mut impulses = std::mem::take(&mut self.inside.p);
+        let points = self.inside.given.iter().zip(&mut impulses).zip(&mut self.does).zip(&self.rests);
         let joints = self.joints.bodies.iter().zip(&self.joints.slots);
         for (at, ((((given, p), (does, rights)), rest), (bodies, slots))) in points.zip(joints).enumerate() {
-            let u = bodies.gather::<f64>(v);
+            let u = bodies.gather(v);
             let mut numbers = [[0.0; PACK]; ALL];
-            let du = if leaps { bodies.gather::<f64>(gone) } else { [[0.0; PACK]; 4] };
+            let du = if leaps { bodies.gather(gone) } else { [[0.0; PACK]; 4] };
             let before = *does;
             let leads = match by_way {
-                true if rough => self.rough.leads(simd, at),
-                true => self.fine.leads(simd, at),
+                true => self.inside.leads(simd, at),
                 false => [[0.0; PACK]; N],
             };
-            for part in 0..Lanes::<S, f64>::PARTS {
+            for part in 0..Lanes::<S>::PARTS {
                 let laws = given.laws(Some(rest), (simd, part));
                 let (mut point, arms) = (given.point(p, None, (simd, part)), given.arms.part(simd, part));
                 let mut view = View::none(zero);
-                if leaps || !whole {
+                if leaps || !first {
                     view.response = before.response(&point, laws.friction, (simd, part));
                 }
-                let was = if whole { [zero; 3] } else { view.response };
+                let was = if first { [zero; 3] } else { view.response };
                 if leaps {
                     let change = point.follows(&view, arms.change(parts(simd, &du, part)), parts(simd, rights, part));
                     point.p = [point.p[0] + change[0], point.p[1] + change[1]];
@@ -160,9 +123,9 @@ impl Packs {
                 put(rights, view.right, part);
                 let now = view.response;
                 let more = [now[0] - was[0], now[1] - was[1], was[2] * was[0] - now[2] * now[0]];
-                put_at::<S, f64, 4, ALL>(&mut numbers, 0, arms.thrust([-point.p[0], -point.p[1]]), part);
-                put_at::<S, f64, 4, ALL>(&mut numbers, 4, arms.thrust(view.right), part);
-                put_at::<S, f64, 16, ALL>(&mut numbers, PUSHES, arms.couple(more), part);
+                put_at::<S, 4, ALL>(&mut numbers, 0, arms.thrust([-point.p[0], -point.p[1]]), part);
+                put_at::<S, 4, ALL>(&mut numbers, 4, arms.thrust(view.right), part);
+                put_at::<S, 16, ALL>(&mut numbers, PUSHES, arms.couple(more), part);
             }
             for k in 0..PACK {
                 let own = bodies.each(k);
@@ -172,11 +135,11 @@ impl Packs {
                 }
                 let changes = before.one(k) != does.one(k);
                 sums.changed += usize::from(changes);
-                joined.add(&numbers, k, if whole || changes { ALL } else { PUSHES });
+                joined.add(&numbers, k, if first || changes { ALL } else { PUSHES });
             }
         }
         joined.end_look(sums);
-        self.fine.p = impulses;
+        self.inside.p = impulses;
         sums.left.join(&left);
         sums.number += N * self.which.len();
     }
@@ -196,29 +159,24 @@ impl Packs {
         self.leaps = true;
     }
 
-    /// What goes back to half of the digits need not be kept: they stay.
     pub fn keep(&mut self) {
         self.before.clear();
-        if self.digits == Digits::Half {
-            return;
-        }
-        self.before.extend_from_slice(&self.fine.p);
+        self.before.extend_from_slice(&self.inside.p);
     }
 
     pub fn restore(&mut self) {
         self.leaps = false;
-        for (p, before) in self.fine.p.iter_mut().zip(&self.before) {
+        for (p, before) in self.inside.p.iter_mut().zip(&self.before) {
             *p = *before;
         }
     }
 
     pub fn tell(&mut self, contacts: &mut [Contact], v: &[Triple]) {
-        self.refine();
         for (at, which) in self.which.chunks_exact(PACK).enumerate() {
             for (k, number) in which.iter().enumerate() {
                 let contact = &mut contacts[*number as usize];
                 let u_n = contact.velocity(v)[0];
-                self.fine.one(at, k).tell(&Kind::DRY, contact, u_n);
+                self.inside.one(at, k).tell(&Kind::DRY, contact, u_n);
             }
         }
     }
@@ -241,14 +199,11 @@ impl WithSimd for Look<'_, '_> {
         let Look { packs, v, gone, method, sums } = self;
         match method {
             Method::Inside { share } => {
-                let Packs { joints, rough, fine, .. } = packs;
-                match packs.digits {
-                    Digits::Half => rough.look(simd, joints, v, share, None, sums),
-                    Digits::All => fine.look(simd, joints, v, share, None, sums),
-                }
+                let Packs { joints, inside, .. } = packs;
+                inside.look(simd, joints, v, share, None, sums)
             }
-            Method::AtBounds { led } => packs.choose(simd, (v, gone), (led, true, true), sums),
-            Method::Onwards { whole } => packs.choose(simd, (v, gone), (false, false, whole), sums),
+            Method::AtBounds { led } => packs.choose(simd, (v, gone), (led, true), sums),
+            Method::Onwards => packs.choose(simd, (v, gone), (false, false), sums),
         }
     }
 }
@@ -265,11 +220,8 @@ impl WithSimd for Enter<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Packs { joints, rough, fine, digits, .. } = self.packs;
-        match digits {
-            Digits::Half => rough.enter(simd, joints, self.v, self.scale),
-            Digits::All => fine.enter(simd, joints, self.v, self.scale),
-        }
+        let Packs { joints, inside, .. } = self.packs;
+        inside.enter(simd, joints, self.v, self.scale)
     }
 }
 
@@ -284,9 +236,8 @@ impl WithSimd for Settle<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Packs { joints, fine, digits, .. } = self.packs;
-        fine.settle(simd, joints, self.v);
-        *digits = Digits::All;
+        let Packs { joints, inside, .. } = self.packs;
+        inside.settle(simd, joints, self.v);
     }
 }
 
@@ -303,11 +254,8 @@ impl WithSimd for Predict<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Packs { joints, rough, fine, digits, .. } = self.packs;
-        match digits {
-            Digits::Half => rough.predict(simd, joints, self.step, self.pushes, self.course),
-            Digits::All => fine.predict(simd, joints, self.step, self.pushes, self.course),
-        }
+        let Packs { joints, inside, .. } = self.packs;
+        inside.predict(simd, joints, self.step, self.pushes, self.course)
     }
 }
 
@@ -324,10 +272,7 @@ impl WithSimd for Turn<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Packs { joints, rough, fine, digits, .. } = self.packs;
-        match digits {
-            Digits::Half => rough.turn(simd, joints, self.step, self.target, self.course),
-            Digits::All => fine.turn(simd, joints, self.step, self.target, self.course),
-        }
+        let Packs { joints, inside, .. } = self.packs;
+        inside.turn(simd, joints, self.step, self.target, self.course)
     }
 }

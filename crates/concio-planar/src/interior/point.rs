@@ -5,6 +5,9 @@ use super::{GRIP, SHARE};
 use crate::contact::{Contact, Status};
 use crate::interior::CRACK;
 
+/// Share of the impulses by which rounding puts distances from bounds off: to mend that would keep the way short where a bound is met.
+const ROUNDED: f64 = 1e-13;
+
 /// How the multiplier of each bound stands in (P5a), and in which direction: 0 across, 1 along.
 const SENSE: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
 const DIRECTION: [usize; 4] = [1, 1, 0, 0];
@@ -302,7 +305,7 @@ impl<const N: usize, T: Real> Point<N, T> {
     pub fn stray(&self, laws: &Laws<T>, u: [T; 2], bound: T, view: &mut View<N, T>, left: &mut Left<T>) {
         let zero = self.mass.alike(0.0);
         let far = self.far(laws.pressure, bound);
-        let rounded = zero.alike(T::ROUNDED) * (self.p[0].size() + self.p[1].size() + bound.size());
+        let rounded = zero.alike(ROUNDED) * (self.p[0].size() + self.p[1].size() + bound.size());
         let per_mass = zero.alike(1.0) / self.mass;
         view.off = self.pulls(laws, u);
         for i in 0..N {
@@ -396,7 +399,7 @@ impl<const N: usize, T: Real> Point<N, T> {
                     weight = weight + self.lambda[i] * self.lambda[i];
                 }
             }
-            let part = T::pick(zero.alike(T::TINY).below(weight), left / weight, zero);
+            let part = T::pick(zero.alike(f64::MIN_POSITIVE).below(weight), left / weight, zero);
             for i in 0..N {
                 if DIRECTION[i] == k {
                     dl[i] = dl[i] + zero.alike(SENSE[i]) * part * (self.lambda[i] * self.lambda[i]);
