@@ -50,7 +50,7 @@ const LADDER: [Attempt; 5] = [
     Attempt { begins: Begins::AtGuess, patience: 4 },
     Attempt { begins: Begins::Anew, patience: 4 },
     Attempt { begins: Begins::AsBefore, patience: finish::MOST },
-    Attempt { begins: Begins::AtGuess, patience: 25 },
+    Attempt { begins: Begins::Anew, patience: 25 },
 ];
 
 /// One of them: where it begins, and how many iterations may leave more than half of what was left, or in Newton's
