@@ -3,5 +3,7 @@
 mod limit;
 mod limit_reference;
 mod limit_walls;
+mod space;
+mod space_reference;
 mod tilt;
 mod tilted_arch;
