@@ -9,9 +9,18 @@ use std::fmt;
 /// Distances below this part of the largest coordinate come from rounding.
 const TOUCHING: f64 = 1e-9;
 
-/// Part of the way from its middle at which the corners of a long rectangle twist like its even pressure: half-diagonal 1.85
-/// times the mean distance from the middle.
-pub const EVEN_TWIST: f64 = 0.54;
+/// Part of their way from the middle at which the corners of a rectangle twist like even pressure: the mean distance of its
+/// points from its middle over half of its diagonal, 0.541 for a square, down to 0.5 for a long one.
+///
+/// With sides c, t and d² = c² + t², (S9) r̄ = d/6 + c²/(12 t) ln((t + d)/c) + t²/(12 c) ln((c + d)/t).
+pub fn even_twist([c, t]: [f64; 2]) -> f64 {
+    if !(c > 0.0 && t > 0.0) {
+        return 0.5;
+    }
+    let d = c.hypot(t);
+    let mean = d / 6.0 + c * c / (12.0 * t) * ((t + d) / c).ln() + t * t / (12.0 * c) * ((c + d) / t).ln();
+    mean / (0.5 * d)
+}
 
 /// A point or a vector in space: x, y, z.
 pub type Vector = [f64; 3];
@@ -75,6 +84,8 @@ pub struct Contact {
     pub normal: Vector,
     /// μ, from 0. A joint that never slides has 1, not a large number: that would spoil the accuracy of the program.
     pub friction: f64,
+    /// Normal force at which its sides give way as one [N], such as an abutment's thrust; none: they never do.
+    pub gives_way: Option<f64>,
 }
 
 impl Contact {
@@ -157,6 +168,7 @@ impl Assembly {
                     corners: rectangle(face, 2),
                     normal: [0.0, 0.0, -1.0],
                     friction,
+                    gives_way: None,
                 });
             }
             for (j, that) in boxes.iter().enumerate().skip(i + 1) {
@@ -172,13 +184,13 @@ impl Assembly {
         self
     }
 
-    /// With the corners of bed joints and base drawn in to a part of their way from the middle, such as [`EVEN_TWIST`].
+    /// With the corners of bed joints and base drawn in to their [`even_twist`].
     ///
     /// They twist no stronger than even pressure does, and rock about lines inside the blocks: λ comes out too low.
-    pub fn drawn_in(mut self, part: f64) -> Self {
+    pub fn drawn_in(mut self) -> Self {
         for contact in self.contacts.iter_mut().filter(|c| c.kind != ContactKind::Head) {
-            let back = contact.sides().map(|side| 0.5 * side * (1.0 - part));
-            contact.corners = contact.set_back(back);
+            let sides = contact.sides();
+            contact.corners = contact.set_back(sides.map(|side| 0.5 * side * (1.0 - even_twist(sides))));
         }
         self
     }
@@ -241,6 +253,7 @@ fn touch(
             corners: rectangle(shared, k),
             normal,
             friction,
+            gives_way: None,
         }
     }))
 }

@@ -8,12 +8,13 @@
 //!   back on its border. Of the imbalance r that remains the power on the mechanism, |r|·|v|, is taken off twice: for
 //!   velocities v of the collapse itself, λ of the forces is at most r·v above the true one.
 //! - Upper: where a point overlaps by as much as δ, δ times velocities under which every point opens by 1 are added. (S4) then
-//!   holds, and any velocities that obey it and (S5) bound λ.
+//!   holds, and any velocities that obey it and (S5) bound λ. Where blocks are wedged in between held ones there are none such;
+//!   of the overlaps δ that remain the power δ N is added twice, with the normal force N found and a block's weight.
 //!
 //! Both are evaluated for the solution as it came too, and the better counts.
 
 use super::assembly::Vector;
-use super::equations::Equations;
+use super::equations::{Equations, Pull, ROWS};
 use super::program::{Solution, beyond, opening};
 use crate::LimitError;
 use crate::certificate::least_change;
@@ -89,7 +90,7 @@ fn admissible(equations: &Equations, mut forces: Forces) -> Forces {
 fn prove_lower(equations: &Equations, solution: &Solution, forces: Forces) -> Lower {
     let residual = equations.residual(&forces.points, &forces.pulls, forces.multiplier);
     let raised: f64 = residual.iter().zip(&solution.velocities).map(|(r, v)| r.abs() * v.abs()).sum();
-    let of_forces = residual.iter().enumerate().filter(|(row, _)| row % 6 < 3).map(|(_, r)| r.abs());
+    let of_forces = residual.iter().enumerate().filter(|(row, _)| row % ROWS < 3 || *row >= ROWS * equations.moved).map(|(_, r)| r.abs());
     Lower {
         multiplier: forces.multiplier - 2.0 * raised,
         unbalanced: of_forces.fold(0.0, f64::max),
@@ -176,22 +177,24 @@ fn balanced(equations: &Equations, forces: &Forces) -> Option<Forces> {
 /// Velocities that do not move the live load.
 pub(super) fn upper(equations: &Equations, friction: &[Friction], solution: &Solution) -> Result<Upper, LimitError> {
     let mut velocities = solution.velocities.clone();
-    let least = |v: &[f64]| {
-        let each = equations.points.iter().zip(friction).map(|(point, law)| beyond(point, law.slope, v));
-        each.fold(f64::INFINITY, f64::min)
+    let overlaps = |v: &[f64]| -> Vec<f64> {
+        let each = equations.points.iter().zip(friction);
+        each.map(|(point, law)| (-beyond(point, law.slope, v)).max(0.0)).collect()
     };
-    let overlap = (-least(&velocities)).max(0.0);
-    let none = || LimitError::NotSolved("no mechanism obeys the flow rule".into());
-    if overlap > 0.0 {
-        let apart = opening(equations, friction)?.ok_or_else(none)?;
-        velocities.iter_mut().zip(&apart).for_each(|(v, a)| *v += overlap * a);
+    let most = overlaps(&velocities).into_iter().fold(0.0, f64::max);
+    if most > 0.0
+        && let Some(apart) = opening(equations, friction)?
+    {
+        velocities.iter_mut().zip(&apart).for_each(|(v, a)| *v += most * a);
     }
     let moved = dot(&equations.live, &velocities);
     if !(moved > 0.0) {
-        return Err(none());
+        return Err(LimitError::NotSolved("no mechanism obeys the flow rule".into()));
     }
     velocities.iter_mut().for_each(|v| *v /= moved);
-    let stretch = |pull: &super::equations::Pull| pull.most * (-power(&pull.column, &velocities)).max(0.0);
+    let stretch = |pull: &Pull| pull.most * (-power(&pull.column, &velocities)).max(0.0);
     let ties: f64 = equations.pulls.iter().map(stretch).sum();
-    Ok(Upper { multiplier: ties - dot(&equations.dead, &velocities), velocities })
+    let pressed = overlaps(&velocities).into_iter().zip(&solution.forces);
+    let wedged: f64 = pressed.map(|(overlap, force)| 2.0 * overlap * (1.0 + force[0].max(0.0))).sum();
+    Ok(Upper { multiplier: ties - dot(&equations.dead, &velocities) + wedged, velocities })
 }

@@ -29,11 +29,13 @@ pub(super) struct Pull {
 
 /// The equations of equilibrium.
 pub(super) struct Equations {
-    /// Number of rows.
+    /// Number of rows: six of each body that may move, then one of each contact that gives way.
     pub rows: usize,
+    /// Bodies that may move.
+    pub moved: usize,
     /// Four points of each contact in turn, then one of each support.
     pub points: Vec<Point>,
-    /// Ties.
+    /// What gives way, in the order of its contacts, then the ties.
     pub pulls: Vec<Pull>,
     /// The live load, its magnitudes summing to 1: velocities of the mechanism are then near 1.
     pub live: Vec<f64>,
@@ -89,10 +91,18 @@ impl Equations {
             column
         };
         let mut points = Vec::with_capacity(4 * problem.assembly.contacts.len() + problem.supports.len());
+        let mut pulls = Vec::with_capacity(problem.ties.len());
+        let moved = rows / ROWS;
         for contact in &problem.assembly.contacts {
+            // What gives way is a body that moves along the normal alone, against a force of its own.
+            let abutment = contact.gives_way.map(|most| {
+                pulls.push(Pull { column: vec![(rows, 1.0)], most: most / force });
+                rows += 1;
+                (rows - 1, -1.0)
+            });
             let tangents = tangents(contact.normal, minus(contact.corners[1], contact.corners[0]));
             points.extend(contact.corners.iter().map(|at| Point {
-                normal: between(contact.a, contact.b, [*at; 2], contact.normal),
+                normal: between(contact.a, contact.b, [*at; 2], contact.normal).into_iter().chain(abutment).collect(),
                 tangents: tangents.map(|t| between(contact.a, contact.b, [*at; 2], t)),
                 friction: contact.friction,
             }));
@@ -105,12 +115,11 @@ impl Equations {
                 friction: support.friction,
             });
         }
-        let pulls = problem.ties.iter().map(|tie| {
+        pulls.extend(problem.ties.iter().map(|tie| {
             let along = minus(tie.end, tie.at);
             let along = scaled(along, -1.0 / length(along));
             Pull { column: between(tie.body, tie.to, [tie.at, tie.end], along), most: tie.yields / force }
-        });
-        let pulls = pulls.collect();
+        }));
         let down = scaled(problem.down, 1.0 / length(problem.down));
         let direction = scaled(problem.direction, 1.0 / length(problem.direction));
         let (mut dead, mut live) = (vec![0.0; rows], vec![0.0; rows]);
@@ -130,6 +139,7 @@ impl Equations {
         }
         Equations {
             rows,
+            moved,
             points,
             pulls,
             live,

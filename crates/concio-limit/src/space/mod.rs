@@ -28,7 +28,7 @@ mod program;
 mod texture;
 mod wall;
 
-pub use assembly::{Assembly, Body, Contact, ContactKind, Cuboid, EVEN_TWIST, TextureError, Vector};
+pub use assembly::{Assembly, Body, Contact, ContactKind, Cuboid, TextureError, Vector, even_twist};
 pub use mechanism::{ContactMotion, Mechanism};
 pub use problem::{PointLoad, Problem, Support, Tie};
 pub use texture::{Facade, Leaves};
@@ -105,7 +105,7 @@ pub fn analyse(problem: &Problem) -> Result<Limit, LimitError> {
     Ok(Limit {
         bounds: [equations.multiplier(lower.multiplier), equations.multiplier(upper.multiplier)],
         forces: lower.forces.iter().map(|f| f.map(|f| f * equations.force)).collect(),
-        pulls: lower.pulls.iter().map(|f| f * equations.force).collect(),
+        pulls: lower.pulls[lower.pulls.len() - problem.ties.len()..].iter().map(|f| f * equations.force).collect(),
         unbalanced: lower.unbalanced * equations.force,
         mechanism: mechanism::describe(problem, &equations, &upper.velocities),
         iterations: solution.iterations,

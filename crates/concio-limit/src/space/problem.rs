@@ -92,8 +92,8 @@ impl Problem {
     }
 
     /// The problem with the contact points of bed joints drawn in, see [`Assembly::drawn_in`].
-    pub fn drawn_in(&self, part: f64) -> Self {
-        Problem { assembly: self.assembly.clone().drawn_in(part), ..self.clone() }
+    pub fn drawn_in(&self) -> Self {
+        Problem { assembly: self.assembly.clone().drawn_in(), ..self.clone() }
     }
 
     /// Whether anything rubs where blocks stand side by side.
@@ -152,6 +152,9 @@ impl Problem {
         let frictions = contacts.iter().map(|c| c.friction).chain(self.supports.iter().map(|s| s.friction));
         if !frictions.clone().all(from_zero) {
             return wrong("friction coefficients are at least 0");
+        }
+        if !contacts.iter().filter_map(|c| c.gives_way).all(from_zero) {
+            return wrong("a contact gives way at a force of at least 0");
         }
         if !self.assembly.bodies.iter().all(|b| from_zero(b.weight) && numbers(&b.centre)) {
             return wrong("weights of blocks are at least 0");

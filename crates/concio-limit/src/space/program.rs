@@ -138,7 +138,7 @@ pub(super) fn opening(equations: &Equations, friction: &[Friction]) -> Result<Op
     };
     // Blocks drift apart, upwards more than sideways: enough for courses with level beds.
     for ratio in [1.0, 4.0, 16.0, 64.0] {
-        let drift: Vec<f64> = equations
+        let mut drift: Vec<f64> = equations
             .centres
             .iter()
             .flat_map(|c| {
@@ -146,6 +146,7 @@ pub(super) fn opening(equations: &Equations, friction: &[Friction]) -> Result<Op
                 [c[0] + up[0], c[1] + up[1], c[2] + up[2], 0.0, 0.0, 0.0]
             })
             .collect();
+        drift.resize(equations.rows, 0.0);
         let found = least(&drift);
         if found > 1e-3 {
             return Ok(Some(drift.iter().map(|v| v / found).collect()));

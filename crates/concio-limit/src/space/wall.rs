@@ -96,5 +96,6 @@ fn contact(name: &str, ends: &[ContactPoint], b: Option<usize>, deep: f64, frict
         corners: [[0.0, p[0], p[1]], [deep, p[0], p[1]], [deep, q[0], q[1]], [0.0, q[0], q[1]]],
         normal: [0.0, normal[0], normal[1]],
         friction,
+        gives_way: None,
     }
 }
