@@ -26,12 +26,14 @@ mod mechanism;
 mod problem;
 mod program;
 mod texture;
+mod turning;
 mod wall;
 
 pub use assembly::{Assembly, Body, Contact, ContactKind, Cuboid, TextureError, Vector, even_twist};
 pub use mechanism::{ContactMotion, Mechanism};
 pub use problem::{PointLoad, Problem, Support, Tie};
 pub use texture::{Facade, Leaves};
+pub use turning::Turning;
 pub use wall::{Face, of_wall};
 
 use crate::program::Friction;

@@ -118,10 +118,14 @@ fn floors_and_a_tie() {
     }
     let against = "virtual work, computed with six digits before";
     agrees!(subject("wall of three storeys"), against, "", bears(&wall), 0.0395907, 1e-5);
+    let turning = wall.turning().expect("a joint");
+    agrees!(subject("wall of three storeys; closed form"), against, "", turning.multiplier, 0.0395907, 1e-6);
     wall.ties.push(Tie { body: 0, to: None, at: [0.0, 0.5, 6.4], end: [5.0, 0.5, 6.4], yields: 20e3 });
     let limit = analyse(&wall).expect("a limit");
     agrees!(subject("wall of three storeys; with a tie"), against, "", certified(&limit), 0.226367, 1e-5);
     assert!((limit.pulls[0] - 20e3).abs() < 1.0, "{:?}", limit.pulls);
+    let turning = wall.turning().expect("a joint");
+    agrees!(subject("wall of three storeys; closed form with a tie"), against, "", turning.multiplier, 0.226367, 1e-5);
     // A tie that is slack under the load does nothing: pushed inwards, the wall turns about its inner edge.
     wall.direction = [1.0, 0.0, 0.0];
     let limit = analyse(&wall).expect("a limit");
@@ -170,7 +174,9 @@ fn a_part_is_pushed() {
     agrees!(subject("two blocks"), "t/h", "", bears(&problem), 0.25, 1e-7);
     problem.pushed[0] = false;
     agrees!(subject("two blocks; the upper one pushed"), "2 W t/2 = λ W 3 h/4", "", bears(&problem), 1.0 / 3.0, 1e-7);
+    assert_eq!(problem.turning().map(|t| t.level), Some(0.0));
     problem.held[0] = true;
+    assert_eq!(problem.turning().map(|t| t.level), Some(1.0));
     agrees!(subject("two blocks; the upper one pushed, the lower held"), "t/h", "", bears(&problem), 0.5, 1e-7);
 }
 

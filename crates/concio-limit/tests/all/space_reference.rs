@@ -176,12 +176,20 @@ fn l10_a_corner() {
     assert!(limit.bounds[0] <= 0.52463);
 }
 
-/// Friction without dilation: the sequence ends in forces that obey friction, where it is let run until they do.
+/// The sequence ends in forces that obey friction, and in the same state with other factors: slopes at once 0, all of N̄ new.
+///
+/// With the last slope at a hundredth of μ, as another program had it, λ wanders about 0.346 and 0.2886, and forces break
+/// friction by a tenth of the largest normal force and more.
 #[test]
-fn l3_without_dilation() {
+fn l3_l4_without_dilation() {
     let blocks = facade(2.0, [true; 2], 0.2, 10, 2.4).blocks().expect("a façade");
-    let wall = problem(&blocks, 0.6);
-    let estimate = without_dilation(&wall, &analyse(&wall).expect("a limit"));
-    println!("{estimate:?}");
-    assert_eq!(estimate.stop, Stop::Converged);
+    for (mu, other) in [(0.6, 0.333465), (0.3, 0.26179)] {
+        let wall = problem(&blocks, mu);
+        let associative = analyse(&wall).expect("a limit");
+        let estimate = without_dilation(&wall, &associative);
+        assert_eq!(estimate.stop, Stop::Converged, "{estimate:?}");
+        assert!(estimate.multiplier < associative.bounds[0], "{estimate:?}");
+        let what = format!("Limit analysis in space: façade without dilation; μ = {mu}");
+        agrees!(what, "the sequence with other factors", "", estimate.multiplier, other, 1e-3);
+    }
 }
