@@ -5,5 +5,6 @@ mod limit_reference;
 mod limit_walls;
 mod space;
 mod space_reference;
+mod space_wall;
 mod tilt;
 mod tilted_arch;
