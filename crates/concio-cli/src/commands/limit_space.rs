@@ -91,16 +91,24 @@ fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Fo
         if !problem.held.contains(&false) {
             let error = InputError::new(format!("no block stands above --above {above} m")).in_file(&args.file);
             let tops = problem.assembly.bodies.iter().map(|b| b.centre[2]).fold(0.0, f64::max);
-            return Err(error.allowed(format!("below {} m, the middle of the highest block", significant(tops, 4))).into());
+            return Err(error
+                .allowed(format!("below {} m, the middle of the highest block", significant(tops, 4)))
+                .into());
         }
     }
     if args.even_twist {
         problem = problem.drawn_in();
     }
     let strength = file.case.joint.bed.compressive_strength.map(|s| s.si());
-    let mut warnings: Vec<String> =
-        planar.warnings.iter().filter(|w| strength.is_none() || !w.starts_with("compressive_strength")).cloned().collect();
-    if strength.is_some() && file.case.joint.changes.iter().any(|c| c.spring.is_some_and(|s| s.compressive_strength.is_some())) {
+    let mut warnings: Vec<String> = planar
+        .warnings
+        .iter()
+        .filter(|w| strength.is_none() || !w.starts_with("compressive_strength"))
+        .cloned()
+        .collect();
+    if strength.is_some()
+        && file.case.joint.changes.iter().any(|c| c.spring.is_some_and(|s| s.compressive_strength.is_some()))
+    {
         warnings.push("compressive_strength of single joints is left out: all crush at that of joint.bed".into());
     }
     let (limit, problem, crushing) = match strength {
@@ -162,7 +170,10 @@ fn rows(args: &Asked, face: Face, found: &Found) -> Vec<(&'static str, String)> 
     ];
     match &found.smooth {
         Some(smooth) => {
-            rows.push(("smooth heads", format!("λ = {}, head joints without friction", significant(smooth.multiplier(), 6))));
+            rows.push((
+                "smooth heads",
+                format!("λ = {}, head joints without friction", significant(smooth.multiplier(), 6)),
+            ));
             rows.push(("bounds", bounds(smooth)));
         }
         None => rows.push(("smooth heads", "the same: friction.on = \"all\" would make head joints rub".into())),
@@ -175,7 +186,8 @@ fn rows(args: &Asked, face: Face, found: &Found) -> Vec<(&'static str, String)> 
     rows.push(("force", si(lambda * problem.live_load(), "N")));
     rows.push(("mechanism", limit.mechanism.kind.what().into()));
     let named = |chosen: fn(&ContactMotion) -> bool| {
-        let chosen: Vec<&str> = limit.mechanism.contacts.iter().filter(|c| chosen(c)).map(|c| name(problem, c)).collect();
+        let chosen: Vec<&str> =
+            limit.mechanism.contacts.iter().filter(|c| chosen(c)).map(|c| name(problem, c)).collect();
         let more = chosen.len().saturating_sub(NAMED);
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
         format!("{}: {}{more}", chosen.len(), chosen[..chosen.len().min(NAMED)].join(", "))
@@ -193,7 +205,10 @@ fn rows(args: &Asked, face: Face, found: &Found) -> Vec<(&'static str, String)> 
             format!("; {} joints are pressed with more than they bear", overloaded.len())
         };
         let (strength, change) = (si(*strength, "Pa"), significant(*change, 2));
-        rows.push(("crushing", format!("hinges set back for {strength}; λ changed by {change} of itself in the last round{over}")));
+        rows.push((
+            "crushing",
+            format!("hinges set back for {strength}; λ changed by {change} of itself in the last round{over}"),
+        ));
     }
     rows.push(("upper bound", "what slides dilates: where joints slide, real ones bear less than λ".into()));
     if let Some(mu) = limit.slides_at(problem) {
@@ -201,7 +216,11 @@ fn rows(args: &Asked, face: Face, found: &Found) -> Vec<(&'static str, String)> 
         rows.push(("but", what));
     }
     if args.even_twist {
-        rows.push(("low side", "contact points are drawn in: joints twist like even pressure, and rock about lines inside the blocks".into()));
+        rows.push((
+            "low side",
+            "contact points are drawn in: joints twist like even pressure, and rock about lines inside the blocks"
+                .into(),
+        ));
     } else if found.twisting > 0 {
         let what = "their corners bear a twist up to twice too strongly. --even-twist gives the low side";
         rows.push(("but", format!("{} bed joints twist: {what}", found.twisting)));

@@ -24,14 +24,8 @@ const VIEWER: Vector = [-0.75, 0.55, 0.40];
 /// Blocks slower than this part of the fastest corner stay.
 const STAYS: f64 = 1e-3;
 /// Faces of a box by their corners, counterclockwise from outside, and the axis across them.
-const FACES: [([usize; 4], usize); 6] = [
-    ([0, 4, 6, 2], 0),
-    ([1, 3, 7, 5], 0),
-    ([0, 1, 5, 4], 1),
-    ([2, 6, 7, 3], 1),
-    ([0, 2, 3, 1], 2),
-    ([4, 5, 7, 6], 2),
-];
+const FACES: [([usize; 4], usize); 6] =
+    [([0, 4, 6, 2], 0), ([1, 3, 7, 5], 0), ([0, 1, 5, 4], 1), ([2, 6, 7, 3], 1), ([0, 2, 3, 1], 2), ([4, 5, 7, 6], 2)];
 /// Light on faces across x, y and z: shares of black over their colour.
 const SHADE: [f64; 3] = [0.0, 0.16, 0.06];
 
@@ -116,7 +110,8 @@ pub fn draw(problem: &Problem, found: &Limit) -> Drawing {
 /// A corner after a turn and a shift: `amount` is how far the fastest corner goes.
 fn place(problem: &Problem, found: &Limit, body: usize, corner: Vector, amount: f64) -> Vector {
     let centre = problem.assembly.bodies[body].centre;
-    let [shift, turn] = [found.mechanism.velocities[body], found.mechanism.rotations[body]].map(|v| v.map(|v| v * amount));
+    let [shift, turn] =
+        [found.mechanism.velocities[body], found.mechanism.rotations[body]].map(|v| v.map(|v| v * amount));
     let arm = [0, 1, 2].map(|k| corner[k] - centre[k]);
     let angle = norm(turn);
     let turned = if angle > 0.0 {
@@ -139,8 +134,7 @@ fn seen(view: &View, corners: &[Vector; 8], face: &[usize; 4]) -> bool {
 
 /// Indices from the farthest body to the nearest, as they are at rest.
 fn painted(bodies: &[Body], view: &View) -> Vec<usize> {
-    let spans: Vec<[[f64; 2]; 3]> =
-        bodies.iter().map(|b| [0, 1, 2].map(|k| extent(&[b.corners], |p| p[k]))).collect();
+    let spans: Vec<[[f64; 2]; 3]> = bodies.iter().map(|b| [0, 1, 2].map(|k| extent(&[b.corners], |p| p[k]))).collect();
     let hides = |near: usize, far: usize| {
         let mut parted = false;
         for k in 0..3 {

@@ -46,11 +46,14 @@ fn found(desk: &Desk, line: &str) -> Value {
 #[test]
 fn a_block_turns_or_slides_across_its_plane() {
     let desk = Desk::new();
-    for (mu, kind, lambda, part) in [(0.7, "overturning", "0.250000", "equal to λ"), (0.2, "sliding", "0.200000", "--above")] {
+    for (mu, kind, lambda, part) in
+        [(0.7, "overturning", "0.250000", "equal to λ"), (0.2, "sliding", "0.200000", "--above")]
+    {
         desk.put("block.toml", block(mu, RIGID));
         let done = desk.concio("limit block.toml --out-of-plane --out found").assert().success();
         let text = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
-        for part in ["Block", kind, lambda, part, "by forces", "outwards", "an estimate", "closed form", "base|p1c1b1"] {
+        for part in ["Block", kind, lambda, part, "by forces", "outwards", "an estimate", "closed form", "base|p1c1b1"]
+        {
             assert!(text.contains(part), "{part}:\n{text}");
         }
         let written = desk.json("found/limit.json");
@@ -128,7 +131,8 @@ fn what_cannot_be_asked_is_refused() {
     refused("limit block.toml --out-of-plane --above 5m", &["5 m", "below 1", "highest block"]);
     refused("limit block.toml --out-of-plane --above 5", &["unit"]);
     refused("limit block.toml --above 1m", &["--out-of-plane"]);
-    let corners = "bond = \"explicit\"\nblock = [{ id = \"stone\", course = 1, corners = [[0, 0], [1, 0], [0.8, 1], [0.2, 1]] }]";
+    let corners =
+        "bond = \"explicit\"\nblock = [{ id = \"stone\", course = 1, corners = [[0, 0], [1, 0], [0.8, 1], [0.2, 1]] }]";
     desk.put("block.toml", block(0.7, RIGID).replace("bond = \"stack\"\ncourses = 1\nbricks = 1", corners));
     refused("limit block.toml --out-of-plane", &["block.toml", "stone", "polygon", "rectangles"]);
 }

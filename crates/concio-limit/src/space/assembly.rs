@@ -198,16 +198,9 @@ impl Assembly {
     /// Turned about the origin by a rotation matrix, rows first.
     pub fn turned(&self, rotation: [Vector; 3]) -> Self {
         let of = |p: Vector| rotation.map(|row| dot(row, p));
-        let bodies = self.bodies.iter().map(|b| Body {
-            centre: of(b.centre),
-            corners: b.corners.map(of),
-            ..b.clone()
-        });
-        let contacts = self.contacts.iter().map(|c| Contact {
-            corners: c.corners.map(of),
-            normal: of(c.normal),
-            ..c.clone()
-        });
+        let bodies = self.bodies.iter().map(|b| Body { centre: of(b.centre), corners: b.corners.map(of), ..b.clone() });
+        let contacts =
+            self.contacts.iter().map(|c| Contact { corners: c.corners.map(of), normal: of(c.normal), ..c.clone() });
         Assembly { bodies: bodies.collect(), contacts: contacts.collect() }
     }
 }
@@ -263,7 +256,8 @@ fn rectangle(edges: [[f64; 2]; 3], across: usize) -> [Vector; 4] {
     let (u, v) = ((across + 1) % 3, (across + 2) % 3);
     [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[i, j]| {
         let mut corner = [0.0; 3];
-        (corner[u], corner[v], corner[across]) = (edges[u][i], edges[v][j], 0.5 * (edges[across][0] + edges[across][1]));
+        (corner[u], corner[v], corner[across]) =
+            (edges[u][i], edges[v][j], 0.5 * (edges[across][0] + edges[across][1]));
         corner
     })
 }

@@ -54,11 +54,8 @@ struct Forces {
 }
 
 pub(super) fn lower(equations: &Equations, solution: &Solution) -> Lower {
-    let given = Forces {
-        points: solution.forces.clone(),
-        pulls: solution.pulls.clone(),
-        multiplier: solution.multiplier,
-    };
+    let given =
+        Forces { points: solution.forces.clone(), pulls: solution.pulls.clone(), multiplier: solution.multiplier };
     let mut forces = admissible(equations, given);
     let mut best = prove_lower(equations, solution, forces.clone());
     for _ in 0..ROUNDS {
@@ -95,7 +92,11 @@ fn admissible(equations: &Equations, mut forces: Forces) -> Forces {
 fn prove_lower(equations: &Equations, solution: &Solution, forces: Forces) -> Lower {
     let residual = equations.residual(&forces.points, &forces.pulls, forces.multiplier);
     let raised: f64 = residual.iter().zip(&solution.velocities).map(|(r, v)| r.abs() * v.abs()).sum();
-    let of_forces = residual.iter().enumerate().filter(|(row, _)| row % ROWS < 3 || *row >= ROWS * equations.moved).map(|(_, r)| r.abs());
+    let of_forces = residual
+        .iter()
+        .enumerate()
+        .filter(|(row, _)| row % ROWS < 3 || *row >= ROWS * equations.moved)
+        .map(|(_, r)| r.abs());
     Lower {
         multiplier: forces.multiplier - 2.0 * raised,
         unbalanced: of_forces.fold(0.0, f64::max),
@@ -236,7 +237,11 @@ mod tests {
         let given = Forces { points: solution.forces.clone(), pulls: Vec::new(), multiplier: right };
         let as_given = prove_lower(&equations, &solution, admissible(&equations, given)).multiplier;
         let found = lower(&equations, &solution);
-        assert!(found.multiplier <= right * (1.0 + 1e-9) && found.multiplier > 0.99 * right, "{} {right}", found.multiplier);
+        assert!(
+            found.multiplier <= right * (1.0 + 1e-9) && found.multiplier > 0.99 * right,
+            "{} {right}",
+            found.multiplier
+        );
         assert!(as_given < found.multiplier && found.unbalanced < 1e-9, "{as_given} {}", found.unbalanced);
         for (force, point) in found.forces.iter().zip(&equations.points) {
             assert!(force[0] >= 0.0 && force[1].hypot(force[2]) <= point.friction * force[0], "{force:?}");

@@ -37,9 +37,6 @@ pub(super) fn estimate(equations: &Equations, start: &Limit) -> NonAssociative {
             return NonAssociative { multiplier: f64::NAN, rounds, stop: Stop::Unsolved, excess };
         };
         (last, excess) = (equations.multiplier(found.multiplier), beyond(equations, &found.forces));
-        if std::env::var_os("CONCIO_LIMIT_VERBOSE").is_some() {
-            eprintln!("round {rounds}: {last:.6} excess {excess:.2e} in {}", found.iterations);
-        }
         multipliers.extend((part == 0.0).then_some(last));
         if excess <= OBEYS && at_rest(&multipliers) {
             return NonAssociative { multiplier: last, rounds, stop: Stop::Converged, excess };

@@ -66,13 +66,7 @@ pub(super) fn describe(problem: &Problem, equations: &Equations, found: &[f64]) 
         });
         let opens = |c: usize| opening[c] - mu * slip[c] > NOTHING;
         let slips = |c: usize| slip[c] > NOTHING && !opens(c);
-        let motion = ContactMotion {
-            contact: k,
-            opening,
-            slip,
-            slides: (0..4).any(slips),
-            opens: (0..4).any(opens),
-        };
+        let motion = ContactMotion { contact: k, opening, slip, slides: (0..4).any(slips), opens: (0..4).any(opens) };
         if motion.slides || motion.opens {
             contacts.push(motion);
         }

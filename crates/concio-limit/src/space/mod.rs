@@ -157,7 +157,8 @@ pub fn crushed(problem: &Problem, strength: f64) -> Result<Crushed, LimitError> 
         for (k, normal) in pressed.iter().enumerate() {
             let whole = &problem.assembly.contacts[k];
             let sides = whole.sides();
-            let back = [1, 0].map(|other| if sides[other] > 0.0 { normal / (2.0 * strength * sides[other]) } else { 0.0 });
+            let back =
+                [1, 0].map(|other| if sides[other] > 0.0 { normal / (2.0 * strength * sides[other]) } else { 0.0 });
             smaller.assembly.contacts[k].corners = whole.set_back(back);
             if *normal > strength * sides[0] * sides[1] {
                 overloaded.push(k);

@@ -117,7 +117,11 @@ impl Problem {
             direction: of(self.direction),
             loads: self.loads.iter().map(|l| PointLoad { at: of(l.at), force: of(l.force), ..*l }).collect(),
             ties: self.ties.iter().map(|t| Tie { at: of(t.at), end: of(t.end), ..*t }).collect(),
-            supports: self.supports.iter().map(|s| Support { at: of(s.at), direction: of(s.direction), ..*s }).collect(),
+            supports: self
+                .supports
+                .iter()
+                .map(|s| Support { at: of(s.at), direction: of(s.direction), ..*s })
+                .collect(),
             ..self.clone()
         }
     }

@@ -339,7 +339,7 @@ impl Program {
         kinds.extend((cones > above).then_some(SupportedConeT::NonnegativeConeT(cones - above)));
         kinds.extend((0..self.cones / 3).map(|_| SupportedConeT::SecondOrderConeT(3)));
         let settings = DefaultSettings::<f64> {
-            verbose: std::env::var_os("CONCIO_LIMIT_VERBOSE").is_some(),
+            verbose: false,
             tol_gap_abs: tolerance,
             tol_gap_rel: tolerance,
             tol_feas: tolerance,

@@ -85,5 +85,7 @@ impl Problem {
 
 /// Lowest and highest corner.
 fn span(corners: &[Vector], up: Vector) -> [f64; 2] {
-    corners.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], c| [low.min(dot(*c, up)), high.max(dot(*c, up))])
+    corners
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], c| [low.min(dot(*c, up)), high.max(dot(*c, up))])
 }

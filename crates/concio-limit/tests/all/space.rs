@@ -1,7 +1,8 @@
 //! Limit analysis in space against closed forms, and what it refuses.
 
 use concio_limit::space::{
-    Assembly, Cuboid, Facade, Leaves, Limit, PointLoad, Problem, Support, TextureError, Tie, analyse, crushed, even_twist,
+    Assembly, Cuboid, Facade, Leaves, Limit, PointLoad, Problem, Support, TextureError, Tie, analyse, crushed,
+    even_twist,
 };
 use concio_limit::{LimitError, MechanismKind};
 use concio_verified::agrees;
@@ -79,8 +80,9 @@ fn a_block_pushed_upwards_slides_earlier() {
 
 #[test]
 fn a_stack_turns_whole() {
-    let blocks: Vec<Cuboid> =
-        (0..6).map(|k| block(&format!("b{k}"), [0.0, 0.3], [0.0, 0.5], [0.4 * k as f64, 0.4 * (k + 1) as f64])).collect();
+    let blocks: Vec<Cuboid> = (0..6)
+        .map(|k| block(&format!("b{k}"), [0.0, 0.3], [0.0, 0.5], [0.4 * k as f64, 0.4 * (k + 1) as f64]))
+        .collect();
     agrees!(subject("stack of six blocks"), "t/h", "", bears(&problem(&blocks, 0.6)), 0.3 / 2.4, 1e-7);
 }
 
@@ -102,7 +104,14 @@ fn a_joint_twists_at_its_half_diagonal() {
     let at = |side: f64, k: usize| side * ((k as f64 + 0.5) / n as f64 - 0.5);
     let mean = (0..n * n).map(|k| at(a, k / n).hypot(at(b, k % n))).sum::<f64>() / (n * n) as f64;
     let against = "μ W times the mean distance from the middle, summed over 160,000 points";
-    agrees!(subject("twisted joint under even pressure"), against, "", bears(&twisted.drawn_in()), mu * mean / arm, 1e-5);
+    agrees!(
+        subject("twisted joint under even pressure"),
+        against,
+        "",
+        bears(&twisted.drawn_in()),
+        mu * mean / arm,
+        1e-5
+    );
     assert!((even_twist([1.0, 1.0]) - 0.541).abs() < 1e-3 && (even_twist([1e3, 1.0]) - 0.5).abs() < 1e-2);
 }
 
@@ -158,7 +167,8 @@ fn hinges_are_set_back() {
 /// A block between held ones slides out: no velocities part it from both.
 #[test]
 fn a_block_slides_out_between_held_ones() {
-    let blocks = [0, 1, 2].map(|k| block(&format!("b{k}"), [0.0, 0.4], [0.5 * k as f64, 0.5 * (k + 1) as f64], [0.0, 0.2]));
+    let blocks =
+        [0, 1, 2].map(|k| block(&format!("b{k}"), [0.0, 0.4], [0.5 * k as f64, 0.5 * (k + 1) as f64], [0.0, 0.2]));
     let mut problem = problem(&blocks, 0.4).frictionless_heads();
     problem.held = vec![true, false, true];
     agrees!(subject("block between held ones"), "μ", "", bears(&problem), 0.4, 1e-6);
@@ -183,10 +193,7 @@ fn a_part_is_pushed() {
 #[test]
 fn what_cannot_be_asked_is_refused() {
     let (a, b) = (block("a", [0.0, 1.0], [0.0, 1.0], [0.0, 1.0]), block("b", [0.5, 1.5], [0.0, 1.0], [0.0, 1.0]));
-    assert_eq!(
-        Assembly::of_boxes(&[a.clone(), b], 0.6).err(),
-        Some(TextureError::Overlap("a".into(), "b".into()))
-    );
+    assert_eq!(Assembly::of_boxes(&[a.clone(), b], 0.6).err(), Some(TextureError::Overlap("a".into(), "b".into())));
     let flat = block("flat", [0.0, 0.0], [0.0, 1.0], [0.0, 1.0]);
     assert_eq!(Assembly::of_boxes(&[flat], 0.6).err(), Some(TextureError::NoVolume("flat".into())));
     let facade = Facade {
@@ -200,14 +207,8 @@ fn what_cannot_be_asked_is_refused() {
     };
     assert!(matches!(facade.blocks(), Err(TextureError::Range("depth", _))));
     assert!(matches!(Facade { course: f64::NAN, ..facade }.blocks(), Err(TextureError::Range("course", _))));
-    let leaves = Leaves {
-        thickness: 0.2,
-        course: 0.2,
-        courses: 3,
-        length: 2.0,
-        headers: vec![4],
-        specific_weight: 20e3,
-    };
+    let leaves =
+        Leaves { thickness: 0.2, course: 0.2, courses: 3, length: 2.0, headers: vec![4], specific_weight: 20e3 };
     assert!(matches!(leaves.blocks(), Err(TextureError::Range("headers", _))));
     // A block that hangs over by more than half falls; a free one too.
     let over = block("over", [0.7, 1.7], [0.0, 1.0], [1.0, 2.0]);

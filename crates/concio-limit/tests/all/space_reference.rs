@@ -4,7 +4,8 @@
 //! and side walls start behind it; in odd ones side walls run through.
 
 use concio_limit::space::{
-    Assembly, Contact, ContactKind, Cuboid, Facade, Leaves, Limit, PointLoad, Problem, Support, analyse, without_dilation,
+    Assembly, Contact, ContactKind, Cuboid, Facade, Leaves, Limit, PointLoad, Problem, Support, analyse,
+    without_dilation,
 };
 use concio_limit::{MechanismKind, Stop};
 use concio_verified::agrees;
@@ -103,7 +104,14 @@ fn l7_a_facade_of_570_blocks() {
     both("façade of 570 blocks", &problem(&blocks, 0.6), [0.5091, 0.49579]);
     let slides = problem(&blocks, 0.3);
     let limit = analyse(&slides).expect("a limit");
-    agrees!("Limit analysis in space: façade of 570 blocks; μ = 0.3, all slides", "μ", "", certified(&limit), 0.3, 1e-6);
+    agrees!(
+        "Limit analysis in space: façade of 570 blocks; μ = 0.3, all slides",
+        "μ",
+        "",
+        certified(&limit),
+        0.3,
+        1e-6
+    );
     assert_eq!(limit.slides_at(&slides), Some(0.3));
 }
 
@@ -117,8 +125,7 @@ fn l8_two_leaves() {
         (vec![2, 4, 6, 8, 10], 0.19031, 0.18593),
     ] {
         let what = format!("two leaves; headers in courses {headers:?}");
-        let leaves =
-            Leaves { thickness: 0.2, course: 0.2, courses: 10, length: 1.6, headers, specific_weight: WEIGHT };
+        let leaves = Leaves { thickness: 0.2, course: 0.2, courses: 10, length: 1.6, headers, specific_weight: WEIGHT };
         both(&what, &problem(&leaves.blocks().expect("leaves"), 0.6), [rub, smooth]);
     }
 }
