@@ -12,7 +12,7 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
 use super::assembly::{Vector, dot, scaled};
-use super::equations::{Equations, Point};
+use super::equations::{Equations, Point, Pull};
 use crate::LimitError;
 use crate::equations::{Column, power};
 use crate::program::Friction;
@@ -23,8 +23,6 @@ pub(super) struct Solution {
     pub forces: Vec<Vector>,
     /// Force of every tie.
     pub pulls: Vec<f64>,
-    /// Opening and slip of every point, as the solver has them.
-    pub rates: Vec<Vector>,
     /// Velocities.
     pub velocities: Vec<f64>,
     /// Scaled λ.
@@ -45,23 +43,11 @@ pub(super) const COARSE: f64 = 1e-8;
 pub(super) fn solve(equations: &Equations, friction: &[Friction], tolerance: f64) -> Result<Solution, LimitError> {
     let mut program = Program::new(equations);
     program.cost.iter_mut().zip(&equations.dead).for_each(|(cost, dead)| *cost = -dead);
-    let row = program.zero(1.0);
-    let zero = row;
-    program.dense(row, &equations.live);
+    let moved = program.zero(1.0);
+    program.dense(moved, &equations.live);
     let places: Vec<Place> =
         equations.points.iter().zip(friction).map(|(point, law)| program.point(point, *law)).collect();
-    let pulls: Vec<Row> = equations
-        .pulls
-        .iter()
-        .map(|pull| {
-            let stretch = program.unknown(pull.most);
-            let (own, none) = (program.above(0.0), program.above(0.0));
-            program.entry(own, stretch, -1.0);
-            program.sparse(own, &pull.column, -1.0);
-            program.entry(none, stretch, -1.0);
-            own
-        })
-        .collect();
+    let pulls: Vec<Row> = equations.pulls.iter().map(|pull| program.pull(pull)).collect();
     let ended = program.solve(tolerance)?;
     match ended.status {
         SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
@@ -70,36 +56,23 @@ pub(super) fn solve(equations: &Equations, friction: &[Friction], tolerance: f64
         SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => return Err(LimitError::DoesNotStand),
         _ => {}
     }
-    let slip = |point: &Point, v: &[f64]| [0, 1].map(|k| power(&point.tangents[k], v));
-    let velocities = ended.x[..equations.rows].to_vec();
-    let mut rates = Vec::with_capacity(places.len());
-    let mut forces = Vec::with_capacity(places.len());
-    for ((place, law), point) in places.iter().zip(friction).zip(&equations.points) {
-        let (z, s) = (&ended.z, &ended.s);
-        let (force, rate) = match *place {
-            Place::Smooth(row) => {
-                let [a, b] = slip(point, &velocities);
-                ([z.at(row), 0.0, 0.0], [s.at(row), a, b])
-            }
-            Place::Rough(row) => {
-                let mu = law.slope;
-                let (f, r) = (z.three(row), s.three(row));
-                ([f[0], mu * f[1], mu * f[2]], [r[0], r[1] / mu, r[2] / mu])
-            }
-            Place::Cohesive(above, row) => {
-                let (f, r) = (z.three(row), s.three(row));
-                ([z.at(above), f[1], f[2]], [s.at(above) + law.slope * r[0], r[1], r[2]])
-            }
-        };
-        forces.push(force);
-        rates.push(rate);
-    }
+    let z = &ended.z;
+    let force = |(place, law): (&Place, &Friction)| match *place {
+        Place::Smooth(row) => [z.at(row), 0.0, 0.0],
+        Place::Rough(row) => {
+            let [normal, a, b] = z.three(row);
+            [normal, law.slope * a, law.slope * b]
+        }
+        Place::Cohesive(above, row) => {
+            let [_, a, b] = z.three(row);
+            [z.at(above), a, b]
+        }
+    };
     Ok(Solution {
-        forces,
-        pulls: pulls.iter().map(|row| ended.z.at(*row)).collect(),
-        rates,
-        velocities,
-        multiplier: -ended.z.at(zero),
+        forces: places.iter().zip(friction).map(force).collect(),
+        pulls: pulls.iter().map(|row| z.at(*row)).collect(),
+        velocities: ended.x[..equations.rows].to_vec(),
+        multiplier: -z.at(moved),
         iterations: ended.iterations,
     })
 }
@@ -117,13 +90,9 @@ pub(super) fn stands(equations: &Equations, friction: &[Friction]) -> Result<boo
     equations.points.iter().zip(friction).for_each(|(point, law)| {
         program.point(point, *law);
     });
-    for pull in &equations.pulls {
-        let stretch = program.unknown(pull.most);
-        let (own, none) = (program.above(0.0), program.above(0.0));
-        program.entry(own, stretch, -1.0);
-        program.sparse(own, &pull.column, -1.0);
-        program.entry(none, stretch, -1.0);
-    }
+    equations.pulls.iter().for_each(|pull| {
+        program.pull(pull);
+    });
     Ok(program.solve(COARSE)?.cost > -1e-5)
 }
 
@@ -208,7 +177,7 @@ struct Program {
     cones: usize,
 }
 
-/// Multipliers or slacks of the rows.
+/// Multipliers of the rows.
 struct Split {
     values: Vec<f64>,
     above: usize,
@@ -244,7 +213,6 @@ struct Ended {
     status: SolverStatus,
     x: Vec<f64>,
     z: Split,
-    s: Split,
     cost: f64,
     iterations: u32,
 }
@@ -320,6 +288,16 @@ impl Program {
         }
     }
 
+    /// What a pull gives way by costs its force; the row of what it is pulled by.
+    fn pull(&mut self, pull: &Pull) -> Row {
+        let stretch = self.unknown(pull.most);
+        let (own, none) = (self.above(0.0), self.above(0.0));
+        self.entry(own, stretch, -1.0);
+        self.sparse(own, &pull.column, -1.0);
+        self.entry(none, stretch, -1.0);
+        own
+    }
+
     /// # Errors
     /// An end without numbers.
     fn solve(self, tolerance: f64) -> Result<Ended, LimitError> {
@@ -363,12 +341,10 @@ impl Program {
         if !infeasible && !ended.x.iter().chain(&ended.z).all(|v| v.is_finite()) {
             return Err(unsolved(format!("{:?}", ended.status)));
         }
-        let split = |values: Vec<f64>| Split { values, above, cones };
         Ok(Ended {
             status: ended.status,
             x: ended.x,
-            z: split(ended.z),
-            s: split(ended.s),
+            z: Split { values: ended.z, above, cones },
             cost: ended.obj_val,
             iterations: ended.iterations,
         })
