@@ -443,6 +443,15 @@ fn limit(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A length above 0 [m].
+fn metres(text: &str) -> Result<f64, String> {
+    with_unit(text, "m")?;
+    match Length::parse(text)?.si() {
+        v if v > 0.0 && v.is_finite() => Ok(v),
+        _ => Err("allowed: above 0m".into()),
+    }
+}
+
 fn shard(text: &str) -> Result<[usize; 2], String> {
     let wrong = || "allowed: I/N with I from 1 to N, such as 3/16".to_string();
     let (i, n) = text.split_once('/').ok_or_else(wrong)?;
@@ -640,6 +649,10 @@ pub enum CrackCriterion {
 ///
 /// Forces in balance prove a lower bound of λ, a mechanism an upper one, both printed. docs/limit-analysis.md says how.
 ///
+/// With --out-of-plane the wall is pushed across its plane, block by block in space: extruded by its thickness, its base wide
+/// and fixed, its outer face the one that the wall file shows. Told beside λ are its value without friction at head joints, the
+/// estimate without dilation, and the closed form of a wall that turns as one.
+///
 /// With --out, limit.json (bounds, forces, mechanism) and mechanism.svg are written. Exit status 1 if the bounds are more than
 /// 1e-4 of λ apart.
 #[derive(Debug, Args)]
@@ -648,6 +661,7 @@ Examples:
   concio limit wall.toml
   concio limit wall.toml --towards left --heads frictionless
   concio limit wall.toml --load top --out limits/top
+  concio limit wall.toml --out-of-plane --out limits/across
   concio limit wall.toml --json")]
 pub struct Limit {
     /// Wall file, TOML or JSON.
@@ -656,12 +670,24 @@ pub struct Limit {
     /// What is turned to the horizontal.
     #[arg(long, value_enum, default_value = "body")]
     pub load: LimitLoad,
-    /// Where it pushes to; default both ways, and what is told is the weaker.
+    /// Where it pushes to; default both ways, and what is told is the weaker; with --out-of-plane outwards.
     #[arg(long, value_enum)]
     pub towards: Option<Side>,
-    /// Friction of head joints and connections.
+    /// Friction of head joints and connections; with --out-of-plane both are told.
     #[arg(long, value_enum, default_value = "as-given")]
     pub heads: HeadFriction,
+    /// Push the wall across its plane, as blocks in space.
+    #[arg(long)]
+    pub out_of_plane: bool,
+    /// Hold what is below this height, such as 1.2m, and push the rest: for parts, and where all slides at λ = μ.
+    #[arg(long, value_name = "LENGTH", value_parser = metres, requires = "out_of_plane")]
+    pub above: Option<f64>,
+    /// Draw contact points in so that bed joints twist no stronger than even pressure does; λ comes out too low.
+    #[arg(long, requires = "out_of_plane")]
+    pub even_twist: bool,
+    /// Estimate λ without dilation for walls of more than 200 blocks too: some fifty times the work.
+    #[arg(long, requires = "out_of_plane")]
+    pub without_dilation: bool,
     /// Print JSON (SI units).
     #[arg(long)]
     pub json: bool,
@@ -686,6 +712,10 @@ pub enum Side {
     Left,
     /// To +x
     Right,
+    /// Across the plane, to the face that the wall file shows
+    Outwards,
+    /// Across the plane, away from it
+    Inwards,
 }
 
 /// Friction of head joints.

@@ -146,7 +146,7 @@ fn unopened(equations: &Equations, solution: &Solution, split: f64) -> Option<Ve
 }
 
 /// The shortest x with rows · x = right, `rows` by ascending column. Rows may depend on each other.
-fn least_change(rows: &[Column], unknowns: usize, right: &[f64]) -> Option<Vec<f64>> {
+pub(crate) fn least_change(rows: &[Column], unknowns: usize, right: &[f64]) -> Option<Vec<f64>> {
     // Upper triangle of (1, Aᵀ; A, −ε).
     let size = unknowns + rows.len();
     let (mut starts, mut places, mut values): (Vec<usize>, Vec<usize>, Vec<f64>) =

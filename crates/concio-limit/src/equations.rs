@@ -4,7 +4,7 @@ use crate::Problem;
 use crate::assembly::{ContactPoint, Other};
 
 /// Entries of a sparse column: row and value.
-pub(super) type Column = Vec<(usize, f64)>;
+pub(crate) type Column = Vec<(usize, f64)>;
 
 /// Three rows for each body: force along x, along y, moment about its centre.
 pub(super) struct Equations {
@@ -91,11 +91,11 @@ impl Equations {
 }
 
 /// Power of a column's forces under velocities.
-pub(super) fn power(column: &[(usize, f64)], velocities: &[f64]) -> f64 {
+pub(crate) fn power(column: &[(usize, f64)], velocities: &[f64]) -> f64 {
     column.iter().map(|(row, v)| v * velocities[*row]).sum()
 }
 
 /// Inner product.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

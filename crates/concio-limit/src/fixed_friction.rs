@@ -42,9 +42,9 @@ pub enum Stop {
 const MOST: usize = 200;
 /// Spread of λ over this many rounds at which it is at rest, over λ. Where several states lie near each other it wanders
 /// between them by some 1e-4.
-const AT_REST: (usize, f64) = (8, 3e-4);
+pub(crate) const AT_REST: (usize, f64) = (8, 3e-4);
 /// Excess at which forces obey the friction.
-const OBEYS: f64 = 1e-3;
+pub(crate) const OBEYS: f64 = 1e-3;
 /// Factor on ν from round to round; below a millionth of μ it is 0.
 const FLATTER: f64 = 0.1;
 /// Part of the newest normal force in N̄.
@@ -72,7 +72,7 @@ pub(super) fn estimate(equations: &Equations, friction: &[f64], start: &Solution
     NonAssociative { multiplier: last, rounds: MOST, stop: Stop::Rounds, excess }
 }
 
-fn at_rest(multipliers: &[f64]) -> bool {
+pub(crate) fn at_rest(multipliers: &[f64]) -> bool {
     let Some(window) = multipliers.last_chunk::<{ AT_REST.0 }>() else { return false };
     let [low, high] = window.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |e, v| [e[0].min(*v), e[1].max(*v)]);
     high - low <= AT_REST.1 * high.abs().max(1e-3)

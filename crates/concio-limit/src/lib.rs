@@ -25,6 +25,7 @@ mod fixed_friction;
 mod mechanism;
 mod problem;
 mod program;
+pub mod space;
 
 pub use fixed_friction::{NonAssociative, Stop};
 pub use mechanism::{JointMotion, Mechanism, MechanismKind};
@@ -76,13 +77,16 @@ pub enum LimitError {
     DoesNotStand,
     /// The solver ended with neither forces nor mechanism; its own words.
     NotSolved(String),
+    /// What was asked is no problem of limit analysis: what is wrong.
+    Wrong(String),
 }
 
 impl fmt::Display for LimitError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             LimitError::DoesNotStand => write!(f, "the wall does not stand under its dead load"),
-            LimitError::NotSolved(why) => write!(f, "the linear program was not solved: {why}"),
+            LimitError::NotSolved(why) => write!(f, "the program was not solved: {why}"),
+            LimitError::Wrong(what) => write!(f, "{what}"),
         }
     }
 }

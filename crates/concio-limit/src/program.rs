@@ -11,7 +11,7 @@ use crate::equations::{Column, Equations, power};
 
 /// Friction of a contact point: |T| ≤ cohesion + slope N.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Friction {
+pub(crate) struct Friction {
     pub slope: f64,
     pub cohesion: f64,
 }

@@ -11,7 +11,7 @@ use concio::{Error, InputError};
 use concio_limit::{self as limit, JointMotion, LimitError, NonAssociative, Options, Problem, Stop};
 use serde_json::{Value, json};
 
-use super::{check::TRIED, run::refuse_a_file, wall_file};
+use super::{check::TRIED, limit_space, run::refuse_a_file, wall_file};
 use crate::args::{HeadFriction, Limit, LimitLoad, Side};
 use crate::draw::mechanism;
 use crate::failure::{Failure, STOPPED};
@@ -19,10 +19,10 @@ use crate::files;
 use crate::format::{fixed, line, pairs, si, significant};
 
 /// Names of the results in their folder.
-const RESULT: &str = "limit.json";
-const DRAWING: &str = "mechanism.svg";
+pub(super) const RESULT: &str = "limit.json";
+pub(super) const DRAWING: &str = "mechanism.svg";
 /// Joints that are named on the terminal.
-const NAMED: usize = 8;
+pub(super) const NAMED: usize = 8;
 /// Relative difference of two multipliers that are equal.
 const EQUAL: f64 = 1e-6;
 /// Part by which estimates without dilation have to differ for one to be called the lower.
@@ -33,6 +33,13 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
     let file = wall_file::read(&args.file)?;
     if let Some(out) = &args.out {
         refuse_a_file(out)?;
+    }
+    if args.out_of_plane {
+        return limit_space::limit(args, &file);
+    }
+    if let Some(Side::Outwards | Side::Inwards) = args.towards {
+        let error = InputError::new("--towards outwards and inwards are across the plane").in_file(&args.file);
+        return Err(error.allowed("left and right, or --out-of-plane").into());
     }
     let sides = args.towards.map_or(vec![Side::Right, Side::Left], |side| vec![side]);
     let mut pushed = Vec::with_capacity(sides.len());
@@ -122,7 +129,7 @@ fn weaker(mut pushed: Vec<Pushed>) -> (Pushed, Option<Pushed>) {
     }
 }
 
-fn options(args: &Limit, towards: Side) -> Options {
+pub(super) fn options(args: &Limit, towards: Side) -> Options {
     Options {
         push: match args.load {
             LimitLoad::Body => limit::Push::Body,
@@ -130,7 +137,8 @@ fn options(args: &Limit, towards: Side) -> Options {
         },
         towards: match towards {
             Side::Left => limit::Towards::Left,
-            Side::Right => limit::Towards::Right,
+            // Across the plane the side within it plays no part.
+            Side::Right | Side::Outwards | Side::Inwards => limit::Towards::Right,
         },
         heads: match args.heads {
             HeadFriction::AsGiven => limit::Heads::AsGiven,
@@ -139,12 +147,13 @@ fn options(args: &Limit, towards: Side) -> Options {
     }
 }
 
-fn failure(error: LimitError, path: &Path) -> Failure {
+pub(super) fn failure(error: LimitError, path: &Path) -> Failure {
     match error {
         LimitError::DoesNotStand => {
             let error = InputError::new(error.to_string()).in_file(path);
             error.allowed("a wall whose blocks are in balance without tension").into()
         }
+        LimitError::Wrong(_) => InputError::new(error.to_string()).in_file(path).into(),
         LimitError::NotSolved(_) => Failure::Other(error.to_string(), None),
     }
 }
@@ -204,16 +213,27 @@ fn side(side: Side) -> &'static str {
     match side {
         Side::Left => "left",
         Side::Right => "right",
+        Side::Outwards => "outer face",
+        Side::Inwards => "inner face",
     }
 }
 
-fn estimate(found: &NonAssociative) -> String {
+pub(super) fn estimate(found: &NonAssociative) -> String {
     let value = significant(found.multiplier, 4);
     match found.stop {
         Stop::Converged => format!("λ = {value}, an estimate; {} rounds", found.rounds),
         Stop::Rounds => format!("no estimate: not converged in {} rounds, λ last {value}", found.rounds),
         Stop::Unsolved => format!("no estimate: round {} has no solution", found.rounds),
     }
+}
+
+/// Of `limit.json`.
+pub(super) fn without_dilation(found: &NonAssociative) -> Value {
+    let converged = found.stop == Stop::Converged;
+    json!({
+        "multiplier": converged.then_some(found.multiplier),
+        "converged": converged, "rounds": found.rounds, "excess": found.excess,
+    })
 }
 
 fn result(args: &Limit, Pushed { towards, problem, found }: &Pushed, other: Option<&Pushed>) -> Value {
@@ -230,13 +250,6 @@ fn result(args: &Limit, Pushed { towards, problem, found }: &Pushed, other: Opti
     let forces: Vec<Value> = points
         .map(|(p, f)| json!({ "joint": problem.joints[p.joint], "at": p.at, "normal": f[0], "tangential": f[1] }))
         .collect();
-    let without_dilation = |found: &NonAssociative| {
-        let converged = found.stop == Stop::Converged;
-        json!({
-            "multiplier": converged.then_some(found.multiplier),
-            "converged": converged, "rounds": found.rounds, "excess": found.excess,
-        })
-    };
     let other = other.map(|o| {
         json!({
             "towards": side(o.towards), "multiplier": o.found.multiplier(), "bounds": o.found.bounds,

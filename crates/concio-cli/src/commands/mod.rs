@@ -11,6 +11,7 @@ mod completions;
 mod export;
 mod first_crack;
 mod limit;
+mod limit_space;
 mod new;
 mod plot;
 mod record;

@@ -1,5 +1,6 @@
 //! Figures as SVG: the wall by own hand, curves by the plotting library.
 
+pub mod axonometry;
 pub mod chart;
 pub mod curves;
 pub mod font;

@@ -9,6 +9,7 @@ mod head;
 mod hostile;
 mod kill;
 mod limit;
+mod limit_space;
 mod messages;
 mod read_back;
 mod records;

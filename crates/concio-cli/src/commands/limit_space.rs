@@ -1,0 +1,315 @@
+//! `concio limit --out-of-plane`.
+
+use std::fs;
+use std::process::ExitCode;
+
+use concio::case::CaseFile;
+use concio::{Error, InputError};
+use concio_limit::space::{self, ContactKind, ContactMotion, Face, Limit, Problem, Turning, Vector};
+use concio_limit::{CERTIFIED, NonAssociative, Problem as Planar};
+use serde_json::{Value, json};
+
+use super::limit::{DRAWING, NAMED, RESULT, estimate, failure, options, without_dilation};
+use super::wall_file;
+use crate::args::{HeadFriction, Limit as Asked, LimitLoad, Side};
+use crate::draw::axonometry;
+use crate::failure::{Failure, STOPPED};
+use crate::files;
+use crate::format::{fixed, line, pairs, percent, si, significant};
+
+/// Blocks up to which λ without dilation is estimated unasked.
+const QUICK: usize = 200;
+/// Twist of a bed joint over the largest velocity, per half of the joint's diagonal, from which it is told.
+const TWISTS: f64 = 1e-2;
+
+/// What is found.
+struct Found {
+    problem: Problem,
+    /// As the file says.
+    limit: Limit,
+    /// Head joints without friction, where the file has some.
+    smooth: Option<Limit>,
+    dilation: Option<NonAssociative>,
+    turning: Option<Turning>,
+    /// f_c [Pa], contacts that it does not suffice for, change of λ in the last round.
+    crushing: Option<(f64, Vec<usize>, f64)>,
+    /// Bed joints that twist in the mechanism.
+    twisting: usize,
+    warnings: Vec<String>,
+}
+
+/// Finds the multiplier of a wall that is pushed across its plane.
+pub(super) fn limit(args: &Asked, file: &CaseFile) -> Result<ExitCode, Failure> {
+    let wrong = |what: &str, allowed: &str| Err(InputError::new(what).in_file(&args.file).allowed(allowed).into());
+    let face = match args.towards {
+        None | Some(Side::Outwards) => Face::Outwards,
+        Some(Side::Inwards) => Face::Inwards,
+        Some(Side::Left | Side::Right) => {
+            return wrong("--towards left and right are in the plane", "outwards, inwards");
+        }
+    };
+    if args.heads == HeadFriction::Frictionless {
+        return wrong("--out-of-plane tells λ without friction at head joints beside the other", "no --heads");
+    }
+    let planar = Planar::of(&file.case, options(args, Side::Right));
+    let planar = planar.map_err(|e| wall_file::all(file, file.locate(e)))?;
+    let found = find(args, file, &planar, face)?;
+    for warning in found.warnings.iter() {
+        files::note(&format!("warning: {warning}"));
+    }
+    let result = result(args, face, &found);
+    if let Some(out) = &args.out {
+        fs::create_dir_all(out).map_err(|e| Failure::from(Error::io(out, e)))?;
+        files::write(&out.join(RESULT), &format!("{result:#}\n"))?;
+        let drawing = axonometry::draw(&found.problem, &found.limit).outlined();
+        files::write(&out.join(DRAWING), &drawing.map_err(|e| Failure::Other(e, None))?)?;
+    }
+    if args.json {
+        files::print_json(&format!("{result:#}\n"))?;
+    } else {
+        let title = if file.case.title.is_empty() { String::new() } else { format!("{}\n\n", line(&file.case.title)) };
+        let names = |out: &std::path::Path| format!("\nopen {}\n", out.join(DRAWING).display());
+        let written = args.out.as_deref().map(names).unwrap_or_default();
+        files::print(&format!("{title}{}{written}", pairs(&rows(args, face, &found))))?;
+    }
+    let open: Vec<&Limit> = [Some(&found.limit), found.smooth.as_ref()].into_iter().flatten().collect();
+    let open: Vec<&Limit> = open.into_iter().filter(|l| !l.is_certified()).collect();
+    for limit in &open {
+        let wide = significant(limit.gap(), 2);
+        files::note(&format!("no certificate: the bounds are {wide} of λ apart, {CERTIFIED} are allowed"));
+    }
+    Ok(if open.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
+}
+
+fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Found, Failure> {
+    let told = |e| failure(e, &args.file);
+    let mut problem = space::of_wall(planar, face).map_err(told)?;
+    if let Some(above) = args.above {
+        for (held, body) in problem.held.iter_mut().zip(&problem.assembly.bodies) {
+            *held = body.centre[2] < above;
+        }
+        if !problem.held.contains(&false) {
+            let error = InputError::new(format!("no block stands above --above {above} m")).in_file(&args.file);
+            let tops = problem.assembly.bodies.iter().map(|b| b.centre[2]).fold(0.0, f64::max);
+            return Err(error
+                .allowed(format!("below {} m, the middle of the highest block", significant(tops, 4)))
+                .into());
+        }
+    }
+    if args.even_twist {
+        problem = problem.drawn_in();
+    }
+    let strength = file.case.joint.bed.compressive_strength.map(|s| s.si());
+    let mut warnings: Vec<String> = planar
+        .warnings
+        .iter()
+        .filter(|w| strength.is_none() || !w.starts_with("compressive_strength"))
+        .cloned()
+        .collect();
+    if strength.is_some()
+        && file.case.joint.changes.iter().any(|c| c.spring.is_some_and(|s| s.compressive_strength.is_some()))
+    {
+        warnings.push("compressive_strength of single joints is left out: all crush at that of joint.bed".into());
+    }
+    let (limit, problem, crushing) = match strength {
+        None => (space::analyse(&problem).map_err(told)?, problem, None),
+        Some(strength) => {
+            let found = space::crushed(&problem, strength).map_err(told)?;
+            (found.limit, found.problem, Some((strength, found.overloaded, found.change)))
+        }
+    };
+    let smooth = match problem.heads_rub() {
+        true => Some(space::analyse(&problem.frictionless_heads()).map_err(told)?),
+        false => None,
+    };
+    let quick = problem.assembly.bodies.len() <= QUICK || args.without_dilation;
+    let dilation = quick.then(|| space::without_dilation(&problem, &limit));
+    Ok(Found {
+        twisting: twisting(&problem, &limit),
+        turning: problem.turning(),
+        problem,
+        limit,
+        smooth,
+        dilation,
+        crushing,
+        warnings,
+    })
+}
+
+/// Bed joints and base joints whose sides turn against each other about the normal.
+fn twisting(problem: &Problem, limit: &Limit) -> usize {
+    let turn = |body: usize| limit.mechanism.rotations[body];
+    let twists = |motion: &&ContactMotion| {
+        let contact = &problem.assembly.contacts[motion.contact];
+        let still = [0.0; 3];
+        let other = contact.b.map_or(still, turn);
+        let rate: f64 = (0..3).map(|k| (other[k] - turn(contact.a)[k]) * contact.normal[k]).sum();
+        let [a, b] = contact.sides();
+        contact.kind != ContactKind::Head && rate.abs() * 0.5 * a.hypot(b) > TWISTS
+    };
+    limit.mechanism.contacts.iter().filter(twists).count()
+}
+
+fn rows(args: &Asked, face: Face, found: &Found) -> Vec<(&'static str, String)> {
+    let (problem, limit) = (&found.problem, &found.limit);
+    let load = match args.load {
+        LimitLoad::Body => "weight of every block and what has mass on it",
+        LimitLoad::Top => "dead load of the top course",
+    };
+    let part = args.above.map(|z| format!(", held below {} m", significant(z, 4))).unwrap_or_default();
+    let heads = if found.smooth.is_some() { ", head joints rub" } else { ", head joints do not rub" };
+    let bounds = |limit: &Limit| {
+        let [lower, upper] = limit.bounds.map(|b| fixed(b, 8));
+        format!("{lower} by forces, {upper} by a mechanism")
+    };
+    let lambda = limit.multiplier();
+    let mut rows = vec![
+        ("load", format!("λ × {load}, {}{part}", way(face))),
+        ("λ", format!("{} for associative friction{heads}", significant(lambda, 6))),
+        ("bounds", bounds(limit)),
+    ];
+    match &found.smooth {
+        Some(smooth) => {
+            rows.push((
+                "smooth heads",
+                format!("λ = {}, head joints without friction", significant(smooth.multiplier(), 6)),
+            ));
+            rows.push(("bounds", bounds(smooth)));
+        }
+        None => rows.push(("smooth heads", "the same: friction.on = \"all\" would make head joints rub".into())),
+    }
+    rows.push(match &found.dilation {
+        Some(dilation) => ("without dilation", estimate(dilation)),
+        None => ("without dilation", format!("not asked of more than {QUICK} blocks; --without-dilation asks")),
+    });
+    rows.push(("closed form", closed(found)));
+    rows.push(("force", si(lambda * problem.live_load(), "N")));
+    rows.push(("mechanism", limit.mechanism.kind.what().into()));
+    let named = |chosen: fn(&ContactMotion) -> bool| {
+        let chosen: Vec<&str> =
+            limit.mechanism.contacts.iter().filter(|c| chosen(c)).map(|c| name(problem, c)).collect();
+        let more = chosen.len().saturating_sub(NAMED);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        format!("{}: {}{more}", chosen.len(), chosen[..chosen.len().min(NAMED)].join(", "))
+    };
+    if limit.mechanism.contacts.iter().any(|c| c.slides) {
+        rows.push(("joints that slide", named(|c| c.slides)));
+    }
+    if limit.mechanism.contacts.iter().any(|c| c.opens) {
+        rows.push(("joints that open", named(|c| c.opens)));
+    }
+    if let Some((strength, overloaded, change)) = &found.crushing {
+        let over = if overloaded.is_empty() {
+            String::new()
+        } else {
+            format!("; {} joints are pressed with more than they bear", overloaded.len())
+        };
+        let (strength, change) = (si(*strength, "Pa"), significant(*change, 2));
+        rows.push((
+            "crushing",
+            format!("hinges set back for {strength}; λ changed by {change} of itself in the last round{over}"),
+        ));
+    }
+    rows.push(("upper bound", "what slides dilates: where joints slide, real ones bear less than λ".into()));
+    if let Some(mu) = limit.slides_at(problem) {
+        let what = format!("all that slides at μ = {} slides: λ is μ. --above pushes a part", significant(mu, 4));
+        rows.push(("but", what));
+    }
+    if args.even_twist {
+        rows.push((
+            "low side",
+            "contact points are drawn in: joints twist like even pressure, and rock about lines inside the blocks"
+                .into(),
+        ));
+    } else if found.twisting > 0 {
+        let what = "their corners bear a twist up to twice too strongly. --even-twist gives the low side";
+        rows.push(("but", format!("{} bed joints twist: {what}", found.twisting)));
+    }
+    rows
+}
+
+fn closed(found: &Found) -> String {
+    let Some(turning) = found.turning else {
+        return "none: no level joint runs through, or something holds what is above it".into();
+    };
+    let (lambda, alpha) = (found.limit.multiplier(), turning.multiplier);
+    let off = (alpha - lambda) / lambda;
+    let than = match off {
+        off if !off.is_finite() || off.abs() <= CERTIFIED => "equal to λ".to_string(),
+        off => format!("{} above λ: the blocks find a lower one", percent(off)),
+    };
+    let level = significant(turning.level, 4);
+    format!("α₀ = {}, all above z = {level} m turns as one; {than}", significant(alpha, 6))
+}
+
+fn way(face: Face) -> &'static str {
+    match face {
+        Face::Outwards => "outwards",
+        Face::Inwards => "inwards",
+    }
+}
+
+fn name<'p>(problem: &'p Problem, motion: &ContactMotion) -> &'p str {
+    &problem.assembly.contacts[motion.contact].name
+}
+
+fn result(args: &Asked, face: Face, found: &Found) -> Value {
+    let (problem, limit) = (&found.problem, &found.limit);
+    let of = |limit: &Limit| {
+        json!({
+            "multiplier": limit.multiplier(), "bounds": limit.bounds, "gap": limit.gap(),
+            "certified": limit.is_certified(), "unbalanced": limit.unbalanced,
+        })
+    };
+    let motion = limit.mechanism.velocities.iter().zip(&limit.mechanism.rotations);
+    let blocks: Vec<Value> = problem
+        .assembly
+        .bodies
+        .iter()
+        .zip(motion)
+        .map(|(b, (v, w))| json!({ "name": b.name, "centre": b.centre, "velocity": v, "rotation": w }))
+        .collect();
+    let joint = |c: &ContactMotion| {
+        json!({
+            "name": name(problem, c), "slides": c.slides, "opens": c.opens, "opening": c.opening, "slip": c.slip,
+        })
+    };
+    let contacts = problem.assembly.contacts.iter().zip(limit.forces.chunks(4));
+    let points = contacts.flat_map(|(c, forces)| c.corners.iter().zip(forces).map(move |(at, f)| (c, at, f)));
+    let forces: Vec<Value> = points
+        .map(|(c, at, f): (_, &Vector, &Vector)| {
+            json!({ "joint": c.name, "at": at, "normal": f[0], "tangential": f[1].hypot(f[2]) })
+        })
+        .collect();
+    let mut result = of(limit);
+    let more = json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "out_of_plane": true,
+        "load": match args.load { LimitLoad::Body => "body", LimitLoad::Top => "top" },
+        "towards": way(face),
+        "held_below": args.above,
+        "even_twist": args.even_twist,
+        "live_load": problem.live_load(),
+        "heads_rub": found.smooth.is_some(),
+        "frictionless_heads": found.smooth.as_ref().map(of),
+        "non_associative": found.dilation.as_ref().map(without_dilation),
+        "closed_form": found.turning.map(|t| json!({ "multiplier": t.multiplier, "level": t.level })),
+        "crushing": found.crushing.as_ref().map(|(strength, over, change)| {
+            let names: Vec<&str> = over.iter().map(|c| problem.assembly.contacts[*c].name.as_str()).collect();
+            json!({ "strength": strength, "overloaded": names, "change": change })
+        }),
+        "slides_at": limit.slides_at(problem),
+        "twisting_joints": found.twisting,
+        "mechanism": {
+            "kind": limit.mechanism.kind.name(),
+            "blocks": blocks,
+            "joints": limit.mechanism.contacts.iter().map(joint).collect::<Vec<_>>(),
+        },
+        "forces": forces,
+        "warnings": found.warnings,
+    });
+    if let (Some(result), Value::Object(more)) = (result.as_object_mut(), more) {
+        result.extend(more);
+    }
+    result
+}

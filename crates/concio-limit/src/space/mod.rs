@@ -1,0 +1,177 @@
+//! Limit analysis in space: blocks with six unknowns, and friction in all directions of a joint.
+//!
+//! At each corner of a rectangle in which blocks touch, with normal n and tangents t₁, t₂, the sides press with N and rub with
+//! (T₁, T₂). Equilibrium of every block under its dead load D, λ times its live load F and ties of force Y at most:
+//!
+//! (S1) Σ Eᵏ (N, T₁, T₂)ₖ + Σ Eᵗ Pₜ + λ F + D = 0, (S2) N ≥ 0, √(T₁² + T₂²) ≤ μ N, 0 ≤ P ≤ Y.
+//!
+//! The largest λ is that of a cone program. Its dual is a mechanism of velocities v, opening o and slip s of the points, and
+//! stretch rates e of the ties:
+//!
+//! (S3) o = (v_b − v_a)·n, s = (v_b − v_a)·(t₁, t₂), (S4) o ≥ μ |s|, (S5) F·v = 1, λ = −D·v + Σ Y max(0, e).
+//!
+//! Forces that obey (S1) and (S2) bound λ from below, velocities that obey (S4) and (S5) from above; `certificate.rs` makes
+//! both hold. What the bounds enclose is λ of this model, whose friction dilates and whose joints press in their corners: real
+//! joints bear less where they slide ([`without_dilation`]) or twist ([`Assembly::drawn_in`]).
+//!
+//! Source: F. Portioli, C. Casapulla, M. Gilbert and L. Cascini, Limit analysis of 3D masonry block structures with
+//! non-associative frictional joints using cone programming, Computers and Structures 143 (2014) 108–121; for the plane
+//! R. K. Livesley, International Journal for Numerical Methods in Engineering 12 (1978) 1853–1871.
+
+mod assembly;
+mod certificate;
+mod equations;
+mod fixed_friction;
+mod mechanism;
+mod problem;
+mod program;
+mod texture;
+mod turning;
+mod wall;
+
+pub use assembly::{Assembly, Body, Contact, ContactKind, Cuboid, TextureError, Vector, even_twist};
+pub use mechanism::{ContactMotion, Mechanism};
+pub use problem::{PointLoad, Problem, Support, Tie};
+pub use texture::{Facade, Leaves};
+pub use turning::Turning;
+pub use wall::{Face, of_wall};
+
+use crate::program::Friction;
+use crate::{CERTIFIED, LimitError, NonAssociative};
+use assembly::length;
+use equations::Equations;
+
+/// What limit analysis in space finds.
+#[derive(Debug, Clone)]
+pub struct Limit {
+    /// Bounds of λ for associative friction: from forces, from a mechanism.
+    pub bounds: [f64; 2],
+    /// Normal force [N], from 0, and forces along both tangents at the lower bound: of the four corners of each contact in
+    /// turn, then of each support; as they act on side b.
+    pub forces: Vec<Vector>,
+    /// Force of every tie at the lower bound [N].
+    pub pulls: Vec<f64>,
+    /// Largest force [N] by which a block is out of balance under `forces`; the lower bound allows for it.
+    pub unbalanced: f64,
+    /// The mechanism of the upper bound.
+    pub mechanism: Mechanism,
+    /// Rounds of the solver.
+    pub iterations: u32,
+}
+
+impl Limit {
+    /// λ: the middle of the bounds.
+    pub fn multiplier(&self) -> f64 {
+        0.5 * (self.bounds[0] + self.bounds[1])
+    }
+
+    /// Distance of the bounds over the larger of |λ| and 1e-3; below 0 by what rounding brings.
+    pub fn gap(&self) -> f64 {
+        (self.bounds[1] - self.bounds[0]) / self.multiplier().abs().max(1e-3)
+    }
+
+    /// Whether the gap is at most [`CERTIFIED`].
+    pub fn is_certified(&self) -> bool {
+        self.gap() <= CERTIFIED
+    }
+
+    /// Whether the whole slides on a joint of some μ: λ is that μ, and says nothing about how blocks turn.
+    pub fn slides_at(&self, problem: &Problem) -> Option<f64> {
+        let frictions = problem.assembly.contacts.iter().filter(|c| c.kind != ContactKind::Head).map(|c| c.friction);
+        frictions.into_iter().find(|mu| (self.multiplier() - mu).abs() <= CERTIFIED * mu)
+    }
+
+    /// Normal force of each contact [N].
+    pub fn pressed(&self, problem: &Problem) -> Vec<f64> {
+        let of = |four: &[Vector]| four.iter().map(|f| f[0]).sum();
+        self.forces.chunks(4).take(problem.assembly.contacts.len()).map(of).collect()
+    }
+}
+
+/// Finds λ, its bounds and mechanism for associative friction.
+///
+/// # Errors
+/// A problem that is none, blocks that do not stand without the live load, a program that was not solved.
+pub fn analyse(problem: &Problem) -> Result<Limit, LimitError> {
+    problem.check()?;
+    let equations = Equations::of(problem);
+    let friction: Vec<Friction> =
+        equations.points.iter().map(|p| Friction { slope: p.friction, cohesion: 0.0 }).collect();
+    let solution = program::solve(&equations, &friction, program::SHARP)?;
+    // Forces hold the dead load alone where they also hold it under a pull that is not below 0: else it is asked.
+    if !program::stands(&equations, &friction)? {
+        return Err(LimitError::DoesNotStand);
+    }
+    let lower = certificate::lower(&equations, &solution);
+    let upper = certificate::upper(&equations, &friction, &solution)?;
+    Ok(Limit {
+        bounds: [equations.multiplier(lower.multiplier), equations.multiplier(upper.multiplier)],
+        forces: lower.forces.iter().map(|f| f.map(|f| f * equations.force)).collect(),
+        pulls: lower.pulls[lower.pulls.len() - problem.ties.len()..].iter().map(|f| f * equations.force).collect(),
+        unbalanced: lower.unbalanced * equations.force,
+        mechanism: mechanism::describe(problem, &equations, &upper.velocities),
+        iterations: solution.iterations,
+    })
+}
+
+/// The estimate for friction without dilation, from what [`analyse`] found.
+pub fn without_dilation(problem: &Problem, associative: &Limit) -> NonAssociative {
+    let equations = Equations::of(problem);
+    fixed_friction::estimate(&equations, associative)
+}
+
+/// What crushing stones leave of a problem: joints set back from the edges that press.
+#[derive(Debug, Clone)]
+pub struct Crushed {
+    /// λ with the joints as they are in `problem`.
+    pub limit: Limit,
+    /// The problem with smaller contacts.
+    pub problem: Problem,
+    /// Contacts by index that are pressed with more than their strength.
+    pub overloaded: Vec<usize>,
+    /// Change of λ in the last of the rounds, over λ.
+    pub change: f64,
+}
+
+/// Rounds of [`crushed`].
+const SET_BACK: usize = 2;
+
+/// λ of stones that crush: each contact of sides b, l and normal force N is cut at its edges by
+///
+/// (S6) a_b = N/(2 f l), a_l = N/(2 f b),
+///
+/// so that the pressure f on what is left outside of the new edge bears N. N is that of the last λ, found anew two times. Along
+/// a diagonal (S6) leaves too much, by up to (N/(f b l))² b l. The bounds are those of the joints of the last round.
+///
+/// # Errors
+/// As [`analyse`]; a strength that is not above 0.
+pub fn crushed(problem: &Problem, strength: f64) -> Result<Crushed, LimitError> {
+    if !(strength > 0.0) {
+        return Err(LimitError::Wrong("a strength is above 0".into()));
+    }
+    let mut limit = analyse(problem)?;
+    let (mut smaller, mut overloaded, mut change) = (problem.clone(), Vec::new(), 0.0);
+    for _ in 0..SET_BACK {
+        let pressed = limit.pressed(problem);
+        overloaded.clear();
+        for (k, normal) in pressed.iter().enumerate() {
+            let whole = &problem.assembly.contacts[k];
+            let sides = whole.sides();
+            let back =
+                [1, 0].map(|other| if sides[other] > 0.0 { normal / (2.0 * strength * sides[other]) } else { 0.0 });
+            smaller.assembly.contacts[k].corners = whole.set_back(back);
+            if *normal > strength * sides[0] * sides[1] {
+                overloaded.push(k);
+            }
+        }
+        let next = analyse(&smaller)?;
+        change = (next.multiplier() - limit.multiplier()) / next.multiplier().abs().max(1e-3);
+        limit = next;
+    }
+    Ok(Crushed { limit, problem: smaller, overloaded, change })
+}
+
+/// Distance of a body's farthest corner from its centre [m].
+fn radius(body: &Body) -> f64 {
+    body.corners.iter().map(|c| length(assembly::minus(*c, body.centre))).fold(0.0, f64::max)
+}

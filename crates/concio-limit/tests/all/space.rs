@@ -1,0 +1,257 @@
+//! Limit analysis in space against closed forms, and what it refuses.
+
+use concio_limit::space::{
+    Assembly, Cuboid, Facade, Leaves, Limit, PointLoad, Problem, Support, TextureError, Tie, analyse, crushed,
+    even_twist,
+};
+use concio_limit::{LimitError, MechanismKind};
+use concio_verified::agrees;
+use proptest::prelude::*;
+
+const OUTWARDS: [f64; 3] = [-1.0, 0.0, 0.0];
+
+fn block(name: &str, x: [f64; 2], y: [f64; 2], z: [f64; 2]) -> Cuboid {
+    Cuboid { name: name.into(), edges: [x, y, z], specific_weight: 20e3 }
+}
+
+fn problem(blocks: &[Cuboid], mu: f64) -> Problem {
+    Problem::new(Assembly::of_boxes(blocks, mu).expect("blocks"), OUTWARDS)
+}
+
+fn one([a, b, h]: [f64; 3], mu: f64) -> Problem {
+    problem(&[block("b", [0.0, a], [0.0, b], [0.0, h])], mu)
+}
+
+fn certified(limit: &Limit) -> f64 {
+    assert!(limit.is_certified() && limit.gap() > -1e-8, "{:?}, {:e} apart", limit.bounds, limit.gap());
+    limit.multiplier()
+}
+
+fn bears(problem: &Problem) -> f64 {
+    certified(&analyse(problem).expect("a limit"))
+}
+
+fn subject(what: &str) -> String {
+    format!("Limit analysis in space: {what}")
+}
+
+/// A turn about an axis by an angle.
+fn rotation(axis: [f64; 3], angle: f64) -> [[f64; 3]; 3] {
+    let size = axis.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let [x, y, z] = axis.map(|v| v / size);
+    let (s, c) = angle.sin_cos();
+    let d = 1.0 - c;
+    [
+        [c + x * x * d, x * y * d - z * s, x * z * d + y * s],
+        [y * x * d + z * s, c + y * y * d, y * z * d - x * s],
+        [z * x * d - y * s, z * y * d + x * s, c + z * z * d],
+    ]
+}
+
+/// A block pushed along any level direction slides, or turns about the edge that its weight reaches first.
+#[test]
+fn a_block_slides_or_turns_in_any_direction() {
+    for ([a, b, h], mu) in [([0.5, 0.5, 2.0], 0.6), ([0.4, 1.0, 1.0], 0.3), ([0.3, 2.0, 1.5], 0.7)] {
+        for degrees in [0.0f64, 20.0, 45.0, 70.0, 90.0, 200.0] {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let mut problem = one([a, b, h], mu);
+            problem.direction = [3.0 * cos, 3.0 * sin, 0.0];
+            let edges = (a / (h * cos.abs())).min(b / (h * sin.abs()));
+            let what = subject(&format!("block; {a} × {b} × {h}, μ = {mu}, towards {degrees}°"));
+            let limit = analyse(&problem).expect("a limit");
+            agrees!(what, "min(μ, a/(h cos φ), b/(h sin φ))", "", certified(&limit), mu.min(edges), 1e-7);
+            let kind = if mu < edges { MechanismKind::Sliding } else { MechanismKind::Overturning };
+            assert_eq!(limit.mechanism.kind, kind, "{a} × {b} × {h} towards {degrees}°");
+        }
+    }
+}
+
+/// Pushed upwards at an angle, a block slides at μ/(cos φ + μ sin φ).
+#[test]
+fn a_block_pushed_upwards_slides_earlier() {
+    for degrees in [10.0f64, 30.0, -20.0] {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let mut problem = one([2.0, 2.0, 0.2], 0.4);
+        problem.direction = [cos, 0.0, sin];
+        let what = subject(&format!("block pushed upwards; φ = {degrees}°"));
+        agrees!(what, "μ/(cos φ + μ sin φ)", "", bears(&problem), 0.4 / (cos + 0.4 * sin), 1e-7);
+    }
+}
+
+#[test]
+fn a_stack_turns_whole() {
+    let blocks: Vec<Cuboid> = (0..6)
+        .map(|k| block(&format!("b{k}"), [0.0, 0.3], [0.0, 0.5], [0.4 * k as f64, 0.4 * (k + 1) as f64]))
+        .collect();
+    agrees!(subject("stack of six blocks"), "t/h", "", bears(&problem(&blocks, 0.6)), 0.3 / 2.4, 1e-7);
+}
+
+/// A joint pressed by W resists a twist by μ W times half of its diagonal; with its points drawn in, times the mean distance.
+#[test]
+fn a_joint_twists_at_its_half_diagonal() {
+    let (a, b, mu, arm) = (0.4, 0.7, 0.5, 3.0);
+    let mut twisted = one([a, b, 0.2], mu);
+    twisted.pushed = vec![false];
+    let weight = twisted.assembly.bodies[0].weight;
+    // Pushed at the end of an arm, and held from going along.
+    twisted.loads.push(PointLoad { body: 0, at: [0.5 * a, 0.5 * b + arm, 0.0], force: [0.0; 3], pushes: weight });
+    twisted.supports.push(Support { body: 0, at: [0.5 * a, 0.5 * b, 0.0], direction: [1.0, 0.0, 0.0], friction: 0.0 });
+    let radius = 0.5 * a.hypot(b);
+    let against = "μ W times half of the diagonal";
+    agrees!(subject("twisted joint"), against, "", bears(&twisted), mu * radius / arm, 1e-7);
+    // The mean distance from the middle by summation over the rectangle.
+    let n = 400;
+    let at = |side: f64, k: usize| side * ((k as f64 + 0.5) / n as f64 - 0.5);
+    let mean = (0..n * n).map(|k| at(a, k / n).hypot(at(b, k % n))).sum::<f64>() / (n * n) as f64;
+    let against = "μ W times the mean distance from the middle, summed over 160,000 points";
+    agrees!(
+        subject("twisted joint under even pressure"),
+        against,
+        "",
+        bears(&twisted.drawn_in()),
+        mu * mean / arm,
+        1e-5
+    );
+    assert!((even_twist([1.0, 1.0]) - 0.541).abs() < 1e-3 && (even_twist([1e3, 1.0]) - 0.5).abs() < 1e-2);
+}
+
+/// Floors as forces, a thrust, and a tie up to its yield force: balance of moments about the outer edge.
+#[test]
+fn floors_and_a_tie() {
+    let mut wall = problem(
+        &[Cuboid { name: "wall".into(), edges: [[0.0, 0.6], [0.0, 1.0], [0.0, 9.6]], specific_weight: 19e3 }],
+        1.0,
+    );
+    for (z, load, x, thrust) in [(3.2, 12e3, 0.35, 0.0), (6.4, 10e3, 0.30, 0.0), (9.6, 6e3, 0.25, 1.5e3)] {
+        wall.loads.push(PointLoad { body: 0, at: [x, 0.5, z], force: [-thrust, 0.0, -load], pushes: load });
+    }
+    let against = "virtual work, computed with six digits before";
+    agrees!(subject("wall of three storeys"), against, "", bears(&wall), 0.0395907, 1e-5);
+    let turning = wall.turning().expect("a joint");
+    agrees!(subject("wall of three storeys; closed form"), against, "", turning.multiplier, 0.0395907, 1e-6);
+    wall.ties.push(Tie { body: 0, to: None, at: [0.0, 0.5, 6.4], end: [5.0, 0.5, 6.4], yields: 20e3 });
+    let limit = analyse(&wall).expect("a limit");
+    agrees!(subject("wall of three storeys; with a tie"), against, "", certified(&limit), 0.226367, 1e-5);
+    assert!((limit.pulls[0] - 20e3).abs() < 1.0, "{:?}", limit.pulls);
+    let turning = wall.turning().expect("a joint");
+    agrees!(subject("wall of three storeys; closed form with a tie"), against, "", turning.multiplier, 0.226367, 1e-5);
+    // A tie that is slack under the load does nothing: pushed inwards, the wall turns about its inner edge.
+    wall.direction = [1.0, 0.0, 0.0];
+    let limit = analyse(&wall).expect("a limit");
+    assert!(limit.pulls[0].abs() < 1.0, "{:?}", limit.pulls);
+}
+
+/// Stones that crush: the hinge goes back by N/(2 f L).
+#[test]
+fn hinges_are_set_back() {
+    let courses = |number: usize| -> Vec<Cuboid> {
+        let h = 6.0 / number as f64;
+        let course = |k: usize| Cuboid {
+            name: format!("c{k}"),
+            edges: [[0.0, 0.5], [0.0, 1.0], [h * k as f64, h * (k + 1) as f64]],
+            specific_weight: 18e3,
+        };
+        (0..number).map(course).collect()
+    };
+    for number in [1, 6] {
+        let found = crushed(&problem(&courses(number), 0.8), 1500e3).expect("a limit");
+        let what = subject(&format!("stones that crush at 1.5 MPa; {number} courses"));
+        agrees!(what, "(t − N/(f L))/h", "", certified(&found.limit), 0.0773333, 1e-5);
+        assert!(found.overloaded.is_empty() && found.change.abs() < 1e-6, "{:?}, {}", found.overloaded, found.change);
+    }
+    let found = crushed(&problem(&courses(1), 0.8), 100e3);
+    assert!(found.is_ok_and(|f| f.overloaded == [0] && f.limit.multiplier().abs() < 1e-6));
+    assert!(matches!(crushed(&problem(&courses(1), 0.8), 0.0), Err(LimitError::Wrong(_))));
+}
+
+/// A block between held ones slides out: no velocities part it from both.
+#[test]
+fn a_block_slides_out_between_held_ones() {
+    let blocks =
+        [0, 1, 2].map(|k| block(&format!("b{k}"), [0.0, 0.4], [0.5 * k as f64, 0.5 * (k + 1) as f64], [0.0, 0.2]));
+    let mut problem = problem(&blocks, 0.4).frictionless_heads();
+    problem.held = vec![true, false, true];
+    agrees!(subject("block between held ones"), "μ", "", bears(&problem), 0.4, 1e-6);
+    problem.held = vec![true; 3];
+    assert_eq!(analyse(&problem).err(), Some(LimitError::Wrong("nothing that may move is pushed".into())));
+}
+
+/// Only the upper part is pushed, and the lower one neither slides nor turns with it.
+#[test]
+fn a_part_is_pushed() {
+    let blocks = [block("low", [0.0, 0.5], [0.0, 1.0], [0.0, 1.0]), block("high", [0.0, 0.5], [0.0, 1.0], [1.0, 2.0])];
+    let mut problem = problem(&blocks, 0.9);
+    agrees!(subject("two blocks"), "t/h", "", bears(&problem), 0.25, 1e-7);
+    problem.pushed[0] = false;
+    agrees!(subject("two blocks; the upper one pushed"), "2 W t/2 = λ W 3 h/4", "", bears(&problem), 1.0 / 3.0, 1e-7);
+    assert_eq!(problem.turning().map(|t| t.level), Some(0.0));
+    problem.held[0] = true;
+    assert_eq!(problem.turning().map(|t| t.level), Some(1.0));
+    agrees!(subject("two blocks; the upper one pushed, the lower held"), "t/h", "", bears(&problem), 0.5, 1e-7);
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused() {
+    let (a, b) = (block("a", [0.0, 1.0], [0.0, 1.0], [0.0, 1.0]), block("b", [0.5, 1.5], [0.0, 1.0], [0.0, 1.0]));
+    assert_eq!(Assembly::of_boxes(&[a.clone(), b], 0.6).err(), Some(TextureError::Overlap("a".into(), "b".into())));
+    let flat = block("flat", [0.0, 0.0], [0.0, 1.0], [0.0, 1.0]);
+    assert_eq!(Assembly::of_boxes(&[flat], 0.6).err(), Some(TextureError::NoVolume("flat".into())));
+    let facade = Facade {
+        thickness: 0.2,
+        course: 0.2,
+        courses: 3,
+        length: 2.0,
+        sides: [true; 2],
+        depth: 0.3,
+        specific_weight: 20e3,
+    };
+    assert!(matches!(facade.blocks(), Err(TextureError::Range("depth", _))));
+    assert!(matches!(Facade { course: f64::NAN, ..facade }.blocks(), Err(TextureError::Range("course", _))));
+    let leaves =
+        Leaves { thickness: 0.2, course: 0.2, courses: 3, length: 2.0, headers: vec![4], specific_weight: 20e3 };
+    assert!(matches!(leaves.blocks(), Err(TextureError::Range("headers", _))));
+    // A block that hangs over by more than half falls; a free one too.
+    let over = block("over", [0.7, 1.7], [0.0, 1.0], [1.0, 2.0]);
+    assert_eq!(analyse(&problem(&[a.clone(), over], 0.6)).err(), Some(LimitError::DoesNotStand));
+    let mut wrong = problem(&[a], 0.6);
+    wrong.direction = [0.0; 3];
+    assert!(matches!(analyse(&wrong), Err(LimitError::Wrong(_))));
+    // Pressed down alone, nothing limits the load.
+    wrong.direction = [0.0, 0.0, -1.0];
+    assert_eq!(analyse(&wrong).err(), Some(LimitError::NotSolved("nothing limits the load".into())));
+    wrong.direction = OUTWARDS;
+    wrong.assembly.contacts[0].friction = f64::INFINITY;
+    assert!(matches!(analyse(&wrong), Err(LimitError::Wrong(_))));
+}
+
+/// μ = 0 leaves N ≥ 0: a smooth wall slides at 0, and does not hang.
+#[test]
+fn smooth_joints_still_press_only() {
+    let limit = analyse(&one([0.5, 0.5, 1.0], 0.0)).expect("a limit");
+    assert!(limit.multiplier().abs() < 1e-6, "{:?}", limit.bounds);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 6, ..ProptestConfig::default() })]
+    /// λ knows neither the axes nor the units of length and weight, nor the order of the blocks.
+    #[test]
+    fn lambda_is_of_the_wall_alone(
+        axis in [-1.0f64..1.0, -1.0..1.0, 0.1..1.0], angle in 0.0f64..6.0, size in 0.01f64..100.0, weight in 0.1f64..1e6,
+    ) {
+        let facade = Facade {
+            thickness: 0.2, course: 0.2, courses: 4, length: 1.2, sides: [true, false], depth: 0.9, specific_weight: 20e3,
+        };
+        let blocks = facade.blocks().expect("a façade");
+        let here = bears(&problem(&blocks, 0.5));
+        let turned = bears(&problem(&blocks, 0.5).turned(rotation(axis, angle)));
+        prop_assert!((turned - here).abs() < 1e-6 * here, "{turned} {here}");
+        let scaled = Facade {
+            thickness: 0.2 * size, course: 0.2 * size, length: 1.2 * size, depth: 0.9 * size,
+            specific_weight: weight, ..facade
+        };
+        let mut blocks = scaled.blocks().expect("a façade");
+        blocks.reverse();
+        let there = bears(&problem(&blocks, 0.5));
+        prop_assert!((there - here).abs() < 1e-6 * here, "{there} {here}");
+    }
+}
