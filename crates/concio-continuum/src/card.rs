@@ -2,8 +2,6 @@
 //!
 //! Numbers of a card are in its own units; plain JSON reads back to the same numbers.
 
-use std::fmt::Write as _;
-
 use concio::{InputError, Result};
 use serde::{Deserialize, Serialize};
 
@@ -140,7 +138,7 @@ impl Card {
 
     fn head(&self, mark: &str) -> String {
         let mut text = String::new();
-        let mut line = |what: &str| drop(writeln!(text, "{mark} {what}"));
+        let mut line = |what: &str| text.extend([mark, " ", what, "\n"]);
         line(&format!("Concio {}: continuum of a wall, axis 1 along the courses, 2 upwards", env!("CARGO_PKG_VERSION")));
         line(&format!("units: {}, mass {}, s", self.units, self.unit_of_mass));
         line(&format!("thickness: {}", number(self.moduli.thickness)));
