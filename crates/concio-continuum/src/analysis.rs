@@ -150,7 +150,7 @@ pub fn analyse(case: &Case, panel: usize, options: Options) -> Result<Found, Con
     let size = [x[1] - x[0], y[1]];
     let courses = texture.wall.panels[panel].courses;
     let mean_length = own.iter().map(|b| b.length()).sum::<f64>() / own.len() as f64;
-    let across = size[0] / (mean_length.max(given.brick.length.si().min(mean_length)) + given.mortar.head.si());
+    let across = given.bricks.map_or(size[0] / (mean_length + given.mortar.head.si()), |bricks| bricks as f64);
     let share = match &pattern {
         Pattern::Running(_, cell) | Pattern::Repeated(cell) => cell.brick_share(),
         Pattern::Irregular(_) => (own.iter().map(|b| b.weight()).sum::<f64>()
@@ -190,19 +190,30 @@ pub fn analyse(case: &Case, panel: usize, options: Options) -> Result<Found, Con
         None => rigid,
     };
     if !given.openings.is_empty() {
-        assumed.push("openings are left out: the continuum is that of the masonry between them, and the mesh has the holes".into());
+        assumed.push(
+            "openings are left out: the continuum is that of the masonry between them, and the mesh has the holes"
+                .into(),
+        );
     }
     let strengths = Ask { pattern: &pattern, pressure };
     let mut dry = None;
     let mut bonded = None;
-    if let Some(law) = texture.bonded(panel) {
+    // Nothing is in open head joints, whatever their law says.
+    let as_asked = |law: Strengths| match options.heads {
+        Heads::Closed => law,
+        Heads::Open => Strengths { head: None, ..law },
+    };
+    if let Some(law) = texture.bonded(panel).map(as_asked) {
         bonded = strengths.of(law, &mut warnings, "with its bond")?;
         warnings.push("strength with bond counts on the cohesion of all joints at once; brittle mortar cracks one joint after another and bears less".into());
     }
-    let friction = texture.dry(panel);
+    let friction = as_asked(texture.dry(panel));
     if friction.bed.is_some_and(|l| l.friction > 0.0) {
         dry = strengths.of(friction, &mut warnings, "dry")?;
         assumed.push("friction is associative: what slides dilates too, so that strength is one from above; real joints bear less where nothing presses them together".into());
+    }
+    if friction.bed.is_none_or(|l| l.friction == 0.0) && texture.bonded(panel).is_none() {
+        assumed.push("the file has neither friction nor a bond, and so no strength".into());
     }
     let bending = match (&pattern, friction.bed) {
         (Pattern::Running(bond, _), Some(law)) => Some(dry_bending(bond, law.friction, pressure * thickness)),
@@ -265,14 +276,20 @@ fn cell_name(cell: &Cell) -> String {
 
 fn assumed(texture: &Texture, panel: usize, options: Options) -> Vec<String> {
     let mut all = vec![match options.brick {
-        Some([e, nu]) => format!("bricks deform, E {:.4} GPa and nu {nu}: flexibilities added up, an estimate", 1e-9 * e),
+        Some([e, nu]) => {
+            format!("bricks deform, E {:.4} GPa and nu {nu}: flexibilities added up, an estimate", 1e-9 * e)
+        }
         None => "bricks are rigid: nu12 = 0 follows from it".to_string(),
     }];
-    all.push("joints are intact and closed, as under the wall's load: where they open or slide the wall is softer".into());
+    all.push(
+        "joints are intact and closed, as under the wall's load: where they open or slide the wall is softer".into(),
+    );
     all.push("out of the plane joints shear as along it: k_s = k_t".into());
     if let Some(ratio) = texture.bed_ratio(panel) {
         let which = match ratio {
-            r if (r - FREE_LAYER).abs() < 1e-3 => ", E/G of mortar with nu = 0.2; a thin layer that bricks hold has 2.667",
+            r if (r - FREE_LAYER).abs() < 1e-3 => {
+                ", E/G of mortar with nu = 0.2; a thin layer that bricks hold has 2.667"
+            }
             r if (r - HELD_LAYER).abs() < 1e-3 => ", a thin layer of mortar with nu = 0.2 that bricks hold; E/G is 2.4",
             _ => "",
         };
@@ -298,7 +315,12 @@ struct Ask<'a> {
 
 impl Ask<'_> {
     /// The domain of a law; none where there is no cell, or where nothing can be borne without pressure.
-    fn of(&self, law: Strengths, warnings: &mut Vec<String>, which: &str) -> Result<Option<StrengthFound>, ContinuumError> {
+    fn of(
+        &self,
+        law: Strengths,
+        warnings: &mut Vec<String>,
+        which: &str,
+    ) -> Result<Option<StrengthFound>, ContinuumError> {
         let (cell, closed) = match self.pattern {
             Pattern::Irregular(_) => return Ok(None),
             Pattern::Repeated(cell) => (cell, None),
@@ -309,7 +331,8 @@ impl Ask<'_> {
         };
         let strong = |l: Option<Strength>| l.is_some_and(|l| l.cohesion > 0.0 && l.reached_tension() > 0.0);
         if self.pressure == 0.0 && !strong(law.bed) {
-            warnings.push(format!("no strength {which}: nothing presses on the joints; give a pressure with --pressure"));
+            warnings
+                .push(format!("no strength {which}: nothing presses on the joints; give a pressure with --pressure"));
             return Ok(None);
         }
         let from = [0.0, -self.pressure, 0.0];

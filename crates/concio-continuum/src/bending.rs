@@ -38,8 +38,10 @@ mod tests {
         for (c, t) in [(0.13, 0.12), (0.2, 0.3), (0.05, 0.5)] {
             let n = 400;
             let at = |k: usize, l: f64| ((k as f64 + 0.5) / f64::from(n) - 0.5) * l;
-            let sum: f64 =
-                (0..n as usize).flat_map(|i| (0..n as usize).map(move |j| (i, j))).map(|(i, j)| at(i, c).hypot(at(j, t))).sum();
+            let sum: f64 = (0..n as usize)
+                .flat_map(|i| (0..n as usize).map(move |j| (i, j)))
+                .map(|(i, j)| at(i, c).hypot(at(j, t)))
+                .sum();
             let mean = sum / f64::from(n * n);
             assert!((mean_distance(c, t) / mean - 1.0).abs() < 1e-5, "{c} × {t}: {} {mean}", mean_distance(c, t));
         }

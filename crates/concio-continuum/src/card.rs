@@ -107,7 +107,10 @@ impl Card {
     /// which D and F are not known, in all but JSON.
     pub fn write(&self, format: Format) -> Result<String> {
         if format != Format::Json && !self.out_of_plane {
-            let what = format!("no {} card of an irregular bond: plate and transverse shear stiffness are not known", format.name());
+            let what = format!(
+                "no {} card of an irregular bond: plate and transverse shear stiffness are not known",
+                format.name()
+            );
             return Err(InputError::new(what).allowed("json, which says what is known").into());
         }
         Ok(match format {
@@ -124,7 +127,10 @@ impl Card {
 
     fn whole(&self, format: Format) -> Result<&Constants> {
         self.constants.as_ref().ok_or_else(|| {
-            let what = format!("no {} card: stretching and shear are coupled, or nothing holds the wall along an axis", format.name());
+            let what = format!(
+                "no {} card: stretching and shear are coupled, or nothing holds the wall along an axis",
+                format.name()
+            );
             InputError::new(what).allowed("json, shell").into()
         })
     }
@@ -139,7 +145,10 @@ impl Card {
     fn head(&self, mark: &str) -> String {
         let mut text = String::new();
         let mut line = |what: &str| text.extend([mark, " ", what, "\n"]);
-        line(&format!("Concio {}: continuum of a wall, axis 1 along the courses, 2 upwards", env!("CARGO_PKG_VERSION")));
+        line(&format!(
+            "Concio {}: continuum of a wall, axis 1 along the courses, 2 upwards",
+            env!("CARGO_PKG_VERSION")
+        ));
         line(&format!("units: {}, mass {}, s", self.units, self.unit_of_mass));
         line(&format!("thickness: {}", number(self.moduli.thickness)));
         for what in &self.assumed {
@@ -155,7 +164,9 @@ impl Card {
         let share = |i: usize| plate[i][i] / (cubed * membrane[i][i]);
         format!(
             "{mark} For the plane of the wall. Bending of such a section is t2/12 of its membrane: D11, D22, D12 of the wall are {:.3}, {:.3}, {:.3} times that; take the shell card for bending\n",
-            share(0), share(1), share(2)
+            share(0),
+            share(1),
+            share(2)
         )
     }
 
@@ -180,7 +191,8 @@ impl Card {
     fn open_sees(&self, c: &Constants) -> String {
         let e3 = c.e1.min(c.e2);
         // ν_zx and ν_yz are 0; ν_xy is ν12.
-        let numbers = [c.e1, c.e2, e3, c.nu12, 0.0, 0.0, c.g12, c.g23, c.g13, self.density.volume].map(number).join(" ");
+        let numbers =
+            [c.e1, c.e2, e3, c.nu12, 0.0, 0.0, c.g12, c.g23, c.g13, self.density.volume].map(number).join(" ");
         let (head, bending) = (self.head("#"), self.bending("#"));
         format!(
             "{head}{bending}# E3 is not known: the lesser of E1 and E2 stands there; wrap it as PlaneStress. Set concioTag before\n\
@@ -196,7 +208,8 @@ impl Card {
             (false, false) => m.plate[i - 3][j - 3],
             _ => 0.0,
         };
-        let half: Vec<String> = (0..6).flat_map(|j| (0..=j).map(move |i| (i, j))).map(|(i, j)| number(of(i, j))).collect();
+        let half: Vec<String> =
+            (0..6).flat_map(|j| (0..=j).map(move |i| (i, j))).map(|(i, j)| number(of(i, j))).collect();
         let rows = half.chunks(8).map(|row| row.join(", ")).collect::<Vec<_>>().join(",\n");
         let shear = [m.shear[0][0], m.shear[1][1], m.shear[0][1]].map(number).join(", ");
         let (name, density, head) = (self.keyword(), number(self.density.area), self.head("**"));

@@ -120,8 +120,7 @@ impl Contact {
         let mut springs = Vec::with_capacity(4);
         for (axis, k) in [(self.normal, self.stiffness.normal), (self.tangent(), self.stiffness.tangential)] {
             let rows = [[0.0, -axis[0], -axis[1]], [0.0, axis[0], axis[1]]];
-            let imposed =
-                [d1 * axis[0], d2 * axis[1], 0.5 * (d2 * axis[0] + d1 * axis[1]), 0.0, 0.0];
+            let imposed = [d1 * axis[0], d2 * axis[1], 0.5 * (d2 * axis[0] + d1 * axis[1]), 0.0, 0.0];
             springs.push(Spring { bodies, rows, imposed, stiffness: k * self.length * cubed });
         }
         for (p, length) in self.points() {

@@ -191,7 +191,8 @@ fn couple(cell: &Cell) -> Couple {
 /// Inverse of a symmetric positive matrix; none where it is not.
 pub(crate) fn inverse(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     let minor = |i: usize, j: usize| {
-        let (r, c): (Vec<usize>, Vec<usize>) = ((0..3).filter(|k| *k != i).collect(), (0..3).filter(|k| *k != j).collect());
+        let (r, c): (Vec<usize>, Vec<usize>) =
+            ((0..3).filter(|k| *k != i).collect(), (0..3).filter(|k| *k != j).collect());
         m[r[0]][c[0]] * m[r[1]][c[1]] - m[r[0]][c[1]] * m[r[1]][c[0]]
     };
     let sign = |i: usize, j: usize| if (i + j) % 2 == 0 { 1.0 } else { -1.0 };

@@ -61,8 +61,7 @@ pub fn panel_stiffness(wall: &Wall, joints: &[Joint], stiffness: &[Stiffness]) -
     let thickness = wall.blocks.iter().map(|b| b.thickness).fold(f64::INFINITY, f64::min);
     // Joints between blocks of several thicknesses have that of the thinner.
     let thick: Vec<f64> = joints.iter().map(|j| j.area(wall) / j.overlap).collect();
-    let scaled: Vec<Contact> =
-        contacts.into_iter().zip(thick).map(|(c, t)| with_thickness(c, t / thickness)).collect();
+    let scaled: Vec<Contact> = contacts.into_iter().zip(thick).map(|(c, t)| with_thickness(c, t / thickness)).collect();
     pushed(&scaled, thickness, base, beam)
 }
 

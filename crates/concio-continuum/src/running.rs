@@ -103,8 +103,7 @@ impl RunningBond {
             shear: [[sheared[0], 0.0], [0.0, sheared[1]]],
             polar: [[t * p, 0.0], [0.0, t * q]],
             couple: Some(Couple {
-                c1: t
-                    * (bed.normal * c.powi(3) * b / (24.0 * a) + head.normal * h.powi(3) * b / (12.0 * a)),
+                c1: t * (bed.normal * c.powi(3) * b / (24.0 * a) + head.normal * h.powi(3) * b / (12.0 * a)),
                 c2: t * bed.normal * c.powi(3) * a / (6.0 * b),
             }),
             thickness: t,

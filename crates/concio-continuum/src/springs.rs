@@ -117,7 +117,8 @@ impl Matrix {
 
 impl Spring {
     fn unknowns(&self) -> [(usize, f64); 2 * UNKNOWNS] {
-        let at = |k: usize| (UNKNOWNS * self.bodies[k / UNKNOWNS] + k % UNKNOWNS, self.rows[k / UNKNOWNS][k % UNKNOWNS]);
+        let at =
+            |k: usize| (UNKNOWNS * self.bodies[k / UNKNOWNS] + k % UNKNOWNS, self.rows[k / UNKNOWNS][k % UNKNOWNS]);
         [0, 1, 2, 3, 4, 5].map(at)
     }
 
@@ -141,11 +142,7 @@ pub(crate) struct Condensed {
 ///
 /// # Errors
 /// As [`Matrix::solve`].
-pub(crate) fn condense(
-    bodies: usize,
-    springs: &[Spring],
-    means: &[Vec<f64>],
-) -> Result<Condensed, ContinuumError> {
+pub(crate) fn condense(bodies: usize, springs: &[Spring], means: &[Vec<f64>]) -> Result<Condensed, ContinuumError> {
     let unknowns = UNKNOWNS * bodies;
     let mut right = vec![vec![0.0; unknowns]; IMPOSED];
     for spring in springs {

@@ -47,7 +47,12 @@ impl Plane {
 /// with 0 < μ ≤ 1, and bear any pressure.
 pub fn holds(bond: &RunningBond, bed: Strength, head: Strength) -> bool {
     let apex = bed.cohesion == 0.0 || bed.tension >= bed.cohesion / bed.friction * (1.0 - 1e-12);
-    bond.is_closed() && bed == head && bed.friction > 0.0 && bed.friction <= 1.0 && apex && bed.compression.is_infinite()
+    bond.is_closed()
+        && bed == head
+        && bed.friction > 0.0
+        && bed.friction <= 1.0
+        && apex
+        && bed.compression.is_infinite()
 }
 
 /// (H5) to (H7), each for both signs of σ12; (H7) where it binds. For bonds that [`holds`] says yes to.
@@ -199,9 +204,8 @@ impl<'c> Domain<'c> {
             for place in places {
                 let p = [0, 1].map(|k| contact.middle[k] + place * contact.length * t[k]);
                 let signs: &[f64] = if law.friction > 0.0 { &[1.0, -1.0] } else { &[0.0] };
-                let cap = crushes.then(|| {
-                    program.bound((law.compression + law.reached_tension()) / unit * share / STRIPS as f64)
-                });
+                let cap = crushes
+                    .then(|| program.bound((law.compression + law.reached_tension()) / unit * share / STRIPS as f64));
                 for sign in signs {
                     let edge = [0, 1].map(|k| -n[k] + sign * law.friction * t[k]);
                     program.pressed(columns(contact, p, edge), cap);
@@ -302,8 +306,7 @@ impl Program {
         let right: Vec<f64> = self.right.iter().chain(&self.bounds).copied().collect();
         let mut cost = vec![0.0; n];
         cost[n - 1] = -1.0;
-        let cones =
-            [SupportedConeT::ZeroConeT(self.equalities), SupportedConeT::NonnegativeConeT(self.bounds.len())];
+        let cones = [SupportedConeT::ZeroConeT(self.equalities), SupportedConeT::NonnegativeConeT(self.bounds.len())];
         let settings = DefaultSettings::<f64> {
             verbose: false,
             tol_gap_abs: TOLERANCE,
@@ -316,13 +319,15 @@ impl Program {
         };
         let unsolved = |what: String| ContinuumError::NotSolved(what);
         let none = CscMatrix::zeros((n, n));
-        let mut solver = DefaultSolver::new(&none, &cost, &matrix, &right, &cones, settings)
-            .map_err(|e| unsolved(e.to_string()))?;
+        let mut solver =
+            DefaultSolver::new(&none, &cost, &matrix, &right, &cones, settings).map_err(|e| unsolved(e.to_string()))?;
         solver.solve();
         let (x, z) = (&solver.solution.x, &solver.solution.z);
         match solver.solution.status {
             SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => return Ok(None),
-            SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => return Err(ContinuumError::Outside),
+            SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
+                return Err(ContinuumError::Outside);
+            }
             SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress => {}
             other => return Err(unsolved(format!("{other:?}"))),
         }

@@ -66,7 +66,11 @@ impl Texture {
         let joints = graph::joints(&wall, beam);
         let laws = assign::resolve(case, &wall, &joints)?;
         let stiffness = joints.iter().zip(&laws).map(|(joint, law)| {
-            if joint.kind.is_upright() && heads == Heads::Open { Ok(Stiffness::open()) } else { elastic(case, &wall, joint, law) }
+            if joint.kind.is_upright() && heads == Heads::Open {
+                Ok(Stiffness::open())
+            } else {
+                elastic(case, &wall, joint, law)
+            }
         });
         let stiffness = stiffness.collect::<Result<_>>()?;
         Ok(Texture { wall, joints, stiffness, laws, case: case.clone() })
@@ -166,7 +170,10 @@ impl Texture {
             }
         };
         let bonded = |kind| {
-            self.of_kind(panel, kind).next().and_then(|e| self.laws[e].bond).is_some_and(|b| b.cohesion > 0.0 || b.tensile_strength > 0.0)
+            self.of_kind(panel, kind)
+                .next()
+                .and_then(|e| self.laws[e].bond)
+                .is_some_and(|b| b.cohesion > 0.0 || b.tensile_strength > 0.0)
         };
         let any = bonded(JointKind::Bed) || bonded(JointKind::Head);
         any.then(|| Strengths { bed: of(JointKind::Bed), head: of(JointKind::Head) })
@@ -216,8 +223,13 @@ fn elastic(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Result<St
     let spring = &law.spring;
     let (times, pulls) = match spring.acts() {
         Acts::Rigidly => {
-            let error = InputError::new(format!("joint {} is rigid: a wall of rigid bricks and joints has no moduli", name()));
-            let allowed = if joint.kind.is_upright() { "elastic, no-tension, none; or --heads open" } else { "elastic, no-tension" };
+            let error =
+                InputError::new(format!("joint {} is rigid: a wall of rigid bricks and joints has no moduli", name()));
+            let allowed = if joint.kind.is_upright() {
+                "elastic, no-tension, none; or --heads open"
+            } else {
+                "elastic, no-tension"
+            };
             return Err(error.key(given_at).allowed(allowed).into());
         }
         Acts::Not if joint.kind.is_upright() => return Ok(Stiffness::open()),
@@ -229,7 +241,8 @@ fn elastic(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Result<St
     };
     let given = law.stiffness(joint, wall) * spring.stiffness_factor / joint.area(wall);
     if !joint.kind.is_upright() && !(given > 0.0) {
-        let error = InputError::new(format!("joint {} has no stiffness", name())).key(given_at.replace("law", "stiffness"));
+        let error =
+            InputError::new(format!("joint {} has no stiffness", name())).key(given_at.replace("law", "stiffness"));
         return Err(error.allowed("above 0").into());
     }
     let ratio = spring.normal_to_shear;

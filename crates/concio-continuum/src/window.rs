@@ -139,14 +139,12 @@ pub fn window(
         strain[2][test] = gradient[0][1] + gradient[1][0];
     }
     let back = inverse_of(&strain).ok_or(ContinuumError::FallsApart)?;
-    let a: [[f64; 3]; 3] = std::array::from_fn(|i| {
-        std::array::from_fn(|j| (0..3).map(|k| stress[i][k] * back[k][j]).sum())
-    });
+    let a: [[f64; 3]; 3] =
+        std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| stress[i][k] * back[k][j]).sum()));
     let most = a.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
     let pairs = [(0, 1), (0, 2), (1, 2)];
     let skew = pairs.iter().map(|(i, j)| (a[*i][*j] - a[*j][*i]).abs()).fold(0.0, f64::max) / most;
-    let membrane: [[f64; 3]; 3] =
-        std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (a[i][j] + a[j][i])));
+    let membrane: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (a[i][j] + a[j][i])));
     // Also a check that it is positive.
     inverse(&membrane).ok_or(ContinuumError::FallsApart)?;
     Ok(WindowModuli { membrane, skew, inside: number })
@@ -167,8 +165,8 @@ fn gradient(moved: &[(usize, [f64; 2])], centres: &[[f64; 2]]) -> Option<[[f64; 
     let n = moved.len() as f64;
     let mean = |of: &dyn Fn(&(usize, [f64; 2])) -> f64| moved.iter().map(of).sum::<f64>() / n;
     let middle = [0, 1].map(|k| mean(&|m| centres[m.0][k]));
-    let [xx, xy, yy] = [[0, 0], [0, 1], [1, 1]]
-        .map(|[i, j]| mean(&|m| (centres[m.0][i] - middle[i]) * (centres[m.0][j] - middle[j])));
+    let [xx, xy, yy] =
+        [[0, 0], [0, 1], [1, 1]].map(|[i, j]| mean(&|m| (centres[m.0][i] - middle[i]) * (centres[m.0][j] - middle[j])));
     let det = xx * yy - xy * xy;
     let slopes = |k: usize| {
         let [ux, uy] = [0, 1].map(|i| mean(&|m| m.1[k] * (centres[m.0][i] - middle[i])));

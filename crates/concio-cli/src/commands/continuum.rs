@@ -128,7 +128,10 @@ fn text(f: &Found) -> String {
         ),
     ];
     moduli(f, &mut rows);
-    rows.push(("density", format!("{} kg/m³, {} kg/m² of wall", significant(f.density.volume, 5), significant(f.density.area, 5))));
+    rows.push((
+        "density",
+        format!("{} kg/m³, {} kg/m² of wall", significant(f.density.volume, 5), significant(f.density.area, 5)),
+    ));
     strength(f, &mut rows);
     if let Some(scale) = &f.scale {
         let panel = match (scale.excess(), scale.panel) {
@@ -138,11 +141,15 @@ fn text(f: &Found) -> String {
                 si(continuum, "N/m"),
                 percent(excess)
             ),
-            _ => "; the panel is too large to be held against its bricks here".into(),
+            _ => "; this panel is too large to be held against its bricks".into(),
         };
         rows.push((
             "scale",
-            format!("with {} courses G12 is {} of the bricks' less than A1212/t says{panel}", f.courses, percent(-scale.without_sides)),
+            format!(
+                "G12 of {} courses without sides is {} below A1212/t{panel}",
+                f.courses,
+                percent(-scale.without_sides)
+            ),
         ));
     }
     rows.extend(f.assumed.iter().map(|a| ("assumed", a.clone())));
@@ -215,13 +222,19 @@ fn moduli(f: &Found, rows: &mut Vec<(&'static str, String)>) {
                 ),
             ));
         }
-        rows.push(("scatter", format!("{}, {}, {} of the mean", percent(w.scatter[0]), percent(w.scatter[1]), percent(w.scatter[2]))));
+        rows.push((
+            "scatter",
+            format!("{}, {}, {} of the mean", percent(w.scatter[0]), percent(w.scatter[1]), percent(w.scatter[2])),
+        ));
     }
     if f.is_periodic {
         let t = f.moduli.thickness;
         let over = |i: usize| significant(d[i][i] / (t * t / 12.0 * a[i][i]), 4);
         rows.push(("plate D", four(d, "N m")));
-        rows.push(("", format!("{}, {}, {} times t²/12 A: one E, G and t cannot hold both", over(0), over(1), over(2))));
+        rows.push((
+            "",
+            format!("{}, {}, {} times t²/12 A: one E, G and t cannot hold both", over(0), over(1), over(2)),
+        ));
         rows.push(("shear F", format!("11 {}, 22 {}", si(shear[0][0], "N/m"), si(shear[1][1], "N/m"))));
         rows.push(("Cosserat", {
             let c = couple.map_or(String::new(), |c| format!("; C1 {}, C2 {}", si(c.c1, "N"), si(c.c2, "N")));
@@ -250,7 +263,10 @@ fn strength(f: &Found, rows: &mut Vec<(&'static str, String)>) {
         rows.extend(found.planes.iter().map(|p| ("", plane(p))));
     }
     if let Some(b) = f.bending {
-        rows.push(("bending, dry", format!("M11 {}, M22 {} per length, bricks that do not crush", si(b.m11, "N"), si(b.m22, "N"))));
+        rows.push((
+            "bending, dry",
+            format!("M11 {}, M22 {} per length, bricks that do not crush", si(b.m11, "N"), si(b.m22, "N")),
+        ));
     }
 }
 
@@ -301,7 +317,10 @@ fn figure(file: &CaseFile, chosen: &[usize], options: Options, args: &Continuum,
     let first = curve.without_sides.first().map_or(1.0, |p| p.1 * p.0 as f64);
     let slope: Vec<(usize, f64)> = COURSES.iter().map(|n| (*n, first / *n as f64)).collect();
     let sheet = Sheet {
-        title: format!("Error of the continuum over the number of courses, panel {}", line_of(&file.case.panel_name(*panel))),
+        title: format!(
+            "Error of the continuum over the number of courses, panel {}",
+            line_of(&file.case.panel_name(*panel))
+        ),
         legend: vec!["wall without sides".into(), "panel as wide as high".into(), "order 1".into()],
         panels: vec![Panel {
             heading: heading.into(),

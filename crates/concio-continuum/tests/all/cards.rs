@@ -31,7 +31,14 @@ fn units_are_those_of_the_user() {
     let c = |card: &Card| card.constants.expect("constants");
     agrees!("continuum: E1 on a card; N-mm", "31,824 MPa", "MPa", c(&mm).e1, 31_824.0, 1e-12);
     agrees!("continuum: E1 on a card; kN-m", "31,824 MPa", "kPa", c(&metres).e1, 31_824e3, 1e-12);
-    agrees!("continuum: E1 on a card; lbf-in", "31,824 MPa over 6894.757 Pa", "psi", c(&inches).e1, 31_824e6 / 6_894.757_293_168, 1e-9);
+    agrees!(
+        "continuum: E1 on a card; lbf-in",
+        "31,824 MPa over 6894.757 Pa",
+        "psi",
+        c(&inches).e1,
+        31_824e6 / 6_894.757_293_168,
+        1e-9
+    );
     agrees!("continuum: density on a card; N-mm", "1800 kg/m³", "t/mm³", mm.density.volume, 1.8e-9, 1e-12);
     agrees!("continuum: density on a card; kN-m", "1800 kg/m³", "t/m³", metres.density.volume, 1.8, 1e-12);
     agrees!("continuum: D1111 on a card; N-mm", "6.164496 MN m", "N mm", mm.moduli.plate[0][0], 6.164496e9, 1e-9);
@@ -52,7 +59,8 @@ fn units_that_are_none_are_refused() {
 /// Numbers after a keyword line, up to the next.
 fn numbers(text: &str, keyword: &str) -> Vec<f64> {
     let rows = text.lines().skip_while(|l| !l.starts_with(keyword)).skip(1).take_while(|l| !l.starts_with('*'));
-    rows.flat_map(|l| l.split(',').filter(|w| !w.trim().is_empty()).map(|w| w.trim().parse().expect("a number"))).collect()
+    rows.flat_map(|l| l.split(',').filter(|w| !w.trim().is_empty()).map(|w| w.trim().parse().expect("a number")))
+        .collect()
 }
 
 #[test]

@@ -69,13 +69,16 @@ fn walls_without_sides_come_to_the_continuum_as_one_over_their_courses() {
 /// Two long planar walls differ by a part without ends: (K₂ − K₁) H/(L₂ − L₁) is G_N of a wall without sides.
 #[test]
 fn long_planar_walls_have_the_shear_stiffness_of_walls_without_sides() {
-    for (wall, [length, height, _], sizes) in [(&S1, S1.brick, [[2, 16, 22], [4, 24, 32]]), (&S2, S2.brick, [[2, 20, 26], [4, 40, 48]])] {
+    for (wall, [length, height, _], sizes) in
+        [(&S1, S1.brick, [[2, 16, 22], [4, 24, 32]]), (&S2, S2.brick, [[2, 20, 26], [4, 40, 48]])]
+    {
         let g = wall.bond().moduli().membrane[2][2];
         for [courses, shorter, longer] in sizes {
             let [less, more] = [shorter, longer].map(|bricks| run(wall, [bricks, courses]));
             let found = (more - less) * courses as f64 * height / ((longer - shorter) as f64 * length) / g - 1.0;
             let expected = scale(&wall.cell(), courses).expect("an error");
-            let subject = format!("continuum: error of A1212 by runs of two long walls; {} {courses} courses", wall.name);
+            let subject =
+                format!("continuum: error of A1212 by runs of two long walls; {} {courses} courses", wall.name);
             agrees!(subject, "the same without sides", "", found, expected, abs: 1e-5);
         }
     }
@@ -119,7 +122,14 @@ fn panels_of_bricks_come_to_the_continuum() {
         let [length, height, _] = wall.brick;
         let sides = [rows[0].0[0] as f64 * length, rows[0].0[1] as f64 * height];
         let own = membrane_stiffness(&wall.bond().moduli().membrane, sides, 32).expect("a stiffness");
-        agrees!(format!("continuum: finite elements of a panel; {}", wall.name), "reference table", "N/m", own, continuum, 2e-5);
+        agrees!(
+            format!("continuum: finite elements of a panel; {}", wall.name),
+            "reference table",
+            "N/m",
+            own,
+            continuum,
+            2e-5
+        );
         // Beside the limit of ever finer elements, which the coarser meshes tell.
         let errors: Vec<f64> = found.iter().map(|k| 1.0 - k / continuum).collect();
         let orders: Vec<f64> = errors.windows(2).map(|e| (e[0] / e[1]).log2()).collect();
@@ -168,6 +178,7 @@ fn finite_elements_converge() {
     assert!(coarse > fine && fine > finest, "stiffer than they are: {coarse} {fine} {finest}");
     assert!(fine / finest - 1.0 < 2e-4, "{}", fine / finest - 1.0);
     // Pure shear of a wide panel without coupling: G L/H.
-    let wide = membrane_stiffness(&[[1.0, 0.0, 0.0], [0.0, 1e9, 0.0], [0.0, 0.0, 1.0]], [1.0, 1.0], 8).expect("a stiffness");
+    let wide =
+        membrane_stiffness(&[[1.0, 0.0, 0.0], [0.0, 1e9, 0.0], [0.0, 0.0, 1.0]], [1.0, 1.0], 8).expect("a stiffness");
     assert!(wide > 0.8 && wide <= 1.0 + 1e-9, "{wide}");
 }

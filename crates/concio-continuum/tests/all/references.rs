@@ -23,11 +23,8 @@ pub const S2: Reference = Reference {
     bed: Stiffness { normal: 5e9, tangential: 2e9, transverse: 2e9 },
     head: Stiffness { normal: 1e9, tangential: 0.4e9, transverse: 0.4e9 },
 };
-pub const S3: Reference = Reference {
-    name: "S3",
-    head: Stiffness { normal: 0.0, tangential: 0.0, transverse: 0.0 },
-    ..S1
-};
+pub const S3: Reference =
+    Reference { name: "S3", head: Stiffness { normal: 0.0, tangential: 0.0, transverse: 0.0 }, ..S1 };
 pub const S1M: Reference = Reference { name: "S1m", brick: [0.25, 0.055, 0.12], mortar: [0.01; 2], ..S1 };
 
 impl Reference {

@@ -1,6 +1,8 @@
 //! Strength: planes in closed form, against the linear program of the forces in a cell.
 
-use concio_continuum::{Cell, Domain, Laying, Plane, RunningBond, Stiffness, Strength, cut, dry_bending, holds, planes};
+use concio_continuum::{
+    Cell, Domain, Laying, Plane, RunningBond, Stiffness, Strength, cut, dry_bending, holds, planes,
+};
 use concio_verified::agrees;
 
 const JOINTS: Stiffness = Stiffness { normal: 1e9, tangential: 1e9, transverse: 1e9 };
@@ -34,7 +36,14 @@ fn strengths_are_those_of_the_table() {
         agrees!(format!("continuum: strength; {name}"), "reference table", "Pa", by_planes, expected, 2e-6);
         let domain = Domain::new(cell, Some(*law), Some(*law));
         let reach = domain.reach(from, direction).expect("a solution").expect("an end");
-        agrees!(format!("continuum: strength by the program; {name}"), "reference table", "Pa", reach.multiplier, expected, 2e-6);
+        agrees!(
+            format!("continuum: strength by the program; {name}"),
+            "reference table",
+            "Pa",
+            reach.multiplier,
+            expected,
+            2e-6
+        );
     }
 }
 
@@ -77,9 +86,7 @@ fn planes_are_what_linear_programs_find() {
 }
 
 fn has(found: &[Plane], plane: &Plane, unit: f64) -> bool {
-    found.iter().any(|p| {
-        (0..3).all(|i| (p.a[i] - plane.a[i]).abs() < 1e-5) && (p.b - plane.b).abs() < 1e-5 * unit
-    })
+    found.iter().any(|p| (0..3).all(|i| (p.a[i] - plane.a[i]).abs() < 1e-5) && (p.b - plane.b).abs() < 1e-5 * unit)
 }
 
 #[test]
@@ -131,7 +138,14 @@ fn interlocking_bears_tension() {
     let (_, cell) = bond(0.4, 0.2);
     let domain = Domain::new(&cell, Some(Strength::dry(0.65)), None);
     let reach = domain.reach([0.0, -0.1e6, 0.0], [1.0, 0.0, 0.0]).expect("a solution").expect("an end");
-    agrees!("continuum: tension that interlocking bears, head joints open", "μ p b/(2a)", "Pa", reach.multiplier, 0.065e6, 1e-6);
+    agrees!(
+        "continuum: tension that interlocking bears, head joints open",
+        "μ p b/(2a)",
+        "Pa",
+        reach.multiplier,
+        0.065e6,
+        1e-6
+    );
     // A stack bond without heads bears none.
     let laying = Laying { thickness: 0.1, mortar: [0.0; 2], bed: JOINTS, head: JOINTS };
     let stack = Cell::shifted(0.4, 0.2, 0.0, &laying).expect("a cell");

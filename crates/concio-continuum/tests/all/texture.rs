@@ -16,7 +16,8 @@ fn wall(model: &str, panel: &str, joint: &str) -> Result<Texture, concio::Error>
 }
 
 const RUNNING: &str = "bond = \"running\"\ncourses = 6\nbricks = 4";
-const ELASTIC: &str = "bed = { law = \"elastic\", stiffness = \"36 N/mm3\" }\nhead = { law = \"elastic\", stiffness = \"86.4 N/mm3\" }";
+const ELASTIC: &str =
+    "bed = { law = \"elastic\", stiffness = \"36 N/mm3\" }\nhead = { law = \"elastic\", stiffness = \"86.4 N/mm3\" }";
 
 fn moduli(texture: &Texture, repeated: bool) -> Moduli {
     match texture.pattern(0, repeated).expect("a pattern") {
@@ -35,12 +36,21 @@ fn a_wall_file_gives_the_moduli_of_the_table() {
         36e9 * 0.125 * 0.12,
         86.4e9 * 0.055 * 0.12
     );
-    for (name, model, joint) in [("planar", "planar", ELASTIC), ("shear", "shear", ELASTIC), ("per joint", "planar", &per_joint)] {
+    for (name, model, joint) in
+        [("planar", "planar", ELASTIC), ("shear", "shear", ELASTIC), ("per joint", "planar", &per_joint)]
+    {
         let texture = wall(model, RUNNING, joint).expect("a texture");
         let found = moduli(&texture, false);
         for i in 0..3 {
             let subject = format!("continuum: A{0}{0} of a wall file; {name}", i + 1);
-            agrees!(subject, "reference table S1m by (H1), (H2)", "N/m", found.membrane[i][i], expected.membrane[i][i], 1e-12);
+            agrees!(
+                subject,
+                "reference table S1m by (H1), (H2)",
+                "N/m",
+                found.membrane[i][i],
+                expected.membrane[i][i],
+                1e-12
+            );
         }
         assert!((texture.bed_ratio(0).expect("one bed") - 2.4).abs() < 1e-12);
     }
@@ -78,7 +88,9 @@ fn walls_without_moduli_are_refused_with_their_key() {
     refused("bed = { law = \"rigid\" }\nhead = { law = \"none\" }", &["joint.bed.law", "rigid", "allowed"]);
     refused("bed = { law = \"none\" }\nhead = { law = \"none\" }", &["joint.bed.law", "nothing"]);
     refused(
-        &format!("{ELASTIC}\n[[joint.change]]\nat = {{ course = [3], kind = [\"bed\"] }}\ndevice = {{ law = \"friction-damper\", slip_force = 1e3 }}"),
+        &format!(
+            "{ELASTIC}\n[[joint.change]]\nat = {{ course = [3], kind = [\"bed\"] }}\ndevice = {{ law = \"friction-damper\", slip_force = 1e3 }}"
+        ),
         &["joint.change", "device"],
     );
     let one = wall("planar", "bond = \"running\"\ncourses = 1\nbricks = 4", ELASTIC).expect("a texture");
@@ -90,7 +102,9 @@ fn walls_without_moduli_are_refused_with_their_key() {
 
 #[test]
 fn joints_that_differ_make_a_wall_irregular() {
-    let changed = format!("{ELASTIC}\n[[joint.change]]\nat = {{ course = [3], kind = [\"bed\"] }}\nspring = {{ stiffness = \"18 N/mm3\" }}");
+    let changed = format!(
+        "{ELASTIC}\n[[joint.change]]\nat = {{ course = [3], kind = [\"bed\"] }}\nspring = {{ stiffness = \"18 N/mm3\" }}"
+    );
     let texture = wall("planar", RUNNING, &changed).expect("a texture");
     let Pattern::Irregular(why) = texture.pattern(0, false).expect("a pattern") else { panic!("regular") };
     assert!(why.contains("differ"), "{why}");

@@ -10,8 +10,22 @@ use crate::references::{S1, S1M, S3};
 fn plates_are_stiffer_than_their_membrane_says() {
     let share = |m: &Moduli, i: usize| m.plate[i][i] / (m.thickness.powi(2) / 12.0 * m.membrane[i][i]);
     let (s1, s3) = (S1.bond().moduli(), S3.bond().moduli());
-    agrees!("continuum: D1111 over t²/12 A1111; S1", "6.164496/4.582656 of the reference table", "", share(&s1, 0), 6.164496 / 4.582656, 1e-6);
-    agrees!("continuum: D1111 over t²/12 A1111; S3", "2.929680/1.347840 of the reference table", "", share(&s3, 0), 2.929680 / 1.347840, 1e-6);
+    agrees!(
+        "continuum: D1111 over t²/12 A1111; S1",
+        "6.164496/4.582656 of the reference table",
+        "",
+        share(&s1, 0),
+        6.164496 / 4.582656,
+        1e-6
+    );
+    agrees!(
+        "continuum: D1111 over t²/12 A1111; S3",
+        "2.929680/1.347840 of the reference table",
+        "",
+        share(&s3, 0),
+        2.929680 / 1.347840,
+        1e-6
+    );
     assert!((share(&s1, 1) - 1.0).abs() < 1e-12);
     assert!(share(&s1, 2) > 4.0, "{}", share(&s1, 2));
     // 4 D1212 has p + q where 4 A1212 has 4 p q/(p + q), before k_s comes in.
@@ -20,7 +34,14 @@ fn plates_are_stiffer_than_their_membrane_says() {
     assert!((4.0 * s1.membrane[2][2] - 4.0 * t * p * q / (p + q)).abs() < 1e-3);
     let soft = |k: Stiffness| Stiffness { transverse: 1e-6 * k.transverse, ..k };
     let flat = RunningBond { bed: soft(S1.bed), head: soft(S1.head), ..S1.bond() }.moduli();
-    agrees!("continuum: 4 D1212 without k_s", "t³/12 (p + q)", "N m", 4.0 * flat.plate[2][2], t.powi(3) / 12.0 * (p + q), 1e-5);
+    agrees!(
+        "continuum: 4 D1212 without k_s",
+        "t³/12 (p + q)",
+        "N m",
+        4.0 * flat.plate[2][2],
+        t.powi(3) / 12.0 * (p + q),
+        1e-5
+    );
 }
 
 /// Trap 2: rigid bricks of overlap ½ have no Poisson's ratio; deformable ones do.
@@ -81,5 +102,12 @@ fn bricks_turn_under_shear() {
     assert!((3.8..4.1).contains(&(held / m.membrane[2][2])), "{}", held / m.membrane[2][2]);
     // The cell finds the rotation by itself.
     let free = Moduli::of_cell(&Cell::shifted(0.26, 0.065, 0.5, &S1.laying()).expect("a cell")).expect("moduli");
-    agrees!("continuum: shear of bricks that turn", "t p q/(p + q)", "N/m", free.membrane[2][2], m.membrane[2][2], 1e-9);
+    agrees!(
+        "continuum: shear of bricks that turn",
+        "t p q/(p + q)",
+        "N/m",
+        free.membrane[2][2],
+        m.membrane[2][2],
+        1e-9
+    );
 }

@@ -59,6 +59,7 @@ fn a_window_of_few_bricks_is_refused() {
     let texture = texture("bond = \"running\"\ncourses = 2\nbricks = 3");
     let (three, overlap) = windows(&texture.wall, 0);
     assert!(overlap);
-    let error = window(&texture.wall, &texture.joints, &texture.stiffness, &three[0]).expect_err("too small").to_string();
+    let error =
+        window(&texture.wall, &texture.joints, &texture.stiffness, &three[0]).expect_err("too small").to_string();
     assert!(error.contains("neighbours on all sides") && error.contains("6 or more"), "{error}");
 }
