@@ -13,7 +13,7 @@ use crate::running::RunningBond;
 use crate::strength::{Domain, Plane, cut, holds, planes};
 use crate::texture::{Heads, Pattern, Strengths, Texture};
 use crate::units::Units;
-use crate::window::{WindowModuli, window, windows};
+use crate::window::{WindowModuli, pitch_area, window, windows};
 use crate::{ContinuumError, Strength};
 
 /// Bricks of a panel up to which its own stiffness is held against that of the continuum.
@@ -153,9 +153,12 @@ pub fn analyse(case: &Case, panel: usize, options: Options) -> Result<Found, Con
     let across = given.bricks.map_or(size[0] / (mean_length + given.mortar.head.si()), |bricks| bricks as f64);
     let share = match &pattern {
         Pattern::Running(_, cell) | Pattern::Repeated(cell) => cell.brick_share(),
-        Pattern::Irregular(_) => (own.iter().map(|b| b.weight()).sum::<f64>()
-            / (given.brick.specific_weight.si() * given.brick.thickness.si() * size[0] * size[1]))
-            .min(1.0),
+        Pattern::Irregular(_) => {
+            let of_panel = (0..texture.wall.blocks.len()).filter(|i| texture.wall.blocks[*i].panel == panel);
+            let area: f64 = of_panel.map(|i| pitch_area(&texture.wall, i)).sum();
+            let weight: f64 = own.iter().map(|b| b.weight()).sum();
+            weight / (given.brick.specific_weight.si() * given.brick.thickness.si() * area)
+        }
     };
     let thickness = given.brick.thickness.si();
     let volume = given.brick.specific_weight.si() * share / G;

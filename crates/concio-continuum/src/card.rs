@@ -143,17 +143,11 @@ impl Card {
     }
 
     fn head(&self, mark: &str) -> String {
-        let mut text = String::new();
-        let mut line = |what: &str| text.extend([mark, " ", what, "\n"]);
-        line(&format!(
-            "Concio {}: continuum of a wall, axis 1 along the courses, 2 upwards",
-            env!("CARGO_PKG_VERSION")
-        ));
-        line(&format!("units: {}, mass {}, s", self.units, self.unit_of_mass));
-        line(&format!("thickness: {}", number(self.moduli.thickness)));
-        for what in &self.assumed {
-            line(&what.replace(['\n', '\r'], " "));
-        }
+        let concio = concat!("Concio ", env!("CARGO_PKG_VERSION"));
+        let mut text = comment(mark, &format!("{concio}: continuum of a wall, axis 1 along the courses, 2 upwards"));
+        text += &comment(mark, &format!("units: {}, mass {}, s", self.units, self.unit_of_mass));
+        text += &comment(mark, &format!("thickness: {}", number(self.moduli.thickness)));
+        text.extend(self.assumed.iter().map(|what| comment(mark, what)));
         text
     }
 
@@ -161,13 +155,11 @@ impl Card {
     fn bending(&self, mark: &str) -> String {
         let Moduli { membrane, plate, thickness, .. } = self.moduli;
         let cubed = thickness * thickness / 12.0;
-        let share = |i: usize| plate[i][i] / (cubed * membrane[i][i]);
-        format!(
-            "{mark} For the plane of the wall. Bending of such a section is t2/12 of its membrane: D11, D22, D12 of the wall are {:.3}, {:.3}, {:.3} times that; take the shell card for bending\n",
-            share(0),
-            share(1),
-            share(2)
-        )
+        let [a, b, c] = [0, 1, 2].map(|i| plate[i][i] / (cubed * membrane[i][i]));
+        let what = format!(
+            "For the plane of the wall. Bending of such a section is t2/12 of its membrane: D11, D22, D12 of the wall are {a:.3}, {b:.3}, {c:.3} times that; take the shell card for bending"
+        );
+        comment(mark, &what)
     }
 
     fn lamina(&self, c: &Constants) -> String {
@@ -183,8 +175,8 @@ impl Card {
         let (name, density, last) = (self.keyword(), number(self.density.volume), number(c.g23));
         let (head, bending) = (self.head("**"), self.bending("**"));
         format!(
-            "{head}{bending}** E3 is not known: the lesser of E1 and E2 stands there, nu13 = nu23 = 0. Plane stress and shells do not use it\n\
-             *MATERIAL, NAME={name}\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n{first}\n{last}\n*DENSITY\n{density}\n"
+            "{head}{bending}** E3 is not known: the lesser of E1 and E2 stands there, nu13 = nu23 = 0.\n\
+             ** Plane stress and shells do not use it\n*MATERIAL, NAME={name}\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n{first}\n{last}\n*DENSITY\n{density}\n"
         )
     }
 
@@ -236,4 +228,24 @@ impl Format {
 /// Ten digits: keyword readers have fields of 20 characters.
 fn number(value: f64) -> String {
     if value == 0.0 { "0.".into() } else { format!("{value:.9E}") }
+}
+
+/// Widest line of a comment: keyword readers take 256 characters.
+const WIDEST: usize = 100;
+
+/// A text as lines of comment.
+fn comment(mark: &str, text: &str) -> String {
+    let (mut lines, mut width) = (String::from(mark), mark.len());
+    for word in text.split_whitespace() {
+        let letters = word.chars().count();
+        if width + 1 + letters > WIDEST && width > mark.len() {
+            lines += "\n";
+            lines += mark;
+            width = mark.len();
+        }
+        lines += " ";
+        lines += word;
+        width += 1 + letters;
+    }
+    lines + "\n"
 }

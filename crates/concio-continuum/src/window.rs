@@ -150,8 +150,8 @@ pub fn window(
     Ok(WindowModuli { membrane, skew, inside: number })
 }
 
-/// Area of a block with half of the mortar around it.
-fn pitch_area(wall: &Wall, block: usize) -> f64 {
+/// Area of a block with half of the mortar around it [m²].
+pub(crate) fn pitch_area(wall: &Wall, block: usize) -> f64 {
     let block = &wall.blocks[block];
     let [bed, head] = wall.panels[block.panel].mortar;
     match block.is_rectangle() {
