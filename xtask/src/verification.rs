@@ -12,7 +12,7 @@ use crate::command::{Outcome, cargo, run};
 /// Where tests say what they left out, as crates/concio-verified does.
 const SKIPPED: &str = "skipped.txt";
 const PAGE: &str = "docs/verification.md";
-const PACKAGES: [&str; 6] = ["concio-law", "concio-limit", "concio-planar", "concio-shear", "concio", "concio-study"];
+const PACKAGES: [&str; 7] = ["concio-continuum", "concio-law", "concio-limit", "concio-planar", "concio-shear", "concio", "concio-study"];
 const HEADER: &str = "| Subject | Held against | Expected | Found | Off by | The test allows | Test |";
 
 /// Sections of the page in their order; the first half of a record's subject is one of them.

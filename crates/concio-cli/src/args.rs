@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use concio::case::RecordChannel;
-use concio::quantity::{Length, Time};
+use concio::quantity::{Length, Stress, Time};
 
 /// In-plane earthquake response of block masonry.
 ///
@@ -42,6 +42,7 @@ pub enum Command {
     Compare(Compare),
     FirstCrack(FirstCrack),
     Limit(Limit),
+    Continuum(Continuum),
     Study(Study),
     Completions(Completions),
 }
@@ -452,6 +453,25 @@ fn metres(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A modulus above 0 in Pa.
+fn stress(text: &str) -> Result<f64, String> {
+    match pressure(text)? {
+        v if v > 0.0 => Ok(v),
+        _ => Err("allowed: above 0MPa".into()),
+    }
+}
+
+/// A stress from 0 in Pa; GPa are for moduli.
+fn pressure(text: &str) -> Result<f64, String> {
+    with_unit(text, "MPa")?;
+    let trimmed = text.trim();
+    let value = match trimmed.strip_suffix("GPa").map(|number| number.trim().parse::<f64>()) {
+        Some(Ok(number)) => 1e9 * number,
+        _ => Stress::parse(trimmed)?.si(),
+    };
+    if value >= 0.0 && value.is_finite() { Ok(value) } else { Err("allowed: from 0MPa".into()) }
+}
+
 fn shard(text: &str) -> Result<[usize; 2], String> {
     let wrong = || "allowed: I/N with I from 1 to N, such as 3/16".to_string();
     let (i, n) = text.split_once('/').ok_or_else(wrong)?;
@@ -725,6 +745,84 @@ pub enum HeadFriction {
     AsGiven,
     /// None
     Frictionless,
+}
+
+/// Give the material that finite element programs need in the place of a wall's bricks and joints.
+///
+/// Prints membrane, plate and transverse shear moduli of every panel, its strength domain, what all of it rests on, and how far
+/// the continuum is off at the panel's number of courses. Bonds that repeat have closed forms or are solved as a cell. Of
+/// irregular ones three windows are tested, which gives a mean and a scatter. docs/continuum.md has equations and limits.
+///
+/// With --card the card of one panel is printed and nothing else: json, which reads back to the same numbers; lamina and shell
+/// (Abaqus), engineering (Abaqus, CalculiX), opensees (Tcl).
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio continuum wall.toml
+  concio continuum wall.toml --json
+  concio continuum wall.toml --card engineering --units N-mm > wall.inp
+  concio continuum wall.toml --card shell --units kN-m
+  concio continuum wall.toml --heads open              head joints without mortar
+  concio continuum wall.toml --brick-modulus 10GPa     bricks that deform, an estimate
+  concio continuum wall.toml --figure error.svg        how the error falls with the courses")]
+pub struct Continuum {
+    /// Wall file, TOML or JSON.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// Name of a panel; default all.
+    #[arg(long, value_name = "NAME")]
+    pub panel: Option<String>,
+    /// Head joints as the file says, those that part freely closed; or all open.
+    #[arg(long, value_enum, default_value = "closed")]
+    pub heads: ContinuumHeads,
+    /// Take the courses that an irregular panel lists as a cell that repeats along the wall and upwards.
+    #[arg(long)]
+    pub repeated: bool,
+    /// Young's modulus of bricks that deform, such as 10GPa; default rigid bricks.
+    #[arg(long, value_name = "STRESS", value_parser = stress)]
+    pub brick_modulus: Option<f64>,
+    /// Their Poisson's ratio, above -1 to 0.5.
+    #[arg(long, value_name = "NU", default_value_t = 0.2, requires = "brick_modulus", allow_negative_numbers = true)]
+    pub brick_poisson: f64,
+    /// Pressure on bed joints at which strength is told, such as 0.3MPa; default that of load and weight at half of the height.
+    #[arg(long, value_name = "STRESS", value_parser = pressure)]
+    pub pressure: Option<f64>,
+    /// Print the card of a panel.
+    #[arg(long, value_enum, value_name = "FORMAT", conflicts_with = "json")]
+    pub card: Option<CardFormat>,
+    /// Force and length of the card, with the second; mass follows: SI, N-mm, kN-m, lbf-in.
+    #[arg(long, value_name = "UNITS", default_value = "SI", requires = "card")]
+    pub units: String,
+    /// Draw the error of the continuum over the number of courses, as SVG.
+    #[arg(long, value_name = "SVG", value_hint = ValueHint::FilePath)]
+    pub figure: Option<PathBuf>,
+    /// Print JSON (SI units).
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Head joints of a continuum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ContinuumHeads {
+    /// As the file says; those that part freely are closed
+    Closed,
+    /// Nothing is in them
+    Open,
+}
+
+/// Cards of finite element programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum CardFormat {
+    /// Everything, for scripts
+    Json,
+    /// *ELASTIC, TYPE=LAMINA
+    Lamina,
+    /// *ELASTIC, TYPE=ENGINEERING CONSTANTS
+    Engineering,
+    /// *SHELL GENERAL SECTION, A and D apart
+    Shell,
+    /// nDMaterial ElasticOrthotropic
+    Opensees,
 }
 
 /// Do many runs, and answer what they answer together.

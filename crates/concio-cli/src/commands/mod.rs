@@ -8,6 +8,7 @@ use crate::failure::Failure;
 mod check;
 mod compare;
 mod completions;
+mod continuum;
 mod export;
 mod first_crack;
 mod limit;
@@ -29,6 +30,7 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::FirstCrack(args) => return first_crack::first_crack(&args),
         Command::Study(args) => return study::run_command(&args.what),
         Command::Limit(args) => return limit::limit(&args),
+        Command::Continuum(args) => continuum::continuum(&args),
         Command::Check(args) => check::check(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::New(args) => new::new(&args),

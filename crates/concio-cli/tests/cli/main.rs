@@ -3,6 +3,7 @@
 mod analyses;
 mod commands;
 mod compare;
+mod continuum;
 mod figures;
 mod first_crack;
 mod head;
