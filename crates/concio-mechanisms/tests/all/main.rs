@@ -1,0 +1,4 @@
+//! Tests of mechanisms, one program.
+
+mod rocking;
+mod rocking_reference;
