@@ -6,12 +6,11 @@
 //! scheme keeps its order, and no interpolation decides what happens first.
 
 use concio::G;
-use concio::ground::GroundMotion;
 
 use super::mechanism::{Back, Mechanism, Restitution};
 use super::pull::{Change, Pull};
 use super::response::{Capacity, Counts, Energies, Event, History, Peak, Response, Stop, TieOutcome, What};
-use super::shaking::{Piece, Positive, Setting, Shaking};
+use super::shaking::{Piece, Setting, Shaking};
 use super::side::{Side, Terms};
 
 /// Velocity below which it rests after an impact [rad/s]: bounces get smaller without end.
@@ -33,7 +32,7 @@ pub(super) struct System {
     /// Outwards; inwards, where it rocks to both sides.
     pub sides: Vec<Side>,
     /// Turn at which the weights hold no longer.
-    pub d0: Vec<Option<f64>>,
+    pub d0: [Option<f64>; 2],
     /// What an impact leaves; none for (OP11).
     restitution: Option<f64>,
     friction_moment: f64,
@@ -60,7 +59,7 @@ impl System {
         };
         let never = f64::INFINITY;
         let mut system = System {
-            d0: sides.iter().map(|side| side.unstable_from(&none_gone)).collect(),
+            d0: [0, 1].map(|i| sides.get(i).and_then(|side: &Side| side.unstable_from(&none_gone))),
             restitution,
             friction_moment: mechanism.friction_moment,
             floors: mechanism.floors.iter().map(|f| [f.friction * f.load, f.seat.unwrap_or(never)]).collect(),
@@ -115,6 +114,8 @@ pub(super) struct Run<'s> {
     broke: Vec<Option<f64>>,
     gone: Vec<bool>,
     spent: Vec<bool>,
+    /// Turn at which the weights hold no longer, of what still bears on the wall.
+    d0: [Option<f64>; 2],
     beyond: bool,
     /// When it last went beyond d0.
     beyond_since: f64,
@@ -159,6 +160,7 @@ impl<'s> Run<'s> {
             broke: vec![None; system.ties.len()],
             gone: vec![false; system.floors.len()],
             spent: vec![false; system.rubs.len()],
+            d0: system.d0,
             beyond: false,
             beyond_since: 0.0,
             jumped: f64::NEG_INFINITY,
@@ -318,6 +320,12 @@ impl<'s> Run<'s> {
             .map(|side| (side, 1.0))
     }
 
+    /// The moment that would open it to a side from rest, less friction [N m].
+    pub(super) fn drives(&self, side: usize, at: [f64; 2]) -> f64 {
+        let forces = self.forces(side, 0.0, at);
+        forces.push - forces.rub
+    }
+
     // ---- in motion -----------------------------------------------------------------------------------------------
 
     /// A step to `to`, or to the first event on the way.
@@ -414,7 +422,10 @@ impl<'s> Run<'s> {
     fn meet(&mut self, way: f64) -> Option<Stop> {
         let [turn, velocity, ..] = self.row;
         let end = self.side().end;
-        if !(turn <= end) {
+        if !(turn.is_finite() && velocity.is_finite()) {
+            return Some(Stop::NotFinite { time: self.t });
+        }
+        if turn > end {
             self.tell(What::Fall);
             return Some(Stop::Fallen { time: self.t, beyond: self.beyond_since });
         }
@@ -568,6 +579,7 @@ impl<'s> Run<'s> {
             let of_floor = side.masses.iter().filter(|mass| mass.floor == Some(i));
             self.floors += of_floor.map(|m| m.potential(&pose) + 0.5 * m.inertia(&pose) * square).sum::<f64>();
             self.gone[i] = true;
+            self.d0 = [0, 1].map(|k| self.system.sides.get(k).and_then(|side| side.unstable_from(&self.gone)));
             self.tell(What::SeatLost(i));
         }
         for i in 0..self.spent.len() {
@@ -589,7 +601,7 @@ impl<'s> Run<'s> {
     }
 
     fn is_beyond_at(&self, turn: f64) -> bool {
-        self.system.d0[self.side].is_some_and(|most| turn > most)
+        self.d0[self.side].is_some_and(|most| turn > most)
     }
 
     fn tell(&mut self, what: What) {
@@ -784,9 +796,7 @@ impl System {
 
     /// Acceleration of the ground at which it sets off from rest to a side [m/s²], friction and pretension included.
     pub fn lifts_off_at(&self, side: usize) -> f64 {
-        let rest = Shaking::across(&GroundMotion::AtRest, Positive::Inwards);
-        let run = Run::new(self, rest, &Setting::default(), 0.0);
-        let forces = run.forces(side, 0.0, [0.0, 1.0]);
+        let forces = Run::at_rest(self).forces(side, 0.0, [0.0, 1.0]);
         (forces.rub - forces.push) / forces.terms.push
     }
 }

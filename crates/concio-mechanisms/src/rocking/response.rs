@@ -22,6 +22,11 @@ pub enum Stop {
         /// When [s].
         time: f64,
     },
+    /// A number that is none: steps that were far too long.
+    NotFinite {
+        /// When [s].
+        time: f64,
+    },
     /// Steps without end.
     StepsSpent,
 }

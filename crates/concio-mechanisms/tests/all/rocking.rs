@@ -201,6 +201,30 @@ fn rest_is_rest_up_to_the_multiplier() {
     assert!(light.relative_residual() < 1e-7, "{}", light.relative_residual());
 }
 
+/// The scale of a first lift-off needs no run, and runs agree with it: with friction of floors, vertical motion, to both sides.
+#[test]
+fn the_scale_of_the_first_lift_off_is_that_of_runs() {
+    let (ground, vertical) = (shaking(), GroundMotion::sampled(0.013, &[0.0, 3.0, -4.0, 1.0, -2.0, 3.0, 0.0]).unwrap());
+    let floor = Floor { friction: 0.3, pushes: 0.0, ..Floor::carried(Spot::lower([0.15, 4.0]), 5e3) };
+    let with_floor = |back: Back| Mechanism { floors: vec![floor], ..wall(0.4, 4.0, back) };
+    let tie = Tie { pretension: 1e3, ..Tie::elastic(Spot::lower([0.0, 3.9]), 1e6) };
+    let tied = Mechanism { ties: vec![tie], ..wall(0.4, 4.0, free(0.4, None)) };
+    for mechanism in [with_floor(side_walls(0.0)), with_floor(free(0.4, None)), tied] {
+        let rocking = ready(&mechanism);
+        let shaking = Shaking { vertical: &vertical, scale: 3.0, ..Shaking::across(&ground, Positive::Inwards) };
+        let found = rocking.first_lift_off(&shaking, &Setting::default()).unwrap().unwrap();
+        let run = |scale: f64| rocking.respond(&Shaking { scale, ..shaking }, &Setting::default()).unwrap();
+        assert_eq!(run(found.scale * (1.0 - 1e-9)).first_lift_off, None);
+        let lifted = run(found.scale * (1.0 + 1e-9));
+        assert!((lifted.first_lift_off.unwrap() - found.time).abs() < 1e-6, "{lifted:?}, {found:?}");
+        let first = lifted.events[0];
+        assert!(first.what == What::LiftOff && (lifted.peak.rotation > 0.0) == found.outwards, "{lifted:?}, {found:?}");
+    }
+    let none = ready(&wall(0.4, 4.0, side_walls(0.0)));
+    let still = Shaking::across(&GroundMotion::AtRest, Positive::Inwards);
+    assert_eq!(none.first_lift_off(&still, &Setting { duration: Some(1.0), ..Setting::default() }).unwrap(), None);
+}
+
 /// A ground that falls faster than g leaves nothing to compute.
 #[test]
 fn a_wall_in_the_air_is_not_computed() {
