@@ -67,7 +67,8 @@ impl Rocking {
     /// Compiles a mechanism.
     ///
     /// # Errors
-    /// A number of the mechanism that is out of its bounds; a wall that does not stand by itself, its ties, and its friction.
+    /// A number of the mechanism that is out of its bounds; a wall that does not stand by itself, its ties, and its friction; a restitution that
+    /// would give energy.
     pub fn new(mechanism: &Mechanism) -> Result<Self> {
         mechanism.check()?;
         let rocking = Rocking { system: System::new(mechanism) };
@@ -80,6 +81,13 @@ impl Rocking {
                     .help("thrusts need the pretension of a tie, and the hinge must lie outside of the loads")
                     .into());
             }
+        }
+        let most = rocking.system.most_restitution();
+        if let Back::Free { restitution: Some(given), .. } = mechanism.back
+            && given > most * (1.0 + 1e-12)
+        {
+            let error = InputError::new(format!("{given}: impacts would give energy")).key("back.restitution");
+            return Err(error.allowed(format!("0 … {most:.6}")).help("leave it out for (OP11)").into());
         }
         Ok(rocking)
     }

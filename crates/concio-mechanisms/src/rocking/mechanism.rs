@@ -166,7 +166,7 @@ pub enum Back {
     Free {
         /// Hinges while it turns inwards.
         inwards: Linkage,
-        /// Part of the velocity that an impact leaves, from 0 to 1; (OP11) where none is given.
+        /// Part of the velocity that an impact leaves, from 0 to 1, and no more than leaves the energy; (OP11) where none is given.
         restitution: Option<f64>,
     },
 }

@@ -19,6 +19,8 @@ const REST: f64 = 1e-7;
 const STEP: f64 = 0.02;
 /// Longest step where nothing else limits it [s].
 const LONGEST: f64 = 0.01;
+/// How often a step is halved to find where it is slowest: the instant within 1e-6 of its length.
+const HALVINGS: usize = 20;
 /// Events that are kept.
 const EVENTS: usize = 4096;
 /// Steps of a run at most.
@@ -333,7 +335,13 @@ impl<'s> Run<'s> {
         let (from, row) = (self.t, self.row);
         let mut next = self.advanced(piece, way, row, from, h);
         let mut instant = to;
-        let cut = self.crosses(way, &next);
+        let mut cut = self.crosses(way, &next);
+        if !cut && let Some((slowest, there)) = self.slowest(piece, way, (from, row), (to, next)) {
+            cut = self.crosses(way, &there);
+            if cut {
+                (instant, next) = (slowest, there);
+            }
+        }
         if cut {
             let mut low = from;
             while let Some(middle) = between(low, instant) {
@@ -349,6 +357,30 @@ impl<'s> Run<'s> {
         (self.t, self.row) = (instant, next);
         self.note();
         if cut { self.meet(way) } else { None }
+    }
+
+    /// Where a step that slows down and then speeds up is slowest: it may have turned back and turned again there.
+    fn slowest(
+        &mut self,
+        piece: &Piece,
+        way: f64,
+        (from, row): (f64, Row),
+        (to, next): (f64, Row),
+    ) -> Option<(f64, Row)> {
+        // The parabola of velocities with these ends and this mean, without an evaluation.
+        let mean = (next[0] - row[0]) / (to - from);
+        let slope = |this: f64, other: f64| way * (6.0 * mean - 4.0 * this - 2.0 * other);
+        if slope(row[1], next[1]) >= 0.0 || slope(next[1], row[1]) >= 0.0 {
+            return None;
+        }
+        let speeds_up = |run: &Self, row: &Row, t: f64| way * run.rates(way, row, piece.at(t))[1] > 0.0;
+        let (mut low, mut high, mut found) = (from, to, next);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let tried = self.advanced(piece, way, row, from, middle - from);
+            if speeds_up(self, &tried, middle) { (high, found) = (middle, tried) } else { low = middle }
+        }
+        Some((high, found))
     }
 
     /// The row after `h`, by one step of order 4.
@@ -369,7 +401,7 @@ impl<'s> Run<'s> {
         let forces = self.forces(self.side, turn, at);
         let Terms { inertia, half_slope, .. } = forces.terms;
         let acceleration = (forces.push - way * forces.rub - half_slope * velocity * velocity) / inertia;
-        [velocity, acceleration, forces.ground * velocity, forces.rub * velocity.abs()]
+        [velocity, acceleration, forces.ground * velocity, way * forces.rub * velocity]
     }
 
     /// Moments about the lower hinge at a turn: all that pushes it to open, friction apart.
@@ -461,7 +493,8 @@ impl<'s> Run<'s> {
         let other = 1 - self.side;
         let left = match (self.system.sides.get(other), self.system.restitution) {
             (None, restitution) => restitution.unwrap_or(0.0),
-            (Some(_), Some(given)) => given,
+            // Floors that are gone may have taken what the check of the mechanism saw.
+            (Some(_), Some(given)) => given.min((before / self.twice_kinetic(other)).sqrt()),
             (Some(opening), None) => self.side().passes_on(opening, &self.gone),
         };
         if self.system.sides.len() > 1 {
@@ -762,6 +795,14 @@ struct Forces {
 }
 
 impl System {
+    /// The largest part of the velocity that an impact may leave: more would give energy.
+    pub fn most_restitution(&self) -> f64 {
+        let [outwards, inwards] = self.sides.as_slice() else { return 1.0 };
+        let none_gone = vec![false; self.floors.len()];
+        let [out, inw] = [outwards, inwards].map(|side| side.terms(&side.pose(0.0), &none_gone).inertia);
+        (out / inw).min(inw / out).sqrt()
+    }
+
     /// Longest step under a motion of the ground, where none is given [s].
     pub fn step(&self, shaking: &Shaking) -> f64 {
         self.step.min(shaking.longest_step())
