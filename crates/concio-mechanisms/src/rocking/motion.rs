@@ -343,20 +343,48 @@ impl<'s> Run<'s> {
             }
         }
         if cut {
-            let mut low = from;
-            while let Some(middle) = between(low, instant) {
-                let tried = self.advanced(piece, way, row, from, middle - from);
-                if self.crosses(way, &tried) {
-                    (instant, next) = (middle, tried);
-                } else {
-                    low = middle;
-                }
-            }
+            (instant, next) = self.first(piece, way, (from, row), (instant, next));
         }
         self.keep(piece, way, (from, row), (instant, next));
         (self.t, self.row) = (instant, next);
         self.note();
         if cut { self.meet(way) } else { None }
+    }
+
+    /// The first row at which an event has come about, known to rounding: between one before it and one behind it.
+    fn first(
+        &mut self,
+        piece: &Piece,
+        way: f64,
+        (from, row): (f64, Row),
+        (mut high, mut next): (f64, Row),
+    ) -> (f64, Row) {
+        // How far the event is passed, where it is a landing or a turn: most are. False position with halved ends, every third time bisection.
+        let passed = |lands: bool, row: &Row| if lands { -row[0] } else { -way * row[1] };
+        let mut lands = next[0] < 0.0;
+        let (mut low, mut before, mut behind) = (from, passed(lands, &row), passed(lands, &next));
+        let mut shrunk = 0;
+        for k in 0_u32.. {
+            let Some(middle) = between(low, high) else { break };
+            let straight = low + (high - low) * (before / (before - behind));
+            let guessed = k % 3 < 2 && before < 0.0 && behind > 0.0 && low < straight && straight < high;
+            let instant = if guessed { straight } else { middle };
+            let tried = self.advanced(piece, way, row, from, instant - from);
+            if self.crosses(way, &tried) {
+                if lands != (tried[0] < 0.0) {
+                    lands = !lands;
+                    before = f64::NAN;
+                }
+                (high, next, behind) = (instant, tried, passed(lands, &tried));
+                before *= if shrunk == 1 { 0.5 } else { 1.0 };
+                shrunk = 1;
+            } else {
+                (low, before) = (instant, passed(lands, &tried));
+                behind *= if shrunk == -1 { 0.5 } else { 1.0 };
+                shrunk = -1;
+            }
+        }
+        (high, next)
     }
 
     /// Where a step that slows down and then speeds up is slowest: it may have turned back and turned again there.

@@ -85,7 +85,7 @@ fn motion(dice: &mut Dice, peak: f64) -> GroundMotion {
 fn whatever_rocks_keeps_its_account() {
     let mut dice = Dice(7);
     let (mut lifted, mut fell, mut stood, mut unstable, mut moving) = (0, 0, 0, 0, 0);
-    for k in 0..600 {
+    for k in 0..300 {
         let asked = mechanism(&mut dice);
         let peak = 10f64.powf(dice.between(0.0, 1.0));
         let (across, up) = (motion(&mut dice, peak), motion(&mut dice, 2.0));
@@ -118,5 +118,5 @@ fn whatever_rocks_keeps_its_account() {
         assert_eq!(rocking.respond(&shaking, &setting).unwrap(), response);
     }
     println!("{lifted} lifted off, {stood} stood, {fell} fell, {moving} still moved, {unstable} did not stand");
-    assert!(lifted > 300 && stood > 100 && fell > 30 && moving < 60, "{lifted} {stood} {fell} {moving}");
+    assert!(lifted > 150 && stood > 100 && fell > 20 && moving < 30, "{lifted} {stood} {fell} {moving}");
 }
