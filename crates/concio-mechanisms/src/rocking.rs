@@ -45,6 +45,7 @@ mod repeat;
 mod response;
 mod shaking;
 mod side;
+mod system;
 
 pub use lift_off::LiftOff;
 pub use mechanism::{
@@ -55,7 +56,8 @@ pub use response::{Capacity, Counts, Energies, Event, History, Peak, Response, S
 pub use shaking::{Positive, Setting, Shaking};
 
 use concio::{G, InputError, Result};
-use motion::{Run, System};
+use motion::Run;
+use system::System;
 
 /// A mechanism that is ready to be shaken.
 #[derive(Debug, Clone, PartialEq)]

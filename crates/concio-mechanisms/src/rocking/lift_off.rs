@@ -1,7 +1,8 @@
 //! The scale of a record at which a wall first lifts off: at rest all forces are linear in the ground's acceleration, so no run is needed.
 
-use super::motion::{Run, System};
+use super::motion::Run;
 use super::shaking::{Setting, Shaking};
+use super::system::System;
 
 /// Parts of the longest useful step of a motion in closed form: 400 in a period, of which the largest is within 4e-5 of the peak.
 const FINER: f64 = 20.0;
@@ -18,6 +19,12 @@ pub struct LiftOff {
 }
 
 impl System {
+    /// Acceleration of the ground at which it sets off from rest to a side [m/s²], friction and pretension included.
+    pub fn lifts_off_at(&self, side: usize) -> f64 {
+        let forces = Run::at_rest(self).forces(side, 0.0, [0.0, 1.0]);
+        (forces.rub - forces.push) / forces.terms.push
+    }
+
     /// The least scale of a motion up to `end` at which the wall sets off.
     pub fn first_lift_off(&self, shaking: &Shaking, end: f64) -> Option<LiftOff> {
         let rest = Run::at_rest(self);
