@@ -133,7 +133,9 @@ impl<'s> Run<'s> {
     pub fn go(mut self, shaking_ends: f64, tail: f64) -> Response {
         self.keep_first();
         let stop = self.follow(shaking_ends, tail);
-        self.keep_until(shaking_ends.max(self.t));
+        if matches!(stop, Stop::AtRest { .. }) {
+            self.keep_until(shaking_ends.max(self.t));
+        }
         self.finish(stop)
     }
 

@@ -154,7 +154,7 @@ pub struct TieOutcome {
     pub broke: Option<f64>,
 }
 
-/// Histories at equal intervals from t = 0; of a wall that comes to rest, up to its rest and at least to the end of the shaking.
+/// Histories at equal intervals from t = 0 to the end of the run; of a wall that rests, at least to the end of the shaking.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History {
     /// [s]
