@@ -45,6 +45,7 @@ mod repeat;
 mod response;
 mod shaking;
 mod side;
+mod state;
 mod system;
 
 pub use lift_off::LiftOff;

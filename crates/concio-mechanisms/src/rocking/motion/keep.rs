@@ -1,21 +1,22 @@
 //! What is kept of a run: events, peaks, the account, histories.
 
-use super::{EVENTS, Row, Run};
+use super::{EVENTS, Run};
 use crate::rocking::response::{Energies, Event, Peak, Response, Stop, TieOutcome, What};
 use crate::rocking::shaking::Piece;
 use crate::rocking::side::Side;
+use crate::rocking::state::Row;
 
 impl<'s> Run<'s> {
     pub(super) fn side(&self) -> &'s Side {
-        &self.system.sides[self.side]
+        &self.system.sides[self.state.side]
     }
 
     pub(super) fn is_beyond(&self) -> bool {
-        self.is_beyond_at(self.row[0])
+        self.is_beyond_at(self.state.row[0])
     }
 
     pub(super) fn is_beyond_at(&self, turn: f64) -> bool {
-        self.d0[self.side].is_some_and(|most| turn > most)
+        self.state.d0[self.state.side].is_some_and(|most| turn > most)
     }
 
     pub(super) fn tell(&mut self, what: What) {
@@ -25,14 +26,14 @@ impl<'s> Run<'s> {
         }
         let sign = self.side().sign;
         // An impact is found just behind θ = 0, a bounce starts from it.
-        let rotation = if self.row[0] > 0.0 { sign * self.row[0] } else { 0.0 };
-        self.events.push(Event { time: self.t, what, rotation, velocity: sign * self.row[1] });
+        let rotation = if self.state.row[0] > 0.0 { sign * self.state.row[0] } else { 0.0 };
+        self.events.push(Event { time: self.state.t, what, rotation, velocity: sign * self.state.row[1] });
     }
 
     /// Peaks and account after a step.
     pub(super) fn note(&mut self) {
-        if self.row[0] > self.peaks[self.side].0 {
-            self.peaks[self.side] = (self.row[0], self.t);
+        if self.state.row[0] > self.state.peaks[self.state.side].0 {
+            self.state.peaks[self.state.side] = (self.state.row[0], self.state.t);
         }
         self.note_pulls();
         self.account();
@@ -40,15 +41,15 @@ impl<'s> Run<'s> {
 
     pub(super) fn note_pulls(&mut self) {
         let side = self.side();
-        let pose = side.pose(self.row[0]);
-        for (tie, grip) in self.ties.iter_mut().zip(&side.ties) {
+        let pose = side.pose(self.state.row[0]);
+        for (tie, grip) in self.state.ties.iter_mut().zip(&side.ties) {
             tie.peak = tie.peak.max(tie.force(side.displacement(&pose, grip)));
         }
     }
 
     pub(super) fn account(&mut self) {
-        self.scale = self.scale.max(self.row[2].abs());
-        self.residual = self.residual.max(self.energies(&self.row).residual().abs());
+        self.state.scale = self.state.scale.max(self.state.row[2].abs());
+        self.state.residual = self.state.residual.max(self.energies(&self.state.row).residual().abs());
     }
 
     pub(super) fn energies(&self, row: &Row) -> Energies {
@@ -56,21 +57,21 @@ impl<'s> Run<'s> {
         let side = self.side();
         let pose = side.pose(turn);
         let (mut elastic, mut taken) = (0.0, 0.0);
-        for (tie, grip) in self.ties.iter().zip(&side.ties) {
+        for (tie, grip) in self.state.ties.iter().zip(&side.ties) {
             let displacement = side.displacement(&pose, grip);
             elastic += tie.elastic(displacement);
             taken += tie.taken(displacement);
         }
         Energies {
-            kinetic: 0.5 * side.terms(&pose, &self.gone).inertia * velocity * velocity,
-            place: side.potential(turn, &self.gone),
+            kinetic: 0.5 * side.terms(&pose, &self.state.gone).inertia * velocity * velocity,
+            place: side.potential(turn, &self.state.gone),
             elastic,
-            impact: self.impact,
+            impact: self.state.impact,
             friction,
             ties: taken,
-            floors: self.floors,
+            floors: self.state.floors,
             input,
-            start: self.start,
+            start: self.state.start,
         }
     }
 
@@ -80,8 +81,8 @@ impl<'s> Run<'s> {
     }
 
     pub(super) fn keep_first(&mut self) {
-        let row = self.row;
-        let piece = self.shaking.piece(self.t);
+        let row = self.state.row;
+        let piece = self.shaking.piece(self.state.t);
         if self.sample_time().is_some() {
             self.push(0.0, &row, &piece);
         }
@@ -111,7 +112,7 @@ impl<'s> Run<'s> {
     /// Samples of a wall at rest.
     pub(super) fn keep_until(&mut self, to: f64) {
         while let Some(t) = self.sample_time().filter(|t| *t <= to) {
-            let (row, piece) = (self.row, self.shaking.piece(t));
+            let (row, piece) = (self.state.row, self.shaking.piece(t));
             self.push(t, &row, &piece);
         }
     }
@@ -126,35 +127,35 @@ impl<'s> Run<'s> {
         history.velocity.push(side.sign * row[1]);
         history.displacement.push(side.displacement(&pose, &side.control));
         history.ground.push(piece.at(t)[0]);
-        let pulls = self.ties.iter().zip(&side.ties).map(|(tie, grip)| tie.force(side.displacement(&pose, grip)));
+        let pulls = self.state.ties.iter().zip(&side.ties).map(|(tie, grip)| tie.force(side.displacement(&pose, grip)));
         history.ties.extend(pulls);
         history.energies.push(energies);
     }
 
     pub(super) fn finish(self, stop: Stop) -> Response {
-        let energies = self.energies(&self.row);
+        let energies = self.energies(&self.state.row);
         let peak = |i: usize| {
             let side = &self.system.sides[i];
-            let (rotation, time) = self.peaks[i];
+            let (rotation, time) = self.state.peaks[i];
             let displacement = side.sign * side.displacement(&side.pose(rotation), &side.control);
             let over_d0 = self.system.d0[i].filter(|most| *most > 0.0).map(|most| rotation / most);
             Peak { rotation, time, displacement, over_d0 }
         };
         let outcome = |i: usize| {
-            let tie = &self.ties[i];
-            TieOutcome { peak: tie.peak, set: tie.set_at(self.plate(i)), broke: self.broke[i] }
+            let tie = &self.state.ties[i];
+            TieOutcome { peak: tie.peak, set: tie.set_at(self.plate(i)), broke: self.state.broke[i] }
         };
         Response {
             stop,
             peak: peak(0),
             inwards: (self.system.sides.len() > 1).then(|| peak(1)),
             d0: self.system.capacity(),
-            first_lift_off: self.first_lift_off,
-            counts: self.counts,
-            ties: (0..self.ties.len()).map(outcome).collect(),
+            first_lift_off: self.state.first_lift_off,
+            counts: self.state.counts,
+            ties: (0..self.state.ties.len()).map(outcome).collect(),
             energies,
-            residual: self.residual,
-            scale: self.scale,
+            residual: self.state.residual,
+            scale: self.state.scale,
             events: self.events,
             more_events: self.more_events,
             history: self.history,

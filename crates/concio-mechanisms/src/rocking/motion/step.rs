@@ -1,10 +1,11 @@
 //! Steps: (OP10) by the classical Runge–Kutta scheme of order 4, and the instant of the first event in a step.
 
-use super::{Row, Run};
+use super::Run;
 use crate::rocking::pull::Pull;
 use crate::rocking::response::Stop;
 use crate::rocking::shaking::Piece;
 use crate::rocking::side::Terms;
+use crate::rocking::state::Row;
 
 /// How often a step is halved to find where it is slowest: the instant within 1e-6 of its length.
 const HALVINGS: usize = 20;
@@ -23,7 +24,7 @@ pub(in crate::rocking) struct Forces {
 impl Run<'_> {
     /// A step to `to`, or to the first event on the way.
     pub(super) fn step(&mut self, piece: &Piece, way: f64, to: f64, h: f64) -> Option<Stop> {
-        let (from, row) = (self.t, self.row);
+        let (from, row) = (self.state.t, self.state.row);
         let mut next = self.advanced(piece, way, row, from, h);
         let mut instant = to;
         let mut cut = self.crosses(way, &next);
@@ -37,7 +38,7 @@ impl Run<'_> {
             (instant, next) = self.first(piece, way, (from, row), (instant, next));
         }
         self.keep(piece, way, (from, row), (instant, next));
-        (self.t, self.row) = (instant, next);
+        (self.state.t, self.state.row) = (instant, next);
         self.note();
         if cut { self.meet(way) } else { None }
     }
@@ -104,7 +105,7 @@ impl Run<'_> {
 
     /// The row after `h`, by one step of order 4.
     pub(super) fn advanced(&mut self, piece: &Piece, way: f64, row: Row, t: f64, h: f64) -> Row {
-        self.counts.evaluations += 4;
+        self.state.counts.evaluations += 4;
         let (start, middle, end) = (piece.at(t), piece.at(t + 0.5 * h), piece.at(t + h));
         let k1 = self.rates(way, &row, start);
         let k2 = self.rates(way, &moved(&row, &k1, 0.5 * h), middle);
@@ -117,7 +118,7 @@ impl Run<'_> {
     #[inline]
     pub(super) fn rates(&self, way: f64, row: &Row, at: [f64; 2]) -> Row {
         let [turn, velocity, ..] = *row;
-        let forces = self.forces(self.side, turn, at);
+        let forces = self.forces(self.state.side, turn, at);
         let Terms { inertia, half_slope, .. } = forces.terms;
         let acceleration = (forces.push - way * forces.rub - half_slope * velocity * velocity) / inertia;
         [velocity, acceleration, forces.ground * velocity, way * forces.rub * velocity]
@@ -129,20 +130,20 @@ impl Run<'_> {
         let system = self.system;
         let side = &system.sides[side];
         let pose = side.pose(turn);
-        let terms = side.terms(&pose, &self.gone);
+        let terms = side.terms(&pose, &self.state.gone);
         let ground = side.sign * inwards * terms.push - (weight - 1.0) * terms.weight;
         let mut push = ground - terms.weight + terms.thrust;
-        for (tie, grip) in self.ties.iter().zip(&side.ties) {
+        for (tie, grip) in self.state.ties.iter().zip(&side.ties) {
             let at = pose.track(grip);
             push -= side.sign * at.dx * tie.force(side.displacement(&pose, grip));
         }
         let mut rub = system.friction_moment;
-        for ((grip, [force, _]), spent) in side.rubs.iter().zip(&system.rubs).zip(&self.spent) {
+        for ((grip, [force, _]), spent) in side.rubs.iter().zip(&system.rubs).zip(&self.state.spent) {
             if !spent {
                 rub += force * pose.track(grip).dx.abs();
             }
         }
-        for ((grip, [force, _]), gone) in side.floors.iter().zip(&system.floors).zip(&self.gone) {
+        for ((grip, [force, _]), gone) in side.floors.iter().zip(&system.floors).zip(&self.state.gone) {
             if !gone && *force > 0.0 {
                 rub += force * weight.max(0.0) * pose.track(grip).dx.abs();
             }
@@ -154,7 +155,8 @@ impl Run<'_> {
     pub(super) fn crosses(&self, way: f64, row: &Row) -> bool {
         let [turn, velocity, ..] = *row;
         // What is no number is an event too: it must not pass for a step that went well.
-        if !(turn >= 0.0 && way * velocity >= 0.0 && turn <= self.side().end) || self.is_beyond_at(turn) != self.beyond
+        if !(turn >= 0.0 && way * velocity >= 0.0 && turn <= self.side().end)
+            || self.is_beyond_at(turn) != self.state.beyond
         {
             return true;
         }
@@ -162,11 +164,11 @@ impl Run<'_> {
         let pose = side.pose(turn);
         let outwards = side.sign * way > 0.0;
         let pulled = |(tie, grip): (&Pull, _)| tie.change(side.displacement(&pose, grip), outwards).is_some();
-        self.ties.iter().zip(&side.ties).any(pulled)
-            || (0..self.gone.len())
-                .any(|i| !self.gone[i] && side.displacement(&pose, &side.floors[i]) > self.system.floors[i][1])
-            || (0..self.spent.len())
-                .any(|i| !self.spent[i] && side.displacement(&pose, &side.rubs[i]).abs() > self.system.rubs[i][1])
+        self.state.ties.iter().zip(&side.ties).any(pulled)
+            || (0..self.state.gone.len())
+                .any(|i| !self.state.gone[i] && side.displacement(&pose, &side.floors[i]) > self.system.floors[i][1])
+            || (0..self.state.spent.len())
+                .any(|i| !self.state.spent[i] && side.displacement(&pose, &side.rubs[i]).abs() > self.system.rubs[i][1])
     }
 }
 
