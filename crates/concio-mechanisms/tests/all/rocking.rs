@@ -154,6 +154,25 @@ fn the_scheme_has_order_4() {
     }
 }
 
+/// A wall that turns back and out again within one step rubs both ways there: as in steps that are a hundred times shorter.
+#[test]
+fn two_turns_within_a_step_are_found() {
+    let rubs = Mechanism { friction_moment: 300.0, ..wall(0.4, 4.0, side_walls(0.0)) };
+    let ground = GroundMotion::sampled(0.2, &[0.55, 1.4, 1.4]).unwrap();
+    let run = |step: f64| {
+        let start = [0.02, 1e-3];
+        let setting = Setting { start, step: Some(step), duration: Some(0.2), tail: 0.0, ..Setting::default() };
+        shaken(&rubs, &ground, &setting)
+    };
+    let (whole, fine) = (run(0.2), run(0.002));
+    // It went back farther than it came.
+    assert!(fine.energies.friction > 1.1 * 300.0 * (fine.peak.rotation - 0.02), "{fine:?}");
+    // Unseen, the turns cost 2e-2.
+    let off = (whole.peak.rotation / fine.peak.rotation - 1.0).abs();
+    assert!(off < 2e-4, "{whole:?} {fine:?}");
+    assert!((whole.energies.friction / fine.energies.friction - 1.0).abs() < 1e-2, "{whole:?} {fine:?}");
+}
+
 /// Below g α0 nothing moves, from it on it does: the lift-off of a growing acceleration.
 #[test]
 fn rest_is_rest_up_to_the_multiplier() {
