@@ -36,6 +36,22 @@ pub struct Repeated {
     pub verdict: Verdict,
 }
 
+impl Repeated {
+    /// What a reader should know before believing the response, in words; nothing of most runs.
+    pub fn doubts(&self) -> Vec<String> {
+        let [fell, runs] = self.fell;
+        let chance = (self.verdict == Verdict::Chance).then(|| {
+            let peaks = self.peaks.map_or(String::new(), |[low, high]| {
+                format!("; the peaks of the others range from {low:.4} to {high:.4} rad")
+            });
+            format!(
+                "the run is a matter of chance: within a thousandth of the record {fell} of {runs} runs fall{peaks}. State that, not a peak"
+            )
+        });
+        self.response.doubts().into_iter().chain(chance).collect()
+    }
+}
+
 impl Rocking {
     /// The response to a motion, and whether it is a matter of chance: as [`Rocking::respond`], five runs under the record times [`FACTORS`] and one
     /// with half of the step.

@@ -38,6 +38,9 @@ impl Stop {
     }
 }
 
+/// Residual of the account over the largest energy in play from which a run is doubted.
+const DOUBTED: f64 = 1e-3;
+
 /// What happens at an instant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum What {
@@ -224,5 +227,28 @@ impl Response {
     /// Largest residual of the account over the largest energy in play; 0 where there was none.
     pub fn relative_residual(&self) -> f64 {
         if self.scale > 0.0 { self.residual / self.scale } else { 0.0 }
+    }
+
+    /// What a reader of the response should know before believing it, in words; nothing of most runs.
+    pub fn doubts(&self) -> Vec<String> {
+        let of_stop = match self.stop {
+            Stop::AtRest { .. } | Stop::Fallen { .. } => None,
+            Stop::Moving => Some("the wall still moves at the end of the run: larger turns may follow".into()),
+            Stop::Airborne { time } => Some(format!(
+                "the ground falls faster than the wall would at {time:.3} s: the run ends there, without an answer"
+            )),
+            Stop::NotFinite { time } => Some(format!("the steps are too long: no number is left at {time:.3} s")),
+            Stop::StepsSpent => Some("the run took more steps than are allowed: its step is too short".into()),
+        };
+        let residual = self.relative_residual();
+        let of_account = (residual > DOUBTED)
+            .then(|| format!("the energy account is off by {residual:.1e} of the largest energy: shorten the step"));
+        let passed = self.counts.beyond_d0;
+        let of_d0 = (passed > 0 && !self.stop.fell()).then(|| {
+            format!(
+                "the wall passed d0 {passed} time(s) and came back: the code does not count on that, nor should you"
+            )
+        });
+        [of_stop, of_account, of_d0].into_iter().flatten().collect()
     }
 }

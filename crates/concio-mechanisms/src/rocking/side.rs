@@ -312,3 +312,67 @@ fn bisect(low: f64, high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     }
     low
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rocking::mechanism::{Back, Restitution};
+
+    /// A chain with a floor on each body, that turns outwards or inwards.
+    fn side(sign: f64) -> Side {
+        let [t, h] = [0.3, 3.2];
+        let mut arch = Mechanism::arch([t, h], 17.28e3, 5e3, 0.1, 0.6, Back::SideWalls(Restitution::Given(0.0)));
+        let floor = Floor { thrust: 300.0, pushes: 3e3, ..Floor::carried(Spot::lower([0.1, 1.5]), 2e3) };
+        arch.floors.push(floor);
+        arch.floors.push(Floor { at: Spot::upper([0.2, 2.8]), ..floor });
+        let inwards = Linkage::Two { base: [t, 0.0], middle: [0.0, 0.6 * h], top: [0.2, h] };
+        Side::new(&arch, if sign > 0.0 { &arch.linkage } else { &inwards }, sign)
+    }
+
+    /// Derivatives are those of places: by differences, at several turns, to both sides.
+    #[test]
+    fn derivatives_are_those_of_places() {
+        let gone = [false; 3];
+        for side in [side(1.0), side(-1.0)] {
+            for turn in [0.0, 0.03, 0.2, 0.4] {
+                let d = 1e-5;
+                let [before, at, after] = [turn - d, turn, turn + d].map(|turn| side.pose(turn));
+                let close = |what: &str, found: f64, expected: f64, scale: f64| {
+                    assert!((found - expected).abs() < 1e-7 * scale, "{what} at {turn}: {found} instead of {expected}");
+                };
+                for mass in &side.masses {
+                    let [a, b, c] = [before, at, after].map(|pose| pose.track(&mass.grip));
+                    close("x′", b.dx, (c.x - a.x) / (2.0 * d), 10.0);
+                    close("z′", b.dz, (c.z - a.z) / (2.0 * d), 10.0);
+                    close("x″", b.ddx, (c.dx - a.dx) / (2.0 * d), 10.0);
+                    close("z″", b.ddz, (c.dz - a.dz) / (2.0 * d), 10.0);
+                }
+                let [a, b, c] = [before, at, after].map(|pose| side.terms(&pose, &gone));
+                close("½ m*′", b.half_slope, 0.5 * (c.inertia - a.inertia) / (2.0 * d), 1e5);
+                let place = |turn: f64| side.potential(turn, &gone);
+                close("U′ − H x′", b.weight - b.thrust, (place(turn + d) - place(turn - d)) / (2.0 * d), 1e5);
+                let moved = |pose: &Pose| side.masses.iter().map(|m| m.along * pose.track(&m.grip).x).sum::<f64>();
+                close("Σ m x′", b.push, (moved(&after) - moved(&before)) / (2.0 * d), 1e5);
+            }
+        }
+    }
+
+    /// The top of the chain stays where it is held, the arms keep their lengths, and the displacement of a point counts outwards.
+    #[test]
+    fn the_chain_closes() {
+        let [outwards, inwards] = [side(1.0), side(-1.0)];
+        for side in [&outwards, &inwards] {
+            let top = side.floors[0];
+            for turn in [0.0, 0.1, 0.3, 0.99 * side.end] {
+                let pose = side.pose(turn);
+                assert!(side.displacement(&pose, &top).abs() < 1e-14, "{turn}");
+                let (top, hinge) = (pose.track(&top), pose.upper.hinge);
+                let [_, arm] = side.chain.unwrap();
+                let length = (top.x - hinge.x).hypot(top.z - hinge.z);
+                assert!((length - arm[0].hypot(arm[1])).abs() < 1e-14);
+            }
+        }
+        let control = |side: &Side| side.displacement(&side.pose(0.1), &side.control);
+        assert!(control(&outwards) > 0.15 && control(&inwards) < -0.15);
+    }
+}

@@ -251,6 +251,7 @@ fn a_wall_in_the_air_is_not_computed() {
     let shaking = Shaking { vertical: &falling, ..Shaking::across(&GroundMotion::AtRest, Positive::Inwards) };
     let response = ready(&wall(0.4, 4.0, side_walls(0.5))).respond(&shaking, &Setting::default()).unwrap();
     assert!(matches!(response.stop, Stop::Airborne { time } if time < 0.5), "{:?}", response.stop);
+    assert!(response.doubts()[0].starts_with("the ground falls faster than the wall would at 0."));
 }
 
 /// Weights under a steady vertical acceleration are those of another gravity: the quarter period.
@@ -572,6 +573,7 @@ fn beyond_d0_is_not_collapse() {
     let back = thrown(&mechanism, [1.2 * alpha, -1.01 * needed], 60.0);
     assert!(matches!(back.stop, Stop::AtRest { .. }), "{:?}", back.stop);
     assert_eq!(of(&back, What::BackFromD0).len(), 1);
+    assert_eq!(back.counts.beyond_d0, 0);
     let falls = thrown(&mechanism, [1.2 * alpha, -0.99 * needed], 60.0);
     assert!(falls.stop.fell());
     let Stop::Fallen { time, beyond } = falls.stop else { panic!("{:?}", falls.stop) };
@@ -616,6 +618,7 @@ fn chance_is_told() {
     let shaking = Shaking::across(&ground, Positive::Inwards);
     let sure = rocking.repeat(&shaking.times(0.5), &Setting::default()).unwrap();
     assert_eq!((sure.verdict, sure.fell), (Verdict::Stands, [0, 6]));
+    assert_eq!(sure.doubts(), Vec::<String>::new());
     let falls = rocking.repeat(&shaking.times(4.0), &Setting::default()).unwrap();
     assert_eq!((falls.verdict, falls.peaks), (Verdict::Falls, None));
     let fells = |scale: f64| rocking.respond(&shaking.times(scale), &Setting::default()).unwrap().stop.fell();
@@ -627,6 +630,8 @@ fn chance_is_told() {
     let threshold = rocking.repeat(&shaking.times(low), &Setting::default()).unwrap();
     assert_eq!(threshold.verdict, Verdict::Chance);
     assert!(!threshold.response.stop.fell() && threshold.fell[0] > 0, "{:?}", threshold.fell);
+    let doubts = threshold.doubts();
+    assert!(doubts.iter().any(|doubt| doubt.starts_with("the run is a matter of chance: within")), "{doubts:?}");
 }
 
 /// Wrong numbers are named with their bound.
