@@ -37,6 +37,7 @@
 //! O. AlShawa and L. D. Decanini (2011), Earthquake Engineering and Structural Dynamics, whose formula
 //! for e ([`block_restitution`]) was not read again in the paper.
 
+mod fall;
 mod lift_off;
 mod mechanism;
 mod motion;
@@ -48,6 +49,7 @@ mod side;
 mod state;
 mod system;
 
+pub use fall::{Fall, Ladder};
 pub use lift_off::LiftOff;
 pub use mechanism::{
     Back, Floor, Linkage, Mechanism, Member, Part, Place, Restitution, Rub, Spot, Tie, block_restitution,

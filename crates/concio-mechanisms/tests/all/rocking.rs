@@ -3,8 +3,8 @@
 use concio::G;
 use concio::ground::GroundMotion;
 use concio_mechanisms::rocking::{
-    Back, Event, Floor, Linkage, Mechanism, Member, Part, Positive, Response, Restitution, Rocking, Rub, Setting,
-    Shaking, Spot, Stop, Tie, Verdict, What,
+    Back, Event, Floor, Ladder, Linkage, Mechanism, Member, Part, Positive, Response, Restitution, Rocking, Rub,
+    Setting, Shaking, Spot, Stop, Tie, Verdict, What,
 };
 use concio_verified::agrees;
 
@@ -621,12 +621,11 @@ fn chance_is_told() {
     assert_eq!(sure.doubts(), Vec::<String>::new());
     let falls = rocking.repeat(&shaking.times(4.0), &Setting::default()).unwrap();
     assert_eq!((falls.verdict, falls.peaks), (Verdict::Falls, None));
-    let fells = |scale: f64| rocking.respond(&shaking.times(scale), &Setting::default()).unwrap().stop.fell();
-    let (mut low, mut high) = (0.5, 4.0);
-    while high - low > 1e-5 {
-        let middle = 0.5 * (low + high);
-        if fells(middle) { high = middle } else { low = middle }
-    }
+    let ladder = Ladder { within: 1e-5, ..Ladder::default() };
+    let [low, high] = rocking.least_fall(&shaking, &Setting::default(), &ladder).unwrap().unwrap().scales;
+    assert!(0.0 < high - low && high - low <= 1e-5 * high);
+    let most = Ladder { most: 0.9 * low, ..ladder };
+    assert_eq!(rocking.least_fall(&shaking, &Setting::default(), &most).unwrap(), None);
     let threshold = rocking.repeat(&shaking.times(low), &Setting::default()).unwrap();
     assert_eq!(threshold.verdict, Verdict::Chance);
     assert!(!threshold.response.stop.fell() && threshold.fell[0] > 0, "{:?}", threshold.fell);
@@ -698,4 +697,12 @@ fn wrong_numbers_are_named() {
     let endless = concio::samples::shaking(1.0, 1.0).unwrap();
     let error = rocking.respond(&Shaking::across(&endless, Positive::Inwards), &Setting::default()).unwrap_err();
     assert!(error.to_string().starts_with("duration: a motion that never ends"), "{error}");
+    for (ladder, expected) in [
+        (Ladder { step: 0.0, ..Ladder::default() }, "ladder.step: 0; allowed: above 0"),
+        (Ladder { most: 0.01, ..Ladder::default() }, "ladder.most: 0.01; allowed: 0.05 to 5000"),
+        (Ladder { within: 0.0, ..Ladder::default() }, "ladder.within: 0; allowed: 1e-12 to below 1"),
+    ] {
+        let error = rocking.least_fall(&at_rest, &Setting::default(), &ladder).unwrap_err().to_string();
+        assert!(error.starts_with(expected), "{error}");
+    }
 }

@@ -10,7 +10,8 @@ use concio::ground::signal::from_record;
 use concio::ground::{GroundMotion, compile, formats};
 use concio::quantity::{Acceleration, Time};
 use concio_mechanisms::rocking::{
-    Back, Linkage, Mechanism, Positive, Response, Restitution, Rocking, Setting, Shaking, Spot, Tie, Verdict, What,
+    Back, Ladder, Linkage, Mechanism, Positive, Response, Restitution, Rocking, Setting, Shaking, Spot, Tie, Verdict,
+    What,
 };
 use concio_verified::agrees;
 
@@ -91,18 +92,6 @@ fn one_sine(period: f64) -> GroundMotion {
     compile(&Signal::Pulse(pulse), Path::new("")).unwrap()
 }
 
-/// The least scale from 0 up to `most` under which it falls, sought in steps of `step`.
-fn least_to_fall(rocking: &Rocking, shaking: Shaking, most: f64, step: f64) -> Option<f64> {
-    let falls = |scale: f64| rocking.respond(&shaking.times(scale), &Setting::default()).unwrap().stop.fell();
-    let k = (1..).take_while(|k| f64::from(*k) * step <= most).find(|k| falls(f64::from(*k) * step))?;
-    let (mut low, mut high) = (f64::from(k - 1) * step, f64::from(k) * step);
-    while high - low > 1e-7 {
-        let middle = 0.5 * (low + high);
-        if falls(middle) { high = middle } else { low = middle }
-    }
-    Some(high)
-}
-
 /// Pulses of one sine that just overturn (S17).
 #[test]
 fn pulses_overturn_where_computed() {
@@ -115,11 +104,11 @@ fn pulses_overturn_where_computed() {
             (Positive::Outwards, "the wall pushed in first", Some(inwards)),
             (Positive::Inwards, "the wall pushed out first", outwards),
         ] {
-            let found = least_to_fall(&rocking, Shaking::across(&pulse, positive), 1.0, 0.01);
-            println!("T {period} {name}: {found:?}, {expected:?}");
+            let ladder = Ladder { step: 0.01, most: 1.0, within: 1e-7 };
+            let found = rocking.least_fall(&Shaking::across(&pulse, positive), &Setting::default(), &ladder).unwrap();
             if let Some(expected) = expected {
                 let subject = format!("Rocking: pulse of one sine that overturns; T = {period} s, {name}");
-                agrees!(subject, SOURCE, "g", found.unwrap(), expected, 1e-3);
+                agrees!(subject, SOURCE, "g", found.unwrap().scales[1], expected, 1e-3);
             } else {
                 assert_eq!(found, None, "T = {period}, {name}");
             }
