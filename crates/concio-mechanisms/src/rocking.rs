@@ -24,9 +24,9 @@
 //! // A wall of 0.4 m by 4 m, one metre of its length, 20 kN/m³, against side walls.
 //! let wall = Mechanism::wall(0.4, 4.0, 1.0, 20e3, Back::SideWalls(Restitution::Block));
 //! let wall = Rocking::new(&wall)?;
-//! let ground = GroundMotion::sampled(0.5, &[0.0, 3.0, -3.0, 0.0])?;
+//! let ground = GroundMotion::sampled(0.3, &[0.0, 2.0, -2.0, 0.0])?;
 //! let response = wall.respond(&Shaking::across(&ground, Positive::Inwards), &Setting::default())?;
-//! assert!(response.peak.over_d0 < Some(1.0));
+//! assert!(!response.stop.fell() && response.peak.over_d0 > Some(0.0));
 //! # Ok::<(), concio::Error>(())
 //! ```
 //!
