@@ -16,7 +16,7 @@ impl<'s> Run<'s> {
     }
 
     pub(super) fn is_beyond_at(&self, turn: f64) -> bool {
-        self.state.d0[self.state.side].is_some_and(|most| turn > most)
+        self.state.d0[self.state.side].is_some_and(|most| most > 0.0 && turn > most)
     }
 
     pub(super) fn tell(&mut self, what: What) {
