@@ -1,1 +1,3 @@
 //! Mechanisms out of the plane of a wall.
+
+pub mod rocking;
