@@ -1,0 +1,4 @@
+//! The mechanisms against reference values, closed forms and properties.
+
+mod closed;
+mod reference;
