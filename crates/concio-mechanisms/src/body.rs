@@ -92,6 +92,23 @@ pub struct Body {
     pub presses: Vec<Press>,
 }
 
+/// What makes up α0; the sum of all is α0.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Shares {
+    /// The wall's own weight.
+    pub wall: f64,
+    /// Floors, roof, wedges of side walls.
+    pub loads: f64,
+    /// Thrusts, which take away.
+    pub thrusts: f64,
+    /// Ties and connections.
+    pub ties: f64,
+    /// Friction of seats and overlaps.
+    pub friction: f64,
+    /// Forces on cracks.
+    pub presses: f64,
+}
+
 impl Default for Body {
     fn default() -> Self {
         let (weights, thrusts, holds, presses) = Default::default();
@@ -142,6 +159,24 @@ impl Body {
     /// α0 of (OP1), ties at their full force. Below 0: the body falls without an earthquake.
     pub fn multiplier(&self) -> f64 {
         self.work(0.0, |hold, _| hold.force) / self.push(0.0)
+    }
+
+    /// α0 as a sum: of the first weight, of the others, of thrusts, ties, friction and forces on cracks.
+    pub fn shares(&self) -> Shares {
+        let only = |keep: &dyn Fn(&mut Body)| {
+            let mut body = Body { hinge_angle: self.hinge_angle, ..Body::default() };
+            keep(&mut body);
+            body.work(0.0, |hold, _| hold.force) / self.push(0.0)
+        };
+        let ties = |hold: &Hold| matches!(hold.law, HoldLaw::Tie { .. });
+        Shares {
+            wall: only(&|b| b.weights = self.weights.iter().take(1).copied().collect()),
+            loads: only(&|b| b.weights = self.weights.iter().skip(1).copied().collect()),
+            thrusts: only(&|b| b.thrusts = self.thrusts.clone()),
+            ties: only(&|b| b.holds = self.holds.iter().filter(|h| ties(h)).copied().collect()),
+            friction: only(&|b| b.holds = self.holds.iter().filter(|h| !ties(h)).copied().collect()),
+            presses: only(&|b| b.presses = self.presses.clone()),
+        }
     }
 
     /// α at turn θ [rad], each tie and friction by its law.

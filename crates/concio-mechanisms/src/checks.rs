@@ -10,7 +10,7 @@
 //! - Life safety (SLV), linear: q times that, q = 2.
 //! - By displacement: d_SLV = 0.4 d0 on the curve of what surely acts till collapse, or where ties end and α drops by more than half if that
 //!   is less; d_SLC = 0.6 d0, or where beams lose their seat. T = 1.68 π √(d_SLV/a(d_SLV)) with ξ = 8 %, 1.56 π √(d_SLC/a(d_SLC)) with 10 %.
-//! - Aloft, (C7.2.5) to (C7.2.10): a_Z = S_e(T_1, ξ_1) |γ_1 ψ_1(z)| √(1 + 0.0004 ξ_1²), ξ_1 in per cent.
+//! - Aloft, (C7.2.5) to (C7.2.10): a_Z = S_e(T_1, ξ_1) |γ_1 ψ_1(z)| √(1 + 0.0004 ξ_1²), ξ_1 in per cent; here no less than a_g S.
 //!
 //! The amplification of a_Z into a floor spectrum S_eZ is unclear at its source and not coded: checks that need it take a spectrum that is
 //! given, and say so where there is none.
@@ -144,7 +144,7 @@ impl Building {
         (level / self.height).clamp(0.0, 1.0)
     }
 
-    /// a_Z [m/s²] at a level [m], on the ground spectrum; not below a_g S, with which the ground itself shakes what stands on it.
+    /// a_Z [m/s²] of the first mode at a level [m], on the ground spectrum.
     pub fn acceleration(&self, level: f64, ground: &Spectrum) -> f64 {
         let mode = ground.acceleration(self.period, self.damping) * (self.participation * self.shape(level)).abs();
         mode * (1.0 + 0.0004 * self.damping * self.damping).sqrt()
@@ -342,7 +342,8 @@ impl Place {
     fn demand(&self, ground: &Spectrum) -> f64 {
         match self {
             Place::Ground => ground.peak(),
-            Place::Aloft { level, building, .. } => building.acceleration(*level, ground),
+            // The first mode alone goes to 0 at the base, where the ground itself shakes the wall.
+            Place::Aloft { level, building, .. } => building.acceleration(*level, ground).max(ground.peak()),
         }
     }
 

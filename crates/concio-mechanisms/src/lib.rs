@@ -24,7 +24,9 @@ pub mod overturning;
 pub mod pushover;
 pub mod setback;
 pub mod side_wall;
+pub mod survey;
 pub mod vertical_arch;
+pub mod wall;
 
 pub(crate) use minimum::least;
 

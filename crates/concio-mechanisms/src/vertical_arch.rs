@@ -13,15 +13,17 @@
 //!
 //! (h − b) sin φ − d cos φ = t − d − t cos θ + b sin θ, b = x h.
 
+use crate::body::Weight;
+
 /// A storey between two levels that hold it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct VerticalArch {
     /// t [m], above 0.
     pub thickness: f64,
     /// h [m], above 0: from the lower level to the upper one.
     pub height: f64,
-    /// Weights of the parts below and above the hinge [N] with the heights of their centroids over the lower level [m].
-    pub parts: [[f64; 2]; 2],
+    /// Weights of the parts below and above the hinge, each behind the outer face and over the lower level.
+    pub parts: [Vec<Weight>; 2],
     /// b [m], above 0 and below h: height of the hinge.
     pub hinge: f64,
     /// N [N], from 0.
@@ -51,7 +53,10 @@ impl VerticalArch {
     /// A uniform wall of weight W [N] with its hinge at x of its height.
     pub fn uniform(thickness: f64, height: f64, weight: f64, part: f64, load: f64, depth: f64) -> VerticalArch {
         let hinge = part * height;
-        let parts = [[weight * part, 0.5 * hinge], [weight * (1.0 - part), 0.5 * (hinge + height)]];
+        let of = |part: f64, height: f64| {
+            vec![Weight { carried: weight * part, pushing: 0.0, depth: 0.5 * thickness, height }]
+        };
+        let parts = [of(part, 0.5 * hinge), of(1.0 - part, 0.5 * (hinge + height))];
         VerticalArch { thickness, height, parts, hinge, load, depth }
     }
 
@@ -68,9 +73,10 @@ impl VerticalArch {
 
     /// R [N]: the horizontal force that the top needs at α0.
     pub fn reaction(&self) -> f64 {
-        let [lower, upper] = self.parts;
-        let tips = self.multiplier() * (lower[0] * lower[1] + upper[0] * upper[1]);
-        let rights = 0.5 * self.thickness * (lower[0] + upper[0]) + self.load * (self.thickness - self.depth);
+        let all = || self.parts.iter().flatten();
+        let tips = self.multiplier() * all().map(|w| (w.carried + w.pushing) * w.height).sum::<f64>();
+        let own: f64 = all().map(|w| w.carried * w.depth).sum();
+        let rights = own + self.load * (self.thickness - self.depth);
         (tips - rights) / self.height
     }
 
@@ -93,9 +99,11 @@ impl VerticalArch {
 
     /// Masses, as weights [N], with their velocities per turn of the lower part at rest [m].
     pub fn masses(&self) -> Vec<[f64; 2]> {
-        let [lower, upper] = self.parts;
+        let [lower, upper] = &self.parts;
         let other = self.hinge / (self.height - self.hinge);
-        vec![[lower[0], lower[1]], [upper[0], (self.height - upper[1]) * other]]
+        let below = lower.iter().map(|w| [w.carried + w.pushing, w.height]);
+        let above = upper.iter().map(|w| [w.carried + w.pushing, (self.height - w.height) * other]);
+        below.chain(above).collect()
     }
 
     /// Turn φ of the upper part [rad].
@@ -112,16 +120,20 @@ impl VerticalArch {
         let (sin, cos) = turn.sin_cos();
         let (s, c) = self.upper_turn(turn)?.sin_cos();
         let rate = (t * sin + b * cos) / (d * s + above * c);
-        let [lower, upper] = self.parts;
-        let half = 0.5 * t;
         // Hinge of both parts: outwards, upwards.
         let hinge = [t * sin + b * cos, t * cos - b * sin];
-        let low = [lower[1] * cos + half * sin, half * cos - lower[1] * sin];
-        // From the hinge to a point of the upper part: inwards, upwards.
-        let of = |x: f64, z: f64| [hinge[0] + (x * s - z * c) * rate, hinge[1] - (z * s + x * c) * rate];
-        let high = of(-half, upper[1] - b);
-        let top = of(-d, above);
-        let resists = lower[0] * low[1] + upper[0] * high[1] + self.load * top[1];
-        Some((resists, lower[0] * low[0] + upper[0] * high[0]))
+        // A point of the lower part, and one of the upper part by its place from the hinge: outwards, upwards.
+        let low = |x: f64, z: f64| [z * cos + x * sin, x * cos - z * sin];
+        let high = |x: f64, z: f64| [hinge[0] + (x * s - z * c) * rate, hinge[1] - (z * s + x * c) * rate];
+        let mut resists = self.load * high(-d, above)[1];
+        let mut pushes = 0.0;
+        let [lower, upper] = &self.parts;
+        let lower = lower.iter().map(|w| (w, low(w.depth, w.height)));
+        let upper = upper.iter().map(|w| (w, high(w.depth - t, w.height - b)));
+        for (weight, [out, up]) in lower.chain(upper) {
+            resists += weight.carried * up;
+            pushes += (weight.carried + weight.pushing) * out;
+        }
+        Some((resists, pushes))
     }
 }

@@ -11,6 +11,7 @@ mod completions;
 mod export;
 mod first_crack;
 mod limit;
+mod mechanisms;
 mod new;
 mod plot;
 mod record;
@@ -28,6 +29,7 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::FirstCrack(args) => return first_crack::first_crack(&args),
         Command::Study(args) => return study::run_command(&args.what),
         Command::Limit(args) => return limit::limit(&args),
+        Command::Mechanisms(args) => mechanisms::mechanisms(&args),
         Command::Check(args) => check::check(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::New(args) => new::new(&args),

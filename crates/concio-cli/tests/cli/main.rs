@@ -9,6 +9,7 @@ mod head;
 mod hostile;
 mod kill;
 mod limit;
+mod mechanisms;
 mod messages;
 mod read_back;
 mod records;

@@ -48,7 +48,7 @@ fn one_block_turns_as_the_tangent_says() {
     let steep = f64::atan2(thickness, height);
     let body = wall(thickness, height);
     for part in [0.0, 0.25, 0.5, 0.9] {
-        let subject = format!("mechanisms out of the plane: one block in the displaced shape; θ {part} of α_s");
+        let subject = format!("Mechanisms: one block in the displaced shape; θ {part} of α_s");
         agrees!(subject, "tan(α_s − θ)", "", body.at(part * steep), (steep * (1.0 - part)).tan(), 1e-12);
     }
     near(body.last_turn(), steep, 1e-14);
@@ -82,7 +82,7 @@ fn the_curve_is_the_derivative_of_the_potential() {
 #[test]
 fn a_chain_is_the_derivative_of_its_potential_too() {
     let arch = VerticalArch::uniform(0.3, 3.2, 17e3, 0.6, 30e3, 0.1);
-    let [lower, upper] = arch.parts;
+    let [lower, upper] = [0, 1].map(|i| [arch.parts[i][0].carried, arch.parts[i][0].height]);
     let (t, b) = (arch.thickness, arch.hinge);
     let place = |turn: f64| {
         let other = arch.upper_turn(turn).unwrap();
