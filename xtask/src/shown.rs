@@ -19,7 +19,15 @@ pub const RECORD: &str = "docs/guide/quake.at2";
 
 /// Documents with wall files and commands, from the root.
 fn documents(root: &Path) -> Result<Vec<PathBuf>, String> {
-    let own = ["README.md", "docs/wall-file.md", "docs/constrained.md", "docs/planar.md", "docs/limit-analysis.md", "docs/continuum.md"];
+    let own = [
+        "README.md",
+        "docs/wall-file.md",
+        "docs/constrained.md",
+        "docs/planar.md",
+        "docs/limit-analysis.md",
+        "docs/mechanisms.md",
+        "docs/continuum.md",
+    ];
     let mut documents = own.map(|name| root.join(name)).to_vec();
     for folder in ["docs/guide", "docs/howto"] {
         let folder = root.join(folder);

@@ -43,6 +43,7 @@ pub enum Command {
     FirstCrack(FirstCrack),
     Limit(Limit),
     Continuum(Continuum),
+    Mechanisms(Mechanisms),
     Study(Study),
     Completions(Completions),
 }
@@ -714,6 +715,47 @@ pub struct Limit {
     /// Write limit.json and mechanism.svg into this folder.
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
+}
+
+/// Assess what may fall out of the plane of a wall.
+///
+/// Finds every mechanism that the wall can have: overturning at each bed joint, with and without its side walls, an outer
+/// leaf alone, vertical arches between floors that hold, a horizontal arch, corners, flaps with oblique hinges, a gable. Each
+/// has its multiplier α0, least over the slopes of its cracks, and the checks of the Italian code where the wall file gives a
+/// site. Floors, ties, side walls and site stand in the table [out_of_plane] of the wall file; what it lacks is told with what
+/// is assumed. Blocks are rigid and multipliers are upper bounds in the class of their mechanism.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio mechanisms wall.toml                   the least of each kind
+  concio mechanisms wall.toml --all             every hinge level
+  concio mechanisms wall.toml --out assessed    mechanisms.json, mechanisms.csv, report.html with drawings
+  concio mechanisms wall.toml --json")]
+pub struct Mechanisms {
+    /// Wall file, TOML or JSON.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// Print every hinge level instead of the least of each kind.
+    #[arg(long)]
+    pub all: bool,
+    /// Which sum of the friction of side walls is taken.
+    #[arg(long, value_enum, default_value = "summed")]
+    pub overlaps: OverlapSum,
+    /// Print JSON (SI units).
+    #[arg(long)]
+    pub json: bool,
+    /// Write mechanisms.json, mechanisms.csv, report.html and its figures into this folder.
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
+}
+
+/// Sums of the friction of the overlaps of a side wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum OverlapSum {
+    /// Over the courses: f = 1/2
+    Summed,
+    /// With f = 0.4 of the code
+    Code,
 }
 
 /// Live loads of limit analysis.

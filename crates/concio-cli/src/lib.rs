@@ -24,6 +24,8 @@ pub mod files;
 #[doc(hidden)]
 pub mod format;
 #[doc(hidden)]
+pub mod mechanisms;
+#[doc(hidden)]
 pub mod motion;
 #[doc(hidden)]
 pub mod progress;

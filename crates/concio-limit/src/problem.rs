@@ -178,7 +178,8 @@ fn warnings(case: &Case, model: &Model, sides: &[Sides]) -> Vec<String> {
     let touching = (touching > 0).then(|| {
         format!("the sides of {touching} joints of law `none` touch as they are laid: blocks press and rub there. A gap between them keeps them apart")
     });
-    bonded.into_iter().chain(laid).chain(tied).chain(presses).chain(crushes).chain(touching).collect()
+    let across = case.out_of_plane.is_some().then(|| concio::model::NOT_IN_PLANE.to_string());
+    bonded.into_iter().chain(across).chain(laid).chain(tied).chain(presses).chain(crushes).chain(touching).collect()
 }
 
 /// Part of a load that may have no mass without a word.

@@ -14,6 +14,7 @@ mod document;
 mod extent;
 mod forms;
 mod node;
+pub mod out_of_plane;
 pub mod plausible;
 mod read;
 mod schema;
@@ -27,6 +28,7 @@ pub use devices::{Device, DeviceLaw};
 pub use document::{Document, LARGEST_FILE};
 pub use extent::Extent;
 pub use node::Syntax;
+pub use out_of_plane::OutOfPlane;
 pub use read::{CaseFile, canonical_json, example, from_str, read};
 pub use templates::{describe, schema, starter};
 pub use validate::validate;
@@ -72,6 +74,10 @@ pub struct Case {
     /// Tie rods, up to 1,000. Planar walls alone.
     #[serde(default, rename = "tie", skip_serializing_if = "Vec::is_empty")]
     pub ties: Vec<Tie>,
+    /// Floors, ties, side walls, gable and site for mechanisms out of the plane, which `concio mechanisms` assesses. Runs and limit
+    /// analysis in the plane do not read it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub out_of_plane: Option<OutOfPlane>,
     /// Laws of the joints.
     pub joint: Joints,
     /// Loads at the top.
@@ -505,6 +511,9 @@ pub(crate) fn is_isotropic(ratio: &f64) -> bool {
 }
 fn one() -> f64 {
     1.0
+}
+fn yes() -> bool {
+    true
 }
 
 /// Elastic laws.

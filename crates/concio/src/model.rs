@@ -356,10 +356,17 @@ fn massless(case: &Case, excitation: &Excitation, top_load: f64, blocks: &[f64])
 /// Weight of a beam over its load from which it is told: masses are given in round numbers.
 const HEAVIER: f64 = 1.01;
 
+/// Said where `[out_of_plane]` stands beside a run in the plane.
+pub const NOT_IN_PLANE: &str = "out_of_plane is not read in the plane of the wall: its floors, ties and side walls load and hold nothing here; \
+     `concio mechanisms` reads it";
+
 /// `rubs` joints rub, `idle` ones have a friction law but no normal force.
 fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let mut add = |kind, text: String| warnings.push(Warning::new(kind, text));
+    if case.out_of_plane.is_some() {
+        add(WarningKind::IdleKey, NOT_IN_PLANE.into());
+    }
     if idle > 0 && rubs > 0 {
         let text = format!(
             "{idle} joints have a friction law but carry no weight and do not rub (head joints, with transmitted loads)"

@@ -13,6 +13,7 @@ mod export;
 mod first_crack;
 mod limit;
 mod limit_space;
+mod mechanisms;
 mod new;
 mod plot;
 mod record;
@@ -31,6 +32,7 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Study(args) => return study::run_command(&args.what),
         Command::Limit(args) => return limit::limit(&args),
         Command::Continuum(args) => continuum::continuum(&args),
+        Command::Mechanisms(args) => mechanisms::mechanisms(&args),
         Command::Check(args) => check::check(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::New(args) => new::new(&args),

@@ -5,6 +5,7 @@ pub mod chart;
 pub mod curves;
 pub mod font;
 pub mod mechanism;
+pub mod out_of_plane;
 pub mod output;
 pub mod scale;
 pub mod svg;

@@ -11,6 +11,7 @@ mod hostile;
 mod kill;
 mod limit;
 mod limit_space;
+mod mechanisms;
 mod messages;
 mod read_back;
 mod records;

@@ -1,5 +1,8 @@
-//! Tests of mechanisms, one program.
+//! The mechanisms against reference values, closed forms and properties.
 
+mod closed;
+mod reference;
 mod rocking;
 mod rocking_random;
 mod rocking_reference;
+mod survey;

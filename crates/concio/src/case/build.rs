@@ -19,6 +19,7 @@ impl Case {
             set: None,
             panels: vec![panel],
             ties: Vec::new(),
+            out_of_plane: None,
             joint,
             load: Load::default(),
             motion,

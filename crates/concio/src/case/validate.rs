@@ -11,6 +11,7 @@ mod devices;
 mod joints;
 mod models;
 mod motion;
+mod out_of_plane;
 mod ties;
 mod walls;
 
@@ -38,6 +39,7 @@ pub fn findings(case: &Case) -> Vec<InputError> {
     f.list.extend(case.set.as_ref().and_then(parameter_set));
     walls::check(&mut f, case);
     ties::check(&mut f, case);
+    out_of_plane::check(&mut f, case);
     joints::check(&mut f, case);
     load(&mut f, case);
     motion::check(&mut f, case);

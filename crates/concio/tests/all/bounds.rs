@@ -82,6 +82,35 @@ brick = { length = 0.25, height = 0.055, thickness = 0.12, specific_weight = 18e
 bed = { law = "rigid" }
 head = { law = "rigid" }
 friction = { law = "coulomb", static = 0.6 }
+[out_of_plane]
+strength = 2e6
+leaves = [0.06, 0.06]
+[[out_of_plane.floor]]
+z = 1
+load = 1e4
+[[out_of_plane.anchor]]
+z = 1
+yield_force = 1e4
+[[out_of_plane.side_wall]]
+x = 0.1
+thickness = 0.3
+corner = { load = 1e3 }
+[out_of_plane.gable]
+height = 1
+[out_of_plane.strip]
+from = 0.5
+thrust = 1e4
+[out_of_plane.site]
+damage = { ground_acceleration = 1, amplification = 2.4, corner_period = 0.3 }
+life_safety = { periods = [0, 1], accelerations = [1, 2] }
+collapse = { ground_acceleration = 2, soil_factor = 1.2, amplification = 2.4, corner_period = 0.3 }
+[out_of_plane.building]
+height = 6
+storeys = 2
+[[out_of_plane.floor_spectrum]]
+z = 3
+periods = [0, 1]
+accelerations = [1, 2]
 [motion]
 duration = 1
 base = { synthetic = { seed = 1, pga = 1, duration = 5 } }

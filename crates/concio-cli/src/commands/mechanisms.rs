@@ -1,0 +1,54 @@
+//! `concio mechanisms`.
+
+use std::fs;
+
+use concio::Error;
+use concio_mechanisms::side_wall::Overlaps;
+use concio_mechanisms::survey::survey;
+use concio_mechanisms::wall::Wall;
+use concio_study::table;
+
+use super::{run::refuse_a_file, wall_file};
+use crate::args::{Mechanisms, OverlapSum};
+use crate::failure::Failure;
+use crate::format::line;
+use crate::mechanisms::{Subject, page, rows, text};
+use crate::{files, study};
+
+/// Names of the results in their folder.
+const RESULT: &str = "mechanisms.json";
+const TABLE: &str = "mechanisms.csv";
+
+/// Finds the mechanisms of a wall.
+pub fn mechanisms(args: &Mechanisms) -> Result<(), Failure> {
+    let file = wall_file::read(&args.file)?;
+    if let Some(out) = &args.out {
+        refuse_a_file(out)?;
+    }
+    let wall = Wall::of(&file.case).map_err(|e| wall_file::all(&file, file.locate(e)))?;
+    let overlaps = match args.overlaps {
+        OverlapSum::Summed => Overlaps::Summed,
+        OverlapSum::Code => Overlaps::Code,
+    };
+    let survey = survey(&wall, overlaps);
+    let name = args.file.file_stem().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+    let title = if file.case.title.is_empty() { name } else { file.case.title.clone() };
+    let subject = Subject { title: &title, wall: &wall, survey: &survey, overlaps };
+    if let Some(out) = &args.out {
+        fs::create_dir_all(out).map_err(|e| Failure::from(Error::io(out, e)))?;
+        files::write(&out.join(RESULT), &format!("{:#}\n", rows::json(&subject)))?;
+        table::write_csv(&rows::table(&subject), &out.join(TABLE))?;
+        study::page::write(
+            out,
+            &format!("Out of the plane: {title}"),
+            &page::facts(&subject),
+            &page::sections(&subject),
+        )?;
+    }
+    if args.json {
+        return files::print_json(&format!("{:#}\n", rows::json(&subject)));
+    }
+    let written =
+        args.out.as_ref().map_or(String::new(), |out| format!("\nopen {}\n", out.join("report.html").display()));
+    files::print(&format!("{}\n\n{}{written}", line(&title), text::told(&subject, args.all)))
+}

@@ -1,0 +1,222 @@
+//! `concio mechanisms` as a user types it.
+
+use serde_json::Value;
+
+use crate::support::Desk;
+
+const FACADE: &str = include_str!("../../../../examples/limit/facade.toml");
+
+/// A wall of one block wide, h 6 m and t 0.5 m, γ 18 kN/m³, and what stands behind it.
+fn wall(behind: &str) -> String {
+    format!(
+        "title = \"One wall\"\nmodel = \"planar\"\n[[panel]]\nbond = \"stack\"\ncourses = 12\nbricks = 5\n\
+         brick = {{ length = 1.0, height = 0.5, thickness = 0.5, specific_weight = 18e3 }}\n\
+         [joint]\nbed = {{ law = \"rigid\" }}\nhead = {{ law = \"rigid\" }}\n\
+         friction = {{ law = \"coulomb\", static = 0.6 }}\n{behind}\n[motion]\nduration = 1.0\n"
+    )
+}
+
+const SITE: &str = "[out_of_plane.site]\nlife_safety = { ground_acceleration = \"0.25 g\", soil_factor = 1.2, amplification = 2.4, corner_period = 0.35 }\n\
+                    collapse = { ground_acceleration = \"0.25 g\", soil_factor = 1.2, amplification = 2.4, corner_period = 0.35 }";
+
+fn json(desk: &Desk, line: &str) -> Value {
+    let done = desk.concio(line).assert().success();
+    serde_json::from_slice(&done.get_output().stdout).expect("JSON")
+}
+
+fn text(desk: &Desk, line: &str) -> String {
+    let done = desk.concio(line).assert().success();
+    String::from_utf8_lossy(&done.get_output().stdout).into_owned()
+}
+
+fn near(value: &Value, expected: f64, within: f64) {
+    let found = value.as_f64().unwrap_or_else(|| panic!("{value} is no number"));
+    assert!((found - expected).abs() <= within * expected.abs(), "{found} instead of {expected}");
+}
+
+/// The mechanisms of a kind, hinges from below.
+fn of_kind<'v>(result: &'v Value, kind: &str) -> Vec<&'v Value> {
+    let all = result["mechanisms"].as_array().expect("mechanisms");
+    all.iter().filter(|m| m["kind"] == kind).collect()
+}
+
+#[test]
+fn a_wall_file_as_it_is_gives_multipliers_and_says_what_it_lacks() {
+    let desk = Desk::new();
+    desk.put("wall.toml", wall(""));
+    let told = text(&desk, "mechanisms wall.toml");
+    for part in [
+        "One wall",
+        "overturning (OP3)",
+        "0.08333",
+        "out_of_plane: the file has no such table",
+        "what not to believe",
+        "upper bound",
+    ] {
+        assert!(told.contains(part), "{part}:\n{told}");
+    }
+    let all = text(&desk, "mechanisms wall.toml --all");
+    assert_eq!(all.matches("overturning (OP3)").count(), 12, "{all}");
+    // The wall file of the starter and the shear model's work as they are, too.
+    desk.concio("new starter.toml").assert().success();
+    desk.concio("mechanisms starter.toml").assert().success();
+    desk.concio("new shear.toml --model shear").assert().success();
+    desk.concio("mechanisms shear.toml").assert().success();
+}
+
+/// The numbers of S5, from a file.
+#[test]
+fn a_site_gives_the_checks() {
+    let desk = Desk::new();
+    desk.put("wall.toml", wall(SITE));
+    let result = json(&desk, "mechanisms wall.toml --json");
+    let base = of_kind(&result, "overturning")[0];
+    near(&base["multiplier"], 0.0833333, 1e-5);
+    near(&base["acceleration"], 0.605556, 1e-5);
+    let check = &base["checks"]["life_safety_by_displacement"];
+    near(&check["capacity"], 0.0996546, 1e-5);
+    near(&check["period"], 2.765259, 1e-5);
+    near(&check["ratio"], 0.697888, 1e-5);
+    near(&base["checks"]["collapse_by_displacement"]["ratio"], 1.124478, 1e-5);
+    near(&base["checks"]["life_safety"]["ratio"], 0.411523, 1e-5);
+    assert!(base["checks"]["damage"]["not_made"].as_str().expect("why").contains("no hazard"));
+    // Aloft the floor spectrum is not guessed.
+    let aloft = of_kind(&result, "overturning")[6];
+    let why = aloft["checks"]["life_safety_by_displacement"]["not_made"].as_str().expect("why");
+    assert!(why.contains("unclear at its source"), "{why}");
+    let spectrum = format!(
+        "{SITE}\n[[out_of_plane.floor_spectrum]]\nz = 3.0\nperiods = [0, 0.3, 1, 4]\naccelerations = [4, 12, 5, 0.5]"
+    );
+    desk.put("wall.toml", wall(&spectrum));
+    let result = json(&desk, "mechanisms wall.toml --json");
+    let aloft = of_kind(&result, "overturning")[6];
+    assert!(aloft["checks"]["life_safety_by_displacement"]["ratio"].as_f64().expect("a ratio") > 0.0);
+}
+
+/// The wall of S8, its side walls from the file.
+#[test]
+fn side_walls_hold_and_go_along() {
+    let desk = Desk::new();
+    let side = |x: f64| {
+        format!(
+            "[[out_of_plane.side_wall]]\nx = {x}\nthickness = 0.4\ncourse_height = 0.25\noverlap = 0.2\nfriction = 0.6\n"
+        )
+    };
+    desk.put("wall.toml", wall(&(side(0.2) + &side(4.8))));
+    let result = json(&desk, "mechanisms wall.toml --json");
+    let held = of_kind(&result, "overturning-with-side-walls");
+    let at = |z: f64| held.iter().find(|m| m["hinge"].as_f64() == Some(z)).expect("a hinge");
+    // Levels of this wall are half a metre apart: the least of S8 lies at 1.00.
+    near(&at(1.0)["multiplier"], 0.264194, 1e-4);
+    assert_eq!(result["least"]["hinge"], 1.0);
+    assert!(of_kind(&result, "overturning").iter().all(|m| m["counts"] == false));
+    assert_eq!(of_kind(&result, "corner").len(), 24);
+    let code = json(&desk, "mechanisms wall.toml --json --overlaps code");
+    let held = of_kind(&code, "overturning-with-side-walls");
+    let least = held.iter().filter_map(|m| m["multiplier"].as_f64()).fold(f64::INFINITY, f64::min);
+    assert!((least - 0.2446).abs() < 1e-3, "{least}");
+}
+
+#[test]
+fn floors_that_hold_make_an_arch_and_a_weak_one_gives_way() {
+    let desk = Desk::new();
+    let floor = |keys: &str| {
+        wall(&format!("[[out_of_plane.floor]]\nz = 6\nload = \"10 kN/m\"\nat = 0.25\nholds = true\n{keys}"))
+    };
+    desk.put("wall.toml", floor(""));
+    let result = json(&desk, "mechanisms wall.toml --json");
+    let arch = of_kind(&result, "vertical-arch")[0];
+    // (OP6) on the joint beside x*: W 54 kN, N 10 kN, both per metre.
+    let n: f64 = 10.0 / 54.0;
+    let at = |x: f64| 2.0 * 0.5 / 6.0 * (1.0 + n * (1.0 + 0.5 * x / (1.0 - x))) / x;
+    let least = (1..12).map(|i| at(f64::from(i) / 12.0)).fold(f64::INFINITY, f64::min);
+    near(&arch["multiplier"], least, 1e-9);
+    assert!(arch["notes"].to_string().contains("assumed to be borne"), "{}", arch["notes"]);
+    assert!(of_kind(&result, "overturning").is_empty());
+    desk.put("wall.toml", floor("connection = \"0.5 kN/m\""));
+    let result = json(&desk, "mechanisms wall.toml --json");
+    assert!(of_kind(&result, "vertical-arch")[0]["notes"].to_string().contains("gives way first"));
+    let fallen = of_kind(&result, "overturning");
+    near(&fallen[0]["multiplier"], (54.0 * 0.25 + 10.0 * 0.25 + 0.5 * 6.0) / (54.0 * 3.0 + 10.0 * 6.0), 1e-9);
+}
+
+#[test]
+fn the_facade_of_the_guide_gives_all_in_one_folder() {
+    let desk = Desk::new();
+    desk.put("facade.toml", FACADE);
+    let told = text(&desk, "mechanisms facade.toml --out assessed");
+    for part in [
+        "corner (OP5)",
+        "overturning with side walls (OP4)",
+        "flap (OP8)",
+        "worst check",
+        "twists",
+        "open assessed/report.html",
+    ] {
+        assert!(told.contains(part), "{part}:\n{told}");
+    }
+    let result = desk.json("assessed/mechanisms.json");
+    let found = result["mechanisms"].as_array().expect("mechanisms");
+    assert!(found.len() > 60, "{}", found.len());
+    let csv = desk.get("assessed/mechanisms.csv");
+    assert_eq!(csv.lines().count(), found.len() + 1);
+    assert!(csv.starts_with("mechanism,equation,counts,hinge"), "{csv}");
+    let page = desk.get("assessed/report.html");
+    for part in
+        ["Assumed", "elevation, from outside", "Circolare", "may disintegrate", "upper bound", "a* = α0 g/(e* FC)"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("http://") || page.contains("http://www.w3.org"), "the page fetches something");
+    assert!(desk.get("assessed/figures/overturning-with-side-walls.svg").contains("<path"));
+    // The tie breaks: its curve has a step.
+    let tied = of_kind(&result, "overturning")[0];
+    let curve: Vec<f64> =
+        tied["curve"].as_array().expect("a curve").iter().filter_map(|p| p["multiplier"].as_f64()).collect();
+    let drop = curve.windows(2).map(|p| p[0] - p[1]).fold(0.0, f64::max);
+    assert!(drop > 0.02, "{drop}");
+}
+
+#[test]
+fn runs_in_the_plane_say_that_they_do_not_read_it() {
+    let desk = Desk::new();
+    desk.put("facade.toml", FACADE);
+    for command in ["check", "limit"] {
+        let done = desk.concio(&format!("{command} facade.toml")).assert();
+        let told = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+        assert!(told.contains("out_of_plane is not read in the plane"), "{command}: {told}");
+    }
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_line() {
+    let desk = Desk::new();
+    let refused = |behind: &str, parts: &[&str]| {
+        desk.put("wall.toml", wall(behind));
+        let done = desk.concio("mechanisms wall.toml").assert().code(2);
+        let told = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+        for part in parts {
+            assert!(told.contains(part), "{part}:\n{told}");
+        }
+    };
+    let floor = |keys: &str| format!("[[out_of_plane.floor]]\n{keys}");
+    refused(&floor("z = 8\nload = 1e4"), &["wall.toml:13:", "out_of_plane.floor[0].z", "above the wall", "up to 6 m"]);
+    refused(&floor("z = 3\nload = -1"), &["wall.toml:14:", "out_of_plane.floor[0].load", "from 0 N/m"]);
+    refused(&floor("z = 3\nload = 1e4\nat = 0.8"), &["out_of_plane.floor[0].at", "behind the wall", "0 … 0.5 m"]);
+    refused(&floor("z = 3\nload = 1e4\nseet = 1"), &["out_of_plane.floor[0].seet", "unknown key"]);
+    refused(
+        "[out_of_plane]\nconfidence_factor = 1.2",
+        &["confidence_factor", "crushing at hinges is left out", "1.35"],
+    );
+    refused("[out_of_plane]\nleaves = [0.2, 0.2]", &["out_of_plane.leaves", "0.4 m thick", "0.5 m"]);
+    refused("[[out_of_plane.anchor]]\nz = 5\nx = 9\nyield_force = 1e4", &["anchor[0].x", "beside the wall", "0 … 5 m"]);
+    refused("[out_of_plane.site]\nlife_safety = { ground_acceleration = 1 }", &["amplification", "key is missing"]);
+    refused(
+        "[[out_of_plane.side_wall]]\nx = 0\nthickness = \"0.4 kN\"",
+        &["side_wall[0].thickness", "not a unit of length"],
+    );
+    desk.put("arch.toml", include_str!("../../../../examples/17-arch.toml"));
+    let done = desk.concio("mechanisms arch.toml").assert().code(2);
+    assert!(String::from_utf8_lossy(&done.get_output().stderr).contains("not of arches"));
+    desk.concio("mechanisms nowhere.toml").assert().code(2);
+}

@@ -1,0 +1,728 @@
+//! Every mechanism that a wall can have, at every hinge level, with its least multiplier, pushover and checks.
+
+use crate::body::{Body, Shares, Weight};
+use crate::checks::{Asked, Checks, Place};
+use crate::corner::Corner;
+use crate::facade::{Floor, Masonry};
+use crate::flap::Flap;
+use crate::gable::Flaps;
+use crate::horizontal_arch::HorizontalArch;
+use crate::overturning::{Facade, Overturning};
+use crate::pushover::{Kinematics, Pushover};
+use crate::side_wall::{Overlaps, SideWall};
+use crate::vertical_arch::VerticalArch;
+use crate::wall::{Side, Wall};
+
+/// Kinds of mechanism.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// The façade about a bed joint, as if nothing held its ends.
+    Overturning,
+    /// The same with wedges of its side walls, or held by their friction.
+    WithSideWalls,
+    /// The outer leaf alone.
+    Leaf,
+    /// A storey between levels that hold it.
+    VerticalArch,
+    /// A strip between abutments.
+    HorizontalArch,
+    /// A corner.
+    Corner,
+    /// A flap beside a vertical crack.
+    Flap,
+    /// A whole gable.
+    Gable,
+    /// A gable in two flaps.
+    GableFlaps,
+}
+
+impl Kind {
+    /// All kinds.
+    pub const ALL: [Kind; 9] = [
+        Kind::Overturning,
+        Kind::WithSideWalls,
+        Kind::Leaf,
+        Kind::VerticalArch,
+        Kind::HorizontalArch,
+        Kind::Corner,
+        Kind::Flap,
+        Kind::Gable,
+        Kind::GableFlaps,
+    ];
+
+    /// As results spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Overturning => "overturning",
+            Kind::WithSideWalls => "overturning-with-side-walls",
+            Kind::Leaf => "overturning-of-outer-leaf",
+            Kind::VerticalArch => "vertical-arch",
+            Kind::HorizontalArch => "horizontal-arch",
+            Kind::Corner => "corner",
+            Kind::Flap => "flap",
+            Kind::Gable => "gable",
+            Kind::GableFlaps => "gable-flaps",
+        }
+    }
+
+    /// In words.
+    pub fn what(self) -> &'static str {
+        match self {
+            Kind::Overturning => "overturning",
+            Kind::WithSideWalls => "overturning with side walls",
+            Kind::Leaf => "overturning of the outer leaf",
+            Kind::VerticalArch => "vertical arch",
+            Kind::HorizontalArch => "horizontal arch",
+            Kind::Corner => "corner",
+            Kind::Flap => "flap",
+            Kind::Gable => "gable",
+            Kind::GableFlaps => "flaps of the gable",
+        }
+    }
+
+    /// The number of its equation.
+    pub fn equation(self) -> &'static str {
+        match self {
+            Kind::Overturning | Kind::Leaf => "OP3",
+            Kind::WithSideWalls => "OP4",
+            Kind::VerticalArch => "OP6",
+            Kind::HorizontalArch => "OP7",
+            Kind::Corner => "OP5",
+            Kind::Flap => "OP8",
+            Kind::Gable | Kind::GableFlaps => "OP9",
+        }
+    }
+}
+
+/// Where the parts of a mechanism lie, for drawings.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// All above a level; wedges of side walls at positions along the wall with their tan β.
+    Above {
+        /// Position [m] and tan β of each crack.
+        wedges: Vec<[f64; 2]>,
+    },
+    /// Between two levels [m].
+    Storey {
+        /// Lower and upper level.
+        levels: [f64; 2],
+    },
+    /// Between two levels [m] and two ends [m], with a vertical hinge between.
+    Strip {
+        /// Lower and upper level.
+        levels: [f64; 2],
+        /// Left end, hinge, right end.
+        at: [f64; 3],
+    },
+    /// A corner.
+    Corner {
+        /// Whether it is the left one.
+        left: bool,
+        /// tan β in the wall and in its side wall.
+        slopes: [f64; 2],
+    },
+    /// Polygons in the elevation [m].
+    Outlines(Vec<Vec<[f64; 2]>>),
+}
+
+/// A mechanism of a wall.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// Its kind.
+    pub kind: Kind,
+    /// Level of its hinge [m]: of an arch the one between its ends, of a flap the foot of its crack.
+    pub hinge: f64,
+    /// tan β of cracks of side walls or corners, tan ϑ of oblique hinges.
+    pub slopes: Vec<f64>,
+    /// a [m] of (OP2).
+    pub setback: f64,
+    /// Oscillator and curve.
+    pub pushover: Pushover,
+    /// What makes up α0; none of arches.
+    pub shares: Option<Shares>,
+    /// Level of the checks [m]: 0 is the ground.
+    pub level: f64,
+    /// Checks.
+    pub checks: Checks,
+    /// Whether it counts; a mechanism that the wall cannot have as it is stands for comparison.
+    pub counts: bool,
+    /// R that the top of a vertical arch needs, and what is known to bear it [N].
+    pub reaction: Option<[Option<f64>; 2]>,
+    /// Its place.
+    pub shape: Shape,
+    /// What to know before the number is believed.
+    pub notes: Vec<String>,
+}
+
+impl Found {
+    /// α0.
+    pub fn multiplier(&self) -> f64 {
+        self.pushover.multiplier
+    }
+}
+
+/// All mechanisms of a wall.
+#[derive(Debug, Clone)]
+pub struct Survey {
+    /// Kind by kind, hinges from below.
+    pub found: Vec<Found>,
+    /// Kinds that the wall cannot have, with the reason.
+    pub without: Vec<(Kind, String)>,
+}
+
+/// Points of the search over the angle of an oblique hinge.
+const ANGLES: usize = 24;
+/// Flattest oblique hinge, as tan ϑ.
+const FLATTEST: f64 = 4.0;
+/// Farthest floor spectrum from a hinge that is taken for its [m].
+const NEAR: f64 = 0.5;
+/// Levels within this are one [m].
+const LEVEL: f64 = 1e-6;
+/// Heights below which a part counts as none [m].
+const LOWEST: f64 = 1e-3;
+
+/// Makes the survey of a wall; `overlaps` is the sum of the friction of overlaps.
+pub fn survey(wall: &Wall, overlaps: Overlaps) -> Survey {
+    let mut survey = Survey { found: Vec::new(), without: Vec::new() };
+    let making = Making { wall, overlaps, floors: wall.floors.iter().map(|f| f.floor).collect() };
+    making.overturning(&mut survey);
+    making.leaf(&mut survey);
+    making.vertical_arches(&mut survey);
+    making.strip(&mut survey);
+    making.corners(&mut survey);
+    making.flaps(&mut survey);
+    making.gable(&mut survey);
+    survey
+}
+
+impl Survey {
+    /// The mechanism with the least α0 of those that count.
+    pub fn least(&self) -> Option<&Found> {
+        let counted = self.found.iter().filter(|f| f.counts);
+        counted.min_by(|a, b| a.multiplier().total_cmp(&b.multiplier()))
+    }
+
+    /// The one whose check for life safety is the worst; none without checks.
+    pub fn worst(&self) -> Option<&Found> {
+        let counted = self.found.iter().filter(|f| f.counts && f.checks.ratio().is_some());
+        counted.min_by(|a, b| a.checks.ratio().unwrap_or(f64::MAX).total_cmp(&b.checks.ratio().unwrap_or(f64::MAX)))
+    }
+
+    /// The least of each kind, in their order.
+    pub fn least_of_kinds(&self) -> Vec<&Found> {
+        let least = |kind: Kind| {
+            let own = self.found.iter().filter(|f| f.kind == kind);
+            own.min_by(|a, b| a.multiplier().total_cmp(&b.multiplier()))
+        };
+        Kind::ALL.into_iter().filter_map(least).collect()
+    }
+}
+
+struct Making<'w> {
+    wall: &'w Wall,
+    overlaps: Overlaps,
+    floors: Vec<Floor>,
+}
+
+impl Making<'_> {
+    /// Checks of a mechanism whose hinge or supports lie at a level.
+    fn checks(&self, pushover: &Pushover, level: f64, seat: Option<f64>) -> Checks {
+        let wall = self.wall;
+        let near = |(z, _): &&(f64, crate::checks::Spectrum)| (z - level).abs() <= NEAR;
+        let floor =
+            wall.floor_spectra.iter().filter(near).min_by(|a, b| (a.0 - level).abs().total_cmp(&(b.0 - level).abs()));
+        let place = if level <= LEVEL {
+            Place::Ground
+        } else {
+            Place::Aloft { level, building: wall.building.clone(), floor: floor.map(|(_, s)| s.clone()) }
+        };
+        let (hazard, confidence, behaviour) = (wall.hazard.clone(), wall.confidence, wall.behaviour);
+        Checks::of(pushover, &Asked { hazard, place, confidence, behaviour, seat, first_period: 0.0 })
+    }
+
+    /// d [m] at which the first beam loses its seat, of a body that turns about a level.
+    fn seat(&self, pushover: &Pushover, hinge: f64) -> Option<f64> {
+        let of = |floor: &Floor| {
+            let (height, seat) = (floor.level - hinge, floor.seat?);
+            (height > seat).then(|| pushover.part * pushover.kinematics.control((seat / height).asin()))
+        };
+        self.floors.iter().filter(|f| f.level > hinge + LEVEL).filter_map(of).reduce(f64::min)
+    }
+
+    fn add_body(&self, survey: &mut Survey, kind: Kind, body: Body, hinge: f64, control: f64, rest: Rest) {
+        if control < LOWEST {
+            return;
+        }
+        let shares = body.shares();
+        let pushover = Pushover::of(Kinematics::Body(body, control));
+        let seat = if rest.seats { self.seat(&pushover, hinge) } else { None };
+        let checks = self.checks(&pushover, rest.level.unwrap_or(hinge), seat);
+        let Rest { slopes, setback, counts, shape, mut notes, level, .. } = rest;
+        if pushover.multiplier <= 0.0 {
+            notes.push("α0 is not above 0: the mechanism moves without an earthquake".into());
+        }
+        let level = level.unwrap_or(hinge);
+        survey.found.push(Found {
+            kind,
+            hinge,
+            slopes,
+            setback,
+            pushover,
+            shares: Some(shares),
+            level,
+            checks,
+            counts,
+            reaction: None,
+            shape,
+            notes,
+        });
+    }
+
+    /// Level of the highest floor that holds the wall; 0 without one.
+    fn held(&self) -> f64 {
+        self.wall.floors.iter().filter(|f| f.holds).map(|f| f.floor.level).fold(0.0, f64::max)
+    }
+
+    fn facade<'f>(&'f self, side_walls: &'f [SideWall]) -> Facade<'f> {
+        let wall = self.wall;
+        Facade {
+            masonry: &wall.masonry,
+            floors: &self.floors,
+            ties: &wall.ties,
+            side_walls,
+            crushing: wall.crushing,
+            overlaps: self.overlaps,
+        }
+    }
+
+    /// Levels of hinges from a height on, each with something above it.
+    fn levels(&self, from: f64) -> impl Iterator<Item = f64> {
+        self.wall.levels.iter().copied().filter(move |z| *z >= from - LEVEL && *z < self.wall.top - LOWEST)
+    }
+
+    fn overturning(&self, survey: &mut Survey) {
+        let held = self.held();
+        let sides: Vec<SideWall> = self.wall.side_walls.iter().map(|s| s.wall).collect();
+        let bonded = !sides.is_empty();
+        for hinge in self.levels(held) {
+            let found = self.facade(&[]).least(hinge);
+            let mut notes = Vec::new();
+            if bonded {
+                notes.push("for comparison: as if the side walls were not bonded".into());
+            }
+            self.turn(survey, Kind::Overturning, found, !bonded, Vec::new(), notes);
+        }
+        if held > 0.0 && self.levels(held).next().is_none() {
+            survey.without.push((Kind::Overturning, format!("a floor holds the wall at {held:.2} m, its top")));
+        }
+        if !bonded {
+            let why = match self.wall.loose {
+                0 => "no side wall is given (out_of_plane.side_wall)",
+                _ => "no side wall is bonded to it",
+            };
+            survey.without.push((Kind::WithSideWalls, why.into()));
+            return;
+        }
+        for hinge in self.levels(held) {
+            let found = self.facade(&sides).least(hinge);
+            let wedges = self.wall.side_walls.iter().zip(&found.slopes).map(|(s, slope)| [s.at, *slope]).collect();
+            let mut notes = Vec::new();
+            if sides.len() == 1 {
+                notes.push("one side wall alone: the façade twists about it, and α0 is about a tenth too high".into());
+            }
+            let code = Facade { overlaps: Overlaps::Code, ..self.facade(&sides) }.least(hinge);
+            if self.overlaps != Overlaps::Code {
+                notes.push(format!("with f = 0.4 of the code α0 is {:.4}", code.multiplier));
+            }
+            self.turn(survey, Kind::WithSideWalls, found, true, wedges, notes);
+        }
+    }
+
+    fn turn(
+        &self,
+        survey: &mut Survey,
+        kind: Kind,
+        found: Overturning,
+        counts: bool,
+        wedges: Vec<[f64; 2]>,
+        notes: Vec<String>,
+    ) {
+        let Overturning { hinge, setback, slopes, body, .. } = found;
+        let shape = Shape::Above { wedges };
+        let rest = Rest { slopes, setback, counts, shape, notes, seats: true, level: None };
+        self.add_body(survey, kind, body, hinge, self.wall.top - hinge, rest);
+    }
+
+    fn leaf(&self, survey: &mut Survey) {
+        let Some(thickness) = self.wall.leaf else {
+            survey
+                .without
+                .push((Kind::Leaf, "the wall has one leaf, or headers tie its leaves (out_of_plane.leaves)".into()));
+            return;
+        };
+        let part = thickness / self.wall.masonry.thickness;
+        let pieces =
+            self.wall.masonry.pieces.iter().map(|p| crate::facade::Piece { weight: part * p.weight, ..*p }).collect();
+        let masonry = Masonry { thickness, pieces };
+        for hinge in self.levels(0.0) {
+            let facade = Facade { masonry: &masonry, floors: &[], side_walls: &[], ..self.facade(&[]) };
+            let notes =
+                vec!["floors are taken to rest on the inner leaf; ties hold the outer one by their plates".into()];
+            self.turn(survey, Kind::Leaf, facade.least(hinge), true, Vec::new(), notes);
+        }
+    }
+
+    fn vertical_arches(&self, survey: &mut Survey) {
+        let holding: Vec<&crate::wall::FloorOf> = self.wall.floors.iter().filter(|f| f.holds).collect();
+        if holding.is_empty() {
+            let why = "no floor holds the wall at its level (holds = true at out_of_plane.floor)";
+            survey.without.push((Kind::VerticalArch, why.into()));
+        }
+        let mut lower = 0.0;
+        for upper in holding {
+            let levels = [lower, upper.floor.level];
+            self.storey(survey, levels, upper);
+            lower = upper.floor.level;
+        }
+    }
+
+    fn storey(&self, survey: &mut Survey, levels: [f64; 2], upper: &crate::wall::FloorOf) {
+        let t = self.wall.masonry.thickness;
+        let [low, high] = levels;
+        let top = self.wall.masonry.above(high);
+        let above: Vec<&Floor> = self.floors.iter().filter(|f| f.level >= high - LEVEL).collect();
+        let load = top.weight + above.iter().map(|f| f.load).sum::<f64>();
+        let moment = top.weight * 0.5 * t + above.iter().map(|f| f.load * f.depth).sum::<f64>();
+        let depth = match (upper.clamps, load > 0.0) {
+            (true, _) => t,
+            (false, true) => (t - moment / load).clamp(0.0, t),
+            (false, false) => 0.5 * t,
+        };
+        let arch = |hinge: f64| {
+            let part = |from: f64, to: f64| {
+                let own = self.wall.masonry.between(from, to);
+                let height = own.centroid[1] - low;
+                let mut all = vec![Weight { carried: own.weight, pushing: 0.0, depth: 0.5 * t, height }];
+                let inside =
+                    self.floors.iter().filter(|f| f.level > from + LEVEL && f.level <= to && f.level < high - LEVEL);
+                all.extend(inside.map(|f| Weight {
+                    carried: f.load,
+                    pushing: f.pushing,
+                    depth: f.depth,
+                    height: f.level - low,
+                }));
+                all
+            };
+            VerticalArch {
+                thickness: t,
+                height: high - low,
+                parts: [part(low, hinge), part(hinge, high)],
+                hinge: hinge - low,
+                load,
+                depth,
+            }
+        };
+        let inside = self.levels(0.0).filter(|z| *z > low + LOWEST && *z < high - LOWEST);
+        let Some((hinge, arch)) =
+            inside.map(|z| (z, arch(z))).min_by(|a, b| a.1.multiplier().total_cmp(&b.1.multiplier()))
+        else {
+            let why = format!("no bed joint lies between {low:.2} m and {high:.2} m");
+            survey.without.push((Kind::VerticalArch, why));
+            return;
+        };
+        let needed = arch.reaction();
+        let near = self.levels(0.0).filter(|z| *z < high - LEVEL).last().unwrap_or(low);
+        let ties: f64 =
+            self.wall.ties.iter().filter(|tie| tie.level >= near && tie.level <= high + 0.5).map(|tie| tie.force).sum();
+        let seat = upper.floor.friction * upper.floor.load;
+        let known = upper.floor.connection + ties;
+        let borne = (known > 0.0).then_some(known + seat);
+        let mut notes = Vec::new();
+        match borne {
+            None => notes.push(format!(
+                "the top needs R = {:.2} kN: assumed to be borne, for `holds` says so; give connection or anchors to check it",
+                1e-3 * needed
+            )),
+            Some(borne) if needed > borne => notes.push(format!(
+                "the top needs R = {:.2} kN and has {:.2} kN: it gives way first, and the wall overturns below it",
+                1e-3 * needed,
+                1e-3 * borne
+            )),
+            Some(_) => {}
+        }
+        let course = self.wall.masonry.between(near, high).weight;
+        let rubs = self.wall.friction * (load + course);
+        if needed > rubs {
+            notes.push(format!(
+                "the bed joint under the held course bears {:.2} kN by friction: R does not get through it",
+                1e-3 * rubs
+            ));
+        }
+        if needed > rubs || borne.is_some_and(|b| needed > b) {
+            // The support gives way: what it bears holds the wall as a tie does.
+            let bears = borne.unwrap_or(f64::INFINITY).min(rubs);
+            let mut floors = self.floors.clone();
+            for floor in floors.iter_mut().filter(|f| (f.level - high).abs() < LEVEL) {
+                floor.connection = if floor.level == upper.floor.level { bears } else { floor.connection };
+                floor.friction = 0.0;
+            }
+            let facade = Facade { floors: &floors, ..self.facade(&[]) };
+            let notes = vec![format!("the floor at {high:.2} m gives way at {:.2} kN", 1e-3 * bears)];
+            self.turn(survey, Kind::Overturning, facade.least(low), self.wall.side_walls.is_empty(), Vec::new(), notes);
+        }
+        let pushover = Pushover::of(Kinematics::VerticalArch(arch));
+        let level = 0.5 * (low + high);
+        let checks = self.checks(&pushover, level, None);
+        survey.found.push(Found {
+            kind: Kind::VerticalArch,
+            hinge,
+            slopes: Vec::new(),
+            setback: 0.0,
+            pushover,
+            shares: None,
+            level,
+            checks,
+            counts: true,
+            reaction: Some([Some(needed), borne]),
+            shape: Shape::Storey { levels },
+            notes,
+        });
+    }
+
+    fn strip(&self, survey: &mut Survey) {
+        let Some([from, thrust, span, friction]) = self.wall.strip else {
+            let why = "the thrust at which its abutments give way is not given (out_of_plane.strip)";
+            survey.without.push((Kind::HorizontalArch, why.into()));
+            return;
+        };
+        let wall = self.wall;
+        let own = wall.masonry.above(from);
+        let load: f64 = self.floors.iter().filter(|f| f.level >= from - LEVEL).map(|f| f.load).sum();
+        let arch = HorizontalArch {
+            thickness: wall.masonry.thickness,
+            spans: [0.5 * span; 2],
+            weight: own.weight / wall.length(),
+            thrust,
+            friction,
+            load: load / wall.length(),
+        };
+        let pushover = Pushover::of(Kinematics::HorizontalArch(arch));
+        let level = 0.5 * (from + wall.top);
+        let checks = self.checks(&pushover, level, None);
+        let left = wall.extent[0] + 0.5 * (wall.length() - span);
+        let notes = vec![
+            "weight taken as uniform along the strip; floors on it press its bed and push nothing".into(),
+            "H_r is what the file gives: check the side wall in its plane with `concio limit`".into(),
+        ];
+        survey.found.push(Found {
+            kind: Kind::HorizontalArch,
+            hinge: from,
+            slopes: Vec::new(),
+            setback: 0.0,
+            pushover,
+            shares: None,
+            level,
+            checks,
+            counts: true,
+            reaction: None,
+            shape: Shape::Strip { levels: [from, wall.top], at: [left, left + 0.5 * span, left + span] },
+            notes,
+        });
+    }
+
+    fn corners(&self, survey: &mut Survey) {
+        let at_ends: Vec<&Side> = self.wall.side_walls.iter().filter(|s| s.corner.is_some()).collect();
+        if at_ends.is_empty() {
+            survey.without.push((Kind::Corner, "no bonded side wall stands at an end of the wall".into()));
+        }
+        for side in at_ends {
+            let Some(own) = side.corner else { continue };
+            let wall = self.wall;
+            let [course, overlap] = wall.texture;
+            let front = SideWall {
+                thickness: wall.masonry.thickness,
+                specific_weight: wall.specific_weight,
+                course,
+                overlap,
+                friction: wall.friction,
+                load: 0.0,
+                opening: own.opening.filter(|d| *d > 0.0),
+            };
+            let beside = SideWall { opening: side.wall.opening.map(|d| d + wall.masonry.thickness), ..side.wall };
+            let corner = Corner {
+                walls: [front, beside],
+                direction: own.direction,
+                top: wall.top,
+                load: own.load,
+                overlaps: self.overlaps,
+            };
+            let left = side.at < 0.5 * (wall.extent[0] + wall.extent[1]);
+            for hinge in self.levels(self.held()) {
+                let found = corner.least(hinge);
+                let notes = vec![
+                    format!("the {} corner; floors and ties near it are left out", if left { "left" } else { "right" }),
+                    format!(
+                        "φ = {:.0}° is given, not found; both cracks take the same part of their textures' slope",
+                        own.direction.to_degrees()
+                    ),
+                ];
+                let shape = Shape::Corner { left, slopes: found.slopes };
+                let rest = Rest {
+                    slopes: found.slopes.to_vec(),
+                    setback: 0.0,
+                    counts: true,
+                    shape,
+                    notes,
+                    seats: false,
+                    level: None,
+                };
+                self.add_body(survey, Kind::Corner, found.body, hinge, wall.top - hinge, rest);
+            }
+        }
+    }
+
+    fn flaps(&self, survey: &mut Survey) {
+        let wall = self.wall;
+        let steepest = wall.texture[1] / wall.texture[0];
+        let mut cracks: Vec<f64> = wall.openings.iter().map(|o| 0.5 * (o[0] + o[2])).collect();
+        cracks.push(0.5 * (wall.extent[0] + wall.extent[1]));
+        cracks.sort_by(f64::total_cmp);
+        cracks.dedup_by(|a, b| (*a - *b).abs() < 1e-3);
+        let bonded = |end: f64| wall.side_walls.iter().any(|s| (s.at - end).abs() <= s.wall.thickness + LEVEL);
+        let ends = wall.extent.map(|end| (end, bonded(end)));
+        let before = survey.found.len();
+        for foot in self.levels(self.held()) {
+            let height = wall.top - foot;
+            let mut best: Option<(f64, Flap, Body)> = None;
+            let mut free = f64::INFINITY;
+            for &crack in &cracks {
+                for (end, held) in ends {
+                    let room = (end - crack).abs() / height;
+                    // Beside a bonded side wall the hinge has to reach the top before it.
+                    let flattest = if held { room } else { FLATTEST };
+                    if room < 1e-3 || flattest <= 1e-3 {
+                        continue;
+                    }
+                    let at = |slope: f64| {
+                        let flap = flap(crack, foot, wall.top, end, slope);
+                        let body = flap.laden(&wall.masonry, &self.floors, &wall.ties, wall.extent);
+                        let value = if body.weights[0].carried > 0.0 { body.multiplier() } else { f64::INFINITY };
+                        (value, flap, body)
+                    };
+                    free = free.min(at(crate::least(ANGLES, 0.02 * flattest, flattest, |s| at(s).0)).0);
+                    if flattest < steepest {
+                        continue;
+                    }
+                    let found = at(crate::least(ANGLES, steepest, flattest, |s| at(s).0));
+                    if best.as_ref().is_none_or(|b| found.0 < b.0) && found.0.is_finite() {
+                        best = Some(found);
+                    }
+                }
+            }
+            let Some((value, flap, body)) = best else { continue };
+            let mut notes = vec![
+                "the crack is open from foot to top, without thrust on it: blocks that interlock across it hold more"
+                    .to_string(),
+            ];
+            if flap.angle().tan() > FLATTEST * (1.0 - 1e-6) {
+                notes.push(format!("the flattest hinge that is tried, tan ϑ = {FLATTEST}: beyond it the part beside the crack overturns"));
+            }
+            if free < value * (1.0 - 1e-3) {
+                notes.push(format!("a hinge steeper than the joints allow would give α0 = {free:.4}"));
+            }
+            let control = flap.outline.iter().map(|p| flap.distance(*p)).fold(0.0, f64::max);
+            let level = 0.5 * (flap.hinge[0][1] + flap.hinge[1][1]);
+            let rest = Rest {
+                slopes: vec![flap.angle().tan()],
+                setback: 0.0,
+                counts: true,
+                shape: Shape::Outlines(vec![flap.outline.clone()]),
+                notes,
+                seats: false,
+                level: Some(level),
+            };
+            self.add_body(survey, Kind::Flap, body, foot, control, rest);
+        }
+        if survey.found.len() == before {
+            let why =
+                "no oblique hinge fits beside a crack: bonded side walls are too near for the slope of the texture";
+            survey.without.push((Kind::Flap, why.into()));
+        }
+    }
+
+    fn gable(&self, survey: &mut Survey) {
+        let Some((gable, press)) = self.wall.gable else {
+            survey.without.push((Kind::Gable, "no gable is given (out_of_plane.gable)".into()));
+            return;
+        };
+        let wall = self.wall;
+        let left = 0.5 * (wall.extent[0] + wall.extent[1] - gable.base);
+        let place = |corners: &[[f64; 2]]| corners.iter().map(|[y, z]| [left + y, wall.top + z]).collect::<Vec<_>>();
+        let whole = [[0.0, 0.0], [gable.base, 0.0], [0.5 * gable.base, gable.height]];
+        let rest = Rest {
+            slopes: Vec::new(),
+            setback: 0.0,
+            counts: true,
+            shape: Shape::Outlines(vec![place(&whole)]),
+            notes: Vec::new(),
+            seats: false,
+            level: None,
+        };
+        self.add_body(survey, Kind::Gable, gable.whole(), wall.top, gable.height, rest);
+        let steepest = wall.texture[1] / wall.texture[0];
+        let Flaps { flap, multiplier, body } = gable.least_flaps(steepest, press);
+        if !multiplier.is_finite() || body.weights[0].height <= 0.0 {
+            survey.without.push((Kind::GableFlaps, "no oblique hinge fits the slope of the texture".into()));
+            return;
+        }
+        let free = gable.least_flaps(0.0, press);
+        let mut notes = Vec::new();
+        if free.multiplier < multiplier * (1.0 - 1e-3) {
+            notes.push(format!(
+                "a hinge steeper than the joints allow would give α0 = {:.4}: check the ridge beam against punching",
+                free.multiplier
+            ));
+        }
+        let mirrored: Vec<[f64; 2]> = flap.outline.iter().rev().map(|[y, z]| [gable.base - y, *z]).collect();
+        let control = flap.distance([0.5 * gable.base, gable.height]);
+        let rest = Rest {
+            slopes: vec![flap.angle().tan()],
+            setback: 0.0,
+            counts: true,
+            shape: Shape::Outlines(vec![place(&flap.outline), place(&mirrored)]),
+            notes,
+            seats: false,
+            level: Some(wall.top + 0.5 * (flap.hinge[0][1] + flap.hinge[1][1])),
+        };
+        self.add_body(survey, Kind::GableFlaps, body, wall.top + flap.crack[0][1], control, rest);
+    }
+}
+
+/// What a body does not say of itself.
+struct Rest {
+    slopes: Vec<f64>,
+    setback: f64,
+    counts: bool,
+    shape: Shape,
+    notes: Vec<String>,
+    seats: bool,
+    level: Option<f64>,
+}
+
+/// The flap between a crack and one end of the wall, its hinge rising from the foot of the crack at tan ϑ.
+fn flap(crack: f64, foot: f64, top: f64, end: f64, slope: f64) -> Flap {
+    let way = (end - crack).signum();
+    let reach = (top - foot) * slope;
+    let inside = reach <= (end - crack).abs();
+    let [at, head] = [[crack, foot], [crack, top]];
+    let upper = if inside { [crack + way * reach, top] } else { [end, foot + (end - crack).abs() / slope] };
+    let mut outline = vec![at, upper];
+    if !inside {
+        outline.push([end, top]);
+    }
+    outline.push(head);
+    if way < 0.0 {
+        outline.reverse();
+    }
+    Flap { outline, hinge: [at, upper], crack: [at, head], thrust: 0.0 }
+}
