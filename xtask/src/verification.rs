@@ -25,7 +25,7 @@ const PACKAGES: [&str; 8] = [
 const HEADER: &str = "| Subject | Held against | Expected | Found | Off by | The test allows | Test |";
 
 /// Sections of the page in their order; the first half of a record's subject is one of them.
-const SECTIONS: [(&str, &str); 16] = [
+const SECTIONS: [(&str, &str); 18] = [
     ("Ground motion", "Signals, filters, measures and response spectra."),
     ("Walls and loads", "Geometry, weights, and what joints bear at rest."),
     ("Integration", "Oscillators of the shear model, without friction and with springs that let go."),
@@ -39,7 +39,12 @@ const SECTIONS: [(&str, &str); 16] = [
     ("Sliding", "Blocks and dry walls that slide on what is below them."),
     ("Rocking", "Blocks that rock on their corners."),
     ("Limit analysis", "Multipliers of the load under which walls of rigid blocks become mechanisms."),
+    ("Limit analysis in space", "The same of walls whose blocks move in all directions."),
     ("Mechanisms", "Parts of a wall that fall out of its plane: multipliers, displaced shapes, checks of the code."),
+    (
+        "Continuum",
+        "Moduli and strength of the continuum that stands for a wall, and walls of more and more bricks beside it.",
+    ),
     ("Statistics", "Estimates of studies, and how often their intervals hold what they estimate."),
     ("Laboratory", "Walls that were tested elsewhere; the answer is what was measured."),
 ];

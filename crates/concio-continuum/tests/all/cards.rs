@@ -29,22 +29,22 @@ fn units_are_those_of_the_user() {
     let of = |units: &str| card(Units::parse(units).expect("units"));
     let (mm, metres, inches) = (of("N-mm-t"), of("kN-m"), of("lbf-in"));
     let c = |card: &Card| card.constants.expect("constants");
-    agrees!("continuum: E1 on a card; N-mm", "31,824 MPa", "MPa", c(&mm).e1, 31_824.0, 1e-12);
-    agrees!("continuum: E1 on a card; kN-m", "31,824 MPa", "kPa", c(&metres).e1, 31_824e3, 1e-12);
+    agrees!("Continuum: E1 on a card; N-mm", "31,824 MPa", "MPa", c(&mm).e1, 31_824.0, 1e-12);
+    agrees!("Continuum: E1 on a card; kN-m", "31,824 MPa", "kPa", c(&metres).e1, 31_824e3, 1e-12);
     agrees!(
-        "continuum: E1 on a card; lbf-in",
+        "Continuum: E1 on a card; lbf-in",
         "31,824 MPa over 6894.757 Pa",
         "psi",
         c(&inches).e1,
         31_824e6 / 6_894.757_293_168,
         1e-9
     );
-    agrees!("continuum: density on a card; N-mm", "1800 kg/m³", "t/mm³", mm.density.volume, 1.8e-9, 1e-12);
-    agrees!("continuum: density on a card; kN-m", "1800 kg/m³", "t/m³", metres.density.volume, 1.8, 1e-12);
-    agrees!("continuum: D1111 on a card; N-mm", "6.164496 MN m", "N mm", mm.moduli.plate[0][0], 6.164496e9, 1e-9);
+    agrees!("Continuum: density on a card; N-mm", "1800 kg/m³", "t/mm³", mm.density.volume, 1.8e-9, 1e-12);
+    agrees!("Continuum: density on a card; kN-m", "1800 kg/m³", "t/m³", metres.density.volume, 1.8, 1e-12);
+    agrees!("Continuum: D1111 on a card; N-mm", "6.164496 MN m", "N mm", mm.moduli.plate[0][0], 6.164496e9, 1e-9);
     assert_eq!((mm.unit_of_mass.as_str(), metres.unit_of_mass.as_str()), ("t", "t"));
     assert_eq!(mm.moduli.thickness, 120.0);
-    agrees!("continuum: strength on a card; N-mm", "0.1 MPa", "MPa", mm.strength[0].b, 0.1, 1e-12);
+    agrees!("Continuum: strength on a card; N-mm", "0.1 MPa", "MPa", mm.strength[0].b, 0.1, 1e-12);
 }
 
 #[test]

@@ -58,7 +58,7 @@ fn walls_without_sides_come_to_the_continuum_as_one_over_their_courses() {
     for (wall, expected) in WITHOUT_SIDES {
         let errors = COURSES.map(|n| scale(&wall.cell(), n).expect("an error"));
         for ((n, found), expected) in COURSES.iter().zip(errors).zip(expected) {
-            let subject = format!("continuum: error of A1212 in a wall without sides; {} {n} courses", wall.name);
+            let subject = format!("Continuum: error of A1212 in a wall without sides; {} {n} courses", wall.name);
             agrees!(subject, "reference table, five digits", "", found, expected, abs: 6e-6);
         }
         let order = (errors[5] / errors[6]).log2();
@@ -78,7 +78,7 @@ fn long_planar_walls_have_the_shear_stiffness_of_walls_without_sides() {
             let found = (more - less) * courses as f64 * height / ((longer - shorter) as f64 * length) / g - 1.0;
             let expected = scale(&wall.cell(), courses).expect("an error");
             let subject =
-                format!("continuum: error of A1212 by runs of two long walls; {} {courses} courses", wall.name);
+                format!("Continuum: error of A1212 by runs of two long walls; {} {courses} courses", wall.name);
             agrees!(subject, "the same without sides", "", found, expected, abs: 1e-5);
         }
     }
@@ -116,14 +116,14 @@ fn panels_of_bricks_come_to_the_continuum() {
     for (wall, rows, continuum) in PANELS {
         let found: Vec<f64> = rows.iter().map(|(size, _)| assembled(wall, *size)).collect();
         for ((size, expected), found) in rows.iter().zip(&found) {
-            let subject = format!("continuum: stiffness of a panel; {} {size:?}", wall.name);
+            let subject = format!("Continuum: stiffness of a panel; {} {size:?}", wall.name);
             agrees!(subject, "reference table", "N/m", *found, *expected, 1e-6);
         }
         let [length, height, _] = wall.brick;
         let sides = [rows[0].0[0] as f64 * length, rows[0].0[1] as f64 * height];
         let own = membrane_stiffness(&wall.bond().moduli().membrane, sides, 32).expect("a stiffness");
         agrees!(
-            format!("continuum: finite elements of a panel; {}", wall.name),
+            format!("Continuum: finite elements of a panel; {}", wall.name),
             "reference table",
             "N/m",
             own,
@@ -144,7 +144,7 @@ fn planar_walls_have_the_stiffness_of_their_assembly() {
     for (wall, rows, continuum) in PANELS {
         let found: Vec<f64> = rows[..3].iter().map(|(size, _)| run(wall, *size)).collect();
         for ((size, expected), found) in rows.iter().zip(&found) {
-            let subject = format!("continuum: stiffness of a planar wall without inertia; {} {size:?}", wall.name);
+            let subject = format!("Continuum: stiffness of a planar wall without inertia; {} {size:?}", wall.name);
             agrees!(subject, "reference table", "N/m", *found, *expected, 1e-6);
         }
         let errors: Vec<f64> = found.iter().map(|k| 1.0 - k / continuum).collect();

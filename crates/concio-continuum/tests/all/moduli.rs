@@ -34,7 +34,7 @@ fn running_bonds_have_the_moduli_of_the_table() {
     for (wall, expected) in TABLE {
         for ((name, found), expected) in NAMES.iter().zip(values(&wall.bond().moduli())).zip(expected) {
             let unit = if name.starts_with('D') { "N m" } else { "N/m" };
-            agrees!(format!("continuum: {name}; {}", wall.name), "reference table", unit, found, expected, 1e-6);
+            agrees!(format!("Continuum: {name}; {}", wall.name), "reference table", unit, found, expected, 1e-6);
         }
         let m = wall.bond().moduli();
         assert_eq!((m.membrane[0][1], m.plate[0][1]), (0.0, 0.0));
@@ -51,7 +51,7 @@ fn engineering_constants_are_those_of_the_table() {
     ] {
         let c = wall.bond().moduli().constants().expect("constants");
         for (name, found, expected) in [("E1", c.e1, e1), ("E2", c.e2, e2), ("G12", c.g12, g12)] {
-            agrees!(format!("continuum: {name}; {}", wall.name), "reference table", "Pa", found, expected, 3e-6);
+            agrees!(format!("Continuum: {name}; {}", wall.name), "reference table", "Pa", found, expected, 3e-6);
         }
         assert_eq!(c.nu12, 0.0, "{}", wall.name);
     }
@@ -94,7 +94,7 @@ fn off(m: &Moduli, n: &Moduli) -> f64 {
 fn the_cell_of_one_brick_has_the_closed_forms() {
     for wall in [&S1, &S2, &S3, &S1M] {
         let off = off(&Moduli::of_cell(&wall.cell()).expect("moduli"), &wall.bond().moduli());
-        let subject = format!("continuum: cell of one brick; {}", wall.name);
+        let subject = format!("Continuum: cell of one brick; {}", wall.name);
         agrees!(subject, "(H1) to (H4), largest difference over the largest modulus", "", off, 0.0, abs: 1e-9);
     }
 }
@@ -115,7 +115,7 @@ fn assembly(wall: &Reference) -> Cell {
 fn an_assembly_of_bricks_has_the_closed_forms() {
     for wall in [&S1, &S2, &S3, &S1M] {
         let off = off(&Moduli::of_cell(&assembly(wall)).expect("moduli"), &wall.bond().moduli());
-        let subject = format!("continuum: 4 × 4 bricks that repeat; {}", wall.name);
+        let subject = format!("Continuum: 4 × 4 bricks that repeat; {}", wall.name);
         agrees!(subject, "(H1) to (H4), largest difference over the largest modulus", "", off, 0.0, abs: 1e-9);
     }
 }
@@ -136,7 +136,7 @@ fn a_stack_bond_has_its_own_forms() {
         ("q t", m.polar[1][1], t * q),
     ];
     for (name, found, expected) in expected {
-        agrees!(format!("continuum: stack bond; {name}"), "closed form", "N/m", found, expected, 1e-9);
+        agrees!(format!("Continuum: stack bond; {name}"), "closed form", "N/m", found, expected, 1e-9);
     }
 }
 
@@ -171,7 +171,7 @@ fn other_overlaps_lean_to_one_side() {
         let expected = by_hand(wall, 0.25);
         for i in 0..3 {
             for j in 0..3 {
-                let subject = format!("continuum: overlap of a quarter; {} A {i}{j}", wall.name);
+                let subject = format!("Continuum: overlap of a quarter; {} A {i}{j}", wall.name);
                 let within = 1e-9 * expected[0][0];
                 agrees!(subject, "energy of the lattice by hand", "N/m", m.membrane[i][j], expected[i][j], abs: within);
             }
@@ -231,7 +231,7 @@ fn a_cell_taken_twice_is_the_same() {
     let doubled = [lists.clone(), lists].concat();
     let cell = Cell::of_courses(&courses(&doubled), 0.0, &S1.laying()).expect("a cell");
     let off = off(&Moduli::of_cell(&cell).expect("moduli"), &Moduli::of_cell(&once).expect("moduli"));
-    agrees!("continuum: a cell of eight bricks, taken four times", "taken once, largest difference over the largest modulus", "", off, 0.0, abs: 1e-9);
+    agrees!("Continuum: a cell of eight bricks, taken four times", "taken once, largest difference over the largest modulus", "", off, 0.0, abs: 1e-9);
 }
 
 /// Twice the energy per area of a wave of rotations e^(i k·x) of bricks whose centres are held: what the mean rotation of two
@@ -261,15 +261,15 @@ fn couple_stiffness_is_the_energy_of_relative_rotation() {
         for (name, direction, closed, found) in
             [("C1", [1.0, 0.0], couple.c1, by_cell.c1), ("C2", [0.0, 1.0], couple.c2, by_cell.c2)]
         {
-            let subject = format!("continuum: couple stiffness {name}; {}", wall.name);
+            let subject = format!("Continuum: couple stiffness {name}; {}", wall.name);
             agrees!(subject, "energy of relative rotation, summed over the joints", "N", found, closed, 1e-12);
             let small = 1e-3 / cell.area.sqrt();
             let [mean, difference] = wave(&cell, direction.map(|d| d * small)).map(|e| e / (small * small));
-            let subject = format!("continuum: {name} of a long wave, differences alone; {}", wall.name);
+            let subject = format!("Continuum: {name} of a long wave, differences alone; {}", wall.name);
             agrees!(subject, "closed form", "N", difference, closed, 1e-5);
             // The whole wave has less: of the same order, and larger, is what the mean of neighbours falls short of.
             let still = wave(&cell, [0.0; 2])[0];
-            let subject = format!("continuum: rotation of all bricks; {name} {}", wall.name);
+            let subject = format!("Continuum: rotation of all bricks; {name} {}", wall.name);
             agrees!(subject, "(p + q) t of (H2)", "N/m", still, m.polar[0][0] + m.polar[1][1], 1e-12);
             let short = mean - still / (small * small);
             assert!(short < 0.0 && short.abs() > closed, "{}: {name}: {short} beside {closed}", wall.name);
@@ -284,7 +284,7 @@ fn bricks_that_deform_add_their_flexibility() {
     let c = m.constants().expect("constants");
     let soft = m.in_series(c.e2, 0.0).expect("a series").constants().expect("constants");
     agrees!(
-        "continuum: bricks in series with joints; E2 of bricks as stiff as the wall",
+        "Continuum: bricks in series with joints; E2 of bricks as stiff as the wall",
         "half",
         "Pa",
         soft.e2,

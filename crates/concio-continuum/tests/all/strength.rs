@@ -33,11 +33,11 @@ fn strengths_are_those_of_the_table() {
     for (name, ((bond, cell), law), from, direction, expected) in cases {
         assert!(holds(bond, *law, *law));
         let by_planes = cut(&planes(bond, *law), from, direction);
-        agrees!(format!("continuum: strength; {name}"), "reference table", "Pa", by_planes, expected, 2e-6);
+        agrees!(format!("Continuum: strength; {name}"), "reference table", "Pa", by_planes, expected, 2e-6);
         let domain = Domain::new(cell, Some(*law), Some(*law));
         let reach = domain.reach(from, direction).expect("a solution").expect("an end");
         agrees!(
-            format!("continuum: strength by the program; {name}"),
+            format!("Continuum: strength by the program; {name}"),
             "reference table",
             "Pa",
             reach.multiplier,
@@ -82,7 +82,7 @@ fn planes_are_what_linear_programs_find() {
         }
     }
     assert!(ends > 700, "{ends} of 1050 have an end");
-    agrees!("continuum: strength in 1,050 directions, seven bonds", "(H5) to (H7) against linear programs, largest relative difference", "", worst, 0.0, abs: 1e-6);
+    agrees!("Continuum: strength in 1,050 directions, seven bonds", "(H5) to (H7) against linear programs, largest relative difference", "", worst, 0.0, abs: 1e-6);
 }
 
 fn has(found: &[Plane], plane: &Plane, unit: f64) -> bool {
@@ -126,10 +126,10 @@ fn tension_and_pressure_are_cut() {
     let law = Strength { cohesion: 0.2e6, friction: 0.6, tension: 0.05e6, compression: 3e6 };
     let domain = Domain::new(&cell, Some(law), Some(law));
     let reach = |from, direction| domain.reach(from, direction).expect("a solution").expect("an end").multiplier;
-    agrees!("continuum: tension across the beds", "f_t", "Pa", reach([0.0; 3], [0.0, 1.0, 0.0]), 0.05e6, 1e-6);
-    agrees!("continuum: pressure across the beds", "f_c", "Pa", reach([0.0; 3], [0.0, -1.0, 0.0]), 3e6, 1e-6);
+    agrees!("Continuum: tension across the beds", "f_t", "Pa", reach([0.0; 3], [0.0, 1.0, 0.0]), 0.05e6, 1e-6);
+    agrees!("Continuum: pressure across the beds", "f_c", "Pa", reach([0.0; 3], [0.0, -1.0, 0.0]), 3e6, 1e-6);
     let shear = reach([-0.2e6, -0.5e6, 0.0], [0.0, 0.0, 1.0]);
-    agrees!("continuum: shear of pressed beds", "c + μ p", "Pa", shear, 0.5e6, 1e-6);
+    agrees!("Continuum: shear of pressed beds", "c + μ p", "Pa", shear, 0.5e6, 1e-6);
 }
 
 /// Horizontal tension under pressure alone, head joints open: σ11 = μ p b/(2a), what interlocking gives.
@@ -139,7 +139,7 @@ fn interlocking_bears_tension() {
     let domain = Domain::new(&cell, Some(Strength::dry(0.65)), None);
     let reach = domain.reach([0.0, -0.1e6, 0.0], [1.0, 0.0, 0.0]).expect("a solution").expect("an end");
     agrees!(
-        "continuum: tension that interlocking bears, head joints open",
+        "Continuum: tension that interlocking bears, head joints open",
         "μ p b/(2a)",
         "Pa",
         reach.multiplier,
@@ -168,7 +168,7 @@ fn what_lies_outside_is_said() {
 fn dry_walls_bend_about_an_edge() {
     let (bond, _) = bond(0.26, 0.065);
     let bending = dry_bending(&bond, 0.6, 10e3);
-    agrees!("continuum: dry wall that bends about a bed", "n t/2", "N", bending.m22, 500.0, 1e-12);
+    agrees!("Continuum: dry wall that bends about a bed", "n t/2", "N", bending.m22, 500.0, 1e-12);
     // c = 130, t = 100 mm: r̄ between the shorter half side over 2 and half of the diagonal.
     assert!(bending.m11 > 0.6 * 10e3 * 2.0 * 0.04 && bending.m11 < 0.6 * 10e3 * 2.0 * 0.05, "{bending:?}");
 }

@@ -42,7 +42,7 @@ fn a_wall_file_gives_the_moduli_of_the_table() {
         let texture = wall(model, RUNNING, joint).expect("a texture");
         let found = moduli(&texture, false);
         for i in 0..3 {
-            let subject = format!("continuum: A{0}{0} of a wall file; {name}", i + 1);
+            let subject = format!("Continuum: A{0}{0} of a wall file; {name}", i + 1);
             agrees!(
                 subject,
                 "reference table S1m by (H1), (H2)",
@@ -71,7 +71,7 @@ fn listed_courses_are_a_cell() {
     let expected = S1M.bond().moduli();
     let found = moduli(&texture, true);
     for i in 0..3 {
-        let subject = format!("continuum: A{0}{0} of listed courses that repeat", i + 1);
+        let subject = format!("Continuum: A{0}{0} of listed courses that repeat", i + 1);
         agrees!(subject, "(H1), (H2)", "N/m", found.membrane[i][i], expected.membrane[i][i], 1e-9);
     }
     assert!(matches!(texture.pattern(0, false).expect("a pattern"), Pattern::Irregular(_)));

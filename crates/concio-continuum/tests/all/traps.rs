@@ -11,7 +11,7 @@ fn plates_are_stiffer_than_their_membrane_says() {
     let share = |m: &Moduli, i: usize| m.plate[i][i] / (m.thickness.powi(2) / 12.0 * m.membrane[i][i]);
     let (s1, s3) = (S1.bond().moduli(), S3.bond().moduli());
     agrees!(
-        "continuum: D1111 over t²/12 A1111; S1",
+        "Continuum: D1111 over t²/12 A1111; S1",
         "6.164496/4.582656 of the reference table",
         "",
         share(&s1, 0),
@@ -19,7 +19,7 @@ fn plates_are_stiffer_than_their_membrane_says() {
         1e-6
     );
     agrees!(
-        "continuum: D1111 over t²/12 A1111; S3",
+        "Continuum: D1111 over t²/12 A1111; S3",
         "2.929680/1.347840 of the reference table",
         "",
         share(&s3, 0),
@@ -35,7 +35,7 @@ fn plates_are_stiffer_than_their_membrane_says() {
     let soft = |k: Stiffness| Stiffness { transverse: 1e-6 * k.transverse, ..k };
     let flat = RunningBond { bed: soft(S1.bed), head: soft(S1.head), ..S1.bond() }.moduli();
     agrees!(
-        "continuum: 4 D1212 without k_s",
+        "Continuum: 4 D1212 without k_s",
         "t³/12 (p + q)",
         "N m",
         4.0 * flat.plate[2][2],
@@ -90,7 +90,7 @@ fn the_shear_model_has_another_shear_stiffness() {
     // Bricks that only slide: bed springs alone work in shear, all in series upwards.
     let bed = S1.bed.tangential;
     let by_hand = S1.brick[2] * bed * S1.brick[1];
-    agrees!("continuum: shear stiffness of the shear model", "k_t a t", "N/m", m.polar[0][0], by_hand, 1e-12);
+    agrees!("Continuum: shear stiffness of the shear model", "k_t a t", "N/m", m.polar[0][0], by_hand, 1e-12);
     assert!(m.polar[0][0] > m.membrane[2][2]);
 }
 
@@ -103,7 +103,7 @@ fn bricks_turn_under_shear() {
     // The cell finds the rotation by itself.
     let free = Moduli::of_cell(&Cell::shifted(0.26, 0.065, 0.5, &S1.laying()).expect("a cell")).expect("moduli");
     agrees!(
-        "continuum: shear of bricks that turn",
+        "Continuum: shear of bricks that turn",
         "t p q/(p + q)",
         "N/m",
         free.membrane[2][2],

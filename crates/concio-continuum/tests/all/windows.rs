@@ -27,7 +27,7 @@ fn a_window_of_running_bond_has_its_moduli() {
         let found = window(&texture.wall, &texture.joints, &texture.stiffness, w).expect("moduli");
         assert!(found.skew < 0.01, "{found:?}");
         for (i, name) in ["A1111", "A2222", "A1212"].iter().enumerate() {
-            let subject = format!("continuum: window of running bond; {name}, window {k}");
+            let subject = format!("Continuum: window of running bond; {name}, window {k}");
             agrees!(subject, "(H1), (H2)", "N/m", found.membrane[i][i], expected[i][i], 0.02);
         }
     }
