@@ -160,6 +160,8 @@ impl Model {
         warnings.extend(crushed.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
         let wide = wide_joint(case, &wall, &joints, &laws);
         warnings.extend(wide.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
+        let slides = kept_by_sliding(&wall, &joints, &laws).filter(|_| turns);
+        warnings.extend(slides.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
         let detached = planar::detached(case, &wall).into_iter();
         warnings.extend(detached.map(|text| Warning::new(WarningKind::DetachedTie, text)));
         let system = match turns {
@@ -304,6 +306,33 @@ fn wide_joint(case: &Case, wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> 
         graph::name(wall, joint),
         Length::from_si(*from),
         Length::from_si(*mortar),
+    ))
+}
+
+/// Says of blocks on one whole joint that no impact leaves them as little of their turn as `rocking_restitution` says: from
+/// (1 − η)/(1 + η) = μ_s B/H on, B × H the block, friction does not hold the foot that the turn ends about, which slides instead.
+fn kept_by_sliding(wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Option<String> {
+    let keeps = |e: usize| {
+        let (joint, law) = (&joints[e], &laws[e]);
+        let above = match (joint.kind, joint.b) {
+            (JointKind::Bed, End::Block(b)) => b,
+            (JointKind::Base, _) => joint.a,
+            _ => return None,
+        };
+        let [width, height] = [wall.blocks[above].x, wall.blocks[above].y].map(|[from, to]| to - from);
+        let given = law.spring.rocking_restitution.filter(|_| joint.overlap > (1.0 - 1e-6) * width)?;
+        let grip = law.rubs().map_or(0.0, |friction| friction.static_) * width / height;
+        let least = ((1.0 - grip) / (1.0 + grip)).max(0.0);
+        (least > given + 1e-9).then_some((least, given, joint))
+    };
+    let all: Vec<(f64, f64, &Joint)> = (0..joints.len()).filter_map(keeps).collect();
+    let (least, given, joint) = all.iter().max_by(|a, b| (a.0 - a.1).total_cmp(&(b.0 - b.1)))?;
+    let others = if all.len() > 1 { format!(", and {} more are like it", all.len() - 1) } else { String::new() };
+    Some(format!(
+        "the block on joint {} keeps more of its turn than rocking_restitution = {given}: its foot slides where it keeps less than {} \
+         ((1 - μ_s B/H) / (1 + μ_s B/H)){others}; look at friction.static",
+        graph::name(wall, joint),
+        plausible::rounded(*least, 3),
     ))
 }
 

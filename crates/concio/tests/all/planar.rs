@@ -834,6 +834,30 @@ duration = "0.1 s"
     assert!(error.contains("joint.change[0].spring.rocking_restitution") && error.contains("rigid"), "{error}");
 }
 
+/// A stone of 0.5 m × 2 m whose foot slides keeps (1 − μ B/H)/(1 + μ B/H) of its turn at least: 0.702 with μ = 0.7, 0.538 with 1.2.
+#[test]
+fn a_foot_that_slides_is_told() {
+    for (given, friction, least) in
+        [(0.8, 0.7, None), (0.6, 0.7, Some("0.702")), (0.6, 1.2, None), (0.0, 1.2, Some("0.538"))]
+    {
+        let stone = block(&format!(
+            r#"
+[joint]
+bed = {{ law = "rigid", rocking_restitution = {given} }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = {friction}, dynamic = {friction} }}
+[motion]
+duration = "0.1 s"
+"#
+        ));
+        let file = from_str(&stone, Syntax::Toml, None).expect("a wall file");
+        let warnings = prepare_case(file.case, Path::new(".")).expect("a wall").model.warnings.clone();
+        let told = warnings.iter().find(|warning| warning.contains("rocking_restitution ="));
+        assert_eq!(told.is_some(), least.is_some(), "{warnings:?}");
+        assert!(least.is_none_or(|least| told.is_some_and(|told| told.contains(least))), "{told:?}");
+    }
+}
+
 /// A wall stands under its weight before it moves, however short its steps are.
 #[test]
 fn a_wall_has_settled_when_it_begins() {
