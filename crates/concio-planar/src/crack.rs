@@ -26,7 +26,7 @@
 //!
 //! (P11)  σ = e^−ξ min(f_t, c k_n w/(k_t q)),   q = s + a w,   ξ = (q − q_0)/δ_t + ⟨w − w_1⟩/δ_n,   k_t q_0 = c,   k_n w_1 = e^−ξ f_t
 //!
-//! and opened to w, then slid by s,
+//! as long as f_t is not the smaller one, and opened to w, then slid by s,
 //!
 //! (P12)  τ = e^−ξ min(c s/q, f_t k_t s/(k_n w)),   q = s + min(1, f_t k_t q/(c k_n w)) a w,   ξ = (w − w_0)/δ_n + s/δ_t,   k_n w_0 = f_t
 //!
