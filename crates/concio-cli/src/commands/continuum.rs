@@ -250,12 +250,17 @@ fn strength(f: &Found, rows: &mut Vec<(&'static str, String)>) {
         format!("σ11 up to {}, |σ12| up to {}; by {by}", of(s.tension), of(s.shear))
     };
     let plane = |p: &Plane| {
-        let term = |k: usize, name: &str| {
-            let a = p.a[k];
-            (a.abs() > 5e-7).then(|| format!("{} {name}", fixed(a, 4)))
-        };
-        let sum: Vec<String> = [(0, "σ11"), (1, "σ22"), (2, "σ12")].iter().filter_map(|(k, n)| term(*k, n)).collect();
-        format!("{} ≤ {}", sum.join(" + "), si(if p.b.abs() < 1.0 { 0.0 } else { p.b }, "Pa"))
+        let mut sum = String::new();
+        for (a, name) in p.a.iter().zip(["σ11", "σ22", "σ12"]).filter(|(a, _)| a.abs() > 5e-7) {
+            let sign = match (sum.is_empty(), *a < 0.0) {
+                (true, false) => "",
+                (true, true) => "−",
+                (false, false) => " + ",
+                (false, true) => " − ",
+            };
+            sum += &format!("{sign}{} {name}", fixed(a.abs(), 4));
+        }
+        format!("{sum} ≤ {}", si(if p.b.abs() < 1.0 { 0.0 } else { p.b }, "Pa"))
     };
     for (name, found) in [("strength, bonded", &f.bonded), ("strength, dry", &f.dry)] {
         let Some(found) = found else { continue };
