@@ -65,12 +65,11 @@ impl Texture {
         let beam = case.load.beam != concio::case::Beam::Free;
         let joints = graph::joints(&wall, beam);
         let laws = assign::resolve(case, &wall, &joints)?;
-        let stiffness = joints.iter().zip(&laws).map(|(joint, law)| {
-            if joint.kind.is_upright() && heads == Heads::Open {
-                Ok(Stiffness::open())
-            } else {
-                elastic(case, &wall, joint, law)
-            }
+        let stiffness = joints.iter().zip(&laws).map(|(joint, law)| match joint.kind {
+            _ if joint.kind.is_upright() && heads == Heads::Open => Ok(Stiffness::open()),
+            JointKind::Bed | JointKind::Head => elastic(case, &wall, joint, law),
+            // They are no part of the continuum, whatever they are.
+            _ => Ok(elastic(case, &wall, joint, law).unwrap_or_default()),
         });
         let stiffness = stiffness.collect::<Result<_>>()?;
         Ok(Texture { wall, joints, stiffness, laws, case: case.clone() })

@@ -19,6 +19,8 @@ use crate::format::{fixed, line, pairs, percent, si, significant};
 
 /// Numbers of courses of the figure.
 const COURSES: [usize; 8] = [1, 2, 4, 8, 16, 32, 64, 128];
+/// Height of its plot [pt].
+const HEIGHT: f64 = 150.0;
 
 /// Finds the continuum of the panels of a wall.
 pub fn continuum(args: &Continuum) -> Result<(), Failure> {
@@ -250,12 +252,17 @@ fn strength(f: &Found, rows: &mut Vec<(&'static str, String)>) {
         format!("σ11 up to {}, |σ12| up to {}; by {by}", of(s.tension), of(s.shear))
     };
     let plane = |p: &Plane| {
-        let term = |k: usize, name: &str| {
-            let a = p.a[k];
-            (a.abs() > 5e-7).then(|| format!("{} {name}", fixed(a, 4)))
-        };
-        let sum: Vec<String> = [(0, "σ11"), (1, "σ22"), (2, "σ12")].iter().filter_map(|(k, n)| term(*k, n)).collect();
-        format!("{} ≤ {}", sum.join(" + "), si(if p.b.abs() < 1.0 { 0.0 } else { p.b }, "Pa"))
+        let mut sum = String::new();
+        for (a, name) in p.a.iter().zip(["σ11", "σ22", "σ12"]).filter(|(a, _)| a.abs() > 5e-7) {
+            let sign = match (sum.is_empty(), *a < 0.0) {
+                (true, false) => "",
+                (true, true) => "−",
+                (false, false) => " + ",
+                (false, true) => " − ",
+            };
+            sum += &format!("{sign}{} {name}", fixed(a.abs(), 4));
+        }
+        format!("{sum} ≤ {}", si(if p.b.abs() < 1.0 { 0.0 } else { p.b }, "Pa"))
     };
     for (name, found) in [("strength, bonded", &f.bonded), ("strength, dry", &f.dry)] {
         let Some(found) = found else { continue };
@@ -309,13 +316,22 @@ fn figure(file: &CaseFile, chosen: &[usize], options: Options, args: &Continuum,
     };
     let curve = scale_curve(&file.case, *panel, options, &COURSES).map_err(|e| failure(e, file, &args.file))?;
     let heading = "error of the continuum";
-    let axis = |quantity: &str| Axis { quantity: quantity.into(), unit: "1", range: None, logarithmic: true };
     let line = |points: &[(usize, f64)], style: usize| {
         let (x, y): (Vec<f64>, Vec<f64>) = points.iter().map(|(n, e)| (*n as f64, *e)).unzip();
         Line { x: x.into(), y: y.into(), style }
     };
-    let first = curve.without_sides.first().map_or(1.0, |p| p.1 * p.0 as f64);
-    let slope: Vec<(usize, f64)> = COURSES.iter().map(|n| (*n, first / *n as f64)).collect();
+    // Through the last point, so that curves of order 1 come to it.
+    let last = curve.without_sides.last().map_or(1.0, |p| p.1 * p.0 as f64);
+    let slope: Vec<(usize, f64)> = COURSES.iter().map(|n| (*n, last / *n as f64)).collect();
+    let all = || curve.without_sides.iter().chain(&curve.panel).chain(&slope).map(|p| p.1);
+    let decade = |value: f64, up: f64| 10f64.powf((value.log10() + up).floor());
+    let ends = [decade(all().fold(f64::INFINITY, f64::min), 0.0), decade(all().fold(0.0, f64::max), 1.0)];
+    let axis = |quantity: &str, range: [f64; 2]| Axis {
+        quantity: quantity.into(),
+        unit: "",
+        range: Some(range),
+        logarithmic: true,
+    };
     let sheet = Sheet {
         title: format!(
             "Error of the continuum over the number of courses, panel {}",
@@ -324,8 +340,8 @@ fn figure(file: &CaseFile, chosen: &[usize], options: Options, args: &Continuum,
         legend: vec!["wall without sides".into(), "panel as wide as high".into(), "order 1".into()],
         panels: vec![Panel {
             heading: heading.into(),
-            x: axis("courses"),
-            y: axis("relative error"),
+            x: axis("courses", [COURSES[0] as f64, COURSES[COURSES.len() - 1] as f64]),
+            y: axis("relative error", ends),
             lines: vec![line(&curve.without_sides, 0), line(&curve.panel, 1), line(&slope, 2)],
             rising: true,
             bare: false,
@@ -333,7 +349,7 @@ fn figure(file: &CaseFile, chosen: &[usize], options: Options, args: &Continuum,
         }],
         columns: 1,
         width: SINGLE * POINTS,
-        height: None,
+        height: Some(HEIGHT),
     };
     files::write(out, &draw(&sheet).outlined().map_err(|e| Failure::Other(e, None))?)
 }

@@ -100,6 +100,14 @@ fn walls_without_moduli_are_refused_with_their_key() {
     assert!(matches!(running.pattern(0, true), Ok(Pattern::Running(..))));
 }
 
+/// What a wall stands on is no part of its continuum.
+#[test]
+fn supports_may_be_rigid() {
+    let joint = format!("{ELASTIC}\nbase = {{ law = \"rigid\" }}");
+    let texture = wall("planar", RUNNING, &joint).expect("a texture");
+    assert_eq!(moduli(&texture, false), S1M.bond().moduli());
+}
+
 #[test]
 fn joints_that_differ_make_a_wall_irregular() {
     let changed = format!(
