@@ -1,7 +1,7 @@
 //! Every mechanism that a wall can have, at every hinge level, with its least multiplier, pushover and checks.
 
 use crate::body::{Body, Shares, Weight};
-use crate::checks::{Asked, Checks, Place};
+use crate::checks::{Asked, Checks, LOWEST_KNOWLEDGE, Place};
 use crate::corner::Corner;
 use crate::facade::{Floor, Masonry};
 use crate::flap::Flap;
@@ -80,6 +80,11 @@ impl Kind {
         }
     }
 
+    /// Whether crushing sets its hinge back (OP2); the hinges of the others lie on the face.
+    pub fn is_set_back(self) -> bool {
+        matches!(self, Kind::Overturning | Kind::WithSideWalls | Kind::Leaf)
+    }
+
     /// The number of its equation.
     pub fn equation(self) -> &'static str {
         match self {
@@ -144,6 +149,8 @@ pub struct Found {
     pub level: f64,
     /// Checks.
     pub checks: Checks,
+    /// FC that its capacity is divided by: that of LC1 where crushing is left out of it.
+    pub confidence: f64,
     /// Whether it counts; a mechanism that the wall cannot have as it is stands for comparison.
     pub counts: bool,
     /// R that the top of a vertical arch needs, and what is known to bear it [N].
@@ -226,7 +233,7 @@ struct Making<'w> {
 
 impl Making<'_> {
     /// Checks of a mechanism whose hinge or supports lie at a level.
-    fn checks(&self, pushover: &Pushover, level: f64, seat: Option<f64>) -> Checks {
+    fn checks(&self, kind: Kind, pushover: &Pushover, level: f64, seat: Option<f64>) -> Checks {
         let wall = self.wall;
         let near = |(z, _): &&(f64, crate::checks::Spectrum)| (z - level).abs() <= NEAR;
         let floor =
@@ -236,8 +243,14 @@ impl Making<'_> {
         } else {
             Place::Aloft { level, building: wall.building.clone(), floor: floor.map(|(_, s)| s.clone()) }
         };
-        let (hazard, confidence, behaviour) = (wall.hazard.clone(), wall.confidence, wall.behaviour);
+        let (hazard, confidence, behaviour) = (wall.hazard.clone(), self.confidence(kind), wall.behaviour);
         Checks::of(pushover, &Asked { hazard, place, confidence, behaviour, seat, first_period: 0.0 })
+    }
+
+    /// FC: the file's where hinges are set back by crushing, else that of LC1.
+    fn confidence(&self, kind: Kind) -> f64 {
+        let wall = self.wall;
+        if kind.is_set_back() && !wall.crushing.is_left_out() { wall.confidence } else { LOWEST_KNOWLEDGE }
     }
 
     /// d [m] at which the first beam loses its seat, of a body that turns about a level.
@@ -256,7 +269,7 @@ impl Making<'_> {
         let shares = body.shares();
         let pushover = Pushover::of(Kinematics::Body(body, control));
         let seat = if rest.seats { self.seat(&pushover, hinge) } else { None };
-        let checks = self.checks(&pushover, rest.level.unwrap_or(hinge), seat);
+        let checks = self.checks(kind, &pushover, rest.level.unwrap_or(hinge), seat);
         let Rest { slopes, setback, counts, shape, mut notes, level, .. } = rest;
         if pushover.multiplier <= 0.0 {
             notes.push("α0 is not above 0: the mechanism moves without an earthquake".into());
@@ -271,6 +284,7 @@ impl Making<'_> {
             shares: Some(shares),
             level,
             checks,
+            confidence: self.confidence(kind),
             counts,
             reaction: None,
             shape,
@@ -472,7 +486,7 @@ impl Making<'_> {
         }
         let pushover = Pushover::of(Kinematics::VerticalArch(arch));
         let level = 0.5 * (low + high);
-        let checks = self.checks(&pushover, level, None);
+        let checks = self.checks(Kind::VerticalArch, &pushover, level, None);
         survey.found.push(Found {
             kind: Kind::VerticalArch,
             hinge,
@@ -482,6 +496,7 @@ impl Making<'_> {
             shares: None,
             level,
             checks,
+            confidence: LOWEST_KNOWLEDGE,
             counts: true,
             reaction: Some([Some(needed), borne]),
             shape: Shape::Storey { levels },
@@ -508,7 +523,7 @@ impl Making<'_> {
         };
         let pushover = Pushover::of(Kinematics::HorizontalArch(arch));
         let level = 0.5 * (from + wall.top);
-        let checks = self.checks(&pushover, level, None);
+        let checks = self.checks(Kind::HorizontalArch, &pushover, level, None);
         let left = wall.extent[0] + 0.5 * (wall.length() - span);
         let notes = vec![
             "weight taken as uniform along the strip; floors on it press its bed and push nothing".into(),
@@ -523,6 +538,7 @@ impl Making<'_> {
             shares: None,
             level,
             checks,
+            confidence: LOWEST_KNOWLEDGE,
             counts: true,
             reaction: None,
             shape: Shape::Strip { levels: [from, wall.top], at: [left, left + 0.5 * span, left + span] },

@@ -521,6 +521,10 @@ fn crushing(given: &OutOfPlane, assumed: &mut Assumptions) -> Crushing {
         );
         return Crushing::Rigid;
     };
+    assumed.add(
+        "out_of_plane.strength",
+        "it sets back the hinges of overturning alone: those of arches, corners, flaps and gables lie on the face, and their FC is that of LC1",
+    );
     match given.pressure {
         out_of_plane::PressureBlock::Rectangular => Crushing::Rectangular(strength.si()),
         out_of_plane::PressureBlock::Triangular => Crushing::Triangular(strength.si()),

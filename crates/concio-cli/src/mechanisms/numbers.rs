@@ -47,7 +47,7 @@ fn lines(wall: &Wall, found: &Found) -> Vec<Line> {
         "the bed joint of this mechanism; the least over all counts",
         "Circolare, C8.7.1.2.1.1",
     );
-    if wall.crushing != Crushing::Rigid && matches!(found.kind, Kind::Overturning | Kind::WithSideWalls | Kind::Leaf) {
+    if wall.crushing != Crushing::Rigid && found.kind.is_set_back() {
         let formula = match wall.crushing {
             Crushing::Triangular(_) => "a = 2N/(3 f_h L)",
             _ => "a = N/(2 f_h L)",
@@ -59,7 +59,11 @@ fn lines(wall: &Wall, found: &Found) -> Vec<Line> {
             Kind::Flap | Kind::GableFlaps => "tan ϑ of the hinge".into(),
             _ => format!("tan β of crack {}", i + 1),
         };
-        add(&name, with(*slope, ""), "the slope that makes α0 least, within the texture's own l/h_b", DERIVED);
+        let formula = match found.kind {
+            Kind::Flap | Kind::GableFlaps => "the slope that makes α0 least, no steeper than the texture's own l/h_b",
+            _ => "the slope that makes α0 least, up to the texture's own l/h_b or the first opening",
+        };
+        add(&name, with(*slope, ""), formula, DERIVED);
     }
     if let Kinematics::Body(body, _) = &pushover.kinematics {
         let sum = |of: &dyn Fn(&concio_mechanisms::body::Weight) -> f64| body.weights.iter().map(of).sum::<f64>();
@@ -110,7 +114,7 @@ fn lines(wall: &Wall, found: &Found) -> Vec<Line> {
     add("e*", with(pushover.participation, ""), "e* = [Σ(P+Q)δ]²/(Σ(P+Q) Σ(P+Q)δ²)", "Circolare, (C8.7.1.5)");
     add(
         "FC",
-        with(wall.confidence, ""),
+        with(found.confidence, ""),
         "confidence factor; that of LC1 where crushing is left out",
         "Circolare, C8.7.1.2.1.4",
     );
