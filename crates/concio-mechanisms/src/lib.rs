@@ -29,7 +29,5 @@ pub mod survey;
 pub mod vertical_arch;
 pub mod wall;
 
-pub(crate) use minimum::least;
-
 /// Acceleration of gravity [m/s²].
 pub use concio::G;

@@ -625,11 +625,11 @@ impl Making<'_> {
                         let value = if body.weights[0].carried > 0.0 { body.multiplier() } else { f64::INFINITY };
                         (value, flap, body)
                     };
-                    free = free.min(at(crate::least(ANGLES, 0.02 * flattest, flattest, |s| at(s).0)).0);
+                    free = free.min(at(crate::minimum::least(ANGLES, 0.02 * flattest, flattest, |s| at(s).0)).0);
                     if flattest < steepest {
                         continue;
                     }
-                    let found = at(crate::least(ANGLES, steepest, flattest, |s| at(s).0));
+                    let found = at(crate::minimum::least(ANGLES, steepest, flattest, |s| at(s).0));
                     if best.as_ref().is_none_or(|b| found.0 < b.0) && found.0.is_finite() {
                         best = Some(found);
                     }
