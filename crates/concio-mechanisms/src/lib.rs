@@ -26,6 +26,7 @@ pub mod rocking;
 pub mod setback;
 pub mod side_wall;
 pub mod survey;
+pub mod time_history;
 pub mod vertical_arch;
 pub mod wall;
 

@@ -49,7 +49,7 @@ pub struct Overturning {
 /// Rounds of slopes and setback; both settle in a few.
 const ROUNDS: usize = 60;
 /// Loads this far below a hinge still stand on it: rounding of levels [m].
-const LEVEL: f64 = 1e-9;
+pub(crate) const LEVEL: f64 = 1e-9;
 
 impl Facade<'_> {
     /// Overturning about a hinge at a level [m] below the top, with cracks of given slopes, one for each side wall.

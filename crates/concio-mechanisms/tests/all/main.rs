@@ -6,3 +6,4 @@ mod rocking;
 mod rocking_random;
 mod rocking_reference;
 mod survey;
+mod time_history;
