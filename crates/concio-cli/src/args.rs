@@ -723,7 +723,7 @@ pub struct Limit {
     /// Draw contact points in so that bed joints twist no stronger than even pressure does; λ comes out too low.
     #[arg(long, requires = "out_of_plane")]
     pub even_twist: bool,
-    /// Estimate λ without dilation for walls of more than 200 blocks too: some fifty times the work.
+    /// Estimate λ without dilation for walls of more than 100 blocks too: some fifty times the work.
     #[arg(long, requires = "out_of_plane")]
     pub without_dilation: bool,
     /// Print JSON (SI units).

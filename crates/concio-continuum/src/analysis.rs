@@ -280,7 +280,7 @@ fn cell_name(cell: &Cell) -> String {
 fn assumed(texture: &Texture, panel: usize, options: Options) -> Vec<String> {
     let mut all = vec![match options.brick {
         Some([e, nu]) => {
-            format!("bricks deform, E {:.4} GPa and nu {nu}: flexibilities added up, an estimate", 1e-9 * e)
+            format!("bricks deform, E {} GPa and nu {nu}: flexibilities added up, an estimate", rounded(1e-9 * e))
         }
         None => "bricks are rigid: nu12 = 0 follows from it".to_string(),
     }];
@@ -296,7 +296,7 @@ fn assumed(texture: &Texture, panel: usize, options: Options) -> Vec<String> {
             r if (r - HELD_LAYER).abs() < 1e-3 => ", a thin layer of mortar with nu = 0.2 that bricks hold; E/G is 2.4",
             _ => "",
         };
-        all.push(format!("k_n/k_t of bed joints is {ratio:.4}{which}"));
+        all.push(format!("k_n/k_t of bed joints is {}{which}", rounded(ratio)));
     }
     if options.heads == Heads::Open {
         all.push("head joints are open".into());
@@ -308,6 +308,11 @@ fn assumed(texture: &Texture, panel: usize, options: Options) -> Vec<String> {
         );
     }
     all
+}
+
+/// Four decimals at most.
+fn rounded(value: f64) -> f64 {
+    (1e4 * value).round() / 1e4
 }
 
 /// What strength is asked of.

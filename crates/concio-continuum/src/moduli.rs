@@ -195,7 +195,7 @@ pub(crate) fn inverse(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
             ((0..3).filter(|k| *k != i).collect(), (0..3).filter(|k| *k != j).collect());
         m[r[0]][c[0]] * m[r[1]][c[1]] - m[r[0]][c[1]] * m[r[1]][c[0]]
     };
-    let sign = |i: usize, j: usize| if (i + j) % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = |i: usize, j: usize| if (i + j).is_multiple_of(2) { 1.0 } else { -1.0 };
     let det: f64 = (0..3).map(|j| sign(0, j) * m[0][j] * minor(0, j)).sum();
     let size: f64 = (0..3).map(|i| m[i][i]).product();
     (det > 1e-12 * size && size > 0.0)

@@ -160,10 +160,13 @@ pub(crate) fn pitch_area(wall: &Wall, block: usize) -> f64 {
     }
 }
 
+/// A brick and its displacement [m].
+type Moved = (usize, [f64; 2]);
+
 /// Slopes of the linear field that comes nearest to displacements at some centres.
-fn gradient(moved: &[(usize, [f64; 2])], centres: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
+fn gradient(moved: &[Moved], centres: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
     let n = moved.len() as f64;
-    let mean = |of: &dyn Fn(&(usize, [f64; 2])) -> f64| moved.iter().map(of).sum::<f64>() / n;
+    let mean = |of: &dyn Fn(&Moved) -> f64| moved.iter().map(of).sum::<f64>() / n;
     let middle = [0, 1].map(|k| mean(&|m| centres[m.0][k]));
     let [xx, xy, yy] =
         [[0, 0], [0, 1], [1, 1]].map(|[i, j]| mean(&|m| (centres[m.0][i] - middle[i]) * (centres[m.0][j] - middle[j])));

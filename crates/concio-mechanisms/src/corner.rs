@@ -130,7 +130,8 @@ impl Corner {
         let height = self.top - hinge;
         let most = [0, 1].map(|i| self.walls[i].largest_slope(height));
         let at = |part: f64| self.with_slopes(hinge, most.map(|slope| part * slope));
-        let part = crate::least(TRIED, 0.0, 1.0, |part| if part > 0.0 { at(part).multiplier } else { f64::INFINITY });
+        let part =
+            crate::minimum::least(TRIED, 0.0, 1.0, |part| if part > 0.0 { at(part).multiplier } else { f64::INFINITY });
         at(part)
     }
 }

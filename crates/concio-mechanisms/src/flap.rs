@@ -124,7 +124,7 @@ impl Flap {
                 return (b == level).then_some([a.min(c), a.max(c)]);
             }
             let part = (level - b) / (d - b);
-            (-1e-9..=1.0 + 1e-9).contains(&part).then(|| [a + part * (c - a); 2])
+            (-1e-9..=1.0 + 1e-9).contains(&part).then_some([a + part * (c - a); 2])
         };
         (0..n).filter_map(crossing).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
     }

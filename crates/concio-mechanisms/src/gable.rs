@@ -98,8 +98,8 @@ impl Gable {
             let found = at(from, foot);
             if allowed(&found) && found.multiplier.is_finite() { found.multiplier } else { f64::INFINITY }
         };
-        let row = |foot: f64| crate::least(TRIED, 0.0, MOST, |from| value(from, foot));
-        let foot = crate::least(TRIED, 0.0, MOST, |foot| value(row(foot), foot));
+        let row = |foot: f64| crate::minimum::least(TRIED, 0.0, MOST, |from| value(from, foot));
+        let foot = crate::minimum::least(TRIED, 0.0, MOST, |foot| value(row(foot), foot));
         at(row(foot), foot)
     }
 }

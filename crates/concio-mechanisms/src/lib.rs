@@ -30,7 +30,5 @@ pub mod time_history;
 pub mod vertical_arch;
 pub mod wall;
 
-pub(crate) use minimum::least;
-
 /// Acceleration of gravity [m/s²].
 pub use concio::G;

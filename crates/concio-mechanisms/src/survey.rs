@@ -199,6 +199,9 @@ pub fn survey(wall: &Wall, overlaps: Overlaps) -> Survey {
     making.corners(&mut survey);
     making.flaps(&mut survey);
     making.gable(&mut survey);
+    // A floor that gives way may have brought a kind that it else prevents.
+    let Survey { found, without } = &mut survey;
+    without.retain(|(kind, _)| *kind == Kind::VerticalArch || !found.iter().any(|f| f.kind == *kind));
     survey
 }
 
@@ -480,9 +483,12 @@ impl Making<'_> {
                 floor.connection = if floor.level == upper.floor.level { bears } else { floor.connection };
                 floor.friction = 0.0;
             }
-            let facade = Facade { floors: &floors, ..self.facade(&[]) };
+            let sides: Vec<SideWall> = self.wall.side_walls.iter().map(|s| s.wall).collect();
+            let found = Facade { floors: &floors, ..self.facade(&sides) }.least(low);
             let notes = vec![format!("the floor at {high:.2} m gives way at {:.2} kN", 1e-3 * bears)];
-            self.turn(survey, Kind::Overturning, facade.least(low), self.wall.side_walls.is_empty(), Vec::new(), notes);
+            let kind = if sides.is_empty() { Kind::Overturning } else { Kind::WithSideWalls };
+            let wedges = self.wall.side_walls.iter().zip(&found.slopes).map(|(s, slope)| [s.at, *slope]).collect();
+            self.turn(survey, kind, found, true, wedges, notes);
         }
         let pushover = Pushover::of(Kinematics::VerticalArch(arch));
         let level = 0.5 * (low + high);
@@ -550,6 +556,8 @@ impl Making<'_> {
         let at_ends: Vec<&Side> = self.wall.side_walls.iter().filter(|s| s.corner.is_some()).collect();
         if at_ends.is_empty() {
             survey.without.push((Kind::Corner, "no bonded side wall stands at an end of the wall".into()));
+        } else if self.levels(self.held()).next().is_none() {
+            survey.without.push((Kind::Corner, "a floor holds the wall at its top, corners included".into()));
         }
         for side in at_ends {
             let Some(own) = side.corner else { continue };
@@ -625,11 +633,11 @@ impl Making<'_> {
                         let value = if body.weights[0].carried > 0.0 { body.multiplier() } else { f64::INFINITY };
                         (value, flap, body)
                     };
-                    free = free.min(at(crate::least(ANGLES, 0.02 * flattest, flattest, |s| at(s).0)).0);
+                    free = free.min(at(crate::minimum::least(ANGLES, 0.02 * flattest, flattest, |s| at(s).0)).0);
                     if flattest < steepest {
                         continue;
                     }
-                    let found = at(crate::least(ANGLES, steepest, flattest, |s| at(s).0));
+                    let found = at(crate::minimum::least(ANGLES, steepest, flattest, |s| at(s).0));
                     if best.as_ref().is_none_or(|b| found.0 < b.0) && found.0.is_finite() {
                         best = Some(found);
                     }

@@ -18,7 +18,7 @@ use crate::files;
 use crate::format::{fixed, line, pairs, percent, si, significant};
 
 /// Blocks up to which λ without dilation is estimated unasked.
-const QUICK: usize = 200;
+const QUICK: usize = 100;
 /// Twist of a bed joint over the largest velocity, per half of the joint's diagonal, from which it is told.
 const TWISTS: f64 = 1e-2;
 

@@ -73,14 +73,8 @@ pub fn draw(wall: &Wall, found: &Found) -> Drawing {
     canvas.text([ROOM[0], 9.0], letters[1], Anchor::Start, false, "#000", &title);
     let caption = bottom + 18.0;
     canvas.text([ROOM[0], caption], letters[0], Anchor::Start, false, "#000", "elevation, from outside");
-    canvas.text(
-        [face - lean * scale, caption],
-        letters[0],
-        Anchor::Start,
-        false,
-        "#000",
-        "section, outside on the left",
-    );
+    let end = [WIDTH - ROOM[0], caption];
+    canvas.text(end, letters[0], Anchor::End, false, "#000", "section, outside on the left");
     let size = [WIDTH, bottom + ROOM[2]];
     Drawing { body: canvas.into_body(), size, title, note: String::new() }
 }

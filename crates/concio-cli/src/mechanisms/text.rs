@@ -65,8 +65,8 @@ fn table(chosen: &[&Found], checked: bool) -> Vec<Vec<String>> {
         let mark = if found.counts { "" } else { " (for comparison)" };
         let slopes = match found.slopes[..] {
             [] => "–".into(),
-            [ref own @ ..] if own.iter().all(|s| *s == own[0]) => fixed(own[0], 3),
-            [ref own @ ..] => own.iter().map(|s| fixed(*s, 3)).collect::<Vec<_>>().join(" "),
+            ref own if own.iter().all(|s| *s == own[0]) => fixed(own[0], 3),
+            ref own => own.iter().map(|s| fixed(*s, 3)).collect::<Vec<_>>().join(" "),
         };
         let mut line = vec![
             format!("{} ({}){mark}", found.kind.what(), found.kind.equation()),

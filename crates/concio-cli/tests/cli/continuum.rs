@@ -67,10 +67,10 @@ fn moduli_and_what_they_rest_on_are_told() {
     close(&p["transverse_shear"][0][0], 1.9872e9);
     // 18 kN/m³ of bricks over the pitch.
     close(&p["density"]["volume"], 18e3 / 9.81 * (0.25 * 0.055) / (0.26 * 0.065));
-    // Load on 4 bricks of the panel's width, and half of the weight.
+    // Load on the top course, three bricks and two halves of 120 mm, over the panel's width, and half of the weight.
     let width = 4.0 * 0.26 - 0.01;
     let half = 0.5 * 18e3 * (0.25 * 0.055) / (0.26 * 0.065) * 0.12 * 8.0 * 0.065;
-    close(&p["pressure"], (36e3 * 1.0 / width + half) / 0.12);
+    close(&p["pressure"], (36e3 * (3.0 * 0.25 + 2.0 * 0.12) / width + half) / 0.12);
     let scale = &p["scale"];
     assert!((-0.2..-0.05).contains(&scale["without_sides"].as_f64().expect("a number")), "{scale}");
     let [bricks, continuum] = [0, 1].map(|k| scale["panel"][k].as_f64().expect("a stiffness"));

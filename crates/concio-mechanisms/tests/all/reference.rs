@@ -1,5 +1,7 @@
 //! Reference values of every closed form, each computed a second time by independent programs when they were set up.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use concio_mechanisms::body::{Body, Weight};
 use concio_mechanisms::checks::{Asked, Building, Checks, Hazard, Place, Site, Spectrum};
 use concio_mechanisms::corner::{Corner, CornerLoad};
@@ -293,7 +295,7 @@ fn s13_flap() {
     let body = flap(0.0).body(&masonry, &[]);
     let Weight { carried, height, .. } = body.weights[0];
     known!("S13", "W", "N", carried, 32.4e3);
-    known!("S13", "e_G", "m", height, 0.707107);
+    known!("S13", "e_G", "m", height, FRAC_1_SQRT_2);
     known!("S13", "α0", "", body.multiplier(), 0.2);
     known!("S13", "α0, thrust on the crack", "", flap(10e3).body(&masonry, &[]).multiplier(), 0.323457);
 }

@@ -849,7 +849,8 @@ friction = {{ law = "coulomb", static = {friction}, dynamic = {friction} }}
 [motion]
 duration = "0.1 s"
 "#
-        ));
+        ))
+        .replace("height = 0.5", "height = 2");
         let file = from_str(&stone, Syntax::Toml, None).expect("a wall file");
         let warnings = prepare_case(file.case, Path::new(".")).expect("a wall").model.warnings.clone();
         let told = warnings.iter().find(|warning| warning.contains("rocking_restitution ="));
