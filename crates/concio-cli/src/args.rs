@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use concio::case::RecordChannel;
-use concio::quantity::{Length, Stress, Time};
+use concio::quantity::{Acceleration, Length, Stress, Time};
 
 /// In-plane earthquake response of block masonry.
 ///
@@ -428,6 +428,23 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A part of 1.
+fn part(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(v) if (0.0..=1.0).contains(&v) => Ok(v),
+        _ => Err("allowed: a number from 0 to 1".into()),
+    }
+}
+
+/// An acceleration above 0 [m/s²].
+fn peak_acceleration(text: &str) -> Result<f64, String> {
+    with_unit(text, " g")?;
+    match Acceleration::parse(text)?.si() {
+        v if v > 0.0 && v.is_finite() => Ok(v),
+        _ => Err("allowed: above 0 g".into()),
+    }
+}
+
 fn length(text: &str) -> Result<Length, String> {
     with_unit(text, " mm")?;
     match Length::parse(text)? {
@@ -724,18 +741,24 @@ pub struct Limit {
 /// has its multiplier α0, least over the slopes of its cracks, and the checks of the Italian code where the wall file gives a
 /// site. Floors, ties, side walls and site stand in the table [out_of_plane] of the wall file; what it lacks is told with what
 /// is assumed. Blocks are rigid and multipliers are upper bounds in the class of their mechanism.
+///
+/// With a record, the least mechanism of each kind (with --all every one) is followed through it, once with each sign: how far it turns, whether it falls,
+/// and whether that is a matter of chance, for a thousandth more or less of the record may decide it.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   concio mechanisms wall.toml                   the least of each kind
   concio mechanisms wall.toml --all             every hinge level
+  concio mechanisms wall.toml --record quake.AT2 --pga \"0.3 g\"
+  concio mechanisms wall.toml --record station.V2 --vertical station.V2 --scale 1.5
+  concio mechanisms wall.toml --shaken          under the motion of the wall file
   concio mechanisms wall.toml --out assessed    mechanisms.json, mechanisms.csv, report.html with drawings
   concio mechanisms wall.toml --json")]
 pub struct Mechanisms {
     /// Wall file, TOML or JSON.
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
-    /// Print every hinge level instead of the least of each kind.
+    /// Print every hinge level instead of the least of each kind, and follow every one through a motion.
     #[arg(long)]
     pub all: bool,
     /// Which sum of the friction of side walls is taken.
@@ -744,9 +767,51 @@ pub struct Mechanisms {
     /// Print JSON (SI units).
     #[arg(long)]
     pub json: bool,
-    /// Write mechanisms.json, mechanisms.csv, report.html and its figures into this folder.
+    /// Write mechanisms.json, mechanisms.csv, report.html and its figures into this folder; with a motion time-history-KIND.csv.
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
+    /// What shakes them.
+    #[command(flatten)]
+    pub motion: TimeHistory,
+}
+
+/// What shakes the mechanisms of a wall.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Time history")]
+pub struct TimeHistory {
+    /// Record that shakes the wall across its plane, in any format of `concio record`.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, group = "shaken-by")]
+    pub record: Option<PathBuf>,
+    /// Shake it across its plane by the motion of the wall file, base and vertical.
+    #[arg(long, group = "shaken-by")]
+    pub shaken: bool,
+    /// Factor on the motion, above 0; on the vertical one too.
+    #[arg(long, value_name = "FACTOR", value_parser = positive, requires = "shaken-by")]
+    pub scale: Option<f64>,
+    /// Scale the record to this peak acceleration, such as "0.3 g"; the vertical one by the same factor.
+    #[arg(long, value_name = "ACCELERATION", value_parser = peak_acceleration, requires = "record", conflicts_with = "scale")]
+    pub pga: Option<f64>,
+    /// File of the vertical record; it may be that of the record. Without it nothing moves up and down.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "record")]
+    pub vertical: Option<PathBuf>,
+    /// Component of the record: its number from 1, or a word of its name; default the first horizontal one.
+    #[arg(long, value_name = "N|NAME", value_parser = channel, requires = "record")]
+    pub channel: Option<RecordChannel>,
+    /// Component of the vertical record; default the first vertical one.
+    #[arg(long, value_name = "N|NAME", value_parser = channel, requires = "vertical")]
+    pub vertical_channel: Option<RecordChannel>,
+    /// Unit of text files that name none (g, m/s2, cm/s2, …).
+    #[arg(long, value_name = "UNIT", requires = "record")]
+    pub units: Option<String>,
+    /// Sample interval of text files without a time column that name none, in seconds or with a unit (5ms).
+    #[arg(long, value_name = "TIME", value_parser = interval, requires = "record")]
+    pub dt: Option<f64>,
+    /// How the values of text files stand: a column for each component, or one component row by row.
+    #[arg(long, value_enum, requires = "record")]
+    pub layout: Option<Layout>,
+    /// Velocity after an impact over that before, 0 to 1; default by formula. It is chosen, not known: try others.
+    #[arg(long, value_name = "E", value_parser = part, requires = "shaken-by")]
+    pub restitution: Option<f64>,
 }
 
 /// Sums of the friction of the overlaps of a side wall.

@@ -12,7 +12,7 @@ use super::{run::refuse_a_file, wall_file};
 use crate::args::{Mechanisms, OverlapSum};
 use crate::failure::Failure;
 use crate::format::line;
-use crate::mechanisms::{Subject, page, rows, text};
+use crate::mechanisms::{Subject, page, rows, shaken, text};
 use crate::{files, study};
 
 /// Names of the results in their folder.
@@ -31,24 +31,31 @@ pub fn mechanisms(args: &Mechanisms) -> Result<(), Failure> {
         OverlapSum::Code => Overlaps::Code,
     };
     let survey = survey(&wall, overlaps);
+    let shaken = shaken::follow(&args.motion, &file, &wall, &survey, args.all)?;
     let name = args.file.file_stem().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     let title = if file.case.title.is_empty() { name } else { file.case.title.clone() };
     let subject = Subject { title: &title, wall: &wall, survey: &survey, overlaps };
+    let mut result = rows::json(&subject);
+    let mut sections = page::sections(&subject);
+    let mut told = text::told(&subject, args.all);
+    if let Some(shaken) = &shaken {
+        result["time_history"] = shaken::values::json(shaken);
+        sections.extend(shaken::page::sections(shaken));
+        told.push_str(&shaken::text::told(shaken));
+    }
     if let Some(out) = &args.out {
         fs::create_dir_all(out).map_err(|e| Failure::from(Error::io(out, e)))?;
-        files::write(&out.join(RESULT), &format!("{:#}\n", rows::json(&subject)))?;
+        files::write(&out.join(RESULT), &format!("{result:#}\n"))?;
         table::write_csv(&rows::table(&subject), &out.join(TABLE))?;
-        study::page::write(
-            out,
-            &format!("Out of the plane: {title}"),
-            &page::facts(&subject),
-            &page::sections(&subject),
-        )?;
+        for (name, history) in shaken.iter().flat_map(shaken::values::histories) {
+            table::write_csv(&history, &out.join(name))?;
+        }
+        study::page::write(out, &format!("Out of the plane: {title}"), &page::facts(&subject), &sections)?;
     }
     if args.json {
-        return files::print_json(&format!("{:#}\n", rows::json(&subject)));
+        return files::print_json(&format!("{result:#}\n"));
     }
     let written =
         args.out.as_ref().map_or(String::new(), |out| format!("\nopen {}\n", out.join("report.html").display()));
-    files::print(&format!("{}\n\n{}{written}", line(&title), text::told(&subject, args.all)))
+    files::print(&format!("{}\n\n{told}{written}", line(&title)))
 }

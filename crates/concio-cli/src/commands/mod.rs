@@ -16,7 +16,7 @@ mod limit_space;
 mod mechanisms;
 mod new;
 mod plot;
-mod record;
+pub mod record;
 pub mod run;
 mod scale;
 mod schema;

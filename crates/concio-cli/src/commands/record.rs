@@ -82,7 +82,7 @@ fn notes(args: &Record, channels: &[History], place: usize) {
 }
 
 /// The readers' hints name keys of a wall file; here they are options.
-fn as_options(error: Error) -> Error {
+pub(crate) fn as_options(error: Error) -> Error {
     let Error::Input(mut error) = error else { return error };
     error.help = error.help.take().filter(|help| !help.contains("wall file")).map(|help| {
         help.replace("add `dt = \"0.005 s\"` to the input", "give --dt 0.005")

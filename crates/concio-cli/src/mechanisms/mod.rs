@@ -8,6 +8,7 @@ pub mod figures;
 pub mod numbers;
 pub mod page;
 pub mod rows;
+pub mod shaken;
 pub mod text;
 
 /// What is shown.

@@ -220,3 +220,143 @@ fn what_is_wrong_is_told_with_its_line() {
     assert!(String::from_utf8_lossy(&done.get_output().stderr).contains("not of arches"));
     desk.concio("mechanisms nowhere.toml").assert().code(2);
 }
+
+/// Pulses of 2 Hz of so many m/s², 2 s of them, then rest: a record as text.
+fn record(peak: f64) -> String {
+    let value = |k: usize| {
+        let t = 0.01 * k as f64;
+        if t < 2.0 { peak * (std::f64::consts::TAU * 2.0 * t).sin() } else { 0.0 }
+    };
+    let lines = (0..300).map(|k| format!("{:.2} {:.6}\n", 0.01 * k as f64, value(k)));
+    format!("time [s], acceleration [m/s2]\n{}", lines.collect::<String>().replace(' ', ", "))
+}
+
+/// A record takes the least of each kind through it, with both signs; what has no time history says why.
+#[test]
+fn a_record_is_followed_with_both_signs() {
+    let desk = Desk::new();
+    desk.put("facade.toml", FACADE);
+    desk.put("shaking.csv", record(3.0));
+    let told = text(&desk, "mechanisms facade.toml --record shaking.csv --out assessed");
+    for part in [
+        "time history under shaking.csv, channel 1 of 1",
+        "peak 2.994 m/s² = 0.3052 g",
+        "no vertical motion",
+        "turn/θ0",
+        "inwards",
+        "outwards",
+        "stands",
+        "no time history: it turns about an inclined hinge",
+        "side walls stop it when it comes back",
+        "lies 3.00 m above the ground",
+        "chosen, not known",
+    ] {
+        assert!(told.contains(part), "{part}:\n{told}");
+    }
+    let result = desk.json("assessed/mechanisms.json");
+    let all = result["time_history"]["mechanisms"].as_array().expect("mechanisms");
+    let sides = all.iter().find(|m| m["kind"] == "overturning-with-side-walls").expect("a mechanism");
+    assert_eq!(sides["signs"].as_array().map(Vec::len), Some(2));
+    near(&sides["sets_off"], sides["multiplier"].as_f64().expect("a number"), 1e-9);
+    for sign in sides["signs"].as_array().expect("signs") {
+        assert_eq!((&sign["runs"], &sign["fell"]), (&6.into(), &0.into()));
+        let low = sign["peak_turns"][0].as_f64().expect("a turn");
+        let own = sign["outwards"]["turn"].as_f64().expect("a turn");
+        assert!(low > 0.0 && low <= own && own <= sign["peak_turns"][1].as_f64().expect("a turn"));
+        assert!(sign["energy_residual"].as_f64().expect("a number") < 1e-3);
+    }
+    let histories = desk.get("assessed/time-history-overturning-with-side-walls.csv");
+    let head = histories.lines().next().expect("a heading");
+    for column in ["time [s]", "positive-inwards/displacement [m]", "positive-outwards/turn [rad]"] {
+        assert!(head.contains(column), "{head}");
+    }
+    assert!(histories.lines().count() >= 300);
+    let page = desk.get("assessed/report.html");
+    assert!(page.contains("Time history") && page.contains("d_SLV") && page.contains("positive outwards"));
+    assert!(desk.path("assessed/figures/time-history-overturning-with-side-walls.svg").exists());
+}
+
+/// Every hinge level has its files; a tie begins at no force, so that the wall sets off below α0.
+#[test]
+fn all_hinges_are_followed_and_ties_begin_at_no_force() {
+    let desk = Desk::new();
+    desk.put(
+        "wall.toml",
+        wall("[[out_of_plane.anchor]]\nz = \"5.5 m\"\nyield_force = \"10 kN\"\nstiffness = \"2 MN/m\"\n"),
+    );
+    desk.put("shaking.csv", record(1.5));
+    let told = text(&desk, "mechanisms wall.toml --record shaking.csv --all --out assessed");
+    assert!(told.contains("the wall sets off below α0"), "{told}");
+    let result = desk.json("assessed/mechanisms.json");
+    let all = result["time_history"]["mechanisms"].as_array().expect("mechanisms");
+    assert_eq!(all.iter().filter(|m| m["kind"] == "overturning").count(), 12);
+    let base = all.iter().find(|m| m["kind"] == "overturning" && m["hinge"] == 0.0).expect("the base");
+    near(&base["sets_off"], 0.0833333, 1e-5);
+    assert!(base["multiplier"].as_f64() > Some(0.084));
+    let head = desk.get("assessed/time-history-overturning-0.00m.csv");
+    assert!(head.lines().next().expect("a heading").contains("positive-inwards/tie-1 [N]"), "{head}");
+    assert!(desk.path("assessed/figures/time-history-overturning-5.00m.svg").exists());
+}
+
+/// A stronger motion overturns a wall that nothing holds; the lift-off of a wall without ties is α0 of the peak.
+#[test]
+fn scale_and_peak_move_lift_off_and_fall() {
+    let desk = Desk::new();
+    desk.put("wall.toml", wall(""));
+    desk.put("shaking.csv", record(3.0));
+    let of = |line: &str| {
+        let result = json(&desk, &format!("mechanisms wall.toml --record shaking.csv --json {line}"));
+        let all = result["time_history"]["mechanisms"].as_array().expect("mechanisms").clone();
+        all.into_iter().find(|m| m["kind"] == "overturning").expect("a mechanism")
+    };
+    let plain = of("");
+    near(&plain["sets_off"], 0.0833333, 1e-5);
+    near(&plain["signs"][0]["first_lift_off_factor"], 0.0833333 * 9.81 / 3.0, 2e-3);
+    let scaled = of("--scale 2");
+    near(&scaled["signs"][0]["first_lift_off_factor"], 0.0833333 * 9.81 / 6.0, 2e-3);
+    let peak = of("--pga 0.05g");
+    assert_eq!(peak["signs"][0]["verdict"], "rests");
+    let strong = of("--scale 20");
+    assert!(strong["signs"].as_array().expect("signs").iter().any(|s| s["verdict"] == "falls"), "{strong}");
+    assert!(strong["signs"][0]["fallen_at"].as_f64().is_some());
+    // An upward motion of the same file changes the answer.
+    let both = of("--vertical shaking.csv");
+    assert_ne!(both["signs"][0]["peak_turns"], plain["signs"][0]["peak_turns"]);
+}
+
+/// The motion of the wall file, and what may be mistaken.
+#[test]
+fn the_motion_of_the_file_and_mistakes() {
+    let desk = Desk::new();
+    desk.put("facade.toml", FACADE);
+    desk.put("still.toml", wall(""));
+    desk.put("shaking.csv", record(3.0));
+    desk.put("zero.csv", record(0.0));
+    // A load near the inner face: impacts that leave all of the velocity would give energy on one side.
+    desk.put("laden.toml", wall("[[out_of_plane.floor]]\nz = \"3 m\"\nload = \"20 kN/m\"\nat = \"0.45 m\"\n"));
+    let told = text(&desk, "mechanisms facade.toml --shaken");
+    assert!(told.contains("half-sine pulse") && told.contains("is taken across the wall"), "{told}");
+    let none = text(&desk, "mechanisms facade.toml");
+    assert!(!none.contains("time history"), "{none}");
+    let refused = |line: &str, parts: &[&str]| {
+        let done = desk.concio(line).assert().code(2);
+        let error = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+        for part in parts {
+            assert!(error.contains(part), "{part}: {error}");
+        }
+    };
+    refused("mechanisms still.toml --shaken", &["still.toml", "motion.base", "at rest", "--record"]);
+    refused("mechanisms facade.toml --record none.at2", &["none.at2"]);
+    refused("mechanisms facade.toml --record facade.toml", &["facade.toml"]);
+    refused("mechanisms facade.toml --record zero.csv", &["zero.csv", "--record", "zero throughout"]);
+    refused("mechanisms facade.toml --record shaking.csv --channel 4", &["shaking.csv", "--channel", "allowed"]);
+    refused("mechanisms facade.toml --record shaking.csv --shaken", &["cannot be used with"]);
+    refused("mechanisms facade.toml --scale 2", &["--record"]);
+    refused("mechanisms facade.toml --record shaking.csv --pga 0.3", &["the unit is missing"]);
+    refused("mechanisms facade.toml --record shaking.csv --scale 2 --pga 0.3g", &["cannot be used with"]);
+    refused("mechanisms facade.toml --record shaking.csv --restitution 1.5", &["from 0 to 1"]);
+    refused(
+        "mechanisms laden.toml --record shaking.csv --restitution 1",
+        &["--restitution", "would give energy", "allowed"],
+    );
+}
