@@ -174,18 +174,25 @@ fn recording(root: &Path, package: &str) -> Result<(Vec<String>, BTreeSet<String
     let (mut targets, mut tests) = (Vec::new(), BTreeSet::new());
     for (path, target) in files {
         let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-        let (mut test, mut marked, mut any) = (None, false, false);
+        let (mut own, mut marked, mut any, mut shared) = (Vec::new(), false, false, false);
+        let mut inside = None;
         for line in text.lines().map(str::trim_start) {
-            if marked && let Some(rest) = line.strip_prefix("fn ") {
-                test = rest.split('(').next();
+            if let Some(rest) = line.strip_prefix("fn ") {
+                inside = rest.split('(').next().filter(|_| marked);
+                own.extend(inside);
                 marked = false;
+            } else if line.starts_with("macro_rules!") {
+                inside = None;
             }
             marked |= line.starts_with("#[test]");
             if line.contains("agrees!(") {
-                let name = test.ok_or_else(|| format!("{}: agrees! outside of a test", path.display()))?;
-                tests.insert(name.to_string());
-                any = true;
+                tests.extend(inside.map(String::from));
+                (any, shared) = (true, shared || inside.is_none());
             }
+        }
+        // What several tests call may be called by each of them.
+        if shared {
+            tests.extend(own.into_iter().map(String::from));
         }
         if any && !targets.ends_with(&target) {
             targets.extend(target);
