@@ -22,6 +22,7 @@ pub fn told(shaken: &Shaken) -> String {
         if !shaken.all {
             text.push_str("  the least of each kind; --all follows every hinge level\n");
         }
+        text.push_str("  positive: the side to which positive values of the motion point; a façade does not know the sign of a record\n");
         text.push_str("  sets off at: the factor of this motion at which it first lifts off\n");
         text.push_str("  spread: six runs, the motion times 0.999 to 1.001 and with half of the step; turns are outwards, or inwards if farther\n");
     }
