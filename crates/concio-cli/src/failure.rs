@@ -146,3 +146,23 @@ fn excerpt(error: &InputError) -> Option<String> {
     }
     Some(text)
 }
+
+/// The readers' hints name keys of a wall file; here they are options.
+pub(crate) fn as_options(error: Error) -> Error {
+    let Error::Input(mut error) = error else { return error };
+    error.help = error.help.take().filter(|help| !help.contains("wall file")).map(|help| {
+        help.replace("add `dt = \"0.005 s\"` to the input", "give --dt 0.005")
+            .replace("give the interval (`dt`)", "give --dt")
+            .replace("add `units = \"cm/s2\"` to the input", "give --units cm/s2")
+            .replace("add `layout = \"rows\"` to the input", "give --layout rows")
+            .replace("`layout = \"columns\"` in the input", "--layout columns")
+            .replace("`layout = \"columns\"` in the same way", "--layout columns")
+            .replace("set `quantity = \"acceleration\"`", "give --quantity acceleration")
+            .replace("set `quantity = \"displacement\"`", "give --quantity displacement")
+            .replace("leave `dt` out", "leave --dt out")
+            .replace("leave `layout` out", "leave --layout out")
+            .replace("leave `units` out", "leave --units out")
+    });
+    error.what = error.what.replace("s, the input ", "s, --dt ").replace("`, the input `", "`, --units `");
+    Error::Input(error)
+}

@@ -11,7 +11,7 @@ use concio::{Error, InputError};
 use concio_limit::{self as limit, JointMotion, LimitError, NonAssociative, Options, Problem, Stop};
 use serde_json::{Value, json};
 
-use super::{check::TRIED, limit_space, run::refuse_a_file, wall_file};
+use super::{check::TRIED, run::refuse_a_file, wall_file};
 use crate::args::{HeadFriction, Limit, LimitLoad, Side};
 use crate::draw::mechanism;
 use crate::failure::{Failure, STOPPED};
@@ -33,9 +33,6 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
     let file = wall_file::read(&args.file)?;
     if let Some(out) = &args.out {
         refuse_a_file(out)?;
-    }
-    if args.out_of_plane {
-        return limit_space::limit(args, &file);
     }
     if let Some(Side::Outwards | Side::Inwards) = args.towards {
         let error = InputError::new("--towards outwards and inwards are across the plane").in_file(&args.file);

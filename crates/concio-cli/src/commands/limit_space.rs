@@ -10,7 +10,7 @@ use concio_limit::{CERTIFIED, NonAssociative, Problem as Planar};
 use serde_json::{Value, json};
 
 use super::limit::{DRAWING, NAMED, RESULT, estimate, failure, options, without_dilation};
-use super::wall_file;
+use super::{run::refuse_a_file, wall_file};
 use crate::args::{HeadFriction, Limit as Asked, LimitLoad, Side};
 use crate::draw::axonometry;
 use crate::failure::{Failure, STOPPED};
@@ -39,7 +39,11 @@ struct Found {
 }
 
 /// Finds the multiplier of a wall that is pushed across its plane.
-pub(super) fn limit(args: &Asked, file: &CaseFile) -> Result<ExitCode, Failure> {
+pub fn limit(args: &Asked) -> Result<ExitCode, Failure> {
+    let file = wall_file::read(&args.file)?;
+    if let Some(out) = &args.out {
+        refuse_a_file(out)?;
+    }
     let wrong = |what: &str, allowed: &str| Err(InputError::new(what).in_file(&args.file).allowed(allowed).into());
     let face = match args.towards {
         None | Some(Side::Outwards) => Face::Outwards,
@@ -52,8 +56,8 @@ pub(super) fn limit(args: &Asked, file: &CaseFile) -> Result<ExitCode, Failure> 
         return wrong("--out-of-plane tells λ without friction at head joints beside the other", "no --heads");
     }
     let planar = Planar::of(&file.case, options(args, Side::Right));
-    let planar = planar.map_err(|e| wall_file::all(file, file.locate(e)))?;
-    let found = find(args, file, &planar, face)?;
+    let planar = planar.map_err(|e| wall_file::all(&file, file.locate(e)))?;
+    let found = find(args, &file, &planar, face)?;
     for warning in found.warnings.iter() {
         files::note(&format!("warning: {warning}"));
     }

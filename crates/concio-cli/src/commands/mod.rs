@@ -30,6 +30,7 @@ pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Run(args) => return run::run(&args),
         Command::FirstCrack(args) => return first_crack::first_crack(&args),
         Command::Study(args) => return study::run_command(&args.what),
+        Command::Limit(args) if args.out_of_plane => return limit_space::limit(&args),
         Command::Limit(args) => return limit::limit(&args),
         Command::Continuum(args) => continuum::continuum(&args),
         Command::Mechanisms(args) => mechanisms::mechanisms(&args),

@@ -12,7 +12,7 @@ use serde_json::json;
 
 use crate::args::{Layout, Quantity, Record};
 use crate::draw::curves::{self, Curve, Figure};
-use crate::failure::Failure;
+use crate::failure::{Failure, as_options};
 use crate::files;
 use crate::format::{pairs, seconds, si, significant};
 
@@ -79,26 +79,6 @@ fn notes(args: &Record, channels: &[History], place: usize) {
     for odd in [coverage::odd_peak(history), coverage::odd_interval(history)].into_iter().flatten() {
         files::note(&format!("warning: {odd}"));
     }
-}
-
-/// The readers' hints name keys of a wall file; here they are options.
-pub(crate) fn as_options(error: Error) -> Error {
-    let Error::Input(mut error) = error else { return error };
-    error.help = error.help.take().filter(|help| !help.contains("wall file")).map(|help| {
-        help.replace("add `dt = \"0.005 s\"` to the input", "give --dt 0.005")
-            .replace("give the interval (`dt`)", "give --dt")
-            .replace("add `units = \"cm/s2\"` to the input", "give --units cm/s2")
-            .replace("add `layout = \"rows\"` to the input", "give --layout rows")
-            .replace("`layout = \"columns\"` in the input", "--layout columns")
-            .replace("`layout = \"columns\"` in the same way", "--layout columns")
-            .replace("set `quantity = \"acceleration\"`", "give --quantity acceleration")
-            .replace("set `quantity = \"displacement\"`", "give --quantity displacement")
-            .replace("leave `dt` out", "leave --dt out")
-            .replace("leave `layout` out", "leave --layout out")
-            .replace("leave `units` out", "leave --units out")
-    });
-    error.what = error.what.replace("s, the input ", "s, --dt ").replace("`, the input `", "`, --units `");
-    Error::Input(error)
 }
 
 fn spectrum(history: &History) -> Spectrum {

@@ -10,8 +10,7 @@ use concio::quantity::Quantity;
 use concio::{Error, InputError};
 
 use crate::args::{Layout, TimeHistory};
-use crate::commands::record::as_options;
-use crate::failure::Failure;
+use crate::failure::{Failure, as_options};
 use crate::format::{plain, seconds, significant};
 use crate::motion::short;
 
