@@ -160,10 +160,19 @@ pub fn check(root: &Path) -> Outcome {
     }
 }
 
+/// Files of Rust in a folder and those below it.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let (folders, files): (Vec<_>, Vec<_>) = entries.partition(|path| path.is_dir());
+    let own = files.into_iter().filter(|path| path.extension().is_some_and(|e| e == "rs"));
+    own.chain(folders.iter().flat_map(|folder| sources(folder))).collect()
+}
+
 /// Options that choose the targets of a package whose tests call `agrees!`, and the names of these tests.
 fn recording(root: &Path, package: &str) -> Result<(Vec<String>, BTreeSet<String>), String> {
     let folder = root.join("crates").join(package);
-    let mut files = vec![(folder.join("src").join("lib.rs"), vec!["--lib".to_string()])];
+    let mut files: Vec<_> =
+        sources(&folder.join("src")).into_iter().map(|path| (path, vec!["--lib".to_string()])).collect();
     for entry in fs::read_dir(folder.join("tests").join("all")).into_iter().flatten().flatten() {
         let path = entry.path();
         if path.extension().is_some_and(|e| e == "rs") {
