@@ -6,7 +6,7 @@ use crate::command::{Outcome, cargo};
 
 /// Units in square brackets, which rustdoc takes for links: `/// Length [m].` It cannot be told otherwise, and
 /// switching its check off would hide links that are really broken.
-const UNITS: [&str; 12] = ["m", "m²", "mm", "s", "N", "J", "W", "kg", "Hz", "bytes", "px", "pt"];
+const UNITS: [&str; 15] = ["m", "m²", "m³", "mm", "rad", "Pa", "s", "N", "J", "W", "kg", "Hz", "bytes", "px", "pt"];
 
 /// Makes the pages and fails on any warning but the one about units.
 pub fn check(root: &Path) -> Outcome {

@@ -739,7 +739,7 @@ pub struct Limit {
 /// Finds every mechanism that the wall can have: overturning at each bed joint, with and without its side walls, an outer
 /// leaf alone, vertical arches between floors that hold, a horizontal arch, corners, flaps with oblique hinges, a gable. Each
 /// has its multiplier α0, least over the slopes of its cracks, and the checks of the Italian code where the wall file gives a
-/// site. Floors, ties, side walls and site stand in the table [out_of_plane] of the wall file; what it lacks is told with what
+/// site. Floors, ties, side walls and site stand in the table `out_of_plane` of the wall file; what it lacks is told with what
 /// is assumed. Blocks are rigid and multipliers are upper bounds in the class of their mechanism.
 ///
 /// With a record, the least mechanism of each kind (with --all every one) is followed through it, once with each sign: how far it turns, whether it falls,
