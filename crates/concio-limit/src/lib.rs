@@ -56,18 +56,28 @@ pub struct Limit {
 impl Limit {
     /// λ: the middle of the bounds.
     pub fn multiplier(&self) -> f64 {
-        0.5 * (self.bounds[0] + self.bounds[1])
+        middle(self.bounds)
     }
 
     /// Distance of the bounds over the larger of |λ| and 1e-3; below 0 by what rounding brings.
     pub fn gap(&self) -> f64 {
-        (self.bounds[1] - self.bounds[0]) / self.multiplier().abs().max(1e-3)
+        gap(self.bounds)
     }
 
     /// Whether the gap is at most [`CERTIFIED`].
     pub fn is_certified(&self) -> bool {
         self.gap() <= CERTIFIED
     }
+}
+
+/// λ of two bounds.
+fn middle([lower, upper]: [f64; 2]) -> f64 {
+    0.5 * (lower + upper)
+}
+
+/// Their distance over the larger of |λ| and 1e-3.
+fn gap([lower, upper]: [f64; 2]) -> f64 {
+    (upper - lower) / middle([lower, upper]).abs().max(1e-3)
 }
 
 /// Why there is no multiplier.

@@ -196,18 +196,8 @@ impl Sparse {
         let right: Vec<f64> = right.chain(self.bounds.iter().copied()).collect();
         let zero = (self.equalities > 0).then_some(SupportedConeT::ZeroConeT(self.equalities));
         let cones: Vec<_> = zero.into_iter().chain([SupportedConeT::NonnegativeConeT(self.bounds.len())]).collect();
-        let settings = DefaultSettings::<f64> {
-            verbose: false,
-            tol_gap_abs: TOLERANCE,
-            tol_gap_rel: TOLERANCE,
-            tol_feas: TOLERANCE,
-            presolve_enable: false,
-            max_threads: 1,
-            direct_solve_method: "qdldl".into(),
-            ..DefaultSettings::default()
-        };
         let none = CscMatrix::zeros((n, n));
-        let mut solver = DefaultSolver::new(&none, &self.cost, &matrix, &right, &cones, settings)
+        let mut solver = DefaultSolver::new(&none, &self.cost, &matrix, &right, &cones, settings(TOLERANCE))
             .map_err(|e| unsolved(e.to_string()))?;
         solver.solve();
         let (status, x, z) = (solver.solution.status, solver.solution.x, solver.solution.z);
@@ -216,5 +206,19 @@ impl Sparse {
         } else {
             Err(unsolved(format!("{status:?}")))
         }
+    }
+}
+
+/// How exactly programs are solved, on one thread.
+pub(crate) fn settings(tolerance: f64) -> DefaultSettings<f64> {
+    DefaultSettings {
+        verbose: false,
+        tol_gap_abs: tolerance,
+        tol_gap_rel: tolerance,
+        tol_feas: tolerance,
+        presolve_enable: false,
+        max_threads: 1,
+        direct_solve_method: "qdldl".into(),
+        ..DefaultSettings::default()
     }
 }

@@ -172,8 +172,8 @@ pub const RESOLVED: f64 = 2.18;
 const RESTING: f64 = 1e-5;
 /// Part of the strength along that is left at f_t at least.
 const ROUNDING: f64 = 1e-6;
-/// What presses a point counts by this much of its mass. With all of it, walls that rock take a third more iterations; with none, small bricks under 20 MPa
-/// lose a sixth of their friction work.
+/// What presses a point counts by this much of its mass, with inertia. With all of it, walls that rock take a third more iterations; with none, small bricks under 20 MPa
+/// lose a sixth of their friction work. Without inertia all counts: with a tenth, walls that tilt leave steps unsolved.
 const LOADED: f64 = 0.1;
 /// Distance up to which sides touch [m]: more than positions are rounded by.
 const TOUCHING: f64 = 1e-12;
@@ -500,7 +500,7 @@ impl Law {
             offset: -h * (k * (g + 0.5 * theta * h * u) + 0.5 * c * u),
             rho: 0.5 * h * (k * theta * h + c),
         };
-        // ρ of what has no spring, both ways by the mass that moves across, or a part of that whose weight presses it [kg]: along, stiffer ones take more
+        // ρ of what has no spring, both ways by the mass that moves across, or what of that whose weight presses it counts [kg]: along, stiffer ones take more
         // iterations.
         let pressed = point.force[0].max(-(both + press) * (gap + point.crushed));
         let resists = firm * contact.moved[0].max(if still { 1.0 } else { LOADED } * pressed / G);

@@ -64,7 +64,7 @@ const FALLING: f64 = 1e-2;
 const LONGEST: f64 = 16.0;
 /// What contact may be violated by, over the velocity that gravity gives in a step.
 const ACCURACY: f64 = 1e-6;
-/// ρ of what has no spring over the mass that its point moves, or a tenth of what weighs as much as presses it, in a whole step. In 1 ms a point yields by
+/// ρ of what has no spring over the mass that its point moves, or a tenth of what weighs as much as presses it (without inertia all of that), in a whole step. In 1 ms a point yields by
 /// 1 nm under that weight. With a quarter, bricks that slide together drift apart by 0.4 % of their slip instead of 0.1 %.
 const FIRM: f64 = 1e4;
 /// What a point yields by at most under that weight [m], however long the step; and without inertia, where its turn shows in the pressures of the joint

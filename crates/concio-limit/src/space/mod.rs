@@ -62,12 +62,12 @@ pub struct Limit {
 impl Limit {
     /// λ: the middle of the bounds.
     pub fn multiplier(&self) -> f64 {
-        0.5 * (self.bounds[0] + self.bounds[1])
+        crate::middle(self.bounds)
     }
 
     /// Distance of the bounds over the larger of |λ| and 1e-3; below 0 by what rounding brings.
     pub fn gap(&self) -> f64 {
-        (self.bounds[1] - self.bounds[0]) / self.multiplier().abs().max(1e-3)
+        crate::gap(self.bounds)
     }
 
     /// Whether the gap is at most [`CERTIFIED`].

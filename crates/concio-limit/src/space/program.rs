@@ -9,13 +9,13 @@
 //! A point without friction has a row of its own, o ≥ 0: in (μ N, T) with μ = 0 nothing would keep N from pulling.
 
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+use clarabel::solver::{DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
 use super::assembly::{Vector, dot, scaled};
 use super::equations::{Equations, Point, Pull};
 use crate::LimitError;
 use crate::equations::{Column, power};
-use crate::program::Friction;
+use crate::program::{Friction, settings};
 
 /// Approximate solution of the program and its dual.
 pub(super) struct Solution {
@@ -316,18 +316,8 @@ impl Program {
         kinds.extend((above > 0).then_some(SupportedConeT::ZeroConeT(above)));
         kinds.extend((cones > above).then_some(SupportedConeT::NonnegativeConeT(cones - above)));
         kinds.extend((0..self.cones / 3).map(|_| SupportedConeT::SecondOrderConeT(3)));
-        let settings = DefaultSettings::<f64> {
-            verbose: false,
-            tol_gap_abs: tolerance,
-            tol_gap_rel: tolerance,
-            tol_feas: tolerance,
-            presolve_enable: false,
-            max_threads: 1,
-            direct_solve_method: "qdldl".into(),
-            ..DefaultSettings::default()
-        };
         let none = CscMatrix::zeros((n, n));
-        let mut solver = DefaultSolver::new(&none, &self.cost, &matrix, &right, &kinds, settings)
+        let mut solver = DefaultSolver::new(&none, &self.cost, &matrix, &right, &kinds, settings(tolerance))
             .map_err(|e| unsolved(e.to_string()))?;
         solver.solve();
         let ended = solver.solution;
