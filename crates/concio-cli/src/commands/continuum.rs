@@ -32,6 +32,7 @@ pub fn continuum(args: &Continuum) -> Result<(), Failure> {
         files::guard(out, "svg", &[&args.file])?;
     }
     let file = wall_file::read(&args.file)?;
+    wall_file::doubt(&file);
     let chosen = panels(args, &file)?;
     let options = options(args);
     let mut found = Vec::with_capacity(chosen.len());

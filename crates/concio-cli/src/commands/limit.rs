@@ -31,6 +31,7 @@ const TELLING: f64 = 0.01;
 /// Finds the collapse multiplier of a wall.
 pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
     let file = wall_file::read(&args.file)?;
+    wall_file::doubt(&file);
     if let Some(out) = &args.out {
         refuse_a_file(out)?;
     }

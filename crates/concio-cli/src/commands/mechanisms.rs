@@ -22,6 +22,7 @@ const TABLE: &str = "mechanisms.csv";
 /// Finds the mechanisms of a wall.
 pub fn mechanisms(args: &Mechanisms) -> Result<(), Failure> {
     let file = wall_file::read(&args.file)?;
+    wall_file::doubt(&file);
     if let Some(out) = &args.out {
         refuse_a_file(out)?;
     }

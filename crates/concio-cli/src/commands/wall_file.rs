@@ -7,6 +7,7 @@ use concio::ground::formats;
 use concio::ground::record::TextOptions;
 use concio::pattern;
 use concio::run::{self, Prepared};
+use concio::warning::WarningKind;
 use concio::{Error, InputError};
 use serde_json::{Map, Value};
 
@@ -62,6 +63,13 @@ fn is_record(path: &Path) -> bool {
 fn of_record(error: Error) -> Error {
     let Error::Input(error) = error else { return error };
     error.help("this looks like a record: `concio record` measures it, and a wall file names it").into()
+}
+
+/// Tells numbers that are hardly meant, for commands that prepare no run, which would tell them.
+pub fn doubt(file: &CaseFile) {
+    let mut doubts = [file.unit_doubts(), plausible::doubts(&file.case)].concat();
+    doubts.retain(|doubt| doubt.kind == WarningKind::UnlikelyNumber);
+    crate::warned::warn(file, &doubts);
 }
 
 /// Lays the wall, compiles the system, reads the records.

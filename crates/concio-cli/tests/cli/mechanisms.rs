@@ -360,3 +360,29 @@ fn the_motion_of_the_file_and_mistakes() {
         &["--restitution", "would give energy", "allowed"],
     );
 }
+
+/// Numbers of another unit are asked about by each command that runs nothing, on standard error, whatever it prints.
+#[test]
+fn numbers_hardly_meant_are_asked_about() {
+    let desk = Desk::new();
+    desk.put("floor.toml", FACADE.replace("load = \"12 kN/m\"", "load = 12"));
+    desk.put("light.toml", FACADE.replace("\"20 kN/m3\"", "20"));
+    let panel = include_str!("../../../../examples/continuum/panel.toml");
+    let weight = panel.lines().find(|line| line.contains("specific_weight")).expect("a weight");
+    let bare = weight.split("specific_weight = ").next().expect("a start").to_string() + "specific_weight = 18 }";
+    desk.put("panel.toml", panel.replace(weight, &bare));
+    for (line, told) in [
+        ("mechanisms floor.toml --json", "out_of_plane.floor[0].load is 12 N/m"),
+        ("mechanisms light.toml", "specific_weight is 20 N/m3"),
+        ("limit light.toml --json", "specific_weight is 20 N/m3"),
+        ("limit light.toml --out-of-plane", "specific_weight is 20 N/m3"),
+        ("continuum panel.toml --card lamina", "specific_weight is 18 N/m3"),
+    ] {
+        let done = desk.concio(line).assert().success();
+        let said = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+        assert!(said.contains(told) && said.contains("did you mean") && said.contains(".toml:"), "{line}: {said}");
+    }
+    desk.put("facade.toml", FACADE);
+    let done = desk.concio("mechanisms facade.toml").assert().success();
+    assert!(done.get_output().stderr.is_empty());
+}

@@ -264,6 +264,17 @@ pub struct Site {
     pub collapse: Option<Hazard>,
 }
 
+impl Site {
+    /// Keys of the limit states.
+    pub const NAMES: [&str; 3] = ["damage", "life_safety", "collapse"];
+
+    /// The limit states that are given, by key.
+    pub fn hazards(&self) -> impl Iterator<Item = (&'static str, &Hazard)> {
+        let given = [&self.damage, &self.life_safety, &self.collapse];
+        Site::NAMES.into_iter().zip(given).filter_map(|(name, hazard)| Some((name, hazard.as_ref()?)))
+    }
+}
+
 /// An elastic spectrum: the four parameters of the code, or columns at 5 % damping.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]

@@ -6,6 +6,7 @@
 use std::f64::consts::PI;
 
 use super::node::{Node, Value};
+use super::out_of_plane::{OutOfPlane, Site};
 use super::{
     Beam, Case, FrictionChange, FrictionLaw, JointBond, JointKind, Joints, ModelKind, Panel, Signal, Solver,
     SpringChange, TopLoad,
@@ -90,6 +91,12 @@ const BEAM: Expected =
 /// The largest peak acceleration ever recorded is some 4 g.
 const SHAKING: Expected =
     Expected { limits: [1e-4, 45.0], usual: [0.05, 20.0], unit: "m/s2", slips: &[(1e-2, "cm/s2", 1e-2)] };
+/// a_g of a site: 0.05 g or less where hardly anything shakes, 0.3 g in Italy, 1 g beside the largest faults.
+const GROUND: Expected =
+    Expected { limits: [0.02, 10.0], usual: [0.2, 5.0], unit: "m/s2", slips: &[(1e-2, "cm/s2", 1e-2)] };
+/// What a floor or a roof pushes per length of its wall, and what connects it.
+const THRUST: Expected =
+    Expected { limits: [10.0, 1e7], usual: [1e2, 1e6], unit: "N/m", slips: &[(1e3, "kN/m", 1e3), (1e-3, "kN/m", 1e3)] };
 /// Of a bed joint given as a whole, below which it is softer than a sheet of rubber [N/m³].
 const SOFTEST: f64 = 1e7;
 /// Ground displacements and strokes of actuators.
@@ -104,6 +111,9 @@ const STEP: Expected = Expected { limits: [1e-7, 0.05], usual: [1e-5, 0.01], uni
 const SPEED: Expected =
     Expected { limits: [1e-9, 3.0], usual: [1e-6, 0.5], unit: "m/s", slips: &[(1e-3, "mm/s", 1e-3)] };
 
+/// Forces of ties and of what meets a corner or a ridge: from a nail in old timber to a bundle of bars.
+const PULL: Expected =
+    Expected { limits: [2e2, 1e7], usual: [1e3, 2e6], unit: "N", slips: &[(1e3, "kN", 1e3), (1e-3, "kN", 1e3)] };
 /// Forces at which devices yield or slip: from a clip of some newtons to a damper of a bridge.
 const DEVICE_FORCE: Expected =
     Expected { limits: [5.0, 1e7], usual: [50.0, 1e6], unit: "N", slips: &[(1e3, "kN", 1e3), (1e-3, "N", 1.0)] };
@@ -136,6 +146,9 @@ pub fn doubts(case: &Case) -> Vec<Warning> {
     if let Beam::Mass(mass) = case.load.beam {
         doubts.look("load.beam.mass", mass.si(), &BEAM);
     }
+    if let Some(own) = &case.out_of_plane {
+        of_out_of_plane(&mut doubts, own);
+    }
     of_signal(&mut doubts, "motion.base", &case.motion.base);
     of_signal(&mut doubts, "motion.top", &case.motion.top);
     of_signal(&mut doubts, "motion.vertical", &case.motion.vertical);
@@ -143,6 +156,43 @@ pub fn doubts(case: &Case) -> Vec<Warning> {
         doubts.look("solver.step", step.si(), &STEP);
     }
     doubts.0
+}
+
+fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane) {
+    if let Some(strength) = own.strength {
+        doubts.look("out_of_plane.strength", strength.si(), &COMPRESSION);
+    }
+    for (index, floor) in own.floors.iter().enumerate() {
+        let given =
+            [("load", floor.load), ("push", floor.push), ("thrust", floor.thrust), ("connection", floor.connection)];
+        for (name, value) in given {
+            doubts.look(
+                &format!("out_of_plane.floor[{index}].{name}"),
+                value.si(),
+                if name == "load" { &LOAD } else { &THRUST },
+            );
+        }
+        doubts.look_at_friction(&format!("out_of_plane.floor[{index}].seat_friction"), floor.seat_friction);
+    }
+    for (index, anchor) in own.anchors.iter().enumerate() {
+        let key = format!("out_of_plane.anchor[{index}]");
+        doubts.look(&format!("{key}.yield_force"), anchor.yield_force.si(), &PULL);
+        if let Some(anchorage) = anchor.anchorage {
+            doubts.look(&format!("{key}.anchorage"), anchorage.si(), &PULL);
+        }
+    }
+    for (index, side) in own.side_walls.iter().enumerate() {
+        let key = format!("out_of_plane.side_wall[{index}]");
+        doubts.look(&format!("{key}.load"), side.load.si(), &LOAD);
+        if let Some(friction) = side.friction {
+            doubts.look_at_friction(&format!("{key}.friction"), friction);
+        }
+    }
+    for (name, hazard) in own.site.iter().flat_map(Site::hazards) {
+        if let Some(acceleration) = hazard.ground_acceleration {
+            doubts.look(&format!("out_of_plane.site.{name}.ground_acceleration"), acceleration.si(), &GROUND);
+        }
+    }
 }
 
 struct Doubts(Vec<Warning>);
@@ -198,8 +248,10 @@ const SMALL_SHAKING: f64 = 1.5;
 
 /// One sentence for each peak acceleration written without a unit that reads like a multiple of g.
 pub(super) fn bare_accelerations(tree: &Node) -> Vec<Warning> {
-    let keys =
+    let motions =
         ["base", "top", "vertical"].into_iter().flat_map(|end| ACCELERATIONS.map(|key| format!("motion.{end}.{key}")));
+    let sites = Site::NAMES.map(|name| format!("out_of_plane.site.{name}.ground_acceleration"));
+    let keys = motions.chain(sites);
     let doubt = |key: String| {
         let node = key.split('.').try_fold(tree, |node, step| node.get(step))?;
         let value = match node.value {

@@ -39,6 +39,83 @@ fn bare_accelerations_are_asked_about() {
     }
 }
 
+/// Loads, ties and the site of what stands behind a wall.
+#[test]
+fn doubtful_numbers_out_of_the_plane_are_told() {
+    const BEHIND: &str = r#"
+[out_of_plane]
+strength = "2.5 MPa"
+[[out_of_plane.floor]]
+z = 0.12
+load = "12 kN/m"
+thrust = "0.8 kN/m"
+seat_friction = 0.3
+[[out_of_plane.anchor]]
+z = 0.1
+yield_force = "60 kN"
+[[out_of_plane.side_wall]]
+x = 0.0
+thickness = 0.12
+load = "8 kN/m"
+[out_of_plane.site.life_safety]
+ground_acceleration = "0.2 g"
+amplification = 2.4
+corner_period = "0.4 s"
+"#;
+    let found = |text: &str| {
+        let text = format!("{}{text}", WALL.replace("model = \"shear\"", "model = \"planar\""));
+        let file = from_str(&text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}"));
+        let mut found = [file.unit_doubts(), doubts(&file.case)].concat();
+        found.retain(|doubt| doubt.contains("out_of_plane"));
+        found
+    };
+    assert_eq!(found(BEHIND), [""; 0]);
+    for (right, wrong, told) in [
+        (
+            "strength = \"2.5 MPa\"",
+            "strength = 2.5",
+            "out_of_plane.strength is 2.5 Pa, less than 10000 Pa; did you mean \"2.5 MPa\"?",
+        ),
+        (
+            "load = \"12 kN/m\"",
+            "load = 12",
+            "out_of_plane.floor[0].load is 12 N/m, less than 300 N/m; did you mean \"12 kN/m\"?",
+        ),
+        (
+            "thrust = \"0.8 kN/m\"",
+            "thrust = 0.8",
+            "out_of_plane.floor[0].thrust is 0.8 N/m, less than 10 N/m; did you mean \"0.8 kN/m\"?",
+        ),
+        (
+            "seat_friction = 0.3",
+            "seat_friction = 30.0",
+            "out_of_plane.floor[0].seat_friction is 30, more than 2; did you mean 0.58, the tangent of 30 degrees?",
+        ),
+        (
+            "yield_force = \"60 kN\"",
+            "yield_force = 60",
+            "out_of_plane.anchor[0].yield_force is 60 N, less than 200 N; did you mean \"60 kN\"?",
+        ),
+        (
+            "load = \"8 kN/m\"",
+            "load = 8",
+            "out_of_plane.side_wall[0].load is 8 N/m, less than 300 N/m; did you mean \"8 kN/m\"?",
+        ),
+        (
+            "\"0.2 g\"",
+            "0.2",
+            "out_of_plane.site.life_safety.ground_acceleration is 0.2 m/s2, a number without a unit; did you mean \"0.2 g\"?",
+        ),
+        (
+            "\"0.2 g\"",
+            "20",
+            "out_of_plane.site.life_safety.ground_acceleration is 20 m/s2, more than 10 m/s2; did you mean \"20 cm/s2\"?",
+        ),
+    ] {
+        assert_eq!(found(&BEHIND.replacen(right, wrong, 1)), [told], "{wrong}");
+    }
+}
+
 fn case(text: &str) -> Case {
     let file = from_str(text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}\n{text}"));
     file.validate().unwrap_or_else(|e| panic!("{e}\n{text}"));

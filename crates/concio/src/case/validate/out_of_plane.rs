@@ -55,11 +55,8 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
         }
     }
     if let Some(site) = &o.site {
-        for (name, own) in [("damage", &site.damage), ("life_safety", &site.life_safety), ("collapse", &site.collapse)]
-        {
-            if let Some(own) = own {
-                hazard(f, &format!("out_of_plane.site.{name}"), own);
-            }
+        for (name, own) in site.hazards() {
+            hazard(f, &format!("out_of_plane.site.{name}"), own);
         }
     }
     if let Some(b) = &o.building {
