@@ -949,6 +949,8 @@ pub struct Study {
 pub enum StudyCommand {
     Check(StudyCheck),
     Run(StudyRun),
+    Plan(StudyPlan),
+    Work(StudyWork),
     /// Go on with a study that was begun; as `run`, but a folder without runs is an error.
     Resume(StudyRun),
     /// Tell how many runs a study has and what became of them.
@@ -1002,6 +1004,46 @@ pub struct StudyRun {
     /// Do the I-th of N shares of the runs, I from 1 to N.
     #[arg(long, value_name = "I/N", value_parser = shard)]
     pub shard: Option<[usize; 2]>,
+}
+
+/// Print the runs that a study can do now as tasks, for other programs to distribute.
+///
+/// A task is a line of JSON that holds all that its runs need, their records included; `concio study work` does it, on any
+/// machine. Curves and searches ask for more when they have seen the rows of these: plan again until nothing is printed.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio study plan friction.toml              how many runs and tasks
+  concio study plan friction.toml --json | parallel --pipe -N1 concio study work --threads 1 --out concio-study/friction
+  concio study plan friction.toml --json --runs 32 > tasks.jsonl")]
+pub struct StudyPlan {
+    /// Where the study is.
+    #[command(flatten)]
+    pub place: StudyPlace,
+    /// Print the tasks, one per line.
+    #[arg(long)]
+    pub json: bool,
+    /// Runs in a task at most.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub runs: u16,
+}
+
+/// Do tasks that `concio study plan --json` printed.
+///
+/// Reads tasks from standard input, one per line. Writes a row per run to standard output, or into the folder of the study:
+/// the lines are those of its runs/*.jsonl, so a file of them may also be put there.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  concio study work < tasks.jsonl > rows.jsonl && cp rows.jsonl concio-study/friction/runs/
+  concio study work --out /shared/friction < tasks.jsonl")]
+pub struct StudyWork {
+    /// Folder of the study, to keep the rows in instead of printing them.
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
+    /// Threads; default one per core.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
 }
 
 /// Where a study is.

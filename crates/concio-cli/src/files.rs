@@ -28,7 +28,8 @@ pub fn print_json(json: &str) -> Result<(), Failure> {
     write_out(&text)
 }
 
-fn write_out(text: &str) -> Result<(), Failure> {
+/// Writes a text as it is.
+pub fn write_out(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => Ok(()),

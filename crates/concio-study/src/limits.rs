@@ -51,7 +51,8 @@ impl Criterion {
 }
 
 /// A criterion with its limit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Rule {
     /// The criterion.
     pub criterion: Criterion,

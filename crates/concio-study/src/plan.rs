@@ -270,8 +270,13 @@ impl Plan {
     /// # Errors
     /// A record that cannot be read.
     pub fn id(&self, case: &Case) -> Result<String> {
-        self.records.id(case)
+        self.records.id(case, &self.library)
     }
+}
+
+/// Said of a record that the system does not give.
+pub(crate) fn cannot_be_read(path: &Path, reason: &concio::files::Unread) -> InputError {
+    InputError::new(format!("cannot be read: {reason}")).in_file(path).allowed("an accelerogram that can be read")
 }
 
 /// Keeps no histories and no frames: a study reads peaks, energies and cracks.
@@ -289,11 +294,11 @@ impl Records {
     ///
     /// # Errors
     /// A record that cannot be read.
-    pub fn id(&self, case: &Case) -> Result<String> {
+    pub fn id(&self, case: &Case, library: &Library) -> Result<String> {
         let mut case = case.clone();
         for signal in case.motion.signals_mut() {
             if let Signal::Record(input) = signal {
-                input.record = PathBuf::from(self.hash(&input.record)?);
+                input.record = PathBuf::from(self.hash(&input.record, library)?);
             }
         }
         let mut id = concio::run::hash(&[crate::measures::VERSION.to_string(), canonical_json(&case)]);
@@ -301,15 +306,13 @@ impl Records {
         Ok(id)
     }
 
-    fn hash(&self, path: &Path) -> Result<String> {
+    fn hash(&self, path: &Path, library: &Library) -> Result<String> {
         let known = |map: &HashMap<PathBuf, String>| map.get(path).cloned();
         let mut map = self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if let Some(hash) = known(&map) {
             return Ok(hash);
         }
-        let bytes = concio::files::read_input(path, concio::files::LARGEST_INPUT).map_err(|e| {
-            InputError::new(format!("cannot be read: {e}")).in_file(path).allowed("an accelerogram that can be read")
-        })?;
+        let bytes = library.bytes(path).map_err(|reason| cannot_be_read(path, &reason))?;
         let hash = blake3::hash(&bytes).to_hex().to_string();
         map.insert(path.to_path_buf(), hash.clone());
         Ok(hash)

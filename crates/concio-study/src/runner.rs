@@ -27,6 +27,7 @@ use crate::limits::Rule;
 use crate::measures::{End, Row, row};
 use crate::plan::Records;
 use crate::store::Store;
+use crate::task::{Task, tasks};
 use crate::warned::Warned;
 
 /// Threads wait for each other where one set of runs ends and the next begins, so sets are large; but no larger than this
@@ -59,11 +60,32 @@ pub struct Progress {
 pub type Solve =
     fn(&[Job], usize, Option<&Until>, &(dyn Fn(Standing) -> Control + Sync), &(dyn Fn(usize, Result<Outcome>) + Sync));
 
+/// Does tasks outside of this process, or writes them down for others to do: hands every row on as it comes, and stops where
+/// that says so. [`Control::Stop`] where it was stopped, or hands no rows on.
+pub type Elsewhere<'a> = dyn Fn(Vec<Task>, &mut Deliver) -> Result<Control> + Sync + 'a;
+
+/// Takes a row that came from elsewhere.
+pub type Deliver<'a> = dyn FnMut(Row) -> Result<Control> + 'a;
+
+/// Who does the runs.
+#[derive(Clone, Copy)]
+pub enum Hands<'a> {
+    /// Threads of this process; 0 for one per core.
+    Here(usize),
+    /// Others, that take so many runs at a time.
+    Elsewhere(&'a Elsewhere<'a>, usize),
+}
+
+impl From<usize> for Hands<'_> {
+    fn from(threads: usize) -> Self {
+        Hands::Here(threads)
+    }
+}
+
 /// Does runs and keeps what was measured of them.
 pub struct Runner<'a> {
     store: Store,
-    /// Threads; 0 for one per core.
-    pub threads: usize,
+    hands: Hands<'a>,
     /// What is kept per joint.
     pub joints: Vec<PerJoint>,
     /// Whether whole results are kept.
@@ -92,14 +114,19 @@ impl<'a> Runner<'a> {
     pub fn open(
         folder: &Path,
         keep: &Keep,
-        threads: usize,
+        hands: impl Into<Hands<'a>>,
         watch: &'a (dyn Fn(&Progress) -> Control + Sync),
     ) -> Result<Self> {
+        let hands = hands.into();
+        let threads = match hands {
+            Hands::Here(threads) => threads,
+            Hands::Elsewhere(..) => 0,
+        };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|e| Error::io(folder, std::io::Error::other(e)))?;
         Ok(Runner {
             store: Store::open(folder)?,
-            threads,
+            hands,
             joints: keep.joints.clone(),
             results: keep.results,
             reading: false,
@@ -113,6 +140,12 @@ impl<'a> Runner<'a> {
             counted: HashSet::new(),
             solving: Duration::ZERO,
         })
+    }
+
+    /// With accelerograms that are in memory.
+    pub fn with_library(mut self, library: Library) -> Self {
+        self.library = library;
+        self
     }
 
     /// With another solver.
@@ -138,7 +171,7 @@ impl<'a> Runner<'a> {
     /// # Errors
     /// A record that cannot be read.
     pub fn id(&self, case: &Case) -> Result<String> {
-        let whole = self.records.id(case)?;
+        let whole = self.records.id(case, &self.library)?;
         let Some(rule) = &self.until else { return Ok(whole) };
         let hash = blake3::hash(format!("{whole} until {}", rule.key()).as_bytes());
         Ok(hash.to_hex()[..32].to_string())
@@ -179,7 +212,16 @@ impl<'a> Runner<'a> {
             return Ok(None);
         }
         let tally = Tally::new(cases.len(), cases.len() - todo.len(), ids.iter().filter_map(|id| self.store.get(id)));
-        let mut rest = &todo[..];
+        if let Hands::Elsewhere(work, at_once) = self.hands
+            && !todo.is_empty()
+        {
+            let todo: Vec<_> = todo.iter().map(|&i| (ids[i].as_str(), &cases[i])).collect();
+            if self.elsewhere(work, &todo, at_once, &tally)? == Control::Stop {
+                self.store.sync()?;
+                return Ok(None);
+            }
+        }
+        let mut rest = if matches!(self.hands, Hands::Here(_)) { &todo[..] } else { &[] };
         while !rest.is_empty() {
             let set = self.made(cases, rest);
             let (these, after) = rest.split_at(set.len());
@@ -201,6 +243,37 @@ impl<'a> Runner<'a> {
         }
         let row = |id: &String| self.store.get(id).cloned();
         Ok(Some(ids.iter().filter_map(row).collect()))
+    }
+
+    /// Has runs done elsewhere.
+    fn elsewhere(
+        &mut self,
+        work: &Elsewhere,
+        todo: &[(&str, &Case)],
+        at_once: usize,
+        tally: &Tally,
+    ) -> Result<Control> {
+        let results = self.results.then(|| self.store.folder());
+        let tasks = tasks(todo, at_once, (&self.joints, self.until, results), &self.library)?;
+        let mut open: HashSet<&str> = todo.iter().map(|(id, _)| *id).collect();
+        let begun = Instant::now();
+        let (store, watch) = (&mut self.store, self.watch);
+        let ended = work(tasks, &mut |row| {
+            // A task that was done twice brings its rows twice.
+            if open.remove(row.id.as_str()) {
+                tally.ended(row.end == End::Completed);
+                store.append(row)?;
+            }
+            Ok(watch(&tally.progress(0.0)))
+        })?;
+        self.solving += begun.elapsed();
+        match (ended, open.len()) {
+            (Control::Continue, left @ 1..) => Err(Error::Store {
+                path: self.store.folder().to_path_buf(),
+                what: format!("{left} of {} runs that were given away did not come back", todo.len()),
+            }),
+            _ => Ok(ended),
+        }
     }
 
     /// The first of `todo` made ready, as many as are to run together.
@@ -258,7 +331,8 @@ impl<'a> Runner<'a> {
             let keep = |number: usize, outcome: Result<Outcome>| desk.keep(some[number], outcome, tally);
             catch_unwind(AssertUnwindSafe(|| (self.solve)(&list, threads, until.as_deref(), &watch, &keep)))
         };
-        if run(jobs, self.threads).is_err() {
+        let Hands::Here(threads) = self.hands else { return Ok(Control::Continue) };
+        if run(jobs, threads).is_err() {
             for job in jobs {
                 if desk.stopped() || locked(&desk.done).contains(job.0) {
                     continue;

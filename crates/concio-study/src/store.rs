@@ -265,7 +265,10 @@ const LEAD: &str = ",\"digest\":\"";
 const END: &str = "\"}";
 
 /// A line with its digest.
-fn line_of(row: &Row) -> serde_json::Result<String> {
+///
+/// # Errors
+/// None that is known: rows are numbers and text.
+pub fn line_of(row: &Row) -> serde_json::Result<String> {
     let mut line = serde_json::to_string(row)?;
     line.pop();
     let digest = blake3::hash(line.as_bytes()).to_hex();
@@ -274,7 +277,10 @@ fn line_of(row: &Row) -> serde_json::Result<String> {
 }
 
 /// The row of a line; what is wrong with one that was not written so. Rows of other versions may have no digest.
-fn parsed(line: &[u8]) -> std::result::Result<Row, &'static str> {
+///
+/// # Errors
+/// What is wrong, in words.
+pub fn parsed(line: &[u8]) -> std::result::Result<Row, &'static str> {
     let end = LEAD.len() + 2 * blake3::OUT_LEN + END.len();
     let (before, noted) = line.split_at(line.len().saturating_sub(end));
     let expected = [LEAD, blake3::hash(before).to_hex().as_str(), END].concat();

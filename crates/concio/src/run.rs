@@ -12,6 +12,7 @@ use crate::case::{Beam, Case, CaseFile, MOST_SAMPLES, Signal, canonical_json, pl
 use crate::error::{Error, InputError, Result};
 use crate::excitation::Excitation;
 use crate::files;
+use crate::ground::formats::unread;
 use crate::ground::signal::{GroundMotion, compile_with};
 use crate::ground::{Library, coverage};
 use crate::model::Model;
@@ -146,7 +147,7 @@ pub fn prepare_with(case: Case, folder: &Path, library: &Library) -> Result<Prep
     let wall = pattern::lay(&case)?;
     let excitation = excitation(&case, folder, library)?;
     let sampling = sampling(&case, &excitation)?;
-    let inputs_hash = inputs_hash(&case, folder)?;
+    let inputs_hash = inputs_hash(&case, folder, library)?;
     let of_records = coverage::warnings(&case, folder, excitation.duration, library)?;
     compiled(case, (wall, excitation, sampling), of_records, inputs_hash)
 }
@@ -254,13 +255,12 @@ fn sampling(case: &Case, excitation: &Excitation) -> Result<Sampling> {
 }
 
 /// Hash of everything that the result depends on.
-fn inputs_hash(case: &Case, folder: &Path) -> Result<String> {
+fn inputs_hash(case: &Case, folder: &Path, library: &Library) -> Result<String> {
     let mut parts = vec![canonical_json(case).into_bytes()];
     for (_, signal) in case.motion.signals() {
         if let Signal::Record(input) = signal {
             let path = folder.join(&input.record);
-            let bytes = files::read_input(&path, files::LARGEST_INPUT);
-            parts.push(bytes.map_err(|e| InputError::new(format!("the record cannot be read: {e}")).in_file(&path))?);
+            parts.push(library.bytes(&path).map_err(|reason| unread(&path, reason))?.into_owned());
         }
     }
     Ok(hash(&parts))

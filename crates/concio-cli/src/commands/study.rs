@@ -1,22 +1,25 @@
 //! `concio study`.
 
+use std::io::{BufRead, stdin};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError};
 
 use concio::case::{Beam, Case};
 use concio::run::Control;
 use concio::{InputError, Result};
 use concio_study::file::Keep;
 use concio_study::measures::{End, Row};
-use concio_study::runner::{Progress, Runner};
-use concio_study::store::Store;
+use concio_study::runner::{Deliver, Hands, Progress, Runner};
+use concio_study::store::{Store, line_of};
+use concio_study::task::Task;
 use concio_study::warned::Warned;
-use concio_study::{Plan, answer, file, first_crack, interfaces, table};
+use concio_study::{Plan, answer, drive, file, first_crack, interfaces, table};
 use rayon::prelude::*;
 
 use super::run::refuse_a_file;
 use super::wall_file::Kind;
-use crate::args::{StudyCheck, StudyCommand, StudyPlace, StudyRun};
+use crate::args::{StudyCheck, StudyCommand, StudyPlace, StudyPlan, StudyRun, StudyWork};
 use crate::failure::{Failure, STOPPED};
 use crate::format::{columns, counted, pairs};
 use crate::progress::Runs;
@@ -35,6 +38,8 @@ pub fn run_command(command: &StudyCommand) -> std::result::Result<ExitCode, Fail
     match command {
         StudyCommand::Check(args) => check(args).map(|()| ExitCode::SUCCESS),
         StudyCommand::Run(args) => run(&read(&args.place.file)?, args),
+        StudyCommand::Plan(args) => tasks(args),
+        StudyCommand::Work(args) => work(args),
         StudyCommand::Resume(args) => {
             // A mistake in the file is told before a folder that it could not have made.
             let plan = read(&args.place.file)?;
@@ -195,6 +200,65 @@ fn run(plan: &Plan, args: &StudyRun) -> std::result::Result<ExitCode, Failure> {
     files::print(&format!("open {}\n", write(plan, &cases, &found, answered, &out)?.display()))?;
     let complete = found.iter().flatten().all(|r| r.end == End::Completed);
     Ok(if complete { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
+}
+
+/// Prints what can be done now.
+fn tasks(args: &StudyPlan) -> std::result::Result<ExitCode, Failure> {
+    let plan = read(&args.place.file)?;
+    cases(&plan)?;
+    asked::shaking(&plan)?;
+    let out = folder(&args.place);
+    refuse_a_file(&out)?;
+    let laid_out = Mutex::new(Vec::new());
+    let write_down = |tasks, _: &mut Deliver| {
+        *laid_out.lock().unwrap_or_else(PoisonError::into_inner) = tasks;
+        Ok(Control::Stop)
+    };
+    let hands = Hands::Elsewhere(&write_down, args.runs.into());
+    let ended = drive::complete(&plan, &out, hands, &|_| Control::Continue)?;
+    let laid_out = laid_out.into_inner().unwrap_or_else(PoisonError::into_inner);
+    if args.json {
+        laid_out.iter().try_for_each(|task| files::print_json(&(task.line() + "\n")))?;
+    } else {
+        let runs = laid_out.iter().map(|task| task.ids().len()).sum::<usize>();
+        files::print(&pairs(&[("runs", runs.to_string()), ("tasks", laid_out.len().to_string())]))?;
+    }
+    if ended == Control::Continue {
+        files::note("nothing is left to be run: `concio study report` writes tables and report");
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Does the tasks of standard input.
+fn work(args: &StudyWork) -> std::result::Result<ExitCode, Failure> {
+    if let Some(out) = &args.out {
+        refuse_a_file(out)?;
+    }
+    stop::listen()?;
+    let watch = |_: &Progress| if stop::asked() { Control::Stop } else { Control::Continue };
+    for (number, line) in stdin().lock().lines().enumerate() {
+        let line = line.map_err(|e| Failure::Other(format!("standard input: {e}"), None))?;
+        if line.trim().is_empty() {
+            continue;
+        }
+        let located = |error| match error {
+            concio::Error::Input(e) => e.in_file(Path::new("standard input")).at_line(number + 1).into(),
+            other => other,
+        };
+        let task = Task::parse(&line).map_err(located)?;
+        let threads = args.threads.map_or(0, usize::from);
+        let (rows, ended) = drive::work(&task, args.out.as_deref(), threads, &watch).map_err(located)?;
+        if args.out.is_none() {
+            let lines = rows.iter().map(line_of).collect::<std::result::Result<String, _>>();
+            // Their digests are of these bytes.
+            files::write_out(&lines.map_err(|e| Failure::Other(e.to_string(), None))?)?;
+        }
+        if ended == Control::Stop {
+            files::note("stopped early; runs that had not ended are to be done again");
+            return Ok(ExitCode::from(STOPPED));
+        }
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 /// A study that asks for first cracks instead of runs of its own.

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use concio::InputError;
 use concio::case::ModelKind;
 use concio::run::Control;
-use concio::{InputError, Result};
 use concio_study::Plan;
 use concio_study::ida::Way;
 use concio_study::ida::curve::{Curve, Found, SHARES, fractiles, fragilities, grid};
@@ -57,23 +57,12 @@ pub fn run(
     };
     let mut runner = Runner::open(out, &plan.file.study.keep, threads, &watch)?;
     let passed_over = super::tell_passed_over(runner.store(), 0);
-    loop {
-        let questions = analysis.questions(&|curve| curve % of == share - 1);
-        if questions.is_empty() {
-            break;
-        }
-        let cases = questions.iter().map(|(curve, y)| analysis.case(*curve, *y)).collect::<Result<Vec<_>>>()?;
-        let rows = runner.rows(&cases);
-        let Some(rows) = rows? else {
-            bar.clear();
-            files::note("stopped early; the same command goes on from here");
-            return Ok(ExitCode::from(STOPPED));
-        };
-        for (question, row) in questions.into_iter().zip(&rows) {
-            analysis.answer(question, row);
-        }
-    }
+    let ended = analysis.ask(&mut runner, &|curve| curve % of == share - 1);
     bar.clear();
+    if ended? == Control::Stop {
+        files::note("stopped early; the same command goes on from here");
+        return Ok(ExitCode::from(STOPPED));
+    }
     super::tell_passed_over(runner.store(), passed_over);
     // Other shards may have ended meanwhile.
     let analysis = known(plan, &Store::open(out)?)?;

@@ -2,7 +2,7 @@
 
 use crate::support::Desk;
 
-const SLIDING: &str = r#"model = "shear"
+pub const SLIDING: &str = r#"model = "shear"
 [[panel]]
 bond = "stack"
 courses = 1
@@ -18,7 +18,7 @@ duration = "1.5 s"
 base = { pulse = { shape = "rectangular", acceleration = "0.5 g", duration = "0.2 s" } }
 "#;
 
-const IDA: &str = r#"title = "Sliding"
+pub const IDA: &str = r#"title = "Sliding"
 wall = "sliding.toml"
 [[motion]]
 name = "rectangle"

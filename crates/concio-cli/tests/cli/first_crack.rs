@@ -15,7 +15,7 @@ fn bonded() -> String {
     format!("{joints}{BOND}[load]{load}{MOTION}").replace("duration = \"0.05 s\"", "duration = \"0.4 s\"")
 }
 
-fn desk() -> Desk {
+pub fn desk() -> Desk {
     let desk = Desk::new();
     desk.put("wall.toml", bonded());
     desk.put(
@@ -98,7 +98,7 @@ fn wrong_questions_are_refused() {
     refused(&desk, "first-crack none.toml", &["none.toml"]);
 }
 
-const STUDY: &str = "wall = \"wall.toml\"\n\n[first-crack]\n\n[[motion]]\nname = \"there\"\nbase = { record = \"quake.at2\" }\n\n\
+pub const STUDY: &str = "wall = \"wall.toml\"\n\n[first-crack]\n\n[[motion]]\nname = \"there\"\nbase = { record = \"quake.at2\" }\n\n\
                      [[motion]]\nname = \"back\"\nbase = { record = \"quake.at2\", reverse = true }\n";
 
 #[test]

@@ -19,5 +19,6 @@ mod smart;
 mod studies;
 mod study_runs;
 mod support;
+mod tasks;
 mod ties;
 mod warned;

@@ -18,6 +18,7 @@ use std::collections::HashMap;
 use concio::Result;
 use concio::case::{Case, ModelKind, StopAt};
 use concio::quantity::{Acceleration, Length, Time, Velocity, shown};
+use concio::run::Control;
 use serde_json::Value;
 
 use crate::Plan;
@@ -26,6 +27,7 @@ use crate::file::analyses::{HazardInput, Ida};
 use crate::file::{DesignKind, StudyFile};
 use crate::intensity::Intensity;
 use crate::measures::{MEASURES, Row, ends_with_collapse};
+use crate::runner::Runner;
 use crate::values::few;
 use curve::{Curve, Point};
 use hazard::Hazard;
@@ -330,6 +332,24 @@ impl<'a> Analysis<'a> {
             case.motion.stop_at = Some(StopAt::Collapse(Time::from_si(0.0)));
         }
         Ok(case)
+    }
+
+    /// Asks the runner until every curve of a share is whole; whether it was stopped before.
+    ///
+    /// # Errors
+    /// As [`Runner::rows`].
+    pub fn ask(&mut self, runner: &mut Runner, share: &dyn Fn(usize) -> bool) -> Result<Control> {
+        loop {
+            let questions = self.questions(share);
+            if questions.is_empty() {
+                return Ok(Control::Continue);
+            }
+            let cases = questions.iter().map(|(curve, y)| self.case(*curve, *y)).collect::<Result<Vec<_>>>()?;
+            let Some(rows) = runner.rows(&cases)? else { return Ok(Control::Stop) };
+            for (question, row) in questions.into_iter().zip(&rows) {
+                self.answer(question, row);
+            }
+        }
     }
 
     /// What is asked next of the curves in `share`: numbers of curves and intensities. Empty when they are done.

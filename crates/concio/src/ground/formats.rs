@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use crate::case::HistoryQuantity;
-use crate::files::{LARGEST_INPUT, read_input};
+use crate::files::{LARGEST_INPUT, Unread, read_input};
 use crate::ground::record::{Format, Record, TextOptions, all_formats};
 use crate::ground::source::{MOST_SAMPLES, Source, line_end};
 use crate::ground::{
@@ -57,12 +57,15 @@ impl Format {
 /// # Errors
 /// [`crate::Error::Input`] when the file cannot be read or is not a record; it names file, line and cause.
 pub fn read(path: &Path, options: &TextOptions) -> Result<Vec<Record>> {
-    let bytes = read_input(path, LARGEST_INPUT).map_err(|reason| {
-        InputError::new(format!("the record cannot be read: {reason}"))
-            .in_file(path)
-            .help("a path in a wall file is relative to that file")
-    })?;
+    let bytes = read_input(path, LARGEST_INPUT).map_err(|reason| unread(path, reason))?;
     parse(&bytes, path, options)
+}
+
+/// Said of a file that the system does not give.
+pub(crate) fn unread(path: &Path, reason: Unread) -> InputError {
+    InputError::new(format!("the record cannot be read: {reason}"))
+        .in_file(path)
+        .help("a path in a wall file is relative to that file")
 }
 
 /// Reads all channels of a file in memory; `path` is named in errors only.

@@ -1,12 +1,14 @@
 //! Accelerograms that several runs share: each is read or made once, whatever its scale.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::Result;
 use crate::case::{RecordInput, Synthetic};
-use crate::ground::formats::read;
+use crate::files::{LARGEST_INPUT, Unread, read_input};
+use crate::ground::formats::{parse, unread};
 use crate::ground::record::{Record, TextOptions};
 use crate::ground::{channel, process, synthetic};
 use crate::quantity::Acceleration;
@@ -19,6 +21,8 @@ const MOST_SAMPLES: usize = 50_000_000;
 #[derive(Debug, Default)]
 pub struct Library {
     shelves: Mutex<Shelves>,
+    /// Contents that stand for those of files.
+    given: HashMap<PathBuf, Vec<u8>>,
 }
 
 #[derive(Debug, Default)]
@@ -61,6 +65,22 @@ pub fn load(input: &RecordInput, folder: &Path) -> Result<Record> {
 }
 
 impl Library {
+    /// With these contents in place of files: whoever has them needs no file of that path.
+    pub fn holding(files: HashMap<PathBuf, Vec<u8>>) -> Self {
+        Library { shelves: Mutex::default(), given: files }
+    }
+
+    /// The content of a record file.
+    ///
+    /// # Errors
+    /// As [`read_input`].
+    pub fn bytes(&self, path: &Path) -> std::result::Result<Cow<'_, [u8]>, Unread> {
+        match self.given.get(path) {
+            Some(bytes) => Ok(Cow::Borrowed(bytes)),
+            None => read_input(path, LARGEST_INPUT).map(Cow::Owned),
+        }
+    }
+
     /// The channel that `input` names, prepared ([`process::prepare`]); its path is relative to `folder`.
     ///
     /// # Errors
@@ -101,7 +121,8 @@ impl Library {
         let plain = RecordInput { scale: None, pga: None, ..input.clone() };
         let key = Key::Record(path.clone(), format!("{plain:?}"));
         self.shelved(key, || {
-            let mut records = read(&path, &TextOptions::from(input))?;
+            let bytes = self.bytes(&path).map_err(|reason| unread(&path, reason))?;
+            let mut records = parse(&bytes, &path, &TextOptions::from(input))?;
             // The file is in order: what is wrong is the key of the wall file.
             let place = channel::choose(&records, input.channel.as_ref()).map_err(|mut error| {
                 error.what = error.what.replace("the file", &path.display().to_string());
