@@ -69,39 +69,39 @@ const SYMBOLS: [Symbol; 75] = [
     row("c", "cohesion of bed and support joints", "Pa", "joint.bond.cohesion", "case.rs cohesion", "(B2)"),
     row("φ", "friction angle of the bond", "rad", "joint.bond.friction_angle", "case.rs friction_angle", "(B2)"),
     row("G_f^I, G_f^II", "fracture energies of opening and of shear", "N/m", "joint.bond.mode_1_energy joint.bond.mode_2_energy", "case.rs mode_2_energy", "(B4)"),
-    row("η", "fraction of the stiffness that a cracked bed or support joint keeps", "1", "joint.bond.residual_stiffness", "case.rs residual_stiffness", "(B1)"),
+    row("η", "fraction of the stiffness that a cracked joint keeps", "1", "joint.bond.residual_stiffness", "case.rs residual_stiffness", "(B1)"),
     row("A", "area of a joint, overlap times thickness", "m²", "", "bond.rs area", "(B2)"),
     row("F_0", "strength of a bonded joint", "N", "", "law/bond.rs strength", "(B2)"),
-    row("D", "damage: part of the stiffness that a bonded joint has lost", "1", "", "law/bond.rs damage", "(B1) (B3)"),
-    row("χ", "part of a bonded joint that rubs: share by which its strength has gone down", "1", "", "law/bond.rs rubbing", "(B1) (B3) (B5)"),
+    row("D", "damage: fraction of the stiffness that a bonded joint has lost", "1", "", "law/bond.rs damage", "(B1) (B3)"),
+    row("χ", "fraction of a bonded joint that rubs", "1", "", "law/bond.rs rubbing", "(B1) (B3) (B5)"),
     row("δ_m", "largest relative displacement or gap of a bonded joint so far", "m", "", "law/bond.rs reach", "(B3)"),
     row("δ_0, δ_c", "relative displacement at the strength; length over which the strength falls", "m", "", "law/bond.rs decay", "(B3) (B4)"),
     row("c", "constant of a device's dashpot", "N s/m", "joint.change.device.damping", "case/devices.rs damping", "(I1) (I2)"),
-    row("α, v_0", "power of a dashpot; velocity at which its force is c v_0", "1, m/s", "joint.change.device.exponent joint.change.device.reference_velocity", "device.rs exponent", "(I1)"),
+    row("α, v_0", "exponent of a dashpot; its reference velocity", "1, m/s", "joint.change.device.exponent joint.change.device.reference_velocity", "device.rs exponent", "(I1)"),
     row("k, k_1", "stiffness of a spring; of a re-centring device at rest", "N/m", "joint.change.device.stiffness", "case/devices.rs stiffness", "(I2) (I6)"),
     row("F_s", "force at which a friction damper slips", "N", "joint.change.device.slip_force", "case/devices.rs slip_force", "(I3)"),
     row("F_y, d_y", "yield force and displacement of a hysteretic device", "N, m", "joint.change.device.yield_force joint.change.device.yield_displacement", "case/devices.rs yield_force", "(I4)"),
-    row("a", "part of the stiffness that stays beyond yielding", "1", "joint.change.device.hardening", "case/devices.rs hardening", "(I4)"),
+    row("a", "fraction of the stiffness beyond yielding", "1", "joint.change.device.hardening", "case/devices.rs hardening", "(I4)"),
     row("A, β, γ, n", "shape of the hysteresis", "1", "joint.change.device.amplitude joint.change.device.beta joint.change.device.gamma joint.change.device.sharpness", "device.rs BoucWen", "(I5)"),
     row("ζ", "hysteretic variable", "1", "", "shear/state.rs internal", "(I5)"),
     row("F_a, k_2", "activation force and stiffness beyond it of a re-centring device", "N, N/m", "joint.change.device.activation_force joint.change.device.post_stiffness", "case/devices.rs activation_force", "(I6)"),
     row("β_f", "height of the flag over F_a", "1", "joint.change.device.flag", "device.rs flag", "(I7)"),
     row("s", "slip inside a re-centring device", "m", "", "shear/state.rs internal", "(I7)"),
-    row("λ", "what the sides of a rigid joint press each other with", "N", "", "shear/state.rs reaction", "(R2)"),
+    row("λ", "contact force of a rigid joint", "N", "", "shear/state.rs reaction", "(R2)"),
     row("p_j", "impulse of an impact in a rigid joint", "N s", "", "shear/integrate/impact.rs impulse", "(R3) (R4)"),
     row("e_j", "restitution of a rigid joint", "1", "joint.head.restitution joint.connection.restitution", "case.rs restitution", "(R4)"),
     row("q", "vertical load at the top, per length of brick", "N/m", "load.top", "case.rs top", "section 3"),
-    row("P0_i", "load above block i, as the research report has it", "N", "", "graph.rs overburden", "section 3"),
+    row("P0_i", "load above block i in the research report", "N", "", "graph.rs overburden", "section 3"),
     row("M_b", "mass of the top beam", "kg", "load.beam.mass", "case.rs Mass", "section 2"),
     row("E_kin", "kinetic energy, relative to the base", "J", "", "law/account.rs kinetic", "(7)"),
     row("E_el", "elastic energy of the joints", "J", "", "law/account.rs elastic", "(7)"),
-    row("E_0", "energy at t = 0 that no work brought", "J", "", "law/account.rs initial", "(7)"),
+    row("E_0", "energy at t = 0", "J", "", "law/account.rs initial", "(7)"),
     row("D_damping", "dissipated by viscous damping", "J", "", "law/account.rs damping", "(7)"),
     row("D_friction", "dissipated by friction", "J", "", "law/account.rs friction", "(7)"),
-    row("D_bond", "dissipated by the breaking of bonds", "J", "", "law/account.rs bond", "(7)"),
-    row("D_device", "dissipated by the hysteresis of devices", "J", "", "law/account.rs device", "(7)"),
-    row("D_impact", "lost in the impacts of rigid joints", "J", "", "law/account.rs impact", "(7)"),
-    row("D_nonreciprocal", "taken out by friction whose action differs from its reaction", "J", "", "law/account.rs nonreciprocal", "(7)"),
+    row("D_bond", "dissipated by breaking bonds", "J", "", "law/account.rs bond", "(7)"),
+    row("D_device", "dissipated by hysteretic devices", "J", "", "law/account.rs device", "(7)"),
+    row("D_impact", "lost in impacts of rigid joints", "J", "", "law/account.rs impact", "(7)"),
+    row("D_nonreciprocal", "taken by friction whose action differs from its reaction", "J", "", "law/account.rs nonreciprocal", "(7)"),
     row("W_base", "work of the base motion on the relative motion", "J", "", "law/account.rs input_base", "(7)"),
     row("W_top", "work of the driven top beam", "J", "", "law/account.rs input_top", "(7)"),
     row("R", "residual of the energy account", "J", "", "law/account.rs peak_residual", "(7)"),
@@ -115,9 +115,8 @@ const HEAD: &str = "\
 
 <!-- Made by `cargo xtask docs` from the table in xtask/src/symbols.rs. -->
 
-Numbers in brackets are the equations of [theory.md](theory.md), sections those of that page; the wall file is described in
-[wall-file.md](wall-file.md). Code is a file and the name in it: of `crates/concio/src/`, after `law/` and `shear/` of `crates/concio-law/src/` and `crates/concio-shear/src/`. In the wall file a number
-without a unit is in the unit given here (SI).
+Sources are equations and sections of [theory.md](theory.md), keys those of the [wall file](wall-file.md). Code is a file of
+`crates/concio/src/` and a name in it, after `law/` and `shear/` of `crates/concio-law/src/` and `crates/concio-shear/src/`.
 
 | symbol | meaning | unit | wall file | code | source |
 |---|---|---|---|---|---|
