@@ -12,9 +12,8 @@ const HEAD: &str = "\
 
 <!-- Made by `cargo xtask docs`; change the comments in examples/ instead. -->
 
-The walls of [examples/](../examples/README.md), drawn by `concio check FILE --svg OUT`. Each can be run as it is, for
-instance `concio run examples/04-two-panels.toml`; the report of the run then shows how the wall moves. Lines are joints,
-coloured by kind; the block above is the top beam, what stands below the wall is its base.
+The walls of [examples/](../examples/README.md), drawn by `concio check FILE --svg OUT`. Lines are joints, coloured by
+kind; the block above is the top beam, what stands below the wall is its base.
 ";
 
 /// The page and its pictures, as paths from the root with their content.
@@ -30,7 +29,7 @@ pub fn make(root: &Path) -> Result<Vec<(String, String)>, String> {
         let picture = fs::read_to_string(&scratch).map_err(|e| format!("{}: {e}", scratch.display()))?;
         let (title, about) = (title(&text), comment(&text));
         let file = wall.file_name().unwrap_or_default().to_string_lossy();
-        page += &format!("\n## {title}\n\n![{title}](img/{name}.svg)\n\n{about} ([{file}](../examples/{file}))\n");
+        page += &format!("\n## {title}\n\n![drawing](img/{name}.svg)\n\n{about} ([{file}](../examples/{file}))\n");
         files.push((format!("docs/img/{name}.svg"), picture));
     }
     files.push(("docs/gallery.md".into(), page));
