@@ -118,8 +118,8 @@ const HEAD: &str = "\
 Sources are equations and sections of [theory.md](theory.md), keys those of the [wall file](wall-file.md). Code is a file of
 `crates/concio/src/` and a name in it, after `law/` and `shear/` of `crates/concio-law/src/` and `crates/concio-shear/src/`.
 
-| symbol | meaning | unit | wall file | code | source |
-|---|---|---|---|---|---|
+| symbol | meaning | wall file | code | source |
+|---|---|---|---|---|
 ";
 
 /// The page, from what the table names; fails where it names what is not there.
@@ -133,7 +133,8 @@ pub fn page(root: &Path, schema: &str) -> Result<String, String> {
         let keys: Vec<String> = s.keys.split_whitespace().map(|k| format!("`{k}`")).collect();
         let keys = if keys.is_empty() { "–".into() } else { keys.join(", ") };
         let code = s.code.split_once(' ').map_or("–".into(), |(file, word)| format!("`{file}` `{word}`"));
-        page += &format!("| {} | {} | {} | {keys} | {code} | {} |\n", s.symbol, s.meaning, s.unit, s.source);
+        let unit = if s.unit == "1" { String::new() } else { format!(" [{}]", s.unit) };
+        page += &format!("| {} | {}{unit} | {keys} | {code} | {} |\n", s.symbol, s.meaning, s.source);
     }
     Ok(page)
 }
