@@ -53,7 +53,8 @@ fn renew(root: &Path, page: &Path, outputs: &mut HashMap<String, String>) -> Out
         let after = &from_mark[line.len() + 1..];
         rest = after;
         if let Some(block) = after.strip_prefix(OPEN) {
-            let end = block.find(CLOSE).ok_or_else(|| format!("{}: no end of the block after {line}", page.display()))?;
+            let end =
+                block.find(CLOSE).ok_or_else(|| format!("{}: no end of the block after {line}", page.display()))?;
             new.push_str(&format!("{OPEN}$ concio {command}\n{output}{CLOSE}"));
             rest = &block[end + CLOSE.len()..];
         }

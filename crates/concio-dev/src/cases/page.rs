@@ -53,7 +53,9 @@ pub fn markdown(findings: &Value) -> String {
     for (k, finding) in list(findings, "findings").enumerate() {
         let _ = writeln!(out, "{}. {}", k + 1, word(finding, "criterion"));
     }
-    out.push_str("\nUnder other settings, one run of each case (numbers in [report-cases.json](report-cases.json)):\n\n");
+    out.push_str(
+        "\nUnder other settings, one run of each case (numbers in [report-cases.json](report-cases.json)):\n\n",
+    );
     out.push_str("| setting | findings not confirmed |\n|---|---|\n");
     for setting in list(findings, "settings") {
         let answers = answers(findings, setting);
