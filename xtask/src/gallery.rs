@@ -10,11 +10,10 @@ use crate::{concio, examples};
 const HEAD: &str = "\
 # Gallery
 
-<!-- Made by `cargo xtask docs`; change the comments in examples/ instead. -->
+<!-- Made by `cargo xtask docs`. -->
 
-The walls of [examples/](../examples/README.md), drawn by `concio check FILE --svg OUT`. Each can be run as it is, for
-instance `concio run examples/04-two-panels.toml`; the report of the run then shows how the wall moves. Lines are joints,
-coloured by kind; the block above is the top beam, what stands below the wall is its base.
+The walls of [examples/](../examples/README.md), drawn by `concio check FILE --svg OUT`. The comments in the files say what
+they show. Lines are joints, coloured by kind; the block above is the top beam, what stands below the wall is its base.
 ";
 
 /// The page and its pictures, as paths from the root with their content.
@@ -28,19 +27,12 @@ pub fn make(root: &Path) -> Result<Vec<(String, String)>, String> {
         let mut check = Command::new(concio(root));
         read(check.arg("check").arg(&wall).arg("--svg").arg(&scratch).current_dir(root))?;
         let picture = fs::read_to_string(&scratch).map_err(|e| format!("{}: {e}", scratch.display()))?;
-        let (title, about) = (title(&text), comment(&text));
-        let file = wall.file_name().unwrap_or_default().to_string_lossy();
-        page += &format!("\n## {title}\n\n![{title}](img/{name}.svg)\n\n{about} ([{file}](../examples/{file}))\n");
+        let title = title(&text);
+        page += &format!("\n## [{title}](../examples/{name}.toml)\n\n![drawing](img/{name}.svg)\n");
         files.push((format!("docs/img/{name}.svg"), picture));
     }
     files.push(("docs/gallery.md".into(), page));
     Ok(files)
-}
-
-/// The comment that the file opens with, as one paragraph.
-fn comment(text: &str) -> String {
-    let lines = text.lines().map_while(|l| l.strip_prefix('#')).map(str::trim);
-    lines.collect::<Vec<_>>().join("\n")
 }
 
 fn title(text: &str) -> &str {
@@ -53,9 +45,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_example_tells_what_it_shows() {
-        let text = "# A first wall: six\n# courses.\ntitle = \"Brick panel\"\n# not this\n";
-        assert_eq!(comment(text), "A first wall: six\ncourses.");
-        assert_eq!(title(text), "Brick panel");
+    fn a_title_is_that_of_the_key() {
+        assert_eq!(title("# Not this\nmodel = \"planar\"\ntitle = \"Brick panel\"\n"), "Brick panel");
+        assert_eq!(title("model = \"planar\"\n"), "Untitled");
     }
 }

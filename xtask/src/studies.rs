@@ -2,7 +2,7 @@
 //!
 //! A document says `<!-- made by: concio study run examples/studies/x.toml as x -->`; the block of console text that follows
 //! becomes the output of that command (with its results in target/studies/x), and pictures named `img/x-FIGURE.svg` become
-//! the figures that it drew.
+//! the figures that it drew. A page that shows pictures alone has no block after the mark.
 
 use std::collections::HashMap;
 use std::fs;
@@ -51,10 +51,13 @@ fn renew(root: &Path, page: &Path, outputs: &mut HashMap<String, String>) -> Out
         new.push_str(line);
         new.push('\n');
         let after = &from_mark[line.len() + 1..];
-        let block = after.strip_prefix(OPEN).and_then(|b| b.find(CLOSE).map(|end| &b[end + CLOSE.len()..]));
-        let after = block.ok_or_else(|| format!("{}: no block of console text after {line}", page.display()))?;
-        new.push_str(&format!("{OPEN}$ concio {command}\n{output}{CLOSE}"));
         rest = after;
+        if let Some(block) = after.strip_prefix(OPEN) {
+            let end =
+                block.find(CLOSE).ok_or_else(|| format!("{}: no end of the block after {line}", page.display()))?;
+            new.push_str(&format!("{OPEN}$ concio {command}\n{output}{CLOSE}"));
+            rest = &block[end + CLOSE.len()..];
+        }
     }
     new.push_str(rest);
     if new == old { Ok(()) } else { fs::write(page, new).map_err(wrong) }

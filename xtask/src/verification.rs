@@ -345,7 +345,7 @@ impl Told {
     }
 }
 
-/// Rows of a page by what they say but for the numbers.
+/// Rows of a page by what they say, without the numbers.
 fn rows(page: &str) -> Result<BTreeMap<String, Told>, String> {
     let mut rows = BTreeMap::new();
     let mut section = "";

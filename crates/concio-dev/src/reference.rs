@@ -32,10 +32,10 @@ pub fn reference() -> Result<(), Failure> {
 
 /// Prints the measures of a run as a table.
 pub fn measures() -> Result<(), Failure> {
-    let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!("{unit} ") };
-    let line = |m: &Measure| format!("| `{}` | {}| {} |\n", m.name, unit(m.unit), m.text.replace('|', "\\|"));
+    let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+    let line = |m: &Measure| format!("| `{}`{} | {} |\n", m.name, unit(m.unit), m.text.replace('|', "\\|"));
     let lines: String = MEASURES.iter().map(line).collect();
-    files::print(&format!("| measure | unit | is |\n|---|---|---|\n{lines}"))
+    files::print(&format!("| measure | is |\n|---|---|\n{lines}"))
 }
 
 fn section(text: &mut String, name: &str, command: &mut clap::Command) {

@@ -1,4 +1,4 @@
-//! Devices in the place of mortar (theory, section 3): forces on side a against d = x_a − x_b and w = ḋ.
+//! Devices in place of mortar (theory, section 3): forces on side a against d = x_a − x_b and w = ḋ.
 //!
 //!   (I1)  F = c v_0 |w/v_0|^α sgn w                                        viscous
 //!   (I2)  F = k d + c w                                                    elastic

@@ -37,7 +37,7 @@ pub struct JointLaw {
     empty: bool,
     /// Its bond, if it is one of those that have one; `on` has no meaning here.
     pub bond: Option<BondValues>,
-    /// Number of the change that gives it a device in the place of all these.
+    /// Number of the change that gives it a device in place of all these.
     device: Option<u32>,
 }
 

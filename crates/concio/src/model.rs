@@ -32,7 +32,7 @@ pub struct Model {
     pub top_load: f64,
     /// Mass of that load on the blocks of a wall without a beam, which is in the masses of `shear` too [kg].
     pub load_mass: f64,
-    /// The joints with a device in the place of mortar, in the order of the joints.
+    /// The joints with a device in place of mortar, in the order of the joints.
     pub devices: Vec<Device>,
     /// Motion of base and top, and the end of the run.
     pub excitation: Excitation,

@@ -292,7 +292,7 @@ impl Prepared {
 }
 
 /// Runs `prepared` into the folder `out`; `monitor` is called now and then. `result.h5` and `summary.json` appear
-/// there whole or not at all. A run that was killed or interrupted is taken up where its journal ends. Results of other inputs
+/// there whole or not at all. An interrupted run resumes where its journal ends. Results of other inputs
 /// that the folder holds are removed before a journal stands beside them.
 ///
 /// # Errors

@@ -34,51 +34,42 @@ pub fn markdown(findings: &Value) -> String {
         let [figure, claim, answer] = ["figure", "claim", "answer"].map(|key| word(finding, key));
         let _ = writeln!(out, "| {} | {figure} | {claim} | **{answer}** | {} |", k + 1, votes(finding));
     }
-    out.push_str("\nWhat decides; in brackets the extremes of the perturbed runs:\n\n| | | value |\n|---|---|---|\n");
+    out.push_str("\nThe numbers that decide, with the extremes of the perturbed runs:\n\n| of | number | value |\n|---|---|---|\n");
+    // Findings may share a number.
+    let mut rows: Vec<(String, String)> = Vec::new();
     for (k, finding) in list(findings, "findings").enumerate() {
         for number in list(finding, "numbers") {
-            let _ = writeln!(out, "| {} | {} | {} |", k + 1, word(number, "name"), value(number));
+            let row = format!("{} | {}", word(number, "name"), value(number));
+            match rows.iter_mut().find(|(_, there)| *there == row) {
+                Some((of, _)) => *of += &format!(", {}", k + 1),
+                None => rows.push(((k + 1).to_string(), row)),
+            }
         }
     }
-    out.push_str("\nWhat had to hold for a yes:\n\n");
+    for (of, row) in rows {
+        let _ = writeln!(out, "| {of} | {row} |");
+    }
+    out.push_str("\nWhat has to hold for a yes:\n\n");
     for (k, finding) in list(findings, "findings").enumerate() {
         let _ = writeln!(out, "{}. {}", k + 1, word(finding, "criterion"));
     }
-    let count = list(findings, "findings").count();
-    let heads: Vec<String> = (1..=count).map(|k| k.to_string()).collect();
-    out.push_str("\nUnder other settings, one run of each case:\n\n");
-    let _ = writeln!(out, "| | {} |\n|---|{}", heads.join(" | "), "---|".repeat(count));
-    for setting in list(findings, "settings") {
-        let _ = writeln!(out, "| {} | {} |", word(setting, "name"), answers(findings, setting).join(" | "));
-    }
-    out + &differences(findings) + &accelerations(findings)
-}
-
-/// The numbers behind the answers that another setting changes.
-fn differences(findings: &Value) -> String {
-    let mut out = String::from(
-        "\nThe numbers where the answer is another than for the wall files:\n\n| setting | | answer | numbers |\n|---|---|---|---|\n",
+    out.push_str(
+        "\nUnder other settings, one run of each case (numbers in [report-cases.json](report-cases.json)):\n\n",
     );
+    out.push_str("| setting | findings not confirmed |\n|---|---|\n");
     for setting in list(findings, "settings") {
-        for (k, finding) in list(findings, "findings").enumerate() {
-            let there = &setting["answers"][word(finding, "id")];
-            if word(there, "answer") == word(finding, "answer") {
-                continue;
-            }
-            let values = list(there, "numbers").map(|v| v.as_f64().unwrap_or(f64::NAN));
-            let numbers = list(finding, "numbers").zip(values);
-            let numbers = numbers.map(|(n, v)| format!("{}: {}", word(n, "name"), short(v, word(n, "unit"))));
-            let numbers = numbers.collect::<Vec<_>>().join("; ");
-            let _ = writeln!(out, "| {} | {} | {} | {numbers} |", word(setting, "name"), k + 1, word(there, "answer"));
-        }
+        let answers = answers(findings, setting);
+        let other = (1..).zip(answers).filter(|(_, answer)| *answer != "yes").map(|(k, _)| k.to_string());
+        let other = other.collect::<Vec<_>>().join(", ");
+        let _ = writeln!(out, "| {} | {} |", word(setting, "name"), if other.is_empty() { "none" } else { &other });
     }
-    out
+    out + &accelerations(findings)
 }
 
 fn accelerations(findings: &Value) -> String {
     let mut out = String::from(
-        "\nBed and support joints with the largest peak relative accelerations, mean of the perturbed runs, and how far two \
-         such runs agree on the order of all joints (rank correlation):\n\n| case | joints | agreement |\n|---|---|---|\n",
+        "\nBed and support joints with the largest peak relative accelerations (mean of the perturbed runs), and the rank \
+         correlation of all joints between two such runs:\n\n| case | joints | correlation |\n|---|---|---|\n",
     );
     for map in list(findings, "accelerations") {
         let joint = |j: &Value| {

@@ -208,7 +208,7 @@ pub struct Interfaces {
     /// What is to become small or large: one objective, or two.
     #[serde(default, rename = "objective")]
     pub objectives: Vec<ObjectiveInput>,
-    /// Alternatives to put in the place of mortar, at least one; all joints of a design have the same.
+    /// Alternatives in place of mortar, at least one; all joints of a design have the same.
     #[serde(default, rename = "device")]
     pub devices: Vec<DeviceInput>,
     /// Runs that the search may ask for; the greedy placements are tuned with as many again. At least one
@@ -375,7 +375,7 @@ pub enum Goal {
     Maximise,
 }
 
-/// An alternative in the place of mortar.
+/// An alternative in place of mortar.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DeviceInput {

@@ -63,7 +63,7 @@ pub struct JointRow {
     pub friction: Option<FrictionRow>,
     /// Restitution of a rigid joint; 0 for the others.
     pub restitution: f64,
-    /// Law of the device in the place of mortar, if it has one.
+    /// Law of the device in place of mortar, if it has one.
     pub device: Option<DeviceLaw>,
 }
 
