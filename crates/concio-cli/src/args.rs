@@ -105,7 +105,7 @@ pub struct Check {
 #[command(after_help = "\
 Examples:
   concio new                 writes wall.toml
-  concio new abbey/nave.toml
+  concio new nave.toml
   concio new --model shear   blocks that move to the side alone, as in the research report
   concio new -               prints it")]
 pub struct New {

@@ -48,13 +48,17 @@ pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<(), F
     Ok(files::replace_bytes(path, content.as_ref())?)
 }
 
+/// Refuses an output in a folder that does not exist.
+fn in_a_folder(out: &Path) -> Result<(), Failure> {
+    let Some(folder) = out.parent().filter(|p| !p.as_os_str().is_empty() && !p.exists()) else { return Ok(()) };
+    let error = InputError::new(format!("the folder {} does not exist", folder.display())).in_file(out);
+    Err(error.help("make it first, or give another name").into())
+}
+
 /// Refuses an output that would replace one of the user's own files: an input of the same command, or any file that
 /// does not bear the ending of what is written; and a folder that does not exist. To be called before the work is done.
 pub fn guard(out: &Path, ending: &str, inputs: &[&Path]) -> Result<(), Failure> {
-    if let Some(folder) = out.parent().filter(|p| !p.as_os_str().is_empty() && !p.exists()) {
-        let error = InputError::new(format!("the folder {} does not exist", folder.display())).in_file(out);
-        return Err(error.help("make it first, or give another name").into());
-    }
+    in_a_folder(out)?;
     let Ok(target) = out.canonicalize() else { return Ok(()) };
     let refuse = |what: String| {
         let error = InputError::new(what).in_file(out);
@@ -74,6 +78,7 @@ pub fn guard(out: &Path, ending: &str, inputs: &[&Path]) -> Result<(), Failure> 
 
 /// As [`write`], but a file of that name is an error.
 pub fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
+    in_a_folder(path)?;
     if files::create_bytes(path, text.as_bytes())? {
         return Ok(());
     }

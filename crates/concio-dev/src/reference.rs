@@ -15,18 +15,7 @@ pub fn reference() -> Result<(), Failure> {
     // The width of the terminal must not show in a file.
     let mut command = Cli::command().term_width(100);
     command.build();
-    section(&mut text, "concio", &mut command);
-    let names: Vec<String> = command
-        .get_subcommands()
-        .filter(|c| !c.is_hide_set() && c.get_name() != "help")
-        .map(|c| c.get_name().into())
-        .collect();
-    for name in names {
-        if let Some(sub) = command.find_subcommand_mut(&name) {
-            let mut sub = sub.clone().term_width(100);
-            section(&mut text, &format!("concio {name}"), &mut sub);
-        }
-    }
+    sections(&mut text, "concio", &command);
     files::print(&text)
 }
 
@@ -38,8 +27,16 @@ pub fn measures() -> Result<(), Failure> {
     files::print(&format!("| measure | is |\n|---|---|\n{lines}"))
 }
 
-fn section(text: &mut String, name: &str, command: &mut clap::Command) {
-    let help = command.render_long_help().to_string();
+/// Of a command and all below it.
+fn sections(text: &mut String, name: &str, command: &clap::Command) {
+    section(text, name, command);
+    for sub in command.get_subcommands().filter(|c| !c.is_hide_set() && c.get_name() != "help") {
+        sections(text, &format!("{name} {}", sub.get_name()), sub);
+    }
+}
+
+fn section(text: &mut String, name: &str, command: &clap::Command) {
+    let help = command.clone().term_width(100).render_long_help().to_string();
     let help: Vec<&str> = help.lines().map(str::trim_end).collect();
     text.push_str(&format!("\n## {name}\n\n```text\n{}\n```\n", help.join("\n").trim_end()));
 }

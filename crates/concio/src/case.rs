@@ -83,7 +83,8 @@ pub struct Case {
     /// Loads at the top.
     #[serde(default)]
     pub load: Load,
-    /// Motion of base and top.
+    /// Motion of base and top; runs need it.
+    #[serde(default)]
     pub motion: Motion,
     /// Time integration.
     #[serde(default)]
@@ -987,6 +988,11 @@ impl Motion {
     /// The three motions, each with its key.
     pub fn signals(&self) -> [(&'static str, &Signal); 3] {
         [("base", &self.base), ("top", &self.top), ("vertical", &self.vertical)]
+    }
+
+    /// Whether a run without `duration` ends with the motion: after other signals a wall still has something to do.
+    pub fn has_length(&self) -> bool {
+        self.signals().iter().any(|(_, s)| matches!(s, Signal::Record(_) | Signal::Synthetic(_) | Signal::Path(_)))
     }
 
     /// The three motions.

@@ -162,8 +162,22 @@ fn compiled(
     model.warnings.splice(0..0, plausible::doubts(&case));
     model.warnings.extend(of_records);
     model.warnings.extend(endless(&case, &model));
+    model.warnings.extend(passed_over(&model));
     Simulation::check(&model, &sampling)?;
     Ok(Prepared { case, model, sampling, inputs_hash })
+}
+
+/// Says of steps that pass over samples of a motion that they do.
+fn passed_over(model: &Model) -> Option<Warning> {
+    let step = model.planar().filter(|planar| !planar.still)?.step;
+    let motions = &model.excitation;
+    let sampled = [&motions.base, &motions.vertical].into_iter().filter_map(|m| m.sample_interval());
+    let interval = sampled.reduce(f64::min).filter(|interval| step > 1.5 * interval)?;
+    let [step, interval] = [step, interval].map(|t| shown(plausible::rounded(t, 6)));
+    let text = format!(
+        "solver.step is {step} s, and the motion has samples {interval} s apart: what it does between steps hardly moves the wall"
+    );
+    Some(Warning::new(WarningKind::UnlikelyNumber, text))
 }
 
 /// Says of a run that takes days at least that it does, and why.

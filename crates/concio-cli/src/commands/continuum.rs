@@ -31,7 +31,7 @@ pub fn continuum(args: &Continuum) -> Result<(), Failure> {
     if let Some(out) = &args.figure {
         files::guard(out, "svg", &[&args.file])?;
     }
-    let file = wall_file::read(&args.file)?;
+    let file = wall_file::read_at_rest(&args.file)?;
     wall_file::doubt(&file);
     let chosen = panels(args, &file)?;
     let options = options(args);

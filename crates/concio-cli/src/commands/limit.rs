@@ -30,7 +30,7 @@ const TELLING: f64 = 0.01;
 
 /// Finds the collapse multiplier of a wall.
 pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
-    let file = wall_file::read(&args.file)?;
+    let file = wall_file::read_at_rest(&args.file)?;
     wall_file::doubt(&file);
     if let Some(out) = &args.out {
         refuse_a_file(out)?;

@@ -40,7 +40,7 @@ struct Found {
 
 /// Finds the multiplier of a wall that is pushed across its plane.
 pub fn limit(args: &Asked) -> Result<ExitCode, Failure> {
-    let file = wall_file::read(&args.file)?;
+    let file = wall_file::read_at_rest(&args.file)?;
     wall_file::doubt(&file);
     if let Some(out) = &args.out {
         refuse_a_file(out)?;

@@ -21,7 +21,7 @@ const TABLE: &str = "mechanisms.csv";
 
 /// Finds the mechanisms of a wall.
 pub fn mechanisms(args: &Mechanisms) -> Result<(), Failure> {
-    let file = wall_file::read(&args.file)?;
+    let file = if args.motion.shaken { wall_file::read(&args.file)? } else { wall_file::read_at_rest(&args.file)? };
     wall_file::doubt(&file);
     if let Some(out) = &args.out {
         refuse_a_file(out)?;

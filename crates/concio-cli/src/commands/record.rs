@@ -76,7 +76,10 @@ fn notes(args: &Record, channels: &[History], place: usize) {
     for remark in &history.remarks {
         files::note(&format!("note: {remark}"));
     }
-    for odd in [coverage::odd_peak(history), coverage::odd_interval(history)].into_iter().flatten() {
+    for odd in [coverage::odd_peak(history), coverage::odd_interval(history), coverage::odd_length(history)]
+        .into_iter()
+        .flatten()
+    {
         files::note(&format!("warning: {odd}"));
     }
 }

@@ -6,6 +6,7 @@ use concio::case::{self, CaseFile, Document, plausible};
 use concio::ground::formats;
 use concio::ground::record::TextOptions;
 use concio::pattern;
+use concio::quantity::Time;
 use concio::run::{self, Prepared};
 use concio::warning::WarningKind;
 use concio::{Error, InputError};
@@ -16,11 +17,27 @@ use crate::motion;
 
 /// Reads and validates a wall file.
 pub fn read(path: &Path) -> Result<CaseFile, Failure> {
-    let file = case::read(path).map_err(|e| match Kind::of(path) {
-        Some(Kind::Study) => of_study(path).into(),
-        _ if path.is_file() && is_record(path) => of_record(e),
-        _ => e,
-    })?;
+    valid(unchecked(path)?)
+}
+
+/// [`read`] for what has no motion: a file need not say how long a run is.
+pub fn read_at_rest(path: &Path) -> Result<CaseFile, Failure> {
+    let mut file = unchecked(path)?;
+    if file.case.motion.duration.is_none() && !file.case.motion.has_length() {
+        file.case.motion.duration = Some(Time::from_si(1.0));
+    }
+    valid(file)
+}
+
+fn unchecked(path: &Path) -> Result<CaseFile, Failure> {
+    case::read(path).map_err(|e| match Kind::of(path) {
+        Some(Kind::Study) => Failure::from(of_study(path)),
+        _ if path.is_file() && is_record(path) => of_record(e).into(),
+        _ => e.into(),
+    })
+}
+
+fn valid(file: CaseFile) -> Result<CaseFile, Failure> {
     let findings = file.findings();
     if findings.is_empty() { Ok(file) } else { Err(Failure::Input(findings)) }
 }

@@ -46,6 +46,26 @@ fn what_is_printed_as_json_is_what_is_written() {
     assert!((pressed - 30e3).abs() < 1e-3, "{pressed} N on the base");
 }
 
+/// What has no motion asks for none; a run does.
+#[test]
+fn a_wall_without_motion_is_analysed_at_rest() {
+    let desk = Desk::new();
+    let own = block(0.7, "");
+    let (still, _) = own.split_once("[motion]").expect("a motion");
+    desk.put("block.toml", still);
+    desk.put("named.toml", format!("{still}[motion]\nbase = \"none\"\n"));
+    for command in ["limit", "limit --out-of-plane", "mechanisms"] {
+        for file in ["block.toml", "named.toml"] {
+            desk.concio(&format!("{command} {file}")).assert().success();
+        }
+    }
+    for command in ["check block.toml", "run block.toml", "mechanisms block.toml --shaken"] {
+        let refused = desk.concio(command).assert().code(2);
+        let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(said.contains("motion: the key is missing"), "{command}: {said}");
+    }
+}
+
 #[test]
 fn without_a_folder_nothing_is_written() {
     let desk = Desk::new();

@@ -94,6 +94,15 @@ const SHAKING: Expected =
 /// a_g of a site: 0.05 g or less where hardly anything shakes, 0.3 g in Italy, 1 g beside the largest faults.
 const GROUND: Expected =
     Expected { limits: [0.02, 10.0], usual: [0.2, 5.0], unit: "m/s2", slips: &[(1e-2, "cm/s2", 1e-2)] };
+/// S: 0.9 on rock to 1.8 on soft soil times 1 to 1.4 on ridges (NTC 2018, tables 3.2.IV and 3.2.V).
+const SOIL: Expected =
+    Expected { limits: [0.5, 3.0], usual: [0.8, 2.6], unit: "", slips: &[(1e-2, "", 1.0), (1e2, "", 1.0)] };
+/// F0 of sites: from 2.2 (NTC 2018) to some 3.
+const AMPLIFICATION: Expected =
+    Expected { limits: [1.5, 5.0], usual: [2.0, 4.0], unit: "", slips: &[(1e-2, "", 1.0), (1e2, "", 1.0)] };
+/// T_C: 0.15 s on rock to 2 s on the softest soils.
+const CORNER: Expected =
+    Expected { limits: [0.05, 3.0], usual: [0.1, 2.0], unit: "s", slips: &[(1e-3, "s", 1.0), (1e3, "s", 1.0)] };
 /// What a floor or a roof pushes per length of its wall, and what connects it.
 const THRUST: Expected =
     Expected { limits: [10.0, 1e7], usual: [1e2, 1e6], unit: "N/m", slips: &[(1e3, "kN/m", 1e3), (1e-3, "kN/m", 1e3)] };
@@ -189,8 +198,14 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane) {
         }
     }
     for (name, hazard) in own.site.iter().flat_map(Site::hazards) {
-        if let Some(acceleration) = hazard.ground_acceleration {
-            doubts.look(&format!("out_of_plane.site.{name}.ground_acceleration"), acceleration.si(), &GROUND);
+        let numbers = [
+            ("ground_acceleration", hazard.ground_acceleration.map(|a| a.si()), &GROUND),
+            ("soil_factor", hazard.soil_factor, &SOIL),
+            ("amplification", hazard.amplification, &AMPLIFICATION),
+            ("corner_period", hazard.corner_period.map(|t| t.si()), &CORNER),
+        ];
+        for (key, value, expected) in numbers {
+            doubts.look(&format!("out_of_plane.site.{name}.{key}"), value.unwrap_or(0.0), expected);
         }
     }
 }
@@ -213,10 +228,12 @@ impl Doubts {
         let within = |v: f64| (expected.usual[0]..=expected.usual[1]).contains(&v);
         let guess = expected.slips.iter().find(|(factor, ..)| within(size * factor));
         let meant = guess.map_or(String::new(), |&(factor, unit, si)| {
-            format!("; did you mean \"{} {unit}\"?", shown(rounded(value * factor / si, 6)))
+            let number = shown(rounded(value * factor / si, 6));
+            let number = if unit.is_empty() { number } else { format!("\"{number} {unit}\"") };
+            format!("; did you mean {number}?")
         });
-        let unit = expected.unit;
-        let text = format!("{key} is {} {unit}, {than} than {} {unit}{meant}", shown(rounded(value, 6)), shown(limit));
+        let unit = if expected.unit.is_empty() { String::new() } else { format!(" {}", expected.unit) };
+        let text = format!("{key} is {}{unit}, {than} than {}{unit}{meant}", shown(rounded(value, 6)), shown(limit));
         self.add(WarningKind::UnlikelyNumber, text);
     }
 

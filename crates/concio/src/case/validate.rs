@@ -3,7 +3,7 @@
 
 use std::fmt::Display;
 
-use super::{Beam, Case, ParameterSet, Signal, TopLoad};
+use super::{Beam, Case, Motion, ParameterSet, Signal, TopLoad};
 use crate::quantity::{Dimension, Quantity, Stiffness, shown};
 use crate::{InputError, Result};
 
@@ -182,6 +182,8 @@ fn load(f: &mut Findings, case: &Case) {
         }
     }
     match (case.load.beam, &case.motion.top) {
+        // Of no motion at all that is said as such.
+        (Beam::Driven, Signal::None) if case.motion == Motion::default() => {}
         (Beam::Driven, Signal::None) => {
             f.push("motion.top", "the beam is `driven` but has no motion", "a motion such as { sine = { … } }");
         }

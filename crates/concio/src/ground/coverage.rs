@@ -26,6 +26,8 @@ const SMALLEST_PEAK: f64 = 0.01;
 const LARGEST_PEAK: f64 = 60.0;
 /// Time between samples beyond which its unit is doubted [s]: earthquakes shake at 5 Hz and more.
 const LARGEST_INTERVAL: f64 = 0.1;
+/// Length of a record below which it is hardly whole [s].
+const SHORTEST: f64 = 1.0;
 
 /// How a run of `duration` [s] covers a record.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +76,8 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                 let look = ": look at `units`, `scale` and `pga`";
                 let peak = odd_peak(&record).map(|odd| format!("motion.{name}: {odd} as it moves the wall{look}"));
                 let interval = odd_interval(&record).map(|odd| format!("motion.{name}: {odd}"));
-                let odd = peak.into_iter().chain(interval);
+                let length = odd_length(&record).map(|odd| format!("motion.{name}: {odd}"));
+                let odd = peak.into_iter().chain(interval).chain(length);
                 found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
             }
             Signal::Synthetic(input) => {
@@ -153,11 +156,14 @@ pub fn offset(record: &Record) -> Option<String> {
     })
 }
 
-/// Says of a peak that no earthquake has, or that no wall feels, that it is: it comes from units.
+/// Says of a peak that no earthquake has, or that no wall feels, that it is: it comes from units, or from a file of zeros.
 pub fn odd_peak(record: &Record) -> Option<String> {
     let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
     let (how, bound) = if peak > LARGEST_PEAK { ("more", LARGEST_PEAK) } else { ("less", SMALLEST_PEAK) };
-    (peak > 0.0 && !(SMALLEST_PEAK..=LARGEST_PEAK).contains(&peak))
+    if peak == 0.0 {
+        return Some("the record is 0 from end to end".into());
+    }
+    (!(SMALLEST_PEAK..=LARGEST_PEAK).contains(&peak))
         .then(|| format!("the record's peak acceleration is {} m/s², {how} than {bound} m/s²", rounded(peak, 4)))
 }
 
@@ -166,6 +172,15 @@ pub fn odd_interval(record: &Record) -> Option<String> {
     (record.dt > LARGEST_INTERVAL && record.displacement.is_none()).then(|| {
         let (dt, most) = (rounded(record.dt, 4), LARGEST_INTERVAL);
         format!("the record's samples are {dt} s apart, more than {most} s: are its times in milliseconds? (`Time [ms]` heads them)")
+    })
+}
+
+/// Says of a record that is too short for an earthquake that it is: most of its file is missing, or its interval is in another unit.
+pub fn odd_length(record: &Record) -> Option<String> {
+    let (samples, length) = (record.npts(), record.duration());
+    (length < SHORTEST).then(|| {
+        let length = seconds(length);
+        format!("the record has {samples} samples in {length}, less than {SHORTEST} s: is it whole, and its interval in seconds?")
     })
 }
 
@@ -262,6 +277,12 @@ mod tests {
         assert!(peak.contains("981 m/s², more than 60 m/s²"), "{peak}");
         let interval = odd_interval(&other).expect("a doubt");
         assert!(interval.contains("5 s apart, more than 0.1 s"), "{interval}");
+        assert_eq!(odd_length(&usual), None);
+        let short = odd_length(&record(3)).expect("a doubt");
+        assert!(short.contains("3 samples in 0.02 s, less than 1 s"), "{short}");
+        let mut silent = record(101);
+        silent.acceleration.fill(0.0);
+        assert!(odd_peak(&silent).is_some_and(|odd| odd.contains("0 from end to end")));
     }
 
     #[test]

@@ -77,6 +77,21 @@ corner_period = "0.4 s"
             "out_of_plane.strength is 2.5 Pa, less than 10000 Pa; did you mean \"2.5 MPa\"?",
         ),
         (
+            "amplification = 2.4",
+            "amplification = 0.024",
+            "out_of_plane.site.life_safety.amplification is 0.024, less than 1.5; did you mean 2.4?",
+        ),
+        (
+            "amplification = 2.4",
+            "soil_factor = 120\namplification = 2.4",
+            "out_of_plane.site.life_safety.soil_factor is 120, more than 3; did you mean 1.2?",
+        ),
+        (
+            "corner_period = \"0.4 s\"",
+            "corner_period = 480",
+            "out_of_plane.site.life_safety.corner_period is 480 s, more than 3 s; did you mean \"0.48 s\"?",
+        ),
+        (
             "load = \"12 kN/m\"",
             "load = 12",
             "out_of_plane.floor[0].load is 12 N/m, less than 300 N/m; did you mean \"12 kN/m\"?",

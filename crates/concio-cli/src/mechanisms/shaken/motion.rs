@@ -119,7 +119,12 @@ fn taken(args: &TimeHistory, path: &Path, wanted: Option<&RecordChannel>, up: bo
     let words = format!("{name}, channel {} of {} {label}", place + 1, records.len());
     let record = records.swap_remove(place);
     doubts.extend(record.remarks.iter().map(ToString::to_string));
-    let odd = [coverage::odd_peak(&record), coverage::odd_interval(&record), coverage::offset(&record)];
+    let odd = [
+        coverage::odd_peak(&record),
+        coverage::odd_interval(&record),
+        coverage::odd_length(&record),
+        coverage::offset(&record),
+    ];
     doubts.extend(odd.into_iter().flatten());
     Ok(Taken { words: words.trim_end().into(), record, doubts })
 }

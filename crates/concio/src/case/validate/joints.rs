@@ -121,7 +121,10 @@ fn restitution(f: &mut Findings, (table, name): (&str, &str), given: Option<f64>
 
 fn friction(f: &mut Findings, r: &Friction) {
     f.number("joint.friction.static", r.static_, Bound::From0);
-    f.number("joint.friction.dynamic", r.dynamic, Bound::From0);
+    // Without a key of its own it is the static one, of which that is said already.
+    if r.dynamic != r.static_ {
+        f.number("joint.friction.dynamic", r.dynamic, Bound::From0);
+    }
     f.quantity("joint.friction.slip_velocity", r.slip_velocity, Bound::Above0);
     f.number("joint.friction.beta", r.beta, Bound::Above0);
     f.number("joint.friction.alpha", r.alpha, Bound::From0);

@@ -3,14 +3,18 @@
 use super::{Bound, Findings};
 use crate::case::SYNTHETIC_SAMPLES;
 use crate::case::{
-    Baseline, Case, DisplacementPath, Pulse, Ramp, RecordChannel, RecordInput, Signal, Sine, Sweep, Synthetic, Tilt,
+    Baseline, Case, DisplacementPath, Motion, Pulse, Ramp, RecordChannel, RecordInput, Signal, Sine, Sweep, Synthetic,
+    Tilt,
 };
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
     let m = &case.motion;
     match m.duration {
         Some(duration) => f.quantity("motion.duration", duration, Bound::Above0),
-        None if !m.signals().iter().any(|(_, s)| has_length(s)) => {
+        None if *m == Motion::default() => {
+            f.push("motion", "the key is missing", "a table `[motion]`: Motion of base and top");
+        }
+        None if !m.has_length() => {
             let what = "the key is missing, and no record says how long the run is";
             f.push("motion.duration", what, "above 0 s");
         }
@@ -19,11 +23,6 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
     for (key, s) in m.signals() {
         signal(f, &format!("motion.{key}"), s);
     }
-}
-
-/// Whether a run without `duration` ends with the motion: after the others a wall still has something to do.
-fn has_length(signal: &Signal) -> bool {
-    matches!(signal, Signal::Record(_) | Signal::Synthetic(_) | Signal::Path(_))
 }
 
 fn signal(f: &mut Findings, key: &str, signal: &Signal) {
