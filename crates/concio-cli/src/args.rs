@@ -7,12 +7,44 @@ use clap_complete::Shell;
 use concio::case::RecordChannel;
 use concio::quantity::{Acceleration, Length, Stress, Time};
 
-/// In-plane earthquake response of block masonry.
+/// What clap's own list has no groups for: every command that a user types.
+pub const COMMANDS: &str = "\
+Make and run a wall:
+  new          write a commented wall file to start from
+  check        say what a wall file describes, or what is wrong with it
+  record       measure and draw an accelerogram
+  run          simulate a wall: results and report
+
+Look at results:
+  plot         figures for print, or the report again
+  export       CSV, NPZ or VTKHDF
+  compare      two runs side by side
+
+Without a simulation:
+  limit        the horizontal load under which a dry wall becomes a mechanism
+  mechanisms   what may fall out of the plane of a wall
+  continuum    the material that finite element programs need
+  scale        the dimensionless groups of a wall
+
+Many runs:
+  study        sensitivity, fragility, crack lines, interfaces
+  first-crack  the scale of a motion at which a first joint cracks
+
+For programs:
+  schema       the JSON Schema of the wall file
+  system       the assembled system as JSON, for other solvers
+  completions  the completions of a shell
+
+`concio COMMAND --help` says more of each.
+";
+
+/// Earthquake response of block masonry, in the plane of a wall and out of it.
 ///
 /// A wall file says in about twenty lines what the wall is, how its joints behave and how it is shaken.
 /// `concio new` writes one to start from.
 #[derive(Debug, Parser)]
 #[command(name = "concio", version, propagate_version = true, arg_required_else_help = true, max_term_width = 110)]
+#[command(help_template = "{about-section}\n{usage-heading} {usage}\n\n{before-help}Options:\n{options}{after-help}", before_help = COMMANDS)]
 #[command(after_help = "\
 First steps:
   concio run                    the built-in wall, to see a result
@@ -51,8 +83,8 @@ pub enum Command {
 /// Simulate a wall and write its results and report.
 ///
 /// Writes result.h5 (histories, frames, envelopes), summary.json (the numbers of the run) and report.html
-/// (figures, energies, input). Each appears whole or not at all. A run that was stopped or killed is taken
-/// up where its journal ends when the same command is given again.
+/// (figures, energies, input). Each appears whole or not at all. A run that was stopped or killed resumes
+/// where it left off when the same command is given again.
 ///
 /// Ctrl-C stops the run and writes what was computed so far; a second Ctrl-C ends the program at once.
 #[derive(Debug, Args)]
@@ -69,7 +101,7 @@ pub struct Run {
     /// Folder of the results; default concio-run/NAME, NAME being that of the wall file without its ending.
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
-    /// Start at t = 0 even if a killed run could be taken up.
+    /// Start at t = 0 even if a killed run could be resumed.
     #[arg(long, alias = "no-resume")]
     pub fresh: bool,
 }
@@ -854,7 +886,7 @@ pub enum HeadFriction {
     Frictionless,
 }
 
-/// Give the material that finite element programs need in the place of a wall's bricks and joints.
+/// Give the material that finite element programs need in place of a wall's bricks and joints.
 ///
 /// Prints membrane, plate and transverse shear moduli of every panel, its strength domain, what all of it rests on, and how far
 /// the continuum is off at the panel's number of courses. Bonds that repeat have closed forms or are solved as a cell. Of

@@ -259,6 +259,23 @@ fn check_tells_whether_a_planar_wall_stands() {
     }
 }
 
+/// The help of the program lists each command once, in groups.
+#[test]
+fn help_lists_every_command_once() {
+    let desk = Desk::new();
+    let help = desk.concio("--help").assert().success().get_output().stdout.clone();
+    let help = String::from_utf8_lossy(&help).into_owned();
+    let (_, commands) = help.split_once("Make and run a wall:").expect("the groups");
+    let (commands, rest) = commands.split_once("Options:").expect("the options");
+    assert!(rest.contains("--version") && rest.contains("First steps:"), "{rest}");
+    let program = <concio_cli::args::Cli as clap::CommandFactory>::command();
+    for command in program.get_subcommands().filter(|c| !c.is_hide_set()) {
+        let name = format!("  {} ", command.get_name());
+        assert_eq!(commands.matches(&name).count(), 1, "{name}");
+    }
+    assert_eq!(commands.matches("\n  ").count(), program.get_subcommands().filter(|c| !c.is_hide_set()).count());
+}
+
 /// Records that are hardly whole, and steps that pass over samples, are told before the run.
 #[test]
 fn records_that_hardly_shake_are_told() {
