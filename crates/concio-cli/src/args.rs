@@ -108,7 +108,7 @@ pub struct Run {
 
 /// Validate a wall file and say what it describes.
 ///
-/// Lists everything that is wrong with the file, each with its line and the allowed range. If nothing is, prints
+/// Lists what is wrong with the file, each with its line and the allowed range. If nothing is, prints
 /// what the wall consists of: panels, joints of each kind, mass, normal forces, and what moves it: record, scale, peak
 /// acceleration, how much of it is used. No motion is simulated. Walls of up to 2,000 blocks tell their first period, with
 /// joints intact, of planar walls with joints as they bear, and planar walls whether they stand under their loads.
