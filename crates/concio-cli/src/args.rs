@@ -460,6 +460,15 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Two rising parts of 1.
+fn plateau(text: &str) -> Result<[f64; 2], String> {
+    let parts: Vec<f64> = text.split(',').filter_map(|p| p.trim().parse().ok()).collect();
+    match (<[f64; 2]>::try_from(parts.as_slice()), text.split(',').count()) {
+        (Ok([from, to]), 2) if 0.0 < from && from < to && to < 1.0 => Ok([from, to]),
+        _ => Err("allowed: two rising numbers above 0 and below 1, such as 0.1,0.4".into()),
+    }
+}
+
 /// A part of 1.
 fn part(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -720,8 +729,9 @@ pub enum CrackCriterion {
 /// Forces in balance prove a lower bound of λ, a mechanism an upper one, both printed. docs/limit-analysis.md says how.
 ///
 /// With --out-of-plane the wall is pushed across its plane, block by block in space: extruded by its thickness, its base wide
-/// and fixed, its outer face the one that the wall file shows. Told beside λ are its value without friction at head joints, the
-/// estimate without dilation, and the closed form of a wall that turns as one.
+/// and fixed. Floors, ties, side walls and gable of the table `out_of_plane` stand and pull behind it. Told beside λ are its
+/// value without friction at head joints, the estimate without dilation, the closed form of a wall that turns as one, and
+/// whether the multipliers of `concio mechanisms` are high or low.
 ///
 /// With --out, limit.json (bounds, forces, mechanism) and mechanism.svg are written. Exit status 1 if the bounds are more than
 /// 1e-4 of λ apart.
@@ -796,6 +806,9 @@ pub struct Mechanisms {
     /// Which sum of the friction of side walls is taken.
     #[arg(long, value_enum, default_value = "summed")]
     pub overlaps: OverlapSum,
+    /// Ends of the plateau of a trilinear curve as parts of d0, such as 0.1,0.4: joints that are not sharp bear no more than that.
+    #[arg(long, value_name = "D1,D2", value_parser = plateau)]
+    pub trilinear: Option<[f64; 2]>,
     /// Print JSON (SI units).
     #[arg(long)]
     pub json: bool,

@@ -6,7 +6,8 @@
 //!
 //! T_B = T_C/3, T_D = 4 a_g/g + 1.6 s, S_De = S_e T²/4π².
 //!
-//! - Damage (SLD): a = α0 g/(e* FC) against a_g S on the ground, against a_Z(z) aloft.
+//! - Damage (SLD): a = α0 g/(e* FC) against a_g S on the ground, against a_Z(z) aloft; S_eZ(T_0, 5 %) where a part vibrates freely and a
+//!   floor spectrum is given.
 //! - Life safety (SLV), linear: q times that, q = 2.
 //! - By displacement: d_SLV = 0.4 d0 on the curve of what surely acts till collapse, or where ties end and α drops by more than half if that
 //!   is less; d_SLC = 0.6 d0, or where beams lose their seat. T = 1.68 π √(d_SLV/a(d_SLV)) with ξ = 8 %, 1.56 π √(d_SLC/a(d_SLC)) with 10 %.
@@ -193,6 +194,8 @@ pub struct Asked {
     pub seat: Option<f64>,
     /// T_0 [s] of the part before it cracks, which bounds the search in given spectra from below; 0 where it is not known.
     pub first_period: f64,
+    /// Whether the part vibrates freely before it cracks, as parapets and gables do: aloft its damage is checked against S_eZ(T_0) then.
+    pub free: bool,
 }
 
 /// A check by forces.
@@ -200,7 +203,7 @@ pub struct Asked {
 pub struct Linear {
     /// What the mechanism bears [m/s²], q included.
     pub capacity: f64,
-    /// What shakes it [m/s²]: a_g S or a_Z.
+    /// What shakes it [m/s²]: a_g S, a_Z, or S_eZ(T_0) of a part that vibrates freely.
     pub demand: f64,
 }
 
@@ -284,7 +287,7 @@ impl Checks {
         };
         Checks {
             acceleration,
-            damage: linear(&asked.hazard.damage, 1.0),
+            damage: linear(&asked.hazard.damage, 1.0).map(|l| Linear { demand: l.demand.max(asked.vibrates()), ..l }),
             life: linear(&asked.hazard.life, asked.behaviour),
             life_displacement: by(&asked.hazard.life, life, 1.68, DAMPING[0]),
             collapse: by(&asked.hazard.collapse, collapse, 1.56, DAMPING[1]),
@@ -300,6 +303,14 @@ impl Checks {
 }
 
 impl Asked {
+    /// S_eZ(T_0, 5 %) [m/s²] of a part that vibrates freely aloft; 0 of others, and without its spectrum.
+    fn vibrates(&self) -> f64 {
+        match &self.place {
+            Place::Aloft { floor: Some(floor), .. } if self.free => floor.acceleration(self.first_period, 5.0),
+            _ => 0.0,
+        }
+    }
+
     fn drop(&self, usual: f64, other: Option<f64>) -> f64 {
         other.map_or(usual, |d| d.min(usual))
     }

@@ -7,8 +7,12 @@
 //! x_o = min(x_1, x_2), y_o = min(y_1, y_2). H is the thrust of a hip rafter. Derived from (OP1). φ stays given: left free, the minimum runs
 //! to one wall that overturns with a piece of the other. Of both cracks one and the same part of the texture's slope is taken, for the
 //! same reason.
+//!
+//! Floors and ties of wall 1 count where they lie on its wedge, as in (OP3): of a floor the part z tan β_1/L, in the middle of that length.
+//! The corner falls along φ; thrusts, ties and connections act across the wall, with sin φ of their force.
 
-use crate::body::{Body, Hold, Thrust, Weight};
+use crate::body::{Body, Hold, HoldLaw, Thrust, Weight};
+use crate::facade::{Floor, Tie};
 use crate::side_wall::{Overlaps, SideWall};
 
 /// A corner of two walls.
@@ -37,6 +41,17 @@ pub struct CornerLoad {
     pub pushing: f64,
     /// H [N], positive outwards.
     pub thrust: f64,
+}
+
+/// What lies on wall 1 and pulls it beside the corner.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Beside<'w> {
+    /// Floors, spread over the wall.
+    pub floors: &'w [Floor],
+    /// Ties, their positions measured from the corner [m].
+    pub ties: &'w [Tie],
+    /// Length of the wall [m], above 0 where there are floors.
+    pub length: f64,
 }
 
 /// A corner that turns about one hinge.
@@ -108,7 +123,7 @@ impl Corner {
     }
 
     /// Overturning about a hinge at a level [m] below the top, with cracks of given slopes, not both 0.
-    pub fn with_slopes(&self, hinge: f64, slopes: [f64; 2]) -> Overturning {
+    pub fn with_slopes(&self, hinge: f64, slopes: [f64; 2], beside: &Beside) -> Overturning {
         let height = self.top - hinge;
         let wedge = self.wedge(height, slopes);
         let mut body = Body::default();
@@ -122,16 +137,54 @@ impl Corner {
         }
         let holds = |i: usize| self.walls[i].holds(height, slopes[i], self.overlaps);
         body.holds = [0, 1].into_iter().flat_map(holds).collect::<Vec<Hold>>();
+        self.lay(&mut body, hinge, slopes[0], beside);
         Overturning { hinge, multiplier: body.multiplier(), slopes, body }
     }
 
+    /// Floors and ties on the wedge of wall 1.
+    fn lay(&self, body: &mut Body, hinge: f64, slope: f64, beside: &Beside) {
+        let (sin, cos) = self.direction.sin_cos();
+        // What stands on the wall's top, such as a gable, is not beside the corner.
+        let on_it = |f: &&Floor| f.level > hinge + LEVEL && f.level <= self.top + LEVEL;
+        for floor in beside.floors.iter().filter(on_it) {
+            let height = floor.level - hinge;
+            let reach = (height * slope).min(beside.length);
+            let (part, depth) = (reach / beside.length, 0.5 * reach * cos + floor.depth * sin);
+            if part <= 0.0 {
+                continue;
+            }
+            body.weights.push(Weight { carried: part * floor.load, pushing: part * floor.pushing, depth, height });
+            if floor.thrust != 0.0 {
+                body.thrusts.push(Thrust { force: part * floor.thrust * sin, depth, height });
+            }
+            let rubs = part * floor.friction * floor.load;
+            if rubs > 0.0 {
+                body.holds.push(Hold { force: rubs, depth, height, law: HoldLaw::Friction { until: floor.seat } });
+            }
+            if floor.connection > 0.0 {
+                let law = HoldLaw::Tie { stiffness: None, slack: 0.0, breaks: None };
+                body.holds.push(Hold { force: part * floor.connection * sin, depth, height, law });
+            }
+        }
+        for tie in beside.ties.iter().filter(|t| t.level > hinge + LEVEL) {
+            let height = tie.level - hinge;
+            if (0.0..=height * slope).contains(&tie.position) {
+                let law = HoldLaw::Tie { stiffness: tie.stiffness, slack: tie.slack, breaks: tie.breaks };
+                body.holds.push(Hold { force: tie.force * sin, depth: tie.position * cos, height, law });
+            }
+        }
+    }
+
     /// The least over the slopes, both the same part of the largest that their walls allow.
-    pub fn least(&self, hinge: f64) -> Overturning {
+    pub fn least(&self, hinge: f64, beside: &Beside) -> Overturning {
         let height = self.top - hinge;
         let most = [0, 1].map(|i| self.walls[i].largest_slope(height));
-        let at = |part: f64| self.with_slopes(hinge, most.map(|slope| part * slope));
+        let at = |part: f64| self.with_slopes(hinge, most.map(|slope| part * slope), beside);
         let part =
             crate::minimum::least(TRIED, 0.0, 1.0, |part| if part > 0.0 { at(part).multiplier } else { f64::INFINITY });
         at(part)
     }
 }
+
+/// Loads this far below a hinge still stand on it: rounding of levels [m].
+const LEVEL: f64 = crate::overturning::LEVEL;

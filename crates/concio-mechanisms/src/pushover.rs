@@ -58,6 +58,18 @@ pub struct Pushover {
     pub drop: Option<f64>,
 }
 
+/// The curve of joints that are not sharp: a slope up to Δ1, a plateau up to Δ2, and from there the one of rigid blocks.
+///
+/// Source: K. Doherty, M. C. Griffith, N. Lam and J. Wilson, Earthquake Engineering and Structural Dynamics 31 (2002) 833–850 (abstract):
+/// Δ1 and Δ2 are parts of the displacement at which the wall falls, here d0, that depend on the state of the joints and on nothing else.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trilinear {
+    /// Δ1 and Δ2 [m] of the oscillator.
+    pub ends: [f64; 2],
+    /// α of the plateau: that of rigid blocks at Δ2.
+    pub plateau: f64,
+}
+
 /// Points of a curve between rest and d0.
 const POINTS: usize = 60;
 /// How close to an end of a tie its curve has points.
@@ -171,6 +183,22 @@ impl Pushover {
     /// α(d), 0 beyond what the mechanism can reach.
     pub fn at(&self, displacement: f64) -> f64 {
         self.kinematics.at(self.turn_at(displacement)).unwrap_or(0.0)
+    }
+
+    /// The trilinear curve whose plateau ends at these parts of d0, rising, above 0 and below 1; none where nothing stands by itself.
+    pub fn trilinear(&self, parts: [f64; 2]) -> Option<Trilinear> {
+        let ends = parts.map(|part| part * self.last);
+        let plateau = self.at(ends[1]);
+        (self.last > 0.0 && plateau > 0.0).then_some(Trilinear { ends, plateau })
+    }
+
+    /// α at a displacement [m] of the oscillator on such a curve.
+    pub fn at_trilinear(&self, curve: &Trilinear, displacement: f64) -> f64 {
+        match displacement {
+            d if d < curve.ends[0] => curve.plateau * d / curve.ends[0],
+            d if d < curve.ends[1] => curve.plateau,
+            d => self.at(d),
+        }
     }
 
     /// The curve from rest to d0, or as far as ties and friction hold where that is farther.

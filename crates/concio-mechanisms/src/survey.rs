@@ -1,9 +1,9 @@
 //! Every mechanism that a wall can have, at every hinge level, with its least multiplier, pushover and checks.
 
 use crate::body::{Body, Shares, Weight};
-use crate::checks::{Asked, Checks, LOWEST_KNOWLEDGE, Place};
-use crate::corner::Corner;
-use crate::facade::{Floor, Masonry};
+use crate::checks::{Asked, Checks, LOWEST_KNOWLEDGE, Place, first_period};
+use crate::corner::{Beside, Corner};
+use crate::facade::{Floor, Masonry, Tie};
 use crate::flap::Flap;
 use crate::gable::Flaps;
 use crate::horizontal_arch::HorizontalArch;
@@ -80,9 +80,9 @@ impl Kind {
         }
     }
 
-    /// Whether crushing sets its hinge back (OP2); the hinges of the others lie on the face.
+    /// Whether crushing sets its hinges back (OP2); those of corners and flaps, which are oblique, lie on the face.
     pub fn is_set_back(self) -> bool {
-        matches!(self, Kind::Overturning | Kind::WithSideWalls | Kind::Leaf)
+        !matches!(self, Kind::Corner | Kind::Flap | Kind::GableFlaps)
     }
 
     /// The number of its equation.
@@ -139,7 +139,7 @@ pub struct Found {
     pub hinge: f64,
     /// tan β of cracks of side walls or corners, tan ϑ of oblique hinges.
     pub slopes: Vec<f64>,
-    /// a [m] of (OP2).
+    /// a [m] of (OP2): of an arch that at its lower end.
     pub setback: f64,
     /// Oscillator and curve.
     pub pushover: Pushover,
@@ -236,8 +236,13 @@ struct Making<'w> {
 
 impl Making<'_> {
     /// Checks of a mechanism whose hinge or supports lie at a level.
-    fn checks(&self, kind: Kind, pushover: &Pushover, level: f64, seat: Option<f64>) -> Checks {
+    fn checks(&self, kind: Kind, pushover: &Pushover, level: f64, seat: Option<f64>, vibrates: Vibrates) -> Checks {
         let wall = self.wall;
+        let (free, first_period) = match vibrates {
+            Vibrates::Unknown => (false, 0.0),
+            Vibrates::Free(length, thickness) => (true, self.first_period(length, thickness, true)),
+            Vibrates::Held(length) => (false, self.first_period(length, wall.masonry.thickness, false)),
+        };
         let near = |(z, _): &&(f64, crate::checks::Spectrum)| (z - level).abs() <= NEAR;
         let floor =
             wall.floor_spectra.iter().filter(near).min_by(|a, b| (a.0 - level).abs().total_cmp(&(b.0 - level).abs()));
@@ -247,7 +252,40 @@ impl Making<'_> {
             Place::Aloft { level, building: wall.building.clone(), floor: floor.map(|(_, s)| s.clone()) }
         };
         let (hazard, confidence, behaviour) = (wall.hazard.clone(), self.confidence(kind), wall.behaviour);
-        Checks::of(pushover, &Asked { hazard, place, confidence, behaviour, seat, first_period: 0.0 })
+        Checks::of(pushover, &Asked { hazard, place, confidence, behaviour, seat, first_period, free })
+    }
+
+    /// T_0 [s]; 0 where the stiffness of the masonry is not known.
+    fn first_period(&self, length: f64, thickness: f64, cantilever: bool) -> f64 {
+        let wall = self.wall;
+        wall.modulus.map_or(0.0, |modulus| first_period(length, thickness, wall.specific_weight, modulus, cantilever))
+    }
+
+    /// How what stands over a hinge vibrates: freely, where nothing ties it and a floor lies below it but none above.
+    fn parapet(&self, hinge: f64) -> Vibrates {
+        let wall = self.wall;
+        let given = || wall.floors.iter().filter(|f| f.given);
+        let none_above =
+            given().all(|f| f.floor.level <= hinge + LEVEL) && wall.ties.iter().all(|t| t.level <= hinge + LEVEL);
+        match given().next().is_some() && none_above && hinge > LEVEL {
+            true => Vibrates::Free(wall.top - hinge, wall.masonry.thickness),
+            false => Vibrates::Unknown,
+        }
+    }
+
+    /// What to know of the damage check of a part that vibrates freely.
+    fn of_free(&self, vibrates: Vibrates, level: f64) -> Option<String> {
+        let Vibrates::Free(length, thickness) = vibrates else { return None };
+        let wall = self.wall;
+        wall.hazard.damage.as_ref()?;
+        let given = wall.floor_spectra.iter().any(|(z, _)| (z - level).abs() <= NEAR);
+        Some(match (given, wall.modulus) {
+            (false, _) => "it vibrates freely: the code asks for S_eZ(T_0) at damage; without a floor spectrum a_Z is taken, which is less".into(),
+            (true, None) => "it vibrates freely, but its bed joints have no stiffness: S_eZ is taken at T_0 = 0".into(),
+            (true, Some(_)) => {
+                format!("it vibrates freely with T_0 = {:.3} s: damage is checked against S_eZ(T_0)", self.first_period(length, thickness, true))
+            }
+        })
     }
 
     /// FC: the file's where hinges are set back by crushing, else that of LC1.
@@ -272,8 +310,14 @@ impl Making<'_> {
         let shares = body.shares();
         let pushover = Pushover::of(Kinematics::Body(body, control));
         let seat = if rest.seats { self.seat(&pushover, hinge) } else { None };
-        let checks = self.checks(kind, &pushover, rest.level.unwrap_or(hinge), seat);
+        let vibrates = match kind {
+            Kind::Overturning => self.parapet(hinge),
+            Kind::Gable => Vibrates::Free(control, self.wall.gable.map_or(0.0, |(gable, _)| gable.thickness)),
+            _ => Vibrates::Unknown,
+        };
+        let checks = self.checks(kind, &pushover, rest.level.unwrap_or(hinge), seat, vibrates);
         let Rest { slopes, setback, counts, shape, mut notes, level, .. } = rest;
+        notes.extend(self.of_free(vibrates, level.unwrap_or(hinge)));
         if pushover.multiplier <= 0.0 {
             notes.push("α0 is not above 0: the mechanism moves without an earthquake".into());
         }
@@ -298,6 +342,13 @@ impl Making<'_> {
     /// Level of the highest floor that holds the wall; 0 without one.
     fn held(&self) -> f64 {
         self.wall.floors.iter().filter(|f| f.holds).map(|f| f.floor.level).fold(0.0, f64::max)
+    }
+
+    /// Why nothing turns about a joint, where a floor holds the wall at its top.
+    fn held_at_top(&self) -> Option<String> {
+        let held = self.held();
+        let none = held > 0.0 && self.levels(held).next().is_none();
+        none.then(|| format!("a floor holds the wall at {held:.2} m, its top"))
     }
 
     fn facade<'f>(&'f self, side_walls: &'f [SideWall]) -> Facade<'f> {
@@ -329,8 +380,11 @@ impl Making<'_> {
             }
             self.turn(survey, Kind::Overturning, found, !bonded, Vec::new(), notes);
         }
-        if held > 0.0 && self.levels(held).next().is_none() {
-            survey.without.push((Kind::Overturning, format!("a floor holds the wall at {held:.2} m, its top")));
+        if let Some(why) = self.held_at_top() {
+            survey.without.push((Kind::Overturning, why.clone()));
+            if bonded {
+                survey.without.push((Kind::WithSideWalls, why));
+            }
         }
         if !bonded {
             let why = match self.wall.loose {
@@ -404,7 +458,8 @@ impl Making<'_> {
     }
 
     fn storey(&self, survey: &mut Survey, levels: [f64; 2], upper: &crate::wall::FloorOf) {
-        let t = self.wall.masonry.thickness;
+        let wall = self.wall;
+        let t = wall.masonry.thickness;
         let [low, high] = levels;
         let top = self.wall.masonry.above(high);
         let above: Vec<&Floor> = self.floors.iter().filter(|f| f.level >= high - LEVEL).collect();
@@ -415,6 +470,7 @@ impl Making<'_> {
             (false, true) => (t - moment / load).clamp(0.0, t),
             (false, false) => 0.5 * t,
         };
+        let last = self.levels(0.0).filter(|z| *z < high - LEVEL).last().unwrap_or(low);
         let arch = |hinge: f64| {
             let part = |from: f64, to: f64| {
                 let own = self.wall.masonry.between(from, to);
@@ -430,30 +486,38 @@ impl Making<'_> {
                 }));
                 all
             };
-            VerticalArch {
-                thickness: t,
+            let mut parts = [part(low, hinge), part(hinge, high)];
+            let weight = |part: &Vec<Weight>| part.iter().map(|w| w.carried).sum::<f64>();
+            let [lower, upper_part] = [weight(&parts[0]), weight(&parts[1])];
+            // (OP2) at every hinge: the base's on the outer face, the middle's on the inner one, the top's on the outer one of a floor
+            // that clamps. N that stays in its place is set back by nothing.
+            let back = |force: f64, level: f64| match wall.masonry.bearing(level) {
+                length if length > 0.0 => wall.crushing.setback(force, length),
+                _ => 0.0,
+            };
+            let [base, middle] = [back(load + lower + upper_part, low), back(load + upper_part, hinge)];
+            let depth = if upper.clamps { t - back(load, last) } else { depth };
+            parts.iter_mut().flatten().for_each(|w| w.depth -= base);
+            let arch = VerticalArch {
+                thickness: (t - base - middle).max(1e-9 * t),
                 height: high - low,
-                parts: [part(low, hinge), part(hinge, high)],
+                parts,
                 hinge: hinge - low,
                 load,
-                depth,
-            }
+                depth: (depth - middle).max(0.0),
+            };
+            (arch, base)
         };
         let inside = self.levels(0.0).filter(|z| *z > low + LOWEST && *z < high - LOWEST);
-        let Some((hinge, arch)) =
-            inside.map(|z| (z, arch(z))).min_by(|a, b| a.1.multiplier().total_cmp(&b.1.multiplier()))
+        let Some((hinge, (arch, setback))) =
+            inside.map(|z| (z, arch(z))).min_by(|a, b| a.1.0.multiplier().total_cmp(&b.1.0.multiplier()))
         else {
             let why = format!("no bed joint lies between {low:.2} m and {high:.2} m");
             survey.without.push((Kind::VerticalArch, why));
             return;
         };
         let needed = arch.reaction();
-        let near = self.levels(0.0).filter(|z| *z < high - LEVEL).last().unwrap_or(low);
-        let ties: f64 =
-            self.wall.ties.iter().filter(|tie| tie.level >= near && tie.level <= high + 0.5).map(|tie| tie.force).sum();
-        let seat = upper.floor.friction * upper.floor.load;
-        let known = upper.floor.connection + ties;
-        let borne = (known > 0.0).then_some(known + seat);
+        let borne = self.wall.borne(upper);
         let mut notes = Vec::new();
         match borne {
             None => notes.push(format!(
@@ -467,7 +531,7 @@ impl Making<'_> {
             )),
             Some(_) => {}
         }
-        let course = self.wall.masonry.between(near, high).weight;
+        let course = self.wall.masonry.between(last, high).weight;
         let rubs = self.wall.friction * (load + course);
         if needed > rubs {
             notes.push(format!(
@@ -492,17 +556,17 @@ impl Making<'_> {
         }
         let pushover = Pushover::of(Kinematics::VerticalArch(arch));
         let level = 0.5 * (low + high);
-        let checks = self.checks(Kind::VerticalArch, &pushover, level, None);
+        let checks = self.checks(Kind::VerticalArch, &pushover, level, None, Vibrates::Held(high - low));
         survey.found.push(Found {
             kind: Kind::VerticalArch,
             hinge,
             slopes: Vec::new(),
-            setback: 0.0,
+            setback,
             pushover,
             shares: None,
             level,
             checks,
-            confidence: LOWEST_KNOWLEDGE,
+            confidence: self.confidence(Kind::VerticalArch),
             counts: true,
             reaction: Some([Some(needed), borne]),
             shape: Shape::Storey { levels },
@@ -519,8 +583,10 @@ impl Making<'_> {
         let wall = self.wall;
         let own = wall.masonry.above(from);
         let load: f64 = self.floors.iter().filter(|f| f.level >= from - LEVEL).map(|f| f.load).sum();
+        // (OP2) under the thrust, over the height of the strip: at midspan on the inner face, at the abutments on the outer one.
+        let setback = wall.crushing.setback(thrust, wall.top - from);
         let arch = HorizontalArch {
-            thickness: wall.masonry.thickness,
+            thickness: (wall.masonry.thickness - 2.0 * setback).max(1e-9 * wall.masonry.thickness),
             spans: [0.5 * span; 2],
             weight: own.weight / wall.length(),
             thrust,
@@ -529,7 +595,7 @@ impl Making<'_> {
         };
         let pushover = Pushover::of(Kinematics::HorizontalArch(arch));
         let level = 0.5 * (from + wall.top);
-        let checks = self.checks(Kind::HorizontalArch, &pushover, level, None);
+        let checks = self.checks(Kind::HorizontalArch, &pushover, level, None, Vibrates::Unknown);
         let left = wall.extent[0] + 0.5 * (wall.length() - span);
         let notes = vec![
             "weight taken as uniform along the strip; floors on it press its bed and push nothing".into(),
@@ -539,12 +605,12 @@ impl Making<'_> {
             kind: Kind::HorizontalArch,
             hinge: from,
             slopes: Vec::new(),
-            setback: 0.0,
+            setback,
             pushover,
             shares: None,
             level,
             checks,
-            confidence: LOWEST_KNOWLEDGE,
+            confidence: self.confidence(Kind::HorizontalArch),
             counts: true,
             reaction: None,
             shape: Shape::Strip { levels: [from, wall.top], at: [left, left + 0.5 * span, left + span] },
@@ -556,8 +622,8 @@ impl Making<'_> {
         let at_ends: Vec<&Side> = self.wall.side_walls.iter().filter(|s| s.corner.is_some()).collect();
         if at_ends.is_empty() {
             survey.without.push((Kind::Corner, "no bonded side wall stands at an end of the wall".into()));
-        } else if self.levels(self.held()).next().is_none() {
-            survey.without.push((Kind::Corner, "a floor holds the wall at its top, corners included".into()));
+        } else if let Some(why) = self.held_at_top() {
+            survey.without.push((Kind::Corner, why));
         }
         for side in at_ends {
             let Some(own) = side.corner else { continue };
@@ -570,7 +636,8 @@ impl Making<'_> {
                 overlap,
                 friction: wall.friction,
                 load: 0.0,
-                opening: own.opening.filter(|d| *d > 0.0),
+                // No crack leaves the wall.
+                opening: Some(own.opening.filter(|d| *d > 0.0).map_or(wall.length(), |d| d.min(wall.length()))),
             };
             let beside = SideWall { opening: side.wall.opening.map(|d| d + wall.masonry.thickness), ..side.wall };
             let corner = Corner {
@@ -581,10 +648,19 @@ impl Making<'_> {
                 overlaps: self.overlaps,
             };
             let left = side.at < 0.5 * (wall.extent[0] + wall.extent[1]);
+            let from = |y: f64| if left { y - wall.extent[0] } else { wall.extent[1] - y };
+            let ties: Vec<Tie> = wall.ties.iter().map(|t| Tie { position: from(t.position), ..*t }).collect();
+            let beside = Beside { floors: &self.floors, ties: &ties, length: wall.length() };
             for hinge in self.levels(self.held()) {
-                let found = corner.least(hinge);
+                let found = corner.least(hinge, &beside);
+                if !found.multiplier.is_finite() {
+                    // Blocks of a single course do not overlap: no crack climbs them.
+                    continue;
+                }
+                let bare = corner.least(hinge, &Beside::default()).multiplier;
+                let at = if left { "left" } else { "right" };
                 let notes = vec![
-                    format!("the {} corner; floors and ties near it are left out", if left { "left" } else { "right" }),
+                    format!("the {at} corner; without the floors and ties on its wedge α0 is {bare:.4}"),
                     format!(
                         "φ = {:.0}° is given, not found; both cracks take the same part of their textures' slope",
                         own.direction.to_degrees()
@@ -668,9 +744,9 @@ impl Making<'_> {
             self.add_body(survey, Kind::Flap, body, foot, control, rest);
         }
         if survey.found.len() == before {
-            let why =
+            let fits =
                 "no oblique hinge fits beside a crack: bonded side walls are too near for the slope of the texture";
-            survey.without.push((Kind::Flap, why.into()));
+            survey.without.push((Kind::Flap, self.held_at_top().unwrap_or_else(|| fits.into())));
         }
     }
 
@@ -683,16 +759,20 @@ impl Making<'_> {
         let left = 0.5 * (wall.extent[0] + wall.extent[1] - gable.base);
         let place = |corners: &[[f64; 2]]| corners.iter().map(|[y, z]| [left + y, wall.top + z]).collect::<Vec<_>>();
         let whole = [[0.0, 0.0], [gable.base, 0.0], [0.5 * gable.base, gable.height]];
+        let mut body = gable.whole();
+        let setback = wall.crushing.setback(gable.weight() + gable.load, gable.base);
+        body.weights.iter_mut().for_each(|w| w.depth -= setback);
+        body.thrusts.iter_mut().for_each(|h| h.depth -= setback);
         let rest = Rest {
             slopes: Vec::new(),
-            setback: 0.0,
+            setback,
             counts: true,
             shape: Shape::Outlines(vec![place(&whole)]),
             notes: Vec::new(),
             seats: false,
             level: None,
         };
-        self.add_body(survey, Kind::Gable, gable.whole(), wall.top, gable.height, rest);
+        self.add_body(survey, Kind::Gable, body, wall.top, gable.height, rest);
         let steepest = wall.texture[1] / wall.texture[0];
         let Flaps { flap, multiplier, body } = gable.least_flaps(steepest, press);
         if !multiplier.is_finite() || body.weights[0].height <= 0.0 {
@@ -720,6 +800,17 @@ impl Making<'_> {
         };
         self.add_body(survey, Kind::GableFlaps, body, wall.top + flap.crack[0][1], control, rest);
     }
+}
+
+/// How a part vibrates before it cracks.
+#[derive(Debug, Clone, Copy)]
+enum Vibrates {
+    /// As it stands in the building.
+    Unknown,
+    /// Freely, of a height and a thickness [m].
+    Free(f64, f64),
+    /// Held at both ends, so far apart [m].
+    Held(f64),
 }
 
 /// What a body does not say of itself.

@@ -145,7 +145,11 @@ fn of_body(wall: &Wall, found: &Found, body: &Body, control: f64, restitution: O
                 .into(),
         );
     }
-    let thickness = if found.kind == Kind::Leaf { wall.leaf.unwrap_or_default() } else { wall.masonry.thickness };
+    let thickness = match (found.kind, &wall.gable) {
+        (Kind::Leaf, _) => wall.leaf.unwrap_or_default(),
+        (Kind::Gable, Some((gable, _))) => gable.thickness,
+        _ => wall.masonry.thickness,
+    };
     let backed = match found.kind {
         Kind::Leaf => Some("the inner leaf"),
         Kind::Gable => None,
@@ -178,9 +182,11 @@ fn of_body(wall: &Wall, found: &Found, body: &Body, control: f64, restitution: O
 /// Moment of inertia of the wall's own weight about its centre [kg m²].
 fn own_inertia(wall: &Wall, found: &Found, own: &Weight, height: f64) -> f64 {
     let masonry = &wall.masonry;
-    match (found.kind, wall.leaf) {
-        (Kind::Gable, _) => own.carried / G * (height * height / 18.0 + masonry.thickness.powi(2) / 12.0),
-        (Kind::Leaf, Some(leaf)) => {
+    match (found.kind, wall.leaf, &wall.gable) {
+        (Kind::Gable, _, Some((gable, _))) => {
+            own.carried / G * (height * height / 18.0 + gable.thickness.powi(2) / 12.0)
+        }
+        (Kind::Leaf, Some(leaf), _) => {
             let whole = masonry.above(found.hinge).weight;
             own.carried / G * (spread(masonry, found.hinge, f64::INFINITY) / whole + leaf * leaf / 12.0)
         }

@@ -5,7 +5,7 @@
 //! joint. Levels on which a hinge can lie are bed joints that no block crosses.
 
 use concio::case::out_of_plane::{self, Hazard as GivenHazard, OutOfPlane};
-use concio::case::{Bond, Case, FrictionLaw, JointKind, TopLoad};
+use concio::case::{Bond, Case, FrictionLaw, JointKind, SpringLaw, TopLoad};
 use concio::quantity::{Length, shown};
 use concio::wall::Wall as Laid;
 use concio::{Error, InputError, Result, graph, pattern};
@@ -36,6 +36,11 @@ pub struct Wall {
     pub texture: [f64; 2],
     /// μ of bed joints.
     pub friction: f64,
+    /// E of the masonry upwards [Pa]: what its bed joints give between rigid blocks, k_n times the height of a course. None of joints
+    /// without stiffness.
+    pub modulus: Option<f64>,
+    /// Whether the outer face is the back one, which drawings of the wall file do not show.
+    pub back: bool,
     /// Floors, with their place in the file where they have one, in rising order.
     pub floors: Vec<FloorOf>,
     /// Ties.
@@ -71,6 +76,8 @@ pub struct Wall {
 pub struct FloorOf {
     /// The loads.
     pub floor: Floor,
+    /// Whether the table of floors has it; else it is `load.top`, or the gable as what lies below feels it.
+    pub given: bool,
     /// Whether it holds the wall at its level.
     pub holds: bool,
     /// Whether it cannot turn.
@@ -110,6 +117,8 @@ pub struct Assumed {
 
 /// Heights within this are one level [m].
 const LEVEL: f64 = 1e-6;
+/// Ties up to so far above a floor bear its reaction [m].
+const BESIDE: f64 = 0.5;
 /// φ unless given.
 const DIAGONAL: f64 = std::f64::consts::FRAC_PI_4;
 
@@ -140,6 +149,8 @@ impl Wall {
             levels: levels(&masonry),
             openings: openings(case, &laid)?,
             friction: friction(case, &mut assumed),
+            modulus: modulus(case, texture, masonry.thickness),
+            back: given.outside == out_of_plane::Face::Back,
             floors: Vec::new(),
             ties: Vec::new(),
             side_walls: Vec::new(),
@@ -176,6 +187,16 @@ impl Wall {
         self.extent[1] - self.extent[0]
     }
 
+    /// What is known to bear the reaction of a floor that holds [N]: its connection, ties near it, and with one of them its
+    /// seat. None where nothing says.
+    pub fn borne(&self, upper: &FloorOf) -> Option<f64> {
+        let high = upper.floor.level;
+        let near = self.levels.iter().copied().rfind(|z| *z < high - LEVEL).unwrap_or(0.0);
+        let beside = |tie: &&Tie| tie.level >= near && tie.level <= high + BESIDE;
+        let known = upper.floor.connection + self.ties.iter().filter(beside).map(|tie| tie.force).sum::<f64>();
+        (known > 0.0).then_some(known + upper.floor.friction * upper.floor.load)
+    }
+
     fn add_floors(&mut self, case: &Case, given: &OutOfPlane, assumed: &mut Assumptions) -> Result<()> {
         let (length, half) = (self.length(), 0.5 * self.masonry.thickness);
         for (i, own) in given.floors.iter().enumerate() {
@@ -209,7 +230,7 @@ impl Wall {
                     "beams do not lose their seat before the wall falls: not checked",
                 );
             }
-            self.floors.push(FloorOf { floor, holds: own.holds, clamps: own.clamps });
+            self.floors.push(FloorOf { floor, given: true, holds: own.holds, clamps: own.clamps });
         }
         let q = match case.load.top {
             TopLoad::PerLength(q) => q.si() * length,
@@ -217,7 +238,7 @@ impl Wall {
         };
         if q > 0.0 {
             let floor = Floor { level: self.top, load: q, depth: half, ..Floor::default() };
-            self.floors.push(FloorOf { floor, holds: false, clamps: false });
+            self.floors.push(FloorOf { floor, given: false, holds: false, clamps: false });
             assumed.add(
                 "load.top",
                 "it lies in the middle of the wall, pushes with its weight, and is not connected to anything",
@@ -355,7 +376,7 @@ impl Wall {
             ..Floor::default()
         };
         for floor in [own_weight, ridge] {
-            self.floors.push(FloorOf { floor, holds: false, clamps: false });
+            self.floors.push(FloorOf { floor, given: false, holds: false, clamps: false });
         }
         self.gable = Some((gable, own.crack_thrust.si()));
         Ok(())
@@ -513,6 +534,15 @@ fn friction(case: &Case, assumed: &mut Assumptions) -> f64 {
     case.joint.friction.static_
 }
 
+/// The stiffness of bed joints is the tangential one; pressed they are stiffer by their ratio.
+fn modulus(case: &Case, [course, overlap]: [f64; 2], thickness: f64) -> Option<f64> {
+    let bed = &case.joint.bed;
+    let springs = matches!(bed.law, SpringLaw::Elastic | SpringLaw::NoTension);
+    let area = overlap * thickness;
+    let modulus = bed.stiffness.over(area) / area * bed.normal_to_shear * course;
+    (springs && modulus > 0.0 && modulus.is_finite()).then_some(modulus)
+}
+
 fn crushing(given: &OutOfPlane, assumed: &mut Assumptions) -> Crushing {
     let Some(strength) = given.strength else {
         assumed.add(
@@ -523,7 +553,7 @@ fn crushing(given: &OutOfPlane, assumed: &mut Assumptions) -> Crushing {
     };
     assumed.add(
         "out_of_plane.strength",
-        "it sets back the hinges of overturning alone: those of arches, corners, flaps and gables lie on the face, and their FC is that of LC1",
+        "it sets back level and upright hinges: those of corners and flaps lie on the face, and their FC is that of LC1",
     );
     match given.pressure {
         out_of_plane::PressureBlock::Rectangular => Crushing::Rectangular(strength.si()),

@@ -4,12 +4,14 @@ use std::fs;
 use std::process::ExitCode;
 
 use concio::case::CaseFile;
+use concio::model::NOT_IN_PLANE;
 use concio::{Error, InputError};
 use concio_limit::space::{self, ContactKind, ContactMotion, Face, Limit, Problem, Turning, Vector};
 use concio_limit::{CERTIFIED, NonAssociative, Problem as Planar};
 use serde_json::{Value, json};
 
 use super::limit::{DRAWING, NAMED, RESULT, estimate, failure, options, without_dilation};
+use super::limit_behind::{self, Behind};
 use super::{run::refuse_a_file, wall_file};
 use crate::args::{HeadFriction, Limit as Asked, LimitLoad, Side};
 use crate::draw::axonometry;
@@ -35,6 +37,8 @@ struct Found {
     crushing: Option<(f64, Vec<usize>, f64)>,
     /// Bed joints that twist in the mechanism.
     twisting: usize,
+    /// What stands and pulls behind the wall.
+    behind: Option<Behind>,
     warnings: Vec<String>,
 }
 
@@ -89,6 +93,13 @@ pub fn limit(args: &Asked) -> Result<ExitCode, Failure> {
 fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Found, Failure> {
     let told = |e| failure(e, &args.file);
     let mut problem = space::of_wall(planar, face).map_err(told)?;
+    let (mut strength, mut left_out) = (file.case.joint.bed.compressive_strength.map(|s| s.si()), Vec::new());
+    let mut behind = None;
+    if let Some(table) = &file.case.out_of_plane {
+        let (backed, found, warnings) = limit_behind::add(problem, file, planar, args)?;
+        strength = limit_behind::strength(table).or(strength);
+        (problem, behind, left_out) = (backed, Some(found), warnings);
+    }
     if let Some(above) = args.above {
         for (held, body) in problem.held.iter_mut().zip(&problem.assembly.bodies) {
             *held = body.centre[2] < above;
@@ -104,12 +115,13 @@ fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Fo
     if args.even_twist {
         problem = problem.drawn_in();
     }
-    let strength = file.case.joint.bed.compressive_strength.map(|s| s.si());
     let mut warnings: Vec<String> = planar
         .warnings
         .iter()
         .filter(|w| strength.is_none() || !w.starts_with("compressive_strength"))
+        .filter(|w| w.as_str() != NOT_IN_PLANE)
         .cloned()
+        .chain(left_out)
         .collect();
     if strength.is_some()
         && file.case.joint.changes.iter().any(|c| c.spring.is_some_and(|s| s.compressive_strength.is_some()))
@@ -137,6 +149,7 @@ fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Fo
         smooth,
         dilation,
         crushing,
+        behind,
         warnings,
     })
 }
@@ -187,7 +200,13 @@ fn rows(args: &Asked, face: Face, found: &Found) -> Vec<(&'static str, String)> 
         Some(dilation) => ("without dilation", estimate(dilation)),
         None => ("without dilation", format!("not asked of more than {QUICK} blocks; --without-dilation asks")),
     });
+    if let Some(behind) = &found.behind {
+        rows.push(("behind the wall", behind.text()));
+    }
     rows.push(("closed form", closed(found)));
+    let smooth = found.smooth.as_ref().map(Limit::multiplier);
+    let closed = found.behind.iter().flat_map(|b| &b.closed);
+    rows.extend(closed.map(|c| ("mechanisms", c.against(lambda, smooth))));
     rows.push(("force", si(lambda * problem.live_load(), "N")));
     rows.push(("mechanism", limit.mechanism.kind.what().into()));
     let named = |chosen: fn(&ContactMotion) -> bool| {
@@ -303,6 +322,7 @@ fn result(args: &Asked, face: Face, found: &Found) -> Value {
             let names: Vec<&str> = over.iter().map(|c| problem.assembly.contacts[*c].name.as_str()).collect();
             json!({ "strength": strength, "overloaded": names, "change": change })
         }),
+        "behind": found.behind.as_ref().map(Behind::json),
         "slides_at": limit.slides_at(problem),
         "twisting_joints": found.twisting,
         "mechanism": {

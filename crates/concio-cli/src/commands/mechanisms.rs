@@ -35,7 +35,7 @@ pub fn mechanisms(args: &Mechanisms) -> Result<(), Failure> {
     let shaken = shaken::follow(&args.motion, &file, &wall, &survey, args.all)?;
     let name = args.file.file_stem().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     let title = if file.case.title.is_empty() { name } else { file.case.title.clone() };
-    let subject = Subject { title: &title, wall: &wall, survey: &survey, overlaps };
+    let subject = Subject { title: &title, wall: &wall, survey: &survey, overlaps, trilinear: args.trilinear };
     let mut result = rows::json(&subject);
     let mut sections = page::sections(&subject);
     let mut told = text::told(&subject, args.all);

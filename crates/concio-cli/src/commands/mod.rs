@@ -12,6 +12,7 @@ mod continuum;
 mod export;
 mod first_crack;
 mod limit;
+mod limit_behind;
 mod limit_space;
 mod mechanisms;
 mod new;

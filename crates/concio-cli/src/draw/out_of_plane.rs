@@ -72,7 +72,8 @@ pub fn draw(wall: &Wall, found: &Found) -> Drawing {
     let letters = LETTERS.map(f64::from);
     canvas.text([ROOM[0], 9.0], letters[1], Anchor::Start, false, "#000", &title);
     let caption = bottom + 18.0;
-    canvas.text([ROOM[0], caption], letters[0], Anchor::Start, false, "#000", "elevation, from outside");
+    let seen = if wall.back { "elevation, from inside: its back is the outer face" } else { "elevation, from outside" };
+    canvas.text([ROOM[0], caption], letters[0], Anchor::Start, false, "#000", seen);
     let end = [WIDTH - ROOM[0], caption];
     canvas.text(end, letters[0], Anchor::End, false, "#000", "section, outside on the left");
     let size = [WIDTH, bottom + ROOM[2]];

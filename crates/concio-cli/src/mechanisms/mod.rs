@@ -22,6 +22,8 @@ pub struct Subject<'s> {
     pub survey: &'s Survey,
     /// Sum of the friction of overlaps.
     pub overlaps: Overlaps,
+    /// Parts of d0 at which the plateau of a trilinear curve begins and ends.
+    pub trilinear: Option<[f64; 2]>,
 }
 
 /// What no user should believe without knowing it.

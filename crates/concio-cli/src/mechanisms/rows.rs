@@ -53,7 +53,7 @@ pub fn governed(found: &Found) -> String {
 
 /// Everything, in SI.
 pub fn json(subject: &Subject) -> Value {
-    let Subject { title, wall, survey, overlaps } = subject;
+    let Subject { title, wall, survey, overlaps, trilinear } = subject;
     let one = |f: &Found| short(f);
     json!({
         "version": env!("CARGO_PKG_VERSION"),
@@ -67,7 +67,7 @@ pub fn json(subject: &Subject) -> Value {
         },
         "least": survey.least().map(one),
         "worst_check": survey.worst().map(one),
-        "mechanisms": survey.found.iter().map(mechanism).collect::<Vec<_>>(),
+        "mechanisms": survey.found.iter().map(|f| mechanism(f, *trilinear)).collect::<Vec<_>>(),
         "without": survey.without.iter().map(|(kind, why)| json!({ "kind": kind.name(), "why": why })).collect::<Vec<_>>(),
         "assumed": wall.assumed.iter().map(|a| json!({ "key": a.key, "what": a.what })).collect::<Vec<_>>(),
         "limits": super::LIMITS,
@@ -78,7 +78,7 @@ fn short(found: &Found) -> Value {
     json!({ "kind": found.kind.name(), "hinge": found.hinge, "multiplier": found.multiplier(), "ratio": found.checks.ratio() })
 }
 
-fn mechanism(found: &Found) -> Value {
+fn mechanism(found: &Found, trilinear: Option<[f64; 2]>) -> Value {
     let pushover = &found.pushover;
     let curve: Vec<Value> = pushover
         .curve()
@@ -114,6 +114,10 @@ fn mechanism(found: &Found) -> Value {
             "ratio": c.ratio(),
         },
         "curve": curve,
+        "trilinear": trilinear.and_then(|parts| pushover.trilinear(parts)).map(|t| json!({
+            "displacements": t.ends, "multiplier": t.plateau,
+            "acceleration": pushover.acceleration(t.plateau, found.confidence),
+        })),
         "notes": found.notes,
     })
 }

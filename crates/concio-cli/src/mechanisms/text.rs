@@ -31,9 +31,18 @@ pub fn told(subject: &Subject, all: bool) -> String {
             fixed(ratio, 3)
         ));
     }
-    for found in chosen.iter().filter(|f| !f.notes.is_empty()) {
-        text.push_str(&format!("\n{}\n", rows::label(found)));
-        found.notes.iter().for_each(|note| text.push_str(&format!("  {note}\n")));
+    for found in chosen {
+        let curve = subject.trilinear.and_then(|parts| found.pushover.trilinear(parts));
+        let plateau = curve.map(|t| {
+            let [from, to] = t.ends.map(|d| si(d, "m"));
+            let a = si(found.pushover.acceleration(t.plateau, found.confidence), "m/s²");
+            format!("trilinear: α = {} from d = {from} to {to}, a = {a}", significant(t.plateau, 4))
+        });
+        let notes: Vec<&String> = found.notes.iter().chain(&plateau).collect();
+        if !notes.is_empty() {
+            text.push_str(&format!("\n{}\n", rows::label(found)));
+            notes.iter().for_each(|note| text.push_str(&format!("  {note}\n")));
+        }
     }
     list(
         &mut text,

@@ -159,6 +159,44 @@ fn irregular_walls_have_windows() {
     assert!(text.contains("not known") && text.contains("allowed"), "{text}");
 }
 
+/// Listed courses that repeat: running bond is (H1) again, thirds lean.
+#[test]
+fn listed_courses_are_a_cell_where_it_is_said() {
+    let desk = Desk::new();
+    let listed = |offsets: &[&str]| {
+        let course = |offset: &&str| {
+            format!(
+                "[[panel.course]]\nheight = \"55 mm\"\nbricks = [\"250 mm\", \"250 mm\", \"250 mm\", \"250 mm\"]\noffset = \"{offset} mm\"\n"
+            )
+        };
+        let courses: String = offsets.iter().map(course).collect();
+        let text = wall(BED, HEAD, "").replace("bond = \"running\"\ncourses = 8\nbricks = 4", "bond = \"irregular\"");
+        text.replace("[joint]", &format!("{courses}[joint]"))
+    };
+    desk.put("wall.toml", wall(BED, HEAD, ""));
+    let running = json(&desk, "continuum wall.toml --json")["panels"][0]["membrane"].clone();
+    desk.put("wall.toml", listed(&["0", "130"]));
+    let panel = &json(&desk, "continuum wall.toml --repeated --json")["panels"][0];
+    for i in 0..3 {
+        close(&panel["membrane"][i][i], running[i][i].as_f64().expect("a number"));
+    }
+    close(&panel["membrane"][0][0], 3.317760e9);
+    assert!(panel["windows"].is_null(), "{panel}");
+    let text = out(&desk, "continuum wall.toml --repeated");
+    assert!(text.contains("E1 27.65 GPa"), "{text}");
+    // Overlaps of a third: contacts of 76.67 and 163.33 mm between pitches of 260 mm.
+    desk.put("wall.toml", listed(&["0", "86.666667", "173.333333"]));
+    let panel = &json(&desk, "continuum wall.toml --repeated --json")["panels"][0];
+    let beds = 0.12 * 86.4e9 * (0.076666667 + 0.163333333) * 0.065 / 0.26;
+    // A bond that leans turns its bricks as it is stretched: a little softer than its beds alone.
+    let leaning = panel["membrane"][1][1].as_f64().expect("a number") / beds;
+    assert!(leaning < 1.0 - 1e-5 && leaning > 0.99, "{leaning}");
+    // Unsaid, the same panel is an irregular one, too short for windows.
+    let done = desk.concio("continuum wall.toml").assert().code(2);
+    let told = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    assert!(told.contains("a window from"), "{told}");
+}
+
 #[test]
 fn a_figure_shows_the_error_over_the_courses() {
     let desk = Desk::new();

@@ -10,6 +10,7 @@ mod head;
 mod hostile;
 mod kill;
 mod limit;
+mod limit_behind;
 mod limit_space;
 mod mechanisms;
 mod messages;

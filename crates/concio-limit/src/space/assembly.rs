@@ -206,7 +206,7 @@ impl Assembly {
 }
 
 /// A homogeneous box.
-fn body(of: &Cuboid) -> Body {
+pub(super) fn body(of: &Cuboid) -> Body {
     let corner = |index: usize| [0, 1, 2].map(|k| of.edges[k][index >> k & 1]);
     Body {
         name: of.name.clone(),
@@ -216,7 +216,8 @@ fn body(of: &Cuboid) -> Body {
     }
 }
 
-fn touch(
+/// Where two boxes touch.
+pub(super) fn touch(
     index: [usize; 2],
     [this, that]: [&Cuboid; 2],
     slack: f64,

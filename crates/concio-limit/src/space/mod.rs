@@ -19,6 +19,7 @@
 //! R. K. Livesley, International Journal for Numerical Methods in Engineering 12 (1978) 1853–1871.
 
 mod assembly;
+mod behind;
 mod certificate;
 mod equations;
 mod fixed_friction;
@@ -30,6 +31,7 @@ mod turning;
 mod wall;
 
 pub use assembly::{Assembly, Body, Contact, ContactKind, Cuboid, TextureError, Vector, even_twist};
+pub use behind::{Backed, Floor, Gable, SideWall};
 pub use mechanism::{ContactMotion, Mechanism};
 pub use problem::{PointLoad, Problem, Support, Tie};
 pub use texture::{Facade, Leaves};

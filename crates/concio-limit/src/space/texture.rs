@@ -48,7 +48,7 @@ pub struct Leaves {
 const SLIVER: f64 = 1e-6;
 
 /// Ends of the blocks of a row; the last is cut off.
-fn row(from: f64, to: f64, first: f64, block: f64) -> Vec<[f64; 2]> {
+pub(super) fn row(from: f64, to: f64, first: f64, block: f64) -> Vec<[f64; 2]> {
     let mut blocks = Vec::new();
     let (mut at, mut size) = (from, first);
     while to - at > SLIVER * block {

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use concio_mechanisms::body::{Body, Hold, HoldLaw, Thrust, Weight};
 use concio_mechanisms::checks::{Asked, Checks, Hazard, Missing, Place, Site, Spectrum, first_period};
-use concio_mechanisms::corner::{Corner, CornerLoad};
+use concio_mechanisms::corner::{Beside, Corner, CornerLoad};
 use concio_mechanisms::facade::{Floor, Masonry, Tie};
 use concio_mechanisms::flap::Flap;
 use concio_mechanisms::gable::Gable;
@@ -282,7 +282,15 @@ fn a_wall_that_only_ties_hold_has_no_displacement_to_spare() {
     let pushover = Pushover::of(Kinematics::Body(body, 6.0));
     assert_eq!(pushover.last, 0.0);
     let hazard = Hazard { life: Some(Spectrum::Code(site())), ..Hazard::default() };
-    let asked = Asked { hazard, place: Place::Ground, confidence: 1.35, behaviour: 2.0, seat: None, first_period: 0.0 };
+    let asked = Asked {
+        hazard,
+        place: Place::Ground,
+        confidence: 1.35,
+        behaviour: 2.0,
+        seat: None,
+        first_period: 0.0,
+        free: false,
+    };
     let checks = Checks::of(&pushover, &asked);
     assert_eq!(checks.life_displacement, Err(Missing::Stands));
     assert_eq!(checks.damage, Err(Missing::Hazard));
@@ -332,8 +340,8 @@ fn a_corner_falls_towards_the_weaker_wall_alike() {
         load: CornerLoad::default(),
         overlaps: Overlaps::Summed,
     };
-    let one = of([wall, thick]).with_slopes(0.0, [0.3, 0.5]);
+    let one = of([wall, thick]).with_slopes(0.0, [0.3, 0.5], &Beside::default());
     // The same corner seen from the other wall.
     let mirrored = Corner { direction: FRAC_PI_2 - PI / 5.0, ..of([thick, wall]) };
-    near(one.multiplier, mirrored.with_slopes(0.0, [0.5, 0.3]).multiplier, 1e-12);
+    near(one.multiplier, mirrored.with_slopes(0.0, [0.5, 0.3], &Beside::default()).multiplier, 1e-12);
 }

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use concio_mechanisms::body::{Body, Weight};
 use concio_mechanisms::checks::{Asked, Building, Checks, Hazard, Place, Site, Spectrum};
-use concio_mechanisms::corner::{Corner, CornerLoad};
+use concio_mechanisms::corner::{Beside, Corner, CornerLoad};
 use concio_mechanisms::facade::{Floor, Masonry, Tie};
 use concio_mechanisms::flap::Flap;
 use concio_mechanisms::gable::Gable;
@@ -55,7 +55,7 @@ fn site() -> Spectrum {
 
 fn asked(place: Place) -> Asked {
     let hazard = Hazard { damage: Some(site()), life: Some(site()), collapse: Some(site()) };
-    Asked { hazard, place, confidence: 1.35, behaviour: 2.0, seat: None, first_period: 0.0 }
+    Asked { hazard, place, confidence: 1.35, behaviour: 2.0, seat: None, first_period: 0.0, free: false }
 }
 
 fn pushover(found: &Overturning, top: f64) -> Pushover {
@@ -226,16 +226,25 @@ fn s9_corner() {
     known!("S9", "W", "N", wedge.weight, 39.6889e3);
     known!("S9", "s_G", "m", wedge.depth, 0.676382);
     known!("S9", "z_G", "m", wedge.height, 2.067320);
-    known!("S9", "α0", "", found.with_slopes(0.0, [0.6; 2]).multiplier, 0.3271783);
+    known!("S9", "α0", "", found.with_slopes(0.0, [0.6; 2], &Beside::default()).multiplier, 0.3271783);
     let load = CornerLoad { load: 15e3, depth: 0.353553, pushing: 0.0, thrust: 4e3 };
-    known!("S9", "α0 under a rafter", "", corner(load, 0.0).with_slopes(0.0, [0.6; 2]).multiplier, 0.158585);
+    known!(
+        "S9",
+        "α0 under a rafter",
+        "",
+        corner(load, 0.0).with_slopes(0.0, [0.6; 2], &Beside::default()).multiplier,
+        0.158585
+    );
 }
 
 #[test]
 fn s10_least_corner() {
     let levels = || (0..12).map(|i| 0.25 * f64::from(i));
     let least = |corner: Corner| {
-        levels().map(|z| corner.least(z)).min_by(|a, b| a.multiplier.total_cmp(&b.multiplier)).unwrap()
+        levels()
+            .map(|z| corner.least(z, &Beside::default()))
+            .min_by(|a, b| a.multiplier.total_cmp(&b.multiplier))
+            .unwrap()
     };
     let free = least(corner(CornerLoad::default(), 0.5));
     known!("S10", "least α0", "", free.multiplier, 0.401535, MINIMUM);
