@@ -72,11 +72,24 @@ impl Masonry {
         self.pieces.iter().map(|p| p.z[1]).fold(0.0, f64::max)
     }
 
-    /// Length of masonry on a level [m]: openings that begin there or go through it are left out.
+    /// Length of masonry on a level [m]: openings that begin there, end there or go through it are left out.
     pub fn bearing(&self, level: f64) -> f64 {
-        let just_above = |p: &&Piece| p.z[0] <= level && level < p.z[1];
-        let pieces = self.pieces.iter().filter(just_above);
-        pieces.map(|p| p.weight.signum() * (p.y[1] - p.y[0])).sum::<f64>().max(0.0)
+        let above = |p: &Piece| p.z[0] <= level && level < p.z[1];
+        let below = |p: &Piece| p.z[0] < level && level <= p.z[1];
+        let mut ends: Vec<f64> = self.pieces.iter().filter(|p| above(p) || below(p)).flat_map(|p| p.y).collect();
+        ends.sort_by(f64::total_cmp);
+        // The ground bears from end to end.
+        let rests = self.pieces.iter().any(below);
+        let covers = |y: f64, touches: &dyn Fn(&Piece) -> bool| {
+            let there = self.pieces.iter().filter(|p| touches(p) && p.y[0] < y && y < p.y[1]);
+            there.map(|p| p.weight.signum()).sum::<f64>() > 0.0
+        };
+        let borne = |w: &[f64]| {
+            let middle = 0.5 * (w[0] + w[1]);
+            let bears = covers(middle, &above) && (!rests || covers(middle, &below));
+            if bears { w[1] - w[0] } else { 0.0 }
+        };
+        ends.windows(2).map(borne).sum()
     }
 }
 

@@ -40,6 +40,8 @@ pub struct Overturning {
     pub multiplier: f64,
     /// a [m] of (OP2).
     pub setback: f64,
+    /// Width of its block of pressure [m].
+    pub width: f64,
     /// tan β of the crack of each side wall.
     pub slopes: Vec<f64>,
     /// The body that turns.
@@ -64,13 +66,22 @@ impl Facade<'_> {
             }
             body.holds.extend(wall.holds(height, slope, self.overlaps));
         }
+        // What loads a wedge goes with it.
+        for (wall, &slope) in self.side_walls.iter().zip(slopes) {
+            let carried = wall.load * height * slope;
+            if carried > 0.0 {
+                let depth = self.masonry.thickness + 0.5 * height * slope;
+                body.weights.push(Weight { carried, pushing: 0.0, depth, height });
+            }
+        }
         let force: f64 = body.weights.iter().map(|w| w.carried).sum();
         let bearing = self.masonry.bearing(hinge);
-        let setback = if bearing > 0.0 { self.crushing.setback(force, bearing) } else { 0.0 };
+        let setback = self.crushing.setback_within(force, bearing, self.masonry.thickness);
+        let width = if bearing > 0.0 { self.crushing.width(force, bearing) } else { 0.0 };
         body.weights.iter_mut().for_each(|w| w.depth -= setback);
         body.thrusts.iter_mut().for_each(|h| h.depth -= setback);
         body.holds.iter_mut().for_each(|h| h.depth -= setback);
-        Overturning { hinge, multiplier: body.multiplier(), setback, slopes: slopes.to_vec(), body }
+        Overturning { hinge, multiplier: body.multiplier(), setback, width, slopes: slopes.to_vec(), body }
     }
 
     /// The least over the slopes of all cracks, each from 0 to the largest that its side wall allows.
@@ -100,8 +111,9 @@ impl Facade<'_> {
         let wedge = wall.wedge(height, 1.0);
         let texture = wall.texture_slope();
         let lost = if texture > 0.0 { wall.friction_moment(height, self.overlaps) / texture } else { 0.0 };
-        let linear = wedge * (self.masonry.thickness - setback) - lost - alpha * wedge * 2.0 * height / 3.0;
-        let quadratic = wedge * height / 3.0;
+        let (load, behind) = (wall.load * height, self.masonry.thickness - setback);
+        let linear = (wedge + load) * behind - lost - alpha * (wedge * 2.0 / 3.0 + load) * height;
+        let quadratic = (wedge / 3.0 + load / 2.0) * height;
         (-linear / (2.0 * quadratic)).clamp(0.0, wall.largest_slope(height))
     }
 
@@ -128,9 +140,29 @@ impl Facade<'_> {
         }
         for tie in self.ties.iter().filter(|t| t.level > hinge + LEVEL) {
             let law = HoldLaw::Tie { stiffness: tie.stiffness, slack: tie.slack, breaks: tie.breaks };
-            body.holds.push(Hold { force: tie.force, depth: 0.0, height: tie.level - hinge, law });
+            body.holds.push(Hold { force: self.tie(hinge, tie), depth: 0.0, height: tie.level - hinge, law });
         }
         body
+    }
+
+    /// What a tie comes to [N] before the façade over a hinge would fall without ties and friction.
+    pub fn tie(&self, hinge: f64, tie: &Tie) -> f64 {
+        let Some(stiffness) = tie.stiffness.or((tie.slack > 0.0 || tie.breaks.is_some()).then_some(f64::INFINITY))
+        else {
+            return tie.force;
+        };
+        let own = self.masonry.above(hinge);
+        let loads = self.floors.iter().filter(|f| f.level > hinge + LEVEL);
+        let (rights, tips) = loads.fold(
+            (own.weight * 0.5 * self.masonry.thickness, own.weight * (own.centroid[1] - hinge)),
+            |(rights, tips), f| (rights + f.load * f.depth, tips + f.load * (f.level - hinge)),
+        );
+        let reach = (tie.level - hinge) * rights.atan2(tips).sin();
+        let most = tie.breaks.map_or(reach, |breaks| breaks.min(reach));
+        match most > tie.slack {
+            true => (stiffness * (most - tie.slack)).min(tie.force),
+            false => 0.0,
+        }
     }
 
     /// The same façade as if its side walls did not hold it (OP3).

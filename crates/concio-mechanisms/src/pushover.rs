@@ -89,7 +89,7 @@ impl Kinematics {
     pub fn sure(&self, turn: f64) -> Option<f64> {
         match self {
             Kinematics::Body(body, _) => Some(body.sure(turn)),
-            Kinematics::VerticalArch(arch) => arch.at(turn),
+            Kinematics::VerticalArch(arch) => arch.sure(turn),
             Kinematics::HorizontalArch(arch) => arch.sure(turn),
         }
     }

@@ -26,6 +26,25 @@ impl Crushing {
         }
     }
 
+    /// [`Crushing::setback`] in a wall of thickness t [m]: where the block of pressure has no place in it, the hinge is taken to lie on the
+    /// other face. 0 without a length.
+    pub fn setback_within(self, force: f64, length: f64, thickness: f64) -> f64 {
+        match length > 0.0 {
+            true if self.width(force, length) > thickness => thickness,
+            true => self.setback(force, length),
+            false => 0.0,
+        }
+    }
+
+    /// Width [m] of the block of pressure: one that is wider than the wall has no place in it.
+    pub fn width(self, force: f64, length: f64) -> f64 {
+        match self {
+            Crushing::Rigid => 0.0,
+            Crushing::Rectangular(strength) => force / (strength * length),
+            Crushing::Triangular(strength) => 2.0 * force / (strength * length),
+        }
+    }
+
     /// Whether crushing is left out, so that the code asks for the confidence factor of LC1.
     pub fn is_left_out(self) -> bool {
         self == Crushing::Rigid

@@ -1,6 +1,6 @@
 //! Every mechanism that a wall can have, at every hinge level, with its least multiplier, pushover and checks.
 
-use crate::body::{Body, Shares, Weight};
+use crate::body::{Body, Shares, Thrust, Weight};
 use crate::checks::{Asked, Checks, LOWEST_KNOWLEDGE, Place, first_period};
 use crate::corner::{Beside, Corner};
 use crate::facade::{Floor, Masonry, Tie};
@@ -11,7 +11,7 @@ use crate::overturning::{Facade, Overturning};
 use crate::pushover::{Kinematics, Pushover};
 use crate::side_wall::{Overlaps, SideWall};
 use crate::vertical_arch::VerticalArch;
-use crate::wall::{Side, Wall};
+use crate::wall::{BESIDE, FloorOf, Side, Wall};
 
 /// Kinds of mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -191,17 +191,26 @@ const LOWEST: f64 = 1e-3;
 /// Makes the survey of a wall; `overlaps` is the sum of the friction of overlaps.
 pub fn survey(wall: &Wall, overlaps: Overlaps) -> Survey {
     let mut survey = Survey { found: Vec::new(), without: Vec::new() };
-    let making = Making { wall, overlaps, floors: wall.floors.iter().map(|f| f.floor).collect() };
+    let mut making = Making {
+        wall,
+        overlaps,
+        floors: wall.floors.iter().map(|f| f.floor).collect(),
+        holding: wall.floors.iter().map(|f| f.holds).collect(),
+        gave: Vec::new(),
+    };
+    // First: what gives way in them holds no longer in the others.
+    let arches = making.vertical_arches();
     making.overturning(&mut survey);
     making.leaf(&mut survey);
-    making.vertical_arches(&mut survey);
+    if arches.is_empty() {
+        let why = "nothing holds the wall above a bed joint (holds = true or connection at out_of_plane.floor, out_of_plane.anchor)";
+        survey.without.push((Kind::VerticalArch, why.into()));
+    }
+    survey.found.extend(arches);
     making.strip(&mut survey);
     making.corners(&mut survey);
     making.flaps(&mut survey);
     making.gable(&mut survey);
-    // A floor that gives way may have brought a kind that it else prevents.
-    let Survey { found, without } = &mut survey;
-    without.retain(|(kind, _)| *kind == Kind::VerticalArch || !found.iter().any(|f| f.kind == *kind));
     survey
 }
 
@@ -231,8 +240,37 @@ impl Survey {
 struct Making<'w> {
     wall: &'w Wall,
     overlaps: Overlaps,
+    /// Floors as they are: of one that gives way, the force that it does at is its connection.
     floors: Vec<Floor>,
+    /// Which of them hold the wall.
+    holding: Vec<bool>,
+    /// Level [m] of each that gives way, and the force [N].
+    gave: Vec<[f64; 2]>,
 }
+
+/// A storey that bends outwards.
+struct Storey {
+    levels: [f64; 2],
+    arch: VerticalArch,
+    /// Level of the hinge between its ends [m].
+    hinge: f64,
+    setback: f64,
+    /// R with the thrust of what stands on the support [N]; what is known to bear it; friction of the bed joint under the held course.
+    needed: f64,
+    borne: Option<f64>,
+    rubs: f64,
+}
+
+impl Storey {
+    /// The force [N] at which the support gives way, where that is less than it needs.
+    fn gives_way(&self) -> Option<f64> {
+        let bears = self.borne.unwrap_or(f64::INFINITY).min(self.rubs);
+        (self.needed > bears).then_some(bears)
+    }
+}
+
+/// Said of α0 that is not above 0.
+const FALLS: &str = "α0 is not above 0: the mechanism moves without an earthquake";
 
 impl Making<'_> {
     /// Checks of a mechanism whose hinge or supports lie at a level.
@@ -319,7 +357,7 @@ impl Making<'_> {
         let Rest { slopes, setback, counts, shape, mut notes, level, .. } = rest;
         notes.extend(self.of_free(vibrates, level.unwrap_or(hinge)));
         if pushover.multiplier <= 0.0 {
-            notes.push("α0 is not above 0: the mechanism moves without an earthquake".into());
+            notes.push(FALLS.into());
         }
         let level = level.unwrap_or(hinge);
         survey.found.push(Found {
@@ -341,7 +379,7 @@ impl Making<'_> {
 
     /// Level of the highest floor that holds the wall; 0 without one.
     fn held(&self) -> f64 {
-        self.wall.floors.iter().filter(|f| f.holds).map(|f| f.floor.level).fold(0.0, f64::max)
+        self.holding_floors().map(|f| f.floor.level).fold(0.0, f64::max)
     }
 
     /// Why nothing turns about a joint, where a floor holds the wall at its top.
@@ -374,11 +412,20 @@ impl Making<'_> {
         let bonded = !sides.is_empty();
         for hinge in self.levels(held) {
             let found = self.facade(&[]).least(hinge);
-            let mut notes = Vec::new();
-            if bonded {
-                notes.push("for comparison: as if the side walls were not bonded".into());
+            let mut notes = self.of_supports(hinge);
+            // One side wall does not reach the other end.
+            let alone = sides.len() == 1;
+            match (bonded, alone) {
+                (true, false) => notes.push("for comparison: as if the side walls were not bonded".into()),
+                (true, true) => notes.push("the part away from the one side wall: as if that did not hold it".into()),
+                _ => {}
             }
-            self.turn(survey, Kind::Overturning, found, !bonded, Vec::new(), notes);
+            let sliding = self.sliding(hinge);
+            if sliding < found.multiplier * (1.0 - 1e-9) {
+                let (what, level) = (Kind::Overturning.what(), hinge);
+                notes.push(format!("the bed joint at {level:.2} m slides at α = {sliding:.4}, before the {what}: no check here knows that"));
+            }
+            self.turn(survey, Kind::Overturning, found, !bonded || alone, Vec::new(), notes);
         }
         if let Some(why) = self.held_at_top() {
             survey.without.push((Kind::Overturning, why.clone()));
@@ -397,7 +444,7 @@ impl Making<'_> {
         for hinge in self.levels(held) {
             let found = self.facade(&sides).least(hinge);
             let wedges = self.wall.side_walls.iter().zip(&found.slopes).map(|(s, slope)| [s.at, *slope]).collect();
-            let mut notes = Vec::new();
+            let mut notes = self.of_supports(hinge);
             if sides.len() == 1 {
                 notes.push("one side wall alone: the façade twists about it, and α0 is about a tenth too high".into());
             }
@@ -409,6 +456,39 @@ impl Making<'_> {
         }
     }
 
+    /// What to know of what holds the part over a hinge back.
+    fn of_supports(&self, hinge: f64) -> Vec<String> {
+        let gave = self.gave.iter().filter(|[high, _]| *high > hinge + LEVEL);
+        let gave = gave.map(|[high, bears]| format!("the floor at {high:.2} m gives way at {:.2} kN", 1e-3 * bears));
+        let facade = self.facade(&[]);
+        let lost = self.wall.ties.iter().filter(|tie| tie.level > hinge + LEVEL).filter_map(|tie| {
+            let bears = facade.tie(hinge, tie);
+            (bears < (1.0 - 1e-9) * tie.force).then(|| {
+                format!(
+                    "the tie at {:.2} m comes to {:.2} of its {:.2} kN before the wall would fall without it: that much counts",
+                    tie.level,
+                    1e-3 * bears,
+                    1e-3 * tie.force
+                )
+            })
+        });
+        gave.chain(lost).collect()
+    }
+
+    /// α at which the bed joint on a level slides, as if side walls did not hold what lies above.
+    fn sliding(&self, hinge: f64) -> f64 {
+        let own = self.wall.masonry.above(hinge).weight;
+        let (mut holds, mut masses) = (self.wall.friction * own, own);
+        for floor in self.floors.iter().filter(|f| f.level > hinge + LEVEL) {
+            let rubs = (self.wall.friction + floor.friction) * floor.load;
+            holds += rubs + floor.connection - floor.thrust;
+            masses += floor.load + floor.pushing;
+        }
+        let facade = self.facade(&[]);
+        holds += self.wall.ties.iter().filter(|t| t.level > hinge + LEVEL).map(|t| facade.tie(hinge, t)).sum::<f64>();
+        holds / masses
+    }
+
     fn turn(
         &self,
         survey: &mut Survey,
@@ -418,7 +498,13 @@ impl Making<'_> {
         wedges: Vec<[f64; 2]>,
         notes: Vec<String>,
     ) {
-        let Overturning { hinge, setback, slopes, body, .. } = found;
+        let Overturning { hinge, setback, slopes, body, width, .. } = found;
+        let mut notes = notes;
+        if width > self.wall.masonry.thickness {
+            notes.push(format!(
+                "masonry crushes under the loads at rest: they need {width:.3} m of the joint's depth, and the hinge is taken to lie on the other face"
+            ));
+        }
         let shape = Shape::Above { wedges };
         let rest = Rest { slopes, setback, counts, shape, notes, seats: true, level: None };
         self.add_body(survey, kind, body, hinge, self.wall.top - hinge, rest);
@@ -436,28 +522,104 @@ impl Making<'_> {
             self.wall.masonry.pieces.iter().map(|p| crate::facade::Piece { weight: part * p.weight, ..*p }).collect();
         let masonry = Masonry { thickness, pieces };
         for hinge in self.levels(0.0) {
-            let facade = Facade { masonry: &masonry, floors: &[], side_walls: &[], ..self.facade(&[]) };
-            let notes =
-                vec!["floors are taken to rest on the inner leaf; ties hold the outer one by their plates".into()];
+            let on_it: Vec<Floor> = self.floors.iter().filter(|f| f.depth < thickness - LEVEL).copied().collect();
+            let facade = Facade { masonry: &masonry, floors: &on_it, side_walls: &[], ..self.facade(&[]) };
+            let rest = match on_it.len() {
+                0 => "floors are taken to rest on the inner leaf".to_string(),
+                _ => format!(
+                    "{} of {} floors rest on it by their `at`, the others on the inner leaf",
+                    on_it.len(),
+                    self.floors.len()
+                ),
+            };
+            let notes = vec![format!("{rest}; ties hold the outer one by their plates")];
             self.turn(survey, Kind::Leaf, facade.least(hinge), true, Vec::new(), notes);
         }
     }
 
-    fn vertical_arches(&self, survey: &mut Survey) {
-        let holding: Vec<&crate::wall::FloorOf> = self.wall.floors.iter().filter(|f| f.holds).collect();
-        if holding.is_empty() {
-            let why = "no floor holds the wall at its level (holds = true at out_of_plane.floor)";
-            survey.without.push((Kind::VerticalArch, why.into()));
-        }
+    /// Storeys between levels that hold the wall. A floor whose reaction is more than what bears it gives way: it holds as a tie does from
+    /// then on, in these and all other mechanisms.
+    fn vertical_arches(&mut self) -> Vec<Found> {
+        let mut found = Vec::new();
         let mut lower = 0.0;
-        for upper in holding {
-            let levels = [lower, upper.floor.level];
-            self.storey(survey, levels, upper);
-            lower = upper.floor.level;
+        for at in 0..self.wall.floors.len() {
+            if !self.holding[at] {
+                continue;
+            }
+            let upper = self.wall.floors[at];
+            let high = upper.floor.level;
+            let Some(storey) = self.storey([lower, high], &upper) else { continue };
+            if let Some(bears) = storey.gives_way() {
+                self.holding[at] = false;
+                for (floor, own) in self.floors.iter_mut().zip(&self.wall.floors) {
+                    if (own.floor.level - high).abs() < LEVEL {
+                        floor.connection = if own.floor.level == high { bears } else { own.floor.connection };
+                        floor.friction = 0.0;
+                    }
+                }
+                self.gave.push([high, bears]);
+            } else {
+                lower = high;
+            }
+            found.push(self.found(storey));
         }
+        found.extend(self.spanning());
+        found.extend(self.held_by_ties());
+        found
     }
 
-    fn storey(&self, survey: &mut Survey, levels: [f64; 2], upper: &crate::wall::FloorOf) {
+    /// Arches past floors that hold, but with a force that is known: with it, they are as likely as those between.
+    fn spanning(&self) -> Vec<Found> {
+        let kept: Vec<&FloorOf> = self.holding_floors().collect();
+        let mut found = Vec::new();
+        for (k, upper) in kept.iter().enumerate().skip(1) {
+            for from in (0..k).rev() {
+                // The floor that is passed has to have a force.
+                if self.wall.borne(kept[from]).is_none() {
+                    break;
+                }
+                let low = from.checked_sub(1).map_or(0.0, |below| kept[below].floor.level);
+                let storey = self.storey([low, upper.floor.level], upper).filter(|storey| storey.gives_way().is_none());
+                found.extend(storey.map(|storey| self.found(storey)));
+            }
+        }
+        found
+    }
+
+    /// Storeys below ties and connections, which hold the wall there as long as they bear its reaction.
+    fn held_by_ties(&self) -> Vec<Found> {
+        let wall = self.wall;
+        let connected =
+            wall.floors.iter().zip(&self.floors).filter(|(own, floor)| !own.holds && floor.connection > 0.0);
+        let mut supports: Vec<FloorOf> = connected.map(|(own, _)| *own).collect();
+        for tie in &wall.ties {
+            let near = |of: &FloorOf| tie.level >= self.below(of.floor.level) && tie.level <= of.floor.level + BESIDE;
+            if !supports.iter().chain(&wall.floors).any(|of| (of.holds || of.floor.connection > 0.0) && near(of)) {
+                let floor = Floor { level: tie.level, ..Floor::default() };
+                supports.push(FloorOf { floor, given: false, holds: false, clamps: false });
+            }
+        }
+        let below = |support: &FloorOf| {
+            let under = self.holding_floors().map(|f| f.floor.level).filter(|z| *z < support.floor.level - LEVEL);
+            under.fold(0.0, f64::max)
+        };
+        let under = supports.iter().filter(|of| self.holding_floors().all(|f| f.floor.level != of.floor.level));
+        let storeys = under.filter_map(|support| self.storey([below(support), support.floor.level], support));
+        storeys.filter(|storey| storey.gives_way().is_none()).map(|storey| self.found(storey)).collect()
+    }
+
+    /// Floors that hold the wall, from below.
+    fn holding_floors(&self) -> impl Iterator<Item = &FloorOf> {
+        self.wall.floors.iter().zip(&self.holding).filter(|(_, holds)| **holds).map(|(floor, _)| floor)
+    }
+
+    /// The bed joint below a level [m].
+    fn below(&self, level: f64) -> f64 {
+        self.wall.levels.iter().copied().rfind(|z| *z < level - LEVEL).unwrap_or(0.0)
+    }
+
+    /// The arch between two levels, the upper one held by `upper`; none where no bed joint lies between them.
+    fn storey(&self, levels: [f64; 2], upper: &FloorOf) -> Option<Storey> {
         let wall = self.wall;
         let t = wall.masonry.thickness;
         let [low, high] = levels;
@@ -471,13 +633,27 @@ impl Making<'_> {
             (false, false) => 0.5 * t,
         };
         let last = self.levels(0.0).filter(|z| *z < high - LEVEL).last().unwrap_or(low);
+        let within = |f: &&Floor, from: f64, to: f64| f.level > from + LEVEL && f.level <= to && f.level < high - LEVEL;
+        let forces = |from: f64, to: f64| {
+            let inside = self.floors.iter().filter(|f| within(f, from, to));
+            let of = |f: &Floor| {
+                // A floor that holds and is passed holds with what is known to bear it.
+                let own = self.holding_floors().find(|own| own.floor.level == f.level);
+                let borne = own.and_then(|own| wall.borne(own)).unwrap_or(f.connection + f.friction * f.load);
+                [f.thrust, -borne].map(|force| Thrust { force, depth: f.depth, height: f.level - low })
+            };
+            let taken = |tie: &&Tie| self.holding_floors().any(|own| self.bears_with(own, tie));
+            let ties = wall.ties.iter().filter(|t| t.level > from + LEVEL && t.level <= to && t.level < last - LEVEL);
+            let ties = ties.filter(|tie| !taken(tie));
+            let ties = ties.map(|tie| Thrust { force: -tie.force, depth: 0.0, height: tie.level - low });
+            inside.flat_map(of).chain(ties).filter(|force| force.force != 0.0).collect::<Vec<_>>()
+        };
         let arch = |hinge: f64| {
             let part = |from: f64, to: f64| {
                 let own = self.wall.masonry.between(from, to);
                 let height = own.centroid[1] - low;
                 let mut all = vec![Weight { carried: own.weight, pushing: 0.0, depth: 0.5 * t, height }];
-                let inside =
-                    self.floors.iter().filter(|f| f.level > from + LEVEL && f.level <= to && f.level < high - LEVEL);
+                let inside = self.floors.iter().filter(|f| within(f, from, to));
                 all.extend(inside.map(|f| Weight {
                     carried: f.load,
                     pushing: f.pushing,
@@ -487,21 +663,21 @@ impl Making<'_> {
                 all
             };
             let mut parts = [part(low, hinge), part(hinge, high)];
+            let mut forces = [forces(low, hinge), forces(hinge, high)];
             let weight = |part: &Vec<Weight>| part.iter().map(|w| w.carried).sum::<f64>();
             let [lower, upper_part] = [weight(&parts[0]), weight(&parts[1])];
             // (OP2) at every hinge: the base's on the outer face, the middle's on the inner one, the top's on the outer one of a floor
             // that clamps. N that stays in its place is set back by nothing.
-            let back = |force: f64, level: f64| match wall.masonry.bearing(level) {
-                length if length > 0.0 => wall.crushing.setback(force, length),
-                _ => 0.0,
-            };
+            let back = |force: f64, level: f64| wall.crushing.setback_within(force, wall.masonry.bearing(level), t);
             let [base, middle] = [back(load + lower + upper_part, low), back(load + upper_part, hinge)];
             let depth = if upper.clamps { t - back(load, last) } else { depth };
             parts.iter_mut().flatten().for_each(|w| w.depth -= base);
+            forces.iter_mut().flatten().for_each(|f| f.depth -= base);
             let arch = VerticalArch {
                 thickness: (t - base - middle).max(1e-9 * t),
                 height: high - low,
                 parts,
+                forces,
                 hinge: hinge - low,
                 load,
                 depth: (depth - middle).max(0.0),
@@ -509,15 +685,29 @@ impl Making<'_> {
             (arch, base)
         };
         let inside = self.levels(0.0).filter(|z| *z > low + LOWEST && *z < high - LOWEST);
-        let Some((hinge, (arch, setback))) =
-            inside.map(|z| (z, arch(z))).min_by(|a, b| a.1.0.multiplier().total_cmp(&b.1.0.multiplier()))
-        else {
-            let why = format!("no bed joint lies between {low:.2} m and {high:.2} m");
-            survey.without.push((Kind::VerticalArch, why));
-            return;
-        };
-        let needed = arch.reaction();
-        let borne = self.wall.borne(upper);
+        let arches = inside.map(|z| (z, arch(z)));
+        let (hinge, (arch, setback)) = arches.min_by(|a, b| a.1.0.multiplier().total_cmp(&b.1.0.multiplier()))?;
+        // What the floors above push outwards goes to the support as well.
+        let needed = arch.reaction() + above.iter().map(|f| f.thrust).sum::<f64>();
+        let course = self.wall.masonry.between(last, high).weight;
+        Some(Storey {
+            levels,
+            arch,
+            hinge,
+            setback,
+            needed,
+            borne: wall.borne(upper),
+            rubs: wall.friction * (load + course),
+        })
+    }
+
+    /// Whether a tie is among what bears the reaction of a floor.
+    fn bears_with(&self, floor: &FloorOf, tie: &Tie) -> bool {
+        tie.level >= self.below(floor.floor.level) && tie.level <= floor.floor.level + BESIDE
+    }
+
+    fn found(&self, storey: Storey) -> Found {
+        let Storey { levels, ref arch, hinge, setback, needed, borne, rubs } = storey;
         let mut notes = Vec::new();
         match borne {
             None => notes.push(format!(
@@ -525,39 +715,30 @@ impl Making<'_> {
                 1e-3 * needed
             )),
             Some(borne) if needed > borne => notes.push(format!(
-                "the top needs R = {:.2} kN and has {:.2} kN: it gives way first, and the wall overturns below it",
+                "the top needs R = {:.2} kN and has {:.2} kN: it gives way first, and the wall overturns below it; for comparison",
                 1e-3 * needed,
                 1e-3 * borne
             )),
             Some(_) => {}
         }
-        let course = self.wall.masonry.between(last, high).weight;
-        let rubs = self.wall.friction * (load + course);
         if needed > rubs {
             notes.push(format!(
                 "the bed joint under the held course bears {:.2} kN by friction: R does not get through it",
                 1e-3 * rubs
             ));
         }
-        if needed > rubs || borne.is_some_and(|b| needed > b) {
-            // The support gives way: what it bears holds the wall as a tie does.
-            let bears = borne.unwrap_or(f64::INFINITY).min(rubs);
-            let mut floors = self.floors.clone();
-            for floor in floors.iter_mut().filter(|f| (f.level - high).abs() < LEVEL) {
-                floor.connection = if floor.level == upper.floor.level { bears } else { floor.connection };
-                floor.friction = 0.0;
-            }
-            let sides: Vec<SideWall> = self.wall.side_walls.iter().map(|s| s.wall).collect();
-            let found = Facade { floors: &floors, ..self.facade(&sides) }.least(low);
-            let notes = vec![format!("the floor at {high:.2} m gives way at {:.2} kN", 1e-3 * bears)];
-            let kind = if sides.is_empty() { Kind::Overturning } else { Kind::WithSideWalls };
-            let wedges = self.wall.side_walls.iter().zip(&found.slopes).map(|(s, slope)| [s.at, *slope]).collect();
-            self.turn(survey, kind, found, true, wedges, notes);
+        if self.wall.leaf.is_some() {
+            notes.push("its leaves are not tied: α0 of a wall in one piece, which is too high".into());
         }
-        let pushover = Pushover::of(Kinematics::VerticalArch(arch));
+        let counts = storey.gives_way().is_none();
+        let pushover = Pushover::of(Kinematics::VerticalArch(arch.clone()));
+        if pushover.multiplier <= 0.0 {
+            notes.push(FALLS.into());
+        }
+        let [low, high] = levels;
         let level = 0.5 * (low + high);
         let checks = self.checks(Kind::VerticalArch, &pushover, level, None, Vibrates::Held(high - low));
-        survey.found.push(Found {
+        Found {
             kind: Kind::VerticalArch,
             hinge,
             slopes: Vec::new(),
@@ -567,11 +748,11 @@ impl Making<'_> {
             level,
             checks,
             confidence: self.confidence(Kind::VerticalArch),
-            counts: true,
+            counts,
             reaction: Some([Some(needed), borne]),
             shape: Shape::Storey { levels },
             notes,
-        });
+        }
     }
 
     fn strip(&self, survey: &mut Survey) {
@@ -582,7 +763,17 @@ impl Making<'_> {
         };
         let wall = self.wall;
         let own = wall.masonry.above(from);
-        let load: f64 = self.floors.iter().filter(|f| f.level >= from - LEVEL).map(|f| f.load).sum();
+        let on_it = || self.floors.iter().filter(|f| f.level >= from - LEVEL);
+        let load: f64 = on_it().map(|f| f.load).sum();
+        // A floor that holds the wall is held itself.
+        let moves = || {
+            self.floors
+                .iter()
+                .zip(&self.wall.floors)
+                .filter(|(floor, own)| own.given && !own.holds && floor.level >= from - LEVEL)
+        };
+        let pushes: f64 = moves().map(|(f, _)| f.load + f.pushing).sum();
+        let outwards: f64 = moves().map(|(f, _)| f.thrust).sum();
         // (OP2) under the thrust, over the height of the strip: at midspan on the inner face, at the abutments on the outer one.
         let setback = wall.crushing.setback(thrust, wall.top - from);
         let arch = HorizontalArch {
@@ -592,13 +783,16 @@ impl Making<'_> {
             thrust,
             friction,
             load: load / wall.length(),
+            pushing: pushes / wall.length(),
+            outwards: outwards / wall.length(),
         };
         let pushover = Pushover::of(Kinematics::HorizontalArch(arch));
         let level = 0.5 * (from + wall.top);
         let checks = self.checks(Kind::HorizontalArch, &pushover, level, None, Vibrates::Unknown);
         let left = wall.extent[0] + 0.5 * (wall.length() - span);
         let notes = vec![
-            "weight taken as uniform along the strip; floors on it press its bed and push nothing".into(),
+            "weight, floors and their thrust taken as uniform along the strip; floors that hold the wall push nothing"
+                .into(),
             "H_r is what the file gives: check the side wall in its plane with `concio limit`".into(),
         ];
         survey.found.push(Found {
@@ -684,7 +878,7 @@ impl Making<'_> {
     fn flaps(&self, survey: &mut Survey) {
         let wall = self.wall;
         let steepest = wall.texture[1] / wall.texture[0];
-        let mut cracks: Vec<f64> = wall.openings.iter().map(|o| 0.5 * (o[0] + o[2])).collect();
+        let mut cracks: Vec<f64> = wall.openings.iter().flat_map(|o| [o[0], 0.5 * (o[0] + o[2]), o[2]]).collect();
         cracks.push(0.5 * (wall.extent[0] + wall.extent[1]));
         cracks.sort_by(f64::total_cmp);
         cracks.dedup_by(|a, b| (*a - *b).abs() < 1e-3);

@@ -84,6 +84,7 @@ fn of_body(wall: &Wall, found: &Found, body: &Body, control: f64, restitution: O
     let mut parts = vec![part(own, own_inertia(wall, found, own, control))];
     // Side walls without a wedge have no weight among those of the body.
     let slopes = found.slopes.iter().filter(|slope| **slope > 0.0);
+    let (wedges, on_wedges) = wedges.split_at(slopes.clone().count().min(wedges.len()));
     parts.extend(wedges.iter().zip(slopes).map(|(wedge, slope)| {
         let height = 1.5 * wedge.height;
         part(wedge, wedge.carried / G * height * height * (1.0 + slope * slope) / 18.0)
@@ -107,7 +108,8 @@ fn of_body(wall: &Wall, found: &Found, body: &Body, control: f64, restitution: O
             seat: floor.seat,
         }
     });
-    let floors: Vec<Floor> = floors.collect();
+    let mut floors: Vec<Floor> = floors.collect();
+    floors.extend(on_wedges.iter().map(|load| Floor::carried(at(load.depth, load.height), load.carried)));
     let mut notes = Vec::new();
     let (mut ties, mut rubs) = (Vec::new(), Vec::new());
     for hold in &holds {
@@ -236,6 +238,19 @@ fn of_arch(wall: &Wall, found: &Found, arch: &VerticalArch, restitution: Option<
             }
         }
     }
+    let mut ties = Vec::new();
+    for (member, forces) in [Member::Lower, Member::Upper].into_iter().zip(&arch.forces) {
+        for force in forces {
+            let spot = at(member, [force.depth, force.height]);
+            match force.force > 0.0 {
+                true => floors.push(Floor { thrust: force.force, ..Floor::carried(spot, 0.0) }),
+                false => {
+                    let yields = -force.force;
+                    ties.push(Tie { yield_force: Some(yields), ..Tie::elastic(spot, yields / RIGID_TIE) });
+                }
+            }
+        }
+    }
     let top = [thickness - arch.depth, high];
     if arch.load > 0.0 {
         floors.push(Floor::carried(Spot::upper(top), arch.load));
@@ -246,13 +261,16 @@ fn of_arch(wall: &Wall, found: &Found, arch: &VerticalArch, restitution: Option<
         linkage: Linkage::Two { base: [0.0, low], middle: inner, top },
         parts,
         floors,
-        ties: Vec::new(),
+        ties,
         rubs: Vec::new(),
         friction_moment: 0.0,
         back: Back::Free { inwards, restitution },
         control: Spot::lower(inner),
     };
     let mut notes = vec!["the storey bulges to both sides: side walls reach its ends alone".to_string()];
+    if !mechanism.ties.is_empty() {
+        notes.push(format!("what holds it between its ends is taken to yield at {:.0} mm", 1e3 * RIGID_TIE));
+    }
     notes.push(match found.reaction {
         Some([Some(needed), Some(borne)]) if needed > borne => format!(
             "the top needs R = {:.2} kN and has {:.2} kN: it gives way first, and this time history is none of this wall",

@@ -9,11 +9,12 @@
 //! for a hinge x h above the base at the inner face, the base's on the outer one, and N, all that lies above, at d from the inner face.
 //! Derived from (OP1). R is the reaction that the top needs. N is held, and pushes nothing: it counts among no masses. In the displaced
 //! shape the lower part turns by θ about the outer edge of the base, the upper one by φ the other way, so that the top keeps its distance
-//! from the plane of the wall:
+//! from the plane of the wall (forces H of floors between the ends, below 0 where they hold back, take Σ H δ off the numerator and add Σ H z/h
+//! to R):
 //!
 //! (h − b) sin φ − d cos φ = t − d − t cos θ + b sin θ, b = x h.
 
-use crate::body::Weight;
+use crate::body::{Thrust, Weight};
 
 /// A storey between two levels that hold it.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +25,8 @@ pub struct VerticalArch {
     pub height: f64,
     /// Weights of the parts below and above the hinge, each behind the outer face and over the lower level.
     pub parts: [Vec<Weight>; 2],
+    /// Forces on these parts: thrusts of floors and, below 0, what holds back between the ends.
+    pub forces: [Vec<Thrust>; 2],
     /// b [m], above 0 and below h: height of the hinge.
     pub hinge: f64,
     /// N [N], from 0.
@@ -57,7 +60,7 @@ impl VerticalArch {
             vec![Weight { carried: weight * part, pushing: 0.0, depth: 0.5 * thickness, height }]
         };
         let parts = [of(part, 0.5 * hinge), of(1.0 - part, 0.5 * (hinge + height))];
-        VerticalArch { thickness, height, parts, hinge, load, depth }
+        VerticalArch { thickness, height, parts, forces: Default::default(), hinge, load, depth }
     }
 
     /// α0.
@@ -67,7 +70,13 @@ impl VerticalArch {
 
     /// α at turn θ [rad] of the lower part; none where the parts no longer reach the top.
     pub fn at(&self, turn: f64) -> Option<f64> {
-        let (resists, pushes) = self.work(turn)?;
+        let (resists, pushes) = self.work(turn, |_| true)?;
+        Some(resists / pushes)
+    }
+
+    /// The same of what surely acts till collapse: without what holds back between the ends.
+    pub fn sure(&self, turn: f64) -> Option<f64> {
+        let (resists, pushes) = self.work(turn, |force| force.force > 0.0)?;
         Some(resists / pushes)
     }
 
@@ -77,12 +86,13 @@ impl VerticalArch {
         let tips = self.multiplier() * all().map(|w| (w.carried + w.pushing) * w.height).sum::<f64>();
         let own: f64 = all().map(|w| w.carried * w.depth).sum();
         let rights = own + self.load * (self.thickness - self.depth);
-        (tips - rights) / self.height
+        let forces: f64 = self.forces.iter().flatten().map(|f| f.force * f.height).sum();
+        (tips + forces - rights) / self.height
     }
 
-    /// Turn [rad] at which α is 0; where the parts reach the top no longer, the last at which they do.
+    /// Turn [rad] at which [`VerticalArch::sure`] is 0; where the parts reach the top no longer, the last at which they do.
     pub fn last_turn(&self) -> f64 {
-        let stands = |turn: f64| self.work(turn).is_some_and(|(resists, _)| resists > 0.0);
+        let stands = |turn: f64| self.sure(turn).is_some_and(|multiplier| multiplier > 0.0);
         let (mut low, mut high) = (0.0, std::f64::consts::FRAC_PI_2);
         // α falls all the way, so that the first turn without it bounds the last with it.
         for _ in 0..70 {
@@ -115,7 +125,7 @@ impl VerticalArch {
     }
 
     /// Work per turn that resists, and of the masses outwards [N m].
-    fn work(&self, turn: f64) -> Option<(f64, f64)> {
+    fn work(&self, turn: f64, acts: impl Fn(&Thrust) -> bool) -> Option<(f64, f64)> {
         let (t, b, d, above) = (self.thickness, self.hinge, self.depth, self.height - self.hinge);
         let (sin, cos) = turn.sin_cos();
         let (s, c) = self.upper_turn(turn)?.sin_cos();
@@ -127,6 +137,12 @@ impl VerticalArch {
         let high = |x: f64, z: f64| [hinge[0] + (x * s - z * c) * rate, hinge[1] - (z * s + x * c) * rate];
         let mut resists = self.load * high(-d, above)[1];
         let mut pushes = 0.0;
+        let [below, above] = &self.forces;
+        let below = below.iter().map(|f| (f, low(f.depth, f.height)));
+        let above = above.iter().map(|f| (f, high(f.depth - t, f.height - b)));
+        for (force, [out, _]) in below.chain(above).filter(|(force, _)| acts(force)) {
+            resists -= force.force * out;
+        }
         let [lower, upper] = &self.parts;
         let lower = lower.iter().map(|w| (w, low(w.depth, w.height)));
         let upper = upper.iter().map(|w| (w, high(w.depth - t, w.height - b)));

@@ -118,7 +118,7 @@ pub struct Assumed {
 /// Heights within this are one level [m].
 const LEVEL: f64 = 1e-6;
 /// Ties up to so far above a floor bear its reaction [m].
-const BESIDE: f64 = 0.5;
+pub(crate) const BESIDE: f64 = 0.5;
 /// φ unless given.
 const DIAGONAL: f64 = std::f64::consts::FRAC_PI_4;
 

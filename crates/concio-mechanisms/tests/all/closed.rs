@@ -128,8 +128,16 @@ fn vertical_arch_by_work_is_its_formula_and_least_where_it_says() {
 
 #[test]
 fn horizontal_arch_turns_as_a_three_hinged_one() {
-    let strip =
-        HorizontalArch { thickness: 0.4, spans: [2.5; 2], weight: 7.2e3, thrust: 25e3, friction: 0.0, load: 0.0 };
+    let strip = HorizontalArch {
+        thickness: 0.4,
+        spans: [2.5; 2],
+        weight: 7.2e3,
+        thrust: 25e3,
+        friction: 0.0,
+        load: 0.0,
+        pushing: 0.0,
+        outwards: 0.0,
+    };
     for turn in [0.0f64, 0.05, 0.1] {
         // Half of it: the thrust's lever t cos θ − L sin θ against the weight in its middle.
         let (sin, cos) = turn.sin_cos();

@@ -1,6 +1,7 @@
 //! The mechanisms against reference values, closed forms and properties.
 
 mod closed;
+mod held;
 mod reference;
 mod rocking;
 mod rocking_random;

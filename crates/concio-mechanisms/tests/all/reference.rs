@@ -287,6 +287,8 @@ fn s12_horizontal_arch() {
         thrust: 25e3,
         friction: 0.0,
         load: 0.0,
+        pushing: 0.0,
+        outwards: 0.0,
     };
     known!("S12", "α0, midspan", "", strip(2.5).multiplier(), 0.444444);
     known!("S12", "α0, at a third", "", strip(5.0 / 3.0).multiplier(), 0.5);

@@ -1,7 +1,7 @@
 //! A mechanism that is shaken is the one that the survey found.
 
 use concio::case::{Syntax, from_str};
-use concio_mechanisms::rocking::{Back, Mechanism, Restitution, Rocking, Setting, Shaking};
+use concio_mechanisms::rocking::{Back, Linkage, Mechanism, Restitution, Rocking, Setting, Shaking};
 use concio_mechanisms::side_wall::Overlaps;
 use concio_mechanisms::survey::{Found, Kind, survey};
 use concio_mechanisms::time_history::TimeHistory;
@@ -21,6 +21,10 @@ fn at_full_force(mechanism: &Mechanism) -> Mechanism {
     let mut mechanism = mechanism.clone();
     for tie in &mut mechanism.ties {
         (tie.pretension, tie.slack) = (tie.yield_force.expect("a force"), 0.0);
+    }
+    // Ties that pull at rest would turn a storey inwards.
+    if let (Back::Free { inwards: Linkage::Two { .. }, .. }, false) = (&mechanism.back, mechanism.ties.is_empty()) {
+        mechanism.back = Back::SideWalls(Restitution::Given(0.5));
     }
     mechanism
 }
