@@ -30,6 +30,8 @@ pub const RIGID_TIE: f64 = 1e-3;
 pub struct TimeHistory {
     /// What rocks. Depths are from the outer face, heights from the base of the wall.
     pub mechanism: Mechanism,
+    /// Its bodies in section, from below: the corner on the outer face below, and that on the inner face above.
+    pub bodies: Vec<[Place; 2]>,
     /// What is assumed of it, in words.
     pub notes: Vec<String>,
 }
@@ -145,7 +147,11 @@ fn of_body(wall: &Wall, found: &Found, body: &Body, control: f64, restitution: O
                 .into(),
         );
     }
-    let thickness = if found.kind == Kind::Leaf { wall.leaf.unwrap_or_default() } else { wall.masonry.thickness };
+    let thickness = match (found.kind, &wall.gable) {
+        (Kind::Leaf, _) => wall.leaf.unwrap_or_default(),
+        (Kind::Gable, Some((gable, _))) => gable.thickness,
+        _ => wall.masonry.thickness,
+    };
     let backed = match found.kind {
         Kind::Leaf => Some("the inner leaf"),
         Kind::Gable => None,
@@ -172,14 +178,17 @@ fn of_body(wall: &Wall, found: &Found, body: &Body, control: f64, restitution: O
         back,
         control: at(0.0, control),
     };
-    TimeHistory { mechanism, notes }
+    TimeHistory { mechanism, bodies: vec![[[0.0, hinge], [thickness, hinge + control]]], notes }
 }
 
 /// Moment of inertia of the wall's own weight about its centre [kg m²].
 fn own_inertia(wall: &Wall, found: &Found, own: &Weight, height: f64) -> f64 {
     let masonry = &wall.masonry;
     match (found.kind, wall.leaf) {
-        (Kind::Gable, _) => own.carried / G * (height * height / 18.0 + masonry.thickness.powi(2) / 12.0),
+        (Kind::Gable, _) => {
+            let thickness = wall.gable.map_or(masonry.thickness, |(gable, _)| gable.thickness);
+            own.carried / G * (height * height / 18.0 + thickness * thickness / 12.0)
+        }
         (Kind::Leaf, Some(leaf)) => {
             let whole = masonry.above(found.hinge).weight;
             own.carried / G * (spread(masonry, found.hinge, f64::INFINITY) / whole + leaf * leaf / 12.0)
@@ -255,5 +264,6 @@ fn of_arch(wall: &Wall, found: &Found, arch: &VerticalArch, restitution: Option<
         ),
         _ => "its supports are taken to hold for the whole record, whose motion asks for more than R".into(),
     });
-    Ok(TimeHistory { mechanism, notes })
+    let body = |[from, to]: [f64; 2]| [[0.0, from], [thickness, to]];
+    Ok(TimeHistory { mechanism, bodies: vec![body([low, found.hinge]), body([found.hinge, high])], notes })
 }
