@@ -154,6 +154,8 @@ pub struct New {
 pub enum Model {
     /// To the side, up and down, and turning: walls open, rock, slide and fall.
     Planar,
+    /// Out of the plane, as one body or a chain of two: façades that rock under floors, ties and side walls.
+    Rocking,
     /// To the side alone, as in the research report: for walls whose joints slide or crack and do nothing else.
     Shear,
 }

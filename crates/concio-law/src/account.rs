@@ -239,6 +239,8 @@ pub enum StopReason {
     StepTooShort,
     /// A value became infinite or not a number.
     NotFinite,
+    /// The ground fell faster than a rocking wall would: nothing presses on its hinge, and its equation says nothing of what follows.
+    Airborne,
 }
 
 impl StopReason {

@@ -2,6 +2,7 @@
 //!
 //! - [`friction`], [`bond`], [`device`]: forces as functions of relative displacement and velocity.
 //! - [`motion`]: motions as smooth pieces.
+//! - [`error`]: what is wrong with an input.
 //! - [`account`], [`drift`]: energies, peaks, events and counters of a run, and how far its tops went.
 
 pub mod account;
@@ -9,5 +10,9 @@ pub mod bond;
 pub mod device;
 pub mod drift;
 pub mod elementary;
+pub mod error;
 pub mod friction;
 pub mod motion;
+
+/// Acceleration of gravity [m/s²] (theory).
+pub const G: f64 = 9.81;

@@ -192,6 +192,37 @@ fn shifted(line: [f64; 2], s: f64, du: f64, dv: f64) -> [f64; 2] {
     [line[0] + du - dv * s, line[1] + dv]
 }
 
+/// One component of the motion of the ground.
+pub trait Component: std::fmt::Debug + Sync {
+    /// The smooth piece that is active just after `t` [s].
+    fn segment(&self, t: f64) -> Segment;
+    /// Jump of the velocity at `t` [m/s].
+    fn velocity_jump(&self, t: f64) -> f64;
+    /// Longest step that resolves it [s]; +∞ at rest.
+    fn longest_step(&self) -> f64;
+    /// When its acceleration ends for good [s]; none where it goes on.
+    fn end(&self) -> Option<f64>;
+}
+
+/// Ground that does not move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AtRest;
+
+impl Component for AtRest {
+    fn segment(&self, _: f64) -> Segment {
+        Segment { start: f64::NEG_INFINITY, end: f64::INFINITY, form: Form::rest(0.0) }
+    }
+    fn velocity_jump(&self, _: f64) -> f64 {
+        0.0
+    }
+    fn longest_step(&self) -> f64 {
+        f64::INFINITY
+    }
+    fn end(&self) -> Option<f64> {
+        Some(0.0)
+    }
+}
+
 /// What moves a wall.
 pub trait Excitation: std::fmt::Debug + Sync {
     /// The motion just after `t` [s].

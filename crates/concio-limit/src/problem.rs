@@ -87,6 +87,12 @@ impl Problem {
     /// # Errors
     /// Beams that something else holds, devices in joints, walls that cannot be laid.
     pub fn of(given: &Case, options: Options) -> Result<Problem> {
+        if given.model == ModelKind::Rocking {
+            let error = InputError::new("the wall rocks out of its plane, and limit analysis is that of blocks in it")
+                .key("model");
+            let error = error.allowed("`shear` or `planar`");
+            return Err(error.help("`concio mechanisms` has the multipliers of this file as it is").into());
+        }
         let case = at_rest(given)?;
         let model = run::prepare_case(case.clone(), std::path::Path::new("."))?.model;
         let sides = sides(&case, &model)?;

@@ -31,4 +31,4 @@ pub mod vertical_arch;
 pub mod wall;
 
 /// Acceleration of gravity [m/s²].
-pub use concio::G;
+pub use concio_law::G;

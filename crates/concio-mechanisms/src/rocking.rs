@@ -27,7 +27,7 @@
 //! let ground = GroundMotion::sampled(0.3, &[0.0, 2.0, -2.0, 0.0])?;
 //! let response = wall.respond(&Shaking::across(&ground, Positive::Inwards), &Setting::default())?;
 //! assert!(!response.stop.fell() && response.peak.over_d0 > Some(0.0));
-//! # Ok::<(), concio::Error>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! Limits. Bodies are rigid, hinges are points that neither slide nor crush, joints do not disintegrate; e is chosen, not known. Turn beyond d0 is not
@@ -54,12 +54,14 @@ pub use lift_off::LiftOff;
 pub use mechanism::{
     Back, Floor, Linkage, Mechanism, Member, Part, Place, Restitution, Rub, Spot, Tie, block_restitution,
 };
+pub use motion::{Kept, Run, Turned};
 pub use repeat::{FACTORS, Repeated, Verdict};
 pub use response::{Capacity, Counts, Energies, Event, History, Peak, Response, Stop, TieOutcome, What};
 pub use shaking::{Positive, Setting, Shaking};
+pub use side::Moved;
 
-use concio::{G, InputError, Result};
-use motion::Run;
+use concio_law::G;
+use concio_law::error::{InputError, Result};
 use system::System;
 
 /// A mechanism that is ready to be shaken.
@@ -123,9 +125,24 @@ impl Rocking {
     /// # Errors
     /// A number of `setting` or `shaking` that is out of its bounds.
     pub fn respond(&self, shaking: &Shaking, setting: &Setting) -> Result<Response> {
+        self.run(shaking, setting).map(Run::go)
+    }
+
+    /// A run that is taken step by step: what [`Rocking::respond`] goes through.
+    ///
+    /// # Errors
+    /// As [`Rocking::respond`].
+    pub fn run<'s>(&'s self, shaking: &Shaking<'s>, setting: &Setting) -> Result<Run<'s>> {
         let end = setting.end(shaking)?;
         self.check_start(setting.start)?;
-        Ok(Run::new(&self.system, *shaking, setting, end + setting.tail).go(end, setting.tail))
+        Ok(Run::new(&self.system, *shaking, setting, end))
+    }
+
+    /// How a point of the wall has moved at θ, θ̇ and θ̈, positive outwards [rad, rad/s, rad/s²].
+    pub fn moved(&self, spot: &Spot, turned: [f64; 3]) -> Moved {
+        let inwards = turned[0] < 0.0 && self.system.sides.len() > 1;
+        let side = &self.system.sides[usize::from(inwards)];
+        side.moved(spot, turned.map(|v| side.sign * v))
     }
 
     /// The responses to a motion as it is and with its sign reversed; thresholds of the two differ.

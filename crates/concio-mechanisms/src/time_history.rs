@@ -30,6 +30,8 @@ pub const RIGID_TIE: f64 = 1e-3;
 pub struct TimeHistory {
     /// What rocks. Depths are from the outer face, heights from the base of the wall.
     pub mechanism: Mechanism,
+    /// Its bodies in section, from below: the corner on the outer face below, and that on the inner face above.
+    pub bodies: Vec<[Place; 2]>,
     /// What is assumed of it, in words.
     pub notes: Vec<String>,
 }
@@ -178,7 +180,7 @@ fn of_body(wall: &Wall, found: &Found, body: &Body, control: f64, restitution: O
         back,
         control: at(0.0, control),
     };
-    TimeHistory { mechanism, notes }
+    TimeHistory { mechanism, bodies: vec![[[0.0, hinge], [thickness, hinge + control]]], notes }
 }
 
 /// Moment of inertia of the wall's own weight about its centre [kg m²].
@@ -279,5 +281,6 @@ fn of_arch(wall: &Wall, found: &Found, arch: &VerticalArch, restitution: Option<
         ),
         _ => "its supports are taken to hold for the whole record, whose motion asks for more than R".into(),
     });
-    Ok(TimeHistory { mechanism, notes })
+    let body = |[from, to]: [f64; 2]| [[0.0, from], [thickness, to]];
+    Ok(TimeHistory { mechanism, bodies: vec![body([low, found.hinge]), body([found.hinge, high])], notes })
 }

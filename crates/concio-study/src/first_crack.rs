@@ -8,7 +8,9 @@
 use std::path::Path;
 
 use concio::case::{Case, JointKind, Signal};
+use concio::model::Model;
 use concio::quantity::{Length, shown};
+use concio::rocking::LiftOff;
 use concio::run::prepare_case;
 use concio::warning::Warning;
 use concio::{InputError, Result};
@@ -34,6 +36,8 @@ const ROUNDS: usize = 60;
 const PAIR: f64 = 0.9;
 /// A lower factor counts as tried when a run lies so near to it, over the distance from one of them to the next.
 const NEAR: f64 = 0.1;
+/// Relative distance of the two ends of an answer in closed form.
+const CLOSED: f64 = 1e-9;
 /// Bounds of the interval.
 pub const INTERVAL: [f64; 2] = [1e-5, 1.0];
 /// Most lower factors.
@@ -212,6 +216,11 @@ pub fn objection(question: &Question, subject: &Subject) -> Result<Option<InputE
         return Ok(Some(InputError::new(what).key("motion").allowed("a `base` motion, or records")));
     }
     let model = prepare_case(subject.case.clone(), Path::new(""))?.model;
+    if model.rocking().is_some() {
+        let what = "a rocking wall cracks where it lifts off its hinge: no joint opens or slips before";
+        let other = question.rule.criterion != Criterion::Bond;
+        return Ok(other.then(|| InputError::new(what).key("first-crack.criterion").allowed("`bond`")));
+    }
     if Limits::of(&model, &question.rule).is_some() {
         return Ok(None);
     }
@@ -265,8 +274,25 @@ struct Seek<'a> {
     mode: Option<Mode>,
     /// By rising factor.
     trials: Vec<Trial>,
+    /// Whether the answer is one in closed form, which needs no run.
+    closed: bool,
     rounds: usize,
     cause: Option<String>,
+}
+
+/// The first lift-off of a rocking wall, whose scale is known without a run, as the two ends of a search: demand over limit is linear in the scale up
+/// to there.
+fn closed_form(lifts: LiftOff, interval: f64, model: &Model) -> Vec<Trial> {
+    let trial = |scale: f64, cracked: bool| Trial {
+        scale,
+        cracked,
+        utilisation: scale / lifts.scale,
+        joint: concio::graph::name(&model.wall, &model.joints[0]),
+        kind: kind_name(model.joints[0].kind),
+        time: cracked.then_some(lifts.time),
+        warnings: Vec::new(),
+    };
+    vec![trial(lifts.scale / (1.0 + interval.min(CLOSED)), false), trial(lifts.scale, true)]
 }
 
 impl<'a> Seek<'a> {
@@ -276,6 +302,7 @@ impl<'a> Seek<'a> {
         let mode = first_mode(model);
         let shaking = Shaking::of(&model.excitation, &question.periods, mode);
         let limits = Limits::of(model, &question.rule);
+        let lifts = model.rocking().map(|own| own.first_lift_off(&model.excitation)).transpose()?;
         let joint = |j| (concio::graph::name(&model.wall, j), kind_name(j.kind));
         Ok(Seek {
             question,
@@ -283,6 +310,7 @@ impl<'a> Seek<'a> {
             case: &subject.case,
             joints: model.joints.iter().map(joint).collect(),
             cause: match (shaking.pga == 0.0, &limits) {
+                _ if lifts.is_some() => None,
                 (true, _) => Some("the base does not accelerate during the run".into()),
                 (_, None) => Some("no joint of the wall can crack by the rule".into()),
                 _ => None,
@@ -290,7 +318,8 @@ impl<'a> Seek<'a> {
             limits,
             shaking,
             mode,
-            trials: Vec::new(),
+            trials: lifts.flatten().map_or_else(Vec::new, |lifts| closed_form(lifts, question.interval, model)),
+            closed: lifts.is_some(),
             rounds: 0,
         })
     }
@@ -332,7 +361,7 @@ impl<'a> Seek<'a> {
 
     /// The factors to run next; none when the search is over.
     fn proposals(&mut self) -> Vec<f64> {
-        if self.cause.is_some() {
+        if self.cause.is_some() || self.closed {
             return Vec::new();
         }
         let most = MOST / self.shaking.pga;

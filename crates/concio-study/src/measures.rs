@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use concio::bond::BondRow;
-use concio::outcome::Outcome;
+use concio::outcome::{Outcome, RockingOutcome};
 use concio::quantity::shown;
 use concio::run::{Prepared, joint_rows, warnings_of};
 use concio::store::{JointRow, residual_relative, top_force_rms};
@@ -31,7 +31,7 @@ const fn measure(name: &'static str, unit: &'static str, text: &'static str) -> 
 }
 
 /// The numbers of a run, in the order of [`Row::numbers`].
-pub const MEASURES: [Measure; 33] = [
+pub const MEASURES: [Measure; 36] = [
     measure("time_reached", "s", "time at which the run ended"),
     measure("peak_displacement", "m", "largest |displacement| of a block relative to the base"),
     measure("peak_drift", "", "largest |displacement| of a block of a top course, over the height of its top"),
@@ -68,11 +68,24 @@ pub const MEASURES: [Measure; 33] = [
         "J",
         "dissipated in all: by friction, damping, devices and breaking bonds, and in impacts",
     ),
-    measure("collapse", "s", "time at which a block of a planar wall had fallen or turned over"),
+    measure(
+        "collapse",
+        "s",
+        "time at which a block of a planar wall had fallen or turned over, or at which a rocking wall lay on the ground",
+    ),
+    measure(
+        "peak_over_d0",
+        "",
+        "farthest turn of a rocking wall, to either side, over that at which its weights hold no longer",
+    ),
+    measure("first_lift_off", "s", "time at which a rocking wall first left its position at rest"),
+    measure("beyond_d0", "", "how often a rocking wall turned farther than its weights hold"),
 ];
 
 /// Numbers of [`MEASURES`] that go on after a collapse; all others are those of the time before.
-const GO_ON: [&str; 16] = [
+const GO_ON: [&str; 18] = [
+    "first_lift_off",
+    "beyond_d0",
     "time_reached",
     "top_work",
     "base_work",
@@ -217,10 +230,16 @@ fn numbers(prepared: &Prepared, outcome: &Outcome, joints: &[JointRow]) -> [f64;
     let tops: Vec<Option<usize>> = (0..model.wall.panels.len()).map(highest).collect();
     let moved = blocks.iter().zip(&envelopes.block_displacement).filter(|(b, _)| tops[b.panel] == Some(b.course));
     let drift = moved.fold(0.0f64, |m, (b, u)| m.max(u / b.y[1]));
+    // That of a rocking wall is the drift of its control point.
+    let drift = match (&outcome.rocking, outcome.worst_drift()) {
+        (Some(_), Some(row)) => row.ratio(row.peak).abs(),
+        _ => drift,
+    };
+    let of_rocking = |of: &dyn Fn(&RockingOutcome) -> f64| outcome.rocking.as_ref().map_or(f64::NAN, of);
     // Dashpots of planar walls act while their joint is pressed, which envelopes do not tell.
-    let viscous = match model.planar() {
-        Some(_) => f64::NAN,
-        None => joints.iter().zip(&envelopes.joint_velocity).fold(0.0f64, |most, (j, v)| most.max(j.damping * v)),
+    let viscous = match model.turns() {
+        true => f64::NAN,
+        false => joints.iter().zip(&envelopes.joint_velocity).fold(0.0f64, |most, (j, v)| most.max(j.damping * v)),
     };
     let inertia = model.shear.mass.iter().zip(&envelopes.block_acceleration).map(|(m, a)| m * a);
     let max = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, f64::max);
@@ -259,6 +278,9 @@ fn numbers(prepared: &Prepared, outcome: &Outcome, joints: &[JointRow]) -> [f64;
         energies.device,
         energies.dissipated(),
         totals.collapse.map_or(f64::INFINITY, |collapse| collapse.time),
+        of_rocking(&|rocking| rocking.peak_over_d0),
+        of_rocking(&|rocking| rocking.first_lift_off),
+        of_rocking(&|rocking| rocking.beyond_d0 as f64),
     ]
 }
 

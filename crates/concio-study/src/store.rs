@@ -61,6 +61,9 @@ impl Display for Fault {
     }
 }
 
+/// Numbers of rows that were written before there were rocking walls: such runs have none of their measures.
+const BEFORE_ROCKING: usize = 33;
+
 /// Said of the last line of a part.
 const UNFINISHED: &str = "the line is not whole: a process was stopped while it wrote it, or is writing it now";
 const NO_LINE: &str = "this is no row of a study";
@@ -150,6 +153,10 @@ impl Store {
             }
             match parsed(line) {
                 Ok(row) if row.version != VERSION => self.outdated += 1,
+                Ok(mut row) if row.numbers.len() == BEFORE_ROCKING => {
+                    row.numbers.resize(MEASURES.len(), None);
+                    self.keep(row);
+                }
                 Ok(row) if row.numbers.is_empty() || row.numbers.len() == MEASURES.len() => self.keep(row),
                 found => {
                     let what = match found {

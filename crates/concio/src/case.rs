@@ -28,7 +28,7 @@ pub use devices::{Device, DeviceLaw};
 pub use document::{Document, LARGEST_FILE};
 pub use extent::Extent;
 pub use node::Syntax;
-pub use out_of_plane::OutOfPlane;
+pub use out_of_plane::{OutOfPlane, Rocking};
 pub use read::{CaseFile, canonical_json, example, from_str, read};
 pub use templates::{describe, schema, starter};
 pub use validate::validate;
@@ -74,10 +74,13 @@ pub struct Case {
     /// Tie rods, up to 1,000. Planar walls alone.
     #[serde(default, rename = "tie", skip_serializing_if = "Vec::is_empty")]
     pub ties: Vec<Tie>,
-    /// Floors, ties, side walls, gable and site for mechanisms out of the plane, which `concio mechanisms` assesses. Runs and limit
-    /// analysis in the plane do not read it.
+    /// Floors, ties, side walls, gable and site for mechanisms out of the plane, which `concio mechanisms` assesses and walls of
+    /// `model = "rocking"` go through. Runs and limit analysis in the plane do not read it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub out_of_plane: Option<OutOfPlane>,
+    /// Which mechanism out of the plane a wall of `model = "rocking"` goes through, and how.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub rocking: Rocking,
     /// Laws of the joints.
     pub joint: Joints,
     /// Loads at the top.
@@ -102,6 +105,8 @@ pub enum ModelKind {
     Shear,
     /// Horizontal, vertical and rotation: blocks rock, lift off and slide.
     Planar,
+    /// The turn of a mechanism out of the plane of the wall: one body or a chain of two that rocks (`out_of_plane`).
+    Rocking,
 }
 
 impl ModelKind {
@@ -110,6 +115,7 @@ impl ModelKind {
         match self {
             ModelKind::Shear => "shear",
             ModelKind::Planar => "planar",
+            ModelKind::Rocking => "rocking",
         }
     }
 }
@@ -952,7 +958,7 @@ pub enum Beam {
 #[serde(default, deny_unknown_fields)]
 pub struct Motion {
     /// Length of the run [s], above 0; default the length of the longest record, synthetic record or path, without one
-    /// the key is needed.
+    /// the key is needed. By default a rocking wall has 60 s more to come to rest in.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<Time>,
     /// What ends the run before: `"collapse"`, 2 s after a block has fallen or turned over, or so long after it,
@@ -963,7 +969,7 @@ pub struct Motion {
     pub base: Signal,
     /// U1: motion of the top beam; given exactly when `load.beam` is `driven`.
     pub top: Signal,
-    /// V0: vertical motion of the base, positive upwards. Planar walls alone; default none.
+    /// V0: vertical motion of the base, positive upwards. Planar and rocking walls alone; default none.
     #[serde(skip_serializing_if = "is_default")]
     pub vertical: Signal,
     /// Leave inertia out: every step starts at rest, and what moves the wall does so slowly. Planar walls alone; default
@@ -1258,7 +1264,8 @@ pub struct Solver {
     /// Longest step [s], above 0; default none but the sample interval of the records.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_step: Option<Time>,
-    /// Step of a planar wall [s], from 1e-8; default 1 ms, without inertia 20 ms. Planar walls alone.
+    /// Step of a planar wall [s], from 1e-8; default 1 ms, without inertia 20 ms. Longest step of a rocking wall; default what resolves it. Not
+    /// for shear walls.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<Time>,
 }

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use concio_law::motion::{Drive, Excitation as _};
+use concio_mechanisms::rocking::Moved;
 use concio_planar::motion::Seen;
 use concio_shear::dynamics::{Acting, borne_by, joint_forces, peak};
 use concio_shear::state::View;
@@ -10,7 +11,7 @@ use concio_shear::state::View;
 use crate::bond::BondState;
 use crate::case::DeviceLaw;
 use crate::error::{InputError, Result};
-use crate::model::Model;
+use crate::model::{Model, System};
 use crate::record::{Channel, Energies};
 use crate::wall::JointKind;
 
@@ -71,7 +72,24 @@ const JOINT: [(&str, &str, &str); 5] = [
     ("friction", "N", "friction force, or that of a device with a law of its own, same sign"),
 ];
 
-/// Beside them, of the blocks of planar walls.
+/// What they are of a rocking wall, where that is not what they are of others. Its section has x inwards.
+const ROCKING: [(&str, &str); 10] = [
+    ("base/acceleration", "absolute acceleration of the base, inwards"),
+    ("base/displacement", "absolute displacement of the base, inwards"),
+    ("base/shear", "horizontal force of hinges and side walls on the wall, inwards"),
+    ("top/displacement", "displacement of the control point relative to the base, outwards"),
+    ("top/velocity", "velocity of the control point relative to the base, outwards"),
+    (
+        "peak/displacement",
+        "largest displacement of control point and centres of bodies relative to the base at the moment",
+    ),
+    ("energy/elastic", "energy of place of weights and thrusts, and elastic energy of ties"),
+    ("energy/friction", "dissipated by friction of side walls and seats"),
+    ("energy/bond", "gone with floors that lost their seat"),
+    ("energy/device", "dissipated by ties that yielded or broke"),
+];
+
+/// Beside them, of the blocks of planar and rocking walls.
 const PLANAR_BLOCK: [(&str, &str, &str); 2] = [
     ("vertical", "m", "how far the centre has risen"),
     ("rotation", "rad", "rotation about the centre, counterclockwise"),
@@ -94,12 +112,16 @@ impl Channels {
     pub fn new(model: &Model, blocks: &[String], joints: &[String]) -> Result<(Self, Vec<Channel>)> {
         let block_names: Vec<String> = model.wall.blocks.iter().map(|b| b.name.clone()).collect();
         let joint_names = model.joint_names();
-        let mut watched: Vec<Watched> =
-            chosen("output.blocks", "block", blocks, &block_names)?.into_iter().map(Watched::Block).collect();
+        let rocks = matches!(model.system, System::Rocking(_));
+        let chosen_blocks = match rocks {
+            true => (0..block_names.len()).collect(),
+            false => chosen("output.blocks", "block", blocks, &block_names)?,
+        };
+        let mut watched: Vec<Watched> = chosen_blocks.into_iter().map(Watched::Block).collect();
         let system = &model.shear;
         let (rub, contact, bond) = (system.rub_of_joint(), system.contact_of_joint(), system.bond_of_joint());
         let device = system.nonlinear_of_joint();
-        let turns = model.planar().is_some();
+        let turns = model.turns();
         let joint = |e: usize| Watched::Joint(e, [rub[e], contact[e], device[e]], bond[e]);
         watched.extend(chosen("output.joints", "joint", joints, &joint_names)?.into_iter().map(joint));
         let channel =
@@ -128,7 +150,29 @@ impl Channels {
                 }
             }
         }
+        for (name, text) in ROCKING.iter().filter(|_| rocks) {
+            if let Some(channel) = list.iter_mut().find(|channel| channel.name == *name) {
+                channel.description = (*text).into();
+            }
+        }
         Ok((Channels { watched }, list))
+    }
+
+    /// [`Channels::sample`] of a rocking wall.
+    pub(crate) fn sample_rocking(&self, at: &RockingRow, row: &mut Vec<f64>) {
+        let Moved { displacement: [out, _], velocity, .. } = at.control;
+        row.extend([at.ground[0], at.ground[1], at.shear, out, velocity, 0.0]);
+        row.extend([0.0; 3]);
+        row.push(at.moved.iter().fold(out.abs(), |most, m| most.max(m.displacement[0].abs())));
+        push_energies(at.energies, row);
+        for w in &self.watched {
+            if let Watched::Block(i) = *w {
+                let Moved { displacement: [out, up], velocity, acceleration: [acceleration, _], rotation } =
+                    at.moved[i];
+                // No zero has a sign.
+                row.extend([0.0 - out, 0.0 - velocity, 0.0 - acceleration, up, rotation]);
+            }
+        }
     }
 
     /// [`Channels::sample`] of a planar wall.
@@ -223,6 +267,20 @@ fn chosen(key: &str, what: &str, asked: &[String], names: &[String]) -> Result<V
         indices.push(i);
     }
     Ok(indices)
+}
+
+/// What channels of a rocking wall are read off.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RockingRow<'a> {
+    /// The control point.
+    pub control: Moved,
+    /// Acceleration and displacement of the ground inwards [m/s², m].
+    pub ground: [f64; 2],
+    /// Force of hinges and side walls on the wall, positive inwards [N].
+    pub shear: f64,
+    pub energies: &'a Energies,
+    /// Centres of the bodies.
+    pub moved: &'a [Moved],
 }
 
 /// What channels of a planar wall are read off.

@@ -19,7 +19,7 @@
 //! | records, filters, spectra, motions | [`ground`], [`excitation`] |
 //! | blocks and joints | [`pattern`], [`wall`], [`graph`] |
 //! | which law each joint has | [`assign`], [`law`], [`bond`], [`device`] |
-//! | the compiled wall | [`model`], [`planar`] |
+//! | the compiled wall | [`model`], [`planar`], [`rocking`], [`facade`] |
 //! | steps | [`simulate`], [`state`]; mechanics in `concio_shear` and `concio_planar` |
 //! | what a run gives | [`outcome`], [`record`], [`drift`], [`failure`], [`moment`] |
 //! | from a file to a folder of results | [`run`], [`store`], [`warning`], [`files`] |
@@ -68,6 +68,7 @@ pub mod dice;
 pub mod drift;
 pub mod error;
 pub mod excitation;
+pub mod facade;
 pub mod failure;
 pub mod files;
 pub mod graph;
@@ -84,6 +85,8 @@ mod planar_run;
 mod polygon;
 pub mod quantity;
 pub mod record;
+pub mod rocking;
+mod rocking_run;
 pub mod run;
 pub mod samples;
 pub mod simulate;
@@ -96,4 +99,4 @@ pub mod warning;
 pub use error::{Error, InputError, Result};
 
 /// Acceleration of gravity [m/s²] (theory).
-pub const G: f64 = 9.81;
+pub use concio_law::G;

@@ -133,7 +133,7 @@ fn queues(jobs: &[Job], threads: usize, share: bool) -> Vec<Queue> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     let mut group_of: HashMap<Kind, usize> = HashMap::new();
     for (number, job) in jobs.iter().enumerate() {
-        let shares = share && job.model.planar().is_none();
+        let shares = share && !job.model.turns();
         match shares.then(|| Kind::of(&job.model.shear, job.solver.scheme)).flatten() {
             Some(kind) => {
                 let group = *group_of.entry(kind).or_insert(groups.len());

@@ -16,6 +16,7 @@ use crate::graph;
 use crate::ground::signal::GroundMotion;
 use crate::planar::{self, Planar};
 use crate::quantity::Length;
+use crate::rocking::{self, Rocking};
 use crate::wall::{Block, End, Joint, Wall};
 use crate::warning::{Warning, WarningKind};
 
@@ -51,12 +52,22 @@ pub enum System {
     Shear,
     /// Blocks that rise and turn too.
     Planar(Box<Planar>),
+    /// A mechanism that turns out of the plane.
+    Rocking(Box<Rocking>),
 }
 
 impl Model {
     /// What a planar wall is; none of the shear model.
     pub fn planar(&self) -> Option<&Planar> {
         if let System::Planar(planar) = &self.system { Some(planar) } else { None }
+    }
+    /// What a rocking wall is; none of other models.
+    pub fn rocking(&self) -> Option<&Rocking> {
+        if let System::Rocking(rocking) = &self.system { Some(rocking) } else { None }
+    }
+    /// Whether its blocks rise and turn.
+    pub fn turns(&self) -> bool {
+        !matches!(self.system, System::Shear)
     }
     /// Number of bodies.
     pub fn unknowns(&self) -> usize {
@@ -77,6 +88,9 @@ impl Model {
     /// # Errors
     /// Blocks that rest on nothing, selectors that name no joint, laws of a later version, bonds that would snap back.
     pub fn compile(case: &Case, wall: Wall, excitation: Excitation) -> Result<Model> {
+        if case.model == ModelKind::Rocking {
+            return rocking::compile(case, excitation);
+        }
         let beam = case.load.beam;
         let has_beam = !matches!(beam, Beam::Free);
         let joints = graph::joints(&wall, has_beam);
@@ -195,17 +209,17 @@ impl Model {
         law
     }
 
-    /// Refuses a planar wall for `what`, which knows horizontal displacements alone.
+    /// Refuses a planar or rocking wall for `what`, which knows horizontal displacements alone.
     ///
     /// # Errors
-    /// The wall is planar.
+    /// The wall is planar or rocks.
     pub fn shear_only(&self, what: &str) -> Result<()> {
-        match self.planar() {
-            None => Ok(()),
-            Some(_) => {
-                Err(InputError::new(format!("{what} knows no planar walls")).key("model").allowed("shear").into())
-            }
-        }
+        let of = match self.system {
+            System::Shear => return Ok(()),
+            System::Planar(_) => "planar",
+            System::Rocking(_) => "rocking",
+        };
+        Err(InputError::new(format!("{what} knows no {of} walls")).key("model").allowed("shear").into())
     }
 
     /// Name of every joint.

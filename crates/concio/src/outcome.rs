@@ -33,6 +33,8 @@ pub struct Outcome {
     pub bonds: Vec<BondRow>,
     /// The ties and what became of them, in the order of the wall file.
     pub ties: Vec<TieRow>,
+    /// What became of the mechanism of a rocking wall; none of other models, and of a run that is read back from its files.
+    pub rocking: Option<RockingOutcome>,
     /// How far its tops went: that of a beam that moves, then those of the panels that have none.
     pub drifts: Vec<DriftRow>,
     /// Energy account at the end.
@@ -82,6 +84,35 @@ impl Outcome {
     pub fn worst_drift(&self) -> Option<&DriftRow> {
         self.drifts.iter().max_by(|a, b| a.ratio(a.peak).abs().total_cmp(&b.ratio(b.peak).abs()))
     }
+}
+
+/// What became of a rocking wall. Numbers that there are not are infinite.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RockingOutcome {
+    /// Kind of mechanism, as `concio mechanisms` spells it.
+    pub mechanism: String,
+    /// Level of its hinge above the base [m].
+    pub hinge: f64,
+    /// α0 at which it sets off: ties have no pull yet.
+    pub multiplier: f64,
+    /// e: velocity after an impact over that before.
+    pub restitution: f64,
+    /// Displacement of the control point [m] and turn [rad] at which weights and thrusts hold no longer, outwards.
+    pub d0: f64,
+    /// See above.
+    pub rotation_d0: f64,
+    /// Farthest turn, to either side, over that at which the weights hold no longer there; none where they always hold.
+    pub peak_over_d0: f64,
+    /// When it first left its position at rest [s].
+    pub first_lift_off: f64,
+    /// How often it went beyond d0.
+    pub beyond_d0: u64,
+    /// How often it left its position at rest, and met it again.
+    pub lift_offs: u64,
+    /// See above.
+    pub impacts: u64,
+    /// When each tie broke [s].
+    pub broken_ties: Vec<f64>,
 }
 
 /// What became of a tie.

@@ -14,6 +14,7 @@ use crate::model::{Model, System};
 use crate::outcome::Outcome;
 use crate::planar_run;
 use crate::record::{Layout, Recording, StopReason};
+use crate::rocking_run;
 use crate::state::State;
 
 /// A run under way.
@@ -28,6 +29,7 @@ pub struct Simulation<'m> {
 enum Mechanics<'m> {
     Shear(Box<shear::Run<'m>>),
     Planar(Box<planar_run::Run>),
+    Rocking(Box<rocking_run::Run<'m>>),
 }
 
 impl Mechanics<'_> {
@@ -48,6 +50,7 @@ impl Mechanics<'_> {
                 }
             }
             Mechanics::Planar(run) => run.state().shown(),
+            Mechanics::Rocking(run) => run.state().shown(),
         }
     }
 }
@@ -82,23 +85,23 @@ impl<'m> Simulation<'m> {
     pub fn new(model: &'m Model, solver: &Solver, sampling: &Sampling) -> Result<Self> {
         let (channels, list) = Channels::new(model, &sampling.blocks, &sampling.joints)?;
         let duration = model.excitation.duration;
-        let turns = model.planar().is_some();
+        let planar = model.planar().is_some();
         let system = &model.shear;
-        let holds = turns || system.sticks() || !system.bonds.is_empty() || !system.nonlinear.is_empty();
+        let holds = model.turns() || system.sticks() || !system.bonds.is_empty() || !system.nonlinear.is_empty();
         let layout = Layout {
             interval: sampling.interval,
             samples: (duration / sampling.interval * (1.0 + 1e-12) + 1e-9).floor() as usize + 1,
             frame_every: sampling.frame_every,
             unknowns: model.unknowns(),
-            turned: if turns { model.unknowns() } else { 0 },
-            touching: if turns { model.joints.len() } else { 0 },
+            turned: if model.turns() { model.unknowns() } else { 0 },
+            touching: if model.turns() { model.joints.len() } else { 0 },
             held: if holds { model.joints.len() } else { 0 },
             bonded: model.shear.bonds.len(),
             channels: list,
         };
         let frames = if layout.frame_every > 0 { (2 * keeper::WINDOW).div_ceil(layout.frame_every) } else { 0 };
         // A planar wall may crush too, and collapse.
-        let at_once = shear::Run::events_at_once(system) + if turns { model.joints.len() + 1 } else { 0 };
+        let at_once = shear::Run::events_at_once(system) + if planar { model.joints.len() + 1 } else { 0 };
         let recording = Recording::with_room(&layout, 2 * keeper::WINDOW, frames, keeper::EVENTS + at_once);
         let mut keeper = Keeper { model, channels, layout, recording };
         let mechanics = match &model.system {
@@ -120,6 +123,12 @@ impl<'m> Simulation<'m> {
                 let Keeper { channels, layout, recording, .. } = &mut keeper;
                 run.sample(model, channels, layout, recording);
                 Mechanics::Planar(run)
+            }
+            System::Rocking(rocking) => {
+                let mut run = Box::new(rocking_run::Run::new(model, rocking, keeper.layout.interval)?);
+                let Keeper { channels, layout, recording, .. } = &mut keeper;
+                run.begin(model, channels, layout, recording);
+                Mechanics::Rocking(run)
             }
         };
         Ok(Simulation { keeper, mechanics })
@@ -166,6 +175,7 @@ impl<'m> Simulation<'m> {
             _ if self.time() >= model.excitation.duration => Some(StopReason::Completed),
             Mechanics::Shear(_) => None,
             Mechanics::Planar(run) => run.collapsed(model).then_some(StopReason::Collapsed),
+            Mechanics::Rocking(run) => run.over(),
         }
     }
 
@@ -175,6 +185,10 @@ impl<'m> Simulation<'m> {
         match mechanics {
             Mechanics::Shear(run) => run.step(keeper),
             Mechanics::Planar(run) => {
+                let Keeper { model, channels, layout, recording } = keeper;
+                run.step(model, channels, layout, recording)
+            }
+            Mechanics::Rocking(run) => {
                 let Keeper { model, channels, layout, recording } = keeper;
                 run.step(model, channels, layout, recording)
             }
@@ -222,6 +236,7 @@ impl<'m> Simulation<'m> {
         match &self.mechanics {
             Mechanics::Shear(run) => run.keep(),
             Mechanics::Planar(run) => run.keep(),
+            Mechanics::Rocking(run) => run.keep(),
         }
     }
     /// Goes back to a saved state; false when the bytes are not one of this model's, and the simulation is then to be made anew.
@@ -230,14 +245,15 @@ impl<'m> Simulation<'m> {
         match &mut self.mechanics {
             Mechanics::Shear(run) => run.take_up(bytes),
             Mechanics::Planar(run) => run.take_up(self.keeper.model, bytes),
+            Mechanics::Rocking(run) => run.take_up(bytes),
         }
     }
 
-    /// What keeps it and what moves in it, which the lanes of a batch take apart; the run itself, if it is of a planar wall.
+    /// What keeps it and what moves in it, which the lanes of a batch take apart; the run itself, if it is of another model.
     pub(crate) fn into_parts(self) -> std::result::Result<(Keeper<'m>, shear::Run<'m>), Self> {
         match self {
             Simulation { keeper, mechanics: Mechanics::Shear(run) } => Ok((keeper, *run)),
-            planar => Err(planar),
+            other => Err(other),
         }
     }
     /// The reverse of [`Simulation::into_parts`].
@@ -264,7 +280,9 @@ impl<'m> Simulation<'m> {
         let (leans, ties) = match &mechanics {
             Mechanics::Shear(run) => (&run.state.leans, Vec::new()),
             Mechanics::Planar(run) => (&run.state().leans, run.ties(model)),
+            Mechanics::Rocking(run) => (&run.state().leans, run.ties()),
         };
+        let rocking = if let Mechanics::Rocking(run) = &mechanics { Some(run.row()) } else { None };
         let state = mechanics.state();
         let bonds = model.shear.bonds.iter().zip(state.bonds).map(|(bond, state)| BondRow::of(bond, state)).collect();
         let mut envelopes = state.envelopes.clone();
@@ -279,6 +297,7 @@ impl<'m> Simulation<'m> {
             bonds,
             drifts,
             ties,
+            rocking,
             layout,
             recording,
             time_reached: state.t,

@@ -29,6 +29,8 @@ kinds! {
     UnlikelyNumber = "unlikely-number",
     /// A key that does nothing where it stands.
     IdleKey = "idle-key",
+    /// Something that is assumed of a wall that rocks out of its plane.
+    Assumed = "assumed",
     /// Laws of joints that are right in the other model alone.
     UnlikelyJoint = "unlikely-joint",
     /// An earthquake with inertia left out.
@@ -73,6 +75,10 @@ kinds! {
     CrackedAtRest = "cracked-at-rest",
     /// A wall that counts as collapsed.
     Collapse = "collapse",
+    /// A rocking wall that was turned farther than its weight holds, and came back.
+    BeyondD0 = "beyond-d0",
+    /// A tie of a rocking wall that broke.
+    BrokenTie = "broken-tie",
     /// A run that ends while the wall is under way.
     UnderWay = "under-way",
     /// Joints that ring faster than steps resolve.

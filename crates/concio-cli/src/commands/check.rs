@@ -3,8 +3,9 @@
 use concio::bond;
 use concio::case::{Beam, Case, DeviceLaw, JointKind, StopAt};
 use concio::device;
-use concio::model::Model;
+use concio::model::{Model, System};
 use concio::planar::Rest;
+use concio::rocking::Rocking;
 use concio_study::shaking::{Mode, first_mode};
 
 mod openings;
@@ -39,15 +40,14 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     }
     let duration = model.excitation.duration;
     let samples = (duration / prepared.sampling.interval).floor() as u64 + 1;
-    let mut general = vec![
-        ("unknowns", (model.unknowns() * if model.planar().is_some() { 3 } else { 1 }).to_string()),
-        ("mass", masses(model)),
-    ];
+    let mut general = vec![("unknowns", unknowns(model).to_string()), ("mass", masses(model))];
     if model.top_load > 0.0 {
         general.push(("load on top", load_on_top(model)));
     }
     let mut falls = false;
-    if model.wall.blocks.len() <= TRIED {
+    if let Some(own) = model.rocking() {
+        general.extend(rocking_rows(own));
+    } else if model.wall.blocks.len() <= TRIED {
         if let Some(own) = model.planar() {
             let rest = own.rest();
             falls = rest == Rest::Falls;
@@ -98,6 +98,30 @@ pub fn check(args: &Check) -> Result<(), Failure> {
         args.file.display()
     );
     files::print(&text)
+}
+
+fn unknowns(model: &Model) -> usize {
+    match model.system {
+        System::Shear => model.unknowns(),
+        System::Planar(_) => 3 * model.unknowns(),
+        System::Rocking(_) => 1,
+    }
+}
+
+/// The mechanism that rocks.
+fn rocking_rows(own: &Rocking) -> Vec<(&'static str, String)> {
+    let mechanism = format!("{}, hinge at {}", own.kind.what(), si(own.hinge, "m"));
+    let holds = match own.compiled.d0() {
+        Some(d0) => format!("d0 = {} at its control point", si(d0.displacement, "m")),
+        None => "its weights hold at any turn".into(),
+    };
+    let sets_off = format!("at α0 = {}; {holds}", significant(own.compiled.multiplier(), 4));
+    vec![
+        ("mechanism", mechanism),
+        ("sets off", sets_off),
+        ("restitution", significant(own.compiled.restitution(), 3)),
+        ("ties", own.mechanism.ties.len().to_string()),
+    ]
 }
 
 fn panel_rows(model: &Model) -> Vec<Vec<String>> {

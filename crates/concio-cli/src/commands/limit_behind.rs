@@ -51,7 +51,7 @@ pub(super) fn add(
     planar: &Planar,
     args: &Asked,
 ) -> Result<(Problem, Behind, Vec<String>), Failure> {
-    let wall = Wall::of(&file.case).map_err(|e| wall_file::all(file, file.locate(e)))?;
+    let wall = concio::facade::of(&file.case).map_err(|e| wall_file::all(file, file.locate(e)))?;
     let told = |e| failure(e, &args.file);
     let push = if args.load == LimitLoad::Top { Push::Top } else { Push::Body };
     let mortar = file.case.panels.iter().flat_map(|p| [p.mortar.bed.si(), p.mortar.head.si()]).fold(0.0, f64::max);

@@ -5,7 +5,6 @@ use std::fs;
 use concio::Error;
 use concio_mechanisms::side_wall::Overlaps;
 use concio_mechanisms::survey::survey;
-use concio_mechanisms::wall::Wall;
 use concio_study::table;
 
 use super::{run::refuse_a_file, wall_file};
@@ -26,7 +25,7 @@ pub fn mechanisms(args: &Mechanisms) -> Result<(), Failure> {
     if let Some(out) = &args.out {
         refuse_a_file(out)?;
     }
-    let wall = Wall::of(&file.case).map_err(|e| wall_file::all(&file, file.locate(e)))?;
+    let wall = concio::facade::of(&file.case).map_err(|e| wall_file::all(&file, file.locate(e)))?;
     let overlaps = match args.overlaps {
         OverlapSum::Summed => Overlaps::Summed,
         OverlapSum::Code => Overlaps::Code,

@@ -13,6 +13,7 @@ pub fn new(args: &New) -> Result<(), Failure> {
     let text = concio::case::starter(match args.model {
         Model::Shear => ModelKind::Shear,
         Model::Planar => ModelKind::Planar,
+        Model::Rocking => ModelKind::Rocking,
     });
     if args.file == Path::new("-") {
         return files::print(text);

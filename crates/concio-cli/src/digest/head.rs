@@ -10,6 +10,9 @@ use serde_json::Value;
 use super::{LARGE_SLIDE, ROUNDING, beside, number};
 use crate::format::{counted, percent, si, significant};
 
+/// Part of d0 at life safety (Circolare, C8.7.1.2.1.6).
+const LIFE: f64 = 0.4;
+
 /// An answer: the one word or number that is looked for, and what belongs to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
@@ -43,6 +46,9 @@ impl Answer {
 
 /// The answers, in the order in which they are asked.
 pub fn head(joints: &[JointRow], outcome: &Outcome, summary: &Value) -> Vec<Answer> {
+    if let Some(rocking) = summary.get("rocking").filter(|rocking| !rocking.is_null()) {
+        return of_rocking(outcome, rocking);
+    }
     let planar = outcome.layout.touching > 0;
     vec![
         if planar { failure(summary) } else { slide(outcome, summary) },
@@ -55,6 +61,40 @@ pub fn head(joints: &[JointRow], outcome: &Outcome, summary: &Value) -> Vec<Answ
         peak_drift(outcome),
         residual_drift(outcome),
         base_shear(outcome, summary),
+    ]
+}
+
+/// The answers of a wall that rocks out of its plane.
+fn of_rocking(outcome: &Outcome, rocking: &Value) -> Vec<Answer> {
+    let of = |key: &str| rocking.get(key).and_then(Value::as_f64);
+    let told = |key: &str, digits| of(key).map_or("–".into(), |v| significant(v, digits));
+    let hinge = format!("hinge at {}, sets off at α0 = {}", si(of("hinge").unwrap_or(0.0), "m"), told("multiplier", 4));
+    let kind = rocking.get("mechanism").and_then(Value::as_str).unwrap_or("–");
+    let lifts = match of("first_lift_off") {
+        Some(time) => {
+            let [lifts, impacts] = ["lift_offs", "impacts"].map(|key| told(key, 9));
+            Answer::new("first lift-off", at(time), format!("{lifts} from rest, {impacts} impacts")).grave(true)
+        }
+        None => Answer::new("first lift-off", "none", "the wall rests"),
+    };
+    let collapse = match outcome.totals.collapse {
+        Some(collapse) => Answer::new("collapse", at(collapse.time), "the wall lies on the ground").grave(true),
+        None => Answer::new("collapse", "none", format!("until t = {} s", significant(outcome.time_reached, 4))),
+    };
+    let peak = outcome.worst_drift().map_or(0.0, |row| row.peak);
+    let side = if peak < 0.0 { "inwards" } else { "outwards" };
+    let d0 = of("d0").map_or("its weights hold at any turn".into(), |d0| format!("d0 = {}", si(d0, "m")));
+    let over = of("peak_over_d0");
+    let turn = over.map_or("–".into(), |over| format!("{} d0", significant(over, 4)));
+    let note = format!("{} at the control point, {side}; {d0}", si(peak.abs(), "m"));
+    let turn = Answer::new("peak turn", turn, note).grave(over.is_some_and(|over| over > LIFE));
+    vec![
+        Answer::new("mechanism", kind, hinge),
+        lifts,
+        collapse,
+        turn,
+        residual_drift(outcome),
+        Answer::new("base shear", si(outcome.totals.base_shear_peak, "N"), at(outcome.totals.base_shear_time)),
     ]
 }
 

@@ -166,6 +166,9 @@ pub fn why(reason: StopReason) -> &'static str {
         StopReason::StepTooShort => {
             "the step became too short for the tolerance; raise solver.tolerance or check the stiffnesses and masses"
         }
+        StopReason::Airborne => {
+            "the ground falls faster than the wall would: nothing presses on its hinge; look at motion.vertical"
+        }
         StopReason::NotFinite => "a value became infinite; check the stiffnesses, the masses and the motion",
     }
 }

@@ -30,6 +30,10 @@ const SHEAR: &str = "Limits of the model: every block moves horizontally in the 
     wall moves, and neither do overlaps. The model therefore knows no collapse: large slip, opening or drift says how far \
     joints moved, not that a real wall would stand it.";
 
+/// The same of walls that rock out of their plane.
+const ROCKING: &str = "Limits of the rocking model: one mechanism of rigid bodies out of the plane, whose hinges neither slide nor crush on. \
+     The restitution of impacts is chosen, not known; a record has no sign that a façade knows (rocking.positive); masonry that \
+     disintegrates falls before it turns.";
 /// The same of the planar model.
 const PLANAR: &str = "Limits of the planar model: blocks are rigid and stay in the plane of the wall. A joint has all the give \
     there is, cracks run along joints and never through a block, leaves do not part, and nothing moves out of plane. A run \
@@ -448,6 +452,7 @@ pub fn limits(model: ModelKind) -> &'static str {
     match model {
         ModelKind::Shear => SHEAR,
         ModelKind::Planar => PLANAR,
+        ModelKind::Rocking => ROCKING,
     }
 }
 

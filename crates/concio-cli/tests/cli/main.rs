@@ -16,6 +16,7 @@ mod mechanisms;
 mod messages;
 mod read_back;
 mod records;
+mod rocking;
 mod smart;
 mod studies;
 mod study_runs;

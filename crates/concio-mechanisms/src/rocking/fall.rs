@@ -3,7 +3,7 @@
 //! A fall is not monotonic in the scale: a stronger pulse may bring the wall back. So all scales up to the largest are tried, a step apart, and the
 //! first interval that ends with a fall is halved. A fall between two scales that both stand is not seen: choose the step accordingly.
 
-use concio::{InputError, Result};
+use concio_law::error::{InputError, Result};
 
 use super::{Rocking, Setting, Shaking};
 

@@ -55,8 +55,8 @@ impl System {
 
 impl<'s> Run<'s> {
     /// A wall on a ground that does not move.
-    pub fn at_rest(system: &'s System) -> Self {
-        let ground = Shaking::across(&concio::ground::GroundMotion::AtRest, super::Positive::Inwards);
+    pub(super) fn at_rest(system: &'s System) -> Self {
+        let ground = Shaking::across(&concio_law::motion::AtRest, super::Positive::Inwards);
         Run::new(system, ground, &Setting::default(), 0.0)
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Places are `[x, z]`: depth behind the outer face and height above the base [m]. Outwards is the side to which the wall falls.
 
-use concio::{InputError, Result};
+use concio_law::error::{InputError, Result};
 
 /// A place on the wall [m]: depth x behind the outer face, height z above the base.
 pub type Place = [f64; 2];
@@ -94,7 +94,7 @@ impl Part {
         let [t, h] = [high[0] - low[0], high[1] - low[1]];
         let weight = specific_weight * t * h * length;
         let at = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
-        Part { centre: Spot { member, at }, weight, inertia: weight / concio::G * (t * t + h * h) / 12.0 }
+        Part { centre: Spot { member, at }, weight, inertia: weight / concio_law::G * (t * t + h * h) / 12.0 }
     }
 }
 

@@ -5,10 +5,12 @@
 //! T = 0 where e ≤ e_p,  k (e − e_p) up to T_y, T_y above it; e_p: permanent set, grows where it yields
 //! ```
 
+use serde::{Deserialize, Serialize};
+
 use super::mechanism::Tie;
 
 /// Which branch of its law a tie is on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 enum Branch {
     Slack,
     Elastic,
@@ -26,7 +28,7 @@ pub(super) enum Change {
 }
 
 /// A tie and what it has been through.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Pull {
     stiffness: f64,
     /// Elongation at rest, negative by its slack [m].

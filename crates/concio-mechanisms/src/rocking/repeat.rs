@@ -3,7 +3,7 @@
 //! After many impacts, or near d0, a wall may forget what it was shaken by: a difference that no record can be trusted for decides whether it falls. Such a
 //! run has no peak, only a spread. It is found by runs under the record times factors within 1 ± 10⁻³, and with half of the step.
 
-use concio::Result;
+use concio_law::error::Result;
 
 use super::{Response, Rocking, Setting, Shaking};
 

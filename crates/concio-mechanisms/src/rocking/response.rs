@@ -1,5 +1,7 @@
 //! What a response is: peaks, events, energies, histories.
 
+use serde::{Deserialize, Serialize};
+
 /// Why a run went no further.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stop {
@@ -75,10 +77,12 @@ pub struct Event {
     pub rotation: f64,
     /// Velocity before it [rad/s].
     pub velocity: f64,
+    /// By how much an impact changes the momentum of the wall [N s]; 0 of all else.
+    pub impulse: f64,
 }
 
 /// How often what happened, and the work of the run.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// Times that it left its position at rest; those after a bounce do not count.
     pub lift_offs: u64,
@@ -166,10 +170,15 @@ pub struct History {
     pub rotation: Vec<f64>,
     /// θ̇ [rad/s].
     pub velocity: Vec<f64>,
+    /// θ̈, 0 at rest [rad/s²].
+    pub acceleration: Vec<f64>,
     /// Of the control point, positive outwards [m].
     pub displacement: Vec<f64>,
     /// Acceleration of the ground inwards [m/s²].
     pub ground: Vec<f64>,
+    /// Horizontal force of hinges and side walls on the wall, positive outwards: its masses times their absolute accelerations, less thrusts and
+    /// pulls; impulses of impacts are not in it [N].
+    pub shear: Vec<f64>,
     /// Pull of every tie, one after the other at each time [N].
     pub ties: Vec<f64>,
     /// The account.
@@ -177,6 +186,15 @@ pub struct History {
 }
 
 impl History {
+    /// Empties it, keeping its memory.
+    pub(super) fn clear(&mut self) {
+        let History { time, rotation, velocity, acceleration, displacement, ground, shear, ties, energies } = self;
+        for numbers in [time, rotation, velocity, acceleration, displacement, ground, shear, ties] {
+            numbers.clear();
+        }
+        energies.clear();
+    }
+
     /// With room for so many samples.
     pub(super) fn with_room(samples: usize, ties: usize) -> Self {
         let numbers = || Vec::with_capacity(samples);
@@ -184,8 +202,10 @@ impl History {
             time: numbers(),
             rotation: numbers(),
             velocity: numbers(),
+            acceleration: numbers(),
             displacement: numbers(),
             ground: numbers(),
+            shear: numbers(),
             ties: Vec::with_capacity(samples * ties),
             energies: Vec::with_capacity(samples),
         }

@@ -1,7 +1,8 @@
 //! What shakes the wall, and how its response is computed.
 
-use concio::ground::{GroundMotion, Segment};
-use concio::{G, InputError, Result};
+use concio_law::G;
+use concio_law::error::{InputError, Result};
+use concio_law::motion::{AtRest, Component, Segment};
 
 /// The side to which positive values of a record point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,19 +27,19 @@ impl Positive {
 #[derive(Debug, Clone, Copy)]
 pub struct Shaking<'g> {
     /// Horizontal motion across the wall.
-    pub across: &'g GroundMotion,
+    pub across: &'g dyn Component,
     /// To where its positive values point.
     pub positive: Positive,
     /// Vertical motion, positive upwards. It acts on all weights.
-    pub vertical: &'g GroundMotion,
+    pub vertical: &'g dyn Component,
     /// Both are multiplied by it.
     pub scale: f64,
 }
 
 impl<'g> Shaking<'g> {
     /// A horizontal motion as it is.
-    pub fn across(motion: &'g GroundMotion, positive: Positive) -> Self {
-        Shaking { across: motion, positive, vertical: &GroundMotion::AtRest, scale: 1.0 }
+    pub fn across(motion: &'g dyn Component, positive: Positive) -> Self {
+        Shaking { across: motion, positive, vertical: &AtRest, scale: 1.0 }
     }
     /// The same towards the other side.
     pub fn reversed(self) -> Self {
@@ -75,7 +76,7 @@ impl<'g> Shaking<'g> {
 
     /// Longest step that resolves both [s].
     pub(super) fn longest_step(&self) -> f64 {
-        self.across.longest_useful_step().min(self.vertical.longest_useful_step())
+        self.across.longest_step().min(self.vertical.longest_step())
     }
 }
 
@@ -99,7 +100,7 @@ impl Piece {
 }
 
 /// One that ends within rounding of `t` has ended, so that breaks of both motions that are meant to coincide do.
-fn piece(motion: &GroundMotion, t: f64) -> Segment {
+fn piece(motion: &dyn Component, t: f64) -> Segment {
     let segment = motion.segment(t);
     if segment.end - t <= 1e-12 * t.abs().max(1e-3) { motion.segment(segment.end) } else { segment }
 }

@@ -12,7 +12,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use concio::G;
+use concio_law::G;
 
 use super::mechanism::{Floor, Linkage, Mechanism, Member, Part, Place, Rub, Spot, Tie};
 
@@ -71,7 +71,7 @@ pub(super) struct Mass {
     /// Moment of inertia about its centre [kg m²].
     inertia: f64,
     /// Force to the side to which it turns [N].
-    thrust: f64,
+    pub thrust: f64,
     /// Its place among the floors.
     pub floor: Option<usize>,
 }
@@ -95,6 +95,8 @@ pub(super) struct Terms {
 pub(super) struct Side {
     /// 1 outwards, −1 inwards.
     pub sign: f64,
+    /// Hinge of the lower body.
+    hinge: [f64; 2],
     /// Middle hinge from that of the lower body, and top from the middle hinge.
     chain: Option<[[f64; 2]; 2]>,
     pub masses: Vec<Mass>,
@@ -106,12 +108,60 @@ pub(super) struct Side {
     pub end: f64,
 }
 
+/// X runs to the side to which it turns, x from the outer face inwards.
+fn flipped(sign: f64, at: Place) -> [f64; 2] {
+    [-sign * at[0], at[1]]
+}
+
+fn less(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+impl Grip {
+    fn of(sign: f64, hinge: [f64; 2], chain: Option<[[f64; 2]; 2]>, spot: &Spot) -> Self {
+        let rest = less(flipped(sign, spot.at), hinge);
+        let arm = match (spot.member, chain) {
+            (Member::Upper, Some([middle, _])) => less(rest, middle),
+            _ => rest,
+        };
+        Grip { member: spot.member, arm, rest }
+    }
+}
+
+/// How a point of the wall has moved.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Moved {
+    /// How far it has gone outwards and upwards [m].
+    pub displacement: [f64; 2],
+    /// Velocity outwards [m/s].
+    pub velocity: f64,
+    /// Acceleration outwards and upwards, relative to the ground [m/s²].
+    pub acceleration: [f64; 2],
+    /// Turn of its body, positive outwards [rad].
+    pub rotation: f64,
+}
+
 impl Side {
+    /// How a point has moved at a turn to this side, its velocity and its acceleration [rad, rad/s, rad/s²].
+    pub fn moved(&self, spot: &Spot, [turn, velocity, acceleration]: [f64; 3]) -> Moved {
+        let pose = self.pose(turn);
+        let grip = Grip::of(self.sign, self.hinge, self.chain, spot);
+        let at = pose.track(&grip);
+        let rotation = if spot.member == Member::Lower { turn } else { -pose.upper.sin.atan2(pose.upper.cos) };
+        Moved {
+            displacement: [self.sign * (at.x - grip.rest[0]), at.z - grip.rest[1]],
+            velocity: self.sign * at.dx * velocity,
+            acceleration: [
+                self.sign * (at.dx * acceleration + at.ddx * velocity * velocity),
+                at.dz * acceleration + at.ddz * velocity * velocity,
+            ],
+            rotation: self.sign * rotation,
+        }
+    }
+
     /// Compiles what turns to the side of `sign`.
     pub fn new(mechanism: &Mechanism, linkage: &Linkage, sign: f64) -> Self {
-        // X runs to the side to which it turns, x from the outer face inwards.
-        let flip = |at: Place| [-sign * at[0], at[1]];
-        let less = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
+        let flip = |at: Place| flipped(sign, at);
         let (hinge, chain) = match *linkage {
             Linkage::One { hinge } => (flip(hinge), None),
             Linkage::Two { base, middle, top } => {
@@ -119,14 +169,7 @@ impl Side {
                 (base, Some([less(middle, base), less(top, middle)]))
             }
         };
-        let grip = |spot: &Spot| {
-            let rest = less(flip(spot.at), hinge);
-            let arm = match (spot.member, chain) {
-                (Member::Upper, Some([middle, _])) => less(rest, middle),
-                _ => rest,
-            };
-            Grip { member: spot.member, arm, rest }
-        };
+        let grip = |spot: &Spot| Grip::of(sign, hinge, chain, spot);
         let part = |part: &Part| {
             let mass = part.weight / G;
             Mass { grip: grip(&part.centre), along: mass, up: mass, inertia: part.inertia, thrust: 0.0, floor: None }
@@ -142,6 +185,7 @@ impl Side {
         let floors = mechanism.floors.iter().enumerate().map(floor);
         let mut side = Side {
             sign,
+            hinge,
             chain,
             masses: mechanism.parts.iter().map(part).chain(floors).collect(),
             floors: mechanism.floors.iter().map(|floor: &Floor| grip(&floor.at)).collect(),
@@ -201,6 +245,16 @@ impl Side {
             terms.push += mass.along * at.dx;
         }
         terms
+    }
+
+    /// Momentum outwards and upwards at rest for a unit of velocity that opens it [kg m].
+    pub fn momentum(&self, gone: &[bool]) -> [f64; 2] {
+        let pose = self.pose(0.0);
+        let kept = self.masses.iter().filter(|mass| !mass.floor.is_some_and(|floor| gone[floor]));
+        kept.fold([0.0; 2], |sum, mass| {
+            let at = pose.track(&mass.grip);
+            [sum[0] + self.sign * mass.along * at.dx, sum[1] + mass.up * at.dz]
+        })
     }
 
     /// Energy of place of weights and thrusts, 0 at rest [J].

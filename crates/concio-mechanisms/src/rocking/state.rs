@@ -1,11 +1,13 @@
 //! All that changes in a run. What is compiled stays as it is.
 
+use serde::{Deserialize, Serialize};
+
 use super::pull::Pull;
 use super::response::Counts;
 use super::system::System;
 
 /// What it does.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) enum Phase {
     /// At θ = 0.
     Closed,
@@ -19,7 +21,7 @@ pub(super) enum Phase {
 pub(super) type Row = [f64; 4];
 
 /// A wall under way, with its account and its peaks.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct State {
     /// Time [s].
     pub t: f64,
@@ -39,6 +41,11 @@ pub(super) struct State {
     /// Whether it is turned farther than that, and since when [s].
     pub beyond: bool,
     pub beyond_since: f64,
+    /// Where the smooth piece of the ground's motion was entered that it is in, and where it leaves it [s].
+    pub entered: f64,
+    pub until: f64,
+    /// Samples taken.
+    pub samples: u64,
     /// Up to when jumps of the ground's velocity have been dealt with [s].
     pub jumped: f64,
     /// Energy lost in impacts, gone with floors, and at the start [J].
@@ -55,6 +62,15 @@ pub(super) struct State {
 }
 
 impl State {
+    /// Whether it is one of this system.
+    pub fn fits(&self, system: &System) -> bool {
+        self.side < system.sides.len()
+            && self.ties.len() == system.ties.len()
+            && self.broke.len() == system.ties.len()
+            && self.gone.len() == system.floors.len()
+            && self.spent.len() == system.rubs.len()
+    }
+
     /// At t = 0, turned by `rotation` [rad] at `velocity` [rad/s]. Ties and account are not settled yet.
     pub fn new(system: &System, [rotation, velocity]: [f64; 2]) -> Self {
         let side = usize::from(system.sides.len() > 1 && (rotation < 0.0 || (rotation == 0.0 && velocity < 0.0)));
@@ -71,6 +87,9 @@ impl State {
             d0: system.d0,
             beyond: false,
             beyond_since: 0.0,
+            entered: 0.0,
+            until: f64::NEG_INFINITY,
+            samples: 0,
             jumped: f64::NEG_INFINITY,
             impact: 0.0,
             floors: 0.0,

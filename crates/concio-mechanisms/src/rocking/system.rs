@@ -1,6 +1,6 @@
 //! A mechanism, compiled: its sides, its laws, and what follows of them without a run.
 
-use concio::G;
+use concio_law::G;
 
 use super::mechanism::{Back, Mechanism, Restitution, block_restitution};
 use super::pull::Pull;

@@ -4,7 +4,6 @@ use concio::case::{Syntax, from_str};
 use concio_mechanisms::pushover::Kinematics;
 use concio_mechanisms::side_wall::Overlaps;
 use concio_mechanisms::survey::{Found, Kind, Survey, survey};
-use concio_mechanisms::wall::Wall;
 use concio_verified::agrees;
 
 /// A wall 6 m long and 6 m high in 24 courses, γ = 20 kN/m³, μ = 0.6.
@@ -19,7 +18,7 @@ fn of(thickness: f64, panel: &str, behind: &str) -> Survey {
          friction = {{ law = \"coulomb\", static = 0.6, on = \"all\" }}\n[out_of_plane]\n{behind}\n[motion]\nduration = 1\n"
     );
     let file = from_str(&text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}"));
-    let wall = Wall::of(&file.case).unwrap_or_else(|e| panic!("{e}"));
+    let wall = concio::facade::of(&file.case).unwrap_or_else(|e| panic!("{e}"));
     survey(&wall, Overlaps::Summed)
 }
 

@@ -13,7 +13,7 @@ fn wall(text: &str) -> Wall {
     let file = from_str(text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}"));
     let findings = file.findings();
     assert!(findings.is_empty(), "{findings:?}");
-    Wall::of(&file.case).unwrap_or_else(|e| panic!("{e}"))
+    concio::facade::of(&file.case).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Ties as α0 counts them.

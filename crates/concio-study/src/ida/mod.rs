@@ -33,7 +33,7 @@ use curve::{Curve, Point};
 use hazard::Hazard;
 
 /// Measures that do not grow with the shaking.
-const NO_DAMAGE: [&str; 5] = ["time_reached", "first_crack", "energy_residual", "steps", "collapse"];
+const NO_DAMAGE: [&str; 6] = ["time_reached", "first_crack", "first_lift_off", "energy_residual", "steps", "collapse"];
 /// Intensities of a list, and runs of a curve.
 const MOST_PER_CURVE: usize = 1000;
 /// Limit states.

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::read::{CaseFile, from_str};
 use super::{
     Bond, Brick, Case, Ends, First, Friction, FrictionLaw, Joints, Load, ModelKind, Mortar, Motion, Output, Panel,
-    Solver, Spring, SpringLaw, Syntax,
+    Rocking, Solver, Spring, SpringLaw, Syntax,
 };
 use crate::error::Result;
 use crate::quantity::{SpecificWeight, Stiffness};
@@ -20,6 +20,7 @@ impl Case {
             panels: vec![panel],
             ties: Vec::new(),
             out_of_plane: None,
+            rocking: Rocking::default(),
             joint,
             load: Load::default(),
             motion,

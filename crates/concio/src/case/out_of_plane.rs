@@ -1,12 +1,12 @@
-//! What stands and pulls out of the plane of a wall: keys of `[out_of_plane]`. Runs in the plane do not read them.
+//! What stands and pulls out of the plane of a wall: keys of `[out_of_plane]` and `[rocking]`. Runs in the plane do not read them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::quantity::{Acceleration, Angle, Force, ForcePerLength, Length, SpecificWeight, Stress, Time};
 
-/// What a wall needs to be assessed out of its plane: floors, ties, side walls, gable, site. `concio mechanisms` reads it; runs
-/// and limit analysis in the plane do not. Distances in the thickness are from the outer face, the one to which the wall falls.
+/// What a wall needs to be assessed out of its plane: floors, ties, side walls, gable, site. `concio mechanisms` and walls of
+/// `model = "rocking"` read it; runs and limit analysis in the plane do not. Distances in the thickness are from the outer face, the one to which the wall falls.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct OutOfPlane {
@@ -58,6 +58,53 @@ pub struct OutOfPlane {
     /// Spectra of floors S_eZ, up to 100. Default none: checks aloft that need one are not made.
     #[serde(rename = "floor_spectrum", skip_serializing_if = "Vec::is_empty")]
     pub floor_spectra: Vec<FloorSpectrum>,
+}
+
+/// Which mechanism rocks, and how.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Rocking {
+    /// Its kind; default that of the mechanism with the least α0 of all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mechanism: Option<RockingKind>,
+    /// Level of its hinge above the base [m], from 0: a bed joint. Default the one with the least α0. With `mechanism` alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hinge: Option<Length>,
+    /// e, 0 … 1: velocity after an impact over that before. Default by formula. It is chosen, not known: try others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restitution: Option<f64>,
+    /// To which side positive values of `motion.base` point; default `inwards`, which lifts the wall off. A record has no sign that a façade
+    /// knows: try both.
+    #[serde(skip_serializing_if = "super::is_default")]
+    pub positive: Towards,
+}
+
+/// Mechanisms that rock: those with level hinges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RockingKind {
+    /// Overturning about a bed joint.
+    Overturning,
+    /// The same with wedges of side walls, or held by their friction.
+    OverturningWithSideWalls,
+    /// Overturning of the outer leaf alone.
+    OverturningOfOuterLeaf,
+    /// A storey that bulges between two levels that hold it.
+    VerticalArch,
+    /// Overturning of the whole gable.
+    Gable,
+}
+
+/// Sides of a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Towards {
+    /// From the outer face inwards.
+    #[default]
+    Inwards,
+    /// Outwards.
+    Outwards,
 }
 
 /// Faces of a wall.

@@ -285,23 +285,27 @@ fn require(tree: &Node) -> std::result::Result<(), Fault> {
     Ok(())
 }
 
-fn is_planar(tree: &Node) -> bool {
-    tree.get("model").and_then(Node::text) == Some("planar")
+fn model_of(tree: &Node) -> ModelKind {
+    match tree.get("model").and_then(Node::text) {
+        Some("planar") => ModelKind::Planar,
+        Some("rocking") => ModelKind::Rocking,
+        _ => ModelKind::Shear,
+    }
 }
 
 /// What the starter file of this model has at `joint.bed` or `joint.head`; none for other keys.
 fn springs_of_starter(tree: &Node, key: &str) -> Option<&'static str> {
     let kind = key.strip_prefix("joint.").filter(|kind| ["bed", "head"].contains(kind))?;
-    let model = if is_planar(tree) { ModelKind::Planar } else { ModelKind::Shear };
-    let line = super::starter(model).lines().find(|line| line.starts_with(&format!("{kind} = ")))?;
+    let line = super::starter(model_of(tree)).lines().find(|line| line.starts_with(&format!("{kind} = ")))?;
     line.find('}').map(|end| &line[..=end])
 }
 
 /// Sets are of the shear model's mortar.
 fn where_joints_are(tree: &Node) -> &'static str {
-    match is_planar(tree) {
-        true => "`concio new --model planar` writes a file with all that joints need",
-        false => "a parameter set such as `set = \"report\"` has all that joints need",
+    match model_of(tree) {
+        ModelKind::Planar => "`concio new --model planar` writes a file with all that joints need",
+        ModelKind::Rocking => "`concio new --model rocking` writes a file with all that joints need",
+        ModelKind::Shear => "a parameter set such as `set = \"report\"` has all that joints need",
     }
 }
 

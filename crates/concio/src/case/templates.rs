@@ -64,6 +64,7 @@ pub fn starter(model: ModelKind) -> &'static str {
     match model {
         ModelKind::Shear => include_str!("starter.toml"),
         ModelKind::Planar => include_str!("starter-planar.toml"),
+        ModelKind::Rocking => include_str!("starter-rocking.toml"),
     }
 }
 

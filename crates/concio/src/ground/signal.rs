@@ -26,7 +26,7 @@ use crate::ground::record::Record;
 use crate::ground::spline;
 use crate::quantity::shown;
 use crate::{InputError, Result};
-use concio_law::motion::{Form, Pieces};
+use concio_law::motion::{Component, Form, Pieces};
 pub use concio_law::motion::{Kinematics, Segment};
 
 /// Longest step of a sine, as a fraction of its period.
@@ -152,6 +152,21 @@ impl GroundMotion {
             GroundMotion::Samples(samples) => samples.dt,
             GroundMotion::Pieces(pieces) => pieces.longest_step,
         }
+    }
+}
+
+impl Component for GroundMotion {
+    fn segment(&self, t: f64) -> Segment {
+        GroundMotion::segment(self, t)
+    }
+    fn velocity_jump(&self, t: f64) -> f64 {
+        GroundMotion::velocity_jump(self, t)
+    }
+    fn longest_step(&self) -> f64 {
+        self.longest_useful_step()
+    }
+    fn end(&self) -> Option<f64> {
+        GroundMotion::end(self)
     }
 }
 

@@ -7,6 +7,7 @@ use crate::graph;
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::planar::{Planar, Rest};
+use crate::record::StopReason;
 use crate::store::{JointRow, residual_relative};
 use crate::warning::{Warning, WarningKind};
 use concio_shear::law::Rub;
@@ -51,6 +52,9 @@ pub fn all(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning
 
 /// Those of the result, the gravest first.
 fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
+    if model.rocking().is_some() {
+        return of_rocking(outcome);
+    }
     let planar = model.planar();
     let balance = match planar {
         None => unbalanced(outcome, "lower solver.tolerance"),
@@ -72,6 +76,40 @@ fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
         (WarningKind::Creep, creep(joints, outcome)),
     ];
     told.into_iter().filter_map(|(kind, text)| Some(Warning::new(kind, text?))).collect()
+}
+
+/// Those of a wall that rocks out of its plane.
+fn of_rocking(outcome: &Outcome) -> Vec<Warning> {
+    let mut told = Vec::new();
+    let mut add = |kind, text: String| told.push(Warning::new(kind, text));
+    if let Some(text) = unbalanced(outcome, "lower solver.step") {
+        add(WarningKind::Energy, text);
+    }
+    let Some(rocking) = &outcome.rocking else { return told };
+    if let Some(collapse) = outcome.totals.collapse {
+        let text = format!(
+            "the wall falls: it lies on the ground from t = {:.4} s on. Peaks are those of the fall; whether a wall falls may be a matter of chance: try              999 and 1001 thousandths of the motion",
+            collapse.time
+        );
+        add(WarningKind::Collapse, text);
+    } else if rocking.beyond_d0 > 0 {
+        let text = format!(
+            "the wall passed d0 {} time(s), where its weight holds no longer, and came back: the code does not count on that, nor should you",
+            rocking.beyond_d0
+        );
+        add(WarningKind::BeyondD0, text);
+    }
+    let weight_moves = outcome.energies.kinetic > NOTHING * outcome.totals.peak_input;
+    if outcome.stop_reason == StopReason::Completed && weight_moves {
+        add(
+            WarningKind::UnderWay,
+            "the wall still moves when the run ends: larger turns or a fall may follow. A longer motion.duration shows it".into(),
+        );
+    }
+    for (tie, time) in rocking.broken_ties.iter().enumerate().filter(|(_, time)| time.is_finite()) {
+        add(WarningKind::BrokenTie, format!("tie {} of the mechanism broke at t = {time:.4} s", tie + 1));
+    }
+    told
 }
 
 /// A residual that is not a number is the stop reason's to tell.

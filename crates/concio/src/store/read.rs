@@ -46,6 +46,7 @@ pub fn read(path: &Path) -> Result<StoredRun> {
     let recording = read_recording(&source, &layout, joints.len())?;
     let envelopes = read_envelopes(&source, layout.unknowns, joints.len())?;
     let outcome = Outcome {
+        rocking: None,
         recording,
         bonds,
         ties: read_ties(&source)?,

@@ -58,7 +58,8 @@ pub fn summary(
     let mut summary = json!({
         "blocks": wall.blocks.len(),
         "joints": joints.len(),
-        "unknowns": outcome.layout.unknowns + 2 * outcome.layout.turned,
+        // A mechanism has one unknown, its turn.
+        "unknowns": if outcome.rocking.is_some() { 1 } else { outcome.layout.unknowns + 2 * outcome.layout.turned },
         "weight": facts.weight,
         "base_load": facts.base_load,
         "model": provenance.model,
@@ -85,6 +86,7 @@ pub fn summary(
         "failure": failure::failure(wall, &graph, &outcome.recording),
         "bonds": bonds(outcome, joints, facts.at_first_crack),
         "ties": ties(outcome),
+        "rocking": outcome.rocking,
         "devices": devices(outcome, joints),
         "energy": energy(&outcome.energies, residual_relative(outcome)),
         "counters": outcome.counters,

@@ -156,7 +156,7 @@ fn table() -> Vec<Bad> {
         "change of a bond out of range", change("at = { kind = [\"bed\"] }\nbond = { mode_2_energy = -1 }"), "bond =", "joint.change[0].bond.mode_2_energy", "-1 N/m is out of range", "from 0 N/m";
         "negative stiffness per area", edit("law = \"elastic\", stiffness = \"5.4e7 N/m\"", "law = \"elastic\", stiffness = \"-36 N/mm3\""), "bed = { law", "joint.bed.stiffness", "-3.6e10 N/m3 is out of range", "from 0 N/m3";
         "stiffness with the unit of a stress", edit("law = \"elastic\", stiffness = \"5.4e7 N/m\"", "law = \"elastic\", stiffness = \"36 MPa\""), "bed = { law", "joint.bed.stiffness", "`MPa` is not a unit of stiffness", "N/m, kN/m, MN/m, GN/m, N/mm, kN/mm; per area of the joint: N/m3";
-        "unknown model", edit("\"shear\"", "\"rocking\""), "model", "model", "`rocking` is not known here", "`shear`, `planar`";
+        "unknown model", edit("\"shear\"", "\"folding\""), "model", "model", "`folding` is not known here", "`shear`, `planar`, `rocking`";
         "step of a shear wall", format!("{GOOD}[solver]\nstep = \"1 ms\"\n"), "step", "solver.step", "the key is for planar walls", "with `model = \"planar\"`";
         "shear wall without inertia", edit("duration =", "quasi_static = true\nduration ="), "quasi_static", "motion.quasi_static", "the key is for planar walls", "leave it out";
         "shear wall shaken vertically", edit("base =", "vertical = { sine = { amplitude = \"1 mm\", frequency = 3 } }\nbase ="), "vertical", "motion.vertical", "the key is for planar walls", "leave it out";
@@ -416,6 +416,7 @@ fn missing_laws_are_shown_as_they_may_be() {
             "`bed = { law = \"no-tension\", stiffness = \"10 N/mm3\", rigidity = 1 }`",
             "concio new --model planar",
         ),
+        ("rocking", "`bed = { law = \"rigid\" }`", "concio new --model rocking"),
     ] {
         let wall = format!(
             "model = \"{model}\"\n[[panel]]\nbond = \"stack\"\ncourses = 3\nbricks = 1\n\

@@ -86,6 +86,7 @@ fn a_stored_case_reads_back_equal() {
         DESIGN.to_string(),
         starter(ModelKind::Shear).to_string(),
         starter(ModelKind::Planar).to_string(),
+        starter(ModelKind::Rocking).to_string(),
         DESIGN.replace("\"driven\"", "{ mass = \"1 t\" }").replace("top = { sine", "# top = { sine"),
         DESIGN.replace("base = \"none\"", "base = { record = \"a b.at2\", pga = \"0.3 g\", trim = [1, \"20 s\"], baseline = { high-pass = \"0.1 Hz\" } }"),
         DESIGN.replace("base = \"none\"", "base = { record = \"x.csv\", scale = -1.7, baseline = { polynomial = 2 }, quantity = \"displacement\", units = \"mm\", dt = 0.01 }"),
@@ -215,7 +216,7 @@ fn the_preset_of_the_report_is_written_out() {
 
 #[test]
 fn templates_are_walls() {
-    for model in [ModelKind::Shear, ModelKind::Planar] {
+    for model in [ModelKind::Shear, ModelKind::Planar, ModelKind::Rocking] {
         let file = from_str(starter(model), Syntax::Toml, None).expect("a starter is read");
         file.validate().expect("a starter is valid");
         concio::pattern::lay(&file.case).expect("a starter is laid");

@@ -31,6 +31,7 @@ mod record_formats;
 mod record_texts;
 mod records;
 mod rigid_contact;
+mod rocking;
 mod set_valued;
 mod shared_records;
 mod states;

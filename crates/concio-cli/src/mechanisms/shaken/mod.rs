@@ -181,12 +181,11 @@ fn followed(
     };
     let rocking = match Rocking::new(&made.mechanism) {
         Ok(rocking) => rocking,
-        Err(Error::Input(error)) if error.key.as_deref() == Some("back.restitution") => {
+        Err(error) if error.key.as_deref() == Some("back.restitution") => {
             return Err(of_restitution(*error, found).into());
         }
         // The keys of its errors are those of a struct that nobody sees.
-        Err(Error::Input(error)) => return Ok(Err(error.what)),
-        Err(other) => return Err(other.into()),
+        Err(error) => return Ok(Err(error.what)),
     };
     let shaking = Shaking {
         across: &motion.across,

@@ -1,6 +1,6 @@
 //! What an event brings: impacts (OP11), turns, ties that yield and break, floors that lose their seat.
 
-use concio::G;
+use concio_law::G;
 
 use super::{REST, Run};
 use crate::rocking::pull::Change;
@@ -46,6 +46,7 @@ impl Run<'_> {
         self.state.counts.impacts += 1;
         self.tell(What::Impact);
         let velocity = self.state.row[1].abs();
+        let closing = self.side().momentum(&self.state.gone);
         let before = self.twice_kinetic(self.state.side);
         self.state.row[0] = 0.0;
         self.turn_ties();
@@ -61,6 +62,11 @@ impl Run<'_> {
         }
         self.state.beyond = self.is_beyond();
         let after = if left * velocity < REST { 0.0 } else { left * velocity };
+        let opening = self.side().momentum(&self.state.gone);
+        let change = [0, 1].map(|axis| closing[axis] * velocity + opening[axis] * after);
+        if let Some(impact) = self.events.last_mut().filter(|event| event.what == What::Impact) {
+            impact.impulse = change[0].hypot(change[1]);
+        }
         self.state.row[1] = after;
         self.state.impact += 0.5 * (before * velocity * velocity - self.twice_kinetic(self.state.side) * after * after);
         if after > 0.0 {

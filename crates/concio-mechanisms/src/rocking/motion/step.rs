@@ -37,7 +37,7 @@ impl Run<'_> {
         if cut {
             (instant, next) = self.first(piece, way, (from, row), (instant, next));
         }
-        self.keep(piece, way, (from, row), (instant, next));
+        self.keep_within(piece, way, (from, row), (instant, next));
         (self.state.t, self.state.row) = (instant, next);
         self.note();
         if cut { self.meet(way) } else { None }

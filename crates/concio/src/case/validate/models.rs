@@ -2,7 +2,9 @@
 
 use super::{Bound, Findings};
 use crate::InputError;
-use crate::case::{Beam, BeamRotation, Bond, Case, FrictionPreset, ModelKind, NormalForce, Signal, StopAt};
+use crate::case::{
+    Beam, BeamRotation, Bond, Case, FrictionPreset, ModelKind, NormalForce, Rocking, Signal, Solver, StopAt,
+};
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
     match case.model {
@@ -11,6 +13,14 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
             of_planar(case).into_iter().for_each(|key| refused(f, key));
         }
         ModelKind::Planar => planar(f, case),
+        ModelKind::Rocking => rocking(f, case),
+    }
+    if case.model != ModelKind::Rocking && case.rocking != Rocking::default() {
+        f.push(
+            "rocking",
+            "the table is for walls that rock out of their plane",
+            "with `model = \"rocking\"`; else leave it out",
+        );
     }
 }
 
@@ -72,6 +82,55 @@ fn of_planar(case: &Case) -> Vec<String> {
     ];
     keys.extend(others.into_iter().filter(|(_, given)| *given).map(|(key, _)| key.to_string()));
     keys
+}
+
+/// What a wall that rocks out of its plane needs, and what it has no use for.
+fn rocking(f: &mut Findings, case: &Case) {
+    if case.out_of_plane.is_none() {
+        let error = InputError::new(
+            "a rocking wall turns out of its plane, and the file does not say what holds and loads it there",
+        );
+        let error = error.key("model").allowed("with a table [out_of_plane]");
+        f.add(error.help("an empty one is a bare wall on the ground; `shear` and `planar` walls move in their plane"));
+    }
+    let Rocking { mechanism, hinge, restitution, .. } = case.rocking;
+    if let Some(level) = hinge {
+        f.quantity("rocking.hinge", level, Bound::From0);
+        if mechanism.is_none() {
+            f.push("rocking.hinge", "a level without a mechanism", "with `rocking.mechanism`; else leave it out");
+        }
+    }
+    if let Some(e) = restitution {
+        f.number("rocking.restitution", e, Bound::Between(0.0, 1.0));
+    }
+    let floors = "none: `out_of_plane.floor` has what lies on the wall and holds it";
+    let solver = Solver::default();
+    let unread = [
+        ("tie[0]", !case.ties.is_empty(), "none: `out_of_plane.anchor` holds a wall back"),
+        ("load.beam", case.load.beam != Beam::Free, floors),
+        ("load.beam_rotation", case.load.beam_rotation != BeamRotation::Free, floors),
+        ("load.beam_height", case.load.beam_height.is_some(), floors),
+        (
+            "load.mass",
+            case.load.mass.is_some(),
+            "none: the mass of a load is that of its weight; `out_of_plane.floor` has others",
+        ),
+        ("motion.quasi_static", case.motion.quasi_static, "none: `concio mechanisms` follows the wall without inertia"),
+        ("motion.stop_at", case.motion.stop_at.is_some(), "none: a run ends when the wall lies on the ground"),
+        ("solver.scheme", case.solver.scheme != solver.scheme, "none: `solver.step` is the longest step"),
+        ("solver.tolerance", case.solver.tolerance != solver.tolerance, "none: `solver.step` is the longest step"),
+        ("solver.floor", case.solver.floor != solver.floor, "none: `solver.step` is the longest step"),
+        ("solver.max_step", case.solver.max_step.is_some(), "none: `solver.step` is the longest step"),
+        (
+            "output.joints",
+            !case.output.joints.is_empty(),
+            "none: hinges have no histories; those of the bodies are always kept",
+        ),
+        ("output.blocks", !case.output.blocks.is_empty(), "none: histories of the bodies are always kept"),
+    ];
+    for (key, _, allowed) in unread.into_iter().filter(|(_, given, _)| *given) {
+        f.push(key, "a rocking wall does not read the key", allowed);
+    }
 }
 
 fn planar(f: &mut Findings, case: &Case) {

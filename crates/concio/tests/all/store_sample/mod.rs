@@ -194,6 +194,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
         yielded: if k == 0 { f64::INFINITY } else { 5e-4 },
     };
     Outcome {
+        rocking: None,
         ties: if size.planar && wall.blocks.len() > 1 { (0..2).map(tie).collect() } else { Vec::new() },
         bonds: (0..layout.bonded).map(bond).collect(),
         drifts: vec![DriftRow {

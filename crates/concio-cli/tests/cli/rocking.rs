@@ -1,0 +1,166 @@
+//! Walls that rock out of their plane, as a user types it.
+
+use serde_json::Value;
+
+use crate::support::Desk;
+
+/// One metre of a wall that leans on side walls.
+const WALL: &str = r#"title = "Leaning wall"
+model = "rocking"
+
+[[panel]]
+bond = "stack"
+courses = 8
+bricks = 1
+brick = { length = "1 m", height = "0.5 m", thickness = "0.4 m", specific_weight = "20 kN/m3" }
+mortar = { bed = 0, head = 0 }
+
+[joint]
+bed = { law = "rigid" }
+head = { law = "none" }
+friction = { law = "coulomb", static = 0.6 }
+
+[[out_of_plane.side_wall]]
+x = 0
+thickness = "0.3 m"
+bonded = false
+
+[motion]
+base = { pulse = { shape = "one-sine", acceleration = "2 m/s2", duration = "0.8 s" } }
+duration = "20 s"
+"#;
+
+fn text(desk: &Desk, line: &str) -> String {
+    let done = desk.concio(line).assert().success();
+    String::from_utf8_lossy(&done.get_output().stdout).into_owned()
+}
+
+fn refused(desk: &Desk, line: &str) -> String {
+    let done = desk.concio(line).assert().code(2);
+    String::from_utf8_lossy(&done.get_output().stderr).into_owned()
+}
+
+/// The starter is a wall whose run is the time history of `concio mechanisms`, in the files of other runs.
+#[test]
+fn the_starter_rocks_as_its_mechanism_does() {
+    let desk = Desk::new();
+    desk.concio("new facade.toml --model rocking").assert().success();
+    let told = text(&desk, "check facade.toml");
+    for part in ["overturning, hinge at 0 m", "at α0 = 0.0", "is a valid wall file"] {
+        assert!(told.contains(part), "{part}:\n{told}");
+    }
+    let told = text(&desk, "run facade.toml --out out");
+    for part in ["mechanism", "first lift-off", "peak turn", "energy residual"] {
+        assert!(told.contains(part), "{part}:\n{told}");
+    }
+    let summary = desk.json("out/summary.json");
+    let alone = desk.concio("mechanisms facade.toml --shaken --json").assert().success();
+    let alone: Value = serde_json::from_slice(&alone.get_output().stdout).expect("JSON");
+    let mechanisms = alone["time_history"]["mechanisms"].as_array().expect("mechanisms");
+    let own = mechanisms.iter().find(|m| m["kind"] == "overturning").expect("the overturning");
+    let sign =
+        own["signs"].as_array().and_then(|signs| signs.iter().find(|s| s["positive"] == "inwards")).expect("a sign");
+    let rocking = &summary["rocking"];
+    assert_eq!((&summary["model"], &summary["unknowns"]), (&Value::from("rocking"), &Value::from(1)));
+    for (name, expected) in [
+        ("multiplier", &own["sets_off"]),
+        ("restitution", &own["restitution"]),
+        ("d0", &own["last_displacement"]),
+        ("peak_over_d0", &sign["outwards"]["over_d0"]),
+        ("first_lift_off", &sign["first_lift_off_time"]),
+        ("impacts", &sign["impacts"]),
+        ("beyond_d0", &sign["beyond_d0"]),
+    ] {
+        assert_eq!(&rocking[name], expected, "{name}");
+    }
+    assert!(rocking["peak_over_d0"].as_f64() > Some(0.0), "{rocking}");
+    assert_eq!(summary["drift"]["displacement"], sign["outwards"]["displacement"]);
+    assert!(summary["energy"]["residual_relative"].as_f64() < Some(1e-6), "{}", summary["energy"]);
+    let listed = text(&desk, "export out --format csv --out csv");
+    let _ = listed;
+    let page = desk.get("out/report.html");
+    for part in ["peak turn", "rocking.positive", "Top of the wall"] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert_eq!(desk.list().iter().filter(|name| name.as_str() == "out").count(), 1);
+    // The same run gives the same result.
+    let hash = |folder: &str| desk.json(&format!("{folder}/summary.json"))["rocking"].clone();
+    desk.concio("run facade.toml --out again").assert().success();
+    assert_eq!(hash("out"), hash("again"));
+}
+
+#[test]
+fn what_a_rocking_file_lacks_or_what_else_takes_it_is_told() {
+    let desk = Desk::new();
+    let lacks = WALL.replace("[[out_of_plane.side_wall]]\nx = 0\nthickness = \"0.3 m\"\nbonded = false\n", "");
+    desk.put("lacks.toml", &lacks);
+    let told = refused(&desk, "run lacks.toml --out out");
+    assert!(told.contains("lacks.toml:2") && told.contains("out_of_plane"), "{told}");
+    assert!(!desk.list().contains(&"out".into()), "nothing is left");
+    desk.put("beam.toml", WALL.replace("[motion]", "[load]\nbeam = \"tied\"\n\n[motion]"));
+    let told = refused(&desk, "check beam.toml");
+    assert!(told.contains("load.beam") && told.contains("out_of_plane.floor"), "{told}");
+    desk.put("rocks.toml", WALL);
+    let told = refused(&desk, "limit rocks.toml");
+    assert!(told.contains("rocks.toml:2") && told.contains("concio mechanisms"), "{told}");
+    let told = refused(&desk, "system rocks.toml");
+    assert!(told.contains("rocking"), "{told}");
+}
+
+/// Both signs as a factor, fragilities with limits in parts of d0, and collapse.
+#[test]
+fn studies_take_rocking_walls() {
+    let desk = Desk::new();
+    desk.put("rocks.toml", WALL);
+    desk.put(
+        "sweep.toml",
+        "wall = \"rocks.toml\"\nscales = [0.25, 0.75, 1.5, 3.0]\n[[vary]]\npath = \"rocking.positive\"\nvalues = [\"inwards\", \"outwards\"]\n",
+    );
+    desk.concio("study run sweep.toml --out sweep").assert().success();
+    let table = desk.get("sweep/runs.csv");
+    let mut lines = table.lines().filter(|line| !line.starts_with('#'));
+    let head: Vec<&str> = lines.next().expect("a head").split(',').collect();
+    let column =
+        |name: &str| head.iter().position(|h| h.starts_with(name)).unwrap_or_else(|| panic!("{name}: {head:?}"));
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 8, "{table}");
+    let (over, fell, lifts) = (column("peak_over_d0"), column("collapse"), column("first_lift_off"));
+    let peaks: Vec<f64> = rows.iter().map(|row| row[over].parse().expect("a number")).collect();
+    // 0.5 m/s² lift nothing off, 6 m/s² throw it over.
+    let still = rows.iter().zip(&peaks).filter(|(row, peak)| row[lifts].is_empty() && **peak == 0.0).count();
+    let fallen = rows.iter().zip(&peaks).filter(|(row, peak)| !row[fell].is_empty() && **peak > 1.0).count();
+    assert!(still == 2 && fallen >= 2, "{table}");
+    let motion = |k: usize, length: f64| {
+        format!(
+            "[[motion]]\nname = \"m{k}\"\nbase = {{ pulse = {{ shape = \"one-sine\", acceleration = \"1 m/s2\", duration = {length:?} }} }}\n"
+        )
+    };
+    let motions: String = [0.6, 0.8, 1.0, 1.3].into_iter().enumerate().map(|(k, length)| motion(k, length)).collect();
+    desk.put(
+        "ida.toml",
+        format!(
+            "wall = \"rocks.toml\"\n{motions}[ida]\ndamage = \"peak_over_d0\"\n\
+             limits = [{{ name = \"life\", value = 0.4 }}, {{ name = \"collapse prevention\", value = 0.6 }}]\n\
+             hunt = {{ first = \"0.5 m/s2\", step = \"0.5 m/s2\", most = \"12 m/s2\" }}\n"
+        ),
+    );
+    let told = text(&desk, "study run ida.toml --out ida");
+    for part in ["life", "collapse prevention", "median"] {
+        assert!(told.contains(part), "{part}:\n{told}");
+    }
+    // Before it lifts off at 0.1 g there is no damage; beyond the collapse of the pulse of 0.8 s, 0.2844 g with e = 0.4708, there is no standing.
+    let runs = desk.get("ida/ida.csv");
+    assert!(runs.contains("yes") && runs.contains("no"), "{runs}");
+}
+
+/// First cracking is the first lift-off, which needs no run: g α0 over the peak of the motion.
+#[test]
+fn first_cracking_is_the_first_lift_off() {
+    let desk = Desk::new();
+    desk.put("rocks.toml", WALL);
+    let told = text(&desk, "first-crack rocks.toml");
+    // α0 = 0.1, the peak 2 m/s² = 0.2039 g: at 0.4905 of it.
+    assert!(told.contains("0.4905"), "{told}");
+    let told = refused(&desk, "first-crack rocks.toml --criterion opening");
+    assert!(told.contains("lifts off"), "{told}");
+}

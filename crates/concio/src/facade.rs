@@ -1,0 +1,542 @@
+//! From a wall file to the parts of a wall that its mechanisms out of the plane need, and what is assumed where the file says nothing.
+//!
+//! A joint belongs to the course that lies on it: mortar counts with the weight of the blocks, and hinges lie on the lower side of their
+//! joint. Levels on which a hinge can lie are bed joints that no block crosses.
+
+use concio_mechanisms::checks::{BEHAVIOUR, Building, Hazard, LOWEST_KNOWLEDGE, Site, Spectrum};
+use concio_mechanisms::corner::CornerLoad;
+use concio_mechanisms::facade::{Floor, Masonry, Piece, Tie};
+use concio_mechanisms::gable::Gable;
+use concio_mechanisms::setback::Crushing;
+use concio_mechanisms::side_wall::SideWall;
+use concio_mechanisms::wall::{Assumed, CornerOf, FloorOf, Side, Wall};
+
+use crate::case::out_of_plane::{self, Hazard as GivenHazard, OutOfPlane};
+use crate::case::{Bond, Case, FrictionLaw, JointKind, SpringLaw, TopLoad};
+use crate::error::{Error, InputError, Result};
+use crate::quantity::{Length, shown};
+use crate::wall::Wall as Laid;
+use crate::{graph, pattern};
+
+/// Heights within this are one level [m].
+const LEVEL: f64 = 1e-6;
+/// φ unless given.
+const DIAGONAL: f64 = std::f64::consts::FRAC_PI_4;
+
+/// Of a valid case.
+///
+/// # Errors
+/// Walls that cannot be laid; arches and blocks that are no level rectangles; floors, ties and side walls outside of the wall.
+pub fn of(case: &Case) -> Result<Wall> {
+    let laid = pattern::lay(case)?;
+    refuse_shapes(case, &laid)?;
+    let mut assumed = Assumptions::default();
+    let none = OutOfPlane::default();
+    let given = case.out_of_plane.as_ref().unwrap_or(&none);
+    if case.out_of_plane.is_none() {
+        assumed.add(
+            "out_of_plane",
+            "the file has no such table: a bare wall on the ground, without floors, ties, side walls and site",
+        );
+    }
+    let masonry = masonry(case, &laid, &mut assumed);
+    let extent = ends(masonry.pieces.iter().map(|p| p.y));
+    let top = masonry.top();
+    let texture = texture(&laid, &masonry);
+    let brick = case.panels[0].brick;
+    let mut wall = Wall {
+        specific_weight: brick.specific_weight.si(),
+        levels: levels(&masonry),
+        openings: openings(case, &laid)?,
+        friction: friction(case, &mut assumed),
+        modulus: modulus(case, texture, masonry.thickness),
+        back: given.outside == out_of_plane::Face::Back,
+        floors: Vec::new(),
+        ties: Vec::new(),
+        side_walls: Vec::new(),
+        loose: 0,
+        leaf: None,
+        crushing: crushing(given, &mut assumed),
+        gable: None,
+        strip: None,
+        confidence: LOWEST_KNOWLEDGE,
+        behaviour: given.behaviour_factor.unwrap_or(BEHAVIOUR),
+        hazard: hazard(given, &mut assumed),
+        building: Building::regular(top, 1),
+        floor_spectra: spectra(given),
+        assumed: Vec::new(),
+        masonry,
+        extent,
+        top,
+        texture,
+    };
+    wall.confidence = confidence(given, &mut assumed)?;
+    wall.leaf = leaf(given, &wall, &mut assumed)?;
+    add_floors(&mut wall, case, given, &mut assumed)?;
+    add_ties(&mut wall, given, &mut assumed)?;
+    add_side_walls(&mut wall, given, &mut assumed)?;
+    add_gable(&mut wall, given, &mut assumed)?;
+    add_strip(&mut wall, given)?;
+    wall.building = building(given, &wall, &mut assumed);
+    wall.assumed = assumed.0;
+    Ok(wall)
+}
+
+fn add_floors(facade: &mut Wall, case: &Case, given: &OutOfPlane, assumed: &mut Assumptions) -> Result<()> {
+    let (length, half) = (facade.length(), 0.5 * facade.masonry.thickness);
+    for (i, own) in given.floors.iter().enumerate() {
+        let key = format!("out_of_plane.floor[{i}]");
+        below_top(facade, &format!("{key}.z"), own.z)?;
+        let depth = own.at.map_or(half, Length::si);
+        if depth > facade.masonry.thickness + LEVEL {
+            let what = format!("{} m lies behind the wall", shown(depth));
+            let allowed = format!("0 … {} m, the thickness", shown(facade.masonry.thickness));
+            return Err(InputError::new(what).key(format!("{key}.at")).allowed(allowed).into());
+        }
+        if own.at.is_none() {
+            assumed.add(
+                format!("{key}.at"),
+                "the load lies in the middle of the wall; a load nearer to the inner face holds more",
+            );
+        }
+        let floor = Floor {
+            level: own.z.si(),
+            load: own.load.si() * length,
+            depth,
+            pushing: own.push.si() * length,
+            thrust: own.thrust.si() * length,
+            friction: own.seat_friction,
+            seat: own.seat_length.map(Length::si),
+            connection: own.connection.si() * length,
+        };
+        if own.seat_length.is_none() && own.load.si() > 0.0 {
+            assumed
+                .add(format!("{key}.seat_length"), "beams do not lose their seat before the wall falls: not checked");
+        }
+        facade.floors.push(FloorOf { floor, given: true, holds: own.holds, clamps: own.clamps });
+    }
+    let q = match case.load.top {
+        TopLoad::PerLength(q) => q.si() * length,
+        TopLoad::Force(force) => force.si(),
+    };
+    if q > 0.0 {
+        let floor = Floor { level: facade.top, load: q, depth: half, ..Floor::default() };
+        facade.floors.push(FloorOf { floor, given: false, holds: false, clamps: false });
+        assumed.add(
+            "load.top",
+            "it lies in the middle of the wall, pushes with its weight, and is not connected to anything",
+        );
+    }
+    facade.floors.sort_by(|a, b| a.floor.level.total_cmp(&b.floor.level));
+    if given.floors.is_empty() && case.out_of_plane.is_some() {
+        assumed.add("out_of_plane.floor", "no floor or roof lies on the wall, and none holds it");
+    }
+    Ok(())
+}
+
+fn add_ties(facade: &mut Wall, given: &OutOfPlane, assumed: &mut Assumptions) -> Result<()> {
+    for (i, own) in given.anchors.iter().enumerate() {
+        let key = format!("out_of_plane.anchor[{i}]");
+        below_top(facade, &format!("{key}.z"), own.z)?;
+        let position = own.x.map_or(0.5 * facade.length(), Length::si);
+        within(facade, &format!("{key}.x"), position)?;
+        if own.anchorage.is_none() {
+            assumed.add(
+                format!("{key}.anchorage"),
+                "the anchorage bears what the tie does: the tie is too strong where it does not",
+            );
+        }
+        let force = own.anchorage.map_or(f64::INFINITY, |f| f.si()).min(own.yield_force.si());
+        facade.ties.push(Tie {
+            level: own.z.si(),
+            position: facade.extent[0] + position,
+            force,
+            stiffness: own.stiffness.map(|k| k.si()),
+            slack: own.slack.si(),
+            breaks: own.breaks_at.map(Length::si),
+        });
+    }
+    Ok(())
+}
+
+fn add_side_walls(facade: &mut Wall, given: &OutOfPlane, assumed: &mut Assumptions) -> Result<()> {
+    for (i, own) in given.side_walls.iter().enumerate() {
+        let key = format!("out_of_plane.side_wall[{i}]");
+        within(facade, &format!("{key}.x"), own.x.si())?;
+        if !own.bonded {
+            facade.loose += 1;
+            continue;
+        }
+        let mut or = |name: &str, value: Option<f64>, default: f64, what: String| {
+            value.unwrap_or_else(|| {
+                assumed.add(format!("{key}.{name}"), what);
+                default
+            })
+        };
+        let [course, overlap] = facade.texture;
+        let of_panel = |what: &str, v: f64| format!("{what} of the wall itself, {}", shown(rounded(v)));
+        let wall = SideWall {
+            thickness: own.thickness.si(),
+            specific_weight: or(
+                "specific_weight",
+                own.specific_weight.map(|w| w.si()),
+                facade.specific_weight,
+                of_panel("the specific weight", facade.specific_weight) + " N/m3",
+            ),
+            course: or(
+                "course_height",
+                own.course_height.map(Length::si),
+                course,
+                of_panel("the courses", course) + " m",
+            ),
+            overlap: or("overlap", own.overlap.map(Length::si), overlap, of_panel("the mean overlap", overlap) + " m"),
+            friction: or("friction", own.friction, facade.friction, of_panel("the friction", facade.friction)),
+            load: own.load.si(),
+            opening: own.first_opening.map(Length::si),
+        };
+        let (x, from_right) = (own.x.si(), facade.length() - own.x.si());
+        let at_end = x.min(from_right) <= own.thickness.si() + LEVEL;
+        let corner = at_end.then(|| {
+            let load = own.corner.map_or(CornerLoad::default(), |c| CornerLoad {
+                load: c.load.si(),
+                depth: c.at.si(),
+                pushing: c.push.si(),
+                thrust: c.thrust.si(),
+            });
+            let beside = facade
+                .openings
+                .iter()
+                .map(|o| if x <= from_right { o[0] - facade.extent[0] } else { facade.extent[1] - o[2] });
+            let found = beside.fold(f64::INFINITY, f64::min);
+            let opening = own.opening_beside.map_or(found, Length::si);
+            CornerOf {
+                load,
+                direction: own.corner.and_then(|c| c.direction).map_or(DIAGONAL, |a| a.si()),
+                opening: opening.is_finite().then_some(opening),
+            }
+        });
+        facade.side_walls.push(Side { at: facade.extent[0] + x, wall, corner });
+    }
+    Ok(())
+}
+
+fn add_gable(facade: &mut Wall, given: &OutOfPlane, assumed: &mut Assumptions) -> Result<()> {
+    let Some(own) = &given.gable else { return Ok(()) };
+    let thickness = own.thickness.map_or(facade.masonry.thickness, Length::si);
+    if own.base.is_some_and(|b| b.si() > facade.length() + LEVEL) {
+        let what = format!("{} m is longer than the wall", shown(own.base.map_or(0.0, Length::si)));
+        let allowed = format!("up to {} m", shown(rounded(facade.length())));
+        return Err(InputError::new(what).key("out_of_plane.gable.base").allowed(allowed).into());
+    }
+    let depth = own.ridge_at.map_or(0.5 * thickness, Length::si);
+    if own.ridge_at.is_none() && own.ridge_load.si() > 0.0 {
+        assumed.add("out_of_plane.gable.ridge_at", "the ridge beam's load lies in the middle of the gable");
+    }
+    let gable = Gable {
+        base: own.base.map_or(facade.length(), Length::si),
+        height: own.height.si(),
+        thickness,
+        specific_weight: facade.specific_weight,
+        load: own.ridge_load.si(),
+        depth,
+        pushing: own.ridge_push.si(),
+        thrust: own.ridge_thrust.si(),
+    };
+    // On the wall below it is a load at its centroid, and one at its ridge.
+    let level = facade.top + gable.height / 3.0;
+    let own_weight = Floor { level, load: gable.weight(), depth: 0.5 * thickness, ..Floor::default() };
+    let ridge = Floor {
+        level: facade.top + gable.height,
+        load: gable.load,
+        depth,
+        pushing: gable.pushing,
+        thrust: gable.thrust,
+        ..Floor::default()
+    };
+    for floor in [own_weight, ridge] {
+        facade.floors.push(FloorOf { floor, given: false, holds: false, clamps: false });
+    }
+    facade.gable = Some((gable, own.crack_thrust.si()));
+    Ok(())
+}
+
+fn add_strip(facade: &mut Wall, given: &OutOfPlane) -> Result<()> {
+    let Some(own) = &given.strip else { return Ok(()) };
+    let key = "out_of_plane.strip.from";
+    if own.from.si() >= facade.top - LEVEL {
+        return Err(above_top(facade, key, own.from));
+    }
+    let span = own.span.map_or(facade.length(), Length::si);
+    if span > facade.length() + LEVEL {
+        let what = format!("{} m is longer than the wall", shown(span));
+        let allowed = format!("up to {} m", shown(rounded(facade.length())));
+        return Err(InputError::new(what).key("out_of_plane.strip.span").allowed(allowed).into());
+    }
+    facade.strip = Some([own.from.si(), own.thrust.si(), span, own.friction]);
+    Ok(())
+}
+
+fn below_top(facade: &Wall, key: &str, level: Length) -> Result<()> {
+    if level.si() > facade.top + LEVEL { Err(above_top(facade, key, level)) } else { Ok(()) }
+}
+
+fn above_top(facade: &Wall, key: &str, level: Length) -> Error {
+    let what = format!("{level} lies above the wall");
+    let allowed = format!("up to {} m, the top of the wall", shown(rounded(facade.top)));
+    InputError::new(what).key(key).allowed(allowed).into()
+}
+
+fn within(facade: &Wall, key: &str, x: f64) -> Result<()> {
+    if x <= facade.length() + LEVEL {
+        return Ok(());
+    }
+    let what = format!("{} m lies beside the wall", shown(x));
+    let allowed = format!("0 … {} m, the length of the wall", shown(rounded(facade.length())));
+    Err(InputError::new(what).key(key).allowed(allowed).into())
+}
+
+#[derive(Default)]
+struct Assumptions(Vec<Assumed>);
+
+impl Assumptions {
+    fn add(&mut self, key: impl Into<String>, what: impl Into<String>) {
+        self.0.push(Assumed { key: key.into(), what: what.into() });
+    }
+}
+
+/// To a micrometre: what lies beyond is rounding.
+fn rounded(v: f64) -> f64 {
+    (v * 1e6).round() / 1e6
+}
+
+fn ends(pairs: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
+    pairs.fold([f64::INFINITY, f64::NEG_INFINITY], |e, p| [e[0].min(p[0]), e[1].max(p[1])])
+}
+
+fn refuse_shapes(case: &Case, laid: &Laid) -> Result<()> {
+    if let Some(i) = case.panels.iter().position(|p| p.bond == Bond::Arch) {
+        let error =
+            InputError::new("the closed forms are those of walls, not of arches").key(format!("panel[{i}].bond"));
+        return Err(error.allowed("`running`, `stack`, `irregular`, `explicit`").into());
+    }
+    let Some(block) = laid.blocks.iter().find(|b| !b.is_rectangle()) else { return Ok(()) };
+    let what =
+        format!("block {} is no level rectangle: hinges of the closed forms lie on level bed joints", block.name);
+    Err(InputError::new(what).key(format!("panel[{}]", block.panel)).allowed("rectangles").into())
+}
+
+/// Blocks with the mortar below and beside them, neighbours of a course in one piece.
+fn masonry(case: &Case, laid: &Laid, assumed: &mut Assumptions) -> Masonry {
+    let thicknesses: Vec<f64> = case.panels.iter().map(|p| p.brick.thickness.si()).collect();
+    let thickness = thicknesses.iter().copied().fold(f64::INFINITY, f64::min);
+    if thicknesses.iter().any(|t| *t > thickness) {
+        let what = format!(
+            "panels of several thicknesses turn as one wall about the face, with the lever of the thinnest, {} m",
+            shown(thickness)
+        );
+        assumed.add("panel.brick.thickness", what);
+    }
+    if case.panels.iter().any(|p| p.mortar.bed.si() > 0.0 || p.mortar.head.si() > 0.0) {
+        assumed
+            .add("panel.mortar", "mortar weighs as much as blocks of its volume; runs in the plane count blocks alone");
+    }
+    let mut blocks: Vec<&crate::wall::Block> = laid.blocks.iter().collect();
+    blocks.sort_by(|a, b| {
+        let by_course = a.panel.cmp(&b.panel).then(a.y[0].total_cmp(&b.y[0]));
+        by_course.then(a.y[1].total_cmp(&b.y[1])).then(a.x[0].total_cmp(&b.x[0]))
+    });
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut last_panel = usize::MAX;
+    for block in blocks {
+        let [bed, head] = laid.panels[block.panel].mortar;
+        let weight = block.specific_weight * block.thickness;
+        let z = [(block.y[0] - bed).max(0.0), block.y[1]];
+        match pieces.last_mut() {
+            Some(piece)
+                if last_panel == block.panel
+                    && piece.weight == weight
+                    && (piece.z[0] - z[0]).abs() < LEVEL
+                    && (piece.z[1] - z[1]).abs() < LEVEL
+                    && block.x[0] - piece.y[1] <= head + LEVEL =>
+            {
+                piece.y[1] = block.x[1];
+            }
+            _ => pieces.push(Piece { y: block.x, z, weight }),
+        }
+        last_panel = block.panel;
+    }
+    Masonry { thickness, pieces }
+}
+
+/// Bed joints from end to end that no block crosses.
+fn levels(masonry: &Masonry) -> Vec<f64> {
+    let mut all: Vec<f64> = masonry.pieces.iter().map(|p| p.z[0]).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup_by(|a, b| (*a - *b).abs() < LEVEL);
+    let crossed = |z: f64| masonry.pieces.iter().any(|p| p.z[0] < z - LEVEL && z + LEVEL < p.z[1]);
+    all.retain(|z| !crossed(*z));
+    all
+}
+
+fn openings(case: &Case, laid: &Laid) -> Result<Vec<[f64; 4]>> {
+    let left = |panel: usize| {
+        let own = laid.blocks.iter().filter(|b| b.panel == panel);
+        own.map(|b| b.x[0]).fold(f64::INFINITY, f64::min)
+    };
+    let outline = |o: &pattern::Laid| {
+        let from = left(o.panel);
+        [from + o.x[0], o.y[0], from + o.x[1], o.y[1]]
+    };
+    Ok(pattern::openings(case)?.iter().map(outline).collect())
+}
+
+/// Mean height of courses and mean overlap of bed joints between blocks.
+fn texture(laid: &Laid, masonry: &Masonry) -> [f64; 2] {
+    let heights: Vec<f64> = masonry.pieces.iter().map(|p| p.z[1] - p.z[0]).collect();
+    let course = heights.iter().sum::<f64>() / heights.len().max(1) as f64;
+    let joints = graph::joints(laid, false);
+    let beds: Vec<f64> = joints.iter().filter(|j| j.kind == JointKind::Bed).map(|j| j.overlap).collect();
+    let overlap = beds.iter().sum::<f64>() / beds.len().max(1) as f64;
+    [course, overlap]
+}
+
+fn friction(case: &Case, assumed: &mut Assumptions) -> f64 {
+    if case.joint.friction.law == FrictionLaw::None {
+        assumed.add(
+            "joint.friction",
+            "joints do not rub: side walls give no friction, and reactions do not pass through bed joints",
+        );
+        return 0.0;
+    }
+    case.joint.friction.static_
+}
+
+/// The stiffness of bed joints is the tangential one; pressed they are stiffer by their ratio.
+fn modulus(case: &Case, [course, overlap]: [f64; 2], thickness: f64) -> Option<f64> {
+    let bed = &case.joint.bed;
+    let springs = matches!(bed.law, SpringLaw::Elastic | SpringLaw::NoTension);
+    let area = overlap * thickness;
+    let modulus = bed.stiffness.over(area) / area * bed.normal_to_shear * course;
+    (springs && modulus > 0.0 && modulus.is_finite()).then_some(modulus)
+}
+
+fn crushing(given: &OutOfPlane, assumed: &mut Assumptions) -> Crushing {
+    let Some(strength) = given.strength else {
+        assumed.add(
+            "out_of_plane.strength",
+            "masonry does not crush at hinges, which lie on the face: α0 is too high; FC is that of LC1",
+        );
+        return Crushing::Rigid;
+    };
+    assumed.add(
+        "out_of_plane.strength",
+        "it sets back level and upright hinges: those of corners and flaps lie on the face, and their FC is that of LC1",
+    );
+    match given.pressure {
+        out_of_plane::PressureBlock::Rectangular => Crushing::Rectangular(strength.si()),
+        out_of_plane::PressureBlock::Triangular => Crushing::Triangular(strength.si()),
+    }
+}
+
+fn confidence(given: &OutOfPlane, assumed: &mut Assumptions) -> Result<f64> {
+    match given.confidence_factor {
+        Some(factor) if given.strength.is_none() && factor < LOWEST_KNOWLEDGE => {
+            let what =
+                format!("{} is too low: crushing at hinges is left out, for there is no `strength`", shown(factor));
+            let error = InputError::new(what).key("out_of_plane.confidence_factor");
+            Err(error.allowed("1.35, or a lower one beside `strength` (Circolare, C8.7.1.2.1.4)").into())
+        }
+        Some(factor) => Ok(factor),
+        None => {
+            assumed.add("out_of_plane.confidence_factor", "FC = 1.35, knowledge level LC1");
+            Ok(LOWEST_KNOWLEDGE)
+        }
+    }
+}
+
+fn leaf(given: &OutOfPlane, wall: &Wall, assumed: &mut Assumptions) -> Result<Option<f64>> {
+    let [outer, ..] = given.leaves[..] else { return Ok(None) };
+    let sum: f64 = given.leaves.iter().map(|l| l.si()).sum();
+    if (sum - wall.masonry.thickness).abs() > 1e-3 * wall.masonry.thickness {
+        let what = format!("the leaves are {} m thick together", shown(rounded(sum)));
+        let allowed = format!("{} m, the thickness of the wall", shown(wall.masonry.thickness));
+        return Err(InputError::new(what).key("out_of_plane.leaves").allowed(allowed).into());
+    }
+    let tied = given.leaves_tied.unwrap_or_else(|| {
+        assumed.add("out_of_plane.leaves_tied", "nothing ties the leaves: the outer one may fall alone");
+        false
+    });
+    Ok((!tied && given.leaves.len() > 1).then_some(outer.si()))
+}
+
+fn hazard(given: &OutOfPlane, assumed: &mut Assumptions) -> Hazard {
+    let Some(site) = &given.site else {
+        assumed.add("out_of_plane.site", "none: multipliers without checks");
+        return Hazard::default();
+    };
+    let mut of = |own: &Option<GivenHazard>, name: &str, state: &str| {
+        if own.is_none() {
+            assumed.add(format!("out_of_plane.site.{name}"), format!("none: {state} is not checked"));
+        }
+        own.as_ref().map(|own| spectrum(own, &format!("out_of_plane.site.{name}"), assumed))
+    };
+    Hazard {
+        damage: of(&site.damage, "damage", "damage (SLD)"),
+        life: of(&site.life_safety, "life_safety", "life safety (SLV)"),
+        collapse: of(&site.collapse, "collapse", "collapse prevention (SLC)"),
+    }
+}
+
+fn spectrum(own: &GivenHazard, key: &str, assumed: &mut Assumptions) -> Spectrum {
+    if !own.periods.is_empty() {
+        return Spectrum::Columns(pairs(&own.periods, &own.accelerations));
+    }
+    if own.soil_factor.is_none() {
+        assumed.add(format!("{key}.soil_factor"), "S = 1: rock, level ground");
+    }
+    // Validation asks for the three others.
+    Spectrum::Code(Site {
+        ground: own.ground_acceleration.map_or(0.0, |a| a.si()),
+        soil: own.soil_factor.unwrap_or(1.0),
+        amplification: own.amplification.unwrap_or(1.0),
+        corner: own.corner_period.map_or(1.0, |t| t.si()),
+    })
+}
+
+fn pairs(periods: &[crate::quantity::Time], accelerations: &[crate::quantity::Acceleration]) -> Vec<[f64; 2]> {
+    periods.iter().zip(accelerations).map(|(t, a)| [t.si(), a.si()]).collect()
+}
+
+fn spectra(given: &OutOfPlane) -> Vec<(f64, Spectrum)> {
+    let of =
+        |own: &out_of_plane::FloorSpectrum| (own.z.si(), Spectrum::Columns(pairs(&own.periods, &own.accelerations)));
+    given.floor_spectra.iter().map(of).collect()
+}
+
+fn building(given: &OutOfPlane, wall: &Wall, assumed: &mut Assumptions) -> Building {
+    let Some(own) = &given.building else {
+        let storeys = given.floors.len().max(1);
+        let built = Building::regular(wall.top, storeys);
+        assumed.add(
+            "out_of_plane.building",
+            format!(
+                "as high as the wall, {} m, with {storeys} storeys: T_1 {:.3} s, γ_1 {:.3}, ξ_1 5 %",
+                shown(rounded(built.height)),
+                built.period,
+                built.participation
+            ),
+        );
+        return built;
+    };
+    let mut built = Building::regular(own.height.si(), own.storeys);
+    if let Some(period) = own.period {
+        built.period = period.si();
+    }
+    if let Some(damping) = own.damping_ratio {
+        built.damping = 100.0 * damping;
+    }
+    if let Some(participation) = own.participation {
+        built.participation = participation;
+    }
+    built
+}
