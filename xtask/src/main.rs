@@ -45,6 +45,7 @@ cargo xtask words      count the words of the documents, and of their sentences
 cargo xtask report-ui  build the program of the interactive report into the tree (needs Node.js)
 cargo xtask report-ui-check   its bundle is current, its tests pass, a browser shows the numbers of the result
 cargo xtask peers      compare with CVODE
+cargo xtask python     build, install and check the package for Python
 cargo xtask performance   measure Concio and other solvers, draw docs/performance.md (--quick, --case, --peers, --page)
 cargo xtask schemes    compare schemes at fixed steps, for docs/decisions/0007-schemes.md";
 
@@ -68,6 +69,7 @@ fn main() -> ExitCode {
         "report-ui" => report_ui::build(&root),
         "report-ui-check" => build(&root).and_then(|()| report_ui::check(&root)),
         "peers" => build(&root).and_then(|()| peers::compare(&root)),
+        "python" => python::environment(&root).and_then(|python| python::check_package(&root, python.as_deref())),
         "schemes" => build(&root).and_then(|()| schemes::compare(&root)),
         "performance" => build(&root).and_then(|()| performance::run(&root, &rest)),
         _ => Err(USAGE.into()),
@@ -108,7 +110,7 @@ fn build(root: &Path) -> Outcome {
 
 fn ci(root: &Path) -> Outcome {
     let python = python::environment(root)?;
-    let steps: [(&str, &dyn Fn() -> Outcome); 14] = [
+    let steps: [(&str, &dyn Fn() -> Outcome); 15] = [
         ("format", &|| run(cargo(root).args(["fmt", "--all", "--check"]))),
         ("lints", &|| {
             run(cargo(root).args([
@@ -132,6 +134,7 @@ fn ci(root: &Path) -> Outcome {
         ("words", &|| words::check(root)),
         ("examples", &|| examples::run_all(root)),
         ("readers of results", &|| python::read_results(root, python.as_deref())),
+        ("package for Python", &|| python::check_package(root, python.as_deref())),
         ("interactive report", &|| report_ui::check(root)),
         ("comparison with CVODE", &|| peers::compare(root)),
     ];

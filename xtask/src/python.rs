@@ -1,4 +1,5 @@
-//! Python for the checks: the readers that users have (h5py, NumPy, VTK) and the peers of statistics (SALib, SciPy, eqsig, pycma), in a virtual environment under target/.
+//! Python for the checks: the readers that users have (h5py, NumPy, VTK), the peers of statistics (SALib, SciPy, eqsig, pycma) and what checks the
+//! package `concio`, in a virtual environment under target/.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -8,7 +9,26 @@ use crate::concio;
 use crate::examples::folder;
 
 /// What the checks import, by the names under which it is installed.
-const PACKAGES: [&str; 7] = ["h5py", "numpy", "vtk", "scipy", "SALib", "eqsig", "cma"];
+const PACKAGES: [&str; 14] = [
+    "h5py",
+    "numpy",
+    "vtk",
+    "scipy",
+    "SALib",
+    "eqsig",
+    "cma",
+    "matplotlib",
+    "maturin",
+    "mypy",
+    "pandas",
+    "pytest",
+    "ruff",
+    "xarray",
+];
+/// What is installed beside it and not imported: types for mypy.
+const TYPES: [&str; 1] = ["pandas-stubs"];
+/// Where the package `concio` is.
+const PACKAGE: &str = "crates/concio-python";
 /// The example whose result is read.
 const EXAMPLE: &str = "04-two-panels";
 
@@ -33,9 +53,9 @@ pub fn environment(root: &Path) -> Result<Option<PathBuf>, String> {
         return skipped("python3 -m venv does not work here");
     }
     let mut install = Command::new(&python);
-    install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(PACKAGES);
+    install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]).args(PACKAGES).args(TYPES);
     if read(&mut install).is_err() || !works(&python) {
-        return skipped("h5py, numpy, vtk, scipy, SALib, eqsig or cma cannot be installed here");
+        return skipped(&format!("one of {} cannot be installed here", PACKAGES.join(", ")));
     }
     Ok(Some(python))
 }
@@ -54,4 +74,37 @@ pub fn read_results(root: &Path, python: Option<&Path>) -> Outcome {
     check.arg(root.join("crates/concio/tests/python/check_result.py")).arg(result.join("result.h5"));
     check.arg("--csv").arg(result.join("csv")).arg("--npz").arg(result.join("result.npz"));
     run(check.arg("--vtkhdf").arg(result.join("result.vtkhdf")))
+}
+
+/// Builds the wheel of the package `concio`, installs it and checks it: tests, examples in its documentation, stubs, types, style.
+pub fn check_package(root: &Path, python: Option<&Path>) -> Outcome {
+    let Some(python) = python else {
+        crate::command::skip("package for Python (no environment)");
+        return Ok(());
+    };
+    let recent = "import sys; sys.exit(sys.version_info < (3, 10))";
+    if read(Command::new(python).args(["-c", recent])).is_err() {
+        crate::command::skip("package for Python (python3 is older than 3.10)");
+        return Ok(());
+    }
+    let module = |name: &str| {
+        let mut command = Command::new(python);
+        command.current_dir(root).args(["-m", name]);
+        command
+    };
+    let wheels = root.join("target/wheels");
+    // A wheel of an earlier version would be installed too.
+    if wheels.exists() {
+        std::fs::remove_dir_all(&wheels).map_err(|e| format!("{}: {e}", wheels.display()))?;
+    }
+    run(module("maturin").args(["build", "--quiet", "--release", "--locked", "--out"]).arg(&wheels))?;
+    let mut install = module("pip");
+    install.args(["install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-deps", "--force-reinstall"]);
+    run(install.arg("--find-links").arg(&wheels).arg("concio"))?;
+    let (sources, tests) = (format!("{PACKAGE}/python"), format!("{PACKAGE}/tests"));
+    run(module("pytest").args(["--quiet", "--doctest-modules", "--pyargs", "concio", &tests]))?;
+    run(module("mypy.stubtest").arg("concio"))?;
+    run(module("mypy").args(["--no-error-summary", &format!("{sources}/concio"), &tests]))?;
+    run(module("ruff").args(["check", "--quiet", PACKAGE]))?;
+    run(module("ruff").args(["format", "--quiet", "--check", PACKAGE]))
 }

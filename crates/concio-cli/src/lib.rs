@@ -2,6 +2,7 @@
 //!
 //! A library only so that `concio-dev`, which the project's own chores call, draws and writes as it does: nothing here is stable.
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -40,7 +41,22 @@ pub mod warned;
 
 /// Does what the arguments of the process say.
 pub fn run() -> ExitCode {
-    let cli = args::Cli::try_parse().unwrap_or_else(|_| misused().exit());
+    run_with(std::env::args_os().collect())
+}
+
+/// Does what these arguments say, of which the first is the name of the program.
+#[doc(hidden)]
+pub fn run_with(arguments: Vec<OsString>) -> ExitCode {
+    let cli = match args::Cli::try_parse_from(&arguments) {
+        Ok(cli) => cli,
+        // Help is no failure.
+        Err(_) => {
+            let told = misused(&arguments);
+            // A closed terminal leaves nothing to do but to exit with the right status.
+            let _ = told.print();
+            return ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(failure::WRONG_INPUT));
+        }
+    };
     match commands::dispatch(cli.command) {
         Ok(code) => code,
         Err(failure) => failure.show(),
@@ -49,9 +65,9 @@ pub fn run() -> ExitCode {
 
 /// What is told of the arguments: help, or what is wrong with them. They are quoted there, so that it is told of them as a
 /// terminal can show them.
-fn misused() -> clap::Error {
-    let shown = |argument: std::ffi::OsString| format::line(&argument.to_string_lossy()).into_owned();
-    let arguments: Vec<String> = std::env::args_os().map(shown).collect();
+fn misused(arguments: &[OsString]) -> clap::Error {
+    let shown = |argument: &OsString| format::line(&argument.to_string_lossy()).into_owned();
+    let arguments: Vec<String> = arguments.iter().map(shown).collect();
     match args::Cli::try_parse_from(&arguments) {
         Err(error) => suggesting(error, arguments.get(1..).unwrap_or_default()),
         Ok(_) => {

@@ -94,6 +94,12 @@ impl Run {
         &self.state
     }
 
+    /// Where every body is: displacement along x and y relative to the base [m] and rotation, counterclockwise, in rad.
+    pub fn places(&self) -> Vec<[f64; 3]> {
+        let Moved { z, vertical, rotation, .. } = &self.bodies.last.end;
+        z.iter().zip(vertical).zip(rotation).map(|((x, y), turn)| [*x, *y, *turn]).collect()
+    }
+
     /// What became of the ties.
     pub fn ties(&self, model: &Model) -> Vec<TieRow> {
         self.bodies.ties(model)

@@ -103,6 +103,17 @@ impl<'m> Run<'m> {
         self.over
     }
 
+    /// Where every body is in the section: displacement of its centre along x and y relative to the ground [m] and rotation,
+    /// counterclockwise, in rad.
+    pub fn places(&self) -> Vec<[f64; 3]> {
+        let at = self.motion.turned();
+        let place = |spot| {
+            let Moved { displacement: [out, up], rotation, .. } = self.rocking.compiled.moved(spot, at.turned);
+            [0.0 - out, up, rotation]
+        };
+        self.centres.iter().map(place).collect()
+    }
+
     /// What became of the ties.
     pub fn ties(&self) -> Vec<TieRow> {
         let row = |((tie, outcome), yielded): ((&mechanics::Tie, mechanics::TieOutcome), &f64)| TieRow {

@@ -1,5 +1,6 @@
 //! From a wall file's content to a folder with results: what the command line, studies and tests call.
 
+use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -21,7 +22,7 @@ use crate::pattern;
 use crate::quantity::shown;
 use crate::record::{Recording, StopReason};
 use crate::simulate::{Progress, Sampling, Simulation, Status};
-use crate::store::{self, JointRow, Journal, JournalHeader, Provenance, RunFacts};
+use crate::store::{self, JointRow, Journal, JournalHeader, Provenance, RunFacts, StoredRun};
 use crate::wall::Wall;
 use crate::warning::{Warning, WarningKind};
 
@@ -323,7 +324,15 @@ pub fn run(prepared: &Prepared, out: &Path, monitor: &mut dyn FnMut(&Status) -> 
     for name in [RESULT, SUMMARY] {
         files::remove_leftovers(&out.join(name))?;
     }
-    let summary = write(prepared, &outcome, solve_seconds, resumed_from, out)?;
+    let summary = summary(prepared, &outcome, solve_seconds, resumed_from);
+    store::hdf5::write(
+        &out.join(RESULT),
+        &prepared.provenance(),
+        &prepared.model.wall,
+        &joint_rows(&prepared.model),
+        &outcome,
+    )?;
+    store::write_summary(&out.join(SUMMARY), &summary)?;
     if reason != StopReason::Interrupted {
         journal.remove()?;
     }
@@ -408,13 +417,23 @@ fn integrate(
     }
 }
 
-fn write(
-    prepared: &Prepared,
-    outcome: &Outcome,
-    solve_seconds: f64,
-    resumed_from: Option<f64>,
-    out: &Path,
-) -> Result<Value> {
+/// Writes a run that was made in memory, or read back, into the folder `out`, as [`run()`] does: `result.h5` and `summary.json`, whole or not
+/// at all. What an unfinished run or one of other inputs left there goes.
+///
+/// # Errors
+/// The folder cannot be written, or belongs to another run that is under way.
+pub fn keep(run: &StoredRun, summary: &Value, out: &Path) -> Result<()> {
+    let StoredRun { provenance, wall, joints, outcome, .. } = run;
+    fs::create_dir_all(out).map_err(|e| Error::io(out, e))?;
+    forget(out)?;
+    remove_results_of_others(out, &provenance.inputs_hash)?;
+    store::hdf5::write(&out.join(RESULT), provenance, wall, joints, outcome)?;
+    store::write_summary(&out.join(SUMMARY), summary)
+}
+
+/// What `summary.json` holds of a run; `solve_seconds` is the time by the clock that solving took, `resumed_from` the time from which it was
+/// taken up [s].
+pub fn summary(prepared: &Prepared, outcome: &Outcome, solve_seconds: f64, resumed_from: Option<f64>) -> Value {
     let (model, provenance, joints) = (&prepared.model, prepared.provenance(), joint_rows(&prepared.model));
     let warnings = warnings::all(model, &joints, outcome);
     let pushes = model.excitation.driven || model.planar().is_some_and(|planar| planar.still);
@@ -428,10 +447,7 @@ fn write(
         at_first_crack: outcome.first_crack().map(|bond| moving(model, bond.cracked)),
         warnings,
     };
-    let summary = store::summary(&provenance, &model.wall, &joints, outcome, &facts);
-    store::hdf5::write(&out.join(RESULT), &provenance, &model.wall, &joints, outcome)?;
-    store::write_summary(&out.join(SUMMARY), &summary)?;
-    Ok(summary)
+    store::summary(&provenance, &model.wall, &joints, outcome, &facts)
 }
 
 /// What moves a wall at the time `t` [s].

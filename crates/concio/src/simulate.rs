@@ -221,6 +221,20 @@ impl<'m> Simulation<'m> {
     pub fn state(&self) -> State<'_> {
         self.mechanics.state()
     }
+    /// Where every moving body is after the last accepted step, the blocks first and then a beam with motion of its own: displacement of its
+    /// centre along x and y relative to the base [m] and rotation, counterclockwise, in rad. In the shear model only the first is not 0.
+    pub fn places(&self) -> Vec<[f64; 3]> {
+        let model = self.keeper.model;
+        match &self.mechanics {
+            Mechanics::Shear(run) => {
+                let blocks = &run.state.z[..model.wall.blocks.len()];
+                let beam = model.floating_beam().map(|beam| &run.state.z[beam]);
+                blocks.iter().chain(beam).map(|z| [*z, 0.0, 0.0]).collect()
+            }
+            Mechanics::Planar(run) => run.places(),
+            Mechanics::Rocking(run) => run.places(),
+        }
+    }
     /// The run of a wall of the shear model.
     pub fn shear(&self) -> Option<&shear::Run<'m>> {
         if let Mechanics::Shear(run) = &self.mechanics { Some(run) } else { None }

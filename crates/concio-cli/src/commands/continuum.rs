@@ -24,43 +24,69 @@ const HEIGHT: f64 = 150.0;
 
 /// Finds the continuum of the panels of a wall.
 pub fn continuum(args: &Continuum) -> Result<(), Failure> {
-    let units = Units::parse(&args.units).map_err(|e| match e {
-        Error::Input(e) => Failure::from((*e).key("--units")),
-        other => other.into(),
-    })?;
+    let units = units(args)?;
     if let Some(out) = &args.figure {
         files::guard(out, "svg", &[&args.file])?;
     }
     let file = wall_file::read_at_rest(&args.file)?;
     wall_file::doubt(&file);
-    let chosen = panels(args, &file)?;
-    let options = options(args);
-    let mut found = Vec::with_capacity(chosen.len());
-    for &panel in &chosen {
-        found.push(analyse(&file.case, panel, options).map_err(|e| failure(e, &file, &args.file))?);
-    }
+    let (chosen, found) = found(args, &file)?;
     if let Some(format) = args.card {
-        let [one] = &found[..] else {
-            let names: Vec<&str> = found.iter().map(|f| f.name.as_str()).collect();
-            let error = InputError::new(format!("a card is that of one panel, and the wall has {}", found.len()));
-            return Err(error.in_file(&args.file).key("--panel").allowed(names.join(", ")).into());
-        };
+        let one = alone(args, &found)?;
         one.warnings.iter().for_each(|w| files::note(&format!("warning: {w}")));
         let card = one.card(units).write(format_of(format)).map_err(|e| failure(e.into(), &file, &args.file))?;
         if format == CardFormat::Json { files::print_json(&card)? } else { files::print(&card)? }
     } else if args.json {
-        let all: Vec<Value> = found.iter().map(value).collect();
-        let result = json!({ "version": env!("CARGO_PKG_VERSION"), "panels": all });
-        files::print_json(&format!("{result:#}\n"))?;
+        files::print_json(&format!("{:#}\n", result(&found)))?;
     } else {
         let title = if file.case.title.is_empty() { String::new() } else { format!("{}\n\n", line(&file.case.title)) };
         let texts: Vec<String> = found.iter().map(text).collect();
         files::print(&format!("{title}{}", texts.join("\n")))?;
     }
     if let Some(out) = &args.figure {
-        figure(&file, &chosen, options, args, out)?;
+        figure(&file, &chosen, options(args), args, out)?;
     }
     Ok(())
+}
+
+/// What `--json` prints; with `--card` the text of the card.
+pub fn value(args: &Continuum, file: &CaseFile) -> Result<Value, Failure> {
+    let (_, found) = found(args, file)?;
+    let Some(format) = args.card else { return Ok(result(&found)) };
+    let card = alone(args, &found)?.card(units(args)?).write(format_of(format));
+    Ok(card.map_err(|e| failure(e.into(), file, &args.file))?.into())
+}
+
+/// Places of the panels that are asked for, and what is found of each.
+fn found(args: &Continuum, file: &CaseFile) -> Result<(Vec<usize>, Vec<Found>), Failure> {
+    let chosen = panels(args, file)?;
+    let mut found = Vec::with_capacity(chosen.len());
+    for &panel in &chosen {
+        found.push(analyse(&file.case, panel, options(args)).map_err(|e| failure(e, file, &args.file))?);
+    }
+    Ok((chosen, found))
+}
+
+/// The one panel that a card is of.
+fn alone<'f>(args: &Continuum, found: &'f [Found]) -> Result<&'f Found, Failure> {
+    let [one] = found else {
+        let names: Vec<&str> = found.iter().map(|f| f.name.as_str()).collect();
+        let error = InputError::new(format!("a card is that of one panel, and the wall has {}", found.len()));
+        return Err(error.in_file(&args.file).key("--panel").allowed(names.join(", ")).into());
+    };
+    Ok(one)
+}
+
+fn units(args: &Continuum) -> Result<Units, Failure> {
+    Units::parse(&args.units).map_err(|e| match e {
+        Error::Input(e) => Failure::from((*e).key("--units")),
+        other => other.into(),
+    })
+}
+
+fn result(found: &[Found]) -> Value {
+    let all: Vec<Value> = found.iter().map(panel).collect();
+    json!({ "version": env!("CARGO_PKG_VERSION"), "panels": all })
 }
 
 fn options(args: &Continuum) -> Options {
@@ -279,7 +305,7 @@ fn strength(f: &Found, rows: &mut Vec<(&'static str, String)>) {
 }
 
 /// A panel as JSON.
-fn value(f: &Found) -> Value {
+fn panel(f: &Found) -> Value {
     json!({
         "name": f.name,
         "bond": f.bond,

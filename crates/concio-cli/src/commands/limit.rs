@@ -35,26 +35,11 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
     if let Some(out) = &args.out {
         refuse_a_file(out)?;
     }
-    if let Some(Side::Outwards | Side::Inwards) = args.towards {
-        let error = InputError::new("--towards outwards and inwards are across the plane").in_file(&args.file);
-        return Err(error.allowed("left and right, or --out-of-plane").into());
-    }
-    let sides = args.towards.map_or(vec![Side::Right, Side::Left], |side| vec![side]);
-    let mut pushed = Vec::with_capacity(sides.len());
-    for towards in sides {
-        let problem = Problem::of(&file.case, options(args, towards));
-        let problem = problem.map_err(|e| wall_file::all(&file, file.locate(e)))?;
-        if pushed.is_empty() {
-            problem.warnings.iter().for_each(|warning| files::note(&format!("warning: {warning}")));
-        }
-        let found = limit::analyse(&problem).map_err(|e| failure(e, &args.file))?;
-        pushed.push(Pushed { towards, problem, found });
-    }
-    let (weaker, other) = weaker(pushed);
+    let (weaker, other) = pushed(args, &file)?;
+    weaker.problem.warnings.iter().for_each(|warning| files::note(&format!("warning: {warning}")));
     let Pushed { problem, found, .. } = &weaker;
     let falls = falls(&file);
-    let mut result = result(args, &weaker, other.as_ref());
-    result["falls_by_itself"] = json!(falls);
+    let result = result(args, &weaker, other.as_ref(), falls);
     if let Some(out) = &args.out {
         fs::create_dir_all(out).map_err(|e| Failure::from(Error::io(out, e)))?;
         files::write(&out.join(RESULT), &format!("{result:#}\n"))?;
@@ -99,6 +84,29 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
         files::note(&format!("no certificate to the {side}: the bounds are {wide} of λ apart, {most} are allowed"));
     }
     Ok(if open.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
+}
+
+/// What `--json` prints.
+pub fn value(args: &Limit, file: &CaseFile) -> Result<Value, Failure> {
+    let (weaker, other) = pushed(args, file)?;
+    Ok(result(args, &weaker, other.as_ref(), falls(file)))
+}
+
+/// The way in which the wall bears less, and the other where both are asked.
+fn pushed(args: &Limit, file: &CaseFile) -> Result<(Pushed, Option<Pushed>), Failure> {
+    if let Some(Side::Outwards | Side::Inwards) = args.towards {
+        let error = InputError::new("--towards outwards and inwards are across the plane").in_file(&args.file);
+        return Err(error.allowed("left and right, or --out-of-plane").into());
+    }
+    let sides = args.towards.map_or(vec![Side::Right, Side::Left], |side| vec![side]);
+    let mut pushed = Vec::with_capacity(sides.len());
+    for towards in sides {
+        let problem = Problem::of(&file.case, options(args, towards));
+        let problem = problem.map_err(|e| wall_file::all(file, file.locate(e)))?;
+        let found = limit::analyse(&problem).map_err(|e| failure(e, &args.file))?;
+        pushed.push(Pushed { towards, problem, found });
+    }
+    Ok(weaker(pushed))
 }
 
 /// Whether the wall falls by itself, which self-stress of rigid stones may hide; none of shear walls, large ones, and walls that cannot be run.
@@ -234,7 +242,12 @@ pub(super) fn without_dilation(found: &NonAssociative) -> Value {
     })
 }
 
-fn result(args: &Limit, Pushed { towards, problem, found }: &Pushed, other: Option<&Pushed>) -> Value {
+fn result(
+    args: &Limit,
+    Pushed { towards, problem, found }: &Pushed,
+    other: Option<&Pushed>,
+    falls: Option<bool>,
+) -> Value {
     let bodies = problem.assembly.bodies.iter().zip(&found.mechanism.velocities);
     let blocks: Vec<Value> =
         bodies.map(|(b, v)| json!({ "name": b.name, "velocity": [v[0], v[1]], "rotation": v[2] })).collect();
@@ -274,5 +287,6 @@ fn result(args: &Limit, Pushed { towards, problem, found }: &Pushed, other: Opti
         },
         "forces": forces,
         "warnings": problem.warnings,
+        "falls_by_itself": falls,
     })
 }

@@ -49,20 +49,7 @@ pub fn limit(args: &Asked) -> Result<ExitCode, Failure> {
     if let Some(out) = &args.out {
         refuse_a_file(out)?;
     }
-    let wrong = |what: &str, allowed: &str| Err(InputError::new(what).in_file(&args.file).allowed(allowed).into());
-    let face = match args.towards {
-        None | Some(Side::Outwards) => Face::Outwards,
-        Some(Side::Inwards) => Face::Inwards,
-        Some(Side::Left | Side::Right) => {
-            return wrong("--towards left and right are in the plane", "outwards, inwards");
-        }
-    };
-    if args.heads == HeadFriction::Frictionless {
-        return wrong("--out-of-plane tells λ without friction at head joints beside the other", "no --heads");
-    }
-    let planar = Planar::of(&file.case, options(args, Side::Right));
-    let planar = planar.map_err(|e| wall_file::all(&file, file.locate(e)))?;
-    let found = find(args, &file, &planar, face)?;
+    let (face, found) = asked(args, &file)?;
     for warning in found.warnings.iter() {
         files::note(&format!("warning: {warning}"));
     }
@@ -88,6 +75,31 @@ pub fn limit(args: &Asked) -> Result<ExitCode, Failure> {
         files::note(&format!("no certificate: the bounds are {wide} of λ apart, {CERTIFIED} are allowed"));
     }
     Ok(if open.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
+}
+
+/// What `--json` prints.
+pub fn value(args: &Asked, file: &CaseFile) -> Result<Value, Failure> {
+    let (face, found) = asked(args, file)?;
+    Ok(result(args, face, &found))
+}
+
+/// Which way, and what is found.
+fn asked(args: &Asked, file: &CaseFile) -> Result<(Face, Found), Failure> {
+    let wrong = |what: &str, allowed: &str| Err(InputError::new(what).in_file(&args.file).allowed(allowed).into());
+    let face = match args.towards {
+        None | Some(Side::Outwards) => Face::Outwards,
+        Some(Side::Inwards) => Face::Inwards,
+        Some(Side::Left | Side::Right) => {
+            return wrong("--towards left and right are in the plane", "outwards, inwards");
+        }
+    };
+    if args.heads == HeadFriction::Frictionless {
+        return wrong("--out-of-plane tells λ without friction at head joints beside the other", "no --heads");
+    }
+    let planar = Planar::of(&file.case, options(args, Side::Right));
+    let planar = planar.map_err(|e| wall_file::all(file, file.locate(e)))?;
+    let found = find(args, file, &planar, face)?;
+    Ok((face, found))
 }
 
 fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Found, Failure> {

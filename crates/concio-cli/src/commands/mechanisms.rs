@@ -3,14 +3,17 @@
 use std::fs;
 
 use concio::Error;
+use concio::case::CaseFile;
 use concio_mechanisms::side_wall::Overlaps;
 use concio_mechanisms::survey::survey;
 use concio_study::table;
+use serde_json::Value;
 
 use super::{run::refuse_a_file, wall_file};
 use crate::args::{Mechanisms, OverlapSum};
 use crate::failure::Failure;
 use crate::format::line;
+use crate::mechanisms::shaken::Shaken;
 use crate::mechanisms::{Subject, page, rows, shaken, text};
 use crate::{files, study};
 
@@ -25,37 +28,57 @@ pub fn mechanisms(args: &Mechanisms) -> Result<(), Failure> {
     if let Some(out) = &args.out {
         refuse_a_file(out)?;
     }
-    let wall = concio::facade::of(&file.case).map_err(|e| wall_file::all(&file, file.locate(e)))?;
+    found(args, &file, |subject, shaken, result| show(args, subject, shaken, &result))
+}
+
+/// What `--json` prints.
+pub fn value(args: &Mechanisms, file: &CaseFile) -> Result<Value, Failure> {
+    found(args, file, |_, _, result| Ok(result))
+}
+
+/// Finds the mechanisms, and follows them where that is asked; what `then` makes of them.
+fn found<T>(
+    args: &Mechanisms,
+    file: &CaseFile,
+    then: impl FnOnce(&Subject, Option<&Shaken>, Value) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    let wall = concio::facade::of(&file.case).map_err(|e| wall_file::all(file, file.locate(e)))?;
     let overlaps = match args.overlaps {
         OverlapSum::Summed => Overlaps::Summed,
         OverlapSum::Code => Overlaps::Code,
     };
     let survey = survey(&wall, overlaps);
-    let shaken = shaken::follow(&args.motion, &file, &wall, &survey, args.all)?;
+    let shaken = shaken::follow(&args.motion, file, &wall, &survey, args.all)?;
     let name = args.file.file_stem().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     let title = if file.case.title.is_empty() { name } else { file.case.title.clone() };
     let subject = Subject { title: &title, wall: &wall, survey: &survey, overlaps, trilinear: args.trilinear };
     let mut result = rows::json(&subject);
-    let mut sections = page::sections(&subject);
-    let mut told = text::told(&subject, args.all);
     if let Some(shaken) = &shaken {
         result["time_history"] = shaken::values::json(shaken);
+    }
+    then(&subject, shaken.as_ref(), result)
+}
+
+fn show(args: &Mechanisms, subject: &Subject, shaken: Option<&Shaken>, result: &Value) -> Result<(), Failure> {
+    let mut sections = page::sections(subject);
+    let mut told = text::told(subject, args.all);
+    if let Some(shaken) = shaken {
         sections.extend(shaken::page::sections(shaken));
         told.push_str(&shaken::text::told(shaken));
     }
     if let Some(out) = &args.out {
         fs::create_dir_all(out).map_err(|e| Failure::from(Error::io(out, e)))?;
         files::write(&out.join(RESULT), &format!("{result:#}\n"))?;
-        table::write_csv(&rows::table(&subject), &out.join(TABLE))?;
-        for (name, history) in shaken.iter().flat_map(shaken::values::histories) {
+        table::write_csv(&rows::table(subject), &out.join(TABLE))?;
+        for (name, history) in shaken.into_iter().flat_map(shaken::values::histories) {
             table::write_csv(&history, &out.join(name))?;
         }
-        study::page::write(out, &format!("Out of the plane: {title}"), &page::facts(&subject), &sections)?;
+        study::page::write(out, &format!("Out of the plane: {}", subject.title), &page::facts(subject), &sections)?;
     }
     if args.json {
         return files::print_json(&format!("{result:#}\n"));
     }
     let written =
         args.out.as_ref().map_or(String::new(), |out| format!("\nopen {}\n", out.join("report.html").display()));
-    files::print(&format!("{}\n\n{told}{written}", line(&title)))
+    files::print(&format!("{}\n\n{told}{written}", line(subject.title)))
 }

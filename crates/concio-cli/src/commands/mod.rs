@@ -2,6 +2,9 @@
 
 use std::process::ExitCode;
 
+use concio::case::CaseFile;
+use serde_json::Value;
+
 use crate::args::Command;
 use crate::failure::Failure;
 
@@ -24,6 +27,17 @@ mod schema;
 mod study;
 mod system;
 pub mod wall_file;
+
+/// What `--json` of an analysis prints, of a wall that was read already; none of the other commands.
+pub fn value(command: &Command, file: &CaseFile) -> Result<Option<Value>, Failure> {
+    Ok(Some(match command {
+        Command::Limit(args) if args.out_of_plane => limit_space::value(args, file)?,
+        Command::Limit(args) => limit::value(args, file)?,
+        Command::Continuum(args) => continuum::value(args, file)?,
+        Command::Mechanisms(args) => mechanisms::value(args, file)?,
+        _ => return Ok(None),
+    }))
+}
 
 /// Runs a command. Errors are shown by the caller.
 pub fn dispatch(command: Command) -> Result<ExitCode, Failure> {

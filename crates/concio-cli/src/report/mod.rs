@@ -105,8 +105,13 @@ fn name(folder: &Path) -> String {
 /// Writes the report into the folder of the run; its path.
 pub fn write(folder: &Path, content: &Content) -> Result<PathBuf, Failure> {
     let path = folder.join(concio::run::REPORT);
-    files::write(&path, &page::html(content))?;
+    write_to(&path, content)?;
     Ok(path)
+}
+
+/// Writes the report to a file.
+pub fn write_to(path: &Path, content: &Content) -> Result<(), Failure> {
+    files::write(path, &page::html(content))
 }
 
 /// What the top beam does, as it is written on it.

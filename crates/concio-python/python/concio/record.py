@@ -1,0 +1,250 @@
+"""Accelerograms: read from the files of the archives or given as arrays."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from . import _native
+from ._values import to_json
+from .errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from .plot import RecordPlots
+
+
+class Spectrum(NamedTuple):
+    """Peaks of oscillators of one damping ratio, an array each."""
+
+    period: NDArray[np.float64]
+    """Natural periods [s]."""
+    sd: NDArray[np.float64]
+    """Largest relative displacement [m]."""
+    psv: NDArray[np.float64]
+    """Pseudo-velocity [m/s]."""
+    psa: NDArray[np.float64]
+    """Pseudo-acceleration [m/s²]."""
+    damping: float
+    """Damping ratio."""
+
+
+class Record:
+    """An accelerogram at equal intervals, linear between its samples. Nothing changes it: what is done to it makes another.
+
+    Example:
+        >>> import numpy as np, concio
+        >>> t = np.arange(0, 4, 0.01)
+        >>> quake = concio.Record.from_array(np.sin(2 * np.pi * t), dt=0.01)
+        >>> round(quake.scaled(pga="0.35 g").pga, 4)
+        3.4335
+        >>> quake.trim("1 s", "3 s").duration
+        2.0
+    """
+
+    def __init__(self, native: _native.Record) -> None:
+        """Made by :meth:`read`, :meth:`from_array` and :meth:`from_obspy`."""
+        self._native = native
+        self._measures: dict[str, Any] | None = None
+
+    @classmethod
+    def read(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        channel: int | str | None = None,
+        quantity: str | None = None,
+        units: str | None = None,
+        dt: float | str | None = None,
+        layout: str | None = None,
+    ) -> Record:
+        """Reads a file of an archive or of text; its format is found from its content.
+
+        Args:
+            path: The file.
+            channel: Component of a file with several: its number from 1, or a word of its name; default the first horizontal one.
+            quantity: Of a text file, ``"acceleration"`` (default) or ``"displacement"``.
+            units: Unit of a text file that names none.
+            dt: Sample interval of a text file without a time column that names none [s].
+            layout: Of a text file, ``"columns"`` or ``"rows"``.
+
+        Raises:
+            InputError: The file cannot be read, or a keyword does not suit it.
+        """
+        given = {"channel": channel, "quantity": quantity, "units": units, "dt": dt, "layout": layout}
+        keys = {"record": os.path.abspath(path)} | {key: value for key, value in given.items() if value is not None}
+        return cls(_native.Record.read(to_json(keys)))
+
+    @classmethod
+    def from_array(cls, acceleration: ArrayLike, dt: float, *, units: str = "m/s2") -> Record:
+        """Of samples of the acceleration.
+
+        Args:
+            acceleration: Samples, two or more.
+            dt: Time from one to the next [s], 1e-6 … 100.
+            units: Their unit; ``"g"`` is standard gravity, 9.80665 m/s², as archives mean it.
+
+        Raises:
+            InputError: Samples that are not finite numbers, an interval out of range, a unit that is none of acceleration.
+        """
+        try:
+            samples = np.ascontiguousarray(acceleration, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise InputError("is no array of numbers", key="acceleration", allowed="numbers in one row") from None
+        if samples.ndim != 1:
+            raise InputError(f"has {samples.ndim} dimensions", key="acceleration", allowed="numbers in one row")
+        return cls(_native.Record.from_array(samples, float(dt), units))
+
+    @classmethod
+    def from_obspy(cls, trace: Any, *, units: str) -> Record:
+        """Of a ``Trace`` of ObsPy, whose samples are an acceleration in ``units``: traces do not know their unit."""
+        return cls.from_array(np.asarray(trace.data), float(trace.stats.delta), units=units)
+
+    def scaled(self, factor: float | None = None, *, pga: float | str | None = None) -> Record:
+        """Multiplied by a factor of either sign, or scaled to a peak acceleration [m/s², or a text such as ``"0.35 g"``].
+
+        In texts g is 9.81 m/s², as in wall files.
+        """
+        if (factor is None) == (pga is None):
+            raise InputError("give either a factor or a pga", key="pga", allowed="one of the two")
+        return self._treated("scale", factor) if pga is None else self._treated("pga", pga)
+
+    def trim(self, start: float | str, end: float | str) -> Record:
+        """From ``start`` to ``end`` [s, or texts with units]; it starts at t = 0 then."""
+        return self._treated("trim", [start, end])
+
+    def baseline(
+        self, *, polynomial: int | None = None, high_pass: float | str | None = None, order: int | None = None
+    ) -> Record:
+        """With a corrected baseline.
+
+        Args:
+            polynomial: Degree of the least-squares polynomial that is taken off the acceleration, 0 … 6.
+            high_pass: Corner of a Butterworth high-pass, forward and backward [Hz].
+            order: Its order, 1 … 8; default 4.
+        """
+        given = {"polynomial": polynomial, "high_pass": high_pass, "order": order}
+        return self._treated("baseline", {key: value for key, value in given.items() if value is not None})
+
+    def resample(self, dt: float | str) -> Record:
+        """At another interval [s]; before coarsening a low-pass takes away what would be mirrored into the band."""
+        return self._treated("resample", dt)
+
+    def reversed(self) -> Record:
+        """The last sample first."""
+        return self._treated("reverse", True)
+
+    def _treated(self, key: str, value: Any) -> Record:
+        return Record(self._native.treated(to_json({key: value}, key)))
+
+    @property
+    def dt(self) -> float:
+        """Time from one sample to the next [s]."""
+        return self._native.dt
+
+    @property
+    def duration(self) -> float:
+        """Time from the first sample to the last [s]."""
+        return self._native.duration
+
+    def __len__(self) -> int:
+        """Number of samples."""
+        return len(self.acceleration)
+
+    @property
+    def acceleration(self) -> NDArray[np.float64]:
+        """Samples of the acceleration [m/s²]."""
+        return self._native.acceleration()
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """Velocity at the samples [m/s], integrated from rest."""
+        return self._native.integrated()[0]
+
+    @property
+    def displacement(self) -> NDArray[np.float64]:
+        """Displacement at the samples [m], integrated from rest; of a displacement history its own."""
+        return self._native.integrated()[1]
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Times of the samples [s]."""
+        return np.arange(len(self), dtype=np.float64) * self.dt
+
+    @property
+    def measures(self) -> dict[str, Any]:
+        """All measures, SI: peaks with their times, intensities, durations."""
+        if self._measures is None:
+            self._measures = self._native.measures()
+        return self._measures
+
+    @property
+    def pga(self) -> float:
+        """Peak ground acceleration [m/s²], from 0."""
+        return abs(float(self.measures["pga"]["value"]))
+
+    @property
+    def pgv(self) -> float:
+        """Peak ground velocity [m/s], from 0."""
+        return abs(float(self.measures["pgv"]["value"]))
+
+    @property
+    def pgd(self) -> float:
+        """Peak ground displacement [m], from 0."""
+        return abs(float(self.measures["pgd"]["value"]))
+
+    @property
+    def arias(self) -> float:
+        """Arias intensity [m/s]."""
+        return float(self.measures["arias"])
+
+    @property
+    def d5_95(self) -> float:
+        """Significant duration, from 5 % to 95 % of the Arias intensity [s]."""
+        return float(self.measures["d5_95"])
+
+    @property
+    def components(self) -> list[str]:
+        """Names of the components in its file."""
+        return self._native.components
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """Format, station, event, channel, unit and remarks, as its file has them."""
+        return self._native.facts()
+
+    def spectrum(self, periods: ArrayLike | None = None, *, damping: float = 0.05) -> Spectrum:
+        """Response spectrum; oscillators start at rest and swing on when the motion has ended.
+
+        Args:
+            periods: Natural periods [s]; default 200 from 0.02 to 5 s at equal ratios.
+            damping: Damping ratio, from 0.
+        """
+        wanted = np.geomspace(0.02, 5.0, 200) if periods is None else np.ascontiguousarray(periods, dtype=np.float64)
+        if wanted.ndim != 1 or not np.all(np.isfinite(wanted) & (wanted >= 0)):
+            raise InputError("are no natural periods", key="periods", allowed="numbers from 0 in one row [s]")
+        if not 0 <= damping < 1:
+            raise InputError(f"is {damping}", key="damping", allowed="from 0 to below 1")
+        found = self._native.spectrum(wanted, damping)
+        return Spectrum(wanted, found["sd"], found["psv"], found["psa"], damping)
+
+    @property
+    def plot(self) -> RecordPlots:
+        """Figures, by Matplotlib: ``record.plot.history()``, ``record.plot.spectrum()``."""
+        from .plot import RecordPlots
+
+        return RecordPlots(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """For other processes, which get the samples and no file."""
+        return Record.from_array, (np.array(self.acceleration), self.dt)
+
+    def __repr__(self) -> str:
+        """Format, length and peak."""
+        facts = self.facts
+        place = ", ".join(word for word in (facts["station"], facts["event"], facts["channel"]) if word)
+        head = f"Record ({facts['format']})" + (f": {place}" if place else "")
+        return f"{head}\n{len(self)} samples every {self.dt:g} s, {self.duration:g} s\nPGA {self.pga:.4g} m/s²"

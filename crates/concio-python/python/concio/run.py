@@ -1,0 +1,322 @@
+"""Runs that are over: histories, frames, peaks, energies, and what speaks against believing them."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from html import escape
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from . import _native
+from ._progress import shown
+from .errors import InputError
+from .table import Table
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy as np
+    import pandas as pd
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from .plot import RunPlots
+    from .wall import Wall
+
+
+class Warned(NamedTuple):
+    """What a user should know before believing a run."""
+
+    kind: str
+    """Its kind, a word that stays."""
+    text: str
+    """The sentence."""
+
+    def __str__(self) -> str:
+        """The sentence."""
+        return self.text
+
+
+class Channel(NamedTuple):
+    """What a history is."""
+
+    name: str
+    """Its name, such as ``top/force``."""
+    unit: str
+    """SI unit."""
+    description: str
+    """What it is, in a sentence."""
+
+
+class Run(Mapping[str, "NDArray[np.float64]"]):
+    """A run that is over, a mapping of its histories: ``run["top/force"]``, at the times ``run.time``.
+
+    Arrays are read-only and share the memory in which the engine left them.
+
+    Example:
+        >>> import concio
+        >>> run = concio.Wall.example().run(duration="1 s")
+        >>> run.ok, run.stop_reason
+        (True, 'completed')
+        >>> run["base/shear"].shape == run.time.shape
+        True
+        >>> run.energy_residual < 0.01
+        True
+    """
+
+    def __init__(self, native: _native.Run) -> None:
+        """Made by :meth:`concio.Wall.run`, :func:`concio.run_many` and :func:`concio.open`."""
+        self._native = native
+        self._channels = MappingProxyType({name: Channel(name, *rest) for name, *rest in native.channels()})
+        self._places = {name: place for place, name in enumerate(self._channels)}
+        self._summary: dict[str, Any] = native.summary()
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        """A history, a value per sample, SI."""
+        place = self._places.get(name)
+        if place is None:
+            near = difflib.get_close_matches(name, self._places, n=3)
+            hint = f"did you mean {' or '.join(map(repr, near))}?" if near else "run.channels names them"
+            more = (
+                "; histories of blocks and joints are kept where output.blocks and output.joints say so"
+                if "/" in name
+                else ""
+            )
+            raise KeyError(f"no history {name!r}: {hint}{more}")
+        return self._native.values[:, place]
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the histories."""
+        return iter(self._places)
+
+    def __len__(self) -> int:
+        """Number of histories."""
+        return len(self._places)
+
+    @property
+    def channels(self) -> Mapping[str, Channel]:
+        """Unit and meaning of every history."""
+        return self._channels
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Times of the samples [s]."""
+        return self._native.time
+
+    @property
+    def frame_time(self) -> NDArray[np.float64]:
+        """Times of the frames [s]."""
+        return self._native.frame_time
+
+    @property
+    def frames(self) -> Mapping[str, NDArray[np.float64]]:
+        """Frames by quantity, a row per frame, SI.
+
+        ``displacement``, ``velocity`` and ``acceleration`` (horizontal), of planar walls ``vertical`` and ``rotation`` too, have a column per block
+        and one for a beam with motion of its own; ``friction``, ``slip``, ``opening`` and ``pressure`` one per joint; ``damage`` one per bonded
+        joint. What a run does not keep is left out.
+        """
+        return MappingProxyType({name: rows for name, rows in self._native.frames().items() if rows.shape[1] > 0})
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What ``summary.json`` holds."""
+        return self._summary
+
+    @property
+    def stop_reason(self) -> str:
+        """Why it ended: ``completed``, ``collapsed``, ``interrupted``, ``step-too-short`` or ``not-finite``."""
+        return str(self._summary["stop_reason"])
+
+    @property
+    def ok(self) -> bool:
+        """Whether it went as far as it was to go. That does not make it right: see :attr:`warnings` and :attr:`energy_residual`."""
+        return self.stop_reason in ("completed", "collapsed")
+
+    @property
+    def time_reached(self) -> float:
+        """Time reached [s]."""
+        return float(self._summary["time_reached"])
+
+    @property
+    def energy(self) -> dict[str, float]:
+        """The energy account at the end [J], and its largest residual over the largest energy in play."""
+        energy: dict[str, float] = self._summary["energy"]
+        return energy
+
+    @property
+    def energy_residual(self) -> float:
+        """Largest residual of the energy account over the largest energy in play."""
+        return float(self.energy["residual_relative"])
+
+    @property
+    def warnings(self) -> list[Warned]:
+        """What speaks against believing the run."""
+        return [Warned(*pair) for pair in zip(self._summary["warning_kinds"], self._summary["warnings"], strict=True)]
+
+    @property
+    def failure(self) -> dict[str, Any] | None:
+        """How a planar wall failed; none where it did not."""
+        failure: dict[str, Any] | None = self._summary["failure"]
+        return failure
+
+    @property
+    def collapse(self) -> dict[str, Any] | None:
+        """When and how a planar wall collapsed; none where it did not."""
+        collapse: dict[str, Any] | None = self._summary["collapse"]
+        return collapse
+
+    @property
+    def inputs_hash(self) -> str:
+        """Hash over everything that the result depends on."""
+        return str(self._summary["inputs_hash"])
+
+    @property
+    def wall(self) -> Wall:
+        """The wall that was run, as results keep it."""
+        from .wall import Wall
+
+        return Wall(_native.Case.parse(self._native.case, True, None, False))
+
+    @property
+    def blocks(self) -> Table:
+        """The blocks and their peaks, SI."""
+        return Table(self._native.blocks())
+
+    @property
+    def joints(self) -> Table:
+        """The joints, their laws and peaks, SI; ``slip`` is the path slipped [m]."""
+        return Table(self._native.joints())
+
+    @property
+    def events(self) -> Table:
+        """Impacts, cracks, crushing and collapse, in the order of time."""
+        return Table(self._native.events())
+
+    @property
+    def drifts(self) -> Table:
+        """How far the tops went."""
+        rows = self._native.drifts()
+        return Table(
+            {name: [row[name] for row in rows] for name in ("top", "height", "peak", "time", "residual", "swing")}
+        )
+
+    def to_xarray(self) -> xr.Dataset:
+        """Everything as a Dataset of xarray, with units in ``attrs``; dimensions time, frame, body, block and joint."""
+        from .frames import dataset
+
+        return dataset(self)
+
+    def to_frame(self) -> pd.DataFrame:
+        """The histories as a DataFrame of pandas, over the time [s]."""
+        from .frames import histories
+
+        return histories(self)
+
+    @property
+    def plot(self) -> RunPlots:
+        """Figures, by Matplotlib: ``run.plot.history("top/force")``, ``run.plot.hysteresis()``, ``run.plot.deformed()``."""
+        from .plot import RunPlots
+
+        return RunPlots(self)
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Writes ``result.h5`` and ``summary.json`` into a folder, as the command line does.
+
+        ``result.h5`` has the bytes of the command line's. Results of other inputs in the folder are removed. The motion of a record that no file
+        gives is in no result: keep it beside.
+        """
+        _refuse_a_file(folder)
+        self._native.save(os.fspath(folder))
+
+    def report(self, path: str | os.PathLike[str] = "report.html") -> None:
+        """Writes the report, a page without references to others."""
+        name = os.path.splitext(os.path.basename(os.fspath(path)))[0]
+        self._native.report(os.fspath(path), name)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether it is the same object."""
+        return self is other
+
+    def __hash__(self) -> int:
+        """By the object."""
+        return id(self)
+
+    def __repr__(self) -> str:
+        """How it ended, its energy account, its warnings."""
+        return "\n".join(self._lines())
+
+    def _lines(self) -> list[str]:
+        end = "" if self.ok else ": it did not go as far as it was to go"
+        lines = [
+            f"Run: {self.stop_reason} at t = {self.time_reached:g} s{end}",
+            f"{len(self.time)} samples of {len(self)} histories, {len(self.frame_time)} frames",
+            f"energy account closes to {self.energy_residual:.1e}",
+        ]
+        return lines + [f"warning: {warning}" for warning in self.warnings]
+
+    def _repr_html_(self) -> str:
+        return "<p>" + "<br>".join(escape(line) for line in self._lines()) + "</p>"
+
+
+def open(folder: str | os.PathLike[str]) -> Run:
+    """Reads a run back from its folder, bit for bit what was written.
+
+    Raises:
+        InputError: A file that is broken, foreign, changed or of another version.
+        OSError: A file that cannot be read.
+    """
+    return Run(_native.Run.open(os.fspath(folder)))
+
+
+def run_many(
+    runs: Sequence[Wall | tuple[Wall, Any]], *, threads: int = 0, progress: bool | Callable[[float], object] = False
+) -> list[Run | None]:
+    """Simulates many walls at once, alike ones of the shear model side by side in the lanes of vector instructions.
+
+    A run has the bits that it has alone. All results are held in memory: of many runs, make a study.
+
+    Args:
+        runs: Walls, or pairs of a wall and what moves its base (see :meth:`concio.Wall.run`).
+        threads: Number of threads; 0 for one per core.
+        progress: Show a bar, or call this with the share that is done, 0 … 1.
+
+    Returns:
+        The runs in their order. After Ctrl-C those that were under way are not ``ok``, and those that had not begun are ``None``.
+
+    Raises:
+        InputError: As :meth:`concio.Wall.run`, before anything runs.
+    """
+    import warnings
+
+    from .wall import Wall
+
+    if threads < 0:
+        raise InputError(f"is {threads}", key="threads", allowed="from 0; 0 is one per core")
+    prepared = []
+    for number, asked in enumerate(runs):
+        wall, base = (asked, None) if isinstance(asked, Wall) else asked
+        if not isinstance(wall, Wall):
+            raise InputError(
+                f"number {number} is no wall", key="runs", allowed="walls, or pairs of a wall and a motion"
+            )
+        prepared.append(wall._moved(base))
+    with shown(progress) as told:
+        ended, interrupted = _native.run_many(prepared, threads, told)
+    if interrupted:
+        warnings.warn("the runs were stopped: those that had not begun are None", RuntimeWarning, stacklevel=2)
+    return [None if run is None else Run(run) for run in ended]
+
+
+def _refuse_a_file(folder: str | os.PathLike[str]) -> None:
+    if os.path.exists(folder) and not os.path.isdir(folder):
+        raise InputError("the folder for the results is a file", file=os.fspath(folder), help="give another folder")
+
+
+def settings_of(run: Run) -> dict[str, Any]:
+    """The resolved wall file of a run."""
+    settings: dict[str, Any] = json.loads(run._native.case)
+    return settings

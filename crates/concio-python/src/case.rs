@@ -1,0 +1,187 @@
+//! Wall files: read, changed, made ready, and asked for what needs no run.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Parser;
+use clap::error::{ContextKind, ContextValue};
+use concio::InputError;
+use concio::case::{self, CaseFile, Syntax, canonical_json};
+use concio::ground::signal::from_record;
+use concio::run::{prepare, prepare_moved};
+use concio_cli::args::Cli;
+use concio_cli::commands::{self, wall_file};
+use concio_cli::failure::Failure;
+use pyo3::prelude::*;
+use serde_json::Value;
+
+use crate::failure::Raised;
+use crate::prepared::Prepared;
+use crate::record::Record;
+use crate::{examples, json};
+
+/// A wall file that is valid.
+#[pyclass(frozen, module = "concio._native")]
+pub struct Case {
+    file: CaseFile,
+    /// Whether its text is one that the user wrote, so that lines in it mean something.
+    written: bool,
+}
+
+impl Case {
+    fn valid(file: CaseFile, written: bool) -> Result<Self, Raised> {
+        let findings = file.findings();
+        let case = Case { file, written };
+        if findings.is_empty() { Ok(case) } else { Err(case.raised(Raised::Input(findings))) }
+    }
+
+    fn raised(&self, error: impl Into<Raised>) -> Raised {
+        placed(error.into(), self.written)
+    }
+}
+
+/// Takes the places from an error in a text that nobody wrote.
+fn placed(error: Raised, written: bool) -> Raised {
+    match error {
+        Raised::Input(all) if !written => {
+            let bare = |e: InputError| match e.file {
+                None => InputError { line: None, column: None, ..e },
+                Some(_) => e,
+            };
+            Raised::Input(all.into_iter().map(bare).collect())
+        }
+        other => other,
+    }
+}
+
+#[pymethods]
+impl Case {
+    /// Reads a file.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        Ok(py.detach(|| Case::valid(case::read(&path)?, true))?)
+    }
+
+    /// Reads a text; `file` is named in errors and is what paths of records are relative to. `written` says that a user wrote it.
+    #[staticmethod]
+    fn parse(py: Python<'_>, text: &str, is_json: bool, file: Option<PathBuf>, written: bool) -> PyResult<Self> {
+        let syntax = if is_json { Syntax::Json } else { Syntax::Toml };
+        let read = || {
+            let file = case::from_str(text, syntax, file.as_deref()).map_err(|e| placed(e.into(), written))?;
+            Case::valid(file, written)
+        };
+        Ok(py.detach(read)?)
+    }
+
+    /// An example by its name; none of that name comes back as none.
+    #[staticmethod]
+    fn example(name: &str) -> PyResult<Option<Self>> {
+        let Some(text) = examples::text(name) else { return Ok(None) };
+        let file = case::from_str(text, Syntax::Toml, None).map_err(Raised::from)?;
+        Ok(Some(Case::valid(file, true)?))
+    }
+
+    /// The same wall with other values: a JSON object of key paths and what stands there instead.
+    fn changed(&self, py: Python<'_>, changes: &str) -> PyResult<Self> {
+        let Value::Object(changes) = json::of_text(changes)? else {
+            return Ok(Case { file: self.file.clone(), written: self.written });
+        };
+        let changes: Vec<(String, Value)> = changes.into_iter().collect();
+        let changed = || {
+            let file = self.file.changed(&changes).map_err(|e| self.raised(e))?;
+            Case::valid(file, self.written)
+        };
+        Ok(py.detach(changed)?)
+    }
+
+    /// Makes it ready to run; `base` moves the base instead of what the file says, which has to be nothing then.
+    fn prepare(&self, py: Python<'_>, base: Option<&Record>) -> PyResult<Prepared> {
+        let prepared = || {
+            let prepared = match base {
+                None => prepare(&self.file),
+                Some(record) => prepare_moved(&self.file, from_record(&record.history)),
+            };
+            let prepared = prepared.map_err(|e| self.raised(wall_file::all(&self.file, e)))?;
+            let warnings = prepared.model.warnings.iter();
+            let doubts = warnings.map(|w| (w.clone(), self.file.line_of(w).filter(|_| self.written))).collect();
+            Ok::<_, Raised>(Prepared { prepared: Arc::new(prepared), text: self.text().map(str::to_string), doubts })
+        };
+        Ok(py.detach(prepared)?)
+    }
+
+    /// What the command line prints with `--json` when it is given these arguments for this wall, of which the first is the command.
+    fn answer<'py>(&self, py: Python<'py>, arguments: Vec<String>) -> PyResult<Bound<'py, PyAny>> {
+        let name = self.file.path().unwrap_or(Path::new("wall"));
+        let (head, options) = arguments.split_at(arguments.len().min(1));
+        let line = [OsString::from("concio")].into_iter().chain(head.iter().map(OsString::from));
+        let line = line.chain([name.as_os_str().to_owned()]).chain(options.iter().map(OsString::from));
+        let cli = Cli::try_parse_from(line).map_err(|e| Raised::from(misused(&e)))?;
+        let answer = py.detach(|| {
+            let value = commands::value(&cli.command, &self.file)?;
+            value.ok_or_else(|| Failure::Other("this command gives no answer".into(), None))
+        });
+        json::to_python(py, &answer.map_err(|e| self.raised(in_memory(e, self.file.path())))?)
+    }
+
+    /// The text that it was read from, without what was changed.
+    #[getter]
+    fn text(&self) -> Option<&str> {
+        self.written.then(|| self.file.text())
+    }
+
+    /// The file that it was read from.
+    #[getter]
+    fn path(&self) -> Option<&Path> {
+        self.file.path()
+    }
+
+    /// The folder that paths of records are relative to.
+    #[getter]
+    fn folder(&self) -> PathBuf {
+        self.file.folder().to_path_buf()
+    }
+
+    /// All that the wall file says, defaults in it, SI, as JSON.
+    #[getter]
+    fn json(&self) -> String {
+        canonical_json(&self.file.case)
+    }
+}
+
+/// Takes the name of a file from errors of a wall that is in none.
+fn in_memory(failure: Failure, path: Option<&Path>) -> Failure {
+    match failure {
+        Failure::Input(all) if path.is_none() => {
+            let bare = |e: InputError| match &e.file {
+                Some(file) if file == Path::new("wall") => InputError { file: None, ..e },
+                _ => e,
+            };
+            Failure::Input(all.into_iter().map(bare).collect())
+        }
+        other => other,
+    }
+}
+
+/// What is wrong with arguments, in the words of keywords.
+fn misused(error: &clap::Error) -> InputError {
+    let word = |kind| match error.get(kind) {
+        Some(ContextValue::String(text)) => Some(text.clone()),
+        Some(ContextValue::Strings(texts)) => Some(texts.join(", ")),
+        _ => None,
+    };
+    let key = word(ContextKind::InvalidArg).map(|arg| {
+        let name = arg.split([' ', '=']).next().unwrap_or(&arg);
+        name.trim_start_matches('-').replace('-', "_")
+    });
+    let value = word(ContextKind::InvalidValue).filter(|value| !value.is_empty());
+    let reason = std::error::Error::source(error).map(ToString::to_string);
+    let text = error.to_string();
+    let line = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_string();
+    let what = match (value, reason) {
+        (Some(value), Some(reason)) => format!("`{value}`: {reason}"),
+        (Some(value), None) => format!("`{value}` is not allowed"),
+        _ => line,
+    };
+    InputError { key, allowed: word(ContextKind::ValidValue), ..InputError::new(what) }
+}

@@ -1,0 +1,94 @@
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+import concio
+from concio import InputError, Wall
+
+BLOCK = """
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = { length = "0.4 m", height = "1 m", thickness = "0.5 m", specific_weight = "20 kN/m3" }
+mortar = { bed = 0, head = 0 }
+[joint]
+bed = { law = "rigid" }
+head = { law = "none" }
+friction = { law = "coulomb", static = MU }
+[motion]
+duration = "1 s"
+"""
+
+
+@pytest.mark.parametrize(("mu", "multiplier", "kind"), [(0.3, 0.3, "sliding"), (0.9, 0.4, "overturning")])
+def test_a_block_slides_at_mu_or_turns_over_at_its_slenderness(mu: float, multiplier: float, kind: str) -> None:
+    limit = Wall.from_str(BLOCK.replace("MU", str(mu))).limit(towards="left")
+    assert limit.multiplier == pytest.approx(multiplier, rel=1e-6)
+    # Bounds meet but for rounding.
+    assert limit.bounds == pytest.approx((multiplier, multiplier), rel=1e-6) and limit.certified
+    assert limit.mechanism.kind == kind and limit.towards == "left"
+    assert limit.mechanism.blocks["name"].tolist() == ["p1c1b1"]
+    assert limit.forces["normal"].sum() == pytest.approx(4e3, rel=1e-6)
+
+
+def test_it_is_what_the_command_line_prints(tmp_path: Path, command) -> None:  # type: ignore[no-untyped-def]
+    path = tmp_path / "wall.toml"
+    path.write_text(BLOCK.replace("MU", "0.3"))
+    wall = Wall.from_toml(path)
+    for asked, options in [
+        (wall.limit(load="top", heads="frictionless").result, ["limit", "--load", "top", "--heads", "frictionless"]),
+        (wall.limit(out_of_plane=True, above="0.2 m").result, ["limit", "--out-of-plane", "--above", "0.2m"]),
+        (wall.mechanisms(overlaps="code").result, ["mechanisms", "--overlaps", "code"]),
+    ]:
+        told = command(options[0], path, *options[1:], "--json")
+        assert told.returncode in (0, 1), told.stderr
+        assert asked == json.loads(told.stdout)
+
+
+def test_words_that_limit_analysis_does_not_know(tmp_path: Path) -> None:
+    wall = Wall.from_str(BLOCK.replace("MU", "0.3"))
+    with pytest.raises(InputError) as caught:
+        wall.limit(towards="up")
+    assert caught.value.key == "towards" and "left" in (caught.value.allowed or "")
+    with pytest.raises(InputError) as caught:
+        wall.limit(out_of_plane=True, above="1 kg")
+    assert caught.value.key == "above" and caught.value.file is None
+    with pytest.raises(InputError):
+        wall.limit(above="1 m")
+    with pytest.raises(InputError):
+        Wall.from_str(BLOCK.replace("MU", "0.3")).limit(towards="outwards")
+
+
+def test_the_continuum_of_a_running_bond() -> None:
+    wall = Wall.example("bonded-joints")
+    found = wall.continuum()
+    assert len(found.panels) == 1 and found.panels[0]["bond"]
+    assert isinstance(json.loads(found.card("json")), dict)
+    assert "*ELASTIC" in found.card("lamina", units="N-mm")
+    with pytest.raises(InputError) as caught:
+        wall.continuum(panel="none")
+    assert "p1" in (caught.value.allowed or "")
+
+
+def test_what_falls_out_of_the_plane() -> None:
+    found = Wall.from_str(BLOCK.replace("MU", "0.6")).mechanisms()
+    assert found.least is not None
+    # A free-standing wall of thickness t and height h turns over at t/h.
+    assert found.least["multiplier"] == pytest.approx(0.5, rel=1e-6)
+    assert len(found.table) >= 1 and found.limits and "upper bound" in repr(found)
+
+
+@pytest.mark.skipif("CONCIO_SHARED" not in os.environ, reason="CONCIO_SHARED names no folder of records")
+def test_records_of_the_archives_have_the_measures_of_the_manifest() -> None:
+    folder = Path(os.environ["CONCIO_SHARED"]) / "records"
+    files = [path for path in sorted(folder.rglob("*")) if path.suffix.lower() in (".at2", ".asc")]
+    assert files
+    for path in files:
+        record = concio.Record.read(path)
+        assert record.pga > 0 and record.facts["format"] != "text"

@@ -1,0 +1,121 @@
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from concio import InputError, Record
+
+
+def test_measures_of_a_sine() -> None:
+    # a = A sin(2 π t) over 4 s: the Arias intensity is π/(2 g) A² T/2, a whole number of periods by the trapezoidal rule without error.
+    t = np.arange(4001) * 1e-3
+    record = Record.from_array(2.0 * np.sin(2 * np.pi * t), dt=1e-3)
+    assert record.pga == pytest.approx(2.0, rel=1e-12)
+    assert record.arias == pytest.approx(np.pi / (2 * 9.80665) * 4.0 * 4.0 / 2, rel=1e-9)
+    assert record.duration == pytest.approx(4.0)
+    # From rest: v = A/ω (1 − cos ω t), whose peak is 2 A/ω.
+    assert record.pgv == pytest.approx(2 * 2.0 / (2 * np.pi), rel=1e-5)
+    np.testing.assert_allclose(record.velocity[-1], 0.0, atol=1e-9)
+
+
+def test_the_spectrum_is_the_pga_of_a_rigid_oscillator(quake: Record) -> None:
+    found = quake.spectrum([0.0, 1e-6, 0.5])
+    np.testing.assert_allclose(found.psa[:2], quake.pga, rtol=1e-9)
+    # An oscillator at the frequency of the motion answers with more.
+    assert found.psa[2] > 2 * quake.pga
+    assert found.psa[2] == pytest.approx((2 * np.pi / 0.5) ** 2 * found.sd[2], rel=1e-12)
+
+
+def test_what_is_done_makes_another(quake: Record) -> None:
+    before = quake.acceleration.copy()
+    assert quake.scaled(-2).acceleration == pytest.approx(-2 * before)
+    # g is 9.81 m/s² in texts with units.
+    assert quake.scaled(pga="0.35 g").pga == pytest.approx(0.35 * 9.81, rel=1e-12)
+    assert quake.scaled(pga=3.0).pga == pytest.approx(3.0, rel=1e-12)
+    assert quake.reversed().acceleration == pytest.approx(before[::-1])
+    assert quake.trim(0.1, "500 ms").acceleration == pytest.approx(before[20:101])
+    assert quake.resample("1 ms").dt == 1e-3
+    assert abs(quake.baseline(polynomial=0).acceleration.mean()) < 1e-14
+    assert abs(quake.baseline(high_pass="0.5 Hz").displacement[-1]) < abs(quake.displacement[-1])
+    np.testing.assert_array_equal(quake.acceleration, before)
+
+
+def test_arrays_are_read_only(quake: Record) -> None:
+    with pytest.raises(ValueError, match="read-only"):
+        quake.acceleration[0] = 1.0
+
+
+def test_a_file_is_read_as_it_was_written(quake: Record, quake_file: Path) -> None:
+    read = Record.read(quake_file)
+    np.testing.assert_array_equal(read.acceleration, quake.acceleration)
+    assert read.dt == pytest.approx(quake.dt) and read.facts["format"] == "text"
+    assert read.components == ["a"]
+
+
+def test_units_of_arrays_are_those_of_text_files(tmp_path: Path) -> None:
+    path = tmp_path / "g.csv"
+    path.write_text("t [s],a [g]\n0,0\n0.01,0.1\n0.02,-0.3\n")
+    given = Record.from_array([0, 0.1, -0.3], dt=0.01, units="g")
+    np.testing.assert_array_equal(given.acceleration, Record.read(path).acceleration)
+
+
+@pytest.mark.parametrize(
+    ("make", "key"),
+    [
+        (lambda r: r.scaled(), "pga"),
+        (lambda r: r.scaled(1, pga=1), "pga"),
+        (lambda r: r.scaled(pga=-1), "pga"),
+        (lambda r: r.scaled(pga="1 kg"), "pga"),
+        (lambda r: r.scaled(float("inf")), "scale"),
+        (lambda r: r.trim(3, 4), "trim"),
+        (lambda r: r.trim("1 m", 2), "trim[0]"),
+        (lambda r: r.resample(0), "resample"),
+        (lambda r: r.baseline(), "baseline"),
+        (lambda r: r.baseline(polynomial=9), "baseline.polynomial"),
+        (lambda r: r.spectrum([-1]), "periods"),
+        (lambda r: r.spectrum(damping=2), "damping"),
+        (lambda r: Record.from_array([1.0], 0.01), "acceleration"),
+        (lambda r: Record.from_array([[1.0, 2.0]], 0.01), "acceleration"),
+        (lambda r: Record.from_array([1.0, np.nan], 0.01), "acceleration"),
+        (lambda r: Record.from_array(["a", "b"], 0.01), "acceleration"),
+        (lambda r: Record.from_array([1.0, 2.0], 0), "dt"),
+        (lambda r: Record.from_array([1.0, 2.0], 0.01, units="mm"), "units"),
+    ],
+)
+def test_what_does_not_suit_a_record(quake: Record, make, key: str) -> None:  # type: ignore[no-untyped-def]
+    with pytest.raises(InputError) as caught:
+        make(quake)
+    assert caught.value.key == key
+    assert caught.value.line is None and caught.value.file is None
+
+
+def test_a_file_that_is_none(tmp_path: Path) -> None:
+    with pytest.raises(InputError) as caught:
+        Record.read(tmp_path / "none.at2")
+    assert caught.value.file == str(tmp_path / "none.at2")
+    (tmp_path / "text.csv").write_text("hello\n")
+    with pytest.raises(InputError):
+        Record.read(tmp_path / "text.csv")
+
+
+def test_a_trace_of_obspy() -> None:
+    class Stats:
+        delta = 0.01
+
+    class Trace:
+        data = np.array([0.0, 1.0, -2.0])
+        stats = Stats()
+
+    assert Record.from_obspy(Trace(), units="cm/s2").pga == pytest.approx(0.02)
+
+
+def test_records_go_to_other_processes(quake: Record) -> None:
+    again = pickle.loads(pickle.dumps(quake.scaled(2)))
+    np.testing.assert_array_equal(again.acceleration, 2 * quake.acceleration)
+
+
+def test_a_record_shows_itself(quake: Record) -> None:
+    assert repr(quake).splitlines()[1:] == ["201 samples every 0.005 s, 1 s", f"PGA {quake.pga:.4g} m/s²"]

@@ -1,0 +1,224 @@
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import PLANAR
+
+import concio
+from concio import InputError, Record, Run, Wall
+
+
+def test_histories_share_the_memory_of_the_engine(wall: Wall) -> None:
+    run = wall.run()
+    assert run.ok and run.stop_reason == "completed" and run.energy_residual < 0.05
+    shear = run["base/shear"]
+    assert shear.shape == run.time.shape and shear.base is not None
+    assert np.shares_memory(shear, run["top/displacement"]) is False and np.shares_memory(shear, run._native.values)
+    for array in (shear, run.time, run.frame_time, *run.frames.values()):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+    assert list(run) == list(run.channels) and len(run) == len(list(run))
+    assert run.channels["base/shear"].unit == "N"
+    with pytest.raises(KeyError, match="base/shear"):
+        run["base/sheer"]
+
+
+def test_the_base_shear_is_that_of_newton() -> None:
+    """A rigid block that sticks on its base: the base bears its mass times the acceleration of the base."""
+    wall = Wall.from_str(PLANAR).replace(
+        {
+            "panel[0].courses": 1,
+            "panel[0].bricks": 1,
+            "joint.friction.static": 2.0,
+            "joint.friction.dynamic": 2.0,
+            "load.top": 0,
+        }
+    )
+    wall = wall.replace({"motion.base": {"pulse": {"shape": "rectangular", "acceleration": 1.0, "duration": 0.5}}})
+    run = wall.run(duration=0.4)
+    mass = float(wall.blocks["mass"][0])
+    assert abs(run["base/shear"][100]) == pytest.approx(mass * 1.0, rel=1e-6)
+
+
+def test_result_files_have_the_bytes_of_the_command_line(wall: Wall, tmp_path: Path, command) -> None:  # type: ignore[no-untyped-def]
+    path = tmp_path / "wall.toml"
+    path.write_text(wall._case.text or "")
+    told = command("run", path, "--out", tmp_path / "typed")
+    assert told.returncode == 0, told.stderr
+    Wall.from_toml(path).run().save(tmp_path / "python")
+    assert (tmp_path / "python/result.h5").read_bytes() == (tmp_path / "typed/result.h5").read_bytes()
+    typed, ours = (concio.open(tmp_path / name).summary for name in ("typed", "python"))
+    for summary in (typed, ours):
+        del summary["solve_seconds"]
+    assert typed == ours
+
+
+def test_a_run_that_is_read_back_is_the_run(wall: Wall, tmp_path: Path) -> None:
+    run = wall.run()
+    run.save(tmp_path / "out")
+    again = concio.open(tmp_path / "out")
+    np.testing.assert_array_equal(again._native.values, run._native.values)
+    assert again.frames.keys() == run.frames.keys()
+    for name, values in run.frames.items():
+        np.testing.assert_array_equal(again.frames[name], values)
+    assert again.wall == run.wall == wall
+    again.save(tmp_path / "copy")
+    assert (tmp_path / "copy/result.h5").read_bytes() == (tmp_path / "out/result.h5").read_bytes()
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "out/result.h5") as file:
+        assert file.attrs["inputs_hash"] == run.inputs_hash
+
+
+def test_folders_that_hold_no_run(tmp_path: Path, planar: Wall) -> None:
+    with pytest.raises(OSError):
+        concio.open(tmp_path)
+    (tmp_path / "result.h5").write_bytes(b"nothing")
+    with pytest.raises(InputError) as caught:
+        concio.open(tmp_path)
+    assert caught.value.file == str(tmp_path / "result.h5")
+    with pytest.raises(InputError, match="is a file"):
+        planar.run(duration=0.01).save(tmp_path / "result.h5")
+
+
+def test_a_record_of_a_file_is_that_of_the_wall_file(planar: Wall, quake_file: Path, tmp_path: Path) -> None:
+    """Treated in the order of a wall file, it is what a wall file says: the same inputs, the same bits, the same warnings."""
+    text = PLANAR.replace('duration = "0.6 s"', "").replace(
+        '{ sine = { acceleration = "0.8 g", frequency = 3 } }',
+        '{ record = "quake.csv", trim = ["0.1 s", "0.7 s"], pga = "0.3 g" }',
+    )
+    path = tmp_path / "wall.toml"
+    path.write_text(text)
+    typed = Wall.from_toml(path).run()
+    quake = Record.read(quake_file).trim("0.1 s", "0.7 s").scaled(pga="0.3 g")
+    ours = Wall.from_str(PLANAR, folder=tmp_path).run(base=quake)
+    assert ours.time_reached == pytest.approx(quake.duration)
+    np.testing.assert_array_equal(ours._native.values, typed._native.values)
+
+
+def test_an_array_moves_the_wall_as_its_file_does(planar: Wall, quake: Record, quake_file: Path) -> None:
+    of_file = planar.run(base=Record.read(quake_file))
+    of_array = planar.run(base=quake)
+    np.testing.assert_array_equal(of_file._native.values, of_array._native.values)
+    # What is done in another order than a wall file's has no words there, and the same motion.
+    swapped = Record.read(quake_file).scaled(2).trim(0, 0.5)
+    np.testing.assert_array_equal(
+        planar.run(base=swapped)._native.values,
+        planar.run(base=Record.read(quake_file).trim(0, 0.5).scaled(2))._native.values,
+    )
+
+
+def test_other_motions_of_the_base(planar: Wall) -> None:
+    run = planar.run(base={"tilt": {"acceleration": "0.1 g", "rise": "0.1 s"}}, duration="200 ms")
+    assert run.time_reached == pytest.approx(0.2)
+    with pytest.raises(InputError) as caught:
+        planar.run(base={"sinus": {}})
+    assert caught.value.key is not None and caught.value.key.startswith("motion.base")
+    with pytest.raises(InputError):
+        planar.run(duration="-1 s")
+
+
+def test_other_threads_go_on(planar: Wall) -> None:
+    counted = 0
+    over = threading.Event()
+
+    def count() -> None:
+        nonlocal counted
+        while not over.is_set():
+            counted += 1
+            time.sleep(1e-3)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    before = counted
+    planar.run(duration="20 s")
+    after = counted
+    over.set()
+    thread.join()
+    # Under a held interpreter lock it would not get its turn.
+    assert after - before >= 3
+
+
+def test_progress_is_told_and_may_stop_the_run(planar: Wall) -> None:
+    shares: list[float] = []
+    planar.run(duration="20 s", progress=shares.append)
+    assert shares and shares == sorted(shares) and 0 < shares[0] <= shares[-1] <= 1
+
+    class EnoughError(Exception):
+        pass
+
+    def stop(share: float) -> None:
+        raise EnoughError
+
+    with pytest.raises(EnoughError):
+        planar.run(duration="20 s", progress=stop)
+
+
+def test_ctrl_c_keeps_what_was_reached(planar: Wall, tmp_path: Path) -> None:
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.warns(RuntimeWarning, match="stopped"):
+        run = planar.run(duration="3000 s")
+    timer.join()
+    assert not run.ok and run.stop_reason == "interrupted" and 0 < run.time_reached < 3000
+    run.save(tmp_path / "part")
+    assert concio.open(tmp_path / "part").stop_reason == "interrupted"
+    assert "did not go" in repr(run)
+
+
+def test_many_runs_have_the_bits_of_single_ones(planar: Wall, shear: Wall, quake: Record) -> None:
+    walls = [shear.replace({"joint.friction.static": mu}) for mu in (0.5, 0.6, 0.7)]
+    runs = concio.run_many([*walls, planar, (shear, quake)], threads=2)
+    single = [*(wall.run() for wall in walls), planar.run(), shear.run(base=quake)]
+    for many, one in zip(runs, single, strict=True):
+        assert isinstance(many, Run)
+        np.testing.assert_array_equal(many._native.values, one._native.values)
+    assert concio.run_many([]) == []
+    with pytest.raises(InputError, match="number 1"):
+        concio.run_many([planar, (quake, planar)])  # type: ignore[list-item]
+
+
+def test_ctrl_c_ends_many_runs(planar: Wall) -> None:
+    long = planar.replace({"motion.duration": "3000 s"})
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.warns(RuntimeWarning, match="stopped"):
+        runs = concio.run_many([long, long, long], threads=1)
+    timer.join()
+    assert runs[0] is not None and runs[0].stop_reason == "interrupted"
+    assert runs[1:] == [None, None]
+
+
+def test_a_collapse_is_told() -> None:
+    # A slender block under a long push of more than its width over its height turns over.
+    wall = Wall.from_str(PLANAR).replace(
+        {
+            "panel[0].courses": 1,
+            "panel[0].bricks": 1,
+            "panel[0].brick.height": "1 m",
+            "load.top": 0,
+            "motion.stop_at": "collapse",
+        }
+    )
+    run = wall.run(
+        base={"pulse": {"shape": "rectangular", "acceleration": "0.38 g", "duration": "2 s"}}, duration="4 s"
+    )
+    assert run.collapse is not None and run.stop_reason == "collapsed" and run.ok
+    assert "collapse" in [warning.kind for warning in run.warnings]
+    assert len(run.events) and "collapse" in run.events["kind"]
+    assert "warning: " in repr(run) and "warning: " in run._repr_html_()
+
+
+def test_tables_and_report(planar: Wall, tmp_path: Path) -> None:
+    run = planar.run()
+    worst = run.joints.nlargest(3, "slip")
+    assert len(worst) == 3 and worst["slip"][0] == run.joints["slip"].max() > 0
+    assert run.blocks["peak_displacement"].max() == pytest.approx(run.summary["peak_relative_displacement"])
+    assert run.drifts["peak"].shape == (1,)
+    run.report(tmp_path / "page.html")
+    assert "three courses" in (tmp_path / "page.html").read_text()

@@ -1,0 +1,90 @@
+from __future__ import annotations
+
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+from conftest import SHEAR
+
+from concio import InputError, Record, Simulation, Wall
+
+
+def test_steps_are_those_of_the_run(wall: Wall) -> None:
+    """Taken in pieces, the motion has the bits of the run."""
+    run = wall.run()
+    simulation = Simulation(wall)
+    places = []
+    while simulation.stop_reason is None:
+        simulation.advance()
+        places.append(simulation.displacements)
+    assert simulation.stop_reason == run.stop_reason and simulation.time == run.time_reached
+    for name in ("input", "kinetic", "elastic", "damping", "friction"):
+        assert simulation.energy[name] == run.energy[name]
+    if wall.model == "planar":
+        # Its envelopes are the peaks that one sees on the way; those of shear walls know what is between two steps.
+        peaks = np.abs(np.array(places)[:, : len(wall.blocks), 0]).max(axis=0)
+        np.testing.assert_array_equal(peaks, run.blocks["peak_displacement"])
+    pieces = Simulation(wall)
+    while pieces.stop_reason is None:
+        pieces.advance(to=pieces.time + 0.02)
+    np.testing.assert_array_equal(pieces.displacements, simulation.displacements)
+    assert pieces.energy == simulation.energy
+    # Beyond the end nothing moves.
+    pieces.advance(steps=3)
+    assert pieces.time == run.time_reached
+
+
+def test_a_state_goes_on_with_the_same_bits(wall: Wall, quake: Record) -> None:
+    simulation = Simulation(wall, base=quake)
+    simulation.advance(to=0.2)
+    state = simulation.save()
+    ends = []
+    for other in (simulation, simulation, Simulation(wall, base=quake)):
+        other.restore(state)
+        assert other.time == pytest.approx(0.2, abs=0.02)
+        other.advance(to=np.finfo(float).max)
+        assert other.stop_reason == "completed"
+        ends.append(other.displacements)
+    np.testing.assert_array_equal(ends[0], ends[1])
+    np.testing.assert_array_equal(ends[0], ends[2])
+
+
+def test_places_of_a_wall_at_rest(planar: Wall) -> None:
+    simulation = Simulation(planar, base="none", duration=0.1)
+    blocks = planar.blocks
+    np.testing.assert_allclose(simulation.places[:, 0], blocks["x"])
+    np.testing.assert_allclose(simulation.places[:, 1], blocks["y"])
+    simulation.advance(to=0.05)
+    np.testing.assert_allclose(
+        simulation.places, np.column_stack([blocks["x"], blocks["y"], 0 * blocks["y"]]), atol=1e-9
+    )
+    assert simulation.velocities.shape == (len(blocks),)
+    assert "t = 0.05 s of 0.1 s" in repr(simulation)
+
+
+def test_what_is_no_state(planar: Wall) -> None:
+    simulation = Simulation(planar)
+    simulation.advance(to=0.1)
+    before = simulation.displacements
+    for state in (b"", b"nothing", Simulation(Wall.from_str(SHEAR)).save()):
+        with pytest.raises(InputError, match="no state"):
+            simulation.restore(state)
+    np.testing.assert_array_equal(simulation.displacements, before)
+    simulation.advance(steps=1)
+    with pytest.raises(InputError):
+        simulation.advance(to=float("nan"))
+    with pytest.raises(InputError):
+        simulation.advance(steps=-1)
+
+
+def test_ctrl_c_leaves_the_steps_that_were_taken(planar: Wall) -> None:
+    simulation = Simulation(planar, duration="3000 s")
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        simulation.advance(to=3000)
+    timer.join()
+    assert 0 < simulation.time < 3000
+    simulation.advance()

@@ -1,0 +1,154 @@
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import PLANAR, SHEAR
+
+import concio
+from concio import InputError, Wall
+
+ROOT = Path(__file__).parents[3]
+
+
+def test_a_file_a_text_and_a_dict_say_the_same(tmp_path: Path, planar: Wall) -> None:
+    path = tmp_path / "wall.toml"
+    path.write_text(PLANAR)
+    assert Wall.from_toml(path) == planar == Wall.from_dict(planar.settings)
+    assert Wall.from_toml(path).path == str(path) and planar.path is None
+
+
+def test_examples_are_those_of_the_folder() -> None:
+    files = [path for path in sorted((ROOT / "examples").glob("*.toml"))]
+    assert [path.stem.split("-", 1)[1] for path in files] == Wall.examples()
+    for name, path in zip(Wall.examples(), files, strict=True):
+        assert Wall.example(name) == Wall.from_toml(path)
+    with pytest.raises(InputError, match="first-wall"):
+        Wall.example("last-wall")
+
+
+def test_replacing_makes_another_wall(planar: Wall) -> None:
+    other = planar.replace({"joint.friction.static": np.float64(0.7), "load.top": "60 kN/m", "panel[0].courses": 5})
+    assert other.settings["joint"]["friction"]["static"] == 0.7
+    assert other.settings["load"]["top"] == 60e3
+    assert len(other.blocks) > len(planar.blocks)
+    assert planar.settings["joint"]["friction"]["static"] == 0.4
+    assert planar.replace({}) == planar
+
+
+def test_quantities_with_units_of_their_own(planar: Wall) -> None:
+    pint = pytest.importorskip("pint")
+    unit = pint.UnitRegistry()
+    other = planar.replace({"load.top": 60 * unit.kN / unit.m, "panel[0].brick.height": 55 * unit.mm})
+    assert other.settings["load"]["top"] == 60e3
+    assert other.settings["panel"][0]["brick"]["height"] == 0.055
+    spring = {"joint.bed": {"law": "elastic", "stiffness": 36 * unit.N / unit.mm**3}}
+    assert planar.replace(spring).settings["joint"]["bed"]["stiffness"] == "36000000000 N/m3"
+    with pytest.raises(InputError, match="force per length"):
+        planar.replace({"load.top": 60 * unit.kg})
+
+
+def test_a_mistake_in_a_file_is_told_with_its_place(tmp_path: Path) -> None:
+    path = tmp_path / "wall.toml"
+    path.write_text(PLANAR.replace("static = 0.4", "static = -0.4"))
+    with pytest.raises(InputError) as caught:
+        Wall.from_toml(path)
+    error = caught.value
+    assert isinstance(error, ValueError)
+    line = 1 + PLANAR.splitlines().index('friction = { law = "coulomb", static = 0.4, on = "all" }')
+    assert (error.key, error.file, error.line) == ("joint.friction.static", str(path), line)
+    assert error.allowed is not None and "-0.4" in error.what
+    assert str(error).startswith(f"{path}:{line}:")
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.key, again.line) == (str(error), error.key, line)
+
+
+def test_all_mistakes_are_told_at_once() -> None:
+    wrong = PLANAR.replace("static = 0.4", "static = -0.4").replace('top = "2 kN/m"', 'top = "-2 kN/m"')
+    with pytest.raises(InputError) as caught:
+        Wall.from_str(wrong)
+    assert {caught.value.key, *(error.key for error in caught.value.more)} >= {"joint.friction.static", "load.top"}
+
+
+def test_a_dict_has_no_lines() -> None:
+    with pytest.raises(InputError) as caught:
+        Wall.from_dict({"model": "planar", "panl": []})
+    assert (caught.value.file, caught.value.line) == (None, None)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("joint.frction.static", 1),
+        ("panel[7].courses", 1),
+        ("load.top", "60 kg"),
+        ("load.top", float("nan")),
+        ("load.top", object()),
+        ("", 1),
+    ],
+)
+def test_changes_that_no_wall_file_knows(planar: Wall, key: str, value: object) -> None:
+    with pytest.raises(InputError):
+        planar.replace({key: value})
+
+
+def test_files_that_are_not_there(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="cannot be read"):
+        Wall.from_toml(tmp_path / "none.toml")
+
+
+def test_tables(planar: Wall) -> None:
+    blocks, joints = planar.blocks, planar.joints
+    # Two whole bricks, one and two halves, two whole bricks.
+    assert list(blocks["name"]) == ["p1c1b1", "p1c1b2", "p1c2b1", "p1c2b2", "p1c2b3", "p1c3b1", "p1c3b2"]
+    np.testing.assert_allclose(blocks["mass"].sum(), 3 * 0.5 * 0.055 * 0.12 * 18e3 / 9.81, rtol=1e-12)
+    assert set(joints["kind"]) == {"bed", "head", "base"}
+    assert [row["b"] for row in joints if row["kind"] == "base"] == ["base", "base"]
+    assert blocks.nlargest(2, "y")["name"].tolist() == ["p1c3b1", "p1c3b2"]
+    assert len(blocks.take(blocks["course"] == 2)) == 3
+    with pytest.raises(KeyError, match="mass"):
+        blocks["weight"]
+    with pytest.raises(ValueError, match="read-only"):
+        blocks["mass"][0] = 0
+    assert "p1c1b1" in repr(blocks) and "<td>p1c1b1</td>" in blocks._repr_html_()
+
+
+def test_doubts() -> None:
+    bare = Wall.from_str(SHEAR.replace('acceleration = "0.3 g"', "acceleration = 0.3")).check()
+    assert [doubt.key for doubt in bare] == ["motion.base.sine.acceleration"]
+    doubtful = Wall.from_str(PLANAR.replace('specific_weight = "18 kN/m3"', "specific_weight = 18"))
+    (doubt,) = (d for d in doubtful.check() if "specific_weight" in d.text)
+    assert (doubt.kind, doubt.key, doubt.line) == ("unlikely-number", "panel[0].brick.specific_weight", 8)
+    assert "doubts" in repr(doubtful)
+
+
+def test_a_wall_shows_itself(planar: Wall) -> None:
+    # Blocks, and the load of 2 kN/m, which has mass.
+    weight = 3 * 0.5 * 0.055 * 0.12 * 18 + 2 * 0.5
+    assert repr(planar).splitlines() == [
+        "Wall (planar): three courses",
+        f"7 blocks, {len(planar.joints)} joints, {weight:.4g} kN",
+        "runs 0.6 s",
+    ]
+    assert planar._repr_svg_().startswith("<svg") and "<svg" in planar._repr_html_()
+
+
+def test_walls_go_to_other_processes(planar: Wall, tmp_path: Path) -> None:
+    assert pickle.loads(pickle.dumps(planar)) == planar
+    assert len({planar, pickle.loads(pickle.dumps(planar))}) == 1
+    inside = Wall.from_str(PLANAR, folder=tmp_path)
+    assert pickle.loads(pickle.dumps(inside))._case.folder == tmp_path
+
+
+def test_the_version_is_that_of_the_engine(command) -> None:  # type: ignore[no-untyped-def]
+    told = command("--version")
+    assert told.stdout.split() == ["concio", concio.__version__]
+    assert told.returncode == 0
+
+
+def test_the_command_tells_what_is_wrong_by_its_status(command, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    assert command("run", tmp_path / "none.toml").returncode == 2
+    assert command("rnu").returncode == 2
+    assert "Usage" in command("run", "--help").stdout
