@@ -142,6 +142,12 @@ impl Case {
         self.file.folder().to_path_buf()
     }
 
+    /// What the wall file says itself, changes in it, as JSON: without defaults.
+    #[getter]
+    fn given(&self) -> String {
+        self.file.given().to_string()
+    }
+
     /// All that the wall file says, defaults in it, SI, as JSON.
     #[getter]
     fn json(&self) -> String {

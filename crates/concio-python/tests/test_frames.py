@@ -44,7 +44,7 @@ def test_figures(planar: Wall, quake: Record) -> None:
     np.testing.assert_array_equal(line.get_xdata(), run["top/displacement"])
     assert run.plot.energies().get_legend() is not None
     drawn = run.plot.deformed(t=0.0, scale=10)
-    corners = np.array([patch.get_path().vertices[:4] for patch in drawn.patches])
+    corners = np.array([np.asarray(patch.get_path().vertices)[:4] for patch in drawn.patches])
     np.testing.assert_allclose(corners, np.array([np.array(c) for c in planar.blocks["corners"]]), atol=1e-9)
     frame = int(np.argmax(np.abs(run.frames["displacement"]).max(axis=1)))
     assert run.plot.deformed().get_title().startswith(f"t = {run.frame_time[frame]:.4g} s")

@@ -100,6 +100,14 @@ def test_what_a_study_may_not_say(tmp_path: Path, planar: Wall) -> None:
         Study(planar, {"load.top": [1e3]}).run(tmp_path, threads=-1)
 
 
+def test_what_a_file_leaves_out_follows_what_varies(tmp_path: Path, planar: Wall) -> None:
+    """The file gives Coulomb's law one coefficient: the other one follows it, below and above."""
+    rows = Study(planar, {"joint.friction.static": [0.2, 0.8]}).run(tmp_path)
+    for row in rows:
+        run = planar.replace({"joint.friction.static": row["joint.friction.static"]}).run()
+        assert row["peak_displacement"] == pytest.approx(run.summary["peak_relative_displacement"], rel=1e-3)
+
+
 def test_a_run_that_fails_says_why(tmp_path: Path, planar: Wall) -> None:
     rows = concio.Study(planar, {"motion.duration": [0.1, 0.2]}).run(tmp_path)
     assert np.isnan(rows["peak_displacement"]).sum() == 0 and rows["cause"].tolist() == [None, None]

@@ -17,6 +17,7 @@ def test_a_file_a_text_and_a_dict_say_the_same(tmp_path: Path, planar: Wall) -> 
     path = tmp_path / "wall.toml"
     path.write_text(PLANAR)
     assert Wall.from_toml(path) == planar == Wall.from_dict(planar.settings)
+    assert Wall.from_dict(planar.given) == planar and "solver" not in planar.given
     assert Wall.from_toml(path).path == str(path) and planar.path is None
 
 

@@ -152,10 +152,10 @@ class Study:
         Raises:
             InputError: A record that no file gives: a study is resumed, and its inputs have to be on the disk.
         """
-        settings = wall.settings
+        settings = wall.given
         folder = os.path.abspath(wall._case.folder)
         for key in ("base", "top", "vertical"):
-            signal = settings["motion"].get(key)
+            signal = settings.get("motion", {}).get(key)
             if isinstance(signal, dict) and "record" in signal:
                 signal["record"] = os.path.join(folder, signal["record"])
         study: dict[str, Any] = {"title": title, "wall": _WALL, "design": {"kind": design, "seed": seed}}

@@ -130,6 +130,12 @@ class Wall:
         return settings
 
     @property
+    def given(self) -> dict[str, Any]:
+        """What the wall file says itself, with what was replaced: without defaults. ``Wall.from_dict(wall.given)`` is the wall."""
+        given: dict[str, Any] = json.loads(self._case.given)
+        return given
+
+    @property
     def title(self) -> str:
         """Title of the wall file."""
         return str(self.settings["title"])
@@ -321,7 +327,7 @@ class Wall:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """For other processes."""
-        return _again, (self._case.json, str(self._case.folder))
+        return _again, (self._case.given, str(self._case.folder))
 
     def __repr__(self) -> str:
         """Three lines: title, size, motion."""

@@ -91,6 +91,24 @@ fn put(node: &mut Node, steps: &[Step<'_>], value: &Json) -> Result<(), Wrong> {
     }
 }
 
+/// A value without its place.
+pub(super) fn to_json(node: &Node) -> Json {
+    match &node.value {
+        Value::Null => Json::Null,
+        Value::Bool(b) => Json::Bool(*b),
+        Value::Int(whole) => match (i64::try_from(*whole), u64::try_from(*whole)) {
+            (Ok(whole), _) => whole.into(),
+            (_, Ok(whole)) => whole.into(),
+            // No key takes as much.
+            _ => (*whole as f64).into(),
+        },
+        Value::Float(number) => (*number).into(),
+        Value::Text(text) | Value::Date(text) => text.as_str().into(),
+        Value::List(items) => items.iter().map(to_json).collect(),
+        Value::Table(entries) => entries.iter().map(|e| (e.key.clone(), to_json(&e.node))).collect(),
+    }
+}
+
 /// A value that stands at `at`.
 fn of_json(value: &Json, at: usize) -> Node {
     let value = match value {
@@ -150,6 +168,16 @@ base = { sine = { acceleration = \"0.3 g\", frequency = 3 } }
             matches!(changed("load.beam.mass", json!("2 t"))?.case.load.beam, crate::case::Beam::Mass(m) if m.si() == 2000.0)
         );
         assert_eq!(changed("set", json!("p1"))?.case.set.map(|s| s.name), Some(crate::case::SetName::P1));
+        Ok(())
+    }
+
+    #[test]
+    fn what_is_given_is_the_same_wall_again_and_leaves_out_the_rest() -> crate::Result<()> {
+        let changed = changed("joint.friction.static", json!(0.8))?;
+        let given = changed.given();
+        assert_eq!(given["joint"], json!({ "friction": { "static": 0.8 } }));
+        assert_eq!(given["panel"][1], json!({ "bond": "running", "courses": 6, "bricks": 3 }));
+        assert_eq!(from_str(&given.to_string(), Syntax::Json, None)?.case, changed.case);
         Ok(())
     }
 

@@ -44,6 +44,11 @@ impl CaseFile {
         }
         resolve(document)
     }
+    /// What the file says itself, with what was [`CaseFile::changed`], as a wall file in JSON: without defaults and what a parameter set
+    /// fills in.
+    pub fn given(&self) -> serde_json::Value {
+        change::to_json(&self.document.tree)
+    }
     /// Adds file, line and column to an error about a key of this case; a key that the file leaves out stands
     /// where its nearest table does. Errors that name a line already, and others than input errors, stay as they are.
     pub fn locate(&self, error: Error) -> Error {
