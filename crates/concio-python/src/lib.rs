@@ -8,6 +8,7 @@ use concio_cli::failure::{STOPPED, WRONG_INPUT};
 use pyo3::prelude::*;
 
 mod case;
+mod elsewhere;
 mod examples;
 mod failure;
 mod json;
@@ -44,5 +45,6 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(command, module)?)?;
     module.add_function(wrap_pyfunction!(examples::example_names, module)?)?;
     module.add_function(wrap_pyfunction!(run::run_many, module)?)?;
+    module.add_function(wrap_pyfunction!(elsewhere::task_work, module)?)?;
     module.add_function(wrap_pyfunction!(study::study_run, module)?)
 }

@@ -1,25 +1,27 @@
-//! Studies: the runs that a study file describes, those done that its folder lacks, and their table.
+//! Studies: the runs that a study file asks for, those done that its folder lacks, and the table of a design's.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use concio::InputError;
 use concio::case::Case;
+use concio::run::Control;
 use concio_study::measures::Row;
-use concio_study::runner::Progress;
+use concio_study::runner::{Deliver, Hands, Progress};
+use concio_study::store::Store;
 use concio_study::table::{self, Cells, Table};
-use concio_study::{Plan, Runner};
+use concio_study::{Plan, Task, drive};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
+use crate::elsewhere::Executor;
 use crate::failure::Raised;
 use crate::json;
 use crate::watch::{Board, Watch, beside};
 
-/// A table, and whether it is whole.
+/// A table, null where the study asks for more than the runs of a design, and whether all runs are done.
 type Done = (Value, bool);
 
-/// Does the runs of a study file that its folder lacks, on `threads` threads (0: one per core); the columns of the table of all its runs,
-/// and whether all are done.
+/// Does the runs of a study file that its folder lacks: on `threads` threads (0: one per core), or with `rows` by an executor,
+/// `at_once` of them in a task. The columns of the table of a design, and whether all runs are done.
 #[pyfunction]
 pub fn study_run(
     py: Python<'_>,
@@ -27,10 +29,21 @@ pub fn study_run(
     folder: PathBuf,
     threads: usize,
     progress: Option<Py<PyAny>>,
+    rows: Option<Py<PyAny>>,
+    at_once: usize,
 ) -> PyResult<(Py<PyAny>, bool)> {
     let mut watch = Watch::new(progress);
-    let done = py.detach(|| beside(&mut watch, |board| rows(&file, &folder, threads, board)));
-    if let Some(error) = watch.error {
+    let executor = rows.map(Executor::new);
+    let done = py.detach(|| {
+        beside(&mut watch, |board| match &executor {
+            None => complete(&file, &folder, Hands::Here(threads), board),
+            Some(executor) => {
+                let work = |tasks: Vec<Task>, deliver: &mut Deliver| executor.work(&tasks, deliver, board);
+                complete(&file, &folder, Hands::Elsewhere(&work, at_once), board)
+            }
+        })
+    });
+    if let Some(error) = watch.error.or(executor.and_then(|executor| executor.raised())) {
         return Err(error);
     }
     let (table, whole) =
@@ -38,24 +51,19 @@ pub fn study_run(
     Ok((json::to_python(py, &table)?.unbind(), whole))
 }
 
-fn rows(file: &std::path::Path, folder: &std::path::Path, threads: usize, board: &Board) -> Result<Done, Raised> {
+fn complete(file: &Path, folder: &Path, hands: Hands, board: &Board) -> Result<Done, Raised> {
     let plan = Plan::read(file)?;
+    let look = |progress: &Progress| board.look(progress.share);
+    let whole = drive::complete(&plan, folder, hands, &look)? == Control::Continue;
     let study = &plan.file.study;
-    let asked = [
-        ("ida", study.ida.is_some()),
-        ("first-crack", study.first_crack.is_some()),
-        ("interfaces", study.interfaces.is_some()),
-    ];
-    if let Some((key, _)) = asked.into_iter().find(|(_, asked)| *asked) {
-        let error = InputError::new("asks for more than the runs of a design").in_file(file).key(key);
-        return Err(error.help("`concio study run` answers it").into());
+    if study.ida.is_some() || study.first_crack.is_some() || study.interfaces.is_some() {
+        return Ok((Value::Null, whole));
     }
     let cases: Vec<Case> = (0..plan.points.len()).map(|number| plan.case(number)).collect::<Result<_, _>>()?;
-    let look = |progress: &Progress| board.look(progress.share);
-    let mut runner = Runner::open(folder, &study.keep, threads, &look)?;
-    let whole = runner.rows(&cases)?.is_some();
-    let ids: Vec<String> = cases.iter().map(|case| runner.id(case)).collect::<Result<_, _>>()?;
-    let found: Vec<Option<&Row>> = ids.iter().map(|id| runner.known(id)).collect();
+    let ids: Vec<String> = cases.iter().map(|case| plan.id(case)).collect::<Result<_, _>>()?;
+    let store = Store::open(folder)?;
+    let keep = &study.keep;
+    let found: Vec<Option<&Row>> = ids.iter().map(|id| store.holding(id, &keep.joints, keep.results)).collect();
     Ok((columns(&table::of_plan(&plan, &found)), whole))
 }
 

@@ -57,6 +57,11 @@ pub struct Board {
 }
 
 impl Board {
+    /// Whether the caller wants no more.
+    pub fn stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+
     /// Says how far the work is; what the caller wants.
     pub fn look(&self, share: f64) -> Control {
         self.share.store(share.to_bits(), Ordering::Relaxed);

@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import json
 import os
 import signal
 import threading
@@ -91,11 +90,6 @@ def test_what_a_study_may_not_say(tmp_path: Path, planar: Wall) -> None:
         assert key is None or caught.value.key == key
     with pytest.raises(InputError):
         Study(planar, {"load.top": 1e3})
-    text = json.dumps({"wall": "wall.toml", "ida": {"intensity": "pga", "damage": "peak_displacement"}})
-    (tmp_path / "wall.toml").write_text(PLANAR)
-    (tmp_path / "ida.json").write_text(text)
-    with pytest.raises(InputError):
-        Study.from_toml(tmp_path / "ida.json").run(tmp_path / "out")
     with pytest.raises(InputError):
         Study(planar, {"load.top": [1e3]}).run(tmp_path, threads=-1)
 

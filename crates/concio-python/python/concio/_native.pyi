@@ -1,6 +1,6 @@
 """The extension module: what the package asks of the engine."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, final
@@ -14,8 +14,14 @@ _Path = str | PathLike[str]
 
 def command(arguments: Sequence[_Path]) -> int: ...
 def study_run(
-    file: _Path, folder: _Path, threads: int, progress: Callable[[float], object] | None
-) -> tuple[list[dict[str, Any]], bool]: ...
+    file: _Path,
+    folder: _Path,
+    threads: int,
+    progress: Callable[[float], object] | None,
+    rows: Callable[[list[str]], Iterable[list[str]]] | None,
+    at_once: int,
+) -> tuple[list[dict[str, Any]] | None, bool]: ...
+def task_work(task: str, threads: int) -> list[str]: ...
 def example_names() -> list[str]: ...
 def run_many(
     walls: Sequence[Prepared], threads: int, progress: Callable[[float], object] | None

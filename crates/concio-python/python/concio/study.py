@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._progress import shown
 from ._values import plain, to_json
+from .distributed import Executor, rows
 from .errors import InputError
 from .record import Record
 from .table import Table
@@ -184,6 +187,8 @@ class Study:
         *,
         threads: int = 0,
         progress: bool | Callable[[float], object] = False,
+        executor: Executor | None = None,
+        runs_per_task: int = 8,
     ) -> Rows:
         """Does the runs that the folder lacks, each known by the hash of everything that its result depends on.
 
@@ -193,12 +198,18 @@ class Study:
             folder: Where rows are kept; a study made in Python writes its study file there too.
             threads: Number of threads; 0 for one per core.
             progress: Show a bar, or call this with the share that is done, 0 … 1.
+            executor: Has the runs done elsewhere: anything with ``submit`` that gives futures of :mod:`concurrent.futures`, such as
+                a ``ProcessPoolExecutor``, ``dask.distributed.Client.get_executor()`` or ``mpi4py.futures``. Tables are the same, to the
+                byte. Rows are kept as they come: a worker or a client that dies costs what it had under way.
+            runs_per_task: Runs that a worker takes at a time.
 
         Returns:
-            A row per run. A run that failed says why in ``cause``; ``warning_kinds`` says what speaks against the others.
+            A row per run; of a study that asks a question, what its report has of every run: ``ida.csv``, ``first-crack-runs.csv`` or
+            ``runs.csv`` in the folder. A run that failed says why in ``cause``; ``warning_kinds`` says what speaks against the others.
 
         Raises:
-            InputError: What the study file may not say; a study that asks for more than its runs.
+            InputError: What the study file may not say.
+            Exception: What a task on an executor ended with; all rows that came before are kept.
         """
         if threads < 0:
             raise InputError(f"is {threads}", key="threads", allowed="from 0; 0 is one per core")
@@ -211,12 +222,38 @@ class Study:
             for name, text in (self._texts or {}).items():
                 _write(os.path.join(out, name), text)
             file = os.path.join(out, _STUDY)
+        if runs_per_task < 1:
+            raise InputError(f"is {runs_per_task}", key="runs_per_task", allowed="from 1")
+        given = None if executor is None else partial(rows, executor)
         with shown(progress) as told:
-            columns, done = _native.study_run(file, out, threads, told)
+            columns, done = _native.study_run(file, out, threads, told, given, runs_per_task)
         if not done:
             warnings.warn("the study was stopped; the same call goes on", RuntimeWarning, stacklevel=2)
+        if columns is None:
+            return _report(file, out, done)
         cells = {column["name"]: _numbers(column["cells"]) for column in columns}
         return Rows(cells, {column["name"]: column["unit"] for column in columns}, done)
+
+
+def _report(file: str, out: str, done: bool) -> Rows:
+    """The table of every run of a study that asks a question; its report and the other tables stay in the folder."""
+    status = _native.command(["concio", "study", "report", file, "--out", out]) if done else 1
+    tables = [os.path.join(out, name) for name in ("ida.csv", "first-crack-runs.csv", "runs.csv")]
+    table = next((path for path in tables if os.path.exists(path)), None)
+    if status != 0 or table is None:
+        return Rows({}, {}, done)
+    with open(table, encoding="utf-8", newline="") as text:
+        head, *lines = csv.reader(text)
+    parted = [name.removesuffix("]").partition(" [") if name.endswith("]") else (name, "", "") for name in head]
+    columns = {name: _numbers([_cell(line[k]) for line in lines]) for k, (name, _, _) in enumerate(parted)}
+    return Rows(columns, {name: unit for name, _, unit in parted}, done)
+
+
+def _cell(text: str) -> Any:
+    try:
+        return float(text)
+    except ValueError:
+        return text or None
 
 
 def _vary(path: str, over: Any) -> dict[str, Any]:
