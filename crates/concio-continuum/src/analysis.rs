@@ -24,6 +24,8 @@ const ELEMENTS: usize = 32;
 const DIRECTIONS: usize = 300;
 const FEW_DIRECTIONS: usize = 60;
 const SMALL_CELL: usize = 12;
+/// E of what masonry is built of is less [Pa]: bricks have 5 to 30 GPa, granite and basalt up to some 70 GPa.
+const STIFFEST: f64 = 70e9;
 /// 2 (1 − ν)/(1 − 2ν) of a thin layer that bricks hold, ν = 0.2; and E/G, Concio's default.
 const HELD_LAYER: f64 = 8.0 / 3.0;
 const FREE_LAYER: f64 = 2.4;
@@ -60,7 +62,7 @@ pub struct Found {
     pub moduli: Moduli,
     /// Engineering constants of these.
     pub constants: Option<Constants>,
-    /// E1 in Pa if head joints are open; of a cell.
+    /// E1 in Pa if head joints are open, of bricks that deform where they were asked for; of a cell.
     pub open_e1: Option<f64>,
     /// Mass.
     pub density: Density,
@@ -184,14 +186,11 @@ pub fn analyse(case: &Case, panel: usize, options: Options) -> Result<Found, Con
             (format!("irregular: {why}"), moduli, Some(three))
         }
     };
-    let moduli = match options.brick {
-        Some([modulus, nu]) if three.is_none() => rigid.in_series(modulus, nu)?,
-        Some(_) => {
-            let error = InputError::new("bricks that deform are taken into account in bonds that repeat alone");
-            return Err(error.allowed("no --brick-modulus").into());
-        }
-        None => rigid,
-    };
+    if options.brick.is_some() && three.is_some() {
+        let error = InputError::new("bricks that deform are taken into account in bonds that repeat alone");
+        return Err(error.allowed("no --brick-modulus").into());
+    }
+    let moduli = deformed(&rigid, options)?;
     if !given.openings.is_empty() {
         assumed.push(
             "openings are left out: the continuum is that of the masonry between them, and the mesh has the holes"
@@ -231,11 +230,12 @@ pub fn analyse(case: &Case, panel: usize, options: Options) -> Result<Found, Con
     };
     let open_e1 = match &pattern {
         Pattern::Running(bond, _) => {
-            let open = RunningBond { head: crate::Stiffness::open(), ..*bond };
-            open.moduli().constants().map(|c| c.e1)
+            let open = RunningBond { head: crate::Stiffness::open(), ..*bond }.moduli();
+            deformed(&open, options)?.constants().map(|c| c.e1)
         }
         _ => None,
     };
+    warnings.extend(stiffer_than_bricks(case, &texture, panel, options, &moduli)?);
     if texture.heads_part(panel) && options.heads == Heads::Closed {
         let open = open_e1.map_or(String::new(), |e| format!(" (E1 is then {:.4} GPa)", 1e-9 * e));
         warnings.push(format!(
@@ -268,6 +268,48 @@ pub fn analyse(case: &Case, panel: usize, options: Options) -> Result<Found, Con
         assumed,
         warnings,
     })
+}
+
+/// Moduli with the flexibility of the bricks, where it was asked for.
+fn deformed(rigid: &Moduli, options: Options) -> Result<Moduli, ContinuumError> {
+    options.brick.map_or(Ok(*rigid), |[modulus, nu]| rigid.in_series(modulus, nu))
+}
+
+/// A warning of a continuum that is stiffer than stone, with what `rigidity` has to do with it.
+fn stiffer_than_bricks(
+    case: &Case,
+    texture: &Texture,
+    panel: usize,
+    options: Options,
+    moduli: &Moduli,
+) -> Result<Option<String>, ContinuumError> {
+    let giga = |e: f64| rounded(1e-9 * e);
+    let Some([e1, e2, ..]) = moduli.apparent().filter(|e| e[0].max(e[1]) > STIFFEST) else { return Ok(None) };
+    let told = format!(
+        "E1 is {} GPa and E2 {} GPa, and no brick or stone has more than {:.0} GPa",
+        giga(e1),
+        giga(e2),
+        1e-9 * STIFFEST
+    );
+    let Some((key, times)) = texture.rigidity(panel).filter(|(_, times)| *times > 1.0) else {
+        return Ok(Some(format!("{told}: --brick-modulus adds the flexibility of the bricks")));
+    };
+    let mut soft = case.clone();
+    soft.joint.bed.rigidity = 1.0;
+    soft.joint.head.rigidity = 1.0;
+    let springs = soft.joint.changes.iter_mut().filter_map(|change| change.spring.as_mut());
+    springs.filter_map(|spring| spring.rigidity.as_mut()).for_each(|rigidity| *rigidity = 1.0);
+    let with_one = match Texture::of(&soft, options.heads)?.pattern(panel, options.repeated)? {
+        Pattern::Running(bond, _) => Some(bond.moduli()),
+        Pattern::Repeated(cell) => Some(Moduli::of_cell(&cell)?),
+        Pattern::Irregular(_) => None,
+    };
+    let with_one = with_one.map(|rigid| deformed(&rigid, options)).transpose()?.and_then(|m| m.apparent());
+    let with_one =
+        with_one.map_or(String::new(), |[e1, e2, ..]| format!(" E1 is {} GPa, E2 {} GPa", giga(e1), giga(e2)));
+    Ok(Some(format!(
+        "{told}: {key} = {times} makes pressed `no-tension` joints so many times as stiff as `stiffness` says. With `rigidity = 1`{with_one}"
+    )))
 }
 
 fn cell_name(cell: &Cell) -> String {

@@ -195,6 +195,17 @@ impl Texture {
         self.of_kind(panel, JointKind::Head).any(|e| self.laws[e].spring.law == SpringLaw::NoTension)
     }
 
+    /// The largest `rigidity` of `no-tension` joints of a panel, with its key; none where no such joint counts.
+    pub fn rigidity(&self, panel: usize) -> Option<(&'static str, f64)> {
+        let of = |(kind, key): (JointKind, &'static str)| {
+            let joints = self.of_kind(panel, kind);
+            let counts = joints.filter(|e| self.laws[*e].spring.law.is_no_tension() && self.stiffness[*e].normal > 0.0);
+            counts.map(|e| self.laws[e].spring.rigidity).max_by(f64::total_cmp).map(|times| (key, times))
+        };
+        let kinds = [(JointKind::Bed, "joint.bed.rigidity"), (JointKind::Head, "joint.head.rigidity")];
+        kinds.into_iter().filter_map(of).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// Ratio k_n/k_t of the bed joints.
     pub fn bed_ratio(&self, panel: usize) -> Option<f64> {
         let k = self.one(panel, JointKind::Bed)?;

@@ -33,13 +33,20 @@ struct Found {
     smooth: Option<Limit>,
     dilation: Option<NonAssociative>,
     turning: Option<Turning>,
-    /// f_c [Pa], contacts that it does not suffice for, change of λ in the last round.
-    crushing: Option<(f64, Vec<usize>, f64)>,
+    /// f_c [Pa], contacts that it does not suffice for.
+    crushing: Option<(f64, Vec<usize>)>,
     /// Bed joints that twist in the mechanism.
     twisting: usize,
     /// What stands and pulls behind the wall.
     behind: Option<Behind>,
     warnings: Vec<String>,
+}
+
+impl Found {
+    /// Whether the dead load alone crushes a joint.
+    fn overloads(&self) -> bool {
+        self.crushing.as_ref().is_some_and(|(_, overloaded)| !overloaded.is_empty())
+    }
 }
 
 /// Finds the multiplier of a wall that is pushed across its plane.
@@ -81,13 +88,16 @@ pub fn limit(args: &Asked) -> Result<ExitCode, Failure> {
         let written = args.out.as_deref().map(names).unwrap_or_default();
         files::print(&format!("{title}{}{written}", pairs(&rows(args, face, &found))))?;
     }
-    let open: Vec<&Limit> = [Some(&found.limit), found.smooth.as_ref()].into_iter().flatten().collect();
-    let open: Vec<&Limit> = open.into_iter().filter(|l| !l.is_certified()).collect();
-    for limit in &open {
+    let both = [("λ", Some(&found.limit)), ("λ of smooth heads", found.smooth.as_ref())];
+    let both = both.into_iter().filter_map(|(name, limit)| Some((name, limit?)));
+    for (name, limit) in both.filter(|(_, limit)| !limit.is_certified()) {
         let wide = significant(limit.gap(), 2);
-        files::note(&format!("no certificate: the bounds are {wide} of λ apart, {CERTIFIED} are allowed"));
+        files::note(&format!("no certificate for {name}: its bounds are {wide} of it apart, {CERTIFIED} are allowed"));
     }
-    Ok(if open.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
+    if found.overloads() {
+        files::note("no certificate: joints are pressed with more than they bear");
+    }
+    Ok(if found.limit.is_certified() && !found.overloads() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
 }
 
 fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Found, Failure> {
@@ -112,9 +122,6 @@ fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Fo
                 .into());
         }
     }
-    if args.even_twist {
-        problem = problem.drawn_in();
-    }
     let mut warnings: Vec<String> = planar
         .warnings
         .iter()
@@ -128,13 +135,14 @@ fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Fo
     {
         warnings.push("compressive_strength of single joints is left out: all crush at that of joint.bed".into());
     }
-    let (limit, problem, crushing) = match strength {
-        None => (space::analyse(&problem).map_err(told)?, problem, None),
-        Some(strength) => {
-            let found = space::crushed(&problem, strength).map_err(told)?;
-            (found.limit, found.problem, Some((strength, found.overloaded, found.change)))
-        }
-    };
+    if let Some(strength) = strength {
+        problem = problem.crushing(strength);
+    }
+    if args.even_twist {
+        problem = problem.drawn_in();
+    }
+    let space::Crushed { limit, problem, overloaded } = space::crushed(&problem).map_err(told)?;
+    let crushing = strength.map(|strength| (strength, overloaded));
     let smooth = match problem.heads_rub() {
         true => Some(space::analyse(&problem.frictionless_heads()).map_err(told)?),
         false => None,
@@ -222,17 +230,12 @@ fn rows(args: &Asked, face: Face, found: &Found) -> Vec<(&'static str, String)> 
     if limit.mechanism.contacts.iter().any(|c| c.opens) {
         rows.push(("joints that open", named(|c| c.opens)));
     }
-    if let Some((strength, overloaded, change)) = &found.crushing {
-        let over = if overloaded.is_empty() {
-            String::new()
-        } else {
-            format!("; {} joints are pressed with more than they bear", overloaded.len())
+    if let Some((strength, overloaded)) = &found.crushing {
+        let over = match overloaded.len() {
+            0 => String::new(),
+            many => format!("; {many} joints are pressed with more than they bear, and λ is no bound"),
         };
-        let (strength, change) = (si(*strength, "Pa"), significant(*change, 2));
-        rows.push((
-            "crushing",
-            format!("hinges set back for {strength}; λ changed by {change} of itself in the last round{over}"),
-        ));
+        rows.push(("crushing", format!("hinges set back for {}{over}", si(*strength, "Pa"))));
     }
     rows.push(("upper bound", "what slides dilates: where joints slide, real ones bear less than λ".into()));
     if let Some(mu) = limit.slides_at(problem) {
@@ -282,7 +285,7 @@ fn result(args: &Asked, face: Face, found: &Found) -> Value {
     let of = |limit: &Limit| {
         json!({
             "multiplier": limit.multiplier(), "bounds": limit.bounds, "gap": limit.gap(),
-            "certified": limit.is_certified(), "unbalanced": limit.unbalanced,
+            "certified": limit.is_certified() && !found.overloads(), "unbalanced": limit.unbalanced,
         })
     };
     let motion = limit.mechanism.velocities.iter().zip(&limit.mechanism.rotations);
@@ -318,9 +321,9 @@ fn result(args: &Asked, face: Face, found: &Found) -> Value {
         "frictionless_heads": found.smooth.as_ref().map(of),
         "non_associative": found.dilation.as_ref().map(without_dilation),
         "closed_form": found.turning.map(|t| json!({ "multiplier": t.multiplier, "level": t.level })),
-        "crushing": found.crushing.as_ref().map(|(strength, over, change)| {
+        "crushing": found.crushing.as_ref().map(|(strength, over)| {
             let names: Vec<&str> = over.iter().map(|c| problem.assembly.contacts[*c].name.as_str()).collect();
-            json!({ "strength": strength, "overloaded": names, "change": change })
+            json!({ "strength": strength, "overloaded": names })
         }),
         "behind": found.behind.as_ref().map(Behind::json),
         "slides_at": limit.slides_at(problem),

@@ -112,6 +112,35 @@ fn stones_that_crush() {
     let done = desk.concio("limit block.toml --out-of-plane").assert().success();
     let [told, warned] = [&done.get_output().stdout, &done.get_output().stderr].map(|o| String::from_utf8_lossy(o));
     assert!(told.contains("hinges set back") && !warned.contains("compressive_strength"), "{told} {warned}");
+    // 108 kPa at the base: nothing is certified where the dead load alone crushes.
+    desk.put("block.toml", desk.get("block.toml").replace("1.5 MPa", "0.1 MPa"));
+    let done = desk.concio("limit block.toml --out-of-plane --json").assert().code(1);
+    let [told, warned] = [&done.get_output().stdout, &done.get_output().stderr].map(|o| String::from_utf8_lossy(o));
+    assert!(told.contains("\"certified\": false") && warned.contains("more than they bear"), "{told} {warned}");
+}
+
+/// t 0.5, h 1.5, γ 20 kN/m³, 0.1 MPa, three bricks a course: the course as a whole is pressed by 30 kPa at its base, so that the
+/// hinge lies 0.075 m inside: λ = 2 (0.25 − 0.075)/1.5.
+#[test]
+fn courses_of_bricks_crush_as_a_whole() {
+    let desk = Desk::new();
+    desk.put(
+        "wall.toml",
+        "model = \"planar\"\n[[panel]]\nbond = \"running\"\ncourses = 6\nbricks = 3\n\
+         brick = { length = 0.5, height = 0.25, thickness = 0.5, specific_weight = 20e3 }\nmortar = { bed = 0, head = 0 }\n\
+         [joint]\nbed = { law = \"rigid\", compressive_strength = \"0.1 MPa\" }\nhead = { law = \"rigid\" }\n\
+         friction = { law = \"coulomb\", static = 0.6, on = \"all\" }\n[motion]\nduration = 1\n",
+    );
+    let found = found(&desk, "limit wall.toml --out-of-plane --json");
+    for lambda in
+        [&found["multiplier"], &found["frictionless_heads"]["multiplier"], &found["closed_form"]["multiplier"]]
+    {
+        assert!((number(lambda) - 0.35 / 1.5).abs() < 1e-5, "{found}");
+    }
+    assert!(
+        found["certified"] == true && found["crushing"]["overloaded"].as_array().is_some_and(Vec::is_empty),
+        "{found}"
+    );
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! What is easily got wrong.
 
-use concio_continuum::{Cell, Moduli, RunningBond, Stiffness};
+use concio::case::{Case, Syntax, from_str};
+use concio_continuum::{Cell, Heads, Moduli, Options, RunningBond, Stiffness, analyse};
 use concio_verified::agrees;
+use proptest::prelude::*;
 
 use crate::references::{S1, S1M, S3};
 
@@ -81,6 +83,94 @@ fn open_head_joints_matter_along_the_courses() {
     assert_eq!(whole.e1, no_shear.e1);
     assert!((no_shear.g12 / whole.g12 - 1.0).abs() < 0.03);
     assert!((whole.e1 / with(0.0, 0.0).e1 - 3.4).abs() < 1e-6);
+}
+
+/// Bricks of 260 × 65 × 120 mm with 10 mm of mortar: b = 270, a = 75, c = 125, h_c = 65 mm.
+fn with_mortar(bed: &str, head: &str) -> Case {
+    let text = format!(
+        "model = \"planar\"\n[[panel]]\nbond = \"running\"\ncourses = 8\nbricks = 4\n\
+         brick = {{ length = 0.26, height = 0.065, thickness = 0.12, specific_weight = 18e3 }}\nmortar = {{ bed = 0.01, head = 0.01 }}\n\
+         [joint]\nbed = {{ {bed} }}\nhead = {{ {head} }}\n[motion]\nduration = 1.0\n"
+    );
+    from_str(&text, Syntax::Toml, None).expect("a wall").case
+}
+
+/// Bricks that deform do so beside open head joints too.
+#[test]
+fn open_head_joints_have_the_bricks_of_closed_ones() {
+    let case =
+        with_mortar("law = \"elastic\", stiffness = \"36 N/mm3\"", "law = \"elastic\", stiffness = \"86.4 N/mm3\"");
+    let open_e1 = |brick: Option<[f64; 2]>| {
+        analyse(&case, 0, Options { brick, ..Options::default() }).expect("a continuum").open_e1.expect("running bond")
+    };
+    // (H1) without head joints: k_t c b/(2a) = 36e9 · 0.125 · 0.27/0.15.
+    let beds = 8.1e9;
+    agrees!("Continuum: E1 with open head joints; rigid bricks", "k_t c b/(2a)", "Pa", open_e1(None), beds, 1e-9);
+    let series = 1.0 / (1.0 / beds + 1.0 / 10e9);
+    agrees!(
+        "Continuum: E1 with open head joints; bricks of 10 GPa",
+        "1/(2a/(k_t c b) + 1/E_b)",
+        "Pa",
+        open_e1(Some([10e9, 0.2])),
+        series,
+        1e-9
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+    /// Nothing in head joints is never stiffer than something, and is what open head joints are asked for.
+    #[test]
+    fn open_head_joints_are_never_stiffer(
+        bed in 0.1f64..500.0, head in 0.01f64..500.0, modulus in proptest::option::of(0.5e9f64..80e9), nu in 0.0f64..0.45,
+    ) {
+        let of = |stiffness: f64| format!("law = \"elastic\", stiffness = \"{stiffness} N/mm3\"");
+        let case = with_mortar(&of(bed), &of(head));
+        let with = |heads: Heads| {
+            let options = Options { heads, brick: modulus.map(|e| [e, nu]), ..Options::default() };
+            analyse(&case, 0, options).expect("a continuum")
+        };
+        let (closed, open) = (with(Heads::Closed), with(Heads::Open));
+        let (told, e1) = (closed.open_e1.expect("running bond"), closed.constants.expect("constants").e1);
+        prop_assert!(told <= e1 * (1.0 + 1e-12), "open {told}, closed {e1}");
+        let asked = open.constants.expect("constants").e1;
+        prop_assert!((told / asked - 1.0).abs() < 1e-9, "told {told}, asked {asked}");
+    }
+}
+
+/// `rigidity` of pressed joints enters as the law has it, and a continuum stiffer than stone is told with it.
+#[test]
+fn a_continuum_stiffer_than_stone_is_told() {
+    let of = |bed: &str, head: &str| {
+        let found = analyse(&with_mortar(bed, head), 0, Options::default()).expect("a continuum");
+        let told = found.warnings.iter().filter(|w| w.contains("no brick or stone")).cloned().collect::<Vec<_>>();
+        (found.constants.expect("constants").e1, told)
+    };
+    let bed = "law = \"elastic\", stiffness = \"36 N/mm3\"";
+    let head = "law = \"no-tension\", stiffness = \"86.4 N/mm3\"";
+    // (H1): 86.4e9 · 0.065 · 0.27/0.075 = 20.2176e9 for the head joints, 8.1e9 for the beds.
+    let (e1, told) = of(bed, head);
+    agrees!(
+        "Continuum: E1 of pressed head joints",
+        "κ k_n′ h_c b/a + k_t c b/(2a)",
+        "Pa",
+        e1,
+        20_217.6e9 + 8.1e9,
+        1e-9
+    );
+    // E2 = 2 k_n c a/b = 2 · 2.4 · 36e9 · 0.125 · 0.075/0.27 = 6 GPa.
+    assert_eq!(
+        told,
+        [
+            "E1 is 20225.7 GPa and E2 6 GPa, and no brick or stone has more than 70 GPa: joint.head.rigidity = 1000 makes pressed \
+          `no-tension` joints so many times as stiff as `stiffness` says. With `rigidity = 1` E1 is 28.3176 GPa, E2 6 GPa"
+        ]
+    );
+    let (e1, told) = of(bed, &format!("{head}, rigidity = 1"));
+    agrees!("Continuum: E1 of head joints, rigidity 1", "k_n′ h_c b/a + k_t c b/(2a)", "Pa", e1, 28.3176e9, 1e-9);
+    assert!(told.is_empty(), "{told:?}");
+    let (_, told) = of(bed, "law = \"elastic\", stiffness = \"864 N/mm3\"");
+    assert!(told.len() == 1 && told[0].ends_with("--brick-modulus adds the flexibility of the bricks"), "{told:?}");
 }
 
 /// Trap 8: the shear model holds the vertical motion and the rotation of blocks: p t is its shear stiffness.

@@ -11,11 +11,14 @@
 //!   holds, and any velocities that obey it and (S5) bound λ. Where blocks are wedged in between held ones there are none such;
 //!   of the overlaps δ that remain the power δ N is added twice, with the normal force N found and a block's weight.
 //!
+//! Forces on contacts that crush are put back into (S6) towards even pressure. What eases the corners of crushing contacts is
+//! taken from the solution, and its cost is counted as (S6) has it, whatever the solver says of it.
+//!
 //! Both are evaluated for the solution as it came too, and the better counts.
 
 use super::assembly::Vector;
 use super::equations::{Equations, Pull, ROWS};
-use super::program::{Solution, beyond, opening};
+use super::program::{EDGES, Ease, Solution, beyond, opening};
 use crate::LimitError;
 use crate::certificate::least_change;
 use crate::equations::{Column, dot, power};
@@ -74,8 +77,9 @@ pub(super) fn lower(equations: &Equations, solution: &Solution) -> Lower {
 
 /// The forces with those that left their cones on their borders.
 fn admissible(equations: &Equations, mut forces: Forces) -> Forces {
+    forces.points.iter_mut().for_each(|force| force[0] = force[0].max(0.0));
+    equations.bears.iter().zip(forces.points.chunks_mut(4)).for_each(|(bears, corners)| borne(*bears, corners));
     for (force, point) in forces.points.iter_mut().zip(&equations.points) {
-        force[0] = force[0].max(0.0);
         let (most, has) = (point.friction * force[0], force[1].hypot(force[2]));
         if has > most {
             // A little less, so that rounding does not bring it out again.
@@ -87,6 +91,27 @@ fn admissible(equations: &Equations, mut forces: Forces) -> Forces {
         *force = force.clamp(0.0, pull.most);
     }
     forces
+}
+
+/// Normal forces of a contact's corners, from 0, brought into (S6).
+fn borne(bears: f64, corners: &mut [Vector]) {
+    // A little less, so that rounding does not bring them out again.
+    let bears = bears * (1.0 - 4.0 * f64::EPSILON);
+    let all = |corners: &[Vector]| corners.iter().map(|f| f[0]).sum::<f64>();
+    let over = all(corners) / bears;
+    if over > 1.0 {
+        corners.iter_mut().for_each(|f| f[0] /= over);
+    }
+    let sum = all(corners);
+    let least = sum * sum / (2.0 * bears);
+    let lacks = |edge: [usize; 2]| {
+        let has: f64 = edge.iter().map(|k| corners[*k][0]).sum();
+        if has < least { ((least - has) / (0.5 * sum - has)).clamp(0.0, 1.0) } else { 0.0 }
+    };
+    let part = EDGES.map(lacks).into_iter().fold(0.0, f64::max);
+    if part > 0.0 {
+        corners.iter_mut().for_each(|f| f[0] += part * (0.25 * sum - f[0]));
+    }
 }
 
 fn prove_lower(equations: &Equations, solution: &Solution, forces: Forces) -> Lower {
@@ -183,11 +208,12 @@ fn balanced(equations: &Equations, forces: &Forces) -> Option<Forces> {
 /// Velocities that do not move the live load.
 pub(super) fn upper(equations: &Equations, friction: &[Friction], solution: &Solution) -> Result<Upper, LimitError> {
     let mut velocities = solution.velocities.clone();
-    let overlaps = |v: &[f64]| -> Vec<f64> {
-        let each = equations.points.iter().zip(friction);
-        each.map(|(point, law)| (-beyond(point, law.slope, v)).max(0.0)).collect()
+    let mut eases: Vec<Ease> = solution.eases.iter().map(|e| possible(*e)).collect();
+    let overlaps = |v: &[f64], eases: &[Ease]| -> Vec<f64> {
+        let each = equations.points.iter().zip(friction).enumerate();
+        each.map(|(k, (point, law))| (-beyond(point, law.slope, v) - eased(eases, k)).max(0.0)).collect()
     };
-    let most = overlaps(&velocities).into_iter().fold(0.0, f64::max);
+    let most = overlaps(&velocities, &eases).into_iter().fold(0.0, f64::max);
     if most > 0.0
         && let Some(apart) = opening(equations, friction)?
     {
@@ -198,11 +224,32 @@ pub(super) fn upper(equations: &Equations, friction: &[Friction], solution: &Sol
         return Err(LimitError::NotSolved("no mechanism obeys the flow rule".into()));
     }
     velocities.iter_mut().for_each(|v| *v /= moved);
+    eases.iter_mut().for_each(|e| *e = Ease { all: e.all / moved, edge: e.edge / moved });
     let stretch = |pull: &Pull| pull.most * (-power(&pull.column, &velocities)).max(0.0);
     let ties: f64 = equations.pulls.iter().map(stretch).sum();
-    let pressed = overlaps(&velocities).into_iter().zip(&solution.forces);
+    let costs =
+        equations.bears.iter().zip(eases.chunks(4)).map(|(c, four)| four.iter().map(|e| cost(*c, *e)).sum::<f64>());
+    let crushed: f64 = costs.sum();
+    let pressed = overlaps(&velocities, &eases).into_iter().zip(&solution.forces);
     let wedged: f64 = pressed.map(|(overlap, force)| 2.0 * overlap * (1.0 + force[0].max(0.0))).sum();
-    Ok(Upper { multiplier: ties - dot(&equations.dead, &velocities) + wedged, velocities })
+    Ok(Upper { multiplier: ties - dot(&equations.dead, &velocities) + crushed + wedged, velocities })
+}
+
+/// What eases corners at a cost that is a number; else none does.
+fn possible(ease: Ease) -> Ease {
+    if ease.edge > 0.0 && ease.all > 0.0 { ease } else { Ease::default() }
+}
+
+/// By how much a corner may overlap, (S6): below 0 where it has to part.
+fn eased(eases: &[Ease], corner: usize) -> f64 {
+    let four = eases.get(corner / 4 * 4..corner / 4 * 4 + 4).unwrap_or(&[]);
+    let along = |edge: [usize; 2]| edge.contains(&(corner % 4));
+    four.iter().zip(EDGES).map(|(e, edge)| if along(edge) { e.all - e.edge } else { e.all }).sum()
+}
+
+/// Power of what crushes: c r²/(2 p).
+fn cost(bears: f64, ease: Ease) -> f64 {
+    if ease.all > 0.0 { bears * ease.all * ease.all / (2.0 * ease.edge) } else { 0.0 }
 }
 
 #[cfg(test)]

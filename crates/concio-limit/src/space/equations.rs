@@ -35,6 +35,8 @@ pub(super) struct Equations {
     pub moved: usize,
     /// Four points of each contact in turn, then one of each support.
     pub points: Vec<Point>,
+    /// What each contact bears until it crushes; empty: none does.
+    pub bears: Vec<f64>,
     /// What gives way, in the order of its contacts, then the ties.
     pub pulls: Vec<Pull>,
     /// The live load, its magnitudes summing to 1: velocities of the mechanism are then near 1.
@@ -141,6 +143,7 @@ impl Equations {
             rows,
             moved,
             points,
+            bears: problem.bears.iter().map(|b| b / force).collect(),
             pulls,
             live,
             dead,

@@ -11,7 +11,7 @@ use crate::equations::power;
 pub struct ContactMotion {
     /// The contact, by index.
     pub contact: usize,
-    /// Opening of its corners, (S3), from 0: the dilation μ |s| of slip included.
+    /// Opening of its corners, (S3), the dilation μ |s| of slip included: from 0, and below it where stones crush.
     pub opening: [f64; 4],
     /// Size of their slip, (S3).
     pub slip: [f64; 4],

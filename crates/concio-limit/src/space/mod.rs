@@ -122,55 +122,57 @@ pub fn without_dilation(problem: &Problem, associative: &Limit) -> NonAssociativ
     fixed_friction::estimate(&equations, associative)
 }
 
-/// What crushing stones leave of a problem: joints set back from the edges that press.
+/// What crushing stones leave of λ.
 #[derive(Debug, Clone)]
 pub struct Crushed {
-    /// λ with the joints as they are in `problem`.
+    /// λ of `problem`.
     pub limit: Limit,
-    /// The problem with smaller contacts.
+    /// The problem with what its contacts bear; where `overloaded` is not empty, with smaller contacts instead.
     pub problem: Problem,
-    /// Contacts by index that are pressed with more than their strength.
+    /// Contacts by index that are pressed with more than they bear under the dead load alone: λ is no bound then.
     pub overloaded: Vec<usize>,
-    /// Change of λ in the last of the rounds, over λ.
-    pub change: f64,
 }
 
-/// Rounds of [`crushed`].
-const SET_BACK: usize = 2;
-
-/// λ of stones that crush: each contact of sides b, l and normal force N is cut at its edges by
+/// λ of stones that may crush, see [`Problem::crushing`]. At a strength f a contact of sides b and l bears a normal force N no nearer to its edges than
 ///
 /// (S6) a_b = N/(2 f l), a_l = N/(2 f b),
 ///
-/// so that the pressure f on what is left outside of the new edge bears N. N is that of the last λ, found anew two times. Along
-/// a diagonal (S6) leaves too much, by up to (N/(f b l))² b l. The bounds are those of the joints of the last round.
+/// so that the pressure f on what is left outside of that line bears N. With the forces N_e of the two corners at an edge this
+/// is N² ≤ 2 f b l N_e for each edge, a cone: the largest λ and its bounds are as certain as those without. Along a diagonal
+/// (S6) leaves too much, by up to (N/(f b l))² b l.
+///
+/// Where the dead load alone crushes a joint, all joints of its level are set back by (S6) under their mean pressure instead,
+/// and those that bear less are named.
 ///
 /// # Errors
-/// As [`analyse`]; a strength that is not above 0.
-pub fn crushed(problem: &Problem, strength: f64) -> Result<Crushed, LimitError> {
-    if !(strength > 0.0) {
-        return Err(LimitError::Wrong("a strength is above 0".into()));
+/// As [`analyse`].
+pub fn crushed(problem: &Problem) -> Result<Crushed, LimitError> {
+    match analyse(problem) {
+        Err(LimitError::DoesNotStand) if !problem.bears.is_empty() => overloaded(problem),
+        found => Ok(Crushed { limit: found?, problem: problem.clone(), overloaded: Vec::new() }),
     }
-    let mut limit = analyse(problem)?;
-    let (mut smaller, mut overloaded, mut change) = (problem.clone(), Vec::new(), 0.0);
-    for _ in 0..SET_BACK {
-        let pressed = limit.pressed(problem);
-        overloaded.clear();
-        for (k, normal) in pressed.iter().enumerate() {
-            let whole = &problem.assembly.contacts[k];
-            let sides = whole.sides();
-            let back =
-                [1, 0].map(|other| if sides[other] > 0.0 { normal / (2.0 * strength * sides[other]) } else { 0.0 });
-            smaller.assembly.contacts[k].corners = whole.set_back(back);
-            if *normal > strength * sides[0] * sides[1] {
-                overloaded.push(k);
-            }
+}
+
+/// Heights of joints nearer than this [m] are one level.
+const LEVEL: f64 = 1e-6;
+
+fn overloaded(problem: &Problem) -> Result<Crushed, LimitError> {
+    let mut smaller = Problem { bears: Vec::new(), ..problem.clone() };
+    let pressed = analyse(&smaller)?.pressed(problem);
+    let contacts = &problem.assembly.contacts;
+    let height = |k: usize| assembly::dot(contacts[k].middle(), problem.down);
+    let beds: Vec<usize> = (0..contacts.len()).filter(|k| contacts[*k].kind != ContactKind::Head).collect();
+    let mut overloaded = Vec::new();
+    for &k in &beds {
+        let level = beds.iter().filter(|other| (height(**other) - height(k)).abs() < LEVEL);
+        let [normal, bears] = level.fold([0.0; 2], |[n, b], i| [n + pressed[*i], b + problem.bears[*i]]);
+        let part = normal / bears;
+        smaller.assembly.contacts[k].corners = contacts[k].set_back(contacts[k].sides().map(|side| 0.5 * part * side));
+        if part > 1.0 || pressed[k] > problem.bears[k] {
+            overloaded.push(k);
         }
-        let next = analyse(&smaller)?;
-        change = (next.multiplier() - limit.multiplier()) / next.multiplier().abs().max(1e-3);
-        limit = next;
     }
-    Ok(Crushed { limit, problem: smaller, overloaded, change })
+    Ok(Crushed { limit: analyse(&smaller)?, problem: smaller, overloaded })
 }
 
 /// Distance of a body's farthest corner from its centre [m].

@@ -63,6 +63,8 @@ pub struct Problem {
     pub ties: Vec<Tie>,
     /// Supports.
     pub supports: Vec<Support>,
+    /// Normal force at which the stones of each contact crush under even pressure [N]; empty: none do. See [`Problem::crushing`].
+    pub bears: Vec<f64>,
 }
 
 impl Problem {
@@ -78,6 +80,7 @@ impl Problem {
             loads: Vec::new(),
             ties: Vec::new(),
             supports: Vec::new(),
+            bears: Vec::new(),
         }
     }
 
@@ -94,6 +97,14 @@ impl Problem {
     /// The problem with the contact points of bed joints drawn in, see [`Assembly::drawn_in`].
     pub fn drawn_in(&self) -> Self {
         Problem { assembly: self.assembly.clone().drawn_in(), ..self.clone() }
+    }
+
+    /// The problem with stones that crush at a strength [Pa]: a contact bears as much over the area that it has here.
+    ///
+    /// Contact points that are to be drawn in, are so afterwards.
+    pub fn crushing(&self, strength: f64) -> Self {
+        let area = |c: &super::Contact| c.sides().iter().product::<f64>();
+        Problem { bears: self.assembly.contacts.iter().map(|c| strength * area(c)).collect(), ..self.clone() }
     }
 
     /// Whether anything rubs where blocks stand side by side.
@@ -159,6 +170,12 @@ impl Problem {
         }
         if !contacts.iter().filter_map(|c| c.gives_way).all(from_zero) {
             return wrong("a contact gives way at a force of at least 0");
+        }
+        if !(self.bears.is_empty() || self.bears.len() == contacts.len()) {
+            return wrong("what contacts bear needs one entry for each of them, or none");
+        }
+        if !self.bears.iter().all(|b| b.is_finite() && *b > 0.0) {
+            return wrong("what crushes has a strength and an area above 0");
         }
         if !self.assembly.bodies.iter().all(|b| from_zero(b.weight) && numbers(&b.centre)) {
             return wrong("weights of blocks are at least 0");

@@ -6,7 +6,11 @@
 //!
 //! Without cohesion (o, μ s) lies in the cone. The multipliers of these rows are the forces N and T, that of F·v = 1 is λ. In
 //! this form the matrix that is factorised has three rows for each point; written in forces it has six.
+//! Where stones crush, each edge of a contact adds what is dual to (S6): its corners have to part by p − r, the others may overlap
+//! by r, at the cost c r²/(2 p). With α ≥ √(β² + γ²) these are p = √c (α + β), r = −√2 γ and √c (α − β).
 //! A point without friction has a row of its own, o ≥ 0: in (μ N, T) with μ = 0 nothing would keep N from pulling.
+
+use std::f64::consts::SQRT_2;
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
@@ -23,6 +27,8 @@ pub(super) struct Solution {
     pub forces: Vec<Vector>,
     /// Force of every tie.
     pub pulls: Vec<f64>,
+    /// How every edge of every contact that crushes eases its corners.
+    pub eases: Vec<Ease>,
     /// Velocities.
     pub velocities: Vec<f64>,
     /// Scaled λ.
@@ -30,6 +36,16 @@ pub(super) struct Solution {
     /// Rounds of the solver.
     pub iterations: u32,
 }
+
+/// What crushes lets corners overlap: all four of a contact by r, less by p along one edge.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Ease {
+    pub all: f64,
+    pub edge: f64,
+}
+
+/// Corners of the edges of a contact.
+pub(super) const EDGES: [[usize; 2]; 4] = [[0, 1], [1, 2], [2, 3], [3, 0]];
 
 /// What is aimed at; what is reached is certified afterwards.
 pub(super) const SHARP: f64 = 1e-10;
@@ -47,6 +63,7 @@ pub(super) fn solve(equations: &Equations, friction: &[Friction], tolerance: f64
     program.dense(moved, &equations.live);
     let places: Vec<Place> =
         equations.points.iter().zip(friction).map(|(point, law)| program.point(point, *law)).collect();
+    let crushes = program.crush(equations, &places);
     let pulls: Vec<Row> = equations.pulls.iter().map(|pull| program.pull(pull)).collect();
     let ended = program.solve(tolerance)?;
     match ended.status {
@@ -68,7 +85,13 @@ pub(super) fn solve(equations: &Equations, friction: &[Friction], tolerance: f64
             [z.at(above), a, b]
         }
     };
+    let roots = equations.bears.iter().flat_map(|c| [c.sqrt(); 4]);
+    let eased = |([a, b, c], root): (&[usize; 3], f64)| Ease {
+        edge: root * (ended.x[*a] + ended.x[*b]),
+        all: -SQRT_2 * ended.x[*c],
+    };
     Ok(Solution {
+        eases: crushes.iter().zip(roots).map(eased).collect(),
         forces: places.iter().zip(friction).map(force).collect(),
         pulls: pulls.iter().map(|row| z.at(*row)).collect(),
         velocities: ended.x[..equations.rows].to_vec(),
@@ -87,9 +110,9 @@ pub(super) fn stands(equations: &Equations, friction: &[Friction]) -> Result<boo
     program.cost.iter_mut().zip(&equations.dead).for_each(|(cost, dead)| *cost = -dead);
     let row = program.above(1.0);
     program.dense(row, &equations.dead);
-    equations.points.iter().zip(friction).for_each(|(point, law)| {
-        program.point(point, *law);
-    });
+    let places: Vec<Place> =
+        equations.points.iter().zip(friction).map(|(point, law)| program.point(point, *law)).collect();
+    program.crush(equations, &places);
     equations.pulls.iter().for_each(|pull| {
         program.pull(pull);
     });
@@ -286,6 +309,29 @@ impl Program {
             self.sparse(row, &point.normal, -1.0);
             Place::Smooth(row)
         }
+    }
+
+    /// What crushes, edge by edge; its unknowns α, β and γ.
+    fn crush(&mut self, equations: &Equations, places: &[Place]) -> Vec<[usize; 3]> {
+        let mut all = Vec::with_capacity(4 * equations.bears.len());
+        for (bears, corners) in equations.bears.iter().zip(places.chunks(4)) {
+            let root = bears.sqrt();
+            for edge in EDGES {
+                let unknowns = [root, -root, 0.0].map(|cost| self.unknown(cost));
+                let cone = self.cone();
+                unknowns.iter().enumerate().for_each(|(k, unknown)| self.entry(cone.next(k), *unknown, -1.0));
+                for (k, corner) in corners.iter().enumerate() {
+                    let (Place::Smooth(row) | Place::Rough(row) | Place::Cohesive(row, _)) = *corner;
+                    self.entry(row, unknowns[2], SQRT_2);
+                    if edge.contains(&k) {
+                        self.entry(row, unknowns[0], root);
+                        self.entry(row, unknowns[1], root);
+                    }
+                }
+                all.push(unknowns);
+            }
+        }
+        all
     }
 
     /// What a pull gives way by costs its force; the row of what it is pulled by.

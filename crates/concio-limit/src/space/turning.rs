@@ -5,6 +5,9 @@
 //!
 //! (S10) α₀ = [ Σ W s + Σ P s − Σ H h + Σ Y max(0, e) ] / [ Σ W h + Σ Q h ]
 //!
+//! Where stones crush, the hinge lies where it makes α₀ least; f ∫ (s′ − s) dA of what is pressed beyond it joins the numerator.
+//! The pressure f beyond the hinge then bears all that stands above, (S6).
+//!
 //! with dead forces P and H downwards and along the push, pushing weights Q, ties of yield force Y and stretch e. It is a
 //! mechanism of (S4), so none of its values is below λ. For one body it is the multiplier of vertical overturning of building
 //! codes: Circolare 21.1.2019 n. 7, C8.7.1.
@@ -21,6 +24,26 @@ pub struct Turning {
     pub level: f64,
 }
 
+/// A level joint.
+struct Joint {
+    /// Ends along the push [m].
+    span: [f64; 2],
+    /// Normal force at which it crushes [N]; none: it does not.
+    bears: Option<f64>,
+}
+
+impl Joint {
+    /// f ∫ (s − edge) dA of what lies beyond the edge [N m].
+    fn crushed(&self, edge: f64) -> f64 {
+        let [near, far] = self.span;
+        let moment = |from: f64| 0.5 * ((far - edge).powi(2) - (from - edge).powi(2));
+        let per_length = self.bears.unwrap_or(0.0) / (far - near);
+        if edge < far { per_length * moment(near.max(edge)) } else { 0.0 }
+    }
+}
+
+/// Thirds taken off until the place of a hinge is exact.
+const NARROWER: usize = 100;
 /// Heights nearer than this part of the wall's height are one.
 const ONE: f64 = 1e-6;
 
@@ -47,13 +70,48 @@ impl Problem {
             if spans.iter().zip(&above).any(|(s, above)| !above && s[1] > z + near) {
                 return None;
             }
-            let edges = beds().filter(|c| (level(c) - z).abs() <= near).flat_map(|c| c.corners.map(|p| dot(p, push)));
-            self.at(z, edges.fold(f64::NEG_INFINITY, f64::max), &above, [up, push])
+            let here = |c: &super::Contact| c.kind != ContactKind::Head && (level(c) - z).abs() <= near;
+            let joints = self.assembly.contacts.iter().enumerate().filter(|(_, c)| here(c));
+            let joints: Vec<Joint> = joints.map(|(k, c)| self.joint(k, c, push)).collect::<Option<_>>()?;
+            self.at(z, &joints, &above, [up, push])
         };
         levels.into_iter().filter_map(of).min_by(|a, b| a.multiplier.total_cmp(&b.multiplier))
     }
 
-    fn at(&self, level: f64, edge: f64, above: &[bool], [up, push]: [Vector; 2]) -> Option<Turning> {
+    /// Where a contact lies along the push; none where it crushes and lies askew.
+    fn joint(&self, index: usize, contact: &super::Contact, push: Vector) -> Option<Joint> {
+        let span = span(&contact.corners, push);
+        let askew = [1, 3].into_iter().any(|k| {
+            let side = minus(contact.corners[k], contact.corners[0]);
+            let along = dot(side, push).abs();
+            along > 1e-6 * length(side) && along < (1.0 - 1e-6) * length(side)
+        });
+        let bears = self.bears.get(index).copied();
+        (bears.is_none() || !askew).then_some(Joint { span, bears })
+    }
+
+    fn at(&self, level: f64, joints: &[Joint], above: &[bool], ways: [Vector; 2]) -> Option<Turning> {
+        let outermost = joints.iter().map(|j| j.span[1]).fold(f64::NEG_INFINITY, f64::max);
+        let own = |edge: f64| self.about(level, edge, above, ways);
+        if joints.iter().any(|j| j.bears.is_none()) {
+            return own(outermost).map(|[resists, pushes]| Turning { multiplier: resists / pushes, level });
+        }
+        let crushes = |edge: f64| {
+            let crushed: f64 = joints.iter().map(|j| j.crushed(edge)).sum();
+            own(edge).map(|[resists, pushes]| (resists + crushed) / pushes)
+        };
+        // Convex in the place of the hinge.
+        let innermost = joints.iter().map(|j| j.span[0]).fold(f64::INFINITY, f64::min);
+        let (mut low, mut high) = (innermost, outermost);
+        for _ in 0..NARROWER {
+            let third = (high - low) / 3.0;
+            if crushes(low + third)? < crushes(high - third)? { high -= third } else { low += third }
+        }
+        Some(Turning { multiplier: crushes(0.5 * (low + high))?, level })
+    }
+
+    /// Numerator of (S10) without what crushes, and denominator.
+    fn about(&self, level: f64, edge: f64, above: &[bool], [up, push]: [Vector; 2]) -> Option<[f64; 2]> {
         let velocity = |p: Vector| plus(scaled(push, dot(p, up) - level), scaled(up, edge - dot(p, push)));
         let moves = |body: usize| above[body];
         let blocked = |s: &super::Support| moves(s.body) && dot(velocity(s.at), s.direction) < 0.0;
@@ -79,7 +137,7 @@ impl Problem {
             let [a, b] = ends.map(|(p, body)| if body.is_some_and(moves) { velocity(p) } else { [0.0; 3] });
             resists += tie.yields * (dot(minus(a, b), along) / length(along)).max(0.0);
         }
-        (pushes > 0.0).then(|| Turning { multiplier: resists / pushes, level })
+        (pushes > 0.0).then_some([resists, pushes])
     }
 }
 

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::node::{Node, Value};
-use super::out_of_plane::{OutOfPlane, Site};
+use super::out_of_plane::{Hazard, OutOfPlane, Site};
 use super::{
     Beam, Case, FrictionChange, FrictionLaw, JointBond, JointKind, Joints, ModelKind, Panel, Signal, Solver,
     SpringChange, TopLoad,
@@ -54,12 +54,13 @@ const STIFFNESS: Expected = Expected {
     unit: "N/m",
     slips: &[(1e6, "MN/m", 1e6), (1e3, "kN/m", 1e3), (1e-3, "N/m", 1.0)],
 };
-/// The same over half a brick of 250 mm by 120 mm, and a millimetre of glue on stone.
+/// The softest rubber of bearings, G = 0.4 MPa, 10 mm thick, has 4e7 N/m³ when sheared; a millimetre of glue on stone is the other
+/// end.
 const STIFFNESS_PER_AREA: Expected = Expected {
-    limits: [1e6, 1e15],
+    limits: [4e7, 1e15],
     usual: [1e9, 1e13],
     unit: "N/m3",
-    slips: &[(1e9, "N/mm3", 1e9), (1e6, "MPa/m", 1e6), (1e3, "N/mm3", 1e9), (1e-3, "N/mm3", 1e9), (1e-6, "N/mm3", 1e9)],
+    slips: &[(1e9, "N/mm3", 1e9), (1e3, "N/mm3", 1e9), (1e6, "MPa/m", 1e6), (1e-3, "N/mm3", 1e9), (1e-6, "N/mm3", 1e9)],
 };
 /// From mud to the strongest concrete; bricks themselves split at some MPa.
 const STRENGTH: Expected =
@@ -132,6 +133,10 @@ const DEVICE_YIELD: Expected =
 
 /// Stiffness of pressed bed joints of planar walls over what the file calls their stiffness, above which it was hardly meant.
 const STIFFER: f64 = 10.0;
+/// k_n/k_s below which a joint is sheared harder than pressed: no layer of one material is, whose k_n/k_s is 2 at least.
+const LEAST_NORMAL_TO_SHEAR: f64 = 1.0;
+/// q of the code for mechanisms out of the plane, Circolare 21.1.2019 n. 7, C8.7.1.2.1.7.
+const BEHAVIOUR: f64 = 2.0;
 /// Coefficients of friction above this are rather angles in degrees.
 const LARGEST_FRICTION: f64 = 2.0;
 
@@ -171,6 +176,16 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane) {
     if let Some(strength) = own.strength {
         doubts.look("out_of_plane.strength", strength.si(), &COMPRESSION);
     }
+    if let Some(factor) = own.behaviour_factor.filter(|q| *q > BEHAVIOUR) {
+        let text = format!(
+            "out_of_plane.behaviour_factor is {}, more than {}, the code's for mechanisms out of the plane: the linear check is unsafe by as much",
+            shown(factor),
+            shown(BEHAVIOUR)
+        );
+        doubts.add(WarningKind::UnlikelyNumber, text);
+    }
+    doubts.look_for_twins("floor", &own.floors, "its load counts twice");
+    doubts.look_for_twins("anchor", &own.anchors, "it holds with twice its force");
     for (index, floor) in own.floors.iter().enumerate() {
         let given =
             [("load", floor.load), ("push", floor.push), ("thrust", floor.thrust), ("connection", floor.connection)];
@@ -192,6 +207,9 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane) {
     }
     for (index, side) in own.side_walls.iter().enumerate() {
         let key = format!("out_of_plane.side_wall[{index}]");
+        if let Some(weight) = side.specific_weight {
+            doubts.look(&format!("{key}.specific_weight"), weight.si(), &WEIGHT);
+        }
         doubts.look(&format!("{key}.load"), side.load.si(), &LOAD);
         if let Some(friction) = side.friction {
             doubts.look_at_friction(&format!("{key}.friction"), friction);
@@ -208,6 +226,25 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane) {
             doubts.look(&format!("out_of_plane.site.{name}.{key}"), value.unwrap_or(0.0), expected);
         }
     }
+    let grounds: Vec<(&str, f64)> =
+        own.site.iter().flat_map(Site::hazards).filter_map(|(name, hazard)| Some((name, shakes(hazard)?))).collect();
+    for pair in grounds.windows(2) {
+        let ((often, more), (rare, less)) = (pair[0], pair[1]);
+        if more > less * (1.0 + 1e-9) {
+            let text = format!(
+                "out_of_plane.site.{often} shakes the ground by {} m/s2, more than out_of_plane.site.{rare} by {} m/s2, which is rarer; are they exchanged?",
+                shown(rounded(more, 3)),
+                shown(rounded(less, 3))
+            );
+            doubts.add(WarningKind::UnlikelyNumber, text);
+        }
+    }
+}
+
+/// S_e(0) [m/s²]: a_g S, or the first of the columns.
+fn shakes(hazard: &Hazard) -> Option<f64> {
+    let ground = hazard.ground_acceleration.map(|a| a.si() * hazard.soil_factor.unwrap_or(1.0));
+    ground.or_else(|| hazard.accelerations.first().map(|a| a.si()))
 }
 
 struct Doubts(Vec<Warning>);
@@ -237,6 +274,29 @@ impl Doubts {
         self.add(WarningKind::UnlikelyNumber, text);
     }
 
+    /// What stands in a list of `[out_of_plane]` twice, number for number.
+    fn look_for_twins<T: PartialEq>(&mut self, list: &str, all: &[T], so: &str) {
+        for (second, own) in all.iter().enumerate() {
+            if let Some(first) = all[..second].iter().position(|other| other == own) {
+                let key = format!("out_of_plane.{list}");
+                let text = format!("{key}[{second}] is the same as {key}[{first}]: {so}; is one of them left over?");
+                self.add(WarningKind::UnlikelyNumber, text);
+            }
+        }
+    }
+
+    fn look_at_normal_to_shear(&mut self, key: &str, ratio: f64) {
+        if ratio < LEAST_NORMAL_TO_SHEAR {
+            let text = format!(
+                "{key} is {}, less than {}: k_n/k_s, and joints are stiffer pressed than sheared; did you mean {}?",
+                shown(ratio),
+                shown(LEAST_NORMAL_TO_SHEAR),
+                shown(rounded(1.0 / ratio, 3))
+            );
+            self.add(WarningKind::UnlikelyNumber, text);
+        }
+    }
+
     fn look_at_stiffness(&mut self, key: &str, stiffness: Stiffness) {
         let expected = match stiffness {
             Stiffness::PerJoint(_) => &STIFFNESS,
@@ -262,20 +322,41 @@ const ACCELERATIONS: [&str; 6] =
     ["pga", "sine.acceleration", "tilt.acceleration", "pulse.acceleration", "sweep.acceleration", "synthetic.pga"];
 /// Bare accelerations below this [m/s²], 0.15 g, shake few walls, and as multiples of g are what is mostly tested.
 const SMALL_SHAKING: f64 = 1.5;
+/// Bare columns of a spectrum whose largest is below this [m/s²]: F0 = 2.4 times that.
+const SMALL_SPECTRUM: f64 = 2.4 * SMALL_SHAKING;
 
-/// One sentence for each peak acceleration written without a unit that reads like a multiple of g.
+/// A number without a unit.
+fn bare(node: &Node) -> Option<f64> {
+    match node.value {
+        Value::Float(v) => Some(v),
+        Value::Int(i) => Some(i as f64),
+        _ => None,
+    }
+}
+
+/// Columns of accelerations without a unit, all of them small.
+fn bare_columns(key: &str, node: Option<&Node>) -> Option<Warning> {
+    let Value::List(all) = &node?.value else { return None };
+    // One with a unit says that the others are meant as they stand.
+    let values: Vec<f64> = all.iter().map(bare).collect::<Option<_>>()?;
+    let largest = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+    (largest >= SHAKING.limits[0] && largest < SMALL_SPECTRUM).then(|| {
+        let largest = shown(largest);
+        let text = format!(
+            "{key} go up to {largest} m/s2, numbers without a unit; did you mean \"{largest} g\", and so each of them?"
+        );
+        Warning::new(WarningKind::UnlikelyNumber, text)
+    })
+}
+
+/// One sentence for each peak acceleration and each spectrum written without a unit that reads like a multiple of g.
 pub(super) fn bare_accelerations(tree: &Node) -> Vec<Warning> {
     let motions =
         ["base", "top", "vertical"].into_iter().flat_map(|end| ACCELERATIONS.map(|key| format!("motion.{end}.{key}")));
     let sites = Site::NAMES.map(|name| format!("out_of_plane.site.{name}.ground_acceleration"));
     let keys = motions.chain(sites);
     let doubt = |key: String| {
-        let node = key.split('.').try_fold(tree, |node, step| node.get(step))?;
-        let value = match node.value {
-            Value::Float(v) => v,
-            Value::Int(i) => i as f64,
-            _ => return None,
-        };
+        let value = bare(key.split('.').try_fold(tree, |node, step| node.get(step))?)?;
         let small = value.abs() >= SHAKING.limits[0] && value.abs() < SMALL_SHAKING;
         small.then(|| {
             let value = shown(value);
@@ -283,7 +364,19 @@ pub(super) fn bare_accelerations(tree: &Node) -> Vec<Warning> {
             Warning::new(WarningKind::UnlikelyNumber, text)
         })
     };
-    keys.filter_map(doubt).collect()
+    let own = tree.get("out_of_plane");
+    let site = own.and_then(|own| own.get("site"));
+    let columns = |node: Option<&Node>, at: String| {
+        bare_columns(&format!("{at}.accelerations"), node.and_then(|node| node.get("accelerations")))
+    };
+    let spectra =
+        Site::NAMES.into_iter().map(|name| (site.and_then(|site| site.get(name)), format!("out_of_plane.site.{name}")));
+    let floors = match own.and_then(|own| own.get("floor_spectrum")).map(|node| &node.value) {
+        Some(Value::List(floors)) => &floors[..],
+        _ => &[],
+    };
+    let floors = floors.iter().enumerate().map(|(k, node)| (Some(node), format!("out_of_plane.floor_spectrum[{k}]")));
+    keys.filter_map(doubt).chain(spectra.chain(floors).filter_map(|(node, at)| columns(node, at))).collect()
 }
 
 /// With so many significant digits: conversions leave traces in the last ones.
@@ -509,6 +602,7 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
             {
                 of_whole_joint(doubts, whole.si(), [panel.brick.length.si(), panel.brick.thickness.si()]);
             }
+            doubts.look_at_normal_to_shear(&format!("joint.{kind}.normal_to_shear"), spring.normal_to_shear);
             if let Some(strength) = spring.compressive_strength {
                 doubts.look(&format!("joint.{kind}.compressive_strength"), strength.si(), &COMPRESSION);
             }
@@ -526,6 +620,9 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
         let at = format!("joint.change[{index}]");
         if let Some(SpringChange { stiffness: Some(stiffness), .. }) = change.spring {
             doubts.look_at_stiffness(&format!("{at}.spring.stiffness"), stiffness);
+        }
+        if let Some(SpringChange { normal_to_shear: Some(ratio), .. }) = change.spring {
+            doubts.look_at_normal_to_shear(&format!("{at}.spring.normal_to_shear"), ratio);
         }
         if let Some(SpringChange { compressive_strength: Some(strength), .. }) = change.spring {
             doubts.look(&format!("{at}.spring.compressive_strength"), strength.si(), &COMPRESSION);

@@ -131,6 +131,105 @@ corner_period = "0.4 s"
     }
 }
 
+/// Columns of a spectrum in g, written as bare numbers; what is there twice; hazards that are exchanged.
+#[test]
+fn spectra_twins_and_exchanged_hazards_are_told() {
+    let found = |behind: &str| {
+        let text = format!("{}\n[out_of_plane]\n{behind}", WALL.replace("model = \"shear\"", "model = \"planar\""));
+        let file = from_str(&text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}"));
+        let mut found = [file.unit_doubts(), doubts(&file.case)].concat();
+        found.retain(|doubt| doubt.contains("out_of_plane"));
+        found
+    };
+    let site = |state: &str, columns: &str| {
+        format!("site = {{ {state} = {{ periods = [0, 0.15, 0.5, 2], accelerations = [{columns}] }} }}")
+    };
+    for (behind, told) in [
+        (
+            site("life_safety", "0.3, 0.72, 0.72, 0.18"),
+            "out_of_plane.site.life_safety.accelerations go up to 0.72 m/s2, numbers without a unit; did you mean \"0.72 g\", and so each of them?",
+        ),
+        (
+            site("damage", "1, 3, 3, 1"),
+            "out_of_plane.site.damage.accelerations go up to 3 m/s2, numbers without a unit; did you mean \"3 g\", and so each of them?",
+        ),
+        (
+            "floor_spectrum = [{ z = 3, periods = [0, 0.5, 2], accelerations = [\"0.5 g\", \"1.2 g\", \"0.3 g\"] }, \
+             { z = 6, periods = [0, 0.5, 2], accelerations = [0.5, 1.2, 0.3] }]"
+                .into(),
+            "out_of_plane.floor_spectrum[1].accelerations go up to 1.2 m/s2, numbers without a unit; did you mean \"1.2 g\", and so each of them?",
+        ),
+        (
+            "floor = [{ z = 0.12, load = 12e3 }, { z = 0.06, load = 12e3 }, { z = \"12 cm\", load = \"12 kN/m\" }]".into(),
+            "out_of_plane.floor[2] is the same as out_of_plane.floor[0]: its load counts twice; is one of them left over?",
+        ),
+        (
+            "anchor = [{ z = 0.1, yield_force = 30e3 }, { z = 0.1, yield_force = 30e3 }]".into(),
+            "out_of_plane.anchor[1] is the same as out_of_plane.anchor[0]: it holds with twice its force; is one of them left over?",
+        ),
+        (
+            "site = { damage = { ground_acceleration = \"0.3 g\", soil_factor = 1.2, amplification = 2.4, corner_period = 0.5 }, \
+             life_safety = { ground_acceleration = \"0.1 g\", soil_factor = 1.2, amplification = 2.4, corner_period = 0.5 } }"
+                .into(),
+            // 0.3 · 1.2 · 9.81 and 0.1 · 1.2 · 9.81.
+            "out_of_plane.site.damage shakes the ground by 3.53 m/s2, more than out_of_plane.site.life_safety by 1.18 m/s2, which is rarer; are they exchanged?",
+        ),
+        (
+            "behaviour_factor = 3".into(),
+            "out_of_plane.behaviour_factor is 3, more than 2, the code's for mechanisms out of the plane: the linear check is unsafe by as much",
+        ),
+        (
+            "side_wall = [{ x = 0, thickness = 0.12, specific_weight = 2000 }]".into(),
+            "out_of_plane.side_wall[0].specific_weight is 2000 N/m3, less than 2500 N/m3; did you mean \"2000 kg/m3\"?",
+        ),
+    ] {
+        assert_eq!(found(&behind), [told], "{behind}");
+    }
+    for fine in [
+        site("life_safety", "\"0.3 g\", \"0.72 g\", \"0.72 g\", \"0.18 g\""),
+        // One unit says that the others are meant.
+        site("life_safety", "\"0.3 m/s2\", 0.72, 0.72, 0.18"),
+        site("life_safety", "2.9, 7.1, 7.1, 1.8"),
+        "floor = [{ z = 0.12, load = 12e3 }, { z = 0.12, load = 9e3 }]".into(),
+        "anchor = [{ z = 0.1, yield_force = 30e3, x = 0.1 }, { z = 0.1, yield_force = 30e3, x = 0.3 }]".into(),
+        "site = { damage = { ground_acceleration = \"0.1 g\", amplification = 2.4, corner_period = 0.5 }, \
+         collapse = { ground_acceleration = \"0.3 g\", amplification = 2.4, corner_period = 0.5 } }"
+            .into(),
+        "behaviour_factor = 2".into(),
+        "side_wall = [{ x = 0, thickness = 0.12, specific_weight = \"2000 kg/m3\" }]".into(),
+    ] {
+        assert_eq!(found(&fine), [""; 0], "{fine}");
+    }
+}
+
+/// Joints softer than rubber, and softer pressed than sheared.
+#[test]
+fn joints_of_hardly_any_material_are_told() {
+    let joint = |bed: &str| {
+        let wall = WALL.replace("model = \"shear\"", "model = \"planar\"");
+        let mut found = doubts(&case(&wall.replacen("stiffness = 5.4e7", bed, 1)));
+        found.retain(|doubt| doubt.contains("stiffness is") || doubt.contains("normal_to_shear"));
+        found
+    };
+    assert_eq!(
+        joint("stiffness = \"36e6 N/m3\""),
+        ["joint.bed.stiffness is 36000000 N/m3, less than 40000000 N/m3; did you mean \"36 N/mm3\"?"]
+    );
+    assert_eq!(
+        joint("stiffness = \"5e6 N/m3\""),
+        ["joint.bed.stiffness is 5000000 N/m3, less than 40000000 N/m3; did you mean \"5 N/mm3\"?"]
+    );
+    assert_eq!(
+        joint("stiffness = \"36 N/mm3\", normal_to_shear = 0.4"),
+        [
+            "joint.bed.normal_to_shear is 0.4, less than 1: k_n/k_s, and joints are stiffer pressed than sheared; did you mean 2.5?"
+        ]
+    );
+    for fine in ["stiffness = \"0.1 N/mm3\"", "stiffness = \"36 N/mm3\", normal_to_shear = 1"] {
+        assert_eq!(joint(fine), [""; 0], "{fine}");
+    }
+}
+
 fn case(text: &str) -> Case {
     let file = from_str(text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}\n{text}"));
     file.validate().unwrap_or_else(|e| panic!("{e}\n{text}"));
@@ -187,7 +286,7 @@ fn each_mistake_of_unit_is_told_with_a_guess() {
         (
             "stiffness = 5.4e7 }\nhead",
             "stiffness = \"36 N/m3\" }\nhead",
-            "joint.bed.stiffness is 36 N/m3, less than 1000000 N/m3; did you mean \"36 N/mm3\"?",
+            "joint.bed.stiffness is 36 N/m3, less than 40000000 N/m3; did you mean \"36 N/mm3\"?",
         ),
         (
             "stiffness = 5.4e7 }\nhead",
