@@ -11,7 +11,7 @@ use crate::overturning::{Facade, Overturning};
 use crate::pushover::{Kinematics, Pushover};
 use crate::side_wall::{Overlaps, SideWall};
 use crate::vertical_arch::VerticalArch;
-use crate::wall::{BESIDE, FloorOf, Side, Wall};
+use crate::wall::{FloorOf, Side, Wall};
 
 /// Kinds of mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -593,7 +593,7 @@ impl Making<'_> {
             wall.floors.iter().zip(&self.floors).filter(|(own, floor)| !own.holds && floor.connection > 0.0);
         let mut supports: Vec<FloorOf> = connected.map(|(own, _)| *own).collect();
         for tie in &wall.ties {
-            let near = |of: &FloorOf| tie.level >= self.below(of.floor.level) && tie.level <= of.floor.level + BESIDE;
+            let near = |of: &FloorOf| wall.is_beside(tie, of.floor.level);
             if !supports.iter().chain(&wall.floors).any(|of| (of.holds || of.floor.connection > 0.0) && near(of)) {
                 let floor = Floor { level: tie.level, ..Floor::default() };
                 supports.push(FloorOf { floor, given: false, holds: false, clamps: false });
@@ -611,11 +611,6 @@ impl Making<'_> {
     /// Floors that hold the wall, from below.
     fn holding_floors(&self) -> impl Iterator<Item = &FloorOf> {
         self.wall.floors.iter().zip(&self.holding).filter(|(_, holds)| **holds).map(|(floor, _)| floor)
-    }
-
-    /// The bed joint below a level [m].
-    fn below(&self, level: f64) -> f64 {
-        self.wall.levels.iter().copied().rfind(|z| *z < level - LEVEL).unwrap_or(0.0)
     }
 
     /// The arch between two levels, the upper one held by `upper`; none where no bed joint lies between them.
@@ -642,7 +637,7 @@ impl Making<'_> {
                 let borne = own.and_then(|own| wall.borne(own)).unwrap_or(f.connection + f.friction * f.load);
                 [f.thrust, -borne].map(|force| Thrust { force, depth: f.depth, height: f.level - low })
             };
-            let taken = |tie: &&Tie| self.holding_floors().any(|own| self.bears_with(own, tie));
+            let taken = |tie: &&Tie| self.holding_floors().any(|own| wall.is_beside(tie, own.floor.level));
             let ties = wall.ties.iter().filter(|t| t.level > from + LEVEL && t.level <= to && t.level < last - LEVEL);
             let ties = ties.filter(|tie| !taken(tie));
             let ties = ties.map(|tie| Thrust { force: -tie.force, depth: 0.0, height: tie.level - low });
@@ -699,11 +694,6 @@ impl Making<'_> {
             borne: wall.borne(upper),
             rubs: wall.friction * (load + course),
         })
-    }
-
-    /// Whether a tie is among what bears the reaction of a floor.
-    fn bears_with(&self, floor: &FloorOf, tie: &Tie) -> bool {
-        tie.level >= self.below(floor.floor.level) && tie.level <= floor.floor.level + BESIDE
     }
 
     fn found(&self, storey: Storey) -> Found {

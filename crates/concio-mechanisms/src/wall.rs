@@ -108,7 +108,7 @@ pub struct Assumed {
 /// Heights within this are one level [m].
 const LEVEL: f64 = 1e-6;
 /// Ties up to so far above a floor bear its reaction [m].
-pub(crate) const BESIDE: f64 = 0.5;
+const BESIDE: f64 = 0.5;
 
 impl Wall {
     /// L [m].
@@ -119,10 +119,14 @@ impl Wall {
     /// What is known to bear the reaction of a floor that holds [N]: its connection, ties near it, and with one of them its
     /// seat. None where nothing says.
     pub fn borne(&self, upper: &FloorOf) -> Option<f64> {
-        let high = upper.floor.level;
-        let near = self.levels.iter().copied().rfind(|z| *z < high - LEVEL).unwrap_or(0.0);
-        let beside = |tie: &&Tie| tie.level >= near && tie.level <= high + BESIDE;
-        let known = upper.floor.connection + self.ties.iter().filter(beside).map(|tie| tie.force).sum::<f64>();
+        let beside = self.ties.iter().filter(|tie| self.is_beside(tie, upper.floor.level));
+        let known = upper.floor.connection + beside.map(|tie| tie.force).sum::<f64>();
         (known > 0.0).then_some(known + upper.floor.friction * upper.floor.load)
+    }
+
+    /// Whether a tie is so near a support at a level [m] that it bears its reaction: from the bed joint below it on.
+    pub fn is_beside(&self, tie: &Tie, level: f64) -> bool {
+        let below = self.levels.iter().copied().rfind(|z| *z < level - LEVEL).unwrap_or(0.0);
+        tie.level >= below && tie.level <= level + BESIDE
     }
 }

@@ -89,7 +89,7 @@ impl Model {
     /// Blocks that rest on nothing, selectors that name no joint, laws of a later version, bonds that would snap back.
     pub fn compile(case: &Case, wall: Wall, excitation: Excitation) -> Result<Model> {
         if case.model == ModelKind::Rocking {
-            return rocking::compile(case, excitation);
+            return Ok(Model::of_rocking(rocking::compile(case, &excitation)?, excitation));
         }
         let beam = case.load.beam;
         let has_beam = !matches!(beam, Beam::Free);
@@ -184,6 +184,25 @@ impl Model {
         };
         let load_mass = laden.iter().sum();
         Ok(Model { wall, joints, beam, top_load, load_mass, devices, excitation, shear, system, warnings })
+    }
+
+    /// Of a wall that rocks: its floors are the load on top.
+    fn of_rocking(compiled: rocking::Compiled, excitation: Excitation) -> Model {
+        let rocking::Compiled { rocking, wall, joints, shear, duration, warnings } = compiled;
+        let floors = &rocking.mechanism.floors;
+        let [load, pushing] = floors.iter().fold([0.0; 2], |sum, floor| [sum[0] + floor.load, sum[1] + floor.pushes]);
+        Model {
+            wall,
+            joints,
+            beam: Beam::Free,
+            top_load: load,
+            load_mass: pushing / G,
+            devices: Vec::new(),
+            excitation: Excitation { duration, ..excitation },
+            shear,
+            system: System::Rocking(Box::new(rocking)),
+            warnings,
+        }
     }
 
     /// How a joint resists as compiled, be it `rigid` or not: bond, device and factors included.

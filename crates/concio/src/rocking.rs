@@ -14,12 +14,11 @@ use concio_shear::system as shear;
 
 use crate::G;
 use crate::case::out_of_plane::{RockingKind, Towards};
-use crate::case::{Beam, Case, JointKind};
+use crate::case::{Case, JointKind};
 use crate::drift;
 use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::facade;
-use crate::model::{Model, System};
 use crate::quantity::shown;
 use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 use crate::warning::{Warning, WarningKind};
@@ -138,11 +137,22 @@ fn chosen<'s>(case: &Case, survey: &'s Survey) -> Result<&'s Found> {
     })
 }
 
+/// A compiled wall that rocks, with what results of all models list.
+pub(crate) struct Compiled {
+    pub rocking: Rocking,
+    pub wall: Wall,
+    pub joints: Vec<Joint>,
+    pub shear: shear::System,
+    /// End of the run [s].
+    pub duration: f64,
+    pub warnings: Vec<Warning>,
+}
+
 /// Compiles a wall that rocks.
 ///
 /// # Errors
 /// Walls that have no mechanisms, mechanisms that turn about other than level hinges or fall under their own loads, and what [`facade::of`] refuses.
-pub(crate) fn compile(case: &Case, mut excitation: Excitation) -> Result<Model> {
+pub(crate) fn compile(case: &Case, excitation: &Excitation) -> Result<Compiled> {
     let own = facade::of(case)?;
     let survey = survey(&own, Overlaps::Summed);
     let found = chosen(case, &survey)?;
@@ -161,10 +171,8 @@ pub(crate) fn compile(case: &Case, mut excitation: Excitation) -> Result<Model> 
             _ => of_mechanism(format!("{name}: {}", error.what)),
         }
     })?;
-    let shaking_ends = shaking_ends(&excitation);
-    if case.motion.duration.is_none() {
-        excitation.duration = shaking_ends + TAIL;
-    }
+    let shaking_ends = shaking_ends(excitation);
+    let duration = if case.motion.duration.is_none() { shaking_ends + TAIL } else { excitation.duration };
     let (wall, joints) = section(&own, &made);
     let warnings = warnings(case, found, &survey, &made);
     let rocking = Rocking {
@@ -179,20 +187,8 @@ pub(crate) fn compile(case: &Case, mut excitation: Excitation) -> Result<Model> 
         compiled,
         mechanism: made.mechanism,
     };
-    let shear = listed(&wall, &joints, &rocking, excitation.duration);
-    let [top_load, pushing] = rocking.mechanism.floors.iter().fold([0.0; 2], |s, f| [s[0] + f.load, s[1] + f.pushes]);
-    Ok(Model {
-        wall,
-        joints,
-        beam: Beam::Free,
-        top_load,
-        load_mass: pushing / G,
-        devices: Vec::new(),
-        excitation,
-        shear,
-        system: System::Rocking(Box::new(rocking)),
-        warnings,
-    })
+    let shear = listed(&wall, &joints, &rocking, duration);
+    Ok(Compiled { rocking, wall, joints, shear, duration, warnings })
 }
 
 /// The bodies in section: x is the depth behind the outer face, y the height above the base. A body weighs what moves with it, wedges of side walls

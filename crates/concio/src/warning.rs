@@ -76,7 +76,7 @@ kinds! {
     /// A wall that counts as collapsed.
     Collapse = "collapse",
     /// A rocking wall that was turned farther than its weight holds, and came back.
-    BeyondD0 = "beyond-d0",
+    BeyondD0 = "beyond-balance",
     /// A tie of a rocking wall that broke.
     BrokenTie = "broken-tie",
     /// A run that ends while the wall is under way.

@@ -72,7 +72,8 @@ fn of_rocking(outcome: &Outcome, rocking: &Value) -> Vec<Answer> {
     let kind = rocking.get("mechanism").and_then(Value::as_str).unwrap_or("–");
     let lifts = match of("first_lift_off") {
         Some(time) => {
-            let [lifts, impacts] = ["lift_offs", "impacts"].map(|key| told(key, 9));
+            let [lifts, impacts] =
+                ["lift_offs", "impacts"].map(|key| rocking.get(key).and_then(Value::as_u64).unwrap_or_default());
             Answer::new("first lift-off", at(time), format!("{lifts} from rest, {impacts} impacts")).grave(true)
         }
         None => Answer::new("first lift-off", "none", "the wall rests"),

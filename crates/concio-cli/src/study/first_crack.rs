@@ -146,6 +146,8 @@ fn deforms(question: &Question, subjects: &[Subject]) -> concio::Result<bool> {
 fn write(request: &Request, answers: &[Answer], elastic: bool) -> Result<PathBuf, Failure> {
     let (question, out) = (request.question, request.out);
     let (summary, runs) = (summary(question, answers), all_runs(answers));
+    // A closed form has made no run, and no folder for one.
+    std::fs::create_dir_all(out).map_err(|e| concio::Error::io(out, e))?;
     table::write_csv(&summary, &out.join("first-crack.csv"))?;
     table::write_csv(&runs, &out.join("first-crack-runs.csv"))?;
     let text =

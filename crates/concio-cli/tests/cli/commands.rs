@@ -282,7 +282,7 @@ fn records_that_hardly_shake_are_told() {
     let desk = Desk::new();
     let wall = concio::case::starter(concio::case::ModelKind::Planar);
     let (head, _) = wall.split_once("\n[motion]").expect("a motion");
-    let line = |k: usize| format!("{} {}\n", 0.01 * k as f64, if k % 2 == 0 { 0.5 } else { -0.5 });
+    let line = |k: usize| format!("{} {}\n", 0.01 * k as f64, if k.is_multiple_of(2) { 0.5 } else { -0.5 });
     let samples = |n: usize| (0..n).map(line).collect::<String>();
     desk.put("two.txt", "# units: g\n0 0.1\n0.01 0.2\n");
     desk.put("zero.txt", format!("# units: g\n{}", samples(200).replace("-0.5", "0.0").replace(" 0.5", " 0.0")));

@@ -236,6 +236,7 @@ fn the_guide_shakes_its_wall_by_a_record() {
     let shared = std::env::var_os("CONCIO_SHARED").map_or(beside, std::path::PathBuf::from);
     let record = shared.join("records/itaca_esm/IT.NRC..HGE.D.20161030.064018.C.ACC.ASC");
     if !record.exists() {
+        concio_verified::skip("the record of the guide's wall (shared/ not found)");
         return;
     }
     let page = include_str!("../../../../docs/guide/13-out-of-plane.md");

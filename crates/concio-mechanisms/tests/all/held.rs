@@ -88,7 +88,7 @@ fn floors_inside_of_a_storey_push_and_hold() {
         let found = counted(&survey, Kind::VerticalArch).expect("an arch");
         let expected = arch(0.5, 180e3, &[[3.0, 6.0 * thrust]]);
         agrees!(
-            "Mechanisms: arch with a thrust inside",
+            &format!("Mechanisms: arch with a thrust inside; {thrust} N/m"),
             "virtual work by hand",
             "",
             found.multiplier(),
@@ -145,7 +145,7 @@ fn ties_count_with_what_they_come_to() {
         let found = at_hinge(&survey, Kind::Overturning, 0.0);
         let expected = bare + 5.0 * force / (360e3 * 3.0);
         agrees!(
-            "Mechanisms: ties count with what they come to",
+            &format!("Mechanisms: a tie that comes to; {force:.0} N; {}", keys.len()),
             "(OP3) by hand",
             "",
             found.multiplier(),

@@ -340,7 +340,7 @@ fn bare_columns(key: &str, node: Option<&Node>) -> Option<Warning> {
     // One with a unit says that the others are meant as they stand.
     let values: Vec<f64> = all.iter().map(bare).collect::<Option<_>>()?;
     let largest = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
-    (largest >= SHAKING.limits[0] && largest < SMALL_SPECTRUM).then(|| {
+    (SHAKING.limits[0]..SMALL_SPECTRUM).contains(&largest).then(|| {
         let largest = shown(largest);
         let text = format!(
             "{key} go up to {largest} m/s2, numbers without a unit; did you mean \"{largest} g\", and so each of them?"

@@ -88,7 +88,7 @@ fn of_rocking(outcome: &Outcome) -> Vec<Warning> {
     let Some(rocking) = &outcome.rocking else { return told };
     if let Some(collapse) = outcome.totals.collapse {
         let text = format!(
-            "the wall falls: it lies on the ground from t = {:.4} s on. Peaks are those of the fall; whether a wall falls may be a matter of chance: try              999 and 1001 thousandths of the motion",
+            "the wall falls: it lies on the ground from t = {:.4} s on. Peaks are those of the fall; whether a wall falls may be a matter of chance: try 0.999 and 1.001 times the motion",
             collapse.time
         );
         add(WarningKind::Collapse, text);

@@ -213,11 +213,11 @@ fn joints_of_hardly_any_material_are_told() {
     };
     assert_eq!(
         joint("stiffness = \"36e6 N/m3\""),
-        ["joint.bed.stiffness is 36000000 N/m3, less than 40000000 N/m3; did you mean \"36 N/mm3\"?"]
+        ["joint.bed.stiffness is 3.6e7 N/m3, less than 4e7 N/m3; did you mean \"36 N/mm3\"?"]
     );
     assert_eq!(
         joint("stiffness = \"5e6 N/m3\""),
-        ["joint.bed.stiffness is 5000000 N/m3, less than 40000000 N/m3; did you mean \"5 N/mm3\"?"]
+        ["joint.bed.stiffness is 5000000 N/m3, less than 4e7 N/m3; did you mean \"5 N/mm3\"?"]
     );
     assert_eq!(
         joint("stiffness = \"36 N/mm3\", normal_to_shear = 0.4"),
@@ -286,7 +286,7 @@ fn each_mistake_of_unit_is_told_with_a_guess() {
         (
             "stiffness = 5.4e7 }\nhead",
             "stiffness = \"36 N/m3\" }\nhead",
-            "joint.bed.stiffness is 36 N/m3, less than 40000000 N/m3; did you mean \"36 N/mm3\"?",
+            "joint.bed.stiffness is 36 N/m3, less than 4e7 N/m3; did you mean \"36 N/mm3\"?",
         ),
         (
             "stiffness = 5.4e7 }\nhead",
