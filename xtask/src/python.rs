@@ -9,7 +9,7 @@ use crate::concio;
 use crate::examples::folder;
 
 /// What the checks import, by the names under which it is installed.
-const PACKAGES: [&str; 14] = [
+const PACKAGES: [&str; 15] = [
     "h5py",
     "numpy",
     "vtk",
@@ -17,6 +17,7 @@ const PACKAGES: [&str; 14] = [
     "SALib",
     "eqsig",
     "cma",
+    "distributed",
     "matplotlib",
     "maturin",
     "mypy",

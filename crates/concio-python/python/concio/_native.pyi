@@ -8,6 +8,19 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "Case",
+    "Prepared",
+    "Record",
+    "Run",
+    "Simulation",
+    "__version__",
+    "command",
+    "example_names",
+    "run_many",
+    "study_run",
+    "task_work",
+]
 __version__: str
 
 _Path = str | PathLike[str]

@@ -14,6 +14,7 @@ from . import _native
 
 _LOOK = 0.2  # s between two looks whether somebody wants no more
 
+
 class Executor(Protocol):
     """What a study asks of an executor."""
 
