@@ -55,6 +55,28 @@ fn targets(text: &str) -> Vec<String> {
     links.map(str::to_string).collect()
 }
 
+/// A text with the targets of its links outside of code replaced.
+pub fn relinked(text: &str, new: impl Fn(&str) -> Result<String, String>) -> Result<String, String> {
+    let prose = |text: &str| -> Result<String, String> {
+        let mut parts = text.split("](");
+        let mut out = parts.next().unwrap_or_default().to_string();
+        for part in parts {
+            let end = part.find([')', ' ', '\n']).unwrap_or(part.len());
+            out += "](";
+            out += &new(&part[..end])?;
+            out += &part[end..];
+        }
+        Ok(out)
+    };
+    // What stands between two marks of code is prose at even places.
+    let outside = |text: &str, mark: &str, change: &dyn Fn(&str) -> Result<String, String>| {
+        let parts = text.split(mark).enumerate();
+        let parts: Result<Vec<_>, _> = parts.map(|(i, p)| if i % 2 == 0 { change(p) } else { Ok(p.into()) }).collect();
+        parts.map(|parts| parts.join(mark))
+    };
+    outside(text, "```", &|part| outside(part, "`", &prose))
+}
+
 /// Words in backticks that start like a path of the tree and hold no placeholder.
 fn tree_paths(text: &str) -> BTreeSet<String> {
     let fenced = text.split("```").step_by(2).collect::<String>();
@@ -100,6 +122,15 @@ mod tests {
     fn links_in_prose_are_found_and_those_in_code_are_not() {
         let text = "See [a](docs/a.md#part) and `[b](c)`.\n```\n[d](e)\n```\n[f](g.md)";
         assert_eq!(targets(text), ["docs/a.md#part", "g.md"]);
+    }
+
+    #[test]
+    fn links_in_prose_are_replaced_and_those_in_code_are_not() {
+        let text = "See [a](a.md#part), [`x`](b.md) and `[b](c)`.\n```\n[d](e)\n```\n![f](g.svg)";
+        let new = relinked(text, |target| Ok(format!("new/{target}")));
+        let wanted = "See [a](new/a.md#part), [`x`](new/b.md) and `[b](c)`.\n```\n[d](e)\n```\n![f](new/g.svg)";
+        assert_eq!(new, Ok(wanted.into()));
+        assert_eq!(relinked(text, |target| Err(target.into())), Err("a.md#part".into()));
     }
 
     #[test]

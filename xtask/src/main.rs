@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 mod api;
+mod archive;
 mod cases;
 mod command;
 mod documents;
@@ -15,6 +16,7 @@ mod gallery;
 mod histories;
 mod links;
 mod modules;
+mod packages;
 mod peers;
 mod performance;
 mod planar;
@@ -22,6 +24,7 @@ mod python;
 mod report_ui;
 mod schemes;
 mod shown;
+mod site;
 mod studies;
 mod symbols;
 mod verification;
@@ -41,6 +44,10 @@ cargo xtask shown      try the wall files and commands that documents show
 cargo xtask equations  check the numbers of equations
 cargo xtask links      check the links of the documents
 cargo xtask modules    find circles between modules
+cargo xtask site       build the site of the documents under target/site (needs Python)
+cargo xtask man        write the man pages into target/man
+cargo xtask archive    pack the program, man pages and completions into target/archive, for a release
+cargo xtask packages   check the crates that are published, in order (--order, --version: print these alone)
 cargo xtask words      count the words of the documents, and of their sentences
 cargo xtask report-ui  build the program of the interactive report into the tree (needs Node.js)
 cargo xtask report-ui-check   its bundle is current, its tests pass, a browser shows the numbers of the result
@@ -65,6 +72,10 @@ fn main() -> ExitCode {
         "equations" => equations::check(&root),
         "links" => links::check(&root),
         "modules" => modules::check(&root),
+        "site" => site::make(&root),
+        "man" => build(&root).and_then(|()| archive::man(&root, &root.join("target/man"))),
+        "archive" => build(&root).and_then(|()| archive::make(&root)),
+        "packages" => packages::make(&root, &rest),
         "words" => words::check(&root),
         "report-ui" => report_ui::build(&root),
         "report-ui-check" => build(&root).and_then(|()| report_ui::check(&root)),
@@ -110,7 +121,7 @@ fn build(root: &Path) -> Outcome {
 
 fn ci(root: &Path) -> Outcome {
     let python = python::environment(root)?;
-    let steps: [(&str, &dyn Fn() -> Outcome); 15] = [
+    let steps: [(&str, &dyn Fn() -> Outcome); 17] = [
         ("format", &|| run(cargo(root).args(["fmt", "--all", "--check"]))),
         ("lints", &|| {
             run(cargo(root).args([
@@ -132,6 +143,8 @@ fn ci(root: &Path) -> Outcome {
         ("generated documents", &|| documents::check(root)),
         ("links", &|| links::check(root)),
         ("words", &|| words::check(root)),
+        ("site", &|| site::make(root)),
+        ("crates to publish", &|| packages::make(root, &[])),
         ("examples", &|| examples::run_all(root)),
         ("readers of results", &|| python::read_results(root, python.as_deref())),
         ("package for Python", &|| python::check_package(root, python.as_deref())),

@@ -84,7 +84,7 @@ fn npm(root: &Path) -> Command {
 }
 
 /// `CHROMIUM`, else where the system keeps it.
-fn browser() -> Option<PathBuf> {
+pub fn browser() -> Option<PathBuf> {
     let named = std::env::var_os("CHROMIUM").map(PathBuf::from);
     named.or_else(|| Some("/usr/bin/chromium".into())).filter(|path| path.is_file())
 }

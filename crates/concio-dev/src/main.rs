@@ -27,6 +27,11 @@ enum Command {
         #[arg(long)]
         measures: bool,
     },
+    /// Write the man pages of the command and of all below it.
+    Man {
+        /// Folder of the pages; it is made if need be.
+        folder: PathBuf,
+    },
     /// Print a diagram of measured points as SVG (docs/performance.md).
     Chart {
         /// Title, labels of the axes and series of points, as JSON.
@@ -65,6 +70,7 @@ fn main() -> ExitCode {
         Command::Cases(args) => cases::command::cases(&args),
         Command::Reference { measures: false } => ended(reference::reference()),
         Command::Reference { measures: true } => ended(reference::measures()),
+        Command::Man { folder } => ended(reference::man(&folder)),
         Command::Chart { file } => ended(chart::chart(&file)),
     };
     done.unwrap_or_else(|failure| failure.show())
