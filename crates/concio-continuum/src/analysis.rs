@@ -446,6 +446,7 @@ fn scale_check(
     alone.panels[0].openings.clear();
     alone.panels[0].connection = None;
     alone.ties.clear();
+    alone.forces.clear();
     alone.joint.changes.clear();
     (alone.joint.base, alone.joint.top) = (None, None);
     alone.load.beam = Beam::Tied;

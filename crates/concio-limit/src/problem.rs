@@ -162,8 +162,10 @@ fn at_rest(case: &Case) -> Result<Case> {
 fn warnings(case: &Case, model: &Model, sides: &[Sides]) -> Vec<String> {
     let bonded = case.joint.bond.is_some() || case.joint.changes.iter().any(|c| c.bond.is_some());
     let bonded = bonded.then(|| "the bond of the joints is left out: they count as dry".to_string());
-    let tied = (!case.ties.is_empty())
-        .then(|| "the ties are left out: the multiplier is that of the wall without them".to_string());
+    let besides = [("ties", !case.ties.is_empty()), ("forces on blocks", !case.forces.is_empty())];
+    let besides = besides.into_iter().filter(|(_, given)| *given);
+    let besides =
+        besides.map(|(what, _)| format!("the {what} are left out: the multiplier is that of the wall without them"));
     let mortar = |p: &concio::case::Panel| p.mortar.bed.si() > 0.0 || p.mortar.head.si() > 0.0;
     let laid = case.panels.iter().any(mortar).then(|| {
         "mortar counts as a dry joint, a line in its middle: it bears no tension, and blocks touch there".to_string()
@@ -185,7 +187,7 @@ fn warnings(case: &Case, model: &Model, sides: &[Sides]) -> Vec<String> {
         format!("the sides of {touching} joints of law `none` touch as they are laid: blocks press and rub there. A gap between them keeps them apart")
     });
     let across = case.out_of_plane.is_some().then(|| concio::model::NOT_IN_PLANE.to_string());
-    bonded.into_iter().chain(across).chain(laid).chain(tied).chain(presses).chain(crushes).chain(touching).collect()
+    bonded.into_iter().chain(across).chain(laid).chain(besides).chain(presses).chain(crushes).chain(touching).collect()
 }
 
 /// Part of a load that may have no mass without a word.

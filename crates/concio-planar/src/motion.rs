@@ -348,6 +348,8 @@ pub struct Motion {
     laws: Laws,
     rods: Vec<Rod>,
     load: Vec<[f64; 2]>,
+    /// What pushes each body besides, at its centre [N, N, N m].
+    applied: Vec<Triple>,
     held: Vec<[bool; 3]>,
     shaken: Vec<bool>,
     mass: Vec<Triple>,
@@ -483,6 +485,7 @@ impl Motion {
             joints: system.links.iter().map(|link| (link.a, link.b)).collect(),
             laws: Laws::new(&system.links, system.other),
             load: system.load.clone(),
+            applied: vec![[0.0; 3]; bodies.len()],
             held: system.held.clone(),
             shaken: system.shaken.clone(),
             setting,
@@ -554,6 +557,12 @@ impl Motion {
         let borne = 0.0 - joints.map(|(_, seen)| seen.shear).sum::<f64>();
         let anchored = self.ties().filter(|(tie, _)| tie.a.is_none()).map(|(_, strain)| strain.pull[0]);
         anchored.fold(borne, |sum, pull| sum + pull)
+    }
+
+    /// Pushes a body at its centre [N, N] and turns it, counterclockwise [N m], besides its load, until this is called again. It is not kept
+    /// ([`Motion::keep`]).
+    pub fn apply(&mut self, body: usize, force: Triple) {
+        self.applied[body] = force;
     }
 
     /// How steps are taken.
@@ -767,11 +776,12 @@ impl Motion {
     /// Velocities without contact, and polygons in the middle of the step; what is held moves at `rate` before and after it [m/s].
     fn release(&mut self, h: f64, forcing: &Forcing, rate: [f64; 2]) {
         for (body, place) in self.places.iter().enumerate() {
-            let (v, held, load) = (self.velocities[body], self.held[body], self.load[body]);
+            let (v, held, push) = (self.velocities[body], self.held[body], self.applied[body]);
+            let load = self.load[body];
             let mut half = v.map(|v| 0.5 * h * v);
             let base = if self.shaken[body] { forcing.base } else { [0.0; 2] };
-            let pushed = |k: usize| v[k] - base[k] / self.resists + h * load[k] * self.inverse[body][k];
-            let mut after = [pushed(0), pushed(1), v[2]];
+            let pushed = |k: usize| v[k] - base[k] / self.resists + h * (load[k] + push[k]) * self.inverse[body][k];
+            let mut after = [pushed(0), pushed(1), v[2] + h * push[2] * self.inverse[body][2]];
             if held[0] {
                 (half[0], after[0]) = (0.5 * h * rate[0], rate[1]);
             }

@@ -27,6 +27,11 @@ enum Asked {
         to: f64,
         steps: u64,
     },
+    /// A force on a block from now on [N, N].
+    Push {
+        block: usize,
+        force: [f64; 2],
+    },
     Save,
     Restore(Vec<u8>),
 }
@@ -37,6 +42,8 @@ struct Told {
     bytes: Vec<u8>,
     /// Whether bytes were those of this wall.
     restored: bool,
+    /// Why nothing was pushed.
+    refused: Option<concio::Error>,
 }
 
 /// Where a run is.
@@ -136,7 +143,7 @@ impl Simulation {
 fn serve(mut steps: Steps, orders: &Receiver<Asked>, answers: &Sender<Told>, stop: &AtomicBool) {
     let mut ended = None;
     while let Ok(asked) = orders.recv() {
-        let (mut bytes, mut restored) = (Vec::new(), true);
+        let (mut bytes, mut restored, mut refused) = (Vec::new(), true, None);
         match asked {
             Asked::Advance { to, steps: most } => {
                 let mut taken = 0;
@@ -150,6 +157,7 @@ fn serve(mut steps: Steps, orders: &Receiver<Asked>, answers: &Sender<Told>, sto
                     taken += 1;
                 }
             }
+            Asked::Push { block, force } => refused = steps.push(block, force).err(),
             Asked::Save => {
                 steps.clear_recording();
                 bytes = steps.save();
@@ -164,7 +172,7 @@ fn serve(mut steps: Steps, orders: &Receiver<Asked>, answers: &Sender<Told>, sto
                 }
             }
         }
-        if answers.send(Told { standing: Standing::of(&steps, ended.clone()), bytes, restored }).is_err() {
+        if answers.send(Told { standing: Standing::of(&steps, ended.clone()), bytes, restored, refused }).is_err() {
             return;
         }
     }
@@ -176,6 +184,14 @@ impl Simulation {
     /// a step beyond. After Ctrl-C the steps that were taken stay.
     fn advance(&self, py: Python<'_>, to: f64, steps: u64) -> PyResult<()> {
         self.ask(py, Asked::Advance { to, steps }).map(drop)
+    }
+
+    /// Pushes a block from now on, to the right and upwards [N].
+    fn push(&self, py: Python<'_>, block: usize, x: f64, y: f64) -> PyResult<()> {
+        match self.ask(py, Asked::Push { block, force: [x, y] })?.refused {
+            Some(error) => Err(Raised::from(error).into()),
+            None => Ok(()),
+        }
     }
 
     /// The state as bytes.

@@ -88,3 +88,29 @@ def test_ctrl_c_leaves_the_steps_that_were_taken(planar: Wall) -> None:
     timer.join()
     assert 0 < simulation.time < 3000
     simulation.advance()
+
+
+def test_a_spring_pulls_a_block_as_the_forces_of_a_wall_file_do(planar: Wall) -> None:
+    wall = planar.replace({"motion": {"duration": "0.2 s"}, "solver.step": "1 ms"})
+    simulation = wall.simulation()
+    block = str(wall.blocks["name"][-1])
+    number = len(wall.blocks) - 1
+    forces = []
+    while simulation.stop_reason is None:
+        forces.append(1e6 * (0.05 * simulation.time - float(simulation.displacements[number, 0])))
+        simulation.push(block, x=forces[-1])
+        simulation.advance()
+    assert simulation.displacements[number, 0] > 1e-4
+    run = wall.replace({"force": [{"block": block, "x": forces, "every": "1 ms"}]}).simulation()
+    run.advance(to=1.0)
+    assert np.array_equal(run.displacements, simulation.displacements)
+    assert run.energy == simulation.energy
+
+
+def test_what_cannot_be_pushed_is_told(planar: Wall, shear: Wall) -> None:
+    with pytest.raises(InputError, match="no block 'nothing'"):
+        planar.simulation().push("nothing", x=1.0)
+    with pytest.raises(InputError, match="finite"):
+        planar.simulation().push(0, x=float("nan"))
+    with pytest.raises(InputError, match="planar"):
+        shear.simulation().push(0, x=1.0)

@@ -74,6 +74,9 @@ pub struct Case {
     /// Tie rods, up to 1,000. Planar walls alone.
     #[serde(default, rename = "tie", skip_serializing_if = "Vec::is_empty")]
     pub ties: Vec<Tie>,
+    /// Forces on blocks from outside, up to 1,000. Planar walls alone.
+    #[serde(default, rename = "force", skip_serializing_if = "Vec::is_empty")]
+    pub forces: Vec<BlockForce>,
     /// Floors, ties, side walls, gable and site for mechanisms out of the plane, which `concio mechanisms` assesses and walls of
     /// `model = "rocking"` go through. Runs and limit analysis in the plane do not read it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -422,6 +425,23 @@ pub struct Tie {
 impl Tie {
     /// What an end is fixed to that is fixed to no block.
     pub const BASE: &'static str = "base";
+}
+
+/// A force on a block at its centre of gravity, from the start of the motion on: the wall has come to rest without it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BlockForce {
+    /// Name of the block.
+    pub block: String,
+    /// To the right [N]: one value, or one after the other, each for `every`, the last to the end. Default none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub x: Vec<Force>,
+    /// Upwards [N], likewise. Default none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub y: Vec<Force>,
+    /// How long each value acts [s], above 0; needed where there is more than one. A step has the value of its start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub every: Option<Time>,
 }
 
 /// Laws of the joints of the wall.

@@ -373,7 +373,9 @@ fn names(case: &Case, wall: &Wall) -> Result<()> {
     let tied = case.ties.iter().enumerate().flat_map(|(i, tie)| [(i, "from", &tie.from), (i, "to", &tie.to)]);
     let tied = tied.filter(|(.., name)| *name != Tie::BASE);
     let tied = tied.map(|(i, end, name)| (format!("tie[{i}].{end}"), name, "`base`, or names of blocks"));
-    let wanted: Vec<(String, &String, &str)> = tied.chain(kept).collect();
+    let pushed = case.forces.iter().enumerate();
+    let pushed = pushed.map(|(i, force)| (format!("force[{i}].block"), &force.block, "names of blocks"));
+    let wanted: Vec<(String, &String, &str)> = tied.chain(pushed).chain(kept).collect();
     if !own && wanted.is_empty() {
         return Ok(());
     }

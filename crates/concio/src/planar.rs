@@ -16,7 +16,7 @@ use concio_shear::law::{Bonded, Elastic};
 use crate::assign::JointLaw;
 use crate::assign::load_masses;
 use crate::bond::{Bond, Snap, Snaps};
-use crate::case::{Acts, Beam, BeamRotation, Case, Device, DeviceLaw, JointKind, Spring, StopAt, Tie};
+use crate::case::{Acts, Beam, BeamRotation, BlockForce, Case, Device, DeviceLaw, JointKind, Spring, StopAt, Tie};
 use crate::device;
 use crate::error::{InputError, Result};
 use crate::wall::{End, Joint, Wall};
@@ -48,8 +48,32 @@ pub struct Planar {
     pub step: f64,
     /// Whether inertia is left out.
     pub still: bool,
+    /// Forces of the wall file on blocks.
+    pub forces: Vec<Pushes>,
     /// How long after a collapse the run ends [s]; none where it goes on to the end of the motion.
     pub after_collapse: Option<f64>,
+}
+
+/// A force on a block as time goes by.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pushes {
+    /// Number of the block.
+    pub block: usize,
+    /// Values along x and y, one after the other [N].
+    values: [Vec<f64>; 2],
+    /// How long each acts [s].
+    every: f64,
+}
+
+impl Pushes {
+    /// What acts in a step that begins at `t` [N]: of values that change there within rounding, the later ones.
+    pub fn at(&self, t: f64) -> [f64; 2] {
+        let number = (t / self.every * (1.0 + 1e-12) + 1e-9).floor() as usize;
+        [0, 1].map(|k| {
+            let values = &self.values[k];
+            values.get(number).or(values.last()).copied().unwrap_or(0.0)
+        })
+    }
 }
 
 impl Planar {
@@ -218,7 +242,17 @@ pub(crate) fn compile(
     let open = laws.iter().map(JointLaw::is_open).collect();
     let after_collapse = case.motion.stop_at.map(|StopAt::Collapse(after)| after.si());
     let (step, still) = (case.planar_step(), case.motion.quasi_static);
-    Ok(Planar { system, offset, open, step, still, after_collapse })
+    let forces = case.forces.iter().enumerate().map(|(i, force)| pushes(i, force, wall)).collect::<Result<_>>()?;
+    Ok(Planar { system, offset, open, step, still, forces, after_collapse })
+}
+
+fn pushes(i: usize, force: &BlockForce, wall: &Wall) -> Result<Pushes> {
+    let block = wall.blocks.iter().position(|b| b.name == force.block).ok_or_else(|| {
+        let what = format!("no block is called `{}`", force.block);
+        InputError::new(what).key(format!("force[{i}].block")).allowed("names of blocks")
+    })?;
+    let values = [&force.x, &force.y].map(|values| values.iter().map(|v| v.si()).collect());
+    Ok(Pushes { block, values, every: force.every.map_or(f64::INFINITY, |every| every.si()) })
 }
 
 /// Ties as rods between bodies; the base is the first of the two.

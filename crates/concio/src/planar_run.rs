@@ -15,7 +15,7 @@ use crate::failure::is_down;
 use crate::ground::signal::GroundMotion;
 use crate::model::Model;
 use crate::outcome::{Collapse, TieRow, Totals};
-use crate::planar::{Planar, standing};
+use crate::planar::{Planar, Pushes, standing};
 use crate::record::{Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use crate::state;
 use crate::wall::End;
@@ -105,6 +105,12 @@ impl Run {
         self.bodies.ties(model)
     }
 
+    /// Pushes a block at its centre from now on [N, N], besides the forces of the wall file.
+    pub fn push(&mut self, block: usize, force: [f64; 2]) {
+        self.bodies.pushed[block] = force;
+        self.bodies.pushes = true;
+    }
+
     /// Whether it has gone on after a collapse for as long as it was to.
     pub fn collapsed(&self, model: &Model) -> bool {
         let after = model.planar().and_then(|planar| planar.after_collapse);
@@ -189,6 +195,9 @@ struct Bodies {
     /// Whether each joint has been crushed.
     crushed: Vec<bool>,
     ties: Vec<Borne>,
+    /// What pushes each block besides the wall file's forces [N, N], and whether anything pushes at all.
+    pushed: Vec<[f64; 2]>,
+    pushes: bool,
     /// The last step, and the one before it where a sample needs it.
     last: Stride,
     past: Past,
@@ -205,6 +214,7 @@ struct Kept {
     before: Vec<f64>,
     crushed: Vec<bool>,
     ties: Vec<Borne>,
+    pushed: Vec<[f64; 2]>,
     last: Stride,
 }
 
@@ -321,6 +331,8 @@ impl Bodies {
             before: vec![0.0; model.joints.len()],
             crushed: vec![false; model.joints.len()],
             ties: vec![Borne { force: 0.0, stretch: 0.0, yielded: f64::INFINITY }; planar.system.ties.len()],
+            pushed: vec![[0.0; 2]; model.wall.blocks.len()],
+            pushes: !planar.forces.is_empty(),
             last: Stride::none(n, &motion.seen),
             past: Past {
                 stride: never,
@@ -374,17 +386,19 @@ impl Bodies {
     /// What has to be kept beside the state.
     fn keep(&self) -> Kept {
         let (origin, before, crushed) = (self.origin.clone(), self.before.clone(), self.crushed.clone());
-        Kept { motion: self.motion.keep(), origin, before, crushed, ties: self.ties.clone(), last: self.last.clone() }
+        let (ties, pushed, last) = (self.ties.clone(), self.pushed.clone(), self.last.clone());
+        Kept { motion: self.motion.keep(), origin, before, crushed, ties, pushed, last }
     }
 
     /// Goes on from what was kept; false where it is not of this wall.
     fn take_up(&mut self, kept: Kept) -> bool {
-        let Kept { motion, origin, before, crushed, ties, mut last } = kept;
+        let Kept { motion, origin, before, crushed, ties, pushed, mut last } = kept;
         let n = self.a.len();
         let fits = origin.len() == self.origin.len()
             && before.len() == self.before.len()
             && crushed.len() == self.crushed.len()
             && ties.len() == self.ties.len()
+            && pushed.len() == self.pushed.len()
             && last.before.len() == self.before.len()
             && [&mut last.start, &mut last.end].iter_mut().all(|moved| moved.numbers().iter().all(|x| x.len() == n))
             && self.motion.take_up(motion);
@@ -392,6 +406,8 @@ impl Bodies {
             self.last = last;
             (self.origin, self.before, self.crushed) = (origin, before, crushed);
             self.ties = ties;
+            self.pushes |= pushed.iter().any(|force| *force != [0.0; 2]);
+            self.pushed = pushed;
         }
         fits
     }
@@ -429,6 +445,9 @@ impl Bodies {
             held: if drives.is_some() { drive(excitation, to) - drive(excitation, from) } else { 0.0 },
         };
         self.motion.time = state.t;
+        if self.pushes {
+            self.push(model.planar().map_or(&[], |planar| &planar.forces), state.t);
+        }
         self.motion.go(h, &forcing);
         state.t = if lands { excitation.duration } else { state.t + h };
         self.last.to = state.t;
@@ -442,6 +461,23 @@ impl Bodies {
         }
         self.observe(model, state, h, &mut tell);
         Ok(())
+    }
+
+    /// Lets what pushes the blocks at `t` [s] act on their bodies, of which some have their centre elsewhere.
+    fn push(&mut self, forces: &[Pushes], t: f64) {
+        let whole = |own: [f64; 2], block: usize| {
+            let given = forces.iter().filter(|force| force.block == block).map(|force| force.at(t));
+            given.fold(own, |sum, force| [0, 1].map(|k| sum[k] + force[k]))
+        };
+        for (block, own) in self.pushed.iter().enumerate() {
+            let [x, y] = whole(*own, block);
+            self.motion.apply(block, [x, y, 0.0]);
+        }
+        for &(block, offset) in &self.aside {
+            let [x, y] = whole(self.pushed[block], block);
+            let lever = self.motion.places[block].turned(offset);
+            self.motion.apply(block, [x, y, lever[0] * y - lever[1] * x]);
+        }
     }
 
     /// Puts the last step behind, with what a sample in its second half needs of it.

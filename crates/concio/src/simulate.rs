@@ -8,7 +8,7 @@ use concio_shear::run as shear;
 use crate::bond::BondRow;
 use crate::case::Solver;
 use crate::channels::Channels;
-use crate::error::Result;
+use crate::error::{InputError, Result};
 use crate::keeper::{self, Keeper};
 use crate::model::{Model, System};
 use crate::outcome::Outcome;
@@ -149,6 +149,32 @@ impl<'m> Simulation<'m> {
             self.keeper.recording.clear();
             run.start_from(z, v, &mut self.keeper);
         }
+    }
+
+    /// Pushes a block of a planar wall at its centre from now on, to the right and upwards [N], besides what the wall file has it pushed with. What the next
+    /// step starts from is to be read before: a force that follows the motion is then that of the step's start.
+    ///
+    /// # Errors
+    /// A block that is not there, forces that are not finite, walls of another model.
+    pub fn push(&mut self, block: usize, force: [f64; 2]) -> Result<()> {
+        let blocks = self.keeper.model.wall.blocks.len();
+        if block >= blocks {
+            return Err(InputError::new(format!("there is no block {block}"))
+                .key("block")
+                .allowed(format!("0 … {}", blocks - 1))
+                .into());
+        }
+        if !force.iter().all(|f| f.is_finite()) {
+            return Err(InputError::new(format!("is {force:?} N")).key("force").allowed("finite forces").into());
+        }
+        let Mechanics::Planar(run) = &mut self.mechanics else {
+            return Err(InputError::new("forces act on blocks of planar walls")
+                .key("model")
+                .allowed("`planar`")
+                .into());
+        };
+        run.push(block, force);
+        Ok(())
     }
 
     /// Takes at most `steps` steps, fewer when the buffer is full or the run ends.

@@ -87,13 +87,14 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let title = if title.is_empty() { String::new() } else { format!("{}\n\n", line(title)) };
     let but = if falls { ", but its wall does not stand under its loads" } else { "" };
     let text = format!(
-        "{title}{}\n{}{}\n{}{}{}{}\n{}{list}\n{} is a valid wall file{but}.\n",
+        "{title}{}\n{}{}\n{}{}{}{}{}\n{}{list}\n{} is a valid wall file{but}.\n",
         columns(&panel_rows(model)),
         openings::told(case)?,
         columns(&joints),
         table(&devices),
         table(&bonds),
         table(&ties),
+        table(&planar::force_rows(case)),
         pairs(&general),
         pairs(&motion),
         args.file.display()

@@ -43,6 +43,7 @@ class Simulation:
         self.wall = wall
         self.duration = prepared.duration
         blocks = prepared.blocks()
+        self._names = {name: number for number, name in enumerate(blocks["name"])}
         self._centres = np.column_stack([blocks["x"], blocks["y"]])
 
     def advance(self, *, to: float | None = None, steps: int | None = None) -> None:
@@ -58,6 +59,35 @@ class Simulation:
         if to is None and steps is None:
             steps = 1
         self._native.advance(np.inf if to is None else float(to), _MOST if steps is None else steps)
+
+    def push(self, block: str | int, *, x: float = 0.0, y: float = 0.0) -> None:
+        """Pushes a block of a planar wall at its centre from now on, until it is pushed otherwise; 0 N ends it.
+
+        The force stays as it is while the wall moves: a spring is followed by a push per step. The run is, to the bit, that of a wall
+        file with these values in ``force``.
+
+        Args:
+            block: Its name or number.
+            x: Force to the right [N].
+            y: Force upwards [N].
+
+        Raises:
+            InputError: No such block, a force that is not finite, a wall of another model.
+
+        Example:
+            >>> import concio
+            >>> wall = concio.Wall.example("sliding-wall")
+            >>> simulation = wall.simulation()
+            >>> block, stiffness, speed = wall.blocks["name"][-1], 1e6, 0.01
+            >>> while simulation.time < 0.1:
+            ...     pulled = simulation.displacements[-1, 0]
+            ...     simulation.push(block, x=stiffness * (speed * simulation.time - pulled))
+            ...     simulation.advance()
+        """
+        number = self._names.get(block, -1) if isinstance(block, str) else block
+        if not 0 <= number < len(self._names):
+            raise InputError(f"there is no block {block!r}", key="block", allowed="names or numbers of `wall.blocks`")
+        self._native.push(number, float(x), float(y))
 
     @property
     def time(self) -> float:

@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::quantity::{SpecificWeight, Stiffness};
 
 impl Case {
-    /// A wall of one panel, without load, ties and bond.
+    /// A wall of one panel, without load, ties, forces and bond.
     pub fn new(model: ModelKind, panel: Panel, joint: Joints, motion: Motion) -> Self {
         Case {
             title: String::new(),
@@ -19,6 +19,7 @@ impl Case {
             set: None,
             panels: vec![panel],
             ties: Vec::new(),
+            forces: Vec::new(),
             out_of_plane: None,
             rocking: Rocking::default(),
             joint,

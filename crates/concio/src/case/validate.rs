@@ -8,6 +8,7 @@ use crate::quantity::{Dimension, Quantity, Stiffness, shown};
 use crate::{InputError, Result};
 
 mod devices;
+mod forces;
 mod joints;
 mod models;
 mod motion;
@@ -39,6 +40,7 @@ pub fn findings(case: &Case) -> Vec<InputError> {
     f.list.extend(case.set.as_ref().and_then(parameter_set));
     walls::check(&mut f, case);
     ties::check(&mut f, case);
+    forces::check(&mut f, case);
     out_of_plane::check(&mut f, case);
     joints::check(&mut f, case);
     load(&mut f, case);

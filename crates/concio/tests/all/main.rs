@@ -13,6 +13,7 @@ mod dry_walls;
 mod failure_modes;
 mod findings;
 mod folders;
+mod forces;
 mod ground_motion;
 mod head;
 mod large_walls;

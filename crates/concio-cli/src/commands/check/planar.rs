@@ -1,16 +1,17 @@
-//! Joints, bonds and ties of planar walls, which press, part and slide.
+//! Joints, bonds, forces and ties of planar walls, which press, part and slide.
 
 use concio::bond;
-use concio::case::Case;
+use concio::case::{BlockForce, Case};
 use concio::model::Model;
 use concio::planar::{Planar, Rest};
+use concio::quantity::Force;
 use concio_planar::joint::{Law, Normal};
 
 use super::{KINDS, range};
 use crate::draw::wall::kind_name;
 use crate::failure::Failure;
 use crate::files;
-use crate::format::{plain, si, significant};
+use crate::format::{plain, seconds, si, significant};
 
 /// Up to this rigid joints do not count as settled: 1 nm in each of a hundred courses [m].
 const ROUNDED: f64 = 1e-7;
@@ -132,6 +133,27 @@ pub fn rest(rest: Rest, bonds: usize) -> String {
         }
         Rest::Falls => "does not stand: it falls before anything moves".into(),
     }
+}
+
+/// The forces on blocks; nothing where there are none.
+pub fn force_rows(case: &Case) -> Vec<Vec<String>> {
+    if case.forces.is_empty() {
+        return Vec::new();
+    }
+    let values = |values: &[Force]| match values {
+        [] => "–".into(),
+        [one] => si(one.si(), "N"),
+        many => {
+            let ends = many.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v.si()), b.max(v.si())]);
+            format!("{} values, {} … {}", many.len(), si(ends[0], "N"), si(ends[1], "N"))
+        }
+    };
+    let head = ["forces", "block", "to the right", "upwards", "each for"].map(String::from).to_vec();
+    let row = |(number, force): (usize, &BlockForce)| {
+        let every = force.every.map_or("–".into(), |every| seconds(every.si()));
+        vec![(number + 1).to_string(), force.block.clone(), values(&force.x), values(&force.y), every]
+    };
+    std::iter::once(head).chain(case.forces.iter().enumerate().map(row)).collect()
 }
 
 /// The tie rods; nothing where there are none.

@@ -78,6 +78,7 @@ fn of_planar(case: &Case) -> Vec<String> {
         ("motion.vertical", case.motion.vertical != Signal::None),
         ("motion.quasi_static", case.motion.quasi_static),
         ("motion.stop_at", case.motion.stop_at.is_some()),
+        ("force[0]", !case.forces.is_empty()),
         ("solver.step", case.solver.step.is_some()),
     ];
     keys.extend(others.into_iter().filter(|(_, given)| *given).map(|(key, _)| key.to_string()));
@@ -107,6 +108,7 @@ fn rocking(f: &mut Findings, case: &Case) {
     let solver = Solver::default();
     let unread = [
         ("tie[0]", !case.ties.is_empty(), "none: `out_of_plane.anchor` holds a wall back"),
+        ("force[0]", !case.forces.is_empty(), "none: floors of `out_of_plane.floor` thrust"),
         ("load.beam", case.load.beam != Beam::Free, floors),
         ("load.beam_rotation", case.load.beam_rotation != BeamRotation::Free, floors),
         ("load.beam_height", case.load.beam_height.is_some(), floors),
