@@ -145,9 +145,7 @@ fn of_body(wall: &Wall, found: &Found, body: &Body, control: f64, restitution: O
     }
     if !ties.is_empty() {
         notes.push(
-            "ties begin at no force and pull by their stiffness: the wall sets off below α0, which counts them in full"
-                .into(),
-        );
+            format!("ties begin at no force and pull by their stiffness: the wall sets off below α0 = {:.4}, which counts them in full", found.multiplier()));
     }
     let thickness = match (found.kind, &wall.gable) {
         (Kind::Leaf, _) => wall.leaf.unwrap_or_default(),

@@ -25,6 +25,8 @@ examples! {
     "dry-shear-wall" = "15-dry-shear-wall.toml",
     "shear-panel" = "16-shear-panel.toml",
     "arch" = "17-arch.toml",
+    "pulled-brick" = "18-pulled-brick.toml",
+    "rocking-facade" = "19-rocking-facade.toml",
 }
 
 /// Names of the examples, in the order of their files.

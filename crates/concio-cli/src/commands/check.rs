@@ -117,7 +117,7 @@ fn rocking_rows(own: &Rocking) -> Vec<(&'static str, String)> {
         Some(d0) => format!("d0 = {} at its control point", si(d0.displacement, "m")),
         None => "its weights hold at any turn".into(),
     };
-    let sets_off = format!("at α0 = {}; {holds}", significant(own.compiled.multiplier(), 4));
+    let sets_off = format!("at α = {}; {holds}", significant(own.compiled.multiplier(), 4));
     vec![
         ("mechanism", mechanism),
         ("sets off", sets_off),

@@ -68,7 +68,7 @@ pub fn head(joints: &[JointRow], outcome: &Outcome, summary: &Value) -> Vec<Answ
 fn of_rocking(outcome: &Outcome, rocking: &Value) -> Vec<Answer> {
     let of = |key: &str| rocking.get(key).and_then(Value::as_f64);
     let told = |key: &str, digits| of(key).map_or("–".into(), |v| significant(v, digits));
-    let hinge = format!("hinge at {}, sets off at α0 = {}", si(of("hinge").unwrap_or(0.0), "m"), told("multiplier", 4));
+    let hinge = format!("hinge at {}, sets off at α = {}", si(of("hinge").unwrap_or(0.0), "m"), told("multiplier", 4));
     let kind = rocking.get("mechanism").and_then(Value::as_str).unwrap_or("–");
     let lifts = match of("first_lift_off") {
         Some(time) => {
