@@ -9,7 +9,7 @@ use crate::concio;
 use crate::examples::folder;
 
 /// What the checks import, by the names under which it is installed.
-const PACKAGES: [&str; 15] = [
+const PACKAGES: [&str; 16] = [
     "h5py",
     "numpy",
     "vtk",
@@ -22,6 +22,7 @@ const PACKAGES: [&str; 15] = [
     "maturin",
     "mypy",
     "pandas",
+    "pyright",
     "pytest",
     "ruff",
     "xarray",
@@ -106,6 +107,12 @@ pub fn check_package(root: &Path, python: Option<&Path>) -> Outcome {
     run(module("pytest").args(["--quiet", "--doctest-modules", "--pyargs", "concio", &tests]))?;
     run(module("mypy.stubtest").arg("concio"))?;
     run(module("mypy").args(["--no-error-summary", &format!("{sources}/concio"), &tests]))?;
+    // It fetches the program it wraps when it is first called.
+    if read(module("pyright").arg("--version")).is_ok() {
+        run(module("pyright").args(["--level", "error", &sources, &tests]))?;
+    } else {
+        crate::command::skip("pyright (it cannot be fetched here)");
+    }
     run(module("ruff").args(["check", "--quiet", PACKAGE]))?;
     run(module("ruff").args(["format", "--quiet", "--check", PACKAGE]))
 }

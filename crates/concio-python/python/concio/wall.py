@@ -342,7 +342,7 @@ class Wall:
             return ["cannot be run:", first]
         blocks, joints = len(self.blocks), len(self.joints)
         doubts = len(ready.check())
-        doubt = f", {doubts} doubts: see check()" if doubts else ""
+        doubt = f", {doubts} doubt{'s' if doubts > 1 else ''}: see check()" if doubts else ""
         return [f"{blocks} blocks, {joints} joints, {ready.weight / 1e3:.4g} kN", f"runs {ready.duration:g} s{doubt}"]
 
     def _repr_svg_(self) -> str:
