@@ -67,6 +67,16 @@ impl Rocking {
         Shaking { across: base, positive: self.positive, vertical, scale: 1.0 }
     }
 
+    /// How the mechanism is followed through the motion, without samples.
+    pub(crate) fn setting(&self, excitation: &Excitation) -> Setting {
+        Setting {
+            duration: Some(self.shaking_ends),
+            tail: excitation.duration - self.shaking_ends,
+            step: self.step,
+            ..Setting::default()
+        }
+    }
+
     /// 1 where the motion of the base points inwards, else −1.
     pub(crate) fn inwards(&self) -> f64 {
         if self.positive == Positive::Inwards { 1.0 } else { -1.0 }

@@ -66,13 +66,7 @@ impl<'m> Run<'m> {
     /// Intervals and steps that are no numbers.
     pub fn new(model: &'m Model, rocking: &'m Rocking, interval: f64) -> crate::Result<Self> {
         let excitation = &model.excitation;
-        let setting = Setting {
-            duration: Some(rocking.shaking_ends),
-            tail: excitation.duration - rocking.shaking_ends,
-            step: rocking.step,
-            interval: Some(interval),
-            ..Setting::default()
-        };
+        let setting = Setting { interval: Some(interval), ..rocking.setting(excitation) };
         let (n, e) = (model.wall.blocks.len(), model.joints.len());
         let state = State {
             z: vec![0.0; n],

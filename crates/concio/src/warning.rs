@@ -77,6 +77,8 @@ kinds! {
     Collapse = "collapse",
     /// A rocking wall that was turned farther than its weight holds, and came back.
     BeyondD0 = "beyond-balance",
+    /// A rocking run that a thousandth of the motion decides.
+    Chance = "chance",
     /// A tie of a rocking wall that broke.
     BrokenTie = "broken-tie",
     /// A run that ends while the wall is under way.

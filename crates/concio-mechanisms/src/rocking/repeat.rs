@@ -12,6 +12,9 @@ pub const FACTORS: [f64; 5] = [1.0, 0.999, 0.9995, 1.0005, 1.001];
 /// Spread of the peaks over their mean from which a run is one of chance: fifty times that of the records.
 const CHANCE: f64 = 0.1;
 
+/// Peak over the turn at which weights hold nothing any more, up to which peaks that differ are of no matter: the wall is far from falling.
+const SLIGHT: f64 = 0.01;
+
 /// What repeated runs say of one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
@@ -39,16 +42,20 @@ pub struct Repeated {
 impl Repeated {
     /// What a reader should know before believing the response, in words; nothing of most runs.
     pub fn doubts(&self) -> Vec<String> {
+        self.response.doubts().into_iter().chain(self.chance()).collect()
+    }
+
+    /// That it is a matter of chance, in words, where it is.
+    pub fn chance(&self) -> Option<String> {
         let [fell, runs] = self.fell;
-        let chance = (self.verdict == Verdict::Chance).then(|| {
+        (self.verdict == Verdict::Chance).then(|| {
             let peaks = self.peaks.map_or(String::new(), |[low, high]| {
                 format!("; the peaks of the others range from {low:.4} to {high:.4} rad")
             });
             format!(
                 "the run is a matter of chance: within a thousandth of the record {fell} of {runs} runs fall{peaks}. State that, not a peak"
             )
-        });
-        self.response.doubts().into_iter().chain(chance).collect()
+        })
     }
 }
 
@@ -66,7 +73,8 @@ impl Rocking {
         for factor in &FACTORS[1..] {
             others.push(self.respond(&shaking.times(*factor), &bare)?);
         }
-        Ok(judged(response, &others))
+        let slight = SLIGHT * self.d0().map_or(0.0, |d0| d0.rotation);
+        Ok(judged(response, &others, slight))
     }
 
     /// The longest step that a run takes [s].
@@ -75,7 +83,8 @@ impl Rocking {
     }
 }
 
-fn judged(response: Response, others: &[Response]) -> Repeated {
+/// Of peaks that differ, those up to `slight` [rad] are no matter of chance.
+fn judged(response: Response, others: &[Response], slight: f64) -> Repeated {
     let all = || std::iter::once(&response).chain(others);
     let (fell, runs) = (all().filter(|r| r.stop.fell()).count(), others.len() + 1);
     let farthest = |r: &Response| r.inwards.map_or(r.peak.rotation, |inwards| inwards.rotation.max(r.peak.rotation));
@@ -84,7 +93,7 @@ fn judged(response: Response, others: &[Response]) -> Repeated {
     let peaks = (fell < runs).then_some([low, high]);
     let verdict = match peaks {
         None => Verdict::Falls,
-        Some(_) if fell > 0 || high - low > CHANCE * 0.5 * (low + high) => Verdict::Chance,
+        Some(_) if fell > 0 || (high > slight && high - low > CHANCE * 0.5 * (low + high)) => Verdict::Chance,
         Some(_) => Verdict::Stands,
     };
     Repeated { response, fell: [fell, runs], peaks, verdict }

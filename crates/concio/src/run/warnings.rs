@@ -3,11 +3,13 @@
 use crate::G;
 use crate::case::plausible::rounded;
 use crate::case::{Beam, JointKind};
+use crate::excitation::Excitation;
 use crate::graph;
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::planar::{Planar, Rest};
 use crate::record::StopReason;
+use crate::rocking::Rocking;
 use crate::store::{JointRow, residual_relative};
 use crate::warning::{Warning, WarningKind};
 use concio_shear::law::Rub;
@@ -52,8 +54,8 @@ pub fn all(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning
 
 /// Those of the result, the gravest first.
 fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
-    if model.rocking().is_some() {
-        return of_rocking(outcome);
+    if let Some(rocking) = model.rocking() {
+        return of_rocking(rocking, &model.excitation, outcome);
     }
     let planar = model.planar();
     let balance = match planar {
@@ -79,7 +81,7 @@ fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
 }
 
 /// Those of a wall that rocks out of its plane.
-fn of_rocking(outcome: &Outcome) -> Vec<Warning> {
+fn of_rocking(wall: &Rocking, excitation: &Excitation, outcome: &Outcome) -> Vec<Warning> {
     let mut told = Vec::new();
     let mut add = |kind, text: String| told.push(Warning::new(kind, text));
     if let Some(text) = unbalanced(outcome, "lower solver.step") {
@@ -88,7 +90,7 @@ fn of_rocking(outcome: &Outcome) -> Vec<Warning> {
     let Some(rocking) = &outcome.rocking else { return told };
     if let Some(collapse) = outcome.totals.collapse {
         let text = format!(
-            "the wall falls: it lies on the ground from t = {:.4} s on. Peaks are those of the fall; whether a wall falls may be a matter of chance: try 0.999 and 1.001 times the motion",
+            "the wall falls: it lies on the ground from t = {:.4} s on. Peaks are those of the fall",
             collapse.time
         );
         add(WarningKind::Collapse, text);
@@ -98,6 +100,12 @@ fn of_rocking(outcome: &Outcome) -> Vec<Warning> {
             rocking.beyond_d0
         );
         add(WarningKind::BeyondD0, text);
+    }
+    if matches!(outcome.stop_reason, StopReason::Completed | StopReason::Collapsed)
+        && let Ok(repeated) = wall.compiled.repeat(&wall.shaking(excitation), &wall.setting(excitation))
+        && let Some(text) = repeated.chance()
+    {
+        add(WarningKind::Chance, text);
     }
     let weight_moves = outcome.energies.kinetic > NOTHING * outcome.totals.peak_input;
     if outcome.stop_reason == StopReason::Completed && weight_moves {
