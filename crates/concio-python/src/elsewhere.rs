@@ -12,6 +12,23 @@ use pyo3::prelude::*;
 use crate::failure::Raised;
 use crate::watch::{Board, Watch, beside};
 
+/// Tasks as Python goes through them: a line is made when it is asked for, because each holds its records.
+#[pyclass(module = "concio._native")]
+pub struct Lines {
+    tasks: std::vec::IntoIter<Task>,
+}
+
+#[pymethods]
+impl Lines {
+    fn __iter__(lines: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        lines
+    }
+
+    fn __next__(&mut self) -> Option<String> {
+        self.tasks.next().map(|task| task.line())
+    }
+}
+
 /// Hands tasks to Python: `rows`, called with their lines, gives lists of rows as they come, and empty ones now and then.
 pub struct Executor {
     rows: Py<PyAny>,
@@ -26,8 +43,8 @@ impl Executor {
     }
 
     /// Has tasks done until the board says stop, or something is raised.
-    pub fn work(&self, tasks: &[Task], deliver: &mut Deliver, board: &Board) -> concio::Result<Control> {
-        let lines: Vec<String> = tasks.iter().map(Task::line).collect();
+    pub fn work(&self, tasks: Vec<Task>, deliver: &mut Deliver, board: &Board) -> concio::Result<Control> {
+        let lines = Lines { tasks: tasks.into_iter() };
         let mut wrong = None;
         let done = Python::attach(|py| -> PyResult<Control> {
             let given = self.rows.bind(py).call1((lines,))?;

@@ -38,7 +38,7 @@ pub fn study_run(
         beside(&mut watch, |board| match &executor {
             None => complete(&file, &folder, Hands::Here(threads), board),
             Some(executor) => {
-                let work = |tasks: Vec<Task>, deliver: &mut Deliver| executor.work(&tasks, deliver, board);
+                let work = |tasks: Vec<Task>, deliver: &mut Deliver| executor.work(tasks, deliver, board);
                 complete(&file, &folder, Hands::Elsewhere(&work, at_once), board)
             }
         })

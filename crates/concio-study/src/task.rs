@@ -5,11 +5,12 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use concio::case::{Case, Signal};
 use concio::ground::Library;
 use concio::{InputError, Result};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::file::{Keep, PerJoint};
 use crate::limits::Rule;
@@ -31,8 +32,24 @@ pub struct Task {
     /// Folder that all workers see, where whole results are kept.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     results: Option<PathBuf>,
-    /// Contents of the record files by their paths, a character per byte.
-    records: BTreeMap<PathBuf, String>,
+    /// Contents of the record files by their paths.
+    records: BTreeMap<PathBuf, Contents>,
+}
+
+/// What a record file holds, a character per byte; tasks of one study share it.
+#[derive(Debug, Clone, PartialEq)]
+struct Contents(Arc<str>);
+
+impl Serialize for Contents {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.0)
+    }
+}
+
+impl<'d> Deserialize<'d> for Contents {
+    fn deserialize<D: Deserializer<'d>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        Ok(Contents(String::deserialize(deserializer)?.into()))
+    }
 }
 
 /// Lays `todo` out as tasks of up to `at_once` runs, each known by its id. What is kept: values per joint, where runs end, and the
@@ -47,14 +64,23 @@ pub(crate) fn tasks(
     library: &Library,
 ) -> Result<Vec<Task>> {
     let results = results.map(|folder| std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf()));
+    let mut read: HashMap<PathBuf, Contents> = HashMap::new();
     let task = |some: &[(&str, &Case)]| {
         let mut records = BTreeMap::new();
         for (_, signal) in some.iter().flat_map(|(_, case)| case.motion.signals()) {
             if let Signal::Record(input) = signal
                 && !records.contains_key(&input.record)
             {
-                let bytes = library.bytes(&input.record).map_err(|reason| cannot_be_read(&input.record, &reason))?;
-                records.insert(input.record.clone(), bytes.iter().map(|byte| char::from(*byte)).collect());
+                let contents = match read.get(&input.record) {
+                    Some(contents) => contents.clone(),
+                    None => {
+                        let bytes =
+                            library.bytes(&input.record).map_err(|reason| cannot_be_read(&input.record, &reason))?;
+                        let text: String = bytes.iter().map(|byte| char::from(*byte)).collect();
+                        read.entry(input.record.clone()).or_insert(Contents(text.into())).clone()
+                    }
+                };
+                records.insert(input.record.clone(), contents);
             }
         }
         Ok(Task {
@@ -117,11 +143,11 @@ impl Task {
     /// # Errors
     /// [`concio::Error::Input`] where one has a character that is no byte.
     pub fn library(&self) -> Result<Library> {
-        let bytes = |text: &String| {
+        let bytes = |text: &str| {
             let bytes: std::result::Result<Vec<u8>, _> = text.chars().map(u8::try_from).collect();
             bytes.map_err(|_| InputError::new("a record of the task has a character that is no byte"))
         };
-        let records = self.records.iter().map(|(path, text)| Ok((path.clone(), bytes(text)?)));
+        let records = self.records.iter().map(|(path, text)| Ok((path.clone(), bytes(&text.0)?)));
         Ok(Library::holding(records.collect::<Result<HashMap<_, _>>>()?))
     }
 

@@ -31,7 +31,7 @@ def study_run(
     folder: _Path,
     threads: int,
     progress: Callable[[float], object] | None,
-    rows: Callable[[list[str]], Iterable[list[str]]] | None,
+    rows: Callable[[Iterable[str]], Iterable[list[str]]] | None,
     at_once: int,
 ) -> tuple[list[dict[str, Any]] | None, bool]: ...
 def task_work(task: str, threads: int) -> list[str]: ...

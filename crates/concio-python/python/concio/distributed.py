@@ -6,13 +6,15 @@ included; a worker needs this package and nothing else. Rows are written where t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
+from itertools import islice
 from typing import Any, Protocol
 
 from . import _native
 
 _LOOK = 0.2  # s between two looks whether somebody wants no more
+_AHEAD = 512  # tasks that are handed out at once: each holds its records
 
 
 class Executor(Protocol):
@@ -39,16 +41,21 @@ def work(task: str, threads: int = 1) -> list[str]:
     return _native.task_work(task, threads)
 
 
-def rows(executor: Executor, tasks: list[str]) -> Iterator[list[str]]:
+def rows(executor: Executor, tasks: Iterable[str]) -> Iterator[list[str]]:
     """Hands tasks to an executor and gives their lines as they come; nothing now and then, so that who asks can stop.
+
+    At most 512 tasks are under way at once.
 
     Raises:
         Exception: What a task ended with, once the others that had ended were given.
     """
     pending: set[Future[list[str]]] = set()
+    left = iter(tasks)
     try:
-        pending.update(executor.submit(work, task) for task in tasks)
-        while pending:
+        while True:
+            pending.update(executor.submit(work, task) for task in islice(left, _AHEAD - len(pending)))
+            if not pending:
+                return
             done, pending = wait(pending, timeout=_LOOK, return_when=FIRST_COMPLETED)
             failed = [future for future in done if future.cancelled() or future.exception() is not None]
             for future in done.difference(failed):
