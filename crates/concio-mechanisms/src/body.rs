@@ -161,6 +161,13 @@ impl Body {
         self.work(0.0, |hold, _| hold.force) / self.push(0.0)
     }
 
+    /// Turn from which its weights alone no longer bring it back [rad].
+    pub fn falls_at(&self) -> f64 {
+        let (rights, tips) =
+            self.weights.iter().fold((0.0, 0.0), |(r, t), w| (r + w.carried * w.depth, t + w.carried * w.height));
+        rights.atan2(tips)
+    }
+
     /// α0 as a sum: of the first weight, of the others, of thrusts, ties, friction and forces on cracks.
     pub fn shares(&self) -> Shares {
         let only = |keep: &dyn Fn(&mut Body)| {

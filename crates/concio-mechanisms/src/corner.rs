@@ -170,19 +170,22 @@ impl Corner {
             let height = tie.level - hinge;
             if (0.0..=height * slope).contains(&tie.position) {
                 let law = HoldLaw::Tie { stiffness: tie.stiffness, slack: tie.slack, breaks: tie.breaks };
-                body.holds.push(Hold { force: tie.force * sin, depth: tie.position * cos, height, law });
+                let force = tie.comes_to(height * body.falls_at().sin() * sin) * sin;
+                body.holds.push(Hold { force, depth: tie.position * cos, height, law });
             }
         }
     }
 
-    /// The least over the slopes, both the same part of the largest that their walls allow.
+    /// The least over the slopes, both the same part of the largest that their walls allow. A wedge reaches an overlap into its wall at its
+    /// top at least: a thinner one would be cut out of a block.
     pub fn least(&self, hinge: f64, beside: &Beside) -> Overturning {
         let height = self.top - hinge;
         let most = [0, 1].map(|i| self.walls[i].largest_slope(height));
+        let thinnest = [0, 1].map(|i| if most[i] > 0.0 { self.walls[i].overlap / height / most[i] } else { 0.0 });
+        let thinnest = thinnest[0].max(thinnest[1]).min(1.0);
         let at = |part: f64| self.with_slopes(hinge, most.map(|slope| part * slope), beside);
-        let part =
-            crate::minimum::least(TRIED, 0.0, 1.0, |part| if part > 0.0 { at(part).multiplier } else { f64::INFINITY });
-        at(part)
+        let least = |part: f64| if part > 0.0 { at(part).multiplier } else { f64::INFINITY };
+        at(crate::minimum::least(TRIED, thinnest, 1.0, least))
     }
 }
 

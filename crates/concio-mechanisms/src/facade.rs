@@ -178,3 +178,16 @@ pub struct Tie {
     /// Displacement at which it breaks [m], above 0; none: it does not.
     pub breaks: Option<f64>,
 }
+
+impl Tie {
+    /// What it comes to [N] where its end moves by `reach` [m] before the mechanism would fall without it: soft, slack and brittle ties bear less than
+    /// their force.
+    pub fn comes_to(&self, reach: f64) -> f64 {
+        let Some(stiffness) = self.stiffness.or((self.slack > 0.0 || self.breaks.is_some()).then_some(f64::INFINITY))
+        else {
+            return self.force;
+        };
+        let most = self.breaks.map_or(reach, |breaks| breaks.min(reach));
+        if most > self.slack { (stiffness * (most - self.slack)).min(self.force) } else { 0.0 }
+    }
+}

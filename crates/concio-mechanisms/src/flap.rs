@@ -109,7 +109,8 @@ impl Flap {
             let inside = self.width(tie.level).is_some_and(|[from, to]| (from..=to).contains(&tie.position));
             if inside && self.distance(at) > 0.0 {
                 let law = HoldLaw::Tie { stiffness: tie.stiffness, slack: tie.slack, breaks: tie.breaks };
-                body.holds.push(Hold { force: tie.force, depth: 0.0, height: self.distance(at), law });
+                let force = tie.comes_to(self.distance(at) * body.falls_at().sin());
+                body.holds.push(Hold { force, depth: 0.0, height: self.distance(at), law });
             }
         }
         body

@@ -147,22 +147,13 @@ impl Facade<'_> {
 
     /// What a tie comes to [N] before the façade over a hinge would fall without ties and friction.
     pub fn tie(&self, hinge: f64, tie: &Tie) -> f64 {
-        let Some(stiffness) = tie.stiffness.or((tie.slack > 0.0 || tie.breaks.is_some()).then_some(f64::INFINITY))
-        else {
-            return tie.force;
-        };
         let own = self.masonry.above(hinge);
         let loads = self.floors.iter().filter(|f| f.level > hinge + LEVEL);
         let (rights, tips) = loads.fold(
             (own.weight * 0.5 * self.masonry.thickness, own.weight * (own.centroid[1] - hinge)),
             |(rights, tips), f| (rights + f.load * f.depth, tips + f.load * (f.level - hinge)),
         );
-        let reach = (tie.level - hinge) * rights.atan2(tips).sin();
-        let most = tie.breaks.map_or(reach, |breaks| breaks.min(reach));
-        match most > tie.slack {
-            true => (stiffness * (most - tie.slack)).min(tie.force),
-            false => 0.0,
-        }
+        tie.comes_to((tie.level - hinge) * rights.atan2(tips).sin())
     }
 
     /// The same façade as if its side walls did not hold it (OP3).

@@ -76,7 +76,8 @@ impl SideWall {
         let force = force * self.overlap * self.course;
         let at = match overlaps {
             Overlaps::CodeAtThird => height / 3.0,
-            _ => height / 3.0 * (n - 1.0) / n,
+            // Less than a course over the hinge shears no overlap.
+            _ => height / 3.0 * (n - 1.0).max(0.0) / n,
         };
         force * at + n * self.friction * self.load * self.overlap * 0.5 * height
     }

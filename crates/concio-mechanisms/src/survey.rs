@@ -551,9 +551,11 @@ impl Making<'_> {
             let Some(storey) = self.storey([lower, high], &upper) else { continue };
             if let Some(bears) = storey.gives_way() {
                 self.holding[at] = false;
+                // Ties near it hold by themselves from then on.
+                let rest = (bears - self.wall.beside(high)).max(0.0);
                 for (floor, own) in self.floors.iter_mut().zip(&self.wall.floors) {
                     if (own.floor.level - high).abs() < LEVEL {
-                        floor.connection = if own.floor.level == high { bears } else { own.floor.connection };
+                        floor.connection = if own.floor.level == high { rest } else { own.floor.connection };
                         floor.friction = 0.0;
                     }
                 }

@@ -164,7 +164,9 @@ fn of_body(wall: &Wall, found: &Found, body: &Body, control: f64, restitution: O
             Back::SideWalls(restitution.map_or(Restitution::Block, Restitution::Given))
         }
         None => {
-            notes.push("nothing is given behind it: it rocks to both sides".into());
+            let goes_on =
+                if floors.is_empty() && ties.is_empty() { "" } else { "; floors and ties do not stop it inwards" };
+            notes.push(format!("no wall is given behind it: it rocks to both sides{goes_on}"));
             Back::Free { inwards: Linkage::One { hinge: [thickness - setback, hinge] }, restitution }
         }
     };

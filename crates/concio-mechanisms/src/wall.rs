@@ -119,9 +119,13 @@ impl Wall {
     /// What is known to bear the reaction of a floor that holds [N]: its connection, ties near it, and with one of them its
     /// seat. None where nothing says.
     pub fn borne(&self, upper: &FloorOf) -> Option<f64> {
-        let beside = self.ties.iter().filter(|tie| self.is_beside(tie, upper.floor.level));
-        let known = upper.floor.connection + beside.map(|tie| tie.force).sum::<f64>();
+        let known = upper.floor.connection + self.beside(upper.floor.level);
         (known > 0.0).then_some(known + upper.floor.friction * upper.floor.load)
+    }
+
+    /// Force of the ties that bear the reaction of a support at a level [N].
+    pub fn beside(&self, level: f64) -> f64 {
+        self.ties.iter().filter(|tie| self.is_beside(tie, level)).map(|tie| tie.force).sum()
     }
 
     /// Whether a tie is so near a support at a level [m] that it bears its reaction: from the bed joint below it on.

@@ -12,6 +12,7 @@ mod elsewhere;
 mod examples;
 mod failure;
 mod json;
+mod many;
 mod prepared;
 mod record;
 mod run;
@@ -44,7 +45,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<simulation::Simulation>()?;
     module.add_function(wrap_pyfunction!(command, module)?)?;
     module.add_function(wrap_pyfunction!(examples::example_names, module)?)?;
-    module.add_function(wrap_pyfunction!(run::run_many, module)?)?;
+    module.add_function(wrap_pyfunction!(many::run_many, module)?)?;
     module.add_function(wrap_pyfunction!(elsewhere::task_work, module)?)?;
     module.add_function(wrap_pyfunction!(study::study_run, module)?)
 }

@@ -26,9 +26,8 @@ use crate::shaking::{Mode, Shaking, first_mode};
 
 /// Acceleration of the first run [m/s²], 0.01 g: walls stand that.
 const START: f64 = 0.01 * concio::G;
-/// Acceleration up to which cracks are looked for, in g: beyond every record, and what wall files still take for one.
-pub const MOST_IN_G: f64 = 4.5;
-const MOST: f64 = MOST_IN_G * concio::G;
+/// Acceleration up to which cracks are looked for [m/s²], 20 g: beyond every record.
+const MOST: f64 = 20.0 * concio::G;
 /// A run without a crack proposes at most so many times its factor.
 const LEAP: f64 = 10.0;
 /// Sets of runs after which the search for one motion gives up.

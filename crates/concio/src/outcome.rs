@@ -113,6 +113,8 @@ pub struct RockingOutcome {
     pub impacts: u64,
     /// When each tie broke [s].
     pub broken_ties: Vec<f64>,
+    /// When each floor lost its seat and fell off the wall [s].
+    pub lost_seats: Vec<f64>,
 }
 
 /// What became of a tie.

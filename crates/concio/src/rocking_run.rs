@@ -42,8 +42,9 @@ pub(crate) struct State {
     hardest: f64,
     /// Farthest turn over that at which the weights hold no longer, either way.
     over_d0: f64,
-    /// When each tie first yielded [s].
+    /// When each tie first yielded, and each floor lost its seat [s].
     yielded: Vec<f64>,
+    lost: Vec<f64>,
     samples: u64,
     energies: Energies,
     envelopes: Envelopes,
@@ -74,6 +75,7 @@ impl<'m> Run<'m> {
             a: vec![0.0; n],
             leans: model.shear.tops.at_rest(),
             yielded: vec![f64::INFINITY; rocking.mechanism.ties.len()],
+            lost: vec![f64::INFINITY; rocking.mechanism.floors.len()],
             envelopes: Envelopes::at_rest(n, e, e),
             ..State::default()
         };
@@ -142,6 +144,7 @@ impl<'m> Run<'m> {
             lift_offs: counts.lift_offs,
             impacts: counts.impacts,
             broken_ties: self.motion.ties().iter().map(|tie| tie.broke.unwrap_or(f64::INFINITY)).collect(),
+            lost_seats: self.state.lost.clone(),
         }
     }
 
@@ -207,6 +210,7 @@ impl<'m> Run<'m> {
                         heard.push(tell(EventKind::Impact, event.impulse));
                     }
                 }
+                What::SeatLost(floor) => state.lost[floor] = event.time,
                 What::TieYields(tie) => state.yielded[tie] = state.yielded[tie].min(event.time),
                 _ => {}
             }
@@ -298,6 +302,7 @@ impl<'m> Run<'m> {
         let fits = [&state.z, &state.v, &state.a].iter().all(|x| x.len() == n)
             && state.leans.len() == self.state.leans.len()
             && state.yielded.len() == self.state.yielded.len()
+            && state.lost.len() == self.state.lost.len()
             && state.envelopes.fits(n, e, e);
         if !fits || !self.motion.take_up(motion) {
             return false;

@@ -81,6 +81,8 @@ kinds! {
     Chance = "chance",
     /// A tie of a rocking wall that broke.
     BrokenTie = "broken-tie",
+    /// A floor that a rocking wall let fall.
+    LostSeat = "lost-seat",
     /// A run that ends while the wall is under way.
     UnderWay = "under-way",
     /// Joints that ring faster than steps resolve.

@@ -88,7 +88,8 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
     let creeps = concio::run::only_creeps(joints, outcome);
     rows.push((if creeps { "  friction (creep)" } else { "  friction" }, energy(energies.friction)));
     if energies.bond != 0.0 {
-        rows.push(("  broken bonds", energy(energies.bond)));
+        let lost = if outcome.rocking.is_some() { "  floors that fell" } else { "  broken bonds" };
+        rows.push((lost, energy(energies.bond)));
     }
     if energies.device != 0.0 {
         rows.push(("  hysteresis of devices", si(energies.device, "J")));

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use concio::case::CaseFile;
 use concio::run::Control;
 use concio_study::Runner;
-use concio_study::first_crack::{Answer, MOST_IN_G, Question, Subject, Trial, keep, search};
+use concio_study::first_crack::{Answer, Question, Subject, Trial, keep, search};
 use concio_study::limits::counts_deformation;
 use concio_study::runner::Progress;
 use concio_study::table::{self, Table};
@@ -292,7 +292,7 @@ fn lines(question: &Question, answers: &[Answer]) -> String {
                 crack.time.map_or("–".into(), |t| format!("{t:.3} s")),
                 a.trials.len().to_string(),
             ],
-            _ => vec![name, a.cause.clone().unwrap_or_else(|| format!("no crack up to {MOST_IN_G} g"))],
+            _ => vec![name, a.cause.clone().unwrap_or_else(|| "no crack up to 20 g".into())],
         }
     };
     let mut text = columns(&[heading].into_iter().chain(answers.iter().map(line)).collect::<Vec<_>>());
@@ -395,7 +395,7 @@ fn words(question: &Question, answers: &[Answer]) -> Vec<String> {
         if let Some(cause) = &answer.cause {
             text.push(format!("{}: no answer, {cause}.", answer.name));
         } else if answer.crack().is_none() {
-            text.push(format!("{}: no joint cracks up to a PGA of {MOST_IN_G} g.", answer.name));
+            text.push(format!("{}: no joint cracks up to a PGA of 20 g.", answer.name));
         }
     }
     text

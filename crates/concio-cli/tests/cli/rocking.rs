@@ -46,7 +46,7 @@ fn the_starter_rocks_as_its_mechanism_does() {
     let desk = Desk::new();
     desk.concio("new facade.toml --model rocking").assert().success();
     let told = text(&desk, "check facade.toml");
-    for part in ["overturning, hinge at 0 m", "at α0 = 0.0", "is a valid wall file"] {
+    for part in ["overturning, hinge at 0 m", "at α = 0.0", "is a valid wall file"] {
         assert!(told.contains(part), "{part}:\n{told}");
     }
     let told = text(&desk, "run facade.toml --out out");

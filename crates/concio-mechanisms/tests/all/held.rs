@@ -241,3 +241,61 @@ fn sliding_before_turning_is_told() {
     let slender = of(0.5, "", "");
     assert!(at_hinge(&slender, Kind::Overturning, 0.0).notes.iter().all(|n| !n.contains("slides")));
 }
+
+/// A tie in the course of a floor that holds, and gives way, is there once: tie and floor of the same wall without `holds`.
+#[test]
+fn a_tie_beside_a_floor_that_gives_way_counts_once() {
+    for level in [6.0, 5.8] {
+        let anchor = tie(level, "yield_force = 10e3\nstiffness = 20e6");
+        let held = of(0.5, "", &format!("{}{anchor}", floor(6.0, "load = 6e3\nat = 0.2\nholds = true")));
+        let base = at_hinge(&held, Kind::Overturning, 0.0);
+        let expected = (360e3 * 0.25 + 36e3 * 0.2 + 10e3 * level) / (360e3 * 3.0 + 36e3 * 6.0);
+        let what = format!("Mechanisms: floor that holds by a tie at {level} m and gives way, overturning");
+        agrees!(what, "(OP3) with the tie once", "", base.multiplier(), expected, 1e-12);
+    }
+}
+
+/// Over less than a course of the side wall no overlap is sheared: neither mechanism is pushed by friction.
+#[test]
+fn side_walls_of_higher_courses_push_nothing() {
+    let side = "[[out_of_plane.side_wall]]\nx = 0\nthickness = 0.4\ncourse_height = 0.3\noverlap = 0.2\n";
+    let survey = of(0.3, "", side);
+    for kind in [Kind::WithSideWalls, Kind::Corner] {
+        let top = survey.found.iter().filter(|f| f.kind == kind && f.hinge > 5.5);
+        for found in top {
+            assert!((0.0..2.0).contains(&found.multiplier()), "{kind:?} at {}: {}", found.hinge, found.multiplier());
+        }
+    }
+    // (OP4) with the upright crack and no friction: the wedge of no width.
+    let top = at_hinge(&survey, Kind::WithSideWalls, 5.75);
+    assert!(top.multiplier() <= 0.3 / 0.25 + 1e-9, "{}", top.multiplier());
+}
+
+/// A corner has the volume of an overlap at least: over one course its crack is the texture's own.
+#[test]
+fn corners_are_no_slivers() {
+    let side = "[[out_of_plane.side_wall]]\nx = 0\nthickness = 0.4\ncourse_height = 0.25\noverlap = 0.2\n";
+    let survey = of(0.3, "", side);
+    for found in survey.found.iter().filter(|f| f.kind == Kind::Corner) {
+        let reach = found.slopes[0] * (HEIGHT - found.hinge);
+        assert!(reach >= 0.2 - 1e-9, "at {} it reaches {reach} m into the wall", found.hinge);
+    }
+    let top = at_hinge(&survey, Kind::Corner, 5.75);
+    assert!((top.slopes[1] - 0.8).abs() < 1e-9, "{:?}", top.slopes);
+}
+
+/// A flap that a slack or a soft tie passes through has what the tie comes to, not its force.
+#[test]
+fn ties_of_flaps_count_with_what_they_come_to() {
+    let flap = |keys: &str| {
+        let survey = of(0.3, "", &tie(5.5, &format!("yield_force = 20e3\n{keys}")));
+        counted(&survey, Kind::Flap).expect("a flap").multiplier()
+    };
+    let bare = counted(&of(0.3, "", ""), Kind::Flap).expect("a flap").multiplier();
+    let rigid = flap("");
+    assert!(rigid > 1.05 * bare, "{rigid} {bare}");
+    let what = "Mechanisms: flap with a tie that is slack by 5 m";
+    agrees!(what, "the flap without it", "", flap("stiffness = 20e6\nslack = 5"), bare, 1e-12);
+    let soft = flap("stiffness = 20");
+    assert!(soft >= bare && soft < bare + 1e-3, "{soft} {bare}");
+}

@@ -117,6 +117,13 @@ fn of_rocking(wall: &Rocking, excitation: &Excitation, outcome: &Outcome) -> Vec
     for (tie, time) in rocking.broken_ties.iter().enumerate().filter(|(_, time)| time.is_finite()) {
         add(WarningKind::BrokenTie, format!("tie {} of the mechanism broke at t = {time:.4} s", tie + 1));
     }
+    for (floor, time) in rocking.lost_seats.iter().enumerate().filter(|(_, time)| time.is_finite()) {
+        let text = format!(
+            "floor {} of the mechanism lost its seat at t = {time:.4} s: it has fallen, whatever became of the wall",
+            floor + 1
+        );
+        add(WarningKind::LostSeat, text);
+    }
     told
 }
 
