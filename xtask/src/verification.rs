@@ -25,7 +25,7 @@ const PACKAGES: [&str; 8] = [
 const HEADER: &str = "| Subject | Held against | Expected | Found | Off by | The test allows | Test |";
 
 /// Sections of the page in their order; the first half of a record's subject is one of them.
-const SECTIONS: [(&str, &str); 19] = [
+const SECTIONS: [(&str, &str); 20] = [
     ("Ground motion", "Signals, filters, measures and response spectra."),
     ("Walls and loads", "Geometry, weights, and what joints bear at rest."),
     ("Integration", "Oscillators of the shear model, without friction and with springs that let go."),
@@ -36,6 +36,7 @@ const SECTIONS: [(&str, &str); 19] = [
     ("Crushing", "Joints of limited compressive strength."),
     ("Devices", "Laws of devices in the place of mortar."),
     ("Ties", "Tie rods."),
+    ("Forces", "Forces on blocks."),
     ("Sliding", "Blocks and dry walls that slide on what is below them."),
     ("Rocking", "Blocks that rock on their corners."),
     ("Rocking walls", "Walls of the model `rocking` through wall files."),

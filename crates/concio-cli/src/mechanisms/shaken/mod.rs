@@ -165,7 +165,13 @@ pub fn follow<'s>(
     for found in chosen {
         cases.push(Case { found, followed: followed(asked, &motion, wall, found)? });
     }
-    let Motion { words, factor, doubts, .. } = motion;
+    let Motion { words, factor, mut doubts, .. } = motion;
+    if file.case.rocking.restitution.is_some() && asked.restitution.is_none() {
+        doubts.push(
+            "rocking.restitution is of runs of the wall file: here impacts follow their formulas, or --restitution"
+                .into(),
+        );
+    }
     Ok(Some(Shaken { motion: words, factor, doubts, cases, all }))
 }
 
