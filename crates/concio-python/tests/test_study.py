@@ -68,7 +68,9 @@ def test_motions_of_files(tmp_path: Path, planar: Wall, quake: Record, quake_fil
     assert rows["peak_displacement"][0] == run.summary["peak_relative_displacement"]
     with pytest.raises(InputError) as caught:
         Study(planar, motions={"A": quake})
-    assert caught.value.key == "A"
+    assert caught.value.key == "A" and "record.save" in (caught.value.help or "")
+    rows = Study(planar, motions={"A": quake.save(tmp_path / "quake.txt")}).run(tmp_path / "saved")
+    assert rows["peak_displacement"][0] == planar.run(base=quake).summary["peak_relative_displacement"]
 
 
 def test_records_of_a_wall_keep_their_place(tmp_path: Path, quake_file: Path) -> None:

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._files import write
 from ._progress import shown
 from ._values import plain, to_json
 from .distributed import Executor, rows
@@ -257,7 +258,7 @@ class Study:
         if file is None:
             os.makedirs(out, exist_ok=True)
             for name, text in (self._texts or {}).items():
-                _write(os.path.join(out, name), text)
+                write(os.path.join(out, name), text)
             file = os.path.join(out, _STUDY)
         if runs_per_task < 1:
             raise InputError(f"is {runs_per_task}", key="runs_per_task", allowed="from 1")
@@ -475,6 +476,7 @@ def _motion(name: str, base: Any) -> dict[str, Any]:
             "the record is given by no file, or was treated in another order than a wall file's",
             key=name,
             allowed="records of files: trim, reversed, baseline, resample, scaled, in this order",
+            help='record.save("quake.txt") writes it to a file and gives the record of that file',
         )
     return {"base": json.loads(words), "duration": base.duration}
 
@@ -484,11 +486,3 @@ def _numbers(cells: list[Any]) -> list[Any]:
     if any(isinstance(cell, str) for cell in cells) or all(cell is None for cell in cells):
         return cells
     return [float("nan") if cell is None else cell for cell in cells]
-
-
-def _write(path: str, text: str) -> None:
-    """Whole or not at all."""
-    temporary = f"{path}.{os.getpid()}.tmp"
-    with open(temporary, "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(temporary, path)

@@ -252,13 +252,18 @@ class Wall:
             changes["motion.duration"] = duration
         return self.replace(changes)._case.prepare(beside)
 
+    def _beside(self, base: Base | None) -> bool:
+        """Whether it is a record that a wall file has no words for, so that no result holds it."""
+        return isinstance(base, Record) and base._native.words(self._case.folder) is None
+
     def run(self, *, base: Base | None = None, duration: float | str | None = None, progress: Progress = False) -> Run:
         """Simulates the wall.
 
         Other threads of Python go on meanwhile. Ctrl-C ends the run, which comes back with what it reached: ``run.ok`` is false then.
 
         Args:
-            base: What moves the base instead of what the wall file says: a record, or what stands at ``motion.base`` of a wall file.
+            base: What moves the base instead of what the wall file says: a record, or what stands at ``motion.base`` of a wall file. Of a record
+                that no file gives the result does not hold the motion: see :meth:`concio.Record.save`.
             duration: Length of the run [s]; default that of the record given, else of the wall file.
             progress: Show a bar, or call this with the share that is done, 0 … 1.
 
@@ -271,7 +276,7 @@ class Wall:
         prepared = self._moved(base, duration)
         with shown(progress) as told:
             native = prepared.run(told)
-        run = Run(native)
+        run = Run(native, self._beside(base))
         if native.interrupted:
             warnings.warn(f"the run was stopped at t = {run.time_reached:g} s", RuntimeWarning, stacklevel=2)
         return run
