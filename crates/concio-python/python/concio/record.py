@@ -106,7 +106,26 @@ class Record:
 
     @classmethod
     def from_obspy(cls, trace: Any, *, units: str) -> Record:
-        """Of a ``Trace`` of ObsPy, whose samples are an acceleration in ``units``: traces do not know their unit."""
+        """Of a ``Trace`` of ObsPy, whose samples are an acceleration in ``units``: traces do not know their unit.
+
+        Args:
+            trace: One of ``obspy.read(path)``. Counts have to be made an acceleration first; ObsPy does not say whether they were, so
+                ``stats.calib`` has to be 1.
+            units: As of :meth:`from_array`.
+
+        Raises:
+            InputError: A ``Stream``, gaps, a calibration factor that was not applied; what :meth:`from_array` refuses.
+        """
+        if not hasattr(trace, "data"):
+            what = f"a {type(trace).__name__} is no Trace"
+            raise InputError(what, key="trace", help="take one of a Stream, such as stream[0]")
+        if np.ma.is_masked(trace.data):
+            raise InputError("it has gaps", key="trace", help="close them in ObsPy, or take what is between them")
+        calib = float(getattr(trace.stats, "calib", 1.0))
+        if calib != 1:
+            what = f"its factor of calibration, stats.calib, is {calib:g}: whether its samples are counts or {units} is not known"
+            help = "once it is applied, as obspy.read(path, apply_calib=True) does, set stats.calib = 1"
+            raise InputError(what, key="trace", allowed="1", help=help)
         return cls.from_array(np.asarray(trace.data), float(trace.stats.delta), units=units)
 
     def scaled(self, factor: float | None = None, *, pga: float | str | None = None) -> Record:
