@@ -8,7 +8,16 @@ from conftest import PLANAR
 
 import concio
 
-README = Path(__file__).parents[3] / "README.md"
+ROOT = Path(__file__).parents[3]
+README = ROOT / "README.md"
+
+
+def test_the_site_has_a_place_for_every_name() -> None:
+    pages = [path.read_text() for path in (ROOT / "xtask/site/python").glob("*.rst")]
+    shown = [
+        name for page in pages for name in re.findall(r"^\.\. auto(?:class|exception|function):: (\w+)$", page, re.M)
+    ]
+    assert sorted(shown) == sorted(name for name in concio.__all__ if name != "__version__")
 
 
 def test_what_the_readme_shows_runs(

@@ -12,10 +12,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from . import _native
 from ._files import write
@@ -26,6 +25,9 @@ from .errors import InputError
 from .record import Record
 from .table import Table
 from .wall import Wall
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 _WALL = "wall.json"
 _STUDY = "study.json"
