@@ -18,10 +18,11 @@ const PAGES: [(&str, &str); 5] = [
     ("SUPPORT.md", "support.md"),
 ];
 /// Navigation: captions, and the pages below them in their order. Sphinx fails where a page of docs/ is in none.
-const SECTIONS: [(&str, &[&str]); 8] = [
+const SECTIONS: [(&str, &[&str]); 9] = [
     ("Start", &["guide/01-install", "guide/02-first-run", "gallery"]),
     ("Guide", &["guide/README", "guide/0[3-9]*", "guide/1*"]),
     ("Reference", &["cli", "wall-file", "results", "figures", "symbols", "system"]),
+    ("Python", &["python/walls", "python/records", "python/runs", "python/studies", "python/*"]),
     ("Theory", &["theory", "planar", "limit-analysis", "mechanisms", "continuum", "constrained", "negative-slope"]),
     ("Studies", &["studies", "studies/analyses", "studies/*", "report-cases"]),
     ("Numbers checked", &["verification", "performance"]),
@@ -89,6 +90,7 @@ fn environment(root: &Path) -> Result<Option<PathBuf>, String> {
 fn lay_out(root: &Path, into: &Path) -> Result<usize, String> {
     let mut files: Vec<String> = PAGES.iter().map(|(file, _)| (*file).into()).collect();
     collect(root, "docs", &mut files)?;
+    collect(root, "xtask/site/python", &mut files)?;
     let mut count = 0;
     for file in &files {
         let Some(place) = place(file) else { continue };
@@ -124,7 +126,9 @@ fn collect(root: &Path, folder: &str, files: &mut Vec<String>) -> Outcome {
 fn place(file: &str) -> Option<String> {
     let outside = PAGES.iter().find(|(name, _)| *name == file).map(|(_, place)| (*place).to_string());
     let shown = [".md", ".svg", ".png"].iter().any(|ending| file.ends_with(ending));
-    outside.or_else(|| file.strip_prefix("docs/").filter(|_| shown).map(str::to_string))
+    // Pages that Sphinx fills with the docstrings of the package for Python.
+    let filled = file.strip_prefix("xtask/site/").filter(|page| page.ends_with(".rst"));
+    outside.or_else(|| file.strip_prefix("docs/").filter(|_| shown).or(filled).map(str::to_string))
 }
 
 /// A link of a document as it has to be on the site: to a page there, else to the file in the repository.

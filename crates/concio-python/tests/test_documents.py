@@ -15,6 +15,14 @@ def blocks(page: str) -> list[str]:
     return re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), flags=re.DOTALL)
 
 
+def test_the_site_has_a_place_for_every_name() -> None:
+    pages = [path.read_text() for path in (ROOT / "xtask/site/python").glob("*.rst")]
+    shown = [
+        name for page in pages for name in re.findall(r"^\.\. auto(?:class|exception|function):: (\w+)$", page, re.M)
+    ]
+    assert sorted(shown) == sorted(name for name in concio.__all__ if name != "__version__")
+
+
 def test_what_the_readme_shows_runs(
     tmp_path: Path, quake: concio.Record, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

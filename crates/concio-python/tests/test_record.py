@@ -119,3 +119,37 @@ def test_records_go_to_other_processes(quake: Record) -> None:
 
 def test_a_record_shows_itself(quake: Record) -> None:
     assert repr(quake).splitlines()[1:] == ["201 samples every 0.005 s, 1 s", f"PGA {quake.pga:.4g} m/s²"]
+
+
+@pytest.mark.parametrize("dt", [0.005, 1 / 256, 1e-5, 0.1 + 0.2, 60.0])
+def test_a_record_is_saved_to_the_bit(tmp_path: Path, dt: float) -> None:
+    samples = np.random.default_rng(1).normal(size=300) * 10.0 ** np.arange(-297, 3)
+    samples[:3] = -0.0, 5e-324, 1 / 3
+    record = Record.from_array(samples, dt)
+    saved = record.save(tmp_path / "quake.txt")
+    for again in (saved, Record.read(tmp_path / "quake.txt")):
+        assert again.acceleration.tobytes() == record.acceleration.tobytes() and again.dt == record.dt
+        assert again.facts["remarks"] == [] and again.components == ["acceleration"]
+    # Another record may take its place, and what is done to the saved one has words.
+    assert record.scaled(2).trim(0, 100 * dt).save(tmp_path / "quake.txt").scaled(0.5)._native.words("") is not None
+    assert len(Record.read(tmp_path / "quake.txt")) == 101
+
+
+def test_a_displacement_history_is_saved_as_one(tmp_path: Path) -> None:
+    t = np.arange(201) * 0.01
+    rows = "\n".join(f"{k:.17g},{u:.17g}" for k, u in zip(t, 20 * np.sin(np.pi * t) ** 2, strict=True))
+    (tmp_path / "path.csv").write_text(f"t [s],u [mm]\n{rows}\n")
+    read = Record.read(tmp_path / "path.csv", quantity="displacement")
+    saved = read.save(tmp_path / "path.txt")
+    np.testing.assert_array_equal(saved.displacement, read.displacement)
+    # Its interval is that of the column of times, which rounding leaves some 1e-15 off.
+    np.testing.assert_allclose(saved.acceleration, read.acceleration, atol=1e-9 * np.abs(read.acceleration).max())
+
+
+def test_files_of_others_are_not_replaced(tmp_path: Path, quake: Record, quake_file: Path) -> None:
+    before = quake_file.read_bytes()
+    with pytest.raises(InputError, match="another name") as caught:
+        Record.read(quake_file).scaled(2).save(quake_file)
+    assert caught.value.file == str(quake_file) and quake_file.read_bytes() == before
+    with pytest.raises(OSError):
+        quake.save(tmp_path / "none" / "quake.txt")

@@ -113,6 +113,25 @@ def test_an_array_moves_the_wall_as_its_file_does(planar: Wall, quake: Record, q
     )
 
 
+def test_a_motion_that_no_result_holds_is_told(planar: Wall, quake: Record, tmp_path: Path) -> None:
+    (run,) = concio.run_many([(planar, quake)])
+    assert run is not None and planar.run(base=quake).warnings == run.warnings
+    assert run.warnings[-1].kind == "motion-in-no-file" and "no file gives" in repr(run)
+    with pytest.warns(UserWarning, match=r"record\.save"):
+        run.save(tmp_path / "out")
+    with pytest.warns(UserWarning, match=r"record\.save"):
+        run.report(tmp_path / "page.html")
+    assert concio.open(tmp_path / "out").wall.settings["motion"]["base"] == "none"
+    # The remedy: the same motion by a file, which the result names.
+    kept = planar.run(base=quake.save(tmp_path / "quake.txt"))
+    np.testing.assert_array_equal(kept._native.values, run._native.values)
+    kept.save(tmp_path / "out")
+    # Of a file it is looked at: it ends with a velocity.
+    assert "drift" in [warning.kind for warning in kept.warnings]
+    again = concio.open(tmp_path / "out").wall.run()
+    np.testing.assert_array_equal(again._native.values, run._native.values)
+
+
 def test_other_motions_of_the_base(planar: Wall) -> None:
     run = planar.run(base={"tilt": {"acceleration": "0.1 g", "rise": "0.1 s"}}, duration="200 ms")
     assert run.time_reached == pytest.approx(0.2)

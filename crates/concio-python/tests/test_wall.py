@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import pickle
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -98,6 +99,58 @@ def test_changes_that_no_wall_file_knows(planar: Wall, key: str, value: object) 
 def test_files_that_are_not_there(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="cannot be read"):
         Wall.from_toml(tmp_path / "none.toml")
+
+
+def test_blocks_of_arrays_are_the_arch_of_the_examples() -> None:
+    arch = Wall.example("arch")
+    given = arch.given
+    radii, angles = np.array([1.5, 1.75]), np.linspace(np.pi, 0, 22)
+    # Inner and outer end of the radial joints, the springing at the height of the base to the bit.
+    ends = np.stack([1.75 + np.outer(np.cos(angles), radii), np.outer(np.sin(angles), radii)], axis=-1)
+    ends[[0, -1], :, 1] = 0
+    blocks = [np.concatenate([ends[k], ends[k + 1, ::-1]]) for k in range(21)]
+    settings = {key: given[key] for key in ("joint", "motion", "output", "title")}
+    wall = Wall.from_blocks(blocks, brick=given["panel"][0]["brick"], **settings)
+    laid = wall.blocks.take([wall.blocks["name"].tolist().index(f"b{k}") for k in range(1, 22)])
+    for name in ("x", "y", "mass"):
+        np.testing.assert_allclose(laid[name], arch.blocks[name], rtol=1e-12)
+    assert len(wall.joints) == len(arch.joints) == 22
+    assert wall.limit().multiplier == pytest.approx(arch.limit().multiplier, rel=1e-9)
+
+
+def test_blocks_of_arrays_are_a_running_bond(planar: Wall) -> None:
+    corners = dict(zip(planar.blocks["name"], map(np.array, planar.blocks["corners"]), strict=True))
+    given = planar.given
+    (panel,) = given.pop("panel")
+    wall = Wall.from_blocks(corners, brick=panel["brick"], mortar=panel["mortar"], **given)
+    assert wall.blocks["name"].tolist() == planar.blocks["name"].tolist()
+    assert wall.blocks["course"].tolist() == planar.blocks["course"].tolist()
+    assert wall.joints["name"].tolist() == planar.joints["name"].tolist()
+    run, laid = wall.run(), planar.run()
+    np.testing.assert_allclose(run["top/displacement"], laid["top/displacement"], rtol=0, atol=1e-12)
+    # In another order, given clockwise.
+    other = Wall.from_blocks(
+        {name: corners[name][::-1] for name in reversed(corners)}, brick=panel["brick"], mortar=panel["mortar"], **given
+    )
+    assert sorted(other.blocks["name"]) == sorted(corners) and len(other.joints) == len(wall.joints)
+
+
+@pytest.mark.parametrize(
+    ("blocks", "key"),
+    [
+        ([[(0, 0), (1, 0), (1, 1)], [0, 0]], "panel[0].block[1].corners"),
+        ([["a", "b"]], "panel[0].block[0].corners"),
+        ([[(0, 0), (1, 0)]], "panel[0].block[0].corners"),
+        ([[(0, 0), (1, 0), (0.5, 0.1), (0.5, 1)]], "panel[0].block[0].corners[2]"),
+        ({"a b": [(0, 0), (1, 0), (1, 1)]}, "panel[0].block[0].id"),
+        ([], "panel[0].block"),
+    ],
+)
+def test_blocks_that_are_none(planar: Wall, blocks: Any, key: str) -> None:
+    given = planar.given
+    with pytest.raises(InputError) as caught:
+        Wall.from_blocks(blocks, brick=given["panel"][0]["brick"], joint=given["joint"]).run(duration=0.01)
+    assert caught.value.key == key and caught.value.file is None
 
 
 def test_tables(planar: Wall) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from . import _native
+from ._files import write
 from ._values import to_json
 from .errors import InputError
 
@@ -30,6 +31,11 @@ class Spectrum(NamedTuple):
     """Pseudo-acceleration [m/s²]."""
     damping: float
     """Damping ratio."""
+
+
+# The first line of files that are made here: others are not replaced.
+_WRITTEN = "# written by concio"
+_LENGTHS = {"m", "cm", "mm", "um", "µm", "μm", "in", "ft"}
 
 
 class Record:
@@ -100,7 +106,26 @@ class Record:
 
     @classmethod
     def from_obspy(cls, trace: Any, *, units: str) -> Record:
-        """Of a ``Trace`` of ObsPy, whose samples are an acceleration in ``units``: traces do not know their unit."""
+        """Of a ``Trace`` of ObsPy, whose samples are an acceleration in ``units``: traces do not know their unit.
+
+        Args:
+            trace: One of ``obspy.read(path)``. Counts have to be made an acceleration first; ObsPy does not say whether they were, so
+                ``stats.calib`` has to be 1.
+            units: As of :meth:`from_array`.
+
+        Raises:
+            InputError: A ``Stream``, gaps, a calibration factor that was not applied; what :meth:`from_array` refuses.
+        """
+        if not hasattr(trace, "data"):
+            what = f"a {type(trace).__name__} is no Trace"
+            raise InputError(what, key="trace", help="take one of a Stream, such as stream[0]")
+        if np.ma.is_masked(trace.data):
+            raise InputError("it has gaps", key="trace", help="close them in ObsPy, or take what is between them")
+        calib = float(getattr(trace.stats, "calib", 1.0))
+        if calib != 1:
+            what = f"its factor of calibration, stats.calib, is {calib:g}: whether its samples are counts or {units} is not known"
+            help = "once it is applied, as obspy.read(path, apply_calib=True) does, set stats.calib = 1"
+            raise InputError(what, key="trace", allowed="1", help=help)
         return cls.from_array(np.asarray(trace.data), float(trace.stats.delta), units=units)
 
     def scaled(self, factor: float | None = None, *, pga: float | str | None = None) -> Record:
@@ -139,6 +164,37 @@ class Record:
 
     def _treated(self, key: str, value: Any) -> Record:
         return Record(self._native.treated(to_json({key: value}, key)))
+
+    def save(self, path: str | os.PathLike[str]) -> Record:
+        """Writes the samples to a file of text and gives the record of that file, the same to the bit.
+
+        A wall file, a study or a result names a record by its file: give one of an array, or treated in another order than a wall file's, a
+        file of its own first. A displacement history is written as such; ``quantity="displacement"`` reads it again.
+
+        Raises:
+            InputError: A file of that name that was not written by this function.
+
+        Example:
+            >>> import concio, os, tempfile
+            >>> with tempfile.TemporaryDirectory() as folder:
+            ...     quake = concio.Record.from_array([0, 1, -2, 0], dt=0.01).save(os.path.join(folder, "quake.txt"))
+            >>> quake.facts["format"], quake.pga
+            ('text', 2.0)
+        """
+        out = os.path.abspath(path)
+        if os.path.exists(out):
+            with open(out, "rb") as file:
+                ours = file.readline().strip() == _WRITTEN.encode()
+            if not ours:
+                raise InputError(
+                    "the file is there already, and is no record written here", file=out, help="another name"
+                )
+        displaced = self.facts["units"].strip().lower() in _LENGTHS
+        quantity, unit = ("displacement", "m") if displaced else ("acceleration", "m/s2")
+        values = self.displacement if displaced else self.acceleration
+        lines = [_WRITTEN, f"# dt = {self.dt!r} s", f"# {quantity} [{unit}]", *map(repr, values.tolist())]
+        write(out, "\n".join(lines) + "\n")
+        return Record.read(out, quantity=quantity if displaced else None)
 
     @property
     def dt(self) -> float:

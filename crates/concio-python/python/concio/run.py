@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import json
 import os
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from types import MappingProxyType
@@ -40,6 +41,13 @@ class Warned(NamedTuple):
         return self.text
 
 
+_BESIDE = Warned(
+    "motion-in-no-file",
+    "its base was moved by a record that no file gives: results and reports say that nothing moved it, and nobody looked whether the"
+    ' record drifts or is cut; run it with record.save("quake.txt"), which writes the record to a file and gives that of the file',
+)
+
+
 class Channel(NamedTuple):
     """What a history is."""
 
@@ -67,9 +75,10 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         True
     """
 
-    def __init__(self, native: _native.Run) -> None:
-        """Made by :meth:`concio.Wall.run`, :func:`concio.run_many` and :func:`concio.open`."""
+    def __init__(self, native: _native.Run, beside: bool = False) -> None:
+        """Made by :meth:`concio.Wall.run`, :func:`concio.run_many` and :func:`concio.open`; ``beside``, whether no file gives its motion."""
         self._native = native
+        self._beside = beside
         self._channels = MappingProxyType({name: Channel(name, *rest) for name, *rest in native.channels()})
         self._places = {name: place for place, name in enumerate(self._channels)}
         self._summary: dict[str, Any] = native.summary()
@@ -155,7 +164,8 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
     @property
     def warnings(self) -> list[Warned]:
         """What speaks against believing the run."""
-        return [Warned(*pair) for pair in zip(self._summary["warning_kinds"], self._summary["warnings"], strict=True)]
+        of_engine = zip(self._summary["warning_kinds"], self._summary["warnings"], strict=True)
+        return [Warned(*pair) for pair in of_engine] + ([_BESIDE] if self._beside else [])
 
     @property
     def failure(self) -> dict[str, Any] | None:
@@ -227,15 +237,21 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         """Writes ``result.h5`` and ``summary.json`` into a folder, as the command line does.
 
         ``result.h5`` has the bytes of the command line's. Results of other inputs in the folder are removed. The motion of a record that no file
-        gives is in no result: keep it beside.
+        gives is not in them, of which a ``UserWarning`` tells.
         """
         _refuse_a_file(folder)
+        self._tell_beside()
         self._native.save(os.fspath(folder))
 
     def report(self, path: str | os.PathLike[str] = "report.html") -> None:
-        """Writes the report, a page without references to others."""
+        """Writes the report, a page without references to others; of a motion that it does not hold a ``UserWarning`` tells."""
+        self._tell_beside()
         name = os.path.splitext(os.path.basename(os.fspath(path)))[0]
         self._native.report(os.fspath(path), name)
+
+    def _tell_beside(self) -> None:
+        if self._beside:
+            warnings.warn(_BESIDE.text, UserWarning, stacklevel=3)
 
     def __eq__(self, other: object) -> bool:
         """Whether it is the same object."""
@@ -290,13 +306,11 @@ def run_many(
     Raises:
         InputError: As :meth:`concio.Wall.run`, before anything runs.
     """
-    import warnings
-
     from .wall import Wall
 
     if threads < 0:
         raise InputError(f"is {threads}", key="threads", allowed="from 0; 0 is one per core")
-    prepared = []
+    prepared, beside = [], []
     for number, asked in enumerate(runs):
         wall, base = (asked, None) if isinstance(asked, Wall) else asked
         if not isinstance(wall, Wall):
@@ -304,11 +318,12 @@ def run_many(
                 f"number {number} is no wall", key="runs", allowed="walls, or pairs of a wall and a motion"
             )
         prepared.append(wall._moved(base))
+        beside.append(wall._beside(base))
     with shown(progress) as told:
         ended, interrupted = _native.run_many(prepared, threads, told)
     if interrupted:
         warnings.warn("the runs were stopped: those that had not begun are None", RuntimeWarning, stacklevel=2)
-    return [None if run is None else Run(run) for run in ended]
+    return [None if run is None else Run(run, its) for run, its in zip(ended, beside, strict=True)]
 
 
 def _refuse_a_file(folder: str | os.PathLike[str]) -> None:

@@ -5,13 +5,19 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
+import sys
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from . import _native
+from ._files import write
 from ._progress import shown
 from ._values import plain, to_json
 from .distributed import Executor, rows
@@ -21,7 +27,7 @@ from .table import Table
 from .wall import Wall
 
 if TYPE_CHECKING:
-    import pandas as pd
+    from numpy.typing import ArrayLike
 
 _WALL = "wall.json"
 _STUDY = "study.json"
@@ -96,18 +102,24 @@ class Triangular:
 class Rows(Table):
     """The runs of a study, a row each: values of the factors, what was measured, how the run ended and what it warns of."""
 
-    def __init__(self, columns: Mapping[str, Any], units: Mapping[str, str], done: bool) -> None:
-        """Of the columns, their units, and whether all runs are done."""
-        super().__init__(columns)
-        self.units = dict(units)
+    def __init__(
+        self, columns: Mapping[str, Any], units: Mapping[str, str], done: bool, study: tuple[str, str] | None = None
+    ) -> None:
+        """Of the columns, their units, whether all runs are done, and the study file with its folder."""
+        super().__init__(columns, units)
         self.done = done
+        self._study = study
 
-    @property
-    def frame(self) -> pd.DataFrame:
-        """As a DataFrame of pandas, units in ``attrs``."""
-        frame = super().frame
-        frame.attrs["units"] = self.units
-        return frame
+    @cached_property
+    def tables(self) -> Mapping[str, Table]:
+        """What the report of the study says, by the names of its files: ``rows.tables["sensitivity"]``, ``["fragility"]``, ``["first-crack"]``.
+
+        Reading it writes ``report.html`` and the tables into the folder, as ``concio study report`` does; the documents say what is in them.
+
+        Raises:
+            RuntimeError: The report cannot be written; standard error says why.
+        """
+        return MappingProxyType({} if self._study is None else _report(*self._study))
 
 
 class Study:
@@ -137,12 +149,22 @@ class Study:
         title: str = "",
         keep: Sequence[str] = (),
         results: bool = False,
+        sensitivity: Mapping[str, Any] | None = None,
+        ida: Mapping[str, Any] | None = None,
+        first_crack: Mapping[str, Any] | None = None,
+        cracks: Mapping[str, Any] | None = None,
+        ranking: Mapping[str, Any] | None = None,
+        interfaces: Mapping[str, Any] | None = None,
     ) -> None:
-        """Of a wall.
+        """Of a wall, and what is asked of its runs: the questions are the tables of a study file, in its words.
+
+        What they answer is in ``rows.tables``, of which each question names those that it makes.
 
         Args:
             wall: What everything starts from.
-            factors: Key paths of the wall file, each with a list of values or a distribution.
+            factors: Key paths of the wall file, each with a list of values, a distribution, or a dict of what a study file says of a factor:
+                ``{"from": 0.4, "to": 0.8, "also": [{"path": "joint.friction.dynamic", "times": 0.7}]}``. Of named ``choices`` the
+                name instead of the path.
             motions: Motions of the base by name: records of files, or what stands at ``motion.base`` of a wall file.
             scales: Factors on the motion of the base, each above 0.
             design: ``"grid"``, ``"list"``, ``"latin-hypercube"``, ``"random"``, ``"morris"`` or ``"sobol"``.
@@ -151,9 +173,18 @@ class Study:
             title: Title in reports.
             keep: What is kept per joint, such as ``"slip"``.
             results: Keep the whole result of every run: large.
+            sensitivity: Which factors matter: ``{"of": ["peak_drift"]}``; ``sensitivity``.
+            ida: Every motion at rising intensity, and how probable limits are: ``{"damage": "largest_slip", "limits": [{"name": "slip",
+                "value": "1 mm"}], "hunt": {"first": "0.1 g", "step": "0.1 g", "most": "2 g"}}``; ``capacities``, ``fragility``,
+                ``fractiles``, ``fragility_curves``.
+            first_crack: At which scale of each motion a first joint cracks: ``{}`` or ``{"criterion": "slip"}``; ``first-crack``.
+            cracks: Where cracks run: ``{}`` or ``{"threshold": 0.3}``; ``cracks``, ``crack-lines``.
+            ranking: Which joints are critical: ``{}`` or ``{"by": ["slip"]}``; ``ranking``.
+            interfaces: Which joints should be replaced by what; ``interfaces``.
 
         Raises:
-            InputError: A record that no file gives: a study is resumed, and its inputs have to be on the disk.
+            InputError: A record that no file gives: a study is resumed, and its inputs have to be on the disk. What the questions may not
+                say is told by :meth:`run`.
         """
         settings = wall.given
         folder = os.path.abspath(wall._case.folder)
@@ -171,6 +202,15 @@ class Study:
         if scales:
             study["scales"] = plain(list(scales), "scales")
         study["keep"] = {"joints": list(keep), "results": results}
+        questions = {
+            "sensitivity": sensitivity,
+            "ida": ida,
+            "first-crack": first_crack,
+            "cracks": cracks,
+            "ranking": ranking,
+            "interfaces": interfaces,
+        }
+        study |= {name: plain(asked, name) for name, asked in questions.items() if asked is not None}
         self._texts: dict[str, str] | None = {_WALL: to_json(settings), _STUDY: to_json(study)}
         self._file: str | None = None
 
@@ -204,8 +244,8 @@ class Study:
             runs_per_task: Runs that a worker takes at a time.
 
         Returns:
-            A row per run; of a study that asks a question, what its report has of every run: ``ida.csv``, ``first-crack-runs.csv`` or
-            ``runs.csv`` in the folder. A run that failed says why in ``cause``; ``warning_kinds`` says what speaks against the others.
+            A row per run, those of curves and searches too. A run that failed says why in ``cause``; ``warning_kinds`` says what speaks
+            against the others. ``rows.tables`` has what the study answers.
 
         Raises:
             InputError: What the study file may not say.
@@ -220,7 +260,7 @@ class Study:
         if file is None:
             os.makedirs(out, exist_ok=True)
             for name, text in (self._texts or {}).items():
-                _write(os.path.join(out, name), text)
+                write(os.path.join(out, name), text)
             file = os.path.join(out, _STUDY)
         if runs_per_task < 1:
             raise InputError(f"is {runs_per_task}", key="runs_per_task", allowed="from 1")
@@ -230,23 +270,184 @@ class Study:
         if not done:
             warnings.warn("the study was stopped; the same call goes on", RuntimeWarning, stacklevel=2)
         if columns is None:
-            return _report(file, out, done)
+            return _asked(file, out, done)
         cells = {column["name"]: _numbers(column["cells"]) for column in columns}
-        return Rows(cells, {column["name"]: column["unit"] for column in columns}, done)
+        return Rows(cells, {column["name"]: column["unit"] for column in columns}, done, (file, out))
+
+    @property
+    def salib_problem(self) -> dict[str, Any]:
+        """The factors as a problem of SALib: ``num_vars``, ``names``, ``bounds``, ``dists``.
+
+        Bounds have the units of the columns of rows, those in which the factors were given; :meth:`at` runs what SALib draws.
+
+        Raises:
+            InputError: Factors for which SALib has no distribution: lists of values, named choices, motions, scales, a lognormal that is cut off.
+
+        Example:
+            >>> import concio
+            >>> study = concio.Study(concio.Wall.example(), {"load.top": concio.Uniform("20 kN/m", "60 kN/m")}, design="random", runs=8)
+            >>> study.salib_problem
+            {'num_vars': 1, 'names': ['load.top'], 'bounds': [[20.0, 60.0]], 'dists': ['unif']}
+        """
+        names, laws, bounds, _ = zip(*map(_drawn, *self._factors()), strict=True)
+        return {"num_vars": len(names), "names": list(names), "bounds": list(bounds), "dists": list(laws)}
+
+    def at(self, samples: ArrayLike) -> Study:
+        """The same study at values that another program drew, such as SALib of :attr:`salib_problem`.
+
+        Args:
+            samples: A row per run, a column per factor, in the order and the units of :attr:`salib_problem`; 10,000 rows at most. The column
+                ``sample`` of the rows is the number of the row, from 1.
+
+        Raises:
+            InputError: No table of numbers with a column per factor.
+        """
+        factors, keys = self._factors()
+        units = [unit for *_, unit in map(_drawn, factors, keys)]
+        try:
+            values = np.asarray(samples, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise InputError("is no table of numbers", key="samples", allowed="a row per run") from None
+        if values.ndim != 2 or values.shape[1] != len(factors) or len(values) == 0:
+            what = f"has the shape {values.shape}"
+            raise InputError(what, key="samples", allowed=f"a row per run, {len(factors)} columns, as many as factors")
+        choices = []
+        for number, row in enumerate(values.tolist(), start=1):
+            changes: dict[str, Any] = {}
+            for vary, unit, value in zip(factors, units, row, strict=True):
+                for path, times in [(vary["path"], 1.0), *((f["path"], f["times"]) for f in vary.get("also", ()))]:
+                    changes[path] = f"{value * times!r} {unit}" if unit else value * times
+            choices.append({"name": str(number), "set": changes})
+        table = self._table() | {"vary": [{"name": "sample", "choices": choices}], "design": {"kind": "grid"}}
+        if self._file is not None:
+            table["wall"] = os.path.join(os.path.dirname(self._file), table["wall"])
+        study = Study.__new__(Study)
+        study._texts, study._file = (self._texts or {}) | {_STUDY: to_json(table)}, None
+        return study
+
+    def _table(self) -> dict[str, Any]:
+        """What the study file says."""
+        if self._file is None:
+            table: dict[str, Any] = json.loads((self._texts or {})[_STUDY])
+            return table
+        with open(self._file, "rb") as file:
+            text = file.read()
+        try:
+            table = json.loads(text)
+        except ValueError:
+            if sys.version_info < (3, 11):
+                raise InputError("TOML is read from Python 3.11 on", file=self._file, help="give it as JSON") from None
+            import tomllib
+
+            try:
+                table = tomllib.loads(text.decode())
+            except ValueError as error:
+                raise InputError(f"is neither JSON nor TOML: {error}", file=self._file) from None
+        return table
+
+    def _factors(self) -> tuple[list[dict[str, Any]], list[str]]:
+        """The entries of ``vary`` with their keys, where they are all that varies."""
+        table = self._table()
+        for key in ("motion", "scales"):
+            if table.get(key):
+                raise InputError(
+                    "is a factor that has no distribution",
+                    key=key,
+                    help="the wall file may say what moves its base: one study per motion or scale then",
+                )
+        factors: list[dict[str, Any]] = table.get("vary", [])
+        if not factors:
+            raise InputError("nothing varies", key="vary", allowed="one factor or more")
+        return factors, [f"vary[{k}]" for k in range(len(factors))]
 
 
-def _report(file: str, out: str, done: bool) -> Rows:
-    """The table of every run of a study that asks a question; its report and the other tables stay in the folder."""
-    status = _native.command(["concio", "study", "report", file, "--out", out]) if done else 1
-    tables = [os.path.join(out, name) for name in ("ida.csv", "first-crack-runs.csv", "runs.csv")]
-    table = next((path for path in tables if os.path.exists(path)), None)
-    if status != 0 or table is None:
+# What a study that asks a question has of every run.
+_RUNS = ("ida", "first-crack-runs", "runs")
+
+
+def _asked(file: str, out: str, done: bool) -> Rows:
+    """The runs of a study that asks a question, which only its report has."""
+    if not done:
         return Rows({}, {}, done)
-    with open(table, encoding="utf-8", newline="") as text:
+    tables = _report(file, out)
+    runs = next(tables[name] for name in _RUNS if name in tables)
+    rows = Rows({name: runs[name] for name in runs.keys()}, runs.units, done, (file, out))
+    rows.__dict__["tables"] = MappingProxyType(tables)
+    return rows
+
+
+def _report(file: str, out: str) -> dict[str, Table]:
+    """The tables that the report writes; others, of earlier questions, may lie in the folder."""
+    before = _written(out)
+    if _native.command(["concio", "study", "report", file, "--out", out]) != 0:
+        raise RuntimeError(f"{file} has no report: standard error says why")
+    after = _written(out)
+    return {name: _read(os.path.join(out, f"{name}.csv")) for name in after if after[name] != before.get(name)}
+
+
+def _written(folder: str) -> dict[str, tuple[int, int]]:
+    """The tables of a folder, each with what tells whether it was written anew."""
+    if not os.path.isdir(folder):
+        return {}
+    with os.scandir(folder) as entries:
+        found = ((entry.name.removesuffix(".csv"), entry.stat()) for entry in entries if entry.name.endswith(".csv"))
+        return {name: (stat.st_ino, stat.st_mtime_ns) for name, stat in sorted(found, key=lambda pair: pair[0])}
+
+
+def _read(path: str) -> Table:
+    with open(path, encoding="utf-8", newline="") as text:
         head, *lines = csv.reader(text)
     parted = [name.removesuffix("]").partition(" [") if name.endswith("]") else (name, "", "") for name in head]
     columns = {name: _numbers([_cell(line[k]) for line in lines]) for k, (name, _, _) in enumerate(parted)}
-    return Rows(columns, {name: unit for name, _, unit in parted}, done)
+    return Table(columns, {name: unit for name, _, unit in parted})
+
+
+def _drawn(vary: Mapping[str, Any], key: str) -> tuple[str, str, list[float], str]:
+    """Name, law and parameters of a factor in the words of SALib, and its unit."""
+    if "distribution" in vary:
+        given: dict[str, Any] = vary["distribution"]
+    elif "from" in vary and "to" in vary:
+        given = {"law": "log-uniform" if vary.get("spacing") == "log" else "uniform"}
+        given |= {"low": vary["from"], "high": vary["to"]}
+    else:
+        raise InputError("values one by one have no distribution", key=key, allowed="a range or a distribution")
+    parted = {name: _amount(value) for name, value in given.items() if name != "law"}
+    units = {unit for name, (_, unit) in parted.items() if name != "dispersion"}
+    if len(units) != 1:
+        raise InputError("has several units, or none", key=key, allowed="all parameters in one unit")
+    at = {name: number for name, (number, _) in parted.items()}
+    name, (unit,) = vary.get("name", vary.get("path", "")), units
+    match given["law"]:
+        case "uniform":
+            return name, "unif", [at["low"], at["high"]], unit
+        case "log-uniform":
+            return name, "logunif", [at["low"], at["high"]], unit
+        case "normal" if "low" in at or "high" in at:
+            ends = [at.get("low", -np.inf), at.get("high", np.inf)]
+            return name, "truncnorm", [*ends, at["mean"], at["deviation"]], unit
+        case "normal":
+            return name, "norm", [at["mean"], at["deviation"]], unit
+        case "lognormal" if "low" not in at and "high" not in at:
+            return name, "lognorm", [float(np.log(at["median"])), at["dispersion"]], unit
+        case "triangular":
+            share = (at["mode"] - at["low"]) / (at["high"] - at["low"])
+            return name, "triang", [at["low"], at["high"], share], unit
+    allowed = "uniform, log-uniform, normal, triangular, lognormal without low and high"
+    raise InputError(f"SALib has no such distribution: {given['law']}", key=key, allowed=allowed)
+
+
+_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
+
+
+def _amount(value: Any) -> tuple[float, str]:
+    """Number and unit of what stands in a file."""
+    found = _NUMBER.fullmatch(value) if isinstance(value, str) else None
+    if found is not None:
+        return float(found[1]), found[2]
+    try:
+        return float(value), ""
+    except (TypeError, ValueError):
+        raise InputError(f"{value!r} is no amount", key="vary", allowed="a number, or a text with its unit") from None
 
 
 def _cell(text: str) -> Any:
@@ -260,10 +461,11 @@ def _vary(path: str, over: Any) -> dict[str, Any]:
     if hasattr(over, "_distribution"):
         given = over._distribution()
         return {"path": path, "distribution": {key: value for key, value in given.items() if value is not None}}
-    if isinstance(over, str | Mapping) or not hasattr(over, "__iter__"):
-        raise InputError(
-            f"{over!r} says not what it varies over", key=path, allowed="a list of values, or a distribution"
-        )
+    if isinstance(over, Mapping):
+        return {"name" if "choices" in over else "path": path, **plain(over, path)}
+    if isinstance(over, str) or not hasattr(over, "__iter__"):
+        allowed = "a list of values, a distribution, or what a study file says of a factor"
+        raise InputError(f"{over!r} says not what it varies over", key=path, allowed=allowed)
     return {"path": path, "values": list(over)}
 
 
@@ -276,6 +478,7 @@ def _motion(name: str, base: Any) -> dict[str, Any]:
             "the record is given by no file, or was treated in another order than a wall file's",
             key=name,
             allowed="records of files: trim, reversed, baseline, resample, scaled, in this order",
+            help='record.save("quake.txt") writes it to a file and gives the record of that file',
         )
     return {"base": json.loads(words), "duration": base.duration}
 
@@ -285,11 +488,3 @@ def _numbers(cells: list[Any]) -> list[Any]:
     if any(isinstance(cell, str) for cell in cells) or all(cell is None for cell in cells):
         return cells
     return [float("nan") if cell is None else cell for cell in cells]
-
-
-def _write(path: str, text: str) -> None:
-    """Whole or not at all."""
-    temporary = f"{path}.{os.getpid()}.tmp"
-    with open(temporary, "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(temporary, path)

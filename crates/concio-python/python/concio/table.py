@@ -29,9 +29,10 @@ class Table:
         array([6])
     """
 
-    def __init__(self, columns: Mapping[str, Any]) -> None:
-        """Of lists or arrays of one length."""
+    def __init__(self, columns: Mapping[str, Any], units: Mapping[str, str] | None = None) -> None:
+        """Of lists or arrays of one length, and the units of columns that have one."""
         self._columns = {name: _column(values) for name, values in columns.items()}
+        self.units = dict(units or {})
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """A column."""
@@ -55,7 +56,7 @@ class Table:
 
     def take(self, places: Any) -> Table:
         """The rows at these places, or those of which a column of truth values says yes."""
-        return Table({name: values[places] for name, values in self._columns.items()})
+        return Table({name: values[places] for name, values in self._columns.items()}, self.units)
 
     def nlargest(self, n: int, by: str) -> Table:
         """The ``n`` rows with the largest values of a column, the largest first; rows without a value are left out."""
@@ -65,9 +66,10 @@ class Table:
 
     @property
     def frame(self) -> pd.DataFrame:
-        """As a DataFrame of pandas, which ``pip install "concio[frames]"`` brings."""
+        """As a DataFrame of pandas, which ``pip install "concio[frames]"`` brings; units in ``attrs``."""
         pandas = needed("pandas", "frames")
         frame: pd.DataFrame = pandas.DataFrame({name: list(values) for name, values in self._columns.items()})
+        frame.attrs["units"] = self.units
         return frame
 
     def __repr__(self) -> str:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 import os
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
 
 from . import _native
 from ._progress import shown
@@ -19,6 +21,8 @@ from .run import Run
 from .table import Table
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
     from .simulation import Simulation
 
 Base: TypeAlias = Record | Mapping[str, Any] | str
@@ -63,7 +67,7 @@ class Wall:
     """
 
     def __init__(self, case: _native.Case) -> None:
-        """Made by :meth:`from_toml`, :meth:`from_str`, :meth:`from_dict` and :meth:`example`."""
+        """Made by :meth:`from_toml`, :meth:`from_str`, :meth:`from_dict`, :meth:`from_blocks` and :meth:`example`."""
         self._case = case
         self._ready: _native.Prepared | None = None
 
@@ -93,6 +97,61 @@ class Wall:
             InputError: As :meth:`from_toml`, by keys alone.
         """
         return cls(_native.Case.parse(to_json(values), True, _inside(folder, "wall.json"), False))
+
+    @classmethod
+    def from_blocks(
+        cls,
+        blocks: Sequence[ArrayLike] | Mapping[str, ArrayLike],
+        *,
+        brick: Mapping[str, Any],
+        mortar: Mapping[str, Any] | None = None,
+        folder: str | os.PathLike[str] | None = None,
+        **settings: Any,
+    ) -> Wall:
+        """Of blocks of any convex shape. Sides that face each other across no more than the mortar form joints.
+
+        Args:
+            blocks: Corners [m] of each block, an array of shape (corners, 2), 3 to 16 of them in order round the block; y is from 0, where the
+                base is. By name, or in a list, whose blocks are called ``b1``, ``b2``, …
+            brick: Depth, specific weight and size of reference, as ``panel.brick`` of a wall file: ``{"length": 0.25, "height": 0.25,
+                "thickness": 0.5, "specific_weight": "20 kN/m3"}``.
+            mortar: Thickness of the joints, as ``panel.mortar``; default dry.
+            folder: What paths of records are relative to; default the working directory.
+            settings: The other tables of a wall file: ``joint``, ``load``, ``motion``, ``output``, …; ``model`` is ``"planar"``.
+
+        Courses are counted from the base, block upon block; ``load.top`` acts on the last one.
+
+        Raises:
+            InputError: As :meth:`from_dict`; the place of a block in ``panel[0].block`` is that in the list.
+
+        Example:
+            >>> import concio
+            >>> brick = {"length": 1, "height": 1, "thickness": 0.5, "specific_weight": "20 kN/m3"}
+            >>> block = [(0, 0), (0.4, 0), (0.3, 1), (0.1, 1)]
+            >>> friction = {"law": "coulomb", "static": 0.7}
+            >>> joint = {"bed": {"law": "rigid"}, "head": {"law": "none"}, "friction": friction}
+            >>> wall = concio.Wall.from_blocks([block], brick=brick, joint=joint, motion={"duration": "1 s"})
+            >>> round(wall.limit(towards="left").multiplier, 4)
+            0.45
+        """
+        named = blocks if isinstance(blocks, Mapping) else {f"b{k}": block for k, block in enumerate(blocks, start=1)}
+        shapes = []
+        for k, block in enumerate(named.values()):
+            key = f"panel[0].block[{k}].corners"
+            try:
+                corners = np.asarray(block, dtype=np.float64)
+            except (TypeError, ValueError):
+                raise InputError("is no array of numbers", key=key, allowed="corners [m], (x, y) each") from None
+            if corners.ndim != 2 or corners.shape[1:] != (2,) or len(corners) == 0:
+                raise InputError(f"has the shape {corners.shape}", key=key, allowed="corners [m], (x, y) each")
+            shapes.append(corners)
+        courses = _courses(shapes)
+        laid = [
+            {"id": name, "course": course, "corners": corners}
+            for name, course, corners in zip(named, courses, shapes, strict=True)
+        ]
+        panel = {"bond": "explicit", "brick": brick, "mortar": mortar or {"bed": 0, "head": 0}, "block": laid}
+        return cls.from_dict({"model": "planar", "panel": [panel], **settings}, folder=folder)
 
     @classmethod
     def example(cls, name: str = "first-wall") -> Wall:
@@ -193,13 +252,18 @@ class Wall:
             changes["motion.duration"] = duration
         return self.replace(changes)._case.prepare(beside)
 
+    def _beside(self, base: Base | None) -> bool:
+        """Whether it is a record that a wall file has no words for, so that no result holds it."""
+        return isinstance(base, Record) and base._native.words(self._case.folder) is None
+
     def run(self, *, base: Base | None = None, duration: float | str | None = None, progress: Progress = False) -> Run:
         """Simulates the wall.
 
         Other threads of Python go on meanwhile. Ctrl-C ends the run, which comes back with what it reached: ``run.ok`` is false then.
 
         Args:
-            base: What moves the base instead of what the wall file says: a record, or what stands at ``motion.base`` of a wall file.
+            base: What moves the base instead of what the wall file says: a record, or what stands at ``motion.base`` of a wall file. Of a record
+                that no file gives the result does not hold the motion: see :meth:`concio.Record.save`.
             duration: Length of the run [s]; default that of the record given, else of the wall file.
             progress: Show a bar, or call this with the share that is done, 0 … 1.
 
@@ -212,7 +276,7 @@ class Wall:
         prepared = self._moved(base, duration)
         with shown(progress) as told:
             native = prepared.run(told)
-        run = Run(native)
+        run = Run(native, self._beside(base))
         if native.interrupted:
             warnings.warn(f"the run was stopped at t = {run.time_reached:g} s", RuntimeWarning, stacklevel=2)
         return run
@@ -358,6 +422,21 @@ class Wall:
 
 def _inside(folder: str | os.PathLike[str] | None, name: str) -> str | None:
     return None if folder is None else os.path.join(os.path.abspath(folder), name)
+
+
+def _courses(shapes: list[NDArray[np.float64]]) -> list[int]:
+    """The course of every block, from 1: above those of the blocks that are below it."""
+    courses = [1] * len(shapes)
+    if not shapes:
+        return courses
+    low, high = np.array([s.min(axis=0) for s in shapes]), np.array([s.max(axis=0) for s in shapes])
+    # Corners that were rounded to a thousandth of a side count as one.
+    near = 1e-3 * (high - low)
+    for i in np.argsort(low[:, 1], kind="stable"):
+        beside = np.minimum(high[:, 0], high[i, 0]) - np.maximum(low[:, 0], low[i, 0]) > near[i, 0]
+        below = beside & (high[:, 1] <= low[i, 1] + near[i, 1])
+        courses[i] = 1 + max((courses[j] for j in np.flatnonzero(below)), default=0)
+    return courses
 
 
 def _again(settings: str, folder: str) -> Wall:
