@@ -4,13 +4,14 @@ import os
 import signal
 import threading
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from conftest import PLANAR, SHEAR
 
 import concio
-from concio import InputError, LogNormal, Record, Study, Uniform, Wall
+from concio import InputError, LogNormal, Record, Rows, Study, Uniform, Wall
 
 
 def test_rows_are_the_runs(tmp_path: Path, shear: Wall) -> None:
@@ -58,6 +59,30 @@ def test_a_study_file(tmp_path: Path) -> None:
     )
     rows = Study.from_toml(tmp_path / "study.toml").run(tmp_path / "out")
     assert rows["joint.friction.static"].tolist() == [0.5, 0.6]
+
+
+@pytest.mark.parametrize(
+    ("question", "table"),
+    [
+        (
+            {"ida": {"damage": "peak_drift", "intensities": [1.0, 6.0], "limits": [{"name": "1", "value": 1e-3}]}},
+            "fragility",
+        ),
+        ({"ranking": {"by": ["slip"]}}, "ranking"),
+    ],
+)
+def test_a_question(tmp_path: Path, planar: Wall, command, question: dict[str, Any], table: str) -> None:  # type: ignore[no-untyped-def]
+    motions = {name: {"sine": {"acceleration": 2.0, "frequency": f}} for name, f in (("A", 3.0), ("B", 4.0))}
+    rows = Study(planar, motions=motions, question=question).run(tmp_path / "here")
+    study = tmp_path / "here" / "study.json"
+    assert command("study", "run", study, "--out", tmp_path / "there").returncode == 0
+    here, there = (tmp_path / folder / f"{table}.csv" for folder in ("here", "there"))
+    assert rows.done and here.read_bytes() == there.read_bytes()
+    found = Rows.read(here)
+    assert len(found) > 0 and "[" not in "".join(found.keys())
+    assert found.frame.attrs["units"] == found.units
+    with pytest.raises(InputError, match="ranking"):
+        Study(planar, question={"rankings": {}})
 
 
 def test_motions_of_files(tmp_path: Path, planar: Wall, quake: Record, quake_file: Path) -> None:

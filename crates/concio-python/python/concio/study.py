@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 _WALL = "wall.json"
 _STUDY = "study.json"
+_QUESTIONS = ("sensitivity", "ida", "first-crack", "cracks", "ranking", "interfaces")
 
 
 @dataclass(frozen=True)
@@ -102,6 +103,15 @@ class Rows(Table):
         self.units = dict(units)
         self.done = done
 
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Rows:
+        """A table that a study left in its folder, such as ``fragility.csv``, ``first-crack.csv`` or ``ranking.csv``."""
+        with open(path, encoding="utf-8", newline="") as text:
+            head, *lines = csv.reader(text)
+        parted = [name.removesuffix("]").partition(" [") if name.endswith("]") else (name, "", "") for name in head]
+        columns = {name: _numbers([_cell(line[k]) for line in lines]) for k, (name, _, _) in enumerate(parted)}
+        return cls(columns, {name: unit for name, _, unit in parted}, True)
+
     @property
     def frame(self) -> pd.DataFrame:
         """As a DataFrame of pandas, units in ``attrs``."""
@@ -137,6 +147,7 @@ class Study:
         title: str = "",
         keep: Sequence[str] = (),
         results: bool = False,
+        question: Mapping[str, Any] | None = None,
     ) -> None:
         """Of a wall.
 
@@ -151,6 +162,8 @@ class Study:
             title: Title in reports.
             keep: What is kept per joint, such as ``"slip"``.
             results: Keep the whole result of every run: large.
+            question: What it asks, as a study file does: ``{"ida": {"damage": "peak_drift", ...}}``, ``{"ranking": {"by": ["slip"]}}``.
+                The tables that answer are in the folder of :meth:`run`, for :meth:`Rows.read`.
 
         Raises:
             InputError: A record that no file gives: a study is resumed, and its inputs have to be on the disk.
@@ -171,6 +184,11 @@ class Study:
         if scales:
             study["scales"] = plain(list(scales), "scales")
         study["keep"] = {"joints": list(keep), "results": results}
+        for name, table in (question or {}).items():
+            if name not in _QUESTIONS:
+                raise InputError(f"there is no question {name!r}", key="question", allowed=", ".join(_QUESTIONS))
+            study[name] = plain(table, name)
+        self._asks = bool(question)
         self._texts: dict[str, str] | None = {_WALL: to_json(settings), _STUDY: to_json(study)}
         self._file: str | None = None
 
@@ -178,7 +196,7 @@ class Study:
     def from_toml(cls, path: str | os.PathLike[str]) -> Study:
         """Reads a study file. What is wrong with it is told by :meth:`run`."""
         study = cls.__new__(cls)
-        study._texts, study._file = None, os.path.abspath(path)
+        study._texts, study._file, study._asks = None, os.path.abspath(path), False
         return study
 
     def run(
@@ -231,6 +249,8 @@ class Study:
             warnings.warn("the study was stopped; the same call goes on", RuntimeWarning, stacklevel=2)
         if columns is None:
             return _report(file, out, done)
+        if self._asks and done:
+            _native.command(["concio", "study", "report", file, "--out", out])
         cells = {column["name"]: _numbers(column["cells"]) for column in columns}
         return Rows(cells, {column["name"]: column["unit"] for column in columns}, done)
 
@@ -242,11 +262,7 @@ def _report(file: str, out: str, done: bool) -> Rows:
     table = next((path for path in tables if os.path.exists(path)), None)
     if status != 0 or table is None:
         return Rows({}, {}, done)
-    with open(table, encoding="utf-8", newline="") as text:
-        head, *lines = csv.reader(text)
-    parted = [name.removesuffix("]").partition(" [") if name.endswith("]") else (name, "", "") for name in head]
-    columns = {name: _numbers([_cell(line[k]) for line in lines]) for k, (name, _, _) in enumerate(parted)}
-    return Rows(columns, {name: unit for name, _, unit in parted}, done)
+    return Rows.read(table)
 
 
 def _cell(text: str) -> Any:
