@@ -4,6 +4,7 @@ import json
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import concio
@@ -59,10 +60,23 @@ def test_words_that_limit_analysis_does_not_know(tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
         wall.limit(out_of_plane=True, above="1 kg")
     assert caught.value.key == "above" and caught.value.file is None
-    with pytest.raises(InputError):
-        wall.limit(above="1 m")
+    for words in ({"above": "1 m"}, {"above": 1.0}, {"even_twist": True}, {"without_dilation": True}):
+        with pytest.raises(InputError, match="out_of_plane=True") as caught:
+            wall.limit(**words)
+        assert caught.value.key == next(iter(words))
     with pytest.raises(InputError):
         Wall.from_str(BLOCK.replace("MU", "0.3")).limit(towards="outwards")
+
+
+def test_numbers_are_si_where_the_command_line_wants_a_unit() -> None:
+    wall = Wall.from_str(BLOCK.replace("MU", "0.3"))
+    for number, text in ((0.2, "200 mm"), (np.float64(0.2), "0.2 m")):
+        asked = [wall.limit(out_of_plane=True, above=above).result for above in (number, text)]
+        assert asked[0] == asked[1]
+    panel = Wall.example("bonded-joints")
+    with_numbers = panel.continuum(brick_modulus=8e9, brick_poisson=0.1, pressure=200000).panels
+    assert with_numbers == panel.continuum(brick_modulus="8 GPa", brick_poisson=0.1, pressure="0.2 MPa").panels
+    assert with_numbers != panel.continuum(brick_modulus="9 GPa", brick_poisson=0.1, pressure="0.3 MPa").panels
 
 
 def test_the_continuum_of_a_running_bond() -> None:

@@ -208,7 +208,7 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
 
     @property
     def drifts(self) -> Table:
-        """How far the tops went."""
+        """How far every top went [m]: ``peak`` and its time [s], what is left at the end, and how far it still swings to either side of that."""
         rows = self._native.drifts()
         return Table(
             {name: [row[name] for row in rows] for name in ("top", "height", "peak", "time", "residual", "swing")}

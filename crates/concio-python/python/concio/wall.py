@@ -312,10 +312,12 @@ class Wall:
         Raises:
             InputError: A wall that does not stand, or that limit analysis has no words for.
         """
+        across = {"above": above, "even_twist": even_twist, "without_dilation": without_dilation}
+        for key, value in across.items():
+            if not out_of_plane and value is not None and value is not False:
+                raise InputError("is for walls pushed out of their plane", key=key, allowed="with out_of_plane=True")
         options = _options(load=load, towards=towards, heads=heads if heads != "as-given" or not out_of_plane else None)
-        options += _options(
-            out_of_plane=out_of_plane, above=above, even_twist=even_twist, without_dilation=without_dilation
-        )
+        options += _options(out_of_plane=out_of_plane, **across)
         return Limit(self._case.answer(["limit", *options]))
 
     def mechanisms(
@@ -345,8 +347,6 @@ class Wall:
         Raises:
             InputError: A wall without what the mechanisms need, a record that cannot be read.
         """
-        if isinstance(pga, int | float):
-            pga = f"{float(pga)!r} m/s2"
         options = _options(overlaps=overlaps, record=record, pga=pga, scale=scale, vertical=vertical, shaken=shaken)
         options += _options(all=every, restitution=restitution)
         return Mechanisms(self._case.answer(["mechanisms", *options]))
@@ -443,6 +443,10 @@ def _again(settings: str, folder: str) -> Wall:
     return Wall(_native.Case.parse(settings, True, _inside(folder, "wall.json") if folder else None, False))
 
 
+_UNITS = {"above": "m", "brick_modulus": "Pa", "pga": "m/s2", "pressure": "Pa"}
+"""Units of the options of the command line that want one: numbers are SI here."""
+
+
 def _options(**given: Any) -> list[str]:
     """Keywords as options of the command line."""
     options = []
@@ -452,5 +456,8 @@ def _options(**given: Any) -> list[str]:
             options.append(option)
         elif value is not None and value is not False:
             value = plain(value, name)
-            options += [f"{option}={value!r}" if isinstance(value, float) else f"{option}={value}"]
+            if not isinstance(value, str):
+                unit = _UNITS.get(name)
+                value = repr(value) if unit is None else f"{float(value)!r} {unit}"
+            options.append(f"{option}={value}")
     return options
