@@ -9,7 +9,7 @@ use crate::concio;
 use crate::examples::folder;
 
 /// What the checks import, by the names under which it is installed.
-const PACKAGES: [&str; 16] = [
+const PACKAGES: [&str; 21] = [
     "h5py",
     "numpy",
     "vtk",
@@ -18,11 +18,16 @@ const PACKAGES: [&str; 16] = [
     "eqsig",
     "cma",
     "distributed",
+    "ipykernel",
+    "jupytext",
     "matplotlib",
     "maturin",
     "mypy",
+    "nbclient",
+    "obspy",
     "pandas",
     "pyright",
+    "pyrotd",
     "pytest",
     "ruff",
     "xarray",
@@ -103,16 +108,29 @@ pub fn check_package(root: &Path, python: Option<&Path>) -> Outcome {
     let mut install = module("pip");
     install.args(["install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-deps", "--force-reinstall"]);
     run(install.arg("--find-links").arg(&wheels).arg("concio"))?;
-    let (sources, tests) = (format!("{PACKAGE}/python"), format!("{PACKAGE}/tests"));
+    let [sources, tests, notebooks] = ["python", "tests", "notebooks"].map(|folder| format!("{PACKAGE}/{folder}"));
     run(module("pytest").args(["--quiet", "--doctest-modules", "--pyargs", "concio", &tests]))?;
     run(module("mypy.stubtest").arg("concio"))?;
     run(module("mypy").args(["--no-error-summary", &format!("{sources}/concio"), &tests]))?;
+    // Their names are no names of modules: one by one.
+    for notebook in python_files(&root.join(&notebooks))? {
+        run(module("mypy").arg("--no-error-summary").arg(notebook))?;
+    }
     // It fetches the program it wraps when it is first called.
     if read(module("pyright").arg("--version")).is_ok() {
-        run(module("pyright").args(["--level", "error", &sources, &tests]))?;
+        run(module("pyright").args(["--level", "error", &sources, &notebooks]))?;
     } else {
         crate::command::skip("pyright (it cannot be fetched here)");
     }
     run(module("ruff").args(["check", "--quiet", PACKAGE]))?;
     run(module("ruff").args(["format", "--quiet", "--check", PACKAGE]))
+}
+
+/// The Python files of a folder, in order.
+fn python_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let mut files: Vec<PathBuf> = entries.filter_map(|entry| entry.ok().map(|entry| entry.path())).collect();
+    files.retain(|path| path.extension().is_some_and(|ending| ending == "py"));
+    files.sort();
+    Ok(files)
 }

@@ -9,9 +9,11 @@
 # %%
 import json
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from numpy.typing import NDArray
 
 import concio
 
@@ -71,8 +73,8 @@ def rms(run: concio.Run, quantity: str) -> float:
     return float(np.sqrt(np.mean(values[len(values) // 10 :] ** 2)))
 
 
-def gaps(run: concio.Run) -> np.ndarray:
-    return run.joints["opening"][run.joints["kind"] == "head"]
+def gaps(run: concio.Run) -> NDArray[np.float64]:
+    return np.asarray(run.joints["opening"][run.joints["kind"] == "head"])
 
 
 def share_of_friction(run: concio.Run) -> float:
@@ -110,7 +112,7 @@ numbers = {
 # are apart. A thousandth is allowed where they hardly part.
 
 # %%
-recorded = {}
+recorded: dict[str, dict[str, Any]] = {}
 for finding in json.loads((REPOSITORY / "docs/report-cases.json").read_text(encoding="utf-8"))["findings"]:
     recorded |= {number["name"]: number for number in finding["numbers"]}
 

@@ -74,7 +74,7 @@ study = concio.Study(wall, motions=motions, ida=ida)
 if __name__ == "__main__":
     folder = tempfile.TemporaryDirectory()
     with (
-        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster,
         Client(cluster) as client,
     ):
         rows = study.run(folder.name, executor=client.get_executor(), runs_per_task=1)
@@ -105,11 +105,11 @@ if __name__ == "__main__":
 if __name__ == "__main__":
     fragility = rows.tables["fragility"]
     capacities = rows.tables["capacities"]
-    for row in fragility:
+    for fit in fragility:
         print(
-            f"{row['limit']:12} median {row['median'] / 9.81:.2f} g ({row['median from'] / 9.81:.2f} … {row['median to'] / 9.81:.2f}),"
-            f" dispersion {row['dispersion']:.2f} ({row['dispersion from']:.2f} … {row['dispersion to']:.2f}),"
-            f" {row['reached']:.0f} records"
+            f"{fit['limit']:12} median {fit['median'] / 9.81:.2f} g ({fit['median from'] / 9.81:.2f} … {fit['median to'] / 9.81:.2f}),"
+            f" dispersion {fit['dispersion']:.2f} ({fit['dispersion from']:.2f} … {fit['dispersion to']:.2f}),"
+            f" {fit['reached']:.0f} records"
         )
 
 # %% [markdown]

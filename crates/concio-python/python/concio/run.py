@@ -290,7 +290,7 @@ def open(folder: str | os.PathLike[str]) -> Run:
 
 def run_many(
     runs: Sequence[Wall | tuple[Wall, Any]], *, threads: int = 0, progress: bool | Callable[[float], object] = False
-) -> list[Run | None]:
+) -> list[Run]:
     """Simulates many walls at once, alike ones of the shear model side by side in the lanes of vector instructions.
 
     A run has the bits that it has alone. All results are held in memory: of many runs, make a study.
@@ -301,7 +301,7 @@ def run_many(
         progress: Show a bar, or call this with the share that is done, 0 … 1.
 
     Returns:
-        The runs in their order. After Ctrl-C those that were under way are not ``ok``, and those that had not begun are ``None``.
+        The runs in their order. After Ctrl-C those that were under way are not ``ok``, and those that had not begun are left out.
 
     Raises:
         InputError: As :meth:`concio.Wall.run`, before anything runs.
@@ -322,8 +322,10 @@ def run_many(
     with shown(progress) as told:
         ended, interrupted = _native.run_many(prepared, threads, told)
     if interrupted:
-        warnings.warn("the runs were stopped: those that had not begun are None", RuntimeWarning, stacklevel=2)
-    return [None if run is None else Run(run, its) for run, its in zip(ended, beside, strict=True)]
+        warnings.warn(
+            f"the runs were stopped: {ended.count(None)} that had not begun are left out", RuntimeWarning, stacklevel=2
+        )
+    return [Run(run, its) for run, its in zip(ended, beside, strict=True) if run is not None]
 
 
 def _refuse_a_file(folder: str | os.PathLike[str]) -> None:
