@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 import concio
 
-REPOSITORY = Path("../../..")  # a notebook runs in its own folder
+REPOSITORY = next(folder for folder in [Path.cwd(), *Path.cwd().parents] if (folder / "examples").is_dir())
 
 # %% [markdown]
 # ## The cases

@@ -15,7 +15,7 @@ import numpy as np
 
 import concio
 
-REPOSITORY = Path("../../..")  # a notebook runs in its own folder
+REPOSITORY = next(folder for folder in [Path.cwd(), *Path.cwd().parents] if (folder / "examples").is_dir())
 
 # %% [markdown]
 # ## The wall and the motions
