@@ -121,20 +121,45 @@ import sys
 from distributed import Client, LocalCluster
 from concio import Study
 if __name__ == "__main__":
-    folder, workers = sys.argv[1], int(sys.argv[2])
+    folder, workers, at_once = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
     with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
         pids = [w.pid for w in cluster.workers.values()]
         print(*pids, flush=True)
-        rows = Study.from_toml(folder + "/study.json").run(folder, executor=client.get_executor())
+        rows = Study.from_toml(folder + "/study.json").run(folder, executor=client.get_executor(), runs_per_task=at_once)
         print("done" if rows.done else "stopped", flush=True)
 """
 
 
-def test_dask_survives_kills_of_workers_and_client(tmp_path: Path, planar: Wall, command: Any) -> None:
+def killed_study(kind: str, planar: Wall, shear: Wall) -> tuple[Study, int, tuple[int, int, int]]:
+    """A study, runs per task, and after how many rows two workers and the client are killed."""
+    motions = {
+        f"{frequency} Hz": {"sine": {"acceleration": "0.3 g", "frequency": frequency, "ramp": "0.1 s"}}
+        for frequency in range(3, 13)
+    }
+    if kind == "sweep":
+        return study_of(planar.replace({"motion.duration": "0.4 s"})), 8, (16, 64, 120)
+    if kind == "ida":
+        wall = planar.replace({"motion.duration": "1 s"})
+        ida = {
+            "intensity": "pga",
+            "damage": "peak_displacement",
+            "limits": [{"name": "1 mm", "value": "1 mm"}],
+            "collapse": "0.1 m",
+            "hunt": {"first": "0.2 g", "step": "0.2 g", "most": "3 g", "runs": 8},
+        }
+        return Study(wall, motions=motions, ida=ida), 1, (5, 15, 30)
+    bonded = shear.replace({"joint.bond": {"tensile_strength": "5 kPa", "cohesion": "8 kPa"}})
+    return Study(bonded, motions=motions, first_crack={"interval": 0.01}), 1, (5, 15, 30)
+
+
+@pytest.mark.parametrize("kind", ["sweep", "ida", "first-crack"])
+def test_dask_survives_kills_of_workers_and_client(
+    tmp_path: Path, planar: Wall, shear: Wall, command: Any, kind: str
+) -> None:
     pytest.importorskip("distributed")
-    study = study_of(planar.replace({"motion.duration": "0.4 s"}))
+    study, at_once, (*workers_after, client_after) = killed_study(kind, planar, shear)
     whole, killed = tmp_path / "whole", tmp_path / "killed"
-    study.run(whole)
+    assert study.run(whole).done
     killed.mkdir()
     for name in ("wall.json", "study.json"):
         (killed / name).write_bytes((whole / name).read_bytes())
@@ -143,7 +168,7 @@ def test_dask_survives_kills_of_workers_and_client(tmp_path: Path, planar: Wall,
 
     def begin(workers: int) -> tuple[subprocess.Popen[str], list[int]]:
         client = subprocess.Popen(
-            [sys.executable, str(script), str(killed), str(workers)],
+            [sys.executable, str(script), str(killed), str(workers), str(at_once)],
             stdout=subprocess.PIPE,
             text=True,
             start_new_session=True,
@@ -153,19 +178,20 @@ def test_dask_survives_kills_of_workers_and_client(tmp_path: Path, planar: Wall,
 
     def wait_for(rows: int, client: subprocess.Popen[str]) -> None:
         while kept(killed) < rows and client.poll() is None:
-            time.sleep(0.02)
+            time.sleep(0.005)
 
     client, workers = begin(2)
-    for pid, rows_before in zip(workers, (16, 64), strict=True):
+    for pid, rows_before in zip(workers, workers_after, strict=True):
         wait_for(rows_before, client)
         os.kill(pid, signal.SIGKILL)
-    wait_for(120, client)
+    wait_for(client_after, client)
     os.killpg(client.pid, signal.SIGKILL)
     client.communicate()
     before = kept(killed)
-    assert 0 < before < 256, before
+    assert 0 < before < kept(whole), before
     client, _ = begin(3)
     assert client.communicate()[0].split()[-1] == "done"
+    assert kept(killed) == kept(whole)
     for folder in (whole, killed):
         assert command("study", "report", folder / "study.json", "--out", folder).returncode == 0
     assert tables(whole) == tables(killed) != {}
