@@ -472,15 +472,7 @@ def _vary(path: str, over: Any) -> dict[str, Any]:
 def _motion(name: str, base: Any) -> dict[str, Any]:
     if not isinstance(base, Record):
         return {"base": base}
-    words = base._native.words("")
-    if words is None:
-        raise InputError(
-            "the record is given by no file, or was treated in another order than a wall file's",
-            key=name,
-            allowed="records of files: trim, reversed, baseline, resample, scaled, in this order",
-            help='record.save("quake.txt") writes it to a file and gives the record of that file',
-        )
-    return {"base": json.loads(words), "duration": base.duration}
+    return {"base": base.in_words("", name), "duration": base.duration}
 
 
 def _numbers(cells: list[Any]) -> list[Any]:
