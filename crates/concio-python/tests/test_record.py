@@ -43,6 +43,11 @@ def test_what_is_done_makes_another(quake: Record) -> None:
     np.testing.assert_array_equal(quake.acceleration, before)
 
 
+def test_numpy_takes_a_record_for_its_samples(quake: Record) -> None:
+    np.testing.assert_array_equal(np.asarray(quake), quake.acceleration)
+    assert np.abs(quake).max() == quake.pga and np.asarray(quake, dtype=np.float32).dtype == np.float32
+
+
 def test_arrays_are_read_only(quake: Record) -> None:
     with pytest.raises(ValueError, match="read-only"):
         quake.acceleration[0] = 1.0

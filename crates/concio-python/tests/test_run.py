@@ -62,7 +62,7 @@ def test_result_files_have_the_bytes_of_the_command_line(wall: Wall, tmp_path: P
 def test_a_run_that_is_read_back_is_the_run(wall: Wall, tmp_path: Path) -> None:
     run = wall.run()
     run.save(tmp_path / "out")
-    again = concio.open(tmp_path / "out")
+    again = concio.open(tmp_path / "out/result.h5")
     np.testing.assert_array_equal(again._native.values, run._native.values)
     assert again.frames.keys() == run.frames.keys()
     for name, values in run.frames.items():

@@ -9,7 +9,7 @@ import pytest
 from conftest import PLANAR, SHEAR
 
 import concio
-from concio import InputError, Wall
+from concio import InputError, Record, Wall
 
 ROOT = Path(__file__).parents[3]
 
@@ -38,6 +38,16 @@ def test_replacing_makes_another_wall(planar: Wall) -> None:
     assert len(other.blocks) > len(planar.blocks)
     assert planar.settings["joint"]["friction"]["static"] == 0.4
     assert planar.replace({}) == planar
+
+
+def test_a_record_may_stand_in_the_wall(planar: Wall, quake: Record, quake_file: Path) -> None:
+    record = Record.read(quake_file).scaled(0.5)
+    inside = planar.replace({"motion.base": record, "motion.duration": record.duration})
+    assert inside.given["motion"]["base"] == {"record": str(quake_file), "scale": 0.5}
+    np.testing.assert_array_equal(inside.run()["top/displacement"], planar.run(record)["top/displacement"])
+    with pytest.raises(InputError, match=r"record\.save") as caught:
+        planar.replace({"motion.base": quake})
+    assert caught.value.key == "motion.base"
 
 
 def test_quantities_with_units_of_their_own(planar: Wall) -> None:
@@ -164,6 +174,8 @@ def test_tables(planar: Wall) -> None:
     assert len(blocks.take(blocks["course"] == 2)) == 3
     with pytest.raises(KeyError, match="mass"):
         blocks["weight"]
+    with pytest.raises(TypeError, match="take"):
+        blocks[blocks["course"] == 2]
     with pytest.raises(ValueError, match="read-only"):
         blocks["mass"][0] = 0
     assert "p1c1b1" in repr(blocks) and "<td>p1c1b1</td>" in blocks._repr_html_()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -205,6 +206,27 @@ class Record:
     def duration(self) -> float:
         """Time from the first sample to the last [s]."""
         return self._native.duration
+
+    def in_words(self, folder: str | os.PathLike[str], key: str) -> dict[str, Any]:
+        """What a wall file in ``folder`` says of it, at ``key``.
+
+        Raises:
+            InputError: It has no words: no file gives the record, or what was done to it came in another order.
+        """
+        words = self._native.words(folder)
+        if words is None:
+            raise InputError(
+                "the record is given by no file, or was treated in another order than a wall file's",
+                key=key,
+                allowed="records of files: trim, reversed, baseline, resample, scaled, in this order",
+                help='record.save("quake.txt") writes it to a file and gives the record of that file',
+            )
+        said: dict[str, Any] = json.loads(words)
+        return said
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        """Samples of the acceleration [m/s²], for functions of NumPy."""
+        return np.array(self.acceleration, dtype=dtype)
 
     def __len__(self) -> int:
         """Number of samples."""

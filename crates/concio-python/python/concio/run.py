@@ -279,13 +279,16 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
 
 
 def open(folder: str | os.PathLike[str]) -> Run:
-    """Reads a run back from its folder, bit for bit what was written.
+    """Reads a run back from its folder, or its ``result.h5`` there, bit for bit what was written.
 
     Raises:
         InputError: A file that is broken, foreign, changed or of another version.
         OSError: A file that cannot be read.
     """
-    return Run(_native.Run.open(os.fspath(folder)))
+    place = os.fspath(folder)
+    if os.path.basename(place) == "result.h5" and os.path.isfile(place):
+        place = os.path.dirname(place) or os.curdir
+    return Run(_native.Run.open(place))
 
 
 def run_many(

@@ -30,7 +30,7 @@ class Simulation:
         True
     """
 
-    def __init__(self, wall: Wall, *, base: Base | None = None, duration: float | str | None = None) -> None:
+    def __init__(self, wall: Wall, base: Base | None = None, *, duration: float | str | None = None) -> None:
         """At rest at t = 0.
 
         Args:

@@ -145,6 +145,7 @@ class Study:
         scales: Sequence[float] = (),
         design: str = "grid",
         runs: int | None = None,
+        levels: int | None = None,
         seed: int = 1,
         title: str = "",
         keep: Sequence[str] = (),
@@ -169,6 +170,7 @@ class Study:
             scales: Factors on the motion of the base, each above 0.
             design: ``"grid"``, ``"list"``, ``"latin-hypercube"``, ``"random"``, ``"morris"`` or ``"sobol"``.
             runs: Number of runs of a Latin hypercube or of random draws, of trajectories or base points.
+            levels: Levels of each factor in design ``"morris"``; default 4.
             seed: Seed of everything that is drawn.
             title: Title in reports.
             keep: What is kept per joint, such as ``"slip"``.
@@ -193,8 +195,7 @@ class Study:
             if isinstance(signal, dict) and "record" in signal:
                 signal["record"] = os.path.join(folder, signal["record"])
         study: dict[str, Any] = {"title": title, "wall": _WALL, "design": {"kind": design, "seed": seed}}
-        if runs is not None:
-            study["design"]["runs"] = runs
+        study["design"] |= {key: n for key, n in (("runs", runs), ("levels", levels)) if n is not None}
         if factors:
             study["vary"] = [_vary(path, over) for path, over in factors.items()]
         if motions:
@@ -472,15 +473,7 @@ def _vary(path: str, over: Any) -> dict[str, Any]:
 def _motion(name: str, base: Any) -> dict[str, Any]:
     if not isinstance(base, Record):
         return {"base": base}
-    words = base._native.words("")
-    if words is None:
-        raise InputError(
-            "the record is given by no file, or was treated in another order than a wall file's",
-            key=name,
-            allowed="records of files: trim, reversed, baseline, resample, scaled, in this order",
-            help='record.save("quake.txt") writes it to a file and gives the record of that file',
-        )
-    return {"base": json.loads(words), "duration": base.duration}
+    return {"base": base.in_words("", name), "duration": base.duration}
 
 
 def _numbers(cells: list[Any]) -> list[Any]:

@@ -40,6 +40,10 @@ class Table:
             return self._columns[name]
         except KeyError:
             raise KeyError(f"no column {name!r}; there are {', '.join(self._columns)}") from None
+        except TypeError:
+            raise TypeError(
+                "a column is asked by its name; take() gives rows, and frame is a table of pandas"
+            ) from None
 
     def keys(self) -> Iterator[str]:
         """Names of the columns: ``dict(table)`` has the columns."""

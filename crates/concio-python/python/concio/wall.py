@@ -175,12 +175,16 @@ class Wall:
 
         Args:
             changes: Key paths of the wall file (``joint.friction.static``, ``panel[0].courses``, ``[*]`` for every element of a list), each with what
-                stands there instead: a number in SI, a text with its unit, a quantity of pint, a list, a dict.
+                stands there instead: a number in SI, a text with its unit, a quantity of pint, a list, a dict, a record of a file.
 
         Raises:
             InputError: A path that leads nowhere, a key or value that a wall file does not know.
         """
-        return Wall(self._case.changed(to_json({key: plain(value, key) for key, value in changes.items()})))
+
+        def said(key: str, value: Any) -> Any:
+            return value.in_words(self._case.folder, key) if isinstance(value, Record) else plain(value, key)
+
+        return Wall(self._case.changed(to_json({key: said(key, value) for key, value in changes.items()})))
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -256,7 +260,7 @@ class Wall:
         """Whether it is a record that a wall file has no words for, so that no result holds it."""
         return isinstance(base, Record) and base._native.words(self._case.folder) is None
 
-    def run(self, *, base: Base | None = None, duration: float | str | None = None, progress: Progress = False) -> Run:
+    def run(self, base: Base | None = None, *, duration: float | str | None = None, progress: Progress = False) -> Run:
         """Simulates the wall.
 
         Other threads of Python go on meanwhile. Ctrl-C ends the run, which comes back with what it reached: ``run.ok`` is false then.
@@ -281,7 +285,7 @@ class Wall:
             warnings.warn(f"the run was stopped at t = {run.time_reached:g} s", RuntimeWarning, stacklevel=2)
         return run
 
-    def simulation(self, *, base: Base | None = None, duration: float | str | None = None) -> Simulation:
+    def simulation(self, base: Base | None = None, *, duration: float | str | None = None) -> Simulation:
         """A run to be taken step by step; see :class:`concio.Simulation`."""
         from .simulation import Simulation
 
