@@ -94,6 +94,7 @@ def test_wrong_questions_are_told_before_anything_runs(tmp_path: Path, bonded: W
         ({"first_crack": {"criterium": "bond"}}, "first-crack.criterium"),
         ({"first_crack": {}, "ranking": {}}, "ranking"),
         ({"ranking": {"by": ["slips"]}}, "ranking.by[0]"),
+        ({"cracks": {"threshold": 2}}, "cracks.threshold"),
     ]
     for question, key in questions:
         with pytest.raises(InputError) as caught:

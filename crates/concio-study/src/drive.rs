@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use concio::case::Case;
 use concio::run::Control;
 use concio::{Error, InputError, Result};
 
@@ -30,11 +31,12 @@ pub fn complete<'a>(
         let mut runner = Runner::open(folder, &keep(), hands, watch)?.until(question.rule);
         return Ok(ended(&search(&question, &subjects, &mut runner)?));
     }
-    let mut runner = Runner::open(folder, &study.keep, hands, watch)?;
     if let Some(mut analysis) = Analysis::new(plan)? {
-        return analysis.ask(&mut runner, &|_| true);
+        return analysis.ask(&mut Runner::open(folder, &study.keep, hands, watch)?, &|_| true);
     }
     let cases = (0..plan.points.len()).map(|number| plan.case(number)).collect::<Result<Vec<_>>>()?;
+    has_meaning(plan, &cases)?;
+    let mut runner = Runner::open(folder, &study.keep, hands, watch)?;
     let Some(rows) = runner.rows(&cases)? else { return Ok(Control::Stop) };
     if study.interfaces.is_none() {
         return Ok(Control::Continue);
@@ -44,6 +46,18 @@ pub fn complete<'a>(
     // Thousands of walls: nothing is kept of them per joint.
     let mut runner = Runner::open(folder, &Keep::default(), hands, watch)?;
     Ok(ended(&answer::answer(plan, &question, &rows, &mut runner)?))
+}
+
+/// Says whether what is asked of the runs of a design has a meaning, before any is made.
+///
+/// # Errors
+/// Thresholds, groups and joints of crack lines and rankings that these runs cannot have.
+pub fn has_meaning<'a>(plan: &Plan, cases: impl IntoIterator<Item = &'a Case>) -> Result<()> {
+    let study = &plan.file.study;
+    if let Some(cracks) = &study.cracks {
+        cracks.check(plan)?;
+    }
+    study.ranking.as_ref().map_or(Ok(()), |ranking| ranking.check_joints(&plan.file, cases))
 }
 
 /// Does the runs of a task on so many threads, 0 for one per core; the rows of those that ended, in the order of the runs, and whether

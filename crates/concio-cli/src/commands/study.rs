@@ -90,17 +90,12 @@ fn read(path: &Path) -> Result<Plan> {
 
 /// All runs of a plan, complete and valid, with their ids; what is asked of them has a meaning.
 fn cases(plan: &Plan) -> Result<Vec<(String, Case)>> {
-    if let Some(cracks) = &plan.file.study.cracks {
-        cracks.check(plan)?;
-    }
     let numbers = 0..plan.points.len();
     let one = |number: usize| plan.case(number).and_then(|case| Ok((plan.id(&case)?, case)));
     // The first that is wrong is told, whatever thread comes to it first.
     let cases: Vec<(String, Case)> =
         numbers.into_par_iter().map(one).collect::<Vec<_>>().into_iter().collect::<Result<_>>()?;
-    if let Some(ranking) = &plan.file.study.ranking {
-        ranking.check_joints(&plan.file, cases.iter().map(|(_, case)| case))?;
-    }
+    drive::has_meaning(plan, cases.iter().map(|(_, case)| case))?;
     Ok(cases)
 }
 
