@@ -182,7 +182,7 @@ const ANGLES: usize = 24;
 /// Flattest oblique hinge, as tan ϑ.
 const FLATTEST: f64 = 4.0;
 /// Farthest floor spectrum from a hinge that is taken for its [m].
-const NEAR: f64 = 0.5;
+pub const NEAR: f64 = 0.5;
 /// Levels within this are one [m].
 const LEVEL: f64 = 1e-6;
 /// Heights below which a part counts as none [m].
@@ -413,11 +413,18 @@ impl Making<'_> {
         for hinge in self.levels(held) {
             let found = self.facade(&[]).least(hinge);
             let mut notes = self.of_supports(hinge);
-            // One side wall does not reach the other end.
-            let alone = sides.len() == 1;
+            let alone = self.one_sided();
             match (bonded, alone) {
                 (true, false) => notes.push("for comparison: as if the side walls were not bonded".into()),
-                (true, true) => notes.push("the part away from the one side wall: as if that did not hold it".into()),
+                (true, true) if sides.len() == 1 => {
+                    notes.push("the part away from the one side wall: as if that did not hold it".into());
+                }
+                (true, true) => {
+                    notes.push(
+                        "the part away from the side walls, which all stand in one half: as if they did not hold it"
+                            .into(),
+                    );
+                }
                 _ => {}
             }
             let sliding = self.sliding(hinge);
@@ -447,6 +454,8 @@ impl Making<'_> {
             let mut notes = self.of_supports(hinge);
             if sides.len() == 1 {
                 notes.push("one side wall alone: the façade twists about it, and α0 is about a tenth too high".into());
+            } else if self.one_sided() {
+                notes.push("all side walls stand in one half: the façade twists about them, and α0 is too high".into());
             }
             let code = Facade { overlaps: Overlaps::Code, ..self.facade(&sides) }.least(hinge);
             if self.overlaps != Overlaps::Code {
@@ -454,6 +463,14 @@ impl Making<'_> {
             }
             self.turn(survey, Kind::WithSideWalls, found, true, wedges, notes);
         }
+    }
+
+    /// Whether the side walls do not reach both ends: there is one, or all stand in one half.
+    fn one_sided(&self) -> bool {
+        let wall = self.wall;
+        let middle = 0.5 * (wall.extent[0] + wall.extent[1]);
+        let all = |left: bool| wall.side_walls.iter().all(|s| if left { s.at < middle } else { s.at > middle });
+        wall.side_walls.len() == 1 || all(true) || all(false)
     }
 
     /// What to know of what holds the part over a hinge back.

@@ -118,6 +118,12 @@ fn of_body(wall: &Wall, found: &Found, body: &Body, control: f64, restitution: O
         let spot = at(hold.depth, hold.height);
         match hold.law {
             HoldLaw::Friction { until } => rubs.push(Rub { at: spot, force: hold.force, overlap: until }),
+            HoldLaw::Tie { .. } if !(hold.force > 0.0) => {
+                notes.push(format!(
+                    "the tie at {:.2} m bears nothing before the wall would fall without it: it is left out",
+                    spot.at[1]
+                ));
+            }
             HoldLaw::Tie { breaks: Some(most), slack, .. } if most <= slack => {
                 notes.push(format!("the tie at {:.2} m breaks before its slack is used: it is left out", spot.at[1]));
             }
@@ -153,14 +159,14 @@ fn of_body(wall: &Wall, found: &Found, body: &Body, control: f64, restitution: O
         _ => wall.masonry.thickness,
     };
     let backed = match found.kind {
-        Kind::Leaf => Some("the inner leaf"),
+        Kind::Leaf => Some("the inner leaf stops it"),
         Kind::Gable => None,
         _ if wall.side_walls.is_empty() && wall.loose == 0 => None,
-        _ => Some("side walls"),
+        _ => Some("side walls stop it"),
     };
     let back = match backed {
-        Some(what) => {
-            notes.push(format!("{what} stop it when it comes back: it rocks outwards only"));
+        Some(stops) => {
+            notes.push(format!("{stops} when it comes back: it rocks outwards only"));
             Back::SideWalls(restitution.map_or(Restitution::Block, Restitution::Given))
         }
         None => {
@@ -269,7 +275,8 @@ fn of_arch(wall: &Wall, found: &Found, arch: &VerticalArch, restitution: Option<
         back: Back::Free { inwards, restitution },
         control: Spot::lower(inner),
     };
-    let mut notes = vec!["the storey bulges to both sides: side walls reach its ends alone".to_string()];
+    let reach = if wall.side_walls.is_empty() && wall.loose == 0 { "" } else { ": side walls reach its ends alone" };
+    let mut notes = vec![format!("the storey bulges to both sides{reach}")];
     if !mechanism.ties.is_empty() {
         notes.push(format!("what holds it between its ends is taken to yield at {:.0} mm", 1e3 * RIGID_TIE));
     }

@@ -187,7 +187,7 @@ def test_doubts() -> None:
     doubtful = Wall.from_str(PLANAR.replace('specific_weight = "18 kN/m3"', "specific_weight = 18"))
     (doubt,) = (d for d in doubtful.check() if "specific_weight" in d.text)
     assert (doubt.kind, doubt.key, doubt.line) == ("unlikely-number", "panel[0].brick.specific_weight", 8)
-    assert "doubts" in repr(doubtful)
+    assert "1 doubt: see check()" in repr(doubtful)
 
 
 def test_a_wall_shows_itself(planar: Wall) -> None:

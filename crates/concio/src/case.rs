@@ -1168,7 +1168,7 @@ pub struct Sine {
 pub struct Ramp {
     /// Displacement reached [m], of either sign.
     pub amplitude: Length,
-    /// When it starts [s], from 0; default 0.
+    /// When it starts [s], from 0, before the run ends; default 0.
     #[serde(default)]
     pub start: Time,
     /// How long it takes [s], above 0.
@@ -1184,7 +1184,7 @@ pub struct Tilt {
     pub acceleration: Acceleration,
     /// How long it takes [s], above 0.
     pub rise: Time,
-    /// When it starts [s], from 0; default 0.
+    /// When it starts [s], from 0, before the run ends; default 0.
     #[serde(default)]
     pub start: Time,
 }
@@ -1211,7 +1211,7 @@ pub struct Pulse {
     /// Length of the rectangle, of the half sine, of the whole sine; 1/(dominant frequency) of the Ricker
     /// wavelet [s]. Above 0.
     pub duration: Time,
-    /// When it starts [s], from 0; default 0 (the Ricker wavelet's peak lies 1.5 durations later).
+    /// When it starts [s], from 0, before the run ends; default 0 (the Ricker wavelet's peak lies 1.5 durations later).
     #[serde(default)]
     pub start: Time,
 }

@@ -9,17 +9,23 @@ use concio_mechanisms::facade::{Floor, Masonry, Piece, Tie};
 use concio_mechanisms::gable::Gable;
 use concio_mechanisms::setback::Crushing;
 use concio_mechanisms::side_wall::SideWall;
+use concio_mechanisms::survey::NEAR;
 use concio_mechanisms::wall::{Assumed, CornerOf, FloorOf, Side, Wall};
 
 use crate::case::out_of_plane::{self, Hazard as GivenHazard, OutOfPlane};
-use crate::case::{Bond, Case, FrictionLaw, JointKind, SpringLaw, TopLoad};
+use crate::case::{Bond, Case, FrictionLaw, JointKind, SpringLaw, TopLoad, plausible};
 use crate::error::{Error, InputError, Result};
 use crate::quantity::{Length, shown};
 use crate::wall::Wall as Laid;
+use crate::warning::{Warning, WarningKind};
 use crate::{graph, pattern};
 
 /// Heights within this are one level [m].
 const LEVEL: f64 = 1e-6;
+/// Height over thickness of a wall beyond which it hardly stands: free-standing walls of 20 are slender already.
+const SLENDER: f64 = 40.0;
+/// Difference of two loads over one of them within which they are the same.
+const SAME_LOAD: f64 = 1e-3;
 /// φ unless given.
 const DIAGONAL: f64 = std::f64::consts::FRAC_PI_4;
 
@@ -56,7 +62,7 @@ pub fn of(case: &Case) -> Result<Wall> {
         side_walls: Vec::new(),
         loose: 0,
         leaf: None,
-        crushing: crushing(given, &mut assumed),
+        crushing: crushing(case, given, &mut assumed),
         gable: None,
         strip: None,
         confidence: LOWEST_KNOWLEDGE,
@@ -77,7 +83,8 @@ pub fn of(case: &Case) -> Result<Wall> {
     add_side_walls(&mut wall, given, &mut assumed)?;
     add_gable(&mut wall, given, &mut assumed)?;
     add_strip(&mut wall, given)?;
-    wall.building = building(given, &wall, &mut assumed);
+    wall.building = building(given, &wall, &mut assumed)?;
+    refuse_spectra_above(given, &wall)?;
     wall.assumed = assumed.0;
     Ok(wall)
 }
@@ -229,6 +236,11 @@ fn add_gable(facade: &mut Wall, given: &OutOfPlane, assumed: &mut Assumptions) -
         return Err(InputError::new(what).key("out_of_plane.gable.base").allowed(allowed).into());
     }
     let depth = own.ridge_at.map_or(0.5 * thickness, Length::si);
+    if depth > thickness + LEVEL {
+        let what = format!("{} m lies behind the gable", shown(depth));
+        let allowed = format!("0 … {} m, the thickness of the gable", shown(rounded(thickness)));
+        return Err(InputError::new(what).key("out_of_plane.gable.ridge_at").allowed(allowed).into());
+    }
     if own.ridge_at.is_none() && own.ridge_load.si() > 0.0 {
         assumed.add("out_of_plane.gable.ridge_at", "the ridge beam's load lies in the middle of the gable");
     }
@@ -420,7 +432,14 @@ fn modulus(case: &Case, [course, overlap]: [f64; 2], thickness: f64) -> Option<f
     (springs && modulus > 0.0 && modulus.is_finite()).then_some(modulus)
 }
 
-fn crushing(given: &OutOfPlane, assumed: &mut Assumptions) -> Crushing {
+fn crushing(case: &Case, given: &OutOfPlane, assumed: &mut Assumptions) -> Crushing {
+    if case.joint.bed.compressive_strength.is_some() {
+        let what = match given.strength {
+            None => "it sets no hinge back here: `out_of_plane.strength` does",
+            Some(_) => "hinges are set back by `out_of_plane.strength`, and not by it",
+        };
+        assumed.add("joint.bed.compressive_strength", what);
+    }
     let Some(strength) = given.strength else {
         assumed.add(
             "out_of_plane.strength",
@@ -513,7 +532,7 @@ fn spectra(given: &OutOfPlane) -> Vec<(f64, Spectrum)> {
     given.floor_spectra.iter().map(of).collect()
 }
 
-fn building(given: &OutOfPlane, wall: &Wall, assumed: &mut Assumptions) -> Building {
+fn building(given: &OutOfPlane, wall: &Wall, assumed: &mut Assumptions) -> Result<Building> {
     let Some(own) = &given.building else {
         let storeys = given.floors.len().max(1);
         let built = Building::regular(wall.top, storeys);
@@ -526,8 +545,13 @@ fn building(given: &OutOfPlane, wall: &Wall, assumed: &mut Assumptions) -> Build
                 built.participation
             ),
         );
-        return built;
+        return Ok(built);
     };
+    if own.height.si() < wall.top - LEVEL {
+        let what = format!("{} is lower than the wall", own.height);
+        let allowed = format!("from {} m, the top of the wall", shown(rounded(wall.top)));
+        return Err(InputError::new(what).key("out_of_plane.building.height").allowed(allowed).into());
+    }
     let mut built = Building::regular(own.height.si(), own.storeys);
     if let Some(period) = own.period {
         built.period = period.si();
@@ -538,5 +562,92 @@ fn building(given: &OutOfPlane, wall: &Wall, assumed: &mut Assumptions) -> Build
     if let Some(participation) = own.participation {
         built.participation = participation;
     }
-    built
+    Ok(built)
+}
+
+/// Of floor spectra above the building, which none of its floors has.
+fn refuse_spectra_above(given: &OutOfPlane, wall: &Wall) -> Result<()> {
+    let roof = wall.building.height.max(wall.top);
+    let Some((i, own)) = given.floor_spectra.iter().enumerate().find(|(_, own)| own.z.si() > roof + NEAR + LEVEL)
+    else {
+        return Ok(());
+    };
+    let what = format!("{} lies above the building", own.z);
+    let error = InputError::new(what).key(format!("out_of_plane.floor_spectrum[{i}].z"));
+    let error = error.allowed(format!("up to {} m, its height", shown(rounded(roof))));
+    Err(error.help("out_of_plane.building.height says how high the building is").into())
+}
+
+/// What is allowed of a wall and what stands behind it, and hardly meant: what only the laid wall shows. [`plausible::doubts`] looks at the numbers.
+pub fn doubts(case: &Case, wall: &Wall) -> Vec<Warning> {
+    let mut found = Vec::new();
+    let mut add = |text: String| found.push(Warning::new(WarningKind::UnlikelyNumber, text));
+    let metres = |v: f64| shown(rounded(v));
+    let slender = wall.top / wall.masonry.thickness;
+    if slender > SLENDER {
+        add(format!(
+            "panel[0].brick.thickness of {} m under a height of {} m makes the wall {slender:.0} times as high as thick; are courses and thickness meant so?",
+            metres(wall.masonry.thickness),
+            metres(wall.top)
+        ));
+    }
+    let none = OutOfPlane::default();
+    let given = case.out_of_plane.as_ref().unwrap_or(&none);
+    let load = match case.load.top {
+        TopLoad::PerLength(q) => q.si(),
+        TopLoad::Force(force) => force.si() / wall.length(),
+    };
+    for (i, own) in given.floors.iter().enumerate() {
+        let floor = own.load.si();
+        let same = load > 0.0 && (load - floor).abs() <= SAME_LOAD * load;
+        if same && (own.z.si() - wall.top).abs() <= NEAR {
+            add(format!(
+                "load.top and out_of_plane.floor[{i}] at the top both bring {} kN/m: the load counts twice; is one of them left over?",
+                shown(plausible::rounded(1e-3 * floor, 4))
+            ));
+        }
+    }
+    // Openings along the wall from its left end.
+    let along = |o: &[f64; 4]| [o[0] - wall.extent[0], o[2] - wall.extent[0]];
+    for (i, own) in given.anchors.iter().enumerate() {
+        let Some(x) = own.x.map(Length::si) else { continue };
+        let z = own.z.si();
+        let around = |o: &&[f64; 4]| {
+            let [left, right] = along(o);
+            left + LEVEL < x && x + LEVEL < right && o[1] + LEVEL < z && z + LEVEL < o[3]
+        };
+        if wall.openings.iter().any(|o| around(&o)) {
+            add(format!(
+                "out_of_plane.anchor[{i}] lies in an opening, at x = {} m and z = {} m: there its plate holds nothing, and it counts as if it did",
+                metres(x),
+                metres(z)
+            ));
+        }
+    }
+    for (i, own) in given.side_walls.iter().enumerate().filter(|(_, own)| own.bonded) {
+        let x = own.x.si();
+        let around = |o: &&[f64; 4]| {
+            let [left, right] = along(o);
+            left + LEVEL < x && x + LEVEL < right
+        };
+        if let Some(o) = wall.openings.iter().find(around) {
+            let [left, right] = along(o).map(metres);
+            add(format!(
+                "out_of_plane.side_wall[{i}] meets the wall at x = {} m, in an opening from {left} to {right} m: there nothing bonds both, and it counts as if \
+                 something did",
+                metres(x)
+            ));
+        }
+    }
+    for (i, own) in given.floor_spectra.iter().enumerate() {
+        let z = own.z.si();
+        if wall.levels.iter().chain([&wall.top]).all(|level| (level - z).abs() > NEAR + LEVEL) {
+            add(format!(
+                "out_of_plane.floor_spectrum[{i}].z is {} m, farther than {NEAR} m from every joint of the wall, which ends at {} m: nothing uses it",
+                metres(z),
+                metres(wall.top)
+            ));
+        }
+    }
+    found
 }

@@ -19,12 +19,15 @@ use crate::drift;
 use crate::error::{InputError, Result};
 use crate::excitation::Excitation;
 use crate::facade;
+use crate::ground::GroundMotion;
 use crate::quantity::shown;
 use crate::wall::{Block, End, Joint, PanelInfo, Wall};
 use crate::warning::{Warning, WarningKind};
 
 /// Time after the end of the motion in which a wall may come to rest, where its file gives no duration [s].
 pub const TAIL: f64 = 60.0;
+/// Set-back of a hinge over the wall's thickness from which crushing is what overturns it: its weight lies at half of it.
+const CRUSHED: f64 = 0.3;
 /// Heights within this are one level [m].
 const LEVEL: f64 = 1e-6;
 /// The bodies, from below.
@@ -113,10 +116,15 @@ impl RockingKind {
     }
 }
 
-/// When the motion of a rocking wall ends that is to last `duration` [s].
+/// Whether nothing moves a rocking wall.
+pub(crate) fn is_still(excitation: &Excitation) -> bool {
+    [&excitation.base, &excitation.vertical].into_iter().all(|motion| *motion == GroundMotion::AtRest)
+}
+
+/// When the motion of a rocking wall ends that is to last `duration` [s]; a wall that nothing moves is looked at for as long.
 pub(crate) fn shaking_ends(excitation: &Excitation) -> f64 {
     let ends = excitation.base.end().zip(excitation.vertical.end()).map(|(across, up)| across.max(up));
-    ends.unwrap_or(f64::INFINITY).min(excitation.duration)
+    ends.filter(|end| *end > 0.0).unwrap_or(f64::INFINITY).min(excitation.duration)
 }
 
 /// The mechanism that a wall file asks for, as the survey has it.
@@ -141,9 +149,14 @@ fn chosen<'s>(case: &Case, survey: &'s Survey) -> Result<&'s Found> {
         return Ok(least(&mut of_kind()).unwrap_or(&survey.found[0]));
     };
     least(&mut of_kind().filter(|found| (found.hinge - level).abs() < LEVEL)).ok_or_else(|| {
-        let levels: Vec<String> = of_kind().map(|found| shown((1e6 * found.hinge).round() / 1e6)).collect();
+        let told = |level: f64| shown((1e6 * level).round() / 1e6);
+        let levels: Vec<String> = of_kind().map(|found| told(found.hinge)).collect();
+        let below = of_kind().map(|found| found.hinge).filter(|z| *z < level).reduce(f64::max);
+        let above = of_kind().map(|found| found.hinge).filter(|z| *z > level).reduce(f64::min);
+        let near: Vec<String> = below.into_iter().chain(above).map(|z| format!("{} m", told(z))).collect();
         let error = InputError::new(format!("no hinge of its {} lies at {} m", kind.what(), shown(level)));
-        error.key("rocking.hinge").allowed(format!("{} m", levels.join(", "))).into()
+        let error = error.key("rocking.hinge").allowed(format!("{} m", levels.join(", ")));
+        error.help(format!("the nearest are at {}", near.join(" and "))).into()
     })
 }
 
@@ -178,13 +191,18 @@ pub(crate) fn compile(case: &Case, excitation: &Excitation) -> Result<Compiled> 
         match error.key.as_deref() {
             Some("back.restitution") => error.key("rocking.restitution").help("leave it out for (OP11)"),
             // The keys of its errors are those of a struct that nobody sees.
-            _ => of_mechanism(format!("{name}: {}", error.what)),
+            _ => of_mechanism(format!("{name}: {}{}", error.what, beside(&own, found, &made))),
         }
     })?;
     let shaking_ends = shaking_ends(excitation);
     let duration = if case.motion.duration.is_none() { shaking_ends + TAIL } else { excitation.duration };
     let (wall, joints) = section(&own, &made);
-    let warnings = warnings(case, found, &survey, &made);
+    let mut warnings = warnings(case, found, &survey, &made);
+    warnings.extend(facade::doubts(case, &own));
+    if is_still(excitation) {
+        let text = "motion.base is at rest, and so is motion.vertical: nothing moves the wall";
+        warnings.push(Warning::new(WarningKind::UnlikelyRecord, text));
+    }
     let rocking = Rocking {
         kind: found.kind,
         hinge: found.hinge,
@@ -199,6 +217,24 @@ pub(crate) fn compile(case: &Case, excitation: &Excitation) -> Result<Compiled> 
     };
     let shear = listed(&wall, &joints, &rocking, duration);
     Ok(Compiled { rocking, wall, joints, shear, duration, warnings })
+}
+
+/// What may be why a mechanism does not stand by itself, where `concio mechanisms` counts it: sentences that follow another.
+fn beside(own: &Facade, found: &Found, made: &TimeHistory) -> String {
+    let crushed = (!own.crushing.is_left_out() && found.setback > CRUSHED * own.masonry.thickness).then(|| {
+        format!(
+            ". Masonry of this out_of_plane.strength crushes under it: the hinge lies {:.3} m behind the face, in {} m",
+            found.setback,
+            shown(own.masonry.thickness)
+        )
+    });
+    let tied = (found.multiplier() > 0.0 && !made.mechanism.ties.is_empty()).then(|| {
+        format!(
+            ". Its ties, which begin at no force, do not hold it yet: with their full force α0 is {:.4}",
+            found.multiplier()
+        )
+    });
+    crushed.into_iter().chain(tied).collect()
 }
 
 /// The bodies in section: x is the depth behind the outer face, y the height above the base. A body weighs what moves with it, wedges of side walls
@@ -292,6 +328,26 @@ fn warnings(case: &Case, found: &Found, survey: &Survey, made: &TimeHistory) -> 
     if joint.bond.is_some() || !joint.changes.is_empty() {
         let text = "joint.bond and joint.change do nothing in a rocking wall: of [joint] it reads friction.static alone, which side walls rub with";
         add(WarningKind::IdleKey, text.into());
+    }
+    let springs = [("bed", Some(joint.bed)), ("head", Some(joint.head)), ("base", joint.base), ("top", joint.top)];
+    let springs = springs.into_iter().chain([("connection", joint.connection)]);
+    for (kind, spring) in springs.filter_map(|(kind, spring)| Some((kind, spring?))) {
+        let idle = [
+            ("restitution", spring.restitution.is_some(), "`rocking.restitution` is that of its impacts"),
+            (
+                "rocking_restitution",
+                spring.rocking_restitution.is_some(),
+                "`rocking.restitution` is that of its impacts",
+            ),
+            (
+                "compressive_strength",
+                spring.compressive_strength.is_some(),
+                "`out_of_plane.strength` sets its hinges back",
+            ),
+        ];
+        for (key, _, instead) in idle.into_iter().filter(|(_, given, _)| *given) {
+            add(WarningKind::IdleKey, format!("joint.{kind}.{key} does nothing in a rocking wall: {instead}"));
+        }
     }
     told
 }

@@ -14,6 +14,9 @@ use crate::args::{Limit as Asked, LimitLoad, Side as Towards};
 use crate::failure::Failure;
 use crate::format::{percent, significant};
 
+/// λ below which it is 0.
+pub(super) const NOTHING: f64 = 1e-6;
+
 /// What stands and pulls behind the wall.
 pub(super) struct Behind {
     floors: usize,
@@ -58,7 +61,8 @@ pub(super) fn add(
     let problem = if wall.back { problem.inside_out() } else { problem };
     let before = problem.assembly.bodies.len();
     let mut backed = Backed::of(problem, push, planar.wall.blocks.len(), mortar);
-    let mut warnings = Vec::new();
+    let doubts = concio::facade::doubts(&file.case, &wall);
+    let mut warnings: Vec<String> = doubts.into_iter().map(|doubt| doubt.text).collect();
     let mut side_walls = Vec::new();
     for (i, side) in wall.side_walls.iter().enumerate() {
         match backed.side_wall(&of_side(file, i, side)) {
@@ -221,6 +225,7 @@ impl Closed {
     pub(super) fn against(&self, lambda: f64, smooth: Option<f64>) -> String {
         let than = |of: f64, name: &str| match (self.multiplier - of) / of {
             off if off.abs() <= CERTIFIED => format!("equal to {name}"),
+            _ if of < NOTHING => format!("{name} is 0"),
             off if off > 0.0 => format!("high, {} above {name}: the blocks find a lower one", percent(off)),
             off => format!("low, {} below {name}", percent(-off)),
         };

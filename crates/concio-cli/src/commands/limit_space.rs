@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::ExitCode;
 
-use concio::case::CaseFile;
+use concio::case::{CaseFile, ModelKind};
 use concio::model::NOT_IN_PLANE;
 use concio::{Error, InputError};
 use concio_limit::space::{self, ContactKind, ContactMotion, Face, Limit, Problem, Turning, Vector};
@@ -11,7 +11,7 @@ use concio_limit::{CERTIFIED, NonAssociative, Problem as Planar};
 use serde_json::{Value, json};
 
 use super::limit::{DRAWING, NAMED, RESULT, estimate, failure, options, without_dilation};
-use super::limit_behind::{self, Behind};
+use super::limit_behind::{self, Behind, NOTHING};
 use super::{run::refuse_a_file, wall_file};
 use crate::args::{HeadFriction, Limit as Asked, LimitLoad, Side};
 use crate::draw::axonometry;
@@ -106,7 +106,12 @@ fn asked(args: &Asked, file: &CaseFile) -> Result<(Face, Found), Failure> {
     if args.heads == HeadFriction::Frictionless {
         return wrong("--out-of-plane tells λ without friction at head joints beside the other", "no --heads");
     }
-    let planar = Planar::of(&file.case, options(args, Side::Right));
+    // Blocks in space are those of any model.
+    let mut case = file.case.clone();
+    if case.model == ModelKind::Rocking {
+        case.model = ModelKind::Planar;
+    }
+    let planar = Planar::of(&case, options(args, Side::Right));
     let planar = planar.map_err(|e| wall_file::all(file, file.locate(e)))?;
     let found = find(args, file, &planar, face)?;
     Ok((face, found))
@@ -159,6 +164,10 @@ fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Fo
         true => Some(space::analyse(&problem.frictionless_heads()).map_err(told)?),
         false => None,
     };
+    if limit.multiplier() < NOTHING {
+        warnings
+            .push("λ is 0: something moves at the least push; joints that do not rub (joint.friction) slide so".into());
+    }
     let quick = problem.assembly.bodies.len() <= QUICK || args.without_dilation;
     let dilation = quick.then(|| space::without_dilation(&problem, &limit));
     Ok(Found {
@@ -274,6 +283,7 @@ fn closed(found: &Found) -> String {
     let (lambda, alpha) = (found.limit.multiplier(), turning.multiplier);
     let off = (alpha - lambda) / lambda;
     let than = match off {
+        _ if lambda < NOTHING => "λ is 0".to_string(),
         off if !off.is_finite() || off.abs() <= CERTIFIED => "equal to λ".to_string(),
         off => format!("{} above λ: the blocks find a lower one", percent(off)),
     };

@@ -28,7 +28,10 @@ pub fn mechanisms(args: &Mechanisms) -> Result<(), Failure> {
     if let Some(out) = &args.out {
         refuse_a_file(out)?;
     }
-    found(args, &file, |subject, shaken, result| show(args, subject, shaken, &result))
+    found(args, &file, |subject, shaken, result| {
+        crate::warned::warn(&file, &concio::facade::doubts(&file.case, subject.wall));
+        show(args, subject, shaken, &result)
+    })
 }
 
 /// What `--json` prints.

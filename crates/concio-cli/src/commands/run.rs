@@ -39,7 +39,9 @@ pub fn run(args: &Run) -> Result<ExitCode, Failure> {
     content.command = Some(report::command(args.file.as_deref(), &out));
     let report = report::write(&out, &content)?;
     let stopped = !finished.outcome.stop_reason.is_end();
-    tell(&finished, &prepared, &joints, &report)?;
+    // Whether a rocking wall lifts off is a matter of the peak: a wrong unit shows there.
+    let motion = if prepared.model.rocking().is_some() { wall_file::motion(&file, &prepared)? } else { Vec::new() };
+    tell(&finished, &prepared, (&joints, motion), &report)?;
     Ok(if stopped { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS })
 }
 
@@ -74,11 +76,18 @@ pub fn refuse_a_file(out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-fn tell(finished: &Finished, prepared: &Prepared, joints: &[JointRow], report: &Path) -> Result<(), Failure> {
+/// `told`: the joints, and what is told of the motion.
+fn tell(
+    finished: &Finished,
+    prepared: &Prepared,
+    told: (&[JointRow], Vec<(&'static str, String)>),
+    report: &Path,
+) -> Result<(), Failure> {
+    let (joints, motion) = told;
     let (wall, outcome, summary) = (&prepared.model.wall, &finished.outcome, &finished.summary);
     let answers = digest::head(joints, outcome, summary);
     let head: Vec<(&str, String)> = answers.iter().map(|answer| (answer.name, answer.line())).collect();
-    let rows = digest::rows(wall, joints, outcome, summary);
+    let rows = [motion, digest::rows(wall, joints, outcome, summary)].concat();
     let width = width(head.iter().chain(&rows));
     files::print(&padded(&head, width))?;
     // Those of the model were told before the run.
@@ -90,7 +99,10 @@ fn tell(finished: &Finished, prepared: &Prepared, joints: &[JointRow], report: &
     if reason != StopReason::Completed {
         let [at, end] = [finished.outcome.time_reached, prepared.model.excitation.duration].map(seconds);
         let early = if reason.is_end() { "ended" } else { "stopped early" };
-        files::note(&format!("{early} at t = {at} of {end}: {}", digest::why(reason)));
+        files::note(&format!(
+            "{early} at t = {at} of {end}: {}",
+            digest::why(reason, finished.outcome.rocking.is_some())
+        ));
     }
     files::print(&format!("\n{}\nopen {}\n", padded(&rows, width), report.display()))
 }

@@ -159,8 +159,9 @@ pub fn warnings(summary: &Value) -> impl Iterator<Item = &str> {
 }
 
 /// Why a run stopped early, and what to do about it.
-pub fn why(reason: StopReason) -> &'static str {
+pub fn why(reason: StopReason, rocks: bool) -> &'static str {
     match reason {
+        StopReason::Collapsed if rocks => "the wall lies on the ground",
         StopReason::Completed => "the end was reached",
         StopReason::Collapsed => "the wall collapsed, which `motion.stop_at` makes the end of the run",
         StopReason::Interrupted => "interrupted; what was computed is written, and the same command goes on from here",

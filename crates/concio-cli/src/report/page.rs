@@ -87,7 +87,7 @@ fn head(page: &mut String, content: &Content) {
     );
     if outcome.stop_reason != StopReason::Completed {
         let [at, duration] = [outcome.time_reached, duration].map(seconds);
-        let why = escape(digest::why(outcome.stop_reason));
+        let why = escape(digest::why(outcome.stop_reason, outcome.rocking.is_some()));
         let (class, early) = match outcome.stop_reason.is_end() {
             true => ("note", "Ended"),
             false => ("note bad", "Stopped early"),

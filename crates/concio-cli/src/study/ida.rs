@@ -243,6 +243,9 @@ fn line(settings: &Settings, found: &Found) -> String {
     }
 }
 
+/// The measure of damage whose 1 is d0.
+const OF_D0: &str = "peak_over_d0";
+
 /// What is to be known of capacities before their fit is believed.
 fn doubts(analysis: &Analysis) -> Vec<String> {
     let curves = usable(analysis);
@@ -268,7 +271,20 @@ fn doubts(analysis: &Analysis) -> Vec<String> {
         let in_g = significant(y / concio::G, 3);
         format!("ida.hazard.intensities end at {} m/s2, {in_g} g: did you mean \"{} g\"?", shown(y), shown(y))
     });
-    settings.limits.iter().flat_map(of).flatten().chain(low).collect()
+    // Of d0 a wall that is turned once falls, as a rule.
+    let beyond = settings.limits.iter().filter(|(_, value)| settings.damage == OF_D0 && *value > 1.0);
+    let beyond = beyond.map(|(name, value)| {
+        let percent = if (10.0..=100.0).contains(value) {
+            format!("; did you mean {}?", significant(0.01 * value, 2))
+        } else {
+            String::new()
+        };
+        format!(
+            "{name}: its limit is {} d0, beyond which a wall falls: its capacity is that of collapse{percent}",
+            shown(*value)
+        )
+    });
+    settings.limits.iter().flat_map(of).flatten().chain(low).chain(beyond).collect()
 }
 
 fn usable<'a>(analysis: &'a Analysis) -> Vec<&'a Curve> {

@@ -355,6 +355,16 @@ fn what_is_wrong_is_told_with_its_line() {
         "[[out_of_plane.side_wall]]\nx = 0\nthickness = \"0.4 kN\"",
         &["side_wall[0].thickness", "not a unit of length"],
     );
+    let gable = "[out_of_plane.gable]\nheight = 1.5\nridge_load = 5000\nridge_at = 0.9";
+    refused(gable, &["wall.toml:15:", "gable.ridge_at", "0.9 m lies behind the gable", "0 … 0.5 m"]);
+    refused(
+        "[out_of_plane.building]\nheight = 3\nstoreys = 2",
+        &["out_of_plane.building.height", "3 m is lower than the wall", "from 6 m, the top of the wall"],
+    );
+    refused(
+        "[[out_of_plane.floor_spectrum]]\nz = 60\nperiods = [0, 1]\naccelerations = [4, 5]",
+        &["floor_spectrum[0].z", "60 m lies above the building", "up to 6 m, its height"],
+    );
     desk.put("arch.toml", include_str!("../../../../examples/17-arch.toml"));
     let done = desk.concio("mechanisms arch.toml").assert().code(2);
     assert!(String::from_utf8_lossy(&done.get_output().stderr).contains("not of arches"));
@@ -525,4 +535,57 @@ fn numbers_hardly_meant_are_asked_about() {
     desk.put("facade.toml", FACADE);
     let done = desk.concio("mechanisms facade.toml").assert().success();
     assert!(done.get_output().stderr.is_empty());
+}
+
+/// Side walls in one half do not hold the other: it overturns as if they were not there, and that counts.
+#[test]
+fn side_walls_in_one_half_are_told() {
+    let desk = Desk::new();
+    let side = |x: f64| format!("[[out_of_plane.side_wall]]\nx = {x}\nthickness = 0.4\n");
+    let result = |sides: &str| {
+        desk.put("wall.toml", wall(sides));
+        json(&desk, "mechanisms wall.toml --json")
+    };
+    let both = result(&(side(0.2) + &side(1.5)));
+    let free = of_kind(&both, "overturning");
+    assert!(free.iter().all(|m| m["counts"] == true), "{free:?}");
+    assert!(free[0]["notes"].to_string().contains("all stand in one half"), "{}", free[0]["notes"]);
+    near(&both["least"]["multiplier"], free[0]["multiplier"].as_f64().expect("a number"), 1e-12);
+    let held = of_kind(&both, "overturning-with-side-walls");
+    assert!(held[0]["notes"].to_string().contains("the façade twists about them"), "{}", held[0]["notes"]);
+    let ends = result(&(side(0.2) + &side(4.8)));
+    assert!(of_kind(&ends, "overturning").iter().all(|m| m["counts"] == false));
+}
+
+/// What only the laid wall shows is told on standard error with its line, by `limit` as well, which takes a file of a rocking wall as it is.
+#[test]
+fn slips_that_the_wall_shows_are_told_by_each_command() {
+    let desk = Desk::new();
+    let twice = "[load]\ntop = \"8 kN/m\"\n[[out_of_plane.floor]]\nz = 6\nload = \"8 kN/m\"";
+    desk.put("wall.toml", wall(twice));
+    let crushes = "[out_of_plane]";
+    desk.put(
+        "crushes.toml",
+        wall(crushes)
+            .replace("bed = { law = \"rigid\" }", "bed = { law = \"rigid\", compressive_strength = \"0.3 MPa\" }"),
+    );
+    let rocks = wall(twice).replace("model = \"planar\"", "model = \"rocking\"").replace("courses = 12", "courses = 2");
+    desk.put("rocks.toml", rocks.replace("height = 0.5", "height = 3.0"));
+    let slides = wall("").replace("static = 0.6", "static = 0").replace("courses = 12", "courses = 2");
+    desk.put("slides.toml", slides.replace("height = 0.5", "height = 3.0") + "[out_of_plane]\n");
+    for (line, says) in [
+        (
+            "mechanisms wall.toml",
+            "load.top and out_of_plane.floor[0] at the top both bring 8 kN/m: the load counts twice",
+        ),
+        ("mechanisms crushes.toml", "joint.bed.compressive_strength: it sets no hinge back here"),
+        ("limit rocks.toml --out-of-plane", "load.top and out_of_plane.floor[0] at the top both bring 8 kN/m"),
+        ("limit slides.toml --out-of-plane", "λ is 0: something moves at the least push"),
+    ] {
+        let done = desk.concio(line).assert();
+        let out = done.get_output();
+        let said = [&out.stdout, &out.stderr].map(|text| String::from_utf8_lossy(text).into_owned()).concat();
+        assert!(out.status.code() != Some(2) && said.contains(says), "{line}: {said}");
+        assert!(!said.contains("% above λ") || !line.contains("slides"), "{said}");
+    }
 }

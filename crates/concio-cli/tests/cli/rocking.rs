@@ -103,6 +103,31 @@ fn what_a_rocking_file_lacks_or_what_else_takes_it_is_told() {
     assert!(told.contains("rocks.toml:2") && told.contains("concio mechanisms"), "{told}");
     let told = refused(&desk, "system rocks.toml");
     assert!(told.contains("rocking"), "{told}");
+    desk.put(
+        "levels.toml",
+        WALL.replace("[motion]", "[rocking]\nmechanism = \"overturning\"\nhinge = 1.2\n\n[motion]"),
+    );
+    let told = refused(&desk, "check levels.toml");
+    assert!(told.contains("the nearest are at 1 m and 1.5 m"), "{told}");
+    let (still, _) = WALL.split_once("base = ").expect("a motion");
+    desk.put("still.toml", still.to_string() + "duration = \"4 s\"\n");
+    let done = desk.concio("run still.toml --out still").assert().success();
+    let told = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    assert!(told.contains("motion.base is at rest") && !told.contains("never pushes it"), "{told}");
+}
+
+/// A run says how strong its motion is, and of a fall that it ends there.
+#[test]
+fn a_run_tells_its_peak_and_its_end() {
+    let desk = Desk::new();
+    desk.put("rocks.toml", WALL.replace("2 m/s2", "6 m/s2"));
+    let done = desk.concio("run rocks.toml --out out").assert().success();
+    let out = done.get_output();
+    let said = [&out.stdout, &out.stderr].map(|text| String::from_utf8_lossy(text).into_owned()).concat();
+    for part in ["one-sine pulse, acceleration 6.000 m/s² = 0.6116 g", "the wall lies on the ground"] {
+        assert!(said.contains(part), "{part}:\n{said}");
+    }
+    assert!(!said.contains("stop_at"), "{said}");
 }
 
 /// Both signs as a factor, fragilities with limits in parts of d0, and collapse.
@@ -149,6 +174,14 @@ fn studies_take_rocking_walls() {
     // Before it lifts off at 0.1 g there is no damage; beyond the collapse of the pulse of 0.8 s, 0.2844 g with e = 0.4708, there is no standing.
     let runs = desk.get("ida/ida.csv");
     assert!(runs.contains("yes") && runs.contains("no"), "{runs}");
+    // Limits in percent: what is found is the collapse.
+    let percent = desk.get("ida.toml").replace("value = 0.4", "value = 40");
+    desk.put("percent.toml", percent);
+    let done = desk.concio("study run percent.toml --out percent").assert().success();
+    let said = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    let told =
+        "life: its limit is 40 d0, beyond which a wall falls: its capacity is that of collapse; did you mean 0.40?";
+    assert!(said.contains(told) && !said.contains("prevention: its limit"), "{said}");
 }
 
 /// First cracking is the first lift-off, which needs no run: g α0 over the peak of the motion.

@@ -26,6 +26,11 @@ from .record import Record
 from .table import Table
 from .wall import Wall
 
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
@@ -336,10 +341,6 @@ class Study:
         try:
             table = json.loads(text)
         except ValueError:
-            if sys.version_info < (3, 11):
-                raise InputError("TOML is read from Python 3.11 on", file=self._file, help="give it as JSON") from None
-            import tomllib
-
             try:
                 table = tomllib.loads(text.decode())
             except ValueError as error:

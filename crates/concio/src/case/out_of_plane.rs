@@ -265,7 +265,7 @@ pub struct Gable {
     /// P [N], from 0: load of the ridge beam. Default 0.
     #[serde(default)]
     pub ridge_load: Force,
-    /// c [m], from 0: depth of that load behind the outer face. Default half of the thickness.
+    /// c [m], from 0 to the gable's thickness: depth of that load behind the outer face. Default half of the thickness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ridge_at: Option<Length>,
     /// Q [N], from 0: weight of mass that pushes but rests elsewhere. Default 0.
@@ -352,7 +352,7 @@ pub struct Hazard {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Building {
-    /// H [m], above 0.
+    /// H [m], above 0, from the wall's top on.
     pub height: Length,
     /// Number of storeys, 1 … 100.
     #[schemars(range(min = 1, max = 100))]
@@ -374,7 +374,7 @@ pub struct Building {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FloorSpectrum {
-    /// Level [m], from 0; a mechanism takes the one that is nearest to its hinge, if it is not farther than half a metre.
+    /// Level [m], from 0 to half a metre above the building; a mechanism takes the one that is nearest to its hinge, if it is not farther than half a metre.
     pub z: Length,
     /// Periods [s], each from 0, rising and the first 0, up to 10,000.
     pub periods: Vec<Time>,

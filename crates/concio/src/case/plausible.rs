@@ -6,10 +6,10 @@
 use std::f64::consts::PI;
 
 use super::node::{Node, Value};
-use super::out_of_plane::{Hazard, OutOfPlane, Site};
+use super::out_of_plane::{Hazard, OutOfPlane, SideWall, Site};
 use super::{
-    Beam, Case, FrictionChange, FrictionLaw, JointBond, JointKind, Joints, ModelKind, Panel, Signal, Solver,
-    SpringChange, TopLoad,
+    Beam, Case, FrictionChange, FrictionLaw, HistoryQuantity, JointBond, JointKind, Joints, ModelKind, Panel, Signal,
+    Solver, SpringChange, TopLoad,
 };
 use crate::quantity::{Stiffness, shown};
 use crate::warning::{Warning, WarningKind};
@@ -104,9 +104,48 @@ const AMPLIFICATION: Expected =
 /// T_C: 0.15 s on rock to 2 s on the softest soils.
 const CORNER: Expected =
     Expected { limits: [0.05, 3.0], usual: [0.1, 2.0], unit: "s", slips: &[(1e-3, "s", 1.0), (1e3, "s", 1.0)] };
-/// What a floor or a roof pushes per length of its wall, and what connects it.
+/// What a floor, a vault or a roof brings to a metre of wall: a light roof to two heavy vaults.
+const FLOOR_LOAD: Expected =
+    Expected { limits: [3e2, 5e5], usual: [5e2, 2e5], unit: "N/m", slips: &[(1e3, "kN/m", 1e3), (1e-3, "kN/m", 1e3)] };
+/// What they push and thrust per length of the wall.
 const THRUST: Expected =
+    Expected { limits: [10.0, 5e5], usual: [1e2, 2e5], unit: "N/m", slips: &[(1e3, "kN/m", 1e3), (1e-3, "kN/m", 1e3)] };
+/// What connects them to it.
+const CONNECTION: Expected =
     Expected { limits: [10.0, 1e7], usual: [1e2, 1e6], unit: "N/m", slips: &[(1e3, "kN/m", 1e3), (1e-3, "kN/m", 1e3)] };
+/// Levels of floors and ties: a metre in a unit of thousandths lies in the lowest course.
+const LEVEL: Expected = Expected { limits: [0.3, 1e3], usual: [0.5, 100.0], unit: "m", slips: &[(1e3, "m", 1.0)] };
+/// Walls that stand behind another and gables: from half a brick to a tower.
+const THICKNESS: Expected = Expected {
+    limits: [0.05, 3.0],
+    usual: [0.1, 1.5],
+    unit: "m",
+    slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0), (0.1, "m", 1.0), (10.0, "m", 1.0)],
+};
+/// Heights of gables.
+const GABLE: Expected =
+    Expected { limits: [0.2, 30.0], usual: [0.5, 15.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
+/// Heights of buildings.
+const BUILDING: Expected =
+    Expected { limits: [1.0, 200.0], usual: [2.5, 60.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
+/// T_1 of masonry buildings: 0.1 s to 1 s, towers 2 s.
+const FIRST_PERIOD: Expected =
+    Expected { limits: [0.02, 5.0], usual: [0.05, 2.0], unit: "s", slips: &[(1e-3, "ms", 1e-3), (1e3, "s", 1.0)] };
+/// γ_1 of regular buildings: 1 to 1.5.
+const PARTICIPATION: Expected = Expected { limits: [0.5, 3.0], usual: [1.0, 2.0], unit: "", slips: &[(1e-2, "", 1.0)] };
+/// Lengths on which beams lie.
+const SEAT: Expected =
+    Expected { limits: [5e-3, 2.0], usual: [0.03, 1.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
+/// Way that a loose tie leaves: more, and the wall has fallen.
+const TIE_SLACK: Expected = Expected { limits: [1e-6, 0.2], usual: [1e-4, 0.1], unit: "m", slips: &[FROM_MM, FROM_CM] };
+/// Way at which a tie breaks.
+const TIE_BREAK: Expected = Expected { limits: [1e-5, 1.0], usual: [1e-3, 0.5], unit: "m", slips: &[FROM_MM, FROM_CM] };
+/// Overlaps and courses of side walls.
+const SIDE_BLOCK: Expected =
+    Expected { limits: [5e-3, 2.0], usual: [0.02, 1.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
+/// Corner periods of the spectrum of a synthetic motion.
+const CORNERS: Expected =
+    Expected { limits: [5e-3, 20.0], usual: [0.02, 10.0], unit: "s", slips: &[(1e-3, "ms", 1e-3), (1e3, "s", 1.0)] };
 /// Of a bed joint given as a whole, below which it is softer than a sheet of rubber [N/m³].
 const SOFTEST: f64 = 1e7;
 /// Ground displacements and strokes of actuators.
@@ -114,6 +153,10 @@ const STROKE: Expected = Expected { limits: [1e-8, 3.0], usual: [1e-4, 0.5], uni
 /// Sample intervals of records.
 const INTERVAL: Expected =
     Expected { limits: [1e-5, 0.2], usual: [1e-4, 0.05], unit: "s", slips: &[(1e-3, "ms", 1e-3)] };
+
+/// Those of an acceleration that a file says itself: earthquakes are sampled at 50 Hz and more.
+const SAMPLED: Expected =
+    Expected { limits: [1e-5, 0.05], usual: [1e-3, 0.02], unit: "s", slips: &[(1e-3, "ms", 1e-3), (0.1, "s", 1.0)] };
 
 /// Steps of a planar wall: with longer ones than some milliseconds blocks pass through each other.
 const STEP: Expected = Expected { limits: [1e-7, 0.05], usual: [1e-5, 0.01], unit: "s", slips: &[(1e-3, "ms", 1e-3)] };
@@ -161,7 +204,7 @@ pub fn doubts(case: &Case) -> Vec<Warning> {
         doubts.look("load.beam.mass", mass.si(), &BEAM);
     }
     if let Some(own) = &case.out_of_plane {
-        of_out_of_plane(&mut doubts, own);
+        of_out_of_plane(&mut doubts, own, case);
     }
     of_signal(&mut doubts, "motion.base", &case.motion.base);
     of_signal(&mut doubts, "motion.top", &case.motion.top);
@@ -172,7 +215,14 @@ pub fn doubts(case: &Case) -> Vec<Warning> {
     doubts.0
 }
 
-fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane) {
+fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane, case: &Case) {
+    for (index, panel) in case.panels.iter().enumerate() {
+        // Beyond the limits of bricks it is told already.
+        let thickness = panel.brick.thickness.si();
+        if (THICKNESS.limits[1]..=BRICK.limits[1]).contains(&thickness) {
+            doubts.look(&format!("panel[{index}].brick.thickness"), thickness, &THICKNESS);
+        }
+    }
     if let Some(strength) = own.strength {
         doubts.look("out_of_plane.strength", strength.si(), &COMPRESSION);
     }
@@ -186,34 +236,56 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane) {
     }
     doubts.look_for_twins("floor", &own.floors, "its load counts twice");
     doubts.look_for_twins("anchor", &own.anchors, "it holds with twice its force");
+    doubts.look_for_twins("side_wall", &own.side_walls, "its weight and its friction count twice");
+    of_side_walls(doubts, &own.side_walls, longest(case));
+    let course = case.panels.iter().map(|panel| panel.brick.height.si()).fold(f64::INFINITY, f64::min);
+    let lowest = Expected { limits: [LEVEL.limits[0].min(course), LEVEL.limits[1]], ..LEVEL };
     for (index, floor) in own.floors.iter().enumerate() {
-        let given =
-            [("load", floor.load), ("push", floor.push), ("thrust", floor.thrust), ("connection", floor.connection)];
-        for (name, value) in given {
-            doubts.look(
-                &format!("out_of_plane.floor[{index}].{name}"),
-                value.si(),
-                if name == "load" { &LOAD } else { &THRUST },
-            );
+        let key = format!("out_of_plane.floor[{index}]");
+        doubts.look_because(&format!("{key}.z"), floor.z.si(), &lowest, ": no floor lies on the lowest course");
+        let given = [
+            ("load", floor.load, &FLOOR_LOAD),
+            ("push", floor.push, &THRUST),
+            ("thrust", floor.thrust, &THRUST),
+            ("connection", floor.connection, &CONNECTION),
+        ];
+        for (name, value, expected) in given {
+            doubts.look(&format!("{key}.{name}"), value.si(), expected);
         }
-        doubts.look_at_friction(&format!("out_of_plane.floor[{index}].seat_friction"), floor.seat_friction);
+        doubts.look(&format!("{key}.seat_length"), floor.seat_length.map_or(0.0, |l| l.si()), &SEAT);
+        doubts.look_at_friction(&format!("{key}.seat_friction"), floor.seat_friction);
     }
     for (index, anchor) in own.anchors.iter().enumerate() {
         let key = format!("out_of_plane.anchor[{index}]");
+        doubts.look_because(&format!("{key}.z"), anchor.z.si(), &lowest, ": a tie there holds next to nothing");
         doubts.look(&format!("{key}.yield_force"), anchor.yield_force.si(), &PULL);
-        if let Some(anchorage) = anchor.anchorage {
-            doubts.look(&format!("{key}.anchorage"), anchorage.si(), &PULL);
+        doubts.look(&format!("{key}.anchorage"), anchor.anchorage.map_or(0.0, |f| f.si()), &PULL);
+        doubts.look(&format!("{key}.stiffness"), anchor.stiffness.map_or(0.0, |k| k.si()), &STIFFNESS);
+        doubts.look(&format!("{key}.slack"), anchor.slack.si(), &TIE_SLACK);
+        doubts.look(&format!("{key}.breaks_at"), anchor.breaks_at.map_or(0.0, |d| d.si()), &TIE_BREAK);
+    }
+    if let Some(gable) = &own.gable {
+        let at = "out_of_plane.gable";
+        doubts.look(&format!("{at}.height"), gable.height.si(), &GABLE);
+        doubts.look(&format!("{at}.thickness"), gable.thickness.map_or(0.0, |t| t.si()), &THICKNESS);
+        for (name, force) in [
+            ("ridge_load", gable.ridge_load),
+            ("ridge_push", gable.ridge_push),
+            ("ridge_thrust", gable.ridge_thrust),
+            ("crack_thrust", gable.crack_thrust),
+        ] {
+            doubts.look(&format!("{at}.{name}"), force.si(), &PULL);
         }
     }
-    for (index, side) in own.side_walls.iter().enumerate() {
-        let key = format!("out_of_plane.side_wall[{index}]");
-        if let Some(weight) = side.specific_weight {
-            doubts.look(&format!("{key}.specific_weight"), weight.si(), &WEIGHT);
-        }
-        doubts.look(&format!("{key}.load"), side.load.si(), &LOAD);
-        if let Some(friction) = side.friction {
-            doubts.look_at_friction(&format!("{key}.friction"), friction);
-        }
+    if let Some(strip) = &own.strip {
+        doubts.look("out_of_plane.strip.thrust", strip.thrust.si(), &PULL);
+        doubts.look_at_friction("out_of_plane.strip.friction", strip.friction);
+    }
+    if let Some(building) = &own.building {
+        let at = "out_of_plane.building";
+        doubts.look(&format!("{at}.height"), building.height.si(), &BUILDING);
+        doubts.look(&format!("{at}.period"), building.period.map_or(0.0, |t| t.si()), &FIRST_PERIOD);
+        doubts.look(&format!("{at}.participation"), building.participation.unwrap_or(0.0), &PARTICIPATION);
     }
     for (name, hazard) in own.site.iter().flat_map(Site::hazards) {
         let numbers = [
@@ -241,6 +313,57 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane) {
     }
 }
 
+/// The longest block of the wall [m].
+fn longest(case: &Case) -> f64 {
+    let of = |panel: &Panel| {
+        let courses = panel.course_list.iter().flat_map(|course| &course.bricks).map(|length| length.si());
+        let blocks = panel.blocks.iter().filter_map(|block| block.length).map(|length| length.si());
+        let random = panel.random.map(|random| random.length[1].si());
+        courses.chain(blocks).chain(random).fold(panel.brick.length.si(), f64::max)
+    };
+    case.panels.iter().map(of).fold(0.0, f64::max)
+}
+
+/// Side walls; `longest` is the longest block of the wall that they meet [m].
+fn of_side_walls(doubts: &mut Doubts, all: &[SideWall], longest: f64) {
+    for (index, side) in all.iter().enumerate() {
+        let key = format!("out_of_plane.side_wall[{index}]");
+        doubts.look(&format!("{key}.thickness"), side.thickness.si(), &THICKNESS);
+        doubts.look(&format!("{key}.specific_weight"), side.specific_weight.map_or(0.0, |w| w.si()), &WEIGHT);
+        doubts.look(&format!("{key}.load"), side.load.si(), &FLOOR_LOAD);
+        doubts.look(&format!("{key}.course_height"), side.course_height.map_or(0.0, |h| h.si()), &SIDE_BLOCK);
+        let overlap = Expected { limits: [SIDE_BLOCK.limits[0], longest], ..SIDE_BLOCK };
+        let why = ", the longest block of the wall: blocks overlap by a part of their length";
+        doubts.look_because(&format!("{key}.overlap"), side.overlap.map_or(0.0, |l| l.si()), &overlap, why);
+        for (name, way) in [("first_opening", side.first_opening), ("opening_beside", side.opening_beside)] {
+            doubts.look(&format!("{key}.{name}"), way.map_or(0.0, |l| l.si()), &OPENING);
+        }
+        if let Some(friction) = side.friction {
+            doubts.look_at_friction(&format!("{key}.friction"), friction);
+        }
+        if let Some(corner) = &side.corner {
+            for (name, force) in [("load", corner.load), ("push", corner.push), ("thrust", corner.thrust)] {
+                doubts.look(&format!("{key}.corner.{name}"), force.si(), &PULL);
+            }
+        }
+        let width = |other: &SideWall| 0.5 * (side.thickness.si() + other.thickness.si());
+        let apart = |other: &SideWall| (side.x.si() - other.x.si()).abs();
+        // Twins are told as such; of a thickness that is doubted nothing follows.
+        let known = |wall: &SideWall| (THICKNESS.limits[0]..=THICKNESS.limits[1]).contains(&wall.thickness.si());
+        let inside = |other: &&SideWall| {
+            *other != side && known(side) && known(other) && apart(other) < width(other) * (1.0 - 1e-9)
+        };
+        if let Some((first, other)) = all[..index].iter().enumerate().find(|(_, other)| inside(other)) {
+            let text = format!(
+                "{key} stands in out_of_plane.side_wall[{first}]: their middles are {} m apart, and half of both is {} m; is one of them left over?",
+                shown(rounded(apart(other), 6)),
+                shown(rounded(width(other), 6))
+            );
+            doubts.add(WarningKind::UnlikelyNumber, text);
+        }
+    }
+}
+
 /// S_e(0) [m/s²]: a_g S, or the first of the columns.
 fn shakes(hazard: &Hazard) -> Option<f64> {
     let ground = hazard.ground_acceleration.map(|a| a.si() * hazard.soil_factor.unwrap_or(1.0));
@@ -256,6 +379,11 @@ impl Doubts {
 
     /// Zero is always meant.
     fn look(&mut self, key: &str, value: f64, expected: &Expected) {
+        self.look_because(key, value, expected, "");
+    }
+
+    /// [`Doubts::look`], with what follows the limit in the message.
+    fn look_because(&mut self, key: &str, value: f64, expected: &Expected, why: &str) {
         let [low, high] = expected.limits;
         let size = value.abs();
         if size == 0.0 || (low..=high).contains(&size) {
@@ -270,7 +398,8 @@ impl Doubts {
             format!("; did you mean {number}?")
         });
         let unit = if expected.unit.is_empty() { String::new() } else { format!(" {}", expected.unit) };
-        let text = format!("{key} is {}{unit}, {than} than {}{unit}{meant}", shown(rounded(value, 6)), shown(limit));
+        let text =
+            format!("{key} is {}{unit}, {than} than {}{unit}{why}{meant}", shown(rounded(value, 6)), shown(limit));
         self.add(WarningKind::UnlikelyNumber, text);
     }
 
@@ -662,9 +791,10 @@ fn of_signal(doubts: &mut Doubts, at: &str, signal: &Signal) {
             if let Some(pga) = record.pga {
                 doubts.look(&format!("{at}.pga"), pga.si(), &SHAKING);
             }
-            for (key, interval) in [("resample", record.resample), ("dt", record.dt)] {
+            let sampled = if record.quantity == HistoryQuantity::Acceleration { &SAMPLED } else { &INTERVAL };
+            for (key, interval, expected) in [("resample", record.resample, &INTERVAL), ("dt", record.dt, sampled)] {
                 if let Some(interval) = interval {
-                    doubts.look(&format!("{at}.{key}"), interval.si(), &INTERVAL);
+                    doubts.look(&format!("{at}.{key}"), interval.si(), expected);
                 }
             }
         }
@@ -689,6 +819,9 @@ fn of_signal(doubts: &mut Doubts, at: &str, signal: &Signal) {
         Signal::Synthetic(synthetic) => {
             doubts.look(&format!("{at}.synthetic.pga"), synthetic.pga.si(), &SHAKING);
             doubts.look(&format!("{at}.synthetic.dt"), synthetic.dt.si(), &INTERVAL);
+            for (k, corner) in synthetic.corners.iter().enumerate() {
+                doubts.look(&format!("{at}.synthetic.corners[{k}]"), corner.si(), &CORNERS);
+            }
         }
     }
 }

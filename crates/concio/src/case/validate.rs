@@ -3,7 +3,7 @@
 
 use std::fmt::Display;
 
-use super::{Beam, Case, Motion, ParameterSet, Signal, TopLoad};
+use super::{Beam, Case, ModelKind, Motion, ParameterSet, Signal, TopLoad};
 use crate::quantity::{Dimension, Quantity, Stiffness, shown};
 use crate::{InputError, Result};
 
@@ -190,6 +190,8 @@ fn load(f: &mut Findings, case: &Case) {
             f.push("motion.top", "the beam is `driven` but has no motion", "a motion such as { sine = { … } }");
         }
         (Beam::Driven, _) | (_, Signal::None) => {}
+        // Told with the keys that it does not read.
+        _ if case.model == ModelKind::Rocking => {}
         _ => f.add(
             InputError::new("only a `driven` top beam takes a motion")
                 .key("motion.top")

@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use crate::case::plausible::rounded;
-use crate::case::{Beam, Case, RecordInput, Signal};
+use crate::case::{Beam, Case, ModelKind, RecordInput, Signal};
 use crate::error::Result;
 use crate::ground::library::Component;
 use crate::ground::record::Record;
+use crate::ground::signal::{GroundMotion, compile_with};
 use crate::ground::{Library, STANDARD_GRAVITY, channel, measure};
+use crate::quantity::shown;
 use crate::warning::{Warning, WarningKind};
 
 /// Difference of run and record that does not count, over the length of the record.
@@ -24,6 +26,10 @@ const SMALLEST_DRIFT: f64 = 0.01;
 /// Peak accelerations of records beyond which units are doubted [m/s²].
 const SMALLEST_PEAK: f64 = 0.01;
 const LARGEST_PEAK: f64 = 60.0;
+/// Peak of nearly all records, 2 g [m/s²].
+const STRONGEST: f64 = 2.0 * STANDARD_GRAVITY;
+/// Instants at which a pulse or sweep is looked at for its peak.
+const LOOKS: usize = 10_000;
 /// Time between samples beyond which its unit is doubted [s]: earthquakes shake at 5 Hz and more.
 const LARGEST_INTERVAL: f64 = 0.1;
 /// Length of a record below which it is hardly whole [s].
@@ -77,11 +83,19 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                 let peak = odd_peak(&record).map(|odd| format!("motion.{name}: {odd} as it moves the wall{look}"));
                 let interval = odd_interval(&record).map(|odd| format!("motion.{name}: {odd}"));
                 let length = odd_length(&record).map(|odd| format!("motion.{name}: {odd}"));
+                let peak = peak.or_else(|| beyond_recorded(case, name, &record));
                 let odd = peak.into_iter().chain(interval).chain(length);
                 found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
             }
             Signal::Synthetic(input) => {
-                found.extend(uncovered(place, "accelerogram", &library.synthetic(input)?, duration));
+                let made = library.synthetic(input)?;
+                found.extend(uncovered(place, "accelerogram", &made, duration));
+                let odd = beyond_recorded(case, name, &made);
+                found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
+            }
+            Signal::Pulse(_) | Signal::Sweep(_) => {
+                let motion = compile_with(signal, folder, library)?;
+                found.extend(unended(name, &motion, duration).map(|t| Warning::new(WarningKind::RecordCut, t)));
             }
             _ => {}
         }
@@ -167,6 +181,15 @@ pub fn odd_peak(record: &Record) -> Option<String> {
         .then(|| format!("the record's peak acceleration is {} m/s², {how} than {bound} m/s²", rounded(peak, 4)))
 }
 
+/// Says of a peak that throws any rocking wall over, and that hardly an earthquake had, that it is.
+fn beyond_recorded(case: &Case, name: &str, record: &Record) -> Option<String> {
+    let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+    (case.model == ModelKind::Rocking && peak > STRONGEST).then(|| {
+        let [peak, most] = [peak, STRONGEST].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
+        format!("motion.{name}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, which few records have: look at its unit, its interval, `scale` and `pga`")
+    })
+}
+
 /// Says of samples of an acceleration that are too far apart for an earthquake that they are: times are in another unit.
 pub fn odd_interval(record: &Record) -> Option<String> {
     (record.dt > LARGEST_INTERVAL && record.displacement.is_none()).then(|| {
@@ -182,6 +205,21 @@ pub fn odd_length(record: &Record) -> Option<String> {
         let length = seconds(length);
         format!("the record has {samples} samples in {length}, less than {SHORTEST} s: is it whole, and its interval in seconds?")
     })
+}
+
+/// Says of a pulse or sweep that ends after the run that it does, and how much of it has come by then.
+fn unended(name: &str, motion: &GroundMotion, duration: f64) -> Option<String> {
+    let end = motion.end().filter(|end| duration < end * (1.0 - SLACK))?;
+    let most = |until: f64| {
+        let at = |k: usize| motion.acceleration(until * k as f64 / LOOKS as f64).abs();
+        (0..LOOKS).map(at).fold(0.0, f64::max)
+    };
+    let [within, whole] = [most(duration), most(end)].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
+    Some(format!(
+        "motion.duration cuts the motion of the {name}, which ends at {}: {} of it is used, and its acceleration reaches {within} g of {whole} g",
+        seconds(end),
+        seconds(duration)
+    ))
 }
 
 fn uncovered(name: &str, what: &str, record: &Record, duration: f64) -> Option<Warning> {

@@ -8,8 +8,9 @@ use crate::graph;
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::planar::{Planar, Rest};
+use crate::quantity::shown;
 use crate::record::StopReason;
-use crate::rocking::Rocking;
+use crate::rocking::{self, Rocking};
 use crate::store::{JointRow, residual_relative};
 use crate::warning::{Warning, WarningKind};
 use concio_shear::law::Rub;
@@ -42,6 +43,8 @@ const STILL: &str = "lower solver.step; what lets go at once, as friction does t
 const GIVEN_BACK: f64 = 0.01;
 /// Part of what was lost that may go to joints closing or ringing faster than steps resolve, before peaks should be doubted for it.
 const UNRESOLVED: f64 = 0.2;
+/// Factor on a motion that a rocking wall rests under, from which it is told that it lacks so much.
+const FAR_TOO_WEAK: f64 = 10.0;
 /// Part of the largest work that may be motion at the end before a run should be doubted for its end.
 const UNDER_WAY: f64 = 0.5;
 /// Way of the wall's weight whose work is nothing [m]: what a wall at rest does.
@@ -107,6 +110,9 @@ fn of_rocking(wall: &Rocking, excitation: &Excitation, outcome: &Outcome) -> Vec
     {
         add(WarningKind::Chance, text);
     }
+    if let Some(text) = hardly_moved(wall, excitation, outcome) {
+        add(WarningKind::UnlikelyRecord, text);
+    }
     let weight_moves = outcome.energies.kinetic > NOTHING * outcome.totals.peak_input;
     if outcome.stop_reason == StopReason::Completed && weight_moves {
         add(
@@ -125,6 +131,28 @@ fn of_rocking(wall: &Rocking, excitation: &Excitation, outcome: &Outcome) -> Vec
         add(WarningKind::LostSeat, text);
     }
     told
+}
+
+/// Says of a wall that rests under a motion far too weak for it how much is lacking.
+fn hardly_moved(wall: &Rocking, excitation: &Excitation, outcome: &Outcome) -> Option<String> {
+    let found = outcome.rocking.as_ref()?;
+    // Of a wall at rest it is known before.
+    if outcome.stop_reason != StopReason::Completed || found.lift_offs > 0 || rocking::is_still(excitation) {
+        return None;
+    }
+    let sets_off = shown(rounded(wall.compiled.multiplier(), 3));
+    match wall.first_lift_off(excitation).ok()? {
+        None => Some(format!(
+            "the wall rests: within the run its motion never pushes it the way that lifts it off, which takes {sets_off} g. Look at its start, at `rocking.positive` \
+             and motion.duration"
+        )),
+        Some(lift_off) if lift_off.scale > FAR_TOO_WEAK => Some(format!(
+            "the wall rests: its motion within the run would have to be {} times as strong to lift it off, which takes {sets_off} g. Look at its unit, \
+             `scale`, `pga` and motion.duration",
+            shown(rounded(lift_off.scale, 3))
+        )),
+        Some(_) => None,
+    }
 }
 
 /// A residual that is not a number is the stop reason's to tell.

@@ -202,6 +202,194 @@ fn spectra_twins_and_exchanged_hazards_are_told() {
     }
 }
 
+/// A façade of 6 m by 5 m, half a metre thick, with what a file says beside.
+fn facade(behind: &str) -> Case {
+    case(&format!(
+        "model = \"planar\"\n[[panel]]\nbond = \"stack\"\ncourses = 12\nbricks = 5\n\
+         brick = {{ length = 1.0, height = 0.5, thickness = 0.5, specific_weight = 18e3 }}\n\
+         opening = [{{ x = \"2 bricks\", y = 0, width = \"1 bricks\", height = \"4 courses\", lintel = {{ height = 0.5, bearing = 0.5 }} }}]\n\
+         [joint]\nbed = {{ law = \"rigid\" }}\nhead = {{ law = \"rigid\" }}\n\
+         friction = {{ law = \"coulomb\", static = 0.6 }}\n[motion]\nduration = 1.0\n{behind}\n"
+    ))
+}
+
+/// Slips behind a wall that made a tidy wrong number: a length, a force or a period in another unit, or what stands there twice.
+#[test]
+fn slips_behind_a_wall_are_told() {
+    let floor = |keys: &str| format!("[[out_of_plane.floor]]\n{keys}");
+    let tie = |keys: &str| format!("[[out_of_plane.anchor]]\nyield_force = \"20 kN\"\n{keys}");
+    let side = |keys: &str| format!("[[out_of_plane.side_wall]]\n{keys}\n");
+    let gable = |keys: &str| format!("[out_of_plane.gable]\n{keys}");
+    let building = |keys: &str| format!("[out_of_plane.building]\nstoreys = 2\n{keys}");
+    for (behind, told) in [
+        (
+            floor("z = \"6 mm\"\nload = \"8 kN/m\""),
+            "floor[0].z is 0.006 m, less than 0.3 m: no floor lies on the lowest course; did you mean \"6 m\"?",
+        ),
+        (
+            tie("z = \"5.8 mm\""),
+            "anchor[0].z is 0.0058 m, less than 0.3 m: a tie there holds next to nothing; did you mean \"5.8 m\"?",
+        ),
+        (
+            floor("z = 6\nload = \"8000 kN/m\""),
+            "floor[0].load is 8000000 N/m, more than 500000 N/m; did you mean \"8 kN/m\"?",
+        ),
+        (
+            floor("z = 6\nload = \"800 kN/m\""),
+            "floor[0].load is 800000 N/m, more than 500000 N/m; did you mean \"0.8 kN/m\"?",
+        ),
+        (
+            floor("z = 6\nload = 0\npush = \"8000 kN/m\""),
+            "floor[0].push is 8000000 N/m, more than 500000 N/m; did you mean \"8 kN/m\"?",
+        ),
+        (
+            floor("z = 6\nload = 0\nthrust = \"3000 kN/m\""),
+            "floor[0].thrust is 3000000 N/m, more than 500000 N/m; did you mean \"3 kN/m\"?",
+        ),
+        (
+            floor("z = 6\nload = \"8 kN/m\"\nseat_length = 100"),
+            "floor[0].seat_length is 100 m, more than 2 m; did you mean \"100 mm\"?",
+        ),
+        (tie("z = 5.8\nslack = 5"), "anchor[0].slack is 5 m, more than 0.2 m; did you mean \"5 mm\"?"),
+        (tie("z = 5.8\nbreaks_at = 50"), "anchor[0].breaks_at is 50 m, more than 1 m; did you mean \"50 mm\"?"),
+        (side("x = 0\nthickness = 400"), "side_wall[0].thickness is 400 m, more than 3 m; did you mean \"400 mm\"?"),
+        (side("x = 0\nthickness = 8"), "side_wall[0].thickness is 8 m, more than 3 m; did you mean \"0.8 m\"?"),
+        (
+            side("x = 0\nthickness = 0.04"),
+            "side_wall[0].thickness is 0.04 m, less than 0.05 m; did you mean \"0.4 m\"?",
+        ),
+        (
+            side("x = 0\nthickness = 0.4\noverlap = \"5 m\""),
+            "side_wall[0].overlap is 5 m, more than 1 m, the longest block of the wall: blocks overlap by a part of their length; did you mean \"5 cm\"?",
+        ),
+        (
+            side("x = 0\nthickness = 0.4") + &side("x = \"0 m\"\nthickness = \"40 cm\""),
+            "side_wall[1] is the same as out_of_plane.side_wall[0]: its weight and its friction count twice; is one of them left over?",
+        ),
+        (
+            side("x = 0\nthickness = 0.4") + &side("x = 0.3\nthickness = 0.4"),
+            "side_wall[1] stands in out_of_plane.side_wall[0]: their middles are 0.3 m apart, and half of both is 0.4 m; is one of them left over?",
+        ),
+        (gable("height = 1.5\nthickness = 40"), "gable.thickness is 40 m, more than 3 m; did you mean \"40 cm\"?"),
+        (gable("height = 150"), "gable.height is 150 m, more than 30 m; did you mean \"150 cm\"?"),
+        (gable("height = 1.5\nridge_load = 5"), "gable.ridge_load is 5 N, less than 200 N; did you mean \"5 kN\"?"),
+        (
+            "[out_of_plane.strip]\nfrom = 4\nthrust = 30".into(),
+            "strip.thrust is 30 N, less than 200 N; did you mean \"30 kN\"?",
+        ),
+        (building("height = 8\nperiod = 200"), "building.period is 200 s, more than 5 s; did you mean \"200 ms\"?"),
+        (building("height = 800"), "building.height is 800 m, more than 200 m; did you mean \"800 cm\"?"),
+        (building("height = 8\nparticipation = 120"), "building.participation is 120, more than 3; did you mean 1.2?"),
+    ] {
+        assert_eq!(doubts(&facade(&behind)), [format!("out_of_plane.{told}")], "{behind}");
+    }
+    for fine in [
+        floor("z = 0.3\nload = \"200 kN/m\"\npush = \"200 kN/m\"\nthrust = \"20 kN/m\"\nseat_length = 0.15"),
+        tie("z = 0.5\nslack = \"5 mm\"\nbreaks_at = \"50 mm\"\nstiffness = \"20 kN/mm\""),
+        side("x = 0.2\nthickness = 0.4\noverlap = 0.5") + &side("x = 4.8\nthickness = 1.5"),
+        // Beside each other.
+        side("x = 0.2\nthickness = 0.4") + &side("x = 0.6\nthickness = 0.4"),
+        gable("height = 2\nthickness = 0.3\nridge_load = 5e3"),
+        building("height = 8\nperiod = 0.3\nparticipation = 1.2"),
+    ] {
+        assert_eq!(doubts(&facade(&fine)), [""; 0], "{fine}");
+    }
+    let thick = |t: &str| {
+        let text =
+            WALL.replace("model = \"shear\"", "model = \"planar\"").replace("thickness = 0.12", t) + "[out_of_plane]\n";
+        doubts(&case(&text)).into_iter().find(|doubt| doubt.contains("thickness"))
+    };
+    let told = thick("thickness = \"500 cm\"").expect("a doubt");
+    assert_eq!(told, "panel[0].brick.thickness is 5 m, more than 3 m; did you mean \"0.5 m\"?");
+    assert_eq!(thick("thickness = 2.5"), None);
+}
+
+/// What only the laid wall shows: openings where something should hold, loads given twice, spectra that nothing uses, walls like planks.
+#[test]
+fn slips_that_the_laid_wall_shows_are_told() {
+    let found = |case: &Case| {
+        let wall = concio::facade::of(case).unwrap_or_else(|e| panic!("{e}"));
+        concio::facade::doubts(case, &wall)
+    };
+    let spectrum = |z: f64| {
+        format!(
+            "[[out_of_plane.floor_spectrum]]\nz = {z}\nperiods = [0, 1]\naccelerations = [4, 5]\n[out_of_plane.building]\nheight = 9\nstoreys = 3"
+        )
+    };
+    for (behind, told) in [
+        (
+            "[[out_of_plane.anchor]]\nz = 1\nx = 2.5\nyield_force = 20e3".to_string(),
+            "out_of_plane.anchor[0] lies in an opening, at x = 2.5 m and z = 1 m: there its plate holds nothing, and it counts as if it did",
+        ),
+        (
+            "[[out_of_plane.side_wall]]\nx = 2.5\nthickness = 0.4".into(),
+            "out_of_plane.side_wall[0] meets the wall at x = 2.5 m, in an opening from 2 to 3 m: there nothing bonds both, and it counts as if something did",
+        ),
+        (
+            "[load]\ntop = \"8 kN/m\"\n[[out_of_plane.floor]]\nz = 6\nload = \"8 kN/m\"".into(),
+            "load.top and out_of_plane.floor[0] at the top both bring 8 kN/m: the load counts twice; is one of them left over?",
+        ),
+        (
+            spectrum(9.0),
+            "out_of_plane.floor_spectrum[0].z is 9 m, farther than 0.5 m from every joint of the wall, which ends at 6 m: nothing uses it",
+        ),
+    ] {
+        assert_eq!(found(&facade(&behind)), [told], "{behind}");
+    }
+    for fine in [
+        "[[out_of_plane.anchor]]\nz = 1\nx = 1.5\nyield_force = 20e3".to_string(),
+        "[[out_of_plane.anchor]]\nz = 4\nx = 2.5\nyield_force = 20e3".into(),
+        "[[out_of_plane.side_wall]]\nx = 3\nthickness = 0.4".into(),
+        "[[out_of_plane.side_wall]]\nx = 2.5\nthickness = 0.4\nbonded = false".into(),
+        "[load]\ntop = \"8 kN/m\"\n[[out_of_plane.floor]]\nz = 6\nload = \"5 kN/m\"".into(),
+        "[load]\ntop = \"8 kN/m\"\n[[out_of_plane.floor]]\nz = 3\nload = \"8 kN/m\"".into(),
+        spectrum(6.2),
+    ] {
+        assert_eq!(found(&facade(&fine)), [""; 0], "{fine}");
+    }
+    let thin = |t: f64| {
+        let text = "model = \"planar\"\n[[panel]]\nbond = \"stack\"\ncourses = 12\nbricks = 5\nbrick = { length = 1.0, height = 0.5, thickness = T, specific_weight = 18e3 }\n\
+                    [joint]\nbed = { law = \"rigid\" }\nhead = { law = \"rigid\" }\nfriction = { law = \"coulomb\", static = 0.6 }\n[motion]\nduration = 1.0\n";
+        found(&case(&text.replace('T', &t.to_string())))
+    };
+    assert_eq!(
+        thin(0.05),
+        [
+            "panel[0].brick.thickness of 0.05 m under a height of 6 m makes the wall 120 times as high as thick; are courses and thickness meant so?"
+        ]
+    );
+    assert_eq!(thin(0.2), [""; 0]);
+}
+
+/// A record whose interval is ten times too long, corner periods in milliseconds.
+#[test]
+fn slips_of_motions_are_told() {
+    let (head, _) = WALL.split_once("[motion]").expect("a motion");
+    let told = |base: &str| doubts(&case(&format!("{head}[motion]\nduration = 1\nbase = {{ {base} }}\n")));
+    assert_eq!(
+        told("record = \"r.dat\", dt = 0.1"),
+        ["motion.base.dt is 0.1 s, more than 0.05 s; did you mean \"0.01 s\"?"]
+    );
+    assert_eq!(told("record = \"r.dat\", dt = 5"), ["motion.base.dt is 5 s, more than 0.05 s; did you mean \"5 ms\"?"]);
+    assert_eq!(
+        told("synthetic = { seed = 1, pga = \"0.3 g\", duration = 12, corners = [150, 500, 2000] }"),
+        [150, 500, 2000]
+            .iter()
+            .enumerate()
+            .map(|(k, read)| format!(
+                "motion.base.synthetic.corners[{k}] is {read} s, more than 20 s; did you mean \"{read} ms\"?"
+            ))
+            .collect::<Vec<_>>()
+    );
+    for fine in [
+        "record = \"r.dat\", dt = 0.02",
+        "record = \"r.dat\", dt = 0.1, quantity = \"displacement\"",
+        "synthetic = { seed = 1, pga = \"0.3 g\", duration = 12, corners = [0.15, 0.5, 2] }",
+    ] {
+        assert_eq!(told(fine), [""; 0], "{fine}");
+    }
+}
+
 /// Joints softer than rubber, and softer pressed than sheared.
 #[test]
 fn joints_of_hardly_any_material_are_told() {

@@ -339,6 +339,7 @@ fn a_wall_falls_after_its_motion_too() {
 /// What the file lacks or has in vain is told with its key.
 #[test]
 fn what_a_rocking_wall_cannot_have_is_refused() {
+    const MOVES: &str = "[motion]\nduration = 1.0\nbase = { sine = { acceleration = 1.0, frequency = 1.0 } }\n";
     let motion = "[motion]\nduration = 1.0\n";
     let refused = |rest: String| {
         let file = from_str(&wall(0.4, 4.0, &rest), Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}"));
@@ -354,20 +355,42 @@ fn what_a_rocking_wall_cannot_have_is_refused() {
         (format!("[out_of_plane]\n{motion}[output]\njoints = [\"all\"]\n"), "output.joints"),
         (format!("[out_of_plane]\n[solver]\ntolerance = 1e-3\n{motion}"), "solver.tolerance"),
         (
-            format!("[out_of_plane]\n[rocking]\nmechanism = \"gable\"\n{motion}"),
+            format!("[out_of_plane]\n[rocking]\nmechanism = \"gable\"\n{MOVES}"),
             "rocking.mechanism: the wall has no gable",
         ),
         (format!("[out_of_plane]\n[rocking]\nhinge = 1.0\n{motion}"), "rocking.hinge: a level without a mechanism"),
         (
-            format!("[out_of_plane]\n[rocking]\nmechanism = \"overturning\"\nhinge = 1.0\n{motion}"),
+            format!("[out_of_plane]\n[rocking]\nmechanism = \"overturning\"\nhinge = 1.0\n{MOVES}"),
             "rocking.hinge: no hinge of its overturning lies at 1 m; allowed: 0 m",
         ),
         (format!("[out_of_plane]\n[rocking]\nrestitution = 1.5\n{motion}"), "rocking.restitution"),
         (
             format!(
-                "[[out_of_plane.floor]]\nz = 4.0\nload = 5e3\nthrust = 9e3\n[rocking]\nmechanism = \"overturning\"\n{motion}"
+                "[[out_of_plane.floor]]\nz = 4.0\nload = 5e3\nthrust = 9e3\n[rocking]\nmechanism = \"overturning\"\n{MOVES}"
             ),
             "rocking.mechanism: overturning: the wall turns under its own loads",
+        ),
+        // A tie of 20 kN would hold it; it begins at no force.
+        (
+            format!(
+                "[[out_of_plane.floor]]\nz = 4.0\nload = 5e3\nthrust = 9e3\n[[out_of_plane.anchor]]\nz = 4.0\nyield_force = 20e3\n\
+                 [rocking]\nmechanism = \"overturning\"\n{MOVES}"
+            ),
+            "Its ties, which begin at no force, do not hold it yet: with their full force α0 is 0.",
+        ),
+        // N of 37 kN over 80 kPa needs 0.46 m, more than the 0.4 m that there are: the hinge is taken to lie on the other face.
+        (
+            format!("[out_of_plane]\nstrength = 80e3\n[[out_of_plane.floor]]\nz = 4.0\nload = 5e3\nthrust = 1e3\n[rocking]\nmechanism = \"overturning\"\n{MOVES}"),
+            "Masonry of this out_of_plane.strength crushes under it",
+        ),
+        (
+            "[out_of_plane]\n[motion]\nduration = 1.0\ntop = { sine = { acceleration = 1.0, frequency = 1.0 } }\n".to_string(),
+            "motion.top: a rocking wall does not read the key; allowed: none: `motion.base` moves the wall",
+        ),
+        (
+            "[out_of_plane]\n[motion]\nduration = 1.5\nbase = { pulse = { shape = \"half-sine\", acceleration = 3.4, duration = 1.0, start = 2.0 } }\n"
+                .to_string(),
+            "motion.base.pulse.start: 2 s is when the run has ended: nothing would move; allowed: below motion.duration, 1.5 s",
         ),
     ] {
         let told = refused(rest.clone());
@@ -378,4 +401,97 @@ fn what_a_rocking_wall_cannot_have_is_refused() {
     let file = from_str(&planar, Syntax::Toml, None).expect("a file");
     let told = prepare(&file).err().map_or_else(String::new, |error| error.to_string());
     assert!(told.contains("rocking: the table is for walls that rock out of their plane"), "{told}");
+}
+
+/// Keys of joints that a rocking wall does not read, and motions that hardly move it, are told with what does it.
+#[test]
+fn slips_of_rocking_walls_are_told() {
+    let told = |rest: &str| {
+        let prepared = prepared(&wall(0.4, 4.0, rest));
+        let outcome = run_in_memory(&prepared).expect("a run");
+        concio::run::warnings_of(&prepared.model, &[], &outcome)
+    };
+    let under =
+        |base: &str, duration: f64| told(&format!("{LEANS}[motion]\nduration = {duration:?}\nbase = {{ {base} }}\n"));
+    let pulse = |keys: &str| format!("pulse = {{ shape = \"half-sine\", acceleration = \"0.35 g\", {keys} }}");
+    // α0 = 0.1: half a sine of 500 s reaches 0.35 g sin(4π/500), which would have to be 11.4 times as strong.
+    for (base, duration, kind, says) in [
+        (
+            pulse("duration = 500"),
+            4.0,
+            WarningKind::RecordCut,
+            "motion.duration cuts the motion of the base, which ends at 500 s: 4 s of it is used, and its acceleration reaches 0.0088 g of 0.35 g",
+        ),
+        (
+            pulse("duration = 500"),
+            4.0,
+            WarningKind::UnlikelyRecord,
+            "the wall rests: its motion within the run would have to be 11.4 times as strong to lift it off, which takes 0.1 g",
+        ),
+        (
+            pulse("duration = 1").replace("half-sine", "ricker"),
+            0.5,
+            WarningKind::RecordCut,
+            "motion.duration cuts the motion of the base",
+        ),
+        (
+            pulse("duration = 1").replace("0.35", "-0.35"),
+            2.0,
+            WarningKind::UnlikelyRecord,
+            "the wall rests: within the run its motion never pushes it the way that lifts it off, which takes 0.1 g",
+        ),
+        (
+            "synthetic = { seed = 1, pga = \"3.5 g\", duration = 12 }".into(),
+            12.0,
+            WarningKind::UnlikelyRecord,
+            "motion.base: its peak acceleration is 3.5 g as it moves the wall, more than 2 g, which few records have",
+        ),
+    ] {
+        let found = under(&base, duration);
+        assert!(found.iter().any(|w| w.kind == kind && w.starts_with(says)), "{base}: {found:?}");
+    }
+    let fine = under(&pulse("duration = 1"), 2.0);
+    assert!(fine.iter().all(|w| ![WarningKind::RecordCut, WarningKind::UnlikelyRecord].contains(&w.kind)), "{fine:?}");
+    let idle = |bed: &str| {
+        let text =
+            wall(0.4, 4.0, &format!("{LEANS}[motion]\nduration = 1.0\nbase = {{ {} }}\n", pulse("duration = 1")));
+        let warnings = prepared(&text.replacen("law = \"rigid\"", bed, 1)).model.warnings;
+        warnings.into_iter().filter(|w| w.kind == WarningKind::IdleKey).map(|w| w.text).collect::<Vec<_>>()
+    };
+    for (bed, says) in [
+        (
+            "law = \"rigid\", restitution = 0.5",
+            "joint.bed.restitution does nothing in a rocking wall: `rocking.restitution` is that of its impacts",
+        ),
+        (
+            "law = \"rigid\", rocking_restitution = 0.5",
+            "joint.bed.rocking_restitution does nothing in a rocking wall: `rocking.restitution` is that of its impacts",
+        ),
+        (
+            "law = \"no-tension\", stiffness = \"10 N/mm3\", compressive_strength = \"0.3 MPa\"",
+            "joint.bed.compressive_strength does nothing in a rocking wall: `out_of_plane.strength` sets its hinges back",
+        ),
+    ] {
+        assert_eq!(idle(bed), [says], "{bed}");
+    }
+    assert_eq!(idle("law = \"rigid\""), [""; 0]);
+    // A change that would have to be mended elsewhere: it does nothing, and that is what is told.
+    let changed = told(&format!(
+        "[[joint.change]]\nat = {{ kind = [\"bed\"] }}\nfriction = {{ static = 0.2 }}\n{LEANS}[motion]\nduration = 1.0\nbase = {{ {} }}\n",
+        pulse("duration = 0.5")
+    ));
+    let says = "joint.bond and joint.change do nothing in a rocking wall";
+    assert!(changed.iter().any(|w| w.kind == WarningKind::IdleKey && w.starts_with(says)), "{changed:?}");
+    // Nothing moves it at all.
+    let still = told(&format!("{LEANS}[motion]\nduration = 4.0\n"));
+    let says = "motion.base is at rest, and so is motion.vertical: nothing moves the wall";
+    assert_eq!(still.iter().filter(|w| w.kind == WarningKind::UnlikelyRecord).collect::<Vec<_>>(), [says]);
+    // A tie of so much slack bears nothing before the wall falls.
+    let loose = told(&format!(
+        "{LEANS}[[out_of_plane.anchor]]\nz = 3.9\nyield_force = 20e3\nstiffness = 2e7\nslack = 5\n[motion]\nduration = 1.0\nbase = {{ {} }}\n",
+        pulse("duration = 0.5")
+    ));
+    for says in ["out_of_plane.anchor[0].slack is 5 m", "the tie at 3.90 m bears nothing before the wall would fall"] {
+        assert!(loose.iter().any(|w| w.starts_with(says)), "{loose:?}");
+    }
 }

@@ -84,7 +84,7 @@ fn respond(prepared: &Prepared, heads: Heads, pairs: &[Pair]) -> Result<Variant,
     match run.outcome.stop_reason {
         StopReason::Completed => Ok(run),
         reason => {
-            let why = crate::digest::why(reason);
+            let why = crate::digest::why(reason, false);
             Err(Failure::Other(format!("a run stopped at t = {} s: {why}", run.outcome.time_reached), None))
         }
     }

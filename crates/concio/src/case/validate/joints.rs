@@ -4,7 +4,8 @@ use std::collections::HashMap;
 
 use super::{Bound, Findings, devices};
 use crate::case::{
-    Bond, BondChange, Case, Friction, FrictionChange, FrictionLaw, JointBond, JointChange, Panel, Selector, Spring,
+    Bond, BondChange, Case, Friction, FrictionChange, FrictionLaw, JointBond, JointChange, ModelKind, Panel, Selector,
+    Spring,
 };
 use crate::quantity::shown;
 use crate::{InputError, case::de::suggestion};
@@ -39,7 +40,8 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
     for (i, change) in j.changes.iter().enumerate() {
         selector(f, i, &change.at, &panels);
         self::change(f, i, change);
-        if let Some(r) = &change.friction {
+        // A rocking wall reads none of them, and says so.
+        if let Some(r) = change.friction.as_ref().filter(|_| case.model != ModelKind::Rocking) {
             friction_change(f, i, r, &j.friction, settled);
             settled &= r.static_.is_none() && r.dynamic.is_none();
         }

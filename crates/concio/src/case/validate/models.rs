@@ -117,6 +117,7 @@ fn rocking(f: &mut Findings, case: &Case) {
             case.load.mass.is_some(),
             "none: the mass of a load is that of its weight; `out_of_plane.floor` has others",
         ),
+        ("motion.top", case.motion.top != Signal::None, "none: `motion.base` moves the wall"),
         ("motion.quasi_static", case.motion.quasi_static, "none: `concio mechanisms` follows the wall without inertia"),
         ("motion.stop_at", case.motion.stop_at.is_some(), "none: a run ends when the wall lies on the ground"),
         ("solver.scheme", case.solver.scheme != solver.scheme, "none: `solver.step` is the longest step"),

@@ -6,6 +6,7 @@ use crate::case::{
     Baseline, Case, DisplacementPath, Motion, Pulse, Ramp, RecordChannel, RecordInput, Signal, Sine, Sweep, Synthetic,
     Tilt,
 };
+use crate::quantity::Time;
 
 pub(super) fn check(f: &mut Findings, case: &Case) {
     let m = &case.motion;
@@ -22,6 +23,13 @@ pub(super) fn check(f: &mut Findings, case: &Case) {
     }
     for (key, s) in m.signals() {
         signal(f, &format!("motion.{key}"), s);
+        if let (Some((name, start)), Some(duration)) = (start(s), m.duration)
+            && start.si() >= duration.si()
+            && duration.si() > 0.0
+        {
+            let what = format!("{start} is when the run has ended: nothing would move");
+            f.push(format_args!("motion.{key}.{name}.start"), what, format!("below motion.duration, {duration}"));
+        }
     }
 }
 
@@ -36,6 +44,16 @@ fn signal(f: &mut Findings, key: &str, signal: &Signal) {
         Signal::Pulse(p) => pulse(f, key, p),
         Signal::Sweep(s) => sweep(f, key, s),
         Signal::Synthetic(s) => synthetic(f, key, s),
+    }
+}
+
+/// When a motion begins that says so, below the key of its form.
+fn start(signal: &Signal) -> Option<(&'static str, Time)> {
+    match signal {
+        Signal::Ramp(ramp) => Some(("ramp", ramp.start)),
+        Signal::Tilt(tilt) => Some(("tilt", tilt.start)),
+        Signal::Pulse(pulse) => Some(("pulse", pulse.start)),
+        _ => None,
     }
 }
 
