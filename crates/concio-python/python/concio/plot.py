@@ -36,6 +36,10 @@ class RecordPlots:
         """Of this record."""
         self._record = record
 
+    def __call__(self, *, ax: Axes | None = None) -> Axes:
+        """The acceleration over the time, as :meth:`history`."""
+        return self.history(ax=ax)
+
     def history(self, *, ax: Axes | None = None) -> Axes:
         """The acceleration over the time."""
         ax = _axes(ax)

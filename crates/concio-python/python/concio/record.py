@@ -138,6 +138,12 @@ class Record:
             raise InputError("give either a factor or a pga", key="pga", allowed="one of the two")
         return self._treated("scale", factor) if pga is None else self._treated("pga", pga)
 
+    def __mul__(self, factor: float) -> Record:
+        """:meth:`scaled` by a factor."""
+        return self.scaled(factor)
+
+    __rmul__ = __mul__
+
     def trim(self, start: float | str, end: float | str) -> Record:
         """From ``start`` to ``end`` [s, or texts with units]; it starts at t = 0 then."""
         return self._treated("trim", [start, end])

@@ -42,6 +42,7 @@ class Simulation:
         self._native = prepared.simulation()
         self.wall = wall
         self.duration = prepared.duration
+        self._start = self.save()
         blocks = prepared.blocks()
         self._names = {name: number for number, name in enumerate(blocks["name"])}
         self._centres = np.column_stack([blocks["x"], blocks["y"]])
@@ -59,6 +60,14 @@ class Simulation:
         if to is None and steps is None:
             steps = 1
         self._native.advance(np.inf if to is None else float(to), _MOST if steps is None else steps)
+
+    def step(self) -> None:
+        """One step: :meth:`advance` without arguments."""
+        self.advance()
+
+    def reset(self) -> None:
+        """Goes back to rest at t = 0, pushed by nothing."""
+        self.restore(self._start)
 
     def push(self, block: str | int, *, x: float = 0.0, y: float = 0.0) -> None:
         """Pushes a block of a planar wall at its centre from now on, until it is pushed otherwise; 0 N ends it.

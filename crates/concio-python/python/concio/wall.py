@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
     from .simulation import Simulation
 
-Base: TypeAlias = Record | Mapping[str, Any] | str
-"""What moves the base: a record, what stands at ``motion.base`` of a wall file, or ``"none"``."""
+Base: TypeAlias = Record | Mapping[str, Any] | str | os.PathLike[str]
+"""What moves the base: a record, the path of its file, what stands at ``motion.base`` of a wall file, or ``"none"``."""
 Progress: TypeAlias = bool | Callable[[float], object]
 """Whether a bar is shown, or what is called with the share of the work that is done, 0 … 1."""
 
@@ -242,6 +242,8 @@ class Wall:
         """Ready to run under another motion of the base; see :meth:`run`."""
         if base is None and duration is None:
             return self._prepared
+        if isinstance(base, str | os.PathLike) and base != "none":
+            base = Record.read(base)
         changes: dict[str, Any] = {}
         beside = None
         if isinstance(base, Record):
@@ -266,8 +268,8 @@ class Wall:
         Other threads of Python go on meanwhile. Ctrl-C ends the run, which comes back with what it reached: ``run.ok`` is false then.
 
         Args:
-            base: What moves the base instead of what the wall file says: a record, or what stands at ``motion.base`` of a wall file. Of a record
-                that no file gives the result does not hold the motion: see :meth:`concio.Record.save`.
+            base: What moves the base instead of what the wall file says: a record, the path of its file, or what stands at ``motion.base`` of a
+                wall file. Of a record that no file gives the result does not hold the motion: see :meth:`concio.Record.save`.
             duration: Length of the run [s]; default that of the record given, else of the wall file.
             progress: Show a bar, or call this with the share that is done, 0 … 1.
 
