@@ -152,7 +152,11 @@ fn in_folder(prepared: &Prepared, folder: &Path, text: &str) -> Result<Option<St
 
 fn stored(prepared: &Prepared, outcome: concio::outcome::Outcome) -> Result<StoredRun, Failure> {
     if outcome.stop_reason != StopReason::Completed {
-        let what = format!("{}: {}", prepared.case.title, concio_cli::digest::why(outcome.stop_reason));
+        let what = format!(
+            "{}: {}",
+            prepared.case.title,
+            concio_cli::digest::why(outcome.stop_reason, prepared.model.rocking().is_some())
+        );
         return Err(Failure::Other(what, None));
     }
     Ok(StoredRun {
