@@ -9,7 +9,7 @@ use crate::concio;
 use crate::examples::folder;
 
 /// What the checks import, by the names under which it is installed.
-const PACKAGES: [&str; 21] = [
+const PACKAGES: [&str; 23] = [
     "h5py",
     "numpy",
     "vtk",
@@ -26,10 +26,12 @@ const PACKAGES: [&str; 21] = [
     "nbclient",
     "obspy",
     "pandas",
+    "pint",
     "pyright",
     "pyrotd",
     "pytest",
     "ruff",
+    "tqdm",
     "xarray",
 ];
 /// What is installed beside it and not imported: types for mypy.

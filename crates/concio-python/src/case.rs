@@ -27,27 +27,30 @@ pub struct Case {
     file: CaseFile,
     /// Whether its text is one that the user wrote, so that lines in it mean something.
     written: bool,
+    /// Whether it was read from its file; else that only says where paths begin.
+    read: bool,
 }
 
 impl Case {
-    fn valid(file: CaseFile, written: bool) -> Result<Self, Raised> {
+    fn valid(file: CaseFile, written: bool, read: bool) -> Result<Self, Raised> {
         let findings = file.findings();
-        let case = Case { file, written };
+        let case = Case { file, written, read };
         if findings.is_empty() { Ok(case) } else { Err(case.raised(Raised::Input(findings))) }
     }
 
     fn raised(&self, error: impl Into<Raised>) -> Raised {
-        placed(error.into(), self.written)
+        placed(error.into(), self.written, self.file.path().filter(|_| !self.read))
     }
 }
 
-/// Takes the places from an error in a text that nobody wrote.
-fn placed(error: Raised, written: bool) -> Raised {
+/// Takes from an error in a text its file where that is `none`, and in one that nobody wrote the line too.
+fn placed(error: Raised, written: bool, none: Option<&Path>) -> Raised {
     match error {
-        Raised::Input(all) if !written => {
-            let bare = |e: InputError| match e.file {
-                None => InputError { line: None, column: None, ..e },
-                Some(_) => e,
+        Raised::Input(all) => {
+            let bare = |e: InputError| match e.file.as_deref() {
+                Some(file) if Some(file) != none => e,
+                _ if written => InputError { file: None, ..e },
+                _ => InputError { file: None, line: None, column: None, ..e },
             };
             Raised::Input(all.into_iter().map(bare).collect())
         }
@@ -60,7 +63,7 @@ impl Case {
     /// Reads a file.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Ok(py.detach(|| Case::valid(case::read(&path)?, true))?)
+        Ok(py.detach(|| Case::valid(case::read(&path)?, true, true))?)
     }
 
     /// Reads a text; `file` is named in errors and is what paths of records are relative to. `written` says that a user wrote it.
@@ -68,8 +71,9 @@ impl Case {
     fn parse(py: Python<'_>, text: &str, is_json: bool, file: Option<PathBuf>, written: bool) -> PyResult<Self> {
         let syntax = if is_json { Syntax::Json } else { Syntax::Toml };
         let read = || {
-            let file = case::from_str(text, syntax, file.as_deref()).map_err(|e| placed(e.into(), written))?;
-            Case::valid(file, written)
+            let file = case::from_str(text, syntax, file.as_deref())
+                .map_err(|e| placed(e.into(), written, file.as_deref()))?;
+            Case::valid(file, written, false)
         };
         Ok(py.detach(read)?)
     }
@@ -79,18 +83,18 @@ impl Case {
     fn example(name: &str) -> PyResult<Option<Self>> {
         let Some(text) = examples::text(name) else { return Ok(None) };
         let file = case::from_str(text, Syntax::Toml, None).map_err(Raised::from)?;
-        Ok(Some(Case::valid(file, true)?))
+        Ok(Some(Case::valid(file, true, false)?))
     }
 
     /// The same wall with other values: a JSON object of key paths and what stands there instead.
     fn changed(&self, py: Python<'_>, changes: &str) -> PyResult<Self> {
         let Value::Object(changes) = json::of_text(changes)? else {
-            return Ok(Case { file: self.file.clone(), written: self.written });
+            return Ok(Case { file: self.file.clone(), written: self.written, read: self.read });
         };
         let changes: Vec<(String, Value)> = changes.into_iter().collect();
         let changed = || {
             let file = self.file.changed(&changes).map_err(|e| self.raised(e))?;
-            Case::valid(file, self.written)
+            Case::valid(file, self.written, self.read)
         };
         Ok(py.detach(changed)?)
     }
@@ -133,7 +137,7 @@ impl Case {
     /// The file that it was read from.
     #[getter]
     fn path(&self) -> Option<&Path> {
-        self.file.path()
+        self.file.path().filter(|_| self.read)
     }
 
     /// The folder that paths of records are relative to.

@@ -6,7 +6,7 @@ use concio::run::Control;
 use concio_study::runner::{Deliver, Progress};
 use concio_study::store::{line_of, parsed};
 use concio_study::{Task, drive};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
 use crate::failure::Raised;
@@ -101,6 +101,9 @@ pub fn task_work(py: Python<'_>, task: &str, threads: usize) -> PyResult<Vec<Str
             rows.iter().map(|row| line_of(row).map_err(|e| Raised::Other(e.to_string()))).collect()
         })
     });
+    if watch.interrupted {
+        return Err(PyKeyboardInterrupt::new_err(()));
+    }
     if let Some(error) = watch.error {
         return Err(error);
     }

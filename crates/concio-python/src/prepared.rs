@@ -97,15 +97,15 @@ impl Prepared {
     }
 
     /// A run to be taken step by step.
-    fn simulation(&self) -> PyResult<Simulation> {
-        Ok(Simulation::begin(&self.prepared)?)
+    fn simulation(&self, py: Python<'_>) -> PyResult<Simulation> {
+        Ok(py.detach(|| Simulation::begin(&self.prepared))?)
     }
 }
 
 impl Prepared {
     /// What became of its run.
     pub fn ended(&self, py: Python<'_>, outcome: Outcome, seconds: f64, interrupted: bool) -> PyResult<Run> {
-        let summary = run::summary(&self.prepared, &outcome, seconds, None);
+        let summary = py.detach(|| run::summary(&self.prepared, &outcome, seconds, None));
         let stored = StoredRun {
             schema_version: SCHEMA_VERSION,
             provenance: self.prepared.provenance(),

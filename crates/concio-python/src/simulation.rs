@@ -117,6 +117,8 @@ impl Simulation {
                 match told.recv_timeout(BETWEEN_LOOKS) {
                     Ok(told) => {
                         *locked(&self.standing) = told.standing.clone();
+                        // Before another caller asks.
+                        self.stopped.store(false, Ordering::Relaxed);
                         return Ok(told);
                     }
                     Err(RecvTimeoutError::Timeout) => {
@@ -128,7 +130,6 @@ impl Simulation {
                 }
             }
         });
-        self.stopped.store(false, Ordering::Relaxed);
         if watch.interrupted {
             return Err(pyo3::exceptions::PyKeyboardInterrupt::new_err(()));
         }

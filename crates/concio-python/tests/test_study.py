@@ -4,6 +4,7 @@ import os
 import signal
 import threading
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -234,3 +235,44 @@ def test_what_salib_has_no_words_for(shear: Wall) -> None:
         assert caught.value.key == key
         with pytest.raises(InputError):
             study.at([[0.5]])
+
+
+def test_a_study_writes_over_no_file_of_another(tmp_path: Path, shear: Wall) -> None:
+    (tmp_path / "study.json").write_text("{}")
+    with pytest.raises(InputError, match="no study was run"):
+        Study(shear, {"joint.friction.static": [0.5, 0.6]}).run(tmp_path)
+    assert (tmp_path / "study.json").read_text() == "{}" and not (tmp_path / "wall.json").exists()
+
+
+def test_motions_are_records_and_paths_of_records(tmp_path: Path, quake_file: Path) -> None:
+    (tmp_path / "wall.toml").write_text(SHEAR)
+    wall = Wall.from_toml(tmp_path / "wall.toml")
+    motions: list[Any] = [{"record": quake_file.name}, quake_file, Record.read(quake_file)]
+    for number, motion in enumerate(motions):
+        rows = Study(wall, motions={"A": motion}, scales=[0.5]).run(tmp_path / str(number))
+        assert rows.done and len(rows) == 1
+
+
+def test_a_refused_study_leaves_its_folder_as_it_was(tmp_path: Path, shear: Wall) -> None:
+    def study(runs: int) -> Study:
+        return Study(shear, {"joint.friction.static": Uniform(0.5, 0.6)}, design="random", runs=runs)
+
+    assert study(2).run(tmp_path / "good").done
+    before = (tmp_path / "good/study.json").read_text()
+    for folder in ("good", "new"):
+        with pytest.raises(InputError):
+            study(0).run(tmp_path / folder)
+    assert (tmp_path / "good/study.json").read_text() == before and not list((tmp_path / "new").glob("*.json"))
+
+
+def test_tables_are_those_of_their_rows(tmp_path: Path, shear: Wall) -> None:
+    asked: dict[str, Any] = {"sensitivity": {"of": ["peak_displacement"]}, "design": "latin-hypercube", "runs": 6}
+    first = Study(shear, {"joint.friction.static": Uniform(0.5, 0.6)}, **asked).run(tmp_path)
+    Study(shear, {"joint.damping_ratio": Uniform(0.02, 0.1)}, **asked).run(tmp_path)
+    with pytest.raises(InputError, match="another study"):
+        first.tables["sensitivity"]
+
+
+def test_bounds_without_a_unit_are_refused(shear: Wall) -> None:
+    with pytest.raises(InputError, match="'20' has no unit"):
+        Study(shear, {"load.top": Uniform("20", "60 kN/m")})

@@ -218,3 +218,16 @@ def test_the_command_tells_what_is_wrong_by_its_status(command, tmp_path: Path) 
     assert command("run", tmp_path / "none.toml").returncode == 2
     assert command("rnu").returncode == 2
     assert "Usage" in command("run", "--help").stdout
+
+
+def test_a_rocking_wall_is_followed_beyond_its_record(quake: Record) -> None:
+    wall = Wall.example("rocking-facade")
+    assert wall._moved(quake).duration == pytest.approx(quake.duration + 60)
+    assert wall._moved(quake, 2.0).duration == pytest.approx(2.0)
+
+
+def test_what_is_wrong_in_dicts_has_no_file(tmp_path: Path) -> None:
+    with pytest.raises(InputError) as caught:
+        Wall.from_dict({"model": "planar", "panel": []}, folder=tmp_path)
+    assert caught.value.file is None and caught.value.line is None and caught.value.key is not None
+    assert Wall.from_str(PLANAR, folder=tmp_path).path is None

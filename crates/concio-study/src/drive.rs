@@ -35,7 +35,7 @@ pub fn complete<'a>(
         return analysis.ask(&mut Runner::open(folder, &study.keep, hands, watch)?, &|_| true);
     }
     let cases = (0..plan.points.len()).map(|number| plan.case(number)).collect::<Result<Vec<_>>>()?;
-    has_meaning(plan, &cases)?;
+    check_questions(plan, &cases)?;
     let mut runner = Runner::open(folder, &study.keep, hands, watch)?;
     let Some(rows) = runner.rows(&cases)? else { return Ok(Control::Stop) };
     if study.interfaces.is_none() {
@@ -48,11 +48,11 @@ pub fn complete<'a>(
     Ok(ended(&answer::answer(plan, &question, &rows, &mut runner)?))
 }
 
-/// Says whether what is asked of the runs of a design has a meaning, before any is made.
+/// Looks whether what is asked of the runs of a design has a meaning, before any is made.
 ///
 /// # Errors
 /// Thresholds, groups and joints of crack lines and rankings that these runs cannot have.
-pub fn has_meaning<'a>(plan: &Plan, cases: impl IntoIterator<Item = &'a Case>) -> Result<()> {
+pub fn check_questions<'a>(plan: &Plan, cases: impl IntoIterator<Item = &'a Case>) -> Result<()> {
     let study = &plan.file.study;
     if let Some(cracks) = &study.cracks {
         cracks.check(plan)?;

@@ -574,7 +574,7 @@ fn refuse_spectra_above(given: &OutOfPlane, wall: &Wall) -> Result<()> {
     };
     let what = format!("{} lies above the building", own.z);
     let error = InputError::new(what).key(format!("out_of_plane.floor_spectrum[{i}].z"));
-    let error = error.allowed(format!("up to {} m, its height", shown(rounded(roof))));
+    let error = error.allowed(format!("up to {} m, half a metre above its top", shown(rounded(roof + NEAR))));
     Err(error.help("out_of_plane.building.height says how high the building is").into())
 }
 

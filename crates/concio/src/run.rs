@@ -110,7 +110,7 @@ fn named(file: &CaseFile, error: Error) -> Error {
     Error::Input(error)
 }
 
-/// [`prepare`] with a motion of the base that no file gives, over `motion.duration`. Results know it by [`Prepared::inputs_hash`] alone: keep the
+/// [`prepare`] with a motion of the base that no file gives, over `motion.duration`, or as long as it is. Results know it by [`Prepared::inputs_hash`] alone: keep the
 /// motion beside them.
 ///
 /// # Errors
@@ -123,7 +123,7 @@ pub fn prepare_moved(file: &CaseFile, base: GroundMotion) -> Result<Prepared> {
         let error = InputError::new("the motion is given beside the wall file").key(format!("motion.{name}"));
         return Err(file.locate(error.allowed("none").into()));
     }
-    let duration = case.motion.duration.map_or(0.0, |duration| duration.si());
+    let duration = case.motion.duration.map(|duration| duration.si()).or(base.end()).unwrap_or(0.0);
     let inputs_hash = hash(&[canonical_json(&case).into_bytes(), format!("{base:?}").into_bytes()]);
     let excitation = Excitation::of_base(base, duration);
     let parts = pattern::lay(&case).and_then(|wall| Ok((wall, sampling(&case, &excitation)?)));

@@ -95,7 +95,7 @@ fn cases(plan: &Plan) -> Result<Vec<(String, Case)>> {
     // The first that is wrong is told, whatever thread comes to it first.
     let cases: Vec<(String, Case)> =
         numbers.into_par_iter().map(one).collect::<Vec<_>>().into_iter().collect::<Result<_>>()?;
-    drive::has_meaning(plan, cases.iter().map(|(_, case)| case))?;
+    drive::check_questions(plan, cases.iter().map(|(_, case)| case))?;
     Ok(cases)
 }
 

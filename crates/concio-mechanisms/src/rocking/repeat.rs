@@ -49,11 +49,16 @@ impl Repeated {
     pub fn chance(&self) -> Option<String> {
         let [fell, runs] = self.fell;
         (self.verdict == Verdict::Chance).then(|| {
-            let peaks = self.peaks.map_or(String::new(), |[low, high]| {
-                format!("; the peaks of the others range from {low:.4} to {high:.4} rad")
-            });
+            let stand = |whose: &str| {
+                let told = |[low, high]: [f64; 2]| format!("; {whose} peaks range from {low:.4} to {high:.4} rad");
+                self.peaks.map_or(String::new(), told)
+            };
+            let found = match fell {
+                0 => format!("none of {runs} runs falls{}", stand("their")),
+                fell => format!("{fell} of {runs} runs fall{}", stand("the others'")),
+            };
             format!(
-                "the run is a matter of chance: within a thousandth of the record {fell} of {runs} runs fall{peaks}. State that, not a peak"
+                "the run is a matter of chance: of runs under 0.999 to 1.001 times the motion and one with half the step {found}. State that, not a peak"
             )
         })
     }

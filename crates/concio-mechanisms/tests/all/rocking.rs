@@ -630,7 +630,7 @@ fn chance_is_told() {
     assert_eq!(threshold.verdict, Verdict::Chance);
     assert!(!threshold.response.stop.fell() && threshold.fell[0] > 0, "{:?}", threshold.fell);
     let doubts = threshold.doubts();
-    assert!(doubts.iter().any(|doubt| doubt.starts_with("the run is a matter of chance: within")), "{doubts:?}");
+    assert!(doubts.iter().any(|doubt| doubt.starts_with("the run is a matter of chance: of runs under")), "{doubts:?}");
 }
 
 /// Wrong numbers are named with their bound.

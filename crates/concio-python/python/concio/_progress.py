@@ -26,7 +26,6 @@ def shown(progress: bool | Callable[[float], object]) -> Iterator[Callable[[floa
                 bar.update(100.0 * share - bar.n)
 
             yield told
-            told(1.0)
     else:
         yield lambda share: print(f"\r{100 * share:3.0f} %", end="", file=sys.stderr, flush=True)
         print("\r     \r", end="", file=sys.stderr, flush=True)

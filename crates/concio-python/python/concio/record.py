@@ -179,7 +179,7 @@ class Record:
         file of its own first. A displacement history is written as such; ``quantity="displacement"`` reads it again.
 
         Raises:
-            InputError: A file of that name that was not written by this function.
+            InputError: A file of that name that holds something else: runs read records again.
 
         Example:
             >>> import concio, os, tempfile
@@ -189,18 +189,19 @@ class Record:
             ('text', 2.0)
         """
         out = os.path.abspath(path)
-        if os.path.exists(out):
-            with open(out, "rb") as file:
-                ours = file.readline().strip() == _WRITTEN.encode()
-            if not ours:
-                raise InputError(
-                    "the file is there already, and is no record written here", file=out, help="another name"
-                )
         displaced = self.facts["units"].strip().lower() in _LENGTHS
         quantity, unit = ("displacement", "m") if displaced else ("acceleration", "m/s2")
         values = self.displacement if displaced else self.acceleration
         lines = [_WRITTEN, f"# dt = {self.dt!r} s", f"# {quantity} [{unit}]", *map(repr, values.tolist())]
-        write(out, "\n".join(lines) + "\n")
+        text = "\n".join(lines) + "\n"
+        if os.path.exists(out):
+            with open(out, "rb") as file:
+                if file.read() != text.encode():
+                    raise InputError(
+                        "the file is there already, and holds something else", file=out, help="another name"
+                    )
+        else:
+            write(out, text)
         return Record.read(out, quantity=quantity if displaced else None)
 
     @property

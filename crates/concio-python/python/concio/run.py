@@ -75,9 +75,13 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         True
     """
 
-    def __init__(self, native: _native.Run, beside: bool = False) -> None:
-        """Made by :meth:`concio.Wall.run`, :func:`concio.run_many` and :func:`concio.open`; ``beside``, whether no file gives its motion."""
+    def __init__(self, native: _native.Run, beside: bool = False, folder: str | None = None) -> None:
+        """Made by :meth:`concio.Wall.run`, :func:`concio.run_many` and :func:`concio.open`.
+
+        ``beside`` says whether no file gives its motion, ``folder`` where paths of its records begin.
+        """
         self._native = native
+        self._folder = folder
         self._beside = beside
         self._channels = MappingProxyType({name: Channel(name, *rest) for name, *rest in native.channels()})
         self._places = {name: place for place, name in enumerate(self._channels)}
@@ -189,7 +193,8 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         """The wall that was run, as results keep it."""
         from .wall import Wall
 
-        return Wall(_native.Case.parse(self._native.case, True, None, False))
+        place = None if self._folder is None else os.path.join(self._folder, "wall.json")
+        return Wall(_native.Case.parse(self._native.case, True, place, False))
 
     @property
     def blocks(self) -> Table:
@@ -313,7 +318,7 @@ def run_many(
 
     if threads < 0:
         raise InputError(f"is {threads}", key="threads", allowed="from 0; 0 is one per core")
-    prepared, beside = [], []
+    prepared, beside, folders = [], [], []
     for number, asked in enumerate(runs):
         wall, base = (asked, None) if isinstance(asked, Wall) else asked
         if not isinstance(wall, Wall):
@@ -322,13 +327,14 @@ def run_many(
             )
         prepared.append(wall._moved(base))
         beside.append(wall._beside(base))
+        folders.append(str(wall._case.folder))
     with shown(progress) as told:
         ended, interrupted = _native.run_many(prepared, threads, told)
     if interrupted:
         warnings.warn(
             f"the runs were stopped: {ended.count(None)} that had not begun are left out", RuntimeWarning, stacklevel=2
         )
-    return [Run(run, its) for run, its in zip(ended, beside, strict=True) if run is not None]
+    return [Run(run, its, folder) for run, its, folder in zip(ended, beside, folders, strict=True) if run is not None]
 
 
 def _refuse_a_file(folder: str | os.PathLike[str]) -> None:

@@ -114,6 +114,7 @@ class Rows(Table):
         super().__init__(columns, units)
         self.done = done
         self._study = study
+        self._asked = None if study is None else _text(study[0])
 
     @cached_property
     def tables(self) -> Mapping[str, Table]:
@@ -123,7 +124,11 @@ class Rows(Table):
 
         Raises:
             RuntimeError: The report cannot be written; standard error says why.
+            InputError: Another study was run in the folder since.
         """
+        if self._study is not None and _text(self._study[0]) != self._asked:
+            what = "another study was run in the folder since: these rows have no tables any more"
+            raise InputError(what, file=self._study[0], help="run this study again, in a folder of its own")
         return MappingProxyType({} if self._study is None else _report(*self._study))
 
 
@@ -204,7 +209,7 @@ class Study:
         if factors:
             study["vary"] = [_vary(path, over) for path, over in factors.items()]
         if motions:
-            study["motion"] = [{"name": name, **_motion(name, base)} for name, base in motions.items()]
+            study["motion"] = [{"name": name, **_motion(name, base, wall)} for name, base in motions.items()]
         if scales:
             study["scales"] = plain(list(scales), "scales")
         study["keep"] = {"joints": list(keep), "results": results}
@@ -259,20 +264,35 @@ class Study:
         """
         if threads < 0:
             raise InputError(f"is {threads}", key="threads", allowed="from 0; 0 is one per core")
-        out = os.fspath(folder)
+        if runs_per_task < 1:
+            raise InputError(f"is {runs_per_task}", key="runs_per_task", allowed="from 1")
+        out = os.path.abspath(folder)
         if os.path.exists(out) and not os.path.isdir(out):
             raise InputError("the folder for the results is a file", file=out, help="give another folder")
         file = self._file
+        before: dict[str, str | None] = {}
         if file is None:
             os.makedirs(out, exist_ok=True)
             for name, text in (self._texts or {}).items():
+                _refuse_another(os.path.join(out, name), text)
+            before = {name: _text(os.path.join(out, name)) for name in self._texts or {}}
+            for name, text in (self._texts or {}).items():
                 write(os.path.join(out, name), text)
             file = os.path.join(out, _STUDY)
-        if runs_per_task < 1:
-            raise InputError(f"is {runs_per_task}", key="runs_per_task", allowed="from 1")
+        if executor is not None and hasattr(executor, "get_executor"):
+            executor = executor.get_executor()  # of Dask: the client itself
         given = None if executor is None else partial(rows, executor)
-        with shown(progress) as told:
-            columns, done = _native.study_run(file, out, threads, told, given, runs_per_task)
+        try:
+            with shown(progress) as told:
+                columns, done = _native.study_run(file, out, threads, told, given, runs_per_task)
+        except InputError:
+            # A study that is refused leaves its folder as it was.
+            for name, earlier in before.items():
+                if earlier is None:
+                    os.remove(os.path.join(out, name))
+                else:
+                    write(os.path.join(out, name), earlier)
+            raise
         if not done:
             warnings.warn("the study was stopped; the same call goes on", RuntimeWarning, stacklevel=2)
         if columns is None:
@@ -462,6 +482,9 @@ def _cell(text: str) -> Any:
 def _vary(path: str, over: Any) -> dict[str, Any]:
     if hasattr(over, "_distribution"):
         given = over._distribution()
+        for word in given.values():
+            if isinstance(word, str) and re.fullmatch(r"[\s\d.eE+-]*\d[\s\d.eE+-]*", word):
+                raise InputError(f"{word!r} has no unit", key=path, allowed="numbers in SI, texts with units")
         return {"path": path, "distribution": {key: value for key, value in given.items() if value is not None}}
     if isinstance(over, Mapping):
         return {"name" if "choices" in over else "path": path, **plain(over, path)}
@@ -471,10 +494,34 @@ def _vary(path: str, over: Any) -> dict[str, Any]:
     return {"path": path, "values": list(over)}
 
 
-def _motion(name: str, base: Any) -> dict[str, Any]:
+def _motion(name: str, base: Any, wall: Wall) -> dict[str, Any]:
+    if isinstance(base, Mapping) and isinstance(base.get("record"), str | os.PathLike):
+        return {"base": {**base, "record": os.path.join(os.path.abspath(wall._case.folder), base["record"])}}
+    if isinstance(base, str | os.PathLike) and base != "none":
+        base = Record.read(base)
     if not isinstance(base, Record):
         return {"base": base}
-    return {"base": base.in_words("", name), "duration": base.duration}
+    words = {"base": base.in_words("", name)}
+    # A rocking wall is followed until it rests, unless its file says how long.
+    return words if wall.model == "rocking" else {**words, "duration": base.duration}
+
+
+def _text(path: str) -> str | None:
+    """What a file says; nothing where there is none."""
+    if not os.path.exists(path):
+        return None
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def _refuse_another(path: str, text: str) -> None:
+    """Refuses to write over a file that is not of a study in this folder: there it stands beside ``runs``."""
+    if not os.path.exists(path) or os.path.isdir(os.path.join(os.path.dirname(path), "runs")):
+        return
+    with open(path, "rb") as file:
+        if file.read() != text.encode():
+            what = "the file is there already, and no study was run in its folder"
+            raise InputError(what, file=path, help="another folder for the study")
 
 
 def _numbers(cells: list[Any]) -> list[Any]:

@@ -31,6 +31,10 @@ Progress: TypeAlias = bool | Callable[[float], object]
 """Whether a bar is shown, or what is called with the share of the work that is done, 0 … 1."""
 
 
+_HARDLY_SI = 1.47  # m/s², 0.15 g: a peak below it is rather a multiple of g
+_TAIL = 60.0  # s that a rocking wall is followed beyond its motion at most
+
+
 class Doubt(NamedTuple):
     """Something in a wall file that is allowed and hardly meant."""
 
@@ -211,7 +215,7 @@ class Wall:
 
     @property
     def model(self) -> str:
-        """``shear`` or ``planar``."""
+        """``shear``, ``planar`` or ``rocking``."""
         return str(self.settings["model"])
 
     @property
@@ -250,8 +254,9 @@ class Wall:
             words = base._native.words(self._case.folder)
             beside = base._native if words is None else None
             changes["motion.base"] = "none" if words is None else json.loads(words)
-            if duration is None:
-                duration = base.duration
+            # A rocking wall is followed beyond its motion, as a file without a duration has it.
+            if duration is None and (beside or self.model != "rocking"):
+                duration = base.duration + (_TAIL if self.model == "rocking" else 0.0)
         elif base is not None:
             changes["motion.base"] = base
         if duration is not None:
@@ -282,7 +287,7 @@ class Wall:
         prepared = self._moved(base, duration)
         with shown(progress) as told:
             native = prepared.run(told)
-        run = Run(native, self._beside(base))
+        run = Run(native, self._beside(base), str(self._case.folder))
         if native.interrupted:
             warnings.warn(f"the run was stopped at t = {run.time_reached:g} s", RuntimeWarning, stacklevel=2)
         return run
@@ -353,6 +358,9 @@ class Wall:
         Raises:
             InputError: A wall without what the mechanisms need, a record that cannot be read.
         """
+        if isinstance(pga, int | float) and abs(pga) < _HARDLY_SI:
+            what = f"pga = {pga} m/s² is {pga / 9.81:.3f} g; did you mean '{pga} g'?"
+            warnings.warn(what, RuntimeWarning, stacklevel=2)
         options = _options(overlaps=overlaps, record=record, pga=pga, scale=scale, vertical=vertical, shaken=shaken)
         options += _options(all=every, restitution=restitution)
         return Mechanisms(self._case.answer(["mechanisms", *options]))

@@ -352,7 +352,7 @@ pub struct Hazard {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Building {
-    /// H [m], above 0, from the wall's top on.
+    /// H [m], no less than the height of the wall.
     pub height: Length,
     /// Number of storeys, 1 … 100.
     #[schemars(range(min = 1, max = 100))]

@@ -170,6 +170,9 @@ const PULL: Expected =
 /// Forces at which devices yield or slip: from a clip of some newtons to a damper of a bridge.
 const DEVICE_FORCE: Expected =
     Expected { limits: [5.0, 1e7], usual: [50.0, 1e6], unit: "N", slips: &[(1e3, "kN", 1e3), (1e-3, "N", 1.0)] };
+/// What pulls a block: a jack in a laboratory to a rope at a façade.
+const BLOCK_PULL: Expected =
+    Expected { limits: [10.0, 1e7], usual: [100.0, 1e6], unit: "N", slips: &[(1e3, "kN", 1e3), (1e-3, "kN", 1e3)] };
 /// How far devices go until they yield.
 const DEVICE_YIELD: Expected =
     Expected { limits: [1e-7, 0.05], usual: [1e-6, 0.02], unit: "m", slips: &[FROM_MM, FROM_CM] };
@@ -192,6 +195,7 @@ pub fn doubts(case: &Case) -> Vec<Warning> {
     for (index, tie) in case.ties.iter().enumerate() {
         doubts.look(&format!("tie[{index}].stiffness"), tie.stiffness.si(), &STIFFNESS);
     }
+    of_forces(&mut doubts, case);
     of_joints(&mut doubts, case);
     if case.model == ModelKind::Planar {
         of_planar(&mut doubts, case);
@@ -213,6 +217,26 @@ pub fn doubts(case: &Case) -> Vec<Warning> {
         doubts.look("solver.step", step.si(), &STEP);
     }
     doubts.0
+}
+
+fn of_forces(doubts: &mut Doubts, case: &Case) {
+    for (index, force) in case.forces.iter().enumerate() {
+        for (key, values) in [("x", &force.x), ("y", &force.y)] {
+            let largest =
+                values.iter().map(|v| v.si()).fold(0.0f64, |most, v| if v.abs() > most.abs() { v } else { most });
+            if largest != 0.0 {
+                doubts.look(&format!("force[{index}].{key}"), largest.abs(), &BLOCK_PULL);
+            }
+        }
+        let last = force.x.len().max(force.y.len()).saturating_sub(1) as f64;
+        if let (Some(every), Some(duration)) = (force.every, case.motion.duration)
+            && last * every.si() >= duration.si()
+        {
+            let text =
+                format!("force[{index}].every is {every}: the run of {duration} ends before its last value acts");
+            doubts.add(WarningKind::UnlikelyNumber, text);
+        }
+    }
 }
 
 fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane, case: &Case) {

@@ -76,7 +76,11 @@ impl CaseFile {
     }
     /// Line from 1 of what a doubt begins with the key of ([`plausible::doubts`]); none for other sentences.
     pub fn line_of(&self, doubt: &str) -> Option<usize> {
-        let key = doubt.split(' ').next().filter(|word| word.contains('.') && !word.ends_with('.'))?;
+        let key = doubt
+            .split(' ')
+            .next()
+            .map(|word| word.trim_end_matches(':'))
+            .filter(|word| word.contains('.') && !word.ends_with('.'))?;
         super::describe(key)?;
         self.place(InputError::new("").key(key)).line
     }

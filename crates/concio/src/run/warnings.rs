@@ -104,7 +104,8 @@ fn of_rocking(wall: &Rocking, excitation: &Excitation, outcome: &Outcome) -> Vec
         );
         add(WarningKind::BeyondD0, text);
     }
-    if matches!(outcome.stop_reason, StopReason::Completed | StopReason::Collapsed)
+    if rocking.lift_offs > 0
+        && matches!(outcome.stop_reason, StopReason::Completed | StopReason::Collapsed)
         && let Ok(repeated) = wall.compiled.repeat(&wall.shaking(excitation), &wall.setting(excitation))
         && let Some(text) = repeated.chance()
     {
@@ -143,8 +144,8 @@ fn hardly_moved(wall: &Rocking, excitation: &Excitation, outcome: &Outcome) -> O
     let sets_off = shown(rounded(wall.compiled.multiplier(), 3));
     match wall.first_lift_off(excitation).ok()? {
         None => Some(format!(
-            "the wall rests: within the run its motion never pushes it the way that lifts it off, which takes {sets_off} g. Look at its start, at `rocking.positive` \
-             and motion.duration"
+            "the wall rests: nothing in the motion within the run acts in the direction that lifts it off, which takes {sets_off} g. Look at the motion's \
+             start, at `rocking.positive` and motion.duration"
         )),
         Some(lift_off) if lift_off.scale > FAR_TOO_WEAK => Some(format!(
             "the wall rests: its motion within the run would have to be {} times as strong to lift it off, which takes {sets_off} g. Look at its unit, \

@@ -180,3 +180,18 @@ fn what_is_no_force_is_told() {
     let still = told("[[force]]\nblock = \"stone\"\nx = [1]\n[motion]\nduration = \"1 s\"\nquasi_static = true");
     assert!(still.contains("inertia"), "{still}");
 }
+
+/// Forces in another unit, and values that never act, are told.
+#[test]
+fn forces_that_are_hardly_meant_are_told() {
+    let told = |force: &str, duration: &str| {
+        let text = stone(FLAT, &format!("[[force]]\nblock = \"stone\"\n{force}\n[motion]\nduration = \"{duration}\""));
+        let texts: Vec<String> = prepared(&text).model.warnings.iter().map(|w| w.text.clone()).collect();
+        texts.join("\n")
+    };
+    assert!(told("x = [3]", "1 s").contains("did you mean \"3 kN\""), "{}", told("x = [3]", "1 s"));
+    assert!(told("x = [-3e8]", "1 s").contains("force[0].x"));
+    let slow = told("x = [2500, 3000]\nevery = 1", "0.5 s");
+    assert!(slow.contains("ends before its last value acts"), "{slow}");
+    assert_eq!(told("x = [2500, 3000]\nevery = \"1 ms\"", "0.5 s"), "");
+}

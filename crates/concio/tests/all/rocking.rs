@@ -438,7 +438,7 @@ fn slips_of_rocking_walls_are_told() {
             pulse("duration = 1").replace("0.35", "-0.35"),
             2.0,
             WarningKind::UnlikelyRecord,
-            "the wall rests: within the run its motion never pushes it the way that lifts it off, which takes 0.1 g",
+            "the wall rests: nothing in the motion within the run acts in the direction that lifts it off, which takes 0.1 g",
         ),
         (
             "synthetic = { seed = 1, pga = \"3.5 g\", duration = 12 }".into(),
