@@ -120,7 +120,9 @@ pub fn check_package(root: &Path, python: Option<&Path>) -> Outcome {
     }
     // It fetches the program it wraps when it is first called.
     if read(module("pyright").arg("--version")).is_ok() {
-        run(module("pyright").args(["--level", "error", &sources, &notebooks]))?;
+        let mut pyright = module("pyright");
+        pyright.arg("--pythonpath").arg(python);
+        run(pyright.args(["--level", "error", &sources, &notebooks]))?;
     } else {
         crate::command::skip("pyright (it cannot be fetched here)");
     }

@@ -279,8 +279,9 @@ class Study:
             for name, text in (self._texts or {}).items():
                 write(os.path.join(out, name), text)
             file = os.path.join(out, _STUDY)
-        if executor is not None and hasattr(executor, "get_executor"):
-            executor = executor.get_executor()  # of Dask: the client itself
+        client: Any = executor
+        if hasattr(client, "get_executor"):
+            executor = client.get_executor()  # Dask's client itself was given
         given = None if executor is None else partial(rows, executor)
         try:
             with shown(progress) as told:
