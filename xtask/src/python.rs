@@ -111,7 +111,7 @@ pub fn check_package(root: &Path, python: Option<&Path>) -> Outcome {
     install.args(["install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-deps", "--force-reinstall"]);
     run(install.arg("--find-links").arg(&wheels).arg("concio"))?;
     let [sources, tests, notebooks] = ["python", "tests", "notebooks"].map(|folder| format!("{PACKAGE}/{folder}"));
-    run(module("pytest").args(["--quiet", "--doctest-modules", "--pyargs", "concio", &tests]))?;
+    run(module("pytest").args(["--quiet", "-rs", "--doctest-modules", "--pyargs", "concio", &tests]))?;
     run(module("mypy.stubtest").arg("concio"))?;
     run(module("mypy").args(["--no-error-summary", &format!("{sources}/concio"), &tests]))?;
     // Their names are no names of modules: one by one.

@@ -119,6 +119,18 @@ impl Facade<'_> {
 
     /// The façade over a hinge on its face, without side walls.
     fn alone(&self, hinge: f64) -> Body {
+        let mut body = self.untied(hinge);
+        let falls_at = body.falls_at();
+        for tie in self.ties.iter().filter(|t| t.level > hinge + LEVEL) {
+            let law = HoldLaw::Tie { stiffness: tie.stiffness, slack: tie.slack, breaks: tie.breaks };
+            let height = tie.level - hinge;
+            body.holds.push(Hold { force: tie.comes_to(height * falls_at.sin()), depth: 0.0, height, law });
+        }
+        body
+    }
+
+    /// The same without its ties.
+    fn untied(&self, hinge: f64) -> Body {
         let own = self.masonry.above(hinge);
         let half = 0.5 * self.masonry.thickness;
         let mut body = Body::default();
@@ -138,22 +150,12 @@ impl Facade<'_> {
                 body.holds.push(Hold { force: floor.connection, depth, height, law });
             }
         }
-        for tie in self.ties.iter().filter(|t| t.level > hinge + LEVEL) {
-            let law = HoldLaw::Tie { stiffness: tie.stiffness, slack: tie.slack, breaks: tie.breaks };
-            body.holds.push(Hold { force: self.tie(hinge, tie), depth: 0.0, height: tie.level - hinge, law });
-        }
         body
     }
 
     /// What a tie comes to [N] before the façade over a hinge would fall without ties and friction.
     pub fn tie(&self, hinge: f64, tie: &Tie) -> f64 {
-        let own = self.masonry.above(hinge);
-        let loads = self.floors.iter().filter(|f| f.level > hinge + LEVEL);
-        let (rights, tips) = loads.fold(
-            (own.weight * 0.5 * self.masonry.thickness, own.weight * (own.centroid[1] - hinge)),
-            |(rights, tips), f| (rights + f.load * f.depth, tips + f.load * (f.level - hinge)),
-        );
-        tie.comes_to((tie.level - hinge) * rights.atan2(tips).sin())
+        tie.comes_to((tie.level - hinge) * self.untied(hinge).falls_at().sin())
     }
 
     /// The same façade as if its side walls did not hold it (OP3).

@@ -198,6 +198,8 @@ struct Bodies {
     /// What pushes each block besides the wall file's forces [N, N], and whether anything pushes at all.
     pushed: Vec<[f64; 2]>,
     pushes: bool,
+    /// All that pushes each block in the step [N, N].
+    acting: Vec<[f64; 2]>,
     /// The last step, and the one before it where a sample needs it.
     last: Stride,
     past: Past,
@@ -333,6 +335,7 @@ impl Bodies {
             ties: vec![Borne { force: 0.0, stretch: 0.0, yielded: f64::INFINITY }; planar.system.ties.len()],
             pushed: vec![[0.0; 2]; model.wall.blocks.len()],
             pushes: !planar.forces.is_empty(),
+            acting: vec![[0.0; 2]; model.wall.blocks.len()],
             last: Stride::none(n, &motion.seen),
             past: Past {
                 stride: never,
@@ -465,17 +468,17 @@ impl Bodies {
 
     /// Lets what pushes the blocks at `t` [s] act on their bodies, of which some have their centre elsewhere.
     fn push(&mut self, forces: &[Pushes], t: f64) {
-        let whole = |own: [f64; 2], block: usize| {
-            let given = forces.iter().filter(|force| force.block == block).map(|force| force.at(t));
-            given.fold(own, |sum, force| [0, 1].map(|k| sum[k] + force[k]))
-        };
-        for (block, own) in self.pushed.iter().enumerate() {
-            let [x, y] = whole(*own, block);
+        self.acting.copy_from_slice(&self.pushed);
+        for force in forces {
+            let given = force.at(t);
+            let sum = &mut self.acting[force.block];
+            *sum = [0, 1].map(|k| sum[k] + given[k]);
+        }
+        for (block, &[x, y]) in self.acting.iter().enumerate() {
             self.motion.apply(block, [x, y, 0.0]);
         }
         for &(block, offset) in &self.aside {
-            let [x, y] = whole(self.pushed[block], block);
-            let lever = self.motion.places[block].turned(offset);
+            let ([x, y], lever) = (self.acting[block], self.motion.places[block].turned(offset));
             self.motion.apply(block, [x, y, lever[0] * y - lever[1] * x]);
         }
     }

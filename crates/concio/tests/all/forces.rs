@@ -8,22 +8,12 @@ use concio::run::{Prepared, prepare_case, run_in_memory};
 use concio::simulate::Simulation;
 use concio_verified::agrees;
 
-const G: f64 = 9.81;
+use crate::common::ready::{last, ready as prepared};
 
-fn prepared(text: &str) -> Prepared {
-    let file = from_str(text, Syntax::Toml, None).expect("a wall file");
-    file.validate().expect("a valid wall");
-    prepare_case(file.case, Path::new(".")).expect("a wall that stands")
-}
+const G: f64 = 9.81;
 
 fn ran(text: &str) -> Outcome {
     run_in_memory(&prepared(text)).expect("a run")
-}
-
-fn last(outcome: &Outcome, name: &str) -> f64 {
-    let width = outcome.layout.channels.len();
-    let at = outcome.layout.channels.iter().position(|c| c.name == name).expect("a channel");
-    outcome.recording.values[outcome.recording.values.len() - width + at]
 }
 
 /// A stone of 5 kN, so long and so high [m], on ground with friction 0.3; what pushes it, and other tables.

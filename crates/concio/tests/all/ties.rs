@@ -5,25 +5,15 @@ use std::path::Path;
 use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
 use concio::record::{Recording, StopReason};
-use concio::run::{Prepared, prepare_case, run_in_memory};
+use concio::run::{prepare_case, run_in_memory};
 use concio::simulate::Simulation;
 use concio::store::{self, hdf5};
 use concio_verified::agrees;
 
-fn prepared(text: &str) -> Prepared {
-    let file = from_str(text, Syntax::Toml, None).expect("a wall file");
-    file.validate().expect("a valid wall");
-    prepare_case(file.case, Path::new(".")).expect("a wall that stands")
-}
+use crate::common::ready::{last, ready as prepared};
 
 fn ran(text: &str) -> Outcome {
     run_in_memory(&prepared(text)).expect("a run")
-}
-
-fn last(outcome: &Outcome, name: &str) -> f64 {
-    let width = outcome.layout.channels.len();
-    let at = outcome.layout.channels.iter().position(|c| c.name == name).expect("a channel");
-    outcome.recording.values[outcome.recording.values.len() - width + at]
 }
 
 fn close(found: f64, expected: f64, relative: f64) {
