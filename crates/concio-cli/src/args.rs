@@ -98,7 +98,7 @@ pub struct Run {
     /// Wall file, TOML or JSON; without it the built-in example.
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: Option<PathBuf>,
-    /// Folder of the results; default concio-run/NAME, NAME being that of the wall file without its ending.
+    /// Folder of the results; default concio-run/NAME for NAME.toml.
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
     /// Start at t = 0 even if a killed run could be resumed.
@@ -108,10 +108,10 @@ pub struct Run {
 
 /// Validate a wall file and say what it describes.
 ///
-/// Lists what is wrong with the file, each with its line and the allowed range. If nothing is, prints
-/// what the wall consists of: panels, joints of each kind, mass, normal forces, and what moves it: record, scale, peak
-/// acceleration, how much of it is used. No motion is simulated. Walls of up to 2,000 blocks tell their first period, with
-/// joints intact, of planar walls with joints as they bear, and planar walls whether they stand under their loads.
+/// Lists what is wrong, with line and allowed range. If nothing is, prints what the wall consists of (panels, joints of each
+/// kind, mass, normal forces) and what moves it (record, scale, peak acceleration, the part used). Walls of up to 2,000 blocks
+/// tell their first period with joints intact, of planar walls with joints as they bear, and planar walls whether they stand
+/// under their loads. No motion is simulated.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -138,7 +138,7 @@ pub struct Check {
 Examples:
   concio new                 writes wall.toml
   concio new nave.toml
-  concio new --model shear   blocks that move to the side alone, as in the research report
+  concio new --model shear
   concio new -               prints it")]
 pub struct New {
     /// File to write; `-` for standard output.
@@ -177,8 +177,8 @@ pub struct Schema {}
 /// The format is found from the content: PEER AT2, ITACA/ESM/AFAD ASC, COSMOS V1 and V2, CSMIP V2, USGS SMC, K-NET and KiK-net
 /// in ASCII and CSV, GeoNet V1A and V2A, text of Turkey's NSMN and of Taiwan's CWB, UNAM ASA, uncorrected Volume 1 (RENADIC, USC, CSMIP,
 /// BHRC), or text: columns, after a time column or with --dt, or one component row by row. Prints peak acceleration, velocity and
-/// displacement, Arias intensity, significant duration and Housner intensity of the record as it is: no baseline is taken off,
-/// nothing is filtered. Only the offset of K-NET and KiK-net is taken off, as the archive does before it states the peak.
+/// displacement, Arias intensity, significant duration and Housner intensity of the record as it is, unfiltered. Only the offset
+/// of K-NET and KiK-net is taken off, as the archive does before it states the peak.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -207,7 +207,7 @@ pub struct Record {
     /// Sample interval of a text file without a time column that names none, in seconds or with a unit (5ms).
     #[arg(long, value_name = "TIME", value_parser = interval)]
     pub dt: Option<f64>,
-    /// How the values of a text file stand: a column for each component, or one component row by row.
+    /// How the values of a text file stand.
     #[arg(long, value_enum)]
     pub layout: Option<Layout>,
     /// What the values of a text file are.
@@ -296,7 +296,7 @@ pub struct Plot {
     /// Figure to draw; may be given several times or with commas between names.
     #[arg(long, value_name = "NAME", value_enum, value_delimiter = ',')]
     pub figure: Vec<Figures>,
-    /// Format of the files: SVG with letters as outlines, PNG, PDF.
+    /// Format of the files.
     #[arg(long, value_enum, default_value = "svg", requires = "figure")]
     pub format: Format,
     /// Folder for the figures; default DIR/figures.
@@ -402,7 +402,7 @@ impl Figure {
 /// Formats of figures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// Vectors for text processors and browsers.
+    /// Vectors for text processors and browsers; letters are outlines.
     Svg,
     /// Pixels.
     Png,
@@ -585,7 +585,7 @@ pub struct Compare {
     /// Folder of the second run.
     #[arg(required = true, value_name = "B", value_hint = ValueHint::DirPath)]
     pub b: Option<PathBuf>,
-    /// Folder of the comparison; default concio-compare/A-B, A and B being the names of the folders.
+    /// Folder of the comparison; default concio-compare/A-B, the names of both.
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
 }
@@ -606,10 +606,10 @@ pub enum Comparison {
 /// Prints the deepest interpenetration of each, and draws displacements, velocities and gaps of pairs of neighbouring
 /// blocks. Writes compare.json and the figures pair-1, pair-2, … into the folder.
 ///
-/// With --rigidity the wall is also run with no-tension springs of these rigidities: the largest difference of the
-/// displacements of the pairs from those of rigid contact, over their peak, and the power of the rigidity with which it
-/// goes, are printed and drawn (convergence). Springs give back what they take up: as they become stiffer they come to rigid
-/// contact with restitution 1. Where the motion is chaotic, differences stay as large as the motion itself.
+/// With --rigidity the wall is also run with springs of these rigidities. Printed and drawn (convergence) are the largest
+/// difference of the pairs' displacements from those of rigid contact, over their peak, and the power of the rigidity with
+/// which it goes. Stiffer springs come to rigid contact with restitution 1. Where the motion is chaotic, differences stay as
+/// large as the motion itself.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -620,7 +620,7 @@ pub struct Constrained {
     /// Wall file, TOML or JSON.
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
-    /// Folder of the results; default concio-run/NAME-constrained, NAME being that of the wall file without its ending.
+    /// Folder of the results; default concio-run/NAME-constrained for NAME.toml.
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
     /// Head joints or connections, by name, with commas between them; default the two that overlap most when free.
@@ -667,12 +667,9 @@ pub struct Scale {
 /// most --interval above. Besides, some lower scales are tried. Told are the scale, PGA, PGV and spectral accelerations there,
 /// which joint cracks and when. A record takes the place of the wall's motion and is used whole.
 ///
-/// What counts as a crack: bond, a joint reaches the strength of [joint.bond]; opening, a head joint opens by --limit; slip, the
-/// sides of a bed joint are displaced against each other by --limit. Both limits are 0.1 mm by default, the width from which cracks
-/// are seen. A study file with [first-crack] asks the same of synthetic, trimmed or reversed motions and of walls that vary.
-///
 /// Writes first-crack.csv, first-crack-runs.csv, first-crack.json, a report and its figure. Runs that the folder knows
-/// already are not done again.
+/// already are not done again. A study file with [first-crack] asks the same of synthetic, trimmed or reversed motions and of
+/// walls that vary.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -690,7 +687,7 @@ pub struct FirstCrack {
     /// What counts as a crack.
     #[arg(long, value_enum, default_value = "bond")]
     pub criterion: CrackCriterion,
-    /// Limit of opening or slip, such as 0.3mm; default 0.1mm.
+    /// Limit of opening or slip, such as 0.3mm; default 0.1mm, from which cracks are seen.
     #[arg(long, value_name = "LENGTH", value_parser = limit)]
     pub limit: Option<f64>,
     /// Largest relative distance of the two scales around the crack, 1e-5 to 1.
@@ -705,7 +702,7 @@ pub struct FirstCrack {
     /// Threads; default one per core.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Folder of the results; default concio-first-crack/NAME, NAME being that of the wall file without its ending.
+    /// Folder of the results; default concio-first-crack/NAME for NAME.toml.
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
 }
@@ -713,11 +710,11 @@ pub struct FirstCrack {
 /// What counts as a crack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum CrackCriterion {
-    /// A joint reaches its strength
+    /// A joint reaches the strength of [joint.bond]
     Bond,
-    /// A head joint or connection opens
+    /// A head joint or connection opens by --limit
     Opening,
-    /// A bed or support joint is displaced along itself; elastic deformation counts
+    /// The sides of a bed or support joint are displaced by --limit; elastic deformation counts
     Slip,
 }
 
@@ -735,8 +732,7 @@ pub enum CrackCriterion {
 /// value without friction at head joints, the estimate without dilation, the closed form of a wall that turns as one, and
 /// whether the multipliers of `concio mechanisms` are high or low.
 ///
-/// With --out, limit.json (bounds, forces, mechanism) and mechanism.svg are written. Exit status 1 if the bounds are more than
-/// 1e-4 of λ apart.
+/// Exit status 1 if the bounds are more than 1e-4 of λ apart.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -773,7 +769,7 @@ pub struct Limit {
     /// Print JSON (SI units).
     #[arg(long)]
     pub json: bool,
-    /// Write limit.json and mechanism.svg into this folder.
+    /// Write limit.json (bounds, forces, mechanism) and mechanism.svg into this folder.
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
 }
@@ -853,7 +849,7 @@ pub struct TimeHistory {
     /// Sample interval of text files without a time column that name none, in seconds or with a unit (5ms).
     #[arg(long, value_name = "TIME", value_parser = interval, requires = "record")]
     pub dt: Option<f64>,
-    /// How the values of text files stand: a column for each component, or one component row by row.
+    /// How the values of text files stand.
     #[arg(long, value_enum, requires = "record")]
     pub layout: Option<Layout>,
     /// Velocity after an impact over that before, 0 to 1; default by formula. It is chosen, not known: try others.
@@ -907,8 +903,7 @@ pub enum HeadFriction {
 /// the continuum is off at the panel's number of courses. Bonds that repeat have closed forms or are solved as a cell. Of
 /// irregular ones three windows are tested, which gives a mean and a scatter. docs/continuum.md has equations and limits.
 ///
-/// With --card the card of one panel is printed and nothing else: json, which reads back to the same numbers; lamina and shell
-/// (Abaqus), engineering (Abaqus, CalculiX), opensees (Tcl).
+/// With --card the card of one panel is printed and nothing else.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -926,7 +921,7 @@ pub struct Continuum {
     /// Name of a panel; default all.
     #[arg(long, value_name = "NAME")]
     pub panel: Option<String>,
-    /// Head joints as the file says, those that part freely closed; or all open.
+    /// What head joints hold.
     #[arg(long, value_enum, default_value = "closed")]
     pub heads: ContinuumHeads,
     /// Take the courses that an irregular panel lists as a cell that repeats along the wall and upwards.
@@ -967,23 +962,23 @@ pub enum ContinuumHeads {
 /// Cards of finite element programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum CardFormat {
-    /// Everything, for scripts
+    /// Everything, for scripts; reads back to the same numbers
     Json,
-    /// *ELASTIC, TYPE=LAMINA
+    /// Abaqus: *ELASTIC, TYPE=LAMINA
     Lamina,
-    /// *ELASTIC, TYPE=ENGINEERING CONSTANTS
+    /// Abaqus, CalculiX: *ELASTIC, TYPE=ENGINEERING CONSTANTS
     Engineering,
-    /// *SHELL GENERAL SECTION, A and D apart
+    /// Abaqus: *SHELL GENERAL SECTION, A and D apart
     Shell,
-    /// nDMaterial ElasticOrthotropic
+    /// Tcl: nDMaterial ElasticOrthotropic
     Opensees,
 }
 
 /// Do many runs, and answer what they answer together.
 ///
 /// A study file names a wall file and says what varies, in which combinations, what is kept and what is asked. Every run
-/// is known by a hash of all that its result depends on; what the folder of the study knows already is not run again. So a
-/// study that was stopped or killed goes on with the same command, and one that grows runs what is new.
+/// is known by a hash of all that its result depends on, and not done again if the folder of the study has it. So a study that
+/// was stopped or killed goes on with the same command, and one that grows runs what is new.
 #[derive(Debug, Args)]
 pub struct Study {
     /// What is done.
@@ -999,6 +994,7 @@ pub enum StudyCommand {
     Plan(StudyPlan),
     Work(StudyWork),
     /// Go on with a study that was begun; as `run`, but a folder without runs is an error.
+    #[command(after_help = "Example:\n  concio study resume friction.toml")]
     Resume(StudyRun),
     /// Tell how many runs a study has and what became of them.
     Status(StudyPlace),
@@ -1099,7 +1095,7 @@ pub struct StudyPlace {
     /// Study file, TOML or JSON.
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
-    /// Folder of the study; default concio-study/NAME, NAME being that of the study file without its ending.
+    /// Folder of the study; default concio-study/NAME for NAME.toml.
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
 }

@@ -16,7 +16,8 @@ use concio_cli::files;
 /// Prints the reference.
 pub fn reference() -> Result<(), Failure> {
     let mut text = String::from(
-        "# Command line\n\nMade from the program by `cargo xtask docs`; `concio COMMAND --help` prints the same.\n",
+        "# Command line\n\nMade from the program by `cargo xtask docs`; `concio COMMAND --help` prints the same. Every command has\n\
+         `--help` and `--version`.\n",
     );
     // The width of the terminal must not show in a file.
     let mut command = Cli::command().term_width(100);
@@ -75,8 +76,15 @@ fn sections(text: &mut String, name: &str, command: &clap::Command) {
     }
 }
 
+/// What every command has is told of the program alone.
+const SHARED: [&str; 2] = ["help", "version"];
+
 fn section(text: &mut String, name: &str, command: &clap::Command) {
-    let help = command.clone().term_width(100).render_long_help().to_string();
+    let mut command = command.clone().term_width(100);
+    if command.get_name() != name {
+        command = command.mut_args(|a| if SHARED.contains(&a.get_id().as_str()) { a.hide(true) } else { a });
+    }
+    let help = command.render_long_help().to_string();
     let help: Vec<&str> = help.lines().map(str::trim_end).collect();
     text.push_str(&format!("\n## {name}\n\n```text\n{}\n```\n", help.join("\n").trim_end()));
 }
