@@ -184,8 +184,6 @@ pub struct Schema {}
 Examples:
   concio record quake.AT2
   concio record station.V2 --channel 3 --svg ch3.svg
-  concio record station.V2A --channel N00E
-  concio record shaking.txt --dt 0.005 --units cm/s2
   concio record shaking.txt --dt 5ms --units gal --layout rows
   concio record quake.AT2 --json                        also the 5 % response spectrum")]
 pub struct Record {
@@ -728,8 +726,7 @@ pub enum CrackCriterion {
 /// Forces in balance prove a lower bound of λ, a mechanism an upper one, both printed. docs/limit-analysis.md says how.
 ///
 /// With --out-of-plane the wall is pushed across its plane, block by block in space: extruded by its thickness, its base wide
-/// and fixed. Floors, ties, side walls and gable of the table `out_of_plane` stand and pull behind it. Told beside λ are its
-/// value without friction at head joints, the estimate without dilation, the closed form of a wall that turns as one, and
+/// and fixed. Floors, ties, side walls and gable of the table `out_of_plane` stand and pull behind it. Told beside λ is
 /// whether the multipliers of `concio mechanisms` are high or low.
 ///
 /// Exit status 1 if the bounds are more than 1e-4 of λ apart.
@@ -782,8 +779,8 @@ pub struct Limit {
 /// site. Floors, ties, side walls and site stand in the table `out_of_plane` of the wall file; what it lacks is told with what
 /// is assumed. Blocks are rigid and multipliers are upper bounds in the class of their mechanism.
 ///
-/// With a record, the least mechanism of each kind (with --all every one) is followed through it, once with each sign: how far it turns, whether it falls,
-/// and whether that is a matter of chance, for a thousandth more or less of the record may decide it.
+/// With a record, the least mechanism of each kind is followed through it, once with each sign: how far it turns, whether it
+/// falls, and whether that is a matter of chance, for a thousandth more or less of the record may decide it.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -1027,8 +1024,7 @@ pub struct StudyCheck {
 ///
 /// Runs go side by side on all cores. Each is written to disk as it ends: whatever stops the program, what was computed
 /// is kept. With --shard several processes, on one machine or many with a common folder, do one study together. When all
-/// runs are there, the tables are written: runs.csv and runs.parquet, and joints.csv and joints.parquet where values per
-/// joint are kept.
+/// runs are there, the tables are written.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
