@@ -598,8 +598,7 @@ pub enum Comparison {
 ///
 /// Runs the wall three times: with head joints that only damp, so that blocks may overlap; with no-tension springs of the
 /// rigidity that the file gives; with rigid unilateral contact. All else is as in the file. Joints count as head joints
-/// where their law is no-tension or rigid; bonded ones are refused, because only a spring can carry a bond. This is what the
-/// research report's Figures 17 and 18 show.
+/// where their law is no-tension or rigid; bonded ones are refused, because only a spring can carry a bond.
 ///
 /// Prints the deepest interpenetration of each, and draws displacements, velocities and gaps of pairs of neighbouring
 /// blocks. Writes compare.json and the figures pair-1, pair-2, … into the folder.
@@ -840,10 +839,10 @@ pub struct TimeHistory {
     /// Component of the vertical record; default the first vertical one.
     #[arg(long, value_name = "N|NAME", value_parser = channel, requires = "vertical")]
     pub vertical_channel: Option<RecordChannel>,
-    /// Unit of text files that name none (g, m/s2, cm/s2, …).
+    /// Unit of text files that name none.
     #[arg(long, value_name = "UNIT", requires = "record")]
     pub units: Option<String>,
-    /// Sample interval of text files without a time column that name none, in seconds or with a unit (5ms).
+    /// Sample interval of text files that name none, such as 5ms.
     #[arg(long, value_name = "TIME", value_parser = interval, requires = "record")]
     pub dt: Option<f64>,
     /// How the values of text files stand.
