@@ -1,7 +1,7 @@
 //! From a wall file to what its continuum needs: sizes, stiffness and strength of the joints of a panel.
 
 use concio::assign::{self, JointLaw};
-use concio::case::{Acts, Bond, Case, JointKind, ModelKind, SpringLaw};
+use concio::case::{Acts, Bond, Case, JointKind, ModelKind};
 use concio::wall::{End, Joint, Wall};
 use concio::{InputError, Result, graph, pattern};
 
@@ -192,7 +192,7 @@ impl Texture {
 
     /// Whether some head joints part freely.
     pub fn heads_part(&self, panel: usize) -> bool {
-        self.of_kind(panel, JointKind::Head).any(|e| self.laws[e].spring.law == SpringLaw::NoTension)
+        self.of_kind(panel, JointKind::Head).any(|e| self.laws[e].spring.law.is_no_tension())
     }
 
     /// The largest `rigidity` of `no-tension` joints of a panel, with its key; none where no such joint counts.

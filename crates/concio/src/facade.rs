@@ -13,7 +13,7 @@ use concio_mechanisms::survey::NEAR;
 use concio_mechanisms::wall::{Assumed, CornerOf, FloorOf, Side, Wall};
 
 use crate::case::out_of_plane::{self, Hazard as GivenHazard, OutOfPlane};
-use crate::case::{Bond, Case, FrictionLaw, JointKind, SpringLaw, TopLoad, plausible};
+use crate::case::{Bond, Case, FrictionLaw, JointKind, TopLoad, plausible};
 use crate::error::{Error, InputError, Result};
 use crate::quantity::{Length, shown};
 use crate::wall::Wall as Laid;
@@ -426,10 +426,9 @@ fn friction(case: &Case, assumed: &mut Assumptions) -> f64 {
 /// The stiffness of bed joints is the tangential one; pressed they are stiffer by their ratio.
 fn modulus(case: &Case, [course, overlap]: [f64; 2], thickness: f64) -> Option<f64> {
     let bed = &case.joint.bed;
-    let springs = matches!(bed.law, SpringLaw::Elastic | SpringLaw::NoTension);
     let area = overlap * thickness;
     let modulus = bed.stiffness.over(area) / area * bed.normal_to_shear * course;
-    (springs && modulus > 0.0 && modulus.is_finite()).then_some(modulus)
+    (bed.law.has_springs() && modulus > 0.0 && modulus.is_finite()).then_some(modulus)
 }
 
 fn crushing(case: &Case, given: &OutOfPlane, assumed: &mut Assumptions) -> Crushing {

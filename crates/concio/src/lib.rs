@@ -76,6 +76,7 @@ pub mod ground;
 mod keeper;
 pub mod law;
 pub mod many;
+mod mechanics;
 pub mod model;
 pub mod moment;
 pub mod outcome;

@@ -10,11 +10,10 @@ use crate::case::Solver;
 use crate::channels::Channels;
 use crate::error::{InputError, Result};
 use crate::keeper::{self, Keeper};
-use crate::model::{Model, System};
+use crate::mechanics::{Mechanics, Told};
+use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::planar_run;
 use crate::record::{Layout, Recording, StopReason};
-use crate::rocking_run;
 use crate::state::State;
 
 /// A run under way.
@@ -22,37 +21,6 @@ use crate::state::State;
 pub struct Simulation<'m> {
     keeper: Keeper<'m>,
     mechanics: Mechanics<'m>,
-}
-
-/// What moves, and how far it is.
-#[derive(Debug, Clone)]
-enum Mechanics<'m> {
-    Shear(Box<shear::Run<'m>>),
-    Planar(Box<planar_run::Run>),
-    Rocking(Box<rocking_run::Run<'m>>),
-}
-
-impl Mechanics<'_> {
-    fn state(&self) -> State<'_> {
-        match self {
-            Mechanics::Shear(run) => {
-                let state = &run.state;
-                State {
-                    t: state.t,
-                    z: &state.z,
-                    v: &state.v,
-                    a: &state.a,
-                    bonds: &state.bonds,
-                    energies: &state.energies,
-                    envelopes: &state.envelopes,
-                    totals: &state.totals,
-                    counters: &state.counters,
-                }
-            }
-            Mechanics::Planar(run) => run.state().shown(),
-            Mechanics::Rocking(run) => run.state().shown(),
-        }
-    }
 }
 
 /// What [`Simulation::advance`] came to.
@@ -85,7 +53,6 @@ impl<'m> Simulation<'m> {
     pub fn new(model: &'m Model, solver: &Solver, sampling: &Sampling) -> Result<Self> {
         let (channels, list) = Channels::new(model, &sampling.blocks, &sampling.joints)?;
         let duration = model.excitation.duration;
-        let planar = model.planar().is_some();
         let system = &model.shear;
         let holds = model.turns() || system.sticks() || !system.bonds.is_empty() || !system.nonlinear.is_empty();
         let layout = Layout {
@@ -100,37 +67,10 @@ impl<'m> Simulation<'m> {
             channels: list,
         };
         let frames = if layout.frame_every > 0 { (2 * keeper::WINDOW).div_ceil(layout.frame_every) } else { 0 };
-        // A planar wall may crush too, and collapse.
-        let at_once = shear::Run::events_at_once(system) + if planar { model.joints.len() + 1 } else { 0 };
-        let recording = Recording::with_room(&layout, 2 * keeper::WINDOW, frames, keeper::EVENTS + at_once);
+        let events = keeper::EVENTS + Mechanics::events_at_once(model);
+        let recording = Recording::with_room(&layout, 2 * keeper::WINDOW, frames, events);
         let mut keeper = Keeper { model, channels, layout, recording };
-        let mechanics = match &model.system {
-            System::Shear => {
-                let control = shear::Control {
-                    scheme: solver.scheme,
-                    tolerance: solver.tolerance,
-                    floor: solver.floor.si(),
-                    longest_step: solver.max_step.map_or(f64::INFINITY, |h| h.si()),
-                };
-                let Layout { interval, samples, frame_every, .. } = keeper.layout;
-                let schedule = shear::Schedule { interval, samples, frame_every };
-                let run = shear::Run::new(system, &model.excitation, control, schedule, &mut keeper);
-                Mechanics::Shear(Box::new(run))
-            }
-            System::Planar(planar) => {
-                let longest = keeper::WINDOW as f64 * keeper.layout.interval;
-                let mut run = Box::new(planar_run::Run::new(model, planar, longest));
-                let Keeper { channels, layout, recording, .. } = &mut keeper;
-                run.sample(model, channels, layout, recording);
-                Mechanics::Planar(run)
-            }
-            System::Rocking(rocking) => {
-                let mut run = Box::new(rocking_run::Run::new(model, rocking, keeper.layout.interval)?);
-                let Keeper { channels, layout, recording, .. } = &mut keeper;
-                run.begin(model, channels, layout, recording);
-                Mechanics::Rocking(run)
-            }
-        };
+        let mechanics = Mechanics::begin(solver, &mut keeper)?;
         Ok(Simulation { keeper, mechanics })
     }
 
@@ -145,10 +85,7 @@ impl<'m> Simulation<'m> {
     /// Starts a wall of the shear model from displacements and velocities relative to the base instead of rest; before the first step.
     /// `z` and `v` have one value per unknown. Planar walls start where they rest under their loads, whatever is asked.
     pub fn start_from(&mut self, z: &[f64], v: &[f64]) {
-        if let Mechanics::Shear(run) = &mut self.mechanics {
-            self.keeper.recording.clear();
-            run.start_from(z, v, &mut self.keeper);
-        }
+        self.mechanics.start_from(z, v, &mut self.keeper);
     }
 
     /// Pushes a block of a planar wall at its centre from now on, to the right and upwards [N], besides what the wall file has it pushed with. What the next
@@ -167,14 +104,7 @@ impl<'m> Simulation<'m> {
         if !force.iter().all(|f| f.is_finite()) {
             return Err(InputError::new(format!("is {force:?} N")).key("force").allowed("finite forces").into());
         }
-        let Mechanics::Planar(run) = &mut self.mechanics else {
-            return Err(InputError::new("forces act on blocks of planar walls")
-                .key("model")
-                .allowed("`planar`")
-                .into());
-        };
-        run.push(block, force);
-        Ok(())
+        self.mechanics.push(block, force)
     }
 
     /// Takes at most `steps` steps, fewer when the buffer is full or the run ends.
@@ -186,7 +116,7 @@ impl<'m> Simulation<'m> {
             if self.buffer_is_full() {
                 return Progress::Running;
             }
-            if let Err(reason) = self.step() {
+            if let Err(reason) = self.mechanics.step(&mut self.keeper) {
                 return Progress::Ended(reason);
             }
         }
@@ -197,28 +127,7 @@ impl<'m> Simulation<'m> {
     /// has the bits of one that goes on.
     fn over(&self) -> Option<StopReason> {
         let model = self.keeper.model;
-        match &self.mechanics {
-            _ if self.time() >= model.excitation.duration => Some(StopReason::Completed),
-            Mechanics::Shear(_) => None,
-            Mechanics::Planar(run) => run.collapsed(model).then_some(StopReason::Collapsed),
-            Mechanics::Rocking(run) => run.over(),
-        }
-    }
-
-    /// One step, and the samples of which all is known after it.
-    fn step(&mut self) -> std::result::Result<(), StopReason> {
-        let Simulation { keeper, mechanics } = self;
-        match mechanics {
-            Mechanics::Shear(run) => run.step(keeper),
-            Mechanics::Planar(run) => {
-                let Keeper { model, channels, layout, recording } = keeper;
-                run.step(model, channels, layout, recording)
-            }
-            Mechanics::Rocking(run) => {
-                let Keeper { model, channels, layout, recording } = keeper;
-                run.step(model, channels, layout, recording)
-            }
-        }
+        if self.time() >= model.excitation.duration { Some(StopReason::Completed) } else { self.mechanics.over(model) }
     }
 
     /// Whether [`Simulation::advance`] waits for the buffer to be emptied.
@@ -250,16 +159,7 @@ impl<'m> Simulation<'m> {
     /// Where every moving body is after the last accepted step, the blocks first and then a beam with motion of its own: displacement of its
     /// centre along x and y relative to the base [m] and rotation, counterclockwise, in rad. In the shear model only the first is not 0.
     pub fn places(&self) -> Vec<[f64; 3]> {
-        let model = self.keeper.model;
-        match &self.mechanics {
-            Mechanics::Shear(run) => {
-                let blocks = &run.state.z[..model.wall.blocks.len()];
-                let beam = model.floating_beam().map(|beam| &run.state.z[beam]);
-                blocks.iter().chain(beam).map(|z| [*z, 0.0, 0.0]).collect()
-            }
-            Mechanics::Planar(run) => run.places(),
-            Mechanics::Rocking(run) => run.places(),
-        }
+        self.mechanics.places(self.keeper.model)
     }
     /// The run of a wall of the shear model.
     pub fn shear(&self) -> Option<&shear::Run<'m>> {
@@ -273,20 +173,12 @@ impl<'m> Simulation<'m> {
     /// The state as bytes, from which [`Simulation::restore`] continues with the same bits. The record buffer is
     /// not part of it: empty it first.
     pub fn save(&self) -> Vec<u8> {
-        match &self.mechanics {
-            Mechanics::Shear(run) => run.keep(),
-            Mechanics::Planar(run) => run.keep(),
-            Mechanics::Rocking(run) => run.keep(),
-        }
+        self.mechanics.keep()
     }
     /// Goes back to a saved state; false when the bytes are not one of this model's, and the simulation is then to be made anew.
     pub fn restore(&mut self, bytes: &[u8]) -> bool {
         self.clear_recording();
-        match &mut self.mechanics {
-            Mechanics::Shear(run) => run.take_up(bytes),
-            Mechanics::Planar(run) => run.take_up(self.keeper.model, bytes),
-            Mechanics::Rocking(run) => run.take_up(bytes),
-        }
+        self.mechanics.take_up(self.keeper.model, bytes)
     }
 
     /// What keeps it and what moves in it, which the lanes of a batch take apart; the run itself, if it is of another model.
@@ -317,12 +209,7 @@ impl<'m> Simulation<'m> {
     /// The result, with the recording that the caller collected.
     pub fn outcome(self, recording: Recording, stop_reason: StopReason) -> Outcome {
         let Simulation { keeper: Keeper { model, layout, .. }, mechanics } = self;
-        let (leans, ties) = match &mechanics {
-            Mechanics::Shear(run) => (&run.state.leans, Vec::new()),
-            Mechanics::Planar(run) => (&run.state().leans, run.ties(model)),
-            Mechanics::Rocking(run) => (&run.state().leans, run.ties()),
-        };
-        let rocking = if let Mechanics::Rocking(run) = &mechanics { Some(run.row()) } else { None };
+        let Told { leans, ties, rocking } = mechanics.told(model);
         let state = mechanics.state();
         let bonds = model.shear.bonds.iter().zip(state.bonds).map(|(bond, state)| BondRow::of(bond, state)).collect();
         let mut envelopes = state.envelopes.clone();
