@@ -28,6 +28,11 @@ impl Stribeck {
         self.beta.is_infinite()
     }
 
+    /// Whether friction falls from μ_s at once as slip begins.
+    pub fn drops(&self) -> bool {
+        self.sticks() && self.in_slip(0.0).0 < self.static_
+    }
+
     /// μ(v) and dμ/dv [s/m] at v [m/s]; odd in v. At rest a set-valued law has no one value: 0 stands for it.
     #[inline(always)]
     pub fn at(&self, v: f64) -> (f64, f64) {

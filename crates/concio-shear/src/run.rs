@@ -201,6 +201,7 @@ impl<'m> Run<'m> {
             self.size(&mut plan);
             let tolerance = self.tolerance(plan.h);
             let attempt = self.work.attempt(self.system, &self.state, &self.drive, plan.h, tolerance);
+            let attempt = self.over_a_drop(attempt, plan.h);
             if attempt.is_ok_and(|error| error <= 1.0) {
                 let first = events::first(
                     self.system,
@@ -252,9 +253,32 @@ impl<'m> Run<'m> {
         (plan.h, plan.lands) = plan.event.map_or((h, lands), |at| (at, false));
     }
 
+    /// Shortest step [s].
+    fn shortest(&self) -> f64 {
+        SHORTEST / self.system.stiffest.sqrt().max(1.0)
+    }
+
+    /// The error of a try. Where friction drops at once, as static friction above the dynamic does when its joint lets
+    /// go, (P1) compares forces before and after, and shrinks with the step no faster than it: at the first slip of a
+    /// wall no step is short enough for a tolerance that has no motion yet to measure by. The shortest step then finds
+    /// the instant, and is taken as it is: what follows begins with the friction of slip.
+    fn over_a_drop(&self, attempt: Result<f64, Failure>, h: f64) -> Result<f64, Failure> {
+        match attempt {
+            Ok(error)
+                if error > 1.0
+                    && error.is_finite()
+                    && h <= self.shortest()
+                    && self.work.drops(self.system, &self.state) =>
+            {
+                Ok(0.0)
+            }
+            _ => attempt,
+        }
+    }
+
     /// What becomes of a try with this error over the tolerance, and how long the next one is.
     pub(crate) fn judge(&mut self, attempt: std::result::Result<f64, Failure>, plan: &mut Plan) -> Verdict {
-        let shortest = SHORTEST / self.system.stiffest.sqrt().max(1.0);
+        let shortest = self.shortest();
         let (h, order) = (plan.h, self.work.error_order());
         let factor = match attempt {
             Ok(error) if error <= 1.0 => {

@@ -192,6 +192,13 @@ impl Step {
         }
     }
 
+    /// Whether a joint lets go in the step that was attempted whose friction drops at once as it does.
+    pub fn drops(&self, system: &System, state: &State) -> bool {
+        let stuck = state.tangents.stuck.iter().zip(&self.tangents.stuck);
+        let lets_go = |((before, after), rub): ((&bool, &bool), &Rub)| *before && !after && rub.law.drops();
+        stuck.zip(&system.rubs).any(lets_go)
+    }
+
     /// Velocity at the end of the step that was attempted, with base and top.
     pub fn v(&self) -> &[f64] {
         &self.stage_v[self.tableau.stages - 1]
