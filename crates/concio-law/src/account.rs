@@ -178,6 +178,11 @@ impl Energies {
         self.input_base + self.input_top
     }
 
+    /// What base and top beam did, each without its sign: where they cancel, [`Energies::input`] is no measure of what flowed.
+    pub fn works(&self) -> f64 {
+        self.input_base.abs() + self.input_top.abs()
+    }
+
     /// Lost in all ways that a wall loses energy [J].
     pub fn dissipated(&self) -> f64 {
         self.friction + self.damping + self.device + self.bond + self.impact
@@ -278,6 +283,9 @@ pub struct Totals {
     pub contact_residual: f64,
     /// Largest |work done on the wall| so far [J].
     pub peak_input: f64,
+    /// Largest sum of the works of base and beam so far, each without its sign [J]; of a planar wall also those of what acts vertically, its
+    /// weights among it, apart from those of what acts horizontally.
+    pub peak_work: f64,
     /// Largest |residual of the energy account| so far [J].
     pub peak_residual: f64,
     /// Of a planar wall, the first block that had fallen or turned over; none where none did.

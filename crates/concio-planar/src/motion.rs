@@ -188,6 +188,8 @@ impl Setting {
 pub struct Account {
     /// Brought by loads and the base.
     pub input: f64,
+    /// The part of `input` of what acts vertically and of moments: what lifts weights takes from them what it brings.
+    pub upright: f64,
     /// Brought by what is held.
     pub held: f64,
     /// Taken by friction.
@@ -1023,7 +1025,9 @@ impl Motion {
         for (body, m) in self.resistance.iter().enumerate() {
             let (v, w, f, held) = (self.velocities[body], self.after[body], self.free[body], self.held[body]);
             for k in (0..3).filter(|k| !held[*k]) {
-                self.account.input += 0.5 * m[k] * (f[k] - v[k]) * (v[k] + w[k]);
+                let brought = 0.5 * m[k] * (f[k] - v[k]) * (v[k] + w[k]);
+                self.account.input += brought;
+                self.account.upright += if k == 0 { 0.0 } else { brought };
                 if self.setting.still {
                     self.account.impact += 0.5 * m[k] * w[k] * w[k];
                     if k < 2 && self.shaken[body] {

@@ -309,6 +309,7 @@ pub fn observe(system: &System, state: &mut State, h: f64, start: [&[f64]; 2]) {
     totals.top_force_square += 0.5 * h * (state.pull * state.pull + pull * pull);
     state.pull = pull;
     totals.peak_input = totals.peak_input.max(state.energies.input().abs());
+    totals.peak_work = totals.peak_work.max(state.energies.works());
     totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
 }
 

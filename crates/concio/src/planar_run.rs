@@ -539,6 +539,9 @@ impl Bodies {
         state.pull = pull;
         let totals = &mut state.totals;
         totals.peak_input = totals.peak_input.max(state.energies.input().abs());
+        let account = &self.motion.account;
+        let [level, upright, held] = [account.input - account.upright, account.upright, account.held].map(f64::abs);
+        totals.peak_work = totals.peak_work.max(level + upright + held);
         totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
         self.cracks(model, state, tell);
         for &e in &self.crushable {

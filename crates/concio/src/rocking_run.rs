@@ -222,6 +222,7 @@ impl<'m> Run<'m> {
         let largest = state.z.iter().fold(at.displacement.abs(), |most, z| most.max(z.abs()));
         totals.peak_relative_displacement = totals.peak_relative_displacement.max(largest);
         totals.peak_input = totals.peak_input.max(state.energies.input().abs());
+        totals.peak_work = totals.peak_work.max(state.energies.works());
         totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
         state.over_d0 = state.over_d0.max(at.over_d0.unwrap_or(0.0));
         for (e, joint) in model.joints.iter().enumerate() {

@@ -300,6 +300,7 @@ impl<'m> Lane<'m> {
         state.counters.iterations += std::mem::take(&mut self.all_iterations);
         state.counters.factorisations += std::mem::take(&mut self.factorisations);
         state.totals.peak_input = state.totals.peak_input.max(state.energies.input().abs());
+        state.totals.peak_work = state.totals.peak_work.max(state.energies.works());
         state.totals.peak_residual = state.totals.peak_residual.max(state.energies.residual().abs());
         let place = &w.topology.place;
         let z = |k: usize| w.state.at(place[k] as usize, Z, i);

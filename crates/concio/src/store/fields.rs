@@ -144,7 +144,7 @@ pub(super) const ENERGIES: [Field<Energies, f64>; 11] = [
 ];
 
 /// Numbers that sum a run up.
-pub(super) const TOTALS: [Field<Totals, f64>; 12] = [
+pub(super) const TOTALS: [Field<Totals, f64>; 13] = [
     field!(
         "peak_relative_displacement",
         "m",
@@ -171,6 +171,7 @@ pub(super) const TOTALS: [Field<Totals, f64>; 12] = [
         "Largest relative velocity left where rigid contact forbids it."
     ),
     field!("peak_input", "J", peak_input, "Largest work done on the wall, sign dropped."),
+    field!("peak_work", "J", peak_work, "Largest sum of the works of base, weights and beam, each without its sign."),
     field!("peak_residual", "J", peak_residual, "Largest residual of the energy account, sign dropped."),
 ];
 

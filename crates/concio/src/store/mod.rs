@@ -27,7 +27,7 @@ pub use summary::{
 };
 
 /// Version of the layout of result files; raised when a reader of the former version would misread a file.
-pub const SCHEMA_VERSION: u32 = 10;
+pub const SCHEMA_VERSION: u32 = 11;
 
 /// Where a result comes from. Nothing in it depends on clock, machine or folder: equal inputs give equal files.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -701,6 +701,7 @@ fn a_run_without_work_or_motion_has_a_finite_summary() {
     let mut s = sample(SMALL);
     s.outcome.energies.initial = 0.0;
     s.outcome.totals.peak_input = 0.0;
+    s.outcome.totals.peak_work = 0.0;
     s.outcome.time_reached = 0.0;
     let summary = store::summary(&s.provenance, &s.wall, &s.joints, &s.outcome, &RunFacts::default());
     assert_eq!(summary["energy"]["residual_relative"], 0.0);

@@ -44,6 +44,7 @@ TOTALS = {
     "minimum_gap": "m",
     "contact_residual": "m/s",
     "peak_input": "J",
+    "peak_work": "J",
     "peak_residual": "J",
     "time_reached": "s",
 }
@@ -184,11 +185,11 @@ class Result:
 def check_head(result):
     attributes = result.file.attrs
     require(attributes["format"] == "concio-result", "attribute format")
-    require(attributes["schema_version"] == 10, "attribute schema_version")
+    require(attributes["schema_version"] == 11, "attribute schema_version")
     require(attributes["stop_reason"] in STOP_REASONS, f"stop_reason {attributes['stop_reason']!r}")
     for name in ["version", "model", "inputs_hash"]:
         require(isinstance(attributes[name], str) and attributes[name], f"attribute {name}")
-    require(result.array("schema_version", (), "u4", "1") == 10, "schema_version")
+    require(result.array("schema_version", (), "u4", "1") == 11, "schema_version")
     (case,) = result.texts("case", 1)
     require(isinstance(json.loads(case), dict), "case is no JSON object")
 

@@ -234,6 +234,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             minimum_gap: -1.0e-9,
             contact_residual: 3.0e-16,
             peak_input: 8.0,
+            peak_work: 16.0,
             peak_residual: 2.0e-6,
             collapse: wall.blocks.first().map(|_| Collapse { time: 0.06, block: 0, way: 0.25, turned: true }),
         },
