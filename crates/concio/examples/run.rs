@@ -6,6 +6,7 @@ use std::path::Path;
 
 use concio::case;
 use concio::run::{prepare, run_in_memory};
+use concio::store::residual_relative;
 
 fn main() -> concio::Result<()> {
     let file = match std::env::args().nth(1) {
@@ -19,7 +20,7 @@ fn main() -> concio::Result<()> {
     println!("weight             {:.2} kN", 1e-3 * prepared.model.weight());
     println!("largest base shear {:.2} kN", 1e-3 * totals.base_shear_peak);
     println!("largest movement   {:.3} mm", 1e3 * totals.peak_relative_displacement);
-    println!("energy residual    {:.1e} of the work", totals.peak_residual / totals.peak_input);
+    println!("energy residual    {:.1e} of the work", residual_relative(&outcome));
     match totals.collapse {
         Some(collapse) => println!("collapsed at       {:.2} s", collapse.time),
         None => println!("stands at          {:.2} s", outcome.time_reached),
