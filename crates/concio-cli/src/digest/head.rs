@@ -140,7 +140,15 @@ fn slide(outcome: &Outcome, summary: &Value) -> Answer {
     }
     let slips = outcome.envelopes.joint_slip.iter().any(|slip| *slip > 0.0);
     let note = if slips { format!("bed joints slid by at most {slid}") } else { "no joint slid or cracked".into() };
-    Answer::new("failure", "none", note)
+    // What had not happened when a run broke off may have happened next.
+    let value = if outcome.stop_reason.is_end() { "none" } else { "–" };
+    Answer::new("failure", value, note + &until(outcome))
+}
+
+/// Of a run that stopped early, how far what it says goes.
+fn until(outcome: &Outcome) -> String {
+    let stopped = || format!(" before the run stopped early, {}", at(outcome.time_reached));
+    if outcome.stop_reason.is_end() { String::new() } else { stopped() }
 }
 
 /// When and where a bond cracked first, and how many with it: joints that are equal crack together but for rounding.
@@ -187,7 +195,7 @@ fn peak_drift(outcome: &Outcome) -> Answer {
     let Some(row) = outcome.worst_drift() else { return Answer::new("peak drift", "–", "") };
     let peak = moved(outcome, row.peak);
     if peak == 0.0 {
-        return Answer::new("peak drift", "0", "the top did not move");
+        return Answer::new("peak drift", "0", format!("the top did not move{}", until(outcome)));
     }
     let whose = match row.top.as_str() {
         BEAM => "top beam".into(),

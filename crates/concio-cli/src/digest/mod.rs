@@ -79,7 +79,7 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
     if energies.initial != 0.0 {
         rows.push(("energy at the start", si(energies.initial, "J")));
     }
-    let work = totals.peak_input.max(energies.initial.abs());
+    let work = totals.peak_work.max(energies.initial.abs());
     let energy = |value: f64| si(beside(value, work), "J");
     rows.push(("work done on the wall", energy(energies.input())));
     rows.push(("  kinetic", energy(energies.kinetic)));
@@ -114,6 +114,9 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
 /// The peak displacement, of which block it was, and how far blocks are from their places when the wall comes to its end standing.
 fn peak(wall: &Wall, outcome: &Outcome, moved: f64) -> String {
     let mut told = format!("{} relative to the base", si(moved, "m"));
+    if !outcome.stop_reason.is_end() {
+        told += " before the run stopped early";
+    }
     let farthest = wall.blocks.iter().zip(&outcome.envelopes.block_displacement).max_by(|a, b| a.1.total_cmp(b.1));
     if let Some((block, _)) = farthest.filter(|_| moved > 0.0) {
         told += &format!(", of {}", block.name);
@@ -166,7 +169,8 @@ pub fn why(reason: StopReason, rocks: bool) -> &'static str {
         StopReason::Collapsed => "the wall collapsed, which `motion.stop_at` makes the end of the run",
         StopReason::Interrupted => "interrupted; what was computed is written, and the same command goes on from here",
         StopReason::StepTooShort => {
-            "the step became too short for the tolerance; raise solver.tolerance or check the stiffnesses and masses"
+            "the step became too short for the tolerance; raise solver.tolerance, take `law = \"stribeck-stick\"` for friction of law `coulomb` with \
+             `dynamic` below `static`, or check the stiffnesses and masses"
         }
         StopReason::Airborne => {
             "the ground falls faster than the wall would: nothing presses on its hinge; look at motion.vertical"

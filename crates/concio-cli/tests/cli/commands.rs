@@ -124,6 +124,8 @@ fn an_interrupted_run_goes_on_to_the_same_bits() {
     let output = child.wait_with_output().expect("the run ends");
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).contains("stopped early at t = "));
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(told.contains("relative to the base before the run stopped early"), "{told}");
     assert_eq!(desk.json("parts/summary.json")["stop_reason"], "interrupted");
     assert!(desk.get("parts/report.html").contains("Stopped early"));
     let again = desk.concio("run long.toml --out parts").assert().success();
