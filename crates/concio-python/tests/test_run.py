@@ -121,15 +121,42 @@ def test_a_motion_that_no_result_holds_is_told(planar: Wall, quake: Record, tmp_
         run.save(tmp_path / "out")
     with pytest.warns(UserWarning, match=r"record\.save"):
         run.report(tmp_path / "page.html")
-    assert concio.open(tmp_path / "out").wall.settings["motion"]["base"] == "none"
+    back = concio.open(tmp_path / "out")
+    assert back.wall.settings["motion"]["base"] == "none"
+    # Who opens it later is told too, as is who copies it.
+    assert back.warnings == run.warnings and back.summary == run.summary
+    with pytest.warns(UserWarning, match=r"record\.save"):
+        back.save(tmp_path / "copy")
     # The remedy: the same motion by a file, which the result names.
     kept = planar.run(base=quake.save(tmp_path / "quake.txt"))
     np.testing.assert_array_equal(kept._native.values, run._native.values)
     kept.save(tmp_path / "out")
-    # Of a file it is looked at: it ends with a velocity.
-    assert "drift" in [warning.kind for warning in kept.warnings]
+    assert kept.warnings == run.warnings[:-1]
     again = concio.open(tmp_path / "out").wall.run()
     np.testing.assert_array_equal(again._native.values, run._native.values)
+
+
+def test_arrays_are_doubted_as_files_are(planar: Wall, quake: Record, tmp_path: Path) -> None:
+    """An acceleration in cm/s² that was taken for m/s² and drifts, over a run that cuts it."""
+    wrong = quake.scaled(100)
+    kinds = ["record-cut", "drift", "unlikely-record"]
+    of_array = planar.run(base=wrong, duration="50 ms").warnings
+    of_file = planar.run(base=wrong.save(tmp_path / "quake.txt"), duration="50 ms").warnings
+    told = [warning for warning in of_array if warning.kind != "motion-in-no-file"]
+    assert told == of_file and len(of_array) == len(of_file) + 1
+    assert [warning.kind for warning in told if warning.kind in kinds] == kinds
+    assert any("more than 60 m/s²" in warning.text for warning in told)
+    # What is doubtful in the wall file is told with them.
+    doubtful = planar.replace({"panel[0].brick.specific_weight": 18})
+    (run,) = concio.run_many([(doubtful, quake)])
+    assert [warning.text for warning in run.warnings if "specific_weight" in warning.text]
+    # A displacement history may end where it likes.
+    t = np.linspace(0, 1, 201)
+    rows = "\n".join(f"{k:.17g},{u:.17g}" for k, u in zip(t, t**3 * (10 - 15 * t + 6 * t**2), strict=True))
+    (tmp_path / "path.csv").write_text(f"t [s],u [m]\n{rows}\n")
+    path = Record.read(tmp_path / "path.csv", quantity="displacement").scaled(0.1).trim(0, 1)
+    assert path._native.words("") is None
+    assert "drift" not in [warning.kind for warning in planar.run(base=path).warnings]
 
 
 def test_other_motions_of_the_base(planar: Wall) -> None:

@@ -41,11 +41,7 @@ class Warned(NamedTuple):
         return self.text
 
 
-_BESIDE = Warned(
-    "motion-in-no-file",
-    "its base was moved by a record that no file gives: results and reports say that nothing moved it, and nobody looked whether the"
-    ' record drifts or is cut; run it with record.save("quake.txt"), which writes the record to a file and gives that of the file',
-)
+_BESIDE = "motion-in-no-file"  # the kind of warning of a run whose motion its result does not hold
 
 
 class Channel(NamedTuple):
@@ -75,14 +71,10 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         True
     """
 
-    def __init__(self, native: _native.Run, beside: bool = False, folder: str | None = None) -> None:
-        """Made by :meth:`concio.Wall.run`, :func:`concio.run_many` and :func:`concio.open`.
-
-        ``beside`` says whether no file gives its motion, ``folder`` where paths of its records begin.
-        """
+    def __init__(self, native: _native.Run, folder: str | None = None) -> None:
+        """Made by :meth:`concio.Wall.run`, :func:`concio.run_many` and :func:`concio.open`; paths of its records begin at ``folder``."""
         self._native = native
         self._folder = folder
-        self._beside = beside
         self._channels = MappingProxyType({name: Channel(name, *rest) for name, *rest in native.channels()})
         self._places = {name: place for place, name in enumerate(self._channels)}
         self._summary: dict[str, Any] = native.summary()
@@ -168,8 +160,8 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
     @property
     def warnings(self) -> list[Warned]:
         """What speaks against believing the run."""
-        of_engine = zip(self._summary["warning_kinds"], self._summary["warnings"], strict=True)
-        return [Warned(*pair) for pair in of_engine] + ([_BESIDE] if self._beside else [])
+        pairs = zip(self._summary["warning_kinds"], self._summary["warnings"], strict=True)
+        return [Warned(*pair) for pair in pairs]
 
     @property
     def failure(self) -> dict[str, Any] | None:
@@ -255,8 +247,12 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         self._native.report(os.fspath(path), name)
 
     def _tell_beside(self) -> None:
-        if self._beside:
-            warnings.warn(_BESIDE.text, UserWarning, stacklevel=3)
+        for warned in self.warnings:
+            if warned.kind == _BESIDE:
+                remedy = (
+                    'run it with record.save("quake.txt"), which writes the record to a file and gives that of the file'
+                )
+                warnings.warn(f"{warned}; {remedy}", UserWarning, stacklevel=3)
 
     def __eq__(self, other: object) -> bool:
         """Whether it is the same object."""
@@ -318,7 +314,7 @@ def run_many(
 
     if threads < 0:
         raise InputError(f"is {threads}", key="threads", allowed="from 0; 0 is one per core")
-    prepared, beside, folders = [], [], []
+    prepared, folders = [], []
     for number, asked in enumerate(runs):
         wall, base = (asked, None) if isinstance(asked, Wall) else asked
         if not isinstance(wall, Wall):
@@ -326,7 +322,6 @@ def run_many(
                 f"number {number} is no wall", key="runs", allowed="walls, or pairs of a wall and a motion"
             )
         prepared.append(wall._moved(base))
-        beside.append(wall._beside(base))
         folders.append(str(wall._case.folder))
     with shown(progress) as told:
         ended, interrupted = _native.run_many(prepared, threads, told)
@@ -334,7 +329,7 @@ def run_many(
         warnings.warn(
             f"the runs were stopped: {ended.count(None)} that had not begun are left out", RuntimeWarning, stacklevel=2
         )
-    return [Run(run, its, folder) for run, its, folder in zip(ended, beside, folders, strict=True) if run is not None]
+    return [Run(run, folder) for run, folder in zip(ended, folders, strict=True) if run is not None]
 
 
 def _refuse_a_file(folder: str | os.PathLike[str]) -> None:

@@ -263,10 +263,6 @@ class Wall:
             changes["motion.duration"] = duration
         return self.replace(changes)._case.prepare(beside)
 
-    def _beside(self, base: Base | None) -> bool:
-        """Whether it is a record that a wall file has no words for, so that no result holds it."""
-        return isinstance(base, Record) and base._native.words(self._case.folder) is None
-
     def run(self, base: Base | None = None, *, duration: float | str | None = None, progress: Progress = False) -> Run:
         """Simulates the wall.
 
@@ -287,7 +283,7 @@ class Wall:
         prepared = self._moved(base, duration)
         with shown(progress) as told:
             native = prepared.run(told)
-        run = Run(native, self._beside(base), str(self._case.folder))
+        run = Run(native, str(self._case.folder))
         if native.interrupted:
             warnings.warn(f"the run was stopped at t = {run.time_reached:g} s", RuntimeWarning, stacklevel=2)
         return run
