@@ -91,6 +91,7 @@ def test_wrong_questions_are_told_before_anything_runs(tmp_path: Path, bonded: W
         ({"sensitivity": {"of": ["slip"]}}, "sensitivity.of[0]"),
         ({"ida": {"damage": "largest_slip", "limits": [], "hunt": hunt}}, "ida.limits"),
         ({"ida": {"damage": "slip", "limits": [{"name": "s", "value": 1}], "hunt": hunt}}, "ida.damage"),
+        ({"ida": {"damage": "peak_over_d0", "limits": [{"name": "s", "value": 1}], "hunt": hunt}}, "ida.damage"),
         ({"first_crack": {"criterium": "bond"}}, "first-crack.criterium"),
         ({"first_crack": {}, "ranking": {}}, "ranking"),
         ({"ranking": {"by": ["slips"]}}, "ranking.by[0]"),
@@ -100,4 +101,8 @@ def test_wrong_questions_are_told_before_anything_runs(tmp_path: Path, bonded: W
         with pytest.raises(InputError) as caught:
             Study(bonded, motions={"A": pulse("half-sine")}, **question).run(tmp_path)
         assert caught.value.key == key
+        if key == "ida.damage":
+            # The measures that a wall of the shear model has.
+            allowed = (caught.value.allowed or "").split(", ")
+            assert "largest_slip" in allowed and not {"peak_over_d0", "beyond_d0"} & set(allowed)
         assert not list(tmp_path.glob("runs/*.jsonl"))
