@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use concio::case::Case;
 use concio::run::Control;
+use concio_cli::commands::study::report;
+use concio_cli::files::silently;
 use concio_study::measures::Row;
 use concio_study::runner::{Deliver, Hands, Progress};
 use concio_study::store::Store;
@@ -65,6 +67,12 @@ fn complete(file: &Path, folder: &Path, hands: Hands, board: &Board) -> Result<D
     let keep = &study.keep;
     let found: Vec<Option<&Row>> = ids.iter().map(|id| store.holding(id, &keep.joints, keep.results)).collect();
     Ok((columns(&table::of_plan(&plan, &found)), whole))
+}
+
+/// Writes report and tables of what a folder has of a study file.
+#[pyfunction]
+pub fn study_report(py: Python<'_>, file: PathBuf, folder: PathBuf) -> PyResult<()> {
+    Ok(py.detach(|| silently(|| report(file, folder))).map_err(Raised::from)?)
 }
 
 fn columns(table: &Table) -> Value {

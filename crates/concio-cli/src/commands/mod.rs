@@ -24,7 +24,7 @@ pub mod record;
 pub mod run;
 mod scale;
 mod schema;
-mod study;
+pub mod study;
 mod system;
 pub mod wall_file;
 

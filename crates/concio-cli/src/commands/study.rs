@@ -346,6 +346,14 @@ fn status(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Writes report and tables of what `folder` has of a study file, as `concio study report` does.
+///
+/// # Errors
+/// As those of the command: a study file that is wrong, a folder without its runs, files that cannot be written.
+pub fn report(file: PathBuf, folder: PathBuf) -> std::result::Result<(), Failure> {
+    export(&StudyPlace { file, out: Some(folder) }).map(drop)
+}
+
 fn export(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     let plan = read(&place.file)?;
     let cases = cases(&plan)?;

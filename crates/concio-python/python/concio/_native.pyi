@@ -18,6 +18,7 @@ __all__ = [
     "command",
     "example_names",
     "run_many",
+    "study_report",
     "study_run",
     "task_work",
 ]
@@ -34,6 +35,7 @@ def study_run(
     rows: Callable[[Iterable[str]], Iterable[list[str]]] | None,
     at_once: int,
 ) -> tuple[list[dict[str, Any]] | None, bool]: ...
+def study_report(file: _Path, folder: _Path) -> None: ...
 def task_work(task: str, threads: int) -> list[str]: ...
 def example_names() -> list[str]: ...
 def run_many(

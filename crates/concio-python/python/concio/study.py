@@ -123,8 +123,8 @@ class Rows(Table):
         Reading it writes ``report.html`` and the tables into the folder, as ``concio study report`` does; the documents say what is in them.
 
         Raises:
-            RuntimeError: The report cannot be written; standard error says why.
             InputError: Another study was run in the folder since.
+            OSError: The report cannot be written.
         """
         if self._study is not None and _text(self._study[0]) != self._asked:
             what = "another study was run in the folder since: these rows have no tables any more"
@@ -402,8 +402,7 @@ def _asked(file: str, out: str, done: bool) -> Rows:
 def _report(file: str, out: str) -> dict[str, Table]:
     """The tables that the report writes; others, of earlier questions, may lie in the folder."""
     before = _written(out)
-    if _native.command(["concio", "study", "report", file, "--out", out]) != 0:
-        raise RuntimeError(f"{file} has no report: standard error says why")
+    _native.study_report(file, out)
     after = _written(out)
     return {name: _read(os.path.join(out, f"{name}.csv")) for name in after if after[name] != before.get(name)}
 
