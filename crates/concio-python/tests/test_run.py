@@ -1,9 +1,12 @@
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import threading
 import time
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -73,6 +76,27 @@ def test_a_run_that_is_read_back_is_the_run(wall: Wall, tmp_path: Path) -> None:
     h5py = pytest.importorskip("h5py")
     with h5py.File(tmp_path / "out/result.h5") as file:
         assert file.attrs["inputs_hash"] == run.inputs_hash
+
+
+def test_runs_come_back_from_other_processes(wall: Wall, quake: Record) -> None:
+    here = wall.run(base=quake, duration=0.2)
+    # Not by fork: threads of the engine would not be there.
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+        there = pool.submit(wall.run, quake, duration=0.2).result(timeout=120)
+    back = pickle.loads(pickle.dumps(here))
+    for again in (back, there):
+        for array, own in ((again._native.values, here._native.values), (again.time, here.time)):
+            assert array.tobytes() == own.tobytes() and not array.flags.writeable
+        assert again.frames.keys() == here.frames.keys()
+        for name, values in here.frames.items():
+            np.testing.assert_array_equal(again.frames[name], values)
+        assert again.warnings == here.warnings and again.wall == here.wall
+        assert again.summary | {"solve_seconds": 0} == here.summary | {"solve_seconds": 0}
+        assert repr(again) == repr(here)
+        assert repr(again.events) == repr(here.events) and repr(again.joints) == repr(here.joints)
+    assert back.summary == here.summary
+    # Of which reports show the text.
+    assert back._native.text == here._native.text == wall._case.text
 
 
 def test_folders_that_hold_no_run(tmp_path: Path, planar: Wall) -> None:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import difflib
 import json
 import os
+import tempfile
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -41,6 +43,7 @@ class Warned(NamedTuple):
         return self.text
 
 
+_FILES = ("result.h5", "summary.json")
 _BESIDE = "motion-in-no-file"  # the kind of warning of a run whose motion its result does not hold
 
 
@@ -254,6 +257,13 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
                 )
                 warnings.warn(f"{warned}; {remedy}", UserWarning, stacklevel=3)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """For other processes: the bytes of its files."""
+        with tempfile.TemporaryDirectory() as folder:
+            self._native.save(folder)
+            files = {name: Path(folder, name).read_bytes() for name in _FILES}
+        return _again, (files, self._native.text, self._folder)
+
     def __eq__(self, other: object) -> bool:
         """Whether it is the same object."""
         return self is other
@@ -289,7 +299,7 @@ def open(folder: str | os.PathLike[str]) -> Run:
     place = os.fspath(folder)
     if os.path.basename(place) == "result.h5" and os.path.isfile(place):
         place = os.path.dirname(place) or os.curdir
-    return Run(_native.Run.open(place))
+    return Run(_native.Run.open(place, None))
 
 
 def run_many(
@@ -330,6 +340,13 @@ def run_many(
             f"the runs were stopped: {ended.count(None)} that had not begun are left out", RuntimeWarning, stacklevel=2
         )
     return [Run(run, folder) for run, folder in zip(ended, folders, strict=True) if run is not None]
+
+
+def _again(files: Mapping[str, bytes], text: str | None, place: str | None) -> Run:
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in files.items():
+            Path(folder, name).write_bytes(content)
+        return Run(_native.Run.open(folder, text), place)
 
 
 def _refuse_a_file(folder: str | os.PathLike[str]) -> None:
