@@ -106,14 +106,33 @@ fn warn(plan: &Plan) -> Warned {
     before.warned
 }
 
-fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
-    let plan = read(&args.place.file)?;
+/// A study whose runs and questions have a meaning, as `concio study check` finds.
+pub struct Checked {
+    /// What it asks.
+    pub plan: Plan,
+    /// The runs of its design with their ids.
+    cases: Vec<(String, Case)>,
+    /// Name, motion and use of each motion.
+    shaking: Vec<[String; 3]>,
+}
+
+/// Reads a study file and looks whether its runs can be made ready.
+///
+/// # Errors
+/// What the study file or the walls of its runs may not say.
+pub fn checked(path: &Path) -> Result<Checked> {
+    let plan = read(path)?;
     let cases = cases(&plan)?;
-    let study = &plan.file.study;
-    if study.first_crack.is_some() {
+    if plan.file.study.first_crack.is_some() {
         first_crack::of_study(&plan)?;
     }
     let shaking = asked::shaking(&plan)?;
+    Ok(Checked { plan, cases, shaking })
+}
+
+fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
+    let Checked { plan, cases, shaking } = checked(&args.place.file)?;
+    let study = &plan.file.study;
     warn(&plan);
     let store = opened(&plan, &folder(&args.place), &cases)?;
     let mut rows = asked::lines(&plan, point(&plan), &shaking);
