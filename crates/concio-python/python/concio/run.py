@@ -8,6 +8,7 @@ import os
 import tempfile
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from html import escape
 from pathlib import Path
 from types import MappingProxyType
@@ -78,9 +79,6 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         """Made by :meth:`concio.Wall.run`, :func:`concio.run_many` and :func:`concio.open`; paths of its records begin at ``folder``."""
         self._native = native
         self._folder = folder
-        self._channels = MappingProxyType({name: Channel(name, *rest) for name, *rest in native.channels()})
-        self._places = {name: place for place, name in enumerate(self._channels)}
-        self._summary: dict[str, Any] = native.summary()
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """A history, a value per sample, SI."""
@@ -104,10 +102,14 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         """Number of histories."""
         return len(self._places)
 
-    @property
+    @cached_property
     def channels(self) -> Mapping[str, Channel]:
         """Unit and meaning of every history."""
-        return self._channels
+        return MappingProxyType({name: Channel(name, *rest) for name, *rest in self._native.channels()})
+
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {name: place for place, name in enumerate(self.channels)}
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -129,15 +131,15 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         """
         return MappingProxyType({name: rows for name, rows in self._native.frames().items() if rows.shape[1] > 0})
 
-    @property
+    @cached_property
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds."""
-        return self._summary
+        return self._native.summary()
 
     @property
     def stop_reason(self) -> str:
         """Why it ended: ``completed``, ``collapsed``, ``interrupted``, ``step-too-short`` or ``not-finite``."""
-        return str(self._summary["stop_reason"])
+        return str(self.summary["stop_reason"])
 
     @property
     def ok(self) -> bool:
@@ -147,12 +149,12 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
     @property
     def time_reached(self) -> float:
         """Time reached [s]."""
-        return float(self._summary["time_reached"])
+        return float(self.summary["time_reached"])
 
     @property
     def energy(self) -> dict[str, float]:
         """The energy account at the end [J], and its largest residual over the largest energy in play."""
-        energy: dict[str, float] = self._summary["energy"]
+        energy: dict[str, float] = self.summary["energy"]
         return energy
 
     @property
@@ -163,25 +165,25 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
     @property
     def warnings(self) -> list[Warned]:
         """What speaks against believing the run."""
-        pairs = zip(self._summary["warning_kinds"], self._summary["warnings"], strict=True)
+        pairs = zip(self.summary["warning_kinds"], self.summary["warnings"], strict=True)
         return [Warned(*pair) for pair in pairs]
 
     @property
     def failure(self) -> dict[str, Any] | None:
         """How a planar wall failed; none where it did not."""
-        failure: dict[str, Any] | None = self._summary["failure"]
+        failure: dict[str, Any] | None = self.summary["failure"]
         return failure
 
     @property
     def collapse(self) -> dict[str, Any] | None:
         """When and how a planar wall collapsed; none where it did not."""
-        collapse: dict[str, Any] | None = self._summary["collapse"]
+        collapse: dict[str, Any] | None = self.summary["collapse"]
         return collapse
 
     @property
     def inputs_hash(self) -> str:
         """Hash over everything that the result depends on."""
-        return str(self._summary["inputs_hash"])
+        return str(self.summary["inputs_hash"])
 
     @property
     def wall(self) -> Wall:
