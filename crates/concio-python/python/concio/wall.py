@@ -281,7 +281,7 @@ class Wall:
 
         Args:
             base: What moves the base instead of what the wall file says: a record, the path of its file, or what stands at ``motion.base`` of a
-                wall file. Of a record that no file gives the result does not hold the motion: see :meth:`concio.Record.save`.
+                wall file. Of a record that no file gives the result does not hold the motion, of which it warns: see :meth:`concio.Record.save`.
             duration: Length of the run [s]; default that of the record given, else of the wall file.
             progress: Show a bar, or call this with the share that is done, 0 … 1.
 
