@@ -125,7 +125,7 @@ class Rows(Table):
 
         Raises:
             InputError: Another study was run in the folder since.
-            OSError: The report cannot be written.
+            RuntimeError: The report cannot be written.
         """
         if self._study is not None and _text(self._study[0]) != self._asked:
             what = "another study was run in the folder since: these rows have no tables any more"
@@ -431,7 +431,9 @@ def _asked(file: str, out: str, done: bool) -> Rows:
     if not done:
         return Rows({}, {}, done)
     tables = _report(file, out)
-    runs = next(tables[name] for name in _RUNS if name in tables)
+    runs = next((tables[name] for name in _RUNS if name in tables), None)
+    if runs is None:
+        raise RuntimeError(f"{out} has no table of runs: the study has not ended, run it again")
     rows = Rows({name: runs[name] for name in runs.keys()}, runs.units, done, (file, out))
     rows.__dict__["tables"] = MappingProxyType(tables)
     return rows
