@@ -106,7 +106,7 @@ pub fn measures(plan: &Plan) -> Result<Vec<&'static Measure>> {
         let found = of_model().find(|m| m.name == name);
         found.ok_or_else(|| {
             let what = match MEASURES.iter().any(|m| m.name == name) {
-                true => format!("`{name}` is no measure of walls of this model"),
+                true => format!("runs of {} walls have no `{name}`", file.wall.case.model.name()),
                 false => format!("`{name}` is no measure of a run"),
             };
             file.wrong(&format!("sensitivity.of[{i}]"), what, &known())

@@ -24,6 +24,11 @@ fn says(text: &str, line: usize, parts: &[&str]) {
 #[test]
 fn sensitivity_of_nothing() {
     says(&format!("{VARY}[sensitivity]\nof = [\"peak_drifts\"]\n"), 6, &["`peak_drifts`", "peak_drift, "]);
+    says(
+        &format!("{VARY}[sensitivity]\nof = [\"peak_over_d0\"]\n"),
+        6,
+        &["shear walls have no `peak_over_d0`", "peak_drift, "],
+    );
     says(&format!("{VARY}[sensitivity]\nof = []\n"), 6, &["no measure is named"]);
     says("[sensitivity]\nof = [\"peak_drift\"]\n", 2, &["nothing varies", "[[vary]]"]);
     says(&format!("{VARY}[sensitivity]\nof = [\"peak_drift\"]\nconfidence = 1.0\n"), 7, &["between 0 and 1"]);
