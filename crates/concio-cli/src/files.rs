@@ -1,6 +1,7 @@
 //! Files and streams that are written whole or not at all. All that goes to a terminal goes through here or
 //! [`crate::failure`]: text of files (titles, names, lines of records) must not command it.
 
+use std::cell::Cell;
 use std::fmt::Write as _;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
@@ -9,6 +10,22 @@ use concio::{InputError, files};
 
 use crate::failure::Failure;
 use crate::format::{commands, line, plain_text};
+
+thread_local! {
+    static SILENT: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Does work of which a program wants the files and not the lines on the terminal: this thread prints none meanwhile.
+pub fn silently<T>(work: impl FnOnce() -> T) -> T {
+    struct Silence(bool);
+    impl Drop for Silence {
+        fn drop(&mut self) {
+            SILENT.set(self.0);
+        }
+    }
+    let _before = Silence(SILENT.replace(true));
+    work()
+}
 
 /// Prints to standard output.
 pub fn print(text: &str) -> Result<(), Failure> {
@@ -30,6 +47,9 @@ pub fn print_json(json: &str) -> Result<(), Failure> {
 
 /// Writes a text as it is.
 pub fn write_out(text: &str) -> Result<(), Failure> {
+    if SILENT.get() {
+        return Ok(());
+    }
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => Ok(()),
@@ -40,7 +60,9 @@ pub fn write_out(text: &str) -> Result<(), Failure> {
 
 /// Tells the user something in one line on standard error, which may be closed.
 pub fn note(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{}", line(text));
+    if !SILENT.get() {
+        let _ = writeln!(io::stderr().lock(), "{}", line(text));
+    }
 }
 
 /// Writes a file whole or not at all.

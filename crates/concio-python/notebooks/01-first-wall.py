@@ -119,10 +119,11 @@ run.plot.energies(ax=axes[1, 1])
 # ## How far is it to be believed?
 #
 # First the equations. `ok` says that the run went as far as it was to go. The energy account has to close to a thousandth. There
-# is no warning.
+# is one warning: its joints ring faster than a step resolves, so peaks change with the step.
 
 # %%
-assert run.ok and run.energy_residual < 1e-3 and run.warnings == []
+assert run.ok and run.energy_residual < 1e-3 and [warned.kind for warned in run.warnings] == ["unresolved-joints"]
+print(run.warnings[0])
 energy = run.energy
 spent = sum(energy[name] for name in ("damping", "friction", "impact"))
 stored = energy["kinetic"] + energy["elastic"] - energy["initial"]

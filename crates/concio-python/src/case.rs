@@ -11,7 +11,7 @@ use concio::case::{self, CaseFile, Syntax, canonical_json};
 use concio::ground::signal::from_record;
 use concio::run::{prepare, prepare_moved};
 use concio_cli::args::Cli;
-use concio_cli::commands::{self, wall_file};
+use concio_cli::commands::{self, Answer, wall_file};
 use concio_cli::failure::Failure;
 use pyo3::prelude::*;
 use serde_json::Value;
@@ -114,18 +114,20 @@ impl Case {
         Ok(py.detach(prepared)?)
     }
 
-    /// What the command line prints with `--json` when it is given these arguments for this wall, of which the first is the command.
-    fn answer<'py>(&self, py: Python<'py>, arguments: Vec<String>) -> PyResult<Bound<'py, PyAny>> {
+    /// What the command line prints with `--json` when it is given these arguments for this wall, of which the first is the command, and the
+    /// mechanism as SVG where there is one.
+    fn answer(&self, py: Python<'_>, arguments: Vec<String>) -> PyResult<(Py<PyAny>, Option<String>)> {
         let name = self.file.path().unwrap_or(Path::new("wall"));
         let (head, options) = arguments.split_at(arguments.len().min(1));
         let line = [OsString::from("concio")].into_iter().chain(head.iter().map(OsString::from));
         let line = line.chain([name.as_os_str().to_owned()]).chain(options.iter().map(OsString::from));
         let cli = Cli::try_parse_from(line).map_err(|e| Raised::from(misused(&e)))?;
         let answer = py.detach(|| {
-            let value = commands::value(&cli.command, &self.file)?;
-            value.ok_or_else(|| Failure::Other("this command gives no answer".into(), None))
+            let answer = commands::answer(&cli.command, &self.file)?;
+            answer.ok_or_else(|| Failure::Other("this command gives no answer".into(), None))
         });
-        json::to_python(py, &answer.map_err(|e| self.raised(in_memory(e, self.file.path())))?)
+        let Answer { value, drawing } = answer.map_err(|e| self.raised(in_memory(e, self.file.path())))?;
+        Ok((json::to_python(py, &value)?.unbind(), drawing))
     }
 
     /// The text that it was read from, without what was changed.

@@ -47,5 +47,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(examples::example_names, module)?)?;
     module.add_function(wrap_pyfunction!(many::run_many, module)?)?;
     module.add_function(wrap_pyfunction!(elsewhere::task_work, module)?)?;
+    module.add_function(wrap_pyfunction!(study::study_check, module)?)?;
+    module.add_function(wrap_pyfunction!(study::study_report, module)?)?;
     module.add_function(wrap_pyfunction!(study::study_run, module)?)
 }

@@ -10,6 +10,7 @@ use concio::store::{SCHEMA_VERSION, StoredRun};
 use concio::warning::Warning;
 use concio_cli::draw::wall::{Paint, Subject, draw};
 use concio_cli::report::beam_label;
+use concio_study::shaking::first_mode;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -71,6 +72,13 @@ impl Prepared {
     #[getter]
     fn weight(&self) -> f64 {
         self.prepared.model.weight()
+    }
+
+    /// First period of the wall, its joints intact [s]; none where there is none. A wall that rocks has one for every amplitude.
+    fn first_period(&self, py: Python<'_>) -> Option<f64> {
+        let model = &self.prepared.model;
+        let mode = py.detach(|| if model.rocking().is_some() { None } else { first_mode(model) });
+        mode.map(|mode| mode.period)
     }
 
     /// What a result of this run is known by.

@@ -24,6 +24,8 @@ pub struct Run {
     /// Without histories and frames.
     stored: StoredRun,
     summary: Value,
+    /// The wall file as it was given.
+    #[pyo3(get)]
     text: Option<String>,
     /// Whether Ctrl-C ended it.
     #[pyo3(get)]
@@ -96,9 +98,9 @@ impl Run {
 
 #[pymethods]
 impl Run {
-    /// Reads `result.h5` and `summary.json` of a folder.
+    /// Reads `result.h5` and `summary.json` of a folder; `text` is the wall file as it was given, where that is known.
     #[staticmethod]
-    fn open(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
+    fn open(py: Python<'_>, folder: PathBuf, text: Option<String>) -> PyResult<Self> {
         let read = || {
             let stored = hdf5::read(&folder.join(RESULT))?;
             let summary = read_summary(&folder.join(SUMMARY))?;
@@ -110,7 +112,7 @@ impl Run {
             Ok::<_, Raised>((stored, summary))
         };
         let (stored, summary) = py.detach(read)?;
-        Run::new(py, stored, summary, None, false)
+        Run::new(py, stored, summary, text, false)
     }
 
     /// Writes `result.h5` and `summary.json` into a folder.

@@ -2,8 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use concio::Error;
 use concio::case::Case;
 use concio::run::Control;
+use concio_cli::commands::study::{checked, report};
+use concio_cli::files::silently;
+use concio_cli::study::asked;
 use concio_study::measures::Row;
 use concio_study::runner::{Deliver, Hands, Progress};
 use concio_study::store::Store;
@@ -65,6 +69,27 @@ fn complete(file: &Path, folder: &Path, hands: Hands, board: &Board) -> Result<D
     let keep = &study.keep;
     let found: Vec<Option<&Row>> = ids.iter().map(|id| store.holding(id, &keep.joints, keep.results)).collect();
     Ok((columns(&table::of_plan(&plan, &found)), whole))
+}
+
+/// What `concio study check` says of a study file: the columns of its design, the factors of each run, and what is doubtful.
+#[pyfunction]
+pub fn study_check(py: Python<'_>, file: PathBuf) -> PyResult<(Py<PyAny>, Vec<String>)> {
+    let found = py.detach(|| {
+        let plan = checked(&file)?.plan;
+        let mut design = table::of_plan(&plan, &vec![None; plan.points.len()]);
+        // Behind the number of the run and its factors stands what it is not known to measure.
+        design.columns.truncate(1 + plan.factors.len());
+        let doubts = asked::before(&plan).sentences().iter().map(ToString::to_string).collect();
+        Ok::<_, Error>((columns(&design), doubts))
+    });
+    let (design, doubts) = found.map_err(Raised::from)?;
+    Ok((json::to_python(py, &design)?.unbind(), doubts))
+}
+
+/// Writes report and tables of what a folder has of a study file.
+#[pyfunction]
+pub fn study_report(py: Python<'_>, file: PathBuf, folder: PathBuf) -> PyResult<()> {
+    Ok(py.detach(|| silently(|| report(file, folder))).map_err(Raised::from)?)
 }
 
 fn columns(table: &Table) -> Value {

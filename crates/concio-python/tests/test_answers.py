@@ -2,13 +2,15 @@ from __future__ import annotations
 
 import json
 import os
+from html import escape
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
 import concio
-from concio import InputError, Wall
+from concio import InputError, Limit, Mechanisms, Wall
 
 BLOCK = """
 model = "planar"
@@ -50,6 +52,18 @@ def test_it_is_what_the_command_line_prints(tmp_path: Path, command) -> None:  #
         told = command(options[0], path, *options[1:], "--json")
         assert told.returncode in (0, 1), told.stderr
         assert asked == json.loads(told.stdout)
+
+
+def test_mechanisms_are_drawn() -> None:
+    wall = Wall.from_str(BLOCK.replace("MU", "0.3"))
+    answers: list[Limit | Mechanisms] = [wall.limit(towards="left"), wall.limit(towards="right")]
+    answers += [wall.limit(out_of_plane=True), wall.mechanisms()]
+    for answer in answers:
+        drawing = answer.drawing or ""
+        assert ElementTree.fromstring(drawing).tag.endswith("svg")
+        assert answer._repr_svg_() == drawing and drawing in answer._repr_html_()
+        assert all(escape(line) in answer._repr_html_() for line in repr(answer).splitlines())
+    assert len({answer.drawing for answer in answers}) == len(answers)
 
 
 def test_words_that_limit_analysis_does_not_know(tmp_path: Path) -> None:

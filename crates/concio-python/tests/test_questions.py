@@ -62,17 +62,31 @@ QUESTIONS: list[tuple[str, dict[str, Any], str]] = [
 
 @pytest.mark.parametrize(("name", "asked", "table"), QUESTIONS)
 def test_questions_are_those_of_study_files(
-    tmp_path: Path, bonded: Wall, command: Callable[..., Any], name: str, asked: dict[str, Any], table: str
+    tmp_path: Path,
+    bonded: Wall,
+    command: Callable[..., Any],
+    capfd: pytest.CaptureFixture[str],
+    name: str,
+    asked: dict[str, Any],
+    table: str,
 ) -> None:
     motions = {"half sine": pulse("half-sine"), "rectangle": pulse("rectangular")}
     question: dict[str, Any] = {name: asked}
     rows = Study(bonded, motions=motions, **question).run(tmp_path / "python")
     assert rows.done and len(rows) > 0 and table in rows.tables and len(rows.tables[table]) > 0
+    assert capfd.readouterr() == ("", "")
     told = command("study", "run", tmp_path / "python/study.json", "--out", tmp_path / "typed")
     assert told.returncode == 0, told.stderr
     tables = {path.stem: path.read_bytes() for path in (tmp_path / "typed").glob("*.csv")}
     assert tables == {path.stem: path.read_bytes() for path in (tmp_path / "python").glob("*.csv")}
     assert set(rows.tables) == set(tables)
+
+
+def test_a_wall_that_does_not_crack_has_its_table(tmp_path: Path, bonded: Wall) -> None:
+    strong = bonded.replace({"joint.bond": {"tensile_strength": "5000 MPa", "cohesion": "8000 MPa"}})
+    (row,) = Study(strong, motions={"A": pulse("half-sine")}, first_crack={}).run(tmp_path).tables["first-crack"]
+    # The command says by its status that no crack was found up to the largest scale.
+    assert row["motion"] == "A" and row["scale"] is None and row["scale_below"] > 1
 
 
 def test_tables_of_earlier_questions_are_not_shown(tmp_path: Path, bonded: Wall) -> None:
@@ -91,6 +105,7 @@ def test_wrong_questions_are_told_before_anything_runs(tmp_path: Path, bonded: W
         ({"sensitivity": {"of": ["slip"]}}, "sensitivity.of[0]"),
         ({"ida": {"damage": "largest_slip", "limits": [], "hunt": hunt}}, "ida.limits"),
         ({"ida": {"damage": "slip", "limits": [{"name": "s", "value": 1}], "hunt": hunt}}, "ida.damage"),
+        ({"ida": {"damage": "peak_over_d0", "limits": [{"name": "s", "value": 1}], "hunt": hunt}}, "ida.damage"),
         ({"first_crack": {"criterium": "bond"}}, "first-crack.criterium"),
         ({"first_crack": {}, "ranking": {}}, "ranking"),
         ({"ranking": {"by": ["slips"]}}, "ranking.by[0]"),
@@ -100,4 +115,8 @@ def test_wrong_questions_are_told_before_anything_runs(tmp_path: Path, bonded: W
         with pytest.raises(InputError) as caught:
             Study(bonded, motions={"A": pulse("half-sine")}, **question).run(tmp_path)
         assert caught.value.key == key
+        if key == "ida.damage":
+            # The measures that a wall of the shear model has.
+            allowed = (caught.value.allowed or "").split(", ")
+            assert "largest_slip" in allowed and not {"peak_over_d0", "beyond_d0"} & set(allowed)
         assert not list(tmp_path.glob("runs/*.jsonl"))

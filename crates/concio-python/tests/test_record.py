@@ -122,6 +122,16 @@ def test_records_go_to_other_processes(quake: Record) -> None:
     np.testing.assert_array_equal(again.acceleration, 2 * quake.acceleration)
 
 
+def test_arrays_may_begin_anywhere_in_memory(quake: Record) -> None:
+    """As those do that Dask hands on without a copy."""
+    askew = np.frombuffer(b"-" + quake.acceleration.tobytes(), offset=1)
+    assert not askew.flags.aligned
+    again = Record.from_array(askew, quake.dt)
+    np.testing.assert_array_equal(again.acceleration, quake.acceleration)
+    periods = np.frombuffer(b"-" + np.array([0.1, 0.5]).tobytes(), offset=1)
+    np.testing.assert_array_equal(again.spectrum(periods).psa, quake.spectrum([0.1, 0.5]).psa)
+
+
 def test_a_record_shows_itself(quake: Record) -> None:
     assert repr(quake).splitlines()[1:] == ["201 samples every 0.005 s, 1 s", f"PGA {quake.pga:.4g} m/s²"]
 

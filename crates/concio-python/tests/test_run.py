@@ -1,9 +1,12 @@
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import threading
 import time
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -75,6 +78,27 @@ def test_a_run_that_is_read_back_is_the_run(wall: Wall, tmp_path: Path) -> None:
         assert file.attrs["inputs_hash"] == run.inputs_hash
 
 
+def test_runs_come_back_from_other_processes(wall: Wall, quake: Record) -> None:
+    here = wall.run(base=quake, duration=0.2)
+    # Not by fork: threads of the engine would not be there.
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+        there = pool.submit(wall.run, quake, duration=0.2).result(timeout=120)
+    back = pickle.loads(pickle.dumps(here))
+    for again in (back, there):
+        for array, own in ((again._native.values, here._native.values), (again.time, here.time)):
+            assert array.tobytes() == own.tobytes() and not array.flags.writeable
+        assert again.frames.keys() == here.frames.keys()
+        for name, values in here.frames.items():
+            np.testing.assert_array_equal(again.frames[name], values)
+        assert again.warnings == here.warnings and again.wall == here.wall
+        assert again.summary | {"solve_seconds": 0} == here.summary | {"solve_seconds": 0}
+        assert repr(again) == repr(here)
+        assert repr(again.events) == repr(here.events) and repr(again.joints) == repr(here.joints)
+    assert back.summary == here.summary
+    # Of which reports show the text.
+    assert back._native.text == here._native.text == wall._case.text
+
+
 def test_folders_that_hold_no_run(tmp_path: Path, planar: Wall) -> None:
     with pytest.raises(OSError):
         concio.open(tmp_path)
@@ -121,15 +145,42 @@ def test_a_motion_that_no_result_holds_is_told(planar: Wall, quake: Record, tmp_
         run.save(tmp_path / "out")
     with pytest.warns(UserWarning, match=r"record\.save"):
         run.report(tmp_path / "page.html")
-    assert concio.open(tmp_path / "out").wall.settings["motion"]["base"] == "none"
+    back = concio.open(tmp_path / "out")
+    assert back.wall.settings["motion"]["base"] == "none"
+    # Who opens it later is told too, as is who copies it.
+    assert back.warnings == run.warnings and back.summary == run.summary
+    with pytest.warns(UserWarning, match=r"record\.save"):
+        back.save(tmp_path / "copy")
     # The remedy: the same motion by a file, which the result names.
     kept = planar.run(base=quake.save(tmp_path / "quake.txt"))
     np.testing.assert_array_equal(kept._native.values, run._native.values)
     kept.save(tmp_path / "out")
-    # Of a file it is looked at: it ends with a velocity.
-    assert "drift" in [warning.kind for warning in kept.warnings]
+    assert kept.warnings == run.warnings[:-1]
     again = concio.open(tmp_path / "out").wall.run()
     np.testing.assert_array_equal(again._native.values, run._native.values)
+
+
+def test_arrays_are_doubted_as_files_are(planar: Wall, quake: Record, tmp_path: Path) -> None:
+    """An acceleration in cm/s² that was taken for m/s² and drifts, over a run that cuts it."""
+    wrong = quake.scaled(100)
+    kinds = ["record-cut", "drift", "unlikely-record"]
+    of_array = planar.run(base=wrong, duration="50 ms").warnings
+    of_file = planar.run(base=wrong.save(tmp_path / "quake.txt"), duration="50 ms").warnings
+    told = [warning for warning in of_array if warning.kind != "motion-in-no-file"]
+    assert told == of_file and len(of_array) == len(of_file) + 1
+    assert [warning.kind for warning in told if warning.kind in kinds] == kinds
+    assert any("more than 60 m/s²" in warning.text for warning in told)
+    # What is doubtful in the wall file is told with them.
+    doubtful = planar.replace({"panel[0].brick.specific_weight": 18})
+    (run,) = concio.run_many([(doubtful, quake)])
+    assert [warning.text for warning in run.warnings if "specific_weight" in warning.text]
+    # A displacement history may end where it likes.
+    t = np.linspace(0, 1, 201)
+    rows = "\n".join(f"{k:.17g},{u:.17g}" for k, u in zip(t, t**3 * (10 - 15 * t + 6 * t**2), strict=True))
+    (tmp_path / "path.csv").write_text(f"t [s],u [m]\n{rows}\n")
+    path = Record.read(tmp_path / "path.csv", quantity="displacement").scaled(0.1).trim(0, 1)
+    assert path._native.words("") is None
+    assert "drift" not in [warning.kind for warning in planar.run(base=path).warnings]
 
 
 def test_other_motions_of_the_base(planar: Wall) -> None:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import threading
 from pathlib import Path
@@ -25,6 +26,26 @@ def test_rows_are_the_runs(tmp_path: Path, shear: Wall) -> None:
         assert row["peak_displacement"] == pytest.approx(run.summary["peak_relative_displacement"], rel=1e-3)
     pytest.importorskip("pandas")
     assert rows.frame.attrs["units"]["peak_displacement"] == "m"
+
+
+def test_a_study_is_checked_before_it_runs(tmp_path: Path, shear: Wall, command) -> None:  # type: ignore[no-untyped-def]
+    doubtful = shear.replace({"panel[0].brick.specific_weight": 18})
+    factors = {"load.top": Uniform("20 kN/m", "60 kN/m")}
+    study = Study(doubtful, factors, design="random", runs=5, sensitivity={"of": ["largest_slip"]})
+    runs, doubts = study.check()
+    assert len(runs) == 5 and runs.units["load.top"] == "kN/m"
+    assert any("specific_weight" in doubt and doubt.startswith("in every run") for doubt in doubts)
+    rows = study.run(tmp_path)
+    np.testing.assert_array_equal(runs["load.top"], rows["load.top"])
+    told = command("study", "check", tmp_path / "study.json")
+    assert told.returncode == 0 and re.search(r"^ +runs +5$", told.stdout, re.M)
+    # The command adds where in the wall file it is.
+    lines = [line.removeprefix("warning: ") for line in told.stderr.splitlines()]
+    assert all(line.startswith(doubt) for line, doubt in zip(lines, doubts, strict=True))
+    assert Study.from_toml(tmp_path / "study.json").check().doubts == doubts
+    with pytest.raises(InputError) as caught:
+        Study(shear, {"load.tip": [1, 2]}).check()
+    assert caught.value.key == "vary[0].path" and caught.value.file is None
 
 
 def test_a_study_goes_on_where_it_was(tmp_path: Path, planar: Wall) -> None:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import pickle
+import re
 from pathlib import Path
 from typing import Any
 
@@ -188,6 +189,36 @@ def test_doubts() -> None:
     (doubt,) = (d for d in doubtful.check() if "specific_weight" in d.text)
     assert (doubt.kind, doubt.key, doubt.line) == ("unlikely-number", "panel[0].brick.specific_weight", 8)
     assert "1 doubt: see check()" in repr(doubtful)
+
+
+SPRUNG = """
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = { length = "0.5 m", height = "0.2 m", thickness = "0.5 m", specific_weight = "20 kN/m3" }
+mortar = { bed = 0, head = 0 }
+[joint]
+bed = { law = "elastic", stiffness = "2 MN/m" }
+head = { law = "none" }
+[motion]
+duration = "1 s"
+"""
+
+
+def test_the_first_period(tmp_path: Path, planar: Wall, command) -> None:  # type: ignore[no-untyped-def]
+    """A block on a spring has T = 2π √(m/K)."""
+    shear = Wall.from_str('model = "shear"\n' + SPRUNG)
+    (mass,), (stiffness,) = shear.blocks["mass"], shear.joints["stiffness"]
+    assert shear.first_period == pytest.approx(2 * np.pi * np.sqrt(mass / stiffness), rel=1e-9)
+    # A planar one turns on its springs too, and is slower; it is what the command tells.
+    (tmp_path / "wall.toml").write_text('model = "planar"\n' + SPRUNG)
+    period = Wall.from_toml(tmp_path / "wall.toml").first_period
+    told = re.search(r"first period +([\d.]+) ms", command("check", tmp_path / "wall.toml").stdout)
+    assert period is not None and told is not None and period > (shear.first_period or 0)
+    assert 1e3 * period == pytest.approx(float(told[1]), rel=5e-4)
+    # Rigid joints have none, and what rocks has one for every amplitude.
+    assert planar.first_period is None and Wall.example("rocking-facade").first_period is None
 
 
 def test_a_wall_shows_itself(planar: Wall) -> None:

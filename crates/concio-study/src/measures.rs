@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use concio::bond::BondRow;
+use concio::case::ModelKind;
 use concio::outcome::{Outcome, RockingOutcome};
 use concio::quantity::shown;
 use concio::run::{Prepared, joint_rows, warnings_of};
@@ -103,6 +104,39 @@ const GO_ON: [&str; 18] = [
     "device_energy",
     "dissipated_energy",
 ];
+
+/// Numbers of [`MEASURES`] that walls of the shear model alone have, and those that rocking walls alone have.
+const OF_SHEAR: [&str; 1] = ["peak_viscous_force"];
+const OF_ROCKING: [&str; 3] = ["peak_over_d0", "first_lift_off", "beyond_d0"];
+
+/// Numbers of [`MEASURES`] that are 0 in every run of a rocking wall: it has hinges and ties in place of joints that slide, and no top beam.
+const NOT_OF_ROCKING: [&str; 14] = [
+    "peak_joint_displacement",
+    "peak_joint_velocity",
+    "peak_joint_acceleration",
+    "peak_slip_velocity",
+    "largest_slip",
+    "total_slip",
+    "deepest_closing",
+    "peak_elastic_force",
+    "peak_friction_force",
+    "top_force_peak",
+    "top_force_rms",
+    "top_work",
+    "joints_cracked",
+    "joints_broken",
+];
+
+impl Measure {
+    /// Whether runs of such walls have it.
+    pub fn is_of(&self, model: ModelKind) -> bool {
+        match model {
+            ModelKind::Shear => !OF_ROCKING.contains(&self.name),
+            ModelKind::Planar => !OF_SHEAR.contains(&self.name) && !OF_ROCKING.contains(&self.name),
+            ModelKind::Rocking => !OF_SHEAR.contains(&self.name) && !NOT_OF_ROCKING.contains(&self.name),
+        }
+    }
+}
 
 /// Whether a measure of a planar run is that of the time before a collapse.
 pub fn ends_with_collapse(name: &str) -> bool {

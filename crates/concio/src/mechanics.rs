@@ -1,4 +1,4 @@
-//! What moves in a run: the one place where the models of walls part ways while time goes on.
+//! What moves in a run: where the models of walls part ways while time goes on.
 
 use concio_law::drift::Lean;
 use concio_shear::run as shear;
@@ -7,7 +7,6 @@ use crate::case::Solver;
 use crate::error::{InputError, Result};
 use crate::keeper::{self, Keeper};
 use crate::model::{Model, System};
-
 use crate::outcome::{RockingOutcome, TieRow};
 use crate::planar_run;
 use crate::record::{Layout, StopReason};
@@ -22,8 +21,8 @@ pub(crate) enum Mechanics<'m> {
     Rocking(Box<rocking_run::Run<'m>>),
 }
 
-/// What a result tells besides the state of a run's end.
-pub(crate) struct Told<'r> {
+/// What a result tells besides the state at a run's end: how panels lean, what ties bore [N], and what became of a façade.
+pub(crate) struct Ending<'r> {
     pub leans: &'r [Lean],
     pub ties: Vec<TieRow>,
     pub rocking: Option<RockingOutcome>,
@@ -72,6 +71,7 @@ impl<'m> Mechanics<'m> {
         shear::Run::events_at_once(&model.shear) + more
     }
 
+    /// Motion and account after the last accepted step.
     pub fn state(&self) -> State<'_> {
         match self {
             Mechanics::Shear(run) => {
@@ -169,11 +169,12 @@ impl<'m> Mechanics<'m> {
         Ok(())
     }
 
-    pub fn told(&self, model: &Model) -> Told<'_> {
+    /// At the end of the run.
+    pub fn ending(&self, model: &Model) -> Ending<'_> {
         match self {
-            Mechanics::Shear(run) => Told { leans: &run.state.leans, ties: Vec::new(), rocking: None },
-            Mechanics::Planar(run) => Told { leans: &run.state().leans, ties: run.ties(model), rocking: None },
-            Mechanics::Rocking(run) => Told { leans: &run.state().leans, ties: run.ties(), rocking: Some(run.row()) },
+            Mechanics::Shear(run) => Ending { leans: &run.state.leans, ties: Vec::new(), rocking: None },
+            Mechanics::Planar(run) => Ending { leans: &run.state().leans, ties: run.ties(model), rocking: None },
+            Mechanics::Rocking(run) => Ending { leans: &run.state().leans, ties: run.ties(), rocking: Some(run.row()) },
         }
     }
 }

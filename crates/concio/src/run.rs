@@ -110,8 +110,8 @@ fn named(file: &CaseFile, error: Error) -> Error {
     Error::Input(error)
 }
 
-/// [`prepare`] with a motion of the base that no file gives, over `motion.duration`, or as long as it is. Results know it by [`Prepared::inputs_hash`] alone: keep the
-/// motion beside them.
+/// [`prepare`] with a motion of the base that no file gives, over `motion.duration`, or as long as it is. It is doubted as records are. Results know it by
+/// [`Prepared::inputs_hash`] alone, of which a warning tells: keep the motion beside them.
 ///
 /// # Errors
 /// As [`prepare`]; a wall file that moves base or top too.
@@ -125,11 +125,14 @@ pub fn prepare_moved(file: &CaseFile, base: GroundMotion) -> Result<Prepared> {
     }
     let duration = case.motion.duration.map(|duration| duration.si()).or(base.end()).unwrap_or(0.0);
     let inputs_hash = hash(&[canonical_json(&case).into_bytes(), format!("{base:?}").into_bytes()]);
+    let of_motion = coverage::of_own(&case, &base, duration);
     let excitation = Excitation::of_base(base, duration);
     let parts = pattern::lay(&case).and_then(|wall| Ok((wall, sampling(&case, &excitation)?)));
     let prepared =
-        parts.and_then(|(wall, sampling)| compiled(case, (wall, excitation, sampling), Vec::new(), inputs_hash));
-    prepared.map_err(|error| file.locate(error))
+        parts.and_then(|(wall, sampling)| compiled(case, (wall, excitation, sampling), of_motion, inputs_hash));
+    let mut prepared = prepared.map_err(|error| file.locate(error))?;
+    prepared.model.warnings.splice(0..0, file.unit_doubts());
+    Ok(prepared)
 }
 
 /// [`prepare`] of a case that is valid; `folder` is where relative record paths start.

@@ -10,7 +10,7 @@ use crate::case::Solver;
 use crate::channels::Channels;
 use crate::error::{InputError, Result};
 use crate::keeper::{self, Keeper};
-use crate::mechanics::{Mechanics, Told};
+use crate::mechanics::{Ending, Mechanics};
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::record::{Layout, Recording, StopReason};
@@ -209,7 +209,7 @@ impl<'m> Simulation<'m> {
     /// The result, with the recording that the caller collected.
     pub fn outcome(self, recording: Recording, stop_reason: StopReason) -> Outcome {
         let Simulation { keeper: Keeper { model, layout, .. }, mechanics } = self;
-        let Told { leans, ties, rocking } = mechanics.told(model);
+        let Ending { leans, ties, rocking } = mechanics.ending(model);
         let state = mechanics.state();
         let bonds = model.shear.bonds.iter().zip(state.bonds).map(|(bond, state)| BondRow::of(bond, state)).collect();
         let mut envelopes = state.envelopes.clone();

@@ -59,6 +59,8 @@ kinds! {
     UnlikelyRecord = "unlikely-record",
     /// A record whose file is at odds with itself.
     DoubtfulRecord = "doubtful-record",
+    /// A motion of the base that results do not hold.
+    MotionInNoFile = "motion-in-no-file",
     /// A run of very many steps.
     LongRun = "long-run",
     /// An energy account that does not close, or contacts that give energy back.

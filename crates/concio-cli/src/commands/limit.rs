@@ -11,7 +11,7 @@ use concio::{Error, InputError};
 use concio_limit::{self as limit, JointMotion, LimitError, NonAssociative, Options, Problem, Stop};
 use serde_json::{Value, json};
 
-use super::{check::TRIED, run::refuse_a_file, wall_file};
+use super::{Answer, check::TRIED, run::refuse_a_file, wall_file};
 use crate::args::{HeadFriction, Limit, LimitLoad, Side};
 use crate::draw::mechanism;
 use crate::failure::{Failure, STOPPED};
@@ -87,9 +87,10 @@ pub fn limit(args: &Limit) -> Result<ExitCode, Failure> {
 }
 
 /// What `--json` prints.
-pub fn value(args: &Limit, file: &CaseFile) -> Result<Value, Failure> {
+pub fn answer(args: &Limit, file: &CaseFile) -> Result<Answer, Failure> {
     let (weaker, other) = pushed(args, file)?;
-    Ok(result(args, &weaker, other.as_ref(), falls(file)))
+    let drawing = Some(mechanism::draw(&weaker.problem, &weaker.found).svg());
+    Ok(Answer { value: result(args, &weaker, other.as_ref(), falls(file)), drawing })
 }
 
 /// The way in which the wall bears less, and the other where both are asked.

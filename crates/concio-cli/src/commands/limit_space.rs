@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::limit::{DRAWING, NAMED, RESULT, estimate, failure, options, without_dilation};
 use super::limit_behind::{self, Behind, NOTHING};
-use super::{run::refuse_a_file, wall_file};
+use super::{Answer, run::refuse_a_file, wall_file};
 use crate::args::{HeadFriction, Limit as Asked, LimitLoad, Side};
 use crate::draw::axonometry;
 use crate::failure::{Failure, STOPPED};
@@ -88,9 +88,10 @@ pub fn limit(args: &Asked) -> Result<ExitCode, Failure> {
 }
 
 /// What `--json` prints.
-pub fn value(args: &Asked, file: &CaseFile) -> Result<Value, Failure> {
+pub fn answer(args: &Asked, file: &CaseFile) -> Result<Answer, Failure> {
     let (face, found) = asked(args, file)?;
-    Ok(result(args, face, &found))
+    let drawing = Some(axonometry::draw(&found.problem, &found.limit).svg());
+    Ok(Answer { value: result(args, face, &found), drawing })
 }
 
 /// Which way, and what is found.

@@ -9,8 +9,9 @@ use concio_mechanisms::survey::survey;
 use concio_study::table;
 use serde_json::Value;
 
-use super::{run::refuse_a_file, wall_file};
+use super::{Answer, run::refuse_a_file, wall_file};
 use crate::args::{Mechanisms, OverlapSum};
+use crate::draw::out_of_plane;
 use crate::failure::Failure;
 use crate::format::line;
 use crate::mechanisms::shaken::Shaken;
@@ -34,9 +35,11 @@ pub fn mechanisms(args: &Mechanisms) -> Result<(), Failure> {
     })
 }
 
-/// What `--json` prints.
-pub fn value(args: &Mechanisms, file: &CaseFile) -> Result<Value, Failure> {
-    found(args, file, |_, _, result| Ok(result))
+/// What `--json` prints, and the least of the mechanisms that count, drawn.
+pub fn answer(args: &Mechanisms, file: &CaseFile) -> Result<Answer, Failure> {
+    found(args, file, |Subject { wall, survey, .. }, _, value| {
+        Ok(Answer { value, drawing: survey.least().map(|least| out_of_plane::draw(wall, least).svg()) })
+    })
 }
 
 /// Finds the mechanisms, and follows them where that is asked; what `then` makes of them.

@@ -24,17 +24,25 @@ pub mod record;
 pub mod run;
 mod scale;
 mod schema;
-mod study;
+pub mod study;
 mod system;
 pub mod wall_file;
 
-/// What `--json` of an analysis prints, of a wall that was read already; none of the other commands.
-pub fn value(command: &Command, file: &CaseFile) -> Result<Option<Value>, Failure> {
+/// What an analysis says of a wall that was read already.
+pub struct Answer {
+    /// What `--json` prints.
+    pub value: Value,
+    /// The mechanism as an SVG that a page can hold, where there is one.
+    pub drawing: Option<String>,
+}
+
+/// The answer of an analysis; none of the other commands.
+pub fn answer(command: &Command, file: &CaseFile) -> Result<Option<Answer>, Failure> {
     Ok(Some(match command {
-        Command::Limit(args) if args.out_of_plane => limit_space::value(args, file)?,
-        Command::Limit(args) => limit::value(args, file)?,
-        Command::Continuum(args) => continuum::value(args, file)?,
-        Command::Mechanisms(args) => mechanisms::value(args, file)?,
+        Command::Limit(args) if args.out_of_plane => limit_space::answer(args, file)?,
+        Command::Limit(args) => limit::answer(args, file)?,
+        Command::Continuum(args) => Answer { value: continuum::value(args, file)?, drawing: None },
+        Command::Mechanisms(args) => mechanisms::answer(args, file)?,
         _ => return Ok(None),
     }))
 }

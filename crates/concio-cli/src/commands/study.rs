@@ -106,14 +106,33 @@ fn warn(plan: &Plan) -> Warned {
     before.warned
 }
 
-fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
-    let plan = read(&args.place.file)?;
+/// A study whose runs and questions have a meaning, as `concio study check` finds.
+pub struct Checked {
+    /// What it asks.
+    pub plan: Plan,
+    /// The runs of its design with their ids.
+    cases: Vec<(String, Case)>,
+    /// Name, motion and use of each motion.
+    shaking: Vec<[String; 3]>,
+}
+
+/// Reads a study file and looks whether its runs can be made ready.
+///
+/// # Errors
+/// What the study file or the walls of its runs may not say.
+pub fn checked(path: &Path) -> Result<Checked> {
+    let plan = read(path)?;
     let cases = cases(&plan)?;
-    let study = &plan.file.study;
-    if study.first_crack.is_some() {
+    if plan.file.study.first_crack.is_some() {
         first_crack::of_study(&plan)?;
     }
     let shaking = asked::shaking(&plan)?;
+    Ok(Checked { plan, cases, shaking })
+}
+
+fn check(args: &StudyCheck) -> std::result::Result<(), Failure> {
+    let Checked { plan, cases, shaking } = checked(&args.place.file)?;
+    let study = &plan.file.study;
     warn(&plan);
     let store = opened(&plan, &folder(&args.place), &cases)?;
     let mut rows = asked::lines(&plan, point(&plan), &shaking);
@@ -344,6 +363,14 @@ fn status(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {
     let store = opened(&plan, &folder(place), &cases)?;
     tell(&plan, &found(&plan, &store, &cases), &Warned::default())?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Writes report and tables of what `folder` has of a study file, as `concio study report` does.
+///
+/// # Errors
+/// As those of the command: a study file that is wrong, a folder without its runs, files that cannot be written.
+pub fn report(file: PathBuf, folder: PathBuf) -> std::result::Result<(), Failure> {
+    export(&StudyPlace { file, out: Some(folder) }).map(drop)
 }
 
 fn export(place: &StudyPlace) -> std::result::Result<ExitCode, Failure> {

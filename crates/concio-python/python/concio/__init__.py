@@ -16,12 +16,13 @@ from .errors import InputError
 from .record import Record, Spectrum
 from .run import Channel, Run, Warned, open, run_many
 from .simulation import Simulation
-from .study import LogNormal, LogUniform, Normal, Rows, Study, Triangular, Uniform
+from .study import Checked, LogNormal, LogUniform, Normal, Rows, Study, Triangular, Uniform
 from .table import Table
 from .wall import Doubt, Wall
 
 __all__ = [
     "Channel",
+    "Checked",
     "Continuum",
     "Doubt",
     "InputError",

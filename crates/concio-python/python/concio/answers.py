@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from html import escape
 from typing import Any, NamedTuple
 
 from .table import Table
@@ -19,8 +20,25 @@ class Mechanism(NamedTuple):
     """The joints that slide or open."""
 
 
-class Limit:
-    """What limit analysis found: the multiplier of the horizontal load, certified bounds of it, and the mechanism.
+class _Drawn:
+    """An answer that a notebook shows with its drawing."""
+
+    def __init__(self, result: dict[str, Any], drawing: str | None) -> None:
+        """Of what the command prints with ``--json``, and the mechanism as SVG where there is one."""
+        self.result = result
+        self.drawing = drawing
+
+    def _repr_svg_(self) -> str | None:
+        return self.drawing
+
+    def _repr_html_(self) -> str:
+        # No number without its warnings.
+        lines = "<br>".join(escape(line) for line in repr(self).splitlines())
+        return f"<div>{self.drawing or ''}<p>{lines}</p></div>"
+
+
+class Limit(_Drawn):
+    """What limit analysis found: the multiplier of the horizontal load, certified bounds of it, and the mechanism, whose SVG is ``drawing``.
 
     The multiplier is that of associative friction: what slides dilates. Where joints slide, real ones bear less;
     :attr:`without_dilation` estimates it.
@@ -32,10 +50,6 @@ class Limit:
         >>> limit.certified, limit.mechanism.kind
         (True, 'sliding')
     """
-
-    def __init__(self, result: dict[str, Any]) -> None:
-        """Of what ``concio limit --json`` prints."""
-        self.result = result
 
     @property
     def multiplier(self) -> float:
@@ -102,12 +116,11 @@ class Limit:
         return "\n".join(lines + [f"warning: {warning}" for warning in self.warnings])
 
 
-class Mechanisms:
-    """Mechanisms out of the plane, each with its multiplier, an upper bound in its class, and the checks of the code."""
+class Mechanisms(_Drawn):
+    """Mechanisms out of the plane, each with its multiplier, an upper bound in its class, and the checks of the code.
 
-    def __init__(self, result: dict[str, Any]) -> None:
-        """Of what ``concio mechanisms --json`` prints."""
-        self.result = result
+    ``drawing`` is an SVG of the least that counts, in elevation and section.
+    """
 
     @property
     def table(self) -> Table:

@@ -39,6 +39,11 @@ _WRITTEN = "# written by concio"
 _LENGTHS = {"m", "cm", "mm", "um", "µm", "μm", "in", "ft"}
 
 
+def _plain(values: ArrayLike) -> NDArray[np.float64]:
+    """An array as the engine takes it: buffers that others hand on without copying, as Dask does, may begin anywhere."""
+    return np.require(values, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
+
+
 class Record:
     """An accelerogram at equal intervals, linear between its samples. Nothing changes it: what is done to it makes another.
 
@@ -98,7 +103,7 @@ class Record:
             InputError: Samples that are not finite numbers, an interval out of range, a unit that is none of acceleration.
         """
         try:
-            samples = np.ascontiguousarray(acceleration, dtype=np.float64)
+            samples = _plain(acceleration)
         except (TypeError, ValueError):
             raise InputError("is no array of numbers", key="acceleration", allowed="numbers in one row") from None
         if samples.ndim != 1:
@@ -308,7 +313,7 @@ class Record:
             periods: Natural periods [s]; default 200 from 0.02 to 5 s at equal ratios.
             damping: Damping ratio, from 0.
         """
-        wanted = np.geomspace(0.02, 5.0, 200) if periods is None else np.ascontiguousarray(periods, dtype=np.float64)
+        wanted = np.geomspace(0.02, 5.0, 200) if periods is None else _plain(periods)
         if wanted.ndim != 1 or not np.all(np.isfinite(wanted) & (wanted >= 0)):
             raise InputError("are no natural periods", key="periods", allowed="numbers from 0 in one row [s]")
         if not 0 <= damping < 1:

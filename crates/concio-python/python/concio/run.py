@@ -5,9 +5,12 @@ from __future__ import annotations
 import difflib
 import json
 import os
+import tempfile
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from html import escape
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -41,11 +44,8 @@ class Warned(NamedTuple):
         return self.text
 
 
-_BESIDE = Warned(
-    "motion-in-no-file",
-    "its base was moved by a record that no file gives: results and reports say that nothing moved it, and nobody looked whether the"
-    ' record drifts or is cut; run it with record.save("quake.txt"), which writes the record to a file and gives that of the file',
-)
+_FILES = ("result.h5", "summary.json")
+_BESIDE = "motion-in-no-file"  # the kind of warning of a run whose motion its result does not hold
 
 
 class Channel(NamedTuple):
@@ -75,17 +75,10 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         True
     """
 
-    def __init__(self, native: _native.Run, beside: bool = False, folder: str | None = None) -> None:
-        """Made by :meth:`concio.Wall.run`, :func:`concio.run_many` and :func:`concio.open`.
-
-        ``beside`` says whether no file gives its motion, ``folder`` where paths of its records begin.
-        """
+    def __init__(self, native: _native.Run, folder: str | None = None) -> None:
+        """Made by :meth:`concio.Wall.run`, :func:`concio.run_many` and :func:`concio.open`; paths of its records begin at ``folder``."""
         self._native = native
         self._folder = folder
-        self._beside = beside
-        self._channels = MappingProxyType({name: Channel(name, *rest) for name, *rest in native.channels()})
-        self._places = {name: place for place, name in enumerate(self._channels)}
-        self._summary: dict[str, Any] = native.summary()
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """A history, a value per sample, SI."""
@@ -109,10 +102,14 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         """Number of histories."""
         return len(self._places)
 
-    @property
+    @cached_property
     def channels(self) -> Mapping[str, Channel]:
         """Unit and meaning of every history."""
-        return self._channels
+        return MappingProxyType({name: Channel(name, *rest) for name, *rest in self._native.channels()})
+
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {name: place for place, name in enumerate(self.channels)}
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -134,15 +131,15 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         """
         return MappingProxyType({name: rows for name, rows in self._native.frames().items() if rows.shape[1] > 0})
 
-    @property
+    @cached_property
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds."""
-        return self._summary
+        return self._native.summary()
 
     @property
     def stop_reason(self) -> str:
         """Why it ended: ``completed``, ``collapsed``, ``interrupted``, ``step-too-short`` or ``not-finite``."""
-        return str(self._summary["stop_reason"])
+        return str(self.summary["stop_reason"])
 
     @property
     def ok(self) -> bool:
@@ -152,12 +149,12 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
     @property
     def time_reached(self) -> float:
         """Time reached [s]."""
-        return float(self._summary["time_reached"])
+        return float(self.summary["time_reached"])
 
     @property
     def energy(self) -> dict[str, float]:
         """The energy account at the end [J], and its largest residual over the largest energy in play."""
-        energy: dict[str, float] = self._summary["energy"]
+        energy: dict[str, float] = self.summary["energy"]
         return energy
 
     @property
@@ -168,25 +165,25 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
     @property
     def warnings(self) -> list[Warned]:
         """What speaks against believing the run."""
-        of_engine = zip(self._summary["warning_kinds"], self._summary["warnings"], strict=True)
-        return [Warned(*pair) for pair in of_engine] + ([_BESIDE] if self._beside else [])
+        pairs = zip(self.summary["warning_kinds"], self.summary["warnings"], strict=True)
+        return [Warned(*pair) for pair in pairs]
 
     @property
     def failure(self) -> dict[str, Any] | None:
         """How a planar wall failed; none where it did not."""
-        failure: dict[str, Any] | None = self._summary["failure"]
+        failure: dict[str, Any] | None = self.summary["failure"]
         return failure
 
     @property
     def collapse(self) -> dict[str, Any] | None:
         """When and how a planar wall collapsed; none where it did not."""
-        collapse: dict[str, Any] | None = self._summary["collapse"]
+        collapse: dict[str, Any] | None = self.summary["collapse"]
         return collapse
 
     @property
     def inputs_hash(self) -> str:
         """Hash over everything that the result depends on."""
-        return str(self._summary["inputs_hash"])
+        return str(self.summary["inputs_hash"])
 
     @property
     def wall(self) -> Wall:
@@ -255,8 +252,19 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
         self._native.report(os.fspath(path), name)
 
     def _tell_beside(self) -> None:
-        if self._beside:
-            warnings.warn(_BESIDE.text, UserWarning, stacklevel=3)
+        for warned in self.warnings:
+            if warned.kind == _BESIDE:
+                remedy = (
+                    'run it with record.save("quake.txt"), which writes the record to a file and gives that of the file'
+                )
+                warnings.warn(f"{warned}; {remedy}", UserWarning, stacklevel=3)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """For other processes: the bytes of its files."""
+        with tempfile.TemporaryDirectory() as folder:
+            self._native.save(folder)
+            files = {name: Path(folder, name).read_bytes() for name in _FILES}
+        return _again, (files, self._native.text, self._folder)
 
     def __eq__(self, other: object) -> bool:
         """Whether it is the same object."""
@@ -293,7 +301,7 @@ def open(folder: str | os.PathLike[str]) -> Run:
     place = os.fspath(folder)
     if os.path.basename(place) == "result.h5" and os.path.isfile(place):
         place = os.path.dirname(place) or os.curdir
-    return Run(_native.Run.open(place))
+    return Run(_native.Run.open(place, None))
 
 
 def run_many(
@@ -318,7 +326,7 @@ def run_many(
 
     if threads < 0:
         raise InputError(f"is {threads}", key="threads", allowed="from 0; 0 is one per core")
-    prepared, beside, folders = [], [], []
+    prepared, folders = [], []
     for number, asked in enumerate(runs):
         wall, base = (asked, None) if isinstance(asked, Wall) else asked
         if not isinstance(wall, Wall):
@@ -326,7 +334,6 @@ def run_many(
                 f"number {number} is no wall", key="runs", allowed="walls, or pairs of a wall and a motion"
             )
         prepared.append(wall._moved(base))
-        beside.append(wall._beside(base))
         folders.append(str(wall._case.folder))
     with shown(progress) as told:
         ended, interrupted = _native.run_many(prepared, threads, told)
@@ -334,7 +341,14 @@ def run_many(
         warnings.warn(
             f"the runs were stopped: {ended.count(None)} that had not begun are left out", RuntimeWarning, stacklevel=2
         )
-    return [Run(run, its, folder) for run, its, folder in zip(ended, beside, folders, strict=True) if run is not None]
+    return [Run(run, folder) for run, folder in zip(ended, folders, strict=True) if run is not None]
+
+
+def _again(files: Mapping[str, bytes], text: str | None, place: str | None) -> Run:
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in files.items():
+            Path(folder, name).write_bytes(content)
+        return Run(_native.Run.open(folder, text), place)
 
 
 def _refuse_a_file(folder: str | os.PathLike[str]) -> None:

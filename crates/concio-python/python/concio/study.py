@@ -7,12 +7,13 @@ import json
 import os
 import re
 import sys
+import tempfile
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -123,13 +124,22 @@ class Rows(Table):
         Reading it writes ``report.html`` and the tables into the folder, as ``concio study report`` does; the documents say what is in them.
 
         Raises:
-            RuntimeError: The report cannot be written; standard error says why.
             InputError: Another study was run in the folder since.
+            RuntimeError: The report cannot be written.
         """
         if self._study is not None and _text(self._study[0]) != self._asked:
             what = "another study was run in the folder since: these rows have no tables any more"
             raise InputError(what, file=self._study[0], help="run this study again, in a folder of its own")
         return MappingProxyType({} if self._study is None else _report(*self._study))
+
+
+class Checked(NamedTuple):
+    """What is known of a study before any run."""
+
+    runs: Table
+    """The runs of its design, a row each with the values of its factors. With ``ida`` each is a curve, with ``first_crack`` a search."""
+    doubts: list[str]
+    """What is allowed and hardly meant, and what speaks against believing what it will answer."""
 
 
 class Study:
@@ -232,6 +242,35 @@ class Study:
         study._texts, study._file = None, os.path.abspath(path)
         return study
 
+    def check(self) -> Checked:
+        """The runs of its design and what is doubtful, as ``concio study check`` tells; nothing is run.
+
+        Raises:
+            InputError: As :meth:`run`.
+
+        Example:
+            >>> import concio
+            >>> study = concio.Study(concio.Wall.example(), {"joint.friction.static": [0.5, 0.6]}, scales=[1, 2])
+            >>> runs, doubts = study.check()
+            >>> len(runs), list(runs.take([3]))
+            (4, [{'run': 4.0, 'joint.friction.static': 0.6, 'scale': 2.0}])
+        """
+        if self._file is not None:
+            columns, doubts = _native.study_check(self._file)
+            return Checked(Table(*_cells(columns)), doubts)
+        # It is in no file yet.
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in (self._texts or {}).items():
+                write(os.path.join(folder, name), text)
+            try:
+                columns, doubts = _native.study_check(os.path.join(folder, _STUDY))
+            except InputError as error:
+                for told in (error, *error.more):
+                    if told.file is not None and os.path.dirname(told.file) == folder:
+                        told.file = told.line = told.column = None
+                raise
+        return Checked(Table(*_cells(columns)), doubts)
+
     def run(
         self,
         folder: str | os.PathLike[str],
@@ -298,8 +337,7 @@ class Study:
             warnings.warn("the study was stopped; the same call goes on", RuntimeWarning, stacklevel=2)
         if columns is None:
             return _asked(file, out, done)
-        cells = {column["name"]: _numbers(column["cells"]) for column in columns}
-        return Rows(cells, {column["name"]: column["unit"] for column in columns}, done, (file, out))
+        return Rows(*_cells(columns), done, (file, out))
 
     @property
     def salib_problem(self) -> dict[str, Any]:
@@ -393,7 +431,9 @@ def _asked(file: str, out: str, done: bool) -> Rows:
     if not done:
         return Rows({}, {}, done)
     tables = _report(file, out)
-    runs = next(tables[name] for name in _RUNS if name in tables)
+    runs = next((tables[name] for name in _RUNS if name in tables), None)
+    if runs is None:
+        raise RuntimeError(f"{out} has no table of runs: the study has not ended, run it again")
     rows = Rows({name: runs[name] for name in runs.keys()}, runs.units, done, (file, out))
     rows.__dict__["tables"] = MappingProxyType(tables)
     return rows
@@ -402,8 +442,7 @@ def _asked(file: str, out: str, done: bool) -> Rows:
 def _report(file: str, out: str) -> dict[str, Table]:
     """The tables that the report writes; others, of earlier questions, may lie in the folder."""
     before = _written(out)
-    if _native.command(["concio", "study", "report", file, "--out", out]) != 0:
-        raise RuntimeError(f"{file} has no report: standard error says why")
+    _native.study_report(file, out)
     after = _written(out)
     return {name: _read(os.path.join(out, f"{name}.csv")) for name in after if after[name] != before.get(name)}
 
@@ -523,6 +562,12 @@ def _refuse_another(path: str, text: str) -> None:
         if file.read() != text.encode():
             what = "the file is there already, and no study was run in its folder"
             raise InputError(what, file=path, help="another folder for the study")
+
+
+def _cells(columns: list[dict[str, Any]]) -> tuple[dict[str, Any], dict[str, str]]:
+    """The columns of a table of the engine, and their units."""
+    cells = {column["name"]: _numbers(column["cells"]) for column in columns}
+    return cells, {column["name"]: column["unit"] for column in columns}
 
 
 def _numbers(cells: list[Any]) -> list[Any]:

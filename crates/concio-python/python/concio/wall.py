@@ -237,6 +237,17 @@ class Wall:
         return [Doubt(*doubt) for doubt in self._prepared.check()]
 
     @property
+    def first_period(self) -> float | None:
+        """First natural period of the wall as it stands, its joints intact [s].
+
+        None where it has none: joints that hold are rigid, nothing holds a block, the wall falls, or it rocks out of its plane.
+
+        Raises:
+            InputError: As :meth:`check`.
+        """
+        return self._prepared.first_period()
+
+    @property
     def _prepared(self) -> _native.Prepared:
         if self._ready is None:
             self._ready = self._case.prepare(None)
@@ -263,10 +274,6 @@ class Wall:
             changes["motion.duration"] = duration
         return self.replace(changes)._case.prepare(beside)
 
-    def _beside(self, base: Base | None) -> bool:
-        """Whether it is a record that a wall file has no words for, so that no result holds it."""
-        return isinstance(base, Record) and base._native.words(self._case.folder) is None
-
     def run(self, base: Base | None = None, *, duration: float | str | None = None, progress: Progress = False) -> Run:
         """Simulates the wall.
 
@@ -274,7 +281,7 @@ class Wall:
 
         Args:
             base: What moves the base instead of what the wall file says: a record, the path of its file, or what stands at ``motion.base`` of a
-                wall file. Of a record that no file gives the result does not hold the motion: see :meth:`concio.Record.save`.
+                wall file. Of a record that no file gives the result does not hold the motion, of which it warns: see :meth:`concio.Record.save`.
             duration: Length of the run [s]; default that of the record given, else of the wall file.
             progress: Show a bar, or call this with the share that is done, 0 … 1.
 
@@ -287,7 +294,7 @@ class Wall:
         prepared = self._moved(base, duration)
         with shown(progress) as told:
             native = prepared.run(told)
-        run = Run(native, self._beside(base), str(self._case.folder))
+        run = Run(native, str(self._case.folder))
         if native.interrupted:
             warnings.warn(f"the run was stopped at t = {run.time_reached:g} s", RuntimeWarning, stacklevel=2)
         return run
@@ -329,7 +336,7 @@ class Wall:
                 raise InputError("is for walls pushed out of their plane", key=key, allowed="with out_of_plane=True")
         options = _options(load=load, towards=towards, heads=heads if heads != "as-given" or not out_of_plane else None)
         options += _options(out_of_plane=out_of_plane, **across)
-        return Limit(self._case.answer(["limit", *options]))
+        return Limit(*self._case.answer(["limit", *options]))
 
     def mechanisms(
         self,
@@ -363,7 +370,7 @@ class Wall:
             warnings.warn(what, RuntimeWarning, stacklevel=2)
         options = _options(overlaps=overlaps, record=record, pga=pga, scale=scale, vertical=vertical, shaken=shaken)
         options += _options(all=every, restitution=restitution)
-        return Mechanisms(self._case.answer(["mechanisms", *options]))
+        return Mechanisms(*self._case.answer(["mechanisms", *options]))
 
     def continuum(
         self,
@@ -391,8 +398,8 @@ class Wall:
         options = _options(panel=panel, heads=heads, repeated=repeated, brick_modulus=brick_modulus)
         options += _options(brick_poisson=brick_poisson, pressure=pressure)
         return Continuum(
-            self._case.answer(["continuum", *options]),
-            lambda card: str(self._case.answer(["continuum", *options, *_options(**card)])),
+            self._case.answer(["continuum", *options])[0],
+            lambda card: str(self._case.answer(["continuum", *options, *_options(**card)])[0]),
         )
 
     def __eq__(self, other: object) -> bool:

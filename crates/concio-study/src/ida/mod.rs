@@ -111,10 +111,14 @@ pub fn settings(file: &StudyFile) -> Result<Option<Settings>> {
         let what = "`[sensitivity]` and `[ida]` contradict each other: one looks at the runs of the design as they are";
         return Err(file.wrong("sensitivity", what, "one of both"));
     }
-    let measure = MEASURES.iter().find(|m| m.name == ida.damage && !NO_DAMAGE.contains(&m.name));
-    let Some(measure) = measure else {
-        let names: Vec<&str> = MEASURES.iter().map(|m| m.name).filter(|n| !NO_DAMAGE.contains(n)).collect();
-        let what = format!("`{}` is no measure of damage", ida.damage);
+    let model = file.wall.case.model;
+    let known = || MEASURES.iter().filter(|m| !NO_DAMAGE.contains(&m.name) && m.is_of(model));
+    let Some(measure) = known().find(|m| m.name == ida.damage) else {
+        let names: Vec<&str> = known().map(|m| m.name).collect();
+        let what = match MEASURES.iter().any(|m| m.name == ida.damage && !m.is_of(model)) {
+            true => format!("runs of {} walls have no `{}`", model.name(), ida.damage),
+            false => format!("`{}` is no measure of damage", ida.damage),
+        };
         return Err(file.wrong("ida.damage", what, &names.join(", ")));
     };
     let period = match (ida.intensity, ida.period) {

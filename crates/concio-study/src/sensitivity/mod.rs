@@ -90,7 +90,8 @@ pub enum Indices {
 pub fn measures(plan: &Plan) -> Result<Vec<&'static Measure>> {
     let file = &plan.file;
     let Some(asked) = &file.study.sensitivity else { return Ok(Vec::new()) };
-    let known = || MEASURES.iter().map(|m| m.name).collect::<Vec<_>>().join(", ");
+    let of_model = || MEASURES.iter().filter(|m| m.is_of(file.wall.case.model));
+    let known = || of_model().map(|m| m.name).collect::<Vec<_>>().join(", ");
     if asked.of.is_empty() {
         return Err(file.wrong("sensitivity.of", "no measure is named", &known()));
     }
@@ -102,9 +103,12 @@ pub fn measures(plan: &Plan) -> Result<Vec<&'static Measure>> {
         return Err(file.wrong("sensitivity.confidence", what, "between 0 and 1"));
     }
     let find = |(i, name): (usize, &String)| {
-        let found = MEASURES.iter().find(|m| m.name == name);
+        let found = of_model().find(|m| m.name == name);
         found.ok_or_else(|| {
-            let what = format!("`{name}` is no measure of a run");
+            let what = match MEASURES.iter().any(|m| m.name == name) {
+                true => format!("runs of {} walls have no `{name}`", file.wall.case.model.name()),
+                false => format!("`{name}` is no measure of a run"),
+            };
             file.wrong(&format!("sensitivity.of[{i}]"), what, &known())
         })
     };

@@ -24,6 +24,11 @@ fn says(text: &str, line: usize, parts: &[&str]) {
 #[test]
 fn sensitivity_of_nothing() {
     says(&format!("{VARY}[sensitivity]\nof = [\"peak_drifts\"]\n"), 6, &["`peak_drifts`", "peak_drift, "]);
+    says(
+        &format!("{VARY}[sensitivity]\nof = [\"peak_over_d0\"]\n"),
+        6,
+        &["shear walls have no `peak_over_d0`", "peak_drift, "],
+    );
     says(&format!("{VARY}[sensitivity]\nof = []\n"), 6, &["no measure is named"]);
     says("[sensitivity]\nof = [\"peak_drift\"]\n", 2, &["nothing varies", "[[vary]]"]);
     says(&format!("{VARY}[sensitivity]\nof = [\"peak_drift\"]\nconfidence = 1.0\n"), 7, &["between 0 and 1"]);
@@ -74,6 +79,8 @@ fn analyses_that_have_no_answer() {
     says(&ida(&format!("{damage}{wrong}{list}")), 8, &["limits[0].value", "in m"]);
     says(&ida(&format!("damage = \"slippage\"\n{limits}{list}")), 7, &["`slippage`", "largest_slip"]);
     says(&ida(&format!("damage = \"first_crack\"\n{limits}{list}")), 7, &["no measure of damage"]);
+    let rocks = "damage = \"peak_over_d0\"\n";
+    says(&ida(&format!("{rocks}{limits}{list}")), 7, &["shear walls have no `peak_over_d0`", "peak_viscous_force"]);
     says(&ida(&format!("{damage}{limits}")), 6, &["`intensities`", "`hunt`"]);
     says(&ida(&format!("{damage}{limits}intensities = [0.4, 0.2]\n")), 9, &["rising"]);
     says(&ida(&format!("{damage}{limits}intensities = [-1]\n")), 9, &["above 0"]);

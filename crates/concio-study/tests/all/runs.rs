@@ -4,14 +4,14 @@ use std::collections::HashSet;
 use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use concio::case::{Case, Signal};
+use concio::case::{Case, Signal, Syntax, from_str};
 use concio::dice::Dice;
 use concio::many::{Job, Standing, Until, simulate_each};
 use concio::outcome::Outcome;
-use concio::run::Control;
+use concio::run::{Control, prepare, run_in_memory};
 use concio_study::Plan;
 use concio_study::file::{Keep, PerJoint};
-use concio_study::measures::{End, Row};
+use concio_study::measures::{End, MEASURES, Row, row};
 use concio_study::runner::{Progress, Runner};
 use concio_study::store::Store;
 
@@ -61,6 +61,30 @@ also = [{ path = "joint.friction.dynamic", times = 0.7 }]
 path = "load.top"
 distribution = { law = "lognormal", median = "10 kN/m", dispersion = 0.3 }
 "#;
+
+/// What is told of a model's runs before they are done is what they have: a number for each measure of theirs, of others none, or 0.
+#[test]
+fn measures_are_those_of_the_model() -> Anyhow {
+    // Of what may not come there is no time.
+    let moments = ["first_crack", "collapse", "first_lift_off"];
+    for text in [
+        WALL,
+        include_str!("../../../../examples/01-first-wall.toml"),
+        include_str!("../../../../examples/19-rocking-facade.toml"),
+    ] {
+        let file = from_str(text, Syntax::Toml, None)?.changed(&[("motion.duration".into(), "1 s".into())])?;
+        let prepared = prepare(&file)?;
+        let row = row("one", &prepared, &run_in_memory(&prepared)?, &[]);
+        for measure in MEASURES.iter().filter(|measure| !moments.contains(&measure.name)) {
+            let number = row.number(measure.name);
+            match measure.is_of(file.case.model) {
+                true => assert!(number.is_some(), "{:?}: {}", file.case.model, measure.name),
+                false => assert_eq!(number.unwrap_or(0.0), 0.0, "{:?}: {}", file.case.model, measure.name),
+            }
+        }
+    }
+    Ok(())
+}
 
 #[test]
 fn threads_shards_and_order_do_not_change_a_bit() -> Anyhow {

@@ -67,29 +67,16 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
     let driven = case.load.beam == Beam::Driven;
     let mut found = Vec::new();
     for (name, signal) in case.motion.signals().into_iter().filter(|(name, _)| *name != "top" || driven) {
-        let place = if name == "vertical" { "vertical direction" } else { name };
         match signal {
             Signal::Record(input) => {
                 found.extend(
                     unchosen(name, input, folder, library)?.map(|t| Warning::new(WarningKind::UnchosenChannel, t)),
                 );
-                let record = library.record(input, folder)?;
-                let doubtful = record.remarks.iter().filter(|remark| remark.is_doubtful());
-                let doubtful = doubtful.map(|remark| format!("motion.{name}, of the record: {remark}"));
-                found.extend(doubtful.map(|text| Warning::new(WarningKind::DoubtfulRecord, text)));
-                found.extend(uncovered(place, "record", &record, duration));
-                found.extend(drifting(place, &record).map(|text| Warning::new(WarningKind::Drift, text)));
-                let look = ": look at `units`, `scale` and `pga`";
-                let peak = odd_peak(&record).map(|odd| format!("motion.{name}: {odd} as it moves the wall{look}"));
-                let interval = odd_interval(&record).map(|odd| format!("motion.{name}: {odd}"));
-                let length = odd_length(&record).map(|odd| format!("motion.{name}: {odd}"));
-                let peak = peak.or_else(|| beyond_recorded(case, name, &record));
-                let odd = peak.into_iter().chain(interval).chain(length);
-                found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
+                found.extend(of_record(case, name, &library.record(input, folder)?, duration));
             }
             Signal::Synthetic(input) => {
                 let made = library.synthetic(input)?;
-                found.extend(uncovered(place, "accelerogram", &made, duration));
+                found.extend(uncovered(place(name), "accelerogram", &made, duration));
                 let odd = beyond_recorded(case, name, &made);
                 found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
             }
@@ -101,6 +88,42 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
         }
     }
     Ok(found)
+}
+
+/// The same of a motion of the base that no file gives: that results do not hold it, and what would be said of a record of its samples.
+pub fn of_own(case: &Case, base: &GroundMotion, duration: f64) -> Vec<Warning> {
+    let mut found = match base {
+        GroundMotion::AtRest => return Vec::new(),
+        GroundMotion::Samples(samples) => of_record(case, "base", &samples.record(), duration),
+        GroundMotion::Pieces(_) => {
+            unended("base", base, duration).map(|t| Warning::new(WarningKind::RecordCut, t)).into_iter().collect()
+        }
+    };
+    let text =
+        "motion.base: the base is moved by a motion that no file gives; results and reports say that nothing moved it";
+    found.push(Warning::new(WarningKind::MotionInNoFile, text));
+    found
+}
+
+/// What a signal moves, in words.
+fn place(name: &str) -> &str {
+    if name == "vertical" { "vertical direction" } else { name }
+}
+
+fn of_record(case: &Case, name: &str, record: &Record, duration: f64) -> Vec<Warning> {
+    let doubtful = record.remarks.iter().filter(|remark| remark.is_doubtful());
+    let doubtful = doubtful.map(|remark| format!("motion.{name}, of the record: {remark}"));
+    let mut found: Vec<Warning> = doubtful.map(|text| Warning::new(WarningKind::DoubtfulRecord, text)).collect();
+    found.extend(uncovered(place(name), "record", record, duration));
+    found.extend(drifting(place(name), record).map(|text| Warning::new(WarningKind::Drift, text)));
+    let look = ": look at `units`, `scale` and `pga`";
+    let peak = odd_peak(record).map(|odd| format!("motion.{name}: {odd} as it moves the wall{look}"));
+    let interval = odd_interval(record).map(|odd| format!("motion.{name}: {odd}"));
+    let length = odd_length(record).map(|odd| format!("motion.{name}: {odd}"));
+    let peak = peak.or_else(|| beyond_recorded(case, name, record));
+    let odd = peak.into_iter().chain(interval).chain(length);
+    found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
+    found
 }
 
 /// Says which component is taken where none is chosen of several, and whether one of the other direction is taken.

@@ -22,7 +22,7 @@ use std::path::Path;
 use crate::case;
 use crate::ground::library::Library;
 use crate::ground::process::integrate;
-use crate::ground::record::Record;
+use crate::ground::record::{Format, Record};
 use crate::ground::spline;
 use crate::quantity::shown;
 use crate::{InputError, Result};
@@ -53,6 +53,8 @@ pub enum GroundMotion {
 pub struct Samples {
     dt: f64,
     motion: Vec<Kinematics>,
+    /// Whether displacements were given, not accelerations.
+    displaced: bool,
 }
 
 impl GroundMotion {
@@ -69,7 +71,7 @@ impl GroundMotion {
         let (velocity, displacement) = integrate(dt, acceleration, 0.0, 0.0);
         let rows = displacement.into_iter().zip(velocity).zip(acceleration);
         let motion = rows.map(|((u, v), &a)| Kinematics { u, v, a }).collect();
-        Ok(GroundMotion::Samples(Samples { dt, motion }))
+        Ok(GroundMotion::Samples(Samples { dt, motion, displaced: false }))
     }
 
     /// The piece that is active just after `t`. An instant that is a break but for rounding counts as the break.
@@ -171,6 +173,21 @@ impl Component for GroundMotion {
 }
 
 impl Samples {
+    /// A record of them, which no file gives.
+    pub fn record(&self) -> Record {
+        Record {
+            format: Format::Text,
+            dt: self.dt,
+            acceleration: self.motion.iter().map(|m| m.a).collect(),
+            displacement: self.displaced.then(|| self.motion.iter().map(|m| m.u).collect()),
+            units: String::new(),
+            station: String::new(),
+            event: String::new(),
+            channel: String::new(),
+            remarks: Vec::new(),
+        }
+    }
+
     #[inline]
     fn segment(&self, t: f64) -> Segment {
         let place = t / self.dt + SLACK;
@@ -232,7 +249,7 @@ pub fn from_record(record: &Record) -> GroundMotion {
     };
     let rows = displacement.into_iter().zip(velocity).zip(&record.acceleration);
     let motion = rows.map(|((u, v), &a)| Kinematics { u, v, a }).collect();
-    GroundMotion::Samples(Samples { dt: record.dt, motion })
+    GroundMotion::Samples(Samples { dt: record.dt, motion, displaced: record.displacement.is_some() })
 }
 
 fn compile_sine(sine: &case::Sine) -> Result<Pieces> {

@@ -504,6 +504,48 @@ duration = "0.1 s"
     }
 }
 
+/// Sliding on springs is unstable, which a step of 1 ms does not resolve: the wall moves farther in shorter steps, and the run says so. On rigid
+/// joints the step matters little. Figures of docs/planar.md.
+#[test]
+fn a_wall_that_flutters_moves_farther_in_short_steps() {
+    let told = |joints: &str, step: f64| {
+        let (prepared, outcome) = ran(&format!(
+            r#"
+model = "planar"
+[[panel]]
+bond = "running"
+courses = 5
+bricks = 6
+brick = {{ length = "0.4 m", height = "0.2 m", thickness = "0.3 m", specific_weight = "20 kN/m3" }}
+mortar = {{ bed = 0, head = 0 }}
+[joint]
+damping_ratio = 0.05
+{joints}
+friction = {{ law = "coulomb", static = 0.6, on = "all" }}
+[motion]
+duration = "1.2 s"
+base = {{ pulse = {{ shape = "one-sine", acceleration = "0.8 g", duration = "0.5 s" }} }}
+[solver]
+step = {step}
+"#
+        ));
+        let summary = concio::run::summary(&prepared, &outcome, 0.0, None);
+        let warns = summary["warnings"].to_string().contains("blocks slid on springs that ring faster");
+        (outcome.totals.peak_relative_displacement, warns)
+    };
+    let springs = r#"
+bed = { law = "no-tension", stiffness = "10 N/mm3", rigidity = 1, normal_to_shear = 2.4 }
+head = { law = "no-tension", stiffness = "24 N/mm3", rigidity = 1, normal_to_shear = 2.4 }"#;
+    let rigid = "bed = { law = \"rigid\" }\nhead = { law = \"rigid\" }";
+    let [long, short, shortest] = [1e-3, 0.25e-3, 0.02e-3].map(|step| told(springs, step));
+    let [firm, firmer] = [1e-3, 0.25e-3].map(|step| told(rigid, step));
+    assert!(long.1 && short.1 && !firm.1 && !firmer.1);
+    let figures = [(long, 18.9e-3), (short, 23.2e-3), (shortest, 38.4e-3), (firm, 14.8e-3), (firmer, 14.8e-3)];
+    for ((found, _), figure) in figures {
+        assert!((found / figure - 1.0).abs() < 0.03, "{found} m instead of {figure} m");
+    }
+}
+
 /// Head joints without anything in them, beside rigid ones: the wall slides as one with full head joints.
 #[test]
 fn empty_head_joints_bear_nothing() {
