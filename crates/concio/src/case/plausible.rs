@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 use super::node::{Node, Value};
 use super::out_of_plane::{Hazard, OutOfPlane, SideWall, Site};
 use super::{
-    Beam, Case, FrictionChange, FrictionLaw, HistoryQuantity, JointBond, JointKind, Joints, ModelKind, Panel, Signal,
-    Solver, SpringChange, TopLoad,
+    Beam, Case, FrictionChange, FrictionLaw, HistoryQuantity, JointBond, JointKind, Joints, ModelKind, Panel, Scheme,
+    Signal, Solver, SpringChange, TopLoad,
 };
 use crate::quantity::{Stiffness, shown};
 use crate::warning::{Warning, WarningKind};
@@ -186,6 +186,9 @@ const BEHAVIOUR: f64 = 2.0;
 /// Coefficients of friction above this are rather angles in degrees.
 const LARGEST_FRICTION: f64 = 2.0;
 
+/// `solver.tolerance` to which `esdirk4` follows friction that falls at once, as `newmark_pulses_with_less_friction_in_slip` shows.
+const FINE: f64 = 1e-8;
+
 /// One sentence for each number of a valid case that is allowed but unlikely, in the order of the wall file.
 pub fn doubts(case: &Case) -> Vec<Warning> {
     let mut doubts = Doubts(Vec::new());
@@ -216,7 +219,23 @@ pub fn doubts(case: &Case) -> Vec<Warning> {
     if let Some(step) = case.solver.step {
         doubts.look("solver.step", step.si(), &STEP);
     }
+    of_scheme(&mut doubts, case);
     doubts.0
+}
+
+/// A scheme for smooth motion, by tolerances under which slides with friction that falls at once came out wrong.
+fn of_scheme(doubts: &mut Doubts, case: &Case) {
+    let (friction, tolerance) = (&case.joint.friction, case.solver.tolerance);
+    let falls = friction.law == FrictionLaw::Coulomb && friction.dynamic < friction.static_;
+    if falls && case.solver.scheme == Scheme::Esdirk4 && tolerance > FINE {
+        let text = format!(
+            "solver.scheme is `esdirk4`, for smooth motion, and friction falls at once from {} to {}: with a solver.tolerance of {tolerance} slides \
+             may come out several times too long; take `tr-bdf2`, or a tolerance of {FINE:e}",
+            shown(friction.static_),
+            shown(friction.dynamic)
+        );
+        doubts.add(WarningKind::UnlikelyNumber, text);
+    }
 }
 
 fn of_forces(doubts: &mut Doubts, case: &Case) {

@@ -39,6 +39,21 @@ fn bare_accelerations_are_asked_about() {
     }
 }
 
+/// A scheme for smooth motion is doubted beside friction that falls at once, unless it is held to a fine tolerance.
+#[test]
+fn a_scheme_for_smooth_motion_is_doubted_where_friction_falls() {
+    let told = |friction: &str, solver: &str| {
+        let text = WALL.replace("law = \"stribeck\"", friction).replace(", slip_velocity = 0.001", "");
+        let file =
+            from_str(&format!("{text}[solver]\n{solver}\n"), Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}"));
+        doubts(&file.case).iter().filter(|doubt| doubt.contains("esdirk4")).count()
+    };
+    let coulomb = "law = \"coulomb\"";
+    assert_eq!(told(coulomb, "scheme = \"esdirk4\""), 1);
+    assert_eq!(told(coulomb, "scheme = \"esdirk4\"\ntolerance = 1e-8"), 0);
+    assert_eq!(told(coulomb, "scheme = \"tr-bdf2\""), 0);
+}
+
 /// Loads, ties and the site of what stands behind a wall.
 #[test]
 fn doubtful_numbers_out_of_the_plane_are_told() {
