@@ -146,7 +146,7 @@ const CANCELLING: f64 = 0.2;
 /// Largest residual of the energy account over the largest energy in play, the works done on the wall or what it had at
 /// the start, all over the whole run; 0 when there was none. The work at the end is no measure: what a driven beam gives it may take back.
 /// Nor is the net of works that cancel: a beam that tips a rigid wall brings what its weights take, and what is left is known no better than they
-/// are. It counts for no less than [`CANCELLING`] of them.
+/// are. It counts for no less than a fifth of them.
 pub fn residual_relative(outcome: &Outcome) -> f64 {
     let totals = &outcome.totals;
     let net = totals.peak_input.max(outcome.energies.initial.abs());
