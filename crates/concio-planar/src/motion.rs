@@ -73,6 +73,10 @@ const YIELDS: f64 = 1e-8;
 const YIELDS_AT_REST: f64 = 1e-10;
 /// What is left at most, over the tolerance, of a step that is not taken again in two halves.
 const ENOUGH: f64 = 100.0;
+/// Part of the energy of motion that landing takes in a step that is taken in parts, and what counts as motion at least, over the velocity that
+/// gravity gives in a step: stones that settle are no landing.
+const LANDING: f64 = 0.05;
+const SETTLES: f64 = 5.0;
 /// How much deeper than their velocities took them the sides of a joint may overlap, over `REACH`: where a stone that falls comes upon another edge
 /// of its neighbour there would be a spring pressed in by nothing, and energy of nothing. Where they overlap so much less, what the spring had is lost.
 const JUMP: f64 = 3e-6;
@@ -701,7 +705,7 @@ impl Motion {
         let stale = self.astray;
         let effort = if stale { self.solve_as_it_was(h) } else { effort };
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
-        if halved < HALVINGS && !enough || halved < CROSSINGS && !self.follows_crushing(h) {
+        if halved < HALVINGS && (!enough || self.lands()) || halved < CROSSINGS && !self.follows_crushing(h) {
             return false;
         }
         self.counters.steps += 1;
@@ -751,6 +755,25 @@ impl Motion {
             self.resistance[body] = m.map(|m| part * m);
             self.inverse[body] = [0, 1, 2].map(|k| if self.held[body][k] { 0.0 } else { 1.0 / (part * m[k]) });
         }
+    }
+
+    /// Whether so much is lost as rigid joints close in the step that it counts when in it they do: an impact happens at an instant, and a step
+    /// moves bodies by the mean of their velocities before and after it.
+    fn lands(&self) -> bool {
+        if self.setting.still {
+            return false;
+        }
+        let closing = |(_, owner): &(&Contact, &Owner)| {
+            let link = self.pairs[owner.pair].link;
+            owner.start.velocity[0] < 0.0 && !self.laws.part(link, owner.part).is_compliant()
+        };
+        let lost = |(contact, owner): (&Contact, &Owner)| {
+            -0.5 * contact.impulse[0] * (owner.start.velocity[0] + contact.velocity(&self.after)[0])
+        };
+        let lost: f64 = self.contacts.iter().zip(&self.owners).filter(closing).map(lost).sum();
+        let settling = SETTLES * G * self.setting.step;
+        let mass: f64 = self.mass.iter().map(|m| m[0]).sum();
+        lost > LANDING * (self.kinetic() + 0.5 * mass * settling * settling)
     }
 
     /// Where a slide that friction of motion held back turns round, friction at rest holds it: whether there is such a point, which is to be solved

@@ -16,6 +16,8 @@ use crate::contact::Contact;
 /// Approach of an end that stands, over the velocity that gravity gives in a step or with which the other end parts: above what contact may be
 /// violated by, and ten times what stones yield by under their own weight.
 const STANDING: f64 = 1e-3;
+/// The same over the approach of the end that lands: the end that a block turns on yields to its turn, back and forth in parts of a step.
+const PIVOTS: f64 = 1e-2;
 
 /// What holds the turn of a joint back during one step.
 #[derive(Debug, Clone, Copy)]
@@ -66,9 +68,11 @@ impl Motion {
         let lost = approach(lands);
         let end = &self.owners[opens];
         let parting = end.start.velocity[0].max(0.0);
-        let slow = STANDING * parting.max(G * h);
-        let near = end.start.gap <= h * (parting - self.owners[lands].start.velocity[0]);
-        if !(lost > slow && approach(opens) <= slow && near) {
+        // Parts of a step ask as the whole does.
+        let whole = self.setting.step.max(h);
+        let slow = STANDING * parting.max(G * whole);
+        let near = end.start.gap <= whole * (parting - self.owners[lands].start.velocity[0]);
+        if !(lost > slow && approach(opens) <= slow.max(PIVOTS * lost) && near) {
             return None;
         }
         // By how much faster the end that lands parts than the one that opens.
