@@ -254,6 +254,11 @@ impl Law {
         }
     }
 
+    /// The joint once its bond has cracked through; itself where it has none.
+    pub fn cracked(&self) -> Law {
+        if self.bond.is_some() { self.part(Part::Dry) } else { *self }
+    }
+
     /// What a part of a bonded joint bears, the whole of it being such a part.
     pub(crate) fn part(&self, part: Part) -> Law {
         let Law { normal, shear, bond, .. } = *self;

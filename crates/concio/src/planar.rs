@@ -88,12 +88,13 @@ impl Planar {
     }
 
     /// Longest step that resolves the joints whose springs let go, as they ring between the blocks beside them [s]: that of the
-    /// stiffest by [`joint::RESOLVED`]. Infinite where springs act in both directions alone.
-    pub fn resolving_step(&self) -> f64 {
+    /// stiffest by [`joint::RESOLVED`]. Infinite where springs act in both directions alone. `cracked`: bonded joints count as cracked through.
+    pub fn resolving_step(&self, cracked: bool) -> f64 {
         let light = |body: Option<usize>| body.map_or(0.0, |b| 1.0 / self.system.bodies[b].mass);
         let square = |link: &Link| {
-            let along = if link.law.shear.series { link.law.shear.stiffness } else { 0.0 };
-            match link.law.normal {
+            let law = if cracked { link.law.cracked() } else { link.law };
+            let along = if law.shear.series { law.shear.stiffness } else { 0.0 };
+            match law.normal {
                 Normal::Springs { press, .. } => press.max(along) * (light(link.a) + light(Some(link.b))),
                 Normal::Rigid { .. } => 0.0,
             }

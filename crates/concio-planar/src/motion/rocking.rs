@@ -79,9 +79,12 @@ impl Motion {
         let [to, from] = [&self.contacts[lands], &self.contacts[opens]];
         let line = [0, 1].map(|body| std::array::from_fn(|k| to.rows.normal[body][k] - from.rows.normal[body][k]));
         let mut contact = Contact::along((from.rows.first(), from.rows.second()), from.slot, line, &self.inverse, 0.0);
-        contact.law[0].rho = self.setting.firm(h) * contact.moved[0];
+        contact.law[0].rho = self.setting.firm(whole) * contact.moved[0];
         contact.drift[0] = to.drift[0] - from.drift[0];
-        contact.bias = parting + rocking * lost + to.bias.max(0.0);
+        // In parts of a step the end that lands yields, and the next part takes what is left of its approach.
+        let firm = self.setting.firm(h);
+        let taken = lost * firm / (1.0 + firm);
+        contact.bias = parting + lost - (1.0 - rocking) * taken + to.bias.max(0.0);
         let [to, from] = [&self.owners[lands], end];
         let before = to.start.velocity[0] - from.start.velocity[0];
         Some((contact, Hold { opens, before, lever: to.lever[0] - from.lever[0] }))
