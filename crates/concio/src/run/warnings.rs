@@ -819,7 +819,9 @@ base = {{ pulse = {{ shape = "rectangular", acceleration = {acceleration}, durat
         // Bonds that crack leave such springs, those that hold do not: 1 kPa and 1 MPa where a course weighs 4 kPa.
         let bonded = |strength: &str| {
             let bed = springs.replace("no-tension", "elastic");
-            let bond = format!("bond = {{ cohesion = \"{strength}\", tensile_strength = \"{strength}\", friction_angle = \"30 deg\" }}");
+            let bond = format!(
+                "bond = {{ cohesion = \"{strength}\", tensile_strength = \"{strength}\", friction_angle = \"30 deg\" }}"
+            );
             told(2, &format!("{bed}\n{bond}"), 0.8 * G)
         };
         let what = bonded("1 kPa").expect("they crack and slide");

@@ -17,7 +17,7 @@ use concio::simulate::{Sampling, Simulation};
 use concio::wall::End;
 use concio_verified::{agrees, farthest};
 
-use crate::common::ready::ready;
+use crate::common::ready::{channel, ready};
 use crate::common::restarted::restarted;
 
 const M: f64 = 10.0;
@@ -60,10 +60,6 @@ fn run(model: &Model, solver: &Solver, samples: usize) -> Outcome {
     let (rows, reason) = run.run_to_end();
     assert_eq!(reason, StopReason::Completed);
     run.outcome(rows, reason)
-}
-
-fn channel(outcome: &Outcome, name: &str) -> Vec<f64> {
-    outcome.history(name).expect(name)
 }
 
 fn peak(values: &[f64]) -> f64 {

@@ -12,6 +12,8 @@ use concio::run::{Prepared, joint_rows, prepare_case, run_in_memory};
 use concio::simulate::{Progress, Simulation};
 use concio_verified::{agrees, farthest};
 
+use crate::common::ready::{channel, ready};
+
 /// A single block, 10 kg, under 40 kN/m, with the devices `base` below and `top` above it.
 const BLOCK: &str = r#"
 model = "shear"
@@ -64,7 +66,7 @@ impl Run {
         Run { base, top: NOTHING, beam: "tied", motion, duration, tolerance: 1e-7, samples: 400 }
     }
 
-    fn ready(&self) -> Prepared {
+    fn prepared(&self) -> Prepared {
         let text = BLOCK
             .replace("BASE", self.base)
             .replace("TOP", self.top)
@@ -73,19 +75,13 @@ impl Run {
             .replace("DURATION", &self.duration.to_string())
             .replace("TOLERANCE", &self.tolerance.to_string())
             .replace("INTERVAL", &(self.duration / self.samples as f64).to_string());
-        prepared(&text)
+        ready(&text)
     }
 
     /// From a displacement and a velocity.
     fn go(&self, z: f64, v: f64) -> Outcome {
-        go(&self.ready(), z, v)
+        go(&self.prepared(), z, v)
     }
-}
-
-fn prepared(text: &str) -> Prepared {
-    let file = from_str(text, Syntax::Toml, None).unwrap();
-    file.validate().unwrap();
-    prepare_case(file.case.clone(), Path::new("")).unwrap()
 }
 
 fn go(p: &Prepared, z: f64, v: f64) -> Outcome {
@@ -98,10 +94,6 @@ fn go(p: &Prepared, z: f64, v: f64) -> Outcome {
 
 fn residual(outcome: &Outcome) -> f64 {
     outcome.totals.peak_residual / outcome.totals.peak_input.max(outcome.energies.initial.abs())
-}
-
-fn channel(outcome: &Outcome, name: &str) -> Vec<f64> {
-    outcome.history(name).expect(name)
 }
 
 /// Force of the device below, all its parts.
@@ -439,7 +431,7 @@ fn hysteresis_keeps_the_order_of_the_schemes() {
     let exact = independent(&PLAIN, |_| 0.0, [0.0, v, 0.0], duration / 200_000.0, 200_000, 200_000)[1];
     for (scheme, least) in [(Scheme::TrBdf2, 3.6), (Scheme::Esdirk4, 12.0)] {
         let error = |steps: u32| {
-            let mut p = Run::on(PLAIN.law(), duration).ready();
+            let mut p = Run::on(PLAIN.law(), duration).prepared();
             p.case.solver.scheme = scheme;
             p.case.solver.tolerance = 0.1;
             p.case.solver.max_step = Some((duration / f64::from(steps)).into());
@@ -485,7 +477,7 @@ fn panel(third: &str) -> Prepared {
         at = {{ joints = ["p1c5b2|p1c5b3", "base|p1c1b1"] }}
         device = {{ law = "viscous", damping = "20 kN s/m" }}"#
     );
-    let mut p = prepared(&PANEL.replace("CHANGES", &changes));
+    let mut p = ready(&PANEL.replace("CHANGES", &changes));
     p.case.output.joints = vec!["all".into()];
     p.sampling.joints = vec!["all".into()];
     p
@@ -565,7 +557,7 @@ fn a_device_replaces_the_mortar() {
         at = { kind = ["bed"] }
         spring = { stiffness = "1e7 N/m" }"#,
     );
-    let p = prepared(&text);
+    let p = ready(&text);
     let rows = joint_rows(&p.model);
     let of = |name: &str| rows.iter().position(|r| r.name == name).unwrap();
     let (bed, head) = (of("p1c1b1|p1c2b1"), of("p1c5b2|p1c5b3"));
@@ -579,7 +571,7 @@ fn a_device_replaces_the_mortar() {
     assert!(!bonded.contains(&bed) && !bonded.contains(&head));
     assert!(p.model.shear.contacts.iter().all(|c| c.joint as usize != head));
     // The weight on the other joints is the same.
-    let plain = prepared(&PANEL.replace("CHANGES", ""));
+    let plain = ready(&PANEL.replace("CHANGES", ""));
     for rub in &p.model.shear.rubs {
         let same = plain.model.shear.rubs.iter().find(|r| r.joint == rub.joint);
         assert!(rub.joint as usize == head || same.unwrap().normal == rub.normal);
@@ -589,7 +581,7 @@ fn a_device_replaces_the_mortar() {
 /// Devices of no effect: an elastic one with the numbers of the mortar gives the bits of the mortar.
 #[test]
 fn an_elastic_device_like_the_mortar_gives_its_bits() {
-    let plain = prepared(&PANEL.replace("CHANGES", "").replace("law = \"stribeck\"", "law = \"none\""));
+    let plain = ready(&PANEL.replace("CHANGES", "").replace("law = \"stribeck\"", "law = \"none\""));
     let e = plain.model.joint_names().iter().position(|n| n == "p1c1b1|p1c2b2").unwrap();
     let law = plain.model.shear.elastic[e];
     let change = format!(
@@ -599,7 +591,7 @@ fn an_elastic_device_like_the_mortar_gives_its_bits() {
         law.stiffness, law.damping
     );
     let text = PANEL.replace("CHANGES", &change).replace("law = \"stribeck\"", "law = \"none\"");
-    assert!(run_in_memory(&prepared(&text)).unwrap() == run_in_memory(&plain).unwrap());
+    assert!(run_in_memory(&ready(&text)).unwrap() == run_in_memory(&plain).unwrap());
 }
 
 /// A name that no joint bears is told, and where it is that of a joint turned round, its own.
@@ -668,7 +660,7 @@ fn memory_knows_turns_inside_steps() {
                 blocks = ["all"]
                 "#
             );
-            let outcome = run_in_memory(&prepared(&text)).unwrap();
+            let outcome = run_in_memory(&ready(&text)).unwrap();
             outcome.history("block/p1c1b1/displacement").unwrap()
         };
         let (found, fine) = (moves("tolerance = 1e-6"), moves("tolerance = 1e-8\nmax_step = \"0.1 ms\""));

@@ -4,26 +4,11 @@ use std::path::Path;
 
 use concio::G;
 use concio::case::{Syntax, from_str};
-use concio::outcome::Outcome;
-use concio::run::{Control, Prepared, prepare_case, run, run_in_memory};
+use concio::run::{Control, prepare_case, run};
 use concio::warning::WarningKind;
 use concio_verified::{agrees, farthest};
 
-fn prepared(text: &str) -> Prepared {
-    let file = from_str(text, Syntax::Toml, None).expect("a wall file");
-    file.validate().expect("a valid wall");
-    prepare_case(file.case, Path::new(".")).expect("a wall that stands")
-}
-
-fn ran(text: &str) -> (Prepared, Outcome) {
-    let prepared = prepared(text);
-    let outcome = run_in_memory(&prepared).expect("a run");
-    (prepared, outcome)
-}
-
-fn close(found: f64, expected: f64, relative: f64) {
-    assert!((found / expected - 1.0).abs() <= relative, "{found} instead of {expected}");
-}
+use crate::common::ready::{close, ran, ready};
 
 /// Width and height [m] and weight [N] of the block, and the load on it [N].
 const BLOCK: [f64; 4] = [0.5, 1.0, 5e3, 10e3];
@@ -238,7 +223,7 @@ fn ties_hold_the_block_where_it_is() {
 fn a_load_that_lacks_mass_is_told_with_what_it_lacks() {
     let shaken = "duration = 1\nbase = { sine = { acceleration = \"0.1 g\", frequency = \"2 Hz\" } }";
     let told = |model: &str, load: &str, motion: &str| {
-        let prepared = prepared(&block(
+        let prepared = ready(&block(
             model,
             RIGID.replace("rigid", if model == "shear" { "none" } else { "rigid" }).as_str(),
             load,
@@ -312,14 +297,14 @@ beam = "{beam}"
 duration = "1 s"
 "#
             );
-            let whole = prepared(&text).model;
+            let whole = ready(&text).model;
             let subject = format!("Walls and loads: load given whole; {model} model, beam {beam}");
             agrees!(subject, "150 kN", "N", whole.top_load, 150e3, 1e-14);
             let blocks: f64 = whole.wall.blocks.iter().map(|block| block.weight()).sum();
             close(whole.base_load(), blocks + 150e3, 1e-14);
             // Two halves and three bricks, 0.9700 m without mortar: the same as so much for each metre of brick.
             let length: f64 = whole.wall.loaded().iter().sum();
-            let per_length = prepared(&text.replace("{ force = \"150 kN\" }", &(150e3 / length).to_string())).model;
+            let per_length = ready(&text.replace("{ force = \"150 kN\" }", &(150e3 / length).to_string())).model;
             close(per_length.top_load, 150e3, 1e-14);
             let mass = |model: &concio::model::Model| model.shear.mass.iter().sum::<f64>();
             close(mass(&whole), mass(&per_length), 1e-14);
@@ -384,7 +369,7 @@ duration = "0.1 s"
     let springs = "law = \"elastic\", stiffness = \"100 N/mm3\"";
     for (law, cracks) in [("law = \"rigid\"", Some("can share their forces in many ways")), (springs, None)] {
         let out = tempfile::tempdir().expect("a folder");
-        let finished = run(&prepared(&wall(law)), out.path(), &mut |_| Control::Continue).expect("a run");
+        let finished = run(&ready(&wall(law)), out.path(), &mut |_| Control::Continue).expect("a run");
         let told = finished.summary["warnings"].to_string();
         assert_eq!(told.contains("before anything moves"), cracks.is_some(), "{told}");
         assert!(told.contains(cracks.unwrap_or_default()), "{told}");

@@ -25,6 +25,8 @@ mod open_joints;
 mod openings;
 mod physics;
 mod planar;
+mod planar_bonds;
+mod planar_motion;
 mod planar_results;
 mod plausible;
 mod polygons;

@@ -3,26 +3,11 @@
 use std::path::Path;
 
 use concio::case::{Syntax, from_str};
-use concio::outcome::Outcome;
 use concio::planar::Rest;
-use concio::run::{Prepared, prepare_case, run_in_memory};
+use concio::run::{Prepared, prepare_case};
 use concio_verified::agrees;
 
-fn prepared(text: &str) -> Prepared {
-    let file = from_str(text, Syntax::Toml, None).expect("a wall file");
-    file.validate().expect("a valid wall");
-    prepare_case(file.case, Path::new(".")).expect("a wall that stands")
-}
-
-fn ran(text: &str) -> (Prepared, Outcome) {
-    let prepared = prepared(text);
-    let outcome = run_in_memory(&prepared).expect("a run");
-    (prepared, outcome)
-}
-
-fn close(found: f64, expected: f64, relative: f64) {
-    assert!((found / expected - 1.0).abs() <= relative, "{found} instead of {expected}");
-}
+use crate::common::ready::{close, ran, ready};
 
 const JOINTS: &str = r#"
 [joint]
@@ -143,7 +128,7 @@ fn courses_sink_through_open_bed_joints() {
     let rigid = r#"law = "rigid""#;
     let none = r#"law = "none""#;
     for (bed, base, settled) in [(none, rigid, 0.02), (rigid, none, 0.01), (none, none, 0.03), (rigid, rigid, 0.0)] {
-        let Rest::Stands { settled: found, .. } = prepared(&courses(bed, base, 0.01)).model.planar().unwrap().rest()
+        let Rest::Stands { settled: found, .. } = ready(&courses(bed, base, 0.01)).model.planar().unwrap().rest()
         else {
             panic!("{bed}, {base}: it stands")
         };
@@ -161,7 +146,7 @@ fn an_open_joint_beside_a_filled_one_is_as_far_open_as_it_is_laid() {
         "{}[[joint.change]]\nat = {{ joints = [\"p1c1b2|p1c2b2\"] }}\nspring = {{ law = \"none\" }}\n",
         courses(r#"law = "rigid""#, r#"law = "rigid""#, 0.01)
     );
-    let model = prepared(&text).model;
+    let model = ready(&text).model;
     let planar = model.planar().unwrap();
     let names = model.joint_names();
     let open: Vec<&String> = names.iter().zip(&planar.open).filter(|(_, open)| **open).map(|(name, _)| name).collect();
@@ -178,7 +163,7 @@ fn an_open_joint_beside_a_filled_one_is_as_far_open_as_it_is_laid() {
 fn an_open_joint_has_no_law_of_any_kind() {
     let text = courses(r#"law = "elastic", stiffness = "10 N/mm3""#, r#"law = "rigid""#, 0.01)
         .replace("[motion]", "bond = { tensile_strength = \"0.1 MPa\", cohesion = \"0.1 MPa\" }\n[motion]");
-    let prepared = prepared(&text);
+    let prepared = ready(&text);
     let rows = concio::run::joint_rows(&prepared.model);
     let heads: Vec<_> = rows.iter().filter(|row| row.joint.kind.is_upright()).collect();
     assert_eq!(heads.len(), 4);
@@ -230,7 +215,7 @@ fn a_thick_joint_is_told_and_bears_nothing_as_an_open_one() {
     };
     let warned =
         |prepared: &Prepared| -> Vec<String> { prepared.model.warnings.iter().map(|w| w.text.clone()).collect() };
-    let told = warned(&prepared(&wall("")));
+    let told = warned(&ready(&wall("")));
     assert!(told.len() == 1 && told[0].starts_with("joint b|lintel is 0.045 m thick, its mortar 0 m"), "{told:?}");
     let (open, outcome) =
         ran(&wall("[[joint.change]]\nat = { joints = [\"b|lintel\"] }\nspring = { law = \"none\" }\n"));

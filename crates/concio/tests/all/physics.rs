@@ -12,7 +12,7 @@ use concio::simulate::Simulation;
 use concio::store::{StoredRun, residual_relative};
 use concio_verified::{agrees, farthest};
 
-use crate::common::ready::{edited, ready};
+use crate::common::ready::{channel, edited, ready};
 use crate::common::restarted::restarted;
 
 const PANEL: &str = r#"
@@ -52,10 +52,6 @@ fn outcome(text: &str) -> Outcome {
     let out = run_in_memory(&ready(text)).unwrap();
     assert_eq!(out.stop_reason, StopReason::Completed);
     out
-}
-
-fn channel(out: &Outcome, name: &str) -> Vec<f64> {
-    out.history(name).expect(name)
 }
 
 /// The 6 × 4 panel: 27 blocks in courses of 4 and 5, joints as counted by hand.

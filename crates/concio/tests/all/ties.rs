@@ -10,14 +10,10 @@ use concio::simulate::Simulation;
 use concio::store::{self, hdf5};
 use concio_verified::agrees;
 
-use crate::common::ready::{last, ready as prepared};
+use crate::common::ready::{close, last, ready};
 
 fn ran(text: &str) -> Outcome {
-    run_in_memory(&prepared(text)).expect("a run")
-}
-
-fn close(found: f64, expected: f64, relative: f64) {
-    assert!((found / expected - 1.0).abs() <= relative, "{found} instead of {expected}");
+    run_in_memory(&ready(text)).expect("a run")
 }
 
 /// A block of 5 kN that begins at x = 2 m, with μ = 0.4, pushed by 0.7 of its weight.
@@ -140,7 +136,7 @@ fn a_tied_wall_keeps_its_energy() {
 
 #[test]
 fn a_resumed_run_has_the_bits_of_one_that_was_not_stopped() {
-    let prepared = prepared(&shaken(RIGID));
+    let prepared = ready(&shaken(RIGID));
     let whole = run_in_memory(&prepared).expect("a run");
     let new = || Simulation::new(&prepared.model, &prepared.case.solver, &prepared.sampling).expect("a run");
     let mut first = new();
@@ -161,7 +157,7 @@ fn a_resumed_run_has_the_bits_of_one_that_was_not_stopped() {
 /// The result file holds what the rods bore, the summary says it.
 #[test]
 fn results_hold_the_rods() {
-    let prepared = prepared(&shaken(RIGID));
+    let prepared = ready(&shaken(RIGID));
     let outcome = run_in_memory(&prepared).expect("a run");
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("result.h5");
@@ -185,7 +181,7 @@ fn rods_without_length_are_refused_and_detached_ones_doubted() {
     assert!(error.contains("tie[0].to_at") && error.contains("at the same place"), "{error}");
     let doubts = |at: f64| {
         let tie = format!("[[tie]]\nfrom = \"base\"\nto = \"stone\"\nto_at = [{at}, 0]\nstiffness = 1e6");
-        let warnings = prepared(&held(&tie)).model.warnings.clone();
+        let warnings = ready(&held(&tie)).model.warnings.clone();
         warnings.into_iter().filter(|w| w.contains("tie[0]")).collect::<Vec<_>>()
     };
     assert_eq!(doubts(-0.5), [""; 0]);

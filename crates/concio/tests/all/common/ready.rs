@@ -1,10 +1,10 @@
-//! Wall files as texts.
+//! Wall files as texts, made ready and run.
 
 use std::path::Path;
 
 use concio::case::{Case, Syntax, from_str};
 use concio::outcome::Outcome;
-use concio::run::{Prepared, prepare_case};
+use concio::run::{Prepared, prepare_case, run_in_memory};
 
 /// A wall file made ready to run.
 pub fn ready(text: &str) -> Prepared {
@@ -18,6 +18,24 @@ pub fn edited(text: &str, edit: impl FnOnce(&mut Case)) -> Prepared {
     let mut case = file.case.clone();
     edit(&mut case);
     prepare_case(case, Path::new("")).unwrap()
+}
+
+/// What comes of a wall file, and the wall.
+pub fn ran(text: &str) -> (Prepared, Outcome) {
+    let prepared = ready(text);
+    let outcome = run_in_memory(&prepared).expect("a run");
+    (prepared, outcome)
+}
+
+/// All samples of a history.
+pub fn channel(outcome: &Outcome, name: &str) -> Vec<f64> {
+    outcome.history(name).expect(name)
+}
+
+/// Whether a number is as expected, but for a part of it.
+#[track_caller]
+pub fn close(found: f64, expected: f64, relative: f64) {
+    assert!((found / expected - 1.0).abs() <= relative, "{found} instead of {expected}");
 }
 
 /// The last sample of a history.
