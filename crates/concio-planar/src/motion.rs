@@ -77,6 +77,8 @@ const ENOUGH: f64 = 100.0;
 /// gravity gives in a step: stones that settle are no landing.
 const LANDING: f64 = 0.05;
 const SETTLES: f64 = 5.0;
+/// Friction that falls at once over the weight, from which the step in which it does is taken in parts.
+const GIVES_WAY: f64 = 0.05;
 /// How much deeper than their velocities took them the sides of a joint may overlap, over `REACH`: where a stone that falls comes upon another edge
 /// of its neighbour there would be a spring pressed in by nothing, and energy of nothing. Where they overlap so much less, what the spring had is lost.
 const JUMP: f64 = 3e-6;
@@ -705,7 +707,8 @@ impl Motion {
         let stale = self.astray;
         let effort = if stale { self.solve_as_it_was(h) } else { effort };
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
-        if halved < HALVINGS && (!enough || self.lands()) || halved < CROSSINGS && !self.follows_crushing(h) {
+        let sudden = self.lands() || self.gives_way(h);
+        if halved < HALVINGS && (!enough || sudden) || halved < CROSSINGS && !self.follows_crushing(h) {
             return false;
         }
         self.counters.steps += 1;
@@ -771,9 +774,27 @@ impl Motion {
             -0.5 * contact.impulse[0] * (owner.start.velocity[0] + contact.velocity(&self.after)[0])
         };
         let lost: f64 = self.contacts.iter().zip(&self.owners).filter(closing).map(lost).sum();
-        let settling = SETTLES * G * self.setting.step;
-        let mass: f64 = self.mass.iter().map(|m| m[0]).sum();
-        lost > LANDING * (self.kinetic() + 0.5 * mass * settling * settling)
+        let settling = SETTLES * self.setting.step;
+        lost > LANDING * (self.kinetic() + 0.5 * self.weight() * G * settling * settling)
+    }
+
+    /// Whether friction at rest is overcome in the step where so much of the weight is lost with it that when counts: what it was acts until the step's end.
+    fn gives_way(&self, h: f64) -> bool {
+        if self.setting.still || !self.sudden {
+            return false;
+        }
+        let lost = |(contact, owner): (&Contact, &Owner)| {
+            let pair = &self.pairs[owner.pair];
+            let falls = falls_by(self.laws.part(pair.link, owner.part), &pair.points[owner.point])?;
+            slides(contact, contact.velocity(&self.after)[1], h).then_some(falls * contact.impulse[0])
+        };
+        let lost: f64 = self.contacts.iter().zip(&self.owners).filter_map(lost).sum();
+        lost > GIVES_WAY * self.weight() * h
+    }
+
+    /// Weight of all bodies [N].
+    fn weight(&self) -> f64 {
+        G * self.mass.iter().map(|m| m[0]).sum::<f64>()
     }
 
     /// Where a slide that friction of motion held back turns round, friction at rest holds it: whether there is such a point, which is to be solved
@@ -970,8 +991,7 @@ impl Motion {
             let point = &mut pair.points[owner.point];
             // Friction at rest is overcome at the end of the step. A rigid joint slides when both of its ends do: one that bears little gives way first
             // by what the other yields.
-            let falls = law.friction.is_some_and(|friction| friction.slowly(true) < friction.static_);
-            let starts = falls && point.speed == 0.0 && slides(contact, after[1], h);
+            let starts = falls_by(law, point).is_some() && slides(contact, after[1], h);
             let waits = starts && !law.is_compliant() && {
                 let own = |(_, other): &(&Contact, &Owner)| other.pair == owner.pair;
                 let before = self.owners[..at].iter().rev().take_while(|other| other.pair == owner.pair).count();
@@ -1344,6 +1364,13 @@ fn ends(polygons: &[Polygon], pair: &Pair, margin: f64) -> Option<[Touch; 2]> {
     let Some(a) = pair.a else { return touches_base(b, pair.laid, margin) };
     let touches = touches(&polygons[a], b, margin)?;
     Some(touches.map(|touch| Touch { gap: touch.gap - pair.laid, ..touch }))
+}
+
+/// By how much the friction coefficient of a point at rest falls as it begins to slide, if it does.
+fn falls_by(law: &Law, point: &Point) -> Option<f64> {
+    let friction = law.friction.filter(|_| point.speed == 0.0)?;
+    let falls = friction.static_ - friction.slowly(true);
+    (falls > 0.0).then_some(falls)
 }
 
 /// How far two centres are apart [m].

@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use std::f64::consts::PI;
+
+use concio::G;
 use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
 use concio::run::prepare_case;
@@ -331,6 +334,36 @@ quasi_static = true
     let against = "r k d ± (1 − r) F_y (I4)";
     agrees!(of("there"), against, "N", pushed, 0.1 * 4e6 * 10e-3 + 0.9 * 4e3, 1e-4);
     agrees!(of("halfway back"), against, "N", back, 0.1 * 4e6 * 5e-3 - 0.9 * 4e3, 1e-2);
+}
+
+/// Slip of a block whose friction falls from μ_s to μ_d at once, under a half sine A sin ω t of T = π/ω: it begins at sin ω t_0 = μ_s g/A, and ends
+/// where the friction of motion has taken its velocity. The default step too: what friction at rest was acts until a step's end.
+#[test]
+fn a_block_slides_as_its_friction_falls() {
+    let (rest, moving, a, t) = (0.5, 0.35, 0.7 * G, 0.25);
+    let omega = PI / t;
+    let t0 = (rest * G / a).asin() / omega;
+    let (begins, braked) = (t - t0, moving * G);
+    let speed = a / omega * ((omega * t0).cos() + 1.0) - braked * begins;
+    let way = a / omega * (begins * (omega * t0).cos() + (omega * t0).sin() / omega) - 0.5 * braked * begins * begins;
+    let expected = way + speed * speed / (2.0 * braked);
+    for step in [1e-3, 2e-4] {
+        let (_, outcome) = ran(&block(&format!(
+            r#"
+[joint]
+bed = {{ law = "rigid" }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = {rest}, dynamic = {moving} }}
+[motion]
+base = {{ pulse = {{ shape = "half-sine", acceleration = {a}, duration = {t} }} }}
+duration = "0.6 s"
+[solver]
+step = {step}
+"#
+        )));
+        let subject = format!("Sliding: block whose friction falls at once, planar, steps of {} ms", 1e3 * step);
+        agrees!(subject, "Newmark's sliding block", "m", outcome.totals.peak_relative_displacement, expected, 2e-3);
+    }
 }
 
 /// What a stone of 0.5 m × 2 m that rocks keeps of its angular velocity from impact to impact: what the wall file says (P8), or what
