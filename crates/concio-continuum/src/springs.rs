@@ -2,9 +2,8 @@
 //!
 //! W = ½ Σ k (g·x + h·m)², where x are the six unknowns of the two bodies and m what is imposed from outside.
 
-use faer::linalg::solvers::Solve;
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{Mat, Side};
+use clarabel::algebra::CscMatrix;
+use clarabel::qdldl::{QDLDLFactorisation, QDLDLSettings};
 
 use crate::ContinuumError;
 
@@ -30,16 +29,19 @@ pub(crate) struct Spring {
 /// others changes by no more than this.
 const HELD: f64 = 1e-13;
 
+/// Row, column, value.
+type Entry = (usize, usize, f64);
+
 /// Stiffness matrix of springs, symmetric and without negative part.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Matrix {
-    entries: Vec<Triplet<usize, usize, f64>>,
+    entries: Vec<Entry>,
 }
 
 impl Matrix {
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         if value != 0.0 {
-            self.entries.push(Triplet::new(row, column, value));
+            self.entries.push((row, column, value));
         }
     }
 
@@ -73,46 +75,54 @@ impl Matrix {
             number[i] = n;
             n += 1;
         }
-        let cases = right.len();
-        let mut rhs = Mat::<f64>::zeros(n, cases);
-        for (case, values) in right.iter().enumerate() {
-            (0..unknowns).filter(|i| free(*i)).for_each(|i| rhs[(number[i], case)] = values[i]);
-        }
+        let of_free = |values: &Vec<f64>| (0..unknowns).filter(|i| free(*i)).map(|i| values[i]).collect();
+        let mut found: Vec<Vec<f64>> = right.iter().map(of_free).collect();
         let mut diagonal = vec![0.0; n];
         let mut entries = Vec::with_capacity(self.entries.len() + n);
-        for entry in &self.entries {
-            let (i, j) = (entry.row, entry.col);
-            if !free(i) {
-                continue;
-            }
+        for &(i, j, value) in self.entries.iter().filter(|(i, ..)| free(*i)) {
             match prescribed.get(j).and_then(Option::as_ref) {
-                Some(values) => (0..cases).for_each(|c| rhs[(number[i], c)] -= entry.val * values[c]),
+                Some(values) => found.iter_mut().zip(values).for_each(|(b, x)| b[number[i]] -= value * x),
                 None => {
-                    entries.push(Triplet::new(number[i], number[j], entry.val));
+                    entries.push((number[i], number[j], value));
                     if i == j {
-                        diagonal[number[i]] += entry.val;
+                        diagonal[number[i]] += value;
                     }
                 }
             }
         }
-        for (i, d) in diagonal.iter().enumerate() {
-            entries.push(Triplet::new(i, i, if *d > 0.0 { HELD * d } else { 1.0 }));
-        }
-        let unsolved = |what: String| ContinuumError::NotSolved(what);
-        let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(n, n, &entries);
-        let matrix = matrix.map_err(|e| unsolved(format!("{e:?}")))?;
-        let factor = matrix.sp_cholesky(Side::Lower).map_err(|e| unsolved(format!("{e:?}")))?;
-        let mut x = factor.solve(&rhs);
-        // One correction: the factor knows of the parts that hold.
-        let residual = &rhs - &matrix * &x;
-        x += factor.solve(&residual);
+        entries.extend(diagonal.iter().enumerate().map(|(i, d)| (i, i, if *d > 0.0 { HELD * d } else { 1.0 })));
+        solve_all(n, &entries, &mut found)?;
         let value = |i: usize, c: usize| match prescribed.get(i).and_then(Option::as_ref) {
             Some(values) => values[c],
-            None => x[(number[i], c)],
+            None => found[c][number[i]],
         };
-        let all: Vec<Vec<f64>> = (0..cases).map(|c| (0..unknowns).map(|i| value(i, c)).collect()).collect();
-        if all.iter().flatten().all(|v| v.is_finite()) { Ok(all) } else { Err(unsolved("not finite".into())) }
+        Ok((0..right.len()).map(|c| (0..unknowns).map(|i| value(i, c)).collect()).collect())
     }
+}
+
+/// Solves for all right sides in place; `entries` are those of both triangles, the same place may have several.
+fn solve_all(n: usize, entries: &[Entry], right: &mut [Vec<f64>]) -> Result<(), ContinuumError> {
+    if n == 0 {
+        return Ok(());
+    }
+    let unsolved = |what: String| ContinuumError::NotSolved(what);
+    let upper = entries.iter().filter(|(i, j, _)| i <= j);
+    let (rows, (columns, values)): (_, (_, Vec<f64>)) = upper.map(|&(i, j, value)| (i, (j, value))).unzip();
+    let matrix = CscMatrix::new_from_triplets(n, n, rows, columns, values);
+    let settings = QDLDLSettings { regularize_enable: false, ..QDLDLSettings::default() };
+    let mut factors = QDLDLFactorisation::new(&matrix, Some(settings)).map_err(|e| unsolved(e.to_string()))?;
+    if factors.positive_inertia() < n {
+        return Err(unsolved("the stiffness is not positive".into()));
+    }
+    for b in right.iter_mut() {
+        let mut x = b.clone();
+        factors.solve(&mut x);
+        // One correction: the factor knows of the parts that hold.
+        entries.iter().for_each(|&(i, j, value)| b[i] -= value * x[j]);
+        factors.solve(b);
+        b.iter_mut().zip(&x).for_each(|(b, x)| *b += x);
+    }
+    if right.iter().flatten().all(|x| x.is_finite()) { Ok(()) } else { Err(unsolved("not finite".into())) }
 }
 
 impl Spring {

@@ -181,7 +181,7 @@ mod tests {
             }
             [diagonal, lower]
         };
-        let mut factors = Fronts::<f32>::new(n, &entries).expect("memory");
+        let mut factors = Fronts::<f32>::new(n, &entries);
         let [diagonal, lower] = matrix(&|_| 1e3);
         factors.factorise(&diagonal, &lower, 1.0).expect("diagonally dominant");
         let [diagonal, lower] = matrix(&|i| if i % 50 == 7 { 1.0 } else { 1e3 });

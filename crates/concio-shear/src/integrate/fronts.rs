@@ -6,22 +6,9 @@
 //! layout, like all indices, is settled by [`Fronts::new`]; nothing is allocated afterwards. The order of all
 //! operations is fixed, and so are the bits.
 
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::SymbolicSupernodalParams;
-use faer::sparse::linalg::cholesky::{simplicial, supernodal};
-
 use crate::integrate::dense_columns::NotPositive;
 use crate::integrate::dense_columns::{Dense, Left, Real, aligned, backward, forward, padded, scratch};
-
-/// Groups are joined as long as they have at most so many columns and less than this part of zeros.
-const JOINED: [(usize, f64); 3] = [(4, 1.0), (16, 0.4), (48, 0.05)];
-/// The same where memory counts more, beyond so many unknowns.
-const JOINED_LARGE: [(usize, f64); 3] = [(4, 1.0), (16, 0.2), (48, 0.05)];
-const LARGE: usize = 20_000;
-/// Columns of a group with all groups below it up to which they are one.
-const COLLAPSED: usize = 16;
-const COLLAPSED_LARGE: usize = 8;
+use crate::integrate::pattern::Pattern;
 
 /// One group of columns.
 #[derive(Debug, Clone, Copy)]
@@ -91,34 +78,28 @@ pub struct Fronts<R> {
 
 impl<R: Real> Fronts<R> {
     /// For a matrix of order `n` with entries below the diagonal at `entries` (row, column): each once, column by
-    /// column, rows and columns numbered in postorder. None where there is no memory to find the pattern of the factors.
-    pub fn new(n: usize, entries: &[(u32, u32)]) -> Option<Self> {
-        let groups = groups(n, entries)?;
-        let kept = collapsed(&groups);
-        let mut fronts = Vec::with_capacity(kept.len());
-        let mut rows = Vec::with_capacity(groups.row_idx().len());
-        let mut group_of = vec![0u32; n];
+    /// column, rows and columns numbered in postorder.
+    pub fn new(n: usize, entries: &[(u32, u32)]) -> Self {
+        let Pattern { groups, start, rows, group_of } = Pattern::new(n, entries);
+        let mut fronts = Vec::with_capacity(groups.len());
         let (mut panel, mut seen) = (0, 0);
-        for (first, s) in kept {
-            let (end, below) = (groups.supernode_end()[s], groups.supernode(s).pattern());
-            group_of[first..end].fill(fronts.len() as u32);
-            let inside = entries[seen..].partition_point(|&(_, c)| (c as usize) < end);
+        for (group, below) in groups.iter().zip(start.windows(2)) {
+            let (width, height) = (group.len(), below[1] - below[0]);
+            let inside = entries[seen..].partition_point(|&(_, c)| c < group.end);
             fronts.push(Front {
-                first: first as u32,
-                width: (end - first) as u32,
-                height: below.len() as u32,
+                first: group.start,
+                width: width as u32,
+                height: height as u32,
                 entries: [seen as u32, (seen + inside) as u32],
                 children: [0; 2],
                 panel,
-                below: rows.len(),
+                below: below[0],
                 made: 0,
                 left: 0,
             });
             seen += inside;
-            rows.extend(below.iter().map(|&r| r as u32));
-            panel += (end - first) * padded(end - first + below.len());
+            panel += width * padded(width + height);
         }
-        rows.shrink_to_fit();
         let children = hang(&mut fronts, &rows, &group_of);
         let stack = stack_up(&mut fronts, &children);
         let place = |&(row, column): &(u32, u32)| {
@@ -131,7 +112,7 @@ impl<R: Real> Fronts<R> {
             (column - f.first) * f.rows().1 as u32 + place
         };
         let longest = fronts.iter().map(|f| f.rows().1).max().unwrap_or(0);
-        Some(Fronts {
+        Fronts {
             into: places_above(&fronts, &rows, &group_of),
             entry: entries.iter().map(place).collect(),
             factor: vec![R::ZERO; panel],
@@ -142,7 +123,7 @@ impl<R: Real> Fronts<R> {
             fronts,
             children,
             rows,
-        })
+        }
     }
 
     /// Factorises A given by its diagonal, times `lift`, and the entries below it, in the order of [`Fronts::new`].
@@ -222,58 +203,6 @@ impl<R: Real> Fronts<R> {
             backward(&self.factor[f.panel()], lead, &self.inverse[f.first as usize..][..width], column, own);
         }
     }
-}
-
-/// Columns of like rows, found by faer; none where memory is too short for them.
-fn groups(n: usize, entries: &[(u32, u32)]) -> Option<supernodal::SymbolicSupernodalCholesky<usize>> {
-    // The upper triangle by columns is the lower one by rows.
-    let mut start = vec![0usize; n + 1];
-    for &(r, _) in entries {
-        start[r as usize + 1] += 1;
-    }
-    for k in 0..n {
-        start[k + 1] += start[k];
-    }
-    let mut next = start.clone();
-    let mut columns = vec![0usize; entries.len()];
-    for &(r, c) in entries {
-        columns[next[r as usize]] = c as usize;
-        next[r as usize] += 1;
-    }
-    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &start, None, &columns);
-    let (mut tree, mut counts) = (vec![0isize; n], vec![0usize; n]);
-    let mut memory = MemBuffer::new(StackReq::any_of(&[
-        simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(n, entries.len()),
-        supernodal::factorize_supernodal_symbolic_cholesky_scratch::<usize>(n),
-    ]));
-    let stack = MemStack::new(&mut memory);
-    let tree = simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
-    let joined = SymbolicSupernodalParams { relax: Some(if n > LARGE { &JOINED_LARGE } else { &JOINED }) };
-    supernodal::factorize_supernodal_symbolic_cholesky(pattern, tree, &counts, stack, joined).ok()
-}
-
-/// The groups as they are eliminated: first column of each, and its place among `groups`. Those that hang together below
-/// one are taken into it as long as they have few columns in all: a front costs more than a few columns of zeros.
-fn collapsed(groups: &supernodal::SymbolicSupernodalCholesky<usize>) -> Vec<(usize, usize)> {
-    let (begin, end) = (groups.supernode_begin(), groups.supernode_end());
-    let most = if end.last().is_some_and(|&n| n > LARGE) { COLLAPSED_LARGE } else { COLLAPSED };
-    let group_of: Vec<usize> = (0..begin.len()).flat_map(|s| std::iter::repeat_n(s, end[s] - begin[s])).collect();
-    // Where the columns of a group and all below it begin: columns are in postorder.
-    let mut first = begin.to_vec();
-    let mut kept: Vec<(usize, usize)> = Vec::new();
-    for s in 0..begin.len() {
-        if let Some(&above) = groups.supernode(s).pattern().first() {
-            let above = group_of[above];
-            first[above] = first[above].min(first[s]);
-        }
-        let collapses = end[s] - first[s] <= most;
-        let from = if collapses { first[s] } else { begin[s] };
-        while kept.last().is_some_and(|&(first, _)| first >= from) {
-            kept.pop();
-        }
-        kept.push((from, s));
-    }
-    kept
 }
 
 /// The groups right below each group: those whose first row below is one of its columns.
@@ -372,7 +301,7 @@ mod tests {
             diagonal[r as usize] -= v;
             diagonal[c as usize] -= v;
         }
-        let mut fronts = Fronts::<f64>::new(n, &entries).expect("memory");
+        let mut fronts = Fronts::<f64>::new(n, &entries);
         assert!(fronts.fronts.iter().any(|f| f.width > 16 && f.height > 16), "loops over long columns are tried too");
         // Twice: nothing of the first time may be left.
         for _ in 0..2 {

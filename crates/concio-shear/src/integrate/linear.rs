@@ -89,13 +89,13 @@ impl Matrix {
         let place = elimination_order(n, pairs, at);
         let symmetric = kind != Factoring::Unsymmetric;
         let leads = kind == Factoring::Led;
-        let by_fronts = if symmetric && n > MOST_LISTED { Self::by_fronts(n, &place, pairs, leads) } else { None };
-        by_fronts.unwrap_or_else(|| Self::by_entries(n, place, pairs, symmetric))
+        match symmetric && n > MOST_LISTED {
+            true => Self::by_fronts(n, place, pairs, leads),
+            false => Self::by_entries(n, place, pairs, symmetric),
+        }
     }
 
-    /// None where memory is too short.
-    fn by_fronts(n: usize, place: &[u32], pairs: &[(usize, usize)], leads: bool) -> Option<(Self, Vec<u32>)> {
-        let mut place = place.to_vec();
+    fn by_fronts(n: usize, mut place: Vec<u32>, pairs: &[(usize, usize)], leads: bool) -> (Self, Vec<u32>) {
         let mut entries = below_diagonal(&place, pairs);
         postordered(&mut place, &mut entries);
         let all = below_diagonal(&place, pairs);
@@ -108,11 +108,11 @@ impl Matrix {
         let mut matrix = Self::empty(n, place, true);
         matrix.lower = lower;
         if leads {
-            matrix.led = Some(Led { factors: Fronts::new(n, &entries)?, search: Conjugate::new(n, &entries) });
+            matrix.led = Some(Led { factors: Fronts::new(n, &entries), search: Conjugate::new(n, &entries) });
         } else {
-            matrix.fronts = Some(Fronts::new(n, &entries)?);
+            matrix.fronts = Some(Fronts::new(n, &entries));
         }
-        Some((matrix, slots))
+        (matrix, slots)
     }
 
     fn empty(n: usize, place: Vec<u32>, symmetric: bool) -> Self {
@@ -187,7 +187,7 @@ impl Matrix {
         (matrix, slots)
     }
 
-    /// Whether it is of [`Factoring::Led`]: memory may have been too short.
+    /// Whether it is of [`Factoring::Led`], and large enough for it.
     pub fn is_led(&self) -> bool {
         self.led.is_some()
     }
@@ -493,7 +493,7 @@ mod tests {
         for (symmetric, listed) in [(true, true), (false, true), (true, false), (false, false)] {
             let place = elimination_order(n, &pairs, &[]);
             let (mut m, slots) = match (symmetric, listed) {
-                (true, false) => Matrix::by_fronts(n, &place, &pairs, false).expect("memory"),
+                (true, false) => Matrix::by_fronts(n, place, &pairs, false),
                 _ => Matrix::by_entries(n, place, &pairs, symmetric),
             };
             assert!(m.fronts.is_some() || !m.updates.is_empty());
@@ -540,7 +540,7 @@ mod tests {
     #[test]
     fn masses_beside_large_springs_are_found() {
         let (k, b) = (1e9, [1.0, 2.0, -0.5]);
-        let (mut m, slots) = Matrix::by_fronts(3, &[0, 1, 2], &[(0, 1), (1, 2)], true).expect("memory");
+        let (mut m, slots) = Matrix::by_fronts(3, vec![0, 1, 2], &[(0, 1), (1, 2)], true);
         m.diagonal.copy_from_slice(&[1.0 + k, 1.0 + 2.0 * k, 1.0 + k]);
         slots.iter().for_each(|slot| m.lower[*slot as usize] = -k);
         m.factorise().expect("lifted");
@@ -568,7 +568,7 @@ mod tests {
             let (mut m, slots) = if listed {
                 Matrix::by_entries(3, place, &pairs, true)
             } else {
-                Matrix::by_fronts(3, &place, &pairs, false).expect("memory")
+                Matrix::by_fronts(3, place, &pairs, false)
             };
             m.diagonal.fill(1.0);
             m.lower[slots[0] as usize] = coupling;

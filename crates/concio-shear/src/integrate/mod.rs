@@ -14,6 +14,7 @@ pub mod impact;
 pub mod joints;
 pub mod linear;
 mod order;
+mod pattern;
 pub mod stage;
 pub mod step;
 pub mod tableau;
