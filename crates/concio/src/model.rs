@@ -5,7 +5,7 @@ use concio_shear::law::{Contact, Elastic, Rub};
 use concio_shear::system as shear;
 
 use crate::G;
-use crate::assign::{JointLaw, friction_choice, load_masses, resolve};
+use crate::assign::{self, JointLaw, friction_choice, load_masses, resolve};
 use crate::bond;
 use crate::case::{Acts, Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, SpringLaw, plausible};
 use crate::device::{self, Device};
@@ -178,6 +178,11 @@ impl Model {
         warnings.extend(slides.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
         let detached = planar::detached(case, &wall).into_iter();
         warnings.extend(detached.map(|text| Warning::new(WarningKind::DetachedTie, text)));
+        let idle = assign::idle_regions(case, &wall, &joints).into_iter();
+        warnings.extend(idle.map(|text| Warning::new(WarningKind::IdleKey, text)));
+        let weight = wall.blocks.iter().map(Block::weight).sum::<f64>() + top_load;
+        let feeble = planar::unlikely_ties(case, &wall, weight).into_iter();
+        warnings.extend(feeble.map(|text| Warning::new(WarningKind::UnlikelyNumber, text)));
         let system = match turns {
             true => System::Planar(Box::new(planar::compile(case, &wall, &joints, &laws, &normal)?)),
             false => System::Shear,
