@@ -272,8 +272,12 @@ mod tests {
         case.load.beam = concio::case::Beam::Mass(concio::quantity::Mass::from_si(1e6));
         let told =
             |all| before(all, |_| Some(case.clone()), |number| format!("run {number}")).sentences()[0].to_string();
-        assert!(told(2).starts_with("in every run: the beam weighs 9810000 N"), "{:?}", told(2));
-        assert!(told(100).starts_with("in all 16 runs checked, of 100 in the study: the beam"), "{:?}", told(100));
+        assert!(told(2).starts_with("in every run: load.beam.mass: the beam weighs 9810000 N"), "{:?}", told(2));
+        assert!(
+            told(100).starts_with("in all 16 runs checked, of 100 in the study: load.beam.mass: the beam"),
+            "{:?}",
+            told(100)
+        );
         case.motion.base = concio::case::Signal::None;
         case.motion.duration = None;
         let lost = before(1, |_| Some(case.clone()), |number| format!("run {number}")).sentences();

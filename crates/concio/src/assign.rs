@@ -4,12 +4,14 @@ use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use crate::G;
+use crate::case::plausible::rounded;
 use crate::case::{
     Beam, Case, Device, Friction, FrictionLaw, FrictionOn, FrictionPreset, JointBond, JointChange, JointKind, Joints,
     ModelKind, NormalForce, Selector, Spring, SpringLaw,
 };
 use crate::error::{InputError, Result};
 use crate::graph;
+use crate::quantity::shown;
 use crate::wall::{Joint, Wall};
 use concio_law::friction::Stribeck;
 
@@ -308,6 +310,27 @@ fn common_law(settings: &Joints, kind: JointKind) -> JointLaw {
 /// A name that no joint or panel bears, or conditions that hold for no joint.
 pub fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Result<Vec<usize>, InputError> {
     Choice { wall, joints, names: OnceCell::new() }.of(at)
+}
+
+/// Says of regions that hold all joints that the other conditions choose: a corner in another unit, as a rule. Of walls whose changes are all resolved.
+pub(crate) fn idle_regions(case: &Case, wall: &Wall, joints: &[Joint]) -> Vec<String> {
+    let choice = Choice { wall, joints, names: OnceCell::new() };
+    let number = |at: &Selector| choice.of(at).map_or(0, |chosen| chosen.len());
+    let [right, top] = wall.blocks.iter().fold([0.0f64; 2], |[x, y], b| [x.max(b.x[1]), y.max(b.y[1])]);
+    let told = |(i, change): (usize, &JointChange)| {
+        let region = change.at.region?;
+        let (inside, all) = (number(&change.at), number(&Selector { region: None, ..change.at.clone() }));
+        (inside == all && all > 1).then(|| {
+            let [x0, y0, x1, y1] = region.map(|corner| shown(rounded(corner.si(), 6)));
+            format!(
+                "joint.change[{i}].at.region, from {x0}, {y0} to {x1}, {y1} m, holds all {all} joints that it could, in a wall of {} m by {} m: it chooses none of \
+                 them. Bare numbers are in m; leave `region` out if all are meant",
+                shown(rounded(right, 4)),
+                shown(rounded(top, 4))
+            )
+        })
+    };
+    case.joint.changes.iter().enumerate().filter_map(told).collect()
 }
 
 /// Joints to choose from, with their names once somebody asks for one: a wall may have thousands of changes.

@@ -13,7 +13,7 @@ use concio_mechanisms::survey::NEAR;
 use concio_mechanisms::wall::{Assumed, CornerOf, FloorOf, Side, Wall};
 
 use crate::case::out_of_plane::{self, Hazard as GivenHazard, OutOfPlane};
-use crate::case::{Bond, Case, FrictionLaw, JointKind, TopLoad, plausible};
+use crate::case::{Beam, Bond, Case, FrictionLaw, JointKind, TopLoad, plausible};
 use crate::error::{Error, InputError, Result};
 use crate::quantity::{Length, shown};
 use crate::wall::Wall as Laid;
@@ -126,12 +126,28 @@ fn add_floors(facade: &mut Wall, case: &Case, given: &OutOfPlane, assumed: &mut 
         TopLoad::PerLength(q) => q.si() * length,
         TopLoad::Force(force) => force.si(),
     };
-    if q > 0.0 {
-        let floor = Floor { level: facade.top, load: q, depth: half, ..Floor::default() };
+    // As in `concio limit`: what presses is the load, what pushes its mass.
+    let (key, mass) = match case.load.beam {
+        Beam::Mass(mass) => ("load.beam", Some(mass)),
+        Beam::Free => ("load.mass", case.load.mass),
+        Beam::Driven | Beam::Tied => ("load.beam", None),
+    };
+    let shaken = mass.map_or(q, |mass| mass.si() * crate::G);
+    let pushing = (shaken - q).max(0.0);
+    if q > 0.0 || pushing > 0.0 {
+        let floor = Floor { level: facade.top, load: q, depth: half, pushing, ..Floor::default() };
         facade.floors.push(FloorOf { floor, given: false, holds: false, clamps: false });
+        let [presses, pushes] = [q, shaken].map(|force| shown(plausible::rounded(1e-3 * force, 4)));
+        let how = if (shaken - q).abs() <= SAME_LOAD * q {
+            "with its weight".into()
+        } else if shaken > q {
+            format!("with the {pushes} kN of {key}, where {presses} kN press")
+        } else {
+            format!("with its weight of {presses} kN, more than the {pushes} kN of {key}, which is safe")
+        };
         assumed.add(
             "load.top",
-            "it lies in the middle of the wall, pushes with its weight, and is not connected to anything",
+            format!("it lies in the middle of the wall, pushes {how}, and is not connected to anything"),
         );
     }
     facade.floors.sort_by(|a, b| a.floor.level.total_cmp(&b.floor.level));

@@ -5,7 +5,7 @@ use concio_shear::law::{Contact, Elastic, Rub};
 use concio_shear::system as shear;
 
 use crate::G;
-use crate::assign::{JointLaw, friction_choice, load_masses, resolve};
+use crate::assign::{self, JointLaw, friction_choice, load_masses, resolve};
 use crate::bond;
 use crate::case::{Acts, Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, SpringLaw, plausible};
 use crate::device::{self, Device};
@@ -178,6 +178,11 @@ impl Model {
         warnings.extend(slides.map(|text| Warning::new(WarningKind::UnlikelyJoint, text)));
         let detached = planar::detached(case, &wall).into_iter();
         warnings.extend(detached.map(|text| Warning::new(WarningKind::DetachedTie, text)));
+        let idle = assign::idle_regions(case, &wall, &joints).into_iter();
+        warnings.extend(idle.map(|text| Warning::new(WarningKind::IdleKey, text)));
+        let weight = wall.blocks.iter().map(Block::weight).sum::<f64>() + top_load;
+        let feeble = planar::unlikely_ties(case, &wall, weight).into_iter();
+        warnings.extend(feeble.map(|text| Warning::new(WarningKind::UnlikelyNumber, text)));
         let system = match turns {
             true => System::Planar(Box::new(planar::compile(case, &wall, &joints, &laws, &normal)?)),
             false => System::Shear,
@@ -379,7 +384,12 @@ fn under_beam(wall: &Wall, panel: usize) -> Option<String> {
     } else {
         return None;
     };
-    Some(format!("panel {} ends {:.0} mm below the highest one under the beam; {consequence}", info.name, 1e3 * gap))
+    Some(format!(
+        "load.beam: panel {} ends {:.0} mm below the highest one under the beam; {consequence}. Give the panels under it one height, by `courses`, \
+         `brick.height` and `mortar.bed`",
+        info.name,
+        1e3 * gap
+    ))
 }
 
 /// Part of the mass of all that is shaken which a load may lack without a word.
@@ -455,10 +465,13 @@ fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool
         let under = |b: &&Block| carries[b.panel] && b.course + 1 == wall.panels[b.panel].courses;
         let length: f64 = wall.blocks.iter().filter(under).map(Block::length).sum();
         let load = case.load.top.per_length(length) * length;
-        if m.si() * crate::G > HEAVIER * load {
+        let weight = m.si() * G;
+        if weight > HEAVIER * load {
+            let [least, most] = [1e-3 * weight / length, load / G].map(|v| plausible::rounded(v, 4));
+            let lighter = if load > 0.0 { format!(", or load.beam.mass {most} kg or less") } else { String::new() };
             let text = format!(
-                "the beam weighs {:.0} N but load.top brings only {load:.0} N to the wall; its weight acts through load.top alone",
-                m.si() * crate::G
+                "load.beam.mass: the beam weighs {weight:.0} N but load.top brings only {load:.0} N to the wall; its weight acts through load.top alone. Let load.top \
+                 be {least} kN/m or more{lighter}"
             );
             add(WarningKind::HeavyBeam, text);
         }

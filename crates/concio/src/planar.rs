@@ -16,10 +16,12 @@ use concio_shear::law::{Bonded, Elastic};
 use crate::assign::JointLaw;
 use crate::assign::load_masses;
 use crate::bond::{Bond, Snap, Snaps};
+use crate::case::plausible::rounded;
 use crate::case::{Acts, Beam, BeamRotation, BlockForce, Case, Device, DeviceLaw, JointKind, Spring, StopAt, Tie};
 use crate::device;
 use crate::error::{InputError, Result};
-use crate::wall::{End, Joint, Wall};
+use crate::quantity::{Length, shown};
+use crate::wall::{Block, End, Joint, Wall};
 
 pub use concio_planar::motion::Vibration;
 
@@ -320,6 +322,48 @@ pub(crate) fn detached(case: &Case, wall: &Wall) -> Vec<String> {
         [doubt(i, "at", &tie.from, at), doubt(i, "to_at", &tie.to, to_at)]
     };
     case.ties.iter().enumerate().flat_map(both).flatten().collect()
+}
+
+/// Strain at which a tie yields, from its force and stiffness: steel at 0.001 to 0.005, ropes and laminates at 0.03, and anchors give as well.
+const YIELDS: [f64; 2] = [2e-5, 0.05];
+/// Where a guess at what was meant lies.
+const MOSTLY: [f64; 2] = [2e-4, 0.03];
+/// Part of the weight of a wall and its load below which what a tie bears is nothing to it.
+const FEEBLE: f64 = 1e-3;
+
+/// Distance of the ends of a tie [m].
+fn span(tie: &Tie, wall: &Wall) -> f64 {
+    let end = |name: &String, at: [Length; 2]| {
+        let centre = wall.blocks.iter().find(|b| b.name == *name).map_or([0.0; 2], Block::centre);
+        [centre[0] + at[0].si(), centre[1] + at[1].si()]
+    };
+    let [from, to] = [end(&tie.from, tie.at), end(&tie.to, tie.to_at)];
+    (to[0] - from[0]).hypot(to[1] - from[1])
+}
+
+/// Says of ties that they yield at a strain at which none does, or bear nothing beside `weight` [N], that of the wall and its load.
+pub(crate) fn unlikely_ties(case: &Case, wall: &Wall, weight: f64) -> Vec<String> {
+    let told = |(i, tie): (usize, &Tie)| {
+        let (force, length) = (tie.yield_force?.si(), span(tie, wall));
+        let strain = force / tie.stiffness.si() / length;
+        let within = |[low, high]: [f64; 2], v: f64| (low..=high).contains(&v);
+        let number = |v: f64| shown(rounded(v, 3));
+        let what = if !within(YIELDS, strain) {
+            let at = format!("{} m yields when it is {} % longer", number(length), number(100.0 * strain));
+            format!("at its `stiffness` a tie of {at}, and steel does at 0.1 to 0.5 %")
+        } else if force < FEEBLE * weight {
+            format!("{} of the weight of wall and load, next to nothing", number(force / weight))
+        } else {
+            return None;
+        };
+        let meant =
+            [1e3, 1e-3].into_iter().find(|factor| within(MOSTLY, factor * strain) && factor * force > FEEBLE * weight);
+        let meant = meant.map_or("look at its unit and that of `stiffness`".into(), |factor| {
+            format!("did you mean \"{} kN\"?", number(1e-3 * factor * force))
+        });
+        Some(format!("tie[{i}].yield_force is {} kN: {what}; {meant}", number(1e-3 * force)))
+    };
+    case.ties.iter().enumerate().filter_map(told).collect()
 }
 
 /// How far the sides of a joint are apart as the blocks are laid, without mortar [m].

@@ -165,6 +165,7 @@ fn compiled(
     let mut model = Model::compile(&case, wall, excitation)?;
     model.warnings.splice(0..0, plausible::doubts(&case));
     model.warnings.extend(of_records);
+    model.warnings.extend(coverage::of_forces(&case, model.excitation.duration));
     model.warnings.extend(endless(&case, &model));
     model.warnings.extend(passed_over(&model));
     Simulation::check(&model, &sampling)?;

@@ -139,7 +139,7 @@ fn slide(outcome: &Outcome, summary: &Value) -> Answer {
         return Answer::new("failure", "cracked", note).grave(true);
     }
     let slips = outcome.envelopes.joint_slip.iter().any(|slip| *slip > 0.0);
-    let note = if slips { format!("bed joints slid by at most {slid}") } else { "no joint slid or cracked".into() };
+    let note = if slips { format!("joints slid by at most {slid}") } else { "no joint slid or cracked".into() };
     // What had not happened when a run broke off may have happened next.
     let value = if outcome.stop_reason.is_end() { "none" } else { "–" };
     Answer::new("failure", value, note + &until(outcome))

@@ -133,6 +133,37 @@ duration = 12
     assert!(head[0].1.starts_with("cracked, 1 of 1 bonded joints") || head[0].1.starts_with("slid far"), "{told}");
 }
 
+/// A stone on a base that jumps to 0.8 g for 0.1 s lags by 0.4 g, as μ = 0.4 drags it along, and catches up at 0.4 g: 2 · ½ · 0.4 g · (0.1 s)².
+/// It is the base joint that slid, and nothing else can.
+#[test]
+fn a_wall_that_slides_as_a_whole_is_told_with_its_base() {
+    let desk = Desk::new();
+    let text = r#"
+model = "shear"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = { length = 1, height = 0.2, thickness = 0.5, specific_weight = 20e3 }
+mortar = { bed = 0, head = 0 }
+[joint]
+bed = { law = "none" }
+head = { law = "none" }
+friction = { law = "coulomb", static = 0.4 }
+[motion]
+duration = "0.5 s"
+base = { pulse = { shape = "rectangular", acceleration = "ACCELERATION g", duration = "0.1 s" } }
+"#;
+    let (told, head) = ran(&desk, &text.replace("ACCELERATION", "0.8"));
+    assert!(
+        head[0].1.starts_with("none, joints slid by at most 39.24 mm, 3.924 % of the overlap of base|p1c1b1"),
+        "{told}"
+    );
+    // 2.2 g: 1.8 g behind for 0.1 s, and 0.45 s at 0.4 g to make up for that: the joint has slid by half of the stone.
+    let (told, head) = ran(&desk, &text.replace("ACCELERATION", "2.2").replace("0.5 s", "1 s"));
+    assert!(head[0].1.starts_with("slid far, by 485.6 mm"), "{told}");
+}
+
 /// All is 0 where nothing moves, and no zero has a sign or an exponent.
 #[test]
 fn a_wall_at_rest_is_told_in_zeros() {

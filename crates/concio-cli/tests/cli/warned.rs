@@ -136,7 +136,7 @@ fn analyses_that_choose_their_runs_count_their_warnings() {
     let [text, noted] =
         said(&desk, "first-crack wall.toml --criterion slip --limit 1um --checks 0 --interval 0.5 --out one");
     holds(&text, &["heavy-beam "]);
-    assert_eq!(noted.matches("warning: in every run: the beam weighs").count(), 1, "{noted}");
+    assert_eq!(noted.matches("warning: in every run: load.beam.mass: the beam weighs").count(), 1, "{noted}");
 
     let desk = of(&format!(
         "{motions}[ida]\ndamage = \"largest_slip\"\nlimits = [{{ name = \"a\", value = \"1 mm\" }}]\nintensities = [\"0.1 g\", \"0.2 g\"]\n"
@@ -147,7 +147,7 @@ fn analyses_that_choose_their_runs_count_their_warnings() {
     holds(&desk.get("out/report.html"), &["Warnings in 2 of 2 runs (heavy-beam 2"]);
     let [text, noted] = said(&desk, "study status study.toml --out out");
     holds(&text, &["heavy-beam 2"]);
-    holds(&noted, &["warning: in every run: the beam weighs"]);
+    holds(&noted, &["warning: in every run: load.beam.mass: the beam weighs"]);
 }
 
 /// The three runs of `compare constrained`.

@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 use super::node::{Node, Value};
 use super::out_of_plane::{Hazard, OutOfPlane, SideWall, Site};
 use super::{
-    Beam, Case, FrictionChange, FrictionLaw, HistoryQuantity, JointBond, JointKind, Joints, ModelKind, Panel, Scheme,
-    Signal, Solver, SpringChange, TopLoad,
+    Beam, Bond, Brick, Case, FrictionChange, FrictionLaw, HistoryQuantity, JointBond, JointKind, Joints, ModelKind,
+    Panel, Scheme, Signal, Solver, SpringChange, TopLoad,
 };
 use crate::quantity::{Stiffness, shown};
 use crate::warning::{Warning, WarningKind};
@@ -62,9 +62,20 @@ const STIFFNESS_PER_AREA: Expected = Expected {
     unit: "N/m3",
     slips: &[(1e9, "N/mm3", 1e9), (1e3, "N/mm3", 1e9), (1e6, "MPa/m", 1e6), (1e-3, "N/mm3", 1e9), (1e-6, "N/mm3", 1e9)],
 };
-/// From mud to the strongest concrete; bricks themselves split at some MPa.
-const STRENGTH: Expected =
-    Expected { limits: [1e3, 2e7], usual: [1e4, 1e7], unit: "Pa", slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3)] };
+/// f_t of joints: mud to the best thin mortar, 0.05 to 1 MPa (Eurocode 6, 3.6.4: f_xk1 of 0.05 to 0.2 MPa); bricks themselves split at some MPa.
+const TENSION: Expected = Expected {
+    limits: [1e3, 2e6],
+    usual: [1e4, 1e6],
+    unit: "Pa",
+    slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3), (1e-3, "MPa", 1e6), (0.1, "MPa", 1e6)],
+};
+/// c of joints: f_vk0 of 0.1 to 0.4 MPa (Eurocode 6, table 3.4), tests up to some 2 MPa.
+const COHESION: Expected = Expected { limits: [1e3, 4e6], usual: [1e4, 1e6], ..TENSION };
+/// φ of joints, in degrees: tan φ from 0.3 to 1; an angle in radians that is given as one in degrees is below.
+const ANGLE: Expected =
+    Expected { limits: [2.0, 45.0], usual: [15.0, 45.0], unit: "deg", slips: &[(180.0 / PI, "rad", 180.0 / PI)] };
+/// What holds a wall to its supports: glue and teeth too.
+const HELD: Expected = Expected { limits: [1e3, 2e7], usual: [1e4, 1e7], ..TENSION };
 /// Masonry bears 0.5 to 50 MPa, adobe less, hard stone laid dry more.
 const COMPRESSION: Expected =
     Expected { limits: [1e4, 5e8], usual: [1e5, 1e8], unit: "Pa", slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3)] };
@@ -183,8 +194,12 @@ const STIFFER: f64 = 10.0;
 const LEAST_NORMAL_TO_SHEAR: f64 = 1.0;
 /// q of the code for mechanisms out of the plane, Circolare 21.1.2019 n. 7, C8.7.1.2.1.7.
 const BEHAVIOUR: f64 = 2.0;
-/// Coefficients of friction above this are rather angles in degrees.
-const LARGEST_FRICTION: f64 = 2.0;
+/// Masonry rubs with 0.4 (Eurocode 6, 3.6.2) to 0.8, split and toothed stones with 1 at most.
+const LARGEST_FRICTION: f64 = 1.0;
+/// Of what holds a wall to its supports, such as the glue of a laboratory.
+const LARGEST_HELD: f64 = 2.0;
+/// Coefficients from this on are rather angles in degrees.
+const LEAST_ANGLE: f64 = 10.0;
 
 /// `solver.tolerance` to which `esdirk4` follows friction that falls at once, as `newmark_pulses_with_less_friction_in_slip` shows.
 const FINE: f64 = 1e-8;
@@ -194,9 +209,14 @@ pub fn doubts(case: &Case) -> Vec<Warning> {
     let mut doubts = Doubts(Vec::new());
     for (index, panel) in case.panels.iter().enumerate() {
         of_panel(&mut doubts, &format!("panel[{index}]"), panel);
+        // Elsewhere it is a reference alone.
+        if matches!(panel.bond, Bond::Running | Bond::Stack | Bond::Irregular) {
+            of_proportions(&mut doubts, &format!("panel[{index}].brick"), &panel.brick, case.out_of_plane.is_some());
+        }
     }
     for (index, tie) in case.ties.iter().enumerate() {
         doubts.look(&format!("tie[{index}].stiffness"), tie.stiffness.si(), &STIFFNESS);
+        doubts.look(&format!("tie[{index}].slack"), tie.slack.si(), &TIE_SLACK);
     }
     of_forces(&mut doubts, case);
     of_joints(&mut doubts, case);
@@ -247,14 +267,6 @@ fn of_forces(doubts: &mut Doubts, case: &Case) {
                 doubts.look(&format!("force[{index}].{key}"), largest.abs(), &BLOCK_PULL);
             }
         }
-        let last = force.x.len().max(force.y.len()).saturating_sub(1) as f64;
-        if let (Some(every), Some(duration)) = (force.every, case.motion.duration)
-            && last * every.si() >= duration.si()
-        {
-            let text =
-                format!("force[{index}].every is {every}: the run of {duration} ends before its last value acts");
-            doubts.add(WarningKind::UnlikelyNumber, text);
-        }
     }
 }
 
@@ -296,7 +308,7 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane, case: &Case) {
             doubts.look(&format!("{key}.{name}"), value.si(), expected);
         }
         doubts.look(&format!("{key}.seat_length"), floor.seat_length.map_or(0.0, |l| l.si()), &SEAT);
-        doubts.look_at_friction(&format!("{key}.seat_friction"), floor.seat_friction);
+        doubts.look_at_friction(&format!("{key}.seat_friction"), floor.seat_friction, LARGEST_FRICTION);
     }
     for (index, anchor) in own.anchors.iter().enumerate() {
         let key = format!("out_of_plane.anchor[{index}]");
@@ -322,7 +334,7 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane, case: &Case) {
     }
     if let Some(strip) = &own.strip {
         doubts.look("out_of_plane.strip.thrust", strip.thrust.si(), &PULL);
-        doubts.look_at_friction("out_of_plane.strip.friction", strip.friction);
+        doubts.look_at_friction("out_of_plane.strip.friction", strip.friction, LARGEST_FRICTION);
     }
     if let Some(building) = &own.building {
         let at = "out_of_plane.building";
@@ -382,7 +394,7 @@ fn of_side_walls(doubts: &mut Doubts, all: &[SideWall], longest: f64) {
             doubts.look(&format!("{key}.{name}"), way.map_or(0.0, |l| l.si()), &OPENING);
         }
         if let Some(friction) = side.friction {
-            doubts.look_at_friction(&format!("{key}.friction"), friction);
+            doubts.look_at_friction(&format!("{key}.friction"), friction, LARGEST_FRICTION);
         }
         if let Some(corner) = &side.corner {
             for (name, force) in [("load", corner.load), ("push", corner.push), ("thrust", corner.thrust)] {
@@ -477,13 +489,13 @@ impl Doubts {
         self.look(key, stiffness.amount(), expected);
     }
 
-    fn look_at_friction(&mut self, key: &str, coefficient: f64) {
-        if coefficient > LARGEST_FRICTION {
-            let tangent = (coefficient < 90.0).then(|| (coefficient * PI / 180.0).tan());
-            let meant = tangent.map_or(String::new(), |t| {
+    fn look_at_friction(&mut self, key: &str, coefficient: f64, largest: f64) {
+        if coefficient > largest {
+            let tangent = (LEAST_ANGLE..90.0).contains(&coefficient).then(|| (coefficient * PI / 180.0).tan());
+            let meant = tangent.map_or(String::from(": joints of masonry rub with 0.4 to 0.8"), |t| {
                 format!("; did you mean {:.2}, the tangent of {} degrees?", t, shown(coefficient))
             });
-            let text = format!("{key} is {}, more than {LARGEST_FRICTION}{meant}", shown(coefficient));
+            let text = format!("{key} is {}, more than {largest}{meant}", shown(rounded(coefficient, 6)));
             self.add(WarningKind::UnlikelyNumber, text);
         }
     }
@@ -554,6 +566,35 @@ pub(super) fn bare_accelerations(tree: &Node) -> Vec<Warning> {
 /// With so many significant digits: conversions leave traces in the last ones.
 pub fn rounded(v: f64, digits: usize) -> f64 {
     format!("{v:.*e}", digits - 1).parse().unwrap_or(v)
+}
+
+/// The next number of two digits.
+fn raised(v: f64) -> f64 {
+    let digit = 10f64.powf(v.log10().floor() - 1.0);
+    rounded((v / digit - 1e-9).ceil() * digit, 3)
+}
+
+/// Height and thickness of bricks over their length. Roman tiles are 1 : 13 high; walls are as thick as some bricks are long.
+const PROPORTIONS: [(&str, [f64; 2]); 2] = [("height", [0.05, 20.0]), ("thickness", [0.06, 4.0])];
+
+/// Sides that are likely by themselves, and not beside each other. Façades are thicker than their bricks are long.
+fn of_proportions(doubts: &mut Doubts, at: &str, brick: &Brick, facade: bool) {
+    let known = |v: f64| (BRICK.limits[0]..=BRICK.limits[1]).contains(&v);
+    let length = brick.length.si();
+    for ((key, [least, most]), side) in PROPORTIONS.into_iter().zip([brick.height.si(), brick.thickness.si()]) {
+        let most = if facade { f64::INFINITY } else { most };
+        if known(length) && known(side) && !(least..=most).contains(&(side / length)) {
+            let low = side < length;
+            let bound = if low { format!("{least} at least") } else { format!("{most} at most") };
+            let meant = if low { 10.0 * side } else { 0.1 * side };
+            let [part, side, meant, length] =
+                [rounded(side / length, 2), side, meant, length].map(|v| shown(rounded(v, 6)));
+            let text = format!(
+                "{at}.{key} is {side} m, {part} times the length of {length} m: it is {bound} in bricks; did you mean \"{meant} m\"?"
+            );
+            doubts.add(WarningKind::UnlikelyNumber, text);
+        }
+    }
 }
 
 fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {
@@ -658,11 +699,19 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
         if let Signal::Tilt(tilt) = &case.motion.base {
             let more = tilt.acceleration.si().abs() * case.planar_step() / tilt.rise.si() / crate::G;
             if more > STEEP {
+                let rise = raised(tilt.rise.si() * more / STEEP);
+                let end = rounded(tilt.start.si() + rise, 6);
+                let short = case.motion.duration.is_none_or(|duration| duration.si() < end);
+                let too = if short {
+                    format!(", and motion.duration {} s, or the run ends before", shown(end))
+                } else {
+                    String::new()
+                };
                 let text = format!(
                     "motion.base.tilt grows by {} g in every step of this `quasi_static` run: what the wall bears is known no better, and a wall that \
-                     begins to fall is told to bear what comes on it meanwhile. Let `rise` be {} s or longer",
+                     begins to fall is told to bear what comes on it meanwhile. Let `rise` be {} s or longer{too}",
                     shown(rounded(more, 2)),
-                    shown(rounded(tilt.rise.si() * more / STEEP, 2)),
+                    shown(rise),
                 );
                 doubts.add(WarningKind::UnlikelyNumber, text);
             }
@@ -762,7 +811,44 @@ fn of_whole_joint(doubts: &mut Doubts, whole: f64, brick: [f64; 2]) {
     }
 }
 
+/// Modulus of masonry all of whose deformation is in its joints [Pa], twice that of the stiffest stone.
+const STIFFEST: f64 = 2e11;
+
+/// Springs of bed and head joints that make masonry stiffer than any stone.
+fn of_modulus(doubts: &mut Doubts, case: &Case) {
+    let (joint, Some(panel)) = (&case.joint, case.panels.first()) else { return };
+    let (brick, mortar) = (&panel.brick, &panel.mortar);
+    let [length, height, thickness] = [brick.length, brick.height, brick.thickness].map(|side| side.si());
+    // k_n of bed joints of planar walls; shear walls have k_s alone.
+    let across = if case.model == ModelKind::Planar { joint.bed.normal_to_shear } else { 1.0 };
+    let joints = [
+        ("bed", &joint.bed, across, height + mortar.bed.si(), 0.5 * length * thickness),
+        ("head", &joint.head, 1.0, length + mortar.head.si(), height * thickness),
+    ];
+    for (kind, spring, times, pitch, area) in joints.into_iter().filter(|(_, spring, ..)| spring.law.has_springs()) {
+        let (limits, per_area, unit, si) = match spring.stiffness {
+            Stiffness::PerArea(k) => (STIFFNESS_PER_AREA.limits, k.si(), "N/mm3", 1e9),
+            Stiffness::PerJoint(k) => (STIFFNESS.limits, k.si() / area, "MN/m", 1e6),
+        };
+        let (given, modulus) = (spring.stiffness.amount() / si, times * per_area * pitch);
+        // Beyond its own limits it is told already, and so are bricks.
+        let sides = [length, height, thickness].iter().all(|side| (BRICK.limits[0]..=BRICK.limits[1]).contains(side));
+        let known = sides && spring.stiffness.amount() <= limits[1];
+        if known && modulus > STIFFEST {
+            let [given, meant] = [given, 1e-3 * given].map(|v| shown(rounded(v, 6)));
+            let text = format!(
+                "joint.{kind}.stiffness is {given} {unit}: over {} m from joint to joint that makes masonry of {} GPa, more than 200 GPa, twice the stiffest stone; \
+                 did you mean \"{meant} {unit}\"?",
+                shown(rounded(pitch, 4)),
+                shown(rounded(1e-9 * modulus, 3)),
+            );
+            doubts.add(WarningKind::UnlikelyNumber, text);
+        }
+    }
+}
+
 fn of_joints(doubts: &mut Doubts, case: &Case) {
+    of_modulus(doubts, case);
     let joint = &case.joint;
     let others = [("base", joint.base), ("top", joint.top), ("connection", joint.connection)];
     let springs = [("bed", Some(joint.bed)), ("head", Some(joint.head))].into_iter().chain(others);
@@ -780,16 +866,19 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
             }
         }
     }
-    doubts.look_at_friction("joint.friction.static", joint.friction.static_);
+    doubts.look_at_friction("joint.friction.static", joint.friction.static_, LARGEST_FRICTION);
     doubts.look("joint.friction.slip_velocity", joint.friction.slip_velocity.si(), &SLIP_VELOCITY);
     if let Some(bond) = &joint.bond {
-        doubts.look("joint.bond.tensile_strength", bond.tensile_strength.si(), &STRENGTH);
-        doubts.look("joint.bond.cohesion", bond.cohesion.si(), &STRENGTH);
+        doubts.look("joint.bond.tensile_strength", bond.tensile_strength.si(), &TENSION);
+        doubts.look("joint.bond.cohesion", bond.cohesion.si(), &COHESION);
+        doubts.look("joint.bond.friction_angle", bond.friction_angle.si().to_degrees(), &ANGLE);
         doubts.look("joint.bond.mode_1_energy", bond.mode_1_energy.si(), &OPENING_ENERGY);
         doubts.look("joint.bond.mode_2_energy", bond.mode_2_energy.si(), &SHEAR_ENERGY);
     }
     for (index, change) in joint.changes.iter().enumerate() {
         let at = format!("joint.change[{index}]");
+        let kinds = &change.at.kind;
+        let supports = !kinds.is_empty() && kinds.iter().all(|kind| matches!(kind, JointKind::Base | JointKind::Top));
         if let Some(SpringChange { stiffness: Some(stiffness), .. }) = change.spring {
             doubts.look_at_stiffness(&format!("{at}.spring.stiffness"), stiffness);
         }
@@ -800,10 +889,16 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
             doubts.look(&format!("{at}.spring.compressive_strength"), strength.si(), &COMPRESSION);
         }
         if let Some(FrictionChange { static_: Some(coefficient), .. }) = change.friction {
-            doubts.look_at_friction(&format!("{at}.friction.static"), coefficient);
+            let largest = if supports { LARGEST_HELD } else { LARGEST_FRICTION };
+            doubts.look_at_friction(&format!("{at}.friction.static"), coefficient, largest);
         }
         if let Some(FrictionChange { slip_velocity: Some(velocity), .. }) = change.friction {
             doubts.look(&format!("{at}.friction.slip_velocity"), velocity.si(), &SLIP_VELOCITY);
+        }
+        if let Some(bond) = &change.bond {
+            let [tension, cohesion] = if supports { [&HELD; 2] } else { [&TENSION, &COHESION] };
+            doubts.look(&format!("{at}.bond.tensile_strength"), bond.tensile_strength.map_or(0.0, |f| f.si()), tension);
+            doubts.look(&format!("{at}.bond.cohesion"), bond.cohesion.map_or(0.0, |c| c.si()), cohesion);
         }
         if let Some(device) = &change.device {
             let forces = [

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use super::document::{self, Document};
-use super::node::{Fault, Node, Syntax, Value};
+use super::node::{Entry, Fault, Node, Syntax, Value};
 use super::{Case, DeviceLaw, ModelKind, ParameterSet, change, de, plausible, sets, validate};
 use crate::warning::Warning;
 use crate::{Error, InputError, Result};
@@ -198,13 +198,19 @@ fn below<'t>(tree: &'t Node, path: &str) -> Option<&'t Node> {
 
 /// Asks whether a key beside the missing one, unknown itself, is that key with a typing error.
 fn misspelt(tree: &Node, missing: &str) -> Option<String> {
+    let name = missing.rsplit_once('.').map_or(missing, |(_, name)| name);
+    entry_like(tree, missing).map(|near| format!("is `{}` meant to be `{name}`?", near.key))
+}
+
+/// The entry of such a key.
+fn entry_like<'t>(tree: &'t Node, missing: &str) -> Option<&'t Entry> {
     let (above, name) = missing.rsplit_once('.').map_or(("", missing), |(above, name)| (above, name));
     let table = below(tree, above)?;
     let Value::Table(entries) = &table.value else { return None };
     let path = |key: &str| if above.is_empty() { key.to_string() } else { format!("{above}.{key}") };
     let unknown = entries.iter().map(|e| e.key.as_str()).filter(|k| super::describe(&path(k)).is_none());
     let near = de::suggestion(name, unknown)?;
-    Some(format!("is `{near}` meant to be `{name}`?"))
+    entries.iter().find(|e| e.key == near)
 }
 
 /// Writes out what `friction.preset` stands for.
@@ -324,7 +330,8 @@ fn missing_joint(tree: &Node) -> std::result::Result<(), Fault> {
         Value::Table(_) if tree.has("panel") => {
             let error = InputError::new("the key is missing").key("joint");
             let error = error.allowed("a table `[joint]` with the laws of bed and head joints");
-            Err(Fault::new(error.help(where_joints_are(tree)), tree.at))
+            let help = misspelt(tree, "joint").unwrap_or_else(|| where_joints_are(tree).into());
+            Err(Fault::new(error.help(help), entry_like(tree, "joint").map_or(tree.at, |near| near.at)))
         }
         _ => Ok(()),
     }

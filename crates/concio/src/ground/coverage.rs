@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use crate::G;
 use crate::case::plausible::rounded;
-use crate::case::{Beam, Case, ModelKind, RecordInput, Signal};
+use crate::case::{Beam, BlockForce, Case, HistoryQuantity, ModelKind, RecordInput, Signal};
 use crate::error::Result;
 use crate::ground::library::Component;
 use crate::ground::record::Record;
@@ -28,6 +29,10 @@ const SMALLEST_PEAK: f64 = 0.01;
 const LARGEST_PEAK: f64 = 60.0;
 /// Peak of nearly all records, 2 g [m/s²].
 const STRONGEST: f64 = 2.0 * STANDARD_GRAVITY;
+/// Difference from g of a factor that is meant to be g: 9.8, 9.80665, 9.81.
+const NEARLY_G: f64 = 2.5e-3;
+/// Factor on one of two components alone from which it is told: rounding, and corrections of one of them.
+const TOGETHER: f64 = 1.1;
 /// Instants at which a pulse or sweep is looked at for its peak.
 const LOOKS: usize = 10_000;
 /// Time between samples beyond which its unit is doubted [s]: earthquakes shake at 5 Hz and more.
@@ -72,21 +77,24 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                 found.extend(
                     unchosen(name, input, folder, library)?.map(|t| Warning::new(WarningKind::UnchosenChannel, t)),
                 );
-                found.extend(of_record(case, name, &library.record(input, folder)?, duration));
+                let record = library.record(input, folder)?;
+                let scale = of_gravity(name, input, &record);
+                found.extend(scale.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
+                let meant = input.pga.is_some();
+                found.extend(of_record(case, name, &record, meant, duration));
             }
             Signal::Synthetic(input) => {
                 let made = library.synthetic(input)?;
                 found.extend(uncovered(place(name), "accelerogram", &made, duration));
-                let odd = beyond_recorded(case, name, &made);
+                let odd = beyond_recorded(case, name, &made, true);
                 found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
             }
-            Signal::Pulse(_) | Signal::Sweep(_) => {
-                let motion = compile_with(signal, folder, library)?;
-                found.extend(unended(name, &motion, duration).map(|t| Warning::new(WarningKind::RecordCut, t)));
-            }
-            _ => {}
+            other => found
+                .extend(cut(name, other, duration, library, folder)?.map(|t| Warning::new(WarningKind::RecordCut, t))),
         }
     }
+    let apart = apart(case, folder, library)?;
+    found.extend(apart.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
     Ok(found)
 }
 
@@ -94,7 +102,7 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
 pub fn of_own(case: &Case, base: &GroundMotion, duration: f64) -> Vec<Warning> {
     let mut found = match base {
         GroundMotion::AtRest => return Vec::new(),
-        GroundMotion::Samples(samples) => of_record(case, "base", &samples.record(), duration),
+        GroundMotion::Samples(samples) => of_record(case, "base", &samples.record(), false, duration),
         GroundMotion::Pieces(_) => {
             unended("base", base, duration).map(|t| Warning::new(WarningKind::RecordCut, t)).into_iter().collect()
         }
@@ -110,7 +118,8 @@ fn place(name: &str) -> &str {
     if name == "vertical" { "vertical direction" } else { name }
 }
 
-fn of_record(case: &Case, name: &str, record: &Record, duration: f64) -> Vec<Warning> {
+/// `meant`: whether the wall file names its peak.
+fn of_record(case: &Case, name: &str, record: &Record, meant: bool, duration: f64) -> Vec<Warning> {
     let doubtful = record.remarks.iter().filter(|remark| remark.is_doubtful());
     let doubtful = doubtful.map(|remark| format!("motion.{name}, of the record: {remark}"));
     let mut found: Vec<Warning> = doubtful.map(|text| Warning::new(WarningKind::DoubtfulRecord, text)).collect();
@@ -120,7 +129,7 @@ fn of_record(case: &Case, name: &str, record: &Record, duration: f64) -> Vec<War
     let peak = odd_peak(record).map(|odd| format!("motion.{name}: {odd} as it moves the wall{look}"));
     let interval = odd_interval(record).map(|odd| format!("motion.{name}: {odd}"));
     let length = odd_length(record).map(|odd| format!("motion.{name}: {odd}"));
-    let peak = peak.or_else(|| beyond_recorded(case, name, record));
+    let peak = peak.or_else(|| beyond_recorded(case, name, record, meant));
     let odd = peak.into_iter().chain(interval).chain(length);
     found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
     found
@@ -204,13 +213,51 @@ pub fn odd_peak(record: &Record) -> Option<String> {
         .then(|| format!("the record's peak acceleration is {} m/s², {how} than {bound} m/s²", rounded(peak, 4)))
 }
 
-/// Says of a peak that throws any rocking wall over, and that hardly an earthquake had, that it is.
-fn beyond_recorded(case: &Case, name: &str, record: &Record) -> Option<String> {
+/// Says of a peak that hardly an earthquake had that it is one. Where the wall file names it, it is told of rocking walls alone, which it throws over.
+fn beyond_recorded(case: &Case, name: &str, record: &Record, meant: bool) -> Option<String> {
     let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
-    (case.model == ModelKind::Rocking && peak > STRONGEST).then(|| {
+    ((case.model == ModelKind::Rocking || !meant) && peak > STRONGEST).then(|| {
         let [peak, most] = [peak, STRONGEST].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
         format!("motion.{name}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, which few records have: look at its unit, its interval, `scale` and `pga`")
     })
+}
+
+/// Says of a factor that is g, or one over g, in a unit of acceleration: files and `units` say theirs, and g would count twice.
+fn of_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String> {
+    let scale = input.scale.filter(|_| input.quantity == HistoryQuantity::Acceleration)?;
+    let near = |of: f64| (scale.abs() / of - 1.0).abs() < NEARLY_G;
+    let is_g = [G, 100.0 * G, 1.0 / G, 0.01 / G].into_iter().any(near);
+    is_g.then(|| {
+        let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs())) / STANDARD_GRAVITY;
+        let [scale, peak, without] = [scale, peak, peak / scale.abs()].map(|v| shown(rounded(v, 3)));
+        format!(
+            "motion.{name}.scale is {scale}, a conversion to or from g, but records are converted by their own unit: the peak is {peak} g as it moves the wall, \
+             {without} g without `scale`. Leave `scale` out; a text file of another unit takes `units`, such as \"g\""
+        )
+    })
+}
+
+/// Says of the two components of a motion that one of them alone is scaled: they are no more of one earthquake.
+fn apart(case: &Case, folder: &Path, library: &Library) -> Result<Option<String>> {
+    let (Signal::Record(base), Signal::Record(vertical)) = (&case.motion.base, &case.motion.vertical) else {
+        return Ok(None);
+    };
+    let key = |input: &RecordInput| input.pga.map(|_| "pga").or(input.scale.map(|_| "scale"));
+    let (scaled, how, plain, own) = match (key(base), key(vertical)) {
+        (Some(how), None) => ("base", how, "vertical", base),
+        (None, Some(how)) => ("vertical", how, "base", vertical),
+        _ => return Ok(None),
+    };
+    let peak = |input: &RecordInput| -> Result<f64> { Ok(measure(&library.record(input, folder)?).pga.value.abs()) };
+    let [with, without] = [peak(own)?, peak(&RecordInput { pga: None, scale: None, ..own.clone() })?];
+    let factor = with / without;
+    Ok(((factor.ln()).abs() > TOGETHER.ln()).then(|| {
+        let factor = shown(rounded(factor, 3));
+        format!(
+            "motion.{plain} is not scaled, and `{how}` multiplies motion.{scaled} by {factor}: together they are of no one earthquake. `scale = {factor}` in \
+             motion.{plain} keeps their ratio; `scale = 1` says that it is meant so"
+        )
+    }))
 }
 
 /// Says of samples of an acceleration that are too far apart for an earthquake that they are: times are in another unit.
@@ -243,6 +290,89 @@ fn unended(name: &str, motion: &GroundMotion, duration: f64) -> Option<String> {
         seconds(end),
         seconds(duration)
     ))
+}
+
+/// What grows from 0 at one time until another [s].
+struct Growth {
+    key: &'static str,
+    /// The keys of its end.
+    until: &'static str,
+    times: [f64; 2],
+    /// What it grows to, in `unit`.
+    whole: f64,
+    unit: &'static str,
+}
+
+fn growth(signal: &Signal) -> Option<Growth> {
+    let from = |start: f64, rise: f64| [start, start + rise];
+    let (key, until, times, whole, unit) = match signal {
+        Signal::Tilt(t) => ("tilt", "start + rise", from(t.start.si(), t.rise.si()), t.acceleration.si() / G, "g"),
+        Signal::Ramp(r) => ("ramp", "start + rise", from(r.start.si(), r.rise.si()), 1e3 * r.amplitude.si(), "mm"),
+        Signal::Sine(s) => match (s.amplitude, s.acceleration) {
+            (Some(amplitude), _) => ("sine", "ramp", from(0.0, s.ramp.si()), 1e3 * amplitude.si(), "mm"),
+            (None, acceleration) => ("sine", "ramp", from(0.0, s.ramp.si()), acceleration?.si() / G, "g"),
+        },
+        _ => return None,
+    };
+    Some(Growth { key, until, times, whole, unit })
+}
+
+/// Says of what grows that it ends, or the run does, before it has grown, and what it has reached by then.
+fn ungrown(name: &str, signal: &Signal, duration: f64) -> Option<String> {
+    let Growth { key, until, times: [start, end], whole, unit } = growth(signal)?;
+    let own = match signal {
+        Signal::Sine(sine) => sine.cycles.map(|cycles| cycles / sine.frequency.si()),
+        _ => None,
+    };
+    let (last, what, remedy) = match own.filter(|own| *own < duration) {
+        Some(own) => (own, format!("motion.{name}.{key}.cycles end"), "Let `cycles` be more, or `ramp` shorter".into()),
+        None => (duration, "the run ends".into(), format!("Let motion.duration be {} or longer", seconds(end))),
+    };
+    let [reached, whole] = [whole * (last - start) / (end - start), whole].map(|v| shown(rounded(v, 3)));
+    (last < end * (1.0 - SLACK)).then(|| {
+        let [end, last] = [end, last].map(seconds);
+        format!("motion.{name}.{key} reaches {reached} {unit} of {whole} {unit}: it grows until {end} ({until}), and {what} at {last}. {remedy}")
+    })
+}
+
+/// Says of a path that the run ends on its way, and where.
+fn unwalked(name: &str, motion: &GroundMotion, duration: f64) -> Option<String> {
+    let end = motion.end().filter(|end| duration < end * (1.0 - SLACK))?;
+    let [place, last] = [duration, end].map(|t| shown(rounded(1e3 * motion.at(t).u, 3)));
+    let [end, duration] = [end, duration].map(seconds);
+    Some(format!(
+        "motion.{name}.path is cut by motion.duration: it takes {end}, and after {duration} it is at {place} mm; its last displacement is {last} mm. \
+         Without motion.duration the run takes it whole"
+    ))
+}
+
+/// Says of a motion that no record gives that the run ends before it does.
+fn cut(name: &str, signal: &Signal, duration: f64, library: &Library, folder: &Path) -> Result<Option<String>> {
+    let motion = compile_with(signal, folder, library)?;
+    Ok(match signal {
+        Signal::Path(_) => unwalked(name, &motion, duration),
+        Signal::Pulse(_) | Signal::Sweep(_) => unended(name, &motion, duration),
+        Signal::Sine(_) => ungrown(name, signal, duration).or_else(|| unended(name, &motion, duration)),
+        _ => ungrown(name, signal, duration),
+    })
+}
+
+/// Says of forces on blocks that the run ends before their last value acts.
+pub(crate) fn of_forces(case: &Case, duration: f64) -> Vec<Warning> {
+    let told = |(index, force): (usize, &BlockForce)| {
+        let (every, values) = (force.every?.si(), force.x.len().max(force.y.len()));
+        let last = values.saturating_sub(1) as f64 * every;
+        (last >= duration).then(|| {
+            let acts = (duration / every).ceil();
+            let [every, last, end] = [every, last, duration].map(seconds);
+            let text = format!(
+                "force[{index}].every is {every}: the run of {end} ends before its last value acts, which does from {last} on ({acts} of {values} act). \
+                 Let motion.duration be longer"
+            );
+            Warning::new(WarningKind::RecordCut, text)
+        })
+    };
+    case.forces.iter().enumerate().filter_map(told).collect()
 }
 
 fn uncovered(name: &str, what: &str, record: &Record, duration: f64) -> Option<Warning> {

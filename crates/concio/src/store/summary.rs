@@ -4,7 +4,6 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use crate::case::JointKind;
 use crate::error::{Error, Result};
 use crate::failure;
 use crate::files::{self, LARGEST_INPUT, read_input};
@@ -175,14 +174,14 @@ fn drift(outcome: &Outcome) -> Value {
     })
 }
 
-/// Which bed joint of a shear wall slid farthest over its overlap; null of planar walls, whose joints follow.
+/// Which bed or support joint of a shear wall slid farthest over its overlap; null of planar walls, whose joints follow.
 fn slide(outcome: &Outcome, joints: &[JointRow]) -> Value {
     if outcome.layout.touching > 0 {
         return Value::Null;
     }
     let moved = joints.iter().zip(&outcome.envelopes.joint_displacement);
-    let slid =
-        moved.filter(|(row, _)| row.joint.kind == JointKind::Bed).map(|(row, d)| (row, *d, d / row.joint.overlap));
+    let flat = moved.filter(|(row, _)| !row.joint.kind.is_upright());
+    let slid = flat.map(|(row, d)| (row, *d, d / row.joint.overlap));
     let Some((row, displacement, ratio)) = slid.max_by(|a, b| a.2.total_cmp(&b.2)) else { return Value::Null };
     json!({ "joint": row.name, "displacement": displacement, "of_overlap": ratio })
 }

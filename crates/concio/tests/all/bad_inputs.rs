@@ -430,6 +430,18 @@ fn missing_laws_are_shown_as_they_may_be() {
     }
 }
 
+/// A table of joints under another name is asked about at its line; where there is none, a set is named that has all.
+#[test]
+fn a_misspelt_table_of_joints_is_asked_about() {
+    for wrong in ["joints", "Joint", "jiont"] {
+        let e = input_error(check(&edit("[joint]", &format!("[{wrong}]"))), wrong);
+        assert_eq!((e.key.as_deref(), e.line), (Some("joint"), Some(10)), "{e}");
+        assert_eq!(e.help, Some(format!("is `{wrong}` meant to be `joint`?")));
+    }
+    let e = input_error(check(&edit("[joint]", "[load.joint]")), "none");
+    assert!(e.help.as_ref().is_some_and(|help| help.contains("set = \"report\"")), "{e}");
+}
+
 #[test]
 fn json_errors_have_places_too() {
     let text = "{\n  \"model\": \"shear\",\n  \"panel\": [\n    { \"bond\": \"stack\", \"corses\": 3 }\n  ]\n}";
