@@ -77,7 +77,7 @@ const ENOUGH: f64 = 100.0;
 /// gravity gives in a step: stones that settle are no landing.
 const LANDING: f64 = 0.05;
 const SETTLES: f64 = 5.0;
-/// Friction that falls at once over the weight, from which the step in which it does is taken in parts.
+/// Friction that falls at once over weight and load, from which the step in which it does is taken in parts.
 const GIVES_WAY: f64 = 0.05;
 /// How much deeper than their velocities took them the sides of a joint may overlap, over `REACH`: where a stone that falls comes upon another edge
 /// of its neighbour there would be a spring pressed in by nothing, and energy of nothing. Where they overlap so much less, what the spring had is lost.
@@ -778,7 +778,7 @@ impl Motion {
         lost > LANDING * (self.kinetic() + 0.5 * self.weight() * G * settling * settling)
     }
 
-    /// Whether friction at rest is overcome in the step where so much of the weight is lost with it that when counts: what it was acts until the step's end.
+    /// Whether friction at rest is overcome in the step where so much is lost with it that when counts: what it was acts until the step's end.
     fn gives_way(&self, h: f64) -> bool {
         if self.setting.still || !self.sudden {
             return false;
@@ -789,7 +789,8 @@ impl Motion {
             slides(contact, contact.velocity(&self.after)[1], h).then_some(falls * contact.impulse[0])
         };
         let lost: f64 = self.contacts.iter().zip(&self.owners).filter_map(lost).sum();
-        lost > GIVES_WAY * self.weight() * h
+        let borne: f64 = self.load.iter().map(|load| -load[1]).sum();
+        lost > GIVES_WAY * borne.max(self.weight()) * h
     }
 
     /// Weight of all bodies [N].

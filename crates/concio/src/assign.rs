@@ -312,6 +312,9 @@ pub fn select(at: &Selector, wall: &Wall, joints: &[Joint]) -> std::result::Resu
     Choice { wall, joints, names: OnceCell::new() }.of(at)
 }
 
+/// Size of the wall beyond which a corner of a region that chooses nothing is in another unit.
+const FAR: f64 = 5.0;
+
 /// Says of regions that hold all joints that the other conditions choose: a corner in another unit, as a rule. Of walls whose changes are all resolved.
 pub(crate) fn idle_regions(case: &Case, wall: &Wall, joints: &[Joint]) -> Vec<String> {
     let choice = Choice { wall, joints, names: OnceCell::new() };
@@ -320,11 +323,12 @@ pub(crate) fn idle_regions(case: &Case, wall: &Wall, joints: &[Joint]) -> Vec<St
     let told = |(i, change): (usize, &JointChange)| {
         let region = change.at.region?;
         let (inside, all) = (number(&change.at), number(&Selector { region: None, ..change.at.clone() }));
-        (inside == all && all > 1).then(|| {
+        let far = FAR * right.max(top);
+        (inside == all && all > 1 && region.iter().any(|corner| corner.si().abs() > far)).then(|| {
             let [x0, y0, x1, y1] = region.map(|corner| shown(rounded(corner.si(), 6)));
             format!(
-                "joint.change[{i}].at.region, from {x0}, {y0} to {x1}, {y1} m, holds all {all} joints that it could, in a wall of {} m by {} m: it chooses none of \
-                 them. Bare numbers are in m; leave `region` out if all are meant",
+                "joint.change[{i}].at.region, from {x0}, {y0} to {x1}, {y1} m, holds all {all} joints that the rest of `at` chooses, in a wall up to x = {} m, y = {} m: it leaves \
+                 none out. Bare numbers are in m; leave `region` out if all are meant",
                 shown(rounded(right, 4)),
                 shown(rounded(top, 4))
             )

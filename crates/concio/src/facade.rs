@@ -126,9 +126,9 @@ fn add_floors(facade: &mut Wall, case: &Case, given: &OutOfPlane, assumed: &mut 
         TopLoad::PerLength(q) => q.si() * length,
         TopLoad::Force(force) => force.si(),
     };
-    // As in `concio limit`: what presses is the load, what pushes its mass.
+    // What presses is the load. What pushes is its mass, as in `concio limit`, or the load where that is more.
     let (key, mass) = match case.load.beam {
-        Beam::Mass(mass) => ("load.beam", Some(mass)),
+        Beam::Mass(mass) => ("load.beam.mass", Some(mass)),
         Beam::Free => ("load.mass", case.load.mass),
         Beam::Driven | Beam::Tied => ("load.beam", None),
     };

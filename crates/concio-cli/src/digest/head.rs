@@ -127,7 +127,11 @@ fn slide(outcome: &Outcome, summary: &Value) -> Answer {
     let of = |key: &str| summary.pointer(&format!("/slide/{key}"));
     let share = of("of_overlap").and_then(Value::as_f64).unwrap_or(0.0);
     let (way, joint) = (of("displacement").and_then(Value::as_f64).unwrap_or(0.0), of("joint").and_then(Value::as_str));
-    let slid = format!("{}, {} of the overlap of {}", si(way, "m"), percent(share), joint.unwrap_or("–"));
+    let over = match of("kind").and_then(Value::as_str) {
+        Some(kind @ ("base" | "top")) => format!("of what lies on the {kind}, at"),
+        _ => "of the overlap of".into(),
+    };
+    let slid = format!("{}, {} {over} {}", si(way, "m"), percent(share), joint.unwrap_or("–"));
     if share > LARGE_SLIDE {
         return Answer::new("failure", "slid far", format!("by {slid}")).grave(true);
     }

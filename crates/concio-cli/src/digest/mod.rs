@@ -14,7 +14,8 @@ pub use head::{Answer, head};
 
 /// What is less than this fraction of the largest value of its kind is rounding, and is told as 0.
 const ROUNDING: f64 = 1e-9;
-/// Relative displacement of a bed joint over its overlap from which a shear wall has slid far: its joints stay as they were laid.
+/// Relative displacement of a bed joint over its overlap, of base and top over all that lies there, from which a shear wall has slid far: its joints stay
+/// as they were laid.
 const LARGE_SLIDE: f64 = 0.1;
 /// Displacement that is none [m]: the floor below which the solver sees no errors, unless the file gives another.
 const NOWHERE: f64 = 1e-14;

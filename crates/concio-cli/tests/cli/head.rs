@@ -156,7 +156,7 @@ base = { pulse = { shape = "rectangular", acceleration = "ACCELERATION g", durat
 "#;
     let (told, head) = ran(&desk, &text.replace("ACCELERATION", "0.8"));
     assert!(
-        head[0].1.starts_with("none, joints slid by at most 39.24 mm, 3.92 % of the overlap of base|p1c1b1"),
+        head[0].1.starts_with("none, joints slid by at most 39.24 mm, 3.92 % of what lies on the base, at base|p1c1b1"),
         "{told}"
     );
     // 2.2 g: 1.8 g behind for 0.1 s, and 0.45 s at 0.4 g to make up for that: the joint has slid by half of the stone.

@@ -2,7 +2,8 @@
 //!
 //! Where no end rebounds and none slides, an impact leaves (i + cos 2α)/(1 + i) of the angular velocity of a block (Housner
 //! 1963), because the push acts at the end that lands. Where less is known to be left, the end that opens is held back: with
-//! ℓ the approach that the laws take from the landing end in a step, u_n^ℓ the parting velocity there and b ≥ 0 what its gap allows,
+//! ℓ the approach that the laws take from the landing end in a step, u_n^ℓ the parting velocity there and b ≥ 0 what its gap and its yielding in
+//! a part of a step leave of its approach,
 //!
 //! (P8)  u_n − u_n^ℓ ≤ max(u_n⁻, 0) + η ℓ + b
 //!

@@ -67,7 +67,7 @@ const TENSION: Expected = Expected {
     limits: [1e3, 2e6],
     usual: [1e4, 1e6],
     unit: "Pa",
-    slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3), (1e-3, "MPa", 1e6), (0.1, "MPa", 1e6)],
+    slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3), (0.1, "MPa", 1e6), (1e-3, "MPa", 1e6)],
 };
 /// c of joints: f_vk0 of 0.1 to 0.4 MPa (Eurocode 6, table 3.4), tests up to some 2 MPa.
 const COHESION: Expected = Expected { limits: [1e3, 4e6], usual: [1e4, 1e6], ..TENSION };
@@ -575,22 +575,23 @@ fn raised(v: f64) -> f64 {
 }
 
 /// Height and thickness of bricks over their length. Roman tiles are 1 : 13 high; walls are as thick as some bricks are long.
-const PROPORTIONS: [(&str, [f64; 2]); 2] = [("height", [0.05, 20.0]), ("thickness", [0.06, 4.0])];
+const PROPORTIONS: [(&str, [f64; 2]); 2] = [("height", [0.05, 50.0]), ("thickness", [0.06, 4.0])];
 
 /// Sides that are likely by themselves, and not beside each other. Façades are thicker than their bricks are long.
 fn of_proportions(doubts: &mut Doubts, at: &str, brick: &Brick, facade: bool) {
     let known = |v: f64| (BRICK.limits[0]..=BRICK.limits[1]).contains(&v);
     let length = brick.length.si();
     for ((key, [least, most]), side) in PROPORTIONS.into_iter().zip([brick.height.si(), brick.thickness.si()]) {
-        let most = if facade { f64::INFINITY } else { most };
+        // A wall may be given by the metre of its depth.
+        let most = if facade || side == 1.0 { f64::INFINITY } else { most };
         if known(length) && known(side) && !(least..=most).contains(&(side / length)) {
             let low = side < length;
-            let bound = if low { format!("{least} at least") } else { format!("{most} at most") };
+            let bound = if low { format!("at least {least}") } else { format!("at most {most}") };
             let meant = if low { 10.0 * side } else { 0.1 * side };
             let [part, side, meant, length] =
                 [rounded(side / length, 2), side, meant, length].map(|v| shown(rounded(v, 6)));
             let text = format!(
-                "{at}.{key} is {side} m, {part} times the length of {length} m: it is {bound} in bricks; did you mean \"{meant} m\"?"
+                "{at}.{key} is {side} m, {part} times the length of {length} m: bricks have {bound}; did you mean \"{meant} m\"?"
             );
             doubts.add(WarningKind::UnlikelyNumber, text);
         }
@@ -816,13 +817,16 @@ const STIFFEST: f64 = 2e11;
 
 /// Springs of bed and head joints that make masonry stiffer than any stone.
 fn of_modulus(doubts: &mut Doubts, case: &Case) {
-    let (joint, Some(panel)) = (&case.joint, case.panels.first()) else { return };
+    // Elsewhere the brick is a reference alone.
+    let regular = |panel: &&Panel| matches!(panel.bond, Bond::Running | Bond::Stack | Bond::Irregular);
+    let (joint, Some(panel)) = (&case.joint, case.panels.iter().find(regular)) else { return };
+    let share = if panel.bond == Bond::Stack { 1.0 } else { 0.5 };
     let (brick, mortar) = (&panel.brick, &panel.mortar);
     let [length, height, thickness] = [brick.length, brick.height, brick.thickness].map(|side| side.si());
     // k_n of bed joints of planar walls; shear walls have k_s alone.
     let across = if case.model == ModelKind::Planar { joint.bed.normal_to_shear } else { 1.0 };
     let joints = [
-        ("bed", &joint.bed, across, height + mortar.bed.si(), 0.5 * length * thickness),
+        ("bed", &joint.bed, across, height + mortar.bed.si(), share * length * thickness),
         ("head", &joint.head, 1.0, length + mortar.head.si(), height * thickness),
     ];
     for (kind, spring, times, pitch, area) in joints.into_iter().filter(|(_, spring, ..)| spring.law.has_springs()) {
@@ -837,7 +841,7 @@ fn of_modulus(doubts: &mut Doubts, case: &Case) {
         if known && modulus > STIFFEST {
             let [given, meant] = [given, 1e-3 * given].map(|v| shown(rounded(v, 6)));
             let text = format!(
-                "joint.{kind}.stiffness is {given} {unit}: over {} m from joint to joint that makes masonry of {} GPa, more than 200 GPa, twice the stiffest stone; \
+                "joint.{kind}.stiffness is {given} {unit}: over {} m from joint to joint the masonry would have a modulus of {} GPa, more than 200 GPa, twice the stiffest stone; \
                  did you mean \"{meant} {unit}\"?",
                 shown(rounded(pitch, 4)),
                 shown(rounded(1e-9 * modulus, 3)),
@@ -866,7 +870,9 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
             }
         }
     }
-    doubts.look_at_friction("joint.friction.static", joint.friction.static_, LARGEST_FRICTION);
+    // Sets hold what was measured, split stones among it.
+    let largest = if case.set.is_some() { LARGEST_HELD } else { LARGEST_FRICTION };
+    doubts.look_at_friction("joint.friction.static", joint.friction.static_, largest);
     doubts.look("joint.friction.slip_velocity", joint.friction.slip_velocity.si(), &SLIP_VELOCITY);
     if let Some(bond) = &joint.bond {
         doubts.look("joint.bond.tensile_strength", bond.tensile_strength.si(), &TENSION);

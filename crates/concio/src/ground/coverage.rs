@@ -254,7 +254,7 @@ fn apart(case: &Case, folder: &Path, library: &Library) -> Result<Option<String>
     Ok(((factor.ln()).abs() > TOGETHER.ln()).then(|| {
         let factor = shown(rounded(factor, 3));
         format!(
-            "motion.{plain} is not scaled, and `{how}` multiplies motion.{scaled} by {factor}: together they are of no one earthquake. `scale = {factor}` in \
+            "motion.{plain} is not scaled, and `{how}` multiplies motion.{scaled} by {factor}: the two no longer have the ratio that was recorded. `scale = {factor}` in \
              motion.{plain} keeps their ratio; `scale = 1` says that it is meant so"
         )
     }))

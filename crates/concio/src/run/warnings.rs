@@ -386,7 +386,8 @@ fn unresolved(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Opti
 /// (`docs/planar.md`).
 fn flutters(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
     let planar = planar.filter(|planar| !planar.still)?;
-    let cracked = outcome.energies.bond > 0.0;
+    let weight = G * model.shear.mass.iter().sum::<f64>();
+    let cracked = outcome.energies.bond > NOTHING * weight;
     let rings = |law: &Law| {
         let presses = matches!(law.normal, Normal::Springs { both: 0.0, press, .. } if press > 0.0);
         presses && law.shear.series && law.shear.stiffness > 0.0
@@ -397,10 +398,10 @@ fn flutters(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option
     let rubs = laws.any(|law| rings(&law) && law.friction.is_some_and(|friction| friction.static_ > 0.0));
     let wanted = planar.resolving_step(cracked) / RESOLVES;
     let (lost, friction) = (outcome.energies.dissipated(), outcome.energies.friction);
-    let slid = friction > RUBBED * lost && friction > NOTHING * G * model.shear.mass.iter().sum::<f64>();
+    let slid = friction > RUBBED * lost && friction > NOTHING * weight;
     (rubs && slid && planar.step > wanted).then(|| {
         format!(
-            "blocks slid on springs that ring faster than a solver.step of {} ms resolves: peaks change with the step then, those of walls with \
+            "blocks slid on springs that ring faster than a solver.step of {} ms resolves: peaks change with the step then, those of a dry wall with \
              μ = 0.6 by half and more. Compare with a step of {} ms, and with rigid joints, before you rely on peaks",
             shown(rounded(1e3 * planar.step, 3)),
             cut(1e3 * wanted)

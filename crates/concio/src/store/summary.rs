@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use crate::case::JointKind;
 use crate::error::{Error, Result};
 use crate::failure;
 use crate::files::{self, LARGEST_INPUT, read_input};
@@ -174,16 +175,21 @@ fn drift(outcome: &Outcome) -> Value {
     })
 }
 
-/// Which bed or support joint of a shear wall slid farthest over its overlap; null of planar walls, whose joints follow.
+/// Which joint of a shear wall slid farthest over its overlap, or over the length of all that lies on the base or under the top; devices are to move. Null
+/// of planar walls, whose joints follow.
 fn slide(outcome: &Outcome, joints: &[JointRow]) -> Value {
     if outcome.layout.touching > 0 {
         return Value::Null;
     }
     let moved = joints.iter().zip(&outcome.envelopes.joint_displacement);
-    let flat = moved.filter(|(row, _)| !row.joint.kind.is_upright());
-    let slid = flat.map(|(row, d)| (row, *d, d / row.joint.overlap));
+    let flat = moved.filter(|(row, _)| !row.joint.kind.is_upright() && row.device.is_none());
+    let length = |own: &JointRow| match own.joint.kind {
+        JointKind::Bed => own.joint.overlap,
+        kind => joints.iter().filter(|row| row.joint.kind == kind).map(|row| row.joint.overlap).sum(),
+    };
+    let slid = flat.map(|(row, d)| (row, *d, d / length(row)));
     let Some((row, displacement, ratio)) = slid.max_by(|a, b| a.2.total_cmp(&b.2)) else { return Value::Null };
-    json!({ "joint": row.name, "displacement": displacement, "of_overlap": ratio })
+    json!({ "joint": row.name, "kind": row.joint.kind, "displacement": displacement, "of_overlap": ratio })
 }
 
 /// How many bonds cracked and broke, and which was the first; null where no joint is bonded.
