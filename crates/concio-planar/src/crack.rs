@@ -1100,6 +1100,41 @@ impl Crack {
         }
     }
 
+    /// Whether a rigid joint cracks farther under what its points bear, `force` [N], or breaks as it slides.
+    pub(crate) fn breaks_rigid(&self, law: &Law, force: &dyn Fn(usize) -> f64, slid: bool) -> bool {
+        let Some(bond) = law.bond.filter(|_| !self.is_gone()) else { return false };
+        let Front { held, gone, .. } = self.front(&bond, force, slid);
+        gone || held != self.held
+    }
+
+    /// How far a rigid joint cracks under what its points bear, `force` [N]; it is `gone` where it slid.
+    fn front(&self, bond: &Bond, force: &dyn Fn(usize) -> f64, mut gone: bool) -> Front {
+        let sum = |f: &dyn Fn(&Spot) -> f64| self.spots.iter().map(|s| force(s.point) * f(s)).sum::<f64>();
+        let (normal, moment) = (sum(&|_| 1.0), sum(&|spot| spot.at - 0.5));
+        // The edges of an uncracked joint are stressed by N ∓ 6 M/ℓ over its area.
+        let stressed = |first: usize, last: usize| match last - first == NODES - 1 {
+            true => Some([normal - 6.0 * moment, normal + 6.0 * moment]),
+            false => plane(normal, moment, first, last),
+        };
+        let [mut first, mut last] = self.held;
+        let mut begins = None;
+        let over = loop {
+            let tips = stressed(first, last);
+            let over = tips.map_or(f64::INFINITY, |[a, b]| -a.min(b) - bond.tension);
+            begins.get_or_insert(over);
+            if gone || over <= 0.0 {
+                break over;
+            }
+            match tips {
+                Some([a, b]) if a <= b => first += 1,
+                Some(_) => last -= 1,
+                None => gone = true,
+            }
+            gone |= first >= last;
+        };
+        Front { held: [first, last], gone, begins: begins.unwrap_or(over), over }
+    }
+
     /// Breaks a rigid joint by what its points bear, or that slides, in a step that ended at `time` [s]; it bears `borne` across and along [N]. Returns how much of
     /// the change of its forces was over when it cracked or broke, 0 … 1; none where it did not.
     pub(crate) fn break_rigid(
@@ -1116,34 +1151,13 @@ impl Crack {
         }
         let parted = bond.tension == 0.0
             && self.spots.iter().any(|spot| spot.part == Part::Held && points[spot.point].gap > TOUCHING);
-        let sum = |f: &dyn Fn(&Spot) -> f64| self.spots.iter().map(|s| points[s.point].force[0] * f(s)).sum::<f64>();
-        let (normal, moment) = (sum(&|_| 1.0), sum(&|spot| spot.at - 0.5));
-        // The edges of an uncracked joint are stressed by N ∓ 6 M/ℓ over its area.
-        let stressed = |first: usize, last: usize| match last - first == NODES - 1 {
-            true => Some([normal - 6.0 * moment, normal + 6.0 * moment]),
-            false => plane(normal, moment, first, last),
-        };
-        let [mut first, mut last] = self.held;
-        let (mut gone, mut begins) = (slid || parted, None);
-        let over = loop {
-            let tips = stressed(first, last);
-            let over = tips.map_or(f64::INFINITY, |[a, b]| -a.min(b) - bond.tension);
-            begins = begins.or(Some(over));
-            if gone || over <= 0.0 {
-                break over;
-            }
-            match tips {
-                Some([a, b]) if a <= b => first += 1,
-                Some(_) => last -= 1,
-                None => gone = true,
-            }
-            gone |= first >= last;
-        };
+        let Front { held: [first, last], gone, begins, over } =
+            self.front(&bond, &|point| points[point].force[0], slid || parted);
         let (was, before) = (std::mem::replace(&mut self.borne, borne), std::mem::replace(&mut self.over, over));
         if !gone && [first, last] == self.held {
             return None;
         }
-        let begins = begins.filter(|over| *over > 0.0 && before.is_finite());
+        let begins = Some(begins).filter(|over| *over > 0.0 && before.is_finite());
         let part = begins.map_or(1.0, |over| if before < 0.0 { before / (before - over) } else { 0.0 });
         let [across, along] = [0, 1].map(|k| was[k] + part * (borne[k] - was[k]));
         self.peak = [self.peak[0].max(-across), self.peak[1].max(along.abs())];
@@ -1163,6 +1177,16 @@ impl Crack {
         self.set(points);
         Some(part)
     }
+}
+
+/// How far a rigid joint cracks.
+struct Front {
+    /// First and last node of what is held then, and whether nothing is.
+    held: [usize; 2],
+    gone: bool,
+    /// By how much the larger stress at the tips is above the tensile strength, before it cracks and after [N].
+    begins: f64,
+    over: f64,
 }
 
 /// Stress over a mean of 1 at the tips of what is held from node `first` to node `last`, pressing above 0, of a plane section that balances `normal`

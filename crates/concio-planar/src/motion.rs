@@ -21,12 +21,14 @@ use crate::shape::{Place, Polygon, Touch, touches, touches_base};
 use crate::solver::Solver;
 use crate::tie::{Strain, Tie};
 use devices::Bent;
+use jolts::{bond_slides, falls_by, slides_whole};
 use laws::Laws;
 use rocking::Hold;
 use softening::Softens;
 use ties::{Pull, Rod};
 
 mod devices;
+mod jolts;
 mod laws;
 mod rocking;
 mod softening;
@@ -73,17 +75,9 @@ const YIELDS: f64 = 1e-8;
 const YIELDS_AT_REST: f64 = 1e-10;
 /// What is left at most, over the tolerance, of a step that is not taken again in two halves.
 const ENOUGH: f64 = 100.0;
-/// Part of the energy of motion that landing takes in a step that is taken in parts, and what counts as motion at least, over the velocity that
-/// gravity gives in a step: stones that settle are no landing.
-const LANDING: f64 = 0.05;
-const SETTLES: f64 = 5.0;
-/// Friction that falls at once over weight and load, from which the step in which it does is taken in parts.
-const GIVES_WAY: f64 = 0.05;
 /// How much deeper than their velocities took them the sides of a joint may overlap, over `REACH`: where a stone that falls comes upon another edge
 /// of its neighbour there would be a spring pressed in by nothing, and energy of nothing. Where they overlap so much less, what the spring had is lost.
 const JUMP: f64 = 3e-6;
-/// Part by which the shear of a bonded rigid joint is below its strength where it breaks.
-const SHEARED: f64 = 1e-9;
 /// Contact points of a pair that are kept in place: joints whose points move have more.
 const POINTS: usize = 3;
 
@@ -356,6 +350,9 @@ pub struct Motion {
     laws: Laws,
     rods: Vec<Rod>,
     load: Vec<[f64; 2]>,
+    /// Weight of all bodies, and their dead load where that is more [N].
+    weight: f64,
+    bears: f64,
     /// What pushes each body besides, at its centre [N, N, N m].
     applied: Vec<Triple>,
     held: Vec<[bool; 3]>,
@@ -442,6 +439,7 @@ impl Motion {
         let places: Vec<Place> = bodies.iter().map(|b| Place { centre: b.centre, angle: 0.0 }).collect();
         let far = |p: &Polygon| p.corners.iter().map(|c| c[0].hypot(c[1])).fold(0.0, f64::max);
         let mass: Vec<Triple> = bodies.iter().map(|b| [b.mass, b.mass, b.inertia]).collect();
+        let weight = G * bodies.iter().map(|b| b.mass).sum::<f64>();
         let mut linked: Vec<_> = system.links.iter().map(|l| in_order(l.a, l.b)).collect();
         linked.sort_unstable();
         let mut motion = Motion {
@@ -493,6 +491,8 @@ impl Motion {
             joints: system.links.iter().map(|link| (link.a, link.b)).collect(),
             laws: Laws::new(&system.links, system.other),
             load: system.load.clone(),
+            weight,
+            bears: system.load.iter().map(|load| -load[1]).sum::<f64>().max(weight),
             applied: vec![[0.0; 3]; bodies.len()],
             held: system.held.clone(),
             shaken: system.shaken.clone(),
@@ -707,8 +707,8 @@ impl Motion {
         let stale = self.astray;
         let effort = if stale { self.solve_as_it_was(h) } else { effort };
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
-        let sudden = self.lands() || self.gives_way(h);
-        if halved < HALVINGS && (!enough || sudden) || halved < CROSSINGS && !self.follows_crushing(h) {
+        let in_parts = halved < HALVINGS && (!enough || self.jolts(h));
+        if in_parts || halved < CROSSINGS && !self.follows_crushing(h) {
             return false;
         }
         self.counters.steps += 1;
@@ -758,44 +758,6 @@ impl Motion {
             self.resistance[body] = m.map(|m| part * m);
             self.inverse[body] = [0, 1, 2].map(|k| if self.held[body][k] { 0.0 } else { 1.0 / (part * m[k]) });
         }
-    }
-
-    /// Whether so much is lost as rigid joints close in the step that it counts when in it they do: an impact happens at an instant, and a step
-    /// moves bodies by the mean of their velocities before and after it.
-    fn lands(&self) -> bool {
-        if self.setting.still {
-            return false;
-        }
-        let closing = |(_, owner): &(&Contact, &Owner)| {
-            let link = self.pairs[owner.pair].link;
-            owner.start.velocity[0] < 0.0 && !self.laws.part(link, owner.part).is_compliant()
-        };
-        let lost = |(contact, owner): (&Contact, &Owner)| {
-            -0.5 * contact.impulse[0] * (owner.start.velocity[0] + contact.velocity(&self.after)[0])
-        };
-        let lost: f64 = self.contacts.iter().zip(&self.owners).filter(closing).map(lost).sum();
-        let settling = SETTLES * self.setting.step;
-        lost > LANDING * (self.kinetic() + 0.5 * self.weight() * G * settling * settling)
-    }
-
-    /// Whether friction at rest is overcome in the step where so much is lost with it that when counts: what it was acts until the step's end.
-    fn gives_way(&self, h: f64) -> bool {
-        if self.setting.still || !self.sudden {
-            return false;
-        }
-        let lost = |(contact, owner): (&Contact, &Owner)| {
-            let pair = &self.pairs[owner.pair];
-            let falls = falls_by(self.laws.part(pair.link, owner.part), &pair.points[owner.point])?;
-            slides(contact, contact.velocity(&self.after)[1], h).then_some(falls * contact.impulse[0])
-        };
-        let lost: f64 = self.contacts.iter().zip(&self.owners).filter_map(lost).sum();
-        let borne: f64 = self.load.iter().map(|load| -load[1]).sum();
-        lost > GIVES_WAY * borne.max(self.weight()) * h
-    }
-
-    /// Weight of all bodies [N].
-    fn weight(&self) -> f64 {
-        G * self.mass.iter().map(|m| m[0]).sum::<f64>()
     }
 
     /// Where a slide that friction of motion held back turns round, friction at rest holds it: whether there is such a point, which is to be solved
@@ -990,15 +952,10 @@ impl Motion {
             let law = self.laws.part(pair.link, owner.part);
             let after = contact.velocity(&self.after);
             let point = &mut pair.points[owner.point];
-            // Friction at rest is overcome at the end of the step. A rigid joint slides when both of its ends do: one that bears little gives way first
-            // by what the other yields.
+            // Friction at rest is overcome at the end of the step.
             let starts = falls_by(law, point).is_some() && slides(contact, after[1], h);
-            let waits = starts && !law.is_compliant() && {
-                let own = |(_, other): &(&Contact, &Owner)| other.pair == owner.pair;
-                let before = self.owners[..at].iter().rev().take_while(|other| other.pair == owner.pair).count();
-                let pair = self.contacts[at - before..].iter().zip(&self.owners[at - before..]).take_while(own);
-                !pair.into_iter().all(|(c, _)| c.impulse[0] == 0.0 || slides(c, c.velocity(&self.after)[1], h))
-            };
+            let waits =
+                starts && !law.is_compliant() && !slides_whole(at, &self.contacts, &self.owners, &self.after, h);
             if starts && !waits {
                 self.breaks_at.get_or_insert(1.0);
             }
@@ -1140,22 +1097,9 @@ impl Motion {
                         }
                     }
                     false => {
-                        let held = self.contacts[at..end].iter().zip(&self.owners[at..end]);
-                        let held = held.filter(|(_, owner)| owner.part == Part::Held).map(|(contact, _)| contact);
-                        // How rigid points share the shear is not known: the joint has its strength as a whole.
-                        let (mut pressed, mut shear, mut strength, mut torn) = (0.0, 0.0, 0.0, false);
-                        for contact in held {
-                            pressed += contact.impulse[0];
-                            shear += contact.impulse[1];
-                            strength += contact.hold;
-                            torn |= contact.pressure[0] < 0.0 && contact.impulse[0] <= contact.pressure[0];
-                        }
-                        let tan =
-                            law.bond.map_or(0.0, |bond| if pressed < 0.0 { bond.tan_pulled() } else { bond.tan_angle });
-                        strength += tan * pressed;
-                        let slides = strength.is_finite() && shear.abs() >= strength * (1.0 - SHEARED) && shear != 0.0;
+                        let slid = bond_slides(law, &self.contacts[at..end], &self.owners[at..end]);
                         let borne = [seen.pressure, seen.shear];
-                        if let Some(part) = crack.break_rigid(law, points, torn || slides, borne, time) {
+                        if let Some(part) = crack.break_rigid(law, points, slid, borne, time) {
                             breaks_at = breaks_at.min(part);
                             self.worn = true;
                         }
@@ -1365,13 +1309,6 @@ fn ends(polygons: &[Polygon], pair: &Pair, margin: f64) -> Option<[Touch; 2]> {
     let Some(a) = pair.a else { return touches_base(b, pair.laid, margin) };
     let touches = touches(&polygons[a], b, margin)?;
     Some(touches.map(|touch| Touch { gap: touch.gap - pair.laid, ..touch }))
-}
-
-/// By how much the friction coefficient of a point at rest falls as it begins to slide, if it does.
-fn falls_by(law: &Law, point: &Point) -> Option<f64> {
-    let friction = law.friction.filter(|_| point.speed == 0.0)?;
-    let falls = friction.static_ - friction.slowly(true);
-    (falls > 0.0).then_some(falls)
 }
 
 /// How far two centres are apart [m].

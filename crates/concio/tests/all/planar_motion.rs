@@ -336,24 +336,31 @@ quasi_static = true
     agrees!(of("halfway back"), against, "N", back, 0.1 * 4e6 * 5e-3 - 0.9 * 4e3, 1e-2);
 }
 
-/// Slip of a block whose friction falls from μ_s to μ_d at once, under a half sine A sin ω t of T = π/ω: it begins at sin ω t_0 = μ_s g/A, and ends
-/// where the friction of motion has taken its velocity. The default step too: what friction at rest was acts until a step's end.
+/// Slip of a block whose friction falls from μ_s to μ_d at once, or whose rigid bond breaks (c A/N + tan φ in place of μ_s), under a half sine A sin ω t of
+/// T = π/ω: it begins at sin ω t_0 = μ_s g/A, and ends where the friction of motion has taken its velocity. The default step too: what acted
+/// at rest acts until a step's end.
 #[test]
 fn a_block_slides_as_its_friction_falls() {
-    let (rest, moving, a, t) = (0.5, 0.35, 0.7 * G, 0.25);
+    let (moving, a, t) = (0.35, 0.7 * G, 0.25);
     let omega = PI / t;
-    let t0 = (rest * G / a).asin() / omega;
-    let (begins, braked) = (t - t0, moving * G);
-    let speed = a / omega * ((omega * t0).cos() + 1.0) - braked * begins;
-    let way = a / omega * (begins * (omega * t0).cos() + (omega * t0).sin() / omega) - 0.5 * braked * begins * begins;
-    let expected = way + speed * speed / (2.0 * braked);
-    for step in [1e-3, 2e-4] {
+    let slip = |rest: f64| {
+        let t0 = (rest * G / a).asin() / omega;
+        let (begins, braked) = (t - t0, moving * G);
+        let speed = a / omega * ((omega * t0).cos() + 1.0) - braked * begins;
+        let way =
+            a / omega * (begins * (omega * t0).cos() + (omega * t0).sin() / omega) - 0.5 * braked * begins * begins;
+        way + speed * speed / (2.0 * braked)
+    };
+    let bond = "bond = { cohesion = \"1 kPa\", tensile_strength = \"50 kPa\", friction_angle = \"26.565 deg\" }";
+    let fallen = [("whose friction falls at once", 0.5, "", 0.5), ("whose rigid bond breaks", moving, bond, 0.6)];
+    for ((which, rest, bond, until), step) in fallen.into_iter().flat_map(|fallen| [(fallen, 1e-3), (fallen, 2e-4)]) {
         let (_, outcome) = ran(&block(&format!(
             r#"
 [joint]
 bed = {{ law = "rigid" }}
 head = {{ law = "none" }}
 friction = {{ law = "coulomb", static = {rest}, dynamic = {moving} }}
+{bond}
 [motion]
 base = {{ pulse = {{ shape = "half-sine", acceleration = {a}, duration = {t} }} }}
 duration = "0.6 s"
@@ -361,7 +368,8 @@ duration = "0.6 s"
 step = {step}
 "#
         )));
-        let subject = format!("Sliding: block whose friction falls at once, planar, steps of {} ms", 1e3 * step);
+        let subject = format!("Sliding: block {which}, planar, steps of {} ms", 1e3 * step);
+        let expected = slip(until);
         agrees!(subject, "Newmark's sliding block", "m", outcome.totals.peak_relative_displacement, expected, 2e-3);
     }
 }

@@ -1,0 +1,119 @@
+//! What happens at an instant and counts: an impact, friction that falls, a bond that breaks.
+//!
+//! A step moves bodies by the mean of their velocities before and after it, and what acts in it acts until its end. Where such an instant
+//! changes much, its step is taken in parts, so that it comes within a short one.
+
+use super::{Motion, Owner};
+use crate::G;
+use crate::blocks::Triple;
+use crate::contact::Contact;
+use crate::joint::{Law, Part, Point, slides};
+
+/// Part of the energy of motion from which landing counts, and what counts as motion at least, over the velocity that gravity gives in a
+/// step: stones that settle are no landing.
+const LANDING: f64 = 0.05;
+const SETTLES: f64 = 5.0;
+/// Force that falls at once over weight and load, from which it counts.
+const GIVES_WAY: f64 = 0.05;
+/// Part by which the shear of a bonded rigid joint is below its strength where it breaks.
+const SHEARED: f64 = 1e-9;
+
+impl Motion {
+    /// Whether something happens at an instant of the step of `h` [s], as it was solved, that counts.
+    pub(super) fn jolts(&self, h: f64) -> bool {
+        !self.setting.still && (self.lands() || self.sudden && self.lets_go(h))
+    }
+
+    /// Whether so much is lost as rigid joints close in the step that it counts when in it they do.
+    fn lands(&self) -> bool {
+        let closing = |(_, owner): &(&Contact, &Owner)| {
+            let link = self.pairs[owner.pair].link;
+            owner.start.velocity[0] < 0.0 && !self.laws.part(link, owner.part).is_compliant()
+        };
+        let lost = |(contact, owner): (&Contact, &Owner)| {
+            -0.5 * contact.impulse[0] * (owner.start.velocity[0] + contact.velocity(&self.after)[0])
+        };
+        let lost: f64 = self.contacts.iter().zip(&self.owners).filter(closing).map(lost).sum();
+        let settling = SETTLES * self.setting.step;
+        lost > LANDING * (self.kinetic() + 0.5 * self.weight * G * settling * settling)
+    }
+
+    /// Whether so much falls at once in the step, of friction at rest and of what rigid bonds bear, that it counts when in it that happens.
+    fn lets_go(&self, h: f64) -> bool {
+        let (counts, mut falls, mut at) = (GIVES_WAY * self.bears * h, 0.0, 0);
+        for owners in self.owners.chunk_by(|a, b| a.pair == b.pair) {
+            let pair = &self.pairs[owners[0].pair];
+            let contacts = &self.contacts[at..at + owners.len()];
+            let law = self.laws.of(pair.link);
+            falls += (at..at + owners.len()).map(|at| self.friction_falls(at, h)).sum::<f64>();
+            at += owners.len();
+            let Some(crack) = pair.crack.as_ref().filter(|_| !law.is_compliant()) else { continue };
+            let bears = bears_more(law, contacts, owners);
+            let force = |point: usize| {
+                owners
+                    .iter()
+                    .zip(contacts)
+                    .filter(|(o, _)| o.point == point)
+                    .map(|(_, c)| c.impulse[0] / h)
+                    .sum::<f64>()
+            };
+            if bears > counts && crack.breaks_rigid(law, &force, bond_slides(law, contacts, owners)) {
+                falls += bears;
+            }
+        }
+        falls > counts
+    }
+
+    /// By how much the friction of a contact falls in the step as it begins to slide [N s].
+    fn friction_falls(&self, at: usize, h: f64) -> f64 {
+        let (contact, owner) = (&self.contacts[at], &self.owners[at]);
+        let pair = &self.pairs[owner.pair];
+        let law = self.laws.part(pair.link, owner.part);
+        let falls =
+            falls_by(law, &pair.points[owner.point]).filter(|_| slides(contact, contact.velocity(&self.after)[1], h));
+        let begins = || law.is_compliant() || slides_whole(at, &self.contacts, &self.owners, &self.after, h);
+        falls.filter(|_| begins()).map_or(0.0, |falls| falls * contact.impulse[0])
+    }
+}
+
+/// By how much the friction coefficient of a point at rest falls as it begins to slide, if it does.
+pub(super) fn falls_by(law: &Law, point: &Point) -> Option<f64> {
+    let friction = law.friction.filter(|_| point.speed == 0.0)?;
+    let falls = friction.static_ - friction.slowly(true);
+    (falls > 0.0).then_some(falls)
+}
+
+/// Whether a rigid joint slides at all of its contacts that bear, `at` being one of them: one that bears little gives way first by what the other yields.
+pub(super) fn slides_whole(at: usize, contacts: &[Contact], owners: &[Owner], after: &[Triple], h: f64) -> bool {
+    let pair = owners[at].pair;
+    let before = owners[..at].iter().rev().take_while(|other| other.pair == pair).count();
+    let own = contacts[at - before..].iter().zip(&owners[at - before..]).take_while(|(_, other)| other.pair == pair);
+    own.into_iter().all(|(c, _)| c.impulse[0] == 0.0 || slides(c, c.velocity(after)[1], h))
+}
+
+/// Whether a bonded rigid joint with these contacts is torn at a point or sheared through. How rigid points share the shear is not known: the joint has its
+/// strength as a whole.
+pub(super) fn bond_slides(law: &Law, contacts: &[Contact], owners: &[Owner]) -> bool {
+    let held = contacts.iter().zip(owners).filter(|(_, owner)| owner.part == Part::Held).map(|(contact, _)| contact);
+    let (mut pressed, mut shear, mut strength, mut torn) = (0.0, 0.0, 0.0, false);
+    for contact in held {
+        pressed += contact.impulse[0];
+        shear += contact.impulse[1];
+        strength += contact.hold;
+        torn |= contact.pressure[0] < 0.0 && contact.impulse[0] <= contact.pressure[0];
+    }
+    let tan = law.bond.map_or(0.0, |bond| if pressed < 0.0 { bond.tan_pulled() } else { bond.tan_angle });
+    strength += tan * pressed;
+    torn || strength.is_finite() && shear.abs() >= strength * (1.0 - SHEARED) && shear != 0.0
+}
+
+/// What a bonded rigid joint with these contacts bears beyond what it would without bond: its pull, and its shear beyond friction [N s].
+fn bears_more(law: &Law, contacts: &[Contact], owners: &[Owner]) -> f64 {
+    let held = contacts.iter().zip(owners).filter(|(_, owner)| owner.part == Part::Held).map(|(contact, _)| contact);
+    let [pressed, pulled, shear] = held.fold([0.0; 3], |[p, q, s], contact| {
+        let [across, along] = contact.impulse;
+        [p + across.max(0.0), q + (-across).max(0.0), s + along]
+    });
+    let friction = law.friction.map_or(0.0, |friction| friction.static_);
+    pulled + (shear.abs() - friction * pressed).max(0.0)
+}
