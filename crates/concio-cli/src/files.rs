@@ -1,7 +1,7 @@
 //! Files and streams that are written whole or not at all. All that goes to a terminal goes through here or
 //! [`crate::failure`]: text of files (titles, names, lines of records) must not command it.
 
-use std::cell::Cell;
+use std::cell::RefCell;
 use std::fmt::Write as _;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
@@ -12,19 +12,22 @@ use crate::failure::Failure;
 use crate::format::{commands, line, plain_text};
 
 thread_local! {
-    static SILENT: Cell<bool> = const { Cell::new(false) };
+    /// What the user would be told, where nothing is printed.
+    static KEPT: RefCell<Option<Vec<String>>> = const { RefCell::new(None) };
 }
 
-/// Does work of which a program wants the files and not the lines on the terminal: this thread prints none meanwhile.
-pub fn silently<T>(work: impl FnOnce() -> T) -> T {
-    struct Silence(bool);
-    impl Drop for Silence {
+/// Does work of which a program wants the files and not the lines on the terminal: this thread prints none meanwhile. Returns what the user would
+/// be told on standard error too, line by line.
+pub fn silently<T>(work: impl FnOnce() -> T) -> (T, Vec<String>) {
+    struct Before(Option<Vec<String>>);
+    impl Drop for Before {
         fn drop(&mut self) {
-            SILENT.set(self.0);
+            KEPT.replace(self.0.take());
         }
     }
-    let _before = Silence(SILENT.replace(true));
-    work()
+    let _before = Before(KEPT.replace(Some(Vec::new())));
+    let done = work();
+    (done, KEPT.take().unwrap_or_default())
 }
 
 /// Prints to standard output.
@@ -47,7 +50,7 @@ pub fn print_json(json: &str) -> Result<(), Failure> {
 
 /// Writes a text as it is.
 pub fn write_out(text: &str) -> Result<(), Failure> {
-    if SILENT.get() {
+    if KEPT.with_borrow(Option::is_some) {
         return Ok(());
     }
     let mut out = io::stdout().lock();
@@ -60,7 +63,8 @@ pub fn write_out(text: &str) -> Result<(), Failure> {
 
 /// Tells the user something in one line on standard error, which may be closed.
 pub fn note(text: &str) {
-    if !SILENT.get() {
+    let kept = KEPT.with_borrow_mut(|kept| kept.as_mut().map(|kept| kept.push(line(text).into_owned())));
+    if kept.is_none() {
         let _ = writeln!(io::stderr().lock(), "{}", line(text));
     }
 }

@@ -86,10 +86,11 @@ pub fn study_check(py: Python<'_>, file: PathBuf) -> PyResult<(Py<PyAny>, Vec<St
     Ok((json::to_python(py, &design)?.unbind(), doubts))
 }
 
-/// Writes report and tables of what a folder has of a study file.
+/// Writes report and tables of what a folder has of a study file; what the command would tell besides, line by line.
 #[pyfunction]
-pub fn study_report(py: Python<'_>, file: PathBuf, folder: PathBuf) -> PyResult<()> {
-    Ok(py.detach(|| silently(|| report(file, folder))).map_err(Raised::from)?)
+pub fn study_report(py: Python<'_>, file: PathBuf, folder: PathBuf) -> PyResult<Vec<String>> {
+    let (written, told) = py.detach(|| silently(|| report(file, folder)));
+    Ok(written.map(|()| told).map_err(Raised::from)?)
 }
 
 fn columns(table: &Table) -> Value {

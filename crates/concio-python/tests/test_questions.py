@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -72,11 +73,16 @@ def test_questions_are_those_of_study_files(
 ) -> None:
     motions = {"half sine": pulse("half-sine"), "rectangle": pulse("rectangular")}
     question: dict[str, Any] = {name: asked}
-    rows = Study(bonded, motions=motions, **question).run(tmp_path / "python")
-    assert rows.done and len(rows) > 0 and table in rows.tables and len(rows.tables[table]) > 0
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        rows = Study(bonded, motions=motions, **question).run(tmp_path / "python")
+        assert rows.done and len(rows) > 0 and table in rows.tables and len(rows.tables[table]) > 0
     assert capfd.readouterr() == ("", "")
     told = command("study", "run", tmp_path / "python/study.json", "--out", tmp_path / "typed")
     assert told.returncode == 0, told.stderr
+    # What the command says of its runs is told, in its words.
+    warned = {line.removeprefix("warning: ") for line in told.stderr.splitlines() if line.startswith("warning: in ")}
+    assert {str(warning.message) for warning in caught} == warned
     tables = {path.stem: path.read_bytes() for path in (tmp_path / "typed").glob("*.csv")}
     assert tables == {path.stem: path.read_bytes() for path in (tmp_path / "python").glob("*.csv")}
     assert set(rows.tables) == set(tables)
@@ -84,7 +90,9 @@ def test_questions_are_those_of_study_files(
 
 def test_a_wall_that_does_not_crack_has_its_table(tmp_path: Path, bonded: Wall) -> None:
     strong = bonded.replace({"joint.bond": {"tensile_strength": "5000 MPa", "cohesion": "8000 MPa"}})
-    (row,) = Study(strong, motions={"A": pulse("half-sine")}, first_crack={}).run(tmp_path).tables["first-crack"]
+    with pytest.warns(UserWarning, match=", more than "):
+        rows = Study(strong, motions={"A": pulse("half-sine")}, first_crack={}).run(tmp_path)
+    (row,) = rows.tables["first-crack"]
     # The command says by its status that no crack was found up to the largest scale.
     assert row["motion"] == "A" and row["scale"] is None and row["scale_below"] > 1
 

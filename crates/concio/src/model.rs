@@ -7,7 +7,7 @@ use concio_shear::system as shear;
 use crate::G;
 use crate::assign::{self, JointLaw, friction_choice, load_masses, resolve};
 use crate::bond;
-use crate::case::{Acts, Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, SpringLaw, plausible};
+use crate::case::{Acts, Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, SpringLaw, TopLoad, plausible};
 use crate::device::{self, Device};
 use crate::drift;
 use crate::error::{InputError, Result};
@@ -467,11 +467,15 @@ fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool
         let load = case.load.top.per_length(length) * length;
         let weight = m.si() * G;
         if weight > HEAVIER * load {
-            let [least, most] = [1e-3 * weight / length, load / G].map(|v| plausible::rounded(v, 4));
+            let (whole, unit) = match case.load.top {
+                TopLoad::PerLength(_) => (length, "kN/m"),
+                TopLoad::Force(_) => (1.0, "kN"),
+            };
+            let [least, most] = [1e-3 * weight / whole, load / G].map(|v| plausible::rounded(v, 4));
             let lighter = if load > 0.0 { format!(", or load.beam.mass {most} kg or less") } else { String::new() };
             let text = format!(
                 "load.beam.mass: the beam weighs {weight:.0} N but load.top brings only {load:.0} N to the wall; its weight acts through load.top alone. Let load.top \
-                 be {least} kN/m or more{lighter}"
+                 be {least} {unit} or more{lighter}"
             );
             add(WarningKind::HeavyBeam, text);
         }

@@ -122,6 +122,7 @@ class Rows(Table):
         """What the report of the study says, by the names of its files: ``rows.tables["sensitivity"]``, ``["fragility"]``, ``["first-crack"]``.
 
         Reading it writes ``report.html`` and the tables into the folder, as ``concio study report`` does; the documents say what is in them.
+        What the command would warn of is a ``UserWarning``.
 
         Raises:
             InputError: Another study was run in the folder since.
@@ -440,9 +441,11 @@ def _asked(file: str, out: str, done: bool) -> Rows:
 
 
 def _report(file: str, out: str) -> dict[str, Table]:
-    """The tables that the report writes; others, of earlier questions, may lie in the folder."""
+    """The tables that the report writes; others, of earlier questions, may lie in the folder. A ``UserWarning`` for each that the command would tell."""
     before = _written(out)
-    _native.study_report(file, out)
+    for told in _native.study_report(file, out):
+        if told.startswith("warning: "):
+            warnings.warn(told.removeprefix("warning: "), UserWarning, stacklevel=3)
     after = _written(out)
     return {name: _read(os.path.join(out, f"{name}.csv")) for name in after if after[name] != before.get(name)}
 
