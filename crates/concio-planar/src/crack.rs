@@ -1003,6 +1003,8 @@ impl Crack {
             taken += weight * (lost - (keeps[1] - had[1]));
             self.reach = self.reach.max(w.max(s.abs()));
         }
+        // Breaking gives nothing back, whatever friction stores where a wall falls on its edges.
+        let mut taken = taken.max(0.0);
         // What is left of it has no points any more.
         if worn && 1.0 - self.damage() <= NOTHING {
             self.nodes.fill(Node::GONE);

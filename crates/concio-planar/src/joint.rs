@@ -210,6 +210,11 @@ impl Law {
         both + press
     }
 
+    /// Whether it returns a part of the velocity with which it closes.
+    pub(crate) fn rebounds(&self) -> bool {
+        matches!(self.normal, Normal::Rigid { restitution, .. } if restitution > 0.0)
+    }
+
     /// η of (P8) where it loses more than an impact takes as it rocks.
     pub(crate) fn rocking(&self) -> Option<f64> {
         let Normal::Rigid { rocking, .. } = self.normal else { return None };
@@ -614,8 +619,7 @@ impl Law {
             works.impact -= after - stored(from, point.internal) + lost;
             point.internal = stride.internal;
         }
-        let rebounds = matches!(self.normal, Normal::Rigid { restitution, .. } if restitution > 0.0);
-        let lands = rebounds
+        let lands = self.rebounds()
             && point.approach == 0.0
             && contact.impulse[0] > 0.0
             && open(start.gap, start.velocity[0], h) > 0.0;

@@ -912,7 +912,9 @@ impl Motion {
         // What grips does so however little resists.
         let moved = contact.moved;
         contact.moved = moved.map(|m| m / self.resists);
-        let start = law.begin(state, share, h, (self.setting.still, self.setting.firm(h)), (gap, before), &mut contact);
+        // Parts of a step leave some of what approaches, which a rebound would lack.
+        let firm = self.setting.firm(if law.rebounds() { h.max(self.setting.step) } else { h });
+        let start = law.begin(state, share, h, (self.setting.still, firm), (gap, before), &mut contact);
         contact.moved = moved;
         if edge > 0.0 {
             let most = h * edge * law.crushing;

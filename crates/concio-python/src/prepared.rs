@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use concio::outcome::Outcome;
+use concio::planar::tie_lines;
 use concio::run::{self, joint_rows, run_watched};
 use concio::simulate::Simulation as Steps;
 use concio::store::{SCHEMA_VERSION, StoredRun};
@@ -52,7 +53,8 @@ impl Prepared {
     fn svg(&self) -> String {
         let model = &self.prepared.model;
         let (names, beam) = (model.joint_names(), beam_label(&self.prepared.case));
-        let subject = Subject { wall: &model.wall, joints: &model.joints, names: &names, beam: &beam };
+        let ties = tie_lines(&self.prepared.case, &model.wall);
+        let subject = Subject { wall: &model.wall, joints: &model.joints, names: &names, ties: &ties, beam: &beam };
         draw(&subject, Paint::Kinds)
     }
 

@@ -17,7 +17,9 @@ use crate::assign::JointLaw;
 use crate::assign::load_masses;
 use crate::bond::{Bond, Snap, Snaps};
 use crate::case::plausible::rounded;
-use crate::case::{Acts, Beam, BeamRotation, BlockForce, Case, Device, DeviceLaw, JointKind, Spring, StopAt, Tie};
+use crate::case::{
+    Acts, Beam, BeamRotation, BlockForce, Case, Device, DeviceLaw, JointKind, ModelKind, Spring, StopAt, Tie,
+};
 use crate::device;
 use crate::error::{InputError, Result};
 use crate::quantity::{Length, shown};
@@ -331,13 +333,24 @@ const MOSTLY: [f64; 2] = [2e-4, 0.03];
 /// Part of the weight of a wall and its load below which what a tie bears is nothing to it.
 const FEEBLE: f64 = 1e-3;
 
-/// Distance of the ends of a tie [m].
-fn span(tie: &Tie, wall: &Wall) -> f64 {
+/// Where the ends of a tie are [m].
+fn ends_of(tie: &Tie, wall: &Wall) -> [[f64; 2]; 2] {
     let end = |name: &String, at: [Length; 2]| {
         let centre = wall.blocks.iter().find(|b| b.name == *name).map_or([0.0; 2], Block::centre);
         [centre[0] + at[0].si(), centre[1] + at[1].si()]
     };
-    let [from, to] = [end(&tie.from, tie.at), end(&tie.to, tie.to_at)];
+    [end(&tie.from, tie.at), end(&tie.to, tie.to_at)]
+}
+
+/// Where the ties of a planar wall begin and end, x and y of both [m]; none of other walls.
+pub fn tie_lines(case: &Case, wall: &Wall) -> Vec<[f64; 4]> {
+    let of_planar = case.ties.iter().filter(|_| case.model == ModelKind::Planar);
+    of_planar.map(|tie| ends_of(tie, wall)).map(|[[x0, y0], [x1, y1]]| [x0, y0, x1, y1]).collect()
+}
+
+/// Distance of the ends of a tie [m].
+fn span(tie: &Tie, wall: &Wall) -> f64 {
+    let [from, to] = ends_of(tie, wall);
     (to[0] - from[0]).hypot(to[1] - from[1])
 }
 

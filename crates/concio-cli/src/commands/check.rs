@@ -4,7 +4,7 @@ use concio::bond;
 use concio::case::{Beam, Case, DeviceLaw, JointKind, StopAt};
 use concio::device;
 use concio::model::{Model, System};
-use concio::planar::Rest;
+use concio::planar::{Rest, tie_lines};
 use concio::rocking::Rocking;
 use concio_study::shaking::{Mode, first_mode};
 
@@ -35,7 +35,8 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     if let Some(path) = &args.svg {
         let names = model.joint_names();
         let beam = report::beam_label(&prepared.case);
-        let subject = Subject { wall: &model.wall, joints: &model.joints, names: &names, beam: &beam };
+        let ties = tie_lines(&prepared.case, &model.wall);
+        let subject = Subject { wall: &model.wall, joints: &model.joints, names: &names, ties: &ties, beam: &beam };
         files::write(path, &wall::draw(&subject, Paint::Kinds))?;
     }
     let duration = model.excitation.duration;
@@ -244,7 +245,25 @@ fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
 fn masses(model: &Model) -> String {
     let load = model.load_mass;
     let of_load = if load > 0.0 { format!(", and {} of the load", mass(load)) } else { String::new() };
-    mass(total(model)) + &of_load
+    let bare = unweighed(model);
+    let of_mortar = if bare > 0.0 {
+        format!("; mortar, {} % of the wall, weighs nothing", significant(100.0 * bare, 2))
+    } else {
+        String::new()
+    };
+    mass(total(model)) + &of_load + &of_mortar
+}
+
+/// Part of a bonded wall that is mortar, which has no mass, as the first panel has it.
+fn unweighed(model: &Model) -> f64 {
+    let Some(panel) = model.wall.panels.first().filter(|_| model.rocking().is_none()) else { return 0.0 };
+    let Some(block) =
+        model.wall.blocks.iter().filter(|b| b.panel == 0).max_by(|a, b| a.length().total_cmp(&b.length()))
+    else {
+        return 0.0;
+    };
+    let [bed, head] = panel.mortar;
+    1.0 - block.length() * block.height() / ((block.length() + head) * (block.height() + bed))
 }
 
 /// The vertical force of `load.top`, which counts bricks and no mortar, and what it presses on: the joints below a beam, or the top sides.

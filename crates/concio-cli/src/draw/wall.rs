@@ -12,6 +12,8 @@ use crate::format::{NOTHING, short, si};
 pub const BRICK: &str = "#f4d9c0";
 /// Colour of joints that have no value.
 const NONE: &str = "#b4b4b4";
+/// Ties.
+const TIE: &str = r##"fill="none" stroke="#2e7d32" stroke-width="2.2" stroke-dasharray="9 3""##;
 /// Colour of bricks beside coloured joints.
 pub const LIGHT: &str = "#fbf6f1";
 /// Largest size of the wall itself [px].
@@ -65,6 +67,8 @@ pub struct Subject<'a> {
     pub joints: &'a [Joint],
     /// Their names.
     pub names: &'a [String],
+    /// Where its ties begin and end [m].
+    pub ties: &'a [[f64; 4]],
     /// What the top beam does, written on it.
     pub beam: &'a str,
 }
@@ -85,12 +89,15 @@ pub fn draw(subject: &Subject, paint: Paint) -> String {
     if !(large && matches!(paint, Paint::Blocks(_))) {
         joints(&mut canvas, &view, subject, paint);
     }
+    for (number, tie) in subject.ties.iter().enumerate() {
+        canvas.path(&line(view.line(*tie)), TIE, Some(&format!("tie {}", number + 1)));
+    }
     if let Paint::Kinds = paint {
         joint_names(&mut canvas, &view, subject);
     }
     dimensions(&mut canvas, &view);
     match paint {
-        Paint::Kinds => kind_legend(&mut canvas, &view, subject.joints),
+        Paint::Kinds => kind_legend(&mut canvas, &view, subject),
         Paint::Blocks(field) | Paint::Joints(field) => value_legend(&mut canvas, &view, &field),
     }
     let label = format!("wall of {} blocks and {} joints", subject.wall.blocks.len(), subject.joints.len());
@@ -449,17 +456,19 @@ fn stroke(kind: JointKind, width: f64) -> String {
     format!(r#"stroke="{colour}" stroke-width="{}"{dashes}"#, px(width * factor))
 }
 
-fn kind_legend(canvas: &mut Canvas, view: &View, joints: &[Joint]) {
+fn kind_legend(canvas: &mut Canvas, view: &View, subject: &Subject) {
     let y = view.size[1] - 40.0;
     let mut x = MARGIN[0];
-    for kind in KINDS {
-        let n = joints.iter().filter(|j| j.kind == kind).count();
-        if n > 0 {
-            canvas.path(&line([x, y, x + 26.0, y]), &format!(r#"fill="none" {}"#, stroke(kind, 1.6)), None);
-            let text = format!("{} ({n})", kind_name(kind));
-            canvas.text([x + 31.0, y], 11.0, Anchor::Start, false, "#111", &text);
-            x += 40.0 + 11.0 * LETTER * text.len() as f64;
-        }
+    let kinds = KINDS.map(|kind| {
+        let number = subject.joints.iter().filter(|j| j.kind == kind).count();
+        (format!(r#"fill="none" {}"#, stroke(kind, 1.6)), kind_name(kind), number)
+    });
+    let ties = (TIE.to_string(), "tie", subject.ties.len());
+    for (attributes, name, number) in kinds.into_iter().chain([ties]).filter(|(.., number)| *number > 0) {
+        canvas.path(&line([x, y, x + 26.0, y]), &attributes, None);
+        let text = format!("{name} ({number})");
+        canvas.text([x + 31.0, y], 11.0, Anchor::Start, false, "#111", &text);
+        x += 40.0 + 11.0 * LETTER * text.len() as f64;
     }
 }
 

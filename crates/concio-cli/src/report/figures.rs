@@ -1,5 +1,6 @@
 //! The figures of the report.
 
+use concio::planar::tie_lines;
 use concio::record::Channel;
 
 use super::{Content, beam_label};
@@ -22,7 +23,8 @@ pub fn views(content: &Content) -> usize {
 pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     let beam = beam_label(&content.case);
     let (joints, names): (Vec<_>, Vec<_>) = content.joints.iter().map(|j| (j.joint.clone(), j.name.clone())).unzip();
-    let subject = Subject { wall: content.wall, joints: &joints, names: &names, beam: &beam };
+    let ties = tie_lines(&content.case, content.wall);
+    let subject = Subject { wall: content.wall, joints: &joints, names: &names, ties: &ties, beam: &beam };
     let envelopes = &content.outcome.envelopes;
     // A massive beam is one more unknown behind the blocks; the colours are those of the blocks.
     let of_blocks = &envelopes.block_displacement;

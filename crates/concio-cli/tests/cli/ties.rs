@@ -47,7 +47,9 @@ fn a_run_tells_what_its_rods_bore() {
 fn check_tells_rods_and_joints() {
     let desk = Desk::new();
     desk.put("tied.toml", WALL.replace("stiffness = \"5 MN/m\"", "stiffness = \"5 MN/m\"\nyield_force = \"2 kN\""));
-    let done = desk.concio("check tied.toml").assert().success();
+    let done = desk.concio("check tied.toml --svg tied.svg").assert().success();
+    let drawing = desk.get("tied.svg");
+    assert!(drawing.contains("<title>tie 1</title>") && drawing.contains("tie (1)"), "{drawing}");
     let text = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
     let row = |start: &str| {
         let line = text

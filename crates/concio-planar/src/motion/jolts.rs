@@ -11,7 +11,7 @@ use crate::joint::{Law, Part, Point, slides};
 
 /// Part of the energy of motion from which landing counts, and what counts as motion at least, over the velocity that gravity gives in a
 /// step: stones that settle are no landing.
-const LANDING: f64 = 0.05;
+const LANDING: f64 = 0.02;
 const SETTLES: f64 = 5.0;
 /// Force that falls at once over weight and load, from which it counts.
 const GIVES_WAY: f64 = 0.05;

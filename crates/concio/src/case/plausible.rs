@@ -196,6 +196,11 @@ const LEAST_NORMAL_TO_SHEAR: f64 = 1.0;
 const BEHAVIOUR: f64 = 2.0;
 /// Masonry rubs with 0.4 (Eurocode 6, 3.6.2) to 0.8, split and toothed stones with 1 at most.
 const LARGEST_FRICTION: f64 = 1.0;
+/// Below this it slides on sheets made to slide.
+const LEAST_FRICTION: f64 = 0.1;
+/// Heights of beams and slabs on a wall.
+const BEAM_HEIGHT: Expected =
+    Expected { limits: [0.01, 3.0], usual: [0.05, 1.5], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
 /// Of what holds a wall to its supports, such as the glue of a laboratory.
 const LARGEST_HELD: f64 = 2.0;
 /// Coefficients from this on are rather angles in degrees.
@@ -229,6 +234,9 @@ pub fn doubts(case: &Case) -> Vec<Warning> {
     }
     if let Beam::Mass(mass) = case.load.beam {
         doubts.look("load.beam.mass", mass.si(), &BEAM);
+    }
+    if let Some(height) = case.load.beam_height {
+        doubts.look("load.beam_height", height.si(), &BEAM_HEIGHT);
     }
     if let Some(own) = &case.out_of_plane {
         of_out_of_plane(&mut doubts, own, case);
@@ -873,6 +881,16 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
     // Sets hold what was measured, split stones among it.
     let largest = if case.set.is_some() { LARGEST_HELD } else { LARGEST_FRICTION };
     doubts.look_at_friction("joint.friction.static", joint.friction.static_, largest);
+    for (key, coefficient) in [("static", joint.friction.static_), ("dynamic", joint.friction.dynamic)] {
+        let own = key == "static" || coefficient != joint.friction.static_;
+        if own && coefficient > 0.0 && coefficient < LEAST_FRICTION {
+            let text = format!(
+                "joint.friction.{key} is {}, less than {LEAST_FRICTION}: joints of masonry rub with 0.4 to 0.8",
+                shown(rounded(coefficient, 6))
+            );
+            doubts.add(WarningKind::UnlikelyNumber, text);
+        }
+    }
     doubts.look("joint.friction.slip_velocity", joint.friction.slip_velocity.si(), &SLIP_VELOCITY);
     if let Some(bond) = &joint.bond {
         doubts.look("joint.bond.tensile_strength", bond.tensile_strength.si(), &TENSION);

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::ground::library::Component;
 use crate::ground::record::Record;
 use crate::ground::signal::{GroundMotion, compile_with};
-use crate::ground::{Library, STANDARD_GRAVITY, channel, measure};
+use crate::ground::{Library, STANDARD_GRAVITY, channel, measure, units};
 use crate::quantity::shown;
 use crate::warning::{Warning, WarningKind};
 
@@ -29,6 +29,10 @@ const SMALLEST_PEAK: f64 = 0.01;
 const LARGEST_PEAK: f64 = 60.0;
 /// Peak of nearly all records, 2 g [m/s²].
 const STRONGEST: f64 = 2.0 * STANDARD_GRAVITY;
+/// The same of a motion whose peak the wall file names: the largest that were recorded have 3 to 4 g.
+const NAMED: f64 = 3.0 * STANDARD_GRAVITY;
+/// Below this peak hardly a wall moves [m/s²].
+const WEAK: f64 = 0.05 * STANDARD_GRAVITY;
 /// Difference from g of a factor that is meant to be g: 9.8, 9.80665, 9.81.
 const NEARLY_G: f64 = 2.5e-3;
 /// Factor on one of two components alone from which it is told: rounding, and corrections of one of them.
@@ -79,7 +83,8 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                 );
                 let record = library.record(input, folder)?;
                 let scale = of_gravity(name, input, &record);
-                found.extend(scale.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
+                let odd = scale.or_else(|| in_gravity(name, input, &record));
+                found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
                 let meant = input.pga.is_some();
                 found.extend(of_record(case, name, &record, meant, duration));
             }
@@ -213,12 +218,29 @@ pub fn odd_peak(record: &Record) -> Option<String> {
         .then(|| format!("the record's peak acceleration is {} m/s², {how} than {bound} m/s²", rounded(peak, 4)))
 }
 
-/// Says of a peak that hardly an earthquake had that it is one. Where the wall file names it, it is told of rocking walls alone, which it throws over.
+/// Says of a peak that hardly an earthquake had that it is one. Where the wall file names it, more is allowed, but to rocking walls, which it throws over.
 fn beyond_recorded(case: &Case, name: &str, record: &Record, meant: bool) -> Option<String> {
     let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
-    ((case.model == ModelKind::Rocking || !meant) && peak > STRONGEST).then(|| {
-        let [peak, most] = [peak, STRONGEST].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
+    let most = if case.model == ModelKind::Rocking || !meant { STRONGEST } else { NAMED };
+    (peak > most).then(|| {
+        let [peak, most] = [peak, most].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
         format!("motion.{name}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, which few records have: look at its unit, its interval, `scale` and `pga`")
+    })
+}
+
+/// Says of a record that hardly moves a wall in the unit that the wall file gives that its numbers may be in g.
+fn in_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String> {
+    let unit = input.units.as_deref().filter(|_| input.quantity == HistoryQuantity::Acceleration)?;
+    let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+    // The largest number of the file.
+    let number = peak / units::factor(unit, input.quantity)?;
+    let as_given = input.scale.is_none() && input.pga.is_none();
+    (as_given && peak < WEAK && number > WEAK / STANDARD_GRAVITY && number * STANDARD_GRAVITY < STRONGEST).then(|| {
+        format!(
+            "motion.{name}.units is {unit:?}, in which the record's peak acceleration is {} g: it hardly moves a wall. Is it {} g? Then `units` is \"g\"",
+            shown(rounded(peak / STANDARD_GRAVITY, 3)),
+            shown(rounded(number, 3))
+        )
     })
 }
 

@@ -720,6 +720,15 @@ fn motions_that_a_run_ends_before_they_have_grown_are_told() {
     assert_eq!(path(6.0), [""; 0]);
 }
 
+/// A beam of 300 mm in metres: the lever of all that acts on it.
+#[test]
+fn a_beam_as_high_as_a_tower_is_told() {
+    let text = WALL.replace("\"shear\"", "\"planar\"").replace("[load]", "[load]\nbeam_height = 300");
+    let found = doubts(&case(&text));
+    let told = "load.beam_height is 300 m, more than 3 m; did you mean \"300 mm\"?";
+    assert!(found.iter().any(|doubt| doubt.text == told), "{found:?}");
+}
+
 /// Masonry that rubs like rubber, and what glues it to its supports.
 #[test]
 fn friction_beyond_that_of_masonry_is_told() {
@@ -732,6 +741,17 @@ fn friction_beyond_that_of_masonry_is_told() {
         ["joint.friction.static is 1.2, more than 1: joints of masonry rub with 0.4 to 0.8"]
     );
     assert_eq!(told("static = 1.0", ""), [""; 0]);
+    let slippery = |key: &str, number: f64| {
+        format!("joint.friction.{key} is {number}, less than 0.1: joints of masonry rub with 0.4 to 0.8")
+    };
+    for (friction, key, number) in
+        [("static = 0.06, dynamic = 0.06", "static", 0.06), ("static = 0.6, dynamic = 0.04", "dynamic", 0.04)]
+    {
+        let found = doubts(&case(&WALL.replace("static = 0.6, dynamic = 0.4", friction)));
+        let told: Vec<&str> =
+            found.iter().map(|doubt| doubt.text.as_str()).filter(|text| text.contains("less than 0.1")).collect();
+        assert_eq!(told, [slippery(key, number)]);
+    }
     let change = |kind: &str, static_: f64| {
         format!("[[joint.change]]\nat = {{ kind = [\"{kind}\"] }}\nfriction = {{ static = {static_} }}")
     };
@@ -900,7 +920,7 @@ fn records_scaled_by_g_or_one_without_the_other_are_told() {
         let upright = if vertical.is_empty() { String::new() } else { format!("vertical = {{ {vertical} }}\n") };
         let case = case(&format!("{wall}base = {{ {base} }}\n{upright}"));
         let prepared = concio::run::prepare_case(case, folder.path()).unwrap_or_else(|e| panic!("{e}"));
-        let words = ["conversion", "few records have", "no longer have the ratio"];
+        let words = ["conversion", "few records have", "no longer have the ratio", "hardly moves"];
         let odd = |text: &String| words.into_iter().any(|word| text.contains(word));
         prepared.model.warnings.iter().map(|w| w.text.clone()).filter(odd).collect::<Vec<_>>()
     };
@@ -921,6 +941,23 @@ fn records_scaled_by_g_or_one_without_the_other_are_told() {
     assert_eq!(told(&x(", scale = 6"), "").len(), 1);
     for fine in ["", ", scale = 5.5", ", pga = \"2.5 g\""] {
         assert_eq!(told(&x(fine), ""), [""; 0], "{fine}");
+    }
+    // 0.35 g with its point a place off.
+    assert!(
+        told(&x(", pga = \"3.5 g\""), "")[0]
+            .contains("its peak acceleration is 3.5 g as it moves the wall, more than 3 g")
+    );
+    // The same numbers without their unit.
+    std::fs::write(folder.path().join("bare.txt"), format!("# dt = 0.005 s\n{samples}")).expect("a record");
+    let bare = |rest: &str| told(&format!("record = \"bare.txt\", {rest}"), "");
+    assert_eq!(
+        bare("units = \"m/s2\""),
+        [
+            "motion.base.units is \"m/s2\", in which the record's peak acceleration is 0.0357 g: it hardly moves a wall. Is it 0.35 g? Then `units` is \"g\""
+        ]
+    );
+    for fine in ["units = \"g\"", "units = \"m/s2\", pga = \"0.35 g\""] {
+        assert_eq!(bare(fine), [""; 0], "{fine}");
     }
     assert_eq!(
         told(&x(", pga = \"0.7 g\""), &z("")),
