@@ -1099,7 +1099,9 @@ impl Motion {
                         }
                     }
                     false => {
-                        let slid = bond_slides(law, &self.contacts[at..end], &self.owners[at..end]);
+                        let slid = bond_slides(law, &self.contacts[at..end], &self.owners[at..end], |contact, _| {
+                            contact.impulse
+                        });
                         let borne = [seen.pressure, seen.shear];
                         if let Some(part) = crack.break_rigid(law, points, slid, borne, time) {
                             breaks_at = breaks_at.min(part);

@@ -110,7 +110,9 @@ impl Limits {
             Criterion::Bond => {
                 let mut all = vec![f64::INFINITY; model.joints.len()];
                 for bond in &model.shear.bonds {
-                    all[bond.joint as usize] = bond.law.limit();
+                    // A rigid joint bears its strength without a displacement: it is far from any until it cracks.
+                    let limit = bond.law.limit();
+                    all[bond.joint as usize] = if limit.is_finite() && limit > 0.0 { limit } else { f64::MAX };
                 }
                 all
             }

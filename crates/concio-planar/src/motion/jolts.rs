@@ -48,16 +48,16 @@ impl Motion {
             falls += (at..at + owners.len()).map(|at| self.friction_falls(at, h)).sum::<f64>();
             at += owners.len();
             let Some(crack) = pair.crack.as_ref().filter(|_| !law.is_compliant()) else { continue };
+            // A step bears what acts in its middle: by its end that has gone on to grow.
+            let ahead = |contact: &Contact, owner: &Owner| {
+                [0, 1].map(|k| contact.impulse[k] + 0.5 * (contact.impulse[k] - h * pair.points[owner.point].force[k]))
+            };
             let bears = bears_more(law, contacts, owners);
             let force = |point: usize| {
-                owners
-                    .iter()
-                    .zip(contacts)
-                    .filter(|(o, _)| o.point == point)
-                    .map(|(_, c)| c.impulse[0] / h)
-                    .sum::<f64>()
+                let own = owners.iter().zip(contacts).filter(|(owner, _)| owner.point == point);
+                own.map(|(owner, contact)| ahead(contact, owner)[0] / h).sum::<f64>()
             };
-            if bears > counts && crack.breaks_rigid(law, &force, bond_slides(law, contacts, owners)) {
+            if bears > counts && crack.breaks_rigid(law, &force, bond_slides(law, contacts, owners, ahead)) {
                 falls += bears;
             }
         }
@@ -91,16 +91,21 @@ pub(super) fn slides_whole(at: usize, contacts: &[Contact], owners: &[Owner], af
     own.into_iter().all(|(c, _)| c.impulse[0] == 0.0 || slides(c, c.velocity(after)[1], h))
 }
 
-/// Whether a bonded rigid joint with these contacts is torn at a point or sheared through. How rigid points share the shear is not known: the joint has its
-/// strength as a whole.
-pub(super) fn bond_slides(law: &Law, contacts: &[Contact], owners: &[Owner]) -> bool {
-    let held = contacts.iter().zip(owners).filter(|(_, owner)| owner.part == Part::Held).map(|(contact, _)| contact);
+/// Whether a bonded rigid joint with these contacts, which bear so much, is torn at a point or sheared through. How rigid points share the shear is not
+/// known: the joint has its strength as a whole.
+pub(super) fn bond_slides(
+    law: &Law,
+    contacts: &[Contact],
+    owners: &[Owner],
+    borne: impl Fn(&Contact, &Owner) -> [f64; 2],
+) -> bool {
     let (mut pressed, mut shear, mut strength, mut torn) = (0.0, 0.0, 0.0, false);
-    for contact in held {
-        pressed += contact.impulse[0];
-        shear += contact.impulse[1];
+    for (contact, owner) in contacts.iter().zip(owners).filter(|(_, owner)| owner.part == Part::Held) {
+        let [across, along] = borne(contact, owner);
+        pressed += across;
+        shear += along;
         strength += contact.hold;
-        torn |= contact.pressure[0] < 0.0 && contact.impulse[0] <= contact.pressure[0];
+        torn |= contact.pressure[0] < 0.0 && across <= contact.pressure[0];
     }
     let tan = law.bond.map_or(0.0, |bond| if pressed < 0.0 { bond.tan_pulled() } else { bond.tan_angle });
     strength += tan * pressed;

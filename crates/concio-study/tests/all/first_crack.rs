@@ -108,6 +108,27 @@ fn limits_of_opening_and_slip_are_met() -> Result<()> {
     Ok(())
 }
 
+/// A stone of B × H on a rigid joint cracks at its edge where a (m H/2) = (f_t + W/A) T B²/6: 0.667 g here.
+#[test]
+fn a_bonded_rigid_joint_cracks_at_its_strength() -> Result<()> {
+    let text = "model = \"planar\"\n[[panel]]\nbond = \"stack\"\ncourses = 1\nbricks = 1\n\
+        brick = { length = 0.5, height = 1.5, thickness = 0.4, specific_weight = 20e3 }\nmortar = { bed = 0, head = 0 }\n\
+        [joint]\nbed = { law = \"rigid\" }\nhead = { law = \"rigid\" }\nfriction = { law = \"coulomb\", static = 0.6 }\n\
+        bond = { tensile_strength = \"150 kPa\", cohesion = \"200 kPa\", friction_angle = \"30 deg\" }\n\
+        [motion]\nduration = 0.4\nbase = { pulse = { shape = \"half-sine\", acceleration = \"0.3 g\", duration = 0.2 } }\n";
+    let subject = Subject { name: "stone".into(), case: case::from_str(text, case::Syntax::Toml, None)?.case };
+    let question = Question { rule: Rule::new(Criterion::Bond, None), interval: 0.01, checks: 0, periods: vec![0.2] };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let found = answers(&question, std::slice::from_ref(&subject), folder.path(), 0)?.remove(0);
+    assert_certified(&found, 0.01, 0);
+    let crack = found.crack().expect("a crack");
+    let (weight, area) = (20e3 * 0.5 * 1.5 * 0.4, 0.5 * 0.4);
+    let acceleration = (150e3 + weight / area) * area * 0.5 / 6.0 / (weight / concio::G * 0.75);
+    let expected = acceleration / (0.3 * 9.806_65);
+    assert!((crack.scale / expected - 1.0).abs() < 0.01, "{crack:?} instead of {expected}");
+    Ok(())
+}
+
 /// The 6 × 4 panel with 10 kN/m and a floor under a real record of each format.
 #[test]
 fn the_panel_cracks_under_real_records() -> Result<()> {
