@@ -28,7 +28,7 @@
 //!
 //! as long as f_t is not the smaller one, and opened to w, then slid by s,
 //!
-//! (P12)  τ = e^−ξ min(c s/q, f_t k_t s/(k_n w)),   q = s + min(1, f_t k_t q/(c k_n w)) a w,   ξ = (w − w_0)/δ_n + s/δ_t,   k_n w_0 = f_t
+//! (P12)  τ = e^−ξ min(c s/q, f_t k_t s/(k_n w)),   q = s + min(1, f_t k_t q/(c k_n w)) a w,   ξ = (w − w_0)/δ_n + ⟨s − s_1⟩/δ_t,   k_n w_0 = f_t,   k_t s_1 = e^−ξ₀ (c − f_t tan φ),   ξ₀ = (w − w_0)/δ_n
 //!
 //! Rigid joints break by plane sections: the stress of the joint is the straight line that balances what its points bear, cracked parts pressing only;
 //! the crack runs as far as it is above f_t at its tip.
@@ -1384,7 +1384,7 @@ mod tests {
         let mut was = 0.0;
         for s in [0.05e-3, 0.5e-3, 2e-3, 4e-3] {
             stretch(&mut crack, [open, was], [open, s], &law);
-            let left = first * (-s / shears).exp();
+            let left = first * (-(s - first * (c - f * bond.tan_angle) / k).max(0.0) / shears).exp();
             let expected = left * (c * s / way(s)).min(f * s / open);
             let found = bears(&crack, s);
             let subject = format!("Bonds: a point that opens 0.3 mm and then slides; by {} mm", 1e3 * s);

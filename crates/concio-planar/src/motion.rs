@@ -523,7 +523,7 @@ impl Motion {
         let laid = self.places.clone();
         let (mut stands, mut rests) = (false, 0);
         for number in 1..=most {
-            self.step(Forcing::default());
+            self.take(self.setting.step, Forcing::default(), CROSSINGS);
             // Points of joints that are open in part move after a step: at rest none have for some.
             rests = if self.fastest() * self.setting.step <= within { rests + 1 } else { 0 };
             if rests == RESTS {
@@ -578,9 +578,15 @@ impl Motion {
         &self.setting
     }
 
-    /// One step of the setting's length.
+    /// One step of the setting's length, in which `forcing` acts evenly.
     pub fn step(&mut self, forcing: Forcing) {
-        self.take(self.setting.step, forcing, CROSSINGS);
+        let (start, h) = (self.time, self.setting.step);
+        let part = |from: f64, to: f64| (to - from) / h;
+        self.part(start, h, 0, &|from, to| Forcing {
+            base: forcing.base.map(|v| part(from, to) * v),
+            held: part(from, to) * forcing.held,
+        });
+        self.time = start + h;
     }
 
     /// From here over `h` [s]; `forcing` says what acts between two instants. Without inertia, steps under what acts then
@@ -912,8 +918,9 @@ impl Motion {
         // What grips does so however little resists.
         let moved = contact.moved;
         contact.moved = moved.map(|m| m / self.resists);
-        // Parts of a step leave some of what approaches, which a rebound would lack.
-        let firm = self.setting.firm(if law.rebounds() { h.max(self.setting.step) } else { h });
+        // Parts of a step leave some of what approaches, which rebounds and what is known of an impact would lack.
+        let firm =
+            self.setting.firm(if law.rebounds() || law.rocking().is_some() { h.max(self.setting.step) } else { h });
         let start = law.begin(state, share, h, (self.setting.still, firm), (gap, before), &mut contact);
         contact.moved = moved;
         if edge > 0.0 {

@@ -2,8 +2,7 @@
 //!
 //! Where no end rebounds and none slides, an impact leaves (i + cos 2α)/(1 + i) of the angular velocity of a block (Housner
 //! 1963), because the push acts at the end that lands. Where less is known to be left, the end that opens is held back: with
-//! ℓ the approach that the laws take from the landing end in a step, u_n^ℓ the parting velocity there and b ≥ 0 what its gap and its yielding in
-//! a part of a step leave of its approach,
+//! ℓ the approach that the laws take from the landing end in a step, u_n^ℓ the parting velocity there and b ≥ 0 what its gap leaves of its approach,
 //!
 //! (P8)  u_n − u_n^ℓ ≤ max(u_n⁻, 0) + η ℓ + b
 //!
@@ -82,10 +81,7 @@ impl Motion {
         let mut contact = Contact::along((from.rows.first(), from.rows.second()), from.slot, line, &self.inverse, 0.0);
         contact.law[0].rho = self.setting.firm(whole) * contact.moved[0];
         contact.drift[0] = to.drift[0] - from.drift[0];
-        // In parts of a step the end that lands yields, and the next part takes what is left of its approach.
-        let firm = self.setting.firm(h);
-        let taken = lost * firm / (1.0 + firm);
-        contact.bias = parting + lost - (1.0 - rocking) * taken + to.bias.max(0.0);
+        contact.bias = parting + rocking * lost + to.bias.max(0.0);
         let [to, from] = [&self.owners[lands], end];
         let before = to.start.velocity[0] - from.start.velocity[0];
         Some((contact, Hold { opens, before, lever: to.lever[0] - from.lever[0] }))

@@ -322,7 +322,7 @@ fn what_lands_within_a_step_rebounds_with_all_of_its_velocity() {
             motion.put(0, Place { centre: [0.5, start + high], angle: 0.0 });
             let (mut peaks, mut landed, mut before) = ([0.0f64; 2], 0, 0.0);
             while landed < 3 {
-                motion.step(Forcing::default());
+                motion.go(step, &|_, _| Forcing::default());
                 let velocity = motion.velocities[0][1];
                 landed += usize::from(before < 0.0 && velocity > 0.0);
                 before = velocity;
