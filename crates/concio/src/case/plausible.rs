@@ -196,6 +196,8 @@ const LEAST_NORMAL_TO_SHEAR: f64 = 1.0;
 const BEHAVIOUR: f64 = 2.0;
 /// Masonry rubs with 0.4 (Eurocode 6, 3.6.2) to 0.8, split and toothed stones with 1 at most.
 const LARGEST_FRICTION: f64 = 1.0;
+/// Difference from whole steps of how long a force acts that is told: more than a rounded step.
+const WHOLE_STEPS: f64 = 1e-6;
 /// Below this it slides on sheets made to slide.
 const LEAST_FRICTION: f64 = 0.1;
 /// Heights of beams and slabs on a wall.
@@ -694,6 +696,22 @@ fn of_planar(doubts: &mut Doubts, case: &Case) {
             shown(joint.bed.rigidity)
         );
         doubts.add(WarningKind::UnlikelyJoint, text);
+    }
+    let step = case.planar_step();
+    for (i, force) in case.forces.iter().enumerate() {
+        let Some(every) = force.every.map(|every| every.si()).filter(|_| force.x.len().max(force.y.len()) > 1) else {
+            continue;
+        };
+        let steps = every / step;
+        if (steps - steps.round()).abs() > WHOLE_STEPS {
+            let text = format!(
+                "force[{i}].every is {} s, {} steps: each value acts in whole steps, and its impulse is up to {} % off; choose a solver.step that divides it",
+                shown(rounded(every, 6)),
+                shown(rounded(steps, 4)),
+                shown(rounded(100.0 / steps, 2))
+            );
+            doubts.add(WarningKind::UnlikelyNumber, text);
+        }
     }
     if case.motion.quasi_static {
         let signals = [("base", &case.motion.base), ("vertical", &case.motion.vertical)];

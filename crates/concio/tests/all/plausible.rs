@@ -729,6 +729,27 @@ fn a_beam_as_high_as_a_tower_is_told() {
     assert!(found.iter().any(|doubt| doubt.text == told), "{found:?}");
 }
 
+/// 61.3 ms are 61.3 steps of 1 ms, of which 61 or 62 have each value.
+#[test]
+fn forces_that_change_within_a_step_are_told() {
+    let told = |every: &str, step: &str| {
+        let force = format!(
+            "[[force]]\nblock = \"p1c1b1\"\nx = [0, 3000]\nevery = \"{every}\"\n[solver]\nstep = \"{step}\"\n[load]"
+        );
+        let text = WALL.replace("\"shear\"", "\"planar\"").replace("[load]", &force);
+        let found = doubts(&case(&text)).into_iter().filter(|doubt| doubt.text.starts_with("force"));
+        found.map(|doubt| doubt.text).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        told("61.3 ms", "1 ms"),
+        [
+            "force[0].every is 0.0613 s, 61.3 steps: each value acts in whole steps, and its impulse is up to 1.6 % off; choose a solver.step that divides it"
+        ]
+    );
+    assert_eq!(told("61.3 ms", "0.1 ms"), [""; 0]);
+    assert_eq!(told("60 ms", "1 ms"), [""; 0]);
+}
+
 /// Masonry that rubs like rubber, and what glues it to its supports.
 #[test]
 fn friction_beyond_that_of_masonry_is_told() {
