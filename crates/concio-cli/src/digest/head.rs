@@ -51,7 +51,7 @@ pub fn head(joints: &[JointRow], outcome: &Outcome, summary: &Value) -> Vec<Answ
     }
     let planar = outcome.layout.touching > 0;
     vec![
-        if planar { failure(summary) } else { slide(outcome, summary) },
+        if planar { failure(outcome, summary) } else { slide(outcome, summary) },
         first_crack(joints, outcome, summary),
         if planar {
             collapse(outcome, summary)
@@ -107,13 +107,13 @@ fn at(time: f64) -> String {
 }
 
 /// How a planar wall failed.
-fn failure(summary: &Value) -> Answer {
+fn failure(outcome: &Outcome, summary: &Value) -> Answer {
     let found = summary.get("failure").filter(|f| !f.is_null());
     let Some(failure) = found.and_then(|f| serde_json::from_value::<Failure>(f.clone()).ok()) else {
         return Answer::new("failure", "not known", "the run kept no frames (output.frames)");
     };
     if failure.modes.is_empty() {
-        return Answer::new("failure", "none", "");
+        return cracked(outcome).unwrap_or_else(|| Answer::new("failure", "none", ""));
     }
     let names: Vec<&str> = failure.modes.iter().map(|mode| mode.name()).collect();
     let part = |share: f64| format!("{:.0} %", 100.0 * share);
@@ -135,18 +135,22 @@ fn slide(outcome: &Outcome, summary: &Value) -> Answer {
     if share > LARGE_SLIDE {
         return Answer::new("failure", "slid far", format!("by {slid}")).grave(true);
     }
-    let bonds = &outcome.bonds;
-    let count = |is: fn(&BondRow) -> bool| bonds.iter().filter(|bond| is(bond)).count();
-    let (cracked, broken) = (count(|b| b.damage > 0.0), count(|b| b.damage == 1.0));
-    if cracked > 0 {
-        let note = format!("{cracked} of {} bonded joints, {broken} of them broken", bonds.len());
-        return Answer::new("failure", "cracked", note).grave(true);
+    if let Some(cracked) = cracked(outcome) {
+        return cracked;
     }
     let slips = outcome.envelopes.joint_slip.iter().any(|slip| *slip > 0.0);
     let note = if slips { format!("joints slid by at most {slid}") } else { "no joint slid or cracked".into() };
     // What had not happened when a run broke off may have happened next.
     let value = if outcome.stop_reason.is_end() { "none" } else { "–" };
     Answer::new("failure", value, note + &until(outcome))
+}
+
+/// How many bonds cracked, where some did and no more came of it.
+fn cracked(outcome: &Outcome) -> Option<Answer> {
+    let count = |is: fn(&BondRow) -> bool| outcome.bonds.iter().filter(|bond| is(bond)).count();
+    let (cracked, broken) = (count(|b| b.damage > 0.0), count(|b| b.damage == 1.0));
+    let note = format!("{cracked} of {} bonded joints, {broken} of them broken", outcome.bonds.len());
+    (cracked > 0).then(|| Answer::new("failure", "cracked", note).grave(true))
 }
 
 /// Of a run that stopped early, how far what it says goes.

@@ -133,6 +133,18 @@ duration = 12
     assert!(head[0].1.starts_with("cracked, 1 of 1 bonded joints") || head[0].1.starts_with("slid far"), "{told}");
 }
 
+/// A stone of 1 m × 2 m and 40 kN, bonded at 50 kPa, is pulled there by 6 M/(b ℓ²) − N/(b ℓ) = 56 kPa at 0.4 g and stands.
+#[test]
+fn a_wall_that_cracked_and_stands_has_cracked() {
+    let desk = Desk::new();
+    let bed = "bed = { law = \"elastic\", stiffness = \"100 N/mm3\" }\nbond = { tensile_strength = \"50 kPa\", cohesion = \"0.2 MPa\", \
+        friction_angle = \"30 deg\", mode_1_energy = \"10 N/m\", mode_2_energy = \"100 N/m\" }";
+    let lines = STONE.lines().map(|line| if line.starts_with("bed =") { bed } else { line });
+    let stone = lines.collect::<Vec<_>>().join("\n").replace("height = 0.02", "height = 2").replace("4.5", "4");
+    let (told, head) = ran(&desk, &stone);
+    assert_eq!(head[0], ("failure".into(), "cracked, 1 of 1 bonded joints, 0 of them broken".into()), "{told}");
+}
+
 /// A stone on a base that jumps to 0.8 g for 0.1 s lags by 0.4 g, as μ = 0.4 drags it along, and catches up at 0.4 g: 2 · ½ · 0.4 g · (0.1 s)².
 /// It is the base joint that slid, and nothing else can.
 #[test]
