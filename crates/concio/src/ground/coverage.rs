@@ -222,6 +222,9 @@ fn beyond_recorded(case: &Case, name: &str, record: &Record, meant: bool) -> Opt
     })
 }
 
+/// What such a factor is called.
+const FROM_G: &str = "a conversion to or from g";
+
 /// Says of a factor that is g, or one over g, in a unit of acceleration: files and `units` say theirs, and g would count twice.
 fn of_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String> {
     let scale = input.scale.filter(|_| input.quantity == HistoryQuantity::Acceleration)?;
@@ -231,10 +234,15 @@ fn of_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String
         let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs())) / STANDARD_GRAVITY;
         let [scale, peak, without] = [scale, peak, peak / scale.abs()].map(|v| shown(rounded(v, 3)));
         format!(
-            "motion.{name}.scale is {scale}, a conversion to or from g, but records are converted by their own unit: the peak is {peak} g as it moves the wall, \
+            "motion.{name}.scale is {scale}, {FROM_G}, but records are converted by their own unit: the peak is {peak} g as it moves the wall, \
              {without} g without `scale`. Leave `scale` out; a text file of another unit takes `units`, such as \"g\""
         )
     })
+}
+
+/// Whether a warning is one of a factor on a record that is g, which means nothing where a study chose the factor.
+pub fn is_of_factor(warning: &Warning) -> bool {
+    warning.kind == WarningKind::UnlikelyRecord && warning.contains(FROM_G)
 }
 
 /// Says of the two components of a motion that one of them alone is scaled: they are no more of one earthquake.
