@@ -26,7 +26,7 @@ pub struct Factor {
     pub name: String,
     /// Key of the study file that it stands at, for errors.
     pub key: String,
-    /// Unit that all its values have; empty for none, or where they differ.
+    /// Unit that all its values have, that of the key where they are numbers without one; empty for none, or where they differ.
     pub unit: String,
     /// Over what.
     pub over: Over,
@@ -145,6 +145,12 @@ impl Factor {
             }
             Over::Scales(_) => Vec::new(),
         }
+    }
+
+    /// Whether it changes what stands at a key of the wall file, a part of that, or more than that.
+    pub fn changes(&self, key: &str) -> bool {
+        let key = steps(key);
+        self.paths().into_iter().any(|path| meet(&steps(path), &key))
     }
 
     /// The paths that are changed at once, level by level, but for levels that change the same as the one before.
@@ -331,7 +337,12 @@ fn motion_factor(file: &StudyFile) -> Result<Factor> {
                     return Err(file.wrong(&format!("{key}.{name}.record"), what, allowed));
                 }
             }
-            let value = json(serde_json::to_value(motions::rooted(signal, &folder)))?;
+            // As the file says it: whether a number has a unit is asked about.
+            let given = file.document.given(&format!("{key}.{name}"));
+            let mut value = given.map_or_else(|| json(serde_json::to_value(signal)), Ok)?;
+            if let concio::case::Signal::Record(record) = motions::rooted(signal, &folder) {
+                value["record"] = json(serde_json::to_value(record.record))?;
+            }
             changes.push((format!("motion.{name}"), value));
         }
         if let Some(duration) = motion.duration {
@@ -383,14 +394,13 @@ impl Reader<'_> {
             (None, None) => return Err(self.wrong("", "choices have no path to be named after", "a `name`")),
         };
         let unit = match &over {
-            Over::Values(values) => values.unit.clone(),
-            Over::Levels(levels) => {
-                let labels = levels.iter().map(|l| &l.label);
-                one_unit(labels).filter(|_| v.choices.is_empty()).unwrap_or_default()
-            }
-            Over::Scales(_) => String::new(),
+            Over::Values(values) => Some(values.unit.clone()),
+            Over::Levels(levels) => one_unit(levels.iter().map(|l| &l.label)).filter(|_| v.choices.is_empty()),
+            Over::Scales(_) => None,
         };
-        Ok(Factor { name, key: self.key.clone(), unit, over })
+        // Numbers without a unit are in that of their key.
+        let of_key = |unit: String| if unit.is_empty() { concio::case::unit(v.path.as_deref()?) } else { Some(unit) };
+        Ok(Factor { name, key: self.key.clone(), unit: unit.and_then(of_key).unwrap_or_default(), over })
     }
 
     fn wrong(&self, key: &str, what: impl Into<String>, allowed: &str) -> concio::Error {

@@ -346,7 +346,8 @@ impl<'a> Seek<'a> {
         if time == Some(0.0) {
             self.cause.get_or_insert(format!("joint {name} cracks under the loads at rest, whatever the motion"));
         }
-        let warnings = row.warnings.clone();
+        // The factor is the search's own, whatever it is near to.
+        let warnings = row.warnings.iter().filter(|w| !concio::ground::coverage::is_of_factor(w)).cloned().collect();
         let trial = Trial { scale, cracked: time.is_some(), utilisation, joint: name, kind, time, warnings };
         let place = self.trials.partition_point(|t| t.scale < scale);
         self.trials.insert(place, trial);

@@ -35,7 +35,11 @@ const fn measure(name: &'static str, unit: &'static str, text: &'static str) -> 
 pub const MEASURES: [Measure; 36] = [
     measure("time_reached", "s", "time at which the run ended"),
     measure("peak_displacement", "m", "largest |displacement| of a block relative to the base"),
-    measure("peak_drift", "", "largest |displacement| of a block of a top course, over the height of its top"),
+    measure(
+        "peak_drift",
+        "",
+        "largest |displacement| of a block of a top course, over the height of its top; `concio run` tells that of the beam or the mean of the course",
+    ),
     measure("peak_joint_displacement", "m", "largest |relative displacement| of neighbouring blocks"),
     measure("peak_joint_velocity", "m/s", "largest |relative velocity| of neighbouring blocks"),
     measure("peak_joint_acceleration", "m/s²", "largest |relative acceleration| of neighbouring blocks"),

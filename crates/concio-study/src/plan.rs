@@ -7,12 +7,14 @@ use std::sync::Mutex;
 use concio::case::{Case, CaseFile, Signal, canonical_json};
 use concio::ground::Library;
 use concio::quantity::Time;
+use concio::warning::Warning;
 use concio::{Error, InputError, Result};
 use serde_json::Value;
 
 use crate::design::{At, points};
 use crate::factors::{Factor, Over, factors};
 use crate::file::StudyFile;
+use crate::intensity::Intensity;
 use crate::values::Changes;
 use crate::{groups, motions};
 
@@ -75,7 +77,7 @@ impl Plan {
             };
             for (key, changes) in levels {
                 let at = || self.lost_path(factor, &changes).unwrap_or(key);
-                self.laid(&changes).map_err(|e| self.file.of_wall(&at(), e))?;
+                self.laid(&changes).map_err(|e| self.file.of_wall(&at(), beside(e, &changes)))?;
             }
         }
         Ok(())
@@ -221,6 +223,20 @@ impl Plan {
         })
     }
 
+    /// One sentence for each acceleration of run `number` that stands in the wall file or the study file without a unit and was hardly meant in m/s². An
+    /// incremental analysis sets the strength of the motion itself, but for a factor on it.
+    pub fn unit_doubts(&self, number: usize) -> Vec<Warning> {
+        let own = self.file.study.ida.as_ref().is_some_and(|ida| ida.intensity != Intensity::Scale);
+        let set = |w: &Warning| own && w.starts_with("motion.base.");
+        let found = self.file.wall.unit_doubts_with(&self.setting(number).0);
+        found.into_iter().filter(|w| !set(w)).collect()
+    }
+
+    /// Whether the study changes what stands at a key of the wall file.
+    pub fn sets(&self, key: &str) -> bool {
+        self.factors.iter().any(|factor| factor.changes(key))
+    }
+
     /// The study's wall with some changes; groups among them are solved for when all else is as it will be.
     fn laid(&self, changes: &Changes) -> Result<CaseFile> {
         let (of_groups, plain): (Changes, Changes) =
@@ -272,6 +288,21 @@ impl Plan {
     pub fn id(&self, case: &Case) -> Result<String> {
         self.records.id(case, &self.library)
     }
+}
+
+/// Asks of a path that leads nowhere whether it is one of the wall file with a step less: `motion.base.pga`, not `motion.base.record.pga`.
+fn beside(error: Error, changes: &Changes) -> Error {
+    let Error::Input(mut error) = error else { return error };
+    let shorter = |path: &String| {
+        let steps: Vec<&str> = path.split('.').collect();
+        let without = |k: usize| [&steps[..k], &steps[k + 1..]].concat().join(".");
+        let found =
+            (1..steps.len().saturating_sub(1)).map(without).find(|other| concio::case::describe(other).is_some());
+        found.filter(|_| concio::case::describe(path).is_none())
+    };
+    let found = changes.iter().find_map(|(path, _)| shorter(path));
+    error.help = error.help.take().or(found.map(|path| format!("did you mean the path `{path}`?")));
+    Error::Input(error)
 }
 
 /// Said of a record that the system does not give.

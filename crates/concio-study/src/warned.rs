@@ -164,6 +164,8 @@ pub struct Before {
     pub lost: Vec<(String, String)>,
     /// What the design leaves out.
     pub gaps: Vec<String>,
+    /// Warnings of all runs that are read off the files alone.
+    pub read: Warned,
     /// Runs in all, of which `warned.of` and those of `lost` were looked at.
     pub all: usize,
 }
@@ -183,6 +185,7 @@ impl Before {
             .iter()
             .map(gap)
             .chain(lost)
+            .chain(self.read.sentences(&Warned::default()))
             .chain(self.warned.sentences_of(&Warned::default(), looked, self.all))
             .collect()
     }

@@ -30,7 +30,7 @@ pub use extent::Extent;
 pub use node::Syntax;
 pub use out_of_plane::{OutOfPlane, Rocking};
 pub use read::{CaseFile, canonical_json, example, from_str, read};
-pub use templates::{describe, schema, starter};
+pub use templates::{describe, schema, starter, unit};
 pub use validate::validate;
 
 pub use crate::wall::JointKind;

@@ -103,7 +103,9 @@ fn cases(plan: &Plan) -> Result<Vec<(String, Case)>> {
 fn warn(plan: &Plan) -> Warned {
     let before = asked::before(plan);
     crate::warned::warn_of_runs(&plan.file.wall, &before.sentences());
-    before.warned
+    let mut told = before.warned;
+    told.told.extend(before.read.told);
+    told
 }
 
 /// A study whose runs and questions have a meaning, as `concio study check` finds.
@@ -481,6 +483,7 @@ fn write(
     for section in sections.iter().filter(|s| !s.brief.is_empty()) {
         files::print(&format!("\n{}", section.brief))?;
     }
+    study::tell_others(out, study::Kind::Design);
     study::write(out, title, &facts, &sections)
 }
 

@@ -207,8 +207,10 @@ fn peak_drift(outcome: &Outcome) -> Answer {
     }
     let whose = match row.top.as_str() {
         BEAM => "top beam".into(),
-        _ if outcome.drifts.len() == 1 => "top".into(),
-        panel => format!("top of panel {panel}"),
+        // That of a façade is its control point.
+        _ if outcome.rocking.is_some() => "top".into(),
+        _ if outcome.drifts.len() == 1 => "mean of the top course".into(),
+        panel => format!("mean of the top course of panel {panel}"),
     };
     let note = format!("{}: {whose} at {} of {} height", at(row.time), si(peak, "m"), si(row.height, "m"));
     Answer::new("peak drift", percent(row.ratio(peak).abs()), note)

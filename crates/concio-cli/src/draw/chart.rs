@@ -221,7 +221,7 @@ fn shrunk(text: &str, size: f64, room: f64) -> f64 {
 
 /// `displacement [µm]`.
 fn name(axis: &Axis, scale: &Scale) -> String {
-    if axis.unit.is_empty() {
+    if axis.unit.is_empty() && scale.prefix.is_empty() {
         axis.quantity.clone()
     } else {
         format!("{} [{}{}]", axis.quantity, scale.prefix, axis.unit)

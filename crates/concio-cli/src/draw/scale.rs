@@ -2,10 +2,13 @@
 
 use crate::format::fixed;
 
+/// Size below which numbers without a unit are shown over a power of ten.
+const SMALL: f64 = 1e-4;
+
 /// Ticks of one axis in the unit it shows.
 #[derive(Debug, Clone)]
 pub struct Scale {
-    /// Decimal prefix of the unit.
+    /// Decimal prefix of the unit; of numbers without one a power of ten.
     pub prefix: &'static str,
     /// What values in SI are divided by.
     pub factor: f64,
@@ -51,7 +54,11 @@ impl Scale {
     pub fn linear(range: [f64; 2], unit: &str, most: usize) -> Scale {
         let largest = range.iter().fold(0.0f64, |m, v| m.max(v.abs()));
         // Times are read in seconds unless they are all short.
-        let (prefix, factor) = if unit == "s" && largest >= 0.1 { ("", 1.0) } else { prefix(largest, unit) };
+        let (prefix, factor) = match unit {
+            "s" if largest >= 0.1 => ("", 1.0),
+            "" => power(largest),
+            _ => prefix(largest, unit),
+        };
         let range = range.map(|v| v / factor);
         Scale { prefix, factor, range, step: step(range, most), logarithmic: false }
     }
@@ -112,6 +119,15 @@ pub fn around<'a>(values: impl Iterator<Item = &'a f64>, room: f64) -> [f64; 2] 
     [low - room * span, high + room * span]
 }
 
+/// A power of ten for numbers without a unit whose decimals nobody counts.
+fn power(largest: f64) -> (&'static str, f64) {
+    const POWERS: [(&str, f64); 2] = [("1e-6", 1e-6), ("1e-9", 1e-9)];
+    if largest >= SMALL || largest == 0.0 {
+        return ("", 1.0);
+    }
+    POWERS.into_iter().find(|(_, f)| largest >= *f).unwrap_or(POWERS[1])
+}
+
 /// The decimal prefix that brings `largest` between 1 and 1000, and its factor.
 pub fn prefix(largest: f64, unit: &str) -> (&'static str, f64) {
     const PREFIXES: [(&str, f64); 7] =
@@ -155,6 +171,9 @@ mod tests {
     fn labels_are_decimals() {
         let scale = Scale::linear([-2.1e-6, 3.2e-6], "m", 5);
         assert_eq!((scale.prefix, scale.labels()), ("µ", ["−2", "0", "2"].map(String::from).to_vec()));
+        let scale = Scale::linear([0.0, 3.7e-6], "", 4);
+        assert_eq!((scale.prefix, scale.labels()), ("1e-6", ["0", "1", "2", "3"].map(String::from).to_vec()));
+        assert_eq!(Scale::linear([0.0, 3.7e-4], "", 4).prefix, "");
         let scale = Scale::linear([-0.3, 0.3], "m/s²", 4);
         assert_eq!(scale.labels(), ["−0.2", "0.0", "0.2"]);
         let of = |v| logarithmic_label(v, [0.02, 10.0]);

@@ -374,7 +374,11 @@ pub(super) fn colour_bar(canvas: &mut Canvas, from: f64, width: f64, colours: &C
     canvas.path(&frame, r##"fill="none" stroke="#000" stroke-width="0.5""##, None);
     let below = y + high + 6.0 + small + 0.5 * size;
     let Colours { quantity, unit, .. } = colours;
-    let label = if unit.is_empty() { (*quantity).into() } else { format!("{quantity} [{}{unit}]", scale.prefix) };
+    let label = if unit.is_empty() && scale.prefix.is_empty() {
+        (*quantity).into()
+    } else {
+        format!("{quantity} [{}{unit}]", scale.prefix)
+    };
     canvas.text([0.5 * width, below], size, Anchor::Middle, false, "#000", &label);
     below + 0.5 * size + 4.0
 }

@@ -7,7 +7,6 @@ use concio::case::plausible::rounded;
 use concio::case::{Baseline, Case, ModelKind, Signal, TopLoad};
 use concio::ground::coverage::{Coverage, coverage};
 use concio::run::prepare_with;
-use concio::warning::Warning;
 use concio_study::Plan;
 use concio_study::design::{scarce, unreached};
 use concio_study::file::analyses::{DeviceInput, ObjectiveInput, Over, Target};
@@ -16,7 +15,7 @@ use concio_study::ida::pooled;
 use concio_study::measures::{End, Row};
 use concio_study::ranking;
 use concio_study::table::Table;
-use concio_study::warned::{Before, Told, Warned};
+use concio_study::warned::{Before, Warned};
 use serde_json::Value;
 
 use super::page::Section;
@@ -221,17 +220,21 @@ fn cut(plan: &Plan, number: usize, place: usize) -> concio::Result<Option<String
 /// What the runs of a plan warn of as far as it is known before they are done, of some of them.
 pub fn before(plan: &Plan) -> Before {
     let mut before = concio_study::warned::before(plan.points.len(), |n| plan.case(n).ok(), |n| run_name(plan, n));
-    let runs = before.warned.of;
-    let of_file = |first: Warning| Told { first, name: String::new(), runs, same: true };
-    before.warned.told.splice(0..0, unit_doubts(plan).into_iter().map(of_file));
+    for number in 0..plan.points.len() {
+        before.read.add(|| run_name(plan, number), &plan.unit_doubts(number));
+    }
+    of_study(plan, &mut before.read);
+    of_study(plan, &mut before.warned);
     before.gaps = of_design(plan);
     before
 }
 
-/// Accelerations of the wall file without a unit, of those that the study does not replace.
-fn unit_doubts(plan: &Plan) -> Vec<Warning> {
-    let replaced = |w: &Warning| !plan.file.study.motions.is_empty() && w.starts_with("motion.base.");
-    plan.file.wall.unit_doubts().into_iter().filter(|w| !replaced(w)).collect()
+/// What the study sets is no number of the wall file, whose line would be told, even where it is the same in all runs.
+fn of_study(plan: &Plan, warned: &mut Warned) {
+    for told in &mut warned.told {
+        let key = told.first.split(' ').next().unwrap_or_default().trim_end_matches(':');
+        told.same &= !plan.sets(key);
+    }
 }
 
 /// What is to be known of the study's design before anything is run.
@@ -251,6 +254,7 @@ fn of_design(plan: &Plan) -> Vec<String> {
         .cloned()
         .chain(plan.one_motion())
         .chain(pooled(plan))
+        .chain(concio_study::ida::doubts::of_numbers(&plan.file))
         .chain(unreached(&plan.factors, &plan.points));
     doubts.chain(few).chain(question.and_then(|q| q.too_few())).collect()
 }
@@ -258,11 +262,10 @@ fn of_design(plan: &Plan) -> Vec<String> {
 /// What the runs that are known warn of.
 pub fn warned(plan: &Plan, found: &[Option<&Row>]) -> Warned {
     let mut warned = Warned::default();
-    let doubts = unit_doubts(plan);
     for (number, row) in found.iter().enumerate().filter_map(|(number, row)| Some((number, (*row)?))) {
-        let all: Vec<Warning> = doubts.iter().chain(&row.warnings).cloned().collect();
-        warned.add(|| run_name(plan, number), &all);
+        warned.add(|| run_name(plan, number), &[plan.unit_doubts(number), row.warnings.clone()].concat());
     }
+    of_study(plan, &mut warned);
     warned
 }
 

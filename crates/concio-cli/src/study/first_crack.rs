@@ -163,7 +163,7 @@ fn write(request: &Request, answers: &[Answer], elastic: bool) -> Result<PathBuf
     let (doubts, doubted) = asked::warning_table(&warned(answers)).unzip();
     text.splice(0..0, doubts);
     facts.push(("runs with warnings", warned(answers).runs.to_string()));
-    let tables = vec![("First cracks".into(), summary), ("All runs".into(), runs)];
+    let tables = vec![("First cracks".into(), summary), (ALL_RUNS.into(), runs)];
     let section = Section {
         title: "First cracking".into(),
         text,
@@ -176,6 +176,7 @@ fn write(request: &Request, answers: &[Answer], elastic: bool) -> Result<PathBuf
         tables: doubted.into_iter().chain(tables).collect(),
         ..Section::default()
     };
+    super::tell_others(out, super::Kind::FirstCrack);
     super::write(out, request.title, &facts, &[&request.first, &section])
 }
 
@@ -183,6 +184,10 @@ fn criterion(question: &Question) -> String {
     let name = question.rule.criterion.name();
     question.rule.limit.map_or(name.into(), |limit| format!("{name}, {}", si(limit, "m")))
 }
+
+/// What stands above the table of all runs.
+const ALL_RUNS: &str = "All runs; utilisation is the largest demand over limit of a joint. In planar walls it leaves out how joints \
+                        turn, and is below 1 at a crack";
 
 /// One line per motion.
 fn summary(question: &Question, answers: &[Answer]) -> Table {

@@ -14,14 +14,15 @@ use concio_study::ida::hazard::{Hazard, Rate};
 use concio_study::ida::likelihood::Evidence;
 use concio_study::ida::{Analysis, Settings, tables};
 use concio_study::intensity::Intensity;
+use concio_study::measures::MEASURES;
 use concio_study::runner::{Progress, Runner};
 use concio_study::store::Store;
 use concio_study::table::{self, Table};
 use concio_study::warned::Warned;
 
-use super::asked;
 use super::page::{Figure, Section, shown};
 use super::sections::label;
+use super::{Kind, asked};
 use crate::draw::chart::{self, Axis, Line, Panel, Sheet};
 use crate::failure::{Failure, STOPPED};
 use crate::files;
@@ -34,8 +35,6 @@ use crate::warned::warn_of_runs;
 const SIZE: [f64; 2] = [420.0, 210.0];
 /// Places in the styles of the chart: a single motion, median, the other fractiles or the band.
 const ONE: usize = 5;
-/// Acceleration below which no hazard curve ends that is of use [m/s²].
-const LOW_HAZARD: f64 = 2.0;
 const MIDDLE: usize = 0;
 const OUTER: usize = 1;
 
@@ -109,13 +108,19 @@ pub fn described(plan: &Plan) -> std::result::Result<Vec<(&'static str, String)>
                 if s.intensity.unit().is_empty() { "1" } else { s.intensity.unit() }
             ),
         ),
-        ("damage", s.damage.clone()),
+        ("damage", measured(&s.damage)),
         ("limit states", s.limits.iter().map(|(n, v)| format!("{n} ({v} {})", s.unit)).collect::<Vec<_>>().join(", ")),
         ("first runs", asked.to_string()),
     ]
     .into_iter()
     .chain(hazard.map(|curve| ("hazard curve", curve)))
     .collect())
+}
+
+/// A measure with what it is.
+fn measured(name: &str) -> String {
+    let measure = MEASURES.iter().find(|m| m.name == name);
+    measure.map_or_else(|| name.into(), |m| format!("{name}: {}", m.text))
 }
 
 /// The analysis as far as the store answers it.
@@ -150,13 +155,13 @@ fn missing(analysis: &Analysis) -> usize {
 }
 
 /// What the runs of all curves warn of.
-fn warned(analysis: &Analysis) -> Warned {
+fn warned(plan: &Plan, analysis: &Analysis) -> Warned {
     let mut warned = Warned::default();
     let unit = analysis.settings.intensity.unit();
     for curve in &analysis.curves {
         for point in &curve.points {
             let name = || format!("{} at {} {unit}", curve.name, shown(point.intensity)).trim_end().to_string();
-            warned.add(name, &point.warnings);
+            warned.add(name, &[plan.unit_doubts(curve.number), point.warnings.clone()].concat());
         }
     }
     warned
@@ -171,7 +176,7 @@ fn tell(plan: &Plan, analysis: &Analysis, told: &Warned) -> std::result::Result<
         ("runs", runs.to_string()),
         ("collapse", counted(collapsed, "curve")),
     ];
-    let warned = warned(analysis);
+    let warned = warned(plan, analysis);
     rows.extend(asked::counted_warnings(&warned).map(|counts| ("warnings", counts)));
     warn_of_runs(&plan.file.wall, &warned.sentences(told));
     let failed = analysis.curves.iter().filter(|c| c.failed.is_some()).count();
@@ -243,9 +248,6 @@ fn line(settings: &Settings, found: &Found) -> String {
     }
 }
 
-/// The measure of damage whose 1 is d0.
-const OF_D0: &str = "peak_over_d0";
-
 /// What is to be known of capacities before their fit is believed.
 fn doubts(analysis: &Analysis) -> Vec<String> {
     let curves = usable(analysis);
@@ -265,26 +267,7 @@ fn doubts(analysis: &Analysis) -> Vec<String> {
             }),
         ]
     };
-    let settings = &analysis.settings;
-    let ends = settings.hazard.as_ref().and_then(|hazard| hazard.points.last()).map(|point| point[0]);
-    let low = ends.filter(|y| *y < LOW_HAZARD && settings.intensity != Intensity::Pgv).map(|y| {
-        let in_g = significant(y / concio::G, 3);
-        format!("ida.hazard.intensities end at {} m/s2, {in_g} g: did you mean \"{} g\"?", shown(y), shown(y))
-    });
-    // Of d0 a wall that is turned once falls, as a rule.
-    let beyond = settings.limits.iter().filter(|(_, value)| settings.damage == OF_D0 && *value > 1.0);
-    let beyond = beyond.map(|(name, value)| {
-        let percent = if (10.0..=100.0).contains(value) {
-            format!("; did you mean {}?", significant(0.01 * value, 2))
-        } else {
-            String::new()
-        };
-        format!(
-            "{name}: its limit is {} d0, beyond which a wall falls: its capacity is that of collapse{percent}",
-            shown(*value)
-        )
-    });
-    settings.limits.iter().flat_map(of).flatten().chain(low).chain(beyond).collect()
+    analysis.settings.limits.iter().flat_map(of).flatten().collect()
 }
 
 fn usable<'a>(analysis: &'a Analysis) -> Vec<&'a Curve> {
@@ -338,7 +321,7 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
         ..Section::default()
     };
     let case = plan.case(0)?;
-    let mut first = asked::section(plan, "curve", Some(&case), trouble(analysis))?;
+    let mut first = asked::section(plan, "curve", Some(&case), trouble(plan, analysis))?;
     let stops = analysis.stops && case.model == ModelKind::Planar;
     let stops =
         if stops { " A run ends when the wall has collapsed: its damage is that of the time before." } else { "" };
@@ -351,9 +334,10 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
         ("wall file", name(plan.file.wall.path())),
         ("curves", analysis.curves.len().to_string()),
         ("runs", analysis.curves.iter().map(|c| c.points.len()).sum::<usize>().to_string()),
-        ("runs with warnings", warned(analysis).runs.to_string()),
+        ("runs with warnings", warned(plan, analysis).runs.to_string()),
         ("failed curves", analysis.curves.iter().filter(|c| c.failed.is_some()).count().to_string()),
     ];
+    super::tell_others(out, Kind::Ida);
     super::write(out, title, &facts, &[first, fragility, incremental])
 }
 
@@ -386,7 +370,7 @@ fn ways(s: &Settings) -> String {
 }
 
 /// What became of the curves.
-fn trouble(analysis: &Analysis) -> asked::Trouble {
+fn trouble(plan: &Plan, analysis: &Analysis) -> asked::Trouble {
     let failed: Vec<&Curve> = analysis.curves.iter().filter(|c| c.failed.is_some()).collect();
     let runs: usize = analysis.curves.iter().map(|c| c.points.len()).sum();
     let collapsed = analysis.curves.iter().flat_map(|c| &c.points).filter(|p| p.collapsed).count();
@@ -402,7 +386,7 @@ fn trouble(analysis: &Analysis) -> asked::Trouble {
     let mut table = Table::default();
     table.texts("curve", failed.iter().map(|c| Some(c.name.clone())).collect());
     table.texts("cause", failed.iter().map(|c| c.failed.clone()).collect());
-    asked::Trouble { warned: warned(analysis), told: vec![told], runs: (!failed.is_empty()).then_some(table) }
+    asked::Trouble { warned: warned(plan, analysis), told: vec![told], runs: (!failed.is_empty()).then_some(table) }
 }
 
 fn intensity(s: &Settings) -> Axis {

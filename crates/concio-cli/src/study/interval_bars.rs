@@ -108,7 +108,7 @@ fn plot(
         canvas.text([place, y + height + 2.0 + 0.5 * small], small, Anchor::Middle, false, "#000", &scale.label(value));
     }
     let mut end = y + height + 3.0 + small;
-    if !group.unit.is_empty() {
+    if !group.unit.is_empty() || !scale.prefix.is_empty() {
         let unit = format!("[{}{}]", scale.prefix, group.unit);
         canvas.text([x + 0.5 * width, end + 0.5 * size], size, Anchor::Middle, false, "#000", &unit);
         end += size + 2.0;

@@ -170,3 +170,121 @@ fn check_tells_which_run_will_fail() {
     let [_, noted] = said(&desk, "study check study.toml --out out");
     holds(&noted, &["warning: run 2 (", "cannot be run: ", "bad.txt:4"]);
 }
+
+/// What a wall file is asked about, a study is: in values, choices, draws and motions.
+#[test]
+fn accelerations_without_a_unit_are_asked_about_in_studies() {
+    let pulse = "base = { pulse = { shape = \"one-sine\", acceleration = \"0.1 g\", duration = \"40 ms\" } }";
+    let motion = |name: &str, a: &str| {
+        format!("[[motion]]\nname = \"{name}\"\nduration = \"50 ms\"\n{}\n", pulse.replace("\"0.1 g\"", a))
+    };
+    let key = "motion.base.pulse.acceleration";
+    let vary = |over: &str| format!("[[vary]]\npath = \"{key}\"\n{over}\n");
+    let draws = "[design]\nkind = \"random\"\nruns = 2\n";
+    let asked = format!("{key} is 0.2 m/s2, a number without a unit; did you mean \"0.2 g\"?");
+    for (study, says) in [
+        (vary("values = [0.2, 0.4]"), Some(&*asked)),
+        (
+            format!("[[vary]]\nname = \"a\"\nchoices = [{{ name = \"x\", set = {{ \"{key}\" = 0.2 }} }}]\n"),
+            Some(&*asked),
+        ),
+        (
+            format!("{draws}{}", vary("distribution = { law = \"uniform\", low = 0.2, high = 0.4 }")),
+            Some("a number without a unit"),
+        ),
+        (motion("a", "0.2") + &motion("b", "\"0.7 g\""), Some(&*asked)),
+        // With a unit it is meant, however small it is in SI; so is a large number.
+        (vary("values = [\"0.02 g\", \"0.04 g\"]"), None),
+        (vary("values = [2, 4]"), None),
+        (motion("a", "\"0.1 g\""), None),
+    ] {
+        let desk = desk(&format!("wall = \"wall.toml\"\n{study}"));
+        let [_, told] = said(&desk, "study check study.toml");
+        let Some(says) = says else {
+            assert!(!told.contains("without a unit"), "{study}: {told}");
+            continue;
+        };
+        holds(&told, &[says]);
+        // No line of the wall file says it.
+        assert!(!told.contains("wall.toml:"), "{told}");
+        if says == asked && study.starts_with("[[vary]]\npath") {
+            let [told, notes] = said(&desk, "study run study.toml --out out");
+            holds(&notes, &[says]);
+            holds(&told, &["unlikely-number 2"]);
+            holds(&desk.get("out/report.html"), &["a number without a unit", "motion.base.pulse.acceleration [m/s²]"]);
+            assert!(desk.get("out/runs.csv").contains("motion.base.pulse.acceleration [m/s²]"));
+        }
+    }
+}
+
+/// Numbers of `[ida]` without a unit, and what chosen factors are not asked about.
+#[test]
+fn numbers_of_an_incremental_analysis_are_asked_about() {
+    let motion = "[[motion]]\nname = \"a\"\nduration = \"50 ms\"\n\
+                  base = { pulse = { shape = \"one-sine\", acceleration = 0.1, duration = \"40 ms\" } }\n";
+    let of = |damage: &str, limit: &str, rest: &str| {
+        format!(
+            "wall = \"wall.toml\"\n{motion}[ida]\ndamage = \"{damage}\"\nlimits = [{{ name = \"L\", value = {limit} }}]\n{rest}\n"
+        )
+    };
+    let g = "intensities = [\"0.2 g\", \"0.6 g\"]";
+    for (study, says) in [
+        (of("peak_displacement", "10", g), "ida.limits[0].value is 10 m, more than 0.5 m; did you mean \"10 mm\"?"),
+        (of("peak_drift", "1", g), "ida.limits[0].value is 1, more than 0.2: a drift of 100 %; did you mean 0.01?"),
+        (
+            of("peak_drift", "0.01", "intensities = [0.2, 0.6]"),
+            "ida.intensities go up to 0.6 m/s2, numbers without a unit; did you mean \"0.6 g\"",
+        ),
+        (
+            of("peak_drift", "0.01", "hunt = { first = 0.1, step = 0.1, most = 2 }"),
+            "ida.hunt.first, step and most go up to 2 m/s2",
+        ),
+        (
+            of("peak_drift", "0.01", &format!("intensity = \"sa\"\nperiod = 300\n{g}")),
+            "ida.period is 300 s, more than 10 s; did you mean \"300 ms\"?",
+        ),
+        (
+            of("peak_drift", "0.01", &format!("intensity = \"pgv\"\nintensities = [10, 20]")),
+            "the largest of ida.intensities is 20 m/s, more than 4 m/s; did you mean \"20 cm/s\"?",
+        ),
+    ] {
+        let [_, told] = said(&desk(&study), "study check study.toml");
+        holds(&told, &[says]);
+    }
+    for study in [
+        of("peak_drift", "\"1 %\"", g),
+        of("peak_displacement", "\"1 m\"", g),
+        of("peak_drift", "0.02", "intensities = [2, 6]"),
+    ] {
+        let [told, notes] = said(&desk(&study), "study check study.toml");
+        assert!(!notes.contains("did you mean"), "{notes}");
+        holds(&told, &["damage", "L ("]);
+    }
+    // In per cent, and with what the measure is beside what a run tells.
+    let [told, _] = said(&desk(&of("peak_drift", "\"1 %\"", g)), "study check study.toml");
+    holds(&told, &["L (0.01 )", "`concio run` tells that of the beam or the mean of the course"]);
+}
+
+/// A record of 1 m/s² is brought to 9.81 m/s² by a factor that the analysis chose.
+#[test]
+fn a_factor_that_an_analysis_chose_is_not_asked_about() {
+    let study = "wall = \"wall.toml\"\n[[motion]]\nname = \"a\"\nbase = { record = \"a.txt\", units = \"m/s2\" }\n[ida]\n\
+                 damage = \"peak_drift\"\nlimits = [{ name = \"L\", value = 0.01 }]\nintensities = [\"1 g\"]\n";
+    let desk = desk(study);
+    let sample = |k: usize| (k as f64 * 0.3).sin() * (-(k as f64 - 5.236).powi(2) / 100.0).exp();
+    let most = (0..60).map(|k| sample(k).abs()).fold(0.0, f64::max);
+    let lines: String = (0..60).map(|k| format!("{} {}\n", k as f64 * 0.02, sample(k) / most)).collect();
+    desk.put("a.txt", lines);
+    let [_, told] = said(&desk, "study run study.toml --out out");
+    assert!(!told.contains("conversion to or from g"), "{told}");
+    assert!(desk.get("out/ida.csv").contains("9.8"), "{}", desk.get("out/ida.csv"));
+    // Tables of another question are told of and stay.
+    desk.put("plain.toml", "wall = \"wall.toml\"\n[[vary]]\npath = \"joint.friction.static\"\nvalues = [0.4]\n");
+    let [_, told] = said(&desk, "study run plain.toml --out out");
+    holds(&told, &["ida.csv, capacities.csv, fragility.csv in out are of an earlier question"]);
+    assert!(desk.get("out/ida.csv").contains("9.8"));
+    // And a path with a step too many is told the other.
+    desk.put("path.toml", "wall = \"wall.toml\"\n[[vary]]\npath = \"motion.base.record.pga\"\nvalues = [\"0.3 g\"]\n");
+    let done = desk.concio("study check path.toml").assert().failure();
+    holds(&String::from_utf8_lossy(&done.get_output().stderr), &["did you mean the path `motion.base.pga`?"]);
+}

@@ -7,6 +7,7 @@
 //! draw of parameters and motion.
 
 pub mod curve;
+pub mod doubts;
 pub mod fragility;
 pub mod hazard;
 pub mod hunt;
@@ -17,6 +18,7 @@ use std::collections::HashMap;
 
 use concio::Result;
 use concio::case::{Case, ModelKind, StopAt};
+use concio::ground::coverage::is_of_factor;
 use concio::quantity::{Acceleration, Length, Time, Velocity, shown};
 use concio::run::Control;
 use serde_json::Value;
@@ -26,7 +28,7 @@ use crate::factors::Factor;
 use crate::file::analyses::{HazardInput, Ida};
 use crate::file::{DesignKind, StudyFile};
 use crate::intensity::Intensity;
-use crate::measures::{MEASURES, Row, ends_with_collapse};
+use crate::measures::{MEASURES, Measure, Row, ends_with_collapse};
 use crate::runner::Runner;
 use crate::values::few;
 use curve::{Curve, Point};
@@ -34,6 +36,9 @@ use hazard::Hazard;
 
 /// Measures that do not grow with the shaking.
 const NO_DAMAGE: [&str; 6] = ["time_reached", "first_crack", "first_lift_off", "energy_residual", "steps", "collapse"];
+/// Measures that are ratios, of which a limit may be given in per cent, and that whose 1 is d0.
+const RATIOS: [&str; 2] = ["peak_drift", OF_D0];
+const OF_D0: &str = "peak_over_d0";
 /// Intensities of a list, and runs of a curve.
 const MOST_PER_CURVE: usize = 1000;
 /// Limit states.
@@ -134,13 +139,13 @@ pub fn settings(file: &StudyFile) -> Result<Option<Settings>> {
         let what = format!("{} is out of range", shown(ida.confidence));
         return Err(file.wrong("ida.confidence", what, "between 0 and 1"));
     }
-    let collapse = ida.collapse.as_ref().map(|v| above(file, "ida.collapse", v, measure.unit)).transpose()?;
+    let collapse = ida.collapse.as_ref().map(|v| damage(file, "ida.collapse", v, measure)).transpose()?;
     Ok(Some(Settings {
         intensity: ida.intensity,
         period,
         damage: ida.damage.clone(),
         unit: measure.unit,
-        limits: limits(file, ida, measure.unit, collapse)?,
+        limits: limits(file, ida, measure, collapse)?,
         collapse: collapse.unwrap_or(f64::INFINITY),
         way: way(file, ida)?,
         hazard: ida.hazard.as_ref().map(|input| hazard(file, input, ida.intensity)).transpose()?,
@@ -148,7 +153,7 @@ pub fn settings(file: &StudyFile) -> Result<Option<Settings>> {
     }))
 }
 
-fn limits(file: &StudyFile, ida: &Ida, unit: &str, collapse: Option<f64>) -> Result<Vec<(String, f64)>> {
+fn limits(file: &StudyFile, ida: &Ida, measure: &Measure, collapse: Option<f64>) -> Result<Vec<(String, f64)>> {
     if ida.limits.is_empty() {
         return Err(file.wrong("ida.limits", "there are no limit states", "at least one `{ name = …, value = … }`"));
     }
@@ -156,7 +161,7 @@ fn limits(file: &StudyFile, ida: &Ida, unit: &str, collapse: Option<f64>) -> Res
     let mut limits: Vec<(String, f64)> = Vec::new();
     for (i, limit) in ida.limits.iter().enumerate() {
         let key = format!("ida.limits[{i}].value");
-        let value = above(file, &key, &limit.value, unit)?;
+        let value = damage(file, &key, &limit.value, measure)?;
         if collapse.is_some_and(|c| value > c) {
             return Err(file.wrong(&key, "lies beyond `collapse`", "up to `collapse`"));
         }
@@ -250,6 +255,22 @@ fn allowed(range: &str, unit: &str) -> String {
 fn above(file: &StudyFile, key: &str, value: &Value, unit: &str) -> Result<f64> {
     let found = number(value, unit).filter(|v| *v > 0.0 && v.is_finite());
     found.ok_or_else(|| file.wrong(key, format!("{value} is out of range"), &allowed("above 0", unit)))
+}
+
+/// A value of the measure of damage in SI.
+fn damage(file: &StudyFile, key: &str, value: &Value, measure: &Measure) -> Result<f64> {
+    if !RATIOS.contains(&measure.name) {
+        return above(file, key, value, measure.unit);
+    }
+    ratio(value).filter(|v| *v > 0.0 && v.is_finite()).ok_or_else(|| {
+        file.wrong(key, format!("{value} is out of range"), "above 0: a number, or a text in per cent such as \"1 %\"")
+    })
+}
+
+/// A ratio: a number, or a text in per cent.
+fn ratio(value: &Value) -> Option<f64> {
+    let Some(text) = value.as_str() else { return value.as_f64() };
+    text.trim().strip_suffix('%')?.trim().parse::<f64>().ok().map(|percent| percent / 100.0)
 }
 
 /// A value in SI: a number, or a text with a unit of the same kind.
@@ -371,7 +392,9 @@ impl<'a> Analysis<'a> {
         let curve = &mut self.curves[number];
         let scale = intensity / curve.unit;
         match Point::of(intensity, scale, row, &self.settings) {
-            Ok(point) => {
+            Ok(mut point) => {
+                // The factor is the analysis's own, whatever it is near to.
+                point.warnings.retain(|w| self.settings.intensity == Intensity::Scale || !is_of_factor(w));
                 let place = curve.points.partition_point(|p| p.intensity < intensity);
                 curve.points.insert(place, point);
             }

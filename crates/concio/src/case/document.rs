@@ -108,6 +108,11 @@ impl Document {
         path.split('.').try_fold(&self.tree, |node, step| node.get(step)).is_some()
     }
 
+    /// What the file says at a key such as `motion[0].base`, with the units that it gives.
+    pub fn given(&self, path: &str) -> Option<serde_json::Value> {
+        self.tree.below(path).map(super::change::to_json)
+    }
+
     /// Adds file, line and column to an error about a key; a key that the file leaves out stands where its nearest
     /// table does. Errors that name a place already stay as they are.
     pub fn locate(&self, error: InputError) -> InputError {

@@ -92,6 +92,21 @@ impl Node {
             entries.push(Entry { key: key.to_string(), at, node: Node { at, value } });
         }
     }
+    /// What a key path such as `joint.change[0].device` leads to.
+    pub fn below(&self, path: &str) -> Option<&Node> {
+        path.split(['.', '[']).filter(|s| !s.is_empty()).try_fold(self, |node, step| {
+            match (&node.value, step.strip_suffix(']')) {
+                (Value::List(items), Some(index)) => items.get(index.parse::<usize>().ok()?),
+                _ => node.get(step),
+            }
+        })
+    }
+    /// A table of those of its keys that are asked for.
+    pub fn part(&self, keys: &[&str]) -> Node {
+        let of = |entries: &[Entry]| entries.iter().filter(|e| keys.contains(&e.key.as_str())).cloned().collect();
+        let value = if let Value::Table(entries) = &self.value { Value::Table(of(entries)) } else { Value::Null };
+        Node { at: self.at, value }
+    }
     /// Byte at which a key path (`panel[0].brick.length`) stands; of a key that is absent, its nearest ancestor.
     pub fn find(&self, path: &str) -> usize {
         let (mut node, mut at) = (self, self.at);

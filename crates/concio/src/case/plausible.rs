@@ -15,18 +15,20 @@ use crate::quantity::{Stiffness, shown};
 use crate::warning::{Warning, WarningKind};
 
 /// What a quantity is expected to be, in SI.
-struct Expected {
+#[derive(Debug, Clone, Copy)]
+pub struct Expected {
     /// Limits beyond which a warning is due.
-    limits: [f64; 2],
+    pub limits: [f64; 2],
     /// What it mostly is: a guess at what was meant lies in here.
-    usual: [f64; 2],
+    pub usual: [f64; 2],
     /// Unit of the limits in a message.
-    unit: &'static str,
+    pub unit: &'static str,
     /// Mistakes of unit: factor on the number as it was read, unit in which the guess is written, that unit in SI.
-    slips: &'static [(f64, &'static str, f64)],
+    pub slips: &'static [(f64, &'static str, f64)],
 }
 
-const FROM_MM: (f64, &str, f64) = (1e-3, "mm", 1e-3);
+/// Millimetres that were read as metres.
+pub const FROM_MM: (f64, &str, f64) = (1e-3, "mm", 1e-3);
 const FROM_CM: (f64, &str, f64) = (1e-2, "cm", 1e-2);
 
 /// Brick lengths and heights: from a chip of stone to the largest ashlar.
@@ -435,6 +437,29 @@ fn shakes(hazard: &Hazard) -> Option<f64> {
     ground.or_else(|| hazard.accelerations.first().map(|a| a.si()))
 }
 
+impl Expected {
+    /// Says of a value beyond the limits that it is; `why` follows the limit. Zero is always meant.
+    pub fn doubt(&self, key: &str, value: f64, why: &str) -> Option<Warning> {
+        let [low, high] = self.limits;
+        let size = value.abs();
+        if size == 0.0 || (low..=high).contains(&size) {
+            return None;
+        }
+        let (than, limit) = if size < low { ("less", low) } else { ("more", high) };
+        let within = |v: f64| (self.usual[0]..=self.usual[1]).contains(&v);
+        let guess = self.slips.iter().find(|(factor, ..)| within(size * factor));
+        let meant = guess.map_or(String::new(), |&(factor, unit, si)| {
+            let number = shown(rounded(value * factor / si, 6));
+            let number = if unit.is_empty() { number } else { format!("\"{number} {unit}\"") };
+            format!("; did you mean {number}?")
+        });
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let text =
+            format!("{key} is {}{unit}, {than} than {}{unit}{why}{meant}", shown(rounded(value, 6)), shown(limit));
+        Some(Warning::new(WarningKind::UnlikelyNumber, text))
+    }
+}
+
 struct Doubts(Vec<Warning>);
 
 impl Doubts {
@@ -449,23 +474,7 @@ impl Doubts {
 
     /// [`Doubts::look`], with what follows the limit in the message.
     fn look_because(&mut self, key: &str, value: f64, expected: &Expected, why: &str) {
-        let [low, high] = expected.limits;
-        let size = value.abs();
-        if size == 0.0 || (low..=high).contains(&size) {
-            return;
-        }
-        let (than, limit) = if size < low { ("less", low) } else { ("more", high) };
-        let within = |v: f64| (expected.usual[0]..=expected.usual[1]).contains(&v);
-        let guess = expected.slips.iter().find(|(factor, ..)| within(size * factor));
-        let meant = guess.map_or(String::new(), |&(factor, unit, si)| {
-            let number = shown(rounded(value * factor / si, 6));
-            let number = if unit.is_empty() { number } else { format!("\"{number} {unit}\"") };
-            format!("; did you mean {number}?")
-        });
-        let unit = if expected.unit.is_empty() { String::new() } else { format!(" {}", expected.unit) };
-        let text =
-            format!("{key} is {}{unit}, {than} than {}{unit}{why}{meant}", shown(rounded(value, 6)), shown(limit));
-        self.add(WarningKind::UnlikelyNumber, text);
+        self.0.extend(expected.doubt(key, value, why));
     }
 
     /// What stands in a list of `[out_of_plane]` twice, number for number.
@@ -531,8 +540,13 @@ fn bare(node: &Node) -> Option<f64> {
 /// Columns of accelerations without a unit, all of them small.
 fn bare_columns(key: &str, node: Option<&Node>) -> Option<Warning> {
     let Value::List(all) = &node?.value else { return None };
-    // One with a unit says that the others are meant as they stand.
-    let values: Vec<f64> = all.iter().map(bare).collect::<Option<_>>()?;
+    bare_list(key, all.iter().map(bare))
+}
+
+/// Accelerations at `key` [m/s²], all of them so small that they read like multiples of g; none stands for one with a unit, which says that the
+/// others are meant as they stand.
+pub fn bare_list(key: &str, all: impl IntoIterator<Item = Option<f64>>) -> Option<Warning> {
+    let values: Vec<f64> = all.into_iter().collect::<Option<_>>()?;
     let largest = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
     (SHAKING.limits[0]..SMALL_SPECTRUM).contains(&largest).then(|| {
         let largest = shown(largest);
@@ -542,6 +556,9 @@ fn bare_columns(key: &str, node: Option<&Node>) -> Option<Warning> {
         Warning::new(WarningKind::UnlikelyNumber, text)
     })
 }
+
+/// Tables of a wall file that [`bare_accelerations`] looks at.
+pub(super) const WITH_ACCELERATIONS: [&str; 2] = ["motion", "out_of_plane"];
 
 /// One sentence for each peak acceleration and each spectrum written without a unit that reads like a multiple of g.
 pub(super) fn bare_accelerations(tree: &Node) -> Vec<Warning> {

@@ -72,7 +72,19 @@ impl CaseFile {
     /// m/s²: `pga = 0.3`. Beside the doubts that [`crate::run::prepare`] has of the values alone, which do not know
     /// whether there was a unit.
     pub fn unit_doubts(&self) -> Vec<Warning> {
-        plausible::bare_accelerations(&self.document.tree)
+        self.unit_doubts_with(&[])
+    }
+    /// The same of the wall that some changes make ([`CaseFile::changed`]); those that lead nowhere are passed over.
+    pub fn unit_doubts_with(&self, changes: &[(String, serde_json::Value)]) -> Vec<Warning> {
+        // Walls given block by block are large, and nothing of them is looked at.
+        let mut tree = self.document.tree.part(&plausible::WITH_ACCELERATIONS);
+        let key = |path: &str| plausible::WITH_ACCELERATIONS.contains(&path.split('.').next().unwrap_or(path));
+        for (path, value) in changes.iter().filter(|(path, _)| key(path)) {
+            if change::set(&mut tree, path, value).is_err() {
+                continue;
+            }
+        }
+        plausible::bare_accelerations(&tree)
     }
     /// Line from 1 of what a doubt begins with the key of ([`plausible::doubts`]); none for other sentences.
     pub fn line_of(&self, doubt: &str) -> Option<usize> {
@@ -149,7 +161,7 @@ fn described(mut fault: Fault, tree: &Node) -> Fault {
     if e.what == de::UNKNOWN
         && let Some((device, _)) = e.key.as_deref().and_then(|key| key.rsplit_once('.'))
         && device.ends_with(".device")
-        && let Some(law) = below(tree, device).and_then(|d| d.get("law")).and_then(Node::text)
+        && let Some(law) = tree.below(device).and_then(|d| d.get("law")).and_then(Node::text)
         && let Some(law) = DeviceLaw::named(law)
     {
         e.allowed = Some(format!("`law`, and of law `{}` {}", law.name(), validate::device_keys(law)));
@@ -186,16 +198,6 @@ fn described(mut fault: Fault, tree: &Node) -> Fault {
     fault
 }
 
-/// The part of the tree that a path such as `joint.change[0].device` leads to.
-fn below<'t>(tree: &'t Node, path: &str) -> Option<&'t Node> {
-    path.split(['.', '[']).filter(|s| !s.is_empty()).try_fold(tree, |node, step| {
-        match (&node.value, step.strip_suffix(']')) {
-            (Value::List(items), Some(index)) => items.get(index.parse::<usize>().ok()?),
-            _ => node.get(step),
-        }
-    })
-}
-
 /// Asks whether a key beside the missing one, unknown itself, is that key with a typing error.
 fn misspelt(tree: &Node, missing: &str) -> Option<String> {
     let name = missing.rsplit_once('.').map_or(missing, |(_, name)| name);
@@ -205,7 +207,7 @@ fn misspelt(tree: &Node, missing: &str) -> Option<String> {
 /// The entry of such a key.
 fn entry_like<'t>(tree: &'t Node, missing: &str) -> Option<&'t Entry> {
     let (above, name) = missing.rsplit_once('.').map_or(("", missing), |(above, name)| (above, name));
-    let table = below(tree, above)?;
+    let table = tree.below(above)?;
     let Value::Table(entries) = &table.value else { return None };
     let path = |key: &str| if above.is_empty() { key.to_string() } else { format!("{above}.{key}") };
     let unknown = entries.iter().map(|e| e.key.as_str()).filter(|k| super::describe(&path(k)).is_none());

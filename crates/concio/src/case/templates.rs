@@ -1,5 +1,7 @@
 //! What helps to write a wall file: the JSON Schema and the starter files.
 
+use std::sync::OnceLock;
+
 use serde_json::{Map, Value, json};
 
 use super::schema::{follow, referred, steps};
@@ -73,6 +75,18 @@ pub fn describe(key: &str) -> Option<String> {
     let schema = schema();
     let found = follow(&schema, &schema, &steps(key))?;
     found.get("description").and_then(Value::as_str).map(|text| text.replace('\n', " "))
+}
+
+/// Unit of a number without one at a key such as `motion.base.pga`: m/s²; none of pure numbers and of keys whose unit depends on others.
+pub fn unit(key: &str) -> Option<String> {
+    // A study asks for each of its factors.
+    static SCHEMA: OnceLock<Value> = OnceLock::new();
+    let schema = SCHEMA.get_or_init(schema);
+    let text = follow(schema, schema, &steps(key))?.get("description")?.as_str()?;
+    let (_, behind) = text.split_once('[')?;
+    let (unit, rest) = behind.split_once(']')?;
+    let is_unit = !rest.contains('[') && unit.chars().all(|c| c.is_alphabetic() || matches!(c, '/' | '²' | '³' | ' '));
+    is_unit.then(|| unit.to_string())
 }
 
 /// The words that a key may stand for; none where it takes others too.

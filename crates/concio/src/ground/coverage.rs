@@ -224,7 +224,7 @@ fn beyond_recorded(case: &Case, name: &str, record: &Record, meant: bool) -> Opt
     let most = if case.model == ModelKind::Rocking || !meant { STRONGEST } else { NAMED };
     (peak > most).then(|| {
         let [peak, most] = [peak, most].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
-        format!("motion.{name}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, which few records have: look at its unit, its interval, `scale` and `pga`")
+        format!("motion.{name}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, {RARE}: look at its unit, its interval, `scale` and `pga`")
     })
 }
 
@@ -244,6 +244,10 @@ fn in_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String
     })
 }
 
+/// What such a factor is called, and so large a peak.
+const FROM_G: &str = "a conversion to or from g";
+const RARE: &str = "which few records have";
+
 /// Says of a factor that is g, or one over g, in a unit of acceleration: files and `units` say theirs, and g would count twice.
 fn of_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String> {
     let scale = input.scale.filter(|_| input.quantity == HistoryQuantity::Acceleration)?;
@@ -253,10 +257,15 @@ fn of_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String
         let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs())) / STANDARD_GRAVITY;
         let [scale, peak, without] = [scale, peak, peak / scale.abs()].map(|v| shown(rounded(v, 3)));
         format!(
-            "motion.{name}.scale is {scale}, a conversion to or from g, but records are converted by their own unit: the peak is {peak} g as it moves the wall, \
+            "motion.{name}.scale is {scale}, {FROM_G}, but records are converted by their own unit: the peak is {peak} g as it moves the wall, \
              {without} g without `scale`. Leave `scale` out; a text file of another unit takes `units`, such as \"g\""
         )
     })
+}
+
+/// Whether a warning is one of a factor on a record that is g, or of the peak that it comes to: it means nothing where a study chose the factor.
+pub fn is_of_factor(warning: &Warning) -> bool {
+    warning.kind == WarningKind::UnlikelyRecord && (warning.contains(FROM_G) || warning.contains(RARE))
 }
 
 /// Says of the two components of a motion that one of them alone is scaled: they are no more of one earthquake.
