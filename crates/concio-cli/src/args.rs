@@ -513,10 +513,19 @@ fn metres(text: &str) -> Result<f64, String> {
 }
 
 /// A modulus above 0 in Pa.
-fn stress(text: &str) -> Result<f64, String> {
+fn modulus(text: &str) -> Result<f64, String> {
+    // Bricks have 0.05 to 70 GPa: the size of a bare number tells its unit.
+    with_unit(
+        text,
+        match text.trim().parse::<f64>().unwrap_or(0.0).abs() {
+            size if size < 100.0 => "GPa",
+            size if size < 1e6 => "MPa",
+            _ => "Pa",
+        },
+    )?;
     match pressure(text)? {
         v if v > 0.0 => Ok(v),
-        _ => Err("allowed: above 0MPa".into()),
+        _ => Err("allowed: above 0GPa".into()),
     }
 }
 
@@ -924,7 +933,7 @@ pub struct Continuum {
     #[arg(long)]
     pub repeated: bool,
     /// Young's modulus of bricks that deform, such as 10GPa; default rigid bricks.
-    #[arg(long, value_name = "STRESS", value_parser = stress)]
+    #[arg(long, value_name = "STRESS", value_parser = modulus)]
     pub brick_modulus: Option<f64>,
     /// Their Poisson's ratio, above -1 to 0.5.
     #[arg(long, value_name = "NU", default_value_t = 0.2, requires = "brick_modulus", allow_negative_numbers = true)]

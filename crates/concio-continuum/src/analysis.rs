@@ -26,6 +26,8 @@ const FEW_DIRECTIONS: usize = 60;
 const SMALL_CELL: usize = 12;
 /// E of what masonry is built of is less [Pa]: bricks have 5 to 30 GPa, granite and basalt up to some 70 GPa.
 const STIFFEST: f64 = 70e9;
+/// E of the softest adobe [Pa]; most have 0.1 to 1 GPa, bricks more.
+const SOFTEST: f64 = 50e6;
 /// 2 (1 − ν)/(1 − 2ν) of a thin layer that bricks hold, ν = 0.2; and E/G, Concio's default.
 const HELD_LAYER: f64 = 8.0 / 3.0;
 const FREE_LAYER: f64 = 2.4;
@@ -143,7 +145,7 @@ pub fn analyse(case: &Case, panel: usize, options: Options) -> Result<Found, Con
     let pattern = texture.pattern(panel, options.repeated)?;
     let given = &case.panels[panel];
     let mut assumed = assumed(&texture, panel, options);
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<String> = options.brick.and_then(|[modulus, _]| odd_brick(modulus)).into_iter().collect();
     let own: Vec<&concio::wall::Block> = texture.wall.blocks.iter().filter(|b| b.panel == panel).collect();
     let ends = |axis: fn(&concio::wall::Block) -> [f64; 2]| {
         own.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |e, b| [e[0].min(axis(b)[0]), e[1].max(axis(b)[1])])
@@ -267,6 +269,23 @@ pub fn analyse(case: &Case, panel: usize, options: Options) -> Result<Found, Con
         scale,
         assumed,
         warnings,
+    })
+}
+
+/// Says of bricks [Pa] that they are softer than adobe, or stiffer than stone, mostly by their unit.
+fn odd_brick(modulus: f64) -> Option<String> {
+    let [mega, giga] = [1e-6, 1e-9].map(|unit| rounded(unit * modulus));
+    if modulus > STIFFEST {
+        let most = 1e-9 * STIFFEST;
+        return Some(format!(
+            "bricks of {giga} GPa are stiffer than any brick or stone, which have up to {most:.0} GPa"
+        ));
+    }
+    (modulus < SOFTEST).then(|| {
+        let meant = (SOFTEST..=STIFFEST).contains(&(1e3 * modulus));
+        let meant = if meant { format!(": were {mega} GPa meant?") } else { String::new() };
+        let least = 1e-6 * SOFTEST;
+        format!("bricks of {mega} MPa are softer than adobe, which has {least:.0} MPa or more; burnt bricks have 1 to 30 GPa{meant}")
     })
 }
 

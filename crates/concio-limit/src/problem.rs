@@ -1,10 +1,10 @@
 //! From a wall file to blocks, contact points, friction and loads.
 
 use concio::assign::{self, JointLaw};
-use concio::case::{Beam, BeamRotation, Case, JointKind, ModelKind, Motion, NormalForce};
+use concio::case::{Beam, BeamRotation, Case, JointKind, Joints, ModelKind, Motion, NormalForce};
 use concio::model::Model;
 use concio::planar;
-use concio::quantity::Time;
+use concio::quantity::{Stress, Time};
 use concio::wall::{Joint, Wall};
 use concio::{G, InputError, Result, run};
 use concio_planar::body::Body;
@@ -153,10 +153,20 @@ fn at_rest(case: &Case) -> Result<Case> {
     case.output = Default::default();
     // A model has the friction of those joints alone that carry load by its own account; by this one all do.
     case.joint.friction.normal_force = NormalForce::Overburden;
-    // Nor does it matter here whether a bond would snap back.
-    case.joint.bond = None;
-    case.joint.changes.iter_mut().for_each(|change| change.bond = None);
+    // Nor does it matter here whether a bond would snap back. Without it `elastic` joints could not crush, and here none does.
+    let joint = &mut case.joint;
+    joint.bond = None;
+    joint.changes.iter_mut().for_each(|change| change.bond = None);
+    strengths(joint).into_iter().for_each(|strength| *strength = None);
     Ok(case)
+}
+
+/// Where joints may have a compressive strength.
+fn strengths(joint: &mut Joints) -> Vec<&mut Option<Stress>> {
+    let others = [&mut joint.base, &mut joint.top, &mut joint.connection].into_iter().flatten();
+    let springs = [&mut joint.bed, &mut joint.head].into_iter().chain(others).map(|s| &mut s.compressive_strength);
+    let changes = joint.changes.iter_mut().filter_map(|change| change.spring.as_mut());
+    springs.chain(changes.map(|spring| &mut spring.compressive_strength)).collect()
 }
 
 fn warnings(case: &Case, model: &Model, sides: &[Sides]) -> Vec<String> {
@@ -177,8 +187,7 @@ fn warnings(case: &Case, model: &Model, sides: &[Sides]) -> Vec<String> {
             "of the {all:.2} kN that load.top brings, {has:.2} kN push: the rest has no mass, and presses alone. Leave load.mass out, and all of it pushes"
         )
     });
-    let crushes = case.joint.bed.compressive_strength.is_some()
-        || case.joint.changes.iter().any(|c| c.spring.is_some_and(|s| s.compressive_strength.is_some()));
+    let crushes = strengths(&mut case.joint.clone()).iter().any(|strength| strength.is_some());
     let crushes = crushes.then(|| {
         "compressive_strength is left out: joints bear any pressure at their edges, and the multiplier is too high where they would crush".to_string()
     });

@@ -112,7 +112,12 @@ impl Rocking {
 
     /// d0 outwards: where the weights hold no longer, ties and friction left out; none where they hold at any turn.
     pub fn d0(&self) -> Option<Capacity> {
-        self.system.capacity()
+        self.system.capacity(0)
+    }
+
+    /// The same inwards, its displacement negative; none either where the wall does not rock to that side.
+    pub fn d0_inwards(&self) -> Option<Capacity> {
+        self.system.capacity(1)
     }
 
     /// Velocity that an impact at the end of a turn outwards leaves over that before: (OP11), or as given.

@@ -45,6 +45,7 @@ pub fn of(case: &Case) -> Result<Wall> {
             "the file has no such table: a bare wall on the ground, without floors, ties, side walls and site",
         );
     }
+    leave_out_the_plane(case, &mut assumed);
     let masonry = masonry(case, &laid, &mut assumed);
     let extent = ends(masonry.pieces.iter().map(|p| p.y));
     let top = masonry.top();
@@ -87,6 +88,22 @@ pub fn of(case: &Case) -> Result<Wall> {
     refuse_spectra_above(given, &wall)?;
     wall.assumed = assumed.0;
     Ok(wall)
+}
+
+/// What holds or pushes a wall in its plane alone.
+fn leave_out_the_plane(case: &Case, assumed: &mut Assumptions) {
+    let ties = "not read: ties of the plane hold nothing across it; `out_of_plane.anchor` does";
+    let bond = "not read: joints bear no tension and no cohesion out of the plane, as masonry without tensile strength";
+    let forces = "not read: forces on blocks act in the plane; `out_of_plane.floor` has `push` and `thrust`";
+    let bonded = case.joint.changes.iter().position(|change| change.bond.is_some());
+    let change = bonded.map_or(String::new(), |number| format!("joint.change[{number}].bond"));
+    let given = [
+        ("tie", !case.ties.is_empty(), ties),
+        ("joint.bond", case.joint.bond.is_some(), bond),
+        (&change, bonded.is_some() && case.joint.bond.is_none(), bond),
+        ("force", !case.forces.is_empty(), forces),
+    ];
+    given.into_iter().filter(|(_, given, _)| *given).for_each(|(key, _, what)| assumed.add(key, what));
 }
 
 fn add_floors(facade: &mut Wall, case: &Case, given: &OutOfPlane, assumed: &mut Assumptions) -> Result<()> {
@@ -554,8 +571,9 @@ fn building(given: &OutOfPlane, wall: &Wall, assumed: &mut Assumptions) -> Resul
         assumed.add(
             "out_of_plane.building",
             format!(
-                "as high as the wall, {} m, with {storeys} storeys: T_1 {:.3} s, γ_1 {:.3}, ξ_1 5 %",
+                "as high as the wall, {} m, with {storeys} storey{}: T_1 {:.3} s, γ_1 {:.3}, ξ_1 5 %",
                 shown(rounded(built.height)),
+                if storeys == 1 { "" } else { "s" },
                 built.period,
                 built.participation
             ),
@@ -614,12 +632,16 @@ pub fn doubts(case: &Case, wall: &Wall) -> Vec<Warning> {
     };
     for (i, own) in given.floors.iter().enumerate() {
         let floor = own.load.si();
-        let same = load > 0.0 && (load - floor).abs() <= SAME_LOAD * load;
-        if same && (own.z.si() - wall.top).abs() <= NEAR {
-            add(format!(
-                "load.top and out_of_plane.floor[{i}] at the top both bring {} kN/m: the load counts twice; is one of them left over?",
-                shown(plausible::rounded(1e-3 * floor, 4))
-            ));
+        if load > 0.0 && floor > 0.0 && (own.z.si() - wall.top).abs() <= NEAR {
+            let [bring, brings, sum] = [floor, load, floor + load].map(|q| shown(plausible::rounded(1e-3 * q, 4)));
+            let (key, ask) = (format!("out_of_plane.floor[{i}]"), "is one of them left over?");
+            add(if (load - floor).abs() <= SAME_LOAD * load {
+                format!("load.top and {key} at the top both bring {bring} kN/m: the load counts twice; {ask}")
+            } else {
+                format!(
+                    "load.top brings {brings} kN/m and {key} at the top {bring} kN/m: both count, {sum} kN/m together; {ask}"
+                )
+            });
         }
     }
     // Openings along the wall from its left end.

@@ -12,7 +12,7 @@ use super::limit::failure;
 use super::wall_file;
 use crate::args::{Limit as Asked, LimitLoad, Side as Towards};
 use crate::failure::Failure;
-use crate::format::{percent, significant};
+use crate::format::{counted, percent, significant};
 
 /// λ below which it is 0.
 pub(super) const NOTHING: f64 = 1e-6;
@@ -134,7 +134,7 @@ pub(super) fn add(
         warnings.push("blocks reach through all leaves: the outer one, which nothing ties, may fall below λ".into());
     }
     if wall.loose > 0 {
-        warnings.push(format!("{} side walls are left out, for they are not bonded", wall.loose));
+        warnings.push(format!("not bonded, and so left out: {}", counted(wall.loose, "side wall")));
     }
     let as_here = args.load == LimitLoad::Body && !matches!(args.towards, Some(Towards::Inwards));
     let closed = if as_here { closed(&wall, args.above.unwrap_or(0.0)) } else { Vec::new() };
@@ -194,13 +194,13 @@ fn add_corner(backed: &mut Backed, wall: &Wall, side: &Side) {
 impl Behind {
     /// In words.
     pub(super) fn text(&self) -> String {
-        let mut parts = vec![format!("{} floors, {} ties", self.floors, self.ties)];
+        let mut parts = vec![counted(self.floors, "floor"), counted(self.ties, "tie")];
         let depths: Vec<String> = self.side_walls.iter().map(|d| significant(*d, 3)).collect();
         if !depths.is_empty() {
             parts.push(format!(
-                "{} side walls of {} blocks, {} m deep",
-                depths.len(),
-                self.blocks,
+                "{} of {}, {} m deep",
+                counted(depths.len(), "side wall"),
+                counted(self.blocks, "block"),
                 depths.join(" and ")
             ));
         }

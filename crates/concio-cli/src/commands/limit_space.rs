@@ -7,7 +7,7 @@ use concio::case::{CaseFile, ModelKind};
 use concio::model::NOT_IN_PLANE;
 use concio::{Error, InputError};
 use concio_limit::space::{self, ContactKind, ContactMotion, Face, Limit, Problem, Turning, Vector};
-use concio_limit::{CERTIFIED, NonAssociative, Problem as Planar};
+use concio_limit::{CERTIFIED, LimitError, NonAssociative, Problem as Planar};
 use serde_json::{Value, json};
 
 use super::limit::{DRAWING, NAMED, RESULT, estimate, failure, options, without_dilation};
@@ -23,6 +23,10 @@ use crate::format::{fixed, line, pairs, percent, si, significant};
 const QUICK: usize = 100;
 /// Twist of a bed joint over the largest velocity, per half of the joint's diagonal, from which it is told.
 const TWISTS: f64 = 1e-2;
+
+/// Beside a wall whose stones crush and that does not stand.
+const CRUSHES: &str = "stones crush here, at joint.bed.compressive_strength or out_of_plane.strength: without it `limit` tells whether the wall stands on stones \
+                       that do not";
 
 /// What is found.
 struct Found {
@@ -159,11 +163,19 @@ fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Fo
     if args.even_twist {
         problem = problem.drawn_in();
     }
-    let space::Crushed { limit, problem, overloaded } = space::crushed(&problem).map_err(told)?;
+    let falls = |e| match (failure(e, &args.file), strength) {
+        (Failure::Input(all), Some(_)) => Failure::Input(all.into_iter().map(|e| e.help(CRUSHES)).collect()),
+        (other, _) => other,
+    };
+    let space::Crushed { limit, problem, overloaded } = space::crushed(&problem).map_err(falls)?;
     let crushing = strength.map(|strength| (strength, overloaded));
-    let smooth = match problem.heads_rub() {
-        true => Some(space::analyse(&problem.frictionless_heads()).map_err(told)?),
-        false => None,
+    let smooth = match problem.heads_rub().then(|| space::analyse(&problem.frictionless_heads())) {
+        // Friction of head joints may be what holds a stone at a jamb.
+        Some(Err(LimitError::DoesNotStand)) => {
+            warnings.push("without friction of the head joints the wall is not found to stand under its dead load: λ of smooth heads is left out".into());
+            None
+        }
+        smooth => smooth.transpose().map_err(told)?,
     };
     if limit.multiplier() < NOTHING {
         warnings
@@ -205,7 +217,7 @@ fn rows(args: &Asked, face: Face, found: &Found) -> Vec<(&'static str, String)> 
         LimitLoad::Top => "dead load of the top course",
     };
     let part = args.above.map(|z| format!(", held below {} m", significant(z, 4))).unwrap_or_default();
-    let heads = if found.smooth.is_some() { ", head joints rub" } else { ", head joints do not rub" };
+    let heads = if found.problem.heads_rub() { ", head joints rub" } else { ", head joints do not rub" };
     let bounds = |limit: &Limit| {
         let [lower, upper] = limit.bounds.map(|b| fixed(b, 8));
         format!("{lower} by forces, {upper} by a mechanism")
@@ -224,6 +236,7 @@ fn rows(args: &Asked, face: Face, found: &Found) -> Vec<(&'static str, String)> 
             ));
             rows.push(("bounds", bounds(smooth)));
         }
+        None if found.problem.heads_rub() => rows.push(("smooth heads", "not found to stand: see the warning".into())),
         None => rows.push(("smooth heads", "the same: friction.on = \"all\" would make head joints rub".into())),
     }
     rows.push(match &found.dilation {
@@ -340,7 +353,7 @@ fn result(args: &Asked, face: Face, found: &Found) -> Value {
         "held_below": args.above,
         "even_twist": args.even_twist,
         "live_load": problem.live_load(),
-        "heads_rub": found.smooth.is_some(),
+        "heads_rub": found.problem.heads_rub(),
         "frictionless_heads": found.smooth.as_ref().map(of),
         "non_associative": found.dilation.as_ref().map(without_dilation),
         "closed_form": found.turning.map(|t| json!({ "multiplier": t.multiplier, "level": t.level })),

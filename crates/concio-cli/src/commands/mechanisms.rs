@@ -31,6 +31,7 @@ pub fn mechanisms(args: &Mechanisms) -> Result<(), Failure> {
     }
     found(args, &file, |subject, shaken, result| {
         crate::warned::warn(&file, &concio::facade::doubts(&file.case, subject.wall));
+        crate::warned::warn(&file, shaken.map_or(&[], |shaken| &shaken.warnings[..]));
         show(args, subject, shaken, &result)
     })
 }

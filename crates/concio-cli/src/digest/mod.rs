@@ -33,11 +33,12 @@ pub fn rows(wall: &Wall, joints: &[JointRow], outcome: &Outcome, summary: &Value
         0 => ("head joints", 0.0 - totals.minimum_gap),
         _ => ("joints", largest(&outcome.envelopes.joint_closing)),
     };
-    let mut rows = vec![
-        ("peak displacement", peak(wall, outcome, moved)),
-        ("peak slip velocity", si(velocity, "m/s")),
-        (opens, format!("opened {}, pressed in {}", length(opening), length(deepest))),
-    ];
+    let mut rows = vec![("peak displacement", peak(wall, outcome, moved))];
+    // Hinges do not slide.
+    if outcome.rocking.is_none() {
+        rows.push(("peak slip velocity", si(velocity, "m/s")));
+    }
+    rows.push((opens, format!("opened {}, pressed in {}", length(opening), length(deepest))));
     let [base, weight] = ["/base_load", "/weight"].map(|key| number(summary, key));
     let load = beside(base - weight, base);
     if load > 0.0 {

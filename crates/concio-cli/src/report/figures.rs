@@ -11,12 +11,12 @@ use crate::format::NOTHING;
 /// Single blocks and joints whose histories a report shows.
 const ASKED: usize = 12;
 
-/// Views of the wall beside that of the cracks.
+/// Views of the wall beside that of the cracks; one less of a wall that rocks, whose hinges do not slide.
 const VIEWS: usize = 5;
 
 /// How many views of the wall there are.
 pub fn views(content: &Content) -> usize {
-    VIEWS + usize::from(!content.outcome.bonds.is_empty())
+    VIEWS + usize::from(!content.outcome.bonds.is_empty()) - usize::from(content.outcome.rocking.is_some())
 }
 
 /// The wall under one name per view; of a bonded wall the cracks come first.
@@ -48,7 +48,9 @@ pub fn walls(content: &Content) -> Vec<(&'static str, String)> {
     let field = Field { none: "not bonded", parts: &parts, ..field("damage of the bonds at the end", "1", &cracked) };
     let cracks = ("cracks", Paint::Joints(field));
     let cracks = (!content.outcome.bonds.is_empty()).then_some(cracks);
-    cracks.into_iter().chain(views).map(|(name, paint)| (name, wall::draw(&subject, paint))).collect()
+    // Hinges do not slide.
+    let shown = views.into_iter().filter(|(name, _)| *name != "slip" || content.outcome.rocking.is_none());
+    cracks.into_iter().chain(shown).map(|(name, paint)| (name, wall::draw(&subject, paint))).collect()
 }
 
 /// Whether a history differs from zero by more than rounding.

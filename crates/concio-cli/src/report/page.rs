@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::{Content, data, doubts, figures};
 use crate::digest::{self, Answer};
 use crate::draw::escape;
-use crate::format::{exponent, seconds, si};
+use crate::format::{counted, exponent, seconds, si};
 
 /// Largest input that the page quotes [bytes]; it is in result.h5 in any case.
 const LARGEST_INPUT: usize = 1_000_000;
@@ -79,9 +79,9 @@ fn head(page: &mut String, content: &Content) {
     let duration = content.summary.get("duration").and_then(Value::as_f64).unwrap_or(outcome.time_reached);
     let _ = writeln!(
         page,
-        "<p class=\"lead\">{} blocks, {} joints, {} of motion · Concio {}</p>",
-        content.wall.blocks.len(),
-        content.joints.len(),
+        "<p class=\"lead\">{}, {}, {} of motion · Concio {}</p>",
+        counted(content.wall.blocks.len(), "block"),
+        counted(content.joints.len(), "joint"),
         seconds(outcome.time_reached),
         escape(text(content, "version"))
     );
@@ -142,6 +142,10 @@ fn tiles(page: &mut String, content: &Content) {
             if closes { "of the largest work: the account closes" } else { "of the largest work: too much" },
         ),
     ];
+    // Hinges do not slide.
+    if content.outcome.rocking.is_some() {
+        tiles.remove(1);
+    }
     if totals.top_force_peak > 0.0 {
         tiles.insert(2, ("peak top force", si(totals.top_force_peak, "N"), "of the top beam on the wall"));
     }

@@ -112,6 +112,16 @@ fn options_change_what_is_assumed() {
     let beds = 0.6 * pressure * 0.26 / (2.0 * 0.065);
     assert!((of(&open, "tension") / beds - 1.0).abs() < 1e-4, "{} {beds}", of(&open, "tension"));
     let soft = json(&desk, "continuum wall.toml --json --brick-modulus 10GPa");
+    let doubts = |modulus: &str| {
+        let found = json(&desk, &format!("continuum wall.toml --json --brick-modulus {modulus}"));
+        found["panels"][0]["warnings"].to_string()
+    };
+    let told = doubts("10MPa");
+    assert!(told.contains("bricks of 10 MPa are softer than adobe") && told.contains("were 10 GPa meant?"), "{told}");
+    assert!(doubts("90GPa").contains("bricks of 90 GPa are stiffer than any"));
+    for fine in ["80MPa", "10GPa", "60GPa"] {
+        assert!(!doubts(fine).contains("bricks of"), "{fine}");
+    }
     assert!(e1(&soft) < 10e9 && soft["panels"][0]["assumed"].to_string().contains("an estimate"));
     let pressed = json(&desk, "continuum wall.toml --json --pressure 1MPa");
     close(&pressed["panels"][0]["pressure"], 1e6);
@@ -229,6 +239,9 @@ fn walls_that_have_none_are_refused() {
     refused(good(), "continuum wall.toml --card json --units N-mm-kg", &["kg", "not the mass"]);
     refused(good(), "continuum wall.toml --pressure 3", &["unit is missing"]);
     refused(good(), "continuum wall.toml --brick-modulus=-1GPa", &["allowed"]);
+    for (bare, unit) in [("10", "10GPa"), ("10000", "10000MPa"), ("1e10", "1e10Pa")] {
+        refused(good(), &format!("continuum wall.toml --brick-modulus {bare}"), &["unit is missing", unit]);
+    }
     refused(good(), "continuum wall.toml --brick-modulus 1GPa --brick-poisson 0.7", &["0.5"]);
     refused(good(), "continuum wall.toml --repeated --units kN-m", &["--card"]);
     refused(good().replace("duration = 1.0", "duration = 1.0\nspeed = 2"), plain, &["wall.toml:", "speed"]);

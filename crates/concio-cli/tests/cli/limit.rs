@@ -108,6 +108,46 @@ fn a_bond_that_is_left_out_is_told() {
     assert!(text.contains("warning") && text.contains("bond"), "{text}");
 }
 
+/// Joints that are `elastic` crush only with a bond: that both are left out leaves a wall as it is.
+#[test]
+fn a_bonded_wall_that_crushes_is_analysed_as_a_dry_one() {
+    let desk = Desk::new();
+    let wall = |strength: &str, change: &str| {
+        let bed = format!("bed = {{ law = \"elastic\", stiffness = \"5 N/mm3\"{strength} }}");
+        format!(
+            "model = \"planar\"\n[[panel]]\nbond = \"stack\"\ncourses = 4\nbricks = 1\n\
+             brick = {{ length = 1.0, height = 0.5, thickness = 0.5, specific_weight = 20e3 }}\nmortar = {{ bed = 0, head = 0 }}\n\
+             [joint]\n{bed}\nhead = {{ law = \"rigid\" }}\nfriction = {{ law = \"coulomb\", static = 0.7 }}\n\
+             bond = {{ tensile_strength = \"0.1 MPa\", cohesion = \"0.15 MPa\", friction_angle = \"31 deg\" }}\n\
+             {change}\n[motion]\nduration = 1\n"
+        )
+    };
+    let strong = ", compressive_strength = \"3 MPa\"";
+    let one = "[[joint.change]]\nat = { kind = [\"base\"] }\nspring = { compressive_strength = \"2 MPa\" }";
+    let mut found = Vec::new();
+    for (strength, change) in [("", ""), (strong, ""), ("", one)] {
+        desk.put("wall.toml", wall(strength, change));
+        for across in ["", " --out-of-plane"] {
+            let done = desk.concio(&format!("limit wall.toml --json{across}")).assert().success();
+            let out = done.get_output();
+            let result: serde_json::Value = serde_json::from_slice(&out.stdout).expect("JSON");
+            let told = String::from_utf8_lossy(&out.stderr).into_owned();
+            assert!(told.contains("the bond of the joints is left out"), "{told}");
+            let reads = strength == strong && !across.is_empty();
+            let crushes = !reads && (strength, change) != ("", "");
+            assert_eq!(told.contains("compressive_strength is left out"), crushes, "{told}");
+            if !reads {
+                found.push(result["multiplier"].as_f64().expect("a number"));
+            }
+        }
+    }
+    // A stack of 1 m by 2 m turns at 0.5, across its plane at 0.25.
+    for (k, lambda) in found.iter().enumerate() {
+        let right = if k == 1 || k == 4 { 0.25 } else { 0.5 };
+        assert!((lambda - right).abs() < 1e-5, "{found:?}");
+    }
+}
+
 /// A door near the left end: what is told is the weaker way, with the other beside it, and each way alone tells the same of itself.
 #[test]
 fn a_wall_is_pushed_to_its_weaker_side() {

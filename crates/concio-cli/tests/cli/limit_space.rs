@@ -143,6 +143,36 @@ fn courses_of_bricks_crush_as_a_whole() {
     );
 }
 
+/// A bonded façade with openings whose stones crush: at its jambs stones are held by the friction of head joints, so that smooth ones bear nothing.
+#[test]
+fn heads_without_which_a_wall_falls_leave_lambda() {
+    let desk = Desk::new();
+    let opening = |x: f64, y: f64, height: f64| {
+        format!(
+            "[[panel.opening]]\nx = {x}\ny = {y}\nwidth = 1\nheight = {height}\nlintel = {{ height = \"1 course\", bearing = 0.25 }}\n"
+        )
+    };
+    let openings = [opening(3.0, 0.0, 2.25), opening(1.0, 1.0, 1.25), opening(1.0, 4.0, 1.25)].concat();
+    desk.put(
+        "facade.toml",
+        format!(
+            "model = \"planar\"\n[[panel]]\nbond = \"running\"\ncourses = 24\nbricks = 14\n\
+             brick = {{ length = 0.49, height = 0.24, thickness = 0.38, specific_weight = 18e3 }}\nmortar = {{ bed = 0.01, head = 0.01 }}\n\
+             {openings}[joint]\nbed = {{ law = \"elastic\", stiffness = \"5 N/mm3\", compressive_strength = \"3 MPa\" }}\n\
+             head = {{ law = \"elastic\", stiffness = \"5 N/mm3\" }}\nfriction = {{ law = \"coulomb\", static = 0.6, on = \"all\" }}\n\
+             bond = {{ tensile_strength = \"0.1 MPa\", cohesion = \"0.15 MPa\", friction_angle = \"31 deg\" }}\n\
+             [load]\ntop = \"12 kN/m\"\n[motion]\nduration = 1\n"
+        ),
+    );
+    let done = desk.concio("limit facade.toml --out-of-plane --json").assert().success();
+    let warned = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    assert!(warned.contains("without friction of the head joints the wall is not found to stand"), "{warned}");
+    let found: Value = serde_json::from_slice(&done.get_output().stdout).expect("JSON");
+    let (lambda, closed) = (number(&found["multiplier"]), number(&found["closed_form"]["multiplier"]));
+    assert!((lambda - closed).abs() < 1e-4 * closed && found["frictionless_heads"].is_null(), "{lambda} {closed}");
+    assert_eq!(found["heads_rub"], true);
+}
+
 #[test]
 fn what_cannot_be_asked_is_refused() {
     let desk = Desk::new();

@@ -511,6 +511,68 @@ fn the_motion_of_the_file_and_mistakes() {
     );
 }
 
+/// A motion that runs would warn of is warned of here too, as it shakes the wall, whoever gives it.
+#[test]
+fn doubtful_motions_are_told() {
+    let desk = Desk::new();
+    desk.put("wall.toml", wall(""));
+    desk.put("shaking.csv", record(3.0));
+    desk.put("milli.csv", record(3000.0));
+    let lines: Vec<String> = record(3.0).lines().map(String::from).collect();
+    let shifted = lines.iter().enumerate().map(|(k, line)| match line.split_once(",") {
+        Some((t, a)) if k > 0 => format!("{t}, {}\n", a.trim().parse::<f64>().expect("a number") + 0.5),
+        _ => format!("{line}\n"),
+    });
+    desk.put("offset.csv", shifted.collect::<String>());
+    let shaken =
+        |keys: &str| wall("").replace("duration = 1.0\n", &format!("duration = \"2.99 s\"\nbase = {{ {keys} }}\n"));
+    desk.put("milli.toml", shaken("record = \"milli.csv\""));
+    desk.put("pga.toml", shaken("record = \"shaking.csv\", pga = \"3 g\""));
+    desk.put("pulse.toml", shaken("pulse = { shape = \"half-sine\", acceleration = \"0.3 g\", duration = \"0.5 s\" }"));
+    let look = "look at --units, --scale and --pga";
+    let few = "which few records have";
+    for (line, parts) in [
+        ("wall.toml --record milli.csv", vec!["--record: the record's peak acceleration is 2994 m/s²", look]),
+        ("wall.toml --record shaking.csv --pga 35g", vec!["--record: the record's peak", "343.4 m/s²", look]),
+        ("wall.toml --record shaking.csv --scale 10", vec!["--record: its peak acceleration is 3.05 g", few]),
+        ("wall.toml --record shaking.csv --vertical milli.csv", vec!["--vertical: the record's peak", look]),
+        ("wall.toml --record offset.csv", vec!["motion of the base as processed drifts", "offset", "of a wall file"]),
+        ("milli.toml --shaken", vec!["motion.base: the record's peak acceleration is 2994 m/s²", "milli.toml:"]),
+        ("pga.toml --shaken", vec!["motion.base: its peak acceleration is 3 g", few]),
+        ("pulse.toml --shaken --scale 10", vec!["--scale: its peak acceleration is 3 g", few]),
+    ] {
+        let done = desk.concio(&format!("mechanisms {line} --json")).assert().success();
+        let out = done.get_output();
+        let said = String::from_utf8_lossy(&out.stderr).into_owned();
+        let result: Value = serde_json::from_slice(&out.stdout).expect("JSON");
+        let kept = result["time_history"]["doubts"].to_string();
+        for part in parts {
+            assert!(said.contains("warning: ") && said.contains(part), "{line}: {part}: {said}");
+            assert!(kept.contains(part) || part.ends_with(".toml:"), "{line}: {part}: {kept}");
+        }
+    }
+    // Whole waves of a cosine come back to where they began.
+    let wave = |k: usize| if k <= 200 { 3.0 * (std::f64::consts::TAU * 0.02 * k as f64).cos() } else { 0.0 };
+    let waves: String = (0..300).map(|k| format!("{:.2}, {:.6}\n", 0.01 * k as f64, wave(k))).collect();
+    desk.put("calm.csv", format!("time [s], acceleration [m/s2]\n{waves}"));
+    for line in ["wall.toml --record calm.csv", "wall.toml --record calm.csv --pga 0.35g", "pulse.toml --shaken"] {
+        let done = desk.concio(&format!("mechanisms {line}")).assert().success();
+        let said = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+        assert!(said.is_empty(), "{line}: {said}");
+    }
+}
+
+/// A wall that nothing stops falls to either side: its levels are drawn where it goes, and a heading says how far a fall is drawn.
+#[test]
+fn levels_are_drawn_where_the_wall_goes() {
+    let desk = Desk::new();
+    desk.put("wall.toml", wall(""));
+    desk.put("shaking.csv", record(3.0));
+    text(&desk, "mechanisms wall.toml --record shaking.csv --scale 6 --out assessed");
+    let drawn = desk.get("assessed/report.html");
+    assert!(drawn.contains("drawn until"), "no heading says where the curve ends");
+}
+
 /// Numbers of another unit are asked about by each command that runs nothing, on standard error, whatever it prints.
 #[test]
 fn numbers_hardly_meant_are_asked_about() {

@@ -91,10 +91,10 @@ impl System {
         self.step.min(shaking.longest_step())
     }
 
-    /// d0 outwards.
-    pub fn capacity(&self) -> Option<Capacity> {
-        let side = &self.sides[0];
-        let rotation = self.d0[0]?;
+    /// d0 of a side.
+    pub fn capacity(&self, side: usize) -> Option<Capacity> {
+        let rotation = (*self.d0.get(side)?)?;
+        let side = &self.sides[side];
         Some(Capacity { rotation, displacement: side.displacement(&side.pose(rotation), &side.control) })
     }
 

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::node::{Node, Value};
-use super::out_of_plane::{Hazard, OutOfPlane, SideWall, Site};
+use super::out_of_plane::{FloorLoad, Hazard, OutOfPlane, SideWall, Site};
 use super::{
     Beam, Bond, Brick, Case, FrictionChange, FrictionLaw, HistoryQuantity, JointBond, JointKind, Joints, ModelKind,
     Panel, Scheme, Signal, Solver, SpringChange, TopLoad,
@@ -81,6 +81,9 @@ const HELD: Expected = Expected { limits: [1e3, 2e7], usual: [1e4, 1e7], ..TENSI
 /// Masonry bears 0.5 to 50 MPa, adobe less, hard stone laid dry more.
 const COMPRESSION: Expected =
     Expected { limits: [1e4, 5e8], usual: [1e5, 1e8], unit: "Pa", slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3)] };
+/// Masonry as a whole at hinges: granite ashlar of thin joints is the best.
+const MASONRY: Expected =
+    Expected { limits: [1e4, 1e8], slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3), (1e-2, "MPa", 1e6)], ..COMPRESSION };
 /// Fracture energies: mortar has 1 to 20 N/m when opened, 10 to 1000 N/m when sheared.
 const OPENING_ENERGY: Expected = Expected {
     limits: [1e-4, 1e3],
@@ -291,7 +294,7 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane, case: &Case) {
         }
     }
     if let Some(strength) = own.strength {
-        doubts.look("out_of_plane.strength", strength.si(), &COMPRESSION);
+        doubts.look("out_of_plane.strength", strength.si(), &MASONRY);
     }
     if let Some(factor) = own.behaviour_factor.filter(|q| *q > BEHAVIOUR) {
         let text = format!(
@@ -302,11 +305,17 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane, case: &Case) {
         doubts.add(WarningKind::UnlikelyNumber, text);
     }
     doubts.look_for_twins("floor", &own.floors, "its load counts twice");
+    of_floors_at_one_level(doubts, &own.floors);
     doubts.look_for_twins("anchor", &own.anchors, "it holds with twice its force");
     doubts.look_for_twins("side_wall", &own.side_walls, "its weight and its friction count twice");
     of_side_walls(doubts, &own.side_walls, longest(case));
     let course = case.panels.iter().map(|panel| panel.brick.height.si()).fold(f64::INFINITY, f64::min);
-    let lowest = Expected { limits: [LEVEL.limits[0].min(course), LEVEL.limits[1]], ..LEVEL };
+    let highest = case.panels.iter().map(height).fold(0.0, f64::max);
+    let lowest = Expected {
+        limits: [LEVEL.limits[0].min(course), LEVEL.limits[1]],
+        usual: [LEVEL.usual[0], LEVEL.usual[1].min(highest)],
+        ..LEVEL
+    };
     for (index, floor) in own.floors.iter().enumerate() {
         let key = format!("out_of_plane.floor[{index}]");
         doubts.look_because(&format!("{key}.z"), floor.z.si(), &lowest, ": no floor lies on the lowest course");
@@ -374,6 +383,30 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane, case: &Case) {
                 "out_of_plane.site.{often} shakes the ground by {} m/s2, more than out_of_plane.site.{rare} by {} m/s2, which is rarer; are they exchanged?",
                 shown(rounded(more, 3)),
                 shown(rounded(less, 3))
+            );
+            doubts.add(WarningKind::UnlikelyNumber, text);
+        }
+    }
+}
+
+/// About the height of a panel, in which what is guessed has to lie; without end where single blocks and courses make it [m].
+fn height(panel: &Panel) -> f64 {
+    let course = panel.brick.height.si() + panel.mortar.bed.si();
+    let regular = matches!(panel.bond, Bond::Running | Bond::Stack);
+    panel.courses.filter(|_| regular).map_or(f64::INFINITY, |courses| course * courses as f64)
+}
+
+/// Floors of other loads that lie on the same place: one above the other has its own level, and floors on both sides have their own depth.
+fn of_floors_at_one_level(doubts: &mut Doubts, floors: &[FloorLoad]) {
+    let laden = |floor: &FloorLoad| floor.load.si() > 0.0;
+    for (second, own) in floors.iter().enumerate().filter(|(_, own)| laden(own)) {
+        let meets = |other: &FloorLoad| laden(other) && other != own && other.z == own.z && other.at == own.at;
+        if let Some(first) = floors[..second].iter().position(meets) {
+            let [one, other, sum] = [floors[first].load.si(), own.load.si(), floors[first].load.si() + own.load.si()]
+                .map(|load| shown(rounded(1e-3 * load, 4)));
+            let text = format!(
+                "out_of_plane.floor[{second}] lies at z = {} m as out_of_plane.floor[{first}] does: {one} and {other} kN/m both count, {sum} kN/m together; is its level meant so?",
+                shown(rounded(own.z.si(), 6))
             );
             doubts.add(WarningKind::UnlikelyNumber, text);
         }
@@ -664,6 +697,9 @@ fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {
             for (key, extent) in [("height", lintel.height), ("bearing", lintel.bearing)] {
                 doubts.look(&format!("{at}.lintel.{key}"), extent.length().unwrap_or(0.0), &BRICK);
             }
+            if let (Some(bearing), Some(width)) = (lintel.bearing.length(), opening.width.length()) {
+                of_bearing(doubts, &format!("{at}.lintel.bearing"), bearing, width);
+            }
             if let Some(weight) = lintel.specific_weight {
                 doubts.look(&format!("{at}.lintel.specific_weight"), weight.si(), &WEIGHT);
             }
@@ -682,6 +718,20 @@ fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {
         if let Some(weight) = block.specific_weight {
             doubts.look(&format!("{at}.block[{b}].specific_weight"), weight.si(), &WEIGHT);
         }
+    }
+}
+
+/// Least bearing of a lintel over its span: builders' rules have 0.1.
+const BEARING: f64 = 0.02;
+
+/// A bearing that is little beside the span [m]; models of walls have small ones. Beyond the limits of bricks it is told already.
+fn of_bearing(doubts: &mut Doubts, key: &str, bearing: f64, width: f64) {
+    if bearing >= BRICK.limits[0] && bearing < BEARING * width {
+        let [bearing, least, width] = [bearing, BEARING * width, width].map(|v| shown(rounded(1e3 * v, 6)));
+        let text = format!(
+            "{key} is {bearing} mm, under a span of {width} mm less than {least} mm, a fiftieth: at the least opening of the joints the lintel falls; lintels lie on a tenth"
+        );
+        doubts.add(WarningKind::UnlikelyNumber, text);
     }
 }
 

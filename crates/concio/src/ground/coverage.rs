@@ -37,6 +37,8 @@ const WEAK: f64 = 0.05 * STANDARD_GRAVITY;
 const NEARLY_G: f64 = 2.5e-3;
 /// Factor on one of two components alone from which it is told: rounding, and corrections of one of them.
 const TOGETHER: f64 = 1.1;
+/// Keys that scale a record.
+const SCALES: &str = "`scale` and `pga`";
 /// Instants at which a pulse or sweep is looked at for its peak.
 const LOOKS: usize = 10_000;
 /// Time between samples beyond which its unit is doubted [s]: earthquakes shake at 5 Hz and more.
@@ -91,7 +93,8 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
             Signal::Synthetic(input) => {
                 let made = library.synthetic(input)?;
                 found.extend(uncovered(place(name), "accelerogram", &made, duration));
-                let odd = beyond_recorded(case, name, &made, true);
+                let key = format!("motion.{name}");
+                let odd = beyond(&key, largest(&made), most(case, true), SCALES);
                 found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
             }
             other => found
@@ -118,26 +121,68 @@ pub fn of_own(case: &Case, base: &GroundMotion, duration: f64) -> Vec<Warning> {
     found
 }
 
+/// The same of a record that moves a wall across its plane by an option of a command, such as `--record`, and scaled as it does so.
+pub fn of_option(option: &str, record: &Record) -> Vec<Warning> {
+    let place = if option == "--vertical" { "vertical direction" } else { "base" };
+    let named = Named { key: option, place, units: "--units", scales: "--scale and --pga", file: " of a wall file" };
+    [named.remarks(record), named.numbers(record, STRONGEST)].concat()
+}
+
+/// Says that a motion multiplied by `--scale` has a peak [m/s²] that hardly an earthquake had.
+pub fn of_scaled(peak: f64) -> Option<Warning> {
+    let told = beyond("--scale", peak, STRONGEST, "and --scale");
+    told.map(|text| Warning::new(WarningKind::UnlikelyRecord, text))
+}
+
 /// What a signal moves, in words.
 fn place(name: &str) -> &str {
     if name == "vertical" { "vertical direction" } else { name }
 }
 
+/// How sentences name a record, and what changes it.
+struct Named<'n> {
+    key: &'n str,
+    /// What it moves.
+    place: &'n str,
+    /// What says its unit.
+    units: &'n str,
+    scales: &'n str,
+    /// Whose key takes a drift away, where it is not that of the record.
+    file: &'n str,
+}
+
+impl Named<'_> {
+    /// What its file makes one doubt.
+    fn remarks(&self, record: &Record) -> Vec<Warning> {
+        let doubtful = record.remarks.iter().filter(|remark| remark.is_doubtful());
+        let doubtful = doubtful.map(|remark| format!("{}, of the record: {remark}", self.key));
+        doubtful.map(|text| Warning::new(WarningKind::DoubtfulRecord, text)).collect()
+    }
+
+    /// What its samples do; a peak above `most` [m/s²] is told.
+    fn numbers(&self, record: &Record, most: f64) -> Vec<Warning> {
+        let Named { key, place, units, scales, file } = self;
+        let drift = drifting(place, file, record).map(|text| Warning::new(WarningKind::Drift, text));
+        let peak = odd_peak(record).map(|odd| format!("{key}: {odd} as it moves the wall: look at {units}, {scales}"));
+        let interval = odd_interval(record).map(|odd| format!("{key}: {odd}"));
+        let length = odd_length(record).map(|odd| format!("{key}: {odd}"));
+        let peak = peak.or_else(|| beyond(key, largest(record), most, scales));
+        let odd = peak.into_iter().chain(interval).chain(length);
+        drift.into_iter().chain(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text))).collect()
+    }
+}
+
 /// `meant`: whether the wall file names its peak.
 fn of_record(case: &Case, name: &str, record: &Record, meant: bool, duration: f64) -> Vec<Warning> {
-    let doubtful = record.remarks.iter().filter(|remark| remark.is_doubtful());
-    let doubtful = doubtful.map(|remark| format!("motion.{name}, of the record: {remark}"));
-    let mut found: Vec<Warning> = doubtful.map(|text| Warning::new(WarningKind::DoubtfulRecord, text)).collect();
-    found.extend(uncovered(place(name), "record", record, duration));
-    found.extend(drifting(place(name), record).map(|text| Warning::new(WarningKind::Drift, text)));
-    let look = ": look at `units`, `scale` and `pga`";
-    let peak = odd_peak(record).map(|odd| format!("motion.{name}: {odd} as it moves the wall{look}"));
-    let interval = odd_interval(record).map(|odd| format!("motion.{name}: {odd}"));
-    let length = odd_length(record).map(|odd| format!("motion.{name}: {odd}"));
-    let peak = peak.or_else(|| beyond_recorded(case, name, record, meant));
-    let odd = peak.into_iter().chain(interval).chain(length);
-    found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
-    found
+    let key = format!("motion.{name}");
+    let named = Named { key: &key, place: place(name), units: "`units`", scales: SCALES, file: "" };
+    let covered = uncovered(place(name), "record", record, duration);
+    [named.remarks(record), covered.into_iter().collect(), named.numbers(record, most(case, meant))].concat()
+}
+
+/// Peak [m/s²] above which it is told: where the wall file names it more is meant, but of rocking walls, which it throws over.
+fn most(case: &Case, meant: bool) -> f64 {
+    if case.model == ModelKind::Rocking || !meant { STRONGEST } else { NAMED }
 }
 
 /// Says which component is taken where none is chosen of several, and whether one of the other direction is taken.
@@ -165,8 +210,8 @@ fn unchosen(name: &str, input: &RecordInput, folder: &Path, library: &Library) -
 }
 
 /// A motion is judged as it moves the wall, after `trim`, `baseline` and scaling: `concio record` sees only the file. A
-/// displacement history may end where it likes.
-fn drifting(name: &str, record: &Record) -> Option<String> {
+/// displacement history may end where it likes. `file` follows the key that takes the drift away.
+fn drifting(name: &str, file: &str, record: &Record) -> Option<String> {
     if record.displacement.is_some() {
         return None;
     }
@@ -176,13 +221,15 @@ fn drifting(name: &str, record: &Record) -> Option<String> {
         return None;
     }
     let (end, peak) = (1e3 * end, 1e3 * peak);
+    // Sums leave rounding.
+    let mean = if m.mean.abs() > 1e-9 * m.pga.value.abs() { m.mean } else { 0.0 };
     let why = match offset(record) {
         Some(offset) => format!(
-            "{offset}; `baseline = {{ polynomial = 0 }}` takes it off, `{{ high_pass = \"0.1 Hz\" }}` what drift is left as well"
+            "{offset}; `baseline = {{ polynomial = 0 }}`{file} takes it off, `{{ high_pass = \"0.1 Hz\" }}` what drift is left as well"
         ),
         None => format!(
-            "`baseline = {{ high_pass = \"0.1 Hz\" }}` takes that away and hardly touches the acceleration, whose mean is {} m/s²",
-            rounded(m.mean, 2)
+            "`baseline = {{ high_pass = \"0.1 Hz\" }}`{file} takes that away and hardly touches the acceleration, whose mean is {} m/s²",
+            rounded(mean, 2)
         ),
     };
     Some(format!(
@@ -209,7 +256,7 @@ pub fn offset(record: &Record) -> Option<String> {
 
 /// Says of a peak that no earthquake has, or that no wall feels, that it is: it comes from units, or from a file of zeros.
 pub fn odd_peak(record: &Record) -> Option<String> {
-    let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+    let peak = largest(record);
     let (how, bound) = if peak > LARGEST_PEAK { ("more", LARGEST_PEAK) } else { ("less", SMALLEST_PEAK) };
     if peak == 0.0 {
         return Some("the record is 0 from end to end".into());
@@ -218,20 +265,23 @@ pub fn odd_peak(record: &Record) -> Option<String> {
         .then(|| format!("the record's peak acceleration is {} m/s², {how} than {bound} m/s²", rounded(peak, 4)))
 }
 
-/// Says of a peak that hardly an earthquake had that it is one. Where the wall file names it, more is allowed, but to rocking walls, which it throws over.
-fn beyond_recorded(case: &Case, name: &str, record: &Record, meant: bool) -> Option<String> {
-    let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
-    let most = if case.model == ModelKind::Rocking || !meant { STRONGEST } else { NAMED };
+/// Says of a peak [m/s²] above `most` that hardly an earthquake had that it is one.
+fn beyond(key: &str, peak: f64, most: f64, scales: &str) -> Option<String> {
     (peak > most).then(|| {
         let [peak, most] = [peak, most].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
-        format!("motion.{name}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, {RARE}: look at its unit, its interval, `scale` and `pga`")
+        format!("{key}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, {RARE}: look at its unit, its interval, {scales}")
     })
+}
+
+/// Largest magnitude of an acceleration [m/s²].
+fn largest(record: &Record) -> f64 {
+    record.acceleration.iter().fold(0.0, |most, a| most.max(a.abs()))
 }
 
 /// Says of a record that hardly moves a wall in the unit that the wall file gives that its numbers may be in g.
 fn in_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String> {
     let unit = input.units.as_deref().filter(|_| input.quantity == HistoryQuantity::Acceleration)?;
-    let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+    let peak = largest(record);
     // The largest number of the file.
     let number = peak / units::factor(unit, input.quantity)?;
     let as_given = input.scale.is_none() && input.pga.is_none();
@@ -254,7 +304,7 @@ fn of_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String
     let near = |of: f64| (scale.abs() / of - 1.0).abs() < NEARLY_G;
     let is_g = [G, 100.0 * G, 1.0 / G, 0.01 / G].into_iter().any(near);
     is_g.then(|| {
-        let peak = record.acceleration.iter().fold(0.0, |most: f64, a| most.max(a.abs())) / STANDARD_GRAVITY;
+        let peak = largest(record) / STANDARD_GRAVITY;
         let [scale, peak, without] = [scale, peak, peak / scale.abs()].map(|v| shown(rounded(v, 3)));
         format!(
             "motion.{name}.scale is {scale}, {FROM_G}, but records are converted by their own unit: the peak is {peak} g as it moves the wall, \
@@ -479,13 +529,13 @@ mod tests {
         // samples where it turns); back again, it ends where it began.
         let mut there = record(0);
         there.acceleration = [vec![1.0; 100], vec![-1.0; 101]].concat();
-        let warning = drifting("base", &there).expect("a warning");
+        let warning = drifting("base", "", &there).expect("a warning");
         assert!(warning.contains("ends at 990 mm, its largest is 990 mm"), "{warning}");
         let mut back = record(0);
         back.acceleration = [vec![1.0; 100], vec![-1.0; 200], vec![1.0; 100]].concat();
-        assert_eq!(drifting("base", &back), None);
+        assert_eq!(drifting("base", "", &back), None);
         there.displacement = Some(vec![0.0; 201]);
-        assert_eq!(drifting("base", &there), None);
+        assert_eq!(drifting("base", "", &there), None);
     }
 
     #[test]

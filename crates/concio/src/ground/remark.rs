@@ -51,7 +51,7 @@ pub enum Remark {
 
 impl Remark {
     /// Whether the samples may be other than the archive meant, so that who uses them should look.
-    pub(super) fn is_doubtful(&self) -> bool {
+    pub fn is_doubtful(&self) -> bool {
         match self {
             Remark::UnitByCode { .. }
             | Remark::Surplus { .. }

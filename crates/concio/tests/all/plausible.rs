@@ -205,7 +205,7 @@ fn spectra_twins_and_exchanged_hazards_are_told() {
         // One unit says that the others are meant.
         site("life_safety", "\"0.3 m/s2\", 0.72, 0.72, 0.18"),
         site("life_safety", "2.9, 7.1, 7.1, 1.8"),
-        "floor = [{ z = 0.12, load = 12e3 }, { z = 0.12, load = 9e3 }]".into(),
+        "floor = [{ z = 0.12, load = 12e3, at = 0.03 }, { z = 0.12, load = 9e3, at = 0.09 }]".into(),
         "anchor = [{ z = 0.1, yield_force = 30e3, x = 0.1 }, { z = 0.1, yield_force = 30e3, x = 0.3 }]".into(),
         "site = { damage = { ground_acceleration = \"0.1 g\", amplification = 2.4, corner_period = 0.5 }, \
          collapse = { ground_acceleration = \"0.3 g\", amplification = 2.4, corner_period = 0.5 } }"
@@ -345,6 +345,10 @@ fn slips_that_the_laid_wall_shows_are_told() {
             "load.top and out_of_plane.floor[0] at the top both bring 8 kN/m: the load counts twice; is one of them left over?",
         ),
         (
+            "[load]\ntop = \"8 kN/m\"\n[[out_of_plane.floor]]\nz = 6\nload = \"5 kN/m\"".into(),
+            "load.top brings 8 kN/m and out_of_plane.floor[0] at the top 5 kN/m: both count, 13 kN/m together; is one of them left over?",
+        ),
+        (
             spectrum(9.0),
             "out_of_plane.floor_spectrum[0].z is 9 m, farther than 0.5 m from every joint of the wall, which ends at 6 m: nothing uses it",
         ),
@@ -356,7 +360,6 @@ fn slips_that_the_laid_wall_shows_are_told() {
         "[[out_of_plane.anchor]]\nz = 4\nx = 2.5\nyield_force = 20e3".into(),
         "[[out_of_plane.side_wall]]\nx = 3\nthickness = 0.4".into(),
         "[[out_of_plane.side_wall]]\nx = 2.5\nthickness = 0.4\nbonded = false".into(),
-        "[load]\ntop = \"8 kN/m\"\n[[out_of_plane.floor]]\nz = 6\nload = \"5 kN/m\"".into(),
         "[load]\ntop = \"8 kN/m\"\n[[out_of_plane.floor]]\nz = 3\nload = \"8 kN/m\"".into(),
         spectrum(6.2),
     ] {
@@ -374,6 +377,85 @@ fn slips_that_the_laid_wall_shows_are_told() {
         ]
     );
     assert_eq!(thin(0.2), [""; 0]);
+}
+
+/// What acts in the plane alone is listed among what is assumed, with the key that acts across it.
+#[test]
+fn what_is_not_read_out_of_the_plane_is_listed() {
+    let assumed = |besides: &str| {
+        let wall = concio::facade::of(&facade(besides)).unwrap_or_else(|e| panic!("{e}"));
+        wall.assumed.iter().map(|a| format!("{}: {}", a.key, a.what)).collect::<Vec<_>>()
+    };
+    let bond = "bond = { tensile_strength = \"0.2 MPa\", cohesion = \"0.2 MPa\" }";
+    for (besides, told) in [
+        (
+            "[[tie]]\nfrom = \"p1c6b1\"\nto = \"p1c6b5\"\nstiffness = \"20 kN/mm\"".to_string(),
+            "tie: not read: ties of the plane hold nothing across it; `out_of_plane.anchor` does",
+        ),
+        (
+            format!("[joint.{}]\n{}", "bond", bond[9..bond.len() - 2].replace(", ", "\n")),
+            "joint.bond: not read: joints bear no tension and no cohesion out of the plane, as masonry without tensile strength",
+        ),
+        (
+            format!("[[joint.change]]\nat = {{ kind = [\"bed\"] }}\n{bond}"),
+            "joint.change[0].bond: not read: joints bear no tension and no cohesion out of the plane, as masonry without tensile strength",
+        ),
+        (
+            "[[force]]\nblock = \"p1c12b1\"\nx = [\"1 kN\"]".into(),
+            "force: not read: forces on blocks act in the plane; `out_of_plane.floor` has `push` and `thrust`",
+        ),
+    ] {
+        let found = assumed(&besides);
+        assert!(found.contains(&told.to_string()), "{besides}: {found:?}");
+    }
+    assert!(assumed("").iter().all(|line| !line.contains("not read")));
+}
+
+/// A strength of stones, floors that meet at one level, a tie below what a guess may name.
+#[test]
+fn floors_at_one_level_and_guesses_beyond_the_wall() {
+    let floor = |z: f64, load: &str, at: &str| format!("[[out_of_plane.floor]]\nz = {z}\nload = \"{load}\"\n{at}\n");
+    let of = |behind: &str| doubts(&facade(behind));
+    assert_eq!(
+        of(&(floor(3.0, "12 kN/m", "at = 0.25") + &floor(3.0, "6 kN/m", "at = 0.25"))),
+        [
+            "out_of_plane.floor[1] lies at z = 3 m as out_of_plane.floor[0] does: 12 and 6 kN/m both count, 18 kN/m together; is its level meant so?"
+        ]
+    );
+    // Floors on both sides have their own places, and levels differ as a rule.
+    assert_eq!(of(&(floor(3.0, "12 kN/m", "at = 0.4") + &floor(3.0, "6 kN/m", "at = 0.1"))), [""; 0]);
+    assert_eq!(of(&(floor(3.0, "12 kN/m", "") + &floor(6.0, "6 kN/m", ""))), [""; 0]);
+    assert_eq!(
+        of("[out_of_plane]\nstrength = \"250 MPa\""),
+        ["out_of_plane.strength is 2.5e8 Pa, more than 1e8 Pa; did you mean \"2.5 MPa\"?"]
+    );
+    assert_eq!(of("[out_of_plane]\nstrength = \"60 MPa\""), [""; 0]);
+    let anchor = |z: f64| format!("[[out_of_plane.anchor]]\nz = {z}\nyield_force = \"20 kN\"");
+    // 100 m lie above a wall of 6 m, 5 m in it.
+    assert_eq!(
+        of(&anchor(0.1)),
+        ["out_of_plane.anchor[0].z is 0.1 m, less than 0.3 m: a tie there holds next to nothing"]
+    );
+    assert_eq!(
+        of(&anchor(0.005)),
+        [
+            "out_of_plane.anchor[0].z is 0.005 m, less than 0.3 m: a tie there holds next to nothing; did you mean \"5 m\"?"
+        ]
+    );
+    let door = |bearing: &str| {
+        let mut wall = facade("");
+        wall.panels[0].openings[0].lintel.as_mut().expect("a lintel").bearing =
+            concio::case::Extent::parse(bearing).expect("a length");
+        wall.panels[0].openings[0].width = 1.0.into();
+        doubts(&wall)
+    };
+    assert_eq!(
+        door("5 mm"),
+        [
+            "panel[0].opening[0].lintel.bearing is 5 mm, under a span of 1000 mm less than 20 mm, a fiftieth: at the least opening of the joints the lintel falls; lintels lie on a tenth"
+        ]
+    );
+    assert_eq!(door("40 mm"), [""; 0]);
 }
 
 /// A record whose interval is ten times too long, corner periods in milliseconds.

@@ -1,6 +1,7 @@
 //! The time history of mechanisms: the least of each kind through a motion, with both of its signs.
 
 use concio::case::CaseFile;
+use concio::warning::Warning;
 use concio::{Error, InputError};
 use concio_mechanisms::rocking::{
     Capacity, LiftOff, Positive, Repeated, Response, Rocking, Setting, Shaking, Stop, Verdict,
@@ -42,8 +43,10 @@ pub struct Shaken<'s> {
     pub motion: String,
     /// Factor on the motion as its file has it.
     pub factor: f64,
-    /// Doubts about the motion.
+    /// What a reader should know of the motion.
     pub doubts: Vec<String>,
+    /// What makes it doubtful, as runs tell it.
+    pub warnings: Vec<Warning>,
     /// The least of each kind, or every one.
     pub cases: Vec<Case<'s>>,
     /// Whether every hinge level is among them.
@@ -55,6 +58,11 @@ impl Shaken<'_> {
     pub fn file(&self, case: &Case) -> String {
         let kind = case.found.kind.name();
         if self.all { format!("time-history-{kind}-{:.2}m", case.found.hinge) } else { format!("time-history-{kind}") }
+    }
+
+    /// Warnings and doubts, for those who do not see standard error.
+    pub fn all_doubts(&self) -> Vec<String> {
+        self.warnings.iter().map(ToString::to_string).chain(self.doubts.iter().cloned()).collect()
     }
 }
 
@@ -78,6 +86,8 @@ pub struct Followed {
     pub restitution: f64,
     /// d0: weights and thrusts alone.
     pub last: Option<Capacity>,
+    /// The same inwards, negative; none either where the wall does not rock to that side.
+    pub last_inwards: Option<f64>,
     /// Displacement of the control point at d_SLV [m]; none where weights alone hold nothing.
     pub life: Option<f64>,
     /// With the record's positive side inwards, and outwards.
@@ -165,14 +175,14 @@ pub fn follow<'s>(
     for found in chosen {
         cases.push(Case { found, followed: followed(asked, &motion, wall, found)? });
     }
-    let Motion { words, factor, mut doubts, .. } = motion;
+    let Motion { words, factor, mut doubts, warnings, .. } = motion;
     if file.case.rocking.restitution.is_some() && asked.restitution.is_none() {
         doubts.push(
             "rocking.restitution is of runs of the wall file: here impacts follow their formulas, or --restitution"
                 .into(),
         );
     }
-    Ok(Some(Shaken { motion: words, factor, doubts, cases, all }))
+    Ok(Some(Shaken { motion: words, factor, doubts, warnings, cases, all }))
 }
 
 fn followed(
@@ -216,6 +226,7 @@ fn followed(
         sets_off: rocking.multiplier(),
         restitution: rocking.restitution(),
         last: rocking.d0(),
+        last_inwards: rocking.d0_inwards().map(|last| last.displacement),
         life: (life > 0.0).then_some(life),
         signs,
     }))

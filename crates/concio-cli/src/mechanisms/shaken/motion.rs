@@ -2,17 +2,21 @@
 
 use std::path::Path;
 
-use concio::case::{CaseFile, HistoryLayout, HistoryQuantity, RecordChannel, Signal};
+use concio::case::{CaseFile, HistoryLayout, HistoryQuantity, ModelKind, RecordChannel, Signal};
 use concio::ground::record::{Record, TextOptions};
 use concio::ground::signal::{compile, from_record};
-use concio::ground::{GroundMotion, channel, coverage, formats, measure};
+use concio::ground::{GroundMotion, Library, channel, coverage, formats, measure};
 use concio::quantity::Quantity;
+use concio::warning::{Warning, WarningKind};
 use concio::{Error, InputError};
 
 use crate::args::{Layout, TimeHistory};
 use crate::failure::{Failure, as_options};
 use crate::format::{plain, seconds, significant};
 use crate::motion::short;
+
+/// Instants at which a motion without samples is looked at for its peak.
+const LOOKS: f64 = 10_000.0;
 
 /// A motion.
 pub struct Motion {
@@ -26,8 +30,10 @@ pub struct Motion {
     pub duration: f64,
     /// What it is, with its peak as it shakes the wall.
     pub words: String,
-    /// What makes it doubtful.
+    /// What a reader should know of it.
     pub doubts: Vec<String>,
+    /// What makes it doubtful, as runs tell it.
+    pub warnings: Vec<Warning>,
 }
 
 /// The motion that is asked for; none where none is.
@@ -62,18 +68,31 @@ fn of_record(args: &TimeHistory, path: &Path) -> Result<Motion, Failure> {
         seconds(peak.time)
     );
     let mut doubts = across.doubts;
+    let mut warnings = doubted("--record", &across.record, factor, &mut doubts);
     let mut duration = across.record.duration();
     match &vertical {
         Some(up) => {
             let size = factor * measure(&up.record).pga.value.abs();
             words.push_str(&format!("; upwards {}{times}, peak {} m/s²", up.words, significant(size, 4)));
             doubts.extend(up.doubts.iter().cloned());
+            warnings.extend(doubted("--vertical", &up.record, factor, &mut doubts));
             duration = duration.max(up.record.duration());
         }
         None => doubts.push("no vertical motion: --vertical adds one".into()),
     }
     let vertical = vertical.map_or(GroundMotion::AtRest, |up| from_record(&up.record));
-    Ok(Motion { across: from_record(&across.record), vertical, factor, duration, words, doubts })
+    Ok(Motion { across: from_record(&across.record), vertical, factor, duration, words, doubts, warnings })
+}
+
+/// What runs would warn of a record as it shakes the wall; an offset without drift is a doubt.
+fn doubted(option: &str, record: &Record, factor: f64, doubts: &mut Vec<String>) -> Vec<Warning> {
+    let mut scaled = record.clone();
+    scaled.acceleration.iter_mut().for_each(|a| *a *= factor);
+    let warnings = coverage::of_option(option, &scaled);
+    if warnings.iter().all(|warning| warning.kind != WarningKind::Drift) {
+        doubts.extend(coverage::offset(&scaled));
+    }
+    warnings
 }
 
 /// A component of a file.
@@ -118,14 +137,7 @@ fn taken(args: &TimeHistory, path: &Path, wanted: Option<&RecordChannel>, up: bo
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let words = format!("{name}, channel {} of {} {label}", place + 1, records.len());
     let record = records.swap_remove(place);
-    doubts.extend(record.remarks.iter().map(ToString::to_string));
-    let odd = [
-        coverage::odd_peak(&record),
-        coverage::odd_interval(&record),
-        coverage::odd_length(&record),
-        coverage::offset(&record),
-    ];
-    doubts.extend(odd.into_iter().flatten());
+    doubts.extend(record.remarks.iter().filter(|remark| !remark.is_doubtful()).map(ToString::to_string));
     Ok(Taken { words: words.trim_end().into(), record, doubts })
 }
 
@@ -163,8 +175,21 @@ fn of_wall(args: &TimeHistory, file: &CaseFile) -> Result<Motion, Failure> {
     } else {
         words.push_str(&format!("; upwards {}", short(&motion.vertical)));
     }
-    if across.end().is_some_and(|end| end > duration * (1.0 + 1e-9)) {
-        doubts.push(format!("the run ends its shaking at {}, before the motion does", seconds(duration)));
+    let warnings = warned(file, &across, duration, factor)?;
+    Ok(Motion { across, vertical, factor, duration, words, doubts, warnings })
+}
+
+/// What a run that rocks would warn of the wall file's motion; of one that is scaled besides, that its peak is too high.
+fn warned(file: &CaseFile, across: &GroundMotion, duration: f64, factor: f64) -> Result<Vec<Warning>, Failure> {
+    let mut case = file.case.clone();
+    (case.model, case.motion.top) = (ModelKind::Rocking, Signal::None);
+    let found = coverage::warnings(&case, file.folder(), duration, &Library::default());
+    let mut found = found.map_err(|e| Failure::from(file.locate(e)))?;
+    if factor != 1.0 {
+        let step = across.sample_interval().unwrap_or(duration / LOOKS);
+        let looks = (duration / step).ceil() as usize;
+        let peak = (0..=looks).map(|k| across.acceleration(step * k as f64).abs()).fold(0.0, f64::max);
+        found.extend(coverage::of_scaled(factor * peak));
     }
-    Ok(Motion { across, vertical, factor, duration, words, doubts })
+    Ok(found)
 }

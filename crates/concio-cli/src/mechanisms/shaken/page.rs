@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use concio_mechanisms::rocking::Stop;
 use concio_study::table::Table;
 
 use super::text::{beside, spread};
@@ -15,11 +16,13 @@ use crate::study::page::{Figure, Section};
 const SIZE: [f64; 2] = [400.0, 110.0];
 /// d0 beyond which a fall is not drawn on: it would hide what led to it.
 const DRAWN: f64 = 1.3;
+/// Way to one side over that to the other from which levels are drawn there.
+const SEEN: f64 = 0.1;
 
 /// The sections.
 pub fn sections(shaken: &Shaken) -> Vec<Section> {
     let mut text = vec![format!("Motion: {}.", shaken.motion)];
-    text.extend(shaken.doubts.iter().cloned());
+    text.extend(shaken.all_doubts());
     text.extend(LIMITS.iter().map(|limit| limit.to_string()));
     let caption = "both signs of the motion; sets off: factor of this motion at which it first lifts off; spread: \
                    the motion times 0.999 to 1.001 and half of the step"
@@ -78,23 +81,24 @@ fn table(shaken: &Shaken) -> Table {
 
 fn drawing(case: &Case, followed: &Followed) -> Drawing {
     let last = followed.last.map(|last| last.displacement).filter(|last| *last > 0.0);
+    // Outwards and inwards; d_SLV inwards is the same part of d0 there.
+    let life = followed.life.map(|life| [Some(life), followed.last_inwards.zip(last).map(|(d, last)| life * d / last)]);
+    let levels = [(Some([last, followed.last_inwards]), "d0"), (life, "d_SLV")];
     let mut legend = vec!["displacement".to_string()];
-    let levels: Vec<(f64, usize)> = [(last, "d0"), (followed.life, "d_SLV")]
-        .into_iter()
-        .filter_map(|(level, name)| {
-            legend.push(name.into());
-            level.map(|level| (level, legend.len() - 1))
-        })
-        .collect();
+    legend.extend(levels.iter().map(|(_, name)| name.to_string()));
     let panel = |sign: &Sign| {
         let (x, y) = drawn(sign, last);
         let ends = [0.0, x.last().copied().unwrap_or(1.0)];
-        let level =
-            |(level, style): &(f64, usize)| Line { x: ends.to_vec().into(), y: vec![*level; 2].into(), style: *style };
-        let mut lines: Vec<Line> = levels.iter().map(level).collect();
+        let reached = sides(&y);
+        let drawn_levels = levels.iter().enumerate().flat_map(|(k, (values, _))| {
+            let values = values.unwrap_or_default().into_iter().zip(reached);
+            values.filter(|(_, reached)| *reached).filter_map(move |(value, _)| Some((value?, k + 1)))
+        });
+        let level = |(level, style)| Line { x: ends.to_vec().into(), y: vec![level; 2].into(), style };
+        let mut lines: Vec<Line> = drawn_levels.map(level).collect();
         lines.push(Line { x: Cow::Owned(x), y: Cow::Owned(y), style: 0 });
         Panel {
-            heading: format!("{}: {}", sign.words(), sign.outcome(followed.life).1),
+            heading: format!("{}: {}{}", sign.words(), sign.outcome(followed.life).1, ends_early(sign, ends[1])),
             x: Axis { quantity: "time".into(), unit: "s", range: None, logarithmic: false },
             y: Axis { quantity: "outwards".into(), unit: "m", range: None, logarithmic: false },
             lines,
@@ -111,6 +115,21 @@ fn drawing(case: &Case, followed: &Followed) -> Drawing {
         width: SIZE[0],
         height: Some(SIZE[1]),
     })
+}
+
+/// Whether a curve goes outwards and inwards far enough for a level there to say something; one that rests does so outwards.
+fn sides(y: &[f64]) -> [bool; 2] {
+    let [low, high] = y.iter().fold([0.0f64; 2], |[low, high], u| [low.min(*u), high.max(*u)]);
+    let most = high.max(-low);
+    [high >= SEEN * most, most > 0.0 && -low >= SEEN * most]
+}
+
+/// What follows in a heading where a fall goes on after the time up to which it is drawn [s].
+fn ends_early(sign: &Sign, drawn: f64) -> String {
+    match sign.response().stop {
+        Stop::Fallen { time, .. } if drawn < time => format!(", drawn until {drawn:.1} s"),
+        _ => String::new(),
+    }
 }
 
 /// The history as it is drawn: to the last motion, and of a fall to a little beyond d0.

@@ -12,7 +12,7 @@ pub fn json(shaken: &Shaken) -> Value {
     json!({
         "motion": shaken.motion,
         "factor": shaken.factor,
-        "doubts": shaken.doubts,
+        "doubts": shaken.all_doubts(),
         "mechanisms": shaken.cases.iter().map(case).collect::<Vec<_>>(),
         "limits": LIMITS,
     })

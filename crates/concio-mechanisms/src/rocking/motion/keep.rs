@@ -202,7 +202,7 @@ impl<'s> Run<'s> {
             stop,
             peak: peak(0),
             inwards: (self.system.sides.len() > 1).then(|| peak(1)),
-            d0: self.system.capacity(),
+            d0: self.system.capacity(0),
             first_lift_off: self.state.first_lift_off,
             counts: self.state.counts,
             ties: self.ties(),
