@@ -244,7 +244,7 @@ fn numbers_of_an_incremental_analysis_are_asked_about() {
             "ida.period is 300 s, more than 10 s; did you mean \"300 ms\"?",
         ),
         (
-            of("peak_drift", "0.01", &format!("intensity = \"pgv\"\nintensities = [10, 20]")),
+            of("peak_drift", "0.01", "intensity = \"pgv\"\nintensities = [10, 20]"),
             "the largest of ida.intensities is 20 m/s, more than 4 m/s; did you mean \"20 cm/s\"?",
         ),
     ] {
