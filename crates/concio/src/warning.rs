@@ -79,7 +79,7 @@ kinds! {
     Collapse = "collapse",
     /// A rocking wall that was turned farther than its weight holds, and came back.
     BeyondD0 = "beyond-balance",
-    /// A rocking run that a thousandth of the motion decides.
+    /// A run that next to nothing decides: a thousandth of the motion of a rocking one, the step where friction falls at once.
     Chance = "chance",
     /// A tie of a rocking wall that broke.
     BrokenTie = "broken-tie",

@@ -55,6 +55,8 @@ const RUBBED: f64 = 0.05;
 const FAR_TOO_WEAK: f64 = 10.0;
 /// Part of the largest work that may be motion at the end before a run should be doubted for its end.
 const UNDER_WAY: f64 = 0.5;
+/// Slip of a joint that counts as one [m].
+const SLID: f64 = 1e-6;
 /// Way of the wall's weight whose work is nothing [m]: what a wall at rest does.
 const NOTHING: f64 = 1e-8;
 
@@ -87,6 +89,7 @@ fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
         (WarningKind::UnderWay, moves_on(model, planar, outcome)),
         (WarningKind::Unresolved, unresolved(model, planar, outcome)),
         (WarningKind::Unresolved, flutters(model, planar, outcome)),
+        (WarningKind::Chance, gives_way_by_chance(model, planar, outcome)),
         (WarningKind::LargeSlip, large_slips(model, outcome)),
         (WarningKind::Creep, creep(joints, outcome)),
     ];
@@ -405,6 +408,24 @@ fn flutters(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option
              μ = 0.6 by half and more. Compare with a step of {} ms, and with rigid joints, before you rely on peaks",
             shown(rounded(1e3 * planar.step, 3)),
             cut(1e3 * wanted)
+        )
+    })
+}
+
+/// Joints whose friction falls at once as they begin to slide decide by little which of them does first (`docs/planar.md`).
+fn gives_way_by_chance(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
+    let planar = planar.filter(|planar| !planar.still)?;
+    let weight = G * model.shear.mass.iter().sum::<f64>();
+    let slid = planar.system.links.iter().zip(&outcome.envelopes.joint_slip).filter(|(_, slip)| **slip > SLID);
+    let mut falls = slid.filter_map(|(link, _)| link.law.friction.filter(|f| f.slowly(true) < f.static_));
+    let first = falls.next().filter(|_| outcome.energies.friction > NOTHING * weight)?;
+    falls.next().map(|_| {
+        format!(
+            "friction falls at once, from {} to {}, where joints begin to slide: which of them does first is a matter of chance, and peaks change with \
+             solver.step, by a tenth and more. Compare with a step of {} ms before you rely on them",
+            shown(rounded(first.static_, 3)),
+            shown(rounded(first.dynamic, 3)),
+            shown(rounded(0.5e3 * planar.step, 3))
         )
     })
 }
@@ -831,6 +852,38 @@ base = {{ pulse = {{ shape = "rectangular", acceleration = {acceleration}, durat
             assert!(what.contains("solver.step of 1 ms") && what.contains("Compare with a step of"), "{what}");
             assert_eq!(bonded(courses, "1 MPa"), None);
         }
+    }
+
+    /// Friction that falls at once makes a wall's slides a matter of chance, but not that of one stone; a constant one does not.
+    #[test]
+    fn slides_whose_friction_falls_at_once_are_told() {
+        let told = |bricks: usize, friction: &str| {
+            let text = format!(
+                r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 2
+bricks = {bricks}
+brick = {{ length = 0.4, height = 0.1, thickness = 0.3, specific_weight = 20e3 }}
+mortar = {{ bed = 0, head = 0 }}
+[joint]
+bed = {{ law = "rigid" }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", {friction} }}
+[motion]
+duration = "0.3 s"
+base = {{ pulse = {{ shape = "rectangular", acceleration = "0.9 g", duration = "0.1 s" }} }}
+"#
+            );
+            let (prepared, outcome) = ran(&text);
+            gives_way_by_chance(&prepared.model, prepared.model.planar(), &outcome)
+        };
+        let what = told(3, "static = 0.5, dynamic = 0.35").expect("they slide");
+        assert!(what.contains("from 0.5 to 0.35") && what.contains("a step of 0.5 ms"), "{what}");
+        assert_eq!(told(1, "static = 0.5, dynamic = 0.35"), None);
+        assert_eq!(told(3, "static = 0.5, dynamic = 0.5"), None);
+        assert_eq!(told(3, "static = 1.5, dynamic = 1"), None);
     }
 
     fn of_kind(text: &str, kind: WarningKind) -> Option<String> {
