@@ -29,7 +29,7 @@ pub mod space;
 
 pub use fixed_friction::{NonAssociative, Stop};
 pub use mechanism::{JointMotion, Mechanism, MechanismKind};
-pub use problem::{Heads, Options, Problem, Push, Towards};
+pub use problem::{Heads, Options, Problem, Push, Towards, other_strengths};
 
 use equations::Equations;
 use program::Friction;

@@ -161,6 +161,13 @@ fn at_rest(case: &Case) -> Result<Case> {
     Ok(case)
 }
 
+/// Compressive strengths of joints [Pa] other than that of the bed joints.
+pub fn other_strengths(joints: &Joints) -> Vec<f64> {
+    let mut others = joints.clone();
+    others.bed.compressive_strength = None;
+    strengths(&mut others).into_iter().filter_map(|strength| Some(strength.as_ref()?.si())).collect()
+}
+
 /// Where joints may have a compressive strength.
 fn strengths(joint: &mut Joints) -> Vec<&mut Option<Stress>> {
     let others = [&mut joint.base, &mut joint.top, &mut joint.connection].into_iter().flatten();

@@ -1003,7 +1003,7 @@ impl Crack {
             taken += weight * (lost - (keeps[1] - had[1]));
             self.reach = self.reach.max(w.max(s.abs()));
         }
-        // Breaking gives nothing back, whatever friction stores where a wall falls on its edges.
+        // Breaking gives nothing back: where a wall falls on its edges, what friction would store beyond it is lost in impacts.
         let mut taken = taken.max(0.0);
         // What is left of it has no points any more.
         if worn && 1.0 - self.damage() <= NOTHING {

@@ -171,7 +171,8 @@ impl Setting {
         if self.still { self.tolerance } else { ENOUGH * self.tolerance }
     }
 
-    /// ρ of what has no spring in a step of `h` [s], over the mass that its point moves or bears: parts of a step have the stiffness of the whole.
+    /// ρ of what has no spring in a step of `h` [s], over the mass that its point moves or bears. At the length of the part, parts of a step have the
+    /// stiffness of the whole; at that of the whole, its ρ.
     fn firm(&self, h: f64) -> f64 {
         let yields = if self.still { YIELDS_AT_REST } else { YIELDS.min(G * self.step * self.step / FIRM) };
         G * h * h / yields
@@ -578,10 +579,10 @@ impl Motion {
         &self.setting
     }
 
-    /// One step of the setting's length, in which `forcing` acts evenly.
+    /// One step of the setting's length, in which `forcing` acts evenly, as [`Motion::go`] takes it; without inertia no others follow.
     pub fn step(&mut self, forcing: Forcing) {
         let (start, h) = (self.time, self.setting.step);
-        let part = |from: f64, to: f64| (to - from) / h;
+        let part = |from: f64, to: f64| if (from, to) == (start, start + h) { 1.0 } else { (to - from) / h };
         self.part(start, h, 0, &|from, to| Forcing {
             base: forcing.base.map(|v| part(from, to) * v),
             held: part(from, to) * forcing.held,
@@ -918,9 +919,9 @@ impl Motion {
         // What grips does so however little resists.
         let moved = contact.moved;
         contact.moved = moved.map(|m| m / self.resists);
-        // Parts of a step leave some of what approaches, which rebounds and what is known of an impact would lack.
-        let firm =
-            self.setting.firm(if law.rebounds() || law.rocking().is_some() { h.max(self.setting.step) } else { h });
+        // In parts of a step a point yields more, and leaves some of its approach: rebounds and (P8) would lose it.
+        let whole = !self.setting.still && (law.rebounds() || law.rocking().is_some());
+        let firm = self.setting.firm(if whole { h.max(self.setting.step) } else { h });
         let start = law.begin(state, share, h, (self.setting.still, firm), (gap, before), &mut contact);
         contact.moved = moved;
         if edge > 0.0 {

@@ -90,8 +90,9 @@ def test_questions_are_those_of_study_files(
 
 def test_a_wall_that_does_not_crack_has_its_table(tmp_path: Path, bonded: Wall) -> None:
     strong = bonded.replace({"joint.bond": {"tensile_strength": "5000 MPa", "cohesion": "8000 MPa"}})
-    with pytest.warns(UserWarning, match=", more than "):
+    with pytest.warns(UserWarning, match=", more than ") as told:
         rows = Study(strong, motions={"A": pulse("half-sine")}, first_crack={}).run(tmp_path)
+    assert {warning.filename for warning in told} == {__file__}
     (row,) = rows.tables["first-crack"]
     # The command says by its status that no crack was found up to the largest scale.
     assert row["motion"] == "A" and row["scale"] is None and row["scale_below"] > 1

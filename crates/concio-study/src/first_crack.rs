@@ -30,6 +30,8 @@ const START: f64 = 0.01 * concio::G;
 const MOST: f64 = 20.0 * concio::G;
 /// A run without a crack proposes at most so many times its factor.
 const LEAP: f64 = 10.0;
+/// The same of one that does not tell how near it came.
+const UNKNOWN: f64 = 2.0;
 /// Sets of runs after which the search for one motion gives up.
 const ROUNDS: usize = 60;
 /// How far the two runs around a proposal are apart, over what is asked, as logarithms.
@@ -411,6 +413,10 @@ impl<'a> Seek<'a> {
     /// By which factor the motion has to grow for the largest demand of a run to reach its limit.
     fn growth(&self, low: usize) -> f64 {
         let trial = &self.trials[low];
+        // Nothing is known of how near rigid joints are.
+        if trial.utilisation == 0.0 {
+            return UNKNOWN;
+        }
         // A crack that the envelope sees and the solver does not is a matter of rounding.
         let used = trial.utilisation.clamp(1e-12, 1.0 - 1e-9);
         let before =

@@ -110,16 +110,16 @@ impl Limits {
             Criterion::Bond => {
                 let mut all = vec![f64::INFINITY; model.joints.len()];
                 for bond in &model.shear.bonds {
-                    // A rigid joint bears its strength without a displacement: it is far from any until it cracks.
-                    let limit = bond.law.limit();
-                    all[bond.joint as usize] = if limit.is_finite() && limit > 0.0 { limit } else { f64::MAX };
+                    all[bond.joint as usize] = bond.law.limit();
                 }
                 all
             }
             Criterion::Opening => upright.iter().map(|u| if *u { given } else { f64::INFINITY }).collect(),
             Criterion::Slip => upright.iter().map(|u| if *u { f64::INFINITY } else { given }).collect(),
         };
-        let any = of_joint.iter().any(|l| l.is_finite());
+        // A bonded rigid joint bears its strength without a displacement: its demand is not known, but when it cracks is.
+        let bonded = rule.criterion == Criterion::Bond && !model.shear.bonds.is_empty();
+        let any = bonded || of_joint.iter().any(|l| l.is_finite());
         any.then_some(Limits { criterion: rule.criterion, of_joint, upright })
     }
 

@@ -1,7 +1,7 @@
 //! `concio check`.
 
 use concio::bond;
-use concio::case::{Beam, Case, DeviceLaw, JointKind, StopAt};
+use concio::case::{Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, Panel, StopAt};
 use concio::device;
 use concio::model::{Model, System};
 use concio::planar::{Rest, tie_lines};
@@ -41,7 +41,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     }
     let duration = model.excitation.duration;
     let samples = (duration / prepared.sampling.interval).floor() as u64 + 1;
-    let mut general = vec![("unknowns", unknowns(model).to_string()), ("mass", masses(model))];
+    let mut general = vec![("unknowns", unknowns(model).to_string()), ("mass", masses(&prepared.case, model))];
     if model.top_load > 0.0 {
         general.push(("load on top", load_on_top(model)));
     }
@@ -242,28 +242,26 @@ fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
 
 /// Mass of the blocks, and of a beam that has one [kg]: what a planar wall is led by has a body too.
 /// Of wall and beam, and that of a load that stands on the wall.
-fn masses(model: &Model) -> String {
+fn masses(case: &Case, model: &Model) -> String {
     let load = model.load_mass;
     let of_load = if load > 0.0 { format!(", and {} of the load", mass(load)) } else { String::new() };
-    let bare = unweighed(model);
+    let bare = unweighed(case);
     let of_mortar = if bare > 0.0 {
-        format!("; mortar, {} % of the wall, weighs nothing", significant(100.0 * bare, 2))
+        format!("; mortar, {} % of its area, weighs nothing", significant(100.0 * bare, 2))
     } else {
         String::new()
     };
     mass(total(model)) + &of_load + &of_mortar
 }
 
-/// Part of a bonded wall that is mortar, which has no mass, as the first panel has it.
-fn unweighed(model: &Model) -> f64 {
-    let Some(panel) = model.wall.panels.first().filter(|_| model.rocking().is_none()) else { return 0.0 };
-    let Some(block) =
-        model.wall.blocks.iter().filter(|b| b.panel == 0).max_by(|a, b| a.length().total_cmp(&b.length()))
-    else {
-        return 0.0;
-    };
-    let [bed, head] = panel.mortar;
-    1.0 - block.length() * block.height() / ((block.length() + head) * (block.height() + bed))
+/// Part of regular brickwork that is mortar, which has no mass, as the first panel has it.
+fn unweighed(case: &Case) -> f64 {
+    let regular =
+        |panel: &&Panel| case.model != ModelKind::Rocking && matches!(panel.bond, Bond::Running | Bond::Stack);
+    case.panels.first().filter(regular).map_or(0.0, |Panel { brick, mortar, .. }| {
+        let [length, height] = [brick.length.si(), brick.height.si()];
+        1.0 - length * height / ((length + mortar.head.si()) * (height + mortar.bed.si()))
+    })
 }
 
 /// The vertical force of `load.top`, which counts bricks and no mortar, and what it presses on: the joints below a beam, or the top sides.

@@ -7,7 +7,7 @@ use concio::case::{CaseFile, ModelKind};
 use concio::model::NOT_IN_PLANE;
 use concio::{Error, InputError};
 use concio_limit::space::{self, ContactKind, ContactMotion, Face, Limit, Problem, Turning, Vector};
-use concio_limit::{CERTIFIED, LimitError, NonAssociative, Problem as Planar};
+use concio_limit::{CERTIFIED, LimitError, NonAssociative, Problem as Planar, other_strengths};
 use serde_json::{Value, json};
 
 use super::limit::{DRAWING, NAMED, RESULT, estimate, failure, options, without_dilation};
@@ -152,10 +152,10 @@ fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Fo
         .cloned()
         .chain(left_out)
         .collect();
-    if strength.is_some()
-        && file.case.joint.changes.iter().any(|c| c.spring.is_some_and(|s| s.compressive_strength.is_some()))
-    {
-        warnings.push("compressive_strength of single joints is left out: all crush at that of joint.bed".into());
+    if strength.is_some_and(|all| other_strengths(&file.case.joint).iter().any(|other| *other != all)) {
+        warnings.push(
+            "other compressive strengths are left out: all joints crush at that of joint.bed or out_of_plane".into(),
+        );
     }
     if let Some(strength) = strength {
         problem = problem.crushing(strength);
@@ -163,9 +163,12 @@ fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Fo
     if args.even_twist {
         problem = problem.drawn_in();
     }
-    let falls = |e| match (failure(e, &args.file), strength) {
-        (Failure::Input(all), Some(_)) => Failure::Input(all.into_iter().map(|e| e.help(CRUSHES)).collect()),
-        (other, _) => other,
+    let falls = |e: LimitError| {
+        let crushes = strength.is_some() && matches!(e, LimitError::DoesNotStand);
+        match failure(e, &args.file) {
+            Failure::Input(all) if crushes => Failure::Input(all.into_iter().map(|e| e.help(CRUSHES)).collect()),
+            other => other,
+        }
     };
     let space::Crushed { limit, problem, overloaded } = space::crushed(&problem).map_err(falls)?;
     let crushing = strength.map(|strength| (strength, overloaded));

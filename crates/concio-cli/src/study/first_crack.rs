@@ -187,7 +187,7 @@ fn criterion(question: &Question) -> String {
 
 /// What stands above the table of all runs.
 const ALL_RUNS: &str = "All runs; utilisation is the largest demand over limit of a joint. In planar walls it leaves out how joints \
-                        turn, and is below 1 at a crack";
+                        turn, and is below 1 at a crack; of rigid joints it is not known";
 
 /// One line per motion.
 fn summary(question: &Question, answers: &[Answer]) -> Table {

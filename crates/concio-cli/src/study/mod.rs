@@ -40,8 +40,20 @@ pub enum Kind {
 
 /// Tables of which each kind has one at least.
 const TABLES: [(Kind, &[&str]); 3] = [
-    (Kind::Design, &["runs.csv", "sensitivity.csv", "cracks.csv", "ranking.csv", "interfaces.csv"]),
-    (Kind::Ida, &["ida.csv", "capacities.csv", "fragility.csv"]),
+    (
+        Kind::Design,
+        &[
+            "runs.csv",
+            "sensitivity.csv",
+            "cracks.csv",
+            "ranking.csv",
+            "interfaces.csv",
+            "interfaces-by-motion.csv",
+            "interfaces-draws.csv",
+            "crack-lines.csv",
+        ],
+    ),
+    (Kind::Ida, &["ida.csv", "capacities.csv", "fragility.csv", "fragility_curves.csv", "fractiles.csv"]),
     (Kind::FirstCrack, &["first-crack.csv", "first-crack-runs.csv"]),
 ];
 

@@ -189,7 +189,7 @@ Small wall
   all         23
 
   unknowns      10
-  mass          23.98 kg; mortar, 19 % of the wall, weighs nothing
+  mass          23.98 kg; mortar, 19 % of its area, weighs nothing
   load on top   4.900 kN, 83.33 kPa on 0.05880 m² of bricks
   first period  [..]
   duration      0.05 s, 2001 samples kept

@@ -571,6 +571,11 @@ fn levels_are_drawn_where_the_wall_goes() {
     text(&desk, "mechanisms wall.toml --record shaking.csv --scale 6 --out assessed");
     let drawn = desk.get("assessed/report.html");
     assert!(drawn.contains("drawn until"), "no heading says where the curve ends");
+    // A wall that falls inwards has its levels there: some are drawn below the axis.
+    let lines = |from: &str, to: &str| {
+        drawn.split(from).nth(1).map_or(0, |rest| rest.split(to).next().unwrap_or("").matches("<path").count())
+    };
+    assert!(lines("<svg", "</svg>") > 3, "no levels are drawn");
 }
 
 /// Numbers of another unit are asked about by each command that runs nothing, on standard error, whatever it prints.

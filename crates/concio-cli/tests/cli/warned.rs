@@ -252,6 +252,7 @@ fn numbers_of_an_incremental_analysis_are_asked_about() {
         holds(&told, &[says]);
     }
     for study in [
+        of("peak_drift", "1.0", g).replace("limits = [{", "limits = [{ name = \"l\", value = \"0.5 %\" }, {"),
         of("peak_drift", "\"1 %\"", g),
         of("peak_displacement", "\"1 m\"", g),
         of("peak_drift", "0.02", "intensities = [2, 6]"),
@@ -281,7 +282,12 @@ fn a_factor_that_an_analysis_chose_is_not_asked_about() {
     // Tables of another question are told of and stay.
     desk.put("plain.toml", "wall = \"wall.toml\"\n[[vary]]\npath = \"joint.friction.static\"\nvalues = [0.4]\n");
     let [_, told] = said(&desk, "study run plain.toml --out out");
-    holds(&told, &["ida.csv, capacities.csv, fragility.csv in out are of an earlier question"]);
+    holds(
+        &told,
+        &[
+            "ida.csv, capacities.csv, fragility.csv, fragility_curves.csv, fractiles.csv in out are of an earlier question",
+        ],
+    );
     assert!(desk.get("out/ida.csv").contains("9.8"));
     // And a path with a step too many is told the other.
     desk.put("path.toml", "wall = \"wall.toml\"\n[[vary]]\npath = \"motion.base.record.pga\"\nvalues = [\"0.3 g\"]\n");

@@ -57,7 +57,7 @@ impl Motion {
                 let own = owners.iter().zip(contacts).filter(|(owner, _)| owner.point == point);
                 own.map(|(owner, contact)| ahead(contact, owner)[0] / h).sum::<f64>()
             };
-            if bears > counts && crack.breaks_rigid(law, &force, bond_slides(law, contacts, owners, ahead)) {
+            if bears > 0.0 && crack.breaks_rigid(law, &force, bond_slides(law, contacts, owners, ahead)) {
                 falls += bears;
             }
         }
@@ -69,6 +69,10 @@ impl Motion {
         let (contact, owner) = (&self.contacts[at], &self.owners[at]);
         let pair = &self.pairs[owner.pair];
         let law = self.laws.part(pair.link, owner.part);
+        // What a bond lets go is known as a whole.
+        if owner.part == Part::Held {
+            return 0.0;
+        }
         let falls =
             falls_by(law, &pair.points[owner.point]).filter(|_| slides(contact, contact.velocity(&self.after)[1], h));
         let begins = || law.is_compliant() || slides_whole(at, &self.contacts, &self.owners, &self.after, h);

@@ -445,7 +445,7 @@ def _report(file: str, out: str) -> dict[str, Table]:
     before = _written(out)
     for told in _native.study_report(file, out):
         if told.startswith("warning: "):
-            warnings.warn(told.removeprefix("warning: "), UserWarning, stacklevel=3)
+            warnings.warn(told.removeprefix("warning: "), UserWarning, stacklevel=4)
     after = _written(out)
     return {name: _read(os.path.join(out, f"{name}.csv")) for name in after if after[name] != before.get(name)}
 

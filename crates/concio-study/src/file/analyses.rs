@@ -76,7 +76,7 @@ pub struct HazardInput {
 pub struct Limit {
     /// Its name in tables and figures, unique.
     pub name: String,
-    /// Damage at which it is reached, above 0: a number in SI, or a text with its unit; of drifts also "1 %".
+    /// Damage at which it is reached, above 0: a number in SI, or a text with its unit; of drifts and of parts of d0 also "1 %".
     pub value: Value,
 }
 

@@ -56,8 +56,7 @@ fn of_intensities(ida: &Ida) -> Vec<String> {
 
 fn of_hazard(ida: &Ida) -> Option<String> {
     let last = ida.hazard.as_ref().and_then(|hazard| hazard.intensities.last())?;
-    let end = super::number(last, ida.intensity.unit())
-        .filter(|y| *y < LOW_HAZARD && matches!(ida.intensity, Intensity::Pga | Intensity::Sa))?;
+    let end = last.as_f64().filter(|y| *y < LOW_HAZARD && matches!(ida.intensity, Intensity::Pga | Intensity::Sa))?;
     let [end, in_g] = [end, rounded(end / concio::G, 3)].map(shown);
     Some(format!("ida.hazard.intensities end at {end} m/s2, {in_g} g: did you mean \"{end} g\"?"))
 }
@@ -67,14 +66,17 @@ fn of_limits(ida: &Ida) -> Vec<String> {
     let limits = ida.limits.iter().enumerate().map(|(i, limit)| (format!("ida.limits[{i}].value"), &limit.value));
     let collapse = ida.collapse.iter().map(|value| ("ida.collapse".to_string(), value));
     let bare = |(key, value): (String, &Value)| Some((key, value.as_f64()?));
-    let lowest = limits.clone().filter_map(bare).reduce(|a, b| if b.1 < a.1 { b } else { a });
+    // Of all limits, those with a unit too: they show that the others are meant.
+    let of_any = |(key, value): (String, &Value)| Some((key, super::ratio(value)?, value.is_number()));
+    let lowest = limits.clone().filter_map(of_any).reduce(|a, b| if b.1 < a.1 { b } else { a });
+    let lowest = lowest.filter(|(_, _, bare)| *bare);
     let all = || limits.clone().chain(collapse.clone()).filter_map(bare);
     let unit = MEASURES.iter().find(|m| m.name == ida.damage).map_or("", |m| m.unit);
     let percent = |v: f64| format!(": a drift of {} %", shown(rounded(100.0 * v, 4)));
     let told: Vec<String> = match (ida.damage.as_str(), unit) {
         (OF_D0, _) => beyond_d0(ida),
         (drift, _) if RATIOS.contains(&drift) => {
-            let first = lowest.and_then(|(key, value)| FIRST_DRIFT.doubt(&key, value, &percent(value)));
+            let first = lowest.and_then(|(key, value, _)| FIRST_DRIFT.doubt(&key, value, &percent(value)));
             let any = || all().filter_map(|(key, value)| DRIFT.doubt(&key, value, &percent(value))).map(|w| w.text);
             first.map_or_else(|| any().collect(), |w| vec![w.text])
         }

@@ -203,6 +203,8 @@ const BEHAVIOUR: f64 = 2.0;
 const LARGEST_FRICTION: f64 = 1.0;
 /// Difference from whole steps of how long a force acts that is told: more than a rounded step.
 const WHOLE_STEPS: f64 = 1e-6;
+/// What joints of masonry do.
+const RUBS: &str = ": joints of masonry rub with 0.4 to 0.8";
 /// Below this it slides on sheets made to slide.
 const LEAST_FRICTION: f64 = 0.1;
 /// Heights of beams and slabs on a wall.
@@ -541,10 +543,18 @@ impl Doubts {
         self.look(key, stiffness.amount(), expected);
     }
 
+    /// Of joints as a rule: single ones may have sheets that slide.
+    fn look_at_slippery(&mut self, key: &str, coefficient: f64) {
+        if coefficient > 0.0 && coefficient < LEAST_FRICTION {
+            let text = format!("{key} is {}, less than {LEAST_FRICTION}{RUBS}", shown(rounded(coefficient, 6)));
+            self.add(WarningKind::UnlikelyNumber, text);
+        }
+    }
+
     fn look_at_friction(&mut self, key: &str, coefficient: f64, largest: f64) {
         if coefficient > largest {
             let tangent = (LEAST_ANGLE..90.0).contains(&coefficient).then(|| (coefficient * PI / 180.0).tan());
-            let meant = tangent.map_or(String::from(": joints of masonry rub with 0.4 to 0.8"), |t| {
+            let meant = tangent.map_or(RUBS.into(), |t| {
                 format!("; did you mean {:.2}, the tangent of {} degrees?", t, shown(coefficient))
             });
             let text = format!("{key} is {}, more than {largest}{meant}", shown(rounded(coefficient, 6)));
@@ -966,15 +976,9 @@ fn of_joints(doubts: &mut Doubts, case: &Case) {
     // Sets hold what was measured, split stones among it.
     let largest = if case.set.is_some() { LARGEST_HELD } else { LARGEST_FRICTION };
     doubts.look_at_friction("joint.friction.static", joint.friction.static_, largest);
-    for (key, coefficient) in [("static", joint.friction.static_), ("dynamic", joint.friction.dynamic)] {
-        let own = key == "static" || coefficient != joint.friction.static_;
-        if own && coefficient > 0.0 && coefficient < LEAST_FRICTION {
-            let text = format!(
-                "joint.friction.{key} is {}, less than {LEAST_FRICTION}: joints of masonry rub with 0.4 to 0.8",
-                shown(rounded(coefficient, 6))
-            );
-            doubts.add(WarningKind::UnlikelyNumber, text);
-        }
+    doubts.look_at_slippery("joint.friction.static", joint.friction.static_);
+    if joint.friction.dynamic != joint.friction.static_ {
+        doubts.look_at_slippery("joint.friction.dynamic", joint.friction.dynamic);
     }
     doubts.look("joint.friction.slip_velocity", joint.friction.slip_velocity.si(), &SLIP_VELOCITY);
     if let Some(bond) = &joint.bond {

@@ -128,7 +128,7 @@ pub fn of_option(option: &str, record: &Record) -> Vec<Warning> {
     [named.remarks(record), named.numbers(record, STRONGEST)].concat()
 }
 
-/// Says that a motion multiplied by `--scale` has a peak [m/s²] that hardly an earthquake had.
+/// Says that a motion without samples multiplied by `--scale` has a peak [m/s²] that hardly an earthquake had.
 pub fn of_scaled(peak: f64) -> Option<Warning> {
     let told = beyond("--scale", peak, STRONGEST, "and --scale");
     told.map(|text| Warning::new(WarningKind::UnlikelyRecord, text))
@@ -313,9 +313,15 @@ fn of_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String
     })
 }
 
+/// Whether a warning is one of a factor on a record that is g.
+pub fn is_conversion(warning: &Warning) -> bool {
+    warning.kind == WarningKind::UnlikelyRecord && warning.contains(FROM_G)
+}
+
 /// Whether a warning is one of a factor on a record that is g, or of the peak that it comes to: it means nothing where a study chose the factor.
 pub fn is_of_factor(warning: &Warning) -> bool {
-    warning.kind == WarningKind::UnlikelyRecord && (warning.contains(FROM_G) || warning.contains(RARE))
+    let chosen = warning.kind == WarningKind::UnlikelyRecord && warning.starts_with("motion.base");
+    chosen && (is_conversion(warning) || warning.contains(RARE))
 }
 
 /// Says of the two components of a motion that one of them alone is scaled: they are no more of one earthquake.

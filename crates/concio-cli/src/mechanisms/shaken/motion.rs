@@ -9,14 +9,12 @@ use concio::ground::{GroundMotion, Library, channel, coverage, formats, measure}
 use concio::quantity::Quantity;
 use concio::warning::{Warning, WarningKind};
 use concio::{Error, InputError};
+use concio_study::motions::strengthen;
 
 use crate::args::{Layout, TimeHistory};
 use crate::failure::{Failure, as_options};
 use crate::format::{plain, seconds, significant};
 use crate::motion::short;
-
-/// Instants at which a motion without samples is looked at for its peak.
-const LOOKS: f64 = 10_000.0;
 
 /// A motion.
 pub struct Motion {
@@ -175,21 +173,28 @@ fn of_wall(args: &TimeHistory, file: &CaseFile) -> Result<Motion, Failure> {
     } else {
         words.push_str(&format!("; upwards {}", short(&motion.vertical)));
     }
-    let warnings = warned(file, &across, duration, factor)?;
+    let mut warnings = warned(file, duration, factor)?;
+    let sampled = matches!(motion.base, Signal::Record(_) | Signal::Synthetic(_));
+    if factor != 1.0 && !sampled {
+        let at = |k: usize| across.acceleration(duration * k as f64 / LOOKS as f64).abs();
+        warnings.extend(coverage::of_scaled(factor * (0..=LOOKS).map(at).fold(0.0, f64::max)));
+    }
     Ok(Motion { across, vertical, factor, duration, words, doubts, warnings })
 }
 
-/// What a run that rocks would warn of the wall file's motion; of one that is scaled besides, that its peak is too high.
-fn warned(file: &CaseFile, across: &GroundMotion, duration: f64, factor: f64) -> Result<Vec<Warning>, Failure> {
+/// Instants at which a motion without samples is looked at for its peak.
+const LOOKS: usize = 10_000;
+
+/// What a run that rocks would warn of the wall file's motion, multiplied by `factor`.
+fn warned(file: &CaseFile, duration: f64, factor: f64) -> Result<Vec<Warning>, Failure> {
     let mut case = file.case.clone();
     (case.model, case.motion.top) = (ModelKind::Rocking, Signal::None);
+    if factor != 1.0 {
+        strengthen(&mut case.motion, factor);
+    }
     let found = coverage::warnings(&case, file.folder(), duration, &Library::default());
     let mut found = found.map_err(|e| Failure::from(file.locate(e)))?;
-    if factor != 1.0 {
-        let step = across.sample_interval().unwrap_or(duration / LOOKS);
-        let looks = (duration / step).ceil() as usize;
-        let peak = (0..=looks).map(|k| across.acceleration(step * k as f64).abs()).fold(0.0, f64::max);
-        found.extend(coverage::of_scaled(factor * peak));
-    }
+    // The factor is that of the command, which says it.
+    found.retain(|warning| factor == 1.0 || !coverage::is_conversion(warning));
     Ok(found)
 }
