@@ -17,9 +17,7 @@ use crate::assign::JointLaw;
 use crate::assign::load_masses;
 use crate::bond::{Bond, Snap, Snaps};
 use crate::case::plausible::rounded;
-use crate::case::{
-    Acts, Beam, BeamRotation, BlockForce, Case, Device, DeviceLaw, JointKind, ModelKind, Spring, StopAt, Tie,
-};
+use crate::case::{Acts, Beam, BeamRotation, BlockForce, Case, Device, DeviceLaw, JointKind, Spring, StopAt, Tie};
 use crate::device;
 use crate::error::{InputError, Result};
 use crate::quantity::{Length, shown};
@@ -342,10 +340,9 @@ fn ends_of(tie: &Tie, wall: &Wall) -> [[f64; 2]; 2] {
     [end(&tie.from, tie.at), end(&tie.to, tie.to_at)]
 }
 
-/// Where the ties of a planar wall begin and end, x and y of both [m]; none of other walls.
+/// Where the ties of a wall begin and end, x and y of both [m].
 pub fn tie_lines(case: &Case, wall: &Wall) -> Vec<[f64; 4]> {
-    let of_planar = case.ties.iter().filter(|_| case.model == ModelKind::Planar);
-    of_planar.map(|tie| ends_of(tie, wall)).map(|[[x0, y0], [x1, y1]]| [x0, y0, x1, y1]).collect()
+    case.ties.iter().map(|tie| ends_of(tie, wall)).map(|[[x0, y0], [x1, y1]]| [x0, y0, x1, y1]).collect()
 }
 
 /// Distance of the ends of a tie [m].

@@ -1,7 +1,7 @@
 //! `concio check`.
 
 use concio::bond;
-use concio::case::{Beam, Bond, Case, DeviceLaw, JointKind, ModelKind, Panel, StopAt};
+use concio::case::{Beam, Bond, Case, DeviceLaw, JointKind, Panel, StopAt};
 use concio::device;
 use concio::model::{Model, System};
 use concio::planar::{Rest, tie_lines};
@@ -245,7 +245,7 @@ fn bond_rows(case: &Case, model: &Model) -> Result<Vec<Vec<String>>, Failure> {
 fn masses(case: &Case, model: &Model) -> String {
     let load = model.load_mass;
     let of_load = if load > 0.0 { format!(", and {} of the load", mass(load)) } else { String::new() };
-    let bare = unweighed(case);
+    let bare = if model.rocking().is_none() { unweighed(case) } else { 0.0 };
     let of_mortar = if bare > 0.0 {
         format!("; mortar, {} % of its area, weighs nothing", significant(100.0 * bare, 2))
     } else {
