@@ -256,8 +256,7 @@ fn masses(case: &Case, model: &Model) -> String {
 
 /// Part of regular brickwork that is mortar, which has no mass, as the first panel has it.
 fn unweighed(case: &Case) -> f64 {
-    let regular =
-        |panel: &&Panel| case.model != ModelKind::Rocking && matches!(panel.bond, Bond::Running | Bond::Stack);
+    let regular = |panel: &&Panel| matches!(panel.bond, Bond::Running | Bond::Stack);
     case.panels.first().filter(regular).map_or(0.0, |Panel { brick, mortar, .. }| {
         let [length, height] = [brick.length.si(), brick.height.si()];
         1.0 - length * height / ((length + mortar.head.si()) * (height + mortar.bed.si()))
