@@ -136,7 +136,7 @@ fn unbalanced(motion: &Motion) -> f64 {
 }
 
 /// Housner's block (analytic.json, A7): quarter period and speed of impact from five angles, and what is left from peak to
-/// peak. The listed peaks are those of the equation for small angles, with the energy left by an impact as it is here.
+/// peak. The listed peaks are those of the equation for small angles, which are up to 0.58 % lower than those with the energy of any angle.
 #[test]
 fn a_block_rocks_as_housner_says() {
     let Some(all) = reference("analytic.json") else { return };
@@ -151,10 +151,19 @@ fn a_block_rocks_as_housner_says() {
         close(&format!("speed from {share}"), found.speeds[0], speed.abs(), 1e-3);
     }
     let found = rocks(rocker, 0.5, 5e-5, 7);
-    for (peak, listed) in found.peaks.iter().zip(numbers(&known["peak_sequence_linear_theta_over_alpha_from_0p5"])) {
-        close("peak", *peak, listed, 5e-3);
-    }
     let depth = |share: f64| (rocker.alpha() * (1.0 - share)).cos() - rocker.alpha().cos();
+    let listed = numbers(&known["peak_sequence_linear_theta_over_alpha_from_0p5"]);
+    let mut left = depth(0.5);
+    for (peak, listed) in found.peaks.iter().zip(listed) {
+        let (mut low, mut high) = (0.0, 0.6);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            *if depth(middle) < left { &mut low } else { &mut high } = middle;
+        }
+        close("peak", *peak, low, 1e-3);
+        close("peak of small angles", low, listed, 5.8e-3);
+        left *= number(&known["r_energy"]);
+    }
     for pair in found.peaks.windows(2) {
         close("energy left", depth(pair[1]) / depth(pair[0]), number(&known["r_energy"]), 2e-3);
     }
