@@ -441,7 +441,10 @@ def _asked(file: str, out: str, done: bool) -> Rows:
 
 
 def _report(file: str, out: str) -> dict[str, Table]:
-    """The tables that the report writes; others, of earlier questions, may lie in the folder. A ``UserWarning`` for each that the command would tell."""
+    """The tables that the report writes; others, of earlier questions, may lie in the folder.
+
+    What the command would warn of is a ``UserWarning``.
+    """
     before = _written(out)
     for told in _native.study_report(file, out):
         if told.startswith("warning: "):
