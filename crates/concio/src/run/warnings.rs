@@ -57,6 +57,9 @@ const FAR_TOO_WEAK: f64 = 10.0;
 const UNDER_WAY: f64 = 0.5;
 /// Slip of a joint that counts as one [m].
 const SLID: f64 = 1e-6;
+/// How many joints with friction that falls make slides a matter of chance: peaks of two courses of two bricks move by 2 % with the step, of three
+/// by 60 %; those of example 9, where four joints slide, by 0.1 %.
+const MANY: usize = 5;
 /// Way of the wall's weight whose work is nothing [m]: what a wall at rest does.
 const NOTHING: f64 = 1e-8;
 
@@ -412,14 +415,14 @@ fn flutters(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option
     })
 }
 
-/// Joints whose friction falls at once as they begin to slide decide by little which of them does first (`docs/planar.md`).
+/// Where many joints have friction that falls at once as they begin to slide, little decides which of them does first (`docs/planar.md`).
 fn gives_way_by_chance(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
     let planar = planar.filter(|planar| !planar.still)?;
     let weight = G * model.shear.mass.iter().sum::<f64>();
     let slid = planar.system.links.iter().zip(&outcome.envelopes.joint_slip).filter(|(_, slip)| **slip > SLID);
-    let mut falls = slid.filter_map(|(link, _)| link.law.friction.filter(|f| f.slowly(true) < f.static_));
-    let first = falls.next().filter(|_| outcome.energies.friction > NOTHING * weight)?;
-    falls.next().map(|_| {
+    let falls: Vec<_> = slid.filter_map(|(link, _)| link.law.friction.filter(|f| f.slowly(true) < f.static_)).collect();
+    let first = falls.first().filter(|_| outcome.energies.friction > NOTHING * weight)?;
+    (falls.len() >= MANY).then(|| {
         format!(
             "friction falls at once, from {} to {}, where joints begin to slide: which of them does first is a matter of chance, and peaks change with \
              solver.step, by a tenth and more. Compare with a step of {} ms before you rely on them",
@@ -854,26 +857,26 @@ base = {{ pulse = {{ shape = "rectangular", acceleration = {acceleration}, durat
         }
     }
 
-    /// Friction that falls at once makes a wall's slides a matter of chance, but not that of one stone; a constant one does not.
+    /// Friction that falls at once makes a wall's slides a matter of chance, but not those of a few stones; a constant one does not.
     #[test]
     fn slides_whose_friction_falls_at_once_are_told() {
-        let told = |bricks: usize, friction: &str| {
+        let told = |courses: usize, friction: &str| {
             let text = format!(
                 r#"
 model = "planar"
 [[panel]]
-bond = "stack"
-courses = 2
-bricks = {bricks}
+bond = "running"
+courses = {courses}
+bricks = 2
 brick = {{ length = 0.4, height = 0.1, thickness = 0.3, specific_weight = 20e3 }}
 mortar = {{ bed = 0, head = 0 }}
 [joint]
 bed = {{ law = "rigid" }}
-head = {{ law = "none" }}
+head = {{ law = "rigid" }}
 friction = {{ law = "coulomb", {friction} }}
 [motion]
-duration = "0.3 s"
-base = {{ pulse = {{ shape = "rectangular", acceleration = "0.9 g", duration = "0.1 s" }} }}
+duration = "0.5 s"
+base = {{ sine = {{ acceleration = "0.7 g", frequency = "3 Hz" }} }}
 "#
             );
             let (prepared, outcome) = ran(&text);
