@@ -569,13 +569,30 @@ fn levels_are_drawn_where_the_wall_goes() {
     desk.put("wall.toml", wall(""));
     desk.put("shaking.csv", record(3.0));
     text(&desk, "mechanisms wall.toml --record shaking.csv --scale 6 --out assessed");
-    let drawn = desk.get("assessed/report.html");
-    assert!(drawn.contains("drawn until"), "no heading says where the curve ends");
-    // A wall that falls inwards has its levels there: some are drawn below the axis.
-    let lines = |from: &str, to: &str| {
-        drawn.split(from).nth(1).map_or(0, |rest| rest.split(to).next().unwrap_or("").matches("<path").count())
+    let page = desk.get("assessed/report.html");
+    assert!(page.contains("drawn until"), "no heading says where the curve ends");
+    let figure = page.split("<svg").find(|figure| figure.contains("stroke-dasharray=\"1 1.3\"")).expect("levels");
+    // First and last ordinate of what is drawn in a style; the legend is drawn likewise, first.
+    let drawn = |style: &str| -> Vec<[f64; 2]> {
+        let paths = figure.split("<path").filter(|path| path.split('>').next().is_some_and(|own| own.contains(style)));
+        let points = |path: &str| path.split(" d=\"M ").nth(1)?.split('"').next().map(str::to_string);
+        let ordinates = paths.filter_map(points).map(|points| {
+            let pairs: Vec<&str> = points.split(" L ").collect();
+            let ordinate = |pair: &str| pair.split(' ').nth(1).expect("a pair").parse().expect("an ordinate");
+            [ordinate(pairs[0]), ordinate(pairs[pairs.len() - 1])]
+        });
+        ordinates.skip(1).collect()
     };
-    assert!(lines("<svg", "</svg>") > 3, "no levels are drawn");
+    // d_SLV is 0.4 of d0, and a fall goes beyond both, up on one panel and down on the other.
+    let (curves, last, life) =
+        (drawn("stroke=\"#0b2545\""), drawn("stroke-dasharray=\"3.6 1.5\""), drawn("stroke-dasharray=\"1 1.3\""));
+    assert_eq!([curves.len(), last.len(), life.len()], [2; 3], "{curves:?} {last:?} {life:?}");
+    assert!((curves[0][1] - curves[0][0]) * (curves[1][1] - curves[1][0]) < 0.0, "{curves:?}");
+    for (([rest, end], [last, _]), [life, _]) in curves.into_iter().zip(last).zip(life) {
+        let [at_last, at_life] = [last, life].map(|level| (level - rest) / (end - rest));
+        assert!(at_last > 0.5 && at_last < 1.0, "{at_last}");
+        assert!((at_life - 0.4 * at_last).abs() < 2e-3, "{at_life} of {at_last}");
+    }
 }
 
 /// Numbers of another unit are asked about by each command that runs nothing, on standard error, whatever it prints.
