@@ -57,6 +57,10 @@ kinds! {
     Drift = "drift",
     /// A record whose unit or interval is hardly that of an earthquake.
     UnlikelyRecord = "unlikely-record",
+    /// A factor on a record that is g, as if its unit were still to be converted.
+    ScaledByG = "scaled-by-g",
+    /// A peak that few earthquakes had.
+    RarePeak = "rare-peak",
     /// A record whose file is at odds with itself.
     DoubtfulRecord = "doubtful-record",
     /// A motion of the base that results do not hold.

@@ -84,9 +84,9 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                     unchosen(name, input, folder, library)?.map(|t| Warning::new(WarningKind::UnchosenChannel, t)),
                 );
                 let record = library.record(input, folder)?;
-                let scale = of_gravity(name, input, &record);
-                let odd = scale.or_else(|| in_gravity(name, input, &record));
-                found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
+                let scale = of_gravity(name, input, &record).map(|text| Warning::new(WarningKind::ScaledByG, text));
+                let unit = || in_gravity(name, input, &record).map(|t| Warning::new(WarningKind::UnlikelyRecord, t));
+                found.extend(scale.or_else(unit));
                 let meant = input.pga.is_some();
                 found.extend(of_record(case, name, &record, meant, duration));
             }
@@ -94,8 +94,7 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                 let made = library.synthetic(input)?;
                 found.extend(uncovered(place(name), "accelerogram", &made, duration));
                 let key = format!("motion.{name}");
-                let odd = beyond(&key, largest(&made), most(case, true), SCALES);
-                found.extend(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text)));
+                found.extend(beyond(&key, largest(&made), most(case, true), SCALES));
             }
             other => found
                 .extend(cut(name, other, duration, library, folder)?.map(|t| Warning::new(WarningKind::RecordCut, t))),
@@ -130,8 +129,7 @@ pub fn of_option(option: &str, record: &Record) -> Vec<Warning> {
 
 /// Says that a motion without samples multiplied by `--scale` has a peak [m/s²] that hardly an earthquake had.
 pub fn of_scaled(peak: f64) -> Option<Warning> {
-    let told = beyond("--scale", peak, STRONGEST, "and --scale");
-    told.map(|text| Warning::new(WarningKind::UnlikelyRecord, text))
+    beyond("--scale", peak, STRONGEST, "and --scale")
 }
 
 /// What a signal moves, in words.
@@ -166,9 +164,9 @@ impl Named<'_> {
         let peak = odd_peak(record).map(|odd| format!("{key}: {odd} as it moves the wall: look at {units}, {scales}"));
         let interval = odd_interval(record).map(|odd| format!("{key}: {odd}"));
         let length = odd_length(record).map(|odd| format!("{key}: {odd}"));
-        let peak = peak.or_else(|| beyond(key, largest(record), most, scales));
+        let rare = if peak.is_none() { beyond(key, largest(record), most, scales) } else { None };
         let odd = peak.into_iter().chain(interval).chain(length);
-        drift.into_iter().chain(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text))).collect()
+        drift.into_iter().chain(rare).chain(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text))).collect()
     }
 }
 
@@ -266,10 +264,13 @@ pub fn odd_peak(record: &Record) -> Option<String> {
 }
 
 /// Says of a peak [m/s²] above `most` that hardly an earthquake had that it is one.
-fn beyond(key: &str, peak: f64, most: f64, scales: &str) -> Option<String> {
+fn beyond(key: &str, peak: f64, most: f64, scales: &str) -> Option<Warning> {
     (peak > most).then(|| {
         let [peak, most] = [peak, most].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
-        format!("{key}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, {RARE}: look at its unit, its interval, {scales}")
+        let text = format!(
+            "{key}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, which few records have: look at its unit, its interval, {scales}"
+        );
+        Warning::new(WarningKind::RarePeak, text)
     })
 }
 
@@ -294,10 +295,6 @@ fn in_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String
     })
 }
 
-/// What such a factor is called, and so large a peak.
-const FROM_G: &str = "a conversion to or from g";
-const RARE: &str = "which few records have";
-
 /// Says of a factor that is g, or one over g, in a unit of acceleration: files and `units` say theirs, and g would count twice.
 fn of_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String> {
     let scale = input.scale.filter(|_| input.quantity == HistoryQuantity::Acceleration)?;
@@ -307,21 +304,16 @@ fn of_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String
         let peak = largest(record) / STANDARD_GRAVITY;
         let [scale, peak, without] = [scale, peak, peak / scale.abs()].map(|v| shown(rounded(v, 3)));
         format!(
-            "motion.{name}.scale is {scale}, {FROM_G}, but records are converted by their own unit: the peak is {peak} g as it moves the wall, \
+            "motion.{name}.scale is {scale}, a conversion to or from g, but records are converted by their own unit: the peak is {peak} g as it moves the wall, \
              {without} g without `scale`. Leave `scale` out; a text file of another unit takes `units`, such as \"g\""
         )
     })
 }
 
-/// Whether a warning is one of a factor on a record that is g.
-pub fn is_conversion(warning: &Warning) -> bool {
-    warning.kind == WarningKind::UnlikelyRecord && warning.contains(FROM_G)
-}
-
-/// Whether a warning is one of a factor on a record that is g, or of the peak that it comes to: it means nothing where a study chose the factor.
+/// Whether a warning is one of a factor on the record of the base that is g, or of the peak that it comes to: it means nothing where a study chose
+/// the factor.
 pub fn is_of_factor(warning: &Warning) -> bool {
-    let chosen = warning.kind == WarningKind::UnlikelyRecord && warning.starts_with("motion.base");
-    chosen && (is_conversion(warning) || warning.contains(RARE))
+    matches!(warning.kind, WarningKind::ScaledByG | WarningKind::RarePeak) && warning.starts_with("motion.base")
 }
 
 /// Says of the two components of a motion that one of them alone is scaled: they are no more of one earthquake.

@@ -195,6 +195,6 @@ fn warned(file: &CaseFile, duration: f64, factor: f64) -> Result<Vec<Warning>, F
     let found = coverage::warnings(&case, file.folder(), duration, &Library::default());
     let mut found = found.map_err(|e| Failure::from(file.locate(e)))?;
     // The factor is that of the command, which says it.
-    found.retain(|warning| factor == 1.0 || !coverage::is_conversion(warning));
+    found.retain(|warning| factor == 1.0 || warning.kind != WarningKind::ScaledByG);
     Ok(found)
 }
