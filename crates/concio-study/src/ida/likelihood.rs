@@ -79,6 +79,9 @@ pub struct Likelihood {
 /// A point (a, b).
 pub type Place = [f64; 2];
 
+/// l, its derivatives by a and b, and the second ones by a², a b and b².
+type Sums = (f64, [f64; 2], [f64; 3]);
+
 impl Likelihood {
     /// Of evidence at intensities above 0.
     pub fn new(evidence: &[Evidence]) -> Self {
@@ -108,14 +111,13 @@ impl Likelihood {
         Likelihood { terms, centre, spread }
     }
 
-    /// l, its derivatives by a and b, and the second ones by a², a b and b².
-    fn sums(&self, place: Place) -> (f64, [f64; 2], [f64; 3]) {
+    fn sums(&self, place: Place) -> Sums {
         let (mut l, mut g, mut h) = (0.0, [0.0; 2], [0.0; 3]);
         for t in &self.terms {
-            let (value, first, second) = t.of(place);
+            let (value, [by_a, by_b], [aa, ab, bb]) = t.of(place);
             l += value;
-            g = [0, 1].map(|k| g[k] + first[k]);
-            h = [0, 1, 2].map(|k| h[k] + second[k]);
+            g = [g[0] + by_a, g[1] + by_b];
+            h = [h[0] + aa, h[1] + ab, h[2] + bb];
         }
         (l, g, h)
     }
@@ -158,8 +160,9 @@ impl Likelihood {
             );
         }
         let mut place = [0.0, 1.0 / self.spread];
+        let mut sums = self.sums(place);
         for _ in 0..MOST_STEPS {
-            let (l, g, h) = self.sums(place);
+            let (l, g, h) = sums;
             let det = h[0] * h[2] - h[1] * h[1];
             if !(det > 0.0) {
                 break;
@@ -169,7 +172,8 @@ impl Likelihood {
             if gain < 1e-18 * (1.0 + l.abs()) && step[1].abs() < 1e-9 * place[1] {
                 return Ok(place);
             }
-            place = self.rise(place, step, l);
+            let Some(risen) = self.rise(place, step, l) else { break };
+            (place, sums) = risen;
             if place[1] * self.spread > 1e4 {
                 return Err(
                     "one intensity may be the capacity of all records, as far as their runs tell: the dispersion is not determined, and runs between would tell it",
@@ -184,22 +188,26 @@ impl Likelihood {
         )
     }
 
-    /// The step, halved until the likelihood does not fall and b stays above 0.
-    fn rise(&self, place: Place, mut step: [f64; 2], from: f64) -> Place {
+    /// Where the step leads, halved until the likelihood does not fall and b stays above 0, and what (F2) is there.
+    fn rise(&self, place: Place, mut step: [f64; 2], from: f64) -> Option<(Place, Sums)> {
         for _ in 0..60 {
             let next = [place[0] + step[0], place[1] + step[1]];
-            if next[1] > 0.1 * place[1] && self.at(next) >= from - 1e-13 * from.abs() {
-                return next;
+            if next[1] > 0.1 * place[1] {
+                let sums = self.sums(next);
+                if sums.0 >= from - 1e-13 * from.abs() {
+                    return Some((next, sums));
+                }
             }
             step = step.map(|s| 0.5 * s);
         }
-        place
+        None
     }
 
     /// The largest l on the line through `place` with direction `d`.
     pub fn on_line(&self, mut place: Place, d: [f64; 2]) -> f64 {
+        let mut sums = self.sums(place);
         for _ in 0..MOST_STEPS {
-            let (l, g, h) = self.sums(place);
+            let (l, g, h) = sums;
             let slope = g[0] * d[0] + g[1] * d[1];
             let curve = h[0] * d[0] * d[0] + 2.0 * h[1] * d[0] * d[1] + h[2] * d[1] * d[1];
             if !(curve < 0.0) {
@@ -209,9 +217,10 @@ impl Likelihood {
             if (slope * t).abs() < 1e-13 * (1.0 + l.abs()) {
                 return l;
             }
-            place = self.rise(place, [t * d[0], t * d[1]], l);
+            let Some(risen) = self.rise(place, [t * d[0], t * d[1]], l) else { return l };
+            (place, sums) = risen;
         }
-        self.at(place)
+        sums.0
     }
 }
 
@@ -220,8 +229,8 @@ impl Term {
         0.5 * (self.x + self.to.unwrap_or(self.x))
     }
 
-    /// Its value, its derivatives by a and b, and the second ones by a², a b and b².
-    fn of(&self, [a, b]: Place) -> (f64, [f64; 2], [f64; 3]) {
+    /// What it adds to (F2).
+    fn of(&self, [a, b]: Place) -> Sums {
         let (x, z) = (self.x, a + b * self.x);
         if let Some(to) = self.to {
             return between([x, to], [z, a + b * to]);
@@ -240,7 +249,7 @@ impl Term {
 }
 
 /// ln[Φ(z_2) − Φ(z_1)] with its derivatives.
-fn between(x: [f64; 2], z: [f64; 2]) -> (f64, [f64; 2], [f64; 3]) {
+fn between(x: [f64; 2], z: [f64; 2]) -> Sums {
     // Of the tail that is the smaller one: the difference of two numbers next to 1 has no digits.
     let [far, near] = if z[0] > 0.0 { [-z[1], -z[0]] } else { z };
     let [far, near] = [far, near].map(|z| ln_phi(z)[0]);
