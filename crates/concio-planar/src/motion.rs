@@ -382,6 +382,8 @@ pub struct Motion {
     /// Largest pull and base shear when a bond broke at once or friction at rest was overcome since [`Motion::go`] began [N], which forces at its end do not show; 0 where
     /// neither came to pass.
     pub breaks: [f64; 2],
+    /// Whether the step without inertia ended in motion that does not slow down: its forces are not those of a wall at rest.
+    pub falls: bool,
     strains: Vec<Strain>,
     pairs: Vec<Pair>,
     /// Which of them have contacts.
@@ -479,6 +481,7 @@ impl Motion {
             instant: None,
             borne: [0.0; 2],
             breaks: [0.0; 2],
+            falls: false,
             shakes: [0.0; 2],
             moved: Moved::default(),
             bent: Vec::new(),
@@ -600,7 +603,11 @@ impl Motion {
         self.part(start, h, 0, forcing);
         if self.setting.still {
             let acts = forcing(start, start + h);
+            let breaks = self.breaks;
             self.follow(start, h, &acts);
+            if self.falls {
+                self.breaks = breaks;
+            }
             self.work_at_rest(h, &acts, pull, &before);
         }
         self.time = start + h;
@@ -660,6 +667,7 @@ impl Motion {
             (ratio, way, most) = (next / way, next, most.max(next));
         }
         self.instant = None;
+        self.falls = !rests && ratio >= 1.0;
         // What neither slows down nor cracks, as a mechanism, is not told: it has no rest to come to.
         self.counters.moving += u64::from(!rests && (ratio < 1.0 || cracks));
     }

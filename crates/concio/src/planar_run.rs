@@ -525,7 +525,9 @@ impl Bodies {
         let pull = self.pull(model, state, h);
         let [broken_pull, broken_shear] = self.motion.breaks;
         let shear = [self.last.shear, broken_shear].map(|shear| self.borne(model, state.t, shear));
-        let shear = shear[0].max(shear[1]);
+        // What falls bears nothing that it could bear at rest; a driven beam holds what it pushes.
+        let falls = self.motion.falls && model.beam != crate::case::Beam::Driven;
+        let shear = if falls { shear[1] } else { shear[0].max(shear[1]) };
         if state.totals.collapse.is_none() {
             let top = model.shear.tops.of_wall(|i| state.z[i]);
             state.totals.raise_base_shear(&mut state.marked_shear, shear, state.t, top);

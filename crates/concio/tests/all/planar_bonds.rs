@@ -64,6 +64,51 @@ step = 0.01
     );
 }
 
+/// A joint that softens bears what its section does, by exponential softening of 4,000 strips: 1.163, 2.57 and 3.00 g for 0, 2 and 20 N/m. What the block
+/// presses on as it falls, up to 3.4 g, counts as nothing that it bore.
+#[test]
+fn the_largest_base_shear_is_that_of_a_block_at_rest() {
+    for (energy, strips) in [(0.0, 1.163), (2.0, 2.57), (20.0, 3.00)] {
+        let (_, outcome) = ran(&format!(
+            r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = {{ length = 1, height = 1, thickness = 0.3, specific_weight = 20e3 }}
+mortar = {{ bed = 0, head = 0 }}
+[joint]
+bed = {{ law = "elastic", stiffness = "50 N/mm3" }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.6, dynamic = 0.6 }}
+bond = {{ tensile_strength = "0.05 MPa", cohesion = "0.5 MPa", mode_1_energy = {energy} }}
+[motion]
+quasi_static = true
+duration = "16 s"
+base = {{ tilt = {{ acceleration = "3.2 g", rise = "16 s" }} }}
+[solver]
+step = "5 ms"
+"#
+        ));
+        let (found, what) = (outcome.totals.base_shear_peak / 6e3, format!("{energy} N/m"));
+        agrees!(
+            format!("Bonds: largest base shear of a block whose joint softens, {what}"),
+            "4,000 strips",
+            "of its weight",
+            found,
+            strips,
+            0.01
+        );
+        // Long after it fell.
+        assert!(
+            outcome.totals.base_shear_time < 16.0 * strips / 3.2 + 0.1,
+            "{what}: {}",
+            outcome.totals.base_shear_time
+        );
+    }
+}
+
 /// Twice as much as the joint's strength, by whatever law: the wall comes down, and no joint has borne more than its strength.
 #[test]
 fn joints_of_every_law_are_crushed() {
