@@ -185,8 +185,9 @@ fn l10_a_corner() {
 
 /// The sequence ends in forces that obey friction, and in the same state with other factors: slopes at once 0, all of N̄ new.
 ///
-/// With the last slope at a hundredth of μ, as another program had it, λ wanders about 0.346 and 0.2886, and forces break
-/// friction by a tenth of the largest normal force and more.
+/// Another program had 0.346 and 0.2886. With a last slope of 0.01 μ and half of N̄ new or a little more, means over twenty
+/// rounds come to these within 0.4 % and 0.04 %; but λ wanders, and forces break friction by 13 to 48 % and 2 to 5 % of the
+/// largest normal force.
 #[test]
 fn l3_l4_without_dilation() {
     let blocks = facade(2.0, [true; 2], 0.2, 10, 2.4).blocks().expect("a façade");
