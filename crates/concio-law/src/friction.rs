@@ -33,6 +33,11 @@ impl Stribeck {
         self.sticks() && self.in_slip(0.0).0 < self.static_
     }
 
+    /// Whether a joint at rest bears more than one that slides.
+    pub fn holds(&self) -> bool {
+        self.sticks() && self.dynamic < self.static_
+    }
+
     /// μ(v) and dμ/dv [s/m] at v [m/s]; odd in v. At rest a set-valued law has no one value: 0 stands for it.
     #[inline(always)]
     pub fn at(&self, v: f64) -> (f64, f64) {

@@ -210,6 +210,7 @@ impl<'m> Run<'m> {
                     plan.h,
                     MEMORY * tolerance.z,
                 );
+                let first = first.or_else(|| self.work.turn(self.system, &self.state, plan.h));
                 if first.is_some() {
                     self.state.counters.located += 1;
                     plan.event = first;
@@ -370,6 +371,9 @@ impl<'m> Run<'m> {
         self.samples_before(t, h, keep);
         if broke {
             self.settle(keep);
+        } else if self.work.rests(self.system, &self.state) {
+            // What arrests a joint does not go on once it is at rest.
+            settle_all(self.system, &self.drive, &mut self.work, &mut self.state);
         }
         observe(self.system, &mut self.state, h, self.work.start());
         self.happen(h, keep);

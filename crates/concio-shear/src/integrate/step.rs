@@ -74,6 +74,10 @@ pub const STAGE_ACCURACY: f64 = 0.02;
 const UNBALANCED: f64 = 0.2;
 /// Way of a joint in a step from one impact to the next below which it has not bounced [m].
 const LOW: f64 = 10.0 * TOUCHING;
+/// Part of a step by which it is shortened at least where a joint turned round in it.
+const SHORTER: f64 = 0.9;
+/// Time at whose end a joint is sought at rest, over that at which it comes to rest: its last stage finds it at rest up to 1.4.
+const BEYOND_TURN: f64 = 1.01;
 /// Step in which nothing moves, over the shortest time scale of the system.
 const INSTANT: f64 = 1e-6;
 
@@ -197,6 +201,44 @@ impl Step {
         let stuck = state.tangents.stuck.iter().zip(&self.tangents.stuck);
         let lets_go = |((before, after), rub): ((&bool, &bool), &Rub)| *before && !after && rub.law.drops();
         stuck.zip(&system.rubs).any(lets_go)
+    }
+
+    /// How long a step is at whose end the first of the joints comes to rest that turned round in the step of `h` [s] that was attempted, although friction at
+    /// rest, above that of slip, may hold them there [s]. Stages beyond a turn know only of friction in slip.
+    pub fn turn(&self, system: &System, state: &State, h: f64) -> Option<f64> {
+        let (n, v, a) = (system.unknowns(), self.v(), &self.stage_a[self.tableau.stages - 1]);
+        let after = |i: usize| {
+            if i < n {
+                a[i]
+            } else if i == n {
+                0.0
+            } else {
+                self.top_acceleration
+            }
+        };
+        let moved = |i: usize, force: f64| if i < n { force / system.mass[i] } else { 0.0 };
+        let first = |(r, rub): (usize, &Rub)| {
+            let [i, k] = system.sides[rub.joint as usize].map(|s| s as usize);
+            let before = state.v[i] - state.v[k];
+            if before * (v[i] - v[k]) >= 0.0 {
+                return None;
+            }
+            // What else moves with both sides makes friction do more: none is passed over that may be held. One that just is not starts slowly, and well.
+            let friction = moved(i, rub.normal[0]) + moved(k, rub.normal[1]);
+            let without = after(i) - after(k) + self.tangents.mu[r] * friction;
+            let slows = state.a[k] - state.a[i];
+            let rests = if slows * before > 0.0 { BEYOND_TURN * before / slows } else { 0.5 * h };
+            let most = 2.0 * rub.law.static_ - rub.law.dynamic;
+            (without.abs() <= most * friction).then_some(rests.min(SHORTER * h))
+        };
+        let slid = system.rubs.iter().enumerate().filter(|(r, rub)| rub.law.holds() && !state.tangents.stuck[*r]);
+        slid.filter_map(first).reduce(f64::min)
+    }
+
+    /// Whether a joint came to rest in the accepted step whose friction at rest is above that of slip.
+    pub fn rests(&self, system: &System, end: &State) -> bool {
+        let stuck = self.start_stuck.iter().zip(&end.tangents.stuck).zip(&system.rubs);
+        stuck.into_iter().any(|((before, after), rub)| *after && !before && rub.law.holds())
     }
 
     /// Velocity at the end of the step that was attempted, with base and top.

@@ -204,6 +204,51 @@ fn newmark_pulses_with_less_friction_in_slip() {
     }
 }
 
+/// A push that grows to 0.7 g for a tenth of a second and turns to a smaller one the other way, held from then on: the stone that it sent off stops, and
+/// friction at rest, 0.4, holds it under any load between that in slip, 0.3, and itself. Alone, and with another on it; by both laws that stick.
+#[test]
+fn a_stone_that_stops_under_a_load_that_friction_holds_stays() {
+    let interval = 5e-3;
+    let nearly = Stribeck { slip_velocity: 1e-4, ..coulomb(0.4, 0.3) };
+    for held in (0..10).map(|k| 0.305 + 0.01 * f64::from(k)) {
+        let samples: Vec<f64> = (0..300)
+            .map(|k| {
+                if k < 10 {
+                    0.0
+                } else if k < 30 {
+                    -0.7 * 9.81
+                } else {
+                    held * 9.81
+                }
+            })
+            .collect();
+        let base = |t: f64| {
+            let (at, part) = ((t / interval) as usize, (t / interval).fract());
+            let of = |k: usize| samples[k.min(299)];
+            of(at) + part * (of(at + 1) - of(at))
+        };
+        let way = sliding(base, [0.4, 0.3], 0.0, 1.4, 1e-6);
+        let way = way[way.len() - 1].abs();
+        for (name, law, within) in [("coulomb", coulomb(0.4, 0.3), 1e-3), ("stribeck-stick", nearly, 3e-3)] {
+            for stones in [1, 2] {
+                let rubs = |i: usize| {
+                    let below = if i == 0 { End::Base } else { End::Block(i - 1) };
+                    Link::friction(i, below, law, (stones - i) as f64 * M * 9.81)
+                };
+                let links: Vec<Link> = (0..stones).map(rubs).collect();
+                let ground = GroundMotion::sampled(interval, &samples).expect("a motion");
+                let model = lumped(&vec![M; stones], &links, Excitation::of_base(ground, 1.4));
+                let still = vec![0.0; stones];
+                let h = respond(&model, &Solver::default(), 1e-2, &still, &still).expect("a run");
+                let found = first(&h).last().expect("a sample").abs();
+                let subject =
+                    format!("Friction: a slide that stops under a held load of {held:.3} g, {name}, {stones} stones");
+                agrees!(subject, "Newmark's sliding block", "m", found, way, within);
+            }
+        }
+    }
+}
+
 /// Walls of one block as a user writes them, at the default tolerance: on friction alone, and beside a soft spring.
 #[test]
 fn a_column_of_one_brick_slides_where_friction_falls_at_once() {
