@@ -139,3 +139,10 @@ def test_arguments_that_do_not_suit_each_other_are_named(given: dict[str, Any], 
     with pytest.raises(InputError, match=what) as caught:
         Wall.from_str(BLOCK.replace("MU", "0.6")).mechanisms(**given)
     assert caught.value.key == key and "--" not in str(caught.value) and "Usage" not in str(caught.value)
+
+
+def test_options_are_told_as_keywords() -> None:
+    wall = Wall.from_str(BLOCK.replace("MU", "0.6"))
+    with pytest.raises(InputError) as caught:
+        wall.limit(out_of_plane=True, heads="frictionless")
+    assert "--" not in str(caught.value) and "out_of_plane" in str(caught.value)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
@@ -358,7 +359,7 @@ class Wall:
                 raise InputError("is for walls pushed out of their plane", key=key, allowed="with out_of_plane=True")
         options = _options(load=load, towards=towards, heads=heads if heads != "as-given" or not out_of_plane else None)
         options += _options(out_of_plane=out_of_plane, **across)
-        return Limit(*self._case.answer(["limit", *options]))
+        return Limit(*self._answer(["limit", *options]))
 
     def mechanisms(
         self,
@@ -392,7 +393,7 @@ class Wall:
             warnings.warn(what, RuntimeWarning, stacklevel=2)
         options = _options(overlaps=overlaps, record=record, pga=pga, scale=scale, vertical=vertical, shaken=shaken)
         options += _options(all=every, restitution=restitution)
-        return Mechanisms(*self._case.answer(["mechanisms", *options]))
+        return Mechanisms(*self._answer(["mechanisms", *options]))
 
     def continuum(
         self,
@@ -420,9 +421,19 @@ class Wall:
         options = _options(panel=panel, heads=heads, repeated=repeated, brick_modulus=brick_modulus)
         options += _options(brick_poisson=brick_poisson, pressure=pressure)
         return Continuum(
-            self._case.answer(["continuum", *options])[0],
-            lambda card: str(self._case.answer(["continuum", *options, *_options(**card)])[0]),
+            self._answer(["continuum", *options])[0],
+            lambda card: str(self._answer(["continuum", *options, *_options(**card)])[0]),
         )
+
+    def _answer(self, arguments: list[str]) -> tuple[Any, str | None]:
+        """What a command says of the wall; its errors have keywords for options."""
+        try:
+            return self._case.answer(arguments)
+        except InputError as error:
+            for told in (error, *error.more):
+                told.what = _keywords(told.what)
+                told.allowed, told.help = (text and _keywords(text) for text in (told.allowed, told.help))
+            raise
 
     def __eq__(self, other: object) -> bool:
         """Whether both wall files say the same."""
@@ -491,6 +502,18 @@ def _again(settings: str, folder: str, lost: bool = False) -> Wall:
 
 _UNITS = {"above": "m", "brick_modulus": "Pa", "pga": "m/s2", "pressure": "Pa"}
 """Units of the options of the command line that want one: numbers are SI here."""
+
+
+def _keywords(text: str) -> str:
+    """A text of the command line with keywords for its options, outside of commands that it quotes."""
+    parts = re.split("(`concio [^`]*`)", text)
+    words = {"all": "every"}
+    named = [
+        re.sub(r"--([a-z][a-z-]*)", lambda found: words.get(found[1], found[1].replace("-", "_")), part)
+        for part in parts[::2]
+    ]
+    parts[::2] = named
+    return "".join(parts)
 
 
 def _options(**given: Any) -> list[str]:
