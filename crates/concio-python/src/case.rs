@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Parser;
-use clap::error::{ContextKind, ContextValue};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use concio::InputError;
 use concio::case::{self, CaseFile, Syntax, canonical_json};
 use concio::ground::signal::from_record;
@@ -48,7 +48,7 @@ fn placed(error: Raised, written: bool, none: Option<&Path>) -> Raised {
     match error {
         Raised::Input(all) => {
             let bare = |e: InputError| match e.file.as_deref() {
-                Some(file) if Some(file) != none => e,
+                Some(file) if Some(file) != none => unplaced(e, none),
                 _ if written => InputError { file: None, ..e },
                 _ => InputError { file: None, line: None, column: None, ..e },
             };
@@ -56,6 +56,14 @@ fn placed(error: Raised, written: bool, none: Option<&Path>) -> Raised {
         }
         other => other,
     }
+}
+
+/// Takes from a remedy the place in the file that is `none`.
+fn unplaced(error: InputError, none: Option<&Path>) -> InputError {
+    let Some((help, name)) = error.help.as_ref().zip(none.map(|none| none.display().to_string())) else { return error };
+    let Some((before, after)) = help.split_once(&name) else { return error };
+    let after = after.strip_prefix(':').map_or(after, |line| line.trim_start_matches(|c: char| c.is_ascii_digit()));
+    InputError { help: Some(format!("{before}the wall file{after}")), ..error }
 }
 
 #[pymethods]
@@ -182,18 +190,30 @@ fn misused(error: &clap::Error) -> InputError {
         Some(ContextValue::Strings(texts)) => Some(texts.join(", ")),
         _ => None,
     };
-    let key = word(ContextKind::InvalidArg).map(|arg| {
-        let name = arg.split([' ', '=']).next().unwrap_or(&arg);
-        name.trim_start_matches('-').replace('-', "_")
-    });
+    let given = |kind| word(kind).map(|arg| keywords(&arg).join(" or "));
+    let key = given(ContextKind::InvalidArg);
     let value = word(ContextKind::InvalidValue).filter(|value| !value.is_empty());
     let reason = std::error::Error::source(error).map(ToString::to_string);
     let text = error.to_string();
     let line = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_string();
-    let what = match (value, reason) {
-        (Some(value), Some(reason)) => format!("`{value}`: {reason}"),
-        (Some(value), None) => format!("`{value}` is not allowed"),
+    let what = match (error.kind(), value, reason) {
+        (ErrorKind::MissingRequiredArgument, ..) => "is not given, and another argument that is given needs it".into(),
+        (ErrorKind::ArgumentConflict, ..) => {
+            format!("cannot be given with {}", given(ContextKind::PriorArg).unwrap_or_else(|| "another".into()))
+        }
+        (_, Some(value), Some(reason)) => format!("`{value}`: {reason}"),
+        (_, Some(value), None) => format!("`{value}` is not allowed"),
         _ => line,
     };
     InputError { key, allowed: word(ContextKind::ValidValue), ..InputError::new(what) }
+}
+
+/// The keywords of the options that a word of the command line names, such as `<--record <FILE>|--shaken>`.
+fn keywords(arg: &str) -> Vec<String> {
+    let ends = |c: char| !c.is_ascii_alphanumeric() && c != '-';
+    let options = arg.split("--").skip(1).map(|rest| rest.split(ends).next().unwrap_or_default());
+    let names = options.map(|name| if name == "all" { "every".into() } else { name.replace('-', "_") });
+    let mut names: Vec<String> = names.collect();
+    names.dedup();
+    names
 }

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use concio_cli::failure::{STOPPED, WRONG_INPUT};
 use pyo3::prelude::*;
 
+mod amount;
 mod case;
 mod elsewhere;
 mod examples;
@@ -43,6 +44,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<record::Record>()?;
     module.add_class::<run::Run>()?;
     module.add_class::<simulation::Simulation>()?;
+    module.add_function(wrap_pyfunction!(amount::in_si, module)?)?;
     module.add_function(wrap_pyfunction!(command, module)?)?;
     module.add_function(wrap_pyfunction!(examples::example_names, module)?)?;
     module.add_function(wrap_pyfunction!(many::run_many, module)?)?;

@@ -7,7 +7,7 @@ use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
 use concio::record::Recording;
 use concio::run::{RESULT, SUMMARY, keep};
-use concio::store::{StoredRun, hdf5, read_summary};
+use concio::store::{self, RunFacts, StoredRun, hdf5, read_summary};
 use concio_cli::report::{self, Content};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -17,6 +17,13 @@ use serde_json::{Value, json};
 use crate::failure::Raised;
 use crate::record::shut;
 use crate::{json, tables};
+
+/// Kind and sentence of what is told of a result without a summary.
+const NO_SUMMARY: (&str, &str) = (
+    "no-summary",
+    "the result has no summary.json beside it, which says what speaks against believing it: of a run of a study the column \
+     warning_kinds of its rows does",
+);
 
 /// A run that is over.
 #[pyclass(frozen, module = "concio._native")]
@@ -96,6 +103,27 @@ impl Run {
     }
 }
 
+/// The summary of a result that has none.
+fn without_facts(stored: &StoredRun) -> Result<Value, Raised> {
+    let StoredRun { provenance, wall, joints, outcome, .. } = stored;
+    let case = from_str(&provenance.case_json, Syntax::Json, None)?.case;
+    let unknown = f64::NAN;
+    let facts = RunFacts {
+        duration: case.motion.duration.map_or(unknown, |duration| duration.si()),
+        weight: unknown,
+        base_load: unknown,
+        solve_seconds: unknown,
+        resumed_from: None,
+        push: None,
+        at_first_crack: None,
+        warnings: Vec::new(),
+    };
+    let mut summary = store::summary(provenance, wall, joints, outcome, &facts);
+    summary["warnings"] = json!([NO_SUMMARY.1]);
+    summary["warning_kinds"] = json!([NO_SUMMARY.0]);
+    Ok(summary)
+}
+
 #[pymethods]
 impl Run {
     /// Reads `result.h5` and `summary.json` of a folder; `text` is the wall file as it was given, where that is known.
@@ -113,6 +141,17 @@ impl Run {
         };
         let (stored, summary) = py.detach(read)?;
         Run::new(py, stored, summary, text, false)
+    }
+
+    /// Reads a result without a summary beside it, as studies keep them. What only a summary knows is null there, of which a warning tells.
+    #[staticmethod]
+    fn read(py: Python<'_>, file: PathBuf) -> PyResult<Self> {
+        let (stored, summary) = py.detach(|| {
+            let stored = hdf5::read(&file).map_err(Raised::from)?;
+            let summary = without_facts(&stored)?;
+            Ok::<_, Raised>((stored, summary))
+        })?;
+        Run::new(py, stored, summary, None, false)
     }
 
     /// Writes `result.h5` and `summary.json` into a folder.

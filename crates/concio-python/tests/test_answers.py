@@ -4,6 +4,7 @@ import json
 import os
 from html import escape
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -120,3 +121,28 @@ def test_records_of_the_archives_have_the_measures_of_the_manifest() -> None:
     for path in files:
         record = concio.Record.read(path)
         assert record.pga > 0 and record.facts["format"] != "text"
+
+
+@pytest.mark.parametrize(
+    ("given", "key", "what"),
+    [
+        ({"scale": 2.0}, "record or shaken", "needs it"),
+        ({"restitution": 0.5}, "record or shaken", "needs it"),
+        ({"pga": "0.3 g"}, "record", "needs it"),
+        ({"vertical": "up.csv"}, "record", "needs it"),
+        ({"record": "a.csv", "shaken": True}, "record", "cannot be given with shaken"),
+        ({"record": "a.csv", "scale": 2.0, "pga": "0.3 g"}, "pga", "cannot be given with scale"),
+        ({"overlaps": "none"}, "overlaps", "is not allowed"),
+    ],
+)
+def test_arguments_that_do_not_suit_each_other_are_named(given: dict[str, Any], key: str, what: str) -> None:
+    with pytest.raises(InputError, match=what) as caught:
+        Wall.from_str(BLOCK.replace("MU", "0.6")).mechanisms(**given)
+    assert caught.value.key == key and "--" not in str(caught.value) and "Usage" not in str(caught.value)
+
+
+def test_options_are_told_as_keywords() -> None:
+    wall = Wall.from_str(BLOCK.replace("MU", "0.6"))
+    with pytest.raises(InputError) as caught:
+        wall.limit(out_of_plane=True, heads="frictionless")
+    assert "--" not in str(caught.value) and "out_of_plane" in str(caught.value)

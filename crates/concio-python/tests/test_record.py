@@ -1,12 +1,15 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
-from concio import InputError, Record
+import concio
+from concio import InputError, Record, Wall
 
 
 def test_measures_of_a_sine() -> None:
@@ -172,3 +175,139 @@ def test_files_of_others_are_not_replaced(tmp_path: Path, quake: Record, quake_f
     assert caught.value.file == str(quake_file) and quake_file.read_bytes() == before
     with pytest.raises(OSError):
         quake.save(tmp_path / "none" / "quake.txt")
+
+
+class Converting:
+    """What pint gives: a number with a unit, that converts itself."""
+
+    factors: ClassVar = {"m/s**2": 1.0, "cm/s**2": 0.01, "s": 1.0, "ms": 1e-3, "N": 1.0, "kN": 1e3}
+
+    def __init__(self, magnitude: Any, units: str) -> None:
+        self.magnitude, self.units = magnitude, units
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
+        return np.asarray(self.magnitude, dtype)
+
+    def to(self, unit: str) -> Converting:
+        if self.units.endswith("s**2") != unit.endswith("s**2"):
+            raise TypeError(f"Cannot convert from '{self.units}' to '{unit}'")
+        return Converting(self.magnitude * (self.factors[self.units] / self.factors[unit]), unit)
+
+
+Quantity: Any = Converting
+
+
+def test_quantities_are_converted(planar: Wall) -> None:
+    samples = Quantity(np.array([0.0, 100.0, -200.0]), "cm/s**2")
+    record = Record.from_array(samples, Quantity(5.0, "ms"))
+    assert record.acceleration == pytest.approx([0, 1, -2]) and record.dt == pytest.approx(0.005)
+    each = [Quantity(value, "cm/s**2") for value in samples.magnitude]
+    np.testing.assert_array_equal(Record.from_array(each, "5 ms").acceleration, record.acceleration)
+    assert record.spectrum(Quantity(np.array([100.0]), "ms")).period == pytest.approx([0.1])
+    wrong: list[tuple[Callable[[], object], str]] = [
+        (lambda: Record.from_array(Quantity(np.ones(3), "kN"), 0.005), "acceleration"),
+        (lambda: Record.from_array([*each, 1.0], 0.005), "acceleration"),
+        (lambda: Record.from_array(samples, 0.005, units="g"), "units"),
+        (lambda: Record.from_array([0, 1], Quantity(5.0, "cm/s**2")), "dt"),
+    ]
+    for give, key in wrong:
+        with pytest.raises(InputError) as caught:
+            give()
+        assert caught.value.key == key
+    simulation = planar.simulation()
+    simulation.advance(to=Quantity(20.0, "ms"))
+    assert simulation.time == pytest.approx(0.02, abs=0.01)
+    simulation.push(0, x=Quantity(1.0, "kN"))
+    with pytest.raises(InputError, match="Cannot convert"):
+        simulation.push(0, x=Quantity(1.0, "cm/s**2"))
+
+
+def test_quantities_of_pint() -> None:
+    pint = pytest.importorskip("pint")
+    u = pint.UnitRegistry()
+    record = Record.from_array(np.array([0.0, 100.0, -200.0]) * u.cm / u.s**2, 5 * u.ms)
+    assert record.acceleration == pytest.approx([0, 1, -2]) and record.dt == pytest.approx(0.005)
+    assert Record.from_array(np.array([0.0, 0.1]) * u.standard_gravity, 0.01).pga == pytest.approx(0.980665)
+    with pytest.raises(InputError, match="Cannot convert"):
+        Record.from_array(np.ones(3) * u.m, 0.005)
+
+
+@pytest.mark.parametrize(
+    ("samples", "dt", "units", "key"),
+    [
+        (np.ma.masked_greater(np.arange(5.0), 3), 0.01, "m/s2", "acceleration"),
+        (np.arange(5).astype("datetime64[s]"), 0.01, "m/s2", "acceleration"),
+        (np.arange(5).astype("timedelta64[s]"), 0.01, "m/s2", "acceleration"),
+        (np.arange(5) * 1j, 0.01, "m/s2", "acceleration"),
+        (np.arange(5) > 2, 0.01, "m/s2", "acceleration"),
+        (["1", "2"], 0.01, "m/s2", "acceleration"),
+        (np.array(["1", 2.0], dtype=object), 0.01, "m/s2", "acceleration"),
+        ([0, 1], "5", "m/s2", "dt"),
+        ([0, 1], "5 kg", "m/s2", "dt"),
+        ([0, 1], True, "m/s2", "dt"),
+        ([0, 1], None, "m/s2", "dt"),
+        ([0, 1], 0.01 + 0j, "m/s2", "dt"),
+        ([0, 1], np.timedelta64(5, "ms"), "m/s2", "dt"),
+        ([0, 1], float("nan"), "m/s2", "dt"),
+        ([0, 1], 0.01, None, "units"),
+    ],
+)
+def test_what_is_no_row_of_numbers_is_refused(samples: Any, dt: Any, units: Any, key: str) -> None:
+    with pytest.raises(InputError) as caught:
+        Record.from_array(samples, dt, units=units)
+    assert caught.value.key == key and caught.value.allowed
+
+
+def test_an_interval_may_be_a_text() -> None:
+    assert Record.from_array([0, 1, 2], "5 ms").dt == 0.005
+    full = np.ma.masked_array([0.0, 1.0], mask=[False, False])
+    assert Record.from_array(full, 0.01).pga == 1.0
+
+
+def test_numbers_of_numpy_scale_a_record(quake: Record) -> None:
+    numbers: list[Any] = [np.float64(2), np.int64(2), np.array(2.0)]
+    for two in numbers:
+        doubled = two * quake
+        assert isinstance(doubled, Record) and doubled.pga == 2 * quake.pga and isinstance(quake * two, Record)
+    window = np.ones(len(quake))
+    np.testing.assert_array_equal(window * quake, quake.acceleration)
+    np.testing.assert_array_equal(np.add(quake, quake), 2 * quake.acceleration)
+
+
+@pytest.mark.parametrize("given", ["5%", None, True, float("nan"), 1])
+def test_what_is_no_damping(quake: Record, given: Any) -> None:
+    with pytest.raises(InputError) as caught:
+        quake.spectrum(damping=given)
+    assert caught.value.key == "damping" and caught.value.allowed
+
+
+def test_a_file_that_changes_is_told(planar: Wall, quake: Record, quake_file: Path) -> None:
+    read = Record.read(quake_file)
+    treated = read.trim(0, 0.5).scaled(2)
+    copy = pickle.loads(pickle.dumps(read))
+    first = planar.run(read)
+    study = concio.Study(planar, motions={"quake": read})
+    Record.from_array(10 * quake.acceleration, quake.dt).save(quake_file.with_name("other.txt"))
+    text = quake_file.read_text()
+    quake_file.write_bytes(quake_file.with_name("other.txt").read_bytes())
+    uses: list[Callable[[Record], object]] = [
+        planar.run,
+        planar.simulation,
+        lambda record: planar.replace({"motion.base": record}),
+        lambda record: concio.run_many([(planar, record)]),
+        lambda record: concio.Study(planar, motions={"quake": record}),
+        lambda _: study.check(),
+        lambda _: study.run(quake_file.with_name("study")),
+    ]
+    for change in ("was changed", "is gone"):
+        for record in (read, treated):
+            for use in uses:
+                with pytest.raises(InputError, match=f"{change}.*record.save") as caught:
+                    use(record)
+                assert caught.value.file == str(quake_file)
+        quake_file.unlink(missing_ok=True)
+    # The remedy, and a copy by pickle: the samples that were read.
+    for kept in (read.save(quake_file.with_name("kept.txt")), copy):
+        assert planar.run(kept)["base/shear"].tobytes() == first["base/shear"].tobytes()
+    quake_file.write_text(text)
+    assert planar.run(read)["base/shear"].tobytes() == first["base/shear"].tobytes()

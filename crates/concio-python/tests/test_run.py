@@ -8,6 +8,7 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -253,14 +254,15 @@ def test_many_runs_have_the_bits_of_single_ones(planar: Wall, shear: Wall, quake
         concio.run_many([planar, (quake, planar)])  # type: ignore[list-item]
 
 
-def test_ctrl_c_ends_many_runs(planar: Wall) -> None:
+@pytest.mark.parametrize(("threads", "begun"), [(1, 1), (65535, 3)])
+def test_ctrl_c_ends_many_runs(planar: Wall, threads: int, begun: int) -> None:
     long = planar.replace({"motion.duration": "3000 s"})
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
-    with pytest.warns(RuntimeWarning, match="stopped"):
-        runs = concio.run_many([long, long, long], threads=1)
+    with pytest.warns(RuntimeWarning, match=f"{3 - begun} that had not begun"):
+        runs = concio.run_many([long, long, long], threads=threads)
     timer.join()
-    assert [run.stop_reason for run in runs] == ["interrupted"]
+    assert [run.stop_reason for run in runs] == ["interrupted"] * begun
 
 
 def test_a_collapse_is_told() -> None:
@@ -291,3 +293,80 @@ def test_tables_and_report(planar: Wall, tmp_path: Path) -> None:
     assert run.drifts["peak"].shape == (1,)
     run.report(tmp_path / "page.html")
     assert "three courses" in (tmp_path / "page.html").read_text()
+
+
+def test_the_wall_of_a_motion_in_no_file_says_that_it_stands_still(planar: Wall, quake: Record, tmp_path: Path) -> None:
+    run = planar.run(base=quake)
+    with pytest.warns(UserWarning):
+        run.save(tmp_path)
+    for wall in (run.wall, pickle.loads(pickle.dumps(run.wall)), concio.open(tmp_path).wall):
+        assert "motion-in-no-file" in [doubt.kind for doubt in wall.check()]
+        for again in (wall, wall.replace({"motion.duration": 0.2})):
+            with pytest.warns(UserWarning, match="stands still"):
+                again.run()
+        with pytest.warns(UserWarning, match="stands still"):
+            concio.run_many([wall])
+        with pytest.warns(UserWarning, match="stands still"):
+            concio.Study(wall, {"joint.friction.static": [0.4, 0.5]})
+        # With the motion it is the run.
+        np.testing.assert_array_equal(wall.run(base=quake)["base/shear"], run["base/shear"])
+        moved = wall.replace({"motion.base": {"sine": {"acceleration": "0.1 g", "frequency": 3}}})
+        assert moved.run().ok and "motion-in-no-file" not in [doubt.kind for doubt in moved.check()]
+    assert "motion-in-no-file" not in [doubt.kind for doubt in planar.run().wall.check()]
+
+
+def test_histories_are_asked_by_name(planar: Wall) -> None:
+    run = planar.run(duration=0.05)
+    with pytest.raises(TypeError, match="by their name"):
+        run[0]  # type: ignore[index]
+    number: Any = 0
+    assert "base/shear" in run and number not in run and "base/sheer" not in run
+
+
+def test_progress_ends_with_all_of_it(planar: Wall, tmp_path: Path) -> None:
+    short = planar.replace({"motion.duration": 0.05})
+    study = concio.Study(short, {"joint.friction.static": [0.4, 0.5]})
+    for work in (
+        lambda told: short.run(progress=told),
+        lambda told: concio.run_many([short], progress=told),
+        lambda told: study.run(tmp_path, progress=told),
+    ):
+        shares: list[float] = []
+        work(shares.append)
+        assert shares[-1] == 1.0 and shares == sorted(shares)
+
+
+def test_threads_are_no_more_than_runs(planar: Wall) -> None:
+    short = planar.replace({"motion.duration": 0.02})
+    assert len(concio.run_many([short, short], threads=65535)) == 2
+    for threads in (-1, 65536, 10**9, 1.5, True, "2"):
+        with pytest.raises(InputError) as caught:
+            concio.run_many([short], threads=threads)  # type: ignore[arg-type]
+        assert caught.value.key == "threads"
+
+
+@pytest.mark.parametrize("runs", [None, 3, "planar"])
+def test_what_is_no_list_of_runs(planar: Wall, runs: Any) -> None:
+    lists: list[Any] = [runs, [planar, runs], [planar, (planar, None, 1)], planar]
+    for given in lists:
+        with pytest.raises(InputError) as caught:
+            concio.run_many(given)
+        assert caught.value.key == "runs" and caught.value.allowed
+
+
+def test_a_result_that_a_study_kept_is_opened(planar: Wall, tmp_path: Path) -> None:
+    short = planar.replace({"motion.duration": 0.1})
+    rows = concio.Study(short, {"joint.friction.static": [0.4]}, results=True).run(tmp_path / "study")
+    (file,) = (tmp_path / "study" / "results").glob("*.h5")
+    run, alone = concio.open(file), short.run()
+    np.testing.assert_array_equal(run._native.values, alone._native.values)
+    assert run.ok and run.energy == alone.energy and run.stop_reason == rows["end"][0]
+    assert run.summary["weight"] is None and run.summary["duration"] == pytest.approx(0.1)
+    assert [warned.kind for warned in run.warnings] == ["no-summary"] and "warning_kinds" in repr(run)
+    run.save(tmp_path / "copy")
+    run.report(tmp_path / "page.html")
+    assert (tmp_path / "copy/result.h5").read_bytes() == file.read_bytes()
+    assert concio.open(tmp_path / "copy").warnings == run.warnings
+    (tmp_path / "notes.txt").write_text("nothing")
+    with pytest.raises(InputError):
+        concio.open(tmp_path / "notes.txt")

@@ -1,8 +1,11 @@
 from __future__ import annotations
 
+import copy
 import os
+import pickle
 import signal
 import threading
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -114,3 +117,63 @@ def test_what_cannot_be_pushed_is_told(planar: Wall, shear: Wall) -> None:
         planar.simulation().push(0, x=float("nan"))
     with pytest.raises(InputError, match="planar"):
         shear.simulation().push(0, x=1.0)
+
+
+def test_times_and_forces_may_be_texts(planar: Wall) -> None:
+    by_text, by_number = planar.simulation(), planar.simulation()
+    by_text.push(0, x="0.1 kN")
+    by_text.advance(to="50 ms")
+    by_number.push(np.int64(0), x=100.0)  # type: ignore[arg-type]
+    by_number.advance(to=0.05)
+    np.testing.assert_array_equal(by_text.displacements, by_number.displacements)
+
+
+@pytest.mark.parametrize(
+    ("ask", "key"),
+    [
+        (lambda s: s.advance(to="0.2"), "to"),
+        (lambda s: s.advance(to="0.2 kg"), "to"),
+        (lambda s: s.advance(to=True), "to"),
+        (lambda s: s.advance(to=0.1, steps=3), "steps"),
+        (lambda s: s.advance(steps=1.5), "steps"),
+        (lambda s: s.advance(steps=True), "steps"),
+        (lambda s: s.push(True, x=1.0), "block"),
+        (lambda s: s.push(0.5, x=1.0), "block"),
+        (lambda s: s.push(None, x=1.0), "block"),
+        (lambda s: s.push(0, x="1"), "x"),
+        (lambda s: s.push(0, y="1 m"), "y"),
+        (lambda s: s.push(0, x=None), "x"),
+        (lambda s: s.restore(None), "state"),
+        (lambda s: s.restore("text"), "state"),
+    ],
+)
+def test_what_a_simulation_is_not_asked(planar: Wall, ask: Callable[[Simulation], object], key: str) -> None:
+    simulation = planar.simulation()
+    with pytest.raises(InputError) as caught:
+        ask(simulation)
+    assert caught.value.key == key and caught.value.allowed
+    assert simulation.time == 0.0
+
+
+def test_a_simulation_is_not_copied(planar: Wall) -> None:
+    simulation = planar.simulation()
+    for again in (copy.copy, copy.deepcopy, pickle.dumps):
+        with pytest.raises(TypeError, match=r"save\(\).*restore\(\)"):
+            again(simulation)
+
+
+def test_damaged_states_are_refused(wall: Wall) -> None:
+    simulation = wall.simulation()
+    simulation.advance(to=0.1)
+    state = simulation.save()
+    before = simulation.displacements
+    for place in np.linspace(0, len(state) - 1, 23).astype(int):
+        damaged = bytearray(state)
+        damaged[place] ^= 1
+        with pytest.raises(InputError, match="damaged"):
+            simulation.restore(bytes(damaged))
+    with pytest.raises(InputError, match="damaged"):
+        simulation.restore(state[:-1])
+    np.testing.assert_array_equal(simulation.displacements, before)
+    simulation.restore(memoryview(state))  # type: ignore[arg-type]
+    np.testing.assert_array_equal(simulation.displacements, before)

@@ -297,3 +297,10 @@ def test_tables_are_those_of_their_rows(tmp_path: Path, shear: Wall) -> None:
 def test_bounds_without_a_unit_are_refused(shear: Wall) -> None:
     with pytest.raises(InputError, match="'20' has no unit"):
         Study(shear, {"load.top": Uniform("20", "60 kN/m")})
+
+
+@pytest.mark.parametrize("scales", [2, "2"])
+def test_scales_are_a_list(shear: Wall, scales: Any) -> None:
+    with pytest.raises(InputError) as caught:
+        Study(shear, scales=scales)
+    assert caught.value.key == "scales" and caught.value.allowed

@@ -262,3 +262,55 @@ def test_what_is_wrong_in_dicts_has_no_file(tmp_path: Path) -> None:
         Wall.from_dict({"model": "planar", "panel": []}, folder=tmp_path)
     assert caught.value.file is None and caught.value.line is None and caught.value.key is not None
     assert Wall.from_str(PLANAR, folder=tmp_path).path is None
+
+
+@pytest.mark.parametrize("kind", ["text", "values"])
+def test_records_of_a_wall_without_a_file_stay_where_they_are(
+    kind: str, tmp_path: Path, quake_file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    base = {"record": quake_file.name}
+    monkeypatch.chdir(quake_file.parent)
+    given = Wall.from_str(PLANAR).given
+    given["motion"] = {"base": base, "duration": 0.1}
+    wall = Wall.from_dict(given)
+    if kind == "text":
+        wall = Wall.from_str(
+            PLANAR.split("[motion]")[0] + f'[motion]\nduration = 0.1\nbase = {{ record = "{quake_file.name}" }}\n'
+        )
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    assert wall.run().ok and pickle.loads(pickle.dumps(wall)).run().ok
+    quake_file.unlink()
+    with pytest.raises(InputError) as caught:
+        wall.replace({"motion.duration": 0.2}).run()
+    # The wall is in no file, and none is named.
+    assert caught.value.file == str(quake_file) and "wall.toml" not in str(caught.value)
+    assert "named in the wall file as motion.base.record" in str(caught.value)
+
+
+def test_a_value_that_is_not_finite_is_named(planar: Wall) -> None:
+    for change in (
+        lambda: planar.replace({"joint.friction.static": float("nan")}),
+        lambda: planar.replace({"joint.friction": {"static": np.inf}}),
+        lambda: planar.run(duration=float("nan")),
+        lambda: Wall.from_dict({"panel": [{"courses": np.nan}]}),
+    ):
+        with pytest.raises(InputError) as caught:
+            change()
+        assert caught.value.key in ("joint.friction.static", "motion.duration", "panel[0].courses")
+    with pytest.raises(InputError) as caught:
+        planar.replace(None)  # type: ignore[arg-type]
+    assert caught.value.key == "changes" and caught.value.allowed
+
+
+def test_columns_are_asked_with_in_and_know_their_units(planar: Wall, shear: Wall) -> None:
+    blocks = planar.blocks
+    assert "mass" in blocks and "masses" not in blocks and 3 not in blocks
+    assert next(iter(blocks)) in blocks and {"name": "none"} not in blocks
+    for wall in (planar, shear):
+        run = wall.run(duration=0.05)
+        texts = {"name", "panel", "course", "kind", "a", "b", "law", "impacts", "top", "joint", "value", "unit"}
+        for table in (wall.blocks, wall.joints, run.blocks, run.joints, run.drifts, run.events):
+            assert set(table.keys()) - texts == set(table.units)
+        assert run.joints.units["slip"] == "m" and run.joints.units["stiffness"] == "N/m"
+        assert run.blocks.take([0]).units["mass"] == "kg"

@@ -90,7 +90,8 @@ pub fn simulate_each(
 ) {
     let threads = match threads {
         0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
-        some => some,
+        // More than there are runs would only wait.
+        some => some.min(jobs.len().max(1)),
     };
     let batch = Batch {
         jobs,

@@ -17,6 +17,7 @@ __all__ = [
     "__version__",
     "command",
     "example_names",
+    "in_si",
     "run_many",
     "study_check",
     "study_report",
@@ -27,6 +28,7 @@ __version__: str
 
 _Path = str | PathLike[str]
 
+def in_si(text: str, of: str, key: str) -> float: ...
 def command(arguments: Sequence[_Path]) -> int: ...
 def study_run(
     file: _Path,
@@ -108,6 +110,8 @@ class Record:
 class Run:
     @staticmethod
     def open(folder: _Path, text: str | None) -> Run: ...
+    @staticmethod
+    def read(file: _Path) -> Run: ...
     def save(self, folder: _Path) -> None: ...
     def report(self, path: _Path, name: str) -> None: ...
     def summary(self) -> dict[str, Any]: ...

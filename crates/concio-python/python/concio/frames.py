@@ -27,20 +27,8 @@ _FRAMES = {
     "damage": ("1", "damage of the bond", "bonded_joint"),
 }
 _PEAKS = {
-    "blocks": {
-        "mass": "kg",
-        "peak_displacement": "m",
-        "peak_velocity": "m/s",
-        "peak_acceleration": "m/s2",
-    },
-    "joints": {
-        "stiffness": "N/m",
-        "peak_displacement": "m",
-        "slip": "m",
-        "opening": "m",
-        "peak_force": "N",
-        "dissipation": "J",
-    },
+    "block": ("mass", "peak_displacement", "peak_velocity", "peak_acceleration"),
+    "joint": ("stiffness", "peak_displacement", "slip", "opening", "peak_force", "dissipation"),
 }
 
 
@@ -72,9 +60,9 @@ def dataset(run: Run) -> xr.Dataset:
     for name, values in frames.items():
         unit, text, dimension = _FRAMES[name]
         variables[f"frame_{name}"] = (("frame", dimension), values, {"units": unit, "long_name": text})
-    for table, dimension, columns in ((blocks, "block", _PEAKS["blocks"]), (joints, "joint", _PEAKS["joints"])):
-        for name, unit in columns.items():
-            variables[f"{dimension}_{name}"] = (dimension, table[name], {"units": unit})
+    for table, dimension in ((blocks, "block"), (joints, "joint")):
+        for name in _PEAKS[dimension]:
+            variables[f"{dimension}_{name}"] = (dimension, table[name], {"units": table.units[name]})
     coordinates = {
         "time": ("time", run.time, {"units": "s"}),
         "frame": ("frame", run.frame_time, {"units": "s"}),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -10,7 +11,7 @@ import numpy as np
 
 from . import _native
 from ._files import write
-from ._values import to_json
+from ._values import amount, number, samples, to_json
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -39,13 +40,20 @@ _WRITTEN = "# written by concio"
 _LENGTHS = {"m", "cm", "mm", "um", "µm", "μm", "in", "ft"}
 
 
-def _plain(values: ArrayLike) -> NDArray[np.float64]:
-    """An array as the engine takes it: buffers that others hand on without copying, as Dask does, may begin anywhere."""
-    return np.require(values, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
+def _digest(path: str) -> bytes | None:
+    """What tells whether a file is the same; none of one that cannot be read."""
+    try:
+        with open(path, "rb") as file:
+            return hashlib.sha256(file.read()).digest()
+    except OSError:
+        return None
 
 
 class Record:
     """An accelerogram at equal intervals, linear between its samples. Nothing changes it: what is done to it makes another.
+
+    Runs of a record that was read take it from its file again, whose name results keep. Where the file was changed or removed meanwhile they
+    raise an :class:`InputError`.
 
     Example:
         >>> import numpy as np, concio
@@ -57,9 +65,10 @@ class Record:
         2.0
     """
 
-    def __init__(self, native: _native.Record) -> None:
-        """Made by :meth:`read`, :meth:`from_array` and :meth:`from_obspy`."""
+    def __init__(self, native: _native.Record, seen: bytes | None = None) -> None:
+        """Made by :meth:`read`, :meth:`from_array` and :meth:`from_obspy`; ``seen`` is the digest of its file when it was read."""
         self._native = native
+        self._seen = seen
         self._measures: dict[str, Any] | None = None
 
     @classmethod
@@ -87,28 +96,31 @@ class Record:
             InputError: The file cannot be read, or a keyword does not suit it.
         """
         given = {"channel": channel, "quantity": quantity, "units": units, "dt": dt, "layout": layout}
-        keys = {"record": os.path.abspath(path)} | {key: value for key, value in given.items() if value is not None}
-        return cls(_native.Record.read(to_json(keys)))
+        file = os.path.abspath(path)
+        keys = {"record": file} | {key: value for key, value in given.items() if value is not None}
+        seen = _digest(file)
+        return cls(_native.Record.read(to_json(keys)), seen)
 
     @classmethod
-    def from_array(cls, acceleration: ArrayLike, dt: float, *, units: str = "m/s2") -> Record:
+    def from_array(cls, acceleration: ArrayLike, dt: float | str, *, units: str = "m/s2") -> Record:
         """Of samples of the acceleration.
 
         Args:
-            acceleration: Samples, two or more.
-            dt: Time from one to the next [s], 1e-6 … 100.
-            units: Their unit; ``"g"`` is standard gravity, 9.80665 m/s², as archives mean it.
+            acceleration: Samples, two or more: real numbers, none of them masked. A quantity, as of pint, is converted from its own unit.
+            dt: Time from one to the next, 1e-6 … 100 s: a number in s, a text such as ``"5 ms"``, a quantity.
+            units: Their unit, where they are no quantity; ``"g"`` is standard gravity, 9.80665 m/s², as archives mean it.
 
         Raises:
             InputError: Samples that are not finite numbers, an interval out of range, a unit that is none of acceleration.
         """
-        try:
-            samples = _plain(acceleration)
-        except (TypeError, ValueError):
-            raise InputError("is no array of numbers", key="acceleration", allowed="numbers in one row") from None
-        if samples.ndim != 1:
-            raise InputError(f"has {samples.ndim} dimensions", key="acceleration", allowed="numbers in one row")
-        return cls(_native.Record.from_array(samples, float(dt), units))
+        if not isinstance(units, str):
+            raise InputError(f"is {units!r}", key="units", allowed="a unit of acceleration, such as g or m/s2")
+        values = samples(acceleration, "m/s**2", "acceleration")
+        own = hasattr(acceleration, "units") or hasattr(acceleration, "unit")
+        if own and units != "m/s2" and hasattr(acceleration, "to"):
+            what = f"is {units}, but the samples have a unit of their own"
+            raise InputError(what, key="units", allowed="one of the two")
+        return cls(_native.Record.from_array(values, amount(dt, "time", "s", "dt"), units))
 
     @classmethod
     def from_obspy(cls, trace: Any, *, units: str) -> Record:
@@ -175,7 +187,7 @@ class Record:
         return self._treated("reverse", True)
 
     def _treated(self, key: str, value: Any) -> Record:
-        return Record(self._native.treated(to_json({key: value}, key)))
+        return Record(self._native.treated(to_json({key: value})), self._seen)
 
     def save(self, path: str | os.PathLike[str]) -> Record:
         """Writes the samples to a file of text and gives the record of that file, the same to the bit.
@@ -223,9 +235,10 @@ class Record:
         """What a wall file in ``folder`` says of it, at ``key``.
 
         Raises:
-            InputError: It has no words: no file gives the record, or what was done to it came in another order.
+            InputError: It has no words: no file gives the record, or what was done to it came in another order. Its file was changed or removed
+                since it was read.
         """
-        words = self._native.words(folder)
+        words = self._words(folder)
         if words is None:
             raise InputError(
                 "the record is given by no file, or was treated in another order than a wall file's",
@@ -235,6 +248,27 @@ class Record:
             )
         said: dict[str, Any] = json.loads(words)
         return said
+
+    def _words(self, folder: str | os.PathLike[str]) -> str | None:
+        """What a wall file in ``folder`` says of it, none where it has no words; its file is the one that was read."""
+        words = self._native.words("")
+        if words is None:
+            return None
+        file = str(json.loads(words)["record"])
+        if _digest(file) != self._seen:
+            there = "was changed" if os.path.exists(file) else "is gone"
+            what = f"the file of the record {there} since it was read, and runs read it again"
+            help = 'read it again, or run record.save("other.txt"), which writes these samples to a file of their own'
+            raise InputError(what, file=file, help=help)
+        return self._native.words(folder)
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **kwargs: Any) -> Any:
+        """Functions of NumPy take its samples; a number times a record is a record, whoever made the number."""
+        others = [each for each in inputs if not isinstance(each, Record)]
+        if (ufunc, method) == (np.multiply, "__call__") and not kwargs and [*map(np.ndim, others)] == [0]:
+            return self.scaled(others[0])
+        plain = [np.asarray(each) if isinstance(each, Record) else each for each in inputs]
+        return getattr(ufunc, method)(*plain, **kwargs)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         """Samples of the acceleration [m/s²], for functions of NumPy."""
@@ -311,11 +345,15 @@ class Record:
 
         Args:
             periods: Natural periods [s]; default 200 from 0.02 to 5 s at equal ratios.
-            damping: Damping ratio, from 0.
+            damping: Damping ratio, from 0 to below 1.
+
+        Raises:
+            InputError: Periods or a damping ratio that are none.
         """
-        wanted = np.geomspace(0.02, 5.0, 200) if periods is None else _plain(periods)
-        if wanted.ndim != 1 or not np.all(np.isfinite(wanted) & (wanted >= 0)):
+        wanted = np.geomspace(0.02, 5.0, 200) if periods is None else samples(periods, "s", "periods")
+        if not np.all(np.isfinite(wanted) & (wanted >= 0)):
             raise InputError("are no natural periods", key="periods", allowed="numbers from 0 in one row [s]")
+        damping = number(damping, "damping", "a ratio from 0 to below 1, such as 0.05")
         if not 0 <= damping < 1:
             raise InputError(f"is {damping}", key="damping", allowed="from 0 to below 1")
         found = self._native.spectrum(wanted, damping)

@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _native
 from ._progress import shown
+from ._values import threads_of
 from .errors import InputError
-from .table import Table
+from .table import Table, in_si
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -82,6 +83,9 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """A history, a value per sample, SI."""
+        if not isinstance(name, str):
+            names = ", ".join(map(repr, list(self)[:3]))
+            raise TypeError(f"histories are asked by their name, such as {names}; {name!r} is none")
         place = self._places.get(name)
         if place is None:
             near = difflib.get_close_matches(name, self._places, n=3)
@@ -93,6 +97,10 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
             )
             raise KeyError(f"no history {name!r}: {hint}{more}")
         return self._native.values[:, place]
+
+    def __contains__(self, name: object) -> bool:
+        """Whether there is a history of this name."""
+        return isinstance(name, str) and name in self._places
 
     def __iter__(self) -> Iterator[str]:
         """Names of the histories."""
@@ -187,32 +195,37 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
 
     @property
     def wall(self) -> Wall:
-        """The wall that was run, as results keep it."""
+        """The wall that was run, as results keep it.
+
+        The motion of a record that no file gives is not in it: :meth:`concio.Wall.check` says so, and running it without ``base`` warns of it.
+        """
         from .wall import Wall
 
-        place = None if self._folder is None else os.path.join(self._folder, "wall.json")
-        return Wall(_native.Case.parse(self._native.case, True, place, False))
+        place = os.path.join(os.path.abspath(self._folder or os.curdir), "wall.json")
+        wall = Wall(_native.Case.parse(self._native.case, True, place, False))
+        wall._lost = any(warned.kind == _BESIDE for warned in self.warnings)
+        return wall
 
     @property
     def blocks(self) -> Table:
-        """The blocks and their peaks, SI."""
-        return Table(self._native.blocks())
+        """The blocks and their peaks, SI, as ``units`` of the table names."""
+        return in_si(self._native.blocks())
 
     @property
     def joints(self) -> Table:
-        """The joints, their laws and peaks, SI; ``slip`` is the path slipped [m]."""
-        return Table(self._native.joints())
+        """The joints, their laws and peaks, SI, as ``units`` of the table names; ``slip`` is the path slipped [m]."""
+        return in_si(self._native.joints())
 
     @property
     def events(self) -> Table:
         """Impacts, cracks, crushing and collapse, in the order of time."""
-        return Table(self._native.events())
+        return in_si(self._native.events())
 
     @property
     def drifts(self) -> Table:
         """How far every top went [m]: ``peak`` and its time [s], what is left at the end, and how far it still swings to either side of that."""
         rows = self._native.drifts()
-        return Table(
+        return in_si(
             {name: [row[name] for row in rows] for name in ("top", "height", "peak", "time", "residual", "swing")}
         )
 
@@ -294,6 +307,9 @@ class Run(Mapping[str, "NDArray[np.float64]"]):
 def open(folder: str | os.PathLike[str]) -> Run:
     """Reads a run back from its folder, or its ``result.h5`` there, bit for bit what was written.
 
+    Of a study that kept results it opens ``results/ID.h5`` too. Beside such a file stands no summary: what only that knows is None, such as
+    ``summary["weight"]``, and instead of the warnings of the run one says where they are.
+
     Raises:
         InputError: A file that is broken, foreign, changed or of another version.
         OSError: A file that cannot be read.
@@ -301,6 +317,8 @@ def open(folder: str | os.PathLike[str]) -> Run:
     place = os.fspath(folder)
     if os.path.basename(place) == "result.h5" and os.path.isfile(place):
         place = os.path.dirname(place) or os.curdir
+    elif os.path.isfile(place):
+        return Run(_native.Run.read(place))
     return Run(_native.Run.open(place, None))
 
 
@@ -313,7 +331,7 @@ def run_many(
 
     Args:
         runs: Walls, or pairs of a wall and what moves its base (see :meth:`concio.Wall.run`).
-        threads: Number of threads; 0 for one per core.
+        threads: Number of threads, no more than runs are used; 0 for one per core.
         progress: Show a bar, or call this with the share that is done, 0 … 1.
 
     Returns:
@@ -324,19 +342,22 @@ def run_many(
     """
     from .wall import Wall
 
-    if threads < 0:
-        raise InputError(f"is {threads}", key="threads", allowed="from 0; 0 is one per core")
+    threads = threads_of(threads)
+    allowed = "walls, or pairs of a wall and a motion"
+    if isinstance(runs, Wall) or not hasattr(runs, "__iter__"):
+        raise InputError(f"a {type(runs).__name__} is no list", key="runs", allowed=f"a list of {allowed}")
     prepared, folders = [], []
     for number, asked in enumerate(runs):
-        wall, base = (asked, None) if isinstance(asked, Wall) else asked
+        pair: Any = asked if isinstance(asked, tuple | list) and len(asked) == 2 else (asked, None)
+        wall, base = pair
         if not isinstance(wall, Wall):
-            raise InputError(
-                f"number {number} is no wall", key="runs", allowed="walls, or pairs of a wall and a motion"
-            )
+            raise InputError(f"number {number} is no wall", key="runs", allowed=allowed)
         prepared.append(wall._moved(base))
         folders.append(str(wall._case.folder))
     with shown(progress) as told:
-        ended, interrupted = _native.run_many(prepared, threads, told)
+        ended, interrupted = _native.run_many(prepared, min(threads, len(prepared)), told)
+        if told is not None and not interrupted:
+            told(1.0)
     if interrupted:
         warnings.warn(
             f"the runs were stopped: {ended.count(None)} that had not begun are left out", RuntimeWarning, stacklevel=2

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import hashlib
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
+from ._values import amount, count
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     from .wall import Base, Wall
 
 _MOST = 2**63 - 1
+_DIGEST = 16  # bytes behind a state that tell whether it is what was saved
 
 
 class Simulation:
@@ -47,19 +50,21 @@ class Simulation:
         self._names = {name: number for number, name in enumerate(blocks["name"])}
         self._centres = np.column_stack([blocks["x"], blocks["y"]])
 
-    def advance(self, *, to: float | None = None, steps: int | None = None) -> None:
-        """Takes steps until the time ``to`` [s] is reached, or so many steps; default one step.
+    def advance(self, *, to: float | str | None = None, steps: int | None = None) -> None:
+        """Takes steps until the time ``to`` is reached [s, or a text with its unit], or so many steps; default one step.
 
         Steps are those of a run: none is cut short, so that ``time`` may be a step beyond ``to``. At the end of the motion, and when the step
         becomes too short, ``stop_reason`` says why it goes no further. After Ctrl-C the steps that were taken stay.
+
+        Raises:
+            InputError: No time, no number of steps, or both.
         """
-        if to is not None and not np.isfinite(to):
-            raise InputError(f"is {to}", key="to", allowed="a time [s]")
-        if steps is not None and steps < 0:
-            raise InputError(f"is {steps}", key="steps", allowed="from 0")
-        if to is None and steps is None:
-            steps = 1
-        self._native.advance(np.inf if to is None else float(to), _MOST if steps is None else steps)
+        if to is not None and steps is not None:
+            raise InputError("is given beside to", key="steps", allowed="either to or steps")
+        if to is not None:
+            self._native.advance(amount(to, "time", "s", "to"), _MOST)
+        else:
+            self._native.advance(np.inf, 1 if steps is None else count(steps, "steps", "whole numbers from 0", _MOST))
 
     def step(self) -> None:
         """One step: :meth:`advance` without arguments."""
@@ -69,7 +74,7 @@ class Simulation:
         """Goes back to rest at t = 0, pushed by nothing."""
         self.restore(self._start)
 
-    def push(self, block: str | int, *, x: float = 0.0, y: float = 0.0) -> None:
+    def push(self, block: str | int, *, x: float | str = 0.0, y: float | str = 0.0) -> None:
         """Pushes a block of a planar wall at its centre from now on, until it is pushed otherwise; 0 N ends it.
 
         The force stays as it is while the wall moves: a spring is followed by a push per step. The run is, to the bit, that of a wall
@@ -77,8 +82,8 @@ class Simulation:
 
         Args:
             block: Its name or number.
-            x: Force to the right [N].
-            y: Force upwards [N].
+            x: Force to the right [N, or a text with its unit].
+            y: Force upwards, likewise.
 
         Raises:
             InputError: No such block, a force that is not finite, a wall of another model.
@@ -94,9 +99,10 @@ class Simulation:
             ...     simulation.advance()
         """
         number = self._names.get(block, -1) if isinstance(block, str) else block
-        if not 0 <= number < len(self._names):
+        whole = isinstance(number, int | np.integer) and not isinstance(number, bool)
+        if not whole or not 0 <= number < len(self._names):
             raise InputError(f"there is no block {block!r}", key="block", allowed="names or numbers of `wall.blocks`")
-        self._native.push(number, float(x), float(y))
+        self._native.push(int(number), amount(x, "force", "N", "x"), amount(y, "force", "N", "y"))
 
     @property
     def time(self) -> float:
@@ -132,16 +138,31 @@ class Simulation:
 
     def save(self) -> bytes:
         """The state, from which :meth:`restore` goes on with the same bits; of this wall, motion and version alone."""
-        return bytes(self._native.save())
+        state = bytes(self._native.save())
+        return state + hashlib.sha256(state).digest()[:_DIGEST]
 
     def restore(self, state: bytes) -> None:
         """Goes back to a saved state.
 
         Raises:
-            InputError: A state that is not of this wall.
+            InputError: A state that is not of this wall, or was damaged.
         """
-        if not self._native.restore(state):
-            raise InputError("is no state of this wall", key="state", allowed="what save() of the same wall gave")
+        allowed = "what save() of the same wall gave"
+        if not isinstance(state, bytes | bytearray | memoryview):
+            raise InputError(f"a {type(state).__name__} is no state", key="state", allowed=allowed)
+        whole = bytes(state)
+        own, digest = whole[:-_DIGEST], whole[-_DIGEST:]
+        if hashlib.sha256(own).digest()[:_DIGEST] != digest:
+            raise InputError("is no state, or was damaged since it was saved", key="state", allowed=allowed)
+        if not self._native.restore(own):
+            raise InputError("is no state of this wall", key="state", allowed=allowed)
+
+    def __reduce__(self) -> NoReturn:
+        """Copies would move on together, and no other process has its thread: refused."""
+        raise TypeError(
+            "a simulation cannot be copied or pickled: hand on simulation.save(), and restore() it in another"
+            " simulation of the same wall and motion"
+        )
 
     def __repr__(self) -> str:
         """How far it is."""

@@ -20,12 +20,12 @@ import numpy as np
 from . import _native
 from ._files import write
 from ._progress import shown
-from ._values import plain, to_json
+from ._values import count, plain, threads_of, to_json
 from .distributed import Executor, rows
 from .errors import InputError
 from .record import Record
 from .table import Table
-from .wall import Wall
+from .wall import _LOST, Wall
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -221,7 +221,12 @@ class Study:
             study["vary"] = [_vary(path, over) for path, over in factors.items()]
         if motions:
             study["motion"] = [{"name": name, **_motion(name, base, wall)} for name, base in motions.items()]
-        if scales:
+        scales = () if scales is None else scales
+        if isinstance(scales, str) or not hasattr(scales, "__iter__"):
+            raise InputError(f"{scales!r} is no list", key="scales", allowed="a list of factors, such as [0.5, 1]")
+        if wall._lost and not motions:
+            warnings.warn(_LOST, UserWarning, stacklevel=2)
+        if len(scales) > 0:
             study["scales"] = plain(list(scales), "scales")
         study["keep"] = {"joints": list(keep), "results": results}
         questions = {
@@ -235,12 +240,13 @@ class Study:
         study |= {name: plain(asked, name) for name, asked in questions.items() if asked is not None}
         self._texts: dict[str, str] | None = {_WALL: to_json(settings), _STUDY: to_json(study)}
         self._file: str | None = None
+        self._records = [base for base in (motions or {}).values() if isinstance(base, Record)]
 
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Study:
         """Reads a study file. What is wrong with it is told by :meth:`run`."""
         study = cls.__new__(cls)
-        study._texts, study._file = None, os.path.abspath(path)
+        study._texts, study._file, study._records = None, os.path.abspath(path), []
         return study
 
     def check(self) -> Checked:
@@ -256,6 +262,7 @@ class Study:
             >>> len(runs), list(runs.take([3]))
             (4, [{'run': 4.0, 'joint.friction.static': 0.6, 'scale': 2.0}])
         """
+        self._look_at_records()
         if self._file is not None:
             columns, doubts = _native.study_check(self._file)
             return Checked(Table(*_cells(columns)), doubts)
@@ -302,10 +309,10 @@ class Study:
             InputError: What the study file may not say.
             Exception: What a task on an executor ended with; all rows that came before are kept.
         """
-        if threads < 0:
-            raise InputError(f"is {threads}", key="threads", allowed="from 0; 0 is one per core")
-        if runs_per_task < 1:
+        threads = threads_of(threads)
+        if count(runs_per_task, "runs_per_task", "from 1") < 1:
             raise InputError(f"is {runs_per_task}", key="runs_per_task", allowed="from 1")
+        self._look_at_records()
         out = os.path.abspath(folder)
         if os.path.exists(out) and not os.path.isdir(out):
             raise InputError("the folder for the results is a file", file=out, help="give another folder")
@@ -326,6 +333,8 @@ class Study:
         try:
             with shown(progress) as told:
                 columns, done = _native.study_run(file, out, threads, told, given, runs_per_task)
+                if told is not None and done:
+                    told(1.0)
         except InputError:
             # A study that is refused leaves its folder as it was.
             for name, earlier in before.items():
@@ -361,6 +370,9 @@ class Study:
     def at(self, samples: ArrayLike) -> Study:
         """The same study at values that another program drew, such as SALib of :attr:`salib_problem`.
 
+        Its rows have no columns of the factors: the row whose ``sample`` is ``k`` was run with ``samples[k - 1]``, in the units of
+        :attr:`salib_problem`. What it measured is in SI, as in all rows.
+
         Args:
             samples: A row per run, a column per factor, in the order and the units of :attr:`salib_problem`; 10,000 rows at most. The column
                 ``sample`` of the rows is the number of the row, from 1.
@@ -389,7 +401,13 @@ class Study:
             table["wall"] = os.path.join(os.path.dirname(self._file), table["wall"])
         study = Study.__new__(Study)
         study._texts, study._file = (self._texts or {}) | {_STUDY: to_json(table)}, None
+        study._records = self._records
         return study
+
+    def _look_at_records(self) -> None:
+        """Refuses records whose files are not those that were read."""
+        for record in self._records:
+            record._words("")
 
     def _table(self) -> dict[str, Any]:
         """What the study file says."""

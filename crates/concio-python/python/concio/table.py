@@ -15,10 +15,42 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _SHOWN = 10
+# Units of the columns of blocks, joints, drifts and events; texts, counts and flags have none.
+_UNITS = {
+    "x": "m",
+    "y": "m",
+    "length": "m",
+    "height": "m",
+    "thickness": "m",
+    "corners": "m",
+    "mass": "kg",
+    "stiffness": "N/m",
+    "normal_stiffness": "N/m",
+    "damping": "N s/m",
+    "normal_force": "N",
+    "friction_static": "1",
+    "friction_dynamic": "1",
+    "peak_displacement": "m",
+    "peak_velocity": "m/s",
+    "peak_acceleration": "m/s2",
+    "slip": "m",
+    "opening": "m",
+    "closing": "m",
+    "peak_force": "N",
+    "dissipation": "J",
+    "damage": "1",
+    "cracked_at": "s",
+    "peak": "m",
+    "time": "s",
+    "residual": "m",
+    "swing": "m",
+}
 
 
 class Table:
     """Columns by name, read-only; its length is the number of rows, and it goes through them as dicts.
+
+    ``"slip" in table`` asks for a column, ``row in table`` with a dict for a row. ``units`` has the units of the columns that have one.
 
     Example:
         >>> import concio
@@ -48,6 +80,10 @@ class Table:
     def keys(self) -> Iterator[str]:
         """Names of the columns: ``dict(table)`` has the columns."""
         return iter(self._columns)
+
+    def __contains__(self, asked: object) -> bool:
+        """Whether there is a column of this name, or a row that is this dict."""
+        return any(row == asked for row in self) if isinstance(asked, Mapping) else asked in self._columns
 
     def __len__(self) -> int:
         """Number of rows."""
@@ -100,6 +136,11 @@ class Table:
     def _rest(self) -> list[str]:
         more = len(self) - _SHOWN
         return [f"… {more} more rows"] if more > 0 else []
+
+
+def in_si(columns: Mapping[str, Any]) -> Table:
+    """Columns of blocks, joints, drifts or events with their units."""
+    return Table(columns, {name: _UNITS[name] for name in columns if name in _UNITS})
 
 
 def _column(values: Any) -> NDArray[Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
@@ -18,7 +19,7 @@ from .answers import Continuum, Limit, Mechanisms
 from .errors import InputError
 from .record import Record
 from .run import Run
-from .table import Table
+from .table import Table, in_si
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -32,6 +33,10 @@ Progress: TypeAlias = bool | Callable[[float], object]
 
 
 _HARDLY_SI = 1.47  # m/s², 0.15 g: a peak below it is rather a multiple of g
+_LOST = (
+    "motion.base is none, but the run of this wall was moved by a record that no file gives: alone it stands still;"
+    " give that record as base"
+)
 _TAIL = 60.0  # s that a rocking wall is followed beyond its motion at most
 
 
@@ -74,6 +79,8 @@ class Wall:
         """Made by :meth:`from_toml`, :meth:`from_str`, :meth:`from_dict`, :meth:`from_blocks` and :meth:`example`."""
         self._case = case
         self._ready: _native.Prepared | None = None
+        # Whether a run that it is of was moved by what its file does not hold.
+        self._lost = False
 
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Wall:
@@ -86,7 +93,7 @@ class Wall:
 
     @classmethod
     def from_str(cls, text: str, *, folder: str | os.PathLike[str] | None = None) -> Wall:
-        """Reads the text of a wall file in TOML; records in it are relative to ``folder``, default the working directory.
+        """Reads the text of a wall file in TOML; records in it are relative to ``folder``, default the working directory of now.
 
         Raises:
             InputError: As :meth:`from_toml`.
@@ -96,6 +103,8 @@ class Wall:
     @classmethod
     def from_dict(cls, values: Mapping[str, Any], *, folder: str | os.PathLike[str] | None = None) -> Wall:
         """Of what a wall file says, as dicts and lists: numbers are SI, texts carry their unit.
+
+        Records in it are relative to ``folder``, default the working directory of now.
 
         Raises:
             InputError: As :meth:`from_toml`, by keys alone.
@@ -120,7 +129,7 @@ class Wall:
             brick: Depth, specific weight and size of reference, as ``panel.brick`` of a wall file: ``{"length": 0.25, "height": 0.25,
                 "thickness": 0.5, "specific_weight": "20 kN/m3"}``.
             mortar: Thickness of the joints, as ``panel.mortar``; default dry.
-            folder: What paths of records are relative to; default the working directory.
+            folder: What paths of records are relative to; default the working directory of now.
             settings: The other tables of a wall file: ``joint``, ``load``, ``motion``, ``output``, …; ``model`` is ``"planar"``.
 
         Courses are counted from the base, block upon block; ``load.top`` acts on the last one.
@@ -184,11 +193,20 @@ class Wall:
         Raises:
             InputError: A path that leads nowhere, a key or value that a wall file does not know.
         """
+        if not isinstance(changes, Mapping):
+            allowed = "a dict of key paths, such as {'joint.friction.static': 0.5}"
+            raise InputError(f"{changes!r} says not what changes", key="changes", allowed=allowed)
 
         def said(key: str, value: Any) -> Any:
             return value.in_words(self._case.folder, key) if isinstance(value, Record) else plain(value, key)
 
-        return Wall(self._case.changed(to_json({key: said(key, value) for key, value in changes.items()})))
+        made = Wall(self._case.changed(json.dumps({str(key): said(str(key), value) for key, value in changes.items()})))
+        made._lost = self._lost and made._still
+        return made
+
+    @property
+    def _still(self) -> bool:
+        return bool(self.settings.get("motion", {}).get("base", "none") == "none")
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -221,12 +239,12 @@ class Wall:
     @property
     def blocks(self) -> Table:
         """The blocks: name, panel, course from 1, centre, sizes [m], mass [kg], corners [m]."""
-        return Table(self._prepared.blocks())
+        return in_si(self._prepared.blocks())
 
     @property
     def joints(self) -> Table:
         """The joints: name, kind, the blocks at both sides, law, stiffness [N/m], friction."""
-        return Table(self._prepared.joints())
+        return in_si(self._prepared.joints())
 
     def check(self) -> list[Doubt]:
         """What is allowed and hardly meant, such as a number in another unit.
@@ -234,7 +252,8 @@ class Wall:
         Raises:
             InputError: A wall that cannot be laid, a record that cannot be read.
         """
-        return [Doubt(*doubt) for doubt in self._prepared.check()]
+        lost = [Doubt("motion-in-no-file", _LOST, None)] if self._lost else []
+        return lost + [Doubt(*doubt) for doubt in self._prepared.check()]
 
     @property
     def first_period(self) -> float | None:
@@ -255,6 +274,8 @@ class Wall:
 
     def _moved(self, base: Base | None = None, duration: float | str | None = None) -> _native.Prepared:
         """Ready to run under another motion of the base; see :meth:`run`."""
+        if self._lost and base is None:
+            warnings.warn(_LOST, UserWarning, stacklevel=3)
         if base is None and duration is None:
             return self._prepared
         if isinstance(base, str | os.PathLike) and base != "none":
@@ -262,7 +283,7 @@ class Wall:
         changes: dict[str, Any] = {}
         beside = None
         if isinstance(base, Record):
-            words = base._native.words(self._case.folder)
+            words = base._words(self._case.folder)
             beside = base._native if words is None else None
             changes["motion.base"] = "none" if words is None else json.loads(words)
             # A rocking wall is followed beyond its motion, as a file without a duration has it.
@@ -294,6 +315,8 @@ class Wall:
         prepared = self._moved(base, duration)
         with shown(progress) as told:
             native = prepared.run(told)
+            if told is not None and not native.interrupted:
+                told(1.0)
         run = Run(native, str(self._case.folder))
         if native.interrupted:
             warnings.warn(f"the run was stopped at t = {run.time_reached:g} s", RuntimeWarning, stacklevel=2)
@@ -336,7 +359,7 @@ class Wall:
                 raise InputError("is for walls pushed out of their plane", key=key, allowed="with out_of_plane=True")
         options = _options(load=load, towards=towards, heads=heads if heads != "as-given" or not out_of_plane else None)
         options += _options(out_of_plane=out_of_plane, **across)
-        return Limit(*self._case.answer(["limit", *options]))
+        return Limit(*self._answer(["limit", *options]))
 
     def mechanisms(
         self,
@@ -370,7 +393,7 @@ class Wall:
             warnings.warn(what, RuntimeWarning, stacklevel=2)
         options = _options(overlaps=overlaps, record=record, pga=pga, scale=scale, vertical=vertical, shaken=shaken)
         options += _options(all=every, restitution=restitution)
-        return Mechanisms(*self._case.answer(["mechanisms", *options]))
+        return Mechanisms(*self._answer(["mechanisms", *options]))
 
     def continuum(
         self,
@@ -398,9 +421,19 @@ class Wall:
         options = _options(panel=panel, heads=heads, repeated=repeated, brick_modulus=brick_modulus)
         options += _options(brick_poisson=brick_poisson, pressure=pressure)
         return Continuum(
-            self._case.answer(["continuum", *options])[0],
-            lambda card: str(self._case.answer(["continuum", *options, *_options(**card)])[0]),
+            self._answer(["continuum", *options])[0],
+            lambda card: str(self._answer(["continuum", *options, *_options(**card)])[0]),
         )
+
+    def _answer(self, arguments: list[str]) -> tuple[Any, str | None]:
+        """What a command says of the wall; its errors have keywords for options."""
+        try:
+            return self._case.answer(arguments)
+        except InputError as error:
+            for told in (error, *error.more):
+                told.what = _keywords(told.what)
+                told.allowed, told.help = (text and _keywords(text) for text in (told.allowed, told.help))
+            raise
 
     def __eq__(self, other: object) -> bool:
         """Whether both wall files say the same."""
@@ -412,7 +445,7 @@ class Wall:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """For other processes."""
-        return _again, (self._case.given, str(self._case.folder))
+        return _again, (self._case.given, str(self._case.folder), self._lost)
 
     def __repr__(self) -> str:
         """Three lines: title, size, motion."""
@@ -441,8 +474,9 @@ class Wall:
             return f"<p>{lines}</p>"
 
 
-def _inside(folder: str | os.PathLike[str] | None, name: str) -> str | None:
-    return None if folder is None else os.path.join(os.path.abspath(folder), name)
+def _inside(folder: str | os.PathLike[str] | None, name: str) -> str:
+    """Where a wall that is in no file stands: in a folder that no later change of the working directory moves."""
+    return os.path.join(os.path.abspath(folder or os.curdir), name)
 
 
 def _courses(shapes: list[NDArray[np.float64]]) -> list[int]:
@@ -460,12 +494,26 @@ def _courses(shapes: list[NDArray[np.float64]]) -> list[int]:
     return courses
 
 
-def _again(settings: str, folder: str) -> Wall:
-    return Wall(_native.Case.parse(settings, True, _inside(folder, "wall.json") if folder else None, False))
+def _again(settings: str, folder: str, lost: bool = False) -> Wall:
+    wall = Wall(_native.Case.parse(settings, True, _inside(folder, "wall.json"), False))
+    wall._lost = lost
+    return wall
 
 
 _UNITS = {"above": "m", "brick_modulus": "Pa", "pga": "m/s2", "pressure": "Pa"}
 """Units of the options of the command line that want one: numbers are SI here."""
+
+
+def _keywords(text: str) -> str:
+    """A text of the command line with keywords for its options, outside of commands that it quotes."""
+    parts = re.split("(`concio [^`]*`)", text)
+    words = {"all": "every"}
+    named = [
+        re.sub(r"--([a-z][a-z-]*)", lambda found: words.get(found[1], found[1].replace("-", "_")), part)
+        for part in parts[::2]
+    ]
+    parts[::2] = named
+    return "".join(parts)
 
 
 def _options(**given: Any) -> list[str]:
