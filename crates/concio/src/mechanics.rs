@@ -7,7 +7,7 @@ use crate::case::Solver;
 use crate::error::{InputError, Result};
 use crate::keeper::{self, Keeper};
 use crate::model::{Model, System};
-use crate::outcome::{RockingOutcome, TieRow};
+use crate::outcome::{Deepest, RockingOutcome, TieRow};
 use crate::planar_run;
 use crate::record::{Layout, StopReason};
 use crate::rocking_run;
@@ -21,11 +21,12 @@ pub(crate) enum Mechanics<'m> {
     Rocking(Box<rocking_run::Run<'m>>),
 }
 
-/// What a result tells besides the state at a run's end: how panels lean, what ties bore [N], and what became of a façade.
+/// What a result tells besides the state at a run's end: how panels lean, what ties bore [N], what became of a façade, and what was crushed.
 pub(crate) struct Ending<'r> {
     pub leans: &'r [Lean],
     pub ties: Vec<TieRow>,
     pub rocking: Option<RockingOutcome>,
+    pub deepest: Option<Deepest>,
 }
 
 impl<'m> Mechanics<'m> {
@@ -171,10 +172,11 @@ impl<'m> Mechanics<'m> {
 
     /// At the end of the run.
     pub fn ending(&self, model: &Model) -> Ending<'_> {
+        let of = |leans, ties| Ending { leans, ties, rocking: None, deepest: None };
         match self {
-            Mechanics::Shear(run) => Ending { leans: &run.state.leans, ties: Vec::new(), rocking: None },
-            Mechanics::Planar(run) => Ending { leans: &run.state().leans, ties: run.ties(model), rocking: None },
-            Mechanics::Rocking(run) => Ending { leans: &run.state().leans, ties: run.ties(), rocking: Some(run.row()) },
+            Mechanics::Shear(run) => of(&run.state.leans, Vec::new()),
+            Mechanics::Planar(run) => Ending { deepest: run.deepest(), ..of(&run.state().leans, run.ties(model)) },
+            Mechanics::Rocking(run) => Ending { rocking: Some(run.row()), ..of(&run.state().leans, run.ties()) },
         }
     }
 }

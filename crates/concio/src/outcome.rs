@@ -1,7 +1,7 @@
 //! What a run gives back.
 
 pub use concio_law::account::{Collapse, Totals};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::bond::{Bond, BondRow};
 use crate::drift::DriftRow;
@@ -35,6 +35,8 @@ pub struct Outcome {
     pub ties: Vec<TieRow>,
     /// What became of the mechanism of a rocking wall; none of other models, and of a run that is read back from its files.
     pub rocking: Option<RockingOutcome>,
+    /// The joint of a planar wall with inertia that was crushed deepest; none where none was, and of a run that is read back from its files.
+    pub deepest: Option<Deepest>,
     /// How far its tops went: that of a beam that moves, then those of the panels that have none.
     pub drifts: Vec<DriftRow>,
     /// Energy account at the end.
@@ -84,6 +86,17 @@ impl Outcome {
     pub fn worst_drift(&self) -> Option<&DriftRow> {
         self.drifts.iter().max_by(|a, b| a.ratio(a.peak).abs().total_cmp(&b.ratio(b.peak).abs()))
     }
+}
+
+/// How deep a joint was crushed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Deepest {
+    /// Number of the joint.
+    pub joint: usize,
+    /// By how much at its deepest [m].
+    pub depth: f64,
+    /// The most that one step added to that, or one of the parts in which it was taken [m].
+    pub at_once: f64,
 }
 
 /// What became of a rocking wall. Numbers that there are not are infinite.

@@ -14,7 +14,7 @@ use crate::excitation::Excitation;
 use crate::failure::is_down;
 use crate::ground::signal::GroundMotion;
 use crate::model::Model;
-use crate::outcome::{Collapse, TieRow, Totals};
+use crate::outcome::{Collapse, Deepest, TieRow, Totals};
 use crate::planar::{Planar, Pushes, standing};
 use crate::record::{Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use crate::state;
@@ -105,6 +105,12 @@ impl Run {
         self.bodies.ties(model)
     }
 
+    /// The joint that was crushed deepest in motion, if one was.
+    pub fn deepest(&self) -> Option<Deepest> {
+        let crushed = self.bodies.crushed.iter().map(|(deepest, _)| *deepest).filter(|deepest| deepest.depth > CRUSHED);
+        crushed.filter(|_| !self.bodies.still).max_by(|a, b| a.depth.total_cmp(&b.depth))
+    }
+
     /// Pushes a block at its centre from now on [N, N], besides the forces of the wall file.
     pub fn push(&mut self, block: usize, force: [f64; 2]) {
         self.bodies.pushed[block] = force;
@@ -190,10 +196,8 @@ struct Bodies {
     apart: Vec<f64>,
     /// Relative velocity of every joint before the step [m/s].
     before: Vec<f64>,
-    /// Joints that can be crushed.
-    crushable: Vec<usize>,
-    /// Whether each joint has been crushed.
-    crushed: Vec<bool>,
+    /// Joints that can be crushed, and whether that is told of each.
+    crushed: Vec<(Deepest, bool)>,
     ties: Vec<Borne>,
     /// What pushes each block besides the wall file's forces [N, N], and whether anything pushes at all.
     pushed: Vec<[f64; 2]>,
@@ -214,7 +218,7 @@ struct Kept {
     motion: motion::Kept,
     origin: Vec<Place>,
     before: Vec<f64>,
-    crushed: Vec<bool>,
+    crushed: Vec<(Deepest, bool)>,
     ties: Vec<Borne>,
     pushed: Vec<[f64; 2]>,
     last: Stride,
@@ -322,16 +326,18 @@ impl Bodies {
     fn new(model: &Model, planar: &Planar, longest: f64) -> Self {
         let (motion, _) = standing(planar);
         let n = motion.places.len();
+        let crushable = (0..model.joints.len()).filter(|e| planar.system.links[*e].law.crushing.is_finite());
         let never = Stride { to: f64::NEG_INFINITY, ..Stride::none(n, &motion.seen) };
         let mut run = Bodies {
             origin: motion.places.clone(),
             aside: planar.offset.iter().copied().enumerate().filter(|(_, offset)| *offset != [0.0; 2]).collect(),
-            crushable: (0..model.joints.len()).filter(|e| planar.system.links[*e].law.crushing.is_finite()).collect(),
             apart: planar.system.links.iter().map(|link| link.apart).collect(),
             step: planar.step.min(longest),
             still: planar.still,
             before: vec![0.0; model.joints.len()],
-            crushed: vec![false; model.joints.len()],
+            crushed: crushable
+                .map(|joint| (Deepest { joint, depth: motion.crushed(joint), at_once: 0.0 }, false))
+                .collect(),
             ties: vec![Borne { force: 0.0, stretch: 0.0, yielded: f64::INFINITY }; planar.system.ties.len()],
             pushed: vec![[0.0; 2]; model.wall.blocks.len()],
             pushes: !planar.forces.is_empty(),
@@ -399,7 +405,10 @@ impl Bodies {
         let n = self.a.len();
         let fits = origin.len() == self.origin.len()
             && before.len() == self.before.len()
-            && crushed.len() == self.crushed.len()
+            && crushed
+                .iter()
+                .map(|(deepest, _)| deepest.joint)
+                .eq(self.crushed.iter().map(|(deepest, _)| deepest.joint))
             && ties.len() == self.ties.len()
             && pushed.len() == self.pushed.len()
             && last.before.len() == self.before.len()
@@ -515,6 +524,7 @@ impl Bodies {
         (energies.bond, energies.impact) = (account.bond, account.impact);
         energies.device = account.device;
         let counters = &mut state.counters;
+        let parts = counted.steps.saturating_sub(counters.steps);
         (counters.steps, counters.rejected, counters.unsolved) = (counted.steps, counted.halved, counted.unsolved);
         counters.moving = counted.moving;
         (counters.iterations, counters.factorisations) = (counted.iterations, counted.factorisations);
@@ -546,21 +556,23 @@ impl Bodies {
         totals.peak_work = totals.peak_work.max(level + upright + held);
         totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
         self.cracks(model, state, tell);
-        for &e in &self.crushable {
-            if self.crushed[e] {
-                continue;
-            }
-            let depth = self.motion.crushed(e);
-            if depth > CRUSHED {
-                self.crushed[e] = true;
-                tell(Event { time: state.t, joint: e as u32, kind: EventKind::Crush, value: depth });
-            }
-        }
+        self.crush(state.t, parts, tell);
         if state.totals.collapse.is_none()
             && let Some((collapse, event)) = self.collapse(model, state.t)
         {
             state.totals.collapse = Some(collapse);
             tell(event);
+        }
+    }
+
+    /// How deep joints are crushed after a step that ended at `time` [s] and was taken in so many parts, and that they are, once.
+    fn crush(&mut self, time: f64, parts: u64, tell: &mut impl FnMut(Event)) {
+        for (Deepest { joint, depth, at_once }, told) in &mut self.crushed {
+            let before = std::mem::replace(depth, self.motion.crushed(*joint));
+            *at_once = at_once.max((*depth - before) / parts.max(1) as f64);
+            if *depth > CRUSHED && !std::mem::replace(told, true) {
+                tell(Event { time, joint: *joint as u32, kind: EventKind::Crush, value: *depth });
+            }
         }
     }
 

@@ -47,6 +47,7 @@ pub fn read(path: &Path) -> Result<StoredRun> {
     let envelopes = read_envelopes(&source, layout.unknowns, joints.len())?;
     let outcome = Outcome {
         rocking: None,
+        deepest: None,
         recording,
         bonds,
         ties: read_ties(&source)?,

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use concio::G;
 use concio::case::{Syntax, from_str};
 use concio::outcome::Outcome;
 use concio::record::EventKind;
@@ -418,4 +419,65 @@ fn on_one_joint(height: &str, weight: &str, joint: &str, rest: &str) -> Outcome 
          mortar = {{ bed = 0, head = 0 }}\n[joint]\nhead = {{ law = \"none\" }}\n{joint}\n[motion]\nquasi_static = true\n{rest}"
     ));
     outcome
+}
+
+/// Depth [m] to which a pulse crushes the joint below a stone of 1 m × 0.5 m × 0.2 m and 2 kN that bears 60 kN, and what the run tells of that. The base is thrown up
+/// by half a sine of `duration` [s] that presses with `load` times the strength at most.
+fn pulsed(load: f64, duration: f64, step: f64) -> (f64, String) {
+    let (weight, bears) = (2e3, 60e3);
+    let (prepared, outcome) = ran(&format!(
+        r#"
+model = "planar"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = {{ length = 1, height = 0.5, thickness = 0.2, specific_weight = "20 kN/m3" }}
+mortar = {{ bed = 0, head = 0 }}
+[joint]
+damping_ratio = 0
+bed = {{ law = "rigid", compressive_strength = "0.3 MPa" }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.6 }}
+[motion]
+duration = 0.1
+vertical = {{ pulse = {{ shape = "half-sine", acceleration = {}, duration = {duration} }} }}
+[solver]
+step = {step}
+"#,
+        (load * bears - weight) * G / weight
+    ));
+    let depth = outcome.deepest.expect("a joint that is crushed").depth;
+    (depth, concio::run::summary(&prepared, &outcome, 0.0, None)["warnings"].to_string())
+}
+
+/// A stone that a half-sine pulse P sin ω t presses on a joint that bears R sinks from P sin ω t = R − W on, and stops after the pulse at (R − W)/m. Where one step takes
+/// much of that the run tells so, about how far it may be off, and a step that leaves about a hundredth.
+#[test]
+fn what_a_pulse_crushes_at_once_is_told() {
+    let (weight, bears, load, duration) = (2e3, 60e3, 2.0, 0.02);
+    let (mass, peak, rest) = (weight / G, load * bears - weight, bears - weight);
+    let omega = std::f64::consts::PI / duration;
+    let start = (rest / peak).asin();
+    let (cos, left) = (start.cos(), duration - start / omega);
+    let speed = (peak / omega * (1.0 + cos) - rest * left) / mass;
+    let sunk = (peak / omega * (left * cos + start.sin() / omega) - 0.5 * rest * left * left) / mass;
+    let expected = sunk + 0.5 * mass * speed * speed / rest;
+    let (depth, told) = pulsed(load, duration, 1e-3);
+    close(depth, expected, 1e-2);
+    assert!(!told.contains("was crushed by"), "{told}");
+    // As long as five steps of 1 ms, and twice as long near the strength.
+    for (load, duration) in [(2.0, 5e-3), (1.3, 10e-3)] {
+        let (rough, told) = pulsed(load, duration, 1e-3);
+        let number = |after: &str| {
+            let rest = told.split_once(after).unwrap_or_else(|| panic!("{after}: {told}")).1;
+            rest.split_once(' ').expect("a unit").0.parse::<f64>().expect("a number")
+        };
+        let (part, step) = (number(" mm, "), number("A solver.step of "));
+        let (fine, told) = pulsed(load, duration, 1e-3 * step);
+        assert!(!told.contains("was crushed by"), "{told}");
+        let off = (rough / fine - 1.0).abs();
+        assert!(off > 0.02 && off < 0.01 * part, "{off} of {part} %");
+        close(pulsed(load, duration, 0.25e-3 * step).0, fine, 1e-2);
+    }
 }
