@@ -145,11 +145,16 @@ impl Rubs {
         room
     }
 
+    /// Part of joint `r` that rubs, 0 … 1.
+    #[inline(always)]
+    pub fn part(&self, r: usize) -> f64 {
+        if self.cracked.is_empty() { 1.0 } else { self.cracked[r] }
+    }
+
     /// μ_s of the part of joint `r` that rubs.
     #[inline(always)]
     pub fn most(&self, system: &System, r: usize) -> f64 {
-        let most = system.rubs[r].law.static_;
-        if self.cracked.is_empty() { most } else { self.cracked[r] * most }
+        self.part(r) * system.rubs[r].law.static_
     }
 
     /// |μ| and its slope [s/m] of a set-valued law as slip begins.

@@ -257,6 +257,11 @@ impl Stage {
         self.bonds.hold(system, bonds, &mut self.joints, &mut self.rubs);
     }
 
+    /// Part of a joint that rubs, 0 … 1, by the place of its friction.
+    pub fn rubbing(&self, r: usize) -> f64 {
+        self.rubs.part(r)
+    }
+
     /// Visits the tangent stiffness of every bond [N/m] with the joint's index; closed head joints are left out.
     pub fn bond_tangents(&self, closed: &[bool], add: impl FnMut(usize, f64)) {
         self.bonds.tangents(closed, add);

@@ -228,8 +228,8 @@ impl Step {
             let without = after(i) - after(k) + self.tangents.mu[r] * friction;
             let slows = state.a[k] - state.a[i];
             let rests = if slows * before > 0.0 { BEYOND_TURN * before / slows } else { 0.5 * h };
-            let most = 2.0 * rub.law.static_ - rub.law.dynamic;
-            (without.abs() <= most * friction).then_some(rests.min(SHORTER * h))
+            let most = self.stage.rubbing(r) * (2.0 * rub.law.static_ - rub.law.dynamic);
+            (without.abs() < most * friction).then_some(rests.min(SHORTER * h))
         };
         let slid = system.rubs.iter().enumerate().filter(|(r, rub)| rub.law.holds() && !state.tangents.stuck[*r]);
         slid.filter_map(first).reduce(f64::min)

@@ -443,18 +443,30 @@ fn crushes_at_once(model: &Model, planar: Option<&Planar>, outcome: &Outcome) ->
 
 /// Where many joints have friction that falls at once as they begin to slide, little decides which of them does first (`docs/planar.md`).
 fn gives_way_by_chance(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
-    let planar = planar.filter(|planar| !planar.still)?;
     let weight = G * model.shear.mass.iter().sum::<f64>();
-    let slid = planar.system.links.iter().zip(&outcome.envelopes.joint_slip).filter(|(_, slip)| **slip > SLID);
-    let falls: Vec<_> = slid.filter_map(|(link, _)| link.law.friction.filter(|f| f.slowly(true) < f.static_)).collect();
-    let first = falls.first().filter(|_| outcome.energies.friction > NOTHING * weight)?;
+    let slid = |joint: usize| outcome.envelopes.joint_slip[joint] > SLID;
+    // Coefficients at rest and in slip.
+    let (falls, key, other): (Vec<[f64; 2]>, _, _) = match planar {
+        Some(planar) if planar.still => return None,
+        Some(planar) => {
+            let links = planar.system.links.iter().enumerate().filter(|(joint, _)| slid(*joint));
+            let falling = links.filter_map(|(_, link)| link.law.friction.filter(|f| f.slowly(true) < f.static_));
+            let step = format!("a step of {} ms", shown(rounded(0.5e3 * planar.step, 3)));
+            (falling.map(|f| [f.static_, f.dynamic]).collect(), "solver.step", step)
+        }
+        None => {
+            let rubs = model.shear.rubs.iter().filter(|rub| rub.law.drops() && slid(rub.joint as usize));
+            let falling = rubs.map(|rub| [rub.law.static_, rub.law.dynamic]);
+            (falling.collect(), "solver.tolerance", "a tenth of it".into())
+        }
+    };
+    let [at_rest, in_slip] = *falls.first().filter(|_| outcome.energies.friction > NOTHING * weight)?;
     (falls.len() >= MANY).then(|| {
         format!(
             "friction falls at once, from {} to {}, where joints begin to slide: which of them does first is a matter of chance, and peaks change with \
-             solver.step, by a tenth and more. Compare with a step of {} ms before you rely on them",
-            shown(rounded(first.static_, 3)),
-            shown(rounded(first.dynamic, 3)),
-            shown(rounded(0.5e3 * planar.step, 3))
+             {key}, by a tenth and more. Compare with {other} before you rely on them",
+            shown(rounded(at_rest, 3)),
+            shown(rounded(in_slip, 3)),
         )
     })
 }
@@ -913,6 +925,15 @@ base = {{ sine = {{ acceleration = "0.7 g", frequency = "3 Hz" }} }}
         assert_eq!(told(1, "static = 0.5, dynamic = 0.35"), None);
         assert_eq!(told(3, "static = 0.5, dynamic = 0.5"), None);
         assert_eq!(told(3, "static = 1.5, dynamic = 1"), None);
+        // In the shear model all courses reach their friction at once.
+        let shear = |dynamic: f64| {
+            let text = include_str!("../../../../examples/10-true-stick.toml");
+            let (prepared, outcome) = ran(&text.replace("dynamic = 0.42", &format!("dynamic = {dynamic}")));
+            gives_way_by_chance(&prepared.model, None, &outcome)
+        };
+        let what = shear(0.42).expect("they slide");
+        assert!(what.contains("from 0.6 to 0.42") && what.contains("solver.tolerance"), "{what}");
+        assert_eq!(shear(0.6), None);
     }
 
     fn of_kind(text: &str, kind: WarningKind) -> Option<String> {

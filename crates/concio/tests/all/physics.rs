@@ -538,7 +538,7 @@ fn a_steep_law_comes_near_the_set_valued_one() {
 #[test]
 fn a_sticking_run_is_restored_and_its_friction_is_kept() {
     let text = format!(
-        "{}[output]\ninterval = \"1 ms\"\nframes = \"5 ms\"\njoints = [\"all\"]\n",
+        "{}[output]\ninterval = \"1 ms\"\nframes = \"4 ms\"\njoints = [\"all\"]\n",
         sticking(SLIPPING, "coulomb")
     );
     let p = ready(&text);
