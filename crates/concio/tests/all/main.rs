@@ -35,6 +35,7 @@ mod record_texts;
 mod records;
 mod rigid_contact;
 mod rocking;
+mod seen_right;
 mod set_valued;
 mod shared_records;
 mod states;
