@@ -307,6 +307,8 @@ pub(crate) struct Spot {
     pub weight: f64,
     /// The part of its friction that acts.
     pub rubbing: f64,
+    /// The part of its dashpot across that acts.
+    pub damps: f64,
     /// What is crushed of it [m], so that its zone bears what it does: of two points that stand for an uneven one any number.
     pub crushed: f64,
     /// By how much of the joint the part that is crushed may grow or shrink beside it in a step, which it bears.
@@ -626,7 +628,7 @@ impl Crack {
     pub(crate) fn set(&self, points: &mut [Point]) {
         for spot in &self.spots {
             let point = &mut points[spot.point];
-            point.rubbing = spot.rubbing;
+            (point.rubbing, point.damps) = (spot.rubbing, spot.damps);
             if spot.part == Part::Held {
                 [point.gap, point.slide] = self.stretched(spot.at);
             }
@@ -653,6 +655,7 @@ impl Crack {
             share: 0.5,
             weight,
             rubbing: 1.0,
+            damps: 1.0,
             crushed: 0.0,
             edge: 0.0,
         };
@@ -668,6 +671,7 @@ impl Crack {
             share: 0.5 * length,
             weight: 0.5,
             rubbing: 1.0,
+            damps: 1.0,
             crushed: 0.0,
             edge: 0.0,
         };
@@ -696,6 +700,7 @@ impl Crack {
             share,
             weight: share,
             rubbing: 0.0,
+            damps: 1.0,
             crushed: 0.0,
             edge: 0.0,
         };
@@ -754,6 +759,9 @@ impl Crack {
                 let mut spot = spot(point, Part::Dry, at, share);
                 // The part χ of all pressure rubs, of which what has cracked bears its share.
                 (spot.weight, spot.rubbing) = ((share * cracked(at)).max(0.0), rubs(at).clamp(0.0, 1.0));
+                if kind == OPEN && !still && law.crushing.is_finite() {
+                    spot.damps = 0.0;
+                }
                 if edge > 0.0 {
                     (spot.edge, spot.rubbing) = (edge, 0.0);
                 }
@@ -969,7 +977,7 @@ impl Crack {
 
     /// What the bond lost in a step of a joint with springs that ended at `time` [s], and what was crushed; its points are placed anew where it lost
     /// something or other parts of it are open, pressed or crushing.
-    pub(crate) fn wear(&mut self, law: &Law, points: &mut [Point], still: bool, time: f64) -> Worn {
+    pub(crate) fn wear(&mut self, law: &Law, points: &mut [Point], parting: [f64; 2], still: bool, time: f64) -> Worn {
         if !law.is_compliant() {
             return Worn::default();
         }
@@ -1044,7 +1052,7 @@ impl Crack {
             points[spot.point] = Point { gap, slide, speed, crushed: spot.crushed, ..points[spot.point] };
         }
         self.set(points);
-        self.share_friction(law, points, still, [borne + friction[0], stored + friction[1]]);
+        self.share_friction(law, points, (still, parting), [borne + friction[0], stored + friction[1]]);
         // What the next step takes them to bear before it knows better.
         for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
             let point = &mut points[spot.point];
@@ -1054,6 +1062,19 @@ impl Crack {
         let [_, keeps] = self.friction_borne(law, points);
         let rubbed = stored + friction[1] - keeps;
         Worn { bond: taken, friction: rubbed, beyond: lost - taken - rubbed, breaks_at }
+    }
+
+    /// Parting velocities of the ends of a joint that can be crushed, where its points part at `mean` [m/s]; 0 without inertia and of all others.
+    pub(crate) fn parting(&self, law: &Law, still: bool, mean: &dyn Fn(usize) -> f64) -> [f64; 2] {
+        let dry = self.spots.iter().enumerate().filter(|(_, spot)| spot.part == Part::Dry);
+        let first = dry.clone().min_by(|a, b| a.1.at.total_cmp(&b.1.at));
+        let last = dry.max_by(|a, b| a.1.at.total_cmp(&b.1.at));
+        let (Some((first, from)), Some((last, to)), false) = (first, last, still || law.crushing.is_infinite()) else {
+            return [0.0; 2];
+        };
+        let [near, far] = [mean(first), mean(last)];
+        let slope = if to.at > from.at { (far - near) / (to.at - from.at) } else { 0.0 };
+        [near - slope * from.at, near + slope * (1.0 - from.at)]
     }
 
     /// What has cracked bears along the joint, and what its springs along store [N, J].
@@ -1068,7 +1089,13 @@ impl Crack {
 
     /// Has what has cracked bear `whole` along the joint [N], or what stores no more than `energy` [J]: all its points stretched alike, those that
     /// friction lets.
-    fn share_friction(&self, law: &Law, points: &mut [Point], still: bool, [whole, energy]: [f64; 2]) {
+    fn share_friction(
+        &self,
+        law: &Law,
+        points: &mut [Point],
+        (still, parting): (bool, [f64; 2]),
+        [whole, energy]: [f64; 2],
+    ) {
         let (stiffness, along) = (law.normal_stiffness(), law.breaking_stiffness());
         let mu = |point: &Point| law.friction.map_or(0.0, |friction| friction.of(point.speed, still));
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry && along > 0.0);
@@ -1082,7 +1109,14 @@ impl Crack {
                     continue;
                 }
                 let point = &mut points[spot.point];
-                let pressed = spot.share * stiffness * (-point.gap - point.crushed).max(0.0);
+                let sprung = spot.share * stiffness * (-point.gap - point.crushed).max(0.0);
+                // What friction bore against the dashpots' pressure too would be lost at each step, however short.
+                let damped = spot.share * law.normal_damping() * (parting[0] + spot.at * (parting[1] - parting[0]));
+                let pressed = if parting == [0.0; 2] || sprung == 0.0 {
+                    sprung
+                } else {
+                    (sprung - damped).clamp(0.0, (spot.share + spot.edge) * law.crushing)
+                };
                 let most = spot.rubbing * mu(point) * pressed;
                 point.bearing = stretch * spot.share * along;
                 if point.bearing.abs() > most {

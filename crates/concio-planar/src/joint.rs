@@ -336,7 +336,8 @@ impl Law {
         pressed + sheared
     }
 
-    fn normal_damping(&self) -> f64 {
+    /// Dashpot across [N s/m]; 0 of a rigid joint.
+    pub(crate) fn normal_damping(&self) -> f64 {
         if let Normal::Springs { damping, .. } = self.normal { damping } else { 0.0 }
     }
 
@@ -409,6 +410,8 @@ pub struct Point {
     pub internal: f64,
     /// The part of its friction that acts, 0 … 1: less than 1 where a bond holds.
     pub rubbing: f64,
+    /// The part of its dashpot across that acts, 0 or 1: none where it stands for what is open of a joint that can be crushed.
+    pub damps: f64,
     /// Distance of the two sides [m].
     pub gap: f64,
     /// Parting velocity before it landed in the last step, which left what closed it; 0 of one that did not [m/s].
@@ -425,6 +428,7 @@ impl Default for Point {
             crushed: 0.0,
             internal: 0.0,
             rubbing: 1.0,
+            damps: 1.0,
             gap: 0.0,
             approach: 0.0,
         }
@@ -502,7 +506,7 @@ impl Law {
         };
         let (both, press) = self.springs();
         let resolved = theta(both + press, contact.moved[0]);
-        let (both, press, dashpot) = (share * both, share * press, share * self.normal_damping());
+        let (both, press, dashpot) = (share * both, share * press, point.damps * share * self.normal_damping());
         let midpoint = if still { 1.0 } else { 0.5 };
         let theta_press = if gap + point.crushed > TOUCHING { 1.0 } else { resolved };
         // A spring of `k` stretched by `g` with a dashpot of `c`.
@@ -655,7 +659,7 @@ impl Law {
             return;
         };
         let (both, press) = self.springs();
-        let (both, press, dashpot) = (share * both, share * press, share * self.normal_damping());
+        let (both, press, dashpot) = (share * both, share * press, point.damps * share * self.normal_damping());
         if self.slip[0] > 0.0 {
             works.friction -= pressed * mean;
         }

@@ -82,8 +82,17 @@ const JUMP: f64 = 3e-6;
 const POINTS: usize = 3;
 
 /// A point of a joint without bond, but for where it is and how much of the joint.
-const UNBONDED: Spot =
-    Spot { point: 0, part: Part::Whole, at: 0.0, share: 0.0, weight: 0.0, rubbing: 1.0, crushed: 0.0, edge: 0.0 };
+const UNBONDED: Spot = Spot {
+    point: 0,
+    part: Part::Whole,
+    at: 0.0,
+    share: 0.0,
+    weight: 0.0,
+    rubbing: 1.0,
+    damps: 1.0,
+    crushed: 0.0,
+    edge: 0.0,
+};
 
 /// A joint: two bodies that face each other as the wall is laid, and the law between them.
 #[derive(Debug, Clone, PartialEq)]
@@ -1099,7 +1108,12 @@ impl Motion {
                     true => {
                         crack.follow(points);
                         self.account.elastic += crack.hidden();
-                        let worn = crack.wear(law, points, self.setting.still, time);
+                        let mean = |k: usize| {
+                            let after = self.contacts[at + k].velocity(&self.after)[0];
+                            0.5 * (self.owners[at + k].start.velocity[0] + after)
+                        };
+                        let parting = crack.parting(law, self.setting.still, &mean);
+                        let worn = crack.wear(law, points, parting, self.setting.still, time);
                         let lost = worn.bond + worn.friction + worn.beyond;
                         breaks_at = breaks_at.min(worn.breaks_at.unwrap_or(f64::INFINITY));
                         self.account.elastic -= lost;

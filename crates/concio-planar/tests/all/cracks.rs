@@ -679,6 +679,106 @@ fn a_joint_that_is_crushed_to_and_fro_is_one_of_strips() {
     }
 }
 
+/// A stone of 0.5 m × 1 m on a joint that is crushed, as half-sines at its centre rock it to and fro: across and along `k` N/m stiff with dashpots `c` N s/m.
+struct Rocked {
+    mass: f64,
+    k: [f64; 2],
+    c: [f64; 2],
+    crushing: f64,
+}
+
+impl Rocked {
+    const MU: f64 = 0.9;
+    const LASTS: f64 = 1.0;
+
+    fn of(ratio: f64) -> Self {
+        let mass = block([0.5, 1.0]).mass;
+        let k = [3.6e9, 1.5e9];
+        Rocked { mass, k, c: k.map(|k| 2.0 * ratio * (k * mass).sqrt()), crushing: 30e3 }
+    }
+
+    fn force(time: f64) -> f64 {
+        let half = |from: f64, most: f64| {
+            let part = (time - from) / 0.3;
+            if (0.0..1.0).contains(&part) { most * (0.5 * TAU * part).sin() } else { 0.0 }
+        };
+        half(0.05, 1650.0) + half(0.4, -1500.0)
+    }
+
+    /// Largest turn and what crushing took [J].
+    fn moves(&self, step: f64) -> [f64; 2] {
+        let law = Law {
+            normal: Normal::Springs { both: 0.0, press: self.k[0], damping: self.c[0] },
+            shear: Shear { stiffness: self.k[1], damping: self.c[1], series: true },
+            crushing: self.crushing,
+            ..Law::dry(Some(Friction::coulomb(Self::MU)))
+        };
+        let rocked = system(block([0.5, 1.0]), law);
+        let mut motion = Motion::new(&rocked, Setting::new(step));
+        assert!(motion.stand(1e-9, 4000));
+        let mut turn = 0.0f64;
+        for n in 0..(Self::LASTS / step).round() as usize {
+            motion.apply(0, [Self::force((n as f64 + 0.5) * step), 0.0, 0.0]);
+            motion.go(step, &|_, _| Forcing::default());
+            turn = turn.max(motion.places[0].angle.abs());
+        }
+        [turn, motion.account.bond]
+    }
+
+    /// The same of 200 strips by short explicit steps.
+    fn strips(&self) -> [f64; 2] {
+        const STRIPS: usize = 200;
+        const STEP: f64 = 2e-6;
+        let part = 1.0 / STRIPS as f64;
+        let mut crushed = [0.0f64; STRIPS];
+        let inertia = [self.mass, self.mass, self.mass * 1.25 / 12.0];
+        let (mut at, mut v) = ([0.0, -self.mass * G / self.k[0], 0.0], [0.0f64; 3]);
+        let (mut borne, mut turn, mut taken) = ([0.0f64; STRIPS], 0.0f64, 0.0);
+        for n in 0..(Self::LASTS / STEP).round() as usize {
+            let (sin, cos) = at[2].sin_cos();
+            let mut bears = [Self::force((n as f64 + 0.5) * STEP), -self.mass * G, 0.0];
+            for (strip, (crushed, borne)) in crushed.iter_mut().zip(&mut borne).enumerate() {
+                let x = 0.5 * ((strip as f64 + 0.5) * part - 0.5);
+                let arm = [x * cos + 0.5 * sin, x * sin - 0.5 * cos];
+                let sunk = -(at[1] + x * sin + 0.5 * (1.0 - cos));
+                let further = sunk - self.crushing / self.k[0] - *crushed;
+                if further > 0.0 {
+                    taken += part * further * self.crushing;
+                    *crushed += further;
+                }
+                let pressed = if sunk > *crushed {
+                    let force = self.k[0] * (sunk - *crushed) - self.c[0] * (v[1] + v[2] * arm[0]);
+                    part * force.clamp(0.0, self.crushing)
+                } else {
+                    0.0
+                };
+                let (slides, most) = (v[0] - v[2] * arm[1], Self::MU * pressed);
+                *borne = (*borne - STEP * part * self.k[1] * slides).clamp(-most, most);
+                let rubs = (*borne - part * self.c[1] * slides).clamp(-most, most);
+                bears = [bears[0] + rubs, bears[1] + pressed, bears[2] + pressed * arm[0] - rubs * arm[1]];
+            }
+            (0..3).for_each(|k| {
+                v[k] += STEP * bears[k] / inertia[k];
+                at[k] += STEP * v[k];
+            });
+            turn = turn.max(at[2].abs());
+        }
+        [turn, taken]
+    }
+}
+
+/// Rocked to and fro, a joint with dashpots that is crushed turns and takes what strips do, however short the steps.
+#[test]
+fn a_damped_joint_that_rocking_crushes_is_one_of_strips() {
+    let rocked = Rocked::of(0.05);
+    let [turn, taken] = rocked.strips();
+    for (step, within) in [(1e-3, 0.045), (1e-4, 0.02), (2e-5, 0.02)] {
+        let [turns, takes] = rocked.moves(step);
+        assert!((turns / turn - 1.0).abs() < 0.015, "{turns} for {turn} in steps of {step} s");
+        assert!((takes / taken - 1.0).abs() < within, "{takes} J for {taken} J in steps of {step} s");
+    }
+}
+
 /// A joint without tensile strength whose energy is not 0 has numbers for energies, and a rigid joint that broke is taken up again.
 #[test]
 fn joints_without_strength_and_broken_ones_go_on() {
