@@ -1,4 +1,4 @@
-//! What happens at an instant and counts: an impact, friction that falls, a bond that breaks.
+//! What happens at an instant and counts: an impact, friction that falls or turns round, a bond that breaks.
 //!
 //! A step moves bodies by the mean of their velocities before and after it, and what acts in it acts until its end. Where such an instant
 //! changes much, its step is taken in parts, so that it comes within a short one.
@@ -15,13 +15,15 @@ const LANDING: f64 = 0.02;
 const SETTLES: f64 = 5.0;
 /// Force that falls at once over weight and load, from which it counts.
 const GIVES_WAY: f64 = 0.05;
+/// Friction that is wrong in a slide that turns round over all friction in a whole step, from which it counts.
+const TURNS: f64 = 0.05;
 /// Part by which the shear of a bonded rigid joint is below its strength where it breaks.
 const SHEARED: f64 = 1e-9;
 
 impl Motion {
     /// Whether something happens at an instant of the step of `h` [s], as it was solved, that counts.
     pub(super) fn jolts(&self, h: f64) -> bool {
-        !self.setting.still && (self.lands() || self.sudden && self.lets_go(h))
+        !self.setting.still && (self.lands() || self.sudden && self.lets_go(h) || self.turns_round(h))
     }
 
     /// Whether so much is lost as rigid joints close in the step that it counts when in it they do.
@@ -36,6 +38,20 @@ impl Motion {
         let lost: f64 = self.contacts.iter().zip(&self.owners).filter(closing).map(lost).sum();
         let settling = SETTLES * self.setting.step;
         lost > LANDING * (self.kinetic() + 0.5 * self.weight * G * settling * settling)
+    }
+
+    /// Whether slides turn round in the step so that friction, which acts one way in all of it, is wrong by so much that it counts. What stones that
+    /// flutter do to each other cancels.
+    fn turns_round(&self, h: f64) -> bool {
+        let (mut all, mut wrong) = (0.0, 0.0f64);
+        // What a bond bears is no friction.
+        for (contact, owner) in self.contacts.iter().zip(&self.owners).filter(|(_, owner)| owner.part != Part::Held) {
+            let after = contact.velocity(&self.after);
+            let most = contact.bound(contact.impulse[0], after[0]);
+            all += most;
+            wrong += friction_turned(contact, owner.start.velocity[1], after, most, h);
+        }
+        wrong.abs() * h > TURNS * all * self.setting.step
     }
 
     /// Whether so much falls at once in the step, of friction at rest and of what rigid bonds bear, that it counts when in it that happens.
@@ -78,6 +94,21 @@ impl Motion {
         let begins = || law.is_compliant() || slides_whole(at, &self.contacts, &self.owners, &self.after, h);
         falls.filter(|_| begins()).map_or(0.0, |falls| falls * contact.impulse[0])
     }
+}
+
+/// By how much the friction of a contact that slid at `before` is wrong where it turns round in the step, slowed down and then pushed the other
+/// way beyond friction: what slides has the mass that presses it, and is pushed evenly. Its sign is that of `before` [N s].
+fn friction_turned(contact: &Contact, before: f64, after: [f64; 2], most: f64, h: f64) -> f64 {
+    let bears = contact.impulse[1] * before.signum();
+    let mass = contact.total(after)[0].max(0.0) / (G * h);
+    let stopped = mass * before.abs();
+    let push = bears + stopped - mass * after[1] * before.signum();
+    // Part of the step before it turns.
+    let part = stopped / (push + most);
+    // Friction in line with a spring that takes the whole step or more to turn it round does not turn at once: the step resolves it.
+    let at_once = contact.law[1].rho * (before - after[1]).abs() > 2.0 * most;
+    let turns = at_once && push > most && part < 1.0;
+    if turns { (bears - most * (1.0 - 2.0 * part)).copysign(before) } else { 0.0 }
 }
 
 /// By how much the friction coefficient of a point at rest falls as it begins to slide, if it does.

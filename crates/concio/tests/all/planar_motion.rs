@@ -374,6 +374,56 @@ step = {step}
     }
 }
 
+/// What is left of the slip of a block there and back under a sine A sin ω t of one period: friction turns round as it does, at any instant of a step.
+/// On springs in line with friction it turns with them.
+#[test]
+fn a_block_that_slides_to_and_fro_comes_to_rest_where_it_should() {
+    let (a, period, duration) = (0.8 * G, 0.3, 1.0);
+    // 10 N/mm³ under 2 t/m³, 0.2 m high.
+    let stiffness = 10e9 / (0.2 * 20e3 / G);
+    let integrated = |springs: bool, rest: f64, moving: f64| {
+        let (h, mut x, mut v, mut borne, mut peak) = (2e-6f64, 0.0f64, 0.0f64, 0.0f64, 0.0f64);
+        for step in 0..(duration / h) as usize {
+            let t = (step as f64 + 0.5) * h;
+            let pushed = if t < period { -a * (2.0 * PI * t / period).sin() } else { 0.0 };
+            let holds = v == 0.0 && pushed.abs() <= rest * G;
+            let against = if v == 0.0 { pushed } else { v };
+            borne = match springs {
+                true => (borne - stiffness * h * v).clamp(-moving * G, moving * G),
+                false if holds => -pushed,
+                false => -(moving * G).copysign(against),
+            };
+            let after = v + h * (pushed + borne);
+            let after = if !springs && v * after < 0.0 { 0.0 } else { after };
+            x += 0.5 * h * (v + after);
+            (v, peak) = (after, peak.max(x.abs()));
+        }
+        [peak, x]
+    };
+    let on_springs = "law = \"no-tension\", stiffness = \"10 N/mm3\", rigidity = 1";
+    for (springs, rest, moving) in [(false, 0.4, 0.4), (false, 0.5, 0.35), (true, 0.4, 0.4)] {
+        let [peak, left] = integrated(springs, rest, moving);
+        let (which, law) = if springs { (" on springs", on_springs) } else { ("", "law = \"rigid\"") };
+        let text = block(&format!(
+            r#"
+[joint]
+bed = {{ {law} }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = {rest}, dynamic = {moving} }}
+[motion]
+base = {{ pulse = {{ shape = "one-sine", acceleration = {a}, duration = {period} }} }}
+duration = {duration}
+"#
+        ));
+        let (_, outcome) = ran(&text.replace("length = 0.5, height = 0.5", "length = 1, height = 0.2"));
+        let subject = format!("Sliding: block{which} to and fro, μ_s {rest}, μ_d {moving}, planar");
+        let found = outcome.totals.peak_relative_displacement;
+        agrees!(format!("{subject}, peak"), "integration in steps of 2 µs", "m", found, peak, 2e-3);
+        let found = *channel(&outcome, "top/displacement").last().expect("a sample");
+        agrees!(format!("{subject}, left at the end"), "integration in steps of 2 µs", "m", found, left, 5e-2);
+    }
+}
+
 /// What a stone of 0.5 m × 2 m that rocks keeps of its angular velocity from impact to impact: what the wall file says (P8), or what
 /// the impact leaves (Housner 1963) where that is less.
 #[test]
