@@ -676,7 +676,7 @@ impl Motion {
             (ratio, way, most) = (next / way, next, most.max(next));
         }
         self.instant = None;
-        self.falls = !rests && ratio >= 1.0;
+        self.falls = !rests && ratio >= 1.0 && !cracks;
         // What neither slows down nor cracks, as a mechanism, is not told: it has no rest to come to.
         self.counters.moving += u64::from(!rests && (ratio < 1.0 || cracks));
     }

@@ -208,6 +208,7 @@ def test_quantities_are_converted(planar: Wall) -> None:
         (lambda: Record.from_array(Quantity(np.ones(3), "kN"), 0.005), "acceleration"),
         (lambda: Record.from_array([*each, 1.0], 0.005), "acceleration"),
         (lambda: Record.from_array(samples, 0.005, units="g"), "units"),
+        (lambda: Record.from_array(each, 0.005, units="g"), "units"),
         (lambda: Record.from_array([0, 1], Quantity(5.0, "cm/s**2")), "dt"),
     ]
     for give, key in wrong:

@@ -29,8 +29,6 @@ const FINEST: f64 = 1e-4;
 const UNFELT: f64 = 1e-4;
 /// By what joints that remember how far they went may miss it, over the tolerance of displacements.
 const MEMORY: f64 = 0.1;
-/// Part of a step below which what is left of a slide is nothing.
-const SOONEST: f64 = 1e-3;
 /// Samples in a step at most.
 pub const WINDOW: usize = 128;
 /// Closing velocity below which an impact is taken as plastic, over the tolerance of velocities: bounces that the
@@ -212,7 +210,8 @@ impl<'m> Run<'m> {
                     plan.h,
                     MEMORY * tolerance.z,
                 );
-                let turn = || self.work.turn(self.system, &self.state, plan.h).filter(|at| *at > self.soonest(plan.h));
+                let shortest = self.shortest().max(f64::EPSILON * self.state.t);
+                let turn = || self.work.turn(self.system, &self.state, plan.h, shortest);
                 let first = first.or_else(turn);
                 if first.is_some() {
                     self.state.counters.located += 1;
@@ -255,11 +254,6 @@ impl<'m> Run<'m> {
             h = 0.5 * remaining;
         }
         (plan.h, plan.lands) = plan.event.map_or((h, lands), |at| (at, false));
-    }
-
-    /// How long a step of `h` [s] is at least that a turn shortens [s].
-    fn soonest(&self, h: f64) -> f64 {
-        self.shortest().max(SOONEST * h).max(f64::EPSILON * self.state.t)
     }
 
     /// Shortest step [s].

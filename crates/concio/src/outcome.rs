@@ -95,7 +95,7 @@ pub struct Deepest {
     pub joint: usize,
     /// By how much at its deepest [m].
     pub depth: f64,
-    /// The most that one step added to that, or one of the parts in which it was taken [m].
+    /// The most that one step added to that [m]: of one taken in parts their mean.
     pub at_once: f64,
 }
 

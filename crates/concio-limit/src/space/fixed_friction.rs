@@ -93,7 +93,9 @@ mod tests {
             assert!(found.stop == Stop::Rounds && found.excess > OBEYS, "{found:?}");
             let late = &multipliers[multipliers.len() - 20..];
             let mean = late.iter().sum::<f64>() / 20.0;
-            let what = format!("Limit analysis in space: façade of {length} m, last slope 0.01 μ; μ = {mu}");
+            let what = format!(
+                "Limit analysis in space: façade, last slope 0.01 μ, half of N̄ new, mean of rounds 21 to 40; {length} m, μ = {mu}"
+            );
             agrees!(what, "a second program, to its ±0.001", "", mean, theirs, abs: 1e-3);
         }
     }

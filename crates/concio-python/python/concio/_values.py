@@ -30,10 +30,10 @@ def plain(value: Any, key: str | None = None) -> Any:
         return value
     if hasattr(value, "magnitude") and hasattr(value, "units"):
         unit = format(value.units, "~C").replace("**", "")
-        return f"{float(value.magnitude)!r} {unit}" if unit else plain(value.magnitude, key)
+        return _with_unit(value.magnitude, unit, key)
     if _has_units(value):
         unit = str(value.unit if hasattr(value, "unit") else value.units).replace("**", "").replace(" ", "")
-        return f"{float(value.value)!r} {unit}"
+        return _with_unit(value.value, "" if unit == "dimensionless" else unit, key)
     if isinstance(value, np.generic | np.ndarray):
         return plain(value.tolist(), key)
     if isinstance(value, os.PathLike):
@@ -47,6 +47,14 @@ def plain(value: Any, key: str | None = None) -> Any:
         key=key,
         allowed="numbers (SI), texts with units, lists, dicts, quantities with magnitude and units",
     )
+
+
+def _with_unit(magnitude: Any, unit: str, key: str | None) -> Any:
+    if not unit:
+        return plain(magnitude, key)
+    if np.ndim(magnitude) != 0:
+        raise InputError(f"is an array in {unit}", key=key, allowed="one quantity, or a list of them")
+    return f"{float(magnitude)!r} {unit}"
 
 
 def to_json(value: Any, key: str | None = None) -> str:
@@ -91,6 +99,11 @@ def amount(value: Any, of: str, unit: str, key: str) -> float:
     return number(value, key, f"a number [{unit}], or a text with its unit, such as '{example}'")
 
 
+def have_units(values: Any) -> bool:
+    """Whether values are quantities, or a list of them."""
+    return _has_units(values) or (isinstance(values, list | tuple) and any(map(_has_units, values)))
+
+
 def samples(values: Any, unit: str, key: str) -> NDArray[np.float64]:
     """Numbers in one row as the engine takes them; quantities are converted to ``unit``.
 
@@ -101,7 +114,7 @@ def samples(values: Any, unit: str, key: str) -> NDArray[np.float64]:
         values = _magnitude(values, unit, key)
     elif hasattr(values, "magnitude"):
         raise InputError("is a quantity that cannot be converted", key=key, allowed=f"{allowed}, pint's quantities")
-    elif isinstance(values, list | tuple) and any(_has_units(value) for value in values):
+    elif have_units(values):
         if not all(_has_units(value) for value in values):
             raise InputError("only some of the values have a unit", key=key, allowed="all of them, or none")
         values = [_magnitude(value, unit, key) for value in values]

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _native
 from ._files import write
-from ._values import amount, number, samples, to_json
+from ._values import amount, have_units, number, samples, to_json
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -116,8 +116,7 @@ class Record:
         if not isinstance(units, str):
             raise InputError(f"is {units!r}", key="units", allowed="a unit of acceleration, such as g or m/s2")
         values = samples(acceleration, "m/s**2", "acceleration")
-        own = hasattr(acceleration, "units") or hasattr(acceleration, "unit")
-        if own and units != "m/s2" and hasattr(acceleration, "to"):
+        if have_units(acceleration) and units != "m/s2":
             what = f"is {units}, but the samples have a unit of their own"
             raise InputError(what, key="units", allowed="one of the two")
         return cls(_native.Record.from_array(values, amount(dt, "time", "s", "dt"), units))

@@ -74,10 +74,12 @@ pub const STAGE_ACCURACY: f64 = 0.02;
 const UNBALANCED: f64 = 0.2;
 /// Way of a joint in a step from one impact to the next below which it has not bounced [m].
 const LOW: f64 = 10.0 * TOUCHING;
-/// Part of a step by which it is shortened at least where a joint turned round in it.
+/// Part of a step that is left at most where a joint turned round in it.
 const SHORTER: f64 = 0.9;
-/// Time at whose end a joint is sought at rest, over that at which it comes to rest: its last stage finds it at rest up to 1.4.
+/// Time at whose end a joint is sought at rest, over that at which it comes to rest: the last stage finds it at rest up to 1.25.
 const BEYOND_TURN: f64 = 1.01;
+/// Part of a step below which what is left of a slide is not sought.
+const SOONEST: f64 = 1e-3;
 /// Step in which nothing moves, over the shortest time scale of the system.
 const INSTANT: f64 = 1e-6;
 
@@ -204,8 +206,8 @@ impl Step {
     }
 
     /// How long a step is at whose end the first of the joints comes to rest that turned round in the step of `h` [s] that was attempted, although friction at
-    /// rest, above that of slip, may hold them there [s]. Stages beyond a turn know only of friction in slip.
-    pub fn turn(&self, system: &System, state: &State, h: f64) -> Option<f64> {
+    /// rest, above that of slip, may hold them there [s]; none below `shortest`. Stages beyond a turn know only of friction in slip.
+    pub fn turn(&self, system: &System, state: &State, h: f64, shortest: f64) -> Option<f64> {
         let (n, v, a) = (system.unknowns(), self.v(), &self.stage_a[self.tableau.stages - 1]);
         let after = |i: usize| {
             if i < n {
@@ -223,13 +225,17 @@ impl Step {
             if before * (v[i] - v[k]) >= 0.0 {
                 return None;
             }
-            // What else moves with both sides makes friction do more: none is passed over that may be held. One that just is not starts slowly, and well.
+            // Held where the load is below μ_s N. The load is that at the end of the step and of sides that move freely: joints beside may turn too. So the
+            // bound lies as far above μ_s as μ_d lies below.
             let friction = moved(i, rub.normal[0]) + moved(k, rub.normal[1]);
             let without = after(i) - after(k) + self.tangents.mu[r] * friction;
             let slows = state.a[k] - state.a[i];
             let rests = if slows * before > 0.0 { BEYOND_TURN * before / slows } else { 0.5 * h };
-            let most = self.stage.rubbing(r) * (2.0 * rub.law.static_ - rub.law.dynamic);
-            (without.abs() < most * friction).then_some(rests.min(SHORTER * h))
+            let (part, law) = (self.stage.rubbing(r), &rub.law);
+            let [held, most] = [law.static_, 2.0 * law.static_ - law.dynamic].map(|mu| part * mu * friction);
+            // A slide that goes on may as well turn inside a step.
+            let least = if without.abs() < held { shortest } else { shortest.max(SOONEST * h) };
+            (without.abs() < most && rests > least).then_some(rests.min(SHORTER * h))
         };
         let slid = system.rubs.iter().enumerate().filter(|(r, rub)| rub.law.holds() && !state.tangents.stuck[*r]);
         slid.filter_map(first).reduce(f64::min)

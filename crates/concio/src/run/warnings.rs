@@ -63,7 +63,7 @@ const UNDER_WAY: f64 = 0.5;
 /// Slip of a joint that counts as one [m].
 const SLID: f64 = 1e-6;
 /// How many joints with friction that falls make slides a matter of chance: peaks of two courses of two bricks move by 2 % with the step, of three
-/// by 60 %; those of example 9, where four joints slide, by 0.1 %.
+/// by 60 %; those of example 9, of three stones, by 0.1 %.
 const MANY: usize = 5;
 /// Way of the wall's weight whose work is nothing [m]: what a wall at rest does.
 const NOTHING: f64 = 1e-8;

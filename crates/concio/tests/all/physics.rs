@@ -534,7 +534,8 @@ fn a_steep_law_comes_near_the_set_valued_one() {
     assert!(fine.0 < coarse.0, "{coarse:?} {fine:?}");
 }
 
-/// Bits of a set-valued run survive a restart anywhere, and its frames hold the friction that was sampled.
+/// Bits of a set-valued run survive a restart anywhere, and its frames hold the friction that was sampled: frames enough to find over a hundred joints
+/// at rest.
 #[test]
 fn a_sticking_run_is_restored_and_its_friction_is_kept() {
     let text = format!(

@@ -451,7 +451,7 @@ fn slips_of_rocking_walls_are_told() {
         assert!(found.iter().any(|w| w.kind == kind && w.starts_with(says)), "{base}: {found:?}");
     }
     let fine = under(&pulse("duration = 1"), 2.0);
-    let doubts = [WarningKind::RecordCut, WarningKind::UnlikelyRecord, WarningKind::RarePeak];
+    let doubts = [WarningKind::RecordCut, WarningKind::UnlikelyRecord, WarningKind::RarePeak, WarningKind::ScaledByG];
     assert!(fine.iter().all(|w| !doubts.contains(&w.kind)), "{fine:?}");
     let idle = |bed: &str| {
         let text =
