@@ -25,6 +25,8 @@ pub struct NonAssociative {
     pub stop: Stop,
     /// Largest |T| − μ N of a point over the largest N, from 0: how far the last forces are from (L2).
     pub excess: f64,
+    /// Least and most λ of the states that have the mechanism of the last round; in space alone, and where both were found.
+    pub states: Option<[f64; 2]>,
 }
 
 /// How the rounds ended.
@@ -42,7 +44,7 @@ pub enum Stop {
 const MOST: usize = 200;
 /// Spread of λ over this many rounds at which it is at rest, over λ. Where several states lie near each other it wanders
 /// between them by some 1e-4.
-pub(crate) const AT_REST: (usize, f64) = (8, 3e-4);
+const AT_REST: (usize, f64) = (8, 3e-4);
 /// Excess at which forces obey the friction.
 pub(crate) const OBEYS: f64 = 1e-3;
 /// Factor on ν from round to round; below a millionth of μ it is 0.
@@ -60,16 +62,16 @@ pub(super) fn estimate(equations: &Equations, friction: &[f64], start: &Solution
         let law = |(mu, n): (&f64, &f64)| Friction { slope: part * mu, cohesion: (1.0 - part) * mu * n };
         let laws: Vec<Friction> = friction.iter().zip(&normal).map(law).collect();
         let Ok(found) = solve(equations, &laws) else {
-            return NonAssociative { multiplier: f64::NAN, rounds, stop: Stop::Unsolved, excess };
+            return NonAssociative { multiplier: f64::NAN, rounds, stop: Stop::Unsolved, excess, states: None };
         };
         (last, excess) = (equations.multiplier(found.multiplier), beyond(&found.forces, friction));
         multipliers.extend((part == 0.0).then_some(last));
         if excess <= OBEYS && at_rest(&multipliers) {
-            return NonAssociative { multiplier: last, rounds, stop: Stop::Converged, excess };
+            return NonAssociative { multiplier: last, rounds, stop: Stop::Converged, excess, states: None };
         }
         normal.iter_mut().zip(&found.forces).for_each(|(n, f)| *n = NEWEST * f[0].max(0.0) + (1.0 - NEWEST) * *n);
     }
-    NonAssociative { multiplier: last, rounds: MOST, stop: Stop::Rounds, excess }
+    NonAssociative { multiplier: last, rounds: MOST, stop: Stop::Rounds, excess, states: None }
 }
 
 pub(crate) fn at_rest(multipliers: &[f64]) -> bool {

@@ -228,7 +228,12 @@ fn side(side: Side) -> &'static str {
 pub(super) fn estimate(found: &NonAssociative) -> String {
     let value = significant(found.multiplier, 4);
     match found.stop {
-        Stop::Converged => format!("λ = {value}, an estimate; {} rounds", found.rounds),
+        Stop::Converged => {
+            let [least, most] = found.states.unwrap_or([found.multiplier; 2]).map(|state| significant(state, 4));
+            let states =
+                if least == most { String::new() } else { format!("; {least} to {most} with the same mechanism") };
+            format!("λ = {value}, an estimate{states}; {} rounds", found.rounds)
+        }
         Stop::Rounds => format!("no estimate: not converged in {} rounds, λ last {value}", found.rounds),
         Stop::Unsolved => format!("no estimate: round {} has no solution", found.rounds),
     }
@@ -239,7 +244,7 @@ pub(super) fn without_dilation(found: &NonAssociative) -> Value {
     let converged = found.stop == Stop::Converged;
     json!({
         "multiplier": converged.then_some(found.multiplier),
-        "converged": converged, "rounds": found.rounds, "excess": found.excess,
+        "converged": converged, "rounds": found.rounds, "excess": found.excess, "states": found.states,
     })
 }
 

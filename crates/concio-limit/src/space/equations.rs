@@ -28,6 +28,7 @@ pub(super) struct Pull {
 }
 
 /// The equations of equilibrium.
+#[derive(Clone)]
 pub(super) struct Equations {
     /// Number of rows: six of each body that may move, then one of each contact that gives way.
     pub rows: usize,

@@ -8,6 +8,7 @@
 //! this form the matrix that is factorised has three rows for each point; written in forces it has six.
 //! Where stones crush, each edge of a contact adds what is dual to (S6): its corners have to part by p − r, the others may overlap
 //! by r, at the cost c r²/(2 p). With α ≥ √(β² + γ²) these are p = √c (α + β), r = −√2 γ and √c (α − β).
+//! Forces near N̄: a point may overlap by u, at the cost N̄ u + u²/(2 w), whose dual is w (N − N̄)²/2.
 //! A point without friction has a row of its own, o ≥ 0: in (μ N, T) with μ = 0 nothing would keep N from pulling.
 
 use std::f64::consts::SQRT_2;
@@ -52,17 +53,37 @@ pub(super) const SHARP: f64 = 1e-10;
 /// Enough where the answer is yes or no, or an estimate.
 pub(super) const COARSE: f64 = 1e-8;
 
+/// Normal forces N̄ that those of the points should be near to.
+pub(super) struct Near<'a> {
+    pub normal: &'a [f64],
+    /// w: what (N − N̄)²/2 of a point takes from the scaled λ.
+    pub weight: f64,
+}
+
 /// Minimises (S8).
 ///
 /// # Errors
 /// A load without limit, forces that cannot balance the dead load, an end without numbers.
 pub(super) fn solve(equations: &Equations, friction: &[Friction], tolerance: f64) -> Result<Solution, LimitError> {
+    solve_near(equations, friction, tolerance, None)
+}
+
+/// As [`solve`], with normal forces near others.
+pub(super) fn solve_near(
+    equations: &Equations,
+    friction: &[Friction],
+    tolerance: f64,
+    near: Option<Near>,
+) -> Result<Solution, LimitError> {
     let mut program = Program::new(equations);
     program.cost.iter_mut().zip(&equations.dead).for_each(|(cost, dead)| *cost = -dead);
     let moved = program.zero(1.0);
     program.dense(moved, &equations.live);
     let places: Vec<Place> =
         equations.points.iter().zip(friction).map(|(point, law)| program.point(point, *law)).collect();
+    if let Some(near) = near {
+        program.near(&places, &near);
+    }
     let crushes = program.crush(equations, &places);
     let pulls: Vec<Row> = equations.pulls.iter().map(|pull| program.pull(pull)).collect();
     let ended = program.solve(tolerance)?;
@@ -148,9 +169,7 @@ pub(super) fn opening(equations: &Equations, friction: &[Friction]) -> Result<Op
     let mut program = Program::new(equations);
     let all = program.unknown(-1.0);
     for (point, law) in equations.points.iter().zip(friction) {
-        let row = match program.point(point, *law) {
-            Place::Smooth(row) | Place::Rough(row) | Place::Cohesive(row, _) => row,
-        };
+        let row = program.point(point, *law).opens();
         program.entry(row, all, 1.0);
     }
     for unknown in 0..equations.rows {
@@ -181,6 +200,14 @@ enum Place {
     Cohesive(Row, Row),
 }
 
+impl Place {
+    /// The row of its opening.
+    fn opens(self) -> Row {
+        let (Place::Smooth(row) | Place::Rough(row) | Place::Cohesive(row, _)) = self;
+        row
+    }
+}
+
 /// A row, before it is known how many there are of each kind.
 #[derive(Clone, Copy)]
 enum Row {
@@ -192,6 +219,8 @@ enum Row {
 /// What clarabel is given: rows b − A x that are 0, at least 0, or three in a cone.
 struct Program {
     cost: Vec<f64>,
+    /// Unknowns whose squares cost too, with twice the factor.
+    squares: Vec<(usize, f64)>,
     rows: Vec<Row>,
     columns: Vec<usize>,
     values: Vec<f64>,
@@ -245,6 +274,7 @@ impl Program {
     fn new(equations: &Equations) -> Self {
         Program {
             cost: vec![0.0; equations.rows],
+            squares: Vec::new(),
             rows: Vec::new(),
             columns: Vec::new(),
             values: Vec::new(),
@@ -311,6 +341,14 @@ impl Program {
         }
     }
 
+    fn near(&mut self, places: &[Place], near: &Near) {
+        for (place, normal) in places.iter().zip(near.normal) {
+            let overlap = self.unknown(*normal);
+            self.entry(place.opens(), overlap, -1.0);
+            self.squares.push((overlap, 1.0 / near.weight));
+        }
+    }
+
     /// What crushes, edge by edge; its unknowns α, β and γ.
     fn crush(&mut self, equations: &Equations, places: &[Place]) -> Vec<[usize; 3]> {
         let mut all = Vec::with_capacity(4 * equations.bears.len());
@@ -321,7 +359,7 @@ impl Program {
                 let cone = self.cone();
                 unknowns.iter().enumerate().for_each(|(k, unknown)| self.entry(cone.next(k), *unknown, -1.0));
                 for (k, corner) in corners.iter().enumerate() {
-                    let (Place::Smooth(row) | Place::Rough(row) | Place::Cohesive(row, _)) = *corner;
+                    let row = corner.opens();
                     self.entry(row, unknowns[2], SQRT_2);
                     if edge.contains(&k) {
                         self.entry(row, unknowns[0], root);
@@ -362,8 +400,9 @@ impl Program {
         kinds.extend((above > 0).then_some(SupportedConeT::ZeroConeT(above)));
         kinds.extend((cones > above).then_some(SupportedConeT::NonnegativeConeT(cones - above)));
         kinds.extend((0..self.cones / 3).map(|_| SupportedConeT::SecondOrderConeT(3)));
-        let none = CscMatrix::zeros((n, n));
-        let mut solver = DefaultSolver::new(&none, &self.cost, &matrix, &right, &kinds, settings(tolerance))
+        let (at, squares): (Vec<usize>, Vec<f64>) = self.squares.into_iter().unzip();
+        let squares = CscMatrix::new_from_triplets(n, n, at.clone(), at, squares);
+        let mut solver = DefaultSolver::new(&squares, &self.cost, &matrix, &right, &kinds, settings(tolerance))
             .map_err(|e| unsolved(e.to_string()))?;
         solver.solve();
         let ended = solver.solution;

@@ -2,9 +2,9 @@
 
 use concio_limit::space::{
     Assembly, Cuboid, Facade, Leaves, Limit, PointLoad, Problem, Support, TextureError, Tie, analyse, crushed,
-    even_twist,
+    even_twist, without_dilation,
 };
-use concio_limit::{LimitError, MechanismKind};
+use concio_limit::{LimitError, MechanismKind, NonAssociative, Stop};
 use concio_verified::agrees;
 use proptest::prelude::*;
 
@@ -75,6 +75,44 @@ fn a_block_pushed_upwards_slides_earlier() {
         problem.direction = [cos, 0.0, sin];
         let what = subject(&format!("block pushed upwards; φ = {degrees}°"));
         agrees!(what, "μ/(cos φ + μ sin φ)", "", bears(&problem), 0.4 / (cos + 0.4 * sin), 1e-7);
+    }
+}
+
+fn without(problem: &Problem) -> ([f64; 2], NonAssociative) {
+    let found = without_dilation(problem, &analyse(problem).expect("a limit"));
+    assert_eq!(found.stop, Stop::Converged, "{found:?}");
+    (found.states.expect("states"), found)
+}
+
+/// A block turns about its edge, or slides: its forces are known. A cube on two strips of μ 0.2 and, ahead, 0.4 slides too, and by N₁ = W − N₂ on them
+/// λ = 0.4 − 0.2 N₁/W. All may stand ahead; behind stands at most what moments allow, N₁ = (1 − λ) W. A tie adds its Y, pulled level with the load.
+#[test]
+fn states_without_dilation_have_the_multipliers_that_balance_leaves() {
+    let against = "balance of a block";
+    for ([a, b, h], mu) in [([0.2, 1.0, 2.0], 0.6), ([1.0, 1.0, 0.5], 0.3)] {
+        let what = subject(&format!("states without dilation, block; {a} × {h}, μ = {mu}"));
+        for state in without(&one([a, b, h], mu)).0 {
+            agrees!(&what, against, "", state, mu.min(a / h), 1e-5);
+        }
+    }
+    for yields in [0.0, 0.1] {
+        let strip = |name: &str, x: [f64; 2]| block(name, x, [0.0, 1.0], [-0.2, 0.0]);
+        let cube = block("cube", [0.0, 1.0], [0.0, 1.0], [0.0, 1.0]);
+        let mut wall = problem(&[strip("ahead", [0.0, 0.5]), strip("behind", [0.5, 1.0]), cube], 0.4);
+        wall.assembly.contacts.iter_mut().filter(|c| c.name.contains("behind")).for_each(|c| c.friction = 0.2);
+        wall.held = vec![true, true, false];
+        wall.pushed = vec![false, false, true];
+        let weight = wall.assembly.bodies[2].weight;
+        if yields > 0.0 {
+            let [at, end] = [1.0, 3.0].map(|x| [x, 0.5, 0.5]);
+            wall.ties.push(Tie { body: 2, to: None, at, end, yields: yields * weight });
+        }
+        let (states, found) = without(&wall);
+        assert!((states[0] - 1e-6..=states[1] + 1e-6).contains(&found.multiplier), "{found:?}");
+        for (state, by_hand) in states.into_iter().zip([0.25, 0.4]) {
+            let what = subject(&format!("states without dilation, cube on two strips, tie of {yields} W"));
+            agrees!(what, against, "", state, by_hand + yields, 1e-5);
+        }
     }
 }
 

@@ -189,15 +189,22 @@ fn l10_a_corner() {
 /// rounds come to these within 0.4 % and 0.04 %; but λ wanders, and forces break friction by 13 to 48 % and 2 to 5 % of the
 /// largest normal force.
 #[test]
-fn l3_l4_without_dilation() {
-    let blocks = facade(2.0, [true; 2], 0.2, 10, 2.4).blocks().expect("a façade");
-    for (mu, other) in [(0.6, 0.333465), (0.3, 0.26179)] {
+fn l3_to_l5_without_dilation() {
+    // λ is not unique: states of one mechanism have any from the least to the most. The other program tells ±0.001 of its own.
+    for (length, mu, theirs, off) in [(2.0, 0.6, 0.346, 3e-2), (2.0, 0.3, 0.2886, 2e-3), (4.0, 0.6, 0.259, 2e-3)] {
+        let blocks = facade(length, [true; 2], 0.2, 10, 2.4).blocks().expect("a façade");
         let wall = problem(&blocks, mu);
         let associative = analyse(&wall).expect("a limit");
         let estimate = without_dilation(&wall, &associative);
         assert_eq!(estimate.stop, Stop::Converged, "{estimate:?}");
-        assert!(estimate.multiplier < associative.bounds[0], "{estimate:?}");
-        let what = format!("Limit analysis in space: façade without dilation; μ = {mu}");
-        agrees!(what, "the sequence with other factors", "", estimate.multiplier, other, 1e-3);
+        assert!(estimate.excess < 1e-3 && estimate.multiplier < associative.bounds[0], "{estimate:?}");
+        let what = format!("Limit analysis in space: façade without dilation; {length} m, μ = {mu}");
+        agrees!(what, "a sequence in another program", "", estimate.multiplier, theirs, off);
+        let [least, most] = estimate.states.expect("states");
+        let nearest = theirs.clamp(least, most);
+        let what = format!(
+            "Limit analysis in space: façade without dilation, nearest state of its mechanism; {length} m, μ = {mu}"
+        );
+        agrees!(what, "a sequence in another program", "", nearest, theirs, 2e-3);
     }
 }
