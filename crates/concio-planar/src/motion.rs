@@ -653,8 +653,8 @@ impl Motion {
         let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
         let (mut way, mut step) = (self.fastest() * h, h);
         let (mut most, mut ratio, mut longer, mut rests, mut cracks) = (way, f64::INFINITY, false, false, false);
-        // A step in which points of joints move to where they bear is no sign of a fall.
-        let (mut faster, mut falls) = (true, true);
+        // One step in which points of joints move to where they bear is no sign of a fall: how many of one length did not slow down.
+        let (mut faster, mut falls) = (0, true);
         // All of them are at the end of the step of the load.
         self.instant = Some(start + h);
         for number in 0..CRACKING {
@@ -676,8 +676,8 @@ impl Motion {
             let next = self.fastest() * step;
             cracks = self.worn && next <= FALLING * size;
             (ratio, way, most) = (next / way, next, most.max(next));
-            falls = faster && ratio >= 1.0;
-            faster = ratio >= 1.0;
+            faster += u32::from(ratio >= 1.0 && !longer);
+            falls = ratio >= 1.0 && (faster > 1 || longer);
         }
         self.instant = None;
         self.falls = !rests && falls && !cracks;

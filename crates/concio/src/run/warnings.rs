@@ -908,7 +908,7 @@ step = {step}
         };
         let sine = |f: f64| format!(r#"sine = {{ acceleration = "0.1 g", frequency = {f}, ramp = "0.5 s" }}"#);
         let what = told(&sine(90.0), 1e-3).expect("it swings fast");
-        assert!(what.contains("of 10.9 steps") && what.contains("A solver.step of 0.27 ms"), "{what}");
+        assert!(what.contains("of 10.8 steps") && what.contains("A solver.step of 0.27 ms"), "{what}");
         assert_eq!(told(&sine(90.0), 5e-4), None);
         assert_eq!(told(&sine(10.0), 1e-3), None);
         let pulse = r#"pulse = { shape = "rectangular", acceleration = "0.2 g", duration = "20 ms" }"#;
