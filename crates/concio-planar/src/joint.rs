@@ -169,7 +169,7 @@ const RINGING: f64 = 0.125;
 /// h ω up to which (P6) damps what rings by less than ζ: 4 x where x³ = ζ (1 + x²).
 pub const RESOLVED: f64 = 2.18;
 /// Speed over that which gravity gives in a step up to which a point rests.
-const RESTING: f64 = 1e-5;
+pub(crate) const RESTING: f64 = 1e-5;
 /// Part of the strength along that is left at f_t at least.
 const ROUNDING: f64 = 1e-6;
 /// What presses a point counts by this much of its mass, with inertia. With all of it, walls that rock take a third more iterations; with none, small bricks under 20 MPa

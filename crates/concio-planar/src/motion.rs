@@ -653,13 +653,15 @@ impl Motion {
         let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
         let (mut way, mut step) = (self.fastest() * h, h);
         let (mut most, mut ratio, mut longer, mut rests, mut cracks) = (way, f64::INFINITY, false, false, false);
+        // One step in which points of joints move to where they bear is no sign of a fall: how many of one length did not slow down.
+        let (mut faster, mut falls) = (0, true);
         // All of them are at the end of the step of the load.
         self.instant = Some(start + h);
         for number in 0..CRACKING {
             // Steps that shrink by a ratio have so much before them.
             let ahead = if ratio < 1.0 { way * ratio / (1.0 - ratio) } else { f64::INFINITY };
             rests = way == 0.0 || ahead <= AT_REST * most;
-            let enough = number >= FOLLOWING || number >= PATIENCE && ratio >= 1.0 && !longer;
+            let enough = number >= FOLLOWING || number >= PATIENCE && falls && !longer;
             if rests || enough && !cracks {
                 break;
             }
@@ -674,11 +676,13 @@ impl Motion {
             let next = self.fastest() * step;
             cracks = self.worn && next <= FALLING * size;
             (ratio, way, most) = (next / way, next, most.max(next));
+            faster += u32::from(ratio >= 1.0 && !longer);
+            falls = ratio >= 1.0 && (faster > 1 || longer);
         }
         self.instant = None;
-        self.falls = !rests && ratio >= 1.0 && !cracks;
+        self.falls = !rests && falls && !cracks;
         // What neither slows down nor cracks, as a mechanism, is not told: it has no rest to come to.
-        self.counters.moving += u64::from(!rests && (ratio < 1.0 || cracks));
+        self.counters.moving += u64::from(!rests && (!falls || cracks));
     }
 
     /// Largest velocity of a body's edge [m/s].

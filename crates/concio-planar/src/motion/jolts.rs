@@ -7,7 +7,7 @@ use super::{Motion, Owner};
 use crate::G;
 use crate::blocks::Triple;
 use crate::contact::Contact;
-use crate::joint::{Law, Part, Point, slides};
+use crate::joint::{Law, Part, Point, RESTING, slides};
 
 /// Part of the energy of motion from which landing counts, and what counts as motion at least, over the velocity that gravity gives in a
 /// step: stones that settle are no landing.
@@ -15,6 +15,8 @@ const LANDING: f64 = 0.02;
 const SETTLES: f64 = 5.0;
 /// Force that falls at once over weight and load, from which it counts.
 const GIVES_WAY: f64 = 0.05;
+/// Part by which what a rigid point bears grows in half a step at most where it grows on so.
+const STEADY: f64 = 0.2;
 /// Friction that is wrong in a slide that turns round over all friction in a whole step, from which it counts.
 const TURNS: f64 = 0.05;
 /// Part by which the shear of a bonded rigid joint is below its strength where it breaks.
@@ -43,14 +45,20 @@ impl Motion {
     /// Whether slides turn round in the step so that friction, which acts one way in all of it, is wrong by so much that it counts. What stones that
     /// flutter do to each other cancels.
     fn turns_round(&self, h: f64) -> bool {
-        let (mut all, mut wrong) = (0.0, 0.0f64);
         // What a bond bears is no friction.
-        for (contact, owner) in self.contacts.iter().zip(&self.owners).filter(|(_, owner)| owner.part != Part::Held) {
-            let after = contact.velocity(&self.after);
-            let most = contact.bound(contact.impulse[0], after[0]);
-            all += most;
-            wrong += friction_turned(contact, owner.start.velocity[1], after, most, h);
+        let rubs = || self.contacts.iter().zip(&self.owners).filter(|(_, owner)| owner.part != Part::Held);
+        let most = |contact: &Contact, after: [f64; 2]| contact.bound(contact.impulse[0], after[0]);
+        let turned = |(contact, owner): (&Contact, &Owner)| {
+            let (before, after) = (owner.start.velocity[1], contact.velocity(&self.after));
+            friction_turned(contact, before, after, most(contact, after), h)
+        };
+        // What rested does not turn round.
+        let slid = rubs().filter(|(_, owner)| owner.start.velocity[1].abs() > RESTING * G * h);
+        let wrong: f64 = slid.map(turned).sum();
+        if wrong == 0.0 {
+            return false;
         }
+        let all: f64 = rubs().map(|(contact, _)| most(contact, contact.velocity(&self.after))).sum();
         wrong.abs() * h > TURNS * all * self.setting.step
     }
 
@@ -61,13 +69,13 @@ impl Motion {
             let pair = &self.pairs[owners[0].pair];
             let contacts = &self.contacts[at..at + owners.len()];
             let law = self.laws.of(pair.link);
-            falls += (at..at + owners.len()).map(|at| self.friction_falls(at, h)).sum::<f64>();
             at += owners.len();
-            let Some(crack) = pair.crack.as_ref().filter(|_| !law.is_compliant()) else { continue };
             // A step bears what acts in its middle: by its end that has gone on to grow.
             let ahead = |contact: &Contact, owner: &Owner| {
                 [0, 1].map(|k| contact.impulse[k] + 0.5 * (contact.impulse[k] - h * pair.points[owner.point].force[k]))
             };
+            falls += self.friction_falls(contacts, owners, h, &ahead);
+            let Some(crack) = pair.crack.as_ref().filter(|_| !law.is_compliant()) else { continue };
             let bears = bears_more(law, contacts, owners);
             let force = |point: usize| {
                 let own = owners.iter().zip(contacts).filter(|(owner, _)| owner.point == point);
@@ -80,19 +88,34 @@ impl Motion {
         falls > counts
     }
 
-    /// By how much the friction of a contact falls in the step as it begins to slide [N s].
-    fn friction_falls(&self, at: usize, h: f64) -> f64 {
-        let (contact, owner) = (&self.contacts[at], &self.owners[at]);
-        let pair = &self.pairs[owner.pair];
-        let law = self.laws.part(pair.link, owner.part);
-        // What a bond lets go is known as a whole.
-        if owner.part == Part::Held {
-            return 0.0;
-        }
-        let falls =
-            falls_by(law, &pair.points[owner.point]).filter(|_| slides(contact, contact.velocity(&self.after)[1], h));
-        let begins = || law.is_compliant() || slides_whole(at, &self.contacts, &self.owners, &self.after, h);
-        falls.filter(|_| begins()).map_or(0.0, |falls| falls * contact.impulse[0])
+    /// By how much the friction of a joint falls as points of it begin to slide in the step, or at its end by what they bear `ahead` there [N s].
+    fn friction_falls(
+        &self,
+        contacts: &[Contact],
+        owners: &[Owner],
+        h: f64,
+        ahead: &impl Fn(&Contact, &Owner) -> [f64; 2],
+    ) -> f64 {
+        let pair = &self.pairs[owners[0].pair];
+        let compliant = self.laws.of(pair.link).is_compliant();
+        let gives = |(contact, owner): &(&Contact, &Owner)| {
+            let after = contact.velocity(&self.after);
+            let [across, along] = ahead(contact, owner);
+            // What a rigid joint bore as a slide turned round says nothing of what is to come.
+            let steady = compliant || (along - contact.impulse[1]).abs() <= STEADY * contact.impulse[1].abs();
+            slides(contact, after[1], h) || steady && along.abs() > contact.bound(across, after[0])
+        };
+        let own = || contacts.iter().zip(owners);
+        let falls = |(contact, owner): (&Contact, &Owner)| {
+            let law = self.laws.part(pair.link, owner.part);
+            // What a bond lets go is known as a whole.
+            let falls = falls_by(law, &pair.points[owner.point]).filter(|_| owner.part != Part::Held)?;
+            gives(&(contact, owner)).then_some(falls * contact.impulse[0])
+        };
+        let falls = own().filter_map(falls).sum();
+        // A rigid joint slides as a whole: one end that bears little gives way first by what the other yields.
+        let begins = || compliant || own().all(|both| both.0.impulse[0] == 0.0 || gives(&both));
+        if falls > 0.0 && begins() { falls } else { 0.0 }
     }
 }
 
