@@ -13,7 +13,8 @@
 //! (P9)  σ = (1 − D) k_n w ≤ e^−ξ f_t,   |τ| = (1 − D) k_t |s| ≤ e^−ξ (c + p tan φ) − σ tan φ
 //!
 //! p being the pressure there; of tension σ tan φ counts, c σ/f_t at most, so that f_t is borne without shear.
-//! Where a limit is passed, ξ grows by the way that goes beyond it over δ_c of that mode, and what that mode alone would lose of its stiffness to where the limit is met; D is the larger loss of the two. One ξ weakens both strengths, as mixed modes do (Lourenço & Rots
+//! Where a limit is passed, ξ grows by the way that goes beyond it over δ_c of that mode, and what that mode alone would lose of its stiffness to where the limit is met; D is the larger loss of the two.
+//! Where falling pressure lowers the limit, what has slid since it was met last counts, and no more. One ξ weakens both strengths, as mixed modes do (Lourenço & Rots
 //! 1997); stiffness that is lost in one mode does not put off the limit of the other. Along one mode alone that is (B3). χ = 1 − e^−ξ is
 //! the part that rubs, so that shear stays within (B5). δ_c follows from G_f with the strength of the moment, S = f_t of opening, c + p tan φ of shear, and with
 //! what friction goes on to bear of it, R = min(μ p, S) of shear, so that all that the bond loses is G_f:
@@ -85,11 +86,13 @@ struct Node {
     lost: [f64; 2],
     /// The part of G_f that opening and shear still have to take.
     rest: [f64; 2],
+    /// Up to which slide ξ has grown [m]: it lags behind where pressure put the limit off.
+    counted: f64,
 }
 
 impl Node {
-    const INTACT: Node = Node { left: 1.0, lost: [0.0; 2], rest: [1.0; 2] };
-    const GONE: Node = Node { left: 0.0, lost: [1.0; 2], rest: [0.0; 2] };
+    const INTACT: Node = Node { left: 1.0, lost: [0.0; 2], rest: [1.0; 2], counted: 0.0 };
+    const GONE: Node = Node { left: 0.0, lost: [1.0; 2], rest: [0.0; 2], counted: 0.0 };
 
     /// D.
     fn damage(&self) -> f64 {
@@ -110,6 +113,22 @@ impl Node {
                 && both * (w - TOUCHING) <= bond.tension
                 && law.breaking_stiffness() * law.sheared([w, s]) <= law.shear_strengths(pressure)[0]
                 && pressure <= law.crushing
+    }
+
+    /// The way beyond its limit along of a node that has slid to `slid`, the last `way` of it in this step, counted from here on [m]. What it slid while
+    /// pressure put its limit off counts when that comes back: or where pressure trembles ever so little nothing would soften.
+    fn slid_beyond(&mut self, limit: f64, [slid, way]: [f64; 2], pressed: bool) -> f64 {
+        // What tension adds to the slide counts as it grows.
+        if !pressed {
+            self.counted = slid;
+            return way;
+        }
+        if self.lost[1] == 0.0 {
+            self.counted = limit.max(slid - way);
+        }
+        let way = way.max(slid - self.counted);
+        self.counted = (self.counted + way.min(slid - limit)).min(slid);
+        way
     }
 
     /// What friction bears of the shear that broke it after the slide `s` [m], under the pressure of an opening `w`, and what its springs store
@@ -219,6 +238,7 @@ impl Node {
                 return;
             }
             passed[mode] = true;
+            let way = if mode == 1 { node.slid_beyond(limit, [s.abs(), way], pressure > 0.0) } else { way };
             // Of what the bond stores, and of what breaking takes from here on, the springs of friction keep a part.
             let kept = |node: &Node| if mode == 1 { node.friction([w, s], law)[1] } else { 0.0 };
             let (had, left) = (kept(node), node.left);
@@ -229,7 +249,7 @@ impl Node {
             let decay = if strength > 0.0 { decay } else { 0.0 };
             // Where the limit has come to the stretch as pressure fell, the rest is no work of breaking.
             let at = limit.max(stretch - way);
-            // Where the limit has come to the stretch and not the stretch to the limit, nothing has slid beyond it.
+            // Where the limit has come to the stretch and not the stretch to the limit, nothing has gone beyond it.
             node.left *= if decay > 0.0 { (-(stretch - limit).min(way) / decay).exp() } else { 0.0 };
             let to = strength * node.left;
             if to > BROKEN * strength {
@@ -361,6 +381,8 @@ pub(crate) struct Softened {
     pub along: f64,
     /// The part of its stiffness across and along with which each of its two points goes on to resist.
     pub left: [[f64; 2]; 2],
+    /// What that takes [J].
+    pub taken: f64,
     /// How much of the step was over when a part of it that breaks at once did so, 0 … 1; none where none did.
     pub breaks_at: Option<f64>,
 }
@@ -368,7 +390,7 @@ pub(crate) struct Softened {
 impl Softened {
     /// Of a bond that bears all that it did.
     pub(crate) const NOTHING: Softened =
-        Softened { across: [0.0; 2], along: 0.0, left: [[1.0; 2]; 2], breaks_at: None };
+        Softened { across: [0.0; 2], along: 0.0, left: [[1.0; 2]; 2], taken: 0.0, breaks_at: None };
 }
 
 /// What became of the bond in a step [J].
@@ -952,7 +974,7 @@ impl Crack {
             let had = weight * (1.0 - before.damage());
             let [opened, slid] = between(&self.line, x);
             held[half] += had;
-            let Wear { node, less, .. } = before.on_the_way([opened, slid], [w, s], law, &bond);
+            let Wear { node, less, taken } = before.on_the_way([opened, slid], [w, s], law, &bond);
             if node == before {
                 softened.left.iter_mut().for_each(|left| left[half] += had);
                 continue;
@@ -963,6 +985,7 @@ impl Crack {
             let [opens, slides] = less[usize::from(still)].map(|lost| weight * lost);
             softened.across = [softened.across[0] + opens, softened.across[1] + x * opens];
             softened.along += slides;
+            softened.taken += weight * taken;
             // What is pressed of what breaks stays pressed. What softens bears the less the farther it is stretched: it resists nothing.
             let bears = if w > 0.0 { keeps } else { had };
             let lost = [0, 1].map(|k| node.lost[k] > before.lost[k]);

@@ -314,6 +314,7 @@ pub struct Kept {
     borne: [f64; 2],
     shakes: [f64; 2],
     strains: Vec<Strain>,
+    rings_until: f64,
 }
 
 /// What the base moved in a step without inertia: Σ m Δx [kg m], and the work of the forces that acted at the ends of its parts [J].
@@ -437,6 +438,8 @@ pub struct Motion {
     softens: Vec<Softens>,
     /// Whether what they bear was not found.
     astray: bool,
+    /// Until when what bonds took of the motion counts [s].
+    rings_until: f64,
     /// Without inertia: what the step would bear had nothing cracked, where a bond broke at once in it.
     uncracked: Option<([f64; 2], f64)>,
     free: Vec<Triple>,
@@ -496,6 +499,7 @@ impl Motion {
             bent: Vec::new(),
             softens: Vec::new(),
             astray: false,
+            rings_until: f64::NEG_INFINITY,
             uncracked: None,
             free: vec![[0.0; 3]; bodies.len()],
             after: vec![[0.0; 3]; bodies.len()],
@@ -735,7 +739,8 @@ impl Motion {
         let stale = self.astray;
         let effort = if stale { self.solve_as_it_was(h) } else { effort };
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
-        let in_parts = halved < HALVINGS && (!enough || self.jolts(h));
+        let rings = halved < SOON && self.rings();
+        let in_parts = rings || halved < HALVINGS && (!enough || self.jolts(h));
         if in_parts || halved < CROSSINGS && !self.follows_crushing(h) {
             return false;
         }
@@ -1305,6 +1310,7 @@ impl Motion {
             borne: self.borne,
             shakes: self.shakes,
             strains: self.strains.clone(),
+            rings_until: self.rings_until,
         }
     }
 
@@ -1323,12 +1329,12 @@ impl Motion {
                     && crack::most_points(law()) == p.points.len()
             });
         if fits {
-            let Kept { places, velocities, time, account, counters, pairs, looked, seen, pull, borne, shakes, strains } =
-                kept;
+            let Kept { places, velocities, time, account, counters, pairs, .. } = kept;
+            let Kept { looked, seen, pull, borne, shakes, strains, rings_until, .. } = kept;
             (self.places, self.velocities, self.time) = (places, velocities, time);
             (self.account, self.counters, self.pairs) = (account, counters, pairs);
             (self.looked, self.seen, self.strains) = (looked, seen, strains);
-            (self.pull, self.borne, self.shakes) = (pull, borne, shakes);
+            (self.pull, self.borne, self.shakes, self.rings_until) = (pull, borne, shakes, rings_until);
             self.pairs.iter_mut().filter_map(|pair| pair.crack.as_mut()).for_each(Crack::reserve);
             self.couple();
         }

@@ -13,6 +13,10 @@ use crate::joint::{Law, Part, Point, RESTING, slides};
 /// step: stones that settle are no landing.
 const LANDING: f64 = 0.02;
 const SETTLES: f64 = 5.0;
+/// Part of the energy of motion from which what bonds take in a step counts, how long it goes on to, and what counts as motion at least, over the velocity
+/// that gravity gives in that time [s]: short steps need no parts.
+const SPENT: f64 = 0.01;
+const RINGS: f64 = 5e-3;
 /// Force that falls at once over weight and load, from which it counts.
 const GIVES_WAY: f64 = 0.05;
 /// Part by which what a rigid point bears grows in half a step at most where it grows on so.
@@ -38,8 +42,20 @@ impl Motion {
             -0.5 * contact.impulse[0] * (owner.start.velocity[0] + contact.velocity(&self.after)[0])
         };
         let lost: f64 = self.contacts.iter().zip(&self.owners).filter(closing).map(lost).sum();
-        let settling = SETTLES * self.setting.step;
-        lost > LANDING * (self.kinetic() + 0.5 * self.weight * G * settling * settling)
+        lost > LANDING * self.energy_of_motion(SETTLES * self.setting.step)
+    }
+
+    /// Energy of motion, at least that of what has fallen for so long [s, J].
+    fn energy_of_motion(&self, settling: f64) -> f64 {
+        self.kinetic() + 0.5 * self.weight * G * settling * settling
+    }
+
+    /// Whether bonds take so much of the motion in the step, or took it a little before, that it counts how what they held rings then.
+    pub(super) fn rings(&mut self) -> bool {
+        if !self.setting.still && self.spent() > SPENT * self.energy_of_motion(RINGS) {
+            self.rings_until = self.time + RINGS;
+        }
+        self.time < self.rings_until
     }
 
     /// Whether slides turn round in the step so that friction, which acts one way in all of it, is wrong by so much that it counts. What stones that

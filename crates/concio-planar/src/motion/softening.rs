@@ -33,6 +33,8 @@ pub(super) struct Softens {
     next: [[Linear; 2]; HELD],
     /// What they would bear had nothing cracked, as the step was solved first [N s].
     borne: f64,
+    /// What breaking takes in the step [J].
+    taken: f64,
     /// How much of the step was over when a part of it broke at once.
     breaks_at: Option<f64>,
 }
@@ -49,7 +51,7 @@ impl Motion {
         let own = |k: usize| self.contacts[first + k].spring;
         if held == HELD && self.laws.of(self.pairs[self.owners[first].pair].link).is_compliant() {
             let own = [own(0), own(1)];
-            self.softens.push(Softens { contact: first, own, next: own, borne: 0.0, breaks_at: None });
+            self.softens.push(Softens { contact: first, own, next: own, borne: 0.0, taken: 0.0, breaks_at: None });
         }
     }
 
@@ -70,6 +72,7 @@ impl Motion {
         let softened = crack.softened(self.laws.of(pair.link), &ends, self.setting.still);
         if softened.is_none() && acts == own {
             self.softens[bond].next = own;
+            self.softens[bond].taken = 0.0;
             return 0.0;
         }
         let softened = softened.unwrap_or(Softened::NOTHING);
@@ -95,6 +98,7 @@ impl Motion {
             }
         }
         let bond = &mut self.softens[bond];
+        bond.taken = softened.taken;
         bond.breaks_at = softened.breaks_at;
         if bond.borne == 0.0 {
             bond.borne = all;
@@ -141,6 +145,11 @@ impl Motion {
             }
         }
         more
+    }
+
+    /// What breaking takes of all bonds in the step, as it was solved last [J].
+    pub(super) fn spent(&self) -> f64 {
+        self.softens.iter().map(|bond| bond.taken).sum()
     }
 
     /// Has all bonds bear what was found.
