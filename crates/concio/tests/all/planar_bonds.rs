@@ -128,8 +128,8 @@ fn toppling([b, h]: [f64; 2], k: f64) -> f64 {
 fn a_block_without_bond_bears_what_it_does_at_rest() {
     for [b, h] in [[1.0, 1.0], [0.5, 1.0], [0.6, 2.0]] {
         for (what, law, bond) in [
-            ("dry", "no-tension", ""),
-            ("broken", "elastic", "bond = { tensile_strength = \"100 Pa\", cohesion = \"0.5 MPa\" }"),
+            ("dry", "law = \"no-tension\", rigidity = 1", ""),
+            ("broken", "law = \"elastic\"", "bond = { tensile_strength = \"100 Pa\", cohesion = \"0.5 MPa\" }"),
         ] {
             let (_, outcome) = ran(&format!(
                 r#"
@@ -141,7 +141,7 @@ bricks = 1
 brick = {{ length = {b}, height = {h}, thickness = 0.3, specific_weight = 20e3 }}
 mortar = {{ bed = 0, head = 0 }}
 [joint]
-bed = {{ law = "{law}", stiffness = "50 N/mm3", normal_to_shear = 2.4 }}
+bed = {{ {law}, stiffness = "50 N/mm3", normal_to_shear = 2.4 }}
 head = {{ law = "none" }}
 friction = {{ law = "coulomb", static = 3, dynamic = 3 }}
 {bond}
