@@ -303,32 +303,36 @@ step = "10 ms"
 /// by a quarter of all work when that stretched and pressed them.
 #[test]
 fn the_account_of_a_bonded_wall_that_falls_closes() {
-    let (_, outcome) = ran(r#"
+    for seed in [27, 29, 30, 31] {
+        let (_, outcome) = ran(&format!(
+            r#"
 model = "planar"
 [[panel]]
 bond = "running"
 courses = 6
 bricks = 1
 ends = "toothed"
-brick = { length = "400 mm", height = "55 mm", thickness = "120 mm", specific_weight = "16 kN/m3" }
-mortar = { bed = 0, head = 0 }
+brick = {{ length = "400 mm", height = "55 mm", thickness = "120 mm", specific_weight = "16 kN/m3" }}
+mortar = {{ bed = 0, head = 0 }}
 [joint]
-bed = { law = "elastic", stiffness = "24 N/mm3" }
-head = { law = "elastic", stiffness = "80 N/mm3" }
-friction = { law = "stribeck-stick", static = 0.6, dynamic = 0.6, slip_velocity = "1 mm/s", on = "all" }
-bond = { tensile_strength = "0.02 MPa", cohesion = "0.2 MPa", friction_angle = "30 deg", mode_1_energy = "5 N/m", mode_2_energy = "200 N/m" }
+bed = {{ law = "elastic", stiffness = "24 N/mm3" }}
+head = {{ law = "elastic", stiffness = "80 N/mm3" }}
+friction = {{ law = "stribeck-stick", static = 0.6, dynamic = 0.6, slip_velocity = "1 mm/s", on = "all" }}
+bond = {{ tensile_strength = "0.02 MPa", cohesion = "0.2 MPa", friction_angle = "30 deg", mode_1_energy = "5 N/m", mode_2_energy = "200 N/m" }}
 [load]
 top = "20 kN/m"
-beam = { mass = "0.2 t" }
+beam = {{ mass = "0.2 t" }}
 [motion]
 duration = "1.5 s"
-base = { synthetic = { seed = 28, pga = "1.5 g", duration = "4 s" } }
+base = {{ synthetic = {{ seed = {seed}, pga = "1.5 g", duration = "4 s" }} }}
 [solver]
 step = "2 ms"
-"#);
-    let residual = outcome.totals.peak_residual / outcome.totals.peak_input;
-    assert!(outcome.totals.collapse.is_some() && outcome.energies.bond > 5.0, "{:?}", outcome.energies);
-    assert!(residual < 1e-4, "{residual:e}");
+"#
+        ));
+        let residual = outcome.totals.peak_residual / outcome.totals.peak_input;
+        assert!(outcome.totals.collapse.is_some() && outcome.energies.bond > 5.0, "{seed}: {:?}", outcome.energies);
+        assert!(residual < 1e-4, "{seed}: {residual:e}");
+    }
 }
 
 /// A crack lies at the end of the joint that opens: a block that is tilted to the right opens at its left, and the other way round.
