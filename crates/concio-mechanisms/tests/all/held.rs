@@ -189,9 +189,10 @@ fn side_walls_take_their_loads_along() {
     let both = of(0.5, "", &(side(0.2) + &side(5.8)));
     let found = at_hinge(&both, Kind::WithSideWalls, 0.0);
     let of_slope = |slope: f64| {
-        let (n, wedge, load) = (24.0, 0.5 * 20e3 * 0.4 * 36.0 * slope, 30e3 * 6.0 * slope);
-        let rubs =
-            0.5 * n * (n + 1.0) * 0.6 * 20e3 * 0.4 * 0.2 * 0.25 * 2.0 * (n - 1.0) / n + n * 0.6 * 30e3 * 0.2 * 3.0;
+        let (wedge, load) = (0.5 * 20e3 * 0.4 * 36.0 * slope, 30e3 * 6.0 * slope);
+        // Course by course from the top: μ l (γ t_s h_b k + q) on the bed joint below the k-th.
+        let on_joint = |k: f64| 0.6 * 0.2 * (20e3 * 0.4 * 0.25 * k + 30e3) * (6.0 - 0.25 * k);
+        let rubs: f64 = (1..=24).map(|k| on_joint(f64::from(k))).sum();
         let kept = 1.0 - slope / 0.8;
         let rights = 360e3 * 0.25 + 2.0 * (wedge * (0.5 + 2.0 * slope) + load * (0.5 + 3.0 * slope) + kept * rubs);
         rights / (360e3 * 3.0 + 2.0 * (wedge * 4.0 + load * 6.0))
