@@ -70,7 +70,7 @@ fn the_facade_rocks_as_the_survey_has_it_at_every_hinge() {
 #[test]
 fn so_do_arches_and_what_overturns_where_their_support_gives_way() {
     let held = FACADE.replace("z = \"3 m\"\n", "z = \"3 m\"\nholds = true\nconnection = \"0.2 kN/m\"\n");
-    let held = held.replace("z = \"6 m\"\n", "z = \"6 m\"\nholds = true\n");
+    let held = held.replace("z = \"6 m\"\n", "z = \"6 m\"\nholds = true\nconnection = \"0.2 kN/m\"\n");
     assert!(held.matches("holds = true").count() == 2);
     let wall = wall(&held);
     // Both storeys, and both as one past the lower floor.
